@@ -1,0 +1,27 @@
+"""Web explorer of the dynamics near an isolated codimension-2 discontinuity set.
+
+``explorer()`` is the live widget of a notebook, ``holoviews(scene)`` the same picture as HoloViews elements.
+Both are imported when they are first used, so that importing this package costs nothing.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .holoviews_view import holoviews
+    from .notebook import explorer
+
+__all__ = ["explorer", "holoviews"]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "explorer":
+        from .notebook import explorer
+
+        return explorer
+    if name == "holoviews":
+        from .holoviews_view import holoviews
+
+        return holoviews
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

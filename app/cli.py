@@ -1,0 +1,58 @@
+"""The command `codim2`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    top = argparse.ArgumentParser(
+        prog="codim2", description="Dynamics near an isolated codimension-2 discontinuity set."
+    )
+    commands = top.add_subparsers(dest="command", required=True)
+    serve = commands.add_parser("serve", help="serve the explorer")
+    serve.add_argument("--port", type=int, default=5006, help="default 5006; 0 takes any free port")
+    serve.add_argument("--address", default="localhost", help="default localhost; 0.0.0.0 for all interfaces")
+    serve.add_argument(
+        "--allow-origin",
+        action="append",
+        default=[],
+        metavar="HOST[:PORT]",
+        help="a host under which browsers reach this server; may be repeated",
+    )
+    serve.add_argument("--processes", type=int, default=1, help="server processes that share the port")
+    serve.add_argument("--threads", type=int, default=None, help="threads that answer requests in a process")
+    serve.add_argument(
+        "--show", action=argparse.BooleanOptionalAction, default=False, help="open a browser window"
+    )
+    return top
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; return the exit status."""
+    chosen = parser().parse_args(arguments)
+    from .main import make_server  # heavy, and not needed for --help
+
+    try:
+        server = make_server(
+            chosen.port, chosen.address, chosen.allow_origin, chosen.processes, chosen.threads
+        )
+    except OSError as error:
+        print(f"codim2: cannot listen on {chosen.address}:{chosen.port}: {error.strerror}. Give another --port.")
+        return 1
+    host = "localhost" if chosen.address in ("0.0.0.0", "::") else chosen.address
+    print(f"codim2: the explorer is at http://{host}:{server.port}/  (stop with Ctrl+C)", flush=True)
+    server.start()
+    if chosen.show:
+        server.io_loop.add_callback(server.show, "/")
+    try:
+        server.io_loop.start()
+    except KeyboardInterrupt:
+        print("codim2: stopped")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

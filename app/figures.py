@@ -1,0 +1,113 @@
+"""The Bokeh figure of the picture, made once; from then on only the contents of its sources change.
+
+The browser fills the sources from packed frames, so every model here is ``syncable=False``: BokehJS must not
+send arrays, ranges or colours back to the server.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bokeh.core.properties import value
+from bokeh.models import (
+    BoxZoomTool,
+    Circle,
+    ColumnDataSource,
+    GlyphRenderer,
+    HoverTool,
+    Line,
+    PanTool,
+    Plot,
+    Range1d,
+    ResetTool,
+    SaveTool,
+    Scatter,
+    Text,
+    WheelZoomTool,
+)
+from bokeh.models.glyph import Glyph
+
+from .theme import ARROWED, DISCS, LIGHT, LINES, VIEW
+
+FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif"
+
+EQUATOR_TOOLTIP = """<div class="codim2-tip"><b>@label</b> @type<br>θ = @theta_text<br>
+λ_ρ = @rho_text<br>λ_θ = @ang_text</div>"""
+CRITICAL_TOOLTIP = """<div class="codim2-tip"><b>@label</b> @kind<br>(c, s) = @e_text<br>(x₂, y₂) = @x2_text<br>
+tr J = @trace_text, det J = @det_text<br>eigenvalues @eig_text<br>z' = @slow_text</div>"""
+
+
+def make_figure() -> Plot:
+    """Return the empty picture: equal axes on [-VIEW, VIEW], the shaded hemisphere, and a source per layer.
+
+    Sources are found by name: "rho", "theta", "lines_inside", "lines_outside", "outside", "inside",
+    "continuations" with columns x, y (pieces separated by NaN); "arrows:<layer>" with x, y, angle; "equator",
+    "critical" and "sense" with the columns of `codim2_app.glyphs`.
+    """
+    plot = Plot(
+        name="picture",
+        x_range=Range1d(-VIEW, VIEW, syncable=False),
+        y_range=Range1d(-VIEW, VIEW, syncable=False),
+        output_backend="canvas",
+        sizing_mode="stretch_both",
+        min_border=0,
+        outline_line_color=None,
+        background_fill_color=None,
+        border_fill_color=None,
+        toolbar_location=None,
+        lod_threshold=None,
+        syncable=False,
+    )
+    _add(plot, "discs", Circle(x="x", y="y", radius="r", fill_color=LIGHT["shade"],
+                               fill_alpha=LIGHT["shade_alpha"], line_color=None),
+         x=[0.0] * len(DISCS), y=[0.0] * len(DISCS), r=list(DISCS))  # fmt: skip
+    for name, colour, width in LINES:
+        _add(plot, name, Line(x="x", y="y", line_color=LIGHT[colour], line_width=width, line_join="round"),
+             x=[], y=[])  # fmt: skip
+    for name, colour, _ in LINES:
+        if name in ARROWED:
+            _add(plot, f"arrows:{name}", Scatter(x="x", y="y", angle="angle", marker="triangle", size=6.5,
+                                                 fill_color=LIGHT[colour], line_color=None),
+                 x=[], y=[], angle=[])  # fmt: skip
+    _add(plot, "circle", Circle(x="x", y="y", radius="r", fill_color=None, line_color=LIGHT["equator"],
+                                line_width=2.0), x=[0.0], y=[0.0], r=[1.0])  # fmt: skip
+    _add(plot, "sense", Scatter(x="x", y="y", angle="angle", marker="triangle", size=10,
+                                fill_color=LIGHT["equator"], line_color=None), x=[], y=[], angle=[])  # fmt: skip
+    equator = _add(plot, "equator", Scatter(x="x", y="y", marker="marker", size="size", fill_color="fill",
+                                            line_color="colour", line_width=2.4), **_columns("label_x", "label_y", "size"))  # fmt: skip
+    critical = _add(plot, "critical", Scatter(x="x", y="y", marker="marker", size=15, fill_color="fill",
+                                              line_color="colour", line_width=2.6), **_columns())  # fmt: skip
+    for name, size in (("equator", "15px"), ("critical", "16px")):
+        source = (equator if name == "equator" else critical).data_source
+        at = ("label_x", "label_y", 0, 0) if name == "equator" else ("x", "y", 13, -11)
+        text = Text(x=at[0], y=at[1], x_offset=at[2], y_offset=at[3], text="text", text_color=LIGHT["ink"],
+                    text_font=value(FONT), text_font_size=size, text_font_style="bold",
+                    text_align="center" if name == "equator" else "left", text_baseline="middle",
+                    background_fill_color=LIGHT["page"], background_fill_alpha=0.72, padding=2, border_radius=3)  # fmt: skip
+        _freeze(plot.add_glyph(source, text, name=f"text:{name}"))
+    pan, wheel = PanTool(), WheelZoomTool(modifiers="ctrl")
+    plot.add_tools(
+        pan, wheel, BoxZoomTool(match_aspect=True), ResetTool(), SaveTool(),
+        HoverTool(renderers=[equator], tooltips=EQUATOR_TOOLTIP, mode="mouse", point_policy="snap_to_data"),
+        HoverTool(renderers=[critical], tooltips=CRITICAL_TOOLTIP, mode="mouse", point_policy="snap_to_data"),
+    )  # fmt: skip
+    for model in plot.references():
+        model.syncable = False
+    return plot
+
+
+def _columns(*more: str) -> dict[str, list[Any]]:
+    """Return empty columns of a layer of marks."""
+    return {name: [] for name in ("x", "y", "marker", "fill", "colour", "text", *more)}
+
+
+def _add(plot: Plot, name: str, glyph: Glyph, **columns: list) -> GlyphRenderer:
+    """Add a renderer with a named source; a glyph neither fades when something else is selected nor when hovered."""
+    return _freeze(plot.add_glyph(ColumnDataSource(columns, name=name, syncable=False), glyph, name=name))
+
+
+def _freeze(renderer: GlyphRenderer) -> GlyphRenderer:
+    renderer.nonselection_glyph = None
+    renderer.selection_glyph = None
+    renderer.muted_glyph = None
+    return renderer

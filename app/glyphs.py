@@ -1,0 +1,202 @@
+"""Layers of a scene as columns to draw: pure functions, no window needed.
+
+A polyline layer becomes two arrays, the number of points of each piece and all points in one row, so that
+separate branches are never joined. Points with a meaning (equator equilibria, critical sets) become columns
+of plain numbers and words, which the picture, its hover and the inspector share.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Points = NDArray[np.float64]
+
+#: Smallest angle between two labels around the circle, in radians, so that Q1 and Q2 stay readable.
+LABEL_GAP = 0.16
+LABEL_RADIUS = 1.11
+#: A label stands beside its direction, since the θ-nullcline runs along it.
+LABEL_TURN = 0.095
+#: A piece shorter than this (in radii of the disc) carries no arrowhead.
+SHORTEST_WITH_ARROW = 0.08
+
+
+def join(pieces: Sequence[Points]) -> tuple[NDArray[np.uint16], Points]:
+    """Return the lengths (k,) of all pieces of two or more points, and their points in one array (n, 2)."""
+    kept = [piece for piece in pieces if len(piece) > 1]
+    if not kept:
+        return np.zeros(0, np.uint16), np.zeros((0, 2))
+    return np.array([len(piece) for piece in kept], np.uint16), np.concatenate(kept)
+
+
+def arrowheads(counts: NDArray[np.uint16], points: Points, where: float = 0.5) -> Points:
+    """Place one arrowhead on each piece.
+
+    Parameters
+    ----------
+    counts : ndarray (k,)
+    points : ndarray (n, 2)
+        Pieces as `join` returns them, each in order of increasing time.
+    where : float
+        Fraction of the piece's length at which the arrowhead sits.
+
+    Returns
+    -------
+    ndarray (j, 3)
+        x, y and direction in radians, j <= k: short pieces have none.
+    """
+    if not len(counts):
+        return np.zeros((0, 3))
+    ends = np.cumsum(counts, dtype=np.int64)
+    starts = ends - counts
+    steps = np.diff(points, axis=0)
+    lengths = np.hypot(steps[:, 0], steps[:, 1])
+    lengths[ends[:-1] - 1] = 0.0  # the jump from one piece to the next is not part of either
+    travelled = np.concatenate([[0.0], np.cumsum(lengths)])
+    begin, end = travelled[starts], travelled[ends - 1]
+    long_enough = end - begin > SHORTEST_WITH_ARROW
+    target = (begin + where * (end - begin))[long_enough]
+    index = np.clip(
+        np.searchsorted(travelled, target) - 1, starts[long_enough], ends[long_enough] - 2
+    )
+    step, length = steps[index], lengths[index]
+    moving = length > 0
+    step, length, index, target = step[moving], length[moving], index[moving], target[moving]
+    share = (target - travelled[index]) / length
+    at = points[index] + share[:, None] * step
+    return np.column_stack([at, np.arctan2(step[:, 1], step[:, 0])])
+
+
+def nullcline_pieces(branches: Sequence[Any]) -> dict[str, list[Points]]:
+    """Sort nullcline branches into the four colours of fig:sim_5cases."""
+    pieces: dict[str, list[Points]] = {"rho": [], "theta": [], "lines_inside": [], "lines_outside": []}
+    for branch in branches:
+        name = branch.kind
+        if name in ("U1", "U2"):
+            name = "lines_inside" if branch.inside else "lines_outside"
+        pieces[name].append(branch.points)
+    return pieces
+
+
+def spread(angles: Sequence[float], gap: float = LABEL_GAP) -> list[float]:
+    """Move angles apart, each as little as is fair, until neighbours are at least `gap` apart.
+
+    Parameters
+    ----------
+    angles : (k,) sorted, in radians, k * gap <= 2 pi
+    """
+    moved = list(angles)
+    for _ in range(60):
+        still = True
+        for i in range(len(moved)):
+            j = (i + 1) % len(moved)
+            if i == j:
+                break
+            turn = 2 * math.pi if j == 0 else 0.0
+            missing = gap - (moved[j] + turn - moved[i])
+            if missing > 1e-9:
+                moved[i] -= missing / 2
+                moved[j] += missing / 2
+                still = False
+        if still:
+            break
+    return moved
+
+
+def equator_type(lambda_rho: float, lambda_theta: float, multiplicity: int = 1) -> str:
+    """Name an equator equilibrium by the signs of its eigenvalues.
+
+    lambda_rho decides whether trajectories of the nonsmooth system arrive along this direction.
+    """
+    radial = "attracting" if lambda_rho < 0 else "repelling" if lambda_rho > 0 else "neutral"
+    if multiplicity > 1 or lambda_theta == 0:
+        return f"radially {radial}, angularly degenerate"
+    angular = "attracting" if lambda_theta < 0 else "repelling"
+    if angular == radial:
+        return f"radially and angularly {radial}"
+    return f"radially {radial}, angularly {angular}"
+
+
+def equator_columns(equator: Any) -> dict[str, list[Any]]:
+    """Return the columns of the equator equilibria Q1, Q2, ... in order of theta.
+
+    ``filled`` is 1 where the equilibrium is radially attracting (trajectories arrive), 0 where it is repelling;
+    ``shape`` is "circle" where it is angularly attracting, "diamond" where repelling, "triangle" if degenerate.
+    """
+    theta = [float(v) for v in equator.theta]
+    rho = [float(v) for v in equator.lambda_rho]
+    ang = [float(v) for v in equator.lambda_theta]
+    multiplicity = [int(v) for v in equator.multiplicity]
+    labels = [angle + LABEL_TURN for angle in spread(theta)]
+    shapes = [
+        "triangle" if m > 1 or v == 0 else "circle" if v < 0 else "diamond"
+        for v, m in zip(ang, multiplicity, strict=True)
+    ]
+    return {
+        "label": [f"Q{_subscript(i + 1)}" for i in range(len(theta))],
+        "theta": theta,
+        "lambda_rho": rho,
+        "lambda_theta": ang,
+        "multiplicity": multiplicity,
+        "type": [equator_type(r, v, m) for r, v, m in zip(rho, ang, multiplicity, strict=True)],
+        "shape": shapes,
+        "filled": [int(v < 0) for v in rho],
+        "x": [math.cos(v) for v in theta],
+        "y": [math.sin(v) for v in theta],
+        "label_x": [LABEL_RADIUS * math.cos(v) for v in labels],
+        "label_y": [LABEL_RADIUS * math.sin(v) for v in labels],
+    }
+
+
+def equator_arrows(equator: Any, direction: int = 0) -> list[tuple[float, float, float]]:
+    """Return arrowheads (x, y, angle) on the equator: the sense of theta' between neighbouring equilibria.
+
+    Parameters
+    ----------
+    equator : EquatorEquilibria
+    direction : {-1, 0, 1}
+        Sense of rotation of a closed equator, which has no equilibria.
+    """
+    theta, slope = equator.theta, equator.lambda_theta
+    if equator.all_directions:
+        return []
+    if not len(theta):
+        turns = [(math.pi * (i + 0.5) / 2, direction) for i in range(4)] if direction else []
+    else:
+        turns = []
+        for i in range(len(theta)):
+            j = (i + 1) % len(theta)
+            gap = float(theta[j] - theta[i]) + (2 * math.pi if j <= i else 0.0)
+            # Theta leaves a simple zero with the sign of its slope, and reaches the next one with minus its slope
+            sense = float(np.sign(slope[i])) or -float(np.sign(slope[j]))
+            if gap > 0.25 and sense:
+                turns.append((float(theta[i]) + gap / 2, sense))
+    return [(math.cos(t), math.sin(t), t + sense * math.pi / 2) for t, sense in turns]
+
+
+def critical_columns(critical: Sequence[Any]) -> dict[str, list[Any]]:
+    """Return the columns of the critical sets C (C1, C2, ... if there are several)."""
+    names = ["C"] if len(critical) == 1 else [f"C{_subscript(i + 1)}" for i in range(len(critical))]
+    return {
+        "label": names,
+        "x": [float(c.p[0]) for c in critical],
+        "y": [float(c.p[1]) for c in critical],
+        "kind": [str(c.kind) for c in critical],
+        "e": [[float(v) for v in c.e] for c in critical],
+        "x2": [[float(v) for v in c.x2] for c in critical],
+        "trace": [float(c.trace) for c in critical],
+        "determinant": [float(c.determinant) for c in critical],
+        "discriminant": [float(c.discriminant) for c in critical],
+        "eigenvalues": [[[float(v.real), float(v.imag)] for v in np.asarray(c.eigenvalues)] for c in critical],
+        "slow_flow": [
+            [] if c.slow_flow is None else [float(v) for v in np.atleast_1d(c.slow_flow)] for c in critical
+        ],
+    }
+
+
+def _subscript(number: int) -> str:
+    return str(number).translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))

@@ -1,0 +1,85 @@
+"""The page: one session of the explorer, and the server around it. Composition only."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import panel as pn
+from tornado.web import RequestHandler
+
+from . import warmup
+from .markup import page_template
+from .state import ExplorerState
+from .view import ExplorerView
+
+TITLE = "Isolated codimension-2 discontinuity: explorer"
+
+
+def session() -> ExplorerView:
+    """Return one session's explorer; the query of the page's address is its state."""
+    doc = pn.state.curdoc
+    assert doc is not None  # Bokeh's server calls this with a document
+    arguments = pn.state.session_args or {}
+    query = {name: values[-1].decode("utf-8", "replace") for name, values in arguments.items() if values}
+    state, errors = ExplorerState.from_query(query)
+    view = ExplorerView(state, page=True, errors=tuple(errors))
+    doc.template = page_template()  # type: ignore[assignment]
+    doc.template_variables["explorer_markup"] = view.page_markup
+    return view
+
+
+class Health(RequestHandler):
+    """Answers 200 while the process serves, for container health checks."""
+
+    def get(self) -> None:
+        """Say whether the integrator is ready."""
+        self.set_header("Cache-Control", "no-store")
+        self.write({"status": "ok", "integrator": "ready" if warmup.is_ready() else "compiling"})
+
+    head = get
+
+
+def make_server(
+    port: int = 5006,
+    address: str = "localhost",
+    allow_origin: Sequence[str] = (),
+    processes: int = 1,
+    threads: int | None = None,
+    **options: Any,
+) -> Any:
+    """Return a server of the explorer, not yet started (``.start()``, ``.io_loop.start()``).
+
+    Parameters
+    ----------
+    port : int
+        0 takes any free port.
+    address : str
+        Where to listen; "0.0.0.0" for all interfaces.
+    allow_origin : sequence of str
+        Host names (with port) whose pages may open the websocket, besides this address.
+    processes : int
+        Number of server processes that share the port.
+    threads : int, optional
+        Threads that answer requests in each process; default one.
+    """
+    warmup_now = processes == 1
+    if warmup_now:
+        warmup.start()
+    pn.config.nthreads = threads
+    server = pn.io.server.get_server(
+        {"/": session},
+        port=port,
+        address=address,
+        websocket_origin=list(allow_origin) or None,
+        title={"/": TITLE},
+        location=False,
+        num_procs=processes,
+        extra_patterns=[(r"/health", Health)],
+        compress_response=True,
+        start=False,
+        **options,
+    )
+    if not warmup_now:
+        server.io_loop.add_callback(warmup.start)
+    return server

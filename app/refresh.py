@@ -1,0 +1,216 @@
+"""From a request of the browser to one frame: state, then scene, then only what is visible and has changed.
+
+The browser decides when to ask: one request is out at a time and newer values replace older ones there, so that
+nothing ever queues here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from codim2_core.scene import Scene
+from codim2_core.systems import ELinear
+
+from . import glyphs
+from .packing import pack, quantise
+from .state import COEFFICIENTS, ExplorerState, InputError, build_psi, build_system, clean, scene_changes
+
+#: Angles of arrowheads travel as int16 multiples of this.
+ANGLE_STEP = np.pi / 32767
+
+#: Layers made by the compiled integrator.
+ORBITS = ("outside", "inside", "continuations")
+NULLCLINES = {"rho": ("rho",), "theta": ("theta",), "lines": ("lines_inside", "lines_outside")}
+
+Blocks = dict[str, NDArray[Any]]
+
+#: What the core raises for input that it cannot use.
+FAILURES = (ValueError, ArithmeticError, np.linalg.LinAlgError)
+
+
+class Frames:
+    """The picture of one browser: its state, its scene, and which results it has been sent.
+
+    Parameters
+    ----------
+    state : ExplorerState
+    system : ELinear, optional
+        Drawn instead of the system of the controls a, b, d, f, k, B, g.
+    ready : callable, optional
+        Says whether the compiled integrator is ready; until then trajectories are left out.
+    """
+
+    def __init__(
+        self, state: ExplorerState, system: ELinear | None = None, ready: Callable[[], bool] = lambda: True
+    ) -> None:
+        self.state = state
+        self.values = state.values()
+        self.scene = make_scene(self.values, system)
+        self.locked = locked_controls(self.scene)
+        self.ready = ready
+        self._sent: dict[str, Any] = {}
+
+    def answer(self, request: Mapping[str, Any]) -> bytes:
+        """Return the frame for ``{"id": number, "set": {control: value}, "all": bool}``.
+
+        ``all`` asks for every layer again, as a browser does that has just connected. A value that cannot be used,
+        and a computation that fails, leave the last good picture: the frame then holds only ``error``, with the
+        name of the control and a sentence.
+        """
+        identity = request.get("id", 0)
+        sent = {} if request.get("all") else self._sent
+        errors: dict[str, str] = {}
+        good: dict[str, Any] = {}
+        for name, value in (request.get("set") or {}).items():
+            try:
+                good[name] = clean(name, value)
+            except InputError as error:
+                errors[error.control] = str(error)
+        drawn = self._accept(good, sent, errors)
+        if drawn is None:
+            return pack({"id": identity, "errors": errors}, {})
+        header, blocks = drawn
+        return pack({"id": identity, "errors": errors, **header}, blocks)
+
+    def _accept(
+        self, good: Mapping[str, Any], sent: Mapping[str, Any], errors: dict[str, str]
+    ) -> tuple[dict[str, Any], Blocks] | None:
+        """Draw with all changes or, where that fails, with those that can be had one after the other."""
+        try:
+            return self._draw(good, sent)
+        except FAILURES as error:
+            if len(good) < 2:
+                errors[_culprit(error, next(iter(good), ""))] = str(error)
+                return None
+        kept: dict[str, Any] = {}
+        drawn = None
+        for name, value in good.items():
+            try:
+                drawn = self._draw({**kept, name: value}, sent)
+                kept[name] = value
+            except FAILURES as error:
+                errors[_culprit(error, name)] = str(error)
+        return drawn
+
+    def _draw(self, changes: Mapping[str, Any], sent: Mapping[str, Any]) -> tuple[dict[str, Any], Blocks]:
+        values = {**self.values, **changes}
+        changed = [name for name in changes if values[name] != self.values[name]]
+        evolution = scene_changes([name for name in changed if name not in self.locked], values)
+        if "z" in evolution:
+            evolution["z"] = slow_position(self.scene, values["z"])
+        scene = self.scene.evolve(**evolution) if evolution else self.scene
+        header, blocks, now_sent = make_frame(scene, values, sent, self.ready())
+        self.scene, self.values, self._sent = scene, values, now_sent
+        if changed:
+            self.state.param.update(**{name: values[name] for name in changed})
+        return header, blocks
+
+
+def _culprit(error: Exception, name: str) -> str:
+    return error.control if isinstance(error, InputError) else name
+
+
+def slow_position(scene: Scene, z: float) -> tuple[float, ...]:
+    """Return z with the further slow variables, if there are any, at 0."""
+    m = scene.system.m if isinstance(scene.system, ELinear) else 0
+    return (z, *[0.0] * (m - 1)) if m else ()
+
+
+def make_scene(values: Mapping[str, Any], system: ELinear | None = None) -> Scene:
+    """Return the scene of these values, or of `system` at z = values["z"] (further slow variables at 0)."""
+    system = build_system(values) if system is None else system
+    z = (values["z"], *[0.0] * (system.m - 1)) if system.m else ()
+    return Scene(system, build_psi(values), z=z, count=values["trajectories"])
+
+
+def locked_controls(scene: Scene) -> tuple[str, ...]:
+    """Name the controls that cannot change a user's own system: coefficients given as text, or not there."""
+    system = scene.system
+    if not isinstance(system, ELinear):
+        return COEFFICIENTS
+    locked = []
+    for name in COEFFICIENTS:
+        try:
+            system.evolve(**{name: 1.0})
+            fixed = name in ("f1", "f2") and not _plain(system, name)
+        except ValueError:
+            fixed = True
+        if fixed:
+            locked.append(name)
+    return (*locked, "z") if system.m == 0 else tuple(locked)
+
+
+def _plain(system: ELinear, name: str) -> bool:
+    return name in dict(system.parameters) or isinstance(system.f[int(name[1]) - 1], float)
+
+
+def make_frame(
+    scene: Scene, values: Mapping[str, Any], sent: Mapping[str, Any], ready: bool = True
+) -> tuple[dict[str, Any], Blocks, dict[str, Any]]:
+    """Return header and blocks of one frame, and what the browser then holds.
+
+    Only visible layers are computed, and only those whose result is another object than the one in `sent` are
+    packed. `scene` shares results that a change does not reach, so that identity is the whole test.
+    """
+    visible = set(values["layers"])
+    now = dict(sent)
+    header: dict[str, Any] = {"ready": ready}
+    blocks: Blocks = {}
+
+    def fresh(key: str, result: Any) -> bool:
+        if key in now and now[key] is result:
+            return False
+        now[key] = result
+        return True
+
+    if visible & NULLCLINES.keys():
+        _add_nullclines(blocks, [name for name in NULLCLINES if name in visible], scene["nullclines"], fresh)
+    for name in ORBITS:
+        if ready and name in visible and fresh(name, scene[name]):
+            _add_lines(blocks, name, scene[name].points, arrows=True)
+    equator, cycle, critical = scene["equator"], scene["equator_cycle"], scene["critical"]
+    if fresh("equator", equator):
+        header["equator"] = glyphs.equator_columns(equator)
+        header["sense"] = glyphs.equator_arrows(equator, 0 if cycle is None else int(cycle.direction))
+        header["all_directions"] = bool(equator.all_directions)
+        header["cycle"] = None if cycle is None else float(cycle.exponent)
+    if fresh("critical", critical):
+        header["critical"] = glyphs.critical_columns(critical)
+    name = scene["classification"]
+    if fresh("classification", name):
+        header["portrait"] = {
+            "case": name.case,
+            "name": name.name,
+            "sentence": name.sentence,
+            "degeneracies": [[item.name, item.sentence] for item in name.degeneracies],
+        }
+    flow = scene["slow_flow"]
+    header["slow_flow"] = None if flow is None else [float(v) for v in flow]
+    header["f"] = [float(scene.coefficients.f1), float(scene.coefficients.f2)]
+    return header, blocks, now
+
+
+def _add_nullclines(
+    blocks: Blocks, names: Sequence[str], branches: Sequence[Any], fresh: Callable[[str, Any], bool]
+) -> None:
+    wanted = [name for name in names if fresh(name, branches)]
+    if not wanted:
+        return
+    pieces = glyphs.nullcline_pieces(branches)
+    for name in wanted:
+        for part in NULLCLINES[name]:
+            _add_lines(blocks, part, pieces[part])
+
+
+def _add_lines(blocks: Blocks, name: str, pieces: Sequence[NDArray[np.float64]], arrows: bool = False) -> None:
+    counts, points = glyphs.join(pieces)
+    blocks[f"{name}.n"] = counts
+    blocks[f"{name}.xy"] = quantise(points)
+    if arrows:
+        heads = glyphs.arrowheads(counts, points)
+        blocks[f"{name}.at"] = quantise(heads[:, :2])
+        blocks[f"{name}.angle"] = np.rint(heads[:, 2] / ANGLE_STEP).astype(np.int16)

@@ -1,0 +1,58 @@
+// Controls: a slider with an editable number, whose range widens for a typed value.
+
+function roundUp(size) {
+  const power = 10 ** Math.floor(Math.log10(1.2 * size))
+  return [1, 2, 5, 10].map((k) => k * power).find((v) => v >= 1.2 * size)
+}
+
+class NumberControl {
+  constructor(box, range, onValue) {
+    this.box = box
+    this.name = box.dataset.control
+    this.range = range
+    this.slider = box.querySelector("input[type=range]")
+    this.number = box.querySelector("input.number")
+    this.error = box.querySelector(".error")
+    this.slider?.addEventListener("input", () => {
+      this.number.value = plain(this.slider.valueAsNumber)
+      onValue(this.name, this.slider.valueAsNumber)
+    })
+    const typed = () => {
+      const text = this.number.value.trim().replace("−", "-").replace(",", ".")
+      const value = Number(text)
+      if (text !== "" && Number.isFinite(value)) this.place(value)
+      onValue(this.name, text !== "" && Number.isFinite(value) ? value : text)
+    }
+    this.number.addEventListener("change", typed)
+    this.number.addEventListener("keydown", (event) => { if (event.key === "Enter") typed() })
+  }
+
+  // Move the slider without telling anyone, widening its range if need be.
+  place(value) {
+    if (!this.slider) return
+    let [low, high] = this.range
+    if (value < low || value > high) {
+      const reach = roundUp(Math.abs(value))
+      low = low < 0 ? -reach : low
+      high = reach
+    }
+    this.slider.min = low
+    this.slider.max = high
+    this.slider.step = 10 ** (Math.floor(Math.log10(high - low)) - 3)
+    this.slider.value = value
+  }
+
+  set(value) { this.place(value); this.number.value = plain(value) }
+
+  say(sentence) { sayAt(this.box, sentence) }
+}
+
+function plain(value) { return String(Number(value.toPrecision(6))) }
+
+function sayAt(box, sentence) {
+  const error = box.querySelector(".error")
+  box.classList.toggle("bad", Boolean(sentence))
+  if (!error) return
+  error.textContent = sentence ?? ""
+  error.hidden = !sentence
+}

@@ -1,0 +1,159 @@
+// The explorer: markup from the server, one Bokeh figure, one request in flight.
+
+function wire({model, view, root, plot}) {
+  const config = model.config
+  const values = {...config.values}
+  const picture = new Picture(plot, config.themes)
+  const inspector = new Inspector(root)
+  const find = (name) => root.querySelector(name)
+  const requests = new Requests((request) => model.send_msg(request))
+  const controls = {}
+
+  const change = (name, value) => {
+    if (values[name] === value && !controls[name]?.box.classList.contains("bad")) return
+    values[name] = value
+    if (name in numbers && typeof value !== "number") { requests.set(name, value); return }
+    requests.set(name, value)
+    if (name in outline) pad.draw(values)
+    if (config.presets[values.preset] && name in config.presets[values.preset].values) markChanged()
+    keepLink()
+  }
+  const numbers = Object.fromEntries(config.numbers.map((name) => [name, true]))
+  const outline = {a: 1, b: 1, d: 1, f1: 1, f2: 1, k1: 1, k2: 1, z: 1}
+
+  for (const box of root.querySelectorAll("[data-control]")) {
+    const name = box.dataset.control
+    if (name in numbers || name === "trajectories") {
+      controls[name] = new NumberControl(box, config.ranges[name], change)
+      if (config.locked.includes(name)) for (const input of box.querySelectorAll("input")) { input.disabled = true; input.title = "given by your system" }
+    } else controls[name] = {box, say: (sentence) => sayAt(box, sentence), set: () => {}}
+  }
+  const pad = new Pad(find(".pad"), (f1, f2) => {
+    if (config.locked.includes("f1")) return
+    controls.f1.set(f1); controls.f2.set(f2); change("f1", f1); change("f2", f2); pad.draw(values)
+  })
+
+  const family = find("select.psi")
+  const showFamily = () => {
+    find(".for-hill").hidden = values.psi !== "hill"
+    find(".for-custom").hidden = values.psi !== "custom"
+  }
+  family.addEventListener("change", () => {
+    if (family.value === "custom") requests.set("psi_text", values.psi_text)
+    change("psi", family.value); showFamily()
+  })
+  controls.psi.set = (value) => { family.value = value; showFamily() }
+  const text = controls.psi_text.box.querySelector("input")
+  text.addEventListener("input", () => change("psi_text", text.value))
+  controls.psi_text.set = (value) => { text.value = value }
+
+  const boxes = [...root.querySelectorAll(".layer input[type=checkbox]")]
+  const showLayers = () => { for (const box of boxes) box.checked = values.layers.includes(box.value); picture.show(values.layers) }
+  for (const box of boxes) box.addEventListener("change", () => { change("layers", boxes.filter((b) => b.checked).map((b) => b.value)); showLayers() })
+
+  // Set many controls at once: a portrait of the paper, or the first setting again.
+  const setAll = (wanted) => {
+    for (const [name, value] of Object.entries(wanted)) {
+      if (config.locked.includes(name)) continue
+      values[name] = value
+      controls[name]?.set(value)
+      requests.set(name, value)
+    }
+    pad.draw(values); showLayers(); keepLink()
+  }
+  const portrait = find("select.preset"), note = find(".preset-note")
+  const tell = () => { const p = config.presets[values.preset]; note.textContent = p ? `${p.label}. ${p.note}` : "" }
+  const markChanged = () => {
+    const p = config.presets[values.preset]
+    const same = Object.entries(p.values).every(([name, value]) => values[name] === value)
+    note.textContent = same ? `${p.label}. ${p.note}` : `changed from ${p.label}`
+  }
+  portrait.addEventListener("change", () => {
+    const p = config.presets[portrait.value]
+    if (p) setAll({...p.values, preset: portrait.value}); tell()
+  })
+  controls.preset.set = (value) => { portrait.value = value }
+  find(".reset").addEventListener("click", () => { setAll(config.defaults); tell(); picture.home(config.view) })
+  find(".home").addEventListener("click", () => picture.home(config.view))
+
+  // Theme: the system's until a choice is made.
+  const dark = matchMedia("(prefers-color-scheme: dark)")
+  let chosen = null
+  try { chosen = localStorage.getItem("codim2-theme") } catch { /* storage may be forbidden */ }
+  const paint = () => {
+    const name = chosen ?? (dark.matches ? "dark" : "light")
+    root.classList.toggle("dark", name === "dark")
+    picture.paint(name)
+    if (config.page) document.documentElement.style.background = document.body.style.background = config.themes[name].page
+    return name
+  }
+  dark.addEventListener("change", paint)
+  find(".theme").addEventListener("click", () => {
+    chosen = root.classList.contains("dark") ? "light" : "dark"
+    try { localStorage.setItem("codim2-theme", chosen) } catch { /* as above */ }
+    paint()
+  })
+
+  // The address always carries the whole state.
+  let linkTimer = null
+  const keepLink = () => {
+    if (!config.page) return
+    clearTimeout(linkTimer)
+    linkTimer = setTimeout(() => {
+      const query = new URLSearchParams(Object.entries(values).map(([name, value]) => [name, Array.isArray(value) ? value.join(",") : String(value)]))
+      history.replaceState(null, "", `?${query}`)
+    }, 300)
+  }
+
+  const busy = find(".busy")
+  let warmTimer = null
+  const apply = (buffer) => {
+    const frame = readFrame(buffer)
+    const {header} = frame
+    const errors = header.errors ?? {}
+    for (const [name, control] of Object.entries(controls)) {
+      if (name in errors) control.say(errors[name])
+      else if (control.box.classList.contains("bad") && !(name in requests.waiting)) control.say(null)
+    }
+    const general = Object.entries(errors).find(([name]) => !(name in controls))
+    banner(general ? general[1] : "")
+    picture.apply(frame)
+    inspector.apply(header, values)
+    requests.arrived(header.id, errors)
+    root.dataset.frame = header.id
+    root.dataset.settled = requests.idle
+    if ("ready" in header) {
+      busy.hidden = header.ready
+      busy.textContent = "Compiling the integrator, once; trajectories follow …"
+      clearTimeout(warmTimer)
+      if (!header.ready) warmTimer = setTimeout(() => requests.refresh(), 500)
+    }
+  }
+  const banner = (sentence) => { const bar = find(".banner"); bar.hidden = !sentence; bar.textContent = sentence }
+
+  model.on("msg:custom", (event) => apply((event.data ?? event).frame))
+  if (model.first) apply(model.first instanceof ArrayBuffer ? model.first : model.first.buffer ?? model.first)
+  for (const [name, sentence] of Object.entries(config.errors ?? {})) controls[name]?.say(sentence)
+  paint(); showLayers(); showFamily(); tell(); pad.draw(values)
+  root.dataset.ready = "true"
+  return {values, requests, picture, apply}
+}
+
+export function render({model, view, el}) {
+  const first = document.getElementById("codim2-first")
+  let root = model.config.page ? first?.querySelector(".codim2") : null
+  if (!root) {
+    const holder = document.createElement("div")
+    holder.innerHTML = model.markup
+    root = holder.querySelector(".codim2")
+  }
+  root.querySelector(".bokeh").append(model.get_child("picture"))
+  wire({model, view, root, plot: view.model.data.picture})
+  // The server's drawing stays until Bokeh has painted.
+  const drawing = root.querySelector(".first")
+  requestAnimationFrame(() => setTimeout(() => drawing.remove(), 150))
+  el.append(root)
+  first?.remove()
+}
+
+export default {render}

@@ -1,0 +1,74 @@
+// Frames: reading one packed buffer, and asking for the next so that nothing ever queues.
+
+// The layout is described in packing.py.
+function readFrame(buffer) {
+  const bytes = buffer instanceof ArrayBuffer ? new Uint8Array(buffer) : new Uint8Array(buffer.buffer ?? buffer, buffer.byteOffset ?? 0, buffer.byteLength)
+  const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice()
+  const view = new DataView(aligned.buffer, aligned.byteOffset, aligned.byteLength)
+  const length = view.getUint32(0, true)
+  const header = JSON.parse(new TextDecoder().decode(aligned.subarray(4, 4 + length)))
+  const blocks = {}
+  let at = aligned.byteOffset + 4 + length
+  for (const [name, type, size] of header.blocks) {
+    const Type = type === "uint16" ? Uint16Array : Int16Array
+    blocks[name] = new Type(aligned.buffer, at, size)
+    at += Math.ceil(blocks[name].byteLength / 4) * 4
+  }
+  return {header, blocks}
+}
+
+// Latest wins: one request is out at a time; while it is, only the newest value of each control is kept.
+// A rejected value goes along with the next request, since another control may have made it valid.
+class Requests {
+  constructor(send) {
+    this.send = send
+    this.waiting = {}
+    this.rejected = {}
+    this.asked = null
+    this.number = 0
+    this.scheduled = false
+    this.timer = null
+  }
+
+  set(name, value) {
+    this.waiting[name] = value
+    delete this.rejected[name]
+    this.schedule()
+  }
+
+  refresh() { this.again = true; this.schedule() }
+
+  get idle() { return this.asked === null && Object.keys(this.waiting).length === 0 }
+
+  schedule() {
+    if (this.scheduled || this.asked !== null) return
+    this.scheduled = true
+    const go = () => { clearTimeout(fallback); cancelAnimationFrame(frame); this.scheduled = false; this.leave() }
+    const frame = requestAnimationFrame(go)
+    const fallback = setTimeout(go, 100) // a page in the background gets no animation frames
+  }
+
+  leave() {
+    if (this.asked !== null || (!this.again && Object.keys(this.waiting).length === 0)) return
+    this.asked = {...this.rejected, ...this.waiting}
+    this.waiting = {}
+    this.again = false
+    this.number += 1
+    this.send({id: this.number, set: this.asked})
+    // a lost reply must not stop the explorer for ever
+    this.timer = setTimeout(() => { this.waiting = {...this.asked, ...this.waiting}; this.asked = null; this.schedule() }, 20000)
+  }
+
+  // Called when a reply has been applied; `errors` maps controls to sentences.
+  arrived(id, errors) {
+    if (id !== this.number || this.asked === null) return
+    clearTimeout(this.timer)
+    this.rejected = {}
+    for (const [name, value] of Object.entries(this.asked)) {
+      const family = name === "psi" && ("psi_text" in errors || "n" in errors)
+      if ((name in errors || family) && !(name in this.waiting)) this.rejected[name] = value
+    }
+    this.asked = null
+    if (this.again || Object.keys(this.waiting).length) this.schedule()
+  }
+}

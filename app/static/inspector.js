@@ -1,0 +1,69 @@
+// The inspector: portrait, degeneracies, tables of equator equilibria and critical sets, slow flow along z.
+
+const escape = (text) => String(text).replace(/[&<>"]/g, (c) => ({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})[c])
+
+class Inspector {
+  constructor(root) {
+    this.find = (name) => root.querySelector(name)
+  }
+
+  apply(header, values) {
+    if (header.portrait) this.portrait(header.portrait)
+    if (header.equator) this.equator(header)
+    if (header.critical) this.critical(header.critical)
+    if ("slow_flow" in header) this.slow(header.slow_flow, values.z)
+  }
+
+  portrait({case: which, name, sentence, degeneracies}) {
+    this.find(".portrait-name").textContent = name
+    this.find(".portrait-case").textContent = which ? `Case ${which}` : ""
+    this.find(".sentence").textContent = sentence.replace(/^(Case \S+, )?\S+\. /, "")
+    this.find(".degeneracies").innerHTML = degeneracies
+      .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${escape(words)}</p>`).join("")
+  }
+
+  equator({equator: q, cycle, all_directions: all}) {
+    const rows = q.theta.map((theta, i) => `<tr class="plain"><td><b>${q.label[i]}</b></td><td>${digits(theta)}</td>
+      <td>${digits(q.lambda_rho[i])}</td><td>${digits(q.lambda_theta[i])}</td></tr>
+      <tr><td></td><td class="words" colspan="3">${q.type[i]}${q.multiplicity[i] > 1 ? `, multiplicity ${q.multiplicity[i]}` : ""}</td></tr>`)
+    const words = all ? "Every direction is a limit direction." : cycle === null ? "None." :
+      `None: the equator is a closed orbit, ${cycle < 0 ? "attracting" : cycle > 0 ? "repelling" : "neutral"} outside (exponent ${digits(cycle)}).`
+    this.find(".equator-table").innerHTML = "<h2>Equator equilibria</h2>" + (rows.length
+      ? `<table><tr><th></th><th>θ</th><th>λ<sub>ρ</sub></th><th>λ<sub>θ</sub></th></tr>${rows.join("")}</table>` : `<p class="note">${words}</p>`)
+  }
+
+  critical(c) {
+    const rows = c.label.map((label, i) => `<table>
+      <tr><td><b>${label}</b></td><td><b>${c.kind[i]}</b></td></tr>
+      <tr><td>(c, s)</td><td>${pair(c.e[i])}</td></tr>
+      <tr><td>(x₂, y₂)</td><td>${pair(c.x2[i])}</td></tr>
+      <tr><td>tr J</td><td>${digits(c.trace[i])}</td></tr><tr><td>det J</td><td>${digits(c.determinant[i])}</td></tr>
+      <tr><td>Δ(J)</td><td>${digits(c.discriminant[i])}</td></tr>
+      <tr><td>eigenvalues</td><td>${eigen(c.eigenvalues[i])}</td></tr></table>`)
+    this.find(".critical-table").innerHTML = "<h2>Critical set</h2>" + (rows.join("") || '<p class="note">None in the scaling chart.</p>')
+  }
+
+  // An arrow along the z axis; z points out of the page, as in the paper's circled dot and cross.
+  slow(flow, z) {
+    const box = this.find(".slow")
+    if (!flow || !flow.length) {
+      box.innerHTML = '<h2>Slow flow on C</h2><p class="note">No critical set, no sliding.</p>'
+      return
+    }
+    const rate = flow[0]
+    const reach = Math.max(4, roundUp(Math.max(Math.abs(z), 0.1)))
+    const y = (v) => 75 - 58 * v / reach
+    const length = Math.sign(rate) * (14 + 44 * Math.abs(rate) / (1 + Math.abs(rate)))
+    const tip = Math.max(8, Math.min(142, y(z) - length))
+    const head = tip < y(z) ? 7 : -7
+    const arrow = rate === 0 ? "" : `<path class="z-arrow" d="M42 ${y(z)}V${tip + head * 0.8}"/>
+      <path class="z-head" d="M42 ${tip}l5 ${head * 1.3}h-10Z"/>`
+    const sense = rate > 0 ? "⊙ out of the page" : rate < 0 ? "⊗ into the page" : "at rest"
+    box.innerHTML = `<h2>Slow flow on C</h2><div class="slow-box"><svg viewBox="0 0 84 150" aria-hidden="true">
+      <path class="z-axis" d="M30 6V144M26 ${y(reach)}h8M26 ${y(0)}h8M26 ${y(-reach)}h8"/><text x="22" y="12" text-anchor="end">z</text>
+      <text x="23" y="${y(reach) + 14}" text-anchor="end">${plain(reach)}</text><text x="23" y="${y(0) + 4}" text-anchor="end">0</text>
+      <text x="23" y="${y(-reach) + 4}" text-anchor="end">−${plain(reach)}</text>
+      ${arrow}<circle class="z-dot" cx="30" cy="${y(z)}" r="4"/></svg>
+      <div><b>z′ = ${flow.map((v) => digits(v)).join(", ")}</b><br>${sense}<br><span class="note">at z = ${digits(z)}; independent of Ψ</span></div></div>`
+  }
+}

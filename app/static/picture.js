@@ -1,0 +1,142 @@
+// The picture: fills the sources of the Bokeh figure, and colours its glyphs.
+
+const STEP = 4 / 32767 // as in packing.py
+const LINE_PARTS = {
+  rho: ["rho"], theta: ["theta"], lines: ["lines_inside", "lines_outside"],
+  outside: ["outside", "arrows:outside"], inside: ["inside", "arrows:inside"],
+  continuations: ["continuations", "arrows:continuations"],
+  equator: ["equator", "text:equator"], critical: ["critical", "text:critical"],
+}
+const COLOUR_OF = {
+  rho: "rho", theta: "theta", lines_inside: "lines_inside", lines_outside: "lines_outside",
+  outside: "outside", inside: "orbit", continuations: "continuation",
+}
+const CRITICAL_MARK = {
+  "stable node": ["square", true], "unstable node": ["square", false], "stable focus": ["circle", true],
+  "unstable focus": ["circle", false], saddle: ["x", false], "centre (linear)": ["circle_dot", false],
+}
+const EQUATOR_MARK = {circle: ["circle", 13], diamond: ["diamond", 18], triangle: ["triangle", 15]}
+
+function digits(value, places = 4) {
+  if (value === 0) return "0"
+  const size = Math.abs(value)
+  const text = size >= 1e5 || size < 1e-3 ? value.toExponential(2) : value.toFixed(Math.max(0, places - 1 - Math.max(0, Math.floor(Math.log10(size)))))
+  return text.replace("-", "−")
+}
+const pair = (v, places) => `(${digits(v[0], places)}, ${digits(v[1], places)})`
+function eigen([first, second]) {
+  if (first[1] !== 0) return `${digits(first[0])} ± ${digits(Math.abs(first[1]))} i`
+  return `${digits(first[0])}, ${digits(second[0])}`
+}
+function outOfPage(flow) { return !flow || !flow.length || flow[0] === 0 ? "" : flow[0] > 0 ? " ⊙" : " ⊗" }
+
+class Picture {
+  constructor(plot, themes) {
+    this.plot = plot
+    this.themes = themes
+    this.renderers = {}
+    for (const renderer of plot.renderers) this.renderers[renderer.name] = renderer
+    this.theme = themes.light
+    this.equator = null
+    this.critical = null
+  }
+
+  source(name) { return this.renderers[name].data_source }
+
+  apply({header, blocks}) {
+    for (const name of Object.keys(COLOUR_OF)) {
+      if (blocks[`${name}.n`]) this.source(name).data = this.polylines(blocks[`${name}.n`], blocks[`${name}.xy`])
+      if (blocks[`${name}.at`]) this.source(`arrows:${name}`).data = this.arrows(blocks[`${name}.at`], blocks[`${name}.angle`])
+    }
+    if (header.equator) { this.equator = header.equator; this.drawEquator(); this.drawSense(header) }
+    if (header.critical) { this.critical = header.critical; this.drawCritical() }
+  }
+
+  polylines(counts, points) {
+    const size = points.length / 2 + counts.length
+    const x = new Float32Array(size), y = new Float32Array(size)
+    let from = 0, to = 0
+    for (const count of counts) {
+      for (let i = 0; i < count; i++, from++, to++) { x[to] = points[2 * from] * STEP; y[to] = points[2 * from + 1] * STEP }
+      x[to] = NaN; y[to] = NaN; to++
+    }
+    return {x, y}
+  }
+
+  arrows(points, angles) {
+    const n = angles.length
+    const x = new Float32Array(n), y = new Float32Array(n), angle = new Float32Array(n)
+    for (let i = 0; i < n; i++) {
+      x[i] = points[2 * i] * STEP; y[i] = points[2 * i + 1] * STEP
+      angle[i] = angles[i] * Math.PI / 32767 - Math.PI / 2 // Bokeh's triangle points up
+    }
+    return {x, y, angle}
+  }
+
+  drawSense(header) {
+    const arrows = header.sense
+    this.source("sense").data = {
+      x: arrows.map((v) => v[0]), y: arrows.map((v) => v[1]), angle: arrows.map((v) => v[2] - Math.PI / 2),
+    }
+    // every direction is a limit direction: the whole circle is drawn as equilibria
+    this.allDirections = header.all_directions
+    this.renderers.circle.glyph.line_width = this.allDirections ? 6 : 2
+    this.renderers.circle.glyph.line_color = this.allDirections ? this.theme.degenerate : this.theme.equator
+  }
+
+  drawEquator() {
+    const q = this.equator, theme = this.theme
+    const colour = q.lambda_rho.map((v, i) => q.shape[i] === "triangle" || v === 0 ? theme.degenerate : v < 0 ? theme.attracting : theme.repelling)
+    this.source("equator").data = {
+      ...q, colour, text: q.label,
+      fill: colour.map((c, i) => q.filled[i] ? c : theme.hollow),
+      marker: q.shape.map((s) => EQUATOR_MARK[s][0]), size: q.shape.map((s) => EQUATOR_MARK[s][1]),
+      theta_text: q.theta.map((v) => `${digits(v, 5)} (${digits(v * 180 / Math.PI)}°)`),
+      rho_text: q.lambda_rho.map((v) => digits(v, 5)), ang_text: q.lambda_theta.map((v) => digits(v, 5)),
+    }
+  }
+
+  drawCritical() {
+    const c = this.critical, theme = this.theme
+    const marks = c.kind.map((kind) => CRITICAL_MARK[kind] ?? ["circle", false])
+    this.source("critical").data = {
+      ...c, text: c.label.map((label, i) => label + outOfPage(c.slow_flow[i])),
+      marker: marks.map((m) => m[0]), colour: c.kind.map(() => theme.critical),
+      fill: marks.map((m) => m[1] ? theme.critical : theme.hollow),
+      e_text: c.e.map((v) => pair(v)), x2_text: c.x2.map((v) => pair(v)),
+      trace_text: c.trace.map((v) => digits(v)), det_text: c.determinant.map((v) => digits(v)),
+      eig_text: c.eigenvalues.map(eigen), slow_text: c.slow_flow.map((v) => v.map((w) => digits(w)).join(", ") || "–"),
+    }
+  }
+
+  show(layers) {
+    for (const [layer, names] of Object.entries(LINE_PARTS)) {
+      for (const name of names) this.renderers[name].visible = layers.includes(layer)
+    }
+  }
+
+  paint(name) {
+    const theme = this.theme = this.themes[name]
+    this.plot.background_fill_color = this.plot.border_fill_color = theme.page
+    const discs = this.renderers.discs.glyph
+    discs.fill_color = theme.shade
+    discs.fill_alpha = theme.shade_alpha
+    for (const [line, key] of Object.entries(COLOUR_OF)) {
+      this.renderers[line].glyph.line_color = theme[key]
+      const heads = this.renderers[`arrows:${line}`]
+      if (heads) heads.glyph.fill_color = theme[key]
+    }
+    this.renderers.sense.glyph.fill_color = theme.equator
+    this.renderers.circle.glyph.line_color = this.allDirections ? theme.degenerate : theme.equator
+    for (const text of ["text:equator", "text:critical"]) {
+      this.renderers[text].glyph.text_color = theme.ink
+      this.renderers[text].glyph.background_fill_color = theme.page
+    }
+    if (this.equator) this.drawEquator()
+    if (this.critical) this.drawCritical()
+  }
+
+  home(view) {
+    for (const range of [this.plot.x_range, this.plot.y_range]) { range.start = -view; range.end = view }
+  }
+}

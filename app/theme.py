@@ -1,0 +1,65 @@
+"""Colours and line widths of the picture, light and dark, shared by Bokeh, SVG, HoloViews and the legend.
+
+Nullclines have the paper's colours (matlab1 to matlab4 of fig:sim_5cases); the dark theme lightens them.
+"""
+
+from __future__ import annotations
+
+LIGHT = {
+    "page": "#ffffff",
+    "ink": "#1c2430",
+    "orbit": "#1c2430",
+    "outside": "#5b6675",
+    "continuation": "#b3123f",
+    "rho": "#0072BD",
+    "theta": "#D95319",
+    "lines_inside": "#EDB120",
+    "lines_outside": "#7E2F8E",
+    "equator": "#1c2430",
+    "attracting": "#15803d",
+    "repelling": "#be185d",
+    "degenerate": "#6b7280",
+    "critical": "#c8102e",
+    "hollow": "#ffffff",
+    "shade": "#3b6ea5",
+    "shade_alpha": 0.022,
+}
+DARK = {
+    "page": "#12161d",
+    "ink": "#e6eaf0",
+    "orbit": "#d6dce5",
+    "outside": "#8d99aa",
+    "continuation": "#ff6b8f",
+    "rho": "#4aa8e8",
+    "theta": "#ff8552",
+    "lines_inside": "#f2c14e",
+    "lines_outside": "#c58ad6",
+    "equator": "#e6eaf0",
+    "attracting": "#4ade80",
+    "repelling": "#f472b6",
+    "degenerate": "#aab2bf",
+    "critical": "#ff5468",
+    "hollow": "#12161d",
+    "shade": "#7fb2ff",
+    "shade_alpha": 0.020,
+}
+THEMES = {"light": LIGHT, "dark": DARK}
+
+#: Half the width of the picture: the disc has radius 1.
+VIEW = 1.75
+
+#: Radii of the translucent discs that shade the hemisphere; there are more near the centre, so the limb is pale.
+DISCS = tuple(0.06 * k + 0.04 for k in range(16)) + (1.0,)
+
+#: Polyline layers from bottom to top: name, colour key, width in px.
+LINES = (
+    ("lines_outside", "lines_outside", 1.4),
+    ("lines_inside", "lines_inside", 1.8),
+    ("rho", "rho", 1.8),
+    ("theta", "theta", 1.8),
+    ("outside", "outside", 0.9),
+    ("inside", "orbit", 0.9),
+    ("continuations", "continuation", 1.6),
+)
+#: Layers that carry arrowheads.
+ARROWED = ("outside", "inside", "continuations")

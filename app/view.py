@@ -1,0 +1,90 @@
+"""The explorer as one component: the same class in a page and in a notebook.
+
+The server writes the markup, Bokeh holds the picture, and one hand-made front end (static/*.js) drives both. A
+request and its frame are two small events past all property syncing, so that a tick is one message each way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import panel as pn
+import param
+from panel.custom import Child, JSComponent
+
+from codim2_core.systems import ELinear
+
+from .figures import make_figure
+from .markup import config, explorer_html, script
+from .packing import unpack
+from .refresh import Frames
+from .state import ExplorerState, InputError
+from .svg import draw
+from .warmup import is_ready
+
+
+class ExplorerView(JSComponent):
+    """The live explorer.
+
+    Parameters
+    ----------
+    state : ExplorerState, optional
+    system : ELinear, optional
+        Drawn instead of the system of the controls.
+    page : bool
+        True in the explorer's own page, which brings the markup; False in a notebook.
+    errors : sequence of InputError
+        Values of the page's address that could not be used; shown beside their controls.
+    """
+
+    picture = Child()
+    config = param.Dict({})
+    first = param.Bytes(b"")
+    markup = param.String("")
+
+    _esm = script()
+
+    def __init__(
+        self,
+        state: ExplorerState | None = None,
+        system: ELinear | None = None,
+        *,
+        page: bool = False,
+        errors: tuple[InputError, ...] = (),
+        **params: Any,
+    ) -> None:
+        self.state = ExplorerState() if state is None else state
+        self.frames = Frames(self.state, system, is_ready)
+        first = self.frames.answer({"all": True})
+        header, _ = unpack(first)
+        settings = config(self.state, self.frames.locked)
+        settings["page"] = page
+        settings["errors"] = {error.control: str(error) for error in errors} | header.get("errors", {})
+        self.page_markup = explorer_html(self.state, _words(header, first))
+        super().__init__(
+            picture=pn.pane.Bokeh(make_figure(), sizing_mode="stretch_both"),
+            config=settings,
+            first=first,
+            markup="" if page else self.page_markup,
+            sizing_mode="stretch_width",
+            **params,
+        )
+
+    def _handle_msg(self, data: Any) -> None:
+        """Answer a request of the browser with one frame."""
+        self._send_msg({"frame": self.frames.answer(data)})
+
+    def watch(self, callback: Callable[..., None], *names: str) -> None:
+        """Call `callback` when one of the named values of the state has changed."""
+        self.state.param.watch(callback, list(names))
+
+
+def _words(header: dict[str, Any], first: bytes) -> dict[str, str]:
+    """Return what the page says and shows before any script runs."""
+    portrait = header.get("portrait")
+    if portrait is None:
+        return {}
+    sentence = portrait["sentence"].split(". ", 1)[-1]
+    case = f"Case {portrait['case']}" if portrait["case"] else ""
+    return {"name": portrait["name"], "case": case, "sentence": sentence, "svg": draw(first)}

@@ -1,0 +1,250 @@
+"""The form in which a formula is kept: a flat tape of operations, each on earlier entries.
+
+A tape has no depth, so nothing here recurses, and equal subformulas are one entry, so derivatives stay small.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+Node = tuple[Any, ...]  # ("num", 2.0), ("name", "s"), ("neg", i), ("sin", i), ("+", i, j), ...
+Tape = tuple[Node, ...]
+
+FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "sqrt", "tanh", "sinh", "cosh", "atan", "abs")
+BINARY = ("+", "-", "*", "/", "**")
+CONSTANTS = {"pi": math.pi, "e": math.e}
+MOST_NODES = 20_000
+
+# math.* is some ten times faster than NumPy on one float, but raises where IEEE arithmetic answers inf or nan;
+# a formula then goes through NumPy instead.
+SCALAR: dict[str, Callable[..., float]] = {
+    **{name: getattr(math, name) for name in FUNCTIONS if name != "abs"},
+    "abs": math.fabs,
+    "neg": operator.neg,
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "**": math.pow,  # never complex, unlike the operator
+}
+VECTOR: dict[str, Callable[..., Any]] = {
+    **{name: getattr(np, name) for name in FUNCTIONS if name not in ("atan", "abs")},
+    "atan": np.arctan,
+    "abs": np.abs,
+    "neg": np.negative,
+    "+": np.add,
+    "-": np.subtract,
+    "*": np.multiply,
+    "/": np.divide,
+    "**": np.power,
+}
+
+
+class NotFiniteError(ValueError):
+    """A part of the formula that has no name in it is infinite or undefined."""
+
+
+class Builder:
+    """Appends operations to a tape, folding constants; with `simplify` also 0 + u, 1 u, u^1 and the like.
+
+    Parameters
+    ----------
+    tape : tuple of nodes
+        What to start from.
+    simplify : bool
+        Typed text is kept as typed (``0*z1`` still names z1); derivatives are simplified.
+    limit : int
+        More nodes than this are refused with a ValueError.
+    """
+
+    def __init__(self, tape: Tape = (), simplify: bool = False, limit: int = MOST_NODES) -> None:
+        self.nodes: list[Node] = list(tape)
+        self._where = {node: i for i, node in enumerate(tape)}
+        self._simplify = simplify
+        self._limit = limit
+
+    def _entry(self, *node: Any) -> int:
+        i = self._where.get(node)
+        if i is None:
+            if len(self.nodes) >= self._limit:
+                raise ValueError(f"the formula has more than {self._limit} operations; write a shorter one.")
+            i = self._where[node] = len(self.nodes)
+            self.nodes.append(node)
+        return i
+
+    def number(self, value: float) -> int:
+        """Entry of a constant."""
+        return self._entry("num", value + 0.0)
+
+    def name(self, name: str) -> int:
+        """Entry of a variable."""
+        return self._entry("name", name)
+
+    def value(self, i: int) -> float | None:
+        """The constant at entry i, or None."""
+        node = self.nodes[i]
+        return node[1] if node[0] == "num" else None
+
+    def apply(self, op: str, *args: int) -> int:
+        """Entry of ``op`` on earlier entries, folded if all of them are constants."""
+        values = [self.value(i) for i in args]
+        if None not in values:
+            try:
+                result = SCALAR[op](*values)
+            except (ArithmeticError, ValueError):
+                result = math.nan
+            if math.isfinite(result):
+                return self.number(result)
+            if not self._simplify:
+                raise NotFiniteError("this part is infinite or undefined")
+        if op == "neg" and self.nodes[args[0]][0] == "neg":
+            return self.nodes[args[0]][1]
+        if self._simplify and len(args) == 2:
+            i = self._simpler(op, *args, *values)
+            if i is not None:
+                return i
+        return self._entry(op, *args)
+
+    def _simpler(self, op: str, i: int, j: int, u: float | None, v: float | None) -> int | None:
+        match op:
+            case "+" if u == 0.0 or v == 0.0:
+                return j if u == 0.0 else i
+            case "-" if v == 0.0:
+                return i
+            case "-" if u == 0.0:
+                return self.apply("neg", j)
+            case "*" if u == 0.0 or v == 0.0:
+                return self.number(0.0)
+            case "*" if u == 1.0 or v == 1.0:
+                return j if u == 1.0 else i
+            case "*" if u == -1.0 or v == -1.0:
+                return self.apply("neg", j if u == -1.0 else i)
+            case "/" if v == 1.0:
+                return i
+            case "/" if u == 0.0 and v != 0.0:
+                return self.number(0.0)
+            case "**" if v == 1.0:
+                return i
+            case "**" if v == 0.0:
+                return self.number(1.0)
+        return None
+
+
+def compact(nodes: list[Node], root: int) -> Tape:
+    """Only what `root` needs, in the order in which reading from left to right meets it: the canonical tape."""
+    order: dict[int, int] = {}
+    tape: list[Node] = []
+    pending = [root]
+    while pending:
+        i = pending[-1]
+        if i in order:
+            pending.pop()
+            continue
+        op, *args = nodes[i]
+        waiting = [] if op in ("num", "name") else [j for j in reversed(args) if j not in order]
+        if waiting:
+            pending.extend(waiting)
+            continue
+        pending.pop()
+        order[i] = len(tape)
+        tape.append(nodes[i] if op in ("num", "name") else (op, *(order[j] for j in args)))
+    return tuple(tape)
+
+
+def derivative(tape: Tape, name: str) -> Tape:
+    """Tape of the partial derivative: one pass of the chain rule, forwards.
+
+    Raises
+    ------
+    ValueError
+        The derivative has more than `MOST_NODES` operations.
+    """
+    build = Builder(tape, simplify=True)
+    apply, zero = build.apply, build.number(0.0)
+    rates: list[int] = []
+    for k, (op, *args) in enumerate(tape):
+        if op == "num" or op == "name":
+            rates.append(build.number(1.0) if op == "name" and args[0] == name else zero)
+            continue
+        du = rates[args[0]]
+        if len(args) == 2:
+            rates.append(_binary_rate(build, op, k, args[0], args[1], du, rates[args[1]], zero))
+        elif du == zero:
+            rates.append(zero)
+        elif op == "neg":
+            rates.append(apply("neg", du))
+        elif op == "sqrt":
+            rates.append(apply("/", du, apply("*", build.number(2.0), k)))
+        elif op == "log":
+            rates.append(apply("/", du, args[0]))
+        elif op == "atan":
+            square = apply("**", args[0], build.number(2.0))
+            rates.append(apply("/", du, apply("+", build.number(1.0), square)))
+        else:
+            rates.append(apply("*", _outer_rate(build, op, k, args[0]), du))
+    return compact(build.nodes, rates[-1])
+
+
+def _outer_rate(build: Builder, op: str, k: int, u: int) -> int:
+    """d op(u)/du, entry k being op(u)."""
+    apply, one, two = build.apply, build.number(1.0), build.number(2.0)
+    match op:
+        case "exp":
+            return k
+        case "sin":
+            return apply("cos", u)
+        case "cos":
+            return apply("neg", apply("sin", u))
+        case "tan":
+            return apply("+", one, apply("**", k, two))
+        case "tanh":  # 1/cosh^2, not 1 - tanh^2: that one loses all digits where tanh is near 1
+            return apply("/", one, apply("**", apply("cosh", u), two))
+        case "sinh":
+            return apply("cosh", u)
+        case "cosh":
+            return apply("sinh", u)
+        case _:  # abs: the sign of u, undefined at u = 0 as it should be
+            return apply("/", u, k)
+
+
+def _binary_rate(build: Builder, op: str, k: int, u: int, v: int, du: int, dv: int, zero: int) -> int:
+    apply = build.apply
+    match op:
+        case "+" | "-":
+            return apply(op, du, dv)
+        case "*":
+            return apply("+", apply("*", du, v), apply("*", u, dv))
+        case "/":
+            first = apply("/", du, v)
+            if dv == zero:
+                return first
+            # u dv/v/v rather than u dv/v^2, which overflows sooner
+            return apply("-", first, apply("/", apply("*", k, dv), v))
+    if du == zero and dv == zero:
+        return zero
+    if dv == zero:
+        power = apply("**", u, apply("-", v, build.number(1.0)))
+        return apply("*", apply("*", v, power), du)
+    by_exponent = apply("*", dv, apply("log", u))
+    by_base = zero if du == zero else apply("/", apply("*", v, du), u)
+    return apply("*", k, apply("+", by_exponent, by_base))
+
+
+def substitute(tape: Tape, name: str, replacement: Tape) -> Tape:
+    """The tape with `name` replaced by another formula."""
+    build = Builder(replacement, simplify=True)
+    inner = len(replacement) - 1
+    at: list[int] = []
+    for op, *args in tape:
+        if op == "num":
+            at.append(build.number(args[0]))
+        elif op == "name":
+            at.append(inner if args[0] == name else build.name(args[0]))
+        else:
+            at.append(build.apply(op, *(at[j] for j in args)))
+    return compact(build.nodes, at[-1])

@@ -1,0 +1,247 @@
+"""A scene: everything that is drawn at one setting, computed when it is first asked for.
+
+Each layer names the inputs that it reads. `Scene.evolve` makes a new scene which shares the results of all layers
+whose inputs keep their values, so that a slider recomputes exactly what it reaches, a hidden layer costs nothing,
+and going back to a setting just seen is free.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, OrderedDict
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import regularisation
+from .classify import Classification, portrait
+from .critical import critical_sets, locate
+from .equator import equator_cycle, equator_equilibria
+from .nullclines import NullclineBranch, inside_nullclines, outside_nullclines
+from .orbits import Orbits
+from .regularisation import Psi
+from .seeds import checked_seeds, structured_seeds
+from .sliding import sliding_flow
+from .systems import Coefficients, ELinear, slow_values
+from .trajectories import Trajectories, continuation, trajectories
+
+CAPTURE = 0.25  # of a pixel: where a drawn trajectory ends, so near its equilibrium that nobody can see the rest
+REMEMBERED = 8  # results kept for each layer: a few settings back and forth
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """One layer: the names of the inputs it reads, and how it is made from a scene."""
+
+    inputs: tuple[str, ...]
+    compute: Callable[[Scene], Any]
+
+
+@dataclass
+class _Memory:
+    """What the scenes of one lineage have computed; `runs` counts the work, for tests and benchmarks."""
+
+    results: dict[str, OrderedDict[Hashable, Any]] = field(default_factory=dict)
+    runs: Counter[str] = field(default_factory=Counter)
+
+
+class Scene:
+    """Everything drawn for one system at one z; layers are computed when first asked for.
+
+    Parameters
+    ----------
+    system : ELinear
+    psi : Psi, optional
+        Default Psi = 1.
+    z : (m,) floats
+    seeds : (k, 2) points of the picture, optional
+        Where trajectories start; default `structured_seeds(count)`.
+    count : int
+        Number of seeds when they are not given.
+    t_max : float
+        Length of each half of a trajectory in T (dT = dt/rho).
+    rtol, atol : float
+        Tolerances of the trajectories. The default keeps errors far below a pixel.
+    view : float
+        Radius of the picture.
+    pixel : float
+        Size of one pixel in picture units: polylines stay within a quarter of it.
+
+    Examples
+    --------
+    >>> scene = Scene(ELinear(-2, 0, -1, (-0.5, 0)))
+    >>> scene["classification"].name
+    'CM4'
+    >>> scene.evolve(f1=-1.5)["classification"].name
+    'CM2'
+    """
+
+    def __init__(
+        self,
+        system: ELinear,
+        psi: Psi | None = None,
+        z: ArrayLike = (),
+        *,
+        seeds: ArrayLike | None = None,
+        count: int = 64,
+        t_max: float = 8.0,
+        rtol: float = 1e-6,
+        atol: float = 1e-7,
+        view: float = 2.0,
+        pixel: float = 1.0 / 180.0,
+        _memory: _Memory | None = None,
+    ) -> None:
+        if not isinstance(system, (ELinear, Coefficients)):
+            raise ValueError(f"system is {system!r}; give an ELinear.")
+        if psi is None:
+            psi = regularisation.constant()
+        if not isinstance(psi, Psi):
+            raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
+        if not (np.isfinite(view) and view > 1.0):
+            raise ValueError(f"view is {view}; give a finite radius greater than 1 (the equator).")
+        if not (np.isfinite(pixel) and 0.0 < pixel < 1.0):
+            raise ValueError(f"pixel is {pixel}; give the size of a pixel in picture units, in (0, 1).")
+        self.system, self.psi = system, psi
+        self.z = () if isinstance(system, Coefficients) else slow_values(z, system.m, needed=False)
+        self.seeds = None if seeds is None else checked_seeds(seeds)
+        self.count, self.t_max, self.rtol, self.atol = count, float(t_max), float(rtol), float(atol)
+        self.view, self.pixel = float(view), float(pixel)
+        self.coefficients = system.at(self.z)
+        self._memory = _Memory() if _memory is None else _memory
+        self._own: dict[str, Any] = {}
+
+    def evolve(self, **changes: Any) -> Scene:
+        """Return a scene with some inputs changed, sharing every layer that the change does not reach.
+
+        Parameters
+        ----------
+        **changes
+            Any parameter of `Scene`, and any coefficient or parameter of the system (a, b, d, f, f1, f2, B, g, …).
+
+        Raises
+        ------
+        ValueError
+            An input is unknown or invalid; this scene stays as it was.
+        """
+        own = {name: changes.pop(name) for name in tuple(changes) if name in _PARAMETERS}
+        values = {name: getattr(self, name) for name in _PARAMETERS}
+        values.update(own)
+        if changes:
+            if not isinstance(values["system"], ELinear):
+                raise ValueError("this scene was made from frozen coefficients; give it a system to change.")
+            values["system"] = values["system"].evolve(**changes)
+        return Scene(values.pop("system"), values.pop("psi"), values.pop("z"), **values, _memory=self._memory)
+
+    def __getitem__(self, name: str) -> Any:
+        if name in self._own:
+            return self._own[name]
+        if name not in layers:
+            raise ValueError(f"{name!r} is no layer; there are {', '.join(layers)}.")
+        layer = layers[name]
+        key = tuple(_INPUTS[i](self) for i in layer.inputs)
+        kept = self._memory.results.setdefault(name, OrderedDict())
+        if key in kept:
+            kept.move_to_end(key)
+        else:
+            kept[key] = layer.compute(self)
+            self._memory.runs[name] += 1
+            if len(kept) > REMEMBERED:
+                kept.popitem(last=False)
+        self._own[name] = kept[key]
+        return self._own[name]
+
+    def __iter__(self):
+        return iter(layers)
+
+    @property
+    def runs(self) -> Mapping[str, int]:
+        """How often each layer has been computed in this scene and those it evolved from or into."""
+        return MappingProxyType(self._memory.runs)
+
+    @property
+    def start(self) -> np.ndarray:
+        """The seeds in use, (k, 2)."""
+        return structured_seeds(self.count, self.view) if self.seeds is None else self.seeds
+
+
+_PARAMETERS = ("system", "psi", "z", "seeds", "count", "t_max", "rtol", "atol", "view", "pixel")
+
+# The values that layers read, as keys: `plane` is (a, b, d, f1, f2) at z, so z itself reaches nothing.
+_INPUTS: dict[str, Callable[[Scene], Hashable]] = {
+    "plane": lambda s: s.coefficients.plane,
+    "slow": lambda s: (s.coefficients.B.tobytes(), s.coefficients.g.tobytes()),
+    "psi": lambda s: s.psi,
+    "inner seeds": lambda s: s.count if s.seeds is None else _start(s, outside=False).tobytes(),
+    "outer seeds": lambda s: s.count if s.seeds is None else _start(s, outside=True).tobytes(),
+    "time": lambda s: s.t_max,
+    "tolerance": lambda s: (s.rtol, s.atol),
+    "view": lambda s: s.view,
+    "pixel": lambda s: s.pixel,
+}
+_STEPPED = ("time", "tolerance", "pixel")
+
+
+def _start(scene: Scene, outside: bool) -> np.ndarray:
+    seeds = scene.start
+    radius = np.hypot(seeds[:, 0], seeds[:, 1])
+    return seeds[(radius >= 1.0) == outside]
+
+
+def _stepping(scene: Scene) -> dict[str, float]:
+    return {
+        "t_max": scene.t_max,
+        "rtol": scene.rtol,
+        "atol": scene.atol,
+        "view": scene.view,
+        "pixel": scene.pixel,
+        "capture": CAPTURE * scene.pixel,
+    }
+
+
+def _orbits(scene: Scene, outside: bool) -> Orbits:
+    seeds, options = _start(scene, outside), _stepping(scene)
+    # Outside, e is the direction itself: Psi has no say.
+    psi = regularisation.constant() if outside else scene.psi
+    halves = (trajectories(scene.coefficients, psi, seeds, backward=back, **options) for back in (True, False))
+    return Orbits(*halves)
+
+
+def _continuations(scene: Scene) -> Trajectories:
+    """From each limit direction along which an open set of trajectories arrives, up the hemisphere."""
+    equator = scene["equator"]
+    arriving = equator.theta[(equator.lambda_rho < 0.0) & (equator.lambda_theta < 0.0)]
+    return continuation(scene.coefficients, scene.psi, arriving, **_stepping(scene))
+
+
+def _inside_nullclines(scene: Scene) -> tuple[NullclineBranch, ...]:
+    return inside_nullclines(scene.coefficients, scene.psi, scene["equator"].theta.tolist())
+
+
+def _outside_nullclines(scene: Scene) -> tuple[NullclineBranch, ...]:
+    return outside_nullclines(scene.coefficients, scene["equator"].theta.tolist(), scene.view)
+
+
+def _classification(scene: Scene) -> Classification:
+    return portrait(
+        scene.coefficients, scene["equator"], scene["equator_cycle"], scene["location"], scene["critical"]
+    )
+
+
+layers: Mapping[str, Layer] = MappingProxyType(
+    {
+        "equator": Layer(("plane",), lambda s: equator_equilibria(s.coefficients)),
+        "equator_cycle": Layer(("plane",), lambda s: equator_cycle(s.coefficients)),
+        "location": Layer(("plane",), lambda s: locate(s.coefficients)),
+        "critical": Layer(("plane", "slow", "psi"), lambda s: critical_sets(s.coefficients, s.psi)),
+        "slow_flow": Layer(("plane", "slow"), lambda s: sliding_flow(s.coefficients)),
+        "classification": Layer(("plane", "slow", "psi"), _classification),
+        "nullclines_inside": Layer(("plane", "psi"), _inside_nullclines),
+        "nullclines_outside": Layer(("plane", "view"), _outside_nullclines),
+        "inside": Layer(("plane", "psi", "inner seeds", *_STEPPED), lambda s: _orbits(s, outside=False)),
+        "outside": Layer(("plane", "outer seeds", "view", *_STEPPED), lambda s: _orbits(s, outside=True)),
+        "continuations": Layer(("plane", "psi", *_STEPPED), _continuations),
+    }
+)

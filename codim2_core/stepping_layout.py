@@ -1,0 +1,62 @@
+"""Where the numbers of the compiled stepping lie, and how a right-hand side is called.
+
+`LANES` trajectories step side by side. The workspace S is one array of rows of `WIDTH` numbers: px of every lane,
+then py, then w, the state of DESIGN's one chart (w = ebar on the hemisphere, rho outside). P holds the parameters.
+
+A right-hand side is a C function ``void(state, out, P)`` on such rows, entered by its address: the integrator is
+compiled once, whatever the system.
+"""
+
+from __future__ import annotations
+
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+# 32 doubles are four AVX-512 registers a component: stages then hide the latency of one another (measured:
+# 65 ns a step and lane with 8 lanes, 30 with 16, 20 with 32).
+LANES = 32
+WIDTH = 3 * LANES
+
+K0, K1, K2, K3, K4, K5, K6, K7 = (k * WIDTH for k in range(8))
+K8, K9, K10, K11, K12, K13, K14, K15 = (k * WIDTH for k in range(8, 16))
+STATE, TRIAL, STEP, NEW, ERROR_5, ERROR_3 = (k * WIDTH for k in range(16, 22))
+DENSE = 22 * WIDTH  # seven rows
+WORKSPACE = 29 * WIDTH
+
+SHARED = 16  # P[0:5] = a, b, d, f1, f2; P[5] = the parameter of Psi
+SIGN = SHARED  # P[SIGN + lane] = -1 on the hemisphere, +1 outside
+PARAMETERS = SHARED + LANES
+
+_POINTER = types.CPointer(types.float64)
+FIELD = types.void(_POINTER, _POINTER, _POINTER)
+
+
+@intrinsic
+def call_field(typing_context, address, S, source, target, P):  # noqa: ARG001 (numba's protocol)
+    """Call the field at `address` on ``S[source:]``, ``S[target:]`` and P."""
+    signature = types.void(types.int64, S, types.int64, types.int64, P)
+
+    def generate(context, builder, _, arguments):
+        address, array, source, target, parameters = arguments
+        data = context.make_array(S)(context, builder, array).data
+        pointer = ir.DoubleType().as_pointer()
+        function = ir.FunctionType(ir.VoidType(), [pointer, pointer, pointer])
+        places = [builder.gep(data, [source]), builder.gep(data, [target])]
+        places.append(context.make_array(P)(context, builder, parameters).data)
+        builder.call(builder.inttoptr(address, function.as_pointer()), places)
+        return context.get_dummy_value()
+
+    return signature, generate
+
+
+@intrinsic
+def double_of_bits(typing_context, bits):  # noqa: ARG001
+    """The double with these 64 bits."""
+    return types.float64(types.int64), lambda _c, builder, _s, a: builder.bitcast(a[0], ir.DoubleType())
+
+
+@intrinsic
+def bits_of_double(typing_context, value):  # noqa: ARG001
+    """The 64 bits of a double."""
+    return types.int64(types.float64), lambda _c, builder, _s, a: builder.bitcast(a[0], ir.IntType(64))

@@ -1,0 +1,260 @@
+"""Trajectories of the layer problem on the projected hemisphere, and of the nonsmooth system outside.
+
+Both are one field in (p_x, p_y, w), w = ebar on the hemisphere and rho outside, see `stepping_fields`; w enters only
+as a factor, so that it keeps its relative accuracy however small it is. Time is T with dT = dt/rho.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .regularisation import Psi
+from .seeds import checked_seeds
+from .systems import Coefficients, ELinear
+from .trajectory_continuation import departures
+from .trajectory_result import Status, Trajectories, joined
+
+__all__ = ["Status", "Trajectories", "continuation", "is_warm", "joined", "trajectories", "warm"]
+
+Array = NDArray[np.float64]
+
+PIXEL = 1.0 / 180.0
+DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
+STEP_LIMIT = 10_000
+ON_EQUATOR = 4.0 * np.finfo(float).eps  # | |p| - 1 | of a seed that was meant to lie on the equator
+
+_warm: set[Psi] = set()
+
+
+def _positive(value: float, what: str, remedy: str, low: float = 0.0, high: float = math.inf) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not (math.isfinite(number) and low <= number <= high and number > 0.0):
+        raise ValueError(f"{what} is {value!r}; {remedy}.")
+    return number
+
+
+def _states(points: Array) -> tuple[Array, Array]:
+    """States (k, 3) and signs (k,) of picture points."""
+    radius = np.hypot(points[:, 0], points[:, 1])
+    excess = radius - 1.0
+    outside = excess > ON_EQUATOR
+    inside = excess < -ON_EQUATOR
+    states = np.empty((len(points), 3))
+    scale = np.where(inside, 1.0, np.where(radius > 0.0, radius, 1.0))
+    states[:, :2] = points / scale[:, None]
+    states[:, 2] = np.where(inside, np.sqrt(np.maximum(-excess * (1.0 + radius), 0.0)), np.where(outside, excess, 0.0))
+    return states, np.where(inside, -1.0, 1.0)
+
+
+def trajectories(
+    system: ELinear | Coefficients,
+    psi: Psi,
+    seeds: ArrayLike,
+    z: ArrayLike = (),
+    *,
+    t_max: float = 8.0,
+    rtol: float = 1e-6,
+    atol: float = 1e-8,
+    backward: bool = False,
+    view: float = 2.0,
+    pixel: float = PIXEL,
+    capture: float | None = None,
+    samples: Literal["ends"] | None = None,
+    step_limit: int = STEP_LIMIT,
+) -> Trajectories:
+    """Follow trajectories from points of the picture: eq:LP on the hemisphere, eq:polar_gen_odes_desing outside.
+
+    Parameters
+    ----------
+    system : ELinear, or Coefficients
+    psi : Psi
+    seeds : (k, 2)
+        Points of the picture: |p| < 1 on the hemisphere, |p| = 1 + rho outside, |p| = 1 on the equator, which is
+        followed exactly. They may be mixed.
+    z : (m,) floats
+    t_max : float
+        Longest time T (dT = dt/rho) along a trajectory.
+    rtol, atol : float
+        Tolerances of p on the unit sphere; those of w = ebar or rho are relative. rtol in [1e-14, 0.1].
+    backward : bool
+        Follow against time; `times` then decrease from 0.
+    view : float
+        Outside, a trajectory ends where |p_x| or |p_y| of its picture point reaches view.
+    pixel : float
+        A pixel in picture units: lines stay within a quarter of it from the curve, with as few points as that takes.
+    capture : float, optional
+        Arc on the sphere (outside: distance in (theta, rho)) from an attracting equilibrium at which a trajectory
+        ends. Default rtol + atol. Saddles, centres and slow passages end nothing.
+    samples : "ends" or None
+        "ends" returns only the first and the last point of each trajectory.
+    step_limit : int
+        Steps tried before a trajectory is given up, with a status that says so.
+
+    Returns
+    -------
+    Trajectories
+
+    Raises
+    ------
+    ValueError
+        An argument is invalid; the message says which, and what is allowed.
+    """
+    points = checked_seeds(seeds)
+    states, signs = _states(points)
+    return _integrate(
+        system,
+        psi,
+        states,
+        signs,
+        z,
+        t_max=t_max,
+        rtol=rtol,
+        atol=atol,
+        backward=backward,
+        view=view,
+        pixel=pixel,
+        capture=capture,
+        samples=samples,
+        step_limit=step_limit,
+    )
+
+
+def _integrate(
+    system: ELinear | Coefficients,
+    psi: Psi,
+    states: Array,
+    signs: Array,
+    z: ArrayLike,
+    *,
+    t_max: float,
+    rtol: float,
+    atol: float,
+    backward: bool,
+    view: float,
+    pixel: float,
+    capture: float | None,
+    samples: Literal["ends"] | None,
+    step_limit: int,
+) -> Trajectories:
+    t_max = _positive(t_max, "t_max", "give a finite positive time; backward=True follows trajectories backward")
+    rtol = _positive(rtol, "rtol", "give a relative tolerance from 1e-14 to 0.1", 1e-14, 0.1)
+    atol = _positive(atol, "atol", "give an absolute tolerance from 1e-15 to 0.1", 1e-15, 0.1)
+    view = _positive(view, "view", "give the finite half-width of the view, greater than 1 (the equator)", 1.0)
+    pixel = _positive(pixel, "pixel", "give the size of a pixel in picture units, up to 1", high=1.0)
+    if capture is None:
+        capture = rtol + atol
+    capture = _positive(capture, "capture", "give a distance from an attractor, up to 0.1; or None", high=0.1)
+    if samples not in (None, "ends"):
+        raise ValueError(f'samples is {samples!r}; give None for drawn lines or "ends" for the two ends.')
+    if not 1 <= int(step_limit) <= 10**9:
+        raise ValueError(f"step_limit is {step_limit!r}; give a number of steps from 1 to 1e9.")
+    plane = np.array(system.at(z).plane)
+    from .stepping import integrate  # compiling, or loading from the disk cache, starts here
+    from .stepping_fields import field
+    from .stepping_layout import SHARED
+
+    # Time in units of 1/|U| makes step sizes, speeds and capture independent of the coefficients' scale.
+    size = float(np.abs(plane).max())
+    if size == 0.0:
+        size = 1.0
+    plane = plane / size
+    rate = size * max(math.sqrt(float(plane @ plane)), 1.0)
+    shared = np.zeros(SHARED)
+    shared[:5] = plane * (size / rate) * (-1.0 if backward else 1.0)
+    shared[5] = psi.parameter
+    if len(states) == 0:
+        return joined([])
+    function = field(psi)
+    buffer, clock, offsets, ends, codes, evaluations = integrate(
+        np.ascontiguousarray(states),
+        np.ascontiguousarray(signs),
+        shared,
+        function.address,
+        min(t_max * rate, 1e300),
+        rtol,
+        atol,
+        int(step_limit),
+        capture,
+        view,
+        0.0 if samples == "ends" else DRAWN * pixel,
+    )
+    clock *= (-1.0 if backward else 1.0) / rate
+    _warm.add(psi)
+    return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
+
+
+def warm(psi: Psi | None = None) -> None:
+    """Compile, or load from the disk cache, all that trajectories with this Psi need (default: Psi = 1)."""
+    from .regularisation import constant
+
+    trajectories(ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), constant() if psi is None else psi, [(0.5, 0.0), (1.5, 0.0)])
+
+
+def is_warm(psi: Psi | None = None) -> bool:
+    """Whether trajectories (with this Psi, if it is given) run at once, without compiling or loading."""
+    return bool(_warm) if psi is None else psi in _warm
+
+
+def continuation(
+    system: ELinear | Coefficients,
+    psi: Psi,
+    theta: ArrayLike,
+    z: ArrayLike = (),
+    *,
+    t_max: float = 8.0,
+    rtol: float = 1e-6,
+    atol: float = 1e-8,
+    backward: bool = False,
+    view: float = 2.0,
+    pixel: float = PIXEL,
+    capture: float | None = None,
+    samples: Literal["ends"] | None = None,
+    step_limit: int = STEP_LIMIT,
+) -> Trajectories:
+    """Continue trajectories that arrive at limit directions up the hemisphere, fig:side_of_sphere, thm:geneps0(b).
+
+    Where lambda_rho < 0 the equilibrium Q of the equator has one invariant direction up the hemisphere, with rate
+    -lambda_rho > 0 (backward: where lambda_rho > 0). The orbit that leaves along it is followed from Q itself, from
+    a local expansion whose error is below the tolerance.
+
+    Parameters
+    ----------
+    theta : (k,)
+        Limit directions, radians: zeros of Theta with lambda_rho < 0 (backward: > 0).
+    system, psi, z, t_max, rtol, atol, backward, view, pixel, capture, samples, step_limit
+        As in `trajectories`; the time 0 is where the expansion hands over.
+
+    Returns
+    -------
+    Trajectories
+        The first point of each is on the equator, at theta, with the time of the second.
+
+    Raises
+    ------
+    ValueError
+        A direction is not a limit direction, or no trajectory of the nonsmooth system arrives along it.
+    """
+    states = departures(system.at(z), psi, theta, rtol, backward)
+    return _integrate(
+        system,
+        psi,
+        states,
+        np.full(len(states), -1.0),
+        z,
+        t_max=t_max,
+        rtol=rtol,
+        atol=atol,
+        backward=backward,
+        view=view,
+        pixel=pixel,
+        capture=capture,
+        samples=samples,
+        step_limit=step_limit,
+    )

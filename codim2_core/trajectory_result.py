@@ -1,0 +1,101 @@
+"""What integrating trajectories returns: lines of the picture, their times, and why each one ended."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Status(Enum):
+    """Why a trajectory ended; the value is the sentence shown."""
+
+    T_MAX = "Reached t_max; a larger t_max follows it further."
+    EQUILIBRIUM = "Reached an equilibrium of the layer problem: a critical set (within the capture distance)."
+    LEFT_VIEW = "Left the view; a larger view follows it further."
+    ARRIVED = "Arrives on the equator at a limit direction."
+    SPIRALLED = "Spirals onto the equator, which is a closed orbit."
+    ON_EQUATOR = "Follows the equator, where it started."
+    STEP_LIMIT = (
+        "Stopped at the step limit before t_max: the time is too long for the speed of this system, or the tolerance "
+        "too tight; lower t_max or raise rtol."
+    )
+
+
+STATUSES = tuple(Status)  # in the order of the codes of `stepping`
+
+
+@dataclass(frozen=True)
+class Trajectories:
+    """Trajectories as polylines of the picture. All arrays are read-only; the lists are views of `buffer` and `clock`.
+
+    Attributes
+    ----------
+    buffer : ndarray (N, 2)
+        Points of all trajectories, one after the other: p on the hemisphere, (1 + rho) p outside.
+    clock : ndarray (N,)
+        The time T (dT = dt/rho) at each point, 0 at the seed; decreasing along trajectories followed backward.
+    offsets : ndarray (k + 1,) of int
+        Trajectory i is ``buffer[offsets[i]:offsets[i + 1]]``.
+    ends : ndarray (k, 3)
+        The last state (p_x, p_y, w) to full relative accuracy: w = ebar on the hemisphere, rho outside.
+    codes : ndarray (k,) of int
+        Place in `STATUSES` of why each one ended.
+    evaluations : int
+        Evaluations of the field, over all trajectories.
+    """
+
+    buffer: Array
+    clock: Array
+    offsets: NDArray[np.int64]
+    ends: Array
+    codes: NDArray[np.int64]
+    evaluations: int = 0
+
+    def __post_init__(self) -> None:
+        for array in (self.buffer, self.clock, self.offsets, self.ends, self.codes):
+            array.flags.writeable = False
+
+    def __len__(self) -> int:
+        return len(self.codes)
+
+    @cached_property
+    def points(self) -> list[Array]:
+        """One (m, 2) array a trajectory."""
+        at = self.offsets.tolist()
+        return [self.buffer[i:j] for i, j in zip(at, at[1:], strict=False)]
+
+    @cached_property
+    def times(self) -> list[Array]:
+        """One (m,) array a trajectory."""
+        at = self.offsets.tolist()
+        return [self.clock[i:j] for i, j in zip(at, at[1:], strict=False)]
+
+    @cached_property
+    def status(self) -> tuple[Status, ...]:
+        """Why each one ended."""
+        return tuple(STATUSES[code] for code in self.codes.tolist())
+
+
+def joined(parts: Sequence[Trajectories]) -> Trajectories:
+    """Several results as one, in order."""
+    if not parts:
+        return Trajectories(
+            np.empty((0, 2)), np.empty(0), np.zeros(1, np.int64), np.empty((0, 3)), np.empty(0, np.int64)
+        )
+    starts = np.cumsum([0] + [len(part.buffer) for part in parts])
+    offsets = [part.offsets[:-1] + start for part, start in zip(parts, starts, strict=False)]
+    return Trajectories(
+        np.concatenate([part.buffer for part in parts]),
+        np.concatenate([part.clock for part in parts]),
+        np.concatenate([*offsets, starts[-1:]]),
+        np.concatenate([part.ends for part in parts]),
+        np.concatenate([part.codes for part in parts]),
+        sum(part.evaluations for part in parts),
+    )

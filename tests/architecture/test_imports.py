@@ -1,0 +1,41 @@
+"""What may import what, what importing costs, and what the wheel installs."""
+
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_contracts_are_kept():
+    from importlinter.cli import lint_imports
+
+    assert lint_imports(config_filename=str(ROOT / "pyproject.toml"), no_cache=True) == 0
+
+
+def imported_by(module):
+    code = f"import sys, {module}; print(' '.join(sorted(sys.modules)))"
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT.parent)
+    return set(out.stdout.split())
+
+
+def test_the_core_draws_nothing_and_serves_nothing():
+    loaded = {name.split(".")[0] for name in imported_by("codim2_core")}
+    assert not loaded & {"bokeh", "panel", "holoviews", "param", "tornado", "matplotlib", "pandas", "sympy"}
+
+
+def test_importing_the_app_starts_no_plotting_library():
+    assert "holoviews" not in {name.split(".")[0] for name in imported_by("codim2_app")}
+
+
+def test_the_wheel_installs_no_package_called_app():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    assert project["tool"]["setuptools"]["packages"] == ["codim2_app", "codim2_core"]
+
+
+def test_the_top_level_is_what_was_asked_for():
+    allowed = {"app", "codim2_core", "tests", "Dockerfile", "pyproject.toml", "README.md", "LICENSE"}
+    tracked = subprocess.run(["git", "ls-files"], capture_output=True, text=True, check=True, cwd=ROOT).stdout
+    top = {line.split("/")[0] for line in tracked.splitlines()}
+    assert {name for name in top if not name.startswith(".")} <= allowed

@@ -1,0 +1,240 @@
+"""Typed text: what is read, what is refused, values and derivatives."""
+
+import math
+import pickle
+import sys
+import time
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from codim2_core.expressions import Expression, ExpressionError, parse
+
+NAMES = ("x", "y")
+LEAVES = st.sampled_from(["x", "y", "2", "0.5", "pi", "3.25e-1", "1."])
+SAFE_FUNCTIONS = ["sin", "cos", "tanh", "atan", "abs", "exp", "sinh", "cosh", "tan"]
+
+
+def _grow(children):
+    return st.one_of(
+        st.builds("({}{}{})".format, children, st.sampled_from(["+", "-", "*"]), children),
+        st.builds("{}/(2+({})**2)".format, children, children),
+        st.builds("-{}".format, children.filter(lambda t: not t.startswith("-"))),
+        st.builds("({})^{}".format, children, st.sampled_from(["2", "3"])),
+        st.builds("{}(sin({}))".format, st.sampled_from(SAFE_FUNCTIONS), children),
+        st.builds("log(2+cos({}))".format, children),
+        st.builds("sqrt(1+({})**2)".format, children),
+    )
+
+
+FORMULAS = st.recursive(LEAVES, _grow, max_leaves=8)
+NUMBERS = st.floats(-3.0, 3.0)
+
+
+def _with_mpmath(source: str, x, y):
+    """The generated Python, in 50 digits: an evaluation that shares nothing with the tape's arithmetic."""
+
+    class Library:
+        fabs = staticmethod(abs)
+        pow = staticmethod(mpmath.power)
+
+        def __getattr__(self, name):
+            return getattr(mpmath, name)
+
+    return eval(source, {"__builtins__": {}, "math": Library()}, {"x": x, "y": y})
+
+
+@given(FORMULAS, NUMBERS, NUMBERS)
+@settings(max_examples=150, deadline=None)
+def test_value_source_and_arrays_agree_with_50_digits(text, x, y):
+    expression = parse(text, NAMES)
+    value = expression.evaluate({"x": x, "y": y})
+    assert isinstance(value, float)
+    with mpmath.workdps(50):
+        exact = _with_mpmath(expression.python_source(), mpmath.mpf(x), mpmath.mpf(y))
+        size = max(1.0, abs(float(exact)))
+    assert value == pytest.approx(float(exact), rel=1e-9, abs=1e-9 * size)
+    array = expression.evaluate({"x": np.array([x, x]), "y": y})
+    assert array.shape == (2,)
+    assert array == pytest.approx(value, rel=1e-12, abs=1e-9)
+
+
+@given(FORMULAS, NUMBERS, NUMBERS)
+@settings(max_examples=100, deadline=None)
+def test_derivative_agrees_with_50_digit_differences(text, x, y):
+    expression = parse(text, NAMES)
+    derivative = expression.derivative("x").evaluate({"x": x, "y": y})
+    source = expression.python_source()
+    with mpmath.workdps(60):
+        h = mpmath.mpf(10) ** -20
+        above = _with_mpmath(source, mpmath.mpf(x) + h, mpmath.mpf(y))
+        below = _with_mpmath(source, mpmath.mpf(x) - h, mpmath.mpf(y))
+        quotient, middle = (above - below) / (2 * h), _with_mpmath(source, mpmath.mpf(x), mpmath.mpf(y))
+        kink = abs(above - 2 * middle + below) > h * mpmath.mpf(10) ** -9
+    if kink or math.isnan(derivative):  # at the corner of abs
+        assert "abs" in text
+        return
+    assert derivative == pytest.approx(float(quotient), rel=1e-7, abs=1e-7)
+
+
+@given(FORMULAS)
+@settings(max_examples=100, deadline=None)
+def test_text_reads_back_equal(text):
+    expression = parse(text, NAMES)
+    for one in (expression, expression.derivative("x")):
+        again = parse(one.text, NAMES) if len(one.text) < 1000 else one
+        assert again.text == one.text
+    again = parse(expression.text, NAMES)
+    assert again == expression
+    assert hash(again) == hash(expression)
+    assert pickle.loads(pickle.dumps(expression)) == expression
+    assert set(expression.names) <= set(NAMES)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("-x**2", -9.0),
+        ("2**-x", 0.125),
+        ("2^3^2", 512.0),
+        ("2*-x", -6.0),
+        ("--x", 3.0),
+        ("6/2/x", 1.0),
+        ("1-x-x", -5.0),
+        (" 1 +\t2 * x\n", 7.0),
+        (".5*x", 1.5),
+        ("e**x", math.e**3),
+        ("abs(-x)+atan(0)", 3.0),
+        ("x**0", 1.0),
+    ],
+)
+def test_precedence(text, value):
+    assert parse(text, ("x",)).evaluate({"x": 3.0}) == pytest.approx(value, rel=1e-15)
+
+
+def test_names_win_over_constants():
+    assert parse("e+pi", ("e",)).evaluate({"e": 1.0}) == pytest.approx(1.0 + math.pi)
+
+
+def test_structure_not_spelling_decides_equality():
+    assert parse("x ^ 2", NAMES) == parse("(x)**2.0", NAMES)
+    assert parse("x-y", NAMES) != parse("y-x", NAMES)
+    assert parse("1+x", NAMES) is parse("1+x", NAMES)
+    assert parse("0*x", NAMES).names == ("x",)  # typed text is not simplified away
+    with pytest.raises(AttributeError, match="immutable"):
+        parse("x", NAMES).text = "y"  # type: ignore[misc]
+
+
+def test_poles_are_ieee_and_silent():
+    assert parse("1/x", NAMES).evaluate({"x": 0.0}) == math.inf
+    assert math.isnan(parse("log(x)", NAMES).evaluate({"x": -1.0}))
+    assert parse("exp(x)", NAMES).evaluate({"x": 1e4}) == math.inf
+    assert math.isnan(parse("x**0.5", NAMES).evaluate({"x": -1.0}))  # never complex
+    values = parse("1/x+log(x)+exp(1e3*x)", NAMES).evaluate({"x": np.array([0.0, -1.0, 5.0])})
+    assert not np.isfinite(values).any()
+
+
+def test_arrays_broadcast_and_are_fresh():
+    x = np.arange(3.0)
+    assert parse("x*y", NAMES).evaluate({"x": x[:, None], "y": x}).shape == (3, 3)
+    assert parse("2", NAMES).evaluate({"x": x}).tolist() == [2.0, 2.0, 2.0]
+    out = parse("x", NAMES).evaluate({"x": x})
+    out[0] = 7.0
+    assert x[0] == 0.0
+    with pytest.raises(ValueError, match="needs a value of y"):
+        parse("x*y", NAMES).evaluate({"x": 1.0})
+
+
+HOSTILE = [
+    "__import__('os').system('true')", "s.__class__", "s[0]", "{s}", "lambda: 1", "exec(s)", "eval(s)", "open(s)",
+    "s;s", "s\x00", "\x00", "s=1", "s if s else s", "s and s", "not s", "`s`", "s@s", "s%2", "s//2", "s!", "1_0", "0x10", "1j",
+    "10**10**10", "9**9**9**9**9", "s**1e9", "s**-100000", "2**(2**(2**20))", "1e999", "9" * 999, "1/0", "log(0)", "0**-1",
+    "(" * 999, ")" * 999, "(" * 400 + "s" + ")" * 400, "sin(" * 200 + "s" + ")" * 200, "-(" * 300, "s**" * 300 + "s", "s^" * 400,
+    "s+" * 499 + "s", "2" * 2000, "s" * 900, "s" * 10**6, " " * 999, "", "+", "*", "**", "()", "sin()", "sin", "sin s",
+    "sin(s,s)", "s s", "2s", "s(2)", "(s)(s)", "s 2", "s,", "θ", "s−1", "s×s", "s²", "ѕ", "١", "\u202es", "\ud800", "None", "True",
+    "math.sin(s)", "inf", "nan", "s..s", "1.2.3", "..", "1e", "1e+", "s\\", "'s'", '"s"', "#s", "s#", "$s", "~s", "s**", "(s", "s)",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=lambda t: ascii(t[:12]))
+def test_hostile_text_is_refused_quickly(text):
+    start = time.perf_counter()
+    with pytest.raises(ExpressionError) as caught:
+        parse(text, ("s",))
+    assert time.perf_counter() - start < 0.25
+    error = caught.value
+    assert isinstance(error, ValueError)
+    assert f"column {error.column}" in str(error)
+    assert "Allowed are" in str(error)
+    assert "Mend: " in str(error)
+    assert error.column >= 1
+    assert len(str(error)) < 700
+    assert str(error).isascii()
+    line, caret = error.caret.split("\n")
+    assert len(line) <= 60
+    assert caret.strip() == "^"
+    assert len(caret) <= 61
+
+
+@given(st.text(alphabet="s12.e+-*/^() sincoexp,[]_'\x00θ", max_size=60) | st.text(max_size=30))
+@settings(max_examples=400, deadline=None)
+def test_any_text_is_read_or_refused(text):
+    try:
+        expression = parse(text, ("s",))
+    except ExpressionError:
+        return
+    assert isinstance(expression.evaluate({"s": 0.7}), float)
+    assert isinstance(expression.derivative("s").evaluate({"s": 0.7}), float)
+    compile(expression.python_source(), "formula", "eval")
+    assert parse(expression.text, ("s",)) == expression
+
+
+def test_deep_stack_does_not_matter():
+    def dive(n):
+        return parse("(" * 35 + "s" + ")" * 35 + f"+{n}", ("s",)) if n == 0 else dive(n - 1)
+
+    assert dive(sys.getrecursionlimit() // 2).evaluate({"s": 1.0}) == 1.0
+
+
+def test_repeated_derivatives_stay_small_or_are_refused():
+    expression = parse("*".join(f"sin({k}+s)" for k in range(1, 40)), ("s",))
+    try:
+        for _ in range(12):
+            expression = expression.derivative("s")
+            assert math.isfinite(expression.evaluate({"s": 0.3}))
+            assert len(expression.text) < 200_000
+    except ValueError as error:
+        assert "operations" in str(error)
+    with pytest.raises(ValueError, match="too long"):
+        expression.python_source()
+
+
+@pytest.mark.parametrize("names", [("sin",), ("lambda",), ("math",), ("x y",), ("é",), ("_x",), ("x" * 99,), (3,), "s"])
+def test_unusable_names(names):
+    with pytest.raises(ValueError, match=r"name"):
+        parse("1", names)
+
+
+@pytest.mark.parametrize("text", [None, 3, b"s", ["s"]])
+def test_only_text(text):
+    with pytest.raises(ValueError, match="as text"):
+        parse(text, ("s",))
+
+
+def test_mends_are_named():
+    for text, mend in [("2s", "write 2*s"), ("snh(s)", "did you mean sinh"), ("sin s", "write sin(...)"), ("s−1", "type -")]:
+        with pytest.raises(ExpressionError, match="Mend: ") as caught:
+            parse(text, ("s",))
+        assert mend in str(caught.value)
+    error = ExpressionError("m", "1+?", 3)
+    assert pickle.loads(pickle.dumps(error)).column == 3
+    assert error.caret == "1+?\n  ^"
+
+
+def test_substitution():
+    inner, outer = parse("1/x", ("x",)), parse("x**2+x", ("x",))
+    assert outer.substitute("x", inner).evaluate({"x": 4.0}) == pytest.approx(1 / 16 + 1 / 4)
+    assert isinstance(outer, Expression)

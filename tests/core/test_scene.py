@@ -1,0 +1,136 @@
+"""The scene recomputes exactly what a change reaches."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import codim2_core as c2
+from codim2_core.scene import layers
+
+
+def typed(**parameters):
+    values = {"f1": -0.5, "f2": 0.1, "k1": 0.0, "k2": 0.0, **parameters}
+    return c2.ELinear(
+        -2.0, 0.3, -1.0, ("f1 + k1*z", "f2 + k2*z"), B=[[1.0, -2.0]], g=[0.25], parameters=values
+    )
+
+
+def fingerprint(value):
+    """Bytes of everything in a result, so that equal results have equal fingerprints."""
+    if isinstance(value, np.ndarray):
+        return value.tobytes()
+    if dataclasses.is_dataclass(value):
+        return tuple(fingerprint(getattr(value, f.name)) for f in dataclasses.fields(value))
+    if isinstance(value, (tuple, list)):
+        return tuple(fingerprint(v) for v in value)
+    return repr(value)
+
+
+def ran(scene, **changes):
+    """Layers computed by, and results changed by, a change of inputs."""
+    for name in layers:
+        scene[name]
+    before = dict(scene.runs)
+    after = scene.evolve(**changes)
+    results = {name: fingerprint(after[name]) for name in layers}
+    computed = {name for name in layers if after.runs[name] > before[name]}
+    changed = {name for name in layers if results[name] != fingerprint(scene[name])}
+    return computed, changed
+
+
+EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "outside"}
+HEMISPHERE = {"critical", "nullclines_inside", "inside", "continuations", "classification"}
+
+REACHES = {
+    "a": ({"a": -1.7}, EQUATOR | HEMISPHERE | {"slow_flow"}),
+    "b": ({"b": 0.2}, EQUATOR | HEMISPHERE | {"slow_flow"}),
+    "d": ({"d": -0.8}, EQUATOR | HEMISPHERE | {"slow_flow"}),
+    "f1": ({"f1": -0.3}, EQUATOR | HEMISPHERE | {"slow_flow"}),
+    "f2": ({"f2": 0.2}, EQUATOR | HEMISPHERE | {"slow_flow"}),
+    "psi": ({"psi": c2.psi.rational()}, HEMISPHERE),
+    "hill": ({"psi": c2.psi.hill(3)}, HEMISPHERE),
+    "z": ({"z": 1.0}, set()),
+    "B": ({"B": [[2.0, 1.0]]}, {"critical", "classification", "slow_flow"}),
+    "g": ({"g": [0.5]}, {"critical", "classification", "slow_flow"}),
+    "t_max": ({"t_max": 6.0}, {"inside", "outside", "continuations"}),
+    "rtol": ({"rtol": 1e-5}, {"inside", "outside", "continuations"}),
+    "atol": ({"atol": 1e-6}, {"inside", "outside", "continuations"}),
+    "pixel": ({"pixel": 1 / 90}, {"inside", "outside", "continuations"}),
+    "view": ({"view": 2.5}, {"nullclines_outside", "outside"}),
+    "count": ({"count": 40}, {"inside", "outside"}),
+    "seeds": ({"seeds": [[0.3, 0.2], [1.5, 0.1]]}, {"inside", "outside"}),
+    "nothing": ({"a": -2.0, "psi": c2.psi.constant()}, set()),
+}
+
+
+@pytest.mark.parametrize("change", REACHES)
+def test_a_change_recomputes_what_it_reaches_and_nothing_else(change):
+    changes, reached = REACHES[change]
+    computed, changed = ran(c2.Scene(typed(), z=0.5), **changes)
+    assert computed == reached
+    assert changed <= computed
+
+
+def test_every_input_is_perturbed_above():
+    import inspect
+
+    inputs = set(inspect.signature(c2.Scene.__init__).parameters) - {"self", "system", "_memory"}
+    assert inputs <= set(REACHES) | {"psi"}
+
+
+def test_z_reaches_the_picture_once_a_coefficient_depends_on_it():
+    computed, _ = ran(c2.Scene(typed(k1=1.0), z=0.5), z=0.6)
+    assert computed == EQUATOR | HEMISPHERE | {"slow_flow"}
+
+
+def test_nothing_is_computed_that_is_not_asked_for():
+    scene = c2.Scene(typed(), z=0.5)
+    assert dict(scene.runs) == {}
+    scene["equator"]
+    assert dict(scene.runs) == {"equator": 1}
+
+
+def test_going_back_is_free():
+    scene = c2.Scene(typed(), z=0.5)
+    there = scene.evolve(a=-1.5)
+    first, _ = scene["inside"], there["inside"]
+    back = there.evolve(a=-2.0)
+    assert back["inside"] is first
+    assert scene.runs["inside"] == 2
+
+
+def test_memory_is_bounded():
+    scene = c2.Scene(typed(), z=0.5, count=4)
+    for a in np.linspace(-3, -1, 50):
+        scene = scene.evolve(a=float(a))
+        scene["inside"]
+    assert len(scene._memory.results["inside"]) <= 8
+
+
+def test_a_bad_change_leaves_the_scene_as_it_was():
+    scene = c2.Scene(typed(), z=0.5)
+    first = scene["classification"]
+    for bad in ({"a": float("nan")}, {"q": 1.0}, {"view": 1.0}, {"seeds": [[1, 2, 3]]}, {"psi": "tanh"}, {"z": [1, 2]},
+                {"count": -1}, {"t_max": 0.0}, {"pixel": 0.0}):  # fmt: skip
+        with pytest.raises(ValueError, match="give|allowed|has"):
+            scene.evolve(**bad)["inside"]
+    assert scene["classification"] is first
+
+
+def test_the_scene_shows_what_the_functions_say():
+    system, psi = typed(), c2.psi.hill(2)
+    scene = c2.Scene(system, psi, 0.5)
+    assert scene["classification"] == c2.classify(system, psi, 0.5)
+    np.testing.assert_array_equal(scene["equator"].theta, c2.equator_equilibria(system, 0.5).theta)
+    (C,) = c2.critical_sets(system, psi, 0.5)
+    np.testing.assert_array_equal(scene["critical"][0].p, C.p)
+    np.testing.assert_array_equal(scene["slow_flow"], c2.sliding_flow(system, 0.5))
+    drawn = scene["nullclines_inside"] + scene["nullclines_outside"]
+    expected = c2.nullclines(system, psi, 0.5, view=scene.view)
+    assert fingerprint(drawn) == fingerprint(expected)
+
+
+def test_unknown_layers_are_refused_with_the_list():
+    with pytest.raises(ValueError, match="equator"):
+        c2.Scene(typed(), z=0.5)["sky"]

@@ -1,0 +1,72 @@
+"""Every preset shows what its figure in the paper shows."""
+
+import numpy as np
+import pytest
+
+import codim2_core as c2
+
+
+@pytest.mark.parametrize("name", c2.presets)
+def test_portrait(name):
+    preset = c2.presets[name]
+    found = c2.classify(preset.system, preset.psi)
+    critical = c2.critical_sets(preset.system, preset.psi)
+    kind = critical[0].kind if critical else None
+    assert (found.case, found.name) == preset.portrait[:2]
+    if preset.portrait[2] is not None or not critical:
+        assert kind == preset.portrait[2]
+    assert tuple(d.name for d in found.degeneracies) == ((preset.degeneracy,) if preset.degeneracy else ())
+    assert found.sentence.startswith(f"Case {found.case}, {found.name}.")
+
+
+def directions(name):
+    return c2.equator_equilibria(c2.presets[name].system)
+
+
+def test_cm0_the_equator_attracts_outside_and_repels_on_the_hemisphere():
+    cycle = c2.equator_cycle(c2.presets["case1-cm0"].system)
+    assert cycle is not None
+    assert cycle.exponent == pytest.approx(-2 * np.pi)  # lambda_rho = -1, |Theta| = 1
+
+
+@pytest.mark.parametrize("name", ["case1-cm2", "case1-cm4"])
+def test_with_a_critical_set_every_direction_of_case_one_is_radially_attracting(name):
+    found = directions(name)
+    assert (found.lambda_rho < 0).all()
+    assert (found.lambda_theta[::2] * found.lambda_theta[1::2] < 0).all()
+
+
+def test_cm4_directions_are_those_of_d2_as_corrected():
+    # sin θ ((d − a) cos θ − f1) = 0 (the paper prints a − d): θ = 0, π, ±arccos(f1/(d − a)).
+    expected = np.sort([0.0, np.pi, np.arccos(-0.5), 2 * np.pi - np.arccos(-0.5)])
+    np.testing.assert_allclose(directions("case1-cm4").theta, expected, rtol=1e-15)
+
+
+def test_cm2_as_printed_sits_on_the_pitchfork():
+    found = directions("case1-cm2-paper")
+    np.testing.assert_allclose(found.theta, [0.0, np.pi], atol=1e-15)
+    assert found.multiplicity.tolist() == [3, 1]
+    assert found.lambda_theta[0] == 0.0
+
+
+@pytest.mark.parametrize(("name", "arriving"), [("case1-ncm2", 1), ("case1-ncm4", 3)])
+def test_without_a_critical_set_all_leaves_along_one_direction(name, arriving):
+    found = directions(name)
+    assert (found.lambda_rho < 0).sum() == arriving
+    assert (found.lambda_rho > 0).sum() == 1
+
+
+def test_the_saddle_has_four_directions_that_are_saddles_of_the_radial_and_angular_flow():
+    found = directions("case2-saddle")  # thm:case2(a)
+    assert len(found.theta) == 4
+    assert (found.lambda_rho * found.lambda_theta < 0).all()
+
+
+@pytest.mark.parametrize("name", c2.presets)
+def test_index_of_the_critical_sets_is_the_degree_on_the_equator(name):
+    preset = c2.presets[name]
+    theta = np.linspace(0, 2 * np.pi, 20001)
+    U = preset.system.at().U(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
+    degree = round(np.diff(np.unwrap(np.arctan2(U[:, 1], U[:, 0]))).sum() / (2 * np.pi))
+    index = sum(-1 if C.kind == "saddle" else 1 for C in c2.critical_sets(preset.system, preset.psi))
+    assert index == degree
