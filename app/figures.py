@@ -40,8 +40,8 @@ tr J = @trace_text, det J = @det_text<br>eigenvalues @eig_text<br>z' = @slow_tex
 def make_figure() -> Plot:
     """Return the empty picture: equal axes on [-VIEW, VIEW], the shaded hemisphere, and a source per layer.
 
-    Sources are found by name: "rho", "theta", "lines_inside", "lines_outside", "outside", "inside",
-    "continuations" with columns x, y (pieces separated by NaN); "arrows:<layer>" with x, y, angle; "equator",
+    Sources are found by name: those of `theme.LINES` ("rho_inside", ..., "continuations")
+    with columns x, y (pieces separated by NaN); "arrows:<layer>" with x, y, angle; "equator",
     "critical" and "sense" with the columns of `codim2_app.glyphs`.
     """
     plot = Plot(

@@ -25,61 +25,50 @@ LABEL_TURN = 0.095
 SHORTEST_WITH_ARROW = 0.08
 
 
-def join(pieces: Sequence[Points]) -> tuple[NDArray[np.uint16], Points]:
-    """Return the lengths (k,) of all pieces of two or more points, and their points in one array (n, 2)."""
-    kept = [piece for piece in pieces if len(piece) > 1]
-    if not kept:
-        return np.zeros(0, np.uint16), np.zeros((0, 2))
-    return np.array([len(piece) for piece in kept], np.uint16), np.concatenate(kept)
+def join(pieces: Sequence[Points]) -> tuple[NDArray[np.int64], Points]:
+    """Return offsets (k + 1,) and points (n, 2): piece i is ``points[offsets[i]:offsets[i + 1]]``."""
+    if not pieces:
+        return np.zeros(1, np.int64), np.zeros((0, 2))
+    return np.cumsum([0, *map(len, pieces)]), np.concatenate(pieces)
 
 
-def arrowheads(counts: NDArray[np.uint16], points: Points, where: float = 0.5) -> Points:
-    """Place one arrowhead on each piece.
+def arrowheads(offsets: NDArray[np.int64], points: Points, where: Sequence[float] = (0.5,)) -> Points:
+    """Place arrowheads on each piece.
 
     Parameters
     ----------
-    counts : ndarray (k,)
+    offsets : ndarray (k + 1,)
     points : ndarray (n, 2)
-        Pieces as `join` returns them, each in order of increasing time.
-    where : float
-        Fraction of the piece's length at which the arrowhead sits.
+        Piece i is ``points[offsets[i]:offsets[i + 1]]``, in order of increasing time.
+    where : sequence of float
+        Fractions of a piece's length at which arrowheads sit.
 
     Returns
     -------
     ndarray (j, 3)
-        x, y and direction in radians, j <= k: short pieces have none.
+        x, y and direction in radians; pieces shorter than `SHORTEST_WITH_ARROW` have none.
     """
-    if not len(counts):
+    starts, ends = offsets[:-1], offsets[1:]
+    kept = ends - starts > 1
+    starts, ends = starts[kept], ends[kept]
+    if not len(starts):
         return np.zeros((0, 3))
-    ends = np.cumsum(counts, dtype=np.int64)
-    starts = ends - counts
     steps = np.diff(points, axis=0)
     lengths = np.hypot(steps[:, 0], steps[:, 1])
-    lengths[ends[:-1] - 1] = 0.0  # the jump from one piece to the next is not part of either
+    joints = offsets[1:-1] - 1
+    lengths[joints[(joints >= 0) & (joints < len(lengths))]] = 0.0  # a jump to the next piece belongs to neither
     travelled = np.concatenate([[0.0], np.cumsum(lengths)])
     begin, end = travelled[starts], travelled[ends - 1]
     long_enough = end - begin > SHORTEST_WITH_ARROW
-    target = (begin + where * (end - begin))[long_enough]
-    index = np.clip(
-        np.searchsorted(travelled, target) - 1, starts[long_enough], ends[long_enough] - 2
-    )
-    step, length = steps[index], lengths[index]
-    moving = length > 0
-    step, length, index, target = step[moving], length[moving], index[moving], target[moving]
-    share = (target - travelled[index]) / length
-    at = points[index] + share[:, None] * step
-    return np.column_stack([at, np.arctan2(step[:, 1], step[:, 0])])
-
-
-def nullcline_pieces(branches: Sequence[Any]) -> dict[str, list[Points]]:
-    """Sort nullcline branches into the four colours of fig:sim_5cases."""
-    pieces: dict[str, list[Points]] = {"rho": [], "theta": [], "lines_inside": [], "lines_outside": []}
-    for branch in branches:
-        name = branch.kind
-        if name in ("U1", "U2"):
-            name = "lines_inside" if branch.inside else "lines_outside"
-        pieces[name].append(branch.points)
-    return pieces
+    starts, ends, begin, end = starts[long_enough], ends[long_enough], begin[long_enough], end[long_enough]
+    target = (begin + np.asarray(where)[:, None] * (end - begin)).ravel()
+    first, last = np.tile(starts, len(where)), np.tile(ends - 2, len(where))
+    index = np.clip(np.searchsorted(travelled, target) - 1, first, last)
+    moving = lengths[index] > 0
+    index, target = index[moving], target[moving]
+    share = (target - travelled[index]) / lengths[index]
+    at = points[index] + share[:, None] * steps[index]
+    return np.column_stack([at, np.arctan2(steps[index, 1], steps[index, 0])])
 
 
 def spread(angles: Sequence[float], gap: float = LABEL_GAP) -> list[float]:

@@ -24,7 +24,10 @@ ANGLE_STEP = np.pi / 32767
 
 #: Layers made by the compiled integrator.
 ORBITS = ("outside", "inside", "continuations")
-NULLCLINES = {"rho": ("rho",), "theta": ("theta",), "lines": ("lines_inside", "lines_outside")}
+#: Where arrowheads sit on an orbit, as fractions of its length.
+ARROWS = {"outside": (0.3, 0.7), "inside": (0.35, 0.75), "continuations": (0.5,)}
+#: Kinds of branches that each nullcline control shows.
+NULLCLINES = {"rho": ("rho",), "theta": ("theta",), "lines": ("U1", "U2")}
 
 Blocks = dict[str, NDArray[Any]]
 
@@ -167,11 +170,13 @@ def make_frame(
         now[key] = result
         return True
 
-    if visible & NULLCLINES.keys():
-        _add_nullclines(blocks, [name for name in NULLCLINES if name in visible], scene["nullclines"], fresh)
+    nullclines = [name for name in NULLCLINES if name in visible]
+    for layer in ("nullclines_inside", "nullclines_outside") if nullclines else ():
+        _add_nullclines(blocks, layer, nullclines, scene[layer], fresh)
     for name in ORBITS:
         if ready and name in visible and fresh(name, scene[name]):
-            _add_lines(blocks, name, scene[name].points, arrows=True)
+            orbits = scene[name]
+            _add_lines(blocks, name, orbits.offsets, orbits.buffer, ARROWS[name])
     equator, cycle, critical = scene["equator"], scene["equator_cycle"], scene["critical"]
     if fresh("equator", equator):
         header["equator"] = glyphs.equator_columns(equator)
@@ -195,22 +200,25 @@ def make_frame(
 
 
 def _add_nullclines(
-    blocks: Blocks, names: Sequence[str], branches: Sequence[Any], fresh: Callable[[str, Any], bool]
+    blocks: Blocks, layer: str, names: Sequence[str], branches: Sequence[Any], fresh: Callable[[str, Any], bool]
 ) -> None:
-    wanted = [name for name in names if fresh(name, branches)]
-    if not wanted:
-        return
-    pieces = glyphs.nullcline_pieces(branches)
+    side = layer.removeprefix("nullclines_")
+    wanted = [name for name in names if fresh(f"{name}_{side}", branches)]
     for name in wanted:
-        for part in NULLCLINES[name]:
-            _add_lines(blocks, part, pieces[part])
+        kinds = NULLCLINES[name]
+        _add_lines(blocks, f"{name}_{side}", *glyphs.join([b.points for b in branches if b.kind in kinds]))
 
 
-def _add_lines(blocks: Blocks, name: str, pieces: Sequence[NDArray[np.float64]], arrows: bool = False) -> None:
-    counts, points = glyphs.join(pieces)
-    blocks[f"{name}.n"] = counts
+def _add_lines(
+    blocks: Blocks,
+    name: str,
+    offsets: NDArray[np.int64],
+    points: NDArray[np.float64],
+    where: Sequence[float] = (),
+) -> None:
+    blocks[f"{name}.n"] = np.diff(offsets).astype(np.uint16)
     blocks[f"{name}.xy"] = quantise(points)
-    if arrows:
-        heads = glyphs.arrowheads(counts, points)
+    if where:
+        heads = glyphs.arrowheads(offsets, points, where)
         blocks[f"{name}.at"] = quantise(heads[:, :2])
         blocks[f"{name}.angle"] = np.rint(heads[:, 2] / ANGLE_STEP).astype(np.int16)

@@ -55,8 +55,10 @@ DISCS = tuple(0.06 * k + 0.04 for k in range(16)) + (1.0,)
 LINES = (
     ("lines_outside", "lines_outside", 1.4),
     ("lines_inside", "lines_inside", 1.8),
-    ("rho", "rho", 1.8),
-    ("theta", "theta", 1.8),
+    ("rho_outside", "rho", 1.8),
+    ("rho_inside", "rho", 1.8),
+    ("theta_outside", "theta", 1.8),
+    ("theta_inside", "theta", 1.8),
     ("outside", "outside", 0.9),
     ("inside", "orbit", 0.9),
     ("continuations", "continuation", 1.6),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 
-from codim2_core import trajectories
+from codim2_core.trajectories import is_warm, warm
 
 _lock = threading.Lock()
 _thread: threading.Thread | None = None
@@ -14,8 +14,8 @@ def start() -> None:
     """Begin compiling (or loading from the cache) in a background thread; further calls do nothing."""
     global _thread
     with _lock:
-        if _thread is None and not trajectories.is_warm():
-            _thread = threading.Thread(target=trajectories.warm, name="codim2-warm-up", daemon=True)
+        if _thread is None and not is_warm():
+            _thread = threading.Thread(target=warm, name="codim2-warm-up", daemon=True)
             _thread.start()
 
 
@@ -24,4 +24,4 @@ def is_ready() -> bool:
 
     If compiling failed, trajectories are asked for all the same, so that their error is seen.
     """
-    return trajectories.is_warm() or (_thread is not None and not _thread.is_alive())
+    return is_warm() or (_thread is not None and not _thread.is_alive())

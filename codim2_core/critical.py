@@ -17,10 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from .regularisation import Psi
 from .systems import Coefficients, ELinear
+from .trigonometric import ROUNDING
 
-# Half an ulp is what rounding an input costs; 1.5 of it admits points computed by a formula in doubles, and still
-# tells a relative change of 1e-15 in one coefficient from the border.
-INPUT_ROUNDING = 1.5 * 2.0**-53
 # Below this fraction of its terms a sum of products is recomputed exactly (double rounding stays below 1e-15).
 CANCELLATION = 1e-9
 
@@ -48,6 +46,8 @@ class Location:
         The solution, when it lies in the open disc.
     complement : float
         ``1 - |e|^2`` to full relative accuracy.
+    direction : float, or None
+        The angle of the solution when it lies on |e| = 1 within rounding.
     line : ((c, s), (c, s)), or None
         Ends on |e| = 1 of the line of solutions when det A = 0.
     """
@@ -55,7 +55,13 @@ class Location:
     existence: Existence
     e: tuple[float, float] | None = None
     complement: float = 1.0
+    direction: float | None = None
     line: tuple[tuple[float, float], tuple[float, float]] | None = None
+
+    @property
+    def singular(self) -> bool:
+        """Whether det A = 0 within the rounding of a, b, d."""
+        return self.existence not in (Existence.INSIDE, Existence.NONE, Existence.EQUATOR)
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +119,7 @@ def determinant_sign(a: float, b: float, d: float) -> int:
     if abs(det) < CANCELLATION * size or size < 1e-280:
         exact = Fraction(a) * Fraction(d) + Fraction(b) ** 2
         weight = abs(Fraction(a) * Fraction(d)) + Fraction(b) ** 2
-        if abs(exact) <= 2 * Fraction(INPUT_ROUNDING) * weight:
+        if abs(exact) <= 2 * Fraction(ROUNDING) * weight:
             return 0
         return 1 if exact > 0 else -1
     return 1 if det > 0 else -1
@@ -147,14 +153,16 @@ def _locate_exactly(a: float, b: float, d: float, f1: float, f2: float) -> Locat
     A, B, D, F1, F2 = map(Fraction, (a, b, d, f1, f2))
     det, n1, n2 = A * D + B * B, D * F1 + B * F2, A * F2 - B * F1
     gap = det * det - n1 * n1 - n2 * n2
-    # First order change of the gap when each coefficient is off by a relative INPUT_ROUNDING.
-    weight = 4 * (
-        abs(det) * (abs(A * D) + B * B)
-        + abs(n1) * (abs(D * F1) + abs(B * F2))
-        + abs(n2) * (abs(A * F2) + abs(B * F1))
+    # Half the first-order change of the gap when each coefficient is off by a relative 1.
+    change = (
+        abs(n2 * A * F2 - det * A * D)
+        + abs(n1 * B * F2 - n2 * B * F1 - 2 * det * B * B)
+        + abs(n1 * D * F1 - det * A * D)
+        + abs(n1 * D * F1 - n2 * B * F1)
+        + abs(n1 * B * F2 + n2 * A * F2)
     )
-    if abs(gap) <= Fraction(INPUT_ROUNDING) * weight:
-        return Location(Existence.EQUATOR)
+    if abs(gap) <= 2 * Fraction(ROUNDING) * change:
+        return Location(Existence.EQUATOR, direction=math.atan2(-n2 / det, -n1 / det))
     if gap < 0:
         return Location(Existence.NONE)
     return Location(Existence.INSIDE, (float(-n1 / det), float(-n2 / det)), float(gap / det**2))
@@ -165,7 +173,7 @@ def _locate_singular(a: float, b: float, d: float, f1: float, f2: float) -> Loca
         return Location(Existence.EVERYTHING if f1 == f2 == 0.0 else Existence.SINGULAR_NONE)
     A, B, D, F1, F2 = map(Fraction, (a, b, d, f1, f2))
     n1, n2 = D * F1 + B * F2, A * F2 - B * F1
-    rounding = 2 * Fraction(INPUT_ROUNDING)
+    rounding = 2 * Fraction(ROUNDING)
     solvable = abs(n1) <= rounding * (abs(D * F1) + abs(B * F2)) and abs(n2) <= rounding * (abs(A * F2) + abs(B * F1))
     if not solvable:
         return Location(Existence.SINGULAR_NONE)

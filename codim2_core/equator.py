@@ -14,11 +14,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .critical import locate
 from .equator_orbit import EquatorCycle, equator_cycle
 from .trigonometric import ROUNDING, THETA_PATTERNS, tangential_zeros
 from .trigonometric_exact import quotient, solve_exactly, to_integers
 
 __all__ = ["EquatorCycle", "EquatorEquilibria", "equator_cycle", "equator_equilibria"]
+
+
+SINGULAR = 8 * ROUNDING  # of the terms of lambda_rho: zero, where det A = 0 leaves no isolated critical set to ask
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,6 +129,7 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
     q = system.at(z)
     a, b, d, f1, f2 = q.a, q.b, q.d, q.f1, q.f2
     zeros = tangential_zeros(a, b, d, f1, f2)
+    location = locate(q)
     rho: list[float] = []
     flat: list[bool] = []
     for theta in zeros.theta:
@@ -134,7 +139,10 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
         degenerate = False
         if abs(value) <= 1e-3 * size:
             value = _radial_exactly(a, b, d, f1, f2, theta)
-            degenerate = _reaches_equator(a, b, d, f1, f2, c, s, abs(value) / size if size else 0.0)
+            if location.direction is not None:  # U(e) = 0 on the equator, within rounding
+                degenerate = abs(math.remainder(location.direction - theta, 2.0 * math.pi)) < 1e-4
+            elif location.singular:
+                degenerate = abs(value) <= SINGULAR * size
         rho.append(0.0 if degenerate else value)
         flat.append(degenerate)
     arrays = (
@@ -159,23 +167,3 @@ def _radial_exactly(a: float, b: float, d: float, f1: float, f2: float, theta: f
     (ia, id_, i1, i2), exponent = to_integers((a, d, f1, f2))
     value = ia * x * x + id_ * y * y + (i1 * x + i2 * y) * n
     return quotient(value, n * n, exponent)
-
-
-def _reaches_equator(a: float, b: float, d: float, f1: float, f2: float, c: float, s: float, relative: float) -> bool:
-    """Decide whether U(e) = 0 at the equator near (c, s), within the rounding of the coefficients."""
-    (a_, b_, d_, p, q), _ = to_integers((a, b, d, f1, f2))
-    n1, n2, det = d_ * p + b_ * q, a_ * q - b_ * p, a_ * d_ + b_ * b_
-    excess = n1 * n1 + n2 * n2 - det * det
-    # Half of dN/dcoefficient times that coefficient, N = |adj(A) f|^2 - det(A)^2.
-    change = (
-        abs(n2 * a_ * q - det * a_ * d_)
-        + abs(n1 * b_ * q - n2 * b_ * p - 2 * det * b_ * b_)
-        + abs(n1 * d_ * p - det * a_ * d_)
-        + abs(n1 * d_ * p - n2 * b_ * p)
-        + abs(n1 * b_ * q + n2 * a_ * q)
-    )
-    if abs(excess) * int(1 / ROUNDING) > 2 * change:
-        return False
-    if abs(det) * 10**8 < abs(a_ * d_) + b_ * b_ or det == 0:
-        return relative <= 8 * ROUNDING
-    return math.hypot(n1 / det + c, n2 / det + s) < 1e-4

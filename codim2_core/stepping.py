@@ -38,6 +38,8 @@ SAFETY, SHRINK, GROW = 0.9, 0.2, 6.0
 FIRST_STEP = 0.6  # times rtol^(1/8): about what the error estimate asks for where |U| = 1
 NEAR = 1e-6  # ebar and rho below which a trajectory has reached the equator, for the picture
 EXTREME = 1e-300
+LEAVING, SLOW, OTHER = 1, 2, 4  # marks of lanes to look at
+IDLE = -(1 << 60)  # steps spent by a lane without a trajectory
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -73,6 +75,26 @@ def _judge(S, P, times, steps, tried, accepted, t_max, rtol, atol):
         last = tried[k] < steps[k]
         times[LANES + k] = t_max if last else times[k] + tried[k]
         steps[k] = tried[k] * factor if tried[k] > 0.0 else steps[k]
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def _flag(S, P, times, accepted, spent, flags, t_max, slow, view, limit):
+    """Count the step, and mark the lanes where something may have happened. Vectorised; returns all marks."""
+    marks = 0
+    for k in range(LANES):
+        x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
+        ux, uy, uw = S[K12 + k], S[K12 + LANES + k], S[K12 + 2 * LANES + k]
+        extent = (1.0 + w) * max(abs(x), abs(y))
+        before = (1.0 + S[STATE + 2 * LANES + k]) * max(abs(S[STATE + k]), abs(S[STATE + LANES + k]))
+        spent[k] += 1
+        busy = spent[k] > 0
+        good = busy & (accepted[k] > 0.0)
+        leaving = good & (P[SIGN + k] > 0.0) & (extent > view) & (extent > before)
+        still = good & (ux * ux + uy * uy + uw * uw <= slow)
+        other = (good & ((times[LANES + k] >= t_max) | ((w > 0.0) & (w < NEAR)))) | (busy & (spent[k] >= limit))
+        flags[k] = (LEAVING if leaving else 0) | (SLOW if still else 0) | (OTHER if other else 0)
+        marks |= flags[k]
+    return marks
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -118,8 +140,8 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
     P[:SIGN] = shared
     cursor = np.zeros((CURSOR, LANES))
     times, steps, tried, accepted = np.zeros(2 * LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
-    leaving = np.zeros(LANES, np.bool_)
-    who, spent = np.full(LANES, -1), np.zeros(LANES, np.int64)
+    flags = np.zeros(LANES, np.int64)
+    who, spent = np.full(LANES, -1), np.full(LANES, IDLE)
     lines, counts = np.empty((LANES, 128 if draw else 2, 3)), np.zeros(LANES, np.int64)
     store, stored = np.empty((1, 64 * n if draw else 2 * n, 3)), 0
     where, length = np.zeros(n, np.int64), np.zeros(n, np.int64)
@@ -157,35 +179,29 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
         advance(S, P, field)
         _judge(S, P, times, steps, tried, accepted, t_max, rtol, atol)
         call_field(field, S, NEW, K12, P)
-        wanted = False
-        for k in range(LANES):
-            extent = (1.0 + S[NEW + 2 * LANES + k]) * max(abs(S[NEW + k]), abs(S[NEW + LANES + k]))
-            before = (1.0 + S[STATE + 2 * LANES + k]) * max(abs(S[STATE + k]), abs(S[STATE + LANES + k]))
-            leaving[k] = extent > view and extent > before and P[SIGN + k] > 0.0 and accepted[k] > 0.0
-            wanted = wanted or (leaving[k] and who[k] >= 0)
+        events = _flag(S, P, times, accepted, spent, flags, t_max, slow, view, limit)
+        wanted = events & LEAVING != 0
         if draw or wanted:
             interpolate(S, P, field)
-        for k in range(LANES):
-            if who[k] < 0:
+        stages = 15 if draw or wanted else 12
+        for k in range(LANES if draw or events != 0 else 0):
+            if who[k] < 0 or (not draw and flags[k] == 0):
                 continue
-            spent[k] += 1
-            evaluations += 15 if draw or wanted else 12
             x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
             code, stop, fraction = RUNNING, times[LANES + k], 1.0
             if accepted[k] > 0.0:
-                ux, uy, uw = S[K12 + k], S[K12 + LANES + k], S[K12 + 2 * LANES + k]
-                if leaving[k]:
+                if flags[k] & LEAVING != 0:
                     code = LEFT_VIEW
                     fraction = left_view(S, k, view)
                     stop = times[k] + fraction * tried[k]
                 else:
-                    if ux * ux + uy * uy + uw * uw <= slow:
+                    if flags[k] & SLOW != 0:
                         kind = attracted(S, P, field, k, capture, scratch)
                         if kind == INTERIOR:
                             code = EQUILIBRIUM
                         elif kind == EQUATOR:
                             code = ARRIVED
-                    if code == RUNNING and 0.0 < w < NEAR and uw < 0.0 and turn * P[SIGN + k] < 0.0:
+                    if code == RUNNING and 0.0 < w < NEAR and S[K12 + 2 * LANES + k] < 0.0 and turn * P[SIGN + k] < 0.0:
                         code = SPIRALLED
                     if code == RUNNING and stop >= t_max:
                         code = T_MAX
@@ -208,6 +224,7 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
                     ends[i, c] = S[base + c * LANES + k] if base >= 0 else dense(S, c * LANES + k, fraction)[0]
             else:
                 ends[i, 0], ends[i, 1], ends[i, 2] = x, y, w
+            evaluations += spent[k] * stages
             codes[i] = ON_EQUATOR if ends[i, 2] == 0.0 and states[i, 2] == 0.0 else code
             if counts[k] == lines.shape[1]:
                 lines = _longer(lines)
@@ -222,7 +239,7 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
             store[0, stored : stored + counts[k]] = lines[k, : counts[k]]
             where[i], length[i] = stored, counts[k]
             stored += counts[k]
-            who[k] = -1
+            who[k], spent[k] = -1, IDLE
             done += 1
             free = True
         for k in range(LANES):

@@ -26,7 +26,7 @@ LOG2_E, LN2_HIGH, LN2_LOW = 1.4426950408889634, 0.6931471803691238, 1.9082149292
 LARGE = 1e20
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
+@njit(cache=True, fastmath={"contract"}, error_model="numpy", forceinline=True)
 def expm1(x):
     """exp(x) - 1 to an ulp or two, |x| <= 700: Cody and Waite's reduction, a Taylor polynomial on |r| <= ln(2)/2."""
     k = math.floor(x * LOG2_E + 0.5)
@@ -47,15 +47,14 @@ def expm1(x):
     return scale * (q * r * r + r) + (scale - 1.0)
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
+@njit(cache=True, fastmath={"contract"}, error_model="numpy", forceinline=True)
 def log(x):
     """Natural logarithm of a normal positive double, to an ulp or two: 2 artanh((m - 1)/(m + 1)) and the exponent."""
+    # Shifting by the bits of 1/sqrt(2) makes the mantissa m fall in [1/sqrt(2), sqrt(2)).
     bits = bits_of_double(x)
-    k = (bits >> 52) - 1023
-    m = double_of_bits((bits & 0xFFFFFFFFFFFFF) | (1023 << 52))
-    high = m > 1.4142135623730951
-    m = 0.5 * m if high else m
-    k = k + 1 if high else k
+    exponent = (bits - 0x3FE6A09E667F3BCD) >> 52
+    m = double_of_bits(bits - (exponent << 52))
+    k = float(exponent)
     f = (m - 1.0) / (m + 1.0)
     g = f * f
     q = 1.0 / 23.0
@@ -72,14 +71,14 @@ def log(x):
     return k * LN2_HIGH + (2.0 * f + (2.0 * f * g * q + k * LN2_LOW))
 
 
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy")
+@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
 def gain_rational(r2, w):
     """Psi = 1/(1 + s)."""
     w2 = w * w
     return 1.0 / math.sqrt(max(r2 + w2 * w2 / max(r2 + w2, TINY), TINY))
 
 
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy")
+@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
 def gain_exponential(r2, w):
     """Psi = exp(-s)."""
     w2 = w * w
@@ -87,7 +86,7 @@ def gain_exponential(r2, w):
     return 1.0 / math.sqrt(max(r2 + w2 * (1.0 + expm1(-s)), TINY))
 
 
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy")
+@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
 def gain_tanh(r2, w):
     """Psi = s/sinh^2 sqrt(s), that is e = tanh(zeta) p/|p|, with zeta = |p|/w."""
     r = max(math.sqrt(r2), 1e-150)
@@ -95,7 +94,7 @@ def gain_tanh(r2, w):
     return -m / ((2.0 + m) * r)
 
 
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy")
+@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
 def gain_hill(r2, w, n):
     """Psi = 3/(3 + (4 s)^n)."""
     w2 = w * w
@@ -103,14 +102,14 @@ def gain_hill(r2, w, n):
     return 1.0 / math.sqrt(max(r2 + 3.0 * w2 / (4.0 + expm1(max(min(power, 700.0), -700.0))), TINY))
 
 
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy")
+@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
 def arguments(S, P, lane):
     """``|p|^2`` and ebar (0 outside) in one lane: what a gain depends on."""
     x, y = S[lane], S[lane + LANES]
     return x * x + y * y, S[lane + 2 * LANES] * (0.5 - 0.5 * P[lane + SIGN])
 
 
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy")
+@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
 def put(S, out, P, lane, gain):
     """Write one lane of the field, given its gain."""
     x, y, w = S[lane], S[lane + LANES], S[lane + 2 * LANES]

@@ -237,6 +237,7 @@ def _fast(
             theta -= step
             # |t''| <= 4 size and |slope| >= 1e-6 size: the next step is below 2e6 step^2 < 2e-17.
             if -3e-12 < step < 3e-12:
+                slope += step * (c1 * c + s1 * s + 4.0 * (c2 * cc + s2 * ss))
                 break
         else:
             return None

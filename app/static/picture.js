@@ -2,13 +2,13 @@
 
 const STEP = 4 / 32767 // as in packing.py
 const LINE_PARTS = {
-  rho: ["rho"], theta: ["theta"], lines: ["lines_inside", "lines_outside"],
+  rho: ["rho_inside", "rho_outside"], theta: ["theta_inside", "theta_outside"], lines: ["lines_inside", "lines_outside"],
   outside: ["outside", "arrows:outside"], inside: ["inside", "arrows:inside"],
   continuations: ["continuations", "arrows:continuations"],
   equator: ["equator", "text:equator"], critical: ["critical", "text:critical"],
 }
 const COLOUR_OF = {
-  rho: "rho", theta: "theta", lines_inside: "lines_inside", lines_outside: "lines_outside",
+  rho_inside: "rho", rho_outside: "rho", theta_inside: "theta", theta_outside: "theta", lines_inside: "lines_inside", lines_outside: "lines_outside",
   outside: "outside", inside: "orbit", continuations: "continuation",
 }
 const CRITICAL_MARK = {

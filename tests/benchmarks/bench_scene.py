@@ -1,0 +1,74 @@
+"""Cost of a cold default scene, layer by layer, beside its trajectories alone; and of importing the core.
+
+Run with ``python tests/benchmarks/bench_scene.py``.
+"""
+
+from __future__ import annotations
+
+import statistics
+import subprocess
+import sys
+import time
+
+import codim2_core as c2
+from codim2_core.scene import layers
+
+TRAJECTORIES = ("inside", "outside")
+
+
+def cold(preset: str) -> dict[str, float]:
+    """Microseconds of each layer of a scene computed for the first time."""
+    values = c2.presets[preset]
+    scene = c2.Scene(values.system, values.psi)
+    spent = {}
+    for name in layers:
+        start = time.perf_counter()
+        scene[name]
+        spent[name] = 1e6 * (time.perf_counter() - start)
+    return spent
+
+
+def layer_rows(repeats: int = 51) -> list[tuple[str, float, float, float]]:
+    """(preset, whole scene, its trajectories, ratio): medians, the ratio paired run by run."""
+    rows = []
+    for preset in ("case1-cm4", "case1-cm0", "case2-saddle", "case3-n2"):
+        cold(preset)
+        runs = [cold(preset) for _ in range(repeats)]
+        whole = [sum(run.values()) for run in runs]
+        alone = [sum(run[name] for name in TRAJECTORIES) for run in runs]
+        ratio = statistics.median(w / t for w, t in zip(whole, alone, strict=True))
+        rows.append((preset, statistics.median(whole), statistics.median(alone), ratio))
+    return rows
+
+
+def import_seconds(statement: str) -> float:
+    """Seconds of one import statement in a fresh interpreter."""
+    code = f"import time; t = time.perf_counter(); {statement}; print(time.perf_counter() - t)"
+    return float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
+
+
+def import_row(repeats: int = 9) -> tuple[float, float, float]:
+    """(ours, numba with scipy.integrate, ratio) in seconds, paired."""
+    pairs = [
+        (import_seconds("import codim2_core"), import_seconds("import numba, scipy, scipy.integrate"))
+        for _ in range(repeats)
+    ]
+    return (
+        statistics.median(p[0] for p in pairs),
+        statistics.median(p[1] for p in pairs),
+        statistics.median(p[0] / p[1] for p in pairs),
+    )
+
+
+def report() -> str:
+    """Return both tables as Markdown."""
+    lines = ["| cold scene, all layers | whole, ms | its 64 trajectories alone, ms | ratio |", "|---|---|---|---|"]
+    lines += [f"| {name} | {whole / 1e3:.2f} | {alone / 1e3:.2f} | {r:.2f} |" for name, whole, alone, r in layer_rows()]
+    ours, theirs, ratio = import_row()
+    lines += ["", "| import, warm cache | s |", "|---|---|", f"| `import codim2_core` | {ours:.2f} |"]
+    lines += [f"| `import numba, scipy, scipy.integrate` | {theirs:.2f} |", f"| ratio, paired | {ratio:.2f} |"]
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(report())
