@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import panel as pn
+from bokeh.server.urls import per_app_patterns
+from panel.io.server import WSHandler
 from tornado.web import RequestHandler
 
 from . import warmup
@@ -27,6 +30,29 @@ def session() -> ExplorerView:
     doc.template = page_template()  # type: ignore[assignment]
     doc.template_variables["explorer_markup"] = view.page_markup
     return view
+
+
+class PromptSocket(WSHandler):
+    """Bokeh's websocket without Nagle's algorithm.
+
+    A frame is several small writes; with it each one waits for the browser's delayed acknowledgement, 40 ms.
+    """
+
+    def open(self, *arguments: str, **named: str) -> None:
+        """Start the connection."""
+        super().open(*arguments, **named)
+        self.set_nodelay(True)
+
+
+@contextmanager
+def _prompt_websockets() -> Iterator[None]:
+    """Let a server that is made meanwhile use `PromptSocket`; Bokeh has no option for it."""
+    kept = list(per_app_patterns)
+    per_app_patterns[:] = [(path, PromptSocket if path == "/ws" else handler) for path, handler in kept]
+    try:
+        yield
+    finally:
+        per_app_patterns[:] = kept
 
 
 class Health(RequestHandler):
@@ -67,7 +93,15 @@ def make_server(
     if warmup_now:
         warmup.start()
     pn.config.nthreads = threads
-    server = pn.io.server.get_server(
+    with _prompt_websockets():
+        server = _server(port, address, allow_origin, processes, options)
+    if not warmup_now:
+        server.io_loop.add_callback(warmup.start)
+    return server
+
+
+def _server(port: int, address: str, allow_origin: Sequence[str], processes: int, options: dict[str, Any]) -> Any:
+    return pn.io.server.get_server(
         {"/": session},
         port=port,
         address=address,
@@ -80,6 +114,3 @@ def make_server(
         start=False,
         **options,
     )
-    if not warmup_now:
-        server.io_loop.add_callback(warmup.start)
-    return server

@@ -18,6 +18,7 @@ from codim2_core.systems import ELinear
 from . import glyphs
 from .packing import pack, quantise
 from .state import COEFFICIENTS, ExplorerState, InputError, build_psi, build_system, clean, scene_changes
+from .theme import REACH
 
 #: Angles of arrowheads travel as int16 multiples of this.
 ANGLE_STEP = np.pi / 32767
@@ -127,7 +128,7 @@ def make_scene(values: Mapping[str, Any], system: ELinear | None = None) -> Scen
     """Return the scene of these values, or of `system` at z = values["z"] (further slow variables at 0)."""
     system = build_system(values) if system is None else system
     z = (values["z"], *[0.0] * (system.m - 1)) if system.m else ()
-    return Scene(system, build_psi(values), z=z, count=values["trajectories"])
+    return Scene(system, build_psi(values), z=z, count=values["trajectories"], view=REACH)
 
 
 def locked_controls(scene: Scene) -> tuple[str, ...]:

@@ -41,12 +41,14 @@ DARK = {
     "critical": "#ff5468",
     "hollow": "#12161d",
     "shade": "#7fb2ff",
-    "shade_alpha": 0.020,
+    "shade_alpha": 0.028,
 }
 THEMES = {"light": LIGHT, "dark": DARK}
 
 #: Half the width of the picture: the disc has radius 1.
 VIEW = 1.75
+#: Radius up to which the scene is computed: the corners of the square picture.
+REACH = 2.45
 
 #: Radii of the translucent discs that shade the hemisphere; there are more near the centre, so the limb is pale.
 DISCS = tuple(0.06 * k + 0.04 for k in range(16)) + (1.0,)

@@ -12,6 +12,7 @@ from typing import Any
 import panel as pn
 import param
 from panel.custom import Child, JSComponent
+from panel.models.esm import DataEvent, ESMEvent
 
 from codim2_core.systems import ELinear
 
@@ -70,6 +71,24 @@ class ExplorerView(JSComponent):
             sizing_mode="stretch_width",
             **params,
         )
+
+    def _register_events(self, *event_names: str, model: Any, doc: Any, comm: Any) -> None:
+        """Listen to the browser.
+
+        On a server the request is answered within Bokeh's own handling of the event, where the document's lock is
+        held: Panel's scheduling would cost more than the frame. Notebooks, and servers that answer in threads,
+        go Panel's way.
+        """
+        if comm is None and not pn.state._thread_pool:
+            model.on_event("data_event", self._answer)
+        else:
+            super()._register_events("data_event", model=model, doc=doc, comm=comm)
+
+    def _answer(self, event: DataEvent) -> None:
+        model = event.model
+        if model is not None and model.document is not None:
+            reply = ESMEvent(model=model, data={"frame": self.frames.answer(event.data)})
+            model.document.callbacks.send_event(reply)
 
     def _handle_msg(self, data: Any) -> None:
         """Answer a request of the browser with one frame."""

@@ -46,34 +46,22 @@ ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}  # NaN and infinity keep the
 def advance(S, P, field):
     """One trial step of every lane: from STATE, K0 and STEP to NEW and the two error estimates."""
     for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
-            0.05260015195876773 * S[m + K0]
-        )
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (0.05260015195876773 * S[m + K0])
     call_field(field, S, TRIAL, K1, P)
     for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
-            0.0197250569845379 * S[m + K0]
-            + 0.0591751709536137 * S[m + K1]
-        )
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (0.0197250569845379 * S[m + K0] + 0.0591751709536137 * S[m + K1])
     call_field(field, S, TRIAL, K2, P)
     for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
-            0.02958758547680685 * S[m + K0]
-            + 0.08876275643042054 * S[m + K2]
-        )
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (0.02958758547680685 * S[m + K0] + 0.08876275643042054 * S[m + K2])
     call_field(field, S, TRIAL, K3, P)
     for m in range(WIDTH):
         S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
-            0.2413651341592667 * S[m + K0]
-            + -0.8845494793282861 * S[m + K2]
-            + 0.924834003261792 * S[m + K3]
+            0.2413651341592667 * S[m + K0] + -0.8845494793282861 * S[m + K2] + 0.924834003261792 * S[m + K3]
         )
     call_field(field, S, TRIAL, K4, P)
     for m in range(WIDTH):
         S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
-            0.037037037037037035 * S[m + K0]
-            + 0.17082860872947386 * S[m + K3]
-            + 0.12546768756682242 * S[m + K4]
+            0.037037037037037035 * S[m + K0] + 0.17082860872947386 * S[m + K3] + 0.12546768756682242 * S[m + K4]
         )
     call_field(field, S, TRIAL, K5, P)
     for m in range(WIDTH):

@@ -129,7 +129,7 @@ class Expression:
         return _derivative(self, name)
 
     def substitute(self, name: str, replacement: Expression) -> Expression:
-        """The formula with `name` replaced by another formula."""
+        """Replace `name` by another formula."""
         return Expression(tapes.substitute(self._tape, name, replacement._tape))
 
     @cached_property
@@ -253,8 +253,6 @@ def _operation(op: str, pieces: list[_Piece], nodes: list[tapes.Node], python: b
         return _power(pieces, nodes[1], python)
     binding = _SUM if op in "+-" else _PRODUCT
     (left, depth_left), (right, depth_right) = _wrap(pieces[0], binding), _wrap(pieces[1], binding + 1)
-    if binding == _PRODUCT and pieces[0][1] == _SIGN:
-        pass
     space = " " if binding == _SUM else ""
     return f"{left}{space}{op}{space}{right}", binding, max(depth_left, depth_right)
 

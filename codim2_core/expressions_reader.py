@@ -1,4 +1,4 @@
-"""From typed text to a tape: a tokeniser and a precedence parser over a whitelist. Nothing is ever evaluated as code."""
+"""From typed text to a tape: a tokeniser and a precedence parser over a whitelist. Nothing is run as code."""
 
 from __future__ import annotations
 
@@ -99,7 +99,9 @@ class _Reader:
         shown = ("..." if start else "") + shown + ("..." if len(self.text) > start + 60 else "")
         allowed = f"numbers, {', '.join(words)}, + - * / ** ( ) and {' '.join(FUNCTIONS)}"
         return ExpressionError(
-            f"cannot read {shown}: at column {column}, {what}. Allowed are {allowed}. Mend: {mend}.", self.text, column
+            f"cannot read {shown}: at column {column}, {what}. Allowed are {allowed}. Mend: {mend}.",
+            self.text,
+            column,
         )
 
     def tokenise(self) -> None:
@@ -132,7 +134,7 @@ class _Reader:
             mend = "write one formula, with arithmetic only"
         elif not " " <= ch <= "~":
             mend = "type plain ASCII"
-        return self.error(column, f"the character {ascii(ch)} has no meaning", mend)
+        return self.error(column, f"the character {ch!a} has no meaning", mend)
 
     def juxtaposed(self, what: str, column: int) -> ExpressionError:
         before = self.tokens[self.at - 1][1]
@@ -146,7 +148,9 @@ class _Reader:
         """Read operators that bind tighter than `binding` (precedence climbing)."""
         column = self.tokens[self.at][2]
         if self.depth >= MOST_NESTING:
-            raise self.error(column, f"nesting is deeper than {MOST_NESTING}", "use fewer parentheses or powers of powers")
+            raise self.error(
+                column, f"nesting is deeper than {MOST_NESTING}", "use fewer parentheses or powers of powers"
+            )
         self.depth += 1
         left = self.operand()
         while True:
@@ -212,7 +216,7 @@ class _Reader:
             raise self.too_long(column) from None
 
     def closed(self, column: int) -> int:
-        """What stands before the matching parenthesis."""
+        """Read up to the matching parenthesis."""
         inside = self.expression(0)
         kind, what, here = self.tokens[self.at]
         if what != ")":
@@ -237,5 +241,7 @@ class _Reader:
         value = self.build.value(i)
         if value is not None and abs(value) > LARGEST_EXPONENT:
             raise self.error(
-                column, f"the exponent {value:g} is too large", f"use exponents from -{LARGEST_EXPONENT} to {LARGEST_EXPONENT}"
+                column,
+                f"the exponent {value:g} is too large",
+                f"use exponents from -{LARGEST_EXPONENT} to {LARGEST_EXPONENT}",
             )

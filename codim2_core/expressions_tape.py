@@ -22,7 +22,7 @@ MOST_NODES = 20_000
 
 # math.* is some ten times faster than NumPy on one float, but raises where IEEE arithmetic answers inf or nan;
 # a formula then goes through NumPy instead.
-SCALAR: dict[str, Callable[..., float]] = {
+SCALAR: dict[str, Callable[..., Any]] = {
     **{name: getattr(math, name) for name in FUNCTIONS if name != "abs"},
     "abs": math.fabs,
     "neg": operator.neg,
@@ -86,7 +86,7 @@ class Builder:
         return self._entry("name", name)
 
     def value(self, i: int) -> float | None:
-        """The constant at entry i, or None."""
+        """Return the constant at entry i, or None."""
         node = self.nodes[i]
         return node[1] if node[0] == "num" else None
 
@@ -191,7 +191,7 @@ def derivative(tape: Tape, name: str) -> Tape:
 
 
 def _outer_rate(build: Builder, op: str, k: int, u: int) -> int:
-    """d op(u)/du, entry k being op(u)."""
+    """Entry of d op(u)/du, entry k being op(u)."""
     apply, one, two = build.apply, build.number(1.0), build.number(2.0)
     match op:
         case "exp":
@@ -236,7 +236,7 @@ def _binary_rate(build: Builder, op: str, k: int, u: int, v: int, du: int, dv: i
 
 
 def substitute(tape: Tape, name: str, replacement: Tape) -> Tape:
-    """The tape with `name` replaced by another formula."""
+    """Replace `name` by another formula."""
     build = Builder(replacement, simplify=True)
     inner = len(replacement) - 1
     at: list[int] = []

@@ -146,7 +146,7 @@ class Psi:
     @overload
     def radius(self, modulus: Vector, complement: Vector | None = None) -> Array: ...
     def radius(self, modulus: Any, complement: Any = None) -> Any:
-        """The zeta with ``|e_Psi| = modulus``: the inverse of `modulus`, one-to-one by lem:ePsi(c).
+        """Find the zeta with ``|e_Psi| = modulus``: the inverse of `modulus`, one-to-one by lem:ePsi(c).
 
         Parameters
         ----------
@@ -167,7 +167,7 @@ class Psi:
             modulus is outside [0, 1), complement is outside (0, 1], or either is NaN.
         """
         if complement is None:
-            return _apply(self._radius, modulus, "the modulus |e_Psi|", _BELOW_1, "0 <= |e_Psi| < 1")
+            return _apply(self._radius, modulus, _MODULUS, _BELOW_1, "0 <= |e_Psi| < 1")
         if not (isinstance(modulus, float) and isinstance(complement, float)):
             if np.shape(modulus) != np.shape(complement):
                 raise ValueError(
@@ -183,7 +183,7 @@ class Psi:
                 f"the complement 1 - |e_Psi|^2 is {_culprit(complement, lambda c: (c > 0.0) & (c <= 1.0))}; "
                 "allowed is 0 < complement <= 1. At 0 the point lies on the equator, infinitely far out."
             )
-        return _apply(self._radius, modulus, "the modulus |e_Psi|", 1.0, "0 <= |e_Psi| <= 1", complement)
+        return _apply(self._radius, modulus, _MODULUS, 1.0, "0 <= |e_Psi| <= 1", complement)
 
     @overload
     def jacobian_factors(self, zeta: float) -> tuple[float, float]: ...
@@ -217,8 +217,8 @@ class Psi:
         Returns
         -------
         PsiCheck
-            Attributes R1, ..., R5 (also by iteration), each with .holds, .where (an s, or None) and .sentence; and .holds
-            for all of them. Built-in families are decided by mathematics, custom text by probing.
+            Attributes R1, ..., R5 (also by iteration), each with .holds, .where (an s, or None) and .sentence;
+            and .holds for all of them. Built-in families are decided by mathematics, custom text by probing.
         """
         return check(self.family, self.parameter, self.text, self.expression, self._kernel)
 
@@ -234,8 +234,8 @@ class Psi:
         if complement is None:
             complement = (1.0 - modulus) * (1.0 + modulus)
         w = modulus / lib.sqrt(complement)
-        if lib is families.SCALAR and w == 0.0:
-            return 0.0
+        if w == 0.0 if lib is families.SCALAR else not w.size:
+            return w
         zeta = self._kernel.inverse(lib, w)
         return lib.where(w > 0.0, zeta, 0.0)
 
@@ -247,6 +247,7 @@ class Psi:
 
 
 _BELOW_1 = math.nextafter(1.0, 0.0)
+_MODULUS = "the modulus |e_Psi|"
 
 
 def _culprit(values: Any, allowed: Any) -> str:

@@ -62,7 +62,7 @@ class PsiCheck:
 
 @lru_cache(maxsize=64)
 def check(family: str, parameter: float, text: str, expression: Expression | None, kernel: Kernel) -> PsiCheck:
-    """The five conditions for one Psi; see `Psi.check`."""
+    """Decide the five conditions for one Psi; see `Psi.check`."""
     if expression is not None:
         return _probe(expression, kernel)
     R1 = Condition("R1", True, None, f"Ψ = {text} is smooth for all s ≥ 0.")
@@ -77,7 +77,8 @@ def check(family: str, parameter: float, text: str, expression: Expression | Non
         )  # fmt: skip
         R5 = Condition(
             "R5", False, math.inf,
-            f"Ψ(1/s) tends to 0 as s^{n:g}, which has no finite derivative of order {k} at s = 0. Smooth for whole n only.",
+            f"Ψ(1/s) tends to 0 as s^{n:g}, which has no finite derivative of order {k} at s = 0. "
+            "Smooth for whole n only.",
         )  # fmt: skip
     return PsiCheck(
         R1,
@@ -107,7 +108,7 @@ def _probe(expression: Expression, kernel: Kernel) -> PsiCheck:
 
 
 def _scale(values: Array, limit: float) -> float:
-    """The s at which Psi has gone half its way, which sets the scale of every probe near 0 and infinity."""
+    """Find the s at which Psi has gone half its way, which sets the scale of every probe near 0 and infinity."""
     if not math.isfinite(limit):
         return 1.0
     way = np.abs(values - limit)
@@ -172,7 +173,7 @@ def _rough(s: float, order: int, what: str) -> Condition:
 
 def _jump(expression: Expression, values: Array, least: float) -> float | None:
     """Where a function jumps, or None: the ten steepest cells are bisected towards the larger change."""
-    keep = np.isfinite(values) & (values > NEGLIGIBLE * PROBES) & (PROBES >= least)
+    keep = np.isfinite(values) & (values > NEGLIGIBLE * PROBES) & (least <= PROBES)
     s = PROBES[keep]
     y = expression.evaluate({"s": s})
     # formulas of large s may overflow in their higher derivatives: inf/inf up to the end says nothing

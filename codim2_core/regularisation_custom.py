@@ -1,5 +1,6 @@
 """A Psi that the user typed: evaluation, a table for inverting |e_Psi|, and whether it can be used at all."""
 
+# ruff: noqa: D102 (the methods of `Kernel` are documented there)
 from __future__ import annotations
 
 import bisect
@@ -75,7 +76,7 @@ class Custom(Kernel):
 
     @cached_property
     def _table(self) -> tuple[Array, Array, Array, list[float], list[float], list[float]]:
-        """ln w, ln zeta and d ln zeta/d ln w at the probes where all are known; as arrays and as lists."""
+        """Tabulate ln w, ln zeta and d ln zeta/d ln w at the probes where all are known; as arrays and as lists."""
         zeta = np.sqrt(PROBES[1:])
         with np.errstate(all="ignore"):
             values = self.expression.evaluate({"s": PROBES[1:]})
@@ -113,7 +114,7 @@ class Custom(Kernel):
         return self._search(lib, w, log_w, t, lo, hi)
 
     def _search(self, lib: Any, w: Any, log_w: Any, t: Any, lo: Any, hi: Any) -> Any:
-        """The slow road: outside the table, or where Psi bends within a cell; Newton with bisection."""
+        """Go the slow road: outside the table, or where Psi bends within a cell; Newton with bisection."""
         first, last = self._table[3][0], self._table[3][-1]
         # below the table zeta is proportional to w; above it Psi is negligible or tends to its limit
         lo = lib.where(log_w < first, log_w - 400.0, lo)
@@ -195,7 +196,7 @@ def custom_kernel(expression: Expression) -> Custom:
 
 
 def first_not_positive(expression: Expression, values: Array) -> float | None:
-    """The first s where Psi <= 0 (R3), or None; Psi that fades gradually to 0 in rounding is positive."""
+    """Find the first s where Psi <= 0 (R3), or None; Psi that fades gradually to 0 in rounding is positive."""
     bad = values <= 0.0
     if not bad.any():
         return None
@@ -214,7 +215,7 @@ def first_not_positive(expression: Expression, values: Array) -> float | None:
 
 
 def refine(holds: Any, good: float, bad: float) -> float:
-    """The smallest s found where `holds` is false, between a good s and a bad one, by bisection."""
+    """Find the smallest s where `holds` is false, between a good s and a bad one, by bisection."""
     for _ in range(200):
         middle = 0.5 * (good + bad)
         if not good < middle < bad:
@@ -228,5 +229,3 @@ def refine(holds: Any, good: float, bad: float) -> float:
 
 def _first(bad: NDArray[np.bool_]) -> float:
     return float(PROBES[int(np.argmax(bad))])
-
-

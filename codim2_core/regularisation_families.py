@@ -11,6 +11,7 @@ because then, with ``w = zeta/root`` (the tangent of the angle whose sine is ``|
 and R4 says kappa >= 0, so that ``ln w`` as a function of ``ln zeta`` has slope at least 1 and is inverted safely.
 """
 
+# ruff: noqa: D102, ARG002 (every family offers the methods of `Kernel`, which documents them, with one signature)
 from __future__ import annotations
 
 import math
@@ -70,7 +71,7 @@ class Kernel:
         raise NotImplementedError
 
     def inverse(self, lib: Any, w: Any) -> Any:
-        """The zeta with ``zeta/root(zeta) = w``."""
+        """Find the zeta with ``zeta/root(zeta) = w``."""
         raise NotImplementedError
 
     def polish(self, lib: Any, zeta: Any, w: Any) -> Any:
@@ -203,8 +204,12 @@ class Hill(Kernel):
         # from either side of 4s = 1, so that nothing overflows
         n, x = self.n, 4.0 * s
         low = lib.minimum(x, 1.0)
-        d = 3.0 + lib.power(low, n)
-        below = -12.0 * n * lib.power(low, n - 1.0) / (d * d)
+        h = lib.power(low, n)
+        if n < 1.0:  # noqa: SIM108 (n - 1 has rounded, which a small s would magnify)
+            rate = lib.where(low > 0.0, h / lib.maximum(low, 5e-324), math.inf)
+        else:
+            rate = lib.power(low, n - 1.0)
+        below = -12.0 * n * rate / ((3.0 + h) * (3.0 + h))
         high = lib.maximum(x, 1.0)
         p = lib.power(1.0 / high, n)
         u = 1.0 + 3.0 * p

@@ -1,8 +1,8 @@
 """Where the drawn trajectories start: fixed places, so that a seed keeps its identity while a slider moves.
 
 The places show the structure of any portrait: a ring outside, from which every limit direction that attracts is
-reached; a ring just inside the equator, where orbits leave it or arrive; and a sunflower over the disc, whose
-spacing is even and which no line of symmetry of the normal form cuts twice.
+reached, and rings over the disc, evenly spaced. They are symmetric about both axes, as the normal form is for b = 0
+with f on an axis, and no seed lies on an axis, where such systems have their equilibria.
 """
 
 from __future__ import annotations
@@ -12,10 +12,23 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-GOLDEN_ANGLE = math.pi * (3.0 - math.sqrt(5.0))
-OUTSIDE_SHARE = 0.375  # of all seeds; the outside ring is longer, its orbits are simpler
+OUTSIDE_SHARE = 0.375  # of all seeds; outside, orbits are simpler
 OUTSIDE_RADIUS = 0.62  # of the way from the equator to the edge of the view
-INSIDE_RADIUS = 0.9
+INSIDE_RADIUS = 0.93  # of the outermost ring on the hemisphere
+
+
+def _ring(radius: float, count: int) -> NDArray[np.float64]:
+    angle = 2.0 * math.pi * (np.arange(count) + 0.5) / max(count, 1)
+    return radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
+def _ring_sizes(count: int) -> list[int]:
+    """Points on each ring, outermost first: in proportion to the radii 1, 1 - 1/R, ..., multiples of 4 but one."""
+    rings = max(1, round(math.sqrt(count / 4.0)))
+    weights = [rings - j for j in range(rings)]
+    sizes = [4 * round(count * w / sum(weights) / 4.0) for w in weights]
+    sizes[0] += count - sum(sizes)
+    return sizes
 
 
 def structured_seeds(count: int, view: float = 2.0) -> NDArray[np.float64]:
@@ -31,15 +44,10 @@ def structured_seeds(count: int, view: float = 2.0) -> NDArray[np.float64]:
     if not 0 <= count <= 2000:
         raise ValueError(f"the number of trajectories is {count}; give 0 to 2000.")
     outside = round(OUTSIDE_SHARE * count)
-    inside = count - outside
-    # Offset by an irrational part of a turn, so that no seed lies on an axis, where symmetric systems have equilibria.
-    angle = 2.0 * math.pi * (np.arange(outside) + 0.381966) / max(outside, 1)
-    radius = 1.0 + OUTSIDE_RADIUS * (view - 1.0)
-    ring = radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    k = np.arange(inside)
-    r, t = INSIDE_RADIUS * np.sqrt((k + 0.5) / max(inside, 1)), GOLDEN_ANGLE * k + 0.4
-    flower = np.stack([r * np.cos(t), r * np.sin(t)], axis=-1)
-    seeds = np.concatenate([ring, flower]).reshape(count, 2)
+    parts = [_ring(1.0 + OUTSIDE_RADIUS * (view - 1.0), outside)]
+    sizes = _ring_sizes(count - outside)
+    parts += [_ring(INSIDE_RADIUS * (1.0 - j / len(sizes)), size) for j, size in enumerate(sizes)]
+    seeds = np.concatenate(parts)
     seeds.flags.writeable = False
     return seeds
 

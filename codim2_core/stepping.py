@@ -24,7 +24,6 @@ from .stepping_layout import (
     SIGN,
     STATE,
     STEP,
-    WIDTH,
     WORKSPACE,
     call_field,
 )
@@ -35,6 +34,9 @@ T_MAX, EQUILIBRIUM, LEFT_VIEW, ARRIVED, SPIRALLED, ON_EQUATOR, STEP_LIMIT = rang
 RUNNING = -1
 
 SAFETY, SHRINK, GROW = 0.9, 0.2, 6.0
+# Of the tolerance, for one step: what keeps the error of a whole trajectory below ten times the tolerance (measured
+# on 1000 orbits of SO(2, 1), T = 8: at most 20 times with 1).
+SHARE = 0.1
 FIRST_STEP = 0.6  # times rtol^(1/8): about what the error estimate asks for where |U| = 1
 NEAR = 1e-6  # ebar and rho below which a trajectory has reached the equator, for the picture
 EXTREME = 1e-300
@@ -52,6 +54,7 @@ def _load(S, P, lane, state, sign):
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def _judge(S, P, times, steps, tried, accepted, t_max, rtol, atol):
     """Error norms, projection of NEW to the sphere, and the next step of every lane. Vectorised."""
+    rtol, atol = SHARE * rtol, SHARE * atol
     for k in range(LANES):
         x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
         # w is multiplicative: its error counts relative to w itself, however small that is.
@@ -165,7 +168,7 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
             call_field(field, S, STATE, K0, P)
             for k in range(LANES):
                 if accepted[k] == -1.0:
-                    start(S, P, k, cursor, 0.1 * first)
+                    start(S, P, k, cursor)
                     lines[k, 0, 0], lines[k, 0, 1], lines[k, 0, 2] = cursor[X, k], cursor[Y, k], 0.0
             free = False
         if done == n:
@@ -218,10 +221,15 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
             if code == RUNNING:
                 continue
             i = who[k]
-            if fraction < 1.0:
-                base = STATE if fraction == 0.0 else -1
+            if fraction == 0.0:
                 for c in range(3):
-                    ends[i, c] = S[base + c * LANES + k] if base >= 0 else dense(S, c * LANES + k, fraction)[0]
+                    ends[i, c] = S[STATE + c * LANES + k]
+            elif fraction < 1.0:  # left the view, so p is on the circle
+                x, _u = dense(S, k, fraction)
+                y, _u = dense(S, LANES + k, fraction)
+                w, _u = dense(S, 2 * LANES + k, fraction)
+                r = math.sqrt(x * x + y * y)
+                ends[i, 0], ends[i, 1], ends[i, 2] = x / r, y / r, (1.0 + w) * r - 1.0
             else:
                 ends[i, 0], ends[i, 1], ends[i, 2] = x, y, w
             evaluations += spent[k] * stages

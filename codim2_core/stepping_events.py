@@ -45,7 +45,8 @@ def attracted(S, P, field, lane, capture, scratch):
     F = S2[WIDTH:]
     speed = math.sqrt(F[4] ** 2 + F[LANES + 4] ** 2 + F[2 * LANES + 4] ** 2)
     place = EQUATOR if w < 1e-6 else INTERIOR
-    if speed <= STILL:
+    # Near the equator only a rest of ebar itself, not its smallness, is rest.
+    if speed <= STILL and abs(F[2 * LANES + 4]) <= STILL * w:
         return place
     f = F[4] * ax + F[LANES + 4] * ay
     g = F[4] * bx + F[LANES + 4] * by + F[2 * LANES + 4] * bw
@@ -110,5 +111,3 @@ def winding(P):
     if abs(total) <= 1e-10 * size:
         return 0.0
     return 1.0 if total > 0.0 else -1.0
-
-

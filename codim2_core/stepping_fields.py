@@ -192,11 +192,25 @@ def _family(name: str) -> Any:
     return _compiled(_FAMILIES[name], cache=True)
 
 
-@lru_cache(maxsize=64)
+MOST_EXPRESSIONS = 64  # compiled custom formulas kept
+_expressions: dict[str, Any] = {}
+
+
 def _expression(source: str) -> Any:
-    scope: dict[str, Any] = {"math": math}
-    exec(f"def psi(s):\n    return {source}\n", scope)  # written by Expression: names and math.* only
-    return _compiled(_custom(njit(error_model="numpy")(scope["psi"])), cache=False)
+    if source not in _expressions:
+        scope: dict[str, Any] = {"math": math}
+        exec(f"def psi(s):\n    return {source}\n", scope)  # written by Expression: names and math.* only
+        compiled = _compiled(_custom(njit(error_model="numpy")(scope["psi"])), cache=False)
+        while len(_expressions) >= MOST_EXPRESSIONS:
+            _expressions.pop(next(iter(_expressions)), None)
+        _expressions[source] = compiled
+        return compiled
+    return _expressions[source]
+
+
+def is_compiled(psi: Psi) -> bool:
+    """Whether a custom Psi has its field already."""
+    return psi.expression is not None and psi.expression.python_source() in _expressions
 
 
 def field(psi: Psi) -> Any:
@@ -213,6 +227,7 @@ def field(psi: Psi) -> Any:
         come from the disk cache, custom text costs one compilation of a few lines (about 0.3 s), once a text.
     """
     if psi.family == "custom":
-        assert psi.expression is not None
+        if psi.expression is None:
+            raise ValueError(f"{psi!r} has no expression; make it with psi.custom.")
         return _expression(psi.expression.python_source())
     return _family(psi.family)

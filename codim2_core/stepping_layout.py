@@ -9,8 +9,12 @@ compiled once, whatever the system.
 
 from __future__ import annotations
 
+import math
+from typing import Any
+
+import numpy as np
 from llvmlite import ir
-from numba import types
+from numba import njit, types
 from numba.extending import intrinsic
 
 # 32 doubles are four AVX-512 registers a component: stages then hide the latency of one another (measured:
@@ -32,8 +36,7 @@ _POINTER = types.CPointer(types.float64)
 FIELD = types.void(_POINTER, _POINTER, _POINTER)
 
 
-@intrinsic
-def call_field(typing_context, address, S, source, target, P):  # noqa: ARG001 (numba's protocol)
+def _call_field(typing_context, address, S, source, target, P):  # noqa: ARG001 (numba's protocol)
     """Call the field at `address` on ``S[source:]``, ``S[target:]`` and P."""
     signature = types.void(types.int64, S, types.int64, types.int64, P)
 
@@ -50,13 +53,37 @@ def call_field(typing_context, address, S, source, target, P):  # noqa: ARG001 (
     return signature, generate
 
 
-@intrinsic
-def double_of_bits(typing_context, bits):  # noqa: ARG001
-    """The double with these 64 bits."""
+call_field: Any = intrinsic(_call_field)
+
+
+def _double_of_bits(typing_context, bits):  # noqa: ARG001
+    """Return the double with these 64 bits."""
     return types.float64(types.int64), lambda _c, builder, _s, a: builder.bitcast(a[0], ir.DoubleType())
 
 
-@intrinsic
-def bits_of_double(typing_context, value):  # noqa: ARG001
-    """The 64 bits of a double."""
+def _bits_of_double(typing_context, value):  # noqa: ARG001
+    """Return the 64 bits of a double."""
     return types.int64(types.float64), lambda _c, builder, _s, a: builder.bitcast(a[0], ir.IntType(64))
+
+
+double_of_bits: Any = intrinsic(_double_of_bits)
+bits_of_double: Any = intrinsic(_bits_of_double)
+
+
+ON_EQUATOR = 8.9e-16  # | |p| - 1 | of a seed that was meant to lie on the equator: four roundings
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def states_of(points):
+    """States (k, 3) and signs (k,) of picture points (k, 2): p, and ebar (sign -1) or rho (sign +1)."""
+    n = points.shape[0]
+    states, signs = np.empty((n, 3)), np.empty(n)
+    for i in range(n):
+        x, y = points[i, 0], points[i, 1]
+        r = math.hypot(x, y)
+        inside = r - 1.0 < -ON_EQUATOR
+        scale = 1.0 if inside else r
+        states[i, 0], states[i, 1] = x / scale, y / scale
+        states[i, 2] = math.sqrt((1.0 - r) * (1.0 + r)) if inside else r - 1.0 if r - 1.0 > ON_EQUATOR else 0.0
+        signs[i] = -1.0 if inside else 1.0
+    return states, signs

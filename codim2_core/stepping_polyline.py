@@ -17,7 +17,7 @@ from .stepping_layout import K0, LANES, SIGN, STATE
 # Rows of the cursor, one number a lane each: the last point and the velocity there, its time, the next spacing.
 X, Y, VX, VY, TIME, SPACING = range(6)
 CURSOR = 6
-LONGER = 2.5  # growth of the spacing from one chord to the next
+LONGER = 4.0  # growth of the spacing from one chord to the next
 AIM = 0.9  # of the allowed distance
 
 
@@ -33,7 +33,7 @@ def place(S, P, lane, x):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def start(S, P, lane, cursor, spacing):
+def start(S, P, lane, cursor):
     """Put the cursor at a lane's STATE, where K0 is the field."""
     px, py, w = S[STATE + lane], S[STATE + LANES + lane], S[STATE + 2 * LANES + lane]
     ux, uy, uw = S[K0 + lane], S[K0 + LANES + lane], S[K0 + 2 * LANES + lane]
@@ -44,7 +44,7 @@ def start(S, P, lane, cursor, spacing):
     cursor[VX, lane] = (1.0 + w) * ux + uw * px
     cursor[VY, lane] = (1.0 + w) * uy + uw * py
     cursor[TIME, lane] = 0.0
-    cursor[SPACING, lane] = spacing
+    cursor[SPACING, lane] = 1e300  # to the end of the first step, or what its bend allows
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -65,6 +65,13 @@ def follow(S, P, lane, cursor, lines, count, t0, h, stop, distance):
             abs(ux * ly - uy * lx) / math.sqrt(ux * ux + uy * uy + 1e-300),
             abs(vx * ly - vy * lx) / math.sqrt(vx * vx + vy * vy + 1e-300),
         )
+        # Ends alone cannot tell an arc from a corner: look at one point between them too.
+        if last >= t0:
+            mx, my, _vx, _vy = place(S, P, lane, (0.5 * (last + t) - t0) / h)
+        else:
+            scale = 1.0 if P[SIGN + lane] < 0.0 else 1.0 + S[STATE + 2 * LANES + lane]
+            mx, my = scale * S[STATE + lane], scale * S[STATE + LANES + lane]
+        bend = max(bend, abs(lx * (my - y0) - ly * (mx - x0)) / math.sqrt(lx * lx + ly * ly + 1e-300))
         ratio = math.sqrt(aim / (bend + 1e-30))
         if bend > distance and t > t0 and t - last > 1e-13 * h:
             spacing = (t - last) * max(0.3, ratio)

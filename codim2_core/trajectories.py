@@ -25,9 +25,8 @@ Array = NDArray[np.float64]
 PIXEL = 1.0 / 180.0
 DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
 STEP_LIMIT = 10_000
-ON_EQUATOR = 4.0 * np.finfo(float).eps  # | |p| - 1 | of a seed that was meant to lie on the equator
 
-_warm: set[Psi] = set()
+_warm: set[str] = set()  # families used so far
 
 
 def _positive(value: float, what: str, remedy: str, low: float = 0.0, high: float = math.inf) -> float:
@@ -38,19 +37,6 @@ def _positive(value: float, what: str, remedy: str, low: float = 0.0, high: floa
     if not (math.isfinite(number) and low <= number <= high and number > 0.0):
         raise ValueError(f"{what} is {value!r}; {remedy}.")
     return number
-
-
-def _states(points: Array) -> tuple[Array, Array]:
-    """States (k, 3) and signs (k,) of picture points."""
-    radius = np.hypot(points[:, 0], points[:, 1])
-    excess = radius - 1.0
-    outside = excess > ON_EQUATOR
-    inside = excess < -ON_EQUATOR
-    states = np.empty((len(points), 3))
-    scale = np.where(inside, 1.0, np.where(radius > 0.0, radius, 1.0))
-    states[:, :2] = points / scale[:, None]
-    states[:, 2] = np.where(inside, np.sqrt(np.maximum(-excess * (1.0 + radius), 0.0)), np.where(outside, excess, 0.0))
-    return states, np.where(inside, -1.0, 1.0)
 
 
 def trajectories(
@@ -106,8 +92,9 @@ def trajectories(
     ValueError
         An argument is invalid; the message says which, and what is allowed.
     """
-    points = checked_seeds(seeds)
-    states, signs = _states(points)
+    from .stepping_layout import states_of
+
+    states, signs = states_of(checked_seeds(seeds))
     return _integrate(
         system,
         psi,
@@ -173,8 +160,8 @@ def _integrate(
         return joined([])
     function = field(psi)
     buffer, clock, offsets, ends, codes, evaluations = integrate(
-        np.ascontiguousarray(states),
-        np.ascontiguousarray(signs),
+        states,
+        signs,
         shared,
         function.address,
         min(t_max * rate, 1e300),
@@ -186,7 +173,7 @@ def _integrate(
         0.0 if samples == "ends" else DRAWN * pixel,
     )
     clock *= (-1.0 if backward else 1.0) / rate
-    _warm.add(psi)
+    _warm.add(psi.family)
     return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
 
 
@@ -199,7 +186,13 @@ def warm(psi: Psi | None = None) -> None:
 
 def is_warm(psi: Psi | None = None) -> bool:
     """Whether trajectories (with this Psi, if it is given) run at once, without compiling or loading."""
-    return bool(_warm) if psi is None else psi in _warm
+    if psi is None or psi.family not in _warm:
+        return psi is None and bool(_warm)
+    if psi.family != "custom":
+        return True
+    from .stepping_fields import is_compiled
+
+    return is_compiled(psi)
 
 
 def continuation(
@@ -234,7 +227,7 @@ def continuation(
     Returns
     -------
     Trajectories
-        The first point of each is on the equator, at theta, with the time of the second.
+        Each starts less than 1e-6 (in |p|) above the equator, at theta.
 
     Raises
     ------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
@@ -69,13 +70,13 @@ class Trajectories:
     def points(self) -> list[Array]:
         """One (m, 2) array a trajectory."""
         at = self.offsets.tolist()
-        return [self.buffer[i:j] for i, j in zip(at, at[1:], strict=False)]
+        return [self.buffer[i:j] for i, j in itertools.pairwise(at)]
 
     @cached_property
     def times(self) -> list[Array]:
         """One (m,) array a trajectory."""
         at = self.offsets.tolist()
-        return [self.clock[i:j] for i, j in zip(at, at[1:], strict=False)]
+        return [self.clock[i:j] for i, j in itertools.pairwise(at)]
 
     @cached_property
     def status(self) -> tuple[Status, ...]:

@@ -1,0 +1,80 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import codim2_core as c2
+from codim2_app import glyphs
+from codim2_app.packing import EXTENT, STEP, pack, quantise, unpack
+
+LINE = np.column_stack([np.linspace(0, 1, 11), np.zeros(11)])
+
+
+def test_join_never_mixes_pieces():
+    offsets, points = glyphs.join([LINE, LINE[:3] + 5])
+    assert offsets.tolist() == [0, 11, 14]
+    assert points[11].tolist() == [5, 5]
+
+
+def test_arrowhead_sits_at_half_length_and_points_with_time():
+    heads = glyphs.arrowheads(*glyphs.join([LINE, LINE[::-1] + (0, 3)]))
+    assert heads == pytest.approx(np.array([[0.5, 0, 0], [0.5, 3, math.pi]]))
+
+
+def test_arrowheads_skip_short_empty_and_resting_pieces():
+    short, rest, none, single = LINE * 0.01, np.ones((4, 2)), np.zeros((0, 2)), np.ones((1, 2))
+    heads = glyphs.arrowheads(*glyphs.join([none, short, single, LINE, rest, none]), where=(0.25, 0.75))
+    assert heads[:, 0] == pytest.approx([0.25, 0.75])
+    assert glyphs.arrowheads(*glyphs.join([])).shape == (0, 3)
+
+
+@given(st.lists(st.floats(0, 6.28), min_size=1, max_size=8).map(sorted))
+def test_labels_are_apart(angles):
+    moved = glyphs.spread(angles)
+    for i, angle in enumerate(moved):
+        following = moved[(i + 1) % len(moved)] + (2 * math.pi if i + 1 == len(moved) else 0)
+        assert following - angle > 0.8 * glyphs.LABEL_GAP
+
+
+def test_equator_marks_tell_the_types_apart():
+    q = glyphs.equator_columns(c2.equator_equilibria(c2.ELinear(-0.3, 0, -1, (0.5, 0))))
+    assert q["label"] == ["Q₁", "Q₂", "Q₃", "Q₄"]
+    assert q["filled"] == [int(v < 0) for v in q["lambda_rho"]]
+    assert len({(s, f) for s, f in zip(q["shape"], q["filled"], strict=True)}) >= 2
+    for shape, rate in zip(q["shape"], q["lambda_theta"], strict=True):
+        assert shape == ("circle" if rate < 0 else "diamond")
+
+
+def test_equator_arrows_follow_theta():
+    system = c2.ELinear(-2, 0.3, -1, (-0.5, 0.1))
+    at = system.at()
+    arrows = glyphs.equator_arrows(c2.equator_equilibria(system))
+    assert len(arrows) >= 2
+    for x, y, angle in arrows:
+        assert np.dot(at.U((x, y)), (-y, x)) * np.dot((math.cos(angle), math.sin(angle)), (-y, x)) > 0
+
+
+def test_closed_equator_turns_the_right_way():
+    for b in (1.0, -1.0):
+        system = c2.ELinear(-1, b, -1)
+        cycle = c2.equator_cycle(system)
+        x, y, angle = glyphs.equator_arrows(c2.equator_equilibria(system), cycle.direction)[0]
+        assert math.copysign(1, x * math.sin(angle) - y * math.cos(angle)) == math.copysign(1, b)
+
+
+def test_packing_round_trip():
+    points = np.random.default_rng(1).uniform(-3, 3, (101, 2))
+    buffer = pack({"id": 3, "words": "θ"}, {"n": np.array([101], np.uint16), "xy": quantise(points)})
+    header, blocks = unpack(buffer)
+    assert (header["id"], header["words"]) == (3, "θ")
+    assert blocks["n"].tolist() == [101]
+    assert np.abs(blocks["xy"].reshape(-1, 2) * STEP - points).max() <= STEP / 2 * 1.001
+
+
+def test_far_points_move_to_the_edge_and_nan_is_refused():
+    assert quantise(np.array([[1e300, -1e300]])).tolist() == [[32767, -32767]]
+    assert pytest.approx(EXTENT) == 32767 * STEP
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        pack({"x": math.nan}, {})

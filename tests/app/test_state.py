@@ -1,0 +1,76 @@
+import math
+from urllib.parse import parse_qs
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from codim2_app.portraits import portraits
+from codim2_app.state import NAMES, NUMBERS, ExplorerState, InputError, build_psi, clean, scene_changes
+
+finite = st.floats(allow_nan=False, allow_infinity=False)
+
+
+def test_defaults_are_the_papers_simCM4():
+    values = ExplorerState().values()
+    assert (values["a"], values["b"], values["d"], values["f1"], values["f2"]) == (-2, 0, -1, -0.5, 0)
+
+
+def test_every_number_declares_symbol_range_and_meaning():
+    for name in NUMBERS:
+        declared = ExplorerState.param[name]
+        low, high = declared.softbounds
+        assert declared.label
+        assert declared.doc
+        assert low < declared.default < high
+
+
+@given(st.fixed_dictionaries({name: finite for name in NUMBERS}))
+def test_query_carries_every_value_exactly(numbers):
+    state = ExplorerState(**numbers, psi="hill", layers=["rho", "inside"], trajectories=7, psi_text="1/(1+s)&?=")
+    query = state.to_query()
+    assert set(parse_qs(query, keep_blank_values=True)) == set(NAMES)
+    read, errors = ExplorerState.from_query(query)
+    assert errors == []
+    assert read.values() == state.values()
+
+
+def test_query_with_bad_values_keeps_the_rest():
+    state, errors = ExplorerState.from_query("a=nan&b=0.25&psi=none&unknown=3&trajectories=1e9&layers=rho,nothing")
+    assert state.b == 0.25
+    assert state.a == -2
+    assert [error.control for error in errors] == ["a", "psi", "trajectories", "layers"]
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf, "", "two", None, [1], "1e999"])
+@pytest.mark.parametrize("name", NUMBERS)
+def test_bad_numbers_name_their_control(name, bad):
+    with pytest.raises(InputError, match="number") as caught:
+        clean(name, bad)
+    assert caught.value.control == name
+
+
+def test_unknown_control_lists_the_known_ones():
+    with pytest.raises(InputError, match="the controls are a, b, d"):
+        clean("c", 1)
+
+
+@pytest.mark.parametrize(("values", "control"), [
+    ({"psi": "custom", "psi_text": "1/(1+"}, "psi_text"),
+    ({"psi": "custom", "psi_text": "import os"}, "psi_text"),
+    ({"psi": "hill", "n": -1.0}, "n"),
+])  # fmt: skip
+def test_bad_psi_is_blamed_on_its_control(values, control):
+    with pytest.raises(InputError) as caught:
+        build_psi({**ExplorerState().values(), **values})
+    assert caught.value.control == control
+
+
+def test_layers_and_preset_reach_no_computation():
+    assert scene_changes(["layers", "preset"], ExplorerState().values()) == {}
+
+
+def test_presets_set_only_known_controls_to_allowed_values():
+    for portrait in portraits():
+        for name, value in portrait["values"].items():
+            assert clean(name, value) == value

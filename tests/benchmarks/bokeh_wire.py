@@ -1,0 +1,95 @@
+"""A browser's end of Bokeh's websocket, without a browser: what the benchmarks and tests of traffic need."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+from urllib.request import urlopen
+
+from tornado.httpclient import HTTPRequest
+from tornado.websocket import WebSocketClientConnection, websocket_connect
+
+
+def encoded(value: Any) -> Any:
+    """Write nested dicts as Bokeh's protocol does."""
+    if isinstance(value, dict):
+        return {"type": "map", "entries": [[key, encoded(item)] for key, item in value.items()]}
+    return value
+
+
+class Wire:
+    """One page's connection. `messages` counts what arrived, `bytes` its size."""
+
+    def __init__(self, socket: WebSocketClientConnection, root: str) -> None:
+        self.socket, self.root = socket, root
+        self.count = 0
+        self.messages = 0
+        self.bytes = 0
+        self.document: dict[str, Any] = {}
+
+    @classmethod
+    async def connect(cls, port: int, query: str = "", page: str | None = None) -> Wire:
+        """Open a page (or use its text, fetched before) and the session behind it."""
+        if page is None:
+            page = urlopen(f"http://localhost:{port}/{query}").read().decode()
+        token = re.search(r'"token":"([^"]+)"', page)
+        roots = re.search(r'"roots":\{"(\w+)"', page)
+        assert token is not None
+        assert roots is not None
+        request = HTTPRequest(f"ws://localhost:{port}/ws", headers={"Sec-WebSocket-Protocol": f"bokeh, {token[1]}"})
+        opened = await websocket_connect(request, max_message_size=2**26)
+        opened.protocol.stream.set_nodelay(True)  # as browsers do
+        wire = cls(opened, roots[1])
+        await wire.read()  # ACK
+        await wire.send("PULL-DOC-REQ", {})
+        _, content, _ = await wire.read()
+        wire.document = content["doc"]
+        return wire
+
+    async def send(self, kind: str, content: Any) -> None:
+        """Send one message."""
+        self.count += 1
+        header = {"msgid": f"m{self.count}", "msgtype": kind}
+        for part in (header, {}, content):
+            await self.socket.write_message(json.dumps(part))
+
+    async def read(self) -> tuple[str, Any, list[bytes]]:
+        """Return kind, content and buffers of the next message."""
+        parts = [await self._part() for _ in range(3)]
+        header = json.loads(parts[0])
+        buffers = []
+        for _ in range(header.get("num_buffers", 0)):
+            await self._part()
+            buffers.append(await self._part())
+        self.messages += 1
+        return header["msgtype"], json.loads(parts[2]), buffers
+
+    async def _part(self) -> Any:
+        part = await self.socket.read_message()
+        if part is None:
+            raise ConnectionError("the server closed the connection")
+        self.bytes += len(part)
+        return part
+
+    async def event(self, name: str, model: str, **values: Any) -> None:
+        """Send one model event, as BokehJS does."""
+        entries = [["model", {"id": model}], *([key, encoded(value)] for key, value in values.items())]
+        data = {"type": "event", "name": name, "values": {"type": "map", "entries": entries}}
+        await self.send(
+            "PATCH-DOC", {"events": [{"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": data}]}
+        )
+
+    async def frame(self, number: int, **values: Any) -> bytes:
+        """Ask the explorer for one frame and return its buffer."""
+        await self.event("data_event", self.root, data={"id": number, "set": values})
+        return await self.patch()
+
+    async def patch(self) -> bytes:
+        """Return the first buffer of the next patch, past acknowledgements."""
+        while True:
+            kind, content, buffers = await self.read()
+            if kind == "PATCH-DOC":
+                return buffers[0] if buffers else b""
+            if kind == "ERROR":
+                raise RuntimeError(f"the server reports an error: {content['text']}")

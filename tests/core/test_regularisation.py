@@ -1,0 +1,393 @@
+"""Psi and e_Psi against 50-digit arithmetic, and R1 to R5."""
+
+import math
+import pickle
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from mpmath import mpf
+
+from codim2_core import psi as constructors
+from codim2_core.regularisation import FAMILIES, Psi
+
+ULP = 2.0**-52
+
+
+def _hill(n):
+    n = mpf(n)
+    return (
+        constructors.hill(float(n)),
+        lambda s: 3 / (3 + (4 * s) ** n),
+        lambda s: -12 * n * (4 * s) ** (n - 1) / (3 + (4 * s) ** n) ** 2,
+    )
+
+
+def _tanh_slope(s):
+    if s < mpf(10) ** -15:  # where the closed form cancels
+        return mpf(-1) / 3 + 2 * s / 15
+    z = mpmath.sqrt(s)
+    return -(s / mpmath.sinh(z) ** 2) * (z * mpmath.coth(z) - 1) / s
+
+
+# Each Psi with itself and its derivative in mpmath.
+EXACT = {
+    "constant": (constructors.constant(), lambda s: mpf(1), lambda s: mpf(0)),
+    "rational": (constructors.rational(), lambda s: 1 / (1 + s), lambda s: -1 / (1 + s) ** 2),
+    "exponential": (constructors.exponential(), lambda s: mpmath.exp(-s), lambda s: -mpmath.exp(-s)),
+    "tanh": (
+        constructors.tanh(),
+        lambda s: s / mpmath.sinh(mpmath.sqrt(s)) ** 2 if s else mpf(1),
+        _tanh_slope,
+    ),
+    **{f"hill {n}": _hill(n) for n in (0.01, 0.3, 1, 1.5, 2, 3, 4, 17.25, 200, 1000)},
+    "custom exp": (constructors.custom("exp(-s)"), lambda s: mpmath.exp(-s), lambda s: -mpmath.exp(-s)),
+    "custom square": (
+        constructors.custom("1/(1+s)**2"),
+        lambda s: 1 / (1 + s) ** 2,
+        lambda s: -2 / (1 + s) ** 3,
+    ),
+    "custom half": (
+        constructors.custom("(1+s)/(1+2*s)"),
+        lambda s: (1 + s) / (1 + 2 * s),
+        lambda s: -1 / (1 + 2 * s) ** 2,
+    ),
+    "custom hill": (constructors.custom("3/(3+(4*s)**40)"), *_hill(40)[1:]),
+    "custom rising": (
+        constructors.custom("1+0.1*sin(s)*exp(-s)"),
+        lambda s: 1 + mpf(0.1) * mpmath.sin(s) * mpmath.exp(-s),
+        lambda s: mpf(0.1) * (mpmath.cos(s) - mpmath.sin(s)) * mpmath.exp(-s),
+    ),
+}
+ALL = pytest.mark.parametrize("name", EXACT)
+BUILT_IN = pytest.mark.parametrize("name", [name for name in EXACT if not name.startswith("custom")])
+LOG_ZETA = st.floats(-160.0, 8.0)
+ZETAS = np.concatenate(
+    [10.0 ** np.linspace(-160, -3, 30), 10.0 ** np.linspace(-3, 3, 120), 10.0 ** np.linspace(3, 8, 20)]
+)
+
+
+def kappa(name, zeta) -> float:
+    """-s Psi'/Psi, in size: the condition of Psi under a change of s."""
+    s = mpf(zeta) ** 2
+    _, value, slope = EXACT[name]
+    return abs(float(s * slope(s) / value(s)))
+
+
+@pytest.fixture(autouse=True)
+def _fifty_digits():
+    with mpmath.workdps(50):
+        yield
+
+
+@ALL
+def test_value_and_slope(name):
+    psi, exact, slope = EXACT[name]
+    s = ZETAS**2
+    for x, value, rate in zip(s, psi(s), psi.derivative(s), strict=True):
+        if x < 1e-300:  # subnormal
+            continue
+        k = kappa(name, math.sqrt(x))
+        assert value == pytest.approx(float(exact(mpf(x))), rel=(6 + 3 * k) * ULP, abs=1e-300), x
+        assert psi(float(x)) == pytest.approx(value, rel=(4 + 2 * k) * ULP, abs=1e-300)
+        # the rounding of a typed formula's own terms, and that of a power's exponent
+        own = (
+            8 * ULP * float(exact(mpf(x))) if name == "custom half" else 0.02 * ULP if name == "custom rising" else 0.0
+        )
+        tolerance = (30 + 6 * k + 3 * psi.parameter) * ULP
+        assert rate == pytest.approx(float(slope(mpf(x))), rel=tolerance, abs=max(own, 1e-290)), x
+        assert psi.derivative(float(x)) == pytest.approx(rate, rel=tolerance, abs=max(own, 1e-290)), x
+
+
+@BUILT_IN
+def test_small_and_large_s(name):
+    psi, exact, _ = EXACT[name]
+    for x in (0.0, 5e-324, 1e-300, 1e-20, 1e20, 1e200, 1e300):
+        assert psi(x) == pytest.approx(float(exact(mpf(x))), rel=1e-12, abs=1e-300)
+        assert not math.isnan(psi.derivative(x))
+        assert psi.derivative(x) <= 0.0
+    assert psi(math.inf) == psi.limit
+    assert psi(np.array([math.inf, 1.0]))[0] == psi.limit
+    n = psi.parameter
+    at_zero = {"constant": 0.0, "rational": -1.0, "exponential": -1.0, "tanh": -1 / 3}
+    expected = at_zero.get(name, -4 / 3 if n == 1 else 0.0 if n > 1 else -math.inf)
+    assert psi.derivative(0.0) == pytest.approx(expected, rel=1e-15)
+
+
+@ALL
+def test_modulus_complement_and_jacobian(name):
+    psi, exact, _ = EXACT[name]
+    modulus, complement = psi.modulus(ZETAS), psi.complement(ZETAS)
+    radial, tangential = psi.jacobian_factors(ZETAS)
+    for z, m, c, r, t in zip(ZETAS, modulus, complement, radial, tangential, strict=True):
+        s = mpf(z) ** 2
+        value, k = exact(s), kappa(name, z)
+        length = mpmath.sqrt(s + value)
+        share = float(value / (s + value))  # how much of zeta^2 + Psi is Psi
+        assert m == pytest.approx(float(z / length), rel=(4 + 3 * k * share) * ULP)
+        assert c == pytest.approx(share, rel=(8 + 3 * k) * ULP, abs=1e-300)
+        assert t == pytest.approx(float(1 / length), rel=(4 + 3 * k * share) * ULP)
+        reference = float((value - s * EXACT[name][2](s)) / length**3)
+        # where Psi rises, 1 + kappa cancels; elsewhere it does not
+        assert r == pytest.approx(reference, rel=(40 + 8 * k) * ULP, abs=1e-290)
+    assert np.isfinite(radial).all()
+    assert np.isfinite(tangential).all()
+    assert psi.jacobian_factors(0.0) == pytest.approx((1.0, 1.0), rel=1e-15)
+    for z in (1e100, 1e160, 1.7e308):
+        assert all(math.isfinite(f) and f >= 0.0 for f in psi.jacobian_factors(z))
+        assert psi.modulus(z) == 1.0
+
+
+@ALL
+@given(log_zeta=LOG_ZETA)
+@example(log_zeta=-160.0)
+@example(log_zeta=8.0)
+@example(log_zeta=math.log10(0.5))
+@settings(max_examples=60, deadline=None)
+def test_radius_inverts_modulus(name, log_zeta):
+    """Condition: zeta has the relative error of w = m/sqrt(c), divided by 1 + kappa >= 1 where Psi falls."""
+    psi, exact, _ = EXACT[name]
+    zeta = 10.0**log_zeta
+    with mpmath.workdps(50):
+        s = mpf(zeta) ** 2
+        value = exact(s)
+        modulus, complement = mpmath.sqrt(s / (s + value)), value / (s + value)
+        k = kappa(name, zeta)
+    if complement < 1e-290:
+        return  # Psi has underflowed: the saturation that the module documents
+    modulus, complement = float(modulus), float(complement)
+    allowed = 8 * ULP * (2 + 3 * k) / (1 + k)
+    assert psi.radius(modulus, complement) == pytest.approx(zeta, rel=allowed)
+    vector = psi.radius(np.array([modulus, 0.5]), np.array([complement, 0.75]))
+    assert vector[0] == pytest.approx(zeta, rel=allowed)
+    if modulus < 1.0:
+        # the modulus alone knows 1 - |e| to half an ulp of 1
+        assert psi.radius(modulus) == pytest.approx(zeta, rel=allowed + 4 * ULP / complement / (1 + k))
+    # and back through the public functions
+    if psi.complement(zeta) > 1e-290:
+        assert psi.radius(psi.modulus(zeta), psi.complement(zeta)) == pytest.approx(zeta, rel=2 * allowed)
+
+
+@ALL
+@pytest.mark.parametrize("distance", [1e-15, 1e-12, 1e-9, 1e-5, 0.3])
+def test_up_to_the_equator(name, distance):
+    """|e| = 1 - distance, complement known exactly: the root in 50 digits is met to few ulp."""
+    psi, exact, _ = EXACT[name]
+    m = mpf(1) - mpf(distance)
+    complement = distance * (2.0 - distance)
+    zeta = psi.radius(float(m), complement)
+    s = mpf(zeta) ** 2
+    w = m / mpmath.sqrt(mpf(distance) * (2 - mpf(distance)))
+    residual = mpf(zeta) / mpmath.sqrt(exact(s)) / w - 1
+    k = kappa(name, zeta)
+    assert abs(float(residual)) / (1 + k) <= 8 * ULP * (2 + 3 * k) / (1 + k)
+
+
+@ALL
+def test_arrays_and_floats_agree(name):
+    psi, *_ = EXACT[name]
+    m = np.linspace(0.0, 0.999, 97)
+    zeta = psi.radius(m)
+    assert np.all(np.diff(zeta) > 0.0)
+    assert zeta[0] == 0.0
+    for x, z in zip(m, zeta, strict=True):
+        single = psi.radius(float(x))
+        assert isinstance(single, float)
+        assert single == pytest.approx(z, rel=1e-14)
+    assert isinstance(psi(0.3), float)
+    assert isinstance(psi(np.float64(0.3)), float)
+    assert isinstance(psi.derivative(1), float)
+    assert isinstance(psi.modulus(0.3), float)
+    assert all(isinstance(f, float) for f in psi.jacobian_factors(0.3))
+    grid = m.reshape(-1, 1)
+    assert psi.radius(grid).shape == psi.modulus(grid).shape == psi(grid).shape == psi.derivative(grid).shape == (97, 1)
+    assert psi.radius(np.zeros(0)).shape == psi(np.zeros(0)).shape == (0,)
+
+
+@ALL
+def test_refused_arguments(name):
+    psi, *_ = EXACT[name]
+    for call in (psi, psi.derivative, psi.modulus, psi.radius, psi.complement, psi.jacobian_factors):
+        for bad in (-1e-9, -math.inf, math.nan, [0.5, -0.5], np.array([0.1, math.nan])):
+            with pytest.raises(ValueError, match="allowed is"):
+                call(bad)
+    for bad in (1.0, 1.5, math.inf, [0.5, 1.0]):
+        with pytest.raises(ValueError, match=r"0 <= \|e_Psi\| < 1"):
+            psi.radius(bad)
+    for bad in (0.0, -1e-9, 1.5, math.nan):
+        with pytest.raises(ValueError, match="complement"):
+            psi.radius(1.0, bad)
+    with pytest.raises(ValueError, match="equal shapes"):
+        psi.radius([0.1, 0.2], 0.5)
+    for call in (psi.modulus, psi.derivative, psi.complement, psi.jacobian_factors):
+        with pytest.raises(ValueError, match="inf"):
+            call(math.inf)
+    with pytest.raises(ValueError, match="give numbers"):
+        psi("text")  # type: ignore[arg-type]
+
+
+@ALL
+def test_contract_of_the_family(name):
+    psi, *_ = EXACT[name]
+    assert psi.family in FAMILIES
+    assert psi.family == name.split()[0]
+    assert (psi.expression is None) == (psi.family != "custom")
+    again = constructors.make(psi.family, psi.parameter, psi.text)
+    assert again == psi
+    assert hash(again) == hash(psi)
+    copy = pickle.loads(pickle.dumps(psi))
+    assert copy == psi
+    assert copy.radius(0.5) == psi.radius(0.5)
+    assert psi.text in repr(psi)
+    with pytest.raises(AttributeError):
+        psi.text = "2"  # type: ignore[misc]
+    check = psi.check()
+    assert [c.name for c in check] == ["R1", "R2", "R3", "R4", "R5"]
+    assert all((c.where is None) == c.holds and c.sentence for c in check)
+    smooth = psi.family != "hill" or psi.parameter.is_integer()
+    assert check.R1.holds == smooth
+    assert check.R2.holds
+    assert check.R3.holds
+    assert check.R4.holds == (name != "custom rising")
+    assert check.R5.holds == smooth
+    assert check.holds == all(check)
+
+
+def test_text_is_the_formula():
+    for name, (psi, *_) in EXACT.items():
+        if psi.family != "tanh":
+            custom = constructors.custom(psi.text)
+            assert custom(0.37) == pytest.approx(psi(0.37), rel=1e-14), name
+    assert constructors.hill(2.0).text == "3/(3+(4*s)**2)"
+
+
+def test_tanh_is_tanh():
+    """fig:component."""
+    zeta = np.array([1e-160, 1e-8, 0.3, 1.0, 5.0, 18.0])
+    psi = constructors.tanh()
+    assert psi.modulus(zeta) == pytest.approx(np.tanh(zeta), rel=4 * ULP)
+    radial, tangential = psi.jacobian_factors(zeta)
+    assert radial == pytest.approx(1 / np.cosh(zeta) ** 2, rel=50 * ULP)
+    assert tangential == pytest.approx(np.tanh(zeta) / zeta, rel=4 * ULP)
+
+
+def test_case_three_trace_and_determinant():
+    """At e = (1/2, 0) tr J = -71 + 32.25 n and det J = 147 + 36.75 n (a=172, b=186, d=-200)."""
+    for n in (1, 2, 3, 4, 7.5):
+        psi = constructors.hill(n)
+        radial, tangential = psi.jacobian_factors(psi.radius(0.5))
+        jacobian = np.array([[172.0, -186.0], [186.0, -200.0]]) @ np.diag([radial, tangential])
+        scale = psi.radius(0.5) / 0.5  # the statement is for sqrt(zeta^2 + Psi) J
+        assert np.linalg.det(jacobian) * scale**2 == pytest.approx(147 + 36.75 * n, rel=1e-11)
+        assert np.trace(jacobian) * scale == pytest.approx(-71 + 32.25 * n, rel=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("text", "fails"),
+    [
+        ("1/(1+s)**2", {}),
+        ("exp(-s**2)", {}),
+        ("1-tanh(s)", {}),
+        ("2/(1+exp(s))", {}),
+        ("1/cosh(s)", {}),
+        ("1/cosh(sqrt(s))", {}),
+        ("1-0.9*tanh(s)", {}),
+        ("1-2/pi*atan(s)", {}),
+        ("1/(1+s**40)", {}),
+        ("1/(1+1e6*s)", {}),
+        ("1/(1+1e-6*s)", {}),
+        ("exp(-s)*(1+s)", {}),
+        ("2/(1+s)", {"R2": 0.0}),
+        ("1+s/(1+s)", {"R4": 0.0}),
+        ("1/(1+s**1.5)", {"R1": 0.0, "R5": math.inf}),
+        ("1/(1+sqrt(s))", {"R1": 0.0, "R5": math.inf}),
+        ("exp(-s**3.5)", {"R1": 0.0}),
+        ("1/sqrt(1+s)", {"R5": math.inf}),
+        ("1/(1+log(1+s))", {"R5": math.inf}),
+        ("1+s**0.5", {"R1": 0.0, "R4": 0.0, "R5": math.inf}),
+        ("1/(1+s+0.1*abs(s-1))*1.1", {"R1": 1.0}),
+        ("exp(1-abs(s-1))", {"R1": 1.0, "R4": 0.0}),
+        ("1+0.2*sin(log(1+s))", {"R4": 0.0, "R5": math.inf}),
+    ],
+)
+def test_conditions_of_typed_text(text, fails):
+    check = constructors.custom(text).check()
+    assert {c.name: c.where for c in check if not c.holds} == pytest.approx(fails, abs=1e-9)
+
+
+def test_where_psi_begins_to_rise():
+    """Psi = 1 - s/(1+s)^2/2 falls up to s = 1 and rises from there."""
+    check = constructors.custom("1-0.5*s/(1+s)**2").check()
+    assert not check.R4.holds
+    assert check.R4.where == pytest.approx(1.0, abs=1e-9)
+    assert [c.name for c in check if not c.holds] == ["R4"]
+
+
+@given(a=st.floats(0.02, 50.0), p=st.integers(1, 6), c=st.floats(0.0, 0.9))
+@settings(max_examples=25, deadline=None)
+def test_no_false_alarm_in_a_family_that_meets_all(a, p, c):
+    psi = constructors.custom(f"{c!r}+(1-{c!r})/(1+{a!r}*s)**{p}")
+    assert [x.sentence for x in psi.check() if not x.holds] == []
+    assert psi.limit == pytest.approx(c, abs=1e-14)
+    m = np.linspace(0.0, 0.9999, 50)
+    assert psi.modulus(psi.radius(m)) == pytest.approx(m, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("1-s", "is 0 at s = 1"),
+        ("(1-s+abs(1-s))/2", "is 0 at s = 1"),
+        ("cos(s)", "at s = 1.5708"),
+        ("0", "is 0 at s = 0"),
+        ("-1", "is -1 at s = 0"),
+        ("sqrt(s)", "is 0 at s = 0"),
+        ("1/s", "is inf at s = 0"),
+        ("log(s)", "is -inf at s = 0"),
+        ("exp(s)", "is inf at s = 7"),
+        ("s/sinh(sqrt(s))**2", "is nan at s = 0"),
+        ("1+s", "rises to 0.707"),
+        ("1+s**2", "rises to"),
+        ("(2+sin(s))/2", "does not rise"),
+        ("1+2*exp(-20*(s-1)**2)", "does not rise"),
+        ("1+", "column 3"),
+        ("1/(1+t)", "'t' is not known"),
+        ("s.real", "column 2"),
+    ],
+)
+def test_unusable_text(text, message):
+    with pytest.raises(ValueError, match=r".") as caught:
+        constructors.custom(text)
+    assert message in str(caught.value)
+
+
+@pytest.mark.parametrize("n", [0, -1, 1001, math.nan, math.inf, "three", None])
+def test_unusable_n(n):
+    with pytest.raises(ValueError, match="n is"):
+        constructors.hill(n)
+
+
+def test_unknown_family():
+    with pytest.raises(ValueError, match="choose one of constant"):
+        constructors.make("sigmoid")
+
+
+def test_saturation_is_as_documented():
+    for psi, by_modulus, by_complement in (
+        (constructors.exponential(), 5.7, 26.0),
+        (constructors.tanh(), 18.7, 354.0),
+    ):
+        assert psi.modulus(by_modulus) < 1.0
+        assert psi.modulus(1.1 * by_modulus) == 1.0
+        assert psi.complement(by_complement) > 0.0
+        assert psi.radius(1.0, psi.complement(by_complement)) == pytest.approx(by_complement, rel=1e-13)
+        assert psi.complement(1.1 * by_complement) == 0.0
+
+
+def test_custom_beyond_the_table():
+    psi = constructors.custom("0.5+0.5/(1+s)")
+    for zeta in (1e-250, 1e-30, 1e9, 1e30, 1e100):
+        assert psi.radius(psi.modulus(zeta), psi.complement(zeta)) == pytest.approx(zeta, rel=1e-13)
+    assert isinstance(psi, Psi)

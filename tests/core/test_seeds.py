@@ -1,0 +1,54 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from codim2_core.seeds import checked_seeds, structured_seeds
+
+
+@given(st.integers(0, 400), st.floats(1.1, 5.0))
+def test_structured_seeds_are_that_many_in_view_and_off_the_equator(count, view):
+    seeds = structured_seeds(count, view)
+    radius = np.hypot(seeds[:, 0], seeds[:, 1])
+    assert seeds.shape == (count, 2)
+    assert ((radius < 0.95) | ((radius > 1.0) & (radius < view))).all()
+    assert len(np.unique(seeds.round(12), axis=0)) == count
+
+
+@pytest.mark.parametrize("count", [32, 64, 128])
+def test_structured_seeds_are_symmetric_about_both_axes_and_lie_on_neither(count):
+    seeds = {tuple(p) for p in structured_seeds(count).round(12).tolist()}
+    assert {(-x, y) for x, y in seeds} == seeds == {(x, -y) for x, y in seeds}
+    assert min(min(abs(x), abs(y)) for x, y in seeds) > 0.01
+
+
+@pytest.mark.parametrize(
+    ("seeds", "says"),
+    [
+        ([1.0, 2.0], "shape (2,)"),
+        ([[1, 2, 3]], "shape (1, 3)"),
+        ([[0.1, np.nan]], "seed 0"),
+        ([[0.1, 0.2], [np.inf, 0]], "seed 1"),
+        ("here", "shape (k, 2)"),
+        ([[1], [2, 3]], "shape (k, 2)"),
+    ],
+)
+def test_bad_seeds_are_refused_with_a_remedy(seeds, says):
+    with pytest.raises(ValueError, match=".") as caught:
+        checked_seeds(seeds)
+    assert says in str(caught.value)
+
+
+@pytest.mark.parametrize("count", [-1, 2001])
+def test_the_number_of_seeds_is_bounded(count):
+    with pytest.raises(ValueError, match="0 to 2000"):
+        structured_seeds(count)
+
+
+def test_checked_seeds_are_a_copy_that_cannot_be_changed():
+    given_ = np.array([[0.1, 0.2]])
+    seeds = checked_seeds(given_)
+    given_[0, 0] = 5.0
+    assert seeds[0, 0] == 0.1
+    assert not seeds.flags.writeable
+    assert checked_seeds([]).shape == (0, 2)
