@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import socket
 from collections.abc import Sequence
 
 
@@ -24,24 +25,21 @@ def parser() -> argparse.ArgumentParser:
     )
     serve.add_argument("--processes", type=int, default=1, help="server processes that share the port")
     serve.add_argument("--threads", type=int, default=None, help="threads that answer requests in a process")
-    serve.add_argument(
-        "--show", action=argparse.BooleanOptionalAction, default=False, help="open a browser window"
-    )
+    serve.add_argument("--show", action=argparse.BooleanOptionalAction, default=False, help="open a browser window")
     return top
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit status."""
     chosen = parser().parse_args(arguments)
-    from .main import make_server  # heavy, and not needed for --help
-
     try:
-        server = make_server(
-            chosen.port, chosen.address, chosen.allow_origin, chosen.processes, chosen.threads
-        )
+        _try_to_listen(chosen.address, chosen.port)
     except OSError as error:
         print(f"codim2: cannot listen on {chosen.address}:{chosen.port}: {error.strerror}. Give another --port.")
         return 1
+    from .main import make_server  # heavy, and not needed for --help
+
+    server = make_server(chosen.port, chosen.address, chosen.allow_origin, chosen.processes, chosen.threads)
     host = "localhost" if chosen.address in ("0.0.0.0", "::") else chosen.address
     print(f"codim2: the explorer is at http://{host}:{server.port}/  (stop with Ctrl+C)", flush=True)
     server.start()
@@ -52,6 +50,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("codim2: stopped")
     return 0
+
+
+def _try_to_listen(address: str, port: int) -> None:
+    """Raise OSError before anything heavy is loaded if the address cannot be listened on."""
+    family, kind, _, _, place = socket.getaddrinfo(address, port, type=socket.SOCK_STREAM)[0]
+    with socket.socket(family, kind) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        probe.bind(place)
 
 
 if __name__ == "__main__":

@@ -46,8 +46,8 @@ def make_figure() -> Plot:
     """
     plot = Plot(
         name="picture",
-        x_range=Range1d(-VIEW, VIEW, syncable=False),
-        y_range=Range1d(-VIEW, VIEW, syncable=False),
+        x_range=Range1d(start=-VIEW, end=VIEW, syncable=False),
+        y_range=Range1d(start=-VIEW, end=VIEW, syncable=False),
         output_backend="canvas",
         sizing_mode="stretch_both",
         min_border=0,
@@ -73,18 +73,19 @@ def make_figure() -> Plot:
                                 line_width=2.0), x=[0.0], y=[0.0], r=[1.0])  # fmt: skip
     _add(plot, "sense", Scatter(x="x", y="y", angle="angle", marker="triangle", size=10,
                                 fill_color=LIGHT["equator"], line_color=None), x=[], y=[], angle=[])  # fmt: skip
-    equator = _add(plot, "equator", Scatter(x="x", y="y", marker="marker", size="size", fill_color="fill",
-                                            line_color="colour", line_width=2.4), **_columns("label_x", "label_y", "size"))  # fmt: skip
-    critical = _add(plot, "critical", Scatter(x="x", y="y", marker="marker", size=15, fill_color="fill",
-                                              line_color="colour", line_width=2.6), **_columns())  # fmt: skip
-    for name, size in (("equator", "15px"), ("critical", "16px")):
-        source = (equator if name == "equator" else critical).data_source
-        at = ("label_x", "label_y", 0, 0) if name == "equator" else ("x", "y", 13, -11)
-        text = Text(x=at[0], y=at[1], x_offset=at[2], y_offset=at[3], text="text", text_color=LIGHT["ink"],
-                    text_font=value(FONT), text_font_size=size, text_font_style="bold",
-                    text_align="center" if name == "equator" else "left", text_baseline="middle",
-                    background_fill_color=LIGHT["page"], background_fill_alpha=0.72, padding=2, border_radius=3)  # fmt: skip
-        _freeze(plot.add_glyph(source, text, name=f"text:{name}"))
+    marks = {"x": "x", "y": "y", "marker": "marker", "fill_color": "fill", "line_color": "colour"}
+    equator = _add(plot, "equator", Scatter(size="size", line_width=2.4, **marks),
+                   **_columns("label_x", "label_y", "size"))  # fmt: skip
+    critical = _add(plot, "critical", Scatter(size=15, line_width=2.6, **marks), **_columns())
+    beside = {"text_align": "left", "x": "x", "y": "y", "x_offset": 13, "y_offset": -11}
+    around = {"text_align": "center", "x": "label_x", "y": "label_y"}
+    for renderer, size, place in ((equator, "15px", around), (critical, "16px", beside)):
+        text = Text(
+            text="text", text_color=LIGHT["ink"], text_font=value(FONT), text_font_size=size, text_font_style="bold",
+            text_baseline="middle", background_fill_color=LIGHT["page"], background_fill_alpha=0.72, **place,
+        )  # fmt: skip
+        text.update(padding=2, border_radius=3)
+        _freeze(plot.add_glyph(renderer.data_source, text, name=f"text:{renderer.name}"))  # type: ignore[arg-type]
     pan, wheel = PanTool(), WheelZoomTool(modifiers="ctrl")
     plot.add_tools(
         pan, wheel, BoxZoomTool(match_aspect=True), ResetTool(), SaveTool(),
@@ -101,9 +102,9 @@ def _columns(*more: str) -> dict[str, list[Any]]:
     return {name: [] for name in ("x", "y", "marker", "fill", "colour", "text", *more)}
 
 
-def _add(plot: Plot, name: str, glyph: Glyph, **columns: list) -> GlyphRenderer:
+def _add(plot: Plot, name: str, glyph: Glyph, **columns: Any) -> GlyphRenderer:
     """Add a renderer with a named source; a glyph neither fades when something else is selected nor when hovered."""
-    return _freeze(plot.add_glyph(ColumnDataSource(columns, name=name, syncable=False), glyph, name=name))
+    return _freeze(plot.add_glyph(ColumnDataSource(data=columns, name=name, syncable=False), glyph, name=name))
 
 
 def _freeze(renderer: GlyphRenderer) -> GlyphRenderer:

@@ -181,9 +181,7 @@ def critical_columns(critical: Sequence[Any]) -> dict[str, list[Any]]:
         "determinant": [float(c.determinant) for c in critical],
         "discriminant": [float(c.discriminant) for c in critical],
         "eigenvalues": [[[float(v.real), float(v.imag)] for v in np.asarray(c.eigenvalues)] for c in critical],
-        "slow_flow": [
-            [] if c.slow_flow is None else [float(v) for v in np.atleast_1d(c.slow_flow)] for c in critical
-        ],
+        "slow_flow": [[] if c.slow_flow is None else [float(v) for v in np.atleast_1d(c.slow_flow)] for c in critical],
     }
 
 

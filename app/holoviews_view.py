@@ -43,7 +43,7 @@ def elements(scene: Scene) -> dict[str, Any]:
     return made
 
 
-def holoviews(scene: Scene) -> hv.Overlay:
+def holoviews(scene: Scene) -> Any:
     """Return the picture of a scene as an overlay.
 
     Parameters
@@ -62,10 +62,12 @@ def holoviews(scene: Scene) -> hv.Overlay:
     >>> len(picture)
     10
     """
-    options: dict[str, Any] = {"xlim": (-VIEW, VIEW), "ylim": (-VIEW, VIEW)}
-    if hv.Store.current_backend == "bokeh" and "bokeh" in hv.Store.renderers:
-        options |= {"data_aspect": 1, "frame_width": 500, "show_legend": False}
-    return hv.Overlay(list(elements(scene).values())).opts(hv.opts.Overlay(**options))
+    overlay = hv.Overlay(list(elements(scene).values()))
+    if "bokeh" not in hv.Store.renderers:
+        return overlay
+    return overlay.opts(
+        xlim=(-VIEW, VIEW), ylim=(-VIEW, VIEW), data_aspect=1, frame_width=500, show_legend=False, backend="bokeh"
+    )
 
 
 def _circle() -> Any:

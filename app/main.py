@@ -48,7 +48,7 @@ class PromptSocket(WSHandler):
 def _prompt_websockets() -> Iterator[None]:
     """Let a server that is made meanwhile use `PromptSocket`; Bokeh has no option for it."""
     kept = list(per_app_patterns)
-    per_app_patterns[:] = [(path, PromptSocket if path == "/ws" else handler) for path, handler in kept]
+    per_app_patterns[:] = [("/ws", PromptSocket) if route[0] == "/ws" else route for route in kept]
     try:
         yield
     finally:
@@ -92,7 +92,7 @@ def make_server(
     warmup_now = processes == 1
     if warmup_now:
         warmup.start()
-    pn.config.nthreads = threads
+    pn.config.nthreads = threads  # type: ignore[assignment]  # a property of Panel's, with a setter
     with _prompt_websockets():
         server = _server(port, address, allow_origin, processes, options)
     if not warmup_now:

@@ -93,7 +93,7 @@ def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None) 
 
     def control(name: str) -> dict[str, Any]:
         declared = state.param[name]
-        low, high, step = slider_range(*declared.softbounds, values[name])
+        low, high, step = slider_range(declared.softbounds[0], declared.softbounds[1], values[name])
         return {"name": name, "symbol": declared.label, "doc": declared.doc, "value": values[name],
                 "low": low, "high": high, "step": step}  # fmt: skip
 

@@ -136,20 +136,13 @@ def locked_controls(scene: Scene) -> tuple[str, ...]:
     system = scene.system
     if not isinstance(system, ELinear):
         return COEFFICIENTS
-    locked = []
-    for name in COEFFICIENTS:
-        try:
-            system.evolve(**{name: 1.0})
-            fixed = name in ("f1", "f2") and not _plain(system, name)
-        except ValueError:
-            fixed = True
-        if fixed:
-            locked.append(name)
-    return (*locked, "z") if system.m == 0 else tuple(locked)
-
-
-def _plain(system: ELinear, name: str) -> bool:
-    return name in dict(system.parameters) or isinstance(system.f[int(name[1]) - 1], float)
+    named = dict(system.parameters)
+    given = {"a": system.a, "b": system.b, "d": system.d, "f1": system.f[0], "f2": system.f[1]}
+    if system._matrix is not None:  # made by from_matrix: a, b, d follow from the rotation, and f is turned by it
+        given = {}
+    free = {*named, *(name for name, value in given.items() if isinstance(value, float))}
+    locked = tuple(name for name in COEFFICIENTS if name not in free)
+    return locked if system.m else (*locked, "z")
 
 
 def make_frame(

@@ -79,7 +79,9 @@ class ExplorerState(param.Parameterized):
     trajectories = param.Integer(
         64, bounds=(0, MAX_TRAJECTORIES), label="Trajectories", doc="Number of starting points."
     )
-    layers = param.ListSelector(default=list(LAYERS), objects=list(LAYERS), label="Layers", doc="What is drawn.")
+    layers = param.ListSelector(
+        default=list(LAYERS), objects=list(LAYERS), instantiate=True, label="Layers", doc="What is drawn."
+    )
     preset = param.String("", label="Portrait", doc="A figure of the paper; the values start from it.")
 
     def values(self) -> dict[str, Any]:
@@ -113,11 +115,11 @@ class ExplorerState(param.Parameterized):
 
 
 NAMES: tuple[str, ...] = tuple(
-    name for name in ExplorerState.param if name != "name"  # declaration order; `name` is param's own
+    name
+    for name in ExplorerState.param
+    if name != "name"  # declaration order; `name` is param's own
 )
-NUMBERS: tuple[str, ...] = tuple(
-    name for name in NAMES if type(ExplorerState.param[name]) is param.Number
-)
+NUMBERS: tuple[str, ...] = tuple(name for name in NAMES if type(ExplorerState.param[name]) is param.Number)
 
 
 def clean(name: str, value: Any) -> Any:

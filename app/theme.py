@@ -51,7 +51,7 @@ VIEW = 1.75
 REACH = 2.45
 
 #: Radii of the translucent discs that shade the hemisphere; there are more near the centre, so the limb is pale.
-DISCS = tuple(0.06 * k + 0.04 for k in range(16)) + (1.0,)
+DISCS = (*(0.06 * k + 0.04 for k in range(16)), 1.0)
 
 #: Polyline layers from bottom to top: name, colour key, width in px.
 LINES = (

@@ -11,8 +11,9 @@ from typing import Any
 
 import panel as pn
 import param
-from panel.custom import Child, JSComponent
+from panel.custom import JSComponent
 from panel.models.esm import DataEvent, ESMEvent
+from panel.viewable import Child
 
 from codim2_core.systems import ELinear
 
@@ -72,6 +73,19 @@ class ExplorerView(JSComponent):
             **params,
         )
 
+    def get_root(self, doc: Any = None, comm: Any = None, preprocess: bool = True) -> Any:
+        """Return the Bokeh model, without Panel's style sheets, which come from a public host in some set-ups.
+
+        (A page that one server process wrote and another one answers; reused sessions; notebooks.) The explorer's
+        own style sheet is in its markup.
+        """
+        root = super().get_root(doc, comm, preprocess)
+        for model in root.references():
+            sheets = getattr(model, "stylesheets", None)
+            if sheets:
+                model.update(stylesheets=[sheet for sheet in sheets if isinstance(sheet, str)])
+        return root
+
     def _register_events(self, *event_names: str, model: Any, doc: Any, comm: Any) -> None:
         """Listen to the browser.
 
@@ -79,15 +93,15 @@ class ExplorerView(JSComponent):
         held: Panel's scheduling would cost more than the frame. Notebooks, and servers that answer in threads,
         go Panel's way.
         """
-        if comm is None and not pn.state._thread_pool:
+        if comm is None and not pn.state._thread_pool and "data_event" in event_names:
             model.on_event("data_event", self._answer)
         else:
-            super()._register_events("data_event", model=model, doc=doc, comm=comm)
+            super()._register_events(*event_names, model=model, doc=doc, comm=comm)
 
     def _answer(self, event: DataEvent) -> None:
         model = event.model
         if model is not None and model.document is not None:
-            reply = ESMEvent(model=model, data={"frame": self.frames.answer(event.data)})
+            reply = ESMEvent(model=model, data={"frame": self.frames.answer(event.data or {})})
             model.document.callbacks.send_event(reply)
 
     def _handle_msg(self, data: Any) -> None:

@@ -37,7 +37,7 @@ SAFETY, SHRINK, GROW = 0.9, 0.2, 6.0
 # Of the tolerance, for one step: what keeps the error of a whole trajectory below ten times the tolerance (measured
 # on 1000 orbits of SO(2, 1), T = 8: at most 20 times with 1).
 SHARE = 0.1
-FIRST_STEP = 0.6  # times rtol^(1/8): about what the error estimate asks for where |U| = 1
+FIRST_STEP = 1.0  # times rtol^(1/8): about what the error estimate asks for where |U| = 1
 NEAR = 1e-6  # ebar and rho below which a trajectory has reached the equator, for the picture
 EXTREME = 1e-300
 LEAVING, SLOW, OTHER = 1, 2, 4  # marks of lanes to look at
@@ -149,7 +149,7 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
     store, stored = np.empty((1, 64 * n if draw else 2 * n, 3)), 0
     where, length = np.zeros(n, np.int64), np.zeros(n, np.int64)
     ends, codes = np.empty((n, 3)), np.full(n, RUNNING)
-    turn = winding(P)
+    turn, turn_known = 0.0, False
     first = FIRST_STEP * rtol**0.125
     slow = (4.0 * capture) ** 2
     evaluations, following, done = 0, 0, 0
@@ -204,8 +204,11 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
                             code = EQUILIBRIUM
                         elif kind == EQUATOR:
                             code = ARRIVED
-                    if code == RUNNING and 0.0 < w < NEAR and S[K12 + 2 * LANES + k] < 0.0 and turn * P[SIGN + k] < 0.0:
-                        code = SPIRALLED
+                    if code == RUNNING and 0.0 < w < NEAR and S[K12 + 2 * LANES + k] < 0.0:
+                        if not turn_known:
+                            turn, turn_known = winding(P), True
+                        if turn * P[SIGN + k] < 0.0:
+                            code = SPIRALLED
                     if code == RUNNING and stop >= t_max:
                         code = T_MAX
                 if draw:
@@ -229,7 +232,7 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
                 y, _u = dense(S, LANES + k, fraction)
                 w, _u = dense(S, 2 * LANES + k, fraction)
                 r = math.sqrt(x * x + y * y)
-                ends[i, 0], ends[i, 1], ends[i, 2] = x / r, y / r, (1.0 + w) * r - 1.0
+                ends[i, 0], ends[i, 1], ends[i, 2] = x / r, y / r, w
             else:
                 ends[i, 0], ends[i, 1], ends[i, 2] = x, y, w
             evaluations += spent[k] * stages

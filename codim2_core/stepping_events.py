@@ -80,7 +80,7 @@ def left_view(S, lane, view):
         x, _u = dense(S, lane, middle)
         y, _u = dense(S, LANES + lane, middle)
         w, _u = dense(S, 2 * LANES + lane, middle)
-        if (1.0 + w) * max(abs(x), abs(y)) > view:
+        if (1.0 + w) * max(abs(x), abs(y)) > view * math.sqrt(x * x + y * y):
             high = middle
         else:
             low = middle

@@ -14,7 +14,11 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
-from numba import carray, cfunc, njit
+from numba import (
+    carray,  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
+    cfunc,
+    njit,
+)
 
 from .regularisation import Psi
 from .stepping_layout import FIELD, LANES, PARAMETERS, SIGN, WIDTH, bits_of_double, double_of_bits
@@ -24,6 +28,7 @@ TINY = 1e-300
 LOG2_E, LN2_HIGH, LN2_LOW = 1.4426950408889634, 0.6931471803691238, 1.9082149292705877e-10
 # Beyond s = LARGE, w^2 Psi(s) <= Psi(s) |p|^2/LARGE is lost beside |p|^2.
 LARGE = 1e20
+MOST_INTEGER = 255  # of n of the Hill family, for powers by squaring: eight bits
 
 
 @njit(cache=True, fastmath={"contract"}, error_model="numpy", forceinline=True)
@@ -103,6 +108,18 @@ def gain_hill(r2, w, n):
 
 
 @njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
+def gain_hill_integer(r2, w, n):
+    """Psi = 3/(3 + (4 s)^n) for an integer n in 1..MOST_INTEGER, the power by squaring; infinity is a good power."""
+    w2 = w * w
+    base = 4.0 * r2 / max(w2, TINY)
+    power = 1.0
+    for bit in range(8):
+        power = power * base if (n >> bit) & 1 else power
+        base = base * base
+    return 1.0 / math.sqrt(max(r2 + 3.0 * w2 / (3.0 + power), TINY))
+
+
+@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
 def arguments(S, P, lane):
     """``|p|^2`` and ebar (0 outside) in one lane: what a gain depends on."""
     x, y = S[lane], S[lane + LANES]
@@ -156,6 +173,14 @@ def _hill(state, out, parameters):
         put(S, D, P, lane, gain_hill(r2, w, P[5]))
 
 
+def _hill_integer(state, out, parameters):
+    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
+    n = int(P[5])
+    for lane in range(LANES):
+        r2, w = arguments(S, P, lane)
+        put(S, D, P, lane, gain_hill_integer(r2, w, n))
+
+
 def _custom(psi):
     """Make a field for Psi given as a compiled scalar function of s."""
 
@@ -180,6 +205,7 @@ _FAMILIES = {
     "exponential": _exponential,
     "tanh": _tanh,
     "hill": _hill,
+    "hill, integer n": _hill_integer,
 }
 
 
@@ -230,4 +256,6 @@ def field(psi: Psi) -> Any:
         if psi.expression is None:
             raise ValueError(f"{psi!r} has no expression; make it with psi.custom.")
         return _expression(psi.expression.python_source())
+    if psi.family == "hill" and psi.parameter in range(1, MOST_INTEGER + 1):
+        return _family("hill, integer n")
     return _family(psi.family)

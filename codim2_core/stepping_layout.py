@@ -75,15 +75,17 @@ ON_EQUATOR = 8.9e-16  # | |p| - 1 | of a seed that was meant to lie on the equat
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def states_of(points):
-    """States (k, 3) and signs (k,) of picture points (k, 2): p, and ebar (sign -1) or rho (sign +1)."""
+    """States (k, 3), signs (k,) of picture points (k, 2): p, and ebar (sign -1) or rho (+1); whether all are finite."""
     n = points.shape[0]
+    finite = True
     states, signs = np.empty((n, 3)), np.empty(n)
     for i in range(n):
         x, y = points[i, 0], points[i, 1]
         r = math.hypot(x, y)
+        finite = finite and math.isfinite(r)
         inside = r - 1.0 < -ON_EQUATOR
         scale = 1.0 if inside else r
         states[i, 0], states[i, 1] = x / scale, y / scale
         states[i, 2] = math.sqrt((1.0 - r) * (1.0 + r)) if inside else r - 1.0 if r - 1.0 > ON_EQUATOR else 0.0
         signs[i] = -1.0 if inside else 1.0
-    return states, signs
+    return states, signs, finite

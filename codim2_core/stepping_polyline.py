@@ -18,7 +18,7 @@ from .stepping_layout import K0, LANES, SIGN, STATE
 X, Y, VX, VY, TIME, SPACING = range(6)
 CURSOR = 6
 LONGER = 4.0  # growth of the spacing from one chord to the next
-AIM = 0.9  # of the allowed distance
+AIM, ALLOWED = 0.8, 0.9  # of the distance: what a chord aims at, and what it may have
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -29,7 +29,8 @@ def place(S, P, lane, x):
     if P[SIGN + lane] < 0.0:
         return px, py, ux, uy
     w, uw = dense(S, 2 * LANES + lane, x)
-    return (1.0 + w) * px, (1.0 + w) * py, (1.0 + w) * ux + uw * px, (1.0 + w) * uy + uw * py
+    radius = (1.0 + w) / math.sqrt(px * px + py * py)  # p is on the circle, but for the error of the interpolant
+    return radius * px, radius * py, (1.0 + w) * ux + uw * px, (1.0 + w) * uy + uw * py
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -55,7 +56,7 @@ def follow(S, P, lane, cursor, lines, count, t0, h, stop, distance):
     """
     x0, y0, ux, uy = cursor[X, lane], cursor[Y, lane], cursor[VX, lane], cursor[VY, lane]
     last, spacing = cursor[TIME, lane], cursor[SPACING, lane]
-    aim = AIM * distance
+    aim, allowed = AIM * distance, ALLOWED * distance
     while True:
         beyond = last + spacing >= stop
         t = stop if beyond else max(last + spacing, t0)
@@ -73,7 +74,7 @@ def follow(S, P, lane, cursor, lines, count, t0, h, stop, distance):
             mx, my = scale * S[STATE + lane], scale * S[STATE + LANES + lane]
         bend = max(bend, abs(lx * (my - y0) - ly * (mx - x0)) / math.sqrt(lx * lx + ly * ly + 1e-300))
         ratio = math.sqrt(aim / (bend + 1e-30))
-        if bend > distance and t > t0 and t - last > 1e-13 * h:
+        if bend > allowed and t > t0 and t - last > 1e-13 * h:
             spacing = (t - last) * max(0.3, ratio)
             continue
         if beyond:

@@ -7,6 +7,8 @@ as a factor, so that it keeps its relative accuracy however small it is. Time is
 from __future__ import annotations
 
 import math
+from functools import lru_cache
+from types import SimpleNamespace
 from typing import Literal
 
 import numpy as np
@@ -25,8 +27,22 @@ Array = NDArray[np.float64]
 PIXEL = 1.0 / 180.0
 DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
 STEP_LIMIT = 10_000
+SHARED = 16  # parameters of the field, see `stepping_layout`
 
 _warm: set[str] = set()  # families used so far
+
+
+@lru_cache(maxsize=1)
+def _kernels() -> SimpleNamespace:
+    """Load the compiled parts on first use: compiling, or loading from the disk cache, starts with their first call."""
+    from . import stepping, stepping_fields, stepping_layout
+
+    return SimpleNamespace(
+        integrate=stepping.integrate,
+        field=stepping_fields.field,
+        is_compiled=stepping_fields.is_compiled,
+        states_of=stepping_layout.states_of,
+    )
 
 
 def _positive(value: float, what: str, remedy: str, low: float = 0.0, high: float = math.inf) -> float:
@@ -92,9 +108,12 @@ def trajectories(
     ValueError
         An argument is invalid; the message says which, and what is allowed.
     """
-    from .stepping_layout import states_of
-
-    states, signs = states_of(checked_seeds(seeds))
+    points = seeds if isinstance(seeds, np.ndarray) and seeds.dtype == np.float64 else checked_seeds(seeds)
+    if points.ndim != 2 or points.shape[1] != 2:
+        points = checked_seeds(seeds)
+    states, signs, finite = _kernels().states_of(np.ascontiguousarray(points))
+    if not finite:
+        checked_seeds(seeds)  # says which
     return _integrate(
         system,
         psi,
@@ -142,24 +161,19 @@ def _integrate(
         raise ValueError(f'samples is {samples!r}; give None for drawn lines or "ends" for the two ends.')
     if not 1 <= int(step_limit) <= 10**9:
         raise ValueError(f"step_limit is {step_limit!r}; give a number of steps from 1 to 1e9.")
-    plane = np.array(system.at(z).plane)
-    from .stepping import integrate  # compiling, or loading from the disk cache, starts here
-    from .stepping_fields import field
-    from .stepping_layout import SHARED
-
     # Time in units of 1/|U| makes step sizes, speeds and capture independent of the coefficients' scale.
-    size = float(np.abs(plane).max())
-    if size == 0.0:
-        size = 1.0
-    plane = plane / size
-    rate = size * max(math.sqrt(float(plane @ plane)), 1.0)
+    plane = system.at(z).plane
+    size = max(map(abs, plane)) or 1.0
+    rate = size * math.hypot(*(value / size for value in plane)) or 1.0
+    direction = -1.0 if backward else 1.0
     shared = np.zeros(SHARED)
-    shared[:5] = plane * (size / rate) * (-1.0 if backward else 1.0)
+    shared[:5] = [direction * (value / rate) for value in plane]
     shared[5] = psi.parameter
     if len(states) == 0:
         return joined([])
-    function = field(psi)
-    buffer, clock, offsets, ends, codes, evaluations = integrate(
+    kernels = _kernels()
+    function = kernels.field(psi)
+    buffer, clock, offsets, ends, codes, evaluations = kernels.integrate(
         states,
         signs,
         shared,
@@ -172,7 +186,7 @@ def _integrate(
         view,
         0.0 if samples == "ends" else DRAWN * pixel,
     )
-    clock *= (-1.0 if backward else 1.0) / rate
+    clock *= direction / rate
     _warm.add(psi.family)
     return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
 
@@ -181,7 +195,10 @@ def warm(psi: Psi | None = None) -> None:
     """Compile, or load from the disk cache, all that trajectories with this Psi need (default: Psi = 1)."""
     from .regularisation import constant
 
-    trajectories(ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), constant() if psi is None else psi, [(0.5, 0.0), (1.5, 0.0)])
+    system, seeds = ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), np.array([(0.5, 0.0), (1.5, 0.0)])
+    psi = constant() if psi is None else psi
+    trajectories(system, psi, seeds)
+    trajectories(system, psi, checked_seeds(seeds))  # read-only arrays are another type to Numba
 
 
 def is_warm(psi: Psi | None = None) -> bool:
@@ -190,9 +207,7 @@ def is_warm(psi: Psi | None = None) -> bool:
         return psi is None and bool(_warm)
     if psi.family != "custom":
         return True
-    from .stepping_fields import is_compiled
-
-    return is_compiled(psi)
+    return _kernels().is_compiled(psi)
 
 
 def continuation(

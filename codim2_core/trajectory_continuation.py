@@ -1,8 +1,9 @@
 """Local expansion of the orbit that leaves a limit direction up the hemisphere, thm:geneps0(b).
 
 Write ``p = sqrt(1 - w^2) (cos theta, sin theta)``, w = ebar. At a limit direction theta_0, Theta = 0, and
-``theta' = Theta - w^2 Psi/2 Theta_A(theta) + ...`` with ``Theta_A = (-sin, cos).A(cos, sin)``, and
-``w' = -lambda_rho w``. Psi falls like s^-mu as s = 1/w^2 grows (mu = 0 for Psi = 1), so ``theta = theta_0 + k w^2`` with
+``theta' = Theta - w^2 Psi Theta_A/2 + ...`` with ``Theta_A = (-sin, cos).A(cos, sin)``,
+``w' = -lambda_rho w``. Psi falls like s^-mu as s = 1/w^2 grows (mu = 0 for Psi = 1), so
+``theta = theta_0 + k w^2`` with
 
     k = (Psi/2) Theta_A/(lambda_theta + (2 + 2 mu) lambda_rho),
 

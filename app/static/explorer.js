@@ -11,8 +11,9 @@ function wire({model, view, root, plot}) {
 
   const change = (name, value) => {
     if (values[name] === value && !controls[name]?.box.classList.contains("bad")) return
-    values[name] = value
+    // what is no number goes to the server for its sentence; pad and link keep the last good value
     if (name in numbers && typeof value !== "number") { requests.set(name, value); return }
+    values[name] = value
     requests.set(name, value)
     if (name in outline) pad.draw(values)
     if (config.presets[values.preset] && name in config.presets[values.preset].values) markChanged()

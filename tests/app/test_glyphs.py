@@ -2,12 +2,12 @@ import math
 
 import numpy as np
 import pytest
+from codim2_app import glyphs
+from codim2_app.packing import EXTENT, STEP, pack, quantise, unpack
 from hypothesis import given
 from hypothesis import strategies as st
 
 import codim2_core as c2
-from codim2_app import glyphs
-from codim2_app.packing import EXTENT, STEP, pack, quantise, unpack
 
 LINE = np.column_stack([np.linspace(0, 1, 11), np.zeros(11)])
 
@@ -19,7 +19,7 @@ def test_join_never_mixes_pieces():
 
 
 def test_arrowhead_sits_at_half_length_and_points_with_time():
-    heads = glyphs.arrowheads(*glyphs.join([LINE, LINE[::-1] + (0, 3)]))
+    heads = glyphs.arrowheads(*glyphs.join([LINE, LINE[::-1] + np.array([0, 3])]))
     assert heads == pytest.approx(np.array([[0.5, 0, 0], [0.5, 3, math.pi]]))
 
 

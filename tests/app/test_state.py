@@ -2,11 +2,10 @@ import math
 from urllib.parse import parse_qs
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-
 from codim2_app.portraits import portraits
 from codim2_app.state import NAMES, NUMBERS, ExplorerState, InputError, build_psi, clean, scene_changes
+from hypothesis import given
+from hypothesis import strategies as st
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
 

@@ -18,9 +18,8 @@ def bare(port: int) -> None:
     """Serve a Bokeh document that swaps one precomputed buffer, as large as the explorer's frame."""
     import numpy as np
     from bokeh.events import ButtonClick
-    from bokeh.models import Button, ColumnDataSource, Column
+    from bokeh.models import Button, Column, ColumnDataSource
     from bokeh.server.server import Server
-
     from codim2_app.main import _prompt_websockets
     from codim2_app.refresh import Frames
     from codim2_app.state import ExplorerState
@@ -52,7 +51,6 @@ def holoviews(port: int) -> None:
     """Serve the same scene as one HoloViews DynamicMap for each layer, bound to a Panel slider."""
     import holoviews as hv
     import panel as pn
-
     from codim2_app.holoviews_view import elements
     from codim2_app.refresh import make_scene
     from codim2_app.state import ExplorerState

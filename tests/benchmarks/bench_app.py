@@ -145,7 +145,7 @@ async def arrivals(port: int, pid: int, count: int = 10) -> float:
     """Return server CPU of opening one page with its session, in seconds."""
     before = cpu(pid)
     for _ in range(count):
-        (await Wire.connect(port)).socket.close()
+        await (await Wire.connect(port)).close()
     return (cpu(pid) - before) / count
 
 
@@ -190,7 +190,8 @@ def table(results: dict[str, dict[str, float]]) -> str:
         f"p95 {1e3 * eight['p95']:.1f} ms, {1e3 * eight['cpu']:.1f} ms of CPU a frame. "
         f"Opening a page: {1e3 * results['arrival']['cpu']:.0f} ms of CPU."
     )
-    rows.append(f"Ratios: explorer/bare {ours['cpu'] / base['cpu']:.2f}, explorer/DynamicMaps {ours['cpu'] / hv['cpu']:.4f}.")
+    ratios = ours["cpu"] / base["cpu"], ours["cpu"] / hv["cpu"]
+    rows.append(f"Ratios: explorer/bare {ratios[0]:.2f}, explorer/DynamicMaps {ratios[1]:.4f}.")
     return "\n".join(rows)
 
 

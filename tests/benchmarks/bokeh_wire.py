@@ -19,12 +19,12 @@ def encoded(value: Any) -> Any:
 
 
 class Wire:
-    """One page's connection. `messages` counts what arrived, `bytes` its size."""
+    """One page's connection. `patches` counts the patches that arrived, `bytes` the size of everything."""
 
     def __init__(self, socket: WebSocketClientConnection, root: str) -> None:
         self.socket, self.root = socket, root
         self.count = 0
-        self.messages = 0
+        self.patches = 0
         self.bytes = 0
         self.document: dict[str, Any] = {}
 
@@ -32,7 +32,8 @@ class Wire:
     async def connect(cls, port: int, query: str = "", page: str | None = None) -> Wire:
         """Open a page (or use its text, fetched before) and the session behind it."""
         if page is None:
-            page = urlopen(f"http://localhost:{port}/{query}").read().decode()
+            with urlopen(f"http://localhost:{port}/{query}") as answer:
+                page = answer.read().decode()
         token = re.search(r'"token":"([^"]+)"', page)
         roots = re.search(r'"roots":\{"(\w+)"', page)
         assert token is not None
@@ -62,7 +63,7 @@ class Wire:
         for _ in range(header.get("num_buffers", 0)):
             await self._part()
             buffers.append(await self._part())
-        self.messages += 1
+        self.patches += header["msgtype"] == "PATCH-DOC"
         return header["msgtype"], json.loads(parts[2]), buffers
 
     async def _part(self) -> Any:
@@ -76,9 +77,7 @@ class Wire:
         """Send one model event, as BokehJS does."""
         entries = [["model", {"id": model}], *([key, encoded(value)] for key, value in values.items())]
         data = {"type": "event", "name": name, "values": {"type": "map", "entries": entries}}
-        await self.send(
-            "PATCH-DOC", {"events": [{"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": data}]}
-        )
+        await self.send("PATCH-DOC", {"events": [{"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": data}]})
 
     async def frame(self, number: int, **values: Any) -> bytes:
         """Ask the explorer for one frame and return its buffer."""
@@ -93,3 +92,12 @@ class Wire:
                 return buffers[0] if buffers else b""
             if kind == "ERROR":
                 raise RuntimeError(f"the server reports an error: {content['text']}")
+
+    async def close(self) -> None:
+        """Close the connection and wait until it is closed."""
+        self.socket.close()
+        while await self.socket.read_message() is not None:
+            pass
+        stream = self.socket.protocol.stream if self.socket.protocol else None
+        if stream is not None:
+            stream.close()

@@ -20,6 +20,7 @@ FAMILIES = [
     psi.exponential(),
     psi.tanh(),
     psi.hill(4.0),
+    psi.hill(3.7),
     psi.hill(200.0),
     psi.custom("1/(1+s)**2"),
 ]
@@ -192,8 +193,8 @@ def test_states_stay_on_the_sphere_and_lines_in_the_picture(values, p, backward)
         assert time[0] == 0.0
         assert (np.diff(time) < 0.0).all() if backward else (np.diff(time) > 0.0).all()
         r = np.hypot(*line.T)
-        assert (r < 1.0 + 1e-5).all() if k < 10 else (r > 1.0 - 1e-5).all()
-        assert np.abs(line).max() <= 2.0 + 1e-9
+        assert (r < 1.0 + 1e-5).all() if k < 10 else (r > 1.0 - 1e-9).all()
+        assert np.abs(line).max() <= 2.0 + 0.25 * PIXEL or result.status[k] is not Status.LEFT_VIEW
     assert result.evaluations < len(seeds) * 15 * 2000
 
 
@@ -314,11 +315,11 @@ def fewest(fine, tolerance):
 
 @pytest.mark.parametrize("p", [psi.constant(), psi.tanh(), psi.hill(20.0)], ids=str)
 @pytest.mark.parametrize("system", [CASE_I, ELinear(0.3, 2.0, -0.1, (0.3, 0.4)), ELinear(-2.0, 4.0, 1.0, (1.0, 0.0))])
-@pytest.mark.parametrize("rtol", [1e-4, 1e-9])
+@pytest.mark.parametrize("rtol", [1e-6, 1e-9])
 def test_lines_are_within_a_quarter_pixel_with_few_points(system, p, rtol):
     seeds = np.concatenate([sunflower(8), ring(4, 1.6)])
     drawn = trajectories(system, p, seeds, rtol=rtol, atol=rtol, capture=1e-6, t_max=5.0)
-    fine = trajectories(system, p, seeds, rtol=rtol, atol=rtol, capture=1e-6, t_max=5.0, pixel=PIXEL / 400)
+    fine = trajectories(system, p, seeds, rtol=1e-12, atol=1e-12, capture=1e-6, t_max=5.0, pixel=PIXEL / 400)
     needed = 0
     for line, curve in zip(drawn.points, fine.points, strict=True):
         assert distance(curve, line) <= 0.25 * PIXEL
@@ -348,7 +349,7 @@ def test_continuation_starts_on_the_invariant_manifold(p):
     assert high[0, 2] > 1.7 * low[0, 2]
     for above, below in zip(high, low, strict=True):
 
-        def event(t, q, level=float(np.hypot(*above[:2]))):
+        def event(t, q, level=math.sqrt(1.0 - above[2] ** 2)):  # noqa: B008
             return np.hypot(*q) - level
 
         curve = solve_ivp(

@@ -1,0 +1,111 @@
+import asyncio
+import subprocess
+import sys
+
+import pytest
+from codim2_app.cli import main, parser
+from codim2_app.packing import unpack
+from codim2_app.state import ExplorerState
+
+import codim2_core as c2
+from tests.app.serving import serving
+from tests.benchmarks.bokeh_wire import Wire
+
+
+@pytest.fixture(scope="module")
+def port():
+    with serving() as address:
+        yield int(address.rsplit(":", 1)[1])
+
+
+def test_one_patch_for_each_frame(port):
+    async def talk():
+        wire = await Wire.connect(port)
+        await wire.frame(1, a=-1.9)
+        before = wire.patches
+        sizes = [len(await wire.frame(i, a=-1.9 + 0.01 * i)) for i in range(2, 12)]
+        await wire.close()
+        return wire.patches - before, sizes
+
+    patches, sizes = asyncio.run(talk())
+    assert patches == 10
+    assert max(sizes) <= 60_000
+
+
+def test_address_is_the_state(port):
+    async def talk():
+        wire = await Wire.connect(port, "?a=-1&b=1&d=-1&f1=0&psi=rational")
+        header, _ = unpack(await wire.frame(1))
+        await wire.close()
+        return header
+
+    assert asyncio.run(talk())["f"] == [0.0, 0.0]
+
+
+def test_page_asks_nobody_else(port):
+    from urllib.request import urlopen
+
+    page = urlopen(f"http://localhost:{port}/").read().decode()
+    for part in page.split("http")[1:]:
+        assert part.startswith((f"://localhost:{port}", "://www.w3.org")), part[:80]
+
+
+def test_health(port):
+    from urllib.request import urlopen
+
+    with urlopen(f"http://localhost:{port}/health") as answer:
+        assert answer.status == 200
+
+
+def test_port_in_use_is_said_plainly(port, capsys):
+    assert main(["serve", "--port", str(port)]) == 1
+    assert "Give another --port" in capsys.readouterr().out
+
+
+def test_options_have_local_defaults():
+    chosen = parser().parse_args(["serve"])
+    assert (chosen.address, chosen.show, chosen.processes) == ("localhost", False, 1)
+
+
+def test_importing_the_package_is_cheap():
+    code = "import sys, codim2_app; assert not {'panel', 'bokeh', 'holoviews', 'numba'} & set(sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_notebook_widget_is_the_same_view_and_answers():
+    import codim2_app
+    from codim2_app.view import ExplorerView
+
+    view = codim2_app.explorer(a=-1, b=1, d=-1, f1=0)
+    assert isinstance(view, ExplorerView)
+    assert "portrait-name" in view.markup
+    header, _ = unpack(view.frames.answer({"id": 1, "set": {"b": 0.0}, "all": True}))
+    assert header["portrait"]["name"] == "CM∞"
+    assert view.state.b == 0.0
+
+
+def test_notebook_takes_a_system():
+    import codim2_app
+
+    view = codim2_app.explorer(c2.ELinear(-3, 0, -1, (0.25, "0.1*z1")), z=2.0)
+    assert (view.state.a, view.state.f1, view.state.f2) == (-3.0, 0.25, 0.2)
+    assert "f2" in view.frames.locked
+    with pytest.raises(ValueError, match="no control"):
+        codim2_app.explorer(alpha=1)
+    with pytest.raises(ValueError, match="finite"):
+        codim2_app.explorer(a=float("nan"))
+
+
+def test_state_of_a_view_is_its_own():
+    assert ExplorerState().layers is not ExplorerState().layers
+
+
+def test_holoviews_overlay_can_be_added_to():
+    import codim2_app
+    import holoviews as hv
+
+    scene = c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0)), count=12)
+    overlay = codim2_app.holoviews(scene)
+    assert len(overlay.Points.values()) == 2
+    assert len(overlay) == 10
+    assert isinstance(overlay * hv.Curve([(0, 0), (1, 1)]), hv.Overlay)

@@ -1,0 +1,106 @@
+import os
+import shutil
+
+import pytest
+
+from tests.app.serving import serving
+
+
+def _no_browser(reason):
+    if os.environ.get("CI"):
+        pytest.fail(reason)
+    pytest.skip(reason)
+
+
+@pytest.fixture(scope="session")
+def server():
+    """The address of `codim2 serve`, running in its own process and warm."""
+    with serving() as address:
+        yield address
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    api = (
+        pytest.importorskip("playwright.sync_api")
+        if not os.environ.get("CI")
+        else __import__("playwright.sync_api", fromlist=["sync_playwright"])
+    )
+    path = os.environ.get("CODIM2_CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
+    if path is None:
+        _no_browser("no Chromium: install it, or set CODIM2_CHROMIUM to its path")
+    with api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=path, args=["--headless=new", "--no-sandbox", "--disable-gpu"]
+        )
+        yield browser
+        browser.close()
+
+
+class Explorer:
+    """A page of the explorer, and what went wrong in it."""
+
+    def __init__(self, page, address):
+        self.page, self.address = page, address
+        self.requests, self.complaints, self.received = [], [], []
+        page.on("request", lambda request: self.requests.append(request.url))
+        page.on("console", self._hear)
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        page.on("websocket", lambda socket: socket.on("framereceived", lambda part: self.received.append(part)))
+
+    def _hear(self, message):
+        if message.type in ("error", "warning"):
+            self.complaints.append(message.text)
+
+    def open(self, query=""):
+        self.page.goto(f"{self.address}/{query}")
+        self.page.wait_for_selector(".codim2[data-ready]")
+        return self.settle()
+
+    def settle(self):
+        self.page.wait_for_timeout(150)
+        self.page.wait_for_function("""() => {
+            const find = (root) => root.querySelector('.codim2') ?? [...root.querySelectorAll('*')].map(
+                (e) => e.shadowRoot && find(e.shadowRoot)).find(Boolean)
+            return find(document)?.dataset.settled === 'true' }""")
+        return self
+
+    def find(self, selector):
+        return self.page.locator(selector)
+
+    def name(self):
+        return self.find(".portrait-name").text_content()
+
+    def frame(self):
+        return int(self.find(".codim2").get_attribute("data-frame"))
+
+    def picture(self):
+        return self.find(".picture").screenshot()
+
+    def type(self, control, text):
+        box = self.find(f"[data-control={control}] .number")
+        box.fill(text)
+        box.press("Enter")
+        return self.settle()
+
+
+@pytest.fixture
+def open_page(chromium, server):
+    contexts = []
+
+    def make(**options):
+        context = chromium.new_context(**{"viewport": {"width": 1280, "height": 800}, **options})
+        contexts.append(context)
+        context.set_default_timeout(20_000)
+        return Explorer(context.new_page(), server)
+
+    yield make
+    for context in contexts:
+        context.close()
+
+
+@pytest.fixture
+def explorer(open_page):
+    page = open_page().open()
+    yield page
+    assert page.complaints == []

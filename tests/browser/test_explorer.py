@@ -1,0 +1,160 @@
+from urllib.parse import parse_qs, urlparse
+
+import pytest
+from codim2_app.portraits import portraits
+from codim2_app.state import NUMBERS
+from tests.app.serving import serving
+
+pytestmark = pytest.mark.browser
+
+SLIDERS = [name for name in NUMBERS if name != "n"]
+
+
+def test_page_asks_nobody_else_and_says_nothing(explorer):
+    assert explorer.name() == "CM4"
+    hosts = {urlparse(url).netloc for url in explorer.requests if not url.startswith(("data:", "blob:"))}
+    assert hosts == {urlparse(explorer.address).netloc}
+    assert explorer.complaints == []
+
+
+def test_pages_of_two_processes_ask_nobody_else(open_page):
+    with serving("--processes", "2") as address:
+        for _ in range(4):
+            page = open_page()
+            page.address = address
+            page.open()
+            hosts = {urlparse(url).netloc for url in page.requests if not url.startswith(("data:", "blob:"))}
+            assert hosts == {urlparse(address).netloc}
+            assert page.complaints == []
+            page.type("a", "-1.5")
+            assert page.name() == "CM4"
+
+
+def test_first_picture_comes_with_the_page(open_page):
+    page = open_page(java_script_enabled=False)
+    page.page.goto(page.address)
+    assert page.find(".first svg path").count() >= 5
+    assert page.name() == "CM4"
+
+
+@pytest.mark.parametrize("name", SLIDERS)
+def test_each_slider_redraws(explorer, name):
+    words = ".inspector" if name in ("B1", "B2", "g0") else ".picture"
+    if name in ("k1", "k2", "B2"):  # these act only away from z = 0, and where C has s != 0
+        explorer.type("z", "0.7").type("f2", "0.3")
+    before = explorer.find(words).screenshot()
+    frame = explorer.frame()
+    slider = explorer.find(f"#c2-{name}")
+    slider.focus()
+    for _ in range(20):
+        slider.press("ArrowRight")
+    slider.press("PageUp")
+    explorer.settle()
+    assert explorer.frame() > frame
+    assert explorer.find(words).screenshot() != before
+
+
+@pytest.mark.parametrize("portrait", portraits(), ids=lambda item: item["key"])
+def test_each_preset_shows_its_portrait(explorer, portrait):
+    explorer.find("select.preset").select_option(portrait["key"])
+    explorer.settle()
+    expected = portrait["title"].split(":")[0].split()[0]
+    if expected.startswith(("CM", "NCM")):
+        assert explorer.name() == expected
+    else:  # Case III: the title names the kind of C
+        assert portrait["title"].split(": ")[1] in explorer.find(".critical-table").text_content()
+    assert portrait["label"] in explorer.find(".preset-note").text_content()
+
+
+def test_fast_drag_ends_on_the_last_value_and_queues_nothing(explorer):
+    box = explorer.find("#c2-f1").bounding_box()
+    y = box["y"] + box["height"] / 2
+    explorer.page.mouse.move(box["x"] + 0.42 * box["width"], y)
+    explorer.page.mouse.down()
+    for i in range(100):
+        explorer.page.mouse.move(box["x"] + (0.42 + 0.004 * i) * box["width"], y)
+    explorer.page.mouse.up()
+    explorer.settle()
+    last = explorer.find("[data-control=f1] .number").input_value()
+    assert float(last) == pytest.approx(1.9, abs=0.3)
+    explorer.page.wait_for_timeout(500)
+    assert parse_qs(urlparse(explorer.page.url).query)["f1"] == [last]
+    name, numbers = explorer.name(), explorer.find(".critical-table").text_content()
+    fresh = explorer.open(f"?f1={last}")
+    assert (fresh.name(), fresh.find(".critical-table").text_content()) == (name, numbers)
+
+
+def test_bad_input_is_told_beside_the_control_and_recovers(explorer):
+    before = explorer.name(), explorer.picture()
+    explorer.type("a", "nan")
+    error = explorer.find("[data-control=a] .error")
+    assert "finite" in error.text_content() or "number" in error.text_content()
+    assert error.is_visible()
+    assert explorer.name() == before[0]
+    explorer.type("d", "-1.2")
+    assert error.is_visible()
+    explorer.type("a", "-1")
+    assert not error.is_visible()
+    assert explorer.find("[data-control=a] .number").input_value() == "-1"
+
+
+def test_typed_value_widens_the_slider(explorer):
+    explorer.type("a", "-37")
+    assert float(explorer.find("#c2-a").get_attribute("min")) <= -37
+    assert explorer.find("#c2-a").input_value() == "-37"
+
+
+def test_custom_psi_is_checked_and_drawn(explorer):
+    explorer.find("select.psi").select_option("custom")
+    explorer.settle()
+    text = explorer.find("#c2-psi-text")
+    text.fill("1/(1+")
+    explorer.settle()
+    assert explorer.find("[data-control=psi_text] .error").is_visible()
+    text.fill("1/(1+s)**3")
+    explorer.page.wait_for_timeout(500)
+    explorer.settle()
+    assert not explorer.find("[data-control=psi_text] .error").is_visible()
+
+
+def test_layers_hide_and_return(explorer):
+    whole = explorer.picture()
+    box = explorer.find(".layer input[value=inside]")
+    box.uncheck()
+    explorer.settle()
+    hidden = explorer.picture()
+    assert hidden != whole
+    box.check()
+    explorer.settle()
+    assert explorer.picture() != hidden
+
+
+def test_handle_of_f_moves_by_mouse_and_keyboard(explorer):
+    pad = explorer.find(".pad").bounding_box()
+    explorer.page.mouse.click(pad["x"] + 0.5 * pad["width"], pad["y"] + 0.25 * pad["height"])
+    explorer.settle()
+    assert float(explorer.find("[data-control=f2] .number").input_value()) > 1
+    f1 = explorer.find("[data-control=f1] .number").input_value()
+    explorer.find(".pad").press("ArrowRight")
+    explorer.settle()
+    assert float(explorer.find("[data-control=f1] .number").input_value()) > float(f1)
+
+
+def test_reset_returns_to_the_first_setting(explorer):
+    explorer.type("b", "2").type("z", "1")
+    explorer.find(".reset").click()
+    explorer.settle()
+    assert explorer.name() == "CM4"
+    assert explorer.find("[data-control=b] .number").input_value() == "0"
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (390, 844)])
+def test_no_width_scrolls_sideways(open_page, width, height, theme):
+    page = open_page(viewport={"width": width, "height": height}, color_scheme=theme).open()
+    assert page.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    box = page.find(".picture").bounding_box()
+    assert box["width"] == pytest.approx(box["height"], abs=1)
+    assert box["x"] >= 0
+    assert box["x"] + box["width"] <= width
+    assert page.complaints == []
