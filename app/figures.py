@@ -73,12 +73,12 @@ def make_figure() -> Plot:
                                 line_width=2.0), x=[0.0], y=[0.0], r=[1.0])  # fmt: skip
     _add(plot, "sense", Scatter(x="x", y="y", angle="angle", marker="triangle", size=10,
                                 fill_color=LIGHT["equator"], line_color=None), x=[], y=[], angle=[])  # fmt: skip
-    marks = {"x": "x", "y": "y", "marker": "marker", "fill_color": "fill", "line_color": "colour"}
+    marks: dict[str, Any] = {"x": "x", "y": "y", "marker": "marker", "fill_color": "fill", "line_color": "colour"}
     equator = _add(plot, "equator", Scatter(size="size", line_width=2.4, **marks),
                    **_columns("label_x", "label_y", "size"))  # fmt: skip
     critical = _add(plot, "critical", Scatter(size=15, line_width=2.6, **marks), **_columns())
-    beside = {"text_align": "left", "x": "x", "y": "y", "x_offset": 13, "y_offset": -11}
-    around = {"text_align": "center", "x": "label_x", "y": "label_y"}
+    beside: dict[str, Any] = {"text_align": "left", "x": "x", "y": "y", "x_offset": 13, "y_offset": -11}
+    around: dict[str, Any] = {"text_align": "center", "x": "label_x", "y": "label_y"}
     for renderer, size, place in ((equator, "15px", around), (critical, "16px", beside)):
         text = Text(
             text="text", text_color=LIGHT["ink"], text_font=value(FONT), text_font_size=size, text_font_style="bold",

@@ -225,8 +225,9 @@ def _lines(coefficients: Coefficients) -> tuple[tuple[Kind, tuple[float, float, 
 def outside_nullclines(
     coefficients: Coefficients, limit_directions: list[float], view: float
 ) -> tuple[NullclineBranch, ...]:
-    """Nullclines for 1 <= r <= view: rays, and the straight lines U1 = 0, U2 = 0 continued."""
+    """Nullclines outside, to the corners of a view of that half-width: rays, and the straight lines continued."""
     branches = []
+    reach = math.sqrt(2.0) * view
     rays: tuple[tuple[Kind, list[float]], ...] = (
         ("rho", _radial_angles(coefficients)),
         ("theta", limit_directions),
@@ -234,12 +235,12 @@ def outside_nullclines(
     for kind, angles in rays:
         for t in angles:
             u = np.array([math.cos(t), math.sin(t)])
-            branches.append(NullclineBranch(kind, False, np.stack([u, view * u])))
+            branches.append(NullclineBranch(kind, False, np.stack([u, reach * u])))
     for kind, (n1, n2, k) in _lines(coefficients):
-        outer, inner = _chord(n1, n2, k / view), _chord(n1, n2, k)
+        outer, inner = _chord(n1, n2, k / reach), _chord(n1, n2, k)
         if outer is None:
             continue
-        start, end = view * outer[0], view * outer[1]
+        start, end = reach * outer[0], reach * outer[1]
         pieces = [(start, end)] if inner is None else [(start, inner[0]), (inner[1], end)]
         branches += [NullclineBranch(kind, False, np.stack(piece)) for piece in pieces]
     for branch in branches:
@@ -258,14 +259,14 @@ def nullclines(
     psi : Psi
     z : (m,) floats
     view : float
-        Radius > 1 to which the outside is followed.
+        Half-width > 1 of the view to whose corners the outside is followed.
 
     Returns
     -------
     tuple of NullclineBranch
     """
     if not view > 1.0:
-        raise ValueError(f"view is {view}; give a radius greater than 1 (the equator).")
+        raise ValueError(f"view is {view}; give a half-width greater than 1 (the equator).")
     coefficients = system.at(z)
     directions = [float(t) for t in equator_equilibria(coefficients).theta]
     return inside_nullclines(coefficients, psi, directions) + outside_nullclines(coefficients, directions, view)

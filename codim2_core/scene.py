@@ -23,11 +23,13 @@ from .equator import equator_cycle, equator_equilibria
 from .nullclines import NullclineBranch, inside_nullclines, outside_nullclines
 from .orbits import Orbits
 from .regularisation import Psi
-from .seeds import checked_seeds, structured_seeds
+from .seeds import checked_seeds, ring, structured_seeds
 from .sliding import sliding_flow
 from .systems import Coefficients, ELinear, slow_values
 from .trajectories import Trajectories, continuation, trajectories
 
+DRAWN_TIME = 40.0  # over the largest coefficient: slow directions, up to 40 times slower than that, are still drawn
+AROUND = 0.05  # radius of the seeds around an unstable critical set
 CAPTURE = 0.25  # of a pixel: where a drawn trajectory ends, so near its equilibrium that nobody can see the rest
 REMEMBERED = 8  # results kept for each layer: a few settings back and forth
 
@@ -61,8 +63,11 @@ class Scene:
         Where trajectories start; default `structured_seeds(count)`.
     count : int
         Number of seeds when they are not given.
-    t_max : float
-        Length of each half of a trajectory in T (dT = dt/rho).
+    t_max : float, optional
+        Longest time T (dT = dt/rho) of each half of a trajectory. By default 40 over the largest coefficient, so that
+        a portrait does not depend on the unit of time; most halves end earlier, at an equilibrium or at `length`.
+    length : float
+        Length of each half at which it ends, in picture units.
     rtol, atol : float
         Tolerances of the trajectories. The default keeps errors far below a pixel.
     view : float
@@ -87,7 +92,8 @@ class Scene:
         *,
         seeds: ArrayLike | None = None,
         count: int = 64,
-        t_max: float = 8.0,
+        t_max: float | None = None,
+        length: float = 9.0,
         rtol: float = 1e-6,
         atol: float = 1e-7,
         view: float = 2.0,
@@ -107,7 +113,8 @@ class Scene:
         self.system, self.psi = system, psi
         self.z = () if isinstance(system, Coefficients) else slow_values(z, system.m, needed=False)
         self.seeds = None if seeds is None else checked_seeds(seeds)
-        self.count, self.t_max, self.rtol, self.atol = count, float(t_max), float(rtol), float(atol)
+        self.count, self.rtol, self.atol = count, float(rtol), float(atol)
+        self.t_max, self.length = None if t_max is None else float(t_max), float(length)
         self.view, self.pixel = float(view), float(pixel)
         self.coefficients = system.at(self.z)
         self._memory = _Memory() if _memory is None else _memory
@@ -167,7 +174,7 @@ class Scene:
         return structured_seeds(self.count, self.view) if self.seeds is None else self.seeds
 
 
-_PARAMETERS = ("system", "psi", "z", "seeds", "count", "t_max", "rtol", "atol", "view", "pixel")
+_PARAMETERS = ("system", "psi", "z", "seeds", "count", "t_max", "length", "rtol", "atol", "view", "pixel")
 
 # The values that layers read, as keys: `plane` is (a, b, d, f1, f2) at z, so z itself reaches nothing.
 _INPUTS: dict[str, Callable[[Scene], Hashable]] = {
@@ -176,7 +183,7 @@ _INPUTS: dict[str, Callable[[Scene], Hashable]] = {
     "psi": lambda s: s.psi,
     "inner seeds": lambda s: s.count if s.seeds is None else _start(s, outside=False).tobytes(),
     "outer seeds": lambda s: s.count if s.seeds is None else _start(s, outside=True).tobytes(),
-    "time": lambda s: s.t_max,
+    "time": lambda s: (s.t_max, s.length),
     "tolerance": lambda s: (s.rtol, s.atol),
     "view": lambda s: s.view,
     "pixel": lambda s: s.pixel,
@@ -191,8 +198,10 @@ def _start(scene: Scene, outside: bool) -> np.ndarray:
 
 
 def _stepping(scene: Scene) -> dict[str, float]:
+    largest = max(map(abs, scene.coefficients.plane)) or 1.0
     return {
-        "t_max": scene.t_max,
+        "t_max": DRAWN_TIME / largest if scene.t_max is None else scene.t_max,
+        "length": scene.length,
         "rtol": scene.rtol,
         "atol": scene.atol,
         "view": scene.view,
@@ -203,6 +212,10 @@ def _stepping(scene: Scene) -> dict[str, float]:
 
 def _orbits(scene: Scene, outside: bool) -> Orbits:
     seeds, options = _start(scene, outside), _stepping(scene)
+    if not outside and scene.seeds is None and scene.count:
+        # What leaves an unstable critical set (to a limit cycle, in Case III) starts nearer to it than any fixed seed.
+        rings = [C.p + ring(AROUND, 6) for C in scene["critical"] if C.kind.startswith(("unstable", "centre"))]
+        seeds = np.concatenate([seeds, *(r for r in rings if np.hypot(r[:, 0], r[:, 1]).max() < 1.0)])
     # Outside, e is the direction itself: Psi has no say.
     psi = regularisation.constant() if outside else scene.psi
     halves = (trajectories(scene.coefficients, psi, seeds, backward=back, **options) for back in (True, False))

@@ -17,7 +17,8 @@ OUTSIDE_RADIUS = 0.62  # of the way from the equator to the edge of the view
 INSIDE_RADIUS = 0.93  # of the outermost ring on the hemisphere
 
 
-def _ring(radius: float, count: int) -> NDArray[np.float64]:
+def ring(radius: float, count: int) -> NDArray[np.float64]:
+    """`count` points at even angles on a circle about the origin, none on the first axis; (count, 2)."""
     angle = 2.0 * math.pi * (np.arange(count) + 0.5) / max(count, 1)
     return radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
@@ -44,9 +45,9 @@ def structured_seeds(count: int, view: float = 2.0) -> NDArray[np.float64]:
     if not 0 <= count <= 2000:
         raise ValueError(f"the number of trajectories is {count}; give 0 to 2000.")
     outside = round(OUTSIDE_SHARE * count)
-    parts = [_ring(1.0 + OUTSIDE_RADIUS * (view - 1.0), outside)]
+    parts = [ring(1.0 + OUTSIDE_RADIUS * (view - 1.0), outside)]
     sizes = _ring_sizes(count - outside)
-    parts += [_ring(INSIDE_RADIUS * (1.0 - j / len(sizes)), size) for j, size in enumerate(sizes)]
+    parts += [ring(INSIDE_RADIUS * (1.0 - j / len(sizes)), size) for j, size in enumerate(sizes)]
     seeds = np.concatenate(parts)
     seeds.flags.writeable = False
     return seeds

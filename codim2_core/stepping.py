@@ -30,7 +30,7 @@ from .stepping_layout import (
 from .stepping_polyline import CURSOR, X, Y, follow, start
 
 # Outcomes; `trajectories.Status` lists their sentences in this order.
-T_MAX, EQUILIBRIUM, LEFT_VIEW, ARRIVED, SPIRALLED, ON_EQUATOR, STEP_LIMIT = range(7)
+T_MAX, EQUILIBRIUM, LEFT_VIEW, ARRIVED, SPIRALLED, ON_EQUATOR, STEP_LIMIT, LENGTH = range(8)
 RUNNING = -1
 
 SAFETY, SHRINK, GROW = 0.9, 0.2, 6.0
@@ -110,7 +110,7 @@ def _longer(array):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, view, distance):
+def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, view, distance, longest):
     """Integrate every row of `states`; scaled so that |U| is about 1.
 
     Parameters
@@ -132,6 +132,8 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
         Edge of the view, outside.
     distance : float
         Of the polyline from the curve; 0: only the two ends.
+    longest : float
+        Length of a drawn polyline at which its trajectory ends.
 
     Returns
     -------
@@ -144,6 +146,7 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
     cursor = np.zeros((CURSOR, LANES))
     times, steps, tried, accepted = np.zeros(2 * LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
     flags = np.zeros(LANES, np.int64)
+    travelled = np.zeros(LANES)
     who, spent = np.full(LANES, -1), np.full(LANES, IDLE)
     lines, counts = np.empty((LANES, 128 if draw else 2, 3)), np.zeros(LANES, np.int64)
     store, stored = np.empty((1, 64 * n if draw else 2 * n, 3)), 0
@@ -162,6 +165,7 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
                 if who[k] < 0 and following < n:
                     _load(S, P, k, states[following], signs[following])
                     who[k], times[k], steps[k], spent[k], counts[k] = following, 0.0, first, 0, 1
+                    travelled[k] = 0.0
                     following += 1
                     evaluations += 1
                     accepted[k] = -1.0
@@ -216,7 +220,13 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
                     while count < 0:
                         lines = _longer(lines)
                         count = follow(S, P, k, cursor, lines, -1 - count, times[k], tried[k], stop, distance)
+                    for j in range(counts[k], count):
+                        travelled[k] += math.hypot(
+                            lines[k, j, 0] - lines[k, j - 1, 0], lines[k, j, 1] - lines[k, j - 1, 1]
+                        )
                     counts[k] = count
+                    if code == RUNNING and travelled[k] >= longest:
+                        code = LENGTH
             if code == RUNNING and spent[k] >= limit:
                 code = STEP_LIMIT
                 if accepted[k] <= 0.0:

@@ -69,6 +69,7 @@ def trajectories(
     pixel: float = PIXEL,
     capture: float | None = None,
     samples: Literal["ends"] | None = None,
+    length: float = math.inf,
     step_limit: int = STEP_LIMIT,
 ) -> Trajectories:
     """Follow trajectories from points of the picture: eq:LP on the hemisphere, eq:polar_gen_odes_desing outside.
@@ -88,7 +89,8 @@ def trajectories(
     backward : bool
         Follow against time; `times` then decrease from 0.
     view : float
-        Outside, a trajectory ends where |p_x| or |p_y| of its picture point reaches view.
+        Outside, a trajectory ends where |p_x| or |p_y| of its picture point reaches view. (One that bulges out and
+        back between two steps goes on.)
     pixel : float
         A pixel in picture units: lines stay within a quarter of it from the curve, with as few points as that takes.
     capture : float, optional
@@ -96,6 +98,9 @@ def trajectories(
         ends. Default rtol + atol. Saddles, centres and slow passages end nothing.
     samples : "ends" or None
         "ends" returns only the first and the last point of each trajectory.
+    length : float
+        Length of the drawn line, in picture units, at which a trajectory ends; a cycle is drawn a few times over
+        and not for ever.
     step_limit : int
         Steps tried before a trajectory is given up, with a status that says so.
 
@@ -128,6 +133,7 @@ def trajectories(
         pixel=pixel,
         capture=capture,
         samples=samples,
+        length=length,
         step_limit=step_limit,
     )
 
@@ -147,6 +153,7 @@ def _integrate(
     pixel: float,
     capture: float | None,
     samples: Literal["ends"] | None,
+    length: float,
     step_limit: int,
 ) -> Trajectories:
     t_max = _positive(t_max, "t_max", "give a finite positive time; backward=True follows trajectories backward")
@@ -157,6 +164,8 @@ def _integrate(
     if capture is None:
         capture = rtol + atol
     capture = _positive(capture, "capture", "give a distance from an attractor, up to 0.1; or None", high=0.1)
+    if not length > 0.0:
+        raise ValueError(f"length is {length!r}; give a positive length in picture units, or leave it out.")
     if samples not in (None, "ends"):
         raise ValueError(f'samples is {samples!r}; give None for drawn lines or "ends" for the two ends.')
     if not 1 <= int(step_limit) <= 10**9:
@@ -185,6 +194,7 @@ def _integrate(
         capture,
         view,
         0.0 if samples == "ends" else DRAWN * pixel,
+        float(length),
     )
     clock *= direction / rate
     _warm.add(psi.family)
@@ -224,6 +234,7 @@ def continuation(
     pixel: float = PIXEL,
     capture: float | None = None,
     samples: Literal["ends"] | None = None,
+    length: float = math.inf,
     step_limit: int = STEP_LIMIT,
 ) -> Trajectories:
     """Continue trajectories that arrive at limit directions up the hemisphere, fig:side_of_sphere, thm:geneps0(b).
@@ -236,7 +247,7 @@ def continuation(
     ----------
     theta : (k,)
         Limit directions, radians: zeros of Theta with lambda_rho < 0 (backward: > 0).
-    system, psi, z, t_max, rtol, atol, backward, view, pixel, capture, samples, step_limit
+    system, psi, z, t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit
         As in `trajectories`; the time 0 is where the expansion hands over.
 
     Returns
@@ -264,5 +275,6 @@ def continuation(
         pixel=pixel,
         capture=capture,
         samples=samples,
+        length=length,
         step_limit=step_limit,
     )

@@ -27,6 +27,7 @@ class Status(Enum):
         "Stopped at the step limit before t_max: the time is too long for the speed of this system, or the tolerance "
         "too tight; lower t_max or raise rtol."
     )
+    LENGTH = "Drawn to the full length; a larger length follows it further."
 
 
 STATUSES = tuple(Status)  # in the order of the codes of `stepping`

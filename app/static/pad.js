@@ -38,8 +38,8 @@ class Pad {
     const ellipse = turn.map((t) => [a * Math.cos(t) - b * Math.sin(t), b * Math.cos(t) + d * Math.sin(t)])
     const saddle = turn.map((t) => [b * Math.sin(t) - (a - d) * Math.cos(t) ** 3, (a - d) * Math.sin(t) ** 3 - b * Math.cos(t)])
     if (!this.dragging) {
-      const far = Math.max(...ellipse.flat().map(Math.abs), Math.abs(f1), Math.abs(f2), 0.5)
-      this.reach = roundUp(far / 1.06)
+      const far = Math.max(...[...ellipse, ...saddle].flat().map(Math.abs), Math.abs(f1), Math.abs(f2), 0.5)
+      this.reach = roundUp(far / 1.16)
     }
     const at = ([x, y]) => `${(100 * x / this.reach).toFixed(2)} ${(-100 * y / this.reach).toFixed(2)}`
     const path = (points) => `M${points.map(at).join("L")}Z`

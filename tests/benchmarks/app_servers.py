@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import sys
 
-KINDS = ("explorer", "bare", "holoviews")
-
 
 def explorer(port: int) -> None:
     """Serve the explorer as `codim2 serve` does."""
@@ -47,39 +45,5 @@ def bare(port: int) -> None:
     server.io_loop.start()
 
 
-def holoviews(port: int) -> None:
-    """Serve the same scene as one HoloViews DynamicMap for each layer, bound to a Panel slider."""
-    import holoviews as hv
-    import panel as pn
-    from codim2_app.holoviews_view import elements
-    from codim2_app.refresh import make_scene
-    from codim2_app.state import ExplorerState
-
-    hv.extension("bokeh")
-
-    def page():
-        slider = pn.widgets.FloatSlider(name="f1", start=-3, end=3, step=0.001, value=-0.5)
-        scenes = [make_scene(ExplorerState().values())]
-
-        def layer(name: str):
-            def draw(value: float):
-                scenes[0] = scenes[0].evolve(f1=value)
-                return elements(scenes[0])[name]
-
-            return hv.DynamicMap(pn.bind(draw, slider))
-
-        names = list(elements(scenes[0]))
-        return pn.Column(slider, pn.pane.HoloViews(hv.Overlay([]) if not names else _product(names, layer)))
-
-    pn.serve({"/": page}, port=port, show=False)
-
-
-def _product(names, layer):
-    picture = layer(names[0])
-    for name in names[1:]:
-        picture = picture * layer(name)
-    return picture
-
-
 if __name__ == "__main__":
-    {"explorer": explorer, "bare": bare, "holoviews": holoviews}[sys.argv[1]](int(sys.argv[2]))
+    {"explorer": explorer, "bare": bare}[sys.argv[1]](int(sys.argv[2]))

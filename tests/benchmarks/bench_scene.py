@@ -1,6 +1,6 @@
 """Cost of a cold default scene, layer by layer, beside its trajectories alone; and of importing the core.
 
-Run with ``python tests/benchmarks/bench_scene.py``.
+Run with ``python -m tests.benchmarks.bench_scene``.
 """
 
 from __future__ import annotations

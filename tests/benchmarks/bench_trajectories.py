@@ -126,58 +126,67 @@ def at_error(rows: list[tuple[float, float]], error: float) -> float:
     raise AssertionError
 
 
-def main() -> None:
-    """Print the table."""
-    parser = argparse.ArgumentParser(description=main.__doc__)
-    parser.add_argument("--quick", action="store_true", help="Psi = 1 and 1/(1 + s) only")
-    quick = parser.parse_args().quick
-    seeds = sunflower()
-    print(f"{'Psi':14s} {'method':14s} {'tolerance':>9s} {'true error':>10s} {'median ms':>10s}")
-    for p in FAMILIES[: 2 if quick else None]:
-        reference = compiled(p, seeds, 1e-14)()
-        runs: dict[str, list[tuple[float, Callable[[], Array], int]]] = {"compiled": [], "drawn": []}
-        for tolerance in 10.0 ** -np.arange(3.0, 14.0):
-            runs["compiled"].append((tolerance, compiled(p, seeds, tolerance), 40))
-            runs["drawn"].append((tolerance, compiled(p, seeds, tolerance, True), 40))
-        for tolerance in (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14):
-            batch = heyoka_batch(p, seeds, tolerance)
-            if batch is not None:
-                runs.setdefault("heyoka batch", []).append((tolerance, batch, 40))
-        for method, tolerances in (
-            ("DOP853", (1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13)),
-            ("RK45", (1e-5, 1e-6, 1e-8, 1e-10)),
-            ("LSODA", (1e-5, 1e-6, 1e-7, 1e-9, 1e-11)),
-        ):
-            runs[method] = [(t, stacked(p, seeds, t, method), 3) for t in tolerances]
-        if p.family == "constant":  # implicit: 128 coupled unknowns in every Newton step
-            runs["Radau"] = [(1e-6, stacked(p, seeds, 1e-6, "Radau"), 1)]
-        times: dict[tuple[str, float], list[float]] = {}
-        errors: dict[tuple[str, float], float] = {}
-        for turn in range(40):
-            for name, cases in runs.items():
-                for tolerance, run, count in cases:
-                    if turn == 0:
-                        errors[name, tolerance] = float(np.abs(run() - reference).max())
-                    if turn < count:
-                        begin = time.perf_counter()
-                        run()
-                        times.setdefault((name, tolerance), []).append(time.perf_counter() - begin)
-        rows: dict[str, list[tuple[float, float]]] = {}
-        for (name, tolerance), taken in times.items():
-            middle = statistics.median(taken)
-            rows.setdefault(name, []).append((errors[name, tolerance], middle))
-            print(f"{p.text[:14]:14s} {name:14s} {tolerance:9.0e} {errors[name, tolerance]:10.1e} {1e3 * middle:10.3f}")
-        if "heyoka batch" not in runs:
-            print("heyoka is not installed: left out (pip install heyoka).")
+def measure(p: Psi, seeds: Array, turns: int = 40) -> dict[str, list[tuple[float, float, float]]]:
+    """(tolerance, true error, median seconds) of every method, interleaved in one run."""
+    reference = compiled(p, seeds, 1e-14)()
+    runs: dict[str, list[tuple[float, Callable[[], Array], int]]] = {"compiled": [], "drawn": []}
+    for tolerance in 10.0 ** -np.arange(3.0, 14.0):
+        runs["compiled"].append((tolerance, compiled(p, seeds, tolerance), turns))
+        runs["drawn"].append((tolerance, compiled(p, seeds, tolerance, True), turns))
+    for tolerance in (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14):
+        batch = heyoka_batch(p, seeds, tolerance)
+        if batch is not None:
+            runs.setdefault("heyoka batch", []).append((tolerance, batch, turns))
+    for method, tolerances in (
+        ("DOP853", (1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13)),
+        ("RK45", (1e-5, 1e-6, 1e-8, 1e-10)),
+        ("LSODA", (1e-5, 1e-6, 1e-7, 1e-9, 1e-11)),
+    ):
+        runs[method] = [(t, stacked(p, seeds, t, method), 3) for t in tolerances]
+    if p.family == "constant":  # implicit: 128 coupled unknowns in every Newton step
+        runs["Radau"] = [(1e-6, stacked(p, seeds, 1e-6, "Radau"), 1)]
+    times: dict[tuple[str, float], list[float]] = {}
+    errors: dict[tuple[str, float], float] = {}
+    for turn in range(turns):
+        for name, cases in runs.items():
+            for tolerance, run, count in cases:
+                if turn == 0:
+                    errors[name, tolerance] = float(np.abs(run() - reference).max())
+                if turn < count:
+                    begin = time.perf_counter()
+                    run()
+                    times.setdefault((name, tolerance), []).append(time.perf_counter() - begin)
+    rows: dict[str, list[tuple[float, float, float]]] = {}
+    for (name, tolerance), taken in times.items():
+        rows.setdefault(name, []).append((tolerance, errors[name, tolerance], statistics.median(taken)))
+    return rows
+
+
+def report(families: tuple[Psi, ...] = FAMILIES, verbose: bool = False) -> str:
+    """Return the table of equal true errors as Markdown; verbose prints every run on the way."""
+    lines = [
+        "| 64 trajectories to T = 8, Ψ | true error | ours, ms | ours drawn, ms | SciPy stacked (best) / ours | "
+        "heyoka batch / ours |",
+        "|---|---|---|---|---|---|",
+    ]
+    for p in families:
+        rows = measure(p, sunflower())
+        for name, cases in rows.items() if verbose else ():
+            for tolerance, error, seconds in cases:
+                print(f"{p.text[:16]:16s} {name:14s} {tolerance:9.0e} {error:10.1e} {1e3 * seconds:10.3f} ms")
+        times = {name: [case[1:] for case in cases] for name, cases in rows.items()}
         for error in ERRORS:
-            own = at_error(rows["compiled"], error)
-            scipy_best = min(at_error(rows[m], error) for m in ("DOP853", "RK45", "LSODA", "Radau") if m in rows)
-            line = f"{p.text[:14]:14s} at error {error:.0e}: {1e3 * own:.3f} ms"
-            line += f", drawn {1e3 * at_error(rows['drawn'], error):.3f} ms; scipy/own = {scipy_best / own:.0f}"
-            if "heyoka batch" in rows:
-                line += f", heyoka/own = {at_error(rows['heyoka batch'], error) / own:.2f}"
-            print(line)
+            own, drawn = at_error(times["compiled"], error), at_error(times["drawn"], error)
+            best = min(at_error(times[m], error) for m in ("DOP853", "RK45", "LSODA", "Radau") if m in times)
+            heyoka = times.get("heyoka batch")
+            batch = f"{at_error(heyoka, error) / own:.1f}" if heyoka else "not installed"
+            lines.append(
+                f"| {p.text} | {error:.0e} | {1e3 * own:.3f} | {1e3 * drawn:.3f} | {best / own:.0f} | {batch} |"
+            )
+    return "\n".join(lines)
 
 
 if __name__ == "__main__":
-    main()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="Psi = 1 and 1/(1 + s) only")
+    print(report(FAMILIES[: 2 if parser.parse_args().quick else None], verbose=True))

@@ -3,6 +3,7 @@ from urllib.parse import parse_qs, urlparse
 import pytest
 from codim2_app.portraits import portraits
 from codim2_app.state import NUMBERS
+
 from tests.app.serving import serving
 
 pytestmark = pytest.mark.browser
@@ -26,7 +27,7 @@ def test_pages_of_two_processes_ask_nobody_else(open_page):
             hosts = {urlparse(url).netloc for url in page.requests if not url.startswith(("data:", "blob:"))}
             assert hosts == {urlparse(address).netloc}
             assert page.complaints == []
-            page.type("a", "-1.5")
+            page.type("a", "-1.8")
             assert page.name() == "CM4"
 
 

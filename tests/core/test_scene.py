@@ -53,6 +53,7 @@ REACHES = {
     "z": ({"z": 1.0}, set()),
     "B": ({"B": [[2.0, 1.0]]}, {"critical", "classification", "slow_flow"}),
     "g": ({"g": [0.5]}, {"critical", "classification", "slow_flow"}),
+    "length": ({"length": 5.0}, {"inside", "outside", "continuations"}),
     "t_max": ({"t_max": 6.0}, {"inside", "outside", "continuations"}),
     "rtol": ({"rtol": 1e-5}, {"inside", "outside", "continuations"}),
     "atol": ({"atol": 1e-6}, {"inside", "outside", "continuations"}),
