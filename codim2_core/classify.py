@@ -1,4 +1,4 @@
-"""The portrait's name: case (tab:cases), name (fig:sketches, fig:3cases), degeneracies, and a sentence for a student."""
+"""The portrait's name: case (tab:cases), name (fig:sketches, fig:3cases), degeneracies, and a student's sentence."""
 
 from __future__ import annotations
 

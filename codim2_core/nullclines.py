@@ -203,7 +203,9 @@ def inside_nullclines(
         ("rho", _radial_angles(coefficients)),
         ("theta", limit_directions),
     )
-    shapes = [(kind, curve) for kind, angles in ends for curve in _conic(kind, coefficients, angles)]
+    shapes: list[tuple[Kind, Curve]] = []
+    for kind, angles in ends:
+        shapes += [(kind, curve) for curve in _conic(kind, coefficients, angles)]
     for kind, line in _lines(coefficients):
         chord = _chord(*line)
         if chord is not None:

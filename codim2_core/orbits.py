@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,13 +65,13 @@ class Orbits:
     def points(self) -> list[Array]:
         """One (m, 2) array an orbit."""
         at = self.offsets.tolist()
-        return [self.buffer[i:j] for i, j in zip(at, at[1:], strict=False)]
+        return [self.buffer[i:j] for i, j in pairwise(at)]
 
     @cached_property
     def times(self) -> list[Array]:
         """One (m,) array an orbit."""
         at = self.offsets.tolist()
-        return [self.clock[i:j] for i, j in zip(at, at[1:], strict=False)]
+        return [self.clock[i:j] for i, j in pairwise(at)]
 
     @property
     def status(self) -> tuple[Status, ...]:

@@ -197,7 +197,7 @@ def _start(scene: Scene, outside: bool) -> np.ndarray:
     return seeds[(radius >= 1.0) == outside]
 
 
-def _stepping(scene: Scene) -> dict[str, float]:
+def _stepping(scene: Scene) -> dict[str, Any]:
     largest = max(map(abs, scene.coefficients.plane)) or 1.0
     return {
         "t_max": DRAWN_TIME / largest if scene.t_max is None else scene.t_max,
@@ -238,9 +238,7 @@ def _outside_nullclines(scene: Scene) -> tuple[NullclineBranch, ...]:
 
 
 def _classification(scene: Scene) -> Classification:
-    return portrait(
-        scene.coefficients, scene["equator"], scene["equator_cycle"], scene["location"], scene["critical"]
-    )
+    return portrait(scene.coefficients, scene["equator"], scene["equator_cycle"], scene["location"], scene["critical"])
 
 
 layers: Mapping[str, Layer] = MappingProxyType(

@@ -10,7 +10,7 @@ from .systems import Coefficients, ELinear
 
 
 def sliding_flow(system: ELinear | Coefficients, z: ArrayLike = ()) -> NDArray[np.float64] | None:
-    """z' along the critical set, eq:linslowflow: ``-B A^-1 f + g``, the Filippov convention, whatever Psi is.
+    """Z' along the critical set, eq:linslowflow: ``-B A^-1 f + g``, the Filippov convention, whatever Psi is.
 
     It is also the mean of z' over a limit cycle of the layer problem (prop:LC).
 

@@ -175,12 +175,18 @@ class ELinear:
         if isinstance(self.f, str) or not hasattr(self.f, "__len__") or len(self.f) != 2:
             raise ValueError(f"f is {self.f!r}; give two coefficients (f1, f2).")
         f = tuple(entry(value, f"f{i + 1}") for i, value in enumerate(self.f))
-        B = None if self.B is None else tuple(
-            tuple(entry(v, f"B[{i + 1},{j + 1}]") for j, v in enumerate(row))
-            for i, row in enumerate(_grid(self.B, "B", "(m, 2)", 2))
+        B = (
+            None
+            if self.B is None
+            else tuple(
+                tuple(entry(v, f"B[{i + 1},{j + 1}]") for j, v in enumerate(row))
+                for i, row in enumerate(_grid(self.B, "B", "(m, 2)", 2))
+            )
         )
-        g = None if self.g is None else tuple(
-            entry(row[0], f"g{i + 1}") for i, row in enumerate(_grid(self.g, "g", "(m,)", None))
+        g = (
+            None
+            if self.g is None
+            else tuple(entry(row[0], f"g{i + 1}") for i, row in enumerate(_grid(self.g, "g", "(m,)", None)))
         )
         if B is not None and g is not None and len(B) != len(g):
             raise ValueError(f"B has {len(B)} row(s) and g has {len(g)}; both need m, one for each slow variable.")
@@ -294,7 +300,7 @@ class ELinear:
             names["z"] = z[0]
 
         def number(value: Coefficient, what: str) -> float:
-            if isinstance(value, float):
+            if not isinstance(value, Expression):
                 return value
             try:
                 result = float(value.evaluate(names))
@@ -339,7 +345,7 @@ def _number(value: object, what: str) -> float:
 
 
 def _rotate(a11: float, a12: float, a21: float, a22: float) -> tuple[float, float, float, float]:
-    """(a, b, d, phi) of R(phi) A R(phi)^T = [[a, -b], [b, d]], lem:normalform.
+    """Return (a, b, d, phi) of R(phi) A R(phi)^T = [[a, -b], [b, d]], lem:normalform.
 
     Rotation leaves the antisymmetric part b = (A21 - A12)/2 and the trace alone and diagonalises the symmetric
     part, whose eigenvalues are mean -+ half the length of (A12 + A21, A22 - A11).

@@ -100,7 +100,6 @@ def holoviews() -> dict[str, float]:
     Measured in this process, without a server: the real cost has the protocol on top.
     """
     import holoviews as hv
-
     from codim2_app.holoviews_view import elements
     from codim2_app.refresh import make_scene
     from codim2_app.state import ExplorerState

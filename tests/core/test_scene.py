@@ -11,9 +11,7 @@ from codim2_core.scene import layers
 
 def typed(**parameters):
     values = {"f1": -0.5, "f2": 0.1, "k1": 0.0, "k2": 0.0, **parameters}
-    return c2.ELinear(
-        -2.0, 0.3, -1.0, ("f1 + k1*z", "f2 + k2*z"), B=[[1.0, -2.0]], g=[0.25], parameters=values
-    )
+    return c2.ELinear(-2.0, 0.3, -1.0, ("f1 + k1*z", "f2 + k2*z"), B=[[1.0, -2.0]], g=[0.25], parameters=values)
 
 
 def fingerprint(value):
@@ -114,7 +112,7 @@ def test_a_bad_change_leaves_the_scene_as_it_was():
     first = scene["classification"]
     for bad in ({"a": float("nan")}, {"q": 1.0}, {"view": 1.0}, {"seeds": [[1, 2, 3]]}, {"psi": "tanh"}, {"z": [1, 2]},
                 {"count": -1}, {"t_max": 0.0}, {"pixel": 0.0}):  # fmt: skip
-        with pytest.raises(ValueError, match="give|allowed|has"):
+        with pytest.raises(ValueError, match=r"give|allowed|has"):
             scene.evolve(**bad)["inside"]
     assert scene["classification"] is first
 

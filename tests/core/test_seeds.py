@@ -1,3 +1,5 @@
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -34,9 +36,8 @@ def test_structured_seeds_are_symmetric_about_both_axes_and_lie_on_neither(count
     ],
 )
 def test_bad_seeds_are_refused_with_a_remedy(seeds, says):
-    with pytest.raises(ValueError, match=".") as caught:
+    with pytest.raises(ValueError, match=re.escape(says)):
         checked_seeds(seeds)
-    assert says in str(caught.value)
 
 
 @pytest.mark.parametrize("count", [-1, 2001])

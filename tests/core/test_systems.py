@@ -1,4 +1,5 @@
 import math
+import re
 
 import numpy as np
 import pytest
@@ -94,6 +95,5 @@ def test_from_matrix_takes_entries_that_depend_on_z():
     ],
 )
 def test_bad_input_says_what_and_how_to_mend(make, says):
-    with pytest.raises(ValueError, match=".") as caught:
+    with pytest.raises(ValueError, match=re.escape(says)):
         make()
-    assert says in str(caught.value)
