@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import panel as pn
 from bokeh.server.urls import per_app_patterns
 from panel.io.server import WSHandler
+from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.web import RequestHandler
 
 from . import warmup
@@ -93,11 +95,24 @@ def make_server(
     if warmup_now:
         warmup.start()
     pn.config.nthreads = threads  # type: ignore[assignment]  # a property of Panel's, with a setter
+    parent = os.getpid()
     with _prompt_websockets():
         server = _server(port, address, allow_origin, processes, options)
     if not warmup_now:
         server.io_loop.add_callback(warmup.start)
+    if os.getpid() != parent:
+        _stop_with(parent, server.io_loop)
     return server
+
+
+def _stop_with(parent: int, loop: IOLoop) -> None:
+    """Stop this forked process within a second when its parent has ended, so that no orphan keeps the port."""
+
+    def check() -> None:
+        if os.getppid() != parent:
+            loop.stop()
+
+    loop.add_callback(PeriodicCallback(check, 1000).start)
 
 
 def _server(port: int, address: str, allow_origin: Sequence[str], processes: int, options: dict[str, Any]) -> Any:

@@ -35,6 +35,10 @@ def quantise(points: NDArray[np.float64]) -> NDArray[np.int16]:
     return np.rint(np.clip(points, -EXTENT, EXTENT) * (1 / STEP)).astype(np.int16)
 
 
+#: Names of the types in use (`dtype.name` takes 3 µs, on each of thirty blocks a frame).
+_NAMES = {np.dtype(name).char: name for name in ("int16", "uint16", "float32", "float64")}
+
+
 def pack(header: Mapping[str, Any], blocks: Mapping[str, NDArray[Any]]) -> bytes:
     """Return header and arrays as one buffer.
 
@@ -43,7 +47,7 @@ def pack(header: Mapping[str, Any], blocks: Mapping[str, NDArray[Any]]) -> bytes
     ValueError
         If the header holds NaN or infinity: JSON has no word for them, so they must be named before.
     """
-    listing = [(name, array.dtype.name, int(array.size)) for name, array in blocks.items()]
+    listing = [(name, _NAMES[array.dtype.char], array.size) for name, array in blocks.items()]
     text = json.dumps({**header, "blocks": listing}, allow_nan=False, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     parts = [struct.pack("<I", len(text)), text]

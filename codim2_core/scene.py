@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections import Counter, OrderedDict
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
@@ -192,9 +193,18 @@ _STEPPED = ("time", "tolerance", "pixel")
 
 
 def _start(scene: Scene, outside: bool) -> np.ndarray:
-    seeds = scene.start
-    radius = np.hypot(seeds[:, 0], seeds[:, 1])
-    return seeds[(radius >= 1.0) == outside]
+    return _structured(scene.count, scene.view)[outside] if scene.seeds is None else _sides(scene.seeds)[outside]
+
+
+def _sides(seeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the seeds on the hemisphere, and those outside or on the equator."""
+    outside = np.hypot(seeds[:, 0], seeds[:, 1]) >= 1.0
+    return seeds[~outside], seeds[outside]
+
+
+@lru_cache(maxsize=32)
+def _structured(count: int, view: float) -> tuple[np.ndarray, np.ndarray]:
+    return _sides(structured_seeds(count, view))
 
 
 def _stepping(scene: Scene) -> dict[str, Any]:

@@ -8,6 +8,7 @@ with f on an axis, and no seed lies on an axis, where such systems have their eq
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,6 +33,7 @@ def _ring_sizes(count: int) -> list[int]:
     return sizes
 
 
+@lru_cache(maxsize=32)
 def structured_seeds(count: int, view: float = 2.0) -> NDArray[np.float64]:
     """`count` starting points of the picture, (count, 2), outside first; the same ones on each call.
 

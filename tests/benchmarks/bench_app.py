@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import math
 import os
 import socket
 import subprocess
@@ -205,8 +206,9 @@ def table(results: dict[str, dict[str, float]]) -> str:
     ours, base, hv = results["explorer"], results["bare"], results["holoviews"]
     rows = ["| server | CPU a frame | event to message | bytes a frame | CPU, explorer = 1 |", "|---|---|---|---|---|"]
     for name, row in (("bare Bokeh, one precomputed buffer", base), ("explorer", ours), ("HoloViews DynamicMaps", hv)):
+        size = "–" if math.isnan(row["bytes"]) else f"{row['bytes'] / 1e3:.1f} kB"
         rows.append(
-            f"| {name} | {1e3 * row['cpu']:.1f} ms | {1e3 * row['median']:.1f} ms | {row['bytes'] / 1e3:.1f} kB "
+            f"| {name} | {1e3 * row['cpu']:.1f} ms | {1e3 * row['median']:.1f} ms | {size} "
             f"| {row['cpu'] / ours['cpu']:.2f} |"
         )
     eight = results["crowd"]
@@ -222,8 +224,13 @@ def table(results: dict[str, dict[str, float]]) -> str:
         f"{ours['cpu'] / (base['cpu'] + alone):.2f} times."
     )
     ratios = ours["cpu"] / base["cpu"], ours["cpu"] / hv["cpu"]
-    rows.append(f"Ratios: explorer/bare {ratios[0]:.2f}, explorer/DynamicMaps {ratios[1]:.4f}.")
+    rows.append(f"Explorer/bare {ratios[0]:.2f}, DynamicMaps/explorer {1 / ratios[1]:.0f}.")
     return "\n".join(rows)
+
+
+def report() -> str:
+    """Measure everything; return a Markdown table."""
+    return table(run())
 
 
 if __name__ == "__main__":
