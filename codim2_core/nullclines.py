@@ -205,7 +205,8 @@ def inside_nullclines(
     )
     shapes: list[tuple[Kind, Curve]] = []
     for kind, angles in ends:
-        shapes += [(kind, curve) for curve in _conic(kind, coefficients, angles)]
+        for curve in _conic(kind, coefficients, angles):
+            shapes.append((kind, curve))  # noqa: PERF401 (a comprehension loses the type of kind)
     for kind, line in _lines(coefficients):
         chord = _chord(*line)
         if chord is not None:
