@@ -17,4 +17,4 @@ EXPOSE 5006
 HEALTHCHECK --interval=15s --timeout=5s --start-period=20s \
     CMD python -c "import urllib.request as u; u.urlopen('http://127.0.0.1:5006/health', timeout=4)"
 # The address that visitors type must be allowed to open websockets: set CODIM2_ORIGINS=explorer.example.org
-CMD ["codim2", "serve", "--address", "0.0.0.0", "--port", "5006", "--no-show"]
+CMD ["codim2", "serve", "--address", "0.0.0.0", "--port", "5006"]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import os
 import socket
+import sys
 from collections.abc import Sequence
 
 
@@ -21,17 +23,35 @@ def parser() -> argparse.ArgumentParser:
         action="append",
         default=[],
         metavar="HOST[:PORT]",
-        help="a host under which browsers reach this server; may be repeated",
+        help="a host under which browsers reach this server; may be repeated (also CODIM2_ORIGINS, with commas)",
     )
     serve.add_argument("--processes", type=int, default=1, help="server processes that share the port")
     serve.add_argument("--threads", type=int, default=None, help="threads that answer requests in a process")
-    serve.add_argument("--show", action=argparse.BooleanOptionalAction, default=False, help="open a browser window")
+    serve.add_argument(
+        "--show",
+        action=argparse.BooleanOptionalAction,
+        default=_at_a_screen(),
+        help="open a browser window (default: when started from a terminal on a screen)",
+    )
+    commands.add_parser("warm", help="compile the integrator into the disk cache, so that servers start warm")
     return top
+
+
+def _at_a_screen() -> bool:
+    screen = sys.platform in ("darwin", "win32") or "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ
+    return screen and sys.stdout.isatty()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit status."""
     chosen = parser().parse_args(arguments)
+    if chosen.command == "warm":
+        from .warmup import warm_all
+
+        warm_all()
+        print("codim2: the integrator is compiled for all built-in regularisation functions")
+        return 0
+    origins = [*chosen.allow_origin, *filter(None, os.environ.get("CODIM2_ORIGINS", "").split(","))]
     try:
         _try_to_listen(chosen.address, chosen.port)
     except OSError as error:
@@ -39,7 +59,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     from .main import make_server  # heavy, and not needed for --help
 
-    server = make_server(chosen.port, chosen.address, chosen.allow_origin, chosen.processes, chosen.threads)
+    server = make_server(chosen.port, chosen.address, origins, chosen.processes, chosen.threads)
     host = "localhost" if chosen.address in ("0.0.0.0", "::") else chosen.address
     print(f"codim2: the explorer is at http://{host}:{server.port}/  (stop with Ctrl+C)", flush=True)
     server.start()

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from codim2_core.regularisation import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems import ELinear
 
@@ -45,11 +46,11 @@ class Frames:
     system : ELinear, optional
         Drawn instead of the system of the controls a, b, d, f, k, B, g.
     ready : callable, optional
-        Says whether the compiled integrator is ready; until then trajectories are left out.
+        Says whether the compiled integrator is ready for this Psi; until then trajectories are left out.
     """
 
     def __init__(
-        self, state: ExplorerState, system: ELinear | None = None, ready: Callable[[], bool] = lambda: True
+        self, state: ExplorerState, system: ELinear | None = None, ready: Callable[[Psi], bool] = lambda _psi: True
     ) -> None:
         self.state = state
         self.values = state.values()
@@ -107,7 +108,7 @@ class Frames:
         if "z" in evolution:
             evolution["z"] = slow_position(self.scene, values["z"])
         scene = self.scene.evolve(**evolution) if evolution else self.scene
-        header, blocks, now_sent = make_frame(scene, values, sent, self.ready())
+        header, blocks, now_sent = make_frame(scene, values, sent, self.ready(scene.psi))
         self.scene, self.values, self._sent = scene, values, now_sent
         if changed:
             self.state.param.update(**{name: values[name] for name in changed})

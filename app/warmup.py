@@ -1,27 +1,49 @@
-"""Compile the integrator in the background, once for each process."""
+"""Compile the integrator in the background, once for each process and each new regularisation function."""
 
 from __future__ import annotations
 
 import threading
 
+from codim2_core.regularisation import FAMILIES, Psi, constant, make
 from codim2_core.trajectories import is_warm, warm
 
+MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
+BUILT_IN = tuple(make(family) for family in FAMILIES if family != "custom")
+
 _lock = threading.Lock()
-_thread: threading.Thread | None = None
+_threads: dict[Psi, threading.Thread] = {}
+
+
+def warm_all() -> None:
+    """Compile, or load from the disk cache, what all built-in families need."""
+    for psi in BUILT_IN:
+        warm(psi)
 
 
 def start() -> None:
     """Begin compiling (or loading from the cache) in a background thread; further calls do nothing."""
-    global _thread
     with _lock:
-        if _thread is None and not is_warm():
-            _thread = threading.Thread(target=warm, name="codim2-warm-up", daemon=True)
-            _thread.start()
+        if constant() not in _threads:
+            _threads[constant()] = threading.Thread(target=warm_all, name="codim2-warm-up", daemon=True)
+            _threads[constant()].start()
 
 
-def is_ready() -> bool:
-    """Say whether trajectories can be drawn without waiting for the compiler.
+def is_ready(psi: Psi | None = None) -> bool:
+    """Say whether trajectories can be drawn without waiting for the compiler; if not, see that it is at work.
 
     If compiling failed, trajectories are asked for all the same, so that their error is seen.
     """
-    return is_warm() or (_thread is not None and not _thread.is_alive())
+    psi = constant() if psi is None else psi
+    if is_warm(psi):
+        return True
+    with _lock:
+        thread = _threads.get(psi)
+        if thread is not None:
+            if thread.is_alive():
+                return False
+            del _threads[psi]
+            return True
+        if psi.family == "custom" and sum(t.is_alive() for t in _threads.values()) < MOST_THREADS:
+            _threads[psi] = threading.Thread(target=warm, args=(psi,), name="codim2-custom-psi", daemon=True)
+            _threads[psi].start()
+    return not any(t.is_alive() for t in _threads.values())

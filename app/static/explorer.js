@@ -6,7 +6,7 @@ function wire({model, view, root, plot}) {
   const picture = new Picture(plot, config.themes)
   const inspector = new Inspector(root)
   const find = (name) => root.querySelector(name)
-  const requests = new Requests((request) => model.send_msg(request))
+  const requests = new Requests((request) => model.send_msg(request), () => { root.dataset.settled = false })
   const controls = {}
 
   const change = (name, value) => {
@@ -122,12 +122,12 @@ function wire({model, view, root, plot}) {
     inspector.apply(header, values)
     requests.arrived(header.id, errors)
     root.dataset.frame = header.id
-    root.dataset.settled = requests.idle
+    root.dataset.settled = requests.idle && header.ready !== false
     if ("ready" in header) {
       busy.hidden = header.ready
       busy.textContent = "Compiling the integrator, once; trajectories follow …"
       clearTimeout(warmTimer)
-      if (!header.ready) warmTimer = setTimeout(() => requests.refresh(), 500)
+      if (!header.ready) warmTimer = setTimeout(() => requests.refresh(), 250)
     }
   }
   const banner = (sentence) => { const bar = find(".banner"); bar.hidden = !sentence; bar.textContent = sentence }

@@ -20,8 +20,9 @@ function readFrame(buffer) {
 // Latest wins: one request is out at a time; while it is, only the newest value of each control is kept.
 // A rejected value goes along with the next request, since another control may have made it valid.
 class Requests {
-  constructor(send) {
+  constructor(send, onAsk) {
     this.send = send
+    this.onAsk = onAsk
     this.waiting = {}
     this.rejected = {}
     this.asked = null
@@ -33,6 +34,7 @@ class Requests {
   set(name, value) {
     this.waiting[name] = value
     delete this.rejected[name]
+    this.onAsk()
     this.schedule()
   }
 

@@ -108,7 +108,7 @@ def test_state_follows(frames):
 
 def test_cold_integrator_sends_closed_forms_then_the_rest():
     ready = [False]
-    frames = Frames(ExplorerState(), ready=lambda: ready[0])
+    frames = Frames(ExplorerState(), ready=lambda psi: ready[0])
     header, blocks = unpack(frames.answer({"all": True}))
     assert header["ready"] is False
     assert header["portrait"]["name"] == "CM4"
@@ -135,3 +135,20 @@ def test_own_system_locks_what_it_gives_as_text():
     header, _ = ask(frames, z=2.0, a=-3.0)
     assert header["errors"] == {}
     assert frames.scene.coefficients.plane == (-3.0, 0.2, -2.0, 0.2, 0.3)
+
+
+def test_a_new_custom_psi_is_compiled_in_the_background():
+    import threading
+    import time
+
+    from codim2_app.warmup import is_ready
+
+    from codim2_core.regularisation import custom
+
+    psi = custom("1/(1 + s/7)**4")
+    assert not is_ready(psi)  # and so the frame goes out at once, without trajectories
+    assert any(thread.name == "codim2-custom-psi" for thread in threading.enumerate())
+    deadline = time.monotonic() + 60
+    while not is_ready(psi):
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
