@@ -18,7 +18,7 @@ def explorer(system: ELinear | None = None, **state: Any) -> ExplorerView:
     system : ELinear, optional
         Your own system. Numbers in it stay adjustable; coefficients given as text do not.
     **state
-        Values of controls: a, b, d, f1, f2, z, k1, k2, B1, B2, g0, psi, n, psi_text, trajectories, layers.
+        Values of controls: preset, a, b, d, f1, f2, z, k1, k2, B1, B2, g0, psi, n, psi_text, trajectories, layers.
 
     Returns
     -------
@@ -50,7 +50,7 @@ def explorer(system: ELinear | None = None, **state: Any) -> ExplorerView:
         values = {**_values_of(system, values.get("z", 0.0)), **values}
     pn.extension()
     warmup.start()
-    return ExplorerView(ExplorerState(**values), system)
+    return ExplorerView(ExplorerState.of(values), system)
 
 
 def _values_of(system: ELinear, z: float) -> dict[str, Any]:

@@ -17,6 +17,8 @@ from codim2_core import psi as psi_families
 from codim2_core.regularisation import Psi
 from codim2_core.systems import ELinear
 
+from .portraits import portraits
+
 #: Text of f(z) = f + z k and of z' = B e + g. It never changes, so that nothing is parsed again on a tick:
 #: the numbers travel as parameters of the system.
 F_TEXT = ("f1 + k1*z", "f2 + k2*z")
@@ -94,7 +96,7 @@ class ExplorerState(param.Parameterized):
 
     @classmethod
     def from_query(cls, query: str | Mapping[str, str]) -> tuple[ExplorerState, list[InputError]]:
-        """Read a state from a URL query.
+        """Read a state from a URL query: a preset's values, then those of the other names over them.
 
         Returns
         -------
@@ -111,7 +113,13 @@ class ExplorerState(param.Parameterized):
                 good[name] = clean(name, text)
             except InputError as error:
                 errors.append(error)
-        return cls(**good), errors
+        return cls.of(good), errors
+
+    @classmethod
+    def of(cls, values: Mapping[str, Any]) -> ExplorerState:
+        """Return the state of some clean values: those of their preset, if they name one, and theirs over them."""
+        start = next((p["values"] for p in portraits() if p["key"] == values.get("preset")), {})
+        return cls(**{**start, **values})
 
 
 NAMES: tuple[str, ...] = tuple(

@@ -73,3 +73,9 @@ def test_presets_set_only_known_controls_to_allowed_values():
     for portrait in portraits():
         for name, value in portrait["values"].items():
             assert clean(name, value) == value
+
+
+def test_a_link_may_name_a_portrait_and_change_it():
+    state, errors = ExplorerState.from_query("preset=case3-n3&z=0.25")
+    assert errors == []
+    assert (state.a, state.b, state.psi, state.n, state.z) == (172.0, 186.0, "hill", 3.0, 0.25)
