@@ -38,7 +38,7 @@ SAFETY, SHRINK, GROW = 0.9, 0.2, 6.0
 # on 1000 orbits of SO(2, 1), T = 8: at most 20 times with 1).
 SHARE = 0.1
 FIRST_STEP = 1.0  # times rtol^(1/8): about what the error estimate asks for where |U| = 1
-NEAR = 1e-6  # ebar and rho below which a trajectory has reached the equator, for the picture
+NEAR = 1e-6  # ebar and rho below which (or below `capture`) a trajectory has spiralled onto the equator
 EXTREME = 1e-300
 LEAVING, SLOW, OTHER = 1, 2, 4  # marks of lanes to look at
 IDLE = -(1 << 60)  # steps spent by a lane without a trajectory
@@ -81,7 +81,7 @@ def _judge(S, P, times, steps, tried, accepted, t_max, rtol, atol):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _flag(S, P, times, accepted, spent, flags, t_max, slow, view, limit):
+def _flag(S, P, times, accepted, spent, flags, t_max, slow, near, view, limit):
     """Count the step, and mark the lanes where something may have happened. Vectorised; returns all marks."""
     marks = 0
     for k in range(LANES):
@@ -94,7 +94,7 @@ def _flag(S, P, times, accepted, spent, flags, t_max, slow, view, limit):
         good = busy & (accepted[k] > 0.0)
         leaving = good & (P[SIGN + k] > 0.0) & (extent > view) & (extent > before)
         still = good & (ux * ux + uy * uy + uw * uw <= slow)
-        other = (good & ((times[LANES + k] >= t_max) | ((w > 0.0) & (w < NEAR)))) | (busy & (spent[k] >= limit))
+        other = (good & ((times[LANES + k] >= t_max) | ((w > 0.0) & (w < near)))) | (busy & (spent[k] >= limit))
         flags[k] = (LEAVING if leaving else 0) | (SLOW if still else 0) | (OTHER if other else 0)
         marks |= flags[k]
     return marks
@@ -154,7 +154,7 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
     ends, codes = np.empty((n, 3)), np.full(n, RUNNING)
     turn, turn_known = 0.0, False
     first = FIRST_STEP * rtol**0.125
-    slow = (4.0 * capture) ** 2
+    slow, near = (4.0 * capture) ** 2, max(NEAR, capture)
     evaluations, following, done = 0, 0, 0
     for k in range(LANES):
         _load(S, P, k, states[0], signs[0])  # an idle lane repeats a harmless state with steps of length 0
@@ -186,7 +186,7 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
         advance(S, P, field)
         _judge(S, P, times, steps, tried, accepted, t_max, rtol, atol)
         call_field(field, S, NEW, K12, P)
-        events = _flag(S, P, times, accepted, spent, flags, t_max, slow, view, limit)
+        events = _flag(S, P, times, accepted, spent, flags, t_max, slow, near, view, limit)
         wanted = events & LEAVING != 0
         if draw or wanted:
             interpolate(S, P, field)
@@ -208,7 +208,7 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
                             code = EQUILIBRIUM
                         elif kind == EQUATOR:
                             code = ARRIVED
-                    if code == RUNNING and 0.0 < w < NEAR and S[K12 + 2 * LANES + k] < 0.0:
+                    if code == RUNNING and 0.0 < w < near and S[K12 + 2 * LANES + k] < 0.0:
                         if not turn_known:
                             turn, turn_known = winding(P), True
                         if turn * P[SIGN + k] < 0.0:
