@@ -27,7 +27,7 @@ from bokeh.models import (
 )
 from bokeh.models.glyph import Glyph
 
-from .theme import ARROWED, DISCS, LIGHT, LINES, VIEW
+from .theme import ARROWED, DASHED, DISCS, LIGHT, LINES, VIEW
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif"
 
@@ -62,7 +62,8 @@ def make_figure() -> Plot:
                                fill_alpha=LIGHT["shade_alpha"], line_color=None),
          x=[0.0] * len(DISCS), y=[0.0] * len(DISCS), r=list(DISCS))  # fmt: skip
     for name, colour, width in LINES:
-        _add(plot, name, Line(x="x", y="y", line_color=LIGHT[colour], line_width=width, line_join="round"),
+        _add(plot, name, Line(x="x", y="y", line_color=LIGHT[colour], line_width=width, line_join="round",
+                              line_dash=list(DASHED.get(name, ()))),
              x=[], y=[])  # fmt: skip
     for name, colour, _ in LINES:
         if name in ARROWED:

@@ -185,5 +185,16 @@ def critical_columns(critical: Sequence[Any]) -> dict[str, list[Any]]:
     }
 
 
+def cycle_columns(cycles: Any) -> dict[str, Any]:
+    """Return the columns of the limit cycles of the layer problem, innermost first, and why there are no others."""
+    return {
+        "kind": [cycle.kind for cycle in cycles],
+        "period": [float(cycle.period) for cycle in cycles],
+        "multiplier": [float(cycle.multiplier) for cycle in cycles],
+        "reason": cycles.reason,
+        "notes": list(cycles.notes),
+    }
+
+
 def _subscript(number: int) -> str:
     return str(number).translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))

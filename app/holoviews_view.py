@@ -26,7 +26,7 @@ def elements(scene: Scene) -> dict[str, Any]:
     Returns
     -------
     dict of str to Element
-        "hemisphere", "rho", "theta", "lines_inside", "lines_outside", "outside", "inside", "continuations"
+        "hemisphere", "rho", "theta", "lines_inside", "lines_outside", "outside", "inside", "continuations", "cycles"
         (paths), "equator" and "critical" (points with the inspector's numbers as further dimensions).
     """
     branches = [*scene["nullclines_inside"], *scene["nullclines_outside"]]
@@ -38,6 +38,7 @@ def elements(scene: Scene) -> dict[str, Any]:
         made[name] = _paths(pieces, name, LIGHT[name], 1.5)
     for name, colour in (("outside", "outside"), ("inside", "orbit"), ("continuations", "continuation")):
         made[name] = _paths(scene[name].points, name, LIGHT[colour], 0.9)
+    made["cycles"] = _paths([cycle.points for cycle in scene["cycles"]], "cycles", LIGHT["cycle"], 2.8)
     made["equator"] = _equator(scene)
     made["critical"] = _critical(scene)
     return made

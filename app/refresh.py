@@ -172,6 +172,13 @@ def make_frame(
         if ready and name in visible and fresh(name, scene[name]):
             orbits = scene[name]
             _add_lines(blocks, name, orbits.offsets, orbits.buffer, ARROWS[name])
+    if ready and "cycles" in visible and fresh("cycles", scene["cycles"]):
+        header["cycles"] = glyphs.cycle_columns(scene["cycles"])
+        _add_lines(blocks, "cycles", *glyphs.join([c.points for c in scene["cycles"]]), where=(0.25, 0.75))
+    if ready and "separatrices" in visible and fresh("separatrices", scene["separatrices"]):
+        for direction in ("stable", "unstable"):
+            branches = [b.points for b in scene["separatrices"] if b.inside and b.direction == direction]
+            _add_lines(blocks, f"separatrices_{direction}", *glyphs.join(branches), where=(0.5,))
     equator, cycle, critical = scene["equator"], scene["equator_cycle"], scene["critical"]
     if fresh("equator", equator):
         header["equator"] = glyphs.equator_columns(equator)

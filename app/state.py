@@ -33,6 +33,8 @@ LAYERS = {
     "outside": "Trajectories outside",
     "inside": "Trajectories on the hemisphere",
     "continuations": "Up the hemisphere",
+    "separatrices": "Separatrices",
+    "cycles": "Limit cycles",
     "rho": "ρ-nullclines",
     "theta": "θ-nullclines",
     "lines": "Lines U₁ = 0, U₂ = 0",
@@ -82,7 +84,11 @@ class ExplorerState(param.Parameterized):
         64, bounds=(0, MAX_TRAJECTORIES), label="Trajectories", doc="Number of starting points."
     )
     layers = param.ListSelector(
-        default=list(LAYERS), objects=list(LAYERS), instantiate=True, label="Layers", doc="What is drawn."
+        default=[name for name in LAYERS if name != "separatrices"],
+        objects=list(LAYERS),
+        instantiate=True,
+        label="Layers",
+        doc="What is drawn.",
     )
     preset = param.String("", label="Portrait", doc="A figure of the paper; the values start from it.")
 

@@ -19,6 +19,8 @@ COLOURS = {
     "outside": "outside",
     "orbit": "orbit",
     "continuation": "continuation",
+    "separatrix": "separatrix",
+    "cycle": "cycle",
 }
 SIDE = 1000
 SCALE = SIDE / (2 * VIEW)

@@ -11,6 +11,8 @@ LIGHT = {
     "orbit": "#1c2430",
     "outside": "#5b6675",
     "continuation": "#b3123f",
+    "separatrix": "#6d28d9",
+    "cycle": "#e0121f",
     "rho": "#0072BD",
     "theta": "#D95319",
     "lines_inside": "#EDB120",
@@ -30,6 +32,8 @@ DARK = {
     "orbit": "#d6dce5",
     "outside": "#8d99aa",
     "continuation": "#ff6b8f",
+    "separatrix": "#b794ff",
+    "cycle": "#ff3b47",
     "rho": "#4aa8e8",
     "theta": "#ff8552",
     "lines_inside": "#f2c14e",
@@ -64,6 +68,11 @@ LINES = (
     ("outside", "outside", 0.9),
     ("inside", "orbit", 0.9),
     ("continuations", "continuation", 1.6),
+    ("separatrices_stable", "separatrix", 2.0),
+    ("separatrices_unstable", "separatrix", 2.0),
+    ("cycles", "cycle", 2.8),
 )
 #: Layers that carry arrowheads.
-ARROWED = ("outside", "inside", "continuations")
+ARROWED = ("outside", "inside", "continuations", "separatrices_stable", "separatrices_unstable", "cycles")
+#: Layers drawn in dashes: stable and unstable separatrices differ by more than colour.
+DASHED = {"separatrices_stable": (7, 4)}

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import threading
 
+from codim2_core.cycles import limit_cycles
+from codim2_core.presets import presets
 from codim2_core.regularisation import FAMILIES, Psi, constant, make
 from codim2_core.trajectories import is_warm, warm
 
@@ -18,6 +20,8 @@ def warm_all() -> None:
     """Compile, or load from the disk cache, what all built-in families need."""
     for psi in BUILT_IN:
         warm(psi)
+    three = presets["case3-n3"]
+    limit_cycles(three.system, three.psi)
 
 
 def start() -> None:

@@ -4,14 +4,19 @@ Follows N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, "Regularisation of i
 discontinuity sets"; docstrings give the paper's equation labels.
 """
 
-from . import hemisphere, psi
+from . import bifurcations, hemisphere, psi
+from .certificates import certificates
 from .classify import Classification, Degeneracy, classify
 from .critical import CriticalSet, critical_sets
+from .cycles import LimitCycle, LimitCycles, limit_cycles
 from .equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
 from .nullclines import NullclineBranch, nullclines
-from .presets import Preset, presets
+from .outcomes import approach_outcomes
+from .preset import Preset
+from .presets import presets
 from .regularisation import Psi
 from .scene import Scene
+from .separatrices import Separatrices, Separatrix, separatrices
 from .sliding import sliding_flow
 from .systems import Coefficients, ELinear
 from .trajectories import Trajectories, trajectories
@@ -24,19 +29,28 @@ __all__ = [
     "ELinear",
     "EquatorCycle",
     "EquatorEquilibria",
+    "LimitCycle",
+    "LimitCycles",
     "NullclineBranch",
     "Preset",
     "Psi",
     "Scene",
+    "Separatrices",
+    "Separatrix",
     "Trajectories",
+    "approach_outcomes",
+    "bifurcations",
+    "certificates",
     "classify",
     "critical_sets",
     "equator_cycle",
     "equator_equilibria",
     "hemisphere",
+    "limit_cycles",
     "nullclines",
     "presets",
     "psi",
+    "separatrices",
     "sliding_flow",
     "trajectories",
 ]

@@ -130,6 +130,9 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
     a, b, d, f1, f2 = q.a, q.b, q.d, q.f1, q.f2
     zeros = tangential_zeros(a, b, d, f1, f2)
     location = locate(q)
+    reached, nearest = location.direction, None
+    if reached is not None and zeros.theta:
+        nearest = min(zeros.theta, key=lambda t: abs(math.remainder(t - reached, 2.0 * math.pi)))
     rho: list[float] = []
     flat: list[bool] = []
     for theta in zeros.theta:
@@ -139,8 +142,8 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
         degenerate = False
         if abs(value) <= 1e-3 * size:
             value = _radial_exactly(a, b, d, f1, f2, theta)
-            if location.direction is not None:  # U(e) = 0 on the equator, within rounding
-                degenerate = abs(math.remainder(location.direction - theta, 2.0 * math.pi)) < 1e-4
+            if reached is not None:  # U(e) = 0 on the equator, within rounding: at the nearest zero of Theta
+                degenerate = theta == nearest
             elif location.singular:
                 degenerate = abs(value) <= SINGULAR * size
         rho.append(0.0 if degenerate else value)

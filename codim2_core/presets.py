@@ -6,60 +6,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from types import MappingProxyType
 
-from . import regularisation
-from .regularisation import Psi
-from .systems import ELinear
-
-
-@dataclass(frozen=True)
-class Preset:
-    """One figure of the paper as values of the e-linear system.
-
-    Attributes
-    ----------
-    name : str
-        The key in `presets`.
-    group, title : str
-        Where it is listed, and the line that is listed.
-    label : str
-        The paper's label(s).
-    note : str
-        What is to be seen, in the paper's words.
-    a, b, d, f1, f2 : float
-    hill : int or None
-        n of the hill family eq:bad_reg, or None for Psi = 1.
-    portrait : (case, name, kind or None)
-        What must be true.
-    degeneracy : str or None
-        The degeneracy that the figure sits on, if any.
-    """
-
-    name: str = ""
-    group: str = ""
-    title: str = ""
-    label: str = ""
-    note: str = ""
-    a: float = -1.0
-    b: float = 0.0
-    d: float = -1.0
-    f1: float = 0.0
-    f2: float = 0.0
-    hill: int | None = None
-    portrait: tuple[str, str, str | None] = field(default=("I", "CM0", None))
-    degeneracy: str | None = None
-
-    @property
-    def system(self) -> ELinear:
-        """The e-linear system, without slow variables."""
-        return ELinear(self.a, self.b, self.d, (self.f1, self.f2))
-
-    @property
-    def psi(self) -> Psi:
-        """The regularisation function."""
-        return regularisation.constant() if self.hill is None else regularisation.hill(self.hill)
+from .preset import Preset
+from .presets_bifurcations import bifurcation_presets
 
 
 def _all() -> dict[str, Preset]:
@@ -180,7 +131,7 @@ def _all() -> dict[str, Preset]:
             f"case3-n{n}", three, title=f"n = {n}: {kind}", hill=n, portrait=("III", "CM4", kind),
             note=f"Ψ = 3/(3 + (4s)ⁿ) with n = {n}. {note}",
         )  # fmt: skip
-    return found
+    return found | bifurcation_presets()
 
 
 presets: Mapping[str, Preset] = MappingProxyType(_all())

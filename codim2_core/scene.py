@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import Counter, OrderedDict
 from collections.abc import Callable, Hashable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
@@ -20,11 +20,13 @@ from numpy.typing import ArrayLike
 from . import regularisation
 from .classify import Classification, portrait
 from .critical import critical_sets, locate
+from .cycles import LimitCycles, limit_cycles
 from .equator import equator_cycle, equator_equilibria
 from .nullclines import NullclineBranch, inside_nullclines, outside_nullclines
 from .orbits import Orbits
 from .regularisation import Psi
 from .seeds import checked_seeds, ring, structured_seeds
+from .separatrices import Separatrices, separatrices
 from .sliding import sliding_flow
 from .systems import Coefficients, ELinear, slow_values
 from .trajectories import Trajectories, continuation, trajectories
@@ -239,6 +241,15 @@ def _continuations(scene: Scene) -> Trajectories:
     return continuation(scene.coefficients, scene.psi, arriving, **_stepping(scene))
 
 
+def _cycles(scene: Scene) -> LimitCycles:
+    """Return the limit cycles without their slow flow: by prop:LC that is the layer "slow_flow"."""
+    return limit_cycles(replace(scene.coefficients, B=np.zeros((0, 2)), g=np.zeros(0)), scene.psi)
+
+
+def _separatrices(scene: Scene) -> Separatrices:
+    return separatrices(scene.coefficients, scene.psi, rtol=scene.rtol, pixel=scene.pixel, cycles=scene["cycles"])
+
+
 def _inside_nullclines(scene: Scene) -> tuple[NullclineBranch, ...]:
     return inside_nullclines(scene.coefficients, scene.psi, scene["equator"].theta.tolist())
 
@@ -264,5 +275,7 @@ layers: Mapping[str, Layer] = MappingProxyType(
         "inside": Layer(("plane", "psi", "inner seeds", *_STEPPED), lambda s: _orbits(s, outside=False)),
         "outside": Layer(("plane", "outer seeds", "view", *_STEPPED), lambda s: _orbits(s, outside=True)),
         "continuations": Layer(("plane", "psi", *_STEPPED), _continuations),
+        "cycles": Layer(("plane", "psi"), _cycles),
+        "separatrices": Layer(("plane", "psi", "tolerance", "pixel"), _separatrices),
     }
 )

@@ -11,6 +11,7 @@ class Inspector {
     if (header.portrait) this.portrait(header.portrait)
     if (header.equator) this.equator(header)
     if (header.critical) this.critical(header.critical)
+    if (header.cycles) this.cycles(header.cycles)
     if ("slow_flow" in header) this.slow(header.slow_flow, values.z)
   }
 
@@ -41,6 +42,13 @@ class Inspector {
       <tr><td>Δ(J)</td><td>${digits(c.discriminant[i])}</td></tr>
       <tr><td>eigenvalues</td><td>${eigen(c.eigenvalues[i])}</td></tr></table>`)
     this.find(".critical-table").innerHTML = "<h2>Critical set</h2>" + (rows.join("") || '<p class="note">None in the scaling chart.</p>')
+  }
+
+  cycles(c) {
+    const rows = c.kind.map((kind, i) => `<table><tr><td><b>Limit cycle</b></td><td><b>${kind}</b></td></tr>
+      <tr><td>period (fast time τ)</td><td>${digits(c.period[i])}</td></tr><tr><td>multiplier</td><td>${digits(c.multiplier[i])}</td></tr></table>`)
+    const words = [...(rows.length ? [] : [c.reason]), ...c.notes].map((text) => `<p class="note">${escape(text)}</p>`)
+    this.find(".cycle-table").innerHTML = "<h2>Limit cycles</h2>" + rows.join("") + words.join("")
   }
 
   // An arrow along the z axis; z points out of the page, as in the paper's circled dot and cross.

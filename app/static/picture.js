@@ -4,12 +4,14 @@ const STEP = 4 / 32767 // as in packing.py
 const LINE_PARTS = {
   rho: ["rho_inside", "rho_outside"], theta: ["theta_inside", "theta_outside"], lines: ["lines_inside", "lines_outside"],
   outside: ["outside", "arrows:outside"], inside: ["inside", "arrows:inside"],
-  continuations: ["continuations", "arrows:continuations"],
+  continuations: ["continuations", "arrows:continuations"], cycles: ["cycles", "arrows:cycles"],
+  separatrices: ["separatrices_stable", "arrows:separatrices_stable", "separatrices_unstable", "arrows:separatrices_unstable"],
   equator: ["equator", "text:equator"], critical: ["critical", "text:critical"],
 }
 const COLOUR_OF = {
   rho_inside: "rho", rho_outside: "rho", theta_inside: "theta", theta_outside: "theta", lines_inside: "lines_inside", lines_outside: "lines_outside",
   outside: "outside", inside: "orbit", continuations: "continuation",
+  separatrices_stable: "separatrix", separatrices_unstable: "separatrix", cycles: "cycle",
 }
 const CRITICAL_MARK = {
   "stable node": ["square", true], "unstable node": ["square", false], "stable focus": ["circle", true],

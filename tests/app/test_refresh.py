@@ -8,7 +8,7 @@ from codim2_app.state import LAYERS, ExplorerState
 
 import codim2_core as c2
 
-HEAVY = {"inside", "outside", "continuations", "rho_inside", "rho_outside", "theta_inside", "theta_outside",
+HEAVY = {"cycles", "inside", "outside", "continuations", "rho_inside", "rho_outside", "theta_inside", "theta_outside",
          "lines_inside", "lines_outside"}  # fmt: skip
 
 
@@ -35,7 +35,7 @@ def test_first_frame_holds_everything_within_the_budget():
 
 @pytest.mark.parametrize(("change", "sent"), [
     ({"a": -1.7}, HEAVY),
-    ({"psi": "rational"}, {name for name in HEAVY if name == "continuations" or name.endswith("inside")}),
+    ({"psi": "rational"}, {name for name in HEAVY if name in ("continuations", "cycles") or name.endswith("inside")}),
     ({"B1": 0.3}, set()),
     ({"g0": 0.3}, set()),
     ({"k1": 0.9}, set()),
@@ -60,14 +60,16 @@ def test_slow_flow_is_sent_with_b(frames):
 
 
 def test_hidden_layers_are_neither_computed_nor_sent(frames):
-    ask(frames, layers=[name for name in LAYERS if name not in ("inside", "rho", "theta", "lines")])
+    ask(frames, layers=[name for name in LAYERS if name in ("outside", "continuations", "equator")])
     runs = dict(frames.scene.runs)
     _, blocks = ask(frames, a=-1.1)
     assert blocks == {"outside", "continuations"}
     assert frames.scene.runs["inside"] == runs["inside"]
     assert frames.scene.runs["nullclines_inside"] == runs["nullclines_inside"]
+    assert frames.scene.runs["cycles"] == runs["cycles"]
+    assert "separatrices" not in frames.scene.runs
     _, blocks = ask(frames, layers=list(LAYERS))
-    assert blocks == HEAVY - {"outside", "continuations"}
+    assert blocks == HEAVY - {"outside", "continuations"} | {"separatrices_stable", "separatrices_unstable"}
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, "x", 1e200])
@@ -116,7 +118,7 @@ def test_cold_integrator_sends_closed_forms_then_the_rest():
     ready[0] = True
     header, sent = ask(frames)
     assert header["ready"] is True
-    assert sent == {"inside", "outside", "continuations"}
+    assert sent == {"inside", "outside", "continuations", "cycles"}
 
 
 @pytest.mark.parametrize("portrait", portraits(), ids=lambda item: item["key"])

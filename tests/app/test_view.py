@@ -107,5 +107,5 @@ def test_holoviews_overlay_can_be_added_to():
     scene = c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0)), count=12)
     overlay = codim2_app.holoviews(scene)
     assert len(overlay.Points.values()) == 2
-    assert len(overlay) == 10
+    assert len(overlay) == 11
     assert isinstance(overlay * hv.Curve([(0, 0), (1, 1)]), hv.Overlay)

@@ -205,3 +205,28 @@ def test_scaling_only_rescales_time(scale):
     found = equator_equilibria(system(*(v * scale for v in q)))
     assert found.multiplicity.tolist() == [3, 1]
     assert found.lambda_rho / scale == pytest.approx([-1.5, -0.5])
+
+
+@pytest.mark.parametrize("second", [0.3, 1e-2, 1e-5, 1e-9, 1e-13, 1e-17])
+@pytest.mark.parametrize("first", [0.0, 0.7, 1e-2, 1e-5, 1e-9, 1e-16])
+@pytest.mark.parametrize("b", [1.0, -1.0])
+def test_cycle_where_harmonics_are_of_very_different_sizes(first, second, b):
+    """b, f and d - a far apart in size (0, 1, 1e-5, (0, 0) once divided by zero): against the mean over 4000 angles."""
+    q = (0.3, b, 0.3 + second, first * math.cos(0.7), first * math.sin(0.7))
+    cycle = equator_cycle(system(*q))
+    if cycle is None:
+        assert first + second > 0.9
+        return
+    theta = np.arange(4000) * (2 * math.pi / 4000)
+    c, s = np.cos(theta), np.sin(theta)
+    size = np.abs((q[2] - q[0]) * s * c + q[4] * c - q[3] * s + b)
+    assert cycle.period == pytest.approx(2 * math.pi * (1 / size).mean(), rel=1e-13)
+    speed = q[0] * c * c + q[2] * s * s + q[3] * c + q[4] * s
+    assert cycle.exponent == pytest.approx(2 * math.pi * (speed / size).mean(), rel=1e-12)
+
+
+def test_only_the_limit_direction_that_the_critical_set_reached_is_radially_degenerate():
+    found = equator_equilibria(system(0, 1, 1e-5, 0, 1))  # two zeros of Theta within 2e-5 of each other
+    assert len(found) == 2
+    assert found.radially_degenerate.sum() == 1
+    assert np.count_nonzero(found.lambda_rho) == 1

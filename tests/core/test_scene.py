@@ -38,7 +38,9 @@ def ran(scene, **changes):
 
 
 EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "outside"}
-HEMISPHERE = {"critical", "nullclines_inside", "inside", "continuations", "classification"}
+HEMISPHERE = {"cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations", "classification"}
+
+SLOW = {"critical", "classification", "slow_flow"}
 
 REACHES = {
     "a": ({"a": -1.7}, EQUATOR | HEMISPHERE | {"slow_flow"}),
@@ -49,13 +51,13 @@ REACHES = {
     "psi": ({"psi": c2.psi.rational()}, HEMISPHERE),
     "hill": ({"psi": c2.psi.hill(3)}, HEMISPHERE),
     "z": ({"z": 1.0}, set()),
-    "B": ({"B": [[2.0, 1.0]]}, {"critical", "classification", "slow_flow"}),
-    "g": ({"g": [0.5]}, {"critical", "classification", "slow_flow"}),
+    "B": ({"B": [[2.0, 1.0]]}, SLOW),
+    "g": ({"g": [0.5]}, SLOW),
     "length": ({"length": 5.0}, {"inside", "outside", "continuations"}),
     "t_max": ({"t_max": 6.0}, {"inside", "outside", "continuations"}),
-    "rtol": ({"rtol": 1e-5}, {"inside", "outside", "continuations"}),
-    "atol": ({"atol": 1e-6}, {"inside", "outside", "continuations"}),
-    "pixel": ({"pixel": 1 / 90}, {"inside", "outside", "continuations"}),
+    "rtol": ({"rtol": 1e-5}, {"inside", "outside", "continuations", "separatrices"}),
+    "atol": ({"atol": 1e-6}, {"inside", "outside", "continuations", "separatrices"}),
+    "pixel": ({"pixel": 1 / 90}, {"inside", "outside", "continuations", "separatrices"}),
     "view": ({"view": 2.5}, {"nullclines_outside", "outside"}),
     "count": ({"count": 40}, {"inside", "outside"}),
     "seeds": ({"seeds": [[0.3, 0.2], [1.5, 0.1]]}, {"inside", "outside"}),

@@ -1,0 +1,342 @@
+"""Approach outcomes: what becomes of trajectories that reach the discontinuity set, for every angle of approach.
+
+Outside, the e-linear system with constant f is the same at every distance, so the angle alone decides which limit
+direction a trajectory tends to. Where lambda_rho < 0 there it reaches Sigma, goes up the hemisphere from Q
+(thm:geneps0(b), fig:side_of_sphere), and what attracts it there is the outcome: a critical set or a limit cycle
+means sliding (thm:geneps1, prop:LC), another limit direction means crossing.
+"""
+
+from __future__ import annotations
+
+import bisect
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import regularisation
+from .critical import CriticalSet, critical_sets
+from .cycles import LimitCycles, limit_cycles
+from .endings import CAPTURE, CONNECTION, Ending, drawn_time, endings, radially_neutral
+from .equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+from .regularisation import Psi
+from .systems import Coefficients, ELinear
+from .trajectories import Trajectories, continuation, trajectories
+
+__all__ = ["Outcome", "Outcomes", "approach_outcomes"]
+
+Array = NDArray[np.float64]
+
+RTOL = 1e-8
+FAN = 0.02  # radius, in (theta, ebar), of the half circle of starts around a Q that many orbits leave
+AT_ZERO = 1e-9  # angle to a limit direction that counts as that direction
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What becomes of trajectories that arrive along one limit direction (or spiral onto the closed equator).
+
+    Attributes
+    ----------
+    theta : float or None
+        The limit direction, radians; None for the closed equator and where every direction is one.
+    label : str
+        "Q1", ...; "equator"; "every direction".
+    arrives : str
+        "open set" (angularly attracting), "one side", "single direction" (angularly repelling), or "nothing".
+    verdict : str
+        "slide", "cycle" (sliding around a limit cycle), "cross", "undecided", or "misses" (never reaches Sigma).
+    onto : str or None
+        What it slides on ("C", "cycle 1") or leaves along ("Q2", "equator").
+    leaving : float or None
+        Direction in which it leaves Sigma, for "cross".
+    slow_flow : ndarray (m,) or None
+        z' while sliding; on a cycle its mean, the same by prop:LC.
+    reason : str
+    depends_on_psi : bool or None
+        Whether other regularisations give another outcome; None where they were not asked.
+    families : tuple of (text of Psi, verdict, onto)
+        What they give; empty where a theorem makes asking needless.
+    """
+
+    theta: float | None
+    label: str
+    arrives: str
+    verdict: str
+    onto: str | None
+    leaving: float | None
+    slow_flow: Array | None
+    reason: str
+    depends_on_psi: bool | None = False
+    families: tuple[tuple[str, str, str | None], ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Outcomes:
+    """Outcomes of all limit directions that trajectories arrive along, open sets first; iterates over them.
+
+    Attributes
+    ----------
+    outcomes : tuple of Outcome
+    directions : tuple of Outcome
+        The same for each of Q1, Q2, ... in order, also those that nothing arrives along ("misses").
+    equator : EquatorEquilibria
+    whole : Outcome or None
+        That of all angles, where no Q decides (closed equator, or every direction is a limit direction).
+    """
+
+    outcomes: tuple[Outcome, ...]
+    directions: tuple[Outcome, ...]
+    equator: EquatorEquilibria
+    whole: Outcome | None
+    _plane: tuple[float, float, float, float, float]
+
+    def __iter__(self) -> Iterator[Outcome]:
+        return iter(self.outcomes)
+
+    def __len__(self) -> int:
+        return len(self.outcomes)
+
+    def __getitem__(self, i: int) -> Outcome:
+        return self.outcomes[i]
+
+    def destination(self, theta: float) -> int | None:
+        """Index (from 0) of the limit direction that a trajectory outside, now at angle theta, tends to.
+
+        Parameters
+        ----------
+        theta : float
+            Radians, finite.
+
+        Returns
+        -------
+        int or None
+            None where no Q decides.
+
+        Raises
+        ------
+        ValueError
+            theta is not finite.
+        """
+        if not math.isfinite(theta):
+            raise ValueError(f"theta is {theta}; give a finite angle in radians.")
+        zeros = self.equator.theta.tolist()
+        if self.whole is not None or not zeros:
+            return None
+        angle = theta % (2.0 * math.pi)
+        for i, zero in enumerate(zeros):
+            if abs(math.remainder(angle - zero, 2.0 * math.pi)) <= AT_ZERO:
+                return i
+        after = bisect.bisect(zeros, angle)
+        a, b, d, f1, f2 = self._plane
+        c, s = math.cos(angle), math.sin(angle)
+        turning = (d - a) * s * c + f2 * c - f1 * s + b
+        return after % len(zeros) if turning > 0.0 else (after - 1) % len(zeros)
+
+    def outcome(self, theta: float) -> Outcome:
+        """Outcome for a trajectory that starts outside at angle theta (radians), at any distance."""
+        i = self.destination(theta)
+        if i is None:
+            assert self.whole is not None
+            return self.whole
+        return self.directions[i]
+
+    @property
+    def arcs(self) -> tuple[tuple[float, float, Outcome], ...]:
+        """The circle of approach angles, cut at the limit directions: (from, to, outcome), to > from."""
+        zeros = self.equator.theta.tolist()
+        if self.whole is not None or not zeros:
+            return ((0.0, 2.0 * math.pi, self.outcome(0.0)),)
+        ends = [*zeros[1:], zeros[0] + 2.0 * math.pi]
+        return tuple((t, e, self.outcome(0.5 * (t + e))) for t, e in zip(zeros, ends, strict=True))
+
+
+@dataclass(frozen=True)
+class _Hemisphere:
+    """All that one regularisation decides."""
+
+    coefficients: Coefficients
+    psi: Psi
+    equator: EquatorEquilibria
+    critical: tuple[CriticalSet, ...]
+    cycles: LimitCycles
+
+    def ends(self, lines: Trajectories) -> list[Ending]:
+        return endings(self.coefficients, self.psi, lines, self.equator, self.critical, self.cycles, rtol=RTOL)
+
+    def followed(self, points: Array) -> Trajectories:
+        time = drawn_time(self.coefficients, self.equator)
+        return trajectories(
+            self.coefficients, self.psi, points, t_max=time, rtol=RTOL, atol=0.1 * RTOL, capture=CAPTURE, samples="ends"
+        )
+
+    def from_equator(self, i: int) -> Trajectories:
+        time = drawn_time(self.coefficients, self.equator)
+        return continuation(
+            self.coefficients,
+            self.psi,
+            self.equator.theta[i : i + 1],
+            t_max=time,
+            rtol=RTOL,
+            atol=0.1 * RTOL,
+            capture=CAPTURE,
+            samples="ends",
+        )
+
+    def judge(self, ends: Sequence[Ending], many: str) -> tuple[str, str | None, float | None, Array | None, str]:
+        """(verdict, onto, leaving, slow flow, reason) of trajectories that end so."""
+        labels = list(dict.fromkeys(end.label for end in ends))
+        if len(labels) > 1:
+            return "undecided", None, None, None, f"{many}, and they end at different places: {', '.join(labels)}."
+        end = ends[0]
+        label = end.label
+        if end.sentence == CONNECTION:
+            return "undecided", None, None, None, f"They run into the saddle {label}: which side is left to ε."
+        if label == "C":
+            C = self.critical[0]
+            return "slide", "C", None, C.slow_flow, f"They reach the critical set C, a {C.kind}: sliding."
+        if label.startswith("cycle"):
+            cycle = self.cycles[int(label.split()[1]) - 1]
+            reason = "They wind onto a limit cycle around C: sliding, with the slow flow of C on average (prop:LC)."
+            return "cycle", label, None, cycle.slow_flow, reason
+        if label.startswith("Q"):
+            return "cross", label, end.angle, None, f"They leave along θ = {end.angle:.4g} ({label}): crossing."
+        if label == "equator":
+            return "cross", label, None, None, "They come down to the closed equator and spiral away: crossing."
+        return "undecided", None, None, None, f"They were not followed to an end: {end.sentence}"
+
+    def arriving(self, i: int) -> tuple[str, str | None, float | None, Array | None, str]:
+        """Judge what arrives at Q_{i+1}, where lambda_rho < 0."""
+        main = self.ends(self.from_equator(i))
+        if self.equator.multiplicity[i] == 1 and self.equator.lambda_theta[i] < 0.0:
+            return self.judge(main, "")
+        angle = np.radians([15.0, 45.0, 75.0, 105.0, 135.0, 165.0])
+        theta, height = float(self.equator.theta[i]) + FAN * np.cos(angle), FAN * np.sin(angle)
+        around = np.sqrt(1.0 - height**2)[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+        return self.judge([*main, *self.ends(self.followed(around))], "A whole family of orbits leaves Q")
+
+    def spiralling(self) -> tuple[str, str | None, float | None, Array | None, str]:
+        """Judge what winds onto the closed equator."""
+        angle = 2.0 * math.pi * np.arange(8) / 8.0
+        ring = 0.9995 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        return self.judge(self.ends(self.followed(ring)), "Orbits leave the closed equator at all angles")
+
+
+def _hemisphere(coefficients: Coefficients, psi: Psi, equator: EquatorEquilibria) -> _Hemisphere:
+    return _Hemisphere(coefficients, psi, equator, critical_sets(coefficients, psi), limit_cycles(coefficients, psi))
+
+
+def _sensitive(coefficients: Coefficients, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...]) -> bool:
+    """Whether no theorem fixes the outcome for every Psi: Case III, or crossing with several ways out."""
+    if critical:
+        return coefficients.a * coefficients.d < 0.0 and critical[0].kind != "saddle"
+    return int(((equator.lambda_rho > 0.0) & (equator.lambda_theta < 0.0)).sum()) > 1
+
+
+def _arrival(equator: EquatorEquilibria, i: int) -> str:
+    m, slope = int(equator.multiplicity[i]), float(equator.lambda_theta[i])
+    if m % 2 == 0:
+        return "one side"
+    attracting = slope < 0.0 if m == 1 else float(equator.lambda_theta.sum()) > 0.0
+    return "open set" if attracting else "single direction"
+
+
+_SENTENCE = {
+    "open set": "An open set of trajectories arrives at {}.",
+    "one side": "Trajectories arrive at {} from one side only (Θ has a double zero).",
+    "single direction": "Only trajectories exactly along {} arrive; others turn away.",
+}
+
+
+def approach_outcomes(
+    system: ELinear | Coefficients,
+    psi: Psi,
+    z: ArrayLike = (),
+    *,
+    compare: Sequence[Psi] | None = None,
+) -> Outcomes:
+    """Say of every limit direction whether what arrives there slides, and on what, or crosses, and where to.
+
+    Parameters
+    ----------
+    system : ELinear, or Coefficients
+    psi : Psi
+    z : (m,) floats
+    compare : sequence of Psi, optional
+        Regularisations asked for `Outcome.depends_on_psi`, where no theorem answers; default the built-in families
+        with n = 1 to 4 of the Hill family. An empty sequence asks none.
+
+    Returns
+    -------
+    Outcomes
+    """
+    coefficients = system.at(z)
+    equator = equator_equilibria(coefficients)
+    own = _hemisphere(coefficients, psi, equator)
+    others: list[_Hemisphere] = []
+    sensitive = _sensitive(coefficients, equator, own.critical)
+    arriving = (equator.lambda_rho < 0.0).any()
+    cycle = equator_cycle(coefficients)
+    if sensitive and (arriving or (cycle is not None and cycle.exponent < 0.0)):
+        if compare is None:
+            compare = [regularisation.make(name) for name in ("constant", "rational", "exponential", "tanh")]
+            compare += [regularisation.hill(n) for n in (1, 2, 3, 4)]
+        others = [_hemisphere(coefficients, other, equator) for other in compare]
+    if equator.all_directions or cycle is not None or not len(equator):
+        whole = _whole(own, others, sensitive, cycle)
+        found = () if whole.verdict == "misses" else (whole,)
+        return Outcomes(found, (), equator, whole, coefficients.plane)
+    directions = tuple(_direction(own, others, sensitive, i) for i in range(len(equator)))
+    order = ("open set", "one side", "single direction")
+    found = sorted((o for o in directions if o.arrives in order), key=lambda o: order.index(o.arrives))
+    return Outcomes(tuple(found), directions, equator, None, coefficients.plane)
+
+
+def _compared(outcome: Outcome, verdicts: list[tuple[str, str, str | None]], sensitive: bool) -> Outcome:
+    if not sensitive:
+        return outcome
+    if not verdicts:
+        return replace(outcome, depends_on_psi=None)
+    depends = any((verdict, onto) != (outcome.verdict, outcome.onto) for _, verdict, onto in verdicts)
+    return replace(outcome, depends_on_psi=depends, families=tuple(verdicts))
+
+
+def _direction(own: _Hemisphere, others: list[_Hemisphere], sensitive: bool, i: int) -> Outcome:
+    equator, label = own.equator, f"Q{i + 1}"
+    theta = float(equator.theta[i])
+    if radially_neutral(equator, i):
+        reason = f"{label} is radially non-hyperbolic (|A⁻¹f| = 1): to first order nothing arrives or leaves."
+        return Outcome(theta, label, "nothing", "undecided", None, None, None, reason)
+    if equator.lambda_rho[i] > 0.0:
+        reason = f"{label} repels radially: trajectories that tend to it leave, and never reach Σ."
+        return Outcome(theta, label, "nothing", "misses", None, None, None, reason)
+    arrives = _arrival(equator, i)
+    verdict, onto, leaving, slow, reason = own.arriving(i)
+    reason = f"{_SENTENCE[arrives].format(label)} {reason}"
+    outcome = Outcome(theta, label, arrives, verdict, onto, leaving, slow, reason)
+    verdicts = [(other.psi.text, *other.arriving(i)[:2]) for other in others]
+    return _compared(outcome, verdicts, sensitive)
+
+
+def _whole(own: _Hemisphere, others: list[_Hemisphere], sensitive: bool, cycle: EquatorCycle | None) -> Outcome:
+    if own.equator.all_directions:
+        a, label = own.coefficients.a, "every direction"
+        if a < 0.0:
+            slow = own.critical[0].slow_flow if own.critical else None
+            reason = "Every direction is a limit direction, and leads straight to C: sliding."
+            return Outcome(None, label, "open set", "slide", "C", None, slow, reason)
+        if a > 0.0:
+            return Outcome(None, label, "nothing", "misses", None, None, None, "Every direction leads away from Σ.")
+        return Outcome(None, label, "nothing", "undecided", None, None, None, "A = 0 and f = 0: nothing moves.")
+    if cycle is None or cycle.neutral:
+        reason = "The closed equator is neutral: to first order trajectories neither approach Σ nor leave it."
+        return Outcome(None, "equator", "nothing", "undecided", None, None, None, reason)
+    if not cycle.stable_outside:
+        reason = "The closed equator repels outside: trajectories spiral away and never reach Σ."
+        return Outcome(None, "equator", "nothing", "misses", None, None, None, reason)
+    verdict, onto, leaving, slow, reason = own.spiralling()
+    reason = f"Trajectories from all angles spiral onto the closed equator (thm:geneps0(c)). {reason}"
+    outcome = Outcome(None, "equator", "open set", verdict, onto, leaving, slow, reason)
+    return _compared(outcome, [(other.psi.text, *other.spiralling()[:2]) for other in others], sensitive)

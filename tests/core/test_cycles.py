@@ -1,0 +1,233 @@
+"""Limit cycles: Case III to high accuracy, folds and Hopf bifurcations, and the theorems that forbid them."""
+
+import itertools
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, psi, sliding_flow, trajectories
+from codim2_core.cycle_search import COARSE, FINE, Section
+from codim2_core.cycles import limit_cycles
+
+CASE_III = ELinear(172, 186, -200, (-86, -93), B=[[1.0, -2.0], [0.5, 3.0]], g=[0.25, -1.0])
+HOPF = 284 / 129
+
+
+def fold(t):
+    """Two cycles, stable outside, for t a little below 1.08, and none below 0.97."""
+    return ELinear(
+        1.6215774162507035,
+        -2.4647033090719974,
+        -2.095840045086004,
+        (t * 1.285569647504226, -t * 0.9857275228103224),
+    )
+
+
+def layer(system, p):
+    """x2' = U(e_Psi(x2)) written out for the Hill family, independent of the compiled fields."""
+    q, n = system.at(()), p.parameter
+
+    def field(_, x):
+        s = x[0] * x[0] + x[1] * x[1]
+        r = math.sqrt(s + 3.0 / (3.0 + (4.0 * s) ** n))
+        c, w = x[0] / r, x[1] / r
+        return [q.a * c - q.b * w + q.f1, q.b * c + q.d * w + q.f2]
+
+    return field
+
+
+def integrated(field, x, t):
+    return solve_ivp(field, (0.0, t), x, method="DOP853", rtol=1e-13, atol=1e-13).y[:, -1]
+
+
+# The periods come from an extrapolation method (Gragg, Bulirsch, Stoer) at 22 digits, run once.
+@pytest.mark.parametrize(("n", "period"), [(3, 0.5044751410092433), (4, 0.6066957493683202)])
+def test_case_III_cycles(n, period):
+    p = psi.hill(n)
+    (cycle,) = limit_cycles(CASE_III, p)
+    assert cycle.period == pytest.approx(period, rel=1e-12)
+    field = layer(CASE_III, p)
+    x = integrated(field, [0.7, 0.0], 5 * cycle.period)  # off the cycle, and drawn onto it
+    y = integrated(field, x, cycle.period)
+    u = np.array(field(0.0, y))
+    assert abs(u @ (y - x)) / (u @ u) < 1e-10 * period  # the time by which it is late
+    assert cycle.stable
+    assert cycle.direction == 1
+    assert cycle.closure < 1e-13
+    assert cycle.multiplier == pytest.approx(cycle.divergence_multiplier, rel=1e-10)
+    assert cycle.mean_e == pytest.approx([0.5, 0.0], abs=1e-12)  # prop:LC
+    assert cycle.slow_flow == pytest.approx(sliding_flow(CASE_III), abs=1e-11)
+    assert np.array_equal(cycle.points[0], cycle.points[-1])
+    assert not cycle.points.flags.writeable
+    gaps = np.hypot(*np.diff(cycle.points, axis=0).T)
+    assert gaps.max() < 0.02
+
+
+@pytest.mark.parametrize("n", [1, 2])
+def test_case_III_stable_focus_and_node_have_no_cycle(n):
+    found = limit_cycles(CASE_III, psi.hill(n))
+    assert len(found) == 0
+    assert found.notes == ()
+    assert found.reason.startswith("No limit cycle")
+
+
+def test_case_III_hopf_is_supercritical():
+    assert abs(critical_sets(CASE_III, psi.hill(HOPF))[0].trace) < 1e-12 * 200
+    assert len(limit_cycles(CASE_III, psi.hill(HOPF - 1e-3))) == 0
+    sizes = []
+    for step in (1e-4, 4e-4):
+        p = psi.hill(HOPF + step)
+        (cycle,) = limit_cycles(CASE_III, p)
+        assert cycle.stable
+        C = critical_sets(CASE_III, p)[0]
+        sizes.append(np.hypot(*(cycle.points - C.p).T).max())
+        # Born with the period of the focus.
+        assert cycle.period == pytest.approx(2 * math.pi / abs(C.eigenvalues[0].imag), rel=1e-2)
+    assert sizes[1] / sizes[0] == pytest.approx(2.0, rel=1e-2)  # a square root
+
+
+def test_both_multipliers_are_the_slope_of_the_return_map():
+    p = psi.hill(2.3)
+    (cycle,) = limit_cycles(CASE_III, p)
+    section = Section(CASE_III.at(()), p, critical_sets(CASE_III, p)[0])
+    grid = section.grid()
+    shift = section.displacement(grid, COARSE)
+    i = int(np.flatnonzero((shift[:-1] > 0) & (shift[1:] < 0))[0])
+    low, high = grid[i], grid[i + 1]
+    for _ in range(45):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if section.displacement(np.array([middle]), FINE)[0] > 0 else (low, middle)
+    h = 1e-3
+    x = low + h * np.array([-2.0, -1.0, 1.0, 2.0])
+    q = section.states(x)[1]
+    image = q + section.displacement(x, FINE)
+    slope = (8 * (image[2] - image[1]) - (image[3] - image[0])) / (8 * (q[2] - q[1]) - (q[3] - q[0]))
+    assert cycle.multiplier == pytest.approx(slope, rel=1e-8)
+    assert cycle.divergence_multiplier == pytest.approx(cycle.multiplier, rel=1e-11)
+
+
+def test_two_nested_cycles():
+    p = psi.hill(3)
+    inner, outer = limit_cycles(fold(1.04), p)
+    assert (inner.kind, outer.kind) == ("unstable", "stable")
+    C = critical_sets(fold(1.04), p)[0]
+    assert C.kind == "stable focus"
+    between = 0.5 * (inner.points[0] + outer.points[0])
+    inside = C.p + 0.9 * (inner.points[0] - C.p)
+    lines = trajectories(fold(1.04), p, [between, inside], t_max=600.0, rtol=1e-9, atol=1e-10)
+    end = lines.points[0][-1]
+    assert np.hypot(*(outer.points - end).T).min() < 5e-3
+    assert np.hypot(*(lines.points[1][-1] - C.p)) < 1e-4
+
+
+def test_cycles_meet_in_a_fold():
+    p = psi.hill(3)
+    low, high = 0.96, 1.0
+    for _ in range(16):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if len(limit_cycles(fold(middle), p)) else (middle, high)
+    assert len(limit_cycles(fold(low), p)) == 0
+    near = limit_cycles(fold(high), p)
+    assert [cycle.kind for cycle in near] in (["unstable", "stable"], ["semistable"])
+    for cycle in near:
+        assert cycle.multiplier == pytest.approx(1.0, abs=0.02)
+        assert cycle.closure < 1e-12
+
+
+def test_cycles_leave_through_the_equator():
+    """Towards t = 1.09 the stable cycle grows to the equator, which is closed and then changes its stability."""
+    p = psi.hill(3)
+    for t in (1.0, 1.05, 1.1, 1.2):
+        exponent = equator_cycle(fold(t)).exponent
+        found = limit_cycles(fold(t), p)
+        assert found[-1].stable == (exponent < 0.0)
+        assert (len(found) == 2) == (t < 1.08)
+
+
+def test_reasons():
+    def reason(*coefficients, p=None):
+        a, b, d, f1, f2 = coefficients
+        found = limit_cycles(ELinear(a, b, d, (f1, f2)), p or psi.rational())
+        assert list(found) == []
+        return found.reason
+
+    assert "Bendixson" in reason(-1, 1, -2, 0.1, 0.2)
+    assert "divergence is positive" in reason(1, 1, 2, 0.1, 0.2)
+    assert "divergence is negative" in reason(0, 1, -2, 0.1, 0.2)
+    assert "saddle" in reason(1, 0.3, -1, 0.2, 0.1)
+    assert "no critical set" in reason(-1, 0, -1, 1.1, 0.0)
+    assert "preserves area" in reason(0, 1, 0, 0.1, 0.2)
+    assert "f = 0" in reason(1, 3, -2, 0, 0)
+    assert "reversible" in reason(1, 3, -1, 0.5, -0.5)
+    assert "isolated" in reason(1, 1, -1, 1, 1)
+
+
+def test_reversible_centre_is_a_band_of_closed_orbits():
+    """What the exact test decides, the return map sees as well: it is the identity."""
+    system = ELinear(1, 3, -1, (0.5, -0.5))
+    p = psi.tanh()
+    section = Section(system.at(()), p, critical_sets(system, p)[0])
+    shift = section.displacement(section.grid(), FINE)
+    assert np.abs(shift[np.isfinite(shift)]).max() < 1e-9
+
+
+def test_importing_and_case_I_load_no_compiler():
+    code = (
+        "import sys, codim2_core as c2; from codim2_core.cycles import limit_cycles; "
+        "limit_cycles(c2.ELinear(-1, 1, -1), c2.psi.tanh()); sys.exit('numba' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+unit = st.floats(0.0, 1.0)
+
+
+@st.composite
+def case_III(draw):
+    a, d = draw(st.floats(0.1, 3.0)), -draw(st.floats(0.1, 3.0))
+    if draw(st.booleans()):
+        a, d = d, a
+    b = math.sqrt(-a * d) * (1.01 + 1.5 * draw(unit) ** 2) * draw(st.sampled_from([-1, 1]))
+    r, t = 0.03 + 0.92 * draw(unit), 2 * math.pi * draw(unit)
+    e = np.array([r * math.cos(t), r * math.sin(t)])
+    f = -np.array([[a, -b], [b, d]]) @ e
+    n = draw(st.sampled_from([0, 1, 2, 3, 4, 6, 10]))
+    return ELinear(a, b, d, (float(f[0]), float(f[1]))), psi.hill(n) if n else psi.tanh(), e
+
+
+@settings(max_examples=150)
+@given(case_III())
+def test_random_case_III(found):
+    system, p, e = found
+    cycles = limit_cycles(system, p)
+    C = critical_sets(system, p)[0]
+    for cycle in cycles:
+        assert cycle.mean_e == pytest.approx(e, abs=1e-9)  # prop:LC
+        assert cycle.closure < 1e-10
+        if cycle.divergence_multiplier > 1e-280 and cycle.divergence_multiplier < 1e280:
+            assert cycle.multiplier == pytest.approx(cycle.divergence_multiplier, rel=1e-8)
+        turn = np.unwrap(np.arctan2(*(cycle.points - C.p).T[::-1]))
+        assert turn[-1] - turn[0] == pytest.approx(2 * math.pi * cycle.direction, abs=1e-6)
+    if cycles.notes or any(cycle.kind == "semistable" for cycle in cycles):
+        return
+    # Neighbours differ in stability, from C outwards to the equator.
+    kinds = [cycle.stable for cycle in cycles]
+    assume(abs(C.trace) > 1e-6 * math.hypot(*C.jacobian.ravel()))
+    kinds.insert(0, C.trace < 0.0)
+    closed = equator_cycle(system)
+    if closed is not None and abs(closed.exponent) > 1e-3:
+        kinds.append(closed.exponent > 0.0)
+    equator = equator_equilibria(system)
+    inside_sinks = ((equator.lambda_rho > 0.0) & (equator.lambda_theta < 0.0)).any()
+    inside_sources = ((equator.lambda_rho < 0.0) & (equator.lambda_theta > 0.0)).any()
+    assert all(one != other for one, other in itertools.pairwise(kinds))
+    if closed is None and len(equator) and not inside_sinks:
+        assert kinds[-1]  # what does not end on the equator ends on the outermost attractor
+    if closed is None and len(equator) and not inside_sources:
+        assert not kinds[-1]
