@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from codim2_core.certificates import Certificate
+
 Points = NDArray[np.float64]
 
 #: Smallest angle between two labels around the circle, in radians, so that Q1 and Q2 stay readable.
@@ -198,3 +200,8 @@ def cycle_columns(cycles: Any) -> dict[str, Any]:
 
 def _subscript(number: int) -> str:
     return str(number).translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
+
+
+def certificate_rows(certificates: Sequence[Certificate]) -> list[list[str]]:
+    """Return theorem, statement, verdict and sentence of each, in the order of the paper."""
+    return [[c.theorem, c.statement, c.verdict.value, c.sentence] for c in certificates]

@@ -48,7 +48,7 @@ def explorer(system: ELinear | None = None, **state: Any) -> ExplorerView:
             raise ValueError(str(error)) from error
     if system is not None:
         values = {**_values_of(system, values.get("z", 0.0)), **values}
-    pn.extension()
+    pn.extension(inline=True)  # BokehJS comes with Panel: a notebook asks no public host for it
     warmup.start()
     return ExplorerView(ExplorerState.of(values), system)
 

@@ -6,7 +6,7 @@ nothing ever queues here.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from codim2_core.regularisation import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems import ELinear
 
-from . import glyphs
+from . import atlas, glyphs
 from .packing import pack, quantise
 from .state import COEFFICIENTS, ExplorerState, InputError, build_psi, build_system, clean, scene_changes
 from .theme import REACH
@@ -30,6 +30,11 @@ ORBITS = ("outside", "inside", "continuations")
 ARROWS = {"outside": (0.3, 0.7), "inside": (0.35, 0.75), "continuations": (0.5,)}
 #: Kinds of branches that each nullcline control shows.
 NULLCLINES = {"rho": ("rho",), "theta": ("theta",), "lines": ("U1", "U2")}
+
+#: Controls of the pad, where f is dragged over the plane (f1, f2): a system that locks one of them has no pad.
+PAD = ("a", "b", "d", "f1", "f2")
+#: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
+CURVES = ("saddle_node", "transcritical")
 
 Blocks = dict[str, NDArray[Any]]
 
@@ -56,15 +61,17 @@ class Frames:
         self.values = state.values()
         self.scene = make_scene(self.values, system)
         self.locked = locked_controls(self.scene)
+        self.has_pad = not set(PAD) & set(self.locked)
         self.ready = ready
         self._sent: dict[str, Any] = {}
 
     def answer(self, request: Mapping[str, Any]) -> bytes:
-        """Return the frame for ``{"id": number, "set": {control: value}, "all": bool}``.
+        """Return the frame for ``{"id": number, "set": {control: value}, "all", "rest", "theorems": bool}``.
 
-        ``all`` asks for every layer again, as a browser does that has just connected. A value that cannot be used,
-        and a computation that fails, leave the last good picture: the frame then holds only ``error``, with the
-        name of the control and a sentence.
+        ``all`` asks for every layer again, as a browser does that has just connected; ``rest`` says that no control
+        is moving, so that there is time for the regions of the plane of f; ``theorems``, that their list is open. A
+        value that cannot be used, and a computation that fails, leave the last good picture: the frame then holds
+        only ``errors``, with the name of the control and a sentence.
         """
         identity = request.get("id", 0)
         sent = {} if request.get("all") else self._sent
@@ -75,18 +82,26 @@ class Frames:
                 good[name] = clean(name, value)
             except InputError as error:
                 errors[error.control] = str(error)
-        drawn = self._accept(good, sent, errors)
+        beside = {name for name in ("rest", "theorems") if request.get(name)}
+        if request.get("all"):
+            beside.add("rest")
+        if self.has_pad:
+            beside.add("pad")
+        drawn = self._accept(good, sent, errors, beside)
+        if drawn is None and "rest" in beside and good:
+            # the browser still lacks what was left out while the last good picture was moving
+            drawn = self._accept({}, sent, errors, beside)
         if drawn is None:
             return pack({"id": identity, "errors": errors}, {})
         header, blocks = drawn
         return pack({"id": identity, "errors": errors, **header}, blocks)
 
     def _accept(
-        self, good: Mapping[str, Any], sent: Mapping[str, Any], errors: dict[str, str]
+        self, good: Mapping[str, Any], sent: Mapping[str, Any], errors: dict[str, str], beside: Collection[str]
     ) -> tuple[dict[str, Any], Blocks] | None:
         """Draw with all changes or, where that fails, with those that can be had one after the other."""
         try:
-            return self._draw(good, sent)
+            return self._draw(good, sent, beside)
         except FAILURES as error:
             if len(good) < 2:
                 errors[_culprit(error, next(iter(good), ""))] = str(error)
@@ -95,20 +110,22 @@ class Frames:
         drawn = None
         for name, value in good.items():
             try:
-                drawn = self._draw({**kept, name: value}, sent)
+                drawn = self._draw({**kept, name: value}, sent, beside)
                 kept[name] = value
             except FAILURES as error:
                 errors[_culprit(error, name)] = str(error)
         return drawn
 
-    def _draw(self, changes: Mapping[str, Any], sent: Mapping[str, Any]) -> tuple[dict[str, Any], Blocks]:
+    def _draw(
+        self, changes: Mapping[str, Any], sent: Mapping[str, Any], beside: Collection[str]
+    ) -> tuple[dict[str, Any], Blocks]:
         values = {**self.values, **changes}
         changed = [name for name in changes if values[name] != self.values[name]]
         evolution = scene_changes([name for name in changed if name not in self.locked], values)
         if "z" in evolution:
             evolution["z"] = slow_position(self.scene, values["z"])
         scene = self.scene.evolve(**evolution) if evolution else self.scene
-        header, blocks, now_sent = make_frame(scene, values, sent, self.ready(scene.psi))
+        header, blocks, now_sent = make_frame(scene, values, sent, self.ready(scene.psi), beside)
         self.scene, self.values, self._sent = scene, values, now_sent
         if changed:
             self.state.param.update(**{name: values[name] for name in changed})
@@ -147,12 +164,18 @@ def locked_controls(scene: Scene) -> tuple[str, ...]:
 
 
 def make_frame(
-    scene: Scene, values: Mapping[str, Any], sent: Mapping[str, Any], ready: bool = True
+    scene: Scene,
+    values: Mapping[str, Any],
+    sent: Mapping[str, Any],
+    ready: bool = True,
+    beside: Collection[str] = ("pad", "rest"),
 ) -> tuple[dict[str, Any], Blocks, dict[str, Any]]:
     """Return header and blocks of one frame, and what the browser then holds.
 
     Only visible layers are computed, and only those whose result is another object than the one in `sent` are
-    packed. `scene` shares results that a change does not reach, so that identity is the whole test.
+    packed. `scene` shares results that a change does not reach, so that identity is the whole test. What goes with
+    the picture is named in `beside`: "pad", the curves of the plane of f; "rest", its regions too, which take as long
+    as all else in a frame; "theorems".
     """
     visible = set(values["layers"])
     now = dict(sent)
@@ -195,10 +218,31 @@ def make_frame(
             "sentence": name.sentence,
             "degeneracies": [[item.name, item.sentence] for item in name.degeneracies],
         }
+    if "pad" in beside:
+        _add_atlas(header, blocks, scene, "rest" in beside, fresh)
+    if ready and "theorems" in beside and fresh("certificates", scene["certificates"]):
+        header["theorems"] = glyphs.certificate_rows(scene["certificates"])
     flow = scene["slow_flow"]
     header["slow_flow"] = None if flow is None else [float(v) for v in flow]
     header["f"] = [float(scene.coefficients.f1), float(scene.coefficients.f2)]
     return header, blocks, now
+
+
+def _add_atlas(
+    header: dict[str, Any], blocks: Blocks, scene: Scene, rest: bool, fresh: Callable[[str, Any], bool]
+) -> None:
+    curves = scene["atlas_curves"]
+    size = atlas.size_of(curves)
+    if fresh("atlas_curves", curves):
+        header["atlas_size"] = size
+        for name, curve in zip(CURVES, curves, strict=True):
+            _add_lines(blocks, name, *atlas.curve_lines(curve, size))
+    if not rest:
+        return
+    header["rest"] = True  # the regions that the browser then has are those of these curves
+    if fresh("regions", scene["regions"]):
+        header["regions"] = atlas.region_columns(scene["regions"], size)
+        _add_lines(blocks, "regions", *atlas.region_lines(scene["regions"], size))
 
 
 def _add_nullclines(

@@ -18,7 +18,7 @@ from panel.viewable import Child
 from codim2_core.systems import ELinear
 
 from .figures import make_figure
-from .markup import config, explorer_html, script
+from .markup import STATIC, config, explorer_html, script
 from .packing import unpack
 from .refresh import Frames
 from .state import ExplorerState, InputError
@@ -58,20 +58,23 @@ class ExplorerView(JSComponent):
     ) -> None:
         self.state = ExplorerState() if state is None else state
         self.frames = Frames(self.state, system, is_ready)
+        super().__init__(
+            picture=pn.pane.Bokeh(make_figure(), sizing_mode="stretch_both"),
+            stylesheets=[] if page else [(STATIC / "notebook.css").read_text(encoding="utf-8")],
+            sizing_mode="stretch_width",
+            **self._opening(page, errors),
+            **params,
+        )
+
+    def _opening(self, page: bool, errors: tuple[InputError, ...] = ()) -> dict[str, Any]:
+        """Return what a browser starts from: the values of the controls, the first frame and the markup."""
         first = self.frames.answer({"all": True})
         header, _ = unpack(first)
         settings = config(self.state, self.frames.locked)
         settings["page"] = page
         settings["errors"] = {error.control: str(error) for error in errors} | header.get("errors", {})
         self.page_markup = explorer_html(self.state, _words(header, first))
-        super().__init__(
-            picture=pn.pane.Bokeh(make_figure(), sizing_mode="stretch_both"),
-            config=settings,
-            first=first,
-            markup="" if page else self.page_markup,
-            sizing_mode="stretch_width",
-            **params,
-        )
+        return {"config": settings, "first": first, "markup": "" if page else self.page_markup}
 
     def get_root(self, doc: Any = None, comm: Any = None, preprocess: bool = True) -> Any:
         """Return the Bokeh model, without Panel's style sheets, which come from a public host in some set-ups.
@@ -79,6 +82,8 @@ class ExplorerView(JSComponent):
         (A page that one server process wrote and another one answers; reused sessions; notebooks.) The explorer's
         own style sheet is in its markup.
         """
+        if self._models and not self.config["page"]:  # a notebook shows it once more: as it is now
+            self.param.update(**self._opening(page=False))
         root = super().get_root(doc, comm, preprocess)
         for model in root.references():
             sheets = getattr(model, "stylesheets", None)

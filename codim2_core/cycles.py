@@ -131,12 +131,12 @@ def reason_for_none(coefficients: Coefficients, critical: tuple[CriticalSet, ...
         )
     if a == d == 0.0:
         return (
-            "No limit cycle: for a = d = 0 the layer problem preserves area (no divergence in kappa_2); "
+            "No limit cycle: for a = d = 0 the layer problem preserves area (no divergence in κ₂); "
             "closed orbits fill bands."
         )
     if a * d >= 0.0:
         sign = "negative" if a + d < 0.0 else "positive"
-        return f"No limit cycle: the divergence is {sign} on all of kappa_2 (Bendixson, thm:case1)."
+        return f"No limit cycle: the divergence is {sign} on all of κ₂ (Bendixson, thm:case1)."
     if f1 == f2 == 0.0:
         return "No limit cycle: for f = 0 the orbits are those of the linear system x2' = A x2, whatever Ψ is."
     if a == -d and abs(f1) == abs(f2):

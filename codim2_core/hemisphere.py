@@ -32,7 +32,7 @@ def scaling_from_disc(p: ArrayLike) -> Array:
     p = np.asarray(p, float)
     ebar = height(p)
     if not np.all(ebar > 0.0):
-        raise ValueError("a point has |p| >= 1; the chart kappa_2 covers |p| < 1 only (the equator is at infinity).")
+        raise ValueError("a point has |p| >= 1; the chart κ₂ covers |p| < 1 only (the equator is at infinity).")
     return p / ebar[..., None]
 
 

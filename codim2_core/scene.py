@@ -18,6 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import regularisation
+from .bifurcations import BifurcationCurve, critical_boundary, regions, saddle_node
+from .certificates import Certificate, certificates
 from .classify import Classification, portrait
 from .critical import critical_sets, locate
 from .cycles import LimitCycles, limit_cycles
@@ -28,7 +30,7 @@ from .regularisation import Psi
 from .seeds import checked_seeds, ring, structured_seeds
 from .separatrices import Separatrices, separatrices
 from .sliding import sliding_flow
-from .systems import Coefficients, ELinear, slow_values
+from .systems import SMALLEST, Coefficients, ELinear, slow_values
 from .trajectories import Trajectories, continuation, trajectories
 
 DRAWN_TIME = 40.0  # over the largest coefficient: slow directions, up to 40 times slower than that, are still drawn
@@ -179,9 +181,11 @@ class Scene:
 
 _PARAMETERS = ("system", "psi", "z", "seeds", "count", "t_max", "length", "rtol", "atol", "view", "pixel")
 
-# The values that layers read, as keys: `plane` is (a, b, d, f1, f2) at z, so z itself reaches nothing.
+# The values that layers read, as keys: `plane` is (a, b, d, f1, f2) at z and `matrix` (a, b, d), so z itself
+# reaches nothing.
 _INPUTS: dict[str, Callable[[Scene], Hashable]] = {
     "plane": lambda s: s.coefficients.plane,
+    "matrix": lambda s: _matrix(s),
     "slow": lambda s: (s.coefficients.B.tobytes(), s.coefficients.g.tobytes()),
     "psi": lambda s: s.psi,
     "inner seeds": lambda s: s.count if s.seeds is None else _start(s, outside=False).tobytes(),
@@ -250,6 +254,23 @@ def _separatrices(scene: Scene) -> Separatrices:
     return separatrices(scene.coefficients, scene.psi, rtol=scene.rtol, pixel=scene.pixel, cycles=scene["cycles"])
 
 
+def _matrix(scene: Scene) -> tuple[float, float, float]:
+    """Return a, b, d; all zero where they are so small beside f that a system of them alone is refused."""
+    a, b, d = scene.coefficients.plane[:3]
+    return (a, b, d) if max(abs(a), abs(b), abs(d)) >= SMALLEST else (0.0, 0.0, 0.0)
+
+
+def _atlas_curves(scene: Scene) -> tuple[BifurcationCurve, BifurcationCurve]:
+    """Return the saddle-node curve and the ellipse |A^-1 f| = 1 of the plane (f1, f2)."""
+    return saddle_node(*_matrix(scene)), critical_boundary(*_matrix(scene))
+
+
+def _certificates(scene: Scene) -> tuple[Certificate, ...]:
+    at = scene.coefficients
+    cycles = [replace(cycle, slow_flow=at.W(cycle.mean_e)) for cycle in scene["cycles"]]
+    return certificates(at, scene.psi, cycles=cycles)
+
+
 def _inside_nullclines(scene: Scene) -> tuple[NullclineBranch, ...]:
     return inside_nullclines(scene.coefficients, scene.psi, scene["equator"].theta.tolist())
 
@@ -277,5 +298,8 @@ layers: Mapping[str, Layer] = MappingProxyType(
         "continuations": Layer(("plane", "psi", *_STEPPED), _continuations),
         "cycles": Layer(("plane", "psi"), _cycles),
         "separatrices": Layer(("plane", "psi", "tolerance", "pixel"), _separatrices),
+        "certificates": Layer(("plane", "slow", "psi"), _certificates),
+        "atlas_curves": Layer(("matrix",), _atlas_curves),
+        "regions": Layer(("matrix",), lambda s: regions(*_matrix(s))),
     }
 )

@@ -29,10 +29,11 @@ function wire({model, view, root, plot}) {
       if (config.locked.includes(name)) for (const input of box.querySelectorAll("input")) { input.disabled = true; input.title = "given by your system" }
     } else controls[name] = {box, say: (sentence) => sayAt(box, sentence), set: () => {}}
   }
-  const pad = new Pad(find(".pad"), (f1, f2) => {
+  const pad = new Pad(find(".pad"), find(".pad-names"), (f1, f2) => {
     if (config.locked.includes("f1")) return
     controls.f1.set(f1); controls.f2.set(f2); change("f1", f1); change("f2", f2); pad.draw(values)
   })
+  find(".pad-box").hidden = ["a", "b", "d", "f1", "f2"].some((name) => config.locked.includes(name)) // as in refresh.py
 
   const family = find("select.psi")
   const showFamily = () => {
@@ -77,21 +78,23 @@ function wire({model, view, root, plot}) {
   find(".reset").addEventListener("click", () => { setAll(config.defaults); tell(); picture.home(config.view) })
   find(".home").addEventListener("click", () => picture.home(config.view))
 
-  // Theme: the system's until a choice is made.
-  const dark = matchMedia("(prefers-color-scheme: dark)")
+  // Theme: JupyterLab's or the system's until a choice is made.
+  const system = matchMedia("(prefers-color-scheme: dark)")
+  const isDark = () => document.body.dataset.jpThemeLight ? document.body.dataset.jpThemeLight === "false" : system.matches
   let chosen = null
-  try { chosen = localStorage.getItem("codim2-theme") } catch { /* storage may be forbidden */ }
+  try { chosen = config.page ? localStorage.getItem("codim2-theme") : null } catch { /* storage may be forbidden */ }
   const paint = () => {
-    const name = chosen ?? (dark.matches ? "dark" : "light")
+    const name = chosen ?? (isDark() ? "dark" : "light")
     root.classList.toggle("dark", name === "dark")
     picture.paint(name)
     if (config.page) document.documentElement.style.background = document.body.style.background = config.themes[name].page
     return name
   }
-  dark.addEventListener("change", paint)
+  system.addEventListener("change", paint)
+  new MutationObserver(paint).observe(document.body, {attributeFilter: ["data-jp-theme-light"]})
   find(".theme").addEventListener("click", () => {
     chosen = root.classList.contains("dark") ? "light" : "dark"
-    try { localStorage.setItem("codim2-theme", chosen) } catch { /* as above */ }
+    try { if (config.page) localStorage.setItem("codim2-theme", chosen) } catch { /* as above */ }
     paint()
   })
 
@@ -106,8 +109,14 @@ function wire({model, view, root, plot}) {
     }, 300)
   }
 
+  const theorems = find(".theorems")
+  theorems.addEventListener("toggle", () => {
+    requests.beside.theorems = theorems.open
+    if (theorems.open) requests.refresh()
+  })
+
   const busy = find(".busy")
-  let warmTimer = null
+  let warmTimer = null, restTimer = null
   const apply = (buffer) => {
     const frame = readFrame(buffer)
     const {header} = frame
@@ -119,6 +128,8 @@ function wire({model, view, root, plot}) {
     const general = Object.entries(errors).find(([name]) => !(name in controls))
     banner(general ? general[1] : "")
     picture.apply(frame)
+    clearTimeout(restTimer)
+    if (pad.apply(frame)) restTimer = setTimeout(() => requests.rest(), 150)
     inspector.apply(header, values)
     requests.arrived(header.id, errors)
     root.dataset.frame = header.id
@@ -140,6 +151,15 @@ function wire({model, view, root, plot}) {
   return {values, requests, picture, apply}
 }
 
+// JupyterLab takes arrows and letters for its commands, on the document and before any element is asked; the window is
+// asked earlier still. Its commands with Ctrl, such as saving, stay.
+function keepKeys(root) {
+  let host = null // the light tree's element around all shadow roots
+  const mark = (event) => host.toggleAttribute("data-lm-suppress-shortcuts", !event.ctrlKey && !event.metaKey)
+  root.addEventListener("focusin", () => { host = document.activeElement; window.addEventListener("keydown", mark, true) })
+  root.addEventListener("focusout", () => window.removeEventListener("keydown", mark, true))
+}
+
 export function render({model, view, el}) {
   const first = document.getElementById("codim2-first")
   let root = model.config.page ? first?.querySelector(".codim2") : null
@@ -147,6 +167,8 @@ export function render({model, view, el}) {
     const holder = document.createElement("div")
     holder.innerHTML = model.markup
     root = holder.querySelector(".codim2")
+    root.classList.add("notebook")
+    keepKeys(root)
   }
   root.querySelector(".bokeh").append(model.get_child("picture"))
   wire({model, view, root, plot: view.model.data.picture})

@@ -28,6 +28,8 @@ class Requests {
     this.asked = null
     this.number = 0
     this.scheduled = false
+    this.again = this.resting = false
+    this.beside = {} // what every request asks for besides
     this.timer = null
   }
 
@@ -39,6 +41,9 @@ class Requests {
   }
 
   refresh() { this.again = true; this.schedule() }
+
+  // Nothing moves: ask for what is left out of the frames of a drag.
+  rest() { this.resting = true; this.refresh() }
 
   get idle() { return this.asked === null && Object.keys(this.waiting).length === 0 }
 
@@ -54,9 +59,9 @@ class Requests {
     if (this.asked !== null || (!this.again && Object.keys(this.waiting).length === 0)) return
     this.asked = {...this.rejected, ...this.waiting}
     this.waiting = {}
-    this.again = false
     this.number += 1
-    this.send({id: this.number, set: this.asked})
+    this.send({id: this.number, set: this.asked, rest: this.resting, ...this.beside})
+    this.again = this.resting = false
     // a lost reply must not stop the explorer for ever
     this.timer = setTimeout(() => { this.waiting = {...this.asked, ...this.waiting}; this.asked = null; this.schedule() }, 20000)
   }

@@ -12,6 +12,7 @@ class Inspector {
     if (header.equator) this.equator(header)
     if (header.critical) this.critical(header.critical)
     if (header.cycles) this.cycles(header.cycles)
+    if (header.theorems) this.theorems(header.theorems)
     if ("slow_flow" in header) this.slow(header.slow_flow, values.z)
   }
 
@@ -49,6 +50,14 @@ class Inspector {
       <tr><td>period (fast time τ)</td><td>${digits(c.period[i])}</td></tr><tr><td>multiplier</td><td>${digits(c.multiplier[i])}</td></tr></table>`)
     const words = [...(rows.length ? [] : [c.reason]), ...c.notes].map((text) => `<p class="note">${escape(text)}</p>`)
     this.find(".cycle-table").innerHTML = "<h2>Limit cycles</h2>" + rows.join("") + words.join("")
+  }
+
+  theorems(rows) {
+    const mark = {holds: ["✓", "holds"], fails: ["✗", "fails"], "does not apply": ["–", "idle"]}
+    const words = (text) => escape(text).replace(/_(.)/g, "<sub>$1</sub>") // λ_ρ, e_Ψ
+    this.find(".theorem-list").innerHTML = rows.map(([theorem, statement, verdict, sentence]) =>
+      `<li class="${mark[verdict][1]}"><b>${mark[verdict][0]} ${escape(verdict)}</b> <code>${escape(theorem)}</code>
+      <p>${words(statement)}</p><p class="note">${words(sentence)}</p></li>`).join("")
   }
 
   // An arrow along the z axis; z points out of the page, as in the paper's circled dot and cross.

@@ -11,6 +11,9 @@ import codim2_core as c2
 HEAVY = {"cycles", "inside", "outside", "continuations", "rho_inside", "rho_outside", "theta_inside", "theta_outside",
          "lines_inside", "lines_outside"}  # fmt: skip
 
+CURVES = {"saddle_node", "transcritical"}
+ATLAS = CURVES | {"regions"}
+
 
 @pytest.fixture
 def frames():
@@ -28,13 +31,14 @@ def test_first_frame_holds_everything_within_the_budget():
     buffer = Frames(ExplorerState()).answer({"id": 7, "all": True})
     header, blocks = unpack(buffer)
     assert header["id"] == 7
-    assert {name.split(".")[0] for name in blocks} == HEAVY
+    assert {name.split(".")[0] for name in blocks} == HEAVY | ATLAS
     assert {"equator", "critical", "portrait"} <= header.keys()
     assert len(buffer) <= 60_000
 
 
 @pytest.mark.parametrize(("change", "sent"), [
-    ({"a": -1.7}, HEAVY),
+    ({"a": -1.7}, HEAVY | CURVES),
+    ({"f1": -0.4}, HEAVY),
     ({"psi": "rational"}, {name for name in HEAVY if name in ("continuations", "cycles") or name.endswith("inside")}),
     ({"B1": 0.3}, set()),
     ({"g0": 0.3}, set()),
@@ -63,7 +67,7 @@ def test_hidden_layers_are_neither_computed_nor_sent(frames):
     ask(frames, layers=[name for name in LAYERS if name in ("outside", "continuations", "equator")])
     runs = dict(frames.scene.runs)
     _, blocks = ask(frames, a=-1.1)
-    assert blocks == {"outside", "continuations"}
+    assert blocks == {"outside", "continuations"} | CURVES
     assert frames.scene.runs["inside"] == runs["inside"]
     assert frames.scene.runs["nullclines_inside"] == runs["nullclines_inside"]
     assert frames.scene.runs["cycles"] == runs["cycles"]
@@ -82,7 +86,7 @@ def test_bad_value_leaves_the_last_good_picture(frames, bad):
     assert frames.values["a"] == -2
     header, blocks = ask(frames, a=-1.5)
     assert header["errors"] == {}
-    assert blocks == HEAVY
+    assert blocks == HEAVY | CURVES
 
 
 def test_one_bad_value_does_not_stop_the_others(frames):
@@ -154,3 +158,19 @@ def test_a_new_custom_psi_is_compiled_in_the_background():
     while not is_ready(psi):
         assert time.monotonic() < deadline
         time.sleep(0.02)
+
+
+def test_theorems_are_evaluated_only_while_their_list_is_open(frames):
+    ask(frames, a=-1.9)
+    assert "certificates" not in frames.scene.runs
+    header, _ = unpack(frames.answer({"id": 2, "theorems": True}))
+    rows = {row[0]: row for row in header["theorems"]}
+    assert rows["thm:case1(c)"][2:] == ["holds", "This one is CM4."]
+    assert rows["thm:case2(a)"][2] == "does not apply"
+    header, _ = unpack(frames.answer({"id": 3, "set": {"k2": 0.5}, "theorems": True}))
+    assert "theorems" not in header
+    header, _ = unpack(frames.answer({"id": 4, "set": {"f1": 3.0}, "theorems": True}))
+    assert {row[0]: row for row in header["theorems"]}["thm:case1(c)"][3] == "This one is NCM2."
+    runs = frames.scene.runs["certificates"]
+    ask(frames, a=-1.5)
+    assert frames.scene.runs["certificates"] == runs

@@ -4,6 +4,7 @@ import pytest
 from codim2_app.portraits import portraits
 from codim2_app.state import NUMBERS
 
+from codim2_core.presets import presets
 from tests.app.serving import serving
 
 pytestmark = pytest.mark.browser
@@ -59,11 +60,11 @@ def test_each_slider_redraws(explorer, name):
 def test_each_preset_shows_its_portrait(explorer, portrait):
     explorer.find("select.preset").select_option(portrait["key"])
     explorer.settle()
-    expected = portrait["title"].split(":")[0].split()[0]
-    if expected.startswith(("CM", "NCM")):
-        assert explorer.name() == expected
-    else:  # Case III: the title names the kind of C
-        assert portrait["title"].split(": ")[1] in explorer.find(".critical-table").text_content()
+    case, name, kind = presets[portrait["key"]].portrait
+    assert explorer.name() == name
+    assert explorer.find(".portrait-case").text_content() == f"Case {case}"
+    if kind:
+        assert kind in explorer.find(".critical-table").text_content()
     assert portrait["label"] in explorer.find(".preset-note").text_content()
 
 
@@ -139,6 +140,45 @@ def test_handle_of_f_moves_by_mouse_and_keyboard(explorer):
     explorer.find(".pad").press("ArrowRight")
     explorer.settle()
     assert float(explorer.find("[data-control=f1] .number").input_value()) > float(f1)
+
+
+def region_under_the_handle(explorer):
+    """The name of the region drawn where the handle is, as the browser itself fills it."""
+    return explorer.find(".pad").evaluate("""(pad) => {
+        const handle = pad.querySelector('.handle')
+        const at = new DOMPoint(handle.cx.baseVal.value, handle.cy.baseVal.value)
+        const around = [...pad.querySelectorAll('.region')].filter((region) => region.isPointInFill(at))
+        return around.map((region) => region.dataset.region) }""")
+
+
+@pytest.mark.parametrize("preset", ["case1-cm4", "case1-cm0", "case1-ncm4", "case2-saddle", "case1-ncm2"])
+def test_region_under_the_handle_is_the_portrait(explorer, preset):
+    explorer.find("select.preset").select_option(preset)
+    explorer.settle()
+    explorer.page.wait_for_selector(".pad:not(.old)")
+    assert region_under_the_handle(explorer) == [explorer.name()]
+    assert explorer.name() in explorer.find(".pad-names").text_content()
+    assert explorer.find(".pad .tag").text_content() == explorer.name()
+    assert explorer.find(".pad .region.here").get_attribute("data-region") == explorer.name()
+
+
+def test_regions_follow_once_the_matrix_rests(explorer):
+    before = explorer.find(".pad .regions").inner_html()
+    explorer.type("a", "-1.2").type("b", "0.4")
+    explorer.page.wait_for_selector(".pad:not(.old)")
+    assert explorer.find(".pad .regions").inner_html() != before
+    assert region_under_the_handle(explorer) == [explorer.name()]
+
+
+def test_theorems_open_and_follow(explorer):
+    rows = explorer.find(".theorem-list li")
+    assert rows.count() == 0
+    explorer.find(".theorems summary").click()
+    rows.first.wait_for()
+    assert rows.filter(has_text="thm:case1(c)").text_content().count("This one is CM4.") == 1
+    explorer.type("f1", "3")
+    assert "This one is NCM2." in rows.filter(has_text="thm:case1(c)").text_content()
+    assert rows.filter(has_text="✗").count() == 0
 
 
 def test_reset_returns_to_the_first_setting(explorer):

@@ -38,14 +38,16 @@ def ran(scene, **changes):
 
 
 EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "outside"}
-HEMISPHERE = {"cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations", "classification"}
+HEMISPHERE = {"cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations", "classification",
+              "certificates"}  # fmt: skip
 
-SLOW = {"critical", "classification", "slow_flow"}
+ATLAS = {"atlas_curves", "regions"}  # of the plane (f1, f2): neither f nor Psi is in them
+SLOW = {"critical", "classification", "certificates", "slow_flow"}
 
 REACHES = {
-    "a": ({"a": -1.7}, EQUATOR | HEMISPHERE | {"slow_flow"}),
-    "b": ({"b": 0.2}, EQUATOR | HEMISPHERE | {"slow_flow"}),
-    "d": ({"d": -0.8}, EQUATOR | HEMISPHERE | {"slow_flow"}),
+    "a": ({"a": -1.7}, EQUATOR | HEMISPHERE | ATLAS | {"slow_flow"}),
+    "b": ({"b": 0.2}, EQUATOR | HEMISPHERE | ATLAS | {"slow_flow"}),
+    "d": ({"d": -0.8}, EQUATOR | HEMISPHERE | ATLAS | {"slow_flow"}),
     "f1": ({"f1": -0.3}, EQUATOR | HEMISPHERE | {"slow_flow"}),
     "f2": ({"f2": 0.2}, EQUATOR | HEMISPHERE | {"slow_flow"}),
     "psi": ({"psi": c2.psi.rational()}, HEMISPHERE),
@@ -83,6 +85,12 @@ def test_every_input_is_perturbed_above():
 def test_z_reaches_the_picture_once_a_coefficient_depends_on_it():
     computed, _ = ran(c2.Scene(typed(k1=1.0), z=0.5), z=0.6)
     assert computed == EQUATOR | HEMISPHERE | {"slow_flow"}
+
+
+def test_z_reaches_the_atlas_only_through_the_matrix():
+    system = c2.ELinear("-2 + 0.1*z", 0.3, -1.0, (-0.5, 0.1), B=[[1.0, -2.0]], g=[0.25])
+    computed, _ = ran(c2.Scene(system, z=0.5), z=0.6)
+    assert computed >= ATLAS
 
 
 def test_nothing_is_computed_that_is_not_asked_for():

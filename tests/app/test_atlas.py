@@ -1,0 +1,140 @@
+"""The plane of f in the frames: curves with each change of A, regions when nothing moves."""
+
+import numpy as np
+import pytest
+from codim2_app import atlas
+from codim2_app.packing import STEP, unpack
+from codim2_app.refresh import Frames
+from codim2_app.state import ExplorerState
+
+import codim2_core as c2
+from codim2_core import bifurcations
+
+MATRICES = [(-2, 0, -1), (1, 0.3, -1), (172, 186, -200), (-1, 1, -1), (-0.3, 0, -1), (-1, 0.2, -2)]
+DEGENERATE = [(0, 0, 0), (1, 0, 1), (1, 0, 0), (0, 0, -1), (1, 1, -1), (-1, 0, 1e-9), (0, 2, 0), (1e-300, 0, 0)]
+
+
+@pytest.fixture
+def frames():
+    made = Frames(ExplorerState())
+    made.answer({"all": True})
+    return made
+
+
+def atlas_of(frames, rest=False, **values):
+    header, blocks = unpack(frames.answer({"id": 1, "set": values, "rest": rest}))
+    assert header["errors"] == {}
+    names = {name.split(".")[0] for name in blocks} & {"saddle_node", "transcritical", "regions"}
+    return header, blocks, names
+
+
+def lines(blocks, name, size):
+    points = blocks[f"{name}.xy"].reshape(-1, 2) * STEP * size
+    return np.split(points, np.cumsum(blocks[f"{name}.n"], dtype=int)[:-1])
+
+
+def test_curves_go_with_the_matrix_and_regions_at_rest(frames):
+    header, _, names = atlas_of(frames, a=-1.7)
+    assert names == {"saddle_node", "transcritical"}
+    assert "rest" not in header
+    assert frames.scene.runs["regions"] == 1  # of the first frame
+    header, _, names = atlas_of(frames, rest=True)
+    assert names == {"regions"}
+    assert header["rest"] is True
+    header, _, names = atlas_of(frames, rest=True)
+    assert names == set()
+    assert header["rest"] is True
+
+
+@pytest.mark.parametrize(
+    "change", [{"f1": 0.3}, {"f2": 0.3}, {"z": 0.5}, {"k1": 0.2}, {"psi": "rational"}, {"B1": 2.0}]
+)
+def test_what_is_no_matrix_sends_no_atlas(frames, change):
+    runs = dict(frames.scene.runs)
+    assert atlas_of(frames, rest=True, **change)[2] == set()
+    assert {name: frames.scene.runs[name] for name in ("atlas_curves", "regions")} == {
+        name: runs[name] for name in ("atlas_curves", "regions")
+    }
+
+
+def test_going_back_at_once_leaves_the_regions_that_the_browser_has(frames):
+    atlas_of(frames, a=-1.7)
+    header, _, names = atlas_of(frames, a=-2.0)
+    assert names == {"saddle_node", "transcritical"}
+    header, _, names = atlas_of(frames, rest=True)
+    assert names == set()
+    assert header["rest"] is True
+
+
+def test_a_value_that_is_refused_does_not_keep_the_regions_back(frames):
+    atlas_of(frames, a=-1.7)
+    header, blocks = unpack(frames.answer({"id": 1, "set": {"psi": "custom", "psi_text": "1/(s"}, "rest": True}))
+    assert list(header["errors"]) == ["psi_text"]
+    assert "regions.xy" in blocks
+
+
+def test_a_locked_matrix_has_no_pad_and_no_atlas():
+    frames = Frames(ExplorerState(), c2.ELinear(-1, "0.1*z1", -2, (0.2, 0.3), B=((1, 0),), g=("z1",)))
+    _, _, names = atlas_of(frames, rest=True)
+    assert names == set()
+    assert "atlas_curves" not in frames.scene.runs
+    assert "regions" not in frames.scene.runs
+
+
+@pytest.mark.parametrize("matrix", MATRICES)
+def test_columns_are_the_regions_of_the_core(frames, matrix):
+    a, b, d = matrix
+    header, blocks = unpack(frames.answer({"all": True, "set": {"a": a, "b": b, "d": d}}))
+    columns, expected = header["regions"], bifurcations.regions(a, b, d)
+    assert columns["name"] == [region.name for region in expected]
+    assert columns["bounded"] == [region.bounded for region in expected]
+    assert columns["loops"] == [len(region.boundary) for region in expected]
+    np.testing.assert_allclose(np.array(columns["inside"]) * columns["size"], [r.inside for r in expected],
+                               atol=1e-4 * columns["size"])  # fmt: skip
+    sent = lines(blocks, "regions", columns["size"])
+    loops = [loop for region in expected for loop in region.boundary]
+    assert len(sent) == len(loops)
+    for few, many in zip(sent, loops, strict=True):
+        assert furthest(many, np.concatenate([few, few[:1]])) < 0.002 * columns["size"]  # 0.3 px of 350
+    mine = [
+        block for name, block in blocks.items() if name.split(".")[0] in ("regions", "saddle_node", "transcritical")
+    ]
+    size = sum(block.nbytes for block in mine)
+    assert size + len(str(columns)) < 6000
+
+
+@pytest.mark.parametrize("matrix", MATRICES)
+def test_curves_are_those_of_the_core(frames, matrix):
+    a, b, d = matrix
+    header, blocks, _ = atlas_of(frames, a=a + 0.0, b=b, d=d - 1e-3)
+    d = d - 1e-3
+    for name, curve in (("saddle_node", bifurcations.saddle_node(a, b, d)),
+                        ("transcritical", bifurcations.critical_boundary(a, b, d))):  # fmt: skip
+        for few, many in zip(lines(blocks, name, header["atlas_size"]), curve.branches, strict=True):
+            assert furthest(many, few) < 0.002 * header["atlas_size"]
+
+
+@pytest.mark.parametrize("matrix", DEGENERATE)
+def test_degenerate_matrices_are_drawn(frames, matrix):
+    header, _, names = atlas_of(frames, rest=True, **dict(zip("abd", matrix, strict=True)))
+    assert names == {"saddle_node", "transcritical", "regions"}
+    assert header["regions"]["name"]
+
+
+def test_thinning_keeps_ends_and_corners():
+    leg = np.linspace(0.0, 1.0, 101)
+    corner = np.concatenate([np.stack([leg, 0 * leg], 1), np.stack([1 + 0 * leg, leg], 1)[1:]])
+    few = atlas.thin(corner, 1.0)
+    assert len(few) < 40
+    assert furthest(corner, few) < 1e-15
+
+
+def furthest(points, line):
+    """The largest distance of points (n, 2) from a polyline (k, 2)."""
+    if len(line) == 1:
+        return float(np.hypot(*(points - line).T).max())
+    start, step = line[:-1], np.diff(line, axis=0)
+    squared = np.maximum((step**2).sum(1), 1e-300)
+    share = np.clip(((points[:, None] - start) * step).sum(2) / squared, 0, 1)
+    gap = points[:, None] - start - share[..., None] * step
+    return float(np.hypot(gap[..., 0], gap[..., 1]).min(1).max())

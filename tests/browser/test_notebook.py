@@ -1,0 +1,131 @@
+from importlib.util import find_spec
+from urllib.parse import urlparse
+
+import pytest
+
+from tests.browser.conftest import Explorer
+from tests.browser.jupyterlab import jupyterlab, write_notebook
+
+pytestmark = [
+    pytest.mark.browser,
+    pytest.mark.skipif(
+        find_spec("jupyterlab") is None or find_spec("jupyter_bokeh") is None,
+        reason='no JupyterLab: pip install jupyterlab, and this package with its extra "notebook"',
+    ),
+]
+
+START = "import panel, codim2_app\npanel.config.comms = '{}'\nview = codim2_app.explorer()\nview"
+SECOND = "second = codim2_app.explorer(a=-1, b=1, d=-1, f1=0)\nsecond"
+TELL = "print(view.state.a, view.frames.scene.system.a, view.state.d, second.state.a)"
+KERNEL = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
+RUN = """cell => {
+    window.jupyterapp.shell.currentWidget.content.activeCellIndex = cell
+    window.jupyterapp.commands.execute('notebook:run-cell')
+}"""
+
+
+class Notebook(Explorer):
+    """A notebook in JupyterLab; `Explorer` finds the first explorer that is shown in it."""
+
+    def open(self, name):
+        self.page.goto(f"{self.address}/lab/tree/{name}?reset")
+        self.page.wait_for_function(KERNEL)
+        self.page.evaluate("window.jupyterapp.shell.currentWidget.sessionContext.ready")
+        return self
+
+    def run(self, cell):
+        self.page.evaluate(RUN, cell)
+
+    def show(self, cell, which):
+        self.run(cell)
+        self.page.wait_for_function(
+            """which => {
+                const settled = ".codim2[data-settled=true]"
+                const count = (root) => root.querySelectorAll(settled).length
+                    + [...root.querySelectorAll("*")].reduce((n, e) => n + (e.shadowRoot ? count(e.shadowRoot) : 0), 0)
+                return count(document) > which }""",
+            arg=which,
+        )
+
+    def find(self, selector):
+        return self.page.locator(selector).first
+
+    def cells(self):
+        return self.page.evaluate("window.jupyterapp.shell.currentWidget.content.widgets.length")
+
+    def drag(self, slider, way):
+        slider.scroll_into_view_if_needed()
+        box = slider.bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        self.page.mouse.move(x, y)
+        self.page.mouse.down()
+        self.page.mouse.move(x + way, y, steps=5)
+        self.page.mouse.up()
+
+
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("lab")
+    with jupyterlab(folder) as address:
+        yield address, folder / "notebooks"
+
+
+@pytest.fixture
+def notebook(lab, chromium, request):
+    address, folder = lab
+    write_notebook(folder / f"{request.param}.ipynb", [START.format(request.param), SECOND, TELL])
+    context = chromium.new_context(viewport={"width": 1280, "height": 1000})
+    context.set_default_timeout(60_000)  # the kernel may have to compile the integrator
+    yield Notebook(context.new_page(), address).open(f"{request.param}.ipynb")
+    context.close()
+
+
+@pytest.mark.parametrize("notebook", ["default", "ipywidgets"], indirect=True)
+def test_sliders_draw_in_jupyterlab_and_python_follows(notebook):
+    notebook.show(0, 0)
+    slider = notebook.find("#c2-a")
+    frame, picture, words = notebook.frame(), notebook.picture(), notebook.find(".inspector").inner_text()
+    slider.focus()
+    for _ in range(5):
+        slider.press("ArrowRight")
+    slider.press("x")  # in JupyterLab's command mode this cuts the cell
+    notebook.settle()
+    assert (slider.input_value(), notebook.cells()) == ("-1.995", 3)
+    assert notebook.frame() > frame
+    assert notebook.find(".inspector").inner_text() != words
+    notebook.drag(notebook.find("#c2-d"), 30)
+    notebook.settle()
+    assert notebook.picture() != picture
+
+    notebook.show(1, 1)
+    other = notebook.page.locator("#c2-a").nth(1)
+    other.focus()
+    other.press("ArrowRight")
+    notebook.page.wait_for_timeout(300)
+    notebook.settle()
+    d = float(notebook.find("#c2-d").input_value())
+    notebook.run(2)
+    said = notebook.find(".jp-OutputArea-output[data-mime-type='application/vnd.jupyter.stdout'] pre").inner_text()
+    assert [float(word) for word in said.split()] == [-1.995, -1.995, d, -0.999]
+    assert d > -1
+
+    hosts = {urlparse(url).netloc for url in notebook.requests if not url.startswith(("data:", "blob:"))}
+    assert hosts == {urlparse(notebook.address).netloc}
+    assert notebook.complaints == []
+
+
+@pytest.mark.parametrize("notebook", ["default"], indirect=True)
+def test_widget_takes_the_theme_and_leaves_the_notebook_alone(notebook):
+    notebook.show(0, 0)
+    notebook.show(1, 1)
+    assert notebook.find(".codim2.dark").count() == 0
+    notebook.page.evaluate("window.jupyterapp.commands.execute('apputils:change-theme', {theme: 'JupyterLab Dark'})")
+    notebook.page.locator(".codim2.dark").nth(1).wait_for()
+    sheets = notebook.page.evaluate("[...document.querySelectorAll('style')].map(s => s.textContent).join('')")
+    assert ".codim2" not in sheets
+    before, name = notebook.find(".codim2").bounding_box(), notebook.name()
+    notebook.type("b", "3")
+    after = notebook.find(".codim2").bounding_box()
+    assert notebook.name() != name
+    assert (after["width"], after["height"]) == (before["width"], before["height"])  # cells below stay where they are
+    assert after["height"] < 1300
