@@ -18,6 +18,7 @@ from urllib.request import urlopen
 
 import numpy as np
 
+from .bench_scene import PICTURE
 from .bokeh_wire import Wire
 
 FRAMES = 300
@@ -179,11 +180,12 @@ def scene_alone() -> float:
     from codim2_app.state import ExplorerState
 
     scene = make_scene(ExplorerState().values())
-    names = [name for name in scene if scene[name] is not Ellipsis]
+    for name in PICTURE:
+        scene[name]
     before = time.process_time()
     for i in range(FRAMES):
         fresh = scene.evolve(f1=value(i))
-        for name in names:
+        for name in PICTURE:
             fresh[name]
     return (time.process_time() - before) / FRAMES
 
