@@ -440,8 +440,9 @@ def test_case_three_changes_at_284_129_and_two_more():
     assert found[1].n == pytest.approx(284 / 129, abs=1e-12)
     # (-71 + 32.25 n)^2 = 4 (147 + 36.75 n)
     with mpmath.workdps(30):
-        roots = sorted(map(float, mpmath.polyroots([mpmath.mpf("32.25") ** 2, -2 * 71 * mpmath.mpf("32.25") - 147,
-                                                    mpmath.mpf(71) ** 2 - 588])))  # fmt: skip
+        p, q, r = mpmath.mpf("32.25") ** 2, -2 * 71 * mpmath.mpf("32.25") - 147, mpmath.mpf(71) ** 2 - 588
+        root = mpmath.sqrt(q * q - 4 * p * r)
+        roots = [float((-q - root) / (2 * p)), float((-q + root) / (2 * p))]
     assert [found[0].n, found[2].n] == pytest.approx(roots, abs=1e-12)
     assert [found[0].before, *(c.after for c in found)] == [
         "stable node", "stable focus", "unstable focus", "unstable node",
