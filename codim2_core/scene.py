@@ -173,11 +173,6 @@ class Scene:
         """How often each layer has been computed in this scene and those it evolved from or into."""
         return MappingProxyType(self._memory.runs)
 
-    @property
-    def start(self) -> np.ndarray:
-        """The seeds in use, (k, 2)."""
-        return structured_seeds(self.count, self.view) if self.seeds is None else self.seeds
-
 
 _PARAMETERS = ("system", "psi", "z", "seeds", "count", "t_max", "length", "rtol", "atol", "view", "pixel")
 
