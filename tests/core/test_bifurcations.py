@@ -6,7 +6,7 @@ from itertools import pairwise
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -148,6 +148,7 @@ def test_ellipse_is_where_the_critical_set_leaves(abd):
 
 
 @given(matrices)
+@example((2.0, 1.0, -2.0))  # touching points that lie on the grid
 def test_all_meetings_of_the_two_curves_are_found(abd):
     plane = Geometry(*abd)
     A = np.array([[abd[0], -abd[1]], [abd[1], abd[2]]])
@@ -155,8 +156,8 @@ def test_all_meetings_of_the_two_curves_are_found(abd):
     G = lambda t: (np.linalg.solve(A, plane.saddle_node(np.asarray(t)).T) ** 2).sum(axis=0) - 1  # noqa: E731
     for t in (*plane.crossing, *plane.touching):
         assert G(t) == pytest.approx(0.0, abs=1e-9)
-    t = np.linspace(0.0, 2 * np.pi, 4001)
-    signs = np.sign(G(t))
+    values = G(np.linspace(0.0, 2 * np.pi, 4001))
+    signs = np.sign(values[np.abs(values) > 1e-12])  # a grid point on a touching point has the sign of its rounding
     found = sorted(plane.crossing)
     apart = min((b - a for a, b in pairwise([*found, found[0] + 2 * np.pi])), default=1.0) if found else 1.0
     assume(apart > 4e-3 and not plane.cusps_on_ellipse)
