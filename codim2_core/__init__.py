@@ -10,6 +10,7 @@ from .classify import Classification, Degeneracy, classify
 from .critical import CriticalSet, critical_sets
 from .cycles import LimitCycle, LimitCycles, limit_cycles
 from .equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+from .general import Frozen, System
 from .nullclines import NullclineBranch, nullclines
 from .outcomes import approach_outcomes
 from .preset import Preset
@@ -29,6 +30,7 @@ __all__ = [
     "ELinear",
     "EquatorCycle",
     "EquatorEquilibria",
+    "Frozen",
     "LimitCycle",
     "LimitCycles",
     "NullclineBranch",
@@ -37,6 +39,7 @@ __all__ = [
     "Scene",
     "Separatrices",
     "Separatrix",
+    "System",
     "Trajectories",
     "approach_outcomes",
     "bifurcations",

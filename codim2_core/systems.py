@@ -7,7 +7,7 @@ Every coefficient is a number, or text in the slow variables ``z1 … zm`` and i
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -66,13 +66,23 @@ class Coefficients:
         """Return itself: a system frozen at one z, accepted wherever a system is."""
         return self
 
-    def U(self, e: ArrayLike) -> NDArray[np.float64]:
+    @property
+    def key(self) -> Hashable:
+        """What decides the portrait, as `Frozen.key` for a general system."""
+        return self.plane
+
+    @property
+    def slow_key(self) -> Hashable:
+        """What decides the slow flow on a given critical set."""
+        return self.B.tobytes(), self.g.tobytes()
+
+    def U(self, e: ArrayLike, xy: ArrayLike | None = None) -> NDArray[np.float64]:  # noqa: ARG002 (f at x = y = 0)
         """``U = A e + f`` for e of shape (..., 2)."""
         e = np.asarray(e, float)
         c, s = e[..., 0], e[..., 1]
         return np.stack([self.a * c - self.b * s + self.f1, self.b * c + self.d * s + self.f2], axis=-1)
 
-    def W(self, e: ArrayLike) -> NDArray[np.float64]:
+    def W(self, e: ArrayLike, xy: ArrayLike | None = None) -> NDArray[np.float64]:  # noqa: ARG002
         """``W = B e + g`` for e of shape (..., 2); shape (..., m)."""
         return np.asarray(e, float) @ self.B.T + self.g
 
