@@ -4,7 +4,7 @@ Follows N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, "Regularisation of i
 discontinuity sets"; docstrings give the paper's equation labels.
 """
 
-from . import bifurcations, hemisphere, psi
+from . import bifurcations, examples, hemisphere, psi
 from .certificates import certificates
 from .classify import Classification, Degeneracy, classify
 from .critical import CriticalSet, critical_sets
@@ -48,6 +48,7 @@ __all__ = [
     "critical_sets",
     "equator_cycle",
     "equator_equilibria",
+    "examples",
     "hemisphere",
     "limit_cycles",
     "nullclines",

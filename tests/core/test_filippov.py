@@ -1,0 +1,90 @@
+"""Filippov candidates against closed forms and a blunt linear programme over many directions."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import linprog
+
+import codim2_core as c2
+from codim2_core.filippov import filippov_sliding
+
+numbers = st.floats(-2.0, 2.0).map(lambda v: round(v, 3))
+
+
+@pytest.mark.parametrize("z", [0.0, 0.3, 0.7, 0.84, -1.3])
+def test_nonunique_sliding_has_the_flows_of_c1_and_c3_as_its_extremes(z):
+    """On the circle U = (phi(c), -s/2) with the cubic phi: the hull of (c, phi) meets phi = 0 in |c| <= chi/2."""
+    chi = (1.0 + 2.0 * z * z) / (1.0 + z * z)
+    found = filippov_sliding(c2.examples.nonunique_sliding(), z)
+    assert not found.unique
+    assert sorted(found.vertices.ravel()) == pytest.approx([0.25 - chi, 0.25 + chi], abs=1e-12)
+
+
+def test_a_slow_flow_that_does_not_read_e_is_unique():
+    found = filippov_sliding(c2.examples.attracting_repelling(), 0.5)
+    assert found.unique
+    assert found.vertices.tolist() == [[-0.5]]
+
+
+@pytest.mark.parametrize("z", [(3.0, 4.0), (6.8, 0.0), (0.0, 0.0)])
+def test_the_e_linear_system_has_one_candidate_the_sliding_flow(z):
+    ball = c2.examples.ball_in_pool()
+    found = filippov_sliding(ball, z)
+    assert found.unique
+    np.testing.assert_allclose(found.vertices[0], c2.sliding_flow(ball, z), atol=1e-12)
+
+
+@settings(max_examples=25)
+@given(numbers, numbers, numbers, numbers, numbers)
+def test_e_linear_systems_have_a_candidate_iff_they_have_a_critical_set(a, b, d, f1, f2):
+    det = a * d + b * b
+    n = math.hypot(d * f1 + b * f2, a * f2 - b * f1)
+    if abs(n - abs(det)) < 1e-3 * (1.0 + abs(det)) or abs(det) < 1e-2:
+        return  # on the border it is a matter of rounding
+    system = c2.ELinear(a, b, d, (f1, f2), B=((1.0, -0.5),), g=(0.25,))
+    found = filippov_sliding(system, (0.0,))
+    flow = c2.sliding_flow(system, (0.0,))
+    assert (len(found) == 1) == (flow is not None)
+    if flow is not None:
+        assert found.vertices[0, 0] == pytest.approx(flow[0], abs=1e-9)
+
+
+@settings(max_examples=15)
+@given(st.tuples(*[numbers] * 8))
+def test_extremes_match_a_linear_programme_over_many_directions(k):
+    U = (f"{k[0]}*c + {k[1]}*s + {k[2]}*c*s", f"{k[3]}*s + {k[4]}*c^2 - {abs(k[5])}*s^3")
+    system = c2.System(U=U, W=(f"{k[6]}*c^2 + {k[7]}*s + c",))
+    found = filippov_sliding(system, 0.0)
+    angles = np.linspace(0.0, 2.0 * math.pi, 2000, endpoint=False)
+    e = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    at = system.at(0.0)
+    A, b = np.vstack([at.U(e).T, np.ones(len(e))]), [0.0, 0.0, 1.0]
+    bounds = [linprog(sign * at.W(e)[:, 0], A_eq=A, b_eq=b) for sign in (1.0, -1.0)]
+    if not bounds[0].success:
+        return  # the polygon may miss what the curve just reaches
+    low, high = bounds[0].fun, -bounds[1].fun
+    assert found.vertices.min() == pytest.approx(low, abs=2e-4)
+    assert found.vertices.max() == pytest.approx(high, abs=2e-4)
+    assert found.vertices.min() <= low + 1e-7
+    assert found.vertices.max() >= high - 1e-7
+    for vertex, theta, weight in zip(found.vertices, found.directions, found.weights, strict=True):
+        at_theta = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+        assert weight.min() >= 0.0
+        np.testing.assert_allclose(weight @ at.U(at_theta), 0.0, atol=1e-8)
+        np.testing.assert_allclose(weight @ at.W(at_theta), vertex, atol=1e-12)
+
+
+def test_a_polygon_of_candidates_for_two_slow_variables():
+    """U = (cos 3 theta, sin 3 theta) vanishes in the mean over many measures; W = e then fills a hexagon-like set."""
+    system = c2.System(U=("4*c^3 - 3*c", "3*s - 4*s^3"), W=("c", "s"))
+    found = filippov_sliding(system, (0.0, 0.0))
+    assert not found.unique
+    reach = np.hypot(*found.vertices.T)
+    # theta = 0 with weight 1/2 and the pair pi -+ something: by symmetry under thirds of a turn and reflection
+    turned = found.vertices @ np.array([[-0.5, math.sqrt(0.75)], [-math.sqrt(0.75), -0.5]])
+    nearest = np.abs(turned[:, None] - found.vertices[None]).max(axis=2).min(axis=1)
+    assert nearest.max() < 0.15
+    assert 0.0 < reach.max() <= 1.0
