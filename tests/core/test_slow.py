@@ -1,0 +1,66 @@
+"""The slow portrait against closed forms: the ball, Case III along z, and systems built around a known slow flow."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import codim2_core as c2
+from codim2_core.slow import slow_portrait
+
+
+@pytest.mark.parametrize("psi", [c2.psi.constant(), c2.psi.tanh()], ids=lambda p: p.family)
+def test_the_ball_slides_between_two_passages_through_the_equator(psi):
+    ball = c2.examples.ball_in_pool(mu=0.3, m=2.0, K=1.5)
+    crit = 7.0 * 0.3 * 2.0 * c2.examples.GRAVITY / (2.0 * 1.5)
+    found = slow_portrait(ball, psi, (-2.0 * crit, 2.0 * crit))
+    assert [i.kind for i in found.intervals] == ["crossing", "sliding", "crossing"]
+    assert [p.kind for p in found.points if p.kind != "node-focus"] == ["equator", "equilibrium", "equator"]
+    np.testing.assert_allclose([p.z for p in found.points], [-crit, 0.0, crit], rtol=1e-13, atol=1e-13 * crit)
+    assert found.points[1].stable
+    (branch,) = found.branches
+    np.testing.assert_allclose(branch.flow[:, 0], -5.0 * 1.5 / (7.0 * 2.0) * branch.z, atol=1e-12)
+
+
+def test_the_interval_is_a_chord_when_the_other_slow_variable_is_not_zero():
+    ball = c2.examples.ball_in_pool()
+    crit = 3.5 * 0.2 * c2.examples.GRAVITY
+    found = slow_portrait(ball, c2.psi.constant(), (-10.0, 10.0), z=(0.0, 0.6 * crit))
+    edges = [p.z for p in found.points if p.kind == "equator"]
+    np.testing.assert_allclose(edges, [-0.8 * crit, 0.8 * crit], rtol=1e-12)
+
+
+def test_case_iii_changes_from_unstable_to_stable_where_the_trace_vanishes():
+    system = c2.ELinear(172, 186, -200, ("-86 + 20*z", "-93"), B=((1.0, 0.0),), g=("z",))
+    psi = c2.psi.hill(3)
+    found = slow_portrait(system, psi, (-2.0, 2.0))
+    points = {p.kind: p.z for p in found.points}
+    hopfs = [p.z for p in found.points if p.kind == "Hopf"]
+    assert len(hopfs) == 3
+    for z in hopfs:
+        (at_hopf,) = c2.critical_sets(system, psi, (z,))
+        assert abs(at_hopf.trace) < 1e-9 * np.abs(at_hopf.jacobian).max()
+    # -A^-1 f at z, with adj(A) f = (d f1 + b f2, a f2 - b f1) and det A = a d + b^2
+    det = 172 * -200 + 186**2
+    slow = lambda z: -(-200 * (-86 + 20 * z) + 186 * -93) / det + z  # noqa: E731
+    assert slow(points["equilibrium"]) == pytest.approx(0.0, abs=1e-12)
+    assert [i.kind for i in found.intervals] == ["crossing", "unstable", "sliding", "unstable", "sliding", "crossing"]
+    for interval, after in zip(found.intervals, found.intervals[1:], strict=False):
+        assert interval.high == pytest.approx(after.low, abs=1e-12)
+
+
+@given(st.floats(-0.9, 0.9), st.booleans())
+def test_an_equilibrium_of_the_slow_flow_is_found_with_its_stability(place, attracts):
+    sign = -1.0 if attracts else 1.0
+    system = c2.ELinear(-1.0, 0.3, -2.0, ("z", 0.0), g=(f"{sign}*(z - {place})",))
+    found = slow_portrait(system, c2.psi.rational(), (-1.5, 1.5))
+    (equilibrium,) = [p for p in found.points if p.kind == "equilibrium"]
+    assert equilibrium.z == pytest.approx(place, abs=1e-13)
+    assert equilibrium.stable is attracts
+
+
+@pytest.mark.parametrize(("arguments", "says"), [({"axis": 1}, "m = 1"), ({"span": (1.0, 1.0)}, "low < high")])
+def test_what_cannot_be_varied_is_said(arguments, says):
+    system = c2.ELinear(-1, 0, -1, g=("z",))
+    with pytest.raises(ValueError, match=says):
+        slow_portrait(system, c2.psi.constant(), arguments.get("span", (-1.0, 1.0)), axis=arguments.get("axis", 0))
