@@ -54,6 +54,11 @@ class Expression:
     def __reduce__(self) -> tuple[type[Expression], tuple[tapes.Tape]]:
         return Expression, (self._tape,)
 
+    @property
+    def tape(self) -> tapes.Tape:
+        """The operations in order, each on earlier entries; the last is the value."""
+        return self._tape
+
     @cached_property
     def names(self) -> tuple[str, ...]:
         """The names that the formula uses, in order of appearance."""

@@ -1,0 +1,96 @@
+"""What is drawn means what was typed: MathML is read back and evaluated."""
+
+import math
+from xml.etree import ElementTree
+
+import pytest
+from codim2_app.mathml import equations, equations_mathml, mathml, plain_symbol
+from hypothesis import given
+from hypothesis import strategies as st
+
+import codim2_core as c2
+from codim2_core.expressions import parse
+
+NAMES = ("c", "s", "mu", "z1", "K")
+VALUES = {"c": 0.4, "s": -0.7, "mu": 1.3, "z1": 0.6, "K": 2.1}
+SYMBOLS = {"c": "c", "s": "s", "μ": "mu", "z_1": "z1", "K": "K", "e": "math.e"}
+FUNCTIONS = ("sin", "cos", "tan", "log", "tanh", "sinh", "cosh", "atan")
+
+
+def read(element):
+    """The Python text that a reader of the formula would write down, from left to right."""
+    if element.tag == "msub":
+        return SYMBOLS[f"{element[0].text}_{element[1].text}"]
+    inside = [read(child) for child in element]
+    text = element.text or ""
+    match element.tag:
+        case "mn":
+            return text
+        case "mi":
+            return f"math.{text}" if text in FUNCTIONS else SYMBOLS[text]
+        case "mo":
+            return {"−": "-", "·": "*", "\u2062": "*", "|": "|"}.get(text, text)
+        case "mfrac":
+            return f"(({inside[0]})/({inside[1]}))"
+        case "msup":
+            return f"(({inside[0]})**({inside[1]}))"
+        case "msqrt":
+            return f"math.sqrt({''.join(inside)})"
+        case "mrow" if len(inside) > 2 and inside[0] == inside[-1] == "|":
+            return f"abs({''.join(inside[1:-1])})"
+        case _:
+            return "".join(inside)
+
+
+def value(formula):
+    text = read(ElementTree.fromstring(f"<math>{mathml(formula)}</math>"))
+    # a sign binds as in Python, so that what is written side by side must not rely on anything else
+    return eval(text, {"math": math, **VALUES})
+
+
+leaves = st.sampled_from([*NAMES, "2", "0.5", "3"])
+formulas = st.recursive(
+    leaves,
+    lambda inner: st.one_of(
+        st.tuples(inner, st.sampled_from("+-*/"), inner).map(lambda t: f"({t[0]}){t[1]}({t[2]})"),
+        inner.map(lambda t: f"-({t})"),
+        st.tuples(inner, st.sampled_from(["2", "3"])).map(lambda t: f"({t[0]})^{t[1]}"),
+        st.tuples(st.sampled_from(["sin", "cos", "atan", "exp", "abs"]), inner).map(lambda t: f"{t[0]}({t[1]})"),
+        inner.map(lambda t: f"sqrt(abs({t}))"),
+    ),
+    max_leaves=8,
+)
+
+
+@given(formulas)
+def test_the_drawn_formula_has_the_value_of_the_typed_one(text):
+    try:
+        formula = parse(text, NAMES)
+    except ValueError:
+        return  # a constant part such as 1/(2-2)
+    expected = formula.evaluate(VALUES)
+    if math.isfinite(expected) and abs(expected) < 1e8:
+        assert value(formula) == pytest.approx(expected, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("example", c2.examples.catalogue.values(), ids=lambda e: e.key)
+def test_the_equations_of_an_example_are_its_right_hand_sides(example):
+    system = example.make()
+    at = system.at(example.z)
+    values = {"c": 0.6, "s": -0.8, "x": 0.0, "y": 0.0, "z": example.z[0], **dict(system.parameters)}
+    values.update((f"z{i + 1}", v) for i, v in enumerate(example.z))
+    rates = [float(right.evaluate(values)) for _, right in equations(system)]
+    assert rates == pytest.approx([*at.U((0.6, -0.8)), *at.W((0.6, -0.8))], abs=1e-12)
+    ElementTree.fromstring(equations_mathml(system))
+
+
+def test_a_matrix_is_written_as_given():
+    system = c2.ELinear.from_matrix([["k", 2.0], [0.0, -1.0]], (0.5, "z"), g=(1.0,), parameters={"k": -3.0})
+    rows = dict(equations(system))
+    assert rows["x"].evaluate({"c": 0.6, "s": 0.8, "k": -3.0}) == pytest.approx(-1.8 + 1.6 + 0.5)
+    assert rows["y"].evaluate({"c": 0.6, "s": 0.8, "z": 0.25}) == pytest.approx(-0.8 + 0.25)
+
+
+@pytest.mark.parametrize(("name", "shown"), [("mu1", "μ₁"), ("Omega", "Ω"), ("rate", "rate"), ("w12", "w₁₂")])
+def test_names_become_symbols(name, shown):
+    assert plain_symbol(name) == shown
