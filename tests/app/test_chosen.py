@@ -1,0 +1,70 @@
+"""From a choice and some text to a system and its controls."""
+
+import numpy as np
+import pytest
+from codim2_app.chosen import BOXES, OWN, TITLES, TYPED, TextError, build, describe, starting_z, texts_of
+
+import codim2_core as c2
+from codim2_core import examples
+
+
+@pytest.mark.parametrize("choice", [key for key in TITLES if key != "normal"])
+def test_every_choice_opens_with_a_picture_and_a_control_for_each_of_its_names(choice):
+    system = build(choice, {}, {})
+    z = starting_z(choice, system.m)
+    assert len(z) == system.m
+    assert np.isfinite(system.at(z).U((0.6, 0.8))).all()
+    told = describe(choice, system)
+    assert [p["name"] for p in told["parameters"]] == [name for name, _ in system.parameters]
+    assert len(told["slow"]) == system.m
+    assert told["equations"].startswith("<math")
+
+
+def test_a_name_that_is_typed_becomes_a_parameter():
+    system = build(OWN, {"U1": "k2*c - amp*sin(z)", "U2": "-s", "W": "0", "where": ""}, {"amp": 0.5, "gone": 3.0})
+    assert dict(system.parameters) == {"k2": 1.0, "amp": 0.5}
+    assert describe(OWN, system)["parameters"][1]["symbol"] == "amp"
+
+
+def test_definitions_may_be_used_and_their_names_become_parameters_too():
+    system = build(OWN, {"U1": "-c*q(z)", "where": "q(z) = 1 + w*z^2"}, {"w": 2.0, "k": 0.5})
+    assert system.at((3.0,)).U((1.0, 1.0)).tolist() == [-19.0, -0.5]
+
+
+def test_typed_coefficients_make_an_e_linear_system():
+    system = build(TYPED, {"a": "-2 - q", "f2": "z^2"}, {"q": 1.0})
+    assert isinstance(system, c2.ELinear)
+    assert system.at((0.5,)).plane == (-3.0, 0.0, -1.0, -0.25, 0.25)
+
+
+def test_an_example_takes_its_parameters_by_name():
+    assert build("ball_in_pool", {}, {"mu": 0.5, "k": 7.0}) == examples.ball_in_pool(mu=0.5)
+
+
+@pytest.mark.parametrize(
+    ("choice", "texts", "box", "column"),
+    [
+        (OWN, {"U1": "c +* s"}, "U1", 4),
+        (OWN, {"U2": "c.real"}, "U2", 2),
+        (OWN, {"W": "-z\nz2*("}, "W", 5),
+        (OWN, {"where": "chi(z) = 1/(2 - 2)"}, "where", 2),
+        (OWN, {"where": "chi"}, "where", None),
+        (OWN, {"where": "c = 3"}, "where", None),
+        (OWN, {"W": "1\n1\n1\n1\n1"}, "W", None),
+        (OWN, {"U1": "+".join(f"n{i}x" for i in range(14))}, "U1", None),
+        (OWN, {"U1": "(" * 5000}, "U1", 1000),
+        (OWN, {"W": "z3"}, "W", None),
+        (TYPED, {"f1": "z**"}, "f1", 4),
+        (TYPED, {"d": "__import__('os')"}, "d", 12),
+    ],
+)
+def test_text_that_cannot_be_used_names_its_box_and_column(choice, texts, box, column):
+    with pytest.raises(TextError) as caught:
+        build(choice, texts, {})
+    assert caught.value.box == box
+    assert caught.value.column == column
+
+
+def test_boxes_that_were_not_touched_keep_their_text():
+    assert texts_of(OWN, {"U2": "-s"})["U1"] == BOXES[OWN][0].text
+    assert texts_of("normal", {}) == {}
