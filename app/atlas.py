@@ -24,39 +24,41 @@ TURN = 0.1
 LENGTH = 0.09
 
 
-def thin(points: Points, size: float, closed: bool = False) -> Points:
-    """Leave out points of a polyline that nobody could see; corners and ends stay.
+def thin(pieces: Sequence[Points], size: float) -> Lines:
+    """Leave out points of polylines that nobody could see; corners and ends stay. All pieces take one pass.
 
     Parameters
     ----------
-    points : ndarray (m, 2)
+    pieces : sequence of ndarray (m, 2)
     size : float
         The length to compare with, positive.
-    closed : bool
-        Whether the last point is joined to the first, which is not repeated.
 
     Returns
     -------
-    ndarray (k, 2), k <= m
+    offsets (k + 1,), points (n, 2) over `size`
     """
+    offsets, points = join(pieces)
+    points = points / size
     if len(points) < 4:
-        return points
-    steps = np.diff(points, axis=0)
-    direction = np.arctan2(steps[:, 1], steps[:, 0])
-    turn = np.diff(direction)
-    turn = abs(turn - 2.0 * np.pi * np.rint(turn / (2.0 * np.pi)))
-    length = np.hypot(steps[:, 0], steps[:, 1])
+        return offsets, points
+    steps = points[1:] - points[:-1]
+    before, after = steps[:-1], steps[1:]
+    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    turn = np.abs(np.arctan2(cross, before[:, 0] * after[:, 0] + before[:, 1] * after[:, 1]))
+    progress = turn * (1.0 / TURN) + np.hypot(before[:, 0], before[:, 1]) * (1.0 / LENGTH)
+    ends = np.concatenate([offsets[:-1], offsets[1:] - 1])
+    between = ends[(ends > 0) & (ends < len(points) - 1)] - 1
+    turn[between] = progress[between] = 0.0  # the step from one piece to the next is no part of either
     # how far each inner point is along, counted in allowed turns and lengths: one is kept at each whole number
-    along = np.cumsum(turn / TURN + length[:-1] / (LENGTH * size))
+    whole = np.floor(np.cumsum(progress))
     kept = np.ones(len(points), bool)
-    kept[1:-1] = np.diff(np.floor(along), prepend=0.0) > 0.0
+    kept[1] = whole[0] > 0.0
+    kept[2:-1] = whole[1:] > whole[:-1]
     # before a corner the point left out would be the one that the corner cuts: keep both its neighbours
     corner = 1 + np.flatnonzero(turn > 3.0 * TURN)
-    kept[corner] = True
-    kept[np.maximum(corner - 1, 0)] = kept[np.minimum(corner + 1, len(points) - 1)] = True
-    if closed:
-        kept[-1] = True
-    return points[kept]
+    kept[corner] = kept[corner - 1] = kept[corner + 1] = kept[ends] = True
+    kept[offsets[:-1][np.diff(offsets) == 3] + 1] = True  # a triangle stays one
+    return np.concatenate([[0], np.cumsum(kept)])[offsets], points[kept]
 
 
 def size_of(curves: Sequence[BifurcationCurve]) -> float:
@@ -66,7 +68,7 @@ def size_of(curves: Sequence[BifurcationCurve]) -> float:
 
 def curve_lines(curve: BifurcationCurve, size: float) -> Lines:
     """Return offsets (k + 1,) and points (n, 2), over `size`, of a curve's branches; one of one point is a point."""
-    return join([thin(branch, size) / size for branch in curve.branches])
+    return thin(curve.branches, size)
 
 
 def region_columns(regions: Sequence[Region], size: float) -> dict[str, Any]:
@@ -82,4 +84,4 @@ def region_columns(regions: Sequence[Region], size: float) -> dict[str, Any]:
 
 def region_lines(regions: Sequence[Region], size: float) -> Lines:
     """Return offsets and points, over `size`, of the boundary loops of all regions, in order."""
-    return join([thin(loop, size, closed=True) / size for region in regions for loop in region.boundary])
+    return thin([loop for region in regions for loop in region.boundary], size)

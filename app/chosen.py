@@ -22,6 +22,7 @@ from codim2_core.systems import ELinear
 from .mathml import equations_mathml, plain_symbol
 
 NORMAL, TYPED, OWN = "normal", "typed", "own"
+GIVEN = "given"  # the user's own system, from Python
 MOST_SLOW = 4  # slow variables that have a slider
 MOST_PARAMETERS = 12
 LONGEST_TEXT = 1000
@@ -178,9 +179,21 @@ def _own(boxes: Mapping[str, str], definitions: dict[str, str], parameters: dict
     return made
 
 
-def starting_z(choice: str, m: int) -> tuple[float, ...]:
-    """Where a choice starts along Sigma."""
-    return catalogue[choice].z if choice in catalogue else (0.0,) * m
+def starting_z(choice: str) -> tuple[float, ...]:
+    """Return where an example starts along Sigma; () is at 0."""
+    return catalogue[choice].z if choice in catalogue else ()
+
+
+def starting_launch(choice: str) -> tuple[tuple[float, ...], float]:
+    """Return a state from which a motion is worth following, and for how long."""
+    example = catalogue.get(choice)
+    return (example.launch, example.t_end) if example else ((0.6, 0.8, 0.0), 8.0)
+
+
+def slow_ranges(choice: str, m: int) -> list[tuple[float, float]]:
+    """Return the range of the slider of each slow variable."""
+    example = catalogue.get(choice)
+    return [(low, high) for _, low, high in example.slow] if example else [SLOW_RANGE] * m
 
 
 def describe(choice: str, system: System_) -> dict[str, Any]:
@@ -190,18 +203,15 @@ def describe(choice: str, system: System_) -> dict[str, Any]:
     symbol, low, high.
     """
     example = catalogue.get(choice)
+    if choice == NORMAL:  # its coefficients have controls of their own
+        return {"choice": choice, "equations": "", "sentence": "", "label": "", "parameters": [], "slow": []}
     ranges = example.ranges if example else {}
     parameters = [
         {"name": name, "symbol": plain_symbol(name), "range": list(ranges.get(name, PARAMETER_RANGE)), "value": value}
         for name, value in system.parameters
     ]
-    if example:
-        slow = [{"symbol": symbol, "range": [low, high]} for symbol, low, high in example.slow]
-    else:
-        slow = [
-            {"symbol": "z" if system.m == 1 else plain_symbol(f"z{i + 1}"), "range": list(SLOW_RANGE)}
-            for i in range(system.m)
-        ]
+    symbols = [one[0] for one in example.slow] if example else [_slow_symbol(i, system.m) for i in range(system.m)]
+    slow = [{"symbol": s, "range": list(r)} for s, r in zip(symbols, slow_ranges(choice, system.m), strict=True)]
     return {
         "choice": choice,
         "equations": equations_mathml(system),
@@ -210,3 +220,7 @@ def describe(choice: str, system: System_) -> dict[str, Any]:
         "parameters": parameters,
         "slow": slow,
     }
+
+
+def _slow_symbol(i: int, m: int) -> str:
+    return "z" if m == 1 else plain_symbol(f"z{i + 1}")

@@ -26,7 +26,6 @@ def parser() -> argparse.ArgumentParser:
         help="a host under which browsers reach this server; may be repeated (also CODIM2_ORIGINS, with commas)",
     )
     serve.add_argument("--processes", type=int, default=1, help="server processes that share the port")
-    serve.add_argument("--threads", type=int, default=None, help="threads that answer requests in a process")
     serve.add_argument(
         "--show",
         action=argparse.BooleanOptionalAction,
@@ -59,7 +58,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     from .main import make_server  # heavy, and not needed for --help
 
-    server = make_server(chosen.port, chosen.address, origins, chosen.processes, chosen.threads)
+    server = make_server(chosen.port, chosen.address, origins, chosen.processes)
     host = "localhost" if chosen.address in ("0.0.0.0", "::") else chosen.address
     print(f"codim2: the explorer is at http://{host}:{server.port}/  (stop with Ctrl+C)", flush=True)
     server.start()

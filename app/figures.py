@@ -10,11 +10,14 @@ from typing import Any
 
 from bokeh.core.properties import value
 from bokeh.models import (
+    AllIndices,
+    AnnularWedge,
     BoxZoomTool,
     Circle,
     ColumnDataSource,
     GlyphRenderer,
     HoverTool,
+    ImageURL,
     Line,
     PanTool,
     Plot,
@@ -23,11 +26,12 @@ from bokeh.models import (
     SaveTool,
     Scatter,
     Text,
+    UnionRenderers,
     WheelZoomTool,
 )
 from bokeh.models.glyph import Glyph
 
-from .theme import ARROWED, DASHED, DISCS, LIGHT, LINES, VIEW
+from .theme import ARROWED, DASHED, DISCS, LIGHT, LINES, RING, VIEW
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif"
 
@@ -41,8 +45,8 @@ def make_figure() -> Plot:
     """Return the empty picture: equal axes on [-VIEW, VIEW], the shaded hemisphere, and a source per layer.
 
     Sources are found by name: those of `theme.LINES` ("rho_inside", ..., "continuations")
-    with columns x, y (pieces separated by NaN); "arrows:<layer>" with x, y, angle; "equator",
-    "critical" and "sense" with the columns of `codim2_app.glyphs`.
+    with columns x, y (pieces separated by NaN); "outcomes" (start, end, colour, hatch);
+    "arrows:<layer>" with x, y, angle; "equator", "critical" and "sense" with the columns of `codim2_app.glyphs`.
     """
     plot = Plot(
         name="picture",
@@ -61,6 +65,11 @@ def make_figure() -> Plot:
     _add(plot, "discs", Circle(x="x", y="y", radius="r", fill_color=LIGHT["shade"],
                                fill_alpha=LIGHT["shade_alpha"], line_color=None),
          x=[0.0] * len(DISCS), y=[0.0] * len(DISCS), r=list(DISCS))  # fmt: skip
+    _add(plot, "basins", ImageURL(url="url", x=-1, y=-1, w=2, h=2, anchor="bottom_left"), url=[])
+    _add(plot, "outcomes", AnnularWedge(x=0, y=0, inner_radius=RING[0], outer_radius=RING[1], start_angle="start",
+                                        end_angle="end", fill_color="colour", line_color=None, hatch_pattern="hatch",
+                                        hatch_color=LIGHT["page"], hatch_scale=7, hatch_weight=1.4),
+         start=[], end=[], colour=[], hatch=[])  # fmt: skip
     for name, colour, width in LINES:
         _add(plot, name, Line(x="x", y="y", line_color=LIGHT[colour], line_width=width, line_join="round",
                               line_dash=list(DASHED.get(name, ()))),
@@ -93,6 +102,12 @@ def make_figure() -> Plot:
         HoverTool(renderers=[equator], tooltips=EQUATOR_TOOLTIP, mode="mouse", point_policy="snap_to_data"),
         HoverTool(renderers=[critical], tooltips=CRITICAL_TOOLTIP, mode="mouse", point_policy="snap_to_data"),
     )  # fmt: skip
+    _add(plot, "motion_at", Scatter(x="x", y="y", size=12, line_width=2.4, fill_color=LIGHT["motion"],
+                                    line_color=LIGHT["page"]), x=[], y=[])  # fmt: skip
+    everything, policy = AllIndices(), UnionRenderers()
+    for renderer in plot.renderers:  # one each for all: every patch walks through all models of a document
+        if isinstance(renderer, GlyphRenderer):
+            renderer.view.filter, renderer.data_source.selection_policy = everything, policy
     for model in plot.references():
         model.syncable = False
     return plot

@@ -14,8 +14,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from codim2_core.certificates import Certificate
-
 Points = NDArray[np.float64]
 
 #: Smallest angle between two labels around the circle, in radians, so that Q1 and Q2 stay readable.
@@ -34,43 +32,47 @@ def join(pieces: Sequence[Points]) -> tuple[NDArray[np.int64], Points]:
     return np.cumsum([0, *map(len, pieces)]), np.concatenate(pieces)
 
 
-def arrowheads(offsets: NDArray[np.int64], points: Points, where: Sequence[float] = (0.5,)) -> Points:
-    """Place arrowheads on each piece.
+def arrowheads(
+    offsets: NDArray[np.int64], points: Points, pieces: NDArray[np.int64], fractions: Points
+) -> tuple[Points, NDArray[np.int64]]:
+    """Place arrowheads on pieces of polylines, all in one pass.
 
     Parameters
     ----------
     offsets : ndarray (k + 1,)
     points : ndarray (n, 2)
         Piece i is ``points[offsets[i]:offsets[i + 1]]``, in order of increasing time.
-    where : sequence of float
-        Fractions of a piece's length at which arrowheads sit.
+    pieces, fractions : ndarray (j,)
+        Arrowhead i sits on piece ``pieces[i]``, at this fraction of its length.
 
     Returns
     -------
-    ndarray (j, 3)
-        x, y and direction in radians; pieces shorter than `SHORTEST_WITH_ARROW` have none.
+    heads : ndarray (l, 3)
+        x, y and direction in radians.
+    kept : ndarray (l,)
+        Which of the j are drawn, in order: pieces shorter than `SHORTEST_WITH_ARROW` have none.
     """
-    starts, ends = offsets[:-1], offsets[1:]
-    kept = ends - starts > 1
-    starts, ends = starts[kept], ends[kept]
-    if not len(starts):
-        return np.zeros((0, 3))
-    steps = np.diff(points, axis=0)
+    if len(points) < 2 or not len(pieces):
+        return np.zeros((0, 3)), np.zeros(0, np.int64)
+    steps = points[1:] - points[:-1]
     lengths = np.hypot(steps[:, 0], steps[:, 1])
     joints = offsets[1:-1] - 1
     lengths[joints[(joints >= 0) & (joints < len(lengths))]] = 0.0  # a jump to the next piece belongs to neither
-    travelled = np.concatenate([[0.0], np.cumsum(lengths)])
-    begin, end = travelled[starts], travelled[ends - 1]
-    long_enough = end - begin > SHORTEST_WITH_ARROW
-    starts, ends, begin, end = starts[long_enough], ends[long_enough], begin[long_enough], end[long_enough]
-    target = (begin + np.asarray(where)[:, None] * (end - begin)).ravel()
-    first, last = np.tile(starts, len(where)), np.tile(ends - 2, len(where))
-    index = np.clip(np.searchsorted(travelled, target) - 1, first, last)
-    moving = lengths[index] > 0
-    index, target = index[moving], target[moving]
-    share = (target - travelled[index]) / lengths[index]
-    at = points[index] + share[:, None] * steps[index]
-    return np.column_stack([at, np.arctan2(steps[index, 1], steps[index, 0])])
+    travelled = np.zeros(len(points))
+    np.cumsum(lengths, out=travelled[1:])
+    first, last = offsets[pieces], offsets[pieces + 1] - 1  # places of a piece's ends
+    begin, end = travelled[np.minimum(first, len(lengths))], travelled[last]
+    kept = np.flatnonzero((last > first) & (end - begin > SHORTEST_WITH_ARROW))
+    first, last, begin, end = first[kept], last[kept], begin[kept], end[kept]
+    target = begin + fractions[kept] * (end - begin)
+    step = np.searchsorted(travelled, target) - 1
+    np.maximum(step, first, out=step)
+    np.minimum(step, last - 1, out=step)
+    along = steps[step]
+    heads = np.empty((len(kept), 3))
+    heads[:, :2] = points[step] + ((target - travelled[step]) / lengths[step])[:, None] * along
+    heads[:, 2] = np.arctan2(along[:, 1], along[:, 0])
+    return heads, kept
 
 
 def spread(angles: Sequence[float], gap: float = LABEL_GAP) -> list[float]:
@@ -128,7 +130,7 @@ def equator_columns(equator: Any) -> dict[str, list[Any]]:
         for v, m in zip(ang, multiplicity, strict=True)
     ]
     return {
-        "label": [f"Q{_subscript(i + 1)}" for i in range(len(theta))],
+        "label": [f"Q{subscript(i + 1)}" for i in range(len(theta))],
         "theta": theta,
         "lambda_rho": rho,
         "lambda_theta": ang,
@@ -171,7 +173,7 @@ def equator_arrows(equator: Any, direction: int = 0) -> list[tuple[float, float,
 
 def critical_columns(critical: Sequence[Any]) -> dict[str, list[Any]]:
     """Return the columns of the critical sets C (C1, C2, ... if there are several)."""
-    names = ["C"] if len(critical) == 1 else [f"C{_subscript(i + 1)}" for i in range(len(critical))]
+    names = ["C"] if len(critical) == 1 else [f"C{subscript(i + 1)}" for i in range(len(critical))]
     return {
         "label": names,
         "x": [float(c.p[0]) for c in critical],
@@ -198,10 +200,6 @@ def cycle_columns(cycles: Any) -> dict[str, Any]:
     }
 
 
-def _subscript(number: int) -> str:
+def subscript(number: int) -> str:
+    """Return a number as lowered digits."""
     return str(number).translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
-
-
-def certificate_rows(certificates: Sequence[Certificate]) -> list[list[str]]:
-    """Return theorem, statement, verdict and sentence of each, in the order of the paper."""
-    return [[c.theorem, c.statement, c.verdict.value, c.sentence] for c in certificates]

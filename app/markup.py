@@ -10,12 +10,18 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, Template, select_autoescape
 
+from .chosen import BOXES, TITLES
+from .panel_outcomes import WORDS as OUTCOMES
 from .portraits import portraits
-from .state import LAYERS, MAX_TRAJECTORIES, NUMBERS, ExplorerState
-from .theme import LIGHT, THEMES, VIEW
+from .state import AXES, LAYERS, MAX_TRAJECTORIES, NUMBERS, PANELS, SLOW_CONTROLS, SOLIDS, ExplorerState, slider_range
+from .theme import HATCHES, LIGHT, THEMES, VIEW
 
 STATIC = Path(__file__).parent / "static"
-SCRIPTS = ("frames.js", "picture.js", "controls.js", "pad.js", "inspector.js", "explorer.js")
+SCRIPTS = (
+    "frames.js", "connection.js", "picture.js", "controls.js", "pad.js", "atlas.js", "planes.js", "diagram.js",
+    "inspector.js", "panels.js",
+    "system.js", "along.js", "stack.js", "time.js", "psi.js", "explorer.js",
+)  # fmt: skip
 
 PSI_NAMES = {
     "constant": "1",
@@ -48,39 +54,28 @@ def script() -> str:
     return "\n".join((STATIC / name).read_text(encoding="utf-8") for name in SCRIPTS)
 
 
-def slider_range(low: float, high: float, value: float) -> tuple[float, float, float]:
-    """Return (low, high, step) of a slider, widened to hold the value; the same rule as in controls.js."""
-    size = abs(value)
-    if value < low or value > high:
-        reach = _round_up(size)
-        low, high = (-reach, reach) if low < 0 else (low, reach)
-    return low, high, 10.0 ** (len(str(int(high - low))) - 4)
-
-
-def _round_up(size: float) -> float:
-    """Return 1, 2 or 5 times a power of ten, at least 1.2 times the size."""
-    target, power = 1.2 * size, 1.0
-    while power * 10 <= target:
-        power *= 10
-    return next(power * k for k in (1, 2, 5, 10) if power * k >= target)
-
-
 def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]:
     """Return what the front end must know: controls, presets, defaults, colours."""
     return {
         "numbers": list(NUMBERS),
         "ranges": {name: list(state.param[name].softbounds) for name in NUMBERS},
+        "symbols": {name: state.param[name].label for name in NUMBERS},
         "values": state.values(),
         "defaults": ExplorerState().values(),
         "layers": list(LAYERS),
+        "boxes": {
+            choice: [{"name": b.name, "label": b.label, "text": b.text, "lines": b.lines} for b in boxes]
+            for choice, boxes in BOXES.items()
+        },
         "presets": {item["key"]: item for item in portraits()},
         "themes": THEMES,
+        "hatches": HATCHES,
         "view": VIEW,
         "locked": list(locked),
     }
 
 
-def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None) -> str:
+def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, locked: tuple[str, ...] = ()) -> str:
     """Return the explorer's markup: controls with their values, legend, and the first picture as SVG.
 
     Parameters
@@ -88,6 +83,8 @@ def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None) 
     state : ExplorerState
     first : mapping, optional
         "svg", and the words of the portrait: "name", "case", "sentence".
+    locked : tuple of str
+        Controls that the user's own system does not have.
     """
     values = state.values()
 
@@ -105,7 +102,15 @@ def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None) 
         portraits=[(group, list(items)) for group, items in groups],
         psi_names=PSI_NAMES,
         layers=LAYERS,
+        panels=PANELS,
+        outcomes=OUTCOMES,
+        systems=TITLES,
+        limits={name: control(name) for name in ("log_eps", "t_end")},
+        slow_controls=SLOW_CONTROLS,
+        solids=SOLIDS,
+        axes={name: state.param[name].label for name in AXES},
         values=values,
+        locked=locked,
         most=MAX_TRAJECTORIES,
         first=first or {},
         colours=LIGHT,

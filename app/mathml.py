@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from html import escape
+from types import MappingProxyType
 
 from codim2_core.expressions import Expression, parse
+from codim2_core.expressions_tape import compact
 from codim2_core.general import PLANE, SLOW, System
 from codim2_core.systems import ELinear
 
@@ -39,12 +42,22 @@ def plain_symbol(name: str) -> str:
     return _GREEK.get(match[1], match[1]) + match[2].translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
 
 
-def mathml(expression: Expression) -> str:
-    """MathML, without the surrounding ``<math>``, of a formula."""
+def mathml(expression: Expression, named: Mapping[Expression, str] = MappingProxyType({})) -> str:
+    """MathML, without the surrounding ``<math>``, of a formula.
+
+    Parameters
+    ----------
+    expression : Expression
+    named : mapping of Expression to str
+        Parts that are written as a name: definitions.
+    """
     pieces: list[Piece] = []
     tape = expression.tape
-    for op, *args in tape:
-        if op == "num":
+    for k, (op, *args) in enumerate(tape):
+        name = named.get(Expression(compact(list(tape), k))) if named and args and op not in ("num", "name") else None
+        if name is not None:
+            pieces.append((symbol(name), _ATOM))
+        elif op == "num":
             pieces.append(_number(args[0]))
         elif op == "name":
             pieces.append((symbol(args[0]), _ATOM))
@@ -131,15 +144,32 @@ def _matrix(system: ELinear, names: tuple[str, ...]) -> tuple[tuple[object, obje
     return (system.a, -system.b), (system.b, system.d)
 
 
+def _meanings(system: ELinear | System) -> dict[str, Expression]:
+    """Return the definitions of a system as formulas, by name."""
+    if isinstance(system, ELinear) or not system.definitions:
+        return {}
+    given = {"parameters": dict(system.parameters), "definitions": dict(system.definitions)}
+    return {name: System(U=(name, "0"), **given).U[0] for name, _ in system.definitions}
+
+
+def _row(left: str, right: str) -> str:
+    return (
+        f'<mtr><mtd style="text-align:right">{left}</mtd><mtd><mo>=</mo></mtd>'
+        f'<mtd style="text-align:left"><mrow>{right}</mrow></mtd></mtr>'
+    )
+
+
 def equations_mathml(system: ELinear | System) -> str:
     """Return a MathML table of a system's equations."""
-    one = system.m == 1
-    rows = []
-    for left, right in equations(system):
-        name = "z" if one and left == "z1" else left
-        shown = right.substitute("z1", parse("z", ("z",))) if one and "z1" in right.names else right
-        rows.append(
-            f'<mtr><mtd style="text-align:right">{symbol(name, dot=True)}</mtd><mtd><mo>=</mo></mtd>'
-            f'<mtd style="text-align:left"><mrow>{mathml(shown)}</mrow></mtd></mtr>'
-        )
+    plain = (
+        (lambda e: e.substitute("z1", parse("z", ("z",))) if "z1" in e.names else e) if system.m == 1 else lambda e: e
+    )
+    meanings = {plain(meaning): name for name, meaning in _meanings(system).items()}
+    rows = [
+        _row(symbol("z" if system.m == 1 and left == "z1" else left, dot=True), mathml(plain(right), meanings))
+        for left, right in equations(system)
+    ]
+    for k, (meaning, name) in enumerate(meanings.items()):
+        before = dict(list(meanings.items())[:k])
+        rows.append(_row(symbol(name), mathml(meaning, before)))
     return f'<math display="block"><mtable displaystyle="true">{"".join(rows)}</mtable></math>'

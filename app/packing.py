@@ -1,8 +1,10 @@
-"""A frame as one buffer: a small JSON header, then the arrays of the layers.
+"""A frame as one buffer: a small JSON header, then the polylines of all layers in one run, then other arrays.
 
-Layout, little endian: uint32 length of the header; the header in UTF-8, padded with spaces to a multiple of
-four; then each array, padded with zeros to a multiple of four. ``header["blocks"]`` lists name, type and
-number of values in the order in which they follow. `static/frames.js` reads the same layout.
+Layout, little endian: uint32 length of the header; the header in UTF-8, padded with spaces to a multiple of four;
+then, if ``header["lines"]`` lists polylines as [name, pieces, points, arrowheads], for all of them together uint16
+points of each piece, int16 x, y of each point, int16 x, y of each arrowhead, int16 angle of each arrowhead; then each
+array of ``header["blocks"]``, which lists name, type and number of values. The run of polylines and each array are
+padded with zeros to a multiple of four. `static/frames.js` reads the same layout.
 """
 
 from __future__ import annotations
@@ -10,15 +12,34 @@ from __future__ import annotations
 import json
 import struct
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .glyphs import arrowheads
 
 #: Coordinates travel as int16 multiples of EXTENT / 32767, that is 1.2e-4 of the disc's radius: at 400 px
 #: for the radius this is 0.05 px, five times finer than the polylines are sampled.
 EXTENT = 4.0
 STEP = EXTENT / 32767
+
+#: Angles of arrowheads travel as int16 multiples of this.
+ANGLE_STEP = np.pi / 32767
+
+
+class Polylines(NamedTuple):
+    """A layer of lines: piece i is ``points[offsets[i]:offsets[i + 1]]``, with arrowheads at fractions of its length.
+
+    Without ``where`` lines never carry arrowheads.
+    """
+
+    offsets: NDArray[np.int64]
+    points: NDArray[np.float64]
+    where: tuple[float, ...] = ()
+
+
+Blocks = Mapping[str, NDArray[Any] | Polylines]
 
 
 def quantise(points: NDArray[np.float64]) -> NDArray[np.int16]:
@@ -32,14 +53,17 @@ def quantise(points: NDArray[np.float64]) -> NDArray[np.int16]:
     -------
     ndarray of int16, same shape
     """
-    return np.rint(np.clip(points, -EXTENT, EXTENT) * (1 / STEP)).astype(np.int16)
+    scaled = points * (1 / STEP)
+    np.maximum(scaled, -EXTENT / STEP, out=scaled)
+    np.minimum(scaled, EXTENT / STEP, out=scaled)
+    return np.rint(scaled, out=scaled).astype(np.int16)
 
 
-#: Names of the types in use (`dtype.name` takes 3 µs, on each of thirty blocks a frame).
+#: Names of the types in use (`dtype.name` takes 3 µs).
 _NAMES = {np.dtype(name).char: name for name in ("int16", "uint16", "float32", "float64")}
 
 
-def pack(header: Mapping[str, Any], blocks: Mapping[str, NDArray[Any]]) -> bytes:
+def pack(header: Mapping[str, Any], blocks: Blocks) -> bytes:
     """Return header and arrays as one buffer.
 
     Raises
@@ -47,23 +71,94 @@ def pack(header: Mapping[str, Any], blocks: Mapping[str, NDArray[Any]]) -> bytes
     ValueError
         If the header holds NaN or infinity: JSON has no word for them, so they must be named before.
     """
-    listing = [(name, _NAMES[array.dtype.char], array.size) for name, array in blocks.items()]
-    text = json.dumps({**header, "blocks": listing}, allow_nan=False, separators=(",", ":")).encode()
-    text += b" " * (-len(text) % 4)
-    parts = [struct.pack("<I", len(text)), text]
-    for array in blocks.values():
-        data = np.ascontiguousarray(array).tobytes()
+    lines = {name: block for name, block in blocks.items() if isinstance(block, Polylines)}
+    arrays = {name: block for name, block in blocks.items() if not isinstance(block, Polylines)}
+    listing: dict[str, Any] = {}
+    parts = [b"", b""]
+    if lines:
+        listing["lines"], data = _run(lines)
         parts += (data, b"\0" * (-len(data) % 4))
+    if arrays:
+        listing["blocks"] = [(name, _NAMES[array.dtype.char], array.size) for name, array in arrays.items()]
+        for array in arrays.values():
+            data = np.ascontiguousarray(array).tobytes()
+            parts += (data, b"\0" * (-len(data) % 4))
+    text = json.dumps({**header, **listing}, allow_nan=False, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    parts[:2] = struct.pack("<I", len(text)), text
     return b"".join(parts)
 
 
+def _run(lines: Mapping[str, Polylines]) -> tuple[list[tuple[str, int, int, int | None]], bytes]:
+    """Return [name, pieces, points, arrowheads] of each layer, those with arrowheads first, and the data of all.
+
+    Everything is done once for all layers: a frame has a dozen of them, most with a few points.
+    """
+    layers = sorted(lines.items(), key=lambda item: not item[1].where)
+    starts, points, pieces, fractions, heads_from = [], [], [], [], [0]
+    at = first = armed = 0  # points and pieces so far; points of layers with arrowheads
+    for _, layer in layers:
+        starts.append(layer.offsets[:-1] + at)
+        points.append(layer.points)
+        at += len(layer.points)
+        count = len(layer.offsets) - 1
+        if layer.where:
+            armed = at
+            for fraction in layer.where:
+                pieces.append(np.arange(first, first + count))
+                fractions.append(np.full(count, fraction))
+            heads_from.append(heads_from[-1] + count * len(layer.where))
+        first += count
+    starts.append(np.array([at]))
+    offsets = np.concatenate(starts)
+    joined = np.concatenate(points)
+    counts: list[int | None] = [None] * len(layers)
+    data = [np.diff(offsets).astype(np.uint16).tobytes()]
+    if pieces:
+        with_heads = int(np.searchsorted(offsets, armed, side="right"))
+        heads, kept = arrowheads(
+            offsets[:with_heads], joined[:armed], np.concatenate(pieces), np.concatenate(fractions)
+        )
+        between = np.searchsorted(kept, heads_from)
+        data.append(quantise(np.concatenate([joined, heads[:, :2]])).tobytes())
+        data.append(np.rint(heads[:, 2] * (1 / ANGLE_STEP)).astype(np.int16).tobytes())
+        counts[: len(between) - 1] = np.diff(between).tolist()
+    else:
+        data.append(quantise(joined).tobytes())
+    rows = [
+        (name, len(layer.offsets) - 1, len(layer.points), count)
+        for (name, layer), count in zip(layers, counts, strict=True)
+    ]
+    return rows, b"".join(data)
+
+
 def unpack(buffer: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    """Return the header and the flat arrays of a buffer made by `pack`."""
+    """Return the header and the flat arrays of a buffer made by `pack`.
+
+    Polylines come as ``name.n``, ``name.xy`` and, where they may carry arrowheads, ``name.at``, ``name.angle``.
+    """
     (length,) = struct.unpack_from("<I", buffer)
     header = json.loads(buffer[4 : 4 + length])
     blocks: dict[str, NDArray[Any]] = {}
     offset = 4 + length
-    for name, dtype, size in header["blocks"]:
+    rows = header.get("lines", [])
+    if rows:
+        totals = [sum(row[column] or 0 for row in rows) for column in (1, 2, 3)]
+        sizes = (totals[0], 2 * totals[1], 2 * totals[2], totals[2])
+        runs = []
+        for dtype, size in zip(("uint16", "int16", "int16", "int16"), sizes, strict=True):
+            runs.append(np.frombuffer(buffer, dtype=dtype, count=size, offset=offset))
+            offset += 2 * size
+        offset += -offset % 4
+        at = [0, 0, 0, 0]
+        for name, pieces, points, heads in rows:
+            parts = {"n": pieces, "xy": 2 * points}
+            if heads is not None:
+                parts |= {"at": 2 * heads, "angle": heads}
+            for i, (part, size) in enumerate(parts.items()):
+                blocks[f"{name}.{part}"] = runs[i][at[i] : at[i] + size]
+                at[i] += size
+    for name, dtype, size in header.get("blocks", []):
         array = np.frombuffer(buffer, dtype=dtype, count=size, offset=offset)
         blocks[name] = array
         offset += array.nbytes + (-array.nbytes % 4)

@@ -4,10 +4,23 @@ from __future__ import annotations
 
 from typing import Any
 
+from codim2_core.examples import catalogue
+from codim2_core.preset import Preset
 from codim2_core.presets import presets
 
-#: Presets set these and leave layers, trajectories, k, B and g as they are.
-SET_BY_PRESET = ("a", "b", "d", "f1", "f2", "z", "psi", "n")
+#: Layers of a figure that shows where approaches lead.
+WITH_OUTCOMES = [
+    "outside", "inside", "continuations", "cycles", "rho", "theta", "lines", "equator", "critical", "outcomes", "basins",
+]  # fmt: skip
+#: What opens the view of a preset.
+VIEWS: dict[str, dict[str, Any]] = {
+    "sphere": {"panel": "solid", "solid": "sphere"},
+    "stack": {"panel": "solid", "solid": "stack"},
+    "filippov": {"panel": "solid", "solid": "filippov"},
+    "outcomes": {"panel": "numbers", "layers": WITH_OUTCOMES},
+    "psi": {"panel": "psi"},
+    "time": {"panel": "time"},
+}
 
 
 def portraits() -> list[dict[str, Any]]:
@@ -19,16 +32,27 @@ def portraits() -> list[dict[str, Any]]:
             "title": preset.title,
             "label": preset.label,
             "note": preset.note,
-            "values": {
-                "a": preset.a,
-                "b": preset.b,
-                "d": preset.d,
-                "f1": preset.f1,
-                "f2": preset.f2,
-                "z": 0.0,
-                "psi": "constant" if preset.hill is None else "hill",
-                "n": 2.0 if preset.hill is None else float(preset.hill),
-            },
+            "values": _values(preset),
         }
         for preset in presets.values()
     ]
+
+
+def _values(preset: Preset) -> dict[str, Any]:
+    values: dict[str, Any] = {
+        "psi": preset.family if preset.hill is None else "hill",
+        "n": 2.0 if preset.hill is None else float(preset.hill),
+        "texts": {},
+        "parameters": {},
+        **VIEWS.get(preset.view, {}),
+    }
+    z = (*preset.z, 0.0, 0.0, 0.0, 0.0)
+    values.update(zip(("z", "z2", "z3", "z4"), z, strict=False))
+    if preset.example:
+        example = catalogue[preset.example]
+        launch = ", ".join(f"{v:g}" for v in example.launch)
+        return {"system": preset.example, **values, "launch": launch, "t_end": example.t_end}
+    values.update((name, getattr(preset, name)) for name in ("a", "b", "d", "f1", "f2"))
+    if preset.B:
+        values.update(zip(("B1", "B2", "g0"), (*preset.B[0], preset.g[0]), strict=True))
+    return {"system": "normal", **values}

@@ -6,23 +6,25 @@ nothing ever queues here.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from param.parameterized import batch_call_watchers
 
+from codim2_core.general import Frozen
 from codim2_core.regularisation import Psi
 from codim2_core.scene import Scene
-from codim2_core.systems import ELinear
+from codim2_core.systems import Coefficients
 
-from . import atlas, glyphs
-from .packing import pack, quantise
-from .state import COEFFICIENTS, ExplorerState, InputError, build_psi, build_system, clean, scene_changes
-from .theme import REACH
-
-#: Angles of arrowheads travel as int16 multiples of this.
-ANGLE_STEP = np.pi / 32767
+from . import glyphs, panels
+from .chosen import GIVEN, System_, describe
+from .packing import Polylines, pack
+from .panel_draft import Draft
+from .panel_jobs import FAILURES, Jobs
+from .scenes import evolved, locked_controls, make_scene, settled
+from .state import ExplorerState, InputError, clean, preset_values
 
 #: Layers made by the compiled integrator.
 ORBITS = ("outside", "inside", "continuations")
@@ -31,15 +33,7 @@ ARROWS = {"outside": (0.3, 0.7), "inside": (0.35, 0.75), "continuations": (0.5,)
 #: Kinds of branches that each nullcline control shows.
 NULLCLINES = {"rho": ("rho",), "theta": ("theta",), "lines": ("U1", "U2")}
 
-#: Controls of the pad, where f is dragged over the plane (f1, f2): a system that locks one of them has no pad.
-PAD = ("a", "b", "d", "f1", "f2")
-#: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
-CURVES = ("saddle_node", "transcritical")
-
-Blocks = dict[str, NDArray[Any]]
-
-#: What the core raises for input that it cannot use.
-FAILURES = (ValueError, ArithmeticError, np.linalg.LinAlgError)
+Blocks = dict[str, NDArray[Any] | Polylines]
 
 
 class Frames:
@@ -48,30 +42,35 @@ class Frames:
     Parameters
     ----------
     state : ExplorerState
-    system : ELinear, optional
-        Drawn instead of the system of the controls a, b, d, f, k, B, g.
+    system : ELinear or System, optional
+        Drawn instead of one that the controls choose.
     ready : callable, optional
-        Says whether the compiled integrator is ready for this Psi; until then trajectories are left out.
+        Says whether the compiled integrator is ready for this Psi and system; until then trajectories are left out.
     """
 
     def __init__(
-        self, state: ExplorerState, system: ELinear | None = None, ready: Callable[[Psi], bool] = lambda _psi: True
+        self,
+        state: ExplorerState,
+        system: System_ | None = None,
+        ready: Callable[[Psi, Any], bool] = lambda _psi, _system: True,
     ) -> None:
         self.state = state
         self.values = state.values()
+        self.given = system is not None
         self.scene = make_scene(self.values, system)
-        self.locked = locked_controls(self.scene)
-        self.has_pad = not set(PAD) & set(self.locked)
+        self.locked = locked_controls(self.scene, self.given)
         self.ready = ready
+        self.jobs = Jobs()
+        self._unpublished: dict[str, Any] = {}
         self._sent: dict[str, Any] = {}
 
     def answer(self, request: Mapping[str, Any]) -> bytes:
-        """Return the frame for ``{"id": number, "set": {control: value}, "all", "rest", "theorems": bool}``.
+        """Return the frame for ``{"id": number, "set": {control: value}, "all", "rest": bool}``.
 
         ``all`` asks for every layer again, as a browser does that has just connected; ``rest`` says that no control
-        is moving, so that there is time for the regions of the plane of f; ``theorems``, that their list is open. A
-        value that cannot be used, and a computation that fails, leave the last good picture: the frame then holds
-        only ``errors``, with the name of the control and a sentence.
+        is moving, so that there is time for what the open panel shows besides. A value that cannot be used, and a
+        computation that fails, leave the last good picture: the frame then holds only ``errors``, with the name of the
+        control and a sentence.
         """
         identity = request.get("id", 0)
         sent = {} if request.get("all") else self._sent
@@ -82,26 +81,22 @@ class Frames:
                 good[name] = clean(name, value)
             except InputError as error:
                 errors[error.control] = str(error)
-        beside = {name for name in ("rest", "theorems") if request.get(name)}
-        if request.get("all"):
-            beside.add("rest")
-        if self.has_pad:
-            beside.add("pad")
-        drawn = self._accept(good, sent, errors, beside)
-        if drawn is None and "rest" in beside and good:
+        rest = bool(request.get("rest") or request.get("all"))
+        drawn = self._accept(good, sent, errors, rest)
+        if drawn is None and rest and good:
             # the browser still lacks what was left out while the last good picture was moving
-            drawn = self._accept({}, sent, errors, beside)
+            drawn = self._accept({}, sent, errors, rest)
         if drawn is None:
             return pack({"id": identity, "errors": errors}, {})
         header, blocks = drawn
         return pack({"id": identity, "errors": errors, **header}, blocks)
 
     def _accept(
-        self, good: Mapping[str, Any], sent: Mapping[str, Any], errors: dict[str, str], beside: Collection[str]
+        self, good: Mapping[str, Any], sent: Mapping[str, Any], errors: dict[str, str], rest: bool
     ) -> tuple[dict[str, Any], Blocks] | None:
         """Draw with all changes or, where that fails, with those that can be had one after the other."""
         try:
-            return self._draw(good, sent, beside)
+            return self._draw(good, sent, rest)
         except FAILURES as error:
             if len(good) < 2:
                 errors[_culprit(error, next(iter(good), ""))] = str(error)
@@ -110,57 +105,79 @@ class Frames:
         drawn = None
         for name, value in good.items():
             try:
-                drawn = self._draw({**kept, name: value}, sent, beside)
+                drawn = self._draw({**kept, name: value}, sent, rest)
                 kept[name] = value
             except FAILURES as error:
                 errors[_culprit(error, name)] = str(error)
         return drawn
 
-    def _draw(
-        self, changes: Mapping[str, Any], sent: Mapping[str, Any], beside: Collection[str]
-    ) -> tuple[dict[str, Any], Blocks]:
+    def _draw(self, changes: Mapping[str, Any], sent: Mapping[str, Any], rest: bool) -> tuple[dict[str, Any], Blocks]:
+        changes = changes if self.given else settled(self.values, changes)
         values = {**self.values, **changes}
         changed = [name for name in changes if values[name] != self.values[name]]
-        evolution = scene_changes([name for name in changed if name not in self.locked], values)
-        if "z" in evolution:
-            evolution["z"] = slow_position(self.scene, values["z"])
-        scene = self.scene.evolve(**evolution) if evolution else self.scene
-        header, blocks, now_sent = make_frame(scene, values, sent, self.ready(scene.psi), beside)
+        scene = evolved(self.scene, values, [name for name in changed if name not in self.locked], self.given)
+        ready = self.ready(scene.psi, scene.system)
+        header, blocks, now_sent = make_frame(scene, values, sent, ready)
+        self._tell_system(header, scene, values, now_sent)
+        panels.add(Draft(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked))
         self.scene, self.values, self._sent = scene, values, now_sent
         if changed:
-            self.state.param.update(**{name: values[name] for name in changed})
+            header["set"] = {name: values[name] for name in changed}
+            self._unpublished.update(header["set"])
         return header, blocks
+
+    def _tell_system(
+        self, header: dict[str, Any], scene: Scene, values: Mapping[str, Any], now: dict[str, Any]
+    ) -> None:
+        """Describe the system when its formulas are others than those that the browser has."""
+        choice = GIVEN if self.given else values["system"]
+        key = (choice, tuple(values["texts"].items()))
+        if now.get("system") != key and not isinstance(scene.system, (Coefficients, Frozen)):
+            now["system"] = key
+            header["system"] = describe(choice, scene.system)
+
+    def publish(self) -> None:
+        """Let the state follow what has been drawn, as one change; its watchers run now.
+
+        Called when the frame is on its way, so that a watcher that sets further values asks for a frame after it.
+        """
+        fresh, self._unpublished = self._unpublished, {}
+        if len(fresh) == 1:
+            setattr(self.state, *next(iter(fresh.items())))  # param's batches cost as much as half of a frame's bytes
+        elif fresh:
+            with batch_call_watchers(self.state):
+                for name, value in fresh.items():
+                    setattr(self.state, name, value)
+
+    def follow(self, changes: Mapping[str, Any]) -> bytes | None:
+        """Return the frame for values that the state was given from outside, or None if they are those drawn.
+
+        A portrait brings its values.
+
+        Raises
+        ------
+        ValueError
+            A value cannot be used, or the system gives it as text; the state is then what it was, as is the picture.
+        """
+        wanted = {name: value for name, value in changes.items() if value != self.values[name]}
+        if not wanted:
+            return None
+        wanted = {**preset_values(wanted.get("preset")), **wanted}
+        refused = [name for name in wanted if name in self.locked and name in changes]
+        try:
+            if refused:
+                raise ValueError(f"{', '.join(refused)}: given by your system, and so not to be set.")
+            good = {name: clean(name, value) for name, value in wanted.items() if name not in self.locked}
+            header, blocks = self._draw(good, self._sent, rest=False)
+        except FAILURES as error:
+            self._unpublished.update({name: self.values[name] for name in changes})
+            self.publish()
+            raise ValueError(str(error)) from error
+        return pack({"errors": {}, **header}, blocks)
 
 
 def _culprit(error: Exception, name: str) -> str:
     return error.control if isinstance(error, InputError) else name
-
-
-def slow_position(scene: Scene, z: float) -> tuple[float, ...]:
-    """Return z with the further slow variables, if there are any, at 0."""
-    m = scene.system.m if isinstance(scene.system, ELinear) else 0
-    return (z, *[0.0] * (m - 1)) if m else ()
-
-
-def make_scene(values: Mapping[str, Any], system: ELinear | None = None) -> Scene:
-    """Return the scene of these values, or of `system` at z = values["z"] (further slow variables at 0)."""
-    system = build_system(values) if system is None else system
-    z = (values["z"], *[0.0] * (system.m - 1)) if system.m else ()
-    return Scene(system, build_psi(values), z=z, count=values["trajectories"], view=REACH)
-
-
-def locked_controls(scene: Scene) -> tuple[str, ...]:
-    """Name the controls that cannot change a user's own system: coefficients given as text, or not there."""
-    system = scene.system
-    if not isinstance(system, ELinear):
-        return COEFFICIENTS
-    named = dict(system.parameters)
-    given = {"a": system.a, "b": system.b, "d": system.d, "f1": system.f[0], "f2": system.f[1]}
-    if system._matrix is not None:  # made by from_matrix: a, b, d follow from the rotation, and f is turned by it
-        given = {}
-    free = {*named, *(name for name, value in given.items() if isinstance(value, float))}
-    locked = tuple(name for name in COEFFICIENTS if name not in free)
-    return locked if system.m else (*locked, "z")
 
 
 def make_frame(
@@ -168,14 +185,12 @@ def make_frame(
     values: Mapping[str, Any],
     sent: Mapping[str, Any],
     ready: bool = True,
-    beside: Collection[str] = ("pad", "rest"),
 ) -> tuple[dict[str, Any], Blocks, dict[str, Any]]:
     """Return header and blocks of one frame, and what the browser then holds.
 
     Only visible layers are computed, and only those whose result is another object than the one in `sent` are
-    packed. `scene` shares results that a change does not reach, so that identity is the whole test. What goes with
-    the picture is named in `beside`: "pad", the curves of the plane of f; "rest", its regions too, which take as long
-    as all else in a frame; "theorems".
+    packed. `scene` shares results that a change does not reach, so that identity is the whole test. The panel beside
+    the picture is added by `panels.add`.
     """
     visible = set(values["layers"])
     now = dict(sent)
@@ -218,31 +233,13 @@ def make_frame(
             "sentence": name.sentence,
             "degeneracies": [[item.name, item.sentence] for item in name.degeneracies],
         }
-    if "pad" in beside:
-        _add_atlas(header, blocks, scene, "rest" in beside, fresh)
-    if ready and "theorems" in beside and fresh("certificates", scene["certificates"]):
-        header["theorems"] = glyphs.certificate_rows(scene["certificates"])
     flow = scene["slow_flow"]
+    if flow is not None and flow.ndim > 1:  # a general system has a slow flow for each critical set
+        flow = flow[0] if len(flow) == 1 else None
     header["slow_flow"] = None if flow is None else [float(v) for v in flow]
-    header["f"] = [float(scene.coefficients.f1), float(scene.coefficients.f2)]
+    if isinstance(scene.coefficients, Coefficients):
+        header["f"] = [float(scene.coefficients.f1), float(scene.coefficients.f2)]
     return header, blocks, now
-
-
-def _add_atlas(
-    header: dict[str, Any], blocks: Blocks, scene: Scene, rest: bool, fresh: Callable[[str, Any], bool]
-) -> None:
-    curves = scene["atlas_curves"]
-    size = atlas.size_of(curves)
-    if fresh("atlas_curves", curves):
-        header["atlas_size"] = size
-        for name, curve in zip(CURVES, curves, strict=True):
-            _add_lines(blocks, name, *atlas.curve_lines(curve, size))
-    if not rest:
-        return
-    header["rest"] = True  # the regions that the browser then has are those of these curves
-    if fresh("regions", scene["regions"]):
-        header["regions"] = atlas.region_columns(scene["regions"], size)
-        _add_lines(blocks, "regions", *atlas.region_lines(scene["regions"], size))
 
 
 def _add_nullclines(
@@ -260,11 +257,6 @@ def _add_lines(
     name: str,
     offsets: NDArray[np.int64],
     points: NDArray[np.float64],
-    where: Sequence[float] = (),
+    where: tuple[float, ...] = (),
 ) -> None:
-    blocks[f"{name}.n"] = np.diff(offsets).astype(np.uint16)
-    blocks[f"{name}.xy"] = quantise(points)
-    if where:
-        heads = glyphs.arrowheads(offsets, points, where)
-        blocks[f"{name}.at"] = quantise(heads[:, :2])
-        blocks[f"{name}.angle"] = np.rint(heads[:, 2] / ANGLE_STEP).astype(np.int16)
+    blocks[name] = Polylines(offsets, points, where)

@@ -6,8 +6,9 @@ URL, and how to hand them to the core. It knows nothing of Bokeh, and it compute
 
 from __future__ import annotations
 
+import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
@@ -15,17 +16,11 @@ import param
 
 from codim2_core import psi as psi_families
 from codim2_core.regularisation import Psi
-from codim2_core.systems import ELinear
 
+from .chosen import NORMAL, TITLES, starting_launch, starting_z
 from .portraits import portraits
 
-#: Text of f(z) = f + z k and of z' = B e + g. It never changes, so that nothing is parsed again on a tick:
-#: the numbers travel as parameters of the system.
-F_TEXT = ("f1 + k1*z", "f2 + k2*z")
-B_TEXT = (("B1", "B2"),)
-G_TEXT = ("g0",)
-
-#: Parameters of the system, by the names used in the texts above.
+#: Coefficients of the normal form: f(z) = f + z k, z' = B e + g.
 COEFFICIENTS = ("a", "b", "d", "f1", "f2", "k1", "k2", "B1", "B2", "g0")
 
 #: Layers that a user can hide: name of the control, and the words beside it.
@@ -40,9 +35,39 @@ LAYERS = {
     "lines": "Lines U₁ = 0, U₂ = 0",
     "equator": "Equator equilibria",
     "critical": "Critical sets",
+    "outcomes": "Approach outcomes",
+    "basins": "Basins",
+}
+#: Layers that are hidden until they are asked for.
+HIDDEN = ("separatrices", "outcomes", "basins")
+
+#: Panels beside the picture, one open at a time: name in the address, and the word on its tab.
+PANELS = {
+    "atlas": "Atlas",
+    "numbers": "Numbers",
+    "planes": "Planes",
+    "diagram": "Diagram",
+    "theorems": "Theorems",
+    "along": "Along z",
+    "solid": "3-D",
+    "time": "Time",
+    "psi": "Ψ",
 }
 
+#: What a bifurcation diagram can run along, and what the axes of the atlas can be.
+AXES = ("a", "b", "d", "f1", "f2", "z", "n")
+#: Or a parameter of the system, after this: own:mu.
+OWN_AXIS = "own:"
+
+#: Views of the panel "3-D".
+SOLIDS = {"sphere": "Hemisphere", "stack": "Along z", "filippov": "Filippov"}
+
+#: Controls of the slow variables z1, z2, …
+SLOW_CONTROLS = ("z", "z2", "z3", "z4")
+
 MAX_TRAJECTORIES = 160
+MOST_ENTRIES = 16  # of a mapping that a browser sends
+LONGEST_TEXT = 2000
 
 
 class InputError(ValueError):
@@ -66,7 +91,13 @@ class ExplorerState(param.Parameterized):
     d = _number(-1.0, -4, 4, "d", "Last entry of A = [[a, −b], [b, d]].")
     f1 = _number(-0.5, -3, 3, "f₁", "First component of f at z = 0.")
     f2 = _number(0.0, -3, 3, "f₂", "Second component of f at z = 0.")
+    system = param.Selector(default=NORMAL, objects=list(TITLES), label="System", doc="Which system is drawn.")
+    texts = param.Dict({}, label="Formulas", doc="Typed formulas, by box, as far as they differ from the first ones.")
+    parameters = param.Dict({}, label="Parameters", doc="Parameters of the chosen system, by name.")
     z = _number(0.0, -4, 4, "z", "Position along the discontinuity set.")
+    z2 = _number(0.0, -4, 4, "z₂", "Second slow variable.")
+    z3 = _number(0.0, -4, 4, "z₃", "Third slow variable.")
+    z4 = _number(0.0, -4, 4, "z₄", "Fourth slow variable.")
     k1 = _number(0.5, -2, 2, "k₁", "f(z) = f + z k: how f₁ changes along z.")
     k2 = _number(0.0, -2, 2, "k₂", "f(z) = f + z k: how f₂ changes along z.")
     B1 = _number(1.0, -3, 3, "B₁", "z' = B e + g: weight of cos θ.")
@@ -84,13 +115,25 @@ class ExplorerState(param.Parameterized):
         64, bounds=(0, MAX_TRAJECTORIES), label="Trajectories", doc="Number of starting points."
     )
     layers = param.ListSelector(
-        default=[name for name in LAYERS if name != "separatrices"],
+        default=[name for name in LAYERS if name not in HIDDEN],
         objects=list(LAYERS),
         instantiate=True,
         label="Layers",
         doc="What is drawn.",
     )
     preset = param.String("", label="Portrait", doc="A figure of the paper; the values start from it.")
+    panel = param.Selector(default="atlas", objects=list(PANELS), label="Panel", doc="What is open beside the picture.")
+    along = param.String("f1", label="Along", doc="Parameter of the bifurcation diagram.")
+    zoom = param.Integer(0, bounds=(0, 6), label="Zoom", doc="The diagram shows a 4^zoom-th of the slider's range.")
+    across = param.String("f1", label="Across", doc="Horizontal axis of the atlas.")
+    atlas_zoom = param.Integer(0, bounds=(0, 6), label="Zoom", doc="The atlas shows a 4^zoom-th of the ranges.")
+    up = param.String("f2", label="Up", doc="Vertical axis of the atlas.")
+
+    solid = param.Selector(default="sphere", objects=list(SOLIDS), label="3-D", doc="What the panel “3-D” shows.")
+    drift = param.Selector(default="z", objects=list(SLOW_CONTROLS), label="Along", doc="Slow variable of “Along z”.")
+    log_eps = _number(-2.0, -10, 0, "log₁₀ ε", "Size of the regularised region, eq:ePsi.")
+    launch = param.String("0.6, 0.8, 0", label="Start", doc="State (x, y, z₁, …) from which a motion starts.")
+    t_end = _number(8.0, 0, 40, "until t", "How long a motion is followed.")
 
     def values(self) -> dict[str, Any]:
         """Return every value by name, in the order of declaration."""
@@ -124,8 +167,24 @@ class ExplorerState(param.Parameterized):
     @classmethod
     def of(cls, values: Mapping[str, Any]) -> ExplorerState:
         """Return the state of some clean values: those of their preset, if they name one, and theirs over them."""
-        start = next((p["values"] for p in portraits() if p["key"] == values.get("preset")), {})
-        return cls(**{**start, **values})
+        start = {**preset_values(values.get("preset")), **values}
+        choice = start.get("system", NORMAL)
+        if choice != NORMAL:
+            start = {**opening(choice), **start}
+        return cls(**start)
+
+
+def opening(choice: str) -> dict[str, Any]:
+    """Return what a choice of system brings: its first place on Sigma, its own parameters, a motion worth seeing."""
+    z = (*starting_z(choice), *(0.0,) * len(SLOW_CONTROLS))
+    launch, t_end = starting_launch(choice)
+    slow = dict(zip(SLOW_CONTROLS, z, strict=False))
+    return {"texts": {}, "parameters": {}, **slow, "launch": ", ".join(f"{v:g}" for v in launch), "t_end": t_end}
+
+
+def preset_values(key: str | None) -> dict[str, Any]:
+    """Return the values of a portrait by its key; none if there is no such portrait."""
+    return next((portrait["values"] for portrait in portraits() if portrait["key"] == key), {})
 
 
 NAMES: tuple[str, ...] = tuple(
@@ -156,16 +215,15 @@ def clean(name: str, value: Any) -> Any:
     declared = ExplorerState.param[name]
     if name in NUMBERS:
         return _finite(name, declared.label, value)
-    if name == "trajectories":
+    if type(declared) is param.Integer:
         count = _finite(name, declared.label, value)
-        if count != int(count) or not 0 <= count <= MAX_TRAJECTORIES:
-            raise InputError(
-                name, f"{declared.label}: {value} given; give a whole number from 0 to {MAX_TRAJECTORIES}."
-            )
+        low, high = declared.bounds
+        if count != int(count) or not low <= count <= high:
+            raise InputError(name, f"{declared.label}: {value} given; give a whole number from {low} to {high}.")
         return int(count)
-    if name == "psi":
+    if type(declared) is param.Selector:
         if value not in declared.objects:
-            raise InputError(name, f"Ψ: {value!r} given; choose one of {', '.join(declared.objects)}.")
+            raise InputError(name, f"{declared.label}: {value!r} given; choose one of {', '.join(declared.objects)}.")
         return str(value)
     if name == "layers":
         chosen = value.split(",") if isinstance(value, str) else list(value)
@@ -174,9 +232,33 @@ def clean(name: str, value: Any) -> Any:
         if unknown:
             raise InputError(name, f"Layers: no layer {unknown[0]!r}; they are {', '.join(LAYERS)}.")
         return chosen
+    if name in ("along", "across", "up"):
+        own = isinstance(value, str) and value.startswith(OWN_AXIS) and value.removeprefix(OWN_AXIS).isidentifier()
+        if not own and value not in AXES:
+            known = ", ".join([*AXES, f"{OWN_AXIS}mu"])
+            raise InputError(name, f"{declared.label}: {str(value)[:40]!r} given; choose one such as {known}.")
+        return str(value)
+    if name in ("texts", "parameters"):
+        return _mapping(name, declared.label, value)
     if not isinstance(value, str) or len(value) > 200:
         raise InputError(name, f"{declared.label}: give text of at most 200 characters.")
     return value
+
+
+def _mapping(name: str, label: str | None, value: Any) -> dict[str, Any]:
+    """Return texts or numbers by name, from a mapping or from JSON."""
+    if isinstance(value, str):
+        try:
+            value = json.loads(value) if len(value) <= 10 * LONGEST_TEXT else None
+        except ValueError:
+            value = None
+    if not isinstance(value, Mapping) or len(value) > MOST_ENTRIES or not all(isinstance(key, str) for key in value):
+        raise InputError(name, f"{label}: give at most {MOST_ENTRIES} values by name.")
+    if name == "parameters":
+        return {key: _finite(name, key, entry) for key, entry in value.items()}
+    if not all(isinstance(entry, str) and len(entry) <= LONGEST_TEXT for entry in value.values()):
+        raise InputError(name, f"{label}: give texts of at most {LONGEST_TEXT} characters.")
+    return dict(value)
 
 
 def _finite(name: str, label: str | None, value: Any) -> float:
@@ -192,22 +274,28 @@ def _finite(name: str, label: str | None, value: Any) -> float:
 
 def _to_text(value: Any) -> str:
     """Write a value so that `clean` reads the same value back."""
+    if isinstance(value, dict):
+        return json.dumps(value, separators=(",", ":"))
     if isinstance(value, list):
         return ",".join(value)
     return repr(value) if isinstance(value, float) else str(value)
 
 
-def build_system(values: Mapping[str, Any]) -> ELinear:
-    """Return the e-linear system (eq:ode_normal_form) with f(z) = f + z k and z' = B e + g."""
-    return ELinear(
-        values["a"],
-        values["b"],
-        values["d"],
-        f=F_TEXT,
-        B=B_TEXT,
-        g=G_TEXT,
-        parameters={name: values[name] for name in COEFFICIENTS[3:]},
-    )
+def slider_range(low: float, high: float, value: float) -> tuple[float, float, float]:
+    """Return (low, high, step) of a slider, widened to hold the value; the same rule as in controls.js."""
+    size = abs(value)
+    if value < low or value > high:
+        reach = _round_up(size)
+        low, high = (-reach, reach) if low < 0 else (low, reach)
+    return low, high, 10.0 ** (len(str(int(high - low))) - 4)
+
+
+def _round_up(size: float) -> float:
+    """Return 1, 2 or 5 times a power of ten, at least 1.2 times the size."""
+    target, power = 1.2 * size, 1.0
+    while power * 10 <= target:
+        power *= 10
+    return next(power * k for k in (1, 2, 5, 10) if power * k >= target)
 
 
 def build_psi(values: Mapping[str, Any]) -> Psi:
@@ -228,18 +316,3 @@ def build_psi(values: Mapping[str, Any]) -> Psi:
         return getattr(psi_families, family)()
     except ValueError as error:
         raise InputError(control, str(error)) from error
-
-
-def scene_changes(changed: Iterable[str], values: Mapping[str, Any]) -> dict[str, Any]:
-    """Translate changed controls into the arguments of ``Scene.evolve``."""
-    changes: dict[str, Any] = {}
-    for name in changed:
-        if name in COEFFICIENTS:
-            changes[name] = values[name]
-        elif name == "z":
-            changes["z"] = (values["z"],)
-        elif name in ("psi", "n", "psi_text"):
-            changes["psi"] = build_psi(values)
-        elif name == "trajectories":
-            changes["count"] = values["trajectories"]
-    return changes

@@ -25,6 +25,13 @@ LIGHT = {
     "hollow": "#ffffff",
     "shade": "#3b6ea5",
     "shade_alpha": 0.022,
+    "slide": "#0d9488",
+    "cross": "#e8751a",
+    "depends": "#7c3aed",
+    "undecided": "#64748b",
+    "misses": "#dfe4ea",
+    "motion": "#c026d3",
+    "basins": ["#0d9488", "#7c3aed", "#0284c7", "#a16207"],
 }
 DARK = {
     "page": "#12161d",
@@ -46,6 +53,13 @@ DARK = {
     "hollow": "#12161d",
     "shade": "#7fb2ff",
     "shade_alpha": 0.028,
+    "slide": "#2dd4bf",
+    "cross": "#fb923c",
+    "depends": "#a78bfa",
+    "undecided": "#94a3b8",
+    "misses": "#2c3440",
+    "motion": "#f0abfc",
+    "basins": ["#2dd4bf", "#a78bfa", "#38bdf8", "#facc15"],
 }
 THEMES = {"light": LIGHT, "dark": DARK}
 
@@ -56,6 +70,10 @@ REACH = 2.45
 
 #: Radii of the translucent discs that shade the hemisphere; there are more near the centre, so the limb is pale.
 DISCS = (*(0.06 * k + 0.04 for k in range(16)), 1.0)
+
+#: The ring of approach outcomes: its radii, and the pattern over each colour, so that colour is not all there is.
+RING = (1.03, 1.075)
+HATCHES = {"slide": " ", "cross": "/", "depends": "x", "undecided": ".", "misses": " "}
 
 #: Polyline layers from bottom to top: name, colour key, width in px.
 LINES = (
@@ -71,8 +89,10 @@ LINES = (
     ("separatrices_stable", "separatrix", 2.0),
     ("separatrices_unstable", "separatrix", 2.0),
     ("cycles", "cycle", 2.8),
+    ("limit", "motion", 1.6),
+    ("motion", "motion", 2.4),
 )
 #: Layers that carry arrowheads.
 ARROWED = ("outside", "inside", "continuations", "separatrices_stable", "separatrices_unstable", "cycles")
-#: Layers drawn in dashes: stable and unstable separatrices differ by more than colour.
-DASHED = {"separatrices_stable": (7, 4)}
+#: Layers drawn in dashes: stable and unstable separatrices, a motion and its limit differ by more than colour.
+DASHED = {"separatrices_stable": (7, 4), "limit": (5, 4)}

@@ -15,13 +15,12 @@ from panel.custom import JSComponent
 from panel.models.esm import DataEvent, ESMEvent
 from panel.viewable import Child
 
-from codim2_core.systems import ELinear
-
+from .chosen import System_
 from .figures import make_figure
 from .markup import STATIC, config, explorer_html, script
 from .packing import unpack
 from .refresh import Frames
-from .state import ExplorerState, InputError
+from .state import NAMES, ExplorerState, InputError
 from .svg import draw
 from .warmup import is_ready
 
@@ -32,8 +31,8 @@ class ExplorerView(JSComponent):
     Parameters
     ----------
     state : ExplorerState, optional
-    system : ELinear, optional
-        Drawn instead of the system of the controls.
+    system : ELinear or System, optional
+        Drawn instead of one that the controls choose; its parameters get sliders.
     page : bool
         True in the explorer's own page, which brings the markup; False in a notebook.
     errors : sequence of InputError
@@ -50,13 +49,14 @@ class ExplorerView(JSComponent):
     def __init__(
         self,
         state: ExplorerState | None = None,
-        system: ELinear | None = None,
+        system: System_ | None = None,
         *,
         page: bool = False,
         errors: tuple[InputError, ...] = (),
         **params: Any,
     ) -> None:
         self.state = ExplorerState() if state is None else state
+        self._opened: dict[str, Any] = {}
         self.frames = Frames(self.state, system, is_ready)
         super().__init__(
             picture=pn.pane.Bokeh(make_figure(), sizing_mode="stretch_both"),
@@ -65,15 +65,17 @@ class ExplorerView(JSComponent):
             **self._opening(page, errors),
             **params,
         )
+        self.state.param.watch(self._follow, list(NAMES))
 
     def _opening(self, page: bool, errors: tuple[InputError, ...] = ()) -> dict[str, Any]:
         """Return what a browser starts from: the values of the controls, the first frame and the markup."""
         first = self.frames.answer({"all": True})
+        self._opened = self.frames.values
         header, _ = unpack(first)
         settings = config(self.state, self.frames.locked)
         settings["page"] = page
         settings["errors"] = {error.control: str(error) for error in errors} | header.get("errors", {})
-        self.page_markup = explorer_html(self.state, _words(header, first))
+        self.page_markup = explorer_html(self.state, _words(header, first), ("system",) if self.frames.given else ())
         return {"config": settings, "first": first, "markup": "" if page else self.page_markup}
 
     def get_root(self, doc: Any = None, comm: Any = None, preprocess: bool = True) -> Any:
@@ -82,7 +84,8 @@ class ExplorerView(JSComponent):
         (A page that one server process wrote and another one answers; reused sessions; notebooks.) The explorer's
         own style sheet is in its markup.
         """
-        if self._models and not self.config["page"]:  # a notebook shows it once more: as it is now
+        if not self.config["page"] and (self._models or self._opened is not self.frames.values):
+            # a notebook shows it once more, or after its state was changed: as it is now
             self.param.update(**self._opening(page=False))
         root = super().get_root(doc, comm, preprocess)
         for model in root.references():
@@ -95,23 +98,34 @@ class ExplorerView(JSComponent):
         """Listen to the browser.
 
         On a server the request is answered within Bokeh's own handling of the event, where the document's lock is
-        held: Panel's scheduling would cost more than the frame. Notebooks, and servers that answer in threads,
-        go Panel's way.
+        held: Panel's scheduling would cost more than the frame, and threads more than they gain. Notebooks go Panel's
+        way.
         """
-        if comm is None and not pn.state._thread_pool and "data_event" in event_names:
+        if comm is None and "data_event" in event_names:
             model.on_event("data_event", self._answer)
         else:
             super()._register_events(*event_names, model=model, doc=doc, comm=comm)
 
     def _answer(self, event: DataEvent) -> None:
         model = event.model
-        if model is not None and model.document is not None:
-            reply = ESMEvent(model=model, data={"frame": self.frames.answer(event.data or {})})
-            model.document.callbacks.send_event(reply)
+        if len(self._models) > 1 or model is None or model.document is None:
+            self._handle_msg(event.data)
+            return
+        reply = ESMEvent(model=model, data={"frame": self.frames.answer(event.data or {})})
+        model.document.callbacks.send_event(reply)
+        self.frames.publish()
 
     def _handle_msg(self, data: Any) -> None:
-        """Answer a request of the browser with one frame."""
-        self._send_msg({"frame": self.frames.answer(data)})
+        """Answer a request of one browser with one frame to all that show this view."""
+        self._send_msg({"frame": self.frames.answer(data or {})})
+        self.frames.publish()
+
+    def _follow(self, *changes: param.parameterized.Event) -> None:
+        """Draw what the state was given in Python; what it was given by `publish` is drawn already."""
+        frame = self.frames.follow({change.name: change.new for change in changes})
+        if frame is not None:
+            self._send_msg({"frame": frame})
+            self.frames.publish()
 
     def watch(self, callback: Callable[..., None], *names: str) -> None:
         """Call `callback` when one of the named values of the state has changed."""

@@ -38,7 +38,7 @@ class BifurcationCurve:
     Attributes
     ----------
     kind : str
-        "saddle-node", "transcritical", "hopf" or "node-focus".
+        "saddle-node", "transcritical", "hopf", "node-focus", "fold of cycles", "equator" or "heteroclinic".
     name : str
         A short title for people, which says so where the curve degenerates.
     label : str
@@ -49,7 +49,7 @@ class BifurcationCurve:
     special : tuple of SpecialPoint
     values : tuple of ndarray (m,)
         For "hopf", the first Lyapunov coefficient at the points of each branch (negative: supercritical, a stable
-        cycle is born; positive: subcritical). Empty for other kinds.
+        cycle is born; positive: subcritical); for cycles what `cycle_folds` and `heteroclinic` say. Else empty.
     sentence : str
         What happens on the curve, or why there is none.
     """

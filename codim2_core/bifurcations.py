@@ -2,7 +2,8 @@
 
 The saddle-node curve of equator equilibria and the ellipse |A^-1 f| = 1 are closed forms and cut the plane into the
 regions of `regions`, which do not depend on Psi. `hopf` and `node_focus` depend on Psi (Case III), one root a point.
-Folds of cycles and homoclinics need continuation and are not here.
+Limit cycles vanish on `cycle_folds`, and at the equator on `closed_equator` and `heteroclinic`; these three are
+followed by continuation, which takes seconds where the others take milliseconds.
 """
 
 from __future__ import annotations
@@ -12,6 +13,8 @@ import math
 import numpy as np
 
 from .bifurcation_curve import BifurcationCurve, SpecialPoint, frozen, matrix, place
+from .bifurcation_cycles import cycle_folds
+from .bifurcation_equator import closed_equator, heteroclinic
 from .bifurcation_geometry import Geometry
 from .bifurcation_parameter import ParameterChange, hill_changes
 from .bifurcation_regions import Region, regions
@@ -22,7 +25,10 @@ __all__ = [
     "ParameterChange",
     "Region",
     "SpecialPoint",
+    "closed_equator",
     "critical_boundary",
+    "cycle_folds",
+    "heteroclinic",
     "hill_changes",
     "hopf",
     "node_focus",

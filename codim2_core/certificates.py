@@ -24,6 +24,9 @@ from .systems import Coefficients, ELinear
 
 __all__ = ["Certificate", "Verdict", "certificates"]
 
+MOST_CONDITION = 1e12
+_ILL = "The condition number of A is {:.1e}: a check of A⁻¹f in doubles would say nothing."
+
 
 def certificates(
     system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (), cycles: Iterable[Any] | None = None
@@ -127,10 +130,13 @@ def _closed_equator(facts: Facts) -> Certificate:
     theta = np.linspace(0.0, 2.0 * math.pi, 4096, endpoint=False)
     e = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
     U = facts.at.U(e)
-    out, around = (e * U).sum(axis=1), e[:, 0] * U[:, 1] - e[:, 1] * U[:, 0]
+    a, b, d, f1, f2 = facts.at.plane
+    # Theta itself, not the component of U: a, however much larger than b, stays out of it
+    out, around = (e * U).sum(axis=1), (d - a) * e[:, 1] * e[:, 0] + f2 * e[:, 0] - f1 * e[:, 1] + b
     integral = float((out / abs(around)).mean() * 2.0 * math.pi)
     weight = float((abs(out) / abs(around)).mean() * 2.0 * math.pi)
-    one_sign = bool((around > 0.0).all() or (around < 0.0).all())
+    rounding = 1e-15 * (abs(d - a) + abs(f1) + abs(f2) + abs(b))
+    one_sign = bool((around > -rounding).all() or (around < rounding).all())
     sharp = float(abs(around).min()) > 0.02 * float(abs(around).max())  # else 4096 points do not resolve the peak
     holds = one_sign and (not sharp or abs(integral - cycle.exponent) <= 1e-8 * max(weight, 1.0))
     least = float(abs(around).min())
@@ -162,7 +168,7 @@ def _critical_kind(facts: Facts) -> Certificate:
     sign = determinant_sign(facts.at.a, facts.at.b, facts.at.d)
     det = facts.at.a * facts.at.d + facts.at.b**2
     factor = C.determinant / det if sign and det else 0.0
-    holds = (C.kind == "saddle") == (sign < 0) and (C.determinant > 0.0) == (sign > 0)
+    holds = (C.kind == "saddle") == (sign < 0) and sign * C.determinant >= 0.0  # = 0.0: det J has underflown
     article = "an" if C.kind.startswith("unstable") else "a"
     return Certificate(
         theorem, statement, verdict_of(holds),
@@ -202,11 +208,14 @@ def _existence(facts: Facts) -> Certificate:
     if facts.location.singular:
         return not_applicable(theorem, statement, "det A = 0 within rounding: A has no inverse.")
     A, f = facts.at.A, facts.at.f
+    condition = float(np.linalg.cond(A))
+    if not condition < MOST_CONDITION:
+        return not_applicable(theorem, statement, _ILL.format(condition))
     length = float(np.linalg.norm(np.linalg.solve(A, f)))
     if facts.location.existence is Existence.EQUATOR:
         return not_applicable(theorem, statement, f"|A⁻¹f| = {length:.6g}: the critical set is on the equator.")
     numbers: list[tuple[str, float]] = [("|A⁻¹f|", length), ("critical sets", float(len(facts.critical)))]
-    near = abs(length - 1.0) <= 1e-9 * np.linalg.cond(A)
+    near = abs(length - 1.0) <= 1e-9 * condition
     holds = near or (length < 1.0) == (len(facts.critical) == 1)
     if facts.critical:
         # the equation itself, at the place in the chart
@@ -291,6 +300,9 @@ def _limit_cycles(facts: Facts, cycles: Iterable[Any] | None) -> Certificate:
         return not_applicable(theorem, statement, why)
     if facts.location.singular:
         return not_applicable(theorem, statement, "det A = 0 within rounding: A has no inverse.")
+    condition = float(np.linalg.cond(facts.at.A))
+    if not condition < MOST_CONDITION:
+        return not_applicable(theorem, statement, _ILL.format(condition))
     mean = -np.linalg.solve(facts.at.A, facts.at.f)
     slow = facts.at.W(mean)
     numbers, holds = [], True

@@ -2,76 +2,46 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from numpy.typing import ArrayLike
 
-from .critical import CriticalSet, Existence, Location, critical_sets, determinant_sign, locate
+from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
+from .classify_general import as_elinear, general_portrait
+from .critical import NEUTRAL_TRACE, CriticalSet, Existence, Location, critical_sets, determinant_sign, locate
 from .equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+from .general import Frozen, System
 from .regularisation import Psi
 from .systems import Coefficients, ELinear
 
-
-@dataclass(frozen=True, slots=True)
-class Degeneracy:
-    """Something that a small change of the system would destroy: its name, and a sentence that explains it."""
-
-    name: str
-    sentence: str
-
-
-@dataclass(frozen=True, slots=True)
-class Classification:
-    """Name of a phase portrait.
-
-    Attributes
-    ----------
-    case : "I", "II", "III" or None
-        tab:cases; None on the borders between the cases.
-    name : str
-        "CM" or "NCM" (critical set or none) and the number of distinct equilibria on the equator, as in
-        fig:sketches: "CM0", "CM2", "CM4", "NCM2", "NCM4"; other numbers only where `degeneracies` says why.
-    sentence : str
-    degeneracies : tuple of Degeneracy
-    """
-
-    case: str | None
-    name: str
-    sentence: str
-    degeneracies: tuple[Degeneracy, ...]
-
-
 _MULTIPLE = {
-    2: Degeneracy(
+    2: undecided(
         "saddle-node",
         "Θ has a double zero: two limit directions have just met (fig:SNBIF, eq:tangencies). Counted once here.",
     ),
-    3: Degeneracy(
+    3: undecided(
         "pitchfork",
         "Θ has a triple zero with λ_θ = 0: one limit direction is splitting into three (degenerate case D2). "
         "Counted once here.",
     ),
-    4: Degeneracy("quadruple zero", "Θ has a fourfold zero: all four limit directions have met. Counted once here."),
+    4: undecided("quadruple zero", "Θ has a fourfold zero: all four limit directions have met. Counted once here."),
 }
+_CUSP = undecided(
+    "cusp", "Θ has a triple zero: two saddle-nodes of limit directions meet in a cusp. Counted once here."
+)
 
 
 def _equator_degeneracies(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
     found = []
     if equator.all_directions:
         found.append(
-            Degeneracy(
+            undecided(
                 "all directions",
                 "a = d, b = 0 and f = 0: Θ ≡ 0, every direction is a limit direction (the ball at z = 0).",
             )
         )
-    found += [_MULTIPLE[k] for k in sorted({int(k) for k in equator.multiplicity if k > 1})]
+    multiple = sorted({int(k) for k in equator.multiplicity if k > 1})
+    found += [_CUSP if k == 3 and not equator.symmetric else _MULTIPLE[k] for k in multiple]
     if cycle is not None and cycle.exponent == 0.0:
-        found.append(
-            Degeneracy(
-                "neutral equator",
-                "The equator is a closed orbit with exponent 0: it neither attracts nor repels to first order.",
-            )
-        )
+        found.append(NEUTRAL_CLOSED_EQUATOR)
     return found
 
 
@@ -85,13 +55,15 @@ def _critical_degeneracies(location: Location, critical: tuple[CriticalSet, ...]
     }
     found = []
     if location.existence in names:
-        found.append(Degeneracy(names[location.existence], location.existence.value))
+        found.append(undecided(names[location.existence], location.existence.value))
     if any(C.kind == "centre (linear)" for C in critical):
         found.append(
-            Degeneracy(
+            undecided(
                 "tr J = 0",
                 "tr J = 0 within rounding: a Hopf bifurcation of the layer problem. The linearisation is a centre; "
                 "whether C is stable is decided by nonlinear terms.",
+                NEUTRAL_TRACE,
+                "the terms of the trace",
             )
         )
     return found
@@ -106,25 +78,6 @@ def _case(coefficients: Coefficients) -> tuple[str | None, list[Degeneracy]]:
         return "I", []
     sign = determinant_sign(a, b, d)
     return (None if sign == 0 else "III" if sign > 0 else "II"), []
-
-
-def _directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
-    if equator.all_directions:
-        return "Every direction is a limit direction."
-    count = len(equator.theta)
-    if count == 0:
-        if cycle is None or cycle.exponent == 0.0:
-            return "No limit directions: the equator is a closed orbit."
-        outer, inner = ("attracts", "repels") if cycle.exponent < 0.0 else ("repels", "attracts")
-        return f"No limit directions: the equator is a closed orbit that {outer} outside and {inner} on the hemisphere."
-    arriving = int((equator.lambda_rho < 0.0).sum())
-    leaving = int((equator.lambda_rho > 0.0).sum())
-    noun = "limit direction" if count == 1 else "limit directions"
-    if leaving == 0:
-        return f"{count} {noun}: trajectories reach Σ along {'it' if count == 1 else 'them'}."
-    if arriving == 0:
-        return f"{count} {noun}: trajectories leave Σ along {'it' if count == 1 else 'them'}."
-    return f"{count} {noun}: trajectories reach Σ along {arriving} and leave it along {leaving}."
 
 
 def _consequence(location: Location, critical: tuple[CriticalSet, ...]) -> str:
@@ -143,42 +96,50 @@ def _consequence(location: Location, critical: tuple[CriticalSet, ...]) -> str:
 
 
 def portrait(
-    coefficients: Coefficients,
+    at: Coefficients | Frozen,
     equator: EquatorEquilibria,
     cycle: EquatorCycle | None,
-    location: Location,
+    location: Location | None,
     critical: tuple[CriticalSet, ...],
 ) -> Classification:
-    """Name a portrait from its parts (all at one z)."""
+    """Name a portrait from its parts (all at one z); `location` is that of `locate`, None for a general system.
+
+    A general system that is affine in (c, s) has the name of its normal form, unless the rotation's rounding blurs
+    whether there is a critical set.
+    """
+    if isinstance(at, Frozen):
+        coefficients = as_elinear(at)
+        location = None if coefficients is None else locate(coefficients)
+        if coefficients is None or location is None or (location.e is None) == bool(critical):
+            return general_portrait(at, equator, cycle, critical)
+    else:
+        coefficients = at
+        location = locate(at) if location is None else location
     case, degeneracies = _case(coefficients)
     degeneracies += _equator_degeneracies(equator, cycle) + _critical_degeneracies(location, critical)
     count = "∞" if equator.all_directions else str(len(equator.theta))
     name = ("CM" if critical else "NCM") + count
     prefix = f"Case {case}, {name}. " if case else f"{name}. "
-    sentence = prefix + _directions(equator, cycle) + " " + _consequence(location, critical)
+    sentence = prefix + directions(equator, cycle) + " " + _consequence(location, critical)
     return Classification(case, name, sentence, tuple(degeneracies))
 
 
-def classify(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> Classification:
-    """Case, portrait name, sentence and degeneracies of the e-linear system at z.
+def classify(system: ELinear | System | Coefficients | Frozen, psi: Psi, z: ArrayLike = ()) -> Classification:
+    """Case, portrait name, sentence and degeneracies of the system at z.
 
     Parameters
     ----------
-    system : ELinear, or Coefficients
+    system : ELinear or System, or either frozen at a z
+        A general system that is affine in (c, s) is named as its e-linear normal form (lem:normalform); any other
+        has no case, and its name counts the critical sets and limit directions.
     psi : Psi
-        Decides the kind of the critical set (Case III: sec:case3), never the name.
+        Decides the kind of the critical sets (Case III: sec:case3), never the name.
     z : (m,) floats
 
     Returns
     -------
     Classification
     """
-    coefficients = system.at(z)
-    location = locate(coefficients)
-    return portrait(
-        coefficients,
-        equator_equilibria(coefficients),
-        equator_cycle(coefficients),
-        location,
-        critical_sets(coefficients, psi),
-    )
+    at = system.at(z)
+    location = None if isinstance(at, Frozen) else locate(at)
+    return portrait(at, equator_equilibria(at), equator_cycle(at), location, critical_sets(at, psi))

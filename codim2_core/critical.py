@@ -1,4 +1,4 @@
-"""Critical sets of the e-linear system: the equilibria of the layer problem, thm:lineps1.
+"""Critical sets: the equilibria of the layer problem, thm:lineps1 for the e-linear system.
 
 ``A e + f = 0`` has the solution ``e = -A^-1 f = -n/det A`` with ``n = adj(A) f``, and a critical set exists iff
 ``|n| < |det A|``. That form never divides by det A. Signs that rounding could blur are decided in exact rational
@@ -8,19 +8,22 @@ arithmetic of the given doubles; within the rounding of the inputs the border it
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .critical_general import disc_zeros
+from .general import Frozen, System
 from .regularisation import Psi
 from .systems import Coefficients, ELinear
 from .trigonometric import ROUNDING
 
-# Below this fraction of its terms a sum of products is recomputed exactly (double rounding stays below 1e-15).
-CANCELLATION = 1e-9
+# Below this fraction of its terms a sum of products is recomputed exactly (rounding then stays below 1e-12 of it).
+CANCELLATION = 1e-3
+NEUTRAL_TRACE = 16 * 2.0**-53  # of the terms of tr J: zero within rounding
 
 
 class Existence(Enum):
@@ -83,7 +86,8 @@ class CriticalSet:
     eigenvalues : ndarray (2,), complex
         By falling real part.
     kind : str
-        "stable node", "stable focus", "unstable node", "unstable focus", "saddle", or "centre (linear)".
+        "stable node", "stable focus", "unstable node", "unstable focus", "saddle", or "centre (linear)"; in general
+        systems also "saddle-node" (det J = 0: two critical sets have just met) and "degenerate" (more than two).
     slow_flow : ndarray (m,)
         z' on it, eq:linslowflow; independent of Psi.
     """
@@ -107,6 +111,14 @@ def _scaled(values: tuple[float, ...]) -> tuple[float, ...]:
         return values
     shift = -math.frexp(size)[1]
     return tuple(math.ldexp(v, shift) for v in values)
+
+
+def exact_determinant(a: float, b: float, d: float) -> float:
+    """``det A = a d + b^2`` of the doubles as given, to full relative accuracy."""
+    det = a * d + b * b
+    if abs(det) < CANCELLATION * (abs(a * d) + b * b):
+        return float(Fraction(a) * Fraction(d) + Fraction(b) ** 2)
+    return det
 
 
 def determinant_sign(a: float, b: float, d: float) -> int:
@@ -190,85 +202,205 @@ def _locate_singular(a: float, b: float, d: float, f1: float, f2: float) -> Loca
     )
 
 
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """The Jacobian eq:scjaco in the axes along e and across it, where D e_Psi is diagonal.
+
+    ``J = [[along, *], [*, across]]``; written so, trace and determinant have no cancellation that the coefficients
+    do not have: b, however large, stays out of the trace.
+
+    Attributes
+    ----------
+    along, across : float
+        Diagonal entries.
+    turning : float
+        Product of the other two.
+    determinant : float
+    sign : int
+        Of the determinant; 0 within the rounding of a, b, d.
+    size : float
+        Sum of the sizes of the terms of the trace.
+    """
+
+    along: float
+    across: float
+    turning: float
+    determinant: float
+    sign: int
+    size: float
+
+
 def linearisation(
-    coefficients: Coefficients, psi: Psi, e: tuple[float, float], complement: float
-) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float, float, float]]:
+    matrix: tuple[float, float, float], psi: Psi, e: tuple[float, float], complement: float
+) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float, float, float], Frame]:
     """Place and Jacobian of the critical set with ``e_Psi = e``.
+
+    Parameters
+    ----------
+    matrix : (a, b, d)
+        Of moderate size, as products of two of them are formed.
+    psi : Psi
+    e : (c, s)
+    complement : float
+        ``1 - |e|^2`` to full relative accuracy.
 
     Returns
     -------
     x2, p : (float, float)
     J : (J11, J12, J21, J22)
         eq:scjaco, ``A . D e_Psi``; D e_Psi has eigenvalue `radial` along e and `tangential` across it.
+    Frame
     """
+    a, b, d = matrix
     modulus = math.hypot(*e)
     zeta = float(psi.radius(modulus, complement)) if modulus > 0.0 else 0.0
     radial, tangential = psi.jacobian_factors(zeta)
     c, s = (e[0] / modulus, e[1] / modulus) if modulus > 0.0 else (1.0, 0.0)
-    spread = radial - tangential
+    # radial - tangential, without the cancellation near the centre
+    spread = tangential * (complement * psi.steepness(zeta) - modulus * modulus)
     D11, D12, D22 = tangential + spread * c * c, spread * c * s, tangential + spread * s * s
-    a, b, d = coefficients.a, coefficients.b, coefficients.d
     r = zeta / math.hypot(1.0, zeta)
     jacobian = (a * D11 - b * D12, a * D12 - b * D22, b * D11 + d * D12, b * D12 + d * D22)
-    return (zeta * c, zeta * s), (r * c, r * s), tuple(map(float, jacobian))  # type: ignore[return-value]
+    shear = (d - a) * c * s
+    frame = Frame(
+        radial * (a * c * c + d * s * s),
+        tangential * (a * s * s + d * c * c),
+        radial * tangential * (shear - b) * (shear + b),
+        radial * tangential * exact_determinant(a, b, d),
+        determinant_sign(a, b, d),
+        radial * (abs(a) * c * c + abs(d) * s * s) + tangential * (abs(a) * s * s + abs(d) * c * c),
+    )
+    return (zeta * c, zeta * s), (r * c, r * s), tuple(map(float, jacobian)), frame  # type: ignore[return-value]
 
 
-def spectrum(jacobian: tuple[float, float, float, float]) -> tuple[float, float, float, str, tuple[complex, complex]]:
-    """Trace, determinant, discriminant, kind and eigenvalues of a 2x2 matrix (rows first).
+def spectrum(frame: Frame) -> tuple[float, float, float, str, tuple[complex, complex]]:
+    """Trace, determinant, discriminant, kind and eigenvalues of a Jacobian.
 
-    The trace counts as zero, and the kind as "centre (linear)", when it is below the rounding of its two terms.
+    The trace counts as zero, and the kind as "centre (linear)", when it is below the rounding of its terms.
     """
-    j11, j12, j21, j22 = jacobian
-    trace, determinant = j11 + j22, j11 * j22 - j12 * j21
-    half, difference = 0.5 * trace, 0.5 * (j11 - j22)
-    quarter = difference * difference + j12 * j21  # discriminant / 4, without the cancellation in tr^2 - 4 det
-    neutral = abs(trace) <= 16 * 2.0**-53 * (abs(j11) + abs(j22))
+    trace = frame.along + frame.across
+    half, difference = 0.5 * trace, 0.5 * (frame.along - frame.across)
+    quarter = difference * difference + frame.turning  # discriminant / 4, without the cancellation in tr^2 - 4 det
+    neutral = abs(trace) <= NEUTRAL_TRACE * frame.size
     if quarter >= 0.0:
         root = math.sqrt(quarter)
         large = half + math.copysign(root, half)
-        small = determinant / large if large != 0.0 else 0.0
+        small = frame.determinant / large if large != 0.0 else 0.0
         pair = (complex(max(large, small)), complex(min(large, small)))
     else:
         root = math.sqrt(-quarter)
         pair = (complex(half, root), complex(half, -root))
-    if determinant < 0.0:
+    if frame.sign < 0:
         kind = "saddle"
     elif neutral:
         kind = "centre (linear)"
     else:
         kind = ("stable " if trace < 0.0 else "unstable ") + ("node" if quarter >= 0.0 else "focus")
-    return trace, determinant, 4.0 * quarter, kind, pair
+    return trace, frame.determinant, 4.0 * quarter, kind, pair
 
 
-def critical_sets(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> tuple[CriticalSet, ...]:
-    """All isolated critical sets at z: for the e-linear system none or one (thm:lineps1(a), eq:lincriticalset).
+def critical_sets(
+    system: ELinear | System | Coefficients | Frozen, psi: Psi, z: ArrayLike = ()
+) -> tuple[CriticalSet, ...]:
+    """All isolated critical sets at z, eq:critical_set.
+
+    For an e-linear system none or one (thm:lineps1(a), eq:lincriticalset), in closed form. For a general system all
+    zeros of U in the open disc, by increasing c, then s, from a search that proves them complete (`disc_zeros`).
 
     Parameters
     ----------
-    system : ELinear, or Coefficients
+    system : ELinear or System, or either frozen at a z
     psi : Psi
     z : (m,) floats
 
     Returns
     -------
     tuple of CriticalSet
-        Empty also when |A^-1 f| = 1 or det A = 0 within the rounding of the coefficients; `classify` names these.
+        Without zeros on |e| = 1, and empty when det A = 0, within the rounding of the coefficients; `classify` names
+        these.
     """
-    coefficients = system.at(z)
-    location = locate(coefficients)
+    at = system.at(z)
+    if isinstance(at, Frozen):
+        return _general_sets(at, psi)
+    location = locate(at)
     if location.e is None:
         return ()
-    x2, p, jacobian = linearisation(coefficients, psi, location.e, location.complement)
-    trace, determinant, discriminant, kind, eigenvalues = spectrum(jacobian)
+    # Time in a unit that makes the largest coefficient about 1, so that no product under- or overflows.
+    shift = math.frexp(max(map(abs, at.plane[:3])))[1]
+    a, b, d = (math.ldexp(v, -shift) for v in at.plane[:3])
+    parts = linearisation((a, b, d), psi, location.e, location.complement)
+    return (_critical_set(location.e, *parts, shift, at.W(location.e)),)
+
+
+def _general_sets(at: Frozen, psi: Psi) -> tuple[CriticalSet, ...]:
+    found = disc_zeros(at.key)
+    sets = []
+    for e, DU, degenerate, index in zip(found.e, found.DU, found.degenerate, found.index, strict=True):
+        c, s = float(e[0]), float(e[1])
+        modulus = math.hypot(c, s)
+        m11, m12, m21, m22 = DU.ravel().tolist()
+        shift = math.frexp(max(abs(m11), abs(m12), abs(m21), abs(m22), 1e-290))[1]
+        M = (math.ldexp(m11, -shift), math.ldexp(m12, -shift), math.ldexp(m21, -shift), math.ldexp(m22, -shift))
+        parts = _linearisation_of(M, psi, (c, s), (1.0 - modulus) * (1.0 + modulus), int(index))
+        C = _critical_set((c, s), *parts, shift, at.W((c, s)))
+        if degenerate:
+            # index 0: a saddle and a node have just met; +1 or -1: three critical sets have
+            C = replace(C, determinant=0.0, kind="saddle-node" if index == 0 else "degenerate")
+        sets.append(C)
+    return tuple(sets)
+
+
+def _linearisation_of(
+    M: tuple[float, float, float, float], psi: Psi, e: tuple[float, float], complement: float, sign: int
+) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float, float, float], Frame]:
+    """As `linearisation`, for ``J = M . D e_Psi`` with any M = D_e U (rows first) whose determinant has that sign."""
+    m11, m12, m21, m22 = M
+    modulus = math.hypot(*e)
+    zeta = float(psi.radius(modulus, complement)) if modulus > 0.0 else 0.0
+    radial, tangential = map(float, psi.jacobian_factors(zeta))
+    c, s = (e[0] / modulus, e[1] / modulus) if modulus > 0.0 else (1.0, 0.0)
+    # M in the axes along e and across it, where D e_Psi is diag(radial, tangential)
+    n11, n12 = c * c * m11 + c * s * (m12 + m21) + s * s * m22, c * c * m12 + c * s * (m22 - m11) - s * s * m21
+    n21, n22 = c * c * m21 + c * s * (m22 - m11) - s * s * m12, c * c * m22 - c * s * (m12 + m21) + s * s * m11
+    cc, cs, ss = c * c, abs(c * s), s * s
+    mixed = cs * (abs(m12) + abs(m21))
+    frame = Frame(
+        radial * n11,
+        tangential * n22,
+        radial * tangential * n12 * n21,
+        radial * tangential * (m11 * m22 - m12 * m21),
+        sign,
+        radial * (cc * abs(m11) + mixed + ss * abs(m22)) + tangential * (cc * abs(m22) + mixed + ss * abs(m11)),
+    )
+    spread = radial - tangential
+    D11, D12, D22 = tangential + spread * c * c, spread * c * s, tangential + spread * s * s
+    jacobian = (m11 * D11 + m12 * D12, m11 * D12 + m12 * D22, m21 * D11 + m22 * D12, m21 * D12 + m22 * D22)
+    r = zeta / math.hypot(1.0, zeta)
+    return (zeta * c, zeta * s), (r * c, r * s), jacobian, frame
+
+
+def _critical_set(
+    e: tuple[float, float],
+    x2: tuple[float, float],
+    p: tuple[float, float],
+    jacobian: tuple[float, float, float, float],
+    frame: Frame,
+    shift: int,
+    slow: NDArray[np.float64],
+) -> CriticalSet:
+    """Put the parts together; the linearisation is in a unit of time that is 2^-shift of the system's."""
+    trace, determinant, discriminant, kind, eigenvalues = spectrum(frame)
+    trace = math.ldexp(trace, shift)
+    determinant, discriminant = math.ldexp(determinant, 2 * shift), math.ldexp(discriminant, 2 * shift)
     arrays = [
-        np.array(location.e),
+        np.array(e),
         np.array(x2),
         np.array(p),
-        np.array(jacobian).reshape(2, 2),
-        np.array(eigenvalues),
-        coefficients.W(location.e),
+        np.ldexp(np.array(jacobian).reshape(2, 2), shift),
+        np.array([complex(math.ldexp(v.real, shift), math.ldexp(v.imag, shift)) for v in eigenvalues]),
+        np.array(slow),
     ]
     for array in arrays:
         array.flags.writeable = False
-    e, x2_, p_, J, values, slow = arrays
-    return (CriticalSet(e, x2_, p_, J, trace, determinant, discriminant, values, kind, slow),)
+    e_, x2_, p_, J, values, slow_ = arrays
+    return CriticalSet(e_, x2_, p_, J, trace, determinant, discriminant, values, kind, slow_)

@@ -31,15 +31,51 @@ CLOSE = 1e-3  # width at which a jump from -inf to +inf is left to the map backw
 MOST, UNDECIDED = 96, 0.25  # samples added in a round; share of undecided ones at which looking closer is in vain
 NOISE = 1e-8  # displacement that COARSE cannot tell from zero
 NEAR_LOOP = 1e-3
+MEASURED, SMALLEST = 2.0, 1e-8  # where the expansion at C is measured, in INNER; the smallest cycle, in r/R
 
 
 @dataclass(frozen=True)
 class Crossing:
-    """A fixed point of the return map: its parameter, and how the displacement meets zero there."""
+    """A fixed point of the return map: its parameter, and how the displacement meets zero there.
+
+    `born`: just born in a Hopf bifurcation, too small for the sampled map and placed by its expansion at C.
+    """
 
     xi: float
     repelling: bool = False
     touching: bool = False
+    born: bool = False
+
+
+def rays(
+    a: float, d: float, e: tuple[float, float], complement: float
+) -> list[tuple[float, float, tuple[float, float]]]:
+    """Find the four rays ``e + r u`` with ``a u1^2 + d u2^2 = 0``.
+
+    Parameters
+    ----------
+    a, d : float
+        Of opposite sign.
+    e : (c, s)
+        Where they start, in the open disc.
+    complement : float
+        ``1 - |e|^2``.
+
+    Returns
+    -------
+    four (reach, other, u)
+        ``|e + r u|^2 - 1 = (r - reach)(r + other)``.
+    """
+    a, d = abs(a), abs(d)
+    u1, u2 = math.sqrt(d / (a + d)), math.sqrt(a / (a + d))
+    found = []
+    for s1, s2 in ((1, 1), (-1, 1), (-1, -1), (1, -1)):
+        u = (s1 * u1, s2 * u2)
+        along = u[0] * e[0] + u[1] * e[1]
+        root = math.sqrt(along * along + complement)
+        reach = complement / (root + along) if along > 0.0 else root - along
+        found.append((reach, complement / reach, u))
+    return found
 
 
 class Section:
@@ -51,36 +87,44 @@ class Section:
         With a d < 0 and a critical set.
     psi : Psi
     critical : CriticalSet
+    ray : int, optional
+        Which of the four rays; by default the one that is longest in e.
     """
 
-    def __init__(self, coefficients: Coefficients, psi: Psi, critical: CriticalSet) -> None:
+    def __init__(self, coefficients: Coefficients, psi: Psi, critical: CriticalSet, ray: int | None = None) -> None:
         self.psi, self.critical, self.coefficients = psi, critical, coefficients
         plane = np.array(coefficients.plane)
         size = float(np.abs(plane).max())
         self.rate = size * math.hypot(*(plane / size).tolist())
         self.plane = plane / self.rate
-        a, _, d = map(abs, self.plane[:3].tolist())
-        u1, u2 = math.sqrt(d / (a + d)), math.sqrt(a / (a + d))
         location = locate(coefficients)
-        e, gap = location.e, location.complement
-        if e is None:
+        if location.e is None:
             raise ValueError("there is no critical set, so no section starts from it.")
-        candidates = []
-        for s1, s2 in ((1, 1), (-1, 1), (-1, -1), (1, -1)):
-            u = (s1 * u1, s2 * u2)
-            along = u[0] * e[0] + u[1] * e[1]
-            root = math.sqrt(along * along + gap)
-            reach = gap / (root + along) if along > 0.0 else root - along
-            candidates.append((reach, gap / reach, u))  # |e|^2 - 1 = (r - reach)(r + gap/reach)
-        self.reach, self._other, u = max(candidates)
+        found = rays(coefficients.a, coefficients.d, location.e, location.complement)
+        self.ray = max(range(4), key=lambda i: found[i][0]) if ray is None else ray
+        self.reach, self._other, u = found[self.ray]
         self.u = np.array(u)
-        self.e = np.array(e)
+        self.e = np.array(location.e)
 
     @property
     def matrix(self) -> Array:
         """A in units of `rate`, (2, 2)."""
         a, b, d = self.plane[:3].tolist()
         return np.array([[a, -b], [b, d]])
+
+    def field(self, e: Array) -> Array:
+        """``U = A (e - e_C)`` in units of `rate`, (n, 2)."""
+        return (e - self.e) @ self.matrix.T
+
+    def derivative(self, e: Array) -> Array:  # noqa: ARG002 (the same everywhere)
+        """D_e U = A in units of `rate`, (2, 2)."""
+        return self.matrix
+
+    @cached_property
+    def inverse(self) -> Array:
+        """Inverse of A in units of `rate`, transposed, (2, 2)."""
+        a, b, d = self.plane[:3].tolist()
+        return np.array([[d, -b], [b, a]]) / (a * d + b * b)
 
     @cached_property
     def _kernel(self) -> Any:
@@ -111,10 +155,18 @@ class Section:
         return np.log(np.maximum(along, 1e-300))
 
     def turn(
-        self, states: Array, rtol: float, backward: bool = False, record: int = 0, limit: int = STEPS
+        self,
+        states: Array,
+        rtol: float,
+        backward: bool = False,
+        record: int = 0,
+        limit: int = STEPS,
+        elsewhere: bool = False,
     ) -> tuple[Array, Array, Any, Any]:
         """Follow one turn: states on return (n, 3), times, codes and recorded steps of `return_map.returns`."""
         module, function = self._kernel
+        away = states[:, :2] / states[:, 2:] - self.critical.x2
+        nearest = min(self.inner, float(np.hypot(away[:, 0], away[:, 1]).min()))
         return module.returns(
             states,
             self.shared(backward),
@@ -122,12 +174,13 @@ class Section:
             self.u,
             self.critical.x2,
             math.copysign(1.0, -self.plane[1] if backward else self.plane[1]),
-            SUNK_INWARD * self.inner,
+            SUNK_INWARD * nearest,
             SUNK_OUTWARD,
             LONGEST,
             rtol,
             limit,
             record,
+            elsewhere,
         )
 
     def shared(self, backward: bool = False) -> Array:
@@ -141,8 +194,10 @@ class Section:
 
     @cached_property
     def inner(self) -> float:
-        """Distance from C in x2 of the innermost sample."""
-        return math.exp(float(self.states(np.array([math.log(INNER)]))[1][0]))
+        """Distance from C in x2 of the innermost sample, to first order."""
+        radial, tangential = self.psi.jacobian_factors(float(np.hypot(*self.critical.x2)))
+        along = float(self.e @ self.u) / max(float(np.hypot(*self.e)), 1e-300)
+        return INNER * self.reach * (1.0 / tangential + along * along * (1.0 / radial - 1.0 / tangential))
 
     def displacement(self, xi: Array, rtol: float = COARSE, backward: bool = False) -> Array:
         """Displacement of q over a turn (n,): -inf to C, +inf to the equator, NaN undecided."""
@@ -250,6 +305,25 @@ def _polished(section: Section, low: float, high: float, backward: bool) -> floa
     return guess if low - width <= guess <= high + width else 0.5 * (low + high)
 
 
+def _newborn(section: Section) -> Crossing | None:
+    """Place a cycle below the innermost sample: ``displacement = 2 pi mu/omega + c r^2``, its first term exact.
+
+    c is measured well outside the cycle, where rounding (1e-16/r) does not matter yet; what is left is of order r^2.
+    None below `SMALLEST`, where the trace of J has lost its digits.
+    """
+    C = section.critical
+    linear = 2.0 * math.pi * C.trace / math.sqrt(-C.discriminant)
+    r = INNER * MEASURED * np.array([1.0, 2.0, 4.0])
+    parts = (section.displacement(np.log(r / (1.0 - r)), FINE) - linear) / r**2
+    square = float(parts @ (8.0, -6.0, 1.0)) / 3.0  # takes out the next two powers of r
+    if not square * linear < 0.0:
+        return None
+    size = math.sqrt(-linear / square)
+    if not SMALLEST <= size < 2.0 * INNER:
+        return None
+    return Crossing(math.log(size / (1.0 - size)), square > 0.0, born=True)
+
+
 def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
     """All fixed points, innermost first, and notes on what is nearly degenerate.
 
@@ -295,5 +369,9 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
             found.append(Crossing(float(xi[i]), touching=True))
     trace = section.critical.trace
     if finite.any() and finite[0] and section.critical.discriminant < 0.0 and shift[0] * trace < 0.0:
-        notes.append("A cycle too small to resolve surrounds C: it was just born in a Hopf bifurcation.")
+        newborn = _newborn(section)
+        if newborn is not None:
+            found.append(newborn)
+        else:
+            notes.append("A cycle too small to resolve surrounds C: it was just born in a Hopf bifurcation.")
     return tuple(sorted(found, key=lambda crossing: crossing.xi)), tuple(notes)

@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from .critical import CriticalSet, Existence, critical_sets, determinant_sign, locate
 from .cycle_orbit import Orbit, orbit
 from .cycle_search import Crossing, Section, search
+from .general import Frozen, System
 from .regularisation import Psi
 from .systems import Coefficients, ELinear
 
@@ -30,6 +31,7 @@ __all__ = ["LimitCycle", "LimitCycles", "limit_cycles", "reason_for_none"]
 Array = NDArray[np.float64]
 
 SEMISTABLE = 1e-5  # |ln multiplier| below which a cycle counts as semistable: a fold of cycles
+SEMISTABLE_NOTE = "A cycle is semistable within resolution: a fold, where two cycles meet."
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,9 +55,9 @@ class LimitCycle:
     direction : int
         +1 anticlockwise, -1 clockwise.
     mean_e : ndarray (2,)
-        Mean of e_Psi over a period; ``-A^-1 f`` by prop:LC.
+        Mean of e_Psi over a period; in an e-linear system ``-A^-1 f`` by prop:LC.
     slow_flow : ndarray (m,)
-        Mean of z' over a period, ``B mean_e + g``: that on the critical set, by prop:LC.
+        Mean of z' over a period; in an e-linear system ``B mean_e + g``, that on the critical set, by prop:LC.
     closure : float
         Distance on the sphere between the start and the end of one period.
     """
@@ -147,21 +149,24 @@ def reason_for_none(coefficients: Coefficients, critical: tuple[CriticalSet, ...
     return None
 
 
-def limit_cycles(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> LimitCycles:
+def limit_cycles(system: ELinear | System | Coefficients | Frozen, psi: Psi, z: ArrayLike = ()) -> LimitCycles:
     """Find the limit cycles of the layer problem, eq:LP, sec:case3 (the closed equator is not one of them).
 
     Parameters
     ----------
-    system : ELinear, or Coefficients
+    system : ELinear or System, or either frozen at a z
     psi : Psi
     z : (m,) floats
 
     Returns
     -------
     LimitCycles
-        Empty, with a reason, wherever a theorem forbids cycles: that costs no integration.
+        Empty, with a reason, wherever a theorem forbids cycles: that costs no integration. For a general system its
+        `reason` says how they were searched for (`cycles_general`).
     """
     coefficients = system.at(z)
+    if isinstance(coefficients, Frozen):
+        return _general(coefficients, psi)
     critical = critical_sets(coefficients, psi)
     reason = reason_for_none(coefficients, critical)
     if reason is not None:
@@ -169,22 +174,42 @@ def limit_cycles(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) ->
     section = Section(coefficients, psi, critical[0])
     crossings, notes = search(section)
     orbits = [(crossing, orbit(section, crossing)) for crossing in crossings]
-    cycles = tuple(_cycle(coefficients, crossing, found) for crossing, found in orbits if found is not None)
+    sense = 1 if coefficients.b > 0.0 else -1
+    cycles = tuple(
+        _cycle(crossing, found, coefficients.W(found.mean_e), sense) for crossing, found in orbits if found is not None
+    )
     if len(cycles) < len(orbits):
         notes = (*notes, "A fixed point of the return map was found whose cycle takes too many steps to follow.")
     if any(cycle.kind == "semistable" for cycle in cycles):
-        notes = (*notes, "A cycle is semistable within resolution: a fold, where two cycles meet.")
+        notes = (*notes, SEMISTABLE_NOTE)
     count = f"{len(cycles)} limit cycle{'' if len(cycles) == 1 else 's'}" if cycles else "No limit cycle"
     return LimitCycles(
         cycles, f"{count}: all fixed points of the return map on a section from C to the equator.", notes
     )
 
 
-def _cycle(coefficients: Coefficients, crossing: Crossing, found: Orbit) -> LimitCycle:
+def _general(at: Frozen, psi: Psi) -> LimitCycles:
+    from .classify_general import as_elinear
+    from .cycles_general import find
+
+    form = as_elinear(at)
+    if form is not None:
+        reason = reason_for_none(form, critical_sets(form, psi))
+        if reason is not None:
+            return LimitCycles((), reason)
+    found, reason, notes = find(at, psi)
+    cycles = tuple(_cycle(crossing, closed, closed.share @ at.W(closed.e), sense) for crossing, closed, sense in found)
+    if any(cycle.kind == "semistable" for cycle in cycles):
+        notes = (*notes, SEMISTABLE_NOTE)
+    return LimitCycles(cycles, reason, notes)
+
+
+def _cycle(crossing: Crossing, found: Orbit, slow: Array, sense: int) -> LimitCycle:
     exponent = found.divergence
-    small = abs(exponent) < SEMISTABLE
+    small = abs(exponent) < SEMISTABLE and not crossing.born
     kind = "semistable" if small or crossing.touching else "stable" if exponent < 0.0 else "unstable"
-    slow = coefficients.W(found.mean_e)
+    if crossing.born:
+        kind = "unstable" if crossing.repelling else "stable"
     for array in (found.points, found.mean_e, slow):
         array.flags.writeable = False
     values: dict[str, Any] = {
@@ -194,7 +219,7 @@ def _cycle(coefficients: Coefficients, crossing: Crossing, found: Orbit) -> Limi
         "multiplier": found.multiplier,
         "divergence_multiplier": math.exp(max(min(exponent, 700.0), -700.0)),
         "kind": kind,
-        "direction": 1 if coefficients.b > 0.0 else -1,
+        "direction": sense,
         "mean_e": found.mean_e,
         "slow_flow": slow,
         "closure": found.closure,

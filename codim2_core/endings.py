@@ -11,18 +11,21 @@ from numpy.typing import NDArray
 from .critical import CriticalSet
 from .cycles import LimitCycles
 from .equator import EquatorEquilibria
+from .general import Frozen
 from .regularisation import Psi
 from .saddle_manifold import to_disc
+from .stepping_numbers import rate
 from .systems import Coefficients
 from .trajectories import Status, Trajectories, trajectories
 
 Array = NDArray[np.float64]
 
-SPEEDS = 600.0  # length drawn of a branch that ends nowhere: T in units of 1/|(a, b, d, f1, f2)|
+SPEEDS = 600.0  # length drawn of a branch that ends nowhere: T in units of 1/|(a, b, d, f1, f2)|, or 1/max |U|
 SLOW = 8.0  # and of 1/|lambda_rho|: enough to rise from where the expansion at the equator ends
 PATIENCE = 30.0  # and how many times longer it is followed to see where it ends
 CAPTURE = 1e-6  # distance from an attractor at which a branch has reached it
 ON_CYCLE = 1e-4  # distance to a limit cycle at which a branch has reached it
+AT_CRITICAL = 1e-2  # distance beyond which an equilibrium that captures is none of the critical sets known
 AT_SADDLE = 1e-4  # distance at which a branch that stopped nowhere else is at a saddle
 NEUTRAL = 1e-13  # of the largest eigenvalue on the equator
 CONNECTION = "Runs into a saddle: a saddle connection."
@@ -35,6 +38,17 @@ class Ending:
     label: str
     angle: float | None
     sentence: str
+
+
+def critical_label(critical: tuple[CriticalSet, ...], i: int) -> str:
+    """Name critical set i (from 0): C where it is the only one, else C1, C2, ..."""
+    return "C" if len(critical) == 1 else f"C{i + 1}"
+
+
+def _nearest_critical(critical: tuple[CriticalSet, ...], p: Array, within: float) -> int | None:
+    gaps = [math.dist(C.p, p) for C in critical]
+    i = int(np.argmin(gaps)) if gaps else 0
+    return i if gaps and gaps[i] <= within else None
 
 
 def _on_cycle(cycles: LimitCycles, p: Array, backward: bool) -> int | None:
@@ -74,7 +88,7 @@ def _nearest(equator: EquatorEquilibria, angle: float) -> tuple[int, float]:
 
 
 def endings(
-    coefficients: Coefficients,
+    at: Coefficients | Frozen,
     psi: Psi,
     lines: Trajectories,
     equator: EquatorEquilibria,
@@ -88,7 +102,7 @@ def endings(
 
     Parameters
     ----------
-    coefficients, psi
+    at, psi
         Of the system that `lines` belong to.
     lines : Trajectories
     equator, critical, cycles
@@ -103,48 +117,49 @@ def endings(
     """
     statuses, states = list(lines.status), np.array(lines.ends)
     found: list[Ending | None] = [None] * len(lines)
-    length = drawn_time(coefficients, equator)
+    length = drawn_time(at, equator)
     for more in (0.0, 1.0, PATIENCE):
         open_ = [i for i, s in enumerate(statuses) if s in (Status.T_MAX, Status.STEP_LIMIT) and found[i] is None]
         # A point of the disc says nothing of an ebar below 1e-7: there the orbit is not followed on.
         follow = [i for i in open_ if states[i, 2] > 1e-7] if more else []
         if follow:
             time, places = more * length, states[follow, :2]
-            on = _followed(coefficients, psi, places, time, rtol, backward)
+            on = _followed(at, psi, places, time, rtol, backward)
             for j, i in enumerate(follow):
                 statuses[i], states[i] = on.status[j], on.ends[j]
         for i in open_ if more else range(len(lines)):
             p, w = states[i, :2], float(states[i, 2])
             angle = math.atan2(p[1], p[0])
-            at = _nearest(equator, angle) if len(equator) else (0, math.inf)
-            label = f"Q{at[0] + 1}"
-            if statuses[i] is Status.EQUILIBRIUM and critical:
-                found[i] = Ending("C", _tangent_at(critical[0], p), statuses[i].value)
+            near, gap = _nearest(equator, angle) if len(equator) else (0, math.inf)
+            label = f"Q{near + 1}"
+            k = _nearest_critical(critical, p, AT_CRITICAL if statuses[i] is Status.EQUILIBRIUM else AT_SADDLE)
+            if statuses[i] is Status.EQUILIBRIUM and k is not None:
+                found[i] = Ending(critical_label(critical, k), _tangent_at(critical[k], p), statuses[i].value)
             elif statuses[i] is Status.ARRIVED and len(equator):
-                found[i] = Ending(label, float(equator.theta[at[0]]), statuses[i].value)
+                found[i] = Ending(label, float(equator.theta[near]), statuses[i].value)
             elif statuses[i] is Status.SPIRALLED:
                 found[i] = Ending("equator", None, statuses[i].value)
             elif (reached := _on_cycle(cycles, p, backward)) is not None:
                 found[i] = Ending(f"cycle {reached + 1}", None, "Winds onto a limit cycle.")
-            elif w < AT_SADDLE and at[1] < AT_SADDLE and more:
-                found[i] = Ending(label, float(equator.theta[at[0]]), _stopping(equator, at[0], w))
-            elif critical and critical[0].kind == "saddle" and np.hypot(*(p - critical[0].p)) < AT_SADDLE and more:
-                found[i] = Ending("C", _tangent_at(critical[0], p), CONNECTION)
+            elif w < AT_SADDLE and gap < AT_SADDLE and more:
+                found[i] = Ending(label, float(equator.theta[near]), _stopping(equator, near, w))
+            elif k is not None and critical[k].kind == "saddle" and more:
+                found[i] = Ending(critical_label(critical, k), _tangent_at(critical[k], p), CONNECTION)
     return [e if e is not None else Ending("undecided", None, s.value) for e, s in zip(found, statuses, strict=True)]
 
 
-def drawn_time(coefficients: Coefficients, equator: EquatorEquilibria) -> float:
+def drawn_time(at: Coefficients | Frozen, equator: EquatorEquilibria) -> float:
     """T in which a branch shows where it goes: long for |U|, and for the slowest way up from the equator."""
-    rate = math.hypot(*coefficients.plane) or 1.0
+    unit = rate(at)
     slow = np.abs(equator.lambda_rho[~equator.radially_degenerate])
-    return SPEEDS / rate + (SLOW / max(float(slow.min()), 1e-4 * rate) if len(slow) else 0.0)
+    return SPEEDS / unit + (SLOW / max(float(slow.min()), 1e-4 * unit) if len(slow) else 0.0)
 
 
 def _followed(
-    coefficients: Coefficients, psi: Psi, places: Array, time: float, rtol: float, backward: bool
+    at: Coefficients | Frozen, psi: Psi, places: Array, time: float, rtol: float, backward: bool
 ) -> Trajectories:
     return trajectories(
-        coefficients,
+        at,
         psi,
         places,
         t_max=time,
@@ -180,5 +195,17 @@ def half_saddle(equator: EquatorEquilibria, i: int) -> bool:
         return float(equator.lambda_theta[i]) * radial > 0.0
     if multiplicity % 2 == 0:
         return True
-    weak = -float(equator.lambda_theta.sum())  # the sign of the one simple zero left is the opposite one
-    return weak * radial > 0.0
+    return angular_sign(equator, i) * radial > 0.0
+
+
+def angular_sign(equator: EquatorEquilibria, i: int) -> int:
+    """Sign of dTheta/dtheta at Q_{i+1}; at a zero of odd multiplicity, of Theta beyond it; 0 at an even one."""
+    if equator.multiplicity[i] % 2 == 0:
+        return 0
+    sign, count = 1, len(equator)
+    for step in range(count):  # the signs alternate between zeros of odd multiplicity
+        j = (i + step) % count
+        if equator.multiplicity[j] == 1:
+            return sign * (1 if equator.lambda_theta[j] > 0.0 else -1)
+        sign *= -1 if equator.multiplicity[j] % 2 else 1
+    return 0

@@ -15,7 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .critical import locate
+from .equator_general import equator_zeros
 from .equator_orbit import EquatorCycle, equator_cycle
+from .general import Frozen
 from .trigonometric import ROUNDING, THETA_PATTERNS, tangential_zeros
 from .trigonometric_exact import quotient, solve_exactly, to_integers
 
@@ -38,18 +40,24 @@ class EquatorEquilibria:
     lambda_theta : ndarray (k,)
         Angular eigenvalue; exactly 0 where multiplicity >= 2, alternating in sign between simple ones.
     multiplicity : ndarray of int (k,)
-        Multiplicity of the zero of Theta, within the rounding of a, b, d, f1, f2.
+        Multiplicity of the zero of Theta, within the rounding of a, b, d, f1, f2 (of the terms of U in general).
     radially_degenerate : ndarray of bool (k,)
         lambda_rho = 0 within that rounding: the critical set reaches the equator there, |A^-1 f| = 1.
     all_directions : bool
         Theta vanishes identically (a = d, b = 0, f = 0); the arrays are then empty.
     exact_count : int
         Distinct zeros of Theta for the doubles exactly as given (-1: all directions). It differs from k only
-        where a multiplicity is 2 or more.
+        where a multiplicity is 2 or more. For a general system it is k.
     distance : float
-        Estimated relative change of the coefficients to the nearest multiple zero; 0.0 on such a stratum.
+        Estimated relative change of the coefficients (of U in general) to the nearest multiple zero; 0.0 on such a
+        stratum, inf where there is no such change or no estimate.
     symmetric : bool
-        b = 0 and f1 = 0 or f2 = 0: a triple zero is then a pitchfork, otherwise a cusp.
+        b = 0 and f1 = 0 or f2 = 0: a triple zero is then a pitchfork, otherwise a cusp. For a general system: Theta is
+        odd about every triple zero.
+    proven : bool
+        No equilibrium is missing.
+    certificate : str
+        The sentence that says why, or why that is not certain.
     """
 
     theta: NDArray[np.float64]
@@ -61,6 +69,11 @@ class EquatorEquilibria:
     exact_count: int
     distance: float
     symmetric: bool
+    proven: bool = True
+    certificate: str = (
+        "Θ has at most 4 zeros, a closed form. Their number is decided by its discriminant, where rounding could blur "
+        "that in exact arithmetic: none is missing."
+    )
 
     def __len__(self) -> int:
         return len(self.theta)
@@ -86,10 +99,19 @@ class EquatorEquilibria:
             return "angularly non-hyperbolic: saddle-node"
         if m == 4:
             return "angularly non-hyperbolic: fourfold zero"
-        # The one simple zero that remains has the opposite sign.
-        weak = "repelling" if self.lambda_theta.sum() < 0 else "attracting"
+        if m > 4:
+            return f"angularly non-hyperbolic: zero of multiplicity {m}"
         name = "pitchfork" if self.symmetric else "cusp"
-        return f"angularly non-hyperbolic: triple zero ({name}), weakly {weak}"
+        return f"angularly non-hyperbolic: triple zero ({name}){self._weakly(i)}"
+
+    def _weakly(self, i: int) -> str:
+        """Theta rises and falls in turn through its odd zeros: the next simple one tells how it passes zero i."""
+        rises = True
+        for j in (*range(i + 1, len(self)), *range(i)):
+            rises = rises != bool(self.multiplicity[j] % 2)
+            if self.multiplicity[j] == 1:
+                return ", weakly " + ("repelling" if rises == bool(self.lambda_theta[j] > 0.0) else "attracting")
+        return ""
 
     def sentence(self, i: int) -> str:
         """One sentence for people on equilibrium i (from 0)."""
@@ -108,12 +130,11 @@ class EquatorEquilibria:
 
 
 def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
-    """Equilibria on the equator of the e-linear system at z (eq:equator_zeros), at most 4 with multiplicity.
+    """Equilibria on the equator at z (eq:equator_zeros), with multiplicity; of an e-linear system at most 4.
 
     Parameters
     ----------
-    system : ELinear or Coefficients
-        `system.at(z)` has the floats a, b, d, f1, f2.
+    system : ELinear or System, or either frozen at a z
     z : (m,) floats
         Slow variables; may be left out if no coefficient uses them.
 
@@ -127,6 +148,8 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
         If z does not fit the system or a coefficient is not finite.
     """
     q = system.at(z)
+    if isinstance(q, Frozen):
+        return _general(q)
     a, b, d, f1, f2 = q.a, q.b, q.d, q.f1, q.f2
     zeros = tangential_zeros(a, b, d, f1, f2)
     location = locate(q)
@@ -159,6 +182,23 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
         array.flags.writeable = False
     symmetric = b == 0.0 and (f1 == 0.0 or f2 == 0.0)
     return EquatorEquilibria(*arrays, zeros.identically_zero, zeros.exact_count, zeros.distance, symmetric)
+
+
+def _general(at: Frozen) -> EquatorEquilibria:
+    found = equator_zeros(at.key)
+    return EquatorEquilibria(
+        found.theta,
+        found.lambda_rho,
+        found.lambda_theta,
+        found.multiplicity,
+        found.radially_degenerate,
+        found.all_directions,
+        -1 if found.all_directions else len(found.theta),
+        found.distance,
+        found.symmetric,
+        found.proven,
+        found.certificate,
+    )
 
 
 def _radial_exactly(a: float, b: float, d: float, f1: float, f2: float, theta: float) -> float:

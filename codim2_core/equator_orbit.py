@@ -9,10 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .equator_general import closed_equator
+from .general import Frozen
 from .trigonometric import line_pair, tangential_zeros
 from .trigonometric_exact import to_integers
 
-__all__ = ["EquatorCycle", "equator_cycle"]
+__all__ = ["NEUTRAL_EQUATOR", "EquatorCycle", "equator_cycle"]
+
+CLOSE = 1e-4  # distance from a saddle-node below which the zeros need more than doubles
+NEUTRAL_EQUATOR = 2.0**-49  # of the terms of the exponent: zero within rounding
 
 
 @dataclass(frozen=True)
@@ -58,12 +63,12 @@ def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
     lambda_rho = (d cos^2 + a sin^2) - Theta', and Theta'/|Theta| integrates to 0 over a turn: the exponent is
     d times the integral of cos^2/|Theta| plus a times that of sin^2/|Theta|. With 1/|Theta| written as
     1/(K |1 - conj(z1) e|^2 |1 - conj(z2) e|^2), e = exp(i theta), its Fourier coefficients are closed forms in
-    z1 and z2, the zeros inside the unit circle.
+    z1 and z2, the zeros inside the unit circle. For a general system both integrals are means over equally spaced
+    angles, refined until they stand.
 
     Parameters
     ----------
-    system : ELinear or Coefficients
-        `system.at(z)` has the floats a, b, d, f1, f2.
+    system : ELinear or System, or either frozen at a z
     z : (m,) floats
         Slow variables.
 
@@ -77,6 +82,9 @@ def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
         If z does not fit the system or a coefficient is not finite.
     """
     q = system.at(z)
+    if isinstance(q, Frozen):
+        found = closed_equator(q.key)
+        return None if found is None else EquatorCycle(*found)
     a, b, d, f1, f2 = q.a, q.b, q.d, q.f1, q.f2
     zeros = tangential_zeros(a, b, d, f1, f2)
     if zeros.theta or zeros.identically_zero:
@@ -89,7 +97,7 @@ def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
         g0, g2 = _fourier_of_reciprocal(b, f2, f1, a, d, zeros.distance)
     cos2, sin2 = 0.5 * (g0 + g2), 0.5 * (g0 - g2)
     value = d * cos2 + a * sin2
-    neutral = abs(value) <= 2.0**-49 * (abs(a) + abs(d)) * g0
+    neutral = abs(value) <= NEUTRAL_EQUATOR * (abs(a) + abs(d)) * g0
     period = math.ldexp(g0, -exponent)
     return EquatorCycle(1 if b > 0.0 else -1, period, 0.0 if neutral else value, neutral)
 
@@ -118,22 +126,57 @@ def _fourier_of_reciprocal(b: float, f2: float, f1: float, a: float, d: float, d
     else:
         h, g1, nu1, g2, nu2, _ = line_pair(b, f2, -f1, 0.0, s2)
         lines = [(g1, h, nu1), (g2, h, nu2)]
-    roots, gaps = [0j, 0j], [1.0, 1.0]
+    roots, gaps, close = [0j, 0j], [1.0, 1.0], False
     for i, (g, h, nu) in enumerate(lines):
         # |g + h cos(theta - nu)| is proportional to |1 - r exp(i (theta - nu))|^2.
         steep = math.sqrt(max(abs(g) - h, 1e-16 * h) * (abs(g) + h))
         r = math.copysign(h / (abs(g) + steep), -g)
         roots[i] = complex(r * math.cos(nu), r * math.sin(nu))
         gaps[i] = 2.0 * steep / (abs(g) + steep)  # 1 - r^2, without cancellation
-        if distance < 1e-4 and gaps[i] < 0.1:
+        if distance < CLOSE and gaps[i] < 0.1:
             roots[i], gaps[i] = _polished((b, f2, -f1, 0.5 * a, 0.5 * d), roots[i])
+            close = True
     z1, z2 = roots
     total, product = z1 + z2, z1 * z2
     # The mean of Theta is b: it fixes the amplitude K.
     amplitude = abs(b) / ((2.0 - gaps[0]) * (2.0 - gaps[1]) + 2.0 * (z1 * z2.conjugate()).real)
+    if not close:
+        return _integrals(*_factor(b, f2, f1, s2, amplitude))
     outer = gaps[0] + gaps[1] - gaps[0] * gaps[1]  # 1 - |z1 z2|^2
     g0 = 2.0 * math.pi * outer / (amplitude * gaps[0] * gaps[1] * abs(1.0 - z1 * z2.conjugate()) ** 2)
     g1 = g0 * (total - product * total.conjugate()) / outer
+    return g0, (total * g1 - product * g0).real
+
+
+def _factor(b: float, f2: float, f1: float, s2: float, amplitude: float) -> tuple[float, complex, complex]:
+    """Refine K, z1 + z2 and z1 z2: where z1 and z2 nearly coincide these keep the digits that each of them loses.
+
+    |Theta| = K |1 - conj(z1 + z2) e + conj(z1 z2) e^2|^2 fixes them harmonic by harmonic: one equation for K.
+    """
+    sign = math.copysign(1.0, b)
+    first, second = sign * complex(f2, -f1), sign * complex(0.0, s2)
+
+    def parts(K: float) -> tuple[float, complex, complex]:
+        product = second / (2.0 * K)
+        # 2 K (total + product conj(total)) = -first
+        w = -first / (2.0 * K)
+        total = (w - product * w.conjugate()) / (1.0 - abs(product) ** 2)
+        return K * (1.0 + abs(total) ** 2 + abs(product) ** 2) - abs(b), total, product
+
+    K = amplitude
+    for _ in range(3):
+        value, h = parts(K)[0], 1e-6 * K
+        slope = (parts(K + h)[0] - parts(K - h)[0]) / (2.0 * h)
+        K -= value / slope
+    return K, *parts(K)[1:]
+
+
+def _integrals(K: float, total: complex, product: complex) -> tuple[float, float]:
+    """Fourier coefficients 0 and 2 of 1/|Theta| from K, z1 + z2 and z1 z2, times 2 pi."""
+    outer = 1.0 - abs(product) ** 2
+    skew = total - product * total.conjugate()
+    g0 = 2.0 * math.pi * outer / (K * (outer * outer - abs(skew) ** 2))
+    g1 = g0 * skew / outer
     return g0, (total * g1 - product * g0).real
 
 

@@ -171,6 +171,10 @@ class Example:
         Where to start.
     slow : tuple of (symbol, low, high)
         Each slow variable and its range.
+    launch : tuple of float
+        A state (x, y, z1, …, zm) from which a motion is worth following.
+    t_end : float
+        For how long.
     """
 
     key: str
@@ -181,6 +185,8 @@ class Example:
     ranges: Mapping[str, tuple[float, float]]
     z: tuple[float, ...]
     slow: tuple[tuple[str, float, float], ...]
+    launch: tuple[float, ...]
+    t_end: float
 
 
 def _example(
@@ -191,8 +197,10 @@ def _example(
     ranges: dict[str, tuple[float, float]],
     z: tuple[float, ...],
     slow: tuple[tuple[str, float, float], ...],
+    launch: tuple[float, ...],
+    t_end: float,
 ) -> Example:
-    return Example(make.__name__, title, label, sentence, make, MappingProxyType(ranges), z, slow)
+    return Example(make.__name__, title, label, sentence, make, MappingProxyType(ranges), z, slow, launch, t_end)
 
 
 catalogue: Mapping[str, Example] = MappingProxyType(
@@ -207,6 +215,8 @@ catalogue: Mapping[str, Example] = MappingProxyType(
                 {"mu": (0.05, 1.0), "m": (0.2, 3.0), "K": (0.0, 4.0), "g": (1.0, 20.0)},
                 (4.0, 0.0),
                 (("v₁", -12.0, 12.0), ("v₂", -12.0, 12.0)),
+                (9.0, 3.0, 9.0, 0.0),
+                5.0,
             ),
             _example(
                 "Attracting and repelling directions",
@@ -216,6 +226,8 @@ catalogue: Mapping[str, Example] = MappingProxyType(
                 {},
                 (0.5,),
                 (("z", -2.0, 2.0),),
+                (-1.0, 1.2, 1.0),
+                3.0,
             ),
             _example(
                 "Non-unique sliding",
@@ -225,6 +237,8 @@ catalogue: Mapping[str, Example] = MappingProxyType(
                 {},
                 (0.0,),
                 (("z", -1.5, 1.5),),
+                (-0.25, 0.3, -0.4),
+                5.0,
             ),
             _example(
                 "Block on a tilting incline",
@@ -240,6 +254,8 @@ catalogue: Mapping[str, Example] = MappingProxyType(
                 },
                 (0.15,),
                 (("incline", 0.0, 1.2),),
+                (1.5, 1.0, 0.15),
+                40.0,
             ),
             _example(
                 "Unit-vector sliding-mode control",
@@ -249,6 +265,8 @@ catalogue: Mapping[str, Example] = MappingProxyType(
                 {"K": (0.2, 5.0), "k": (0.1, 3.0), "w1": (-3.0, 3.0), "w2": (-3.0, 3.0), "h": (-1.0, 1.0)},
                 (1.0, 0.5),
                 (("q₁", -5.0, 5.0), ("q₂", -5.0, 5.0)),
+                (2.5, -1.0, 1.0, 0.5),
+                6.0,
             ),
             _example(
                 "Ball on a turntable",
@@ -258,6 +276,8 @@ catalogue: Mapping[str, Example] = MappingProxyType(
                 {"mu": (0.05, 1.0), "Omega": (-8.0, 8.0), "g": (1.0, 20.0)},
                 (1.0, 0.0, 0.5, 0.0),
                 (("v₁", -4.0, 4.0), ("v₂", -4.0, 4.0), ("r₁", -2.0, 2.0), ("r₂", -2.0, 2.0)),
+                (1.0, 2.5, 1.0, 0.0, 0.5, 0.0),
+                8.0,
             ),
         )
     }

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+import reprlib
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -17,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .expressions import Expression, ExpressionError, parse
+from .expressions_reader import MOST_CHARACTERS
 from .systems import LARGEST, MOST_SLOW_VARIABLES, SMALLEST, slow_values
 
 Array = NDArray[np.float64]
@@ -25,6 +27,11 @@ Text = str | float | int | Expression
 PLANE = ("c", "s", "x", "y")
 SLOW = tuple(f"z{i}" for i in range(1, MOST_SLOW_VARIABLES + 1))
 MOST_NUMBERS = 32  # parameters and slow variables that one system may read
+MOST_NAMES = 64  # parameters and definitions of one system
+LONGEST_KEY = 200  # characters of a definition's name with its arguments
+
+_SHORT = reprlib.Repr()
+_SHORT.maxstring = _SHORT.maxother = 60
 
 # Where U must be finite: rings of directions, the equator among them.
 _SIZES = (0.0, 0.35, 0.7, 1.0)
@@ -66,13 +73,18 @@ class System:
 
     def __post_init__(self) -> None:
         fix = object.__setattr__
-        parameters = {name: _parameter(name, value) for name, value in dict(self.parameters).items()}
-        definitions = _definitions(dict(self.definitions), tuple(parameters))
+        given, meanings = _mapping(self.parameters, "parameters"), _mapping(self.definitions, "definitions")
+        if len(given) + len(meanings) > MOST_NAMES:
+            raise ValueError(
+                f"there are {len(given)} parameters and {len(meanings)} definitions; at most {MOST_NAMES} are allowed."
+            )
+        parameters = {name: _parameter(name, value) for name, value in given.items()}
+        definitions = _definitions(meanings, tuple(parameters))
         fix(self, "parameters", tuple(parameters.items()))
         fix(self, "definitions", tuple((name, text) for name, text, _, _ in definitions))
         U = _texts(self.U, "U")
         if len(U) != 2:
-            raise ValueError(f"U is {self.U!r}; give two formulas (U1, U2).")
+            raise ValueError(f"U is {shortened(self.U)}; give two formulas (U1, U2).")
         read = lambda text, what: _read(text, what, tuple(parameters), definitions)  # noqa: E731
         fix(self, "U", tuple(read(text, f"U{i + 1}") for i, text in enumerate(U)))
         W = _texts(self.W, "W")
@@ -97,7 +109,7 @@ class System:
     @cached_property
     def numbers(self) -> tuple[str, ...]:
         """Names of the slow variables and parameters that U reads: the arguments of its compiled field, in order."""
-        return _used(self.U, self)
+        return number_names(self.U)
 
     @cached_property
     def jacobian(self) -> tuple[tuple[Expression, Expression], tuple[Expression, Expression]]:
@@ -183,7 +195,7 @@ class Frozen:
     @cached_property
     def slow_key(self) -> Hashable:
         """What decides the slow flow on a given critical set: the formulas of W and the numbers that they read."""
-        return self.system.W, tuple(self.values[name] for name in _used(self.system.W, self.system))
+        return self.system.W, tuple(self.values[name] for name in number_names(self.system.W))
 
     def at(self, z: ArrayLike = ()) -> Frozen:  # noqa: ARG002 (z is already chosen)
         """Return itself: a system frozen at one z, accepted wherever a system is."""
@@ -237,32 +249,50 @@ class Frozen:
         return np.stack([np.asarray(row.evaluate(values), float) for row in rows], axis=-1)
 
 
-def _used(rows: Sequence[Expression], system: System) -> tuple[str, ...]:
+def shortened(value: object) -> str:
+    """Return repr(value) for a message, of bounded length and made in bounded time."""
+    return _SHORT.repr(value)
+
+
+def number_names(rows: Sequence[Expression]) -> tuple[str, ...]:
+    """Slow variables, then parameters by alphabet, that formulas read: an order that they alone decide."""
     used = {name for row in rows for name in row.names}
-    return tuple(name for name in (*SLOW, *dict(system.parameters)) if name in used)
+    return (*(name for name in SLOW if name in used), *sorted(used.difference(PLANE, SLOW)))
 
 
-def _parameter(name: str, value: object) -> float:
+def _mapping(values: Any, what: str) -> dict[str, Any]:
+    try:
+        return dict(values)
+    except (TypeError, ValueError):
+        raise ValueError(f"{what} is {shortened(values)}; give names with values, such as {{'mu': 0.2}}.") from None
+
+
+def _parameter(name: object, value: object) -> float:
+    if not isinstance(name, str) or len(name) > 40:
+        raise ValueError(f"{shortened(name)} cannot name a parameter; use at most 40 ASCII letters, digits and _.")
     if name in PLANE or name == "z" or name in SLOW:
         raise ValueError(f"{name!r} cannot name a parameter: c, s, x, y, z, z1 … z{MOST_SLOW_VARIABLES} are variables.")
     try:
         number = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not abs(number) <= LARGEST:
-        raise ValueError(f"parameter {name} is {value!r}; give a finite number, at most {LARGEST:g} in size.")
+        raise ValueError(
+            f"parameter {shortened(name)} is {shortened(value)}; give a finite number, at most {LARGEST:g} in size."
+        )
     return number
 
 
 def _texts(rows: Any, what: str) -> tuple[Text, ...]:
     if rows is None:
         return ()
-    if isinstance(rows, (str, Expression, float, int)):
+    if isinstance(rows, (str, Expression, float, int)) or not hasattr(rows, "__iter__"):
         rows = (rows,)
+    rows = tuple(rows)
     for row in rows:
         if not isinstance(row, (str, Expression, float, int)):
-            raise ValueError(f"{what} has the entry {row!r}; give formulas as text, such as '-c + z'.")
-    return tuple(rows)
+            raise ValueError(f"{what} has the entry {shortened(row)}; give formulas as text, such as '-c + z'.")
+    return rows
 
 
 Definition = tuple[str, str, re.Pattern[str], Expression]  # key, text, what a call looks like, meaning
@@ -271,32 +301,53 @@ Definition = tuple[str, str, re.Pattern[str], Expression]  # key, text, what a c
 def _definitions(given: Mapping[str, Any], parameters: tuple[str, ...]) -> tuple[Definition, ...]:
     read: list[Definition] = []
     for key, text in given.items():
-        match = re.fullmatch(r"\s*([A-Za-z]\w*)\s*(?:\(\s*([\w\s,]*?)\s*\))?\s*", key, re.ASCII)
+        short = isinstance(key, str) and len(key) <= LONGEST_KEY
+        match = re.fullmatch(r"\s*([A-Za-z]\w*)\s*(?:\(([\w\s,]*)\))?\s*", key, re.ASCII) if short else None
         if match is None:
-            raise ValueError(f"{key!r} cannot name a definition; write a name such as 'chi' or 'chi(z)'.")
+            raise ValueError(f"{shortened(key)} cannot name a definition; write a name such as 'chi' or 'chi(z)'.")
         name, arguments = match[1], match[2] or ""
         if name in PLANE or name in SLOW or name == "z" or name in parameters or name in [d[0] for d in read]:
-            raise ValueError(f"the definition {name!r} has the name of something else; choose another name.")
+            raise ValueError(f"the definition {shortened(name)} has the name of something else; choose another name.")
         inside = r"\s*,\s*".join(re.escape(word.strip()) for word in arguments.split(","))
         call = re.compile(rf"(?<!\w){name}\s*\(\s*{inside or r'z'}\s*\)", re.ASCII)
         meaning = _read(text, f"definition {name}", parameters, tuple(read))
-        read.append((name, str(text), call, meaning))
+        read.append((name, text.text if isinstance(text, Expression) else str(text), call, meaning))
     return tuple(read)
 
 
 def _read(text: Text, what: str, parameters: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
     """Parse one formula; `z` becomes `z1` and definitions are put in."""
+    names = (*PLANE, "z", *SLOW, *parameters, *(definition[0] for definition in definitions))
     if isinstance(text, Expression):
-        return text
-    source = repr(text) if isinstance(text, (float, int)) else text
-    for name, _, call, _ in definitions:
+        foreign = [name for name in text.names if name not in names]
+        if foreign:
+            raise ValueError(f"{what} reads {shortened(foreign[0])}, which is no variable, parameter or definition.")
+        return _resolved(text, names, definitions)
+    if not isinstance(text, (str, float, int)):
+        raise ValueError(f"{what} is {shortened(text)}; give a formula as text, such as '1 + z**2'.")
+    source = text if isinstance(text, str) else _numeral(text, what)
+    for name, _, call, _ in definitions if len(source) <= MOST_CHARACTERS else ():
         # chi(z) is written as chi, padded to the same length so that columns in messages stay right
         source = call.sub(lambda match, name=name: name.ljust(len(match[0])), source)
-    names = (*PLANE, "z", *SLOW, *parameters, *(definition[0] for definition in definitions))
     try:
         expression = parse(source, names)
     except ExpressionError as error:
         raise ExpressionError(f"{what}: {error}", error.text, error.column) from error
+    return _resolved(expression, names, definitions)
+
+
+def _numeral(value: float, what: str) -> str:
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not abs(number) <= LARGEST:
+        raise ValueError(f"{what} is {shortened(value)}; give a finite number, at most {LARGEST:g} in size, or text.")
+    return repr(number)
+
+
+def _resolved(expression: Expression, names: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
+    """Put z1 for z, and the definitions' meanings for their names."""
     expression = expression.substitute("z", parse("z1", names)) if "z" in expression.names else expression
     for name, _, _, meaning in reversed(definitions):
         if name in expression.names:

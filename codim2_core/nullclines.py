@@ -16,18 +16,19 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .equator import equator_equilibria
-from .regularisation import Psi
+from .general import Frozen, System
+from .nullclines_general import Kind, Traced, inside_curves, outside_curves
+from .regularisation import Psi, constant
 from .systems import Coefficients, ELinear
 from .trigonometric import radial_zeros
 
-Array = NDArray[np.float64]
-Kind = Literal["rho", "theta", "U1", "U2"]
+Array = NDArray[np.floating[Any]]
 
 Curve = Callable[[Array], Array]  # a parameter in [0, 1] -> points of the closed e-disc
 
@@ -48,7 +49,8 @@ class NullclineBranch:
         rho' = 0, theta' = 0, or the lines U1 = 0, U2 = 0 of fig:sim_5cases.
     inside : bool
         On the hemisphere (|p| <= 1), or outside it. Outside, U1 and U2 continue as the straight lines
-        ``a x - b y = -f1`` and ``b x + d y = -f2`` (construction lines: the paper prints +f1 and +f2).
+        ``a x - b y = -f1`` and ``b x + d y = -f2`` (construction lines: the paper prints +f1 and +f2). In a general
+        system they are where U1 and U2 vanish outside.
     points : ndarray (n, 2)
         Picture points, in order along the branch.
     """
@@ -95,8 +97,19 @@ def _null_directions(q11: float, q12: float, q22: float) -> list[float]:
     return sorted({(0.5 * (middle + sign * half)) % math.pi for sign in (1.0, -1.0)})
 
 
-def _straight(start: Array, end: Array) -> Curve:
-    return lambda t: start + t[:, None] * (end - start)
+@dataclass(frozen=True, slots=True)
+class _Straight:
+    """A straight curve of the e-disc between two points."""
+
+    start: Array
+    end: Array
+
+    def __call__(self, t: Array) -> Array:
+        return self.start + t[:, None] * (self.end - self.start)
+
+    @property
+    def is_diameter(self) -> bool:
+        return bool(self.start[0] * self.end[1] == self.start[1] * self.end[0])
 
 
 def _conic(kind: Kind, coefficients: Coefficients, ends: list[float]) -> list[Curve]:
@@ -106,11 +119,11 @@ def _conic(kind: Kind, coefficients: Coefficients, ends: list[float]) -> list[Cu
     size_q, size_l = max(abs(q11), abs(q12), abs(q22)), math.hypot(l1, l2)
     if size_l == 0.0:
         diameters = [np.array([math.cos(t), math.sin(t)]) for t in _null_directions(q11, q12, q22)]
-        return [_straight(-u, u) for u in diameters]
+        return [_Straight(-u, u) for u in diameters]
     c0, s0 = l2 / size_l, -l1 / size_l  # the direction with L = 0: the tangent of the conic at the origin
     at_tangent = q11 * c0 * c0 + q12 * s0 * c0 + q22 * s0 * s0
     if abs(at_tangent) <= 1e-9 * size_l:  # within an angle of 1e-9, far below a pixel, the tangent is the curve
-        branches = [_straight(np.array([-c0, -s0]), np.array([c0, s0]))]
+        branches = [_Straight(np.array([-c0, -s0]), np.array([c0, s0]))]
         if size_q > 0.0:
             # Q = (l.e)(k.e) with k found along l and across it; the rest of the conic is the line k.e + 1 = 0.
             u1, u2 = l1 / size_l, l2 / size_l
@@ -118,7 +131,7 @@ def _conic(kind: Kind, coefficients: Coefficients, ends: list[float]) -> list[Cu
             across = 2.0 * (q11 * u1 * c0 + q22 * u2 * s0) + q12 * (u1 * s0 + u2 * c0)
             chord = _chord(along * u1 + across * c0, along * u2 + across * s0, size_l)
             if chord is not None:
-                branches.append(_straight(*chord))
+                branches.append(_Straight(*chord))
         return branches
     # A line through the origin, θ mod π, meets the conic once more, at the signed distance m.
     cuts = sorted(t % math.pi for t in ends) or [math.atan2(s0, c0)]
@@ -174,8 +187,18 @@ def _onto_disc(psi: Psi, e: Array) -> Array:
 
 
 def _drawn(curve: Curve, psi: Psi) -> Array:
-    """Picture points along a curve of the e-disc, at most POINTS, spread so that no segment sags by more than SAG."""
-    t = _GRID
+    """Picture points along a curve of the e-disc, spread so that no segment sags by more than SAG.
+
+    At most POINTS, or for a traced curve so many for each half turn.
+    """
+    if isinstance(curve, _Straight) and (psi.family == "constant" or curve.is_diameter):
+        return _onto_disc(psi, np.stack([curve.start, curve.end]))  # Psi moves points along their radius
+    count = POINTS
+    if isinstance(curve, Traced):
+        if curve.straight:
+            return _drawn(_Straight(curve.points[0], curve.points[-1]), psi)
+        count *= max(1, math.ceil(curve.turning / math.pi))
+    t = _GRID if count == POINTS else np.linspace(0.0, 1.0, count)
     points = _onto_disc(psi, curve(t))
     for _ in range(PASSES):
         step = points[1:] - points[:-1]
@@ -190,15 +213,17 @@ def _drawn(curve: Curve, psi: Psi) -> Array:
             break
         share = np.sqrt(sag / sag.max()) + 0.1 * length / length.max() + 1e-3
         measure = np.concatenate([[0.0], np.cumsum(share)])
-        t = np.interp(np.linspace(0.0, measure[-1], POINTS), measure, t)
+        t = np.interp(np.linspace(0.0, measure[-1], count), measure, t)
         points = _onto_disc(psi, curve(t))
     return points
 
 
 def inside_nullclines(
-    coefficients: Coefficients, psi: Psi, limit_directions: list[float]
+    coefficients: Coefficients | Frozen, psi: Psi, limit_directions: list[float]
 ) -> tuple[NullclineBranch, ...]:
     """Nullclines on the hemisphere; `limit_directions` are the zeros of Theta (where theta-nullclines end)."""
+    if isinstance(coefficients, Frozen):
+        return tuple(_branch(kind, True, _drawn(curve, psi)) for kind, curve in inside_curves(coefficients))
     ends: tuple[tuple[Kind, list[float]], ...] = (
         ("rho", _radial_angles(coefficients)),
         ("theta", limit_directions),
@@ -210,13 +235,13 @@ def inside_nullclines(
     for kind, line in _lines(coefficients):
         chord = _chord(*line)
         if chord is not None:
-            shapes.append((kind, _straight(*chord)))
-    branches = []
-    for kind, curve in shapes:
-        points = _drawn(curve, psi)
-        points.flags.writeable = False
-        branches.append(NullclineBranch(kind, True, points))
-    return tuple(branches)
+            shapes.append((kind, _Straight(*chord)))
+    return tuple(_branch(kind, True, _drawn(curve, psi)) for kind, curve in shapes)
+
+
+def _branch(kind: Kind, inside: bool, points: Array) -> NullclineBranch:
+    points.flags.writeable = False
+    return NullclineBranch(kind, inside, points)
 
 
 def _lines(coefficients: Coefficients) -> tuple[tuple[Kind, tuple[float, float, float]], ...]:
@@ -226,11 +251,17 @@ def _lines(coefficients: Coefficients) -> tuple[tuple[Kind, tuple[float, float, 
 
 
 def outside_nullclines(
-    coefficients: Coefficients, limit_directions: list[float], view: float
+    coefficients: Coefficients | Frozen, limit_directions: list[float], view: float
 ) -> tuple[NullclineBranch, ...]:
-    """Nullclines outside, to the corners of a view of that half-width: rays, and the straight lines continued."""
-    branches = []
+    """Nullclines outside, to the corners of a view of that half-width: rays, and the straight lines continued.
+
+    For a general system U1 = 0 and U2 = 0 are rays too, and none is straight if U reads x or y.
+    """
     reach = math.sqrt(2.0) * view
+    if isinstance(coefficients, Frozen):
+        one = constant()
+        return tuple(_branch(kind, False, _drawn(curve, one)) for kind, curve in outside_curves(coefficients, reach))
+    branches = []
     rays: tuple[tuple[Kind, list[float]], ...] = (
         ("rho", _radial_angles(coefficients)),
         ("theta", limit_directions),
@@ -252,13 +283,13 @@ def outside_nullclines(
 
 
 def nullclines(
-    system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (), *, view: float = 2.0
+    system: ELinear | System | Coefficients | Frozen, psi: Psi, z: ArrayLike = (), *, view: float = 2.0
 ) -> tuple[NullclineBranch, ...]:
     """All nullclines in the picture, as separate branches.
 
     Parameters
     ----------
-    system : ELinear, or Coefficients
+    system : ELinear or System, or either frozen at a z
     psi : Psi
     z : (m,) floats
     view : float

@@ -1,9 +1,10 @@
 """Approach outcomes: what becomes of trajectories that reach the discontinuity set, for every angle of approach.
 
-Outside, the e-linear system with constant f is the same at every distance, so the angle alone decides which limit
-direction a trajectory tends to. Where lambda_rho < 0 there it reaches Sigma, goes up the hemisphere from Q
-(thm:geneps0(b), fig:side_of_sphere), and what attracts it there is the outcome: a critical set or a limit cycle
-means sliding (thm:geneps1, prop:LC), another limit direction means crossing.
+Outside, a system that does not depend on x, y is the same at every distance, so the angle alone decides which limit
+direction a trajectory tends to; otherwise it does so near Sigma, and that is what is said here. Where lambda_rho < 0
+there it reaches Sigma, goes up the hemisphere from Q (thm:geneps0(b), fig:side_of_sphere), and what attracts it there
+is the outcome: a critical set or a limit cycle means sliding (thm:geneps1, prop:LC), another limit direction means
+crossing.
 """
 
 from __future__ import annotations
@@ -17,13 +18,24 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import regularisation
+from .classify_general import as_elinear
 from .critical import CriticalSet, critical_sets
 from .cycles import LimitCycles, limit_cycles
-from .endings import CAPTURE, CONNECTION, Ending, drawn_time, endings, radially_neutral
+from .endings import (
+    CAPTURE,
+    CONNECTION,
+    Ending,
+    angular_sign,
+    critical_label,
+    drawn_time,
+    endings,
+    radially_neutral,
+)
 from .equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+from .general import Frozen
 from .regularisation import Psi
-from .systems import Coefficients, ELinear
-from .trajectories import Trajectories, continuation, trajectories
+from .systems import Coefficients
+from .trajectories import AnySystem, Trajectories, continuation, trajectories
 
 __all__ = ["Outcome", "Outcomes", "approach_outcomes"]
 
@@ -49,11 +61,12 @@ class Outcome:
     verdict : str
         "slide", "cycle" (sliding around a limit cycle), "cross", "undecided", or "misses" (never reaches Sigma).
     onto : str or None
-        What it slides on ("C", "cycle 1") or leaves along ("Q2", "equator").
+        What it slides on ("C", or "C1", "C2", ... where there are several; "cycle 1") or leaves along ("Q2",
+        "equator").
     leaving : float or None
         Direction in which it leaves Sigma, for "cross".
     slow_flow : ndarray (m,) or None
-        z' while sliding; on a cycle its mean, the same by prop:LC.
+        z' while sliding; on a cycle its mean, in the e-linear system the same by prop:LC.
     reason : str
     depends_on_psi : bool or None
         Whether other regularisations give another outcome; None where they were not asked.
@@ -71,6 +84,14 @@ class Outcome:
     reason: str
     depends_on_psi: bool | None = False
     families: tuple[tuple[str, str, str | None], ...] = ()
+
+    @property
+    def slides(self) -> bool | None:
+        """Whether it ends up sliding; crossing includes turning away from Sigma, as in sec:mateslidecross.
+
+        None where it is undecided.
+        """
+        return None if self.verdict == "undecided" else self.verdict in ("slide", "cycle")
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +112,7 @@ class Outcomes:
     directions: tuple[Outcome, ...]
     equator: EquatorEquilibria
     whole: Outcome | None
-    _plane: tuple[float, float, float, float, float]
+    _at: Coefficients | Frozen
 
     def __iter__(self) -> Iterator[Outcome]:
         return iter(self.outcomes)
@@ -130,13 +151,16 @@ class Outcomes:
             if abs(math.remainder(angle - zero, 2.0 * math.pi)) <= AT_ZERO:
                 return i
         after = bisect.bisect(zeros, angle)
-        a, b, d, f1, f2 = self._plane
         c, s = math.cos(angle), math.sin(angle)
-        turning = (d - a) * s * c + f2 * c - f1 * s + b
+        u, v = self._at.U(np.array([c, s])).tolist()
+        turning = c * v - s * u
         return after % len(zeros) if turning > 0.0 else (after - 1) % len(zeros)
 
     def outcome(self, theta: float) -> Outcome:
-        """Outcome for a trajectory that starts outside at angle theta (radians), at any distance."""
+        """Outcome for a trajectory that starts outside at angle theta (radians).
+
+        At any distance, or near Sigma if U depends on x or y.
+        """
         i = self.destination(theta)
         if i is None:
             assert self.whole is not None
@@ -157,25 +181,25 @@ class Outcomes:
 class _Hemisphere:
     """All that one regularisation decides."""
 
-    coefficients: Coefficients
+    at: Coefficients | Frozen
     psi: Psi
     equator: EquatorEquilibria
     critical: tuple[CriticalSet, ...]
     cycles: LimitCycles
 
     def ends(self, lines: Trajectories) -> list[Ending]:
-        return endings(self.coefficients, self.psi, lines, self.equator, self.critical, self.cycles, rtol=RTOL)
+        return endings(self.at, self.psi, lines, self.equator, self.critical, self.cycles, rtol=RTOL)
 
     def followed(self, points: Array) -> Trajectories:
-        time = drawn_time(self.coefficients, self.equator)
+        time = drawn_time(self.at, self.equator)
         return trajectories(
-            self.coefficients, self.psi, points, t_max=time, rtol=RTOL, atol=0.1 * RTOL, capture=CAPTURE, samples="ends"
+            self.at, self.psi, points, t_max=time, rtol=RTOL, atol=0.1 * RTOL, capture=CAPTURE, samples="ends"
         )
 
     def from_equator(self, i: int) -> Trajectories:
-        time = drawn_time(self.coefficients, self.equator)
+        time = drawn_time(self.at, self.equator)
         return continuation(
-            self.coefficients,
+            self.at,
             self.psi,
             self.equator.theta[i : i + 1],
             t_max=time,
@@ -194,12 +218,14 @@ class _Hemisphere:
         label = end.label
         if end.sentence == CONNECTION:
             return "undecided", None, None, None, f"They run into the saddle {label}: which side is left to ε."
-        if label == "C":
-            C = self.critical[0]
-            return "slide", "C", None, C.slow_flow, f"They reach the critical set C, a {C.kind}: sliding."
+        for i, C in enumerate(self.critical):
+            if label == critical_label(self.critical, i):
+                return "slide", label, None, C.slow_flow, f"They reach the critical set {label}, a {C.kind}: sliding."
         if label.startswith("cycle"):
             cycle = self.cycles[int(label.split()[1]) - 1]
             reason = "They wind onto a limit cycle around C: sliding, with the slow flow of C on average (prop:LC)."
+            if isinstance(self.at, Frozen):
+                reason = "They wind onto a limit cycle: sliding, with the mean slow flow over the cycle."
             return "cycle", label, None, cycle.slow_flow, reason
         if label.startswith("Q"):
             return "cross", label, end.angle, None, f"They leave along θ = {end.angle:.4g} ({label}): crossing."
@@ -217,30 +243,40 @@ class _Hemisphere:
         around = np.sqrt(1.0 - height**2)[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
         return self.judge([*main, *self.ends(self.followed(around))], "A whole family of orbits leaves Q")
 
-    def spiralling(self) -> tuple[str, str | None, float | None, Array | None, str]:
-        """Judge what winds onto the closed equator."""
+    def spiralling(
+        self, many: str = "Orbits leave the closed equator at all angles"
+    ) -> tuple[str, str | None, float | None, Array | None, str]:
+        """Judge what leaves the equator at all angles."""
         angle = 2.0 * math.pi * np.arange(8) / 8.0
         ring = 0.9995 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-        return self.judge(self.ends(self.followed(ring)), "Orbits leave the closed equator at all angles")
+        return self.judge(self.ends(self.followed(ring)), many)
 
 
-def _hemisphere(coefficients: Coefficients, psi: Psi, equator: EquatorEquilibria) -> _Hemisphere:
-    return _Hemisphere(coefficients, psi, equator, critical_sets(coefficients, psi), limit_cycles(coefficients, psi))
+def _hemisphere(at: Coefficients | Frozen, psi: Psi, equator: EquatorEquilibria) -> _Hemisphere:
+    return _Hemisphere(at, psi, equator, critical_sets(at, psi), limit_cycles(at, psi))
 
 
-def _sensitive(coefficients: Coefficients, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...]) -> bool:
-    """Whether no theorem fixes the outcome for every Psi: Case III, or crossing with several ways out."""
+def _sensitive(at: Coefficients | Frozen, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...]) -> bool:
+    """Whether no theorem fixes the outcome for every Psi: Case III, crossing with several ways out, any general U."""
+    form = as_elinear(at) if isinstance(at, Frozen) else at
+    if form is None:
+        return True
     if critical:
-        return coefficients.a * coefficients.d < 0.0 and critical[0].kind != "saddle"
+        return form.a * form.d < 0.0 and critical[0].kind != "saddle"
     return int(((equator.lambda_rho > 0.0) & (equator.lambda_theta < 0.0)).sum()) > 1
 
 
+def _radial(at: Coefficients | Frozen) -> Array:
+    """lambda_rho in many directions, where Theta vanishes identically."""
+    angle = 2.0 * math.pi * np.arange(64) / 64.0
+    e = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return (e * at.U(e)).sum(axis=-1)
+
+
 def _arrival(equator: EquatorEquilibria, i: int) -> str:
-    m, slope = int(equator.multiplicity[i]), float(equator.lambda_theta[i])
-    if m % 2 == 0:
+    if equator.multiplicity[i] % 2 == 0:
         return "one side"
-    attracting = slope < 0.0 if m == 1 else float(equator.lambda_theta.sum()) > 0.0
-    return "open set" if attracting else "single direction"
+    return "open set" if angular_sign(equator, i) < 0 else "single direction"
 
 
 _SENTENCE = {
@@ -251,7 +287,7 @@ _SENTENCE = {
 
 
 def approach_outcomes(
-    system: ELinear | Coefficients,
+    system: AnySystem,
     psi: Psi,
     z: ArrayLike = (),
     *,
@@ -261,7 +297,7 @@ def approach_outcomes(
 
     Parameters
     ----------
-    system : ELinear, or Coefficients
+    system : ELinear or System, or either frozen at a z
     psi : Psi
     z : (m,) floats
     compare : sequence of Psi, optional
@@ -272,26 +308,26 @@ def approach_outcomes(
     -------
     Outcomes
     """
-    coefficients = system.at(z)
-    equator = equator_equilibria(coefficients)
-    own = _hemisphere(coefficients, psi, equator)
+    at = system.at(z)
+    equator = equator_equilibria(at)
+    own = _hemisphere(at, psi, equator)
     others: list[_Hemisphere] = []
-    sensitive = _sensitive(coefficients, equator, own.critical)
-    arriving = (equator.lambda_rho < 0.0).any()
-    cycle = equator_cycle(coefficients)
+    sensitive = _sensitive(at, equator, own.critical)
+    arriving = equator.all_directions or (equator.lambda_rho < 0.0).any()
+    cycle = equator_cycle(at)
     if sensitive and (arriving or (cycle is not None and cycle.exponent < 0.0)):
         if compare is None:
             compare = [regularisation.make(name) for name in ("constant", "rational", "exponential", "tanh")]
             compare += [regularisation.hill(n) for n in (1, 2, 3, 4)]
-        others = [_hemisphere(coefficients, other, equator) for other in compare]
+        others = [_hemisphere(at, other, equator) for other in compare]
     if equator.all_directions or cycle is not None or not len(equator):
         whole = _whole(own, others, sensitive, cycle)
         found = () if whole.verdict == "misses" else (whole,)
-        return Outcomes(found, (), equator, whole, coefficients.plane)
+        return Outcomes(found, (), equator, whole, at)
     directions = tuple(_direction(own, others, sensitive, i) for i in range(len(equator)))
     order = ("open set", "one side", "single direction")
     found = sorted((o for o in directions if o.arrives in order), key=lambda o: order.index(o.arrives))
-    return Outcomes(tuple(found), directions, equator, None, coefficients.plane)
+    return Outcomes(tuple(found), directions, equator, None, at)
 
 
 def _compared(outcome: Outcome, verdicts: list[tuple[str, str, str | None]], sensitive: bool) -> Outcome:
@@ -307,10 +343,14 @@ def _direction(own: _Hemisphere, others: list[_Hemisphere], sensitive: bool, i: 
     equator, label = own.equator, f"Q{i + 1}"
     theta = float(equator.theta[i])
     if radially_neutral(equator, i):
-        reason = f"{label} is radially non-hyperbolic (|A⁻¹f| = 1): to first order nothing arrives or leaves."
+        why = "radially non-hyperbolic (a critical set comes to the equator)"
+        reason = f"{label} is {why}: to first order nothing arrives or leaves."
         return Outcome(theta, label, "nothing", "undecided", None, None, None, reason)
     if equator.lambda_rho[i] > 0.0:
         reason = f"{label} repels radially: trajectories that tend to it leave, and never reach Σ."
+        beside = equator.lambda_rho[[i - 1, (i + 1) % len(equator)]]
+        if angular_sign(equator, i) < 0 and (beside < 0.0).any():
+            reason += " Those that come in beside it turn away: crossing, in the words of sec:mateslidecross."
         return Outcome(theta, label, "nothing", "misses", None, None, None, reason)
     arrives = _arrival(equator, i)
     verdict, onto, leaving, slow, reason = own.arriving(i)
@@ -322,14 +362,18 @@ def _direction(own: _Hemisphere, others: list[_Hemisphere], sensitive: bool, i: 
 
 def _whole(own: _Hemisphere, others: list[_Hemisphere], sensitive: bool, cycle: EquatorCycle | None) -> Outcome:
     if own.equator.all_directions:
-        a, label = own.coefficients.a, "every direction"
-        if a < 0.0:
-            slow = own.critical[0].slow_flow if own.critical else None
-            reason = "Every direction is a limit direction, and leads straight to C: sliding."
-            return Outcome(None, label, "open set", "slide", "C", None, slow, reason)
-        if a > 0.0:
+        label, radial = "every direction", _radial(own.at)
+        if radial.max() < 0.0:
+            verdict, onto, leaving, slow, reason = own.spiralling("Orbits leave the equator at all angles")
+            reason = f"Every direction is a limit direction. {reason}"
+            outcome = Outcome(None, label, "open set", verdict, onto, leaving, slow, reason)
+            return _compared(outcome, [(other.psi.text, *other.spiralling()[:2]) for other in others], sensitive)
+        if radial.min() > 0.0:
             return Outcome(None, label, "nothing", "misses", None, None, None, "Every direction leads away from Σ.")
-        return Outcome(None, label, "nothing", "undecided", None, None, None, "A = 0 and f = 0: nothing moves.")
+        reason = "Every direction is a limit direction, and some lead to Σ, others away from it."
+        if not radial.any():
+            reason = "U vanishes on the equator: to first order nothing arrives or leaves."
+        return Outcome(None, label, "nothing", "undecided", None, None, None, reason)
     if cycle is None or cycle.neutral:
         reason = "The closed equator is neutral: to first order trajectories neither approach Σ nor leave it."
         return Outcome(None, "equator", "nothing", "undecided", None, None, None, reason)

@@ -1,17 +1,19 @@
-"""One figure of the paper as values of the e-linear system."""
+"""One figure of the paper: a system, where on Sigma, Psi, and the view that shows it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
 from . import regularisation
+from .examples import catalogue
+from .general import System
 from .regularisation import Psi
 from .systems import ELinear
 
 
 @dataclass(frozen=True)
 class Preset:
-    """One figure of the paper as values of the e-linear system.
+    """One figure of the paper: values of the e-linear system, or one of the examples.
 
     Attributes
     ----------
@@ -24,8 +26,18 @@ class Preset:
     note : str
         What is to be seen, in the paper's words.
     a, b, d, f1, f2 : float
+        The e-linear system, unless there is an `example`.
+    B, g : (m, 2) and (m,)
+        Its slow flow; without them it has no slow variables.
+    example : str
+        A key of `examples.catalogue`, or "".
+    z : tuple of float
     hill : int or None
-        n of the hill family eq:bad_reg, or None for Psi = 1.
+        n of the hill family eq:bad_reg, or None for `family`.
+    family : str
+        Another family of Psi.
+    view : str
+        What shows it: "" the picture, "outcomes", "sphere", "stack", "filippov", "psi" or "time".
     portrait : (case, name, kind or None)
         What must be true.
     degeneracy : str or None
@@ -42,16 +54,24 @@ class Preset:
     d: float = -1.0
     f1: float = 0.0
     f2: float = 0.0
+    B: tuple[tuple[float, float], ...] = ()
+    g: tuple[float, ...] = ()
+    example: str = ""
+    z: tuple[float, ...] = ()
     hill: int | None = None
-    portrait: tuple[str, str, str | None] = field(default=("I", "CM0", None))
+    family: str = "constant"
+    view: str = ""
+    portrait: tuple[str | None, str, str | None] = field(default=("I", "CM0", None))
     degeneracy: str | None = None
 
     @property
-    def system(self) -> ELinear:
-        """The e-linear system, without slow variables."""
-        return ELinear(self.a, self.b, self.d, (self.f1, self.f2))
+    def system(self) -> ELinear | System:
+        """The system."""
+        if self.example:
+            return catalogue[self.example].make()
+        return ELinear(self.a, self.b, self.d, (self.f1, self.f2), B=self.B or None, g=self.g or None)
 
     @property
     def psi(self) -> Psi:
         """The regularisation function."""
-        return regularisation.constant() if self.hill is None else regularisation.hill(self.hill)
+        return regularisation.make(self.family) if self.hill is None else regularisation.hill(self.hill)

@@ -11,6 +11,7 @@ from types import MappingProxyType
 
 from .preset import Preset
 from .presets_bifurcations import bifurcation_presets
+from .presets_examples import example_presets
 
 
 def _all() -> dict[str, Preset]:
@@ -131,7 +132,7 @@ def _all() -> dict[str, Preset]:
             f"case3-n{n}", three, title=f"n = {n}: {kind}", hill=n, portrait=("III", "CM4", kind),
             note=f"Ψ = 3/(3 + (4s)ⁿ) with n = {n}. {note}",
         )  # fmt: skip
-    return found | bifurcation_presets()
+    return found | bifurcation_presets() | example_presets()
 
 
 presets: Mapping[str, Preset] = MappingProxyType(_all())

@@ -211,6 +211,27 @@ class Psi:
         """
         return _apply(self._jacobian_factors, zeta, "zeta", LARGEST, "0 <= zeta < inf")
 
+    @overload
+    def steepness(self, zeta: float) -> float: ...
+    @overload
+    def steepness(self, zeta: Vector) -> Array: ...
+    def steepness(self, zeta: Any) -> Any:
+        """``-s Psi'(s)/Psi(s)`` at ``s = zeta^2``: by how many powers of s Psi falls there.
+
+        In `jacobian_factors`, ``radial = tangential (1 - |e_Psi|^2) (1 + steepness)``.
+
+        Parameters
+        ----------
+        zeta : float or array
+            ``0 <= zeta < inf``.
+
+        Raises
+        ------
+        ValueError
+            zeta is negative, infinite or NaN.
+        """
+        return _apply(self._kernel.kappa, zeta, "zeta", LARGEST, "0 <= zeta < inf")
+
     def check(self) -> PsiCheck:
         """Whether Psi meets R1 to R5 of def:Psi, and where it does not.
 

@@ -226,11 +226,11 @@ class Hill(Kernel):
 
     def inverse(self, lib: Any, w: Any) -> Any:
         n = self.n
-        if n == 1.0:  # s (1 + 4s/3) = w^2
+        if isinstance(n, float) and n == 1.0:  # s (1 + 4s/3) = w^2; `sweep` gives an array of n
             return w * lib.sqrt(2.0 / (1.0 + lib.hypot(1.0, 4.0 / SQRT3 * w)))
         # x + n ln(1 + e^x) = X for x = ln((4s)^n/3), X = ln((4 w^2)^n/3): convex, slope at least 1
         X = 2.0 * n * lib.log(lib.maximum(2.0 * w, TINY)) - LN3
-        log_y = math.log(n * math.log(2.0)) + X  # as ln(1 + e^x) >= ln(2) e^x for x <= 0
+        log_y = lib.log(n * math.log(2.0)) + X  # as ln(1 + e^x) >= ln(2) e^x for x <= 0
         L = lib.where(log_y > 30.0, log_y, lib.log1p(lib.exp(lib.minimum(log_y, 30.0))))
         guess = X - L * (1.0 - lib.log1p(L) / (2.0 + L))
         x = lib.where(guess < 0.0, guess, lib.maximum(X / (1.0 + n), 0.0))

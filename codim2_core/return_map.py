@@ -56,7 +56,7 @@ def _error(S, k, rtol):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, limit, record):
+def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, limit, record, elsewhere):
     """First return of each state to the section ``u.U = 0``, ``sense (-u2, u1).U > 0`` on which it starts.
 
     Parameters
@@ -80,6 +80,8 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
         Steps tried.
     record : int
         Room for the steps of state 0; 0 records nothing.
+    elsewhere : bool
+        The states do not lie on the section: it is their first crossing that is wanted.
 
     Returns
     -------
@@ -105,6 +107,11 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
             phase[k] = FIRST_HALF if k < active else DONE
             clock[k], step[k] = 0.0, 0.5 * rtol**0.125 if k < active else 0.0
         call_field(field, S, STATE, K0, P)
+        if elsewhere:
+            # Orbits go round in one sense: where u.U > 0 they come to this section next, else to the opposite one.
+            for k in range(active):
+                vx, vy = _velocity(S, STATE, K0, k)
+                phase[k] = SECOND_HALF if u[0] * vx + u[1] * vy > 0.0 else TURNED
         spent, running = 0, active
         while running > 0 and spent < limit:
             spent += 1

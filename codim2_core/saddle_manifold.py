@@ -1,10 +1,10 @@
 """Local invariant manifolds of a saddle of the layer problem, as polynomials of order ORDER.
 
-In kappa_2, ``x2' = F(x2) = A (e_Psi(x2) - e_C)``. The manifold along the eigenvector v with eigenvalue lambda is the
-curve ``W(sigma) = C + sigma v + h_2 sigma^2 + ... + h_ORDER sigma^ORDER`` on which sigma' = lambda sigma:
-``F(W(sigma)) = lambda sigma W'(sigma)``. Order by order ``(J - k lambda) h_k = -N_k``, N_k the coefficients of the
-nonlinear part of F along the curve, read off at Chebyshev nodes: no second derivative of Psi is needed. At a saddle
-J - k lambda is regular for k >= 2. The error at sigma is of order sigma^(ORDER + 1).
+In kappa_2, ``x2' = F(x2) = U(e_Psi(x2))``, in the e-linear system ``A (e_Psi(x2) - e_C)``. The manifold along
+the eigenvector v with eigenvalue lambda is the curve ``W(sigma) = C + sigma v + h_2 sigma^2 + ...`` up to order ORDER
+on which sigma' = lambda sigma: ``F(W(sigma)) = lambda sigma W'(sigma)``. Order by order ``(J - k lambda) h_k = -N_k``,
+N_k the coefficients of the nonlinear part of F along the curve, read off at Chebyshev nodes: no second derivative of
+Psi is needed. At a saddle J - k lambda is regular for k >= 2. The error at sigma is of order sigma^(ORDER + 1).
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .critical import CriticalSet
+from .general import Frozen
 from .regularisation import Psi
 from .systems import Coefficients
 
@@ -34,20 +35,22 @@ def _fit() -> tuple[Array, Array]:
     return t, (np.linalg.inv(powers) / t[None, :] ** 2)[: ORDER - 1]
 
 
-def _field(coefficients: Coefficients, psi: Psi, critical: CriticalSet, x2: Array) -> Array:
+def _field(at: Coefficients | Frozen, psi: Psi, critical: CriticalSet, x2: Array) -> Array:
     zeta = np.hypot(x2[:, 0], x2[:, 1])
     e = x2 * (psi.modulus(zeta) / np.maximum(zeta, 1e-300))[:, None]
-    return (e - critical.e) @ coefficients.A.T
+    if isinstance(at, Coefficients):
+        return (e - critical.e) @ at.A.T
+    return at.U(e) - at.U(critical.e)  # what rounding leaves of U at C would be amplified
 
 
 def expansion(
-    coefficients: Coefficients, psi: Psi, critical: CriticalSet, eigenvalue: float, reach: float
+    at: Coefficients | Frozen, psi: Psi, critical: CriticalSet, eigenvalue: float, reach: float
 ) -> tuple[Array, float]:
     """Coefficients (ORDER + 1, 2) of W in powers of sigma, and its defect, for |sigma| <= reach.
 
     Parameters
     ----------
-    coefficients : Coefficients
+    at : Coefficients or Frozen
     psi : Psi
     critical : CriticalSet
         A saddle.
@@ -74,7 +77,7 @@ def expansion(
     powers = t[:, None] ** np.arange(ORDER + 1)
     for _ in range(ORDER):  # each round settles one more order
         x2 = powers @ scaled
-        nonlinear = _field(coefficients, psi, critical, x2) - (x2 - critical.x2) @ J.T
+        nonlinear = _field(at, psi, critical, x2) - (x2 - critical.x2) @ J.T
         parts = fit @ nonlinear
         before = scaled.copy()
         for k in range(2, ORDER + 1):
@@ -83,32 +86,32 @@ def expansion(
             break
     ends = np.array([-1.0, 1.0])[:, None] ** np.arange(ORDER + 1)
     slope = ends @ (scaled * np.arange(ORDER + 1)[:, None])
-    defect = _field(coefficients, psi, critical, ends @ scaled) - eigenvalue * slope
+    defect = _field(at, psi, critical, ends @ scaled) - eigenvalue * slope
     order = np.arange(ORDER + 1)[:, None]
     return scaled / reach**order, float(np.abs(defect).max() / abs(eigenvalue))
 
 
 def starts(
-    coefficients: Coefficients, psi: Psi, critical: CriticalSet, eigenvalue: float, tolerance: float
+    at: Coefficients | Frozen, psi: Psi, critical: CriticalSet, eigenvalue: float, tolerance: float
 ) -> tuple[Array, Array]:
     """Points of the disc (2, 2) on the two halves of a manifold, and unit tangents (2, 2) there at C.
 
     Parameters
     ----------
-    coefficients, psi, critical, eigenvalue
+    at, psi, critical, eigenvalue
         As in `expansion`.
     tolerance : float
         Error allowed, relative to ``hypot(1, |x2|)``; the start distance is chosen for it.
     """
     scale = math.hypot(1.0, float(np.hypot(*critical.x2)))
     reach = FIRST * scale
-    terms, defect = expansion(coefficients, psi, critical, eigenvalue, reach)
+    terms, defect = expansion(at, psi, critical, eigenvalue, reach)
     for _ in range(6):
         ratio = defect / (tolerance * scale)
         if ratio <= 1.0 or reach <= SMALLEST * scale:
             break
         reach = max(SMALLEST * scale, 0.8 * reach * max(ratio ** (-1.0 / (ORDER + 1)), 1e-2))
-        terms, defect = expansion(coefficients, psi, critical, eigenvalue, reach)
+        terms, defect = expansion(at, psi, critical, eigenvalue, reach)
     sigma = np.array([-reach, reach])
     x2 = (sigma[:, None] ** np.arange(ORDER + 1)) @ terms
     points = x2 / np.hypot(1.0, np.hypot(x2[:, :1], x2[:, 1:]))

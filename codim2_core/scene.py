@@ -18,20 +18,22 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import regularisation
-from .bifurcations import BifurcationCurve, critical_boundary, regions, saddle_node
+from .bifurcations import BifurcationCurve, Region, critical_boundary, regions, saddle_node
 from .certificates import Certificate, certificates
 from .classify import Classification, portrait
-from .critical import critical_sets, locate
+from .critical import Location, critical_sets, locate
 from .cycles import LimitCycles, limit_cycles
 from .equator import equator_cycle, equator_equilibria
+from .general import System
 from .nullclines import NullclineBranch, inside_nullclines, outside_nullclines
 from .orbits import Orbits
+from .outcomes import approach_outcomes
 from .regularisation import Psi
 from .seeds import checked_seeds, ring, structured_seeds
 from .separatrices import Separatrices, separatrices
 from .sliding import sliding_flow
 from .systems import SMALLEST, Coefficients, ELinear, slow_values
-from .trajectories import Trajectories, continuation, trajectories
+from .trajectories import AnySystem, Trajectories, continuation, trajectories
 
 DRAWN_TIME = 40.0  # over the largest coefficient: slow directions, up to 40 times slower than that, are still drawn
 AROUND = 0.05  # radius of the seeds around an unstable critical set
@@ -60,7 +62,8 @@ class Scene:
 
     Parameters
     ----------
-    system : ELinear
+    system : ELinear or System, or either frozen at a z
+        Layers of the theory of e-linear systems (`ELINEAR_ONLY`) are None for another; `has` says so beforehand.
     psi : Psi, optional
         Default Psi = 1.
     z : (m,) floats
@@ -91,7 +94,7 @@ class Scene:
 
     def __init__(
         self,
-        system: ELinear,
+        system: AnySystem,
         psi: Psi | None = None,
         z: ArrayLike = (),
         *,
@@ -105,8 +108,8 @@ class Scene:
         pixel: float = 1.0 / 180.0,
         _memory: _Memory | None = None,
     ) -> None:
-        if not isinstance(system, (ELinear, Coefficients)):
-            raise ValueError(f"system is {system!r}; give an ELinear.")
+        if not isinstance(system, AnySystem):
+            raise ValueError(f"system is {system!r}; give an ELinear or a System.")
         if psi is None:
             psi = regularisation.constant()
         if not isinstance(psi, Psi):
@@ -116,7 +119,7 @@ class Scene:
         if not (np.isfinite(pixel) and 0.0 < pixel < 1.0):
             raise ValueError(f"pixel is {pixel}; give the size of a pixel in picture units, in (0, 1).")
         self.system, self.psi = system, psi
-        self.z = () if isinstance(system, Coefficients) else slow_values(z, system.m, needed=False)
+        self.z = slow_values(z, system.m, needed=False) if isinstance(system, (ELinear, System)) else ()
         self.seeds = None if seeds is None else checked_seeds(seeds)
         self.count, self.rtol, self.atol = count, float(rtol), float(atol)
         self.t_max, self.length = None if t_max is None else float(t_max), float(length)
@@ -131,7 +134,8 @@ class Scene:
         Parameters
         ----------
         **changes
-            Any parameter of `Scene`, and any coefficient or parameter of the system (a, b, d, f, f1, f2, B, g, …).
+            Any parameter of `Scene`, and whatever the system's own `evolve` takes: coefficients (a, b, d, f, f1, f2,
+            B, g), formulas (U, W), parameters by name.
 
         Raises
         ------
@@ -142,8 +146,8 @@ class Scene:
         values = {name: getattr(self, name) for name in _PARAMETERS}
         values.update(own)
         if changes:
-            if not isinstance(values["system"], ELinear):
-                raise ValueError("this scene was made from frozen coefficients; give it a system to change.")
+            if not isinstance(values["system"], (ELinear, System)):
+                raise ValueError("this scene was made from a system frozen at one z; give it a system to change.")
             values["system"] = values["system"].evolve(**changes)
         return Scene(values.pop("system"), values.pop("psi"), values.pop("z"), **values, _memory=self._memory)
 
@@ -153,7 +157,7 @@ class Scene:
         if name not in layers:
             raise ValueError(f"{name!r} is no layer; there are {', '.join(layers)}.")
         layer = layers[name]
-        key = tuple(_INPUTS[i](self) for i in layer.inputs)
+        key = self.key(*layer.inputs)
         kept = self._memory.results.setdefault(name, OrderedDict())
         if key in kept:
             kept.move_to_end(key)
@@ -168,6 +172,14 @@ class Scene:
     def __iter__(self):
         return iter(layers)
 
+    def has(self, name: str) -> bool:
+        """Whether a layer exists for this system; one that does not is None."""
+        return name in layers and (name not in ELINEAR_ONLY or isinstance(self.coefficients, Coefficients))
+
+    def key(self, *inputs: str) -> tuple[Hashable, ...]:
+        """Return the present values of some inputs of layers ("plane", "matrix", "slow", "psi", …), hashable."""
+        return tuple(_INPUTS[name](self) for name in inputs)
+
     @property
     def runs(self) -> Mapping[str, int]:
         """How often each layer has been computed in this scene and those it evolved from or into."""
@@ -176,12 +188,16 @@ class Scene:
 
 _PARAMETERS = ("system", "psi", "z", "seeds", "count", "t_max", "length", "rtol", "atol", "view", "pixel")
 
-# The values that layers read, as keys: `plane` is (a, b, d, f1, f2) at z and `matrix` (a, b, d), so z itself
-# reaches nothing.
+ELINEAR_ONLY = frozenset({"location", "certificates", "atlas_curves", "regions"})
+
+# The values that layers read, as keys: `plane` is (a, b, d, f1, f2) at z, or the formulas of U and the numbers that
+# they read, and `matrix` is (a, b, d), so z itself reaches nothing. `mean` is what decides the slow flow on a cycle:
+# in an e-linear system that is the layer "slow_flow" (prop:LC).
 _INPUTS: dict[str, Callable[[Scene], Hashable]] = {
-    "plane": lambda s: s.coefficients.plane,
+    "plane": lambda s: s.coefficients.key,
     "matrix": lambda s: _matrix(s),
-    "slow": lambda s: (s.coefficients.B.tobytes(), s.coefficients.g.tobytes()),
+    "slow": lambda s: s.coefficients.slow_key,
+    "mean": lambda s: None if isinstance(s.coefficients, Coefficients) else s.coefficients.slow_key,
     "psi": lambda s: s.psi,
     "inner seeds": lambda s: s.count if s.seeds is None else _start(s, outside=False).tobytes(),
     "outer seeds": lambda s: s.count if s.seeds is None else _start(s, outside=True).tobytes(),
@@ -209,7 +225,8 @@ def _structured(count: int, view: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _stepping(scene: Scene) -> dict[str, Any]:
-    largest = max(map(abs, scene.coefficients.plane)) or 1.0
+    at = scene.coefficients
+    largest = (max(map(abs, at.plane)) if isinstance(at, Coefficients) else at.size) or 1.0
     return {
         "t_max": DRAWN_TIME / largest if scene.t_max is None else scene.t_max,
         "length": scene.length,
@@ -227,8 +244,9 @@ def _orbits(scene: Scene, outside: bool) -> Orbits:
         # What leaves an unstable critical set (to a limit cycle, in Case III) starts nearer to it than any fixed seed.
         rings = [C.p + ring(AROUND, 6) for C in scene["critical"] if C.kind.startswith(("unstable", "centre"))]
         seeds = np.concatenate([seeds, *(r for r in rings if np.hypot(r[:, 0], r[:, 1]).max() < 1.0)])
-    # Outside, e is the direction itself: Psi has no say.
-    psi = regularisation.constant() if outside else scene.psi
+    # Outside, e is the direction itself: Psi has no say. E-linear systems have a field that is cheapest for Psi = 1.
+    cheapest = outside and isinstance(scene.coefficients, Coefficients)
+    psi = regularisation.constant() if cheapest else scene.psi
     halves = (trajectories(scene.coefficients, psi, seeds, backward=back, **options) for back in (True, False))
     return Orbits(*halves)
 
@@ -241,27 +259,45 @@ def _continuations(scene: Scene) -> Trajectories:
 
 
 def _cycles(scene: Scene) -> LimitCycles:
-    """Return the limit cycles without their slow flow: by prop:LC that is the layer "slow_flow"."""
-    return limit_cycles(replace(scene.coefficients, B=np.zeros((0, 2)), g=np.zeros(0)), scene.psi)
+    """Return the limit cycles; in an e-linear system without their slow flow: by prop:LC that is "slow_flow"."""
+    at = scene.coefficients
+    if isinstance(at, Coefficients):
+        at = replace(at, B=np.zeros((0, 2)), g=np.zeros(0))
+    return limit_cycles(at, scene.psi)
 
 
 def _separatrices(scene: Scene) -> Separatrices:
     return separatrices(scene.coefficients, scene.psi, rtol=scene.rtol, pixel=scene.pixel, cycles=scene["cycles"])
 
 
-def _matrix(scene: Scene) -> tuple[float, float, float]:
+def _matrix(scene: Scene) -> tuple[float, float, float] | None:
     """Return a, b, d; all zero where they are so small beside f that a system of them alone is refused."""
+    if not isinstance(scene.coefficients, Coefficients):
+        return None
     a, b, d = scene.coefficients.plane[:3]
     return (a, b, d) if max(abs(a), abs(b), abs(d)) >= SMALLEST else (0.0, 0.0, 0.0)
 
 
-def _atlas_curves(scene: Scene) -> tuple[BifurcationCurve, BifurcationCurve]:
+def _atlas_curves(scene: Scene) -> tuple[BifurcationCurve, BifurcationCurve] | None:
     """Return the saddle-node curve and the ellipse |A^-1 f| = 1 of the plane (f1, f2)."""
-    return saddle_node(*_matrix(scene)), critical_boundary(*_matrix(scene))
+    matrix = _matrix(scene)
+    return None if matrix is None else (saddle_node(*matrix), critical_boundary(*matrix))
 
 
-def _certificates(scene: Scene) -> tuple[Certificate, ...]:
+def _regions(scene: Scene) -> tuple[Region, ...] | None:
+    matrix = _matrix(scene)
+    return None if matrix is None else regions(*matrix)
+
+
+def _location(scene: Scene) -> Location | None:
     at = scene.coefficients
+    return locate(at) if isinstance(at, Coefficients) else None
+
+
+def _certificates(scene: Scene) -> tuple[Certificate, ...] | None:
+    at = scene.coefficients
+    if not isinstance(at, Coefficients):
+        return None
     cycles = [replace(cycle, slow_flow=at.W(cycle.mean_e)) for cycle in scene["cycles"]]
     return certificates(at, scene.psi, cycles=cycles)
 
@@ -282,7 +318,7 @@ layers: Mapping[str, Layer] = MappingProxyType(
     {
         "equator": Layer(("plane",), lambda s: equator_equilibria(s.coefficients)),
         "equator_cycle": Layer(("plane",), lambda s: equator_cycle(s.coefficients)),
-        "location": Layer(("plane",), lambda s: locate(s.coefficients)),
+        "location": Layer(("plane",), _location),
         "critical": Layer(("plane", "slow", "psi"), lambda s: critical_sets(s.coefficients, s.psi)),
         "slow_flow": Layer(("plane", "slow"), lambda s: sliding_flow(s.coefficients)),
         "classification": Layer(("plane", "slow", "psi"), _classification),
@@ -291,10 +327,11 @@ layers: Mapping[str, Layer] = MappingProxyType(
         "inside": Layer(("plane", "psi", "inner seeds", *_STEPPED), lambda s: _orbits(s, outside=False)),
         "outside": Layer(("plane", "outer seeds", "view", *_STEPPED), lambda s: _orbits(s, outside=True)),
         "continuations": Layer(("plane", "psi", *_STEPPED), _continuations),
-        "cycles": Layer(("plane", "psi"), _cycles),
+        "cycles": Layer(("plane", "psi", "mean"), _cycles),
         "separatrices": Layer(("plane", "psi", "tolerance", "pixel"), _separatrices),
+        "outcomes": Layer(("plane", "slow", "psi"), lambda s: approach_outcomes(s.coefficients, s.psi)),
         "certificates": Layer(("plane", "slow", "psi"), _certificates),
         "atlas_curves": Layer(("matrix",), _atlas_curves),
-        "regions": Layer(("matrix",), lambda s: regions(*_matrix(s))),
+        "regions": Layer(("matrix",), _regions),
     }
 )

@@ -3,7 +3,8 @@
 On the hemisphere an equilibrium Q of the equator has the eigenvalues lambda_theta along the equator and -lambda_rho
 up it (thm:geneps0(b)), outside it lambda_theta and lambda_rho: it is a half-saddle on the hemisphere where
 ``lambda_theta lambda_rho > 0`` and outside where ``lambda_theta lambda_rho < 0``. Outside, the branch is exactly
-the ray theta = theta_i. Where Theta has a multiple zero, its branch bounds the sectors there and is followed too.
+the ray theta = theta_i, unless U depends on x or y. Where Theta has a multiple zero, its branch bounds the sectors
+there and is followed too.
 """
 
 from __future__ import annotations
@@ -18,18 +19,31 @@ from numpy.typing import ArrayLike, NDArray
 
 from .critical import CriticalSet, critical_sets
 from .cycles import LimitCycles, limit_cycles
-from .endings import CAPTURE, CONNECTION, SLOW, SPEEDS, drawn_time, endings, half_saddle, radially_neutral
+from .endings import (
+    CAPTURE,
+    CONNECTION,
+    SLOW,
+    SPEEDS,
+    critical_label,
+    drawn_time,
+    endings,
+    half_saddle,
+    radially_neutral,
+)
 from .equator import EquatorEquilibria, equator_equilibria
+from .general import Frozen
 from .regularisation import Psi
 from .saddle_manifold import starts
-from .systems import Coefficients, ELinear
-from .trajectories import Status, continuation, joined, trajectories
+from .stepping_numbers import rate
+from .systems import Coefficients
+from .trajectories import AnySystem, Status, continuation, joined, trajectories
 
 __all__ = ["Separatrices", "Separatrix", "separatrices"]
 
 Array = NDArray[np.float64]
 
 PIXEL = 1.0 / 180.0
+NEAR_SIGMA = 1e-4  # rho at which a bent branch outside starts: its expansion is off by rho^2 there
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +53,7 @@ class Separatrix:
     Attributes
     ----------
     origin : str
-        The saddle it belongs to: "C", "Q1", ...
+        The saddle it belongs to: "C" ("C1", "C2", ... where there are several), "Q1", ...
     direction : str
         "unstable" (it leaves the origin) or "stable" (it enters it).
     end : str
@@ -102,7 +116,7 @@ class Separatrices:
 
 
 def separatrices(
-    system: ELinear | Coefficients,
+    system: AnySystem,
     psi: Psi,
     z: ArrayLike = (),
     *,
@@ -113,18 +127,19 @@ def separatrices(
     tolerance: float = 1e-6,
     cycles: LimitCycles | None = None,
 ) -> Separatrices:
-    """Separatrices of the critical set, if it is a saddle, and of the half-saddles on the equator, thm:geneps0(b).
+    """Separatrices of the critical sets that are saddles, and of the half-saddles on the equator, thm:geneps0(b).
 
     Branches of C start on a polynomial of order `saddle_manifold.ORDER` (5) of the invariant manifold, those of Q
     on an expansion of order 2 in ebar (`trajectory_continuation`), each at a distance where its error is below rtol.
 
     Parameters
     ----------
-    system : ELinear, or Coefficients
+    system : ELinear or System, or either frozen at a z
     psi : Psi
     z : (m,) floats
     t_max : float, optional
-        Longest time T drawn of a branch; default 600/|(a, b, d, f1, f2)|. Where it ends is decided beyond that.
+        Longest time T drawn of a branch; default 600 over the unit of speed, |(a, b, d, f1, f2)| or max |U|. Where it
+        ends is decided beyond that.
     rtol : float
     view, pixel : float
         As in `trajectories`.
@@ -137,17 +152,16 @@ def separatrices(
     -------
     Separatrices
     """
-    coefficients = system.at(z)
-    equator = equator_equilibria(coefficients)
-    critical = critical_sets(coefficients, psi)
+    at = system.at(z)
+    equator = equator_equilibria(at)
+    critical = critical_sets(at, psi)
     if cycles is None:
-        cycles = limit_cycles(coefficients, psi)
-    longest = drawn_time(coefficients, equator) if t_max is None else t_max
+        cycles = limit_cycles(at, psi)
+    longest = drawn_time(at, equator) if t_max is None else t_max
 
     def inside(pixel: float) -> list[Separatrix]:
         parts = [
-            _inside(coefficients, psi, equator, critical, cycles, longest, rtol, pixel, backward)
-            for backward in (False, True)
+            _inside(at, psi, equator, critical, cycles, longest, rtol, pixel, backward) for backward in (False, True)
         ]
         return parts[0] + parts[1]
 
@@ -157,14 +171,18 @@ def separatrices(
         # Drawn lines are too coarse to tell a connection from a near miss.
         gaps = _gaps(inside(min(pixel, tolerance)))
     branches = _connected(branches, gaps, tolerance)
-    branches += [_ray(equator, i, view) for i in range(len(equator)) if _outside_half_saddle(equator, i)]
+    rays = [i for i in range(len(equator)) if _outside_half_saddle(equator, i)]
+    if isinstance(at, Frozen) and at.system.reads_position():
+        branches += [_bent(at, psi, equator, i, longest, rtol, view, pixel) for i in rays]
+    else:
+        branches += [_ray(equator, i, view) for i in rays]
     for branch in branches:
         branch.points.flags.writeable = False
     return Separatrices(tuple(branches), _notes(equator, branches))
 
 
 def _inside(
-    coefficients: Coefficients,
+    at: Coefficients | Frozen,
     psi: Psi,
     equator: EquatorEquilibria,
     critical: tuple[CriticalSet, ...],
@@ -181,28 +199,29 @@ def _inside(
     angles = equator.theta[owners].tolist()
     firsts = [np.array([math.cos(angle), math.sin(angle)]) for angle in angles]
     # A slow branch needs more time than another should be drawn for.
-    rate = math.hypot(*coefficients.plane)
+    unit = rate(at)
     parts = []
     for i in owners:
-        own = min(t_max, SPEEDS / rate + SLOW / abs(float(equator.lambda_rho[i])))
-        parts.append(continuation(coefficients, psi, equator.theta[i : i + 1], t_max=own, **fine))
-    for C in critical:
+        own = min(t_max, SPEEDS / unit + SLOW / abs(float(equator.lambda_rho[i])))
+        parts.append(continuation(at, psi, equator.theta[i : i + 1], t_max=own, **fine))
+    for k, C in enumerate(critical):
         if C.kind == "saddle":
             value = float(C.eigenvalues.real[1 if backward else 0])
-            points, tangents = starts(coefficients, psi, C, value, 0.1 * rtol)
-            parts.append(trajectories(coefficients, psi, points, t_max=t_max, **fine))
-            origins += ["C", "C"]
+            points, tangents = starts(at, psi, C, value, 0.1 * rtol)
+            parts.append(trajectories(at, psi, points, t_max=t_max, **fine))
+            origins += [critical_label(critical, k)] * 2
             angles += np.arctan2(tangents[:, 1], tangents[:, 0]).tolist()
             firsts += [C.p, C.p]
     if not parts:
         return []
     lines = joined(parts)
     branches = []
-    ends = endings(coefficients, psi, lines, equator, critical, cycles, rtol=rtol, backward=backward)
+    places_of = {critical_label(critical, k): C.p for k, C in enumerate(critical)}
+    ends = endings(at, psi, lines, equator, critical, cycles, rtol=rtol, backward=backward)
     for i, ending in enumerate(ends):
         places = [firsts[i][None, :], lines.points[i]]
-        if lines.status[i] is Status.EQUILIBRIUM and ending.label == "C":
-            places.append(critical[0].p[None, :])
+        if lines.status[i] is Status.EQUILIBRIUM and ending.label in places_of:
+            places.append(places_of[ending.label][None, :])
         elif lines.status[i] is Status.ARRIVED and ending.angle is not None:
             places.append(np.array([[math.cos(ending.angle), math.sin(ending.angle)]]))
         line = np.concatenate(places)
@@ -242,6 +261,30 @@ def _ray(equator: EquatorEquilibria, i: int, view: float) -> Separatrix:
     sentence = f"The ray θ = θ_{i + 1} itself, as f is constant: " + ("it arrives." if stable else "it leaves.")
     direction = "stable" if stable else "unstable"
     return Separatrix(f"Q{i + 1}", direction, "outside", points, angle, angle, False, False, None, sentence)
+
+
+def _bent(
+    at: Frozen, psi: Psi, equator: EquatorEquilibria, i: int, t_max: float, rtol: float, view: float, pixel: float
+) -> Separatrix:
+    """Follow the branch outside where U depends on x or y: ``theta = theta_i + k rho + ...``, rho' = rho lambda_rho."""
+    angle, growth = float(equator.theta[i]), float(equator.lambda_rho[i])
+    u, across = np.array([math.cos(angle), math.sin(angle)]), np.array([-math.sin(angle), math.cos(angle)])
+    change = float(across @ (at.U(u, NEAR_SIGMA * u) - at.U(u, -NEAR_SIGMA * u))) / (2.0 * NEAR_SIGMA)
+    lean = change / (growth - float(equator.lambda_theta[i]))  # of opposite signs at a half-saddle
+    start = angle + NEAR_SIGMA * lean
+    first = (1.0 + NEAR_SIGMA) * np.array([[math.cos(start), math.sin(start)]])
+    stable = growth < 0.0
+    time = t_max + 2.0 * abs(math.log(NEAR_SIGMA) / growth)
+    options: dict[str, Any] = {"rtol": rtol, "atol": 0.1 * rtol, "view": view, "pixel": pixel, "backward": stable}
+    line = trajectories(at, psi, first, t_max=time, **options)
+    points = np.concatenate([u[None, :], line.points[0]])
+    far = math.atan2(points[-1, 1], points[-1, 0])
+    direction = "stable" if stable else "unstable"
+    sentence = f"Outside, from Q{i + 1}: " + ("it arrives." if stable else "it leaves.")
+    if line.status[0] is not Status.LEFT_VIEW:
+        sentence += f" {line.status[0].value}"
+    ordered = np.ascontiguousarray(points[::-1] if stable else points)
+    return Separatrix(f"Q{i + 1}", direction, "outside", ordered, angle, far, False, False, None, sentence)
 
 
 def _gap(one: Array, other: Array) -> float:
@@ -284,7 +327,7 @@ def _connected(branches: list[Separatrix], gaps: dict[tuple[int, int], float], t
 def _notes(equator: EquatorEquilibria, branches: list[Separatrix]) -> tuple[str, ...]:
     notes = [b.status for b in branches if b.connection and b.direction == "unstable"]
     notes += [
-        f"Q{i + 1} is radially non-hyperbolic (|A⁻¹f| = 1): its branches are not followed."
+        f"Q{i + 1} is radially non-hyperbolic (a critical set comes to the equator): its branches are not followed."
         for i in range(len(equator))
         if radially_neutral(equator, i)
     ]

@@ -6,28 +6,38 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .critical import locate
+from .critical_general import disc_zeros
+from .general import Frozen, System
 from .systems import Coefficients, ELinear
 
 
-def sliding_flow(system: ELinear | Coefficients, z: ArrayLike = ()) -> NDArray[np.float64] | None:
-    """Z' along the critical set, eq:linslowflow: ``-B A^-1 f + g``, the Filippov convention, whatever Psi is.
+def sliding_flow(system: ELinear | System | Coefficients | Frozen, z: ArrayLike = ()) -> NDArray[np.float64] | None:
+    """Z' along the critical sets, eq:RPSF: W at the zeros of U, whatever Psi is.
 
-    It is also the mean of z' over a limit cycle of the layer problem (prop:LC).
+    For an e-linear system, which has at most one, it is ``-B A^-1 f + g`` (eq:linslowflow): the Filippov convention,
+    and the mean of z' over a limit cycle of the layer problem (prop:LC).
 
     Parameters
     ----------
-    system : ELinear, or Coefficients
+    system : ELinear or System, or either frozen at a z
     z : (m,) floats
 
     Returns
     -------
-    ndarray (m,), or None
-        None where there is no critical set: nothing slides there.
+    ndarray (m,), or (k, m) for a general system, or None
+        A general system has a row for each critical set, in the order of `critical_sets`: where rows differ, sliding
+        is not unique (sec:nonunique). None where there is no critical set: nothing slides there.
     """
-    coefficients = system.at(z)
-    location = locate(coefficients)
-    if location.e is None:
-        return None
-    flow = coefficients.W(location.e)
+    at = system.at(z)
+    if isinstance(at, Frozen):
+        points = disc_zeros(at.key).e
+        if not len(points):
+            return None
+        flow = at.W(points)
+    else:
+        location = locate(at)
+        if location.e is None:
+            return None
+        flow = at.W(location.e)
     flow.flags.writeable = False
     return flow

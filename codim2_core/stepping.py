@@ -210,7 +210,7 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
                             code = ARRIVED
                     if code == RUNNING and 0.0 < w < near and S[K12 + 2 * LANES + k] < 0.0:
                         if not turn_known:
-                            turn, turn_known = winding(P), True
+                            turn, turn_known = winding(P, field, scratch), True
                         if turn * P[SIGN + k] < 0.0:
                             code = SPIRALLED
                     if code == RUNNING and stop >= t_max:

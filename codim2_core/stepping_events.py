@@ -13,7 +13,9 @@ NOTHING, INTERIOR, EQUATOR = range(3)
 DIFFERENCE = 1e-5  # of central differences; their error, 1e-10 at unit scale, only has to decide signs
 NEUTRAL = 1e-8  # |det| below NEUTRAL tr^2: an eigenvalue that the differences cannot tell from 0
 STILL = 4e-16  # a speed that is rounding, at unit scale
-MIRROR = 2 * WIDTH + PARAMETERS  # room that `attracted` needs
+FAINT = 1e-150
+MIRROR = 2 * WIDTH + PARAMETERS  # room that `attracted` and `winding` need
+ROUND = 8 * LANES  # points of the equator at which `winding` looks
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -41,6 +43,12 @@ def attracted(S, P, field, lane, capture, scratch):
         S2[i] = x + p * ax + q * bx
         S2[LANES + i] = y + p * ay + q * by
         S2[2 * LANES + i] = w + q * bw
+        # Back on the sphere (outside: the circle): a formula such as sqrt(1 - c^2 - s^2) ends there.
+        height = S2[2 * LANES + i] if sign < 0.0 else 0.0
+        length = 1.0 / math.sqrt(S2[i] * S2[i] + S2[LANES + i] * S2[LANES + i] + height * height)
+        S2[i] *= length
+        S2[LANES + i] *= length
+        S2[2 * LANES + i] *= length if sign < 0.0 else 1.0
     call_field(field, S2, 0, WIDTH, P2)
     F = S2[WIDTH:]
     speed = math.sqrt(F[4] ** 2 + F[LANES + 4] ** 2 + F[2 * LANES + 4] ** 2)
@@ -59,7 +67,7 @@ def attracted(S, P, field, lane, capture, scratch):
     dx, dy, dw = F[2] - F[3], F[LANES + 2] - F[LANES + 3], F[2 * LANES + 2] - F[2 * LANES + 3]
     j22 = (dx * bx + dy * by + dw * bw) / (2.0 * DIFFERENCE)
     trace, det = j11 + j22, j11 * j22 - j12 * j21
-    if trace >= 0.0 or det < -NEUTRAL * trace * trace:
+    if not (trace < 0.0 and det >= -NEUTRAL * trace * trace):  # also NaN
         return NOTHING
     if det <= NEUTRAL * trace * trace:  # a line of equilibria: only what is far closer counts
         return place if speed <= 1e-3 * capture * -trace else NOTHING
@@ -90,24 +98,29 @@ def left_view(S, lane, view):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def winding(P):
+def winding(P, field, scratch):
     """-1, 0 or +1: the closed equator repels, is absent or neutral, attracts on the hemisphere (thm:geneps0(c)).
 
     Outside it is the opposite. The sign of the integral of lambda_rho/|Theta|, by the trapezoidal rule.
     """
-    a, b, d, f1, f2 = P[0], P[1], P[2], P[3], P[4]
-    count = 256
+    S2, P2 = scratch[: 2 * WIDTH], scratch[2 * WIDTH :]
+    P2[:SIGN] = P[:SIGN]
+    P2[SIGN:] = 1.0  # outside, at w = rho = FAINT, where w' = w lambda_rho
     total, size, first = 0.0, 0.0, 0.0
-    for i in range(count):
-        c, s = math.cos(2.0 * math.pi * i / count), math.sin(2.0 * math.pi * i / count)
-        u, v = a * c - b * s + f1, b * c + d * s + f2
-        turning, growth = c * v - s * u, c * u + s * v
-        if i == 0:
-            first = turning
-        if turning * first <= 0.0:
-            return 0.0
-        total += growth / abs(turning)
-        size += abs(growth / turning)
+    for base in range(0, ROUND, LANES):
+        for k in range(LANES):
+            angle = 2.0 * math.pi * (base + k) / ROUND
+            S2[k], S2[LANES + k], S2[2 * LANES + k] = math.cos(angle), math.sin(angle), FAINT
+        call_field(field, S2, 0, WIDTH, P2)
+        for k in range(LANES):
+            turning = S2[k] * S2[WIDTH + LANES + k] - S2[LANES + k] * S2[WIDTH + k]
+            growth = S2[WIDTH + 2 * LANES + k] / FAINT
+            if base + k == 0:
+                first = turning
+            if turning * first <= 0.0:
+                return 0.0
+            total += growth / abs(turning)
+            size += abs(growth / turning)
     if abs(total) <= 1e-10 * size:
         return 0.0
     return 1.0 if total > 0.0 else -1.0

@@ -1,129 +1,39 @@
-"""The layer problem and the nonsmooth outside as one compiled field, for each family of Psi.
+"""The layer problem and the nonsmooth outside as one compiled field: e-linear systems, for each family of Psi.
 
-With ``e = gain p``, ``gain = 1/sqrt(|p|^2 + w^2 Psi(|p|^2/w^2))`` on the hemisphere, eq:ePsi, and ``gain = 1/|p|``
-outside: ``p' = U - p (p.U)`` and ``w' = -w (p.U)`` (w = ebar) or ``w' = +w (p.U)`` (w = rho). For Psi = 1 the gain is 1
-on the sphere, and leaving it out extends the field off the sphere smoothly.
+``p' = U - p (p.U)`` and ``w' = -w (p.U)`` (w = ebar) or ``w' = +w (p.U)`` (w = rho), with U at ``e = gain p``. For
+Psi = 1 the gain is 1 on the sphere, and leaving it out extends the field off the sphere smoothly.
 
 Loops are free of branches and of library calls, so that they run in vector registers.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
 from numba import (
     carray,  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
-    cfunc,
     njit,
 )
 
 from .regularisation import Psi
-from .stepping_layout import FIELD, LANES, PARAMETERS, SIGN, WIDTH, bits_of_double, double_of_bits
-
-ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}
-TINY = 1e-300
-LOG2_E, LN2_HIGH, LN2_LOW = 1.4426950408889634, 0.6931471803691238, 1.9082149292705877e-10
-# Beyond s = LARGE, w^2 Psi(s) <= Psi(s) |p|^2/LARGE is lost beside |p|^2.
-LARGE = 1e20
-MOST_INTEGER = 255  # of n of the Hill family, for powers by squaring: eight bits
-
-
-@njit(cache=True, fastmath={"contract"}, error_model="numpy", forceinline=True)
-def expm1(x):
-    """exp(x) - 1 to an ulp or two, |x| <= 700: Cody and Waite's reduction, a Taylor polynomial on |r| <= ln(2)/2."""
-    k = math.floor(x * LOG2_E + 0.5)
-    r = (x - k * LN2_HIGH) - k * LN2_LOW
-    q = 1.0 / 6227020800.0
-    q = q * r + 1.0 / 479001600.0
-    q = q * r + 1.0 / 39916800.0
-    q = q * r + 1.0 / 3628800.0
-    q = q * r + 1.0 / 362880.0
-    q = q * r + 1.0 / 40320.0
-    q = q * r + 1.0 / 5040.0
-    q = q * r + 1.0 / 720.0
-    q = q * r + 1.0 / 120.0
-    q = q * r + 1.0 / 24.0
-    q = q * r + 1.0 / 6.0
-    q = q * r + 0.5
-    scale = double_of_bits((int(k) + 1023) << 52)
-    return scale * (q * r * r + r) + (scale - 1.0)
-
-
-@njit(cache=True, fastmath={"contract"}, error_model="numpy", forceinline=True)
-def log(x):
-    """Natural logarithm of a normal positive double, to an ulp or two: 2 artanh((m - 1)/(m + 1)) and the exponent."""
-    # Shifting by the bits of 1/sqrt(2) makes the mantissa m fall in [1/sqrt(2), sqrt(2)).
-    bits = bits_of_double(x)
-    exponent = (bits - 0x3FE6A09E667F3BCD) >> 52
-    m = double_of_bits(bits - (exponent << 52))
-    k = float(exponent)
-    f = (m - 1.0) / (m + 1.0)
-    g = f * f
-    q = 1.0 / 23.0
-    q = q * g + 1.0 / 21.0
-    q = q * g + 1.0 / 19.0
-    q = q * g + 1.0 / 17.0
-    q = q * g + 1.0 / 15.0
-    q = q * g + 1.0 / 13.0
-    q = q * g + 1.0 / 11.0
-    q = q * g + 1.0 / 9.0
-    q = q * g + 1.0 / 7.0
-    q = q * g + 1.0 / 5.0
-    q = q * g + 1.0 / 3.0
-    return k * LN2_HIGH + (2.0 * f + (2.0 * f * g * q + k * LN2_LOW))
-
-
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def gain_rational(r2, w):
-    """Psi = 1/(1 + s)."""
-    w2 = w * w
-    return 1.0 / math.sqrt(max(r2 + w2 * w2 / max(r2 + w2, TINY), TINY))
-
-
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def gain_exponential(r2, w):
-    """Psi = exp(-s)."""
-    w2 = w * w
-    s = min(r2 / max(w2, TINY), 700.0)
-    return 1.0 / math.sqrt(max(r2 + w2 * (1.0 + expm1(-s)), TINY))
-
-
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def gain_tanh(r2, w):
-    """Psi = s/sinh^2 sqrt(s), that is e = tanh(zeta) p/|p|, with zeta = |p|/w."""
-    r = max(math.sqrt(r2), 1e-150)
-    m = expm1(-2.0 * min(r / max(abs(w), TINY), 350.0))
-    return -m / ((2.0 + m) * r)
-
-
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def gain_hill(r2, w, n):
-    """Psi = 3/(3 + (4 s)^n)."""
-    w2 = w * w
-    power = n * log(max(min(4.0 * r2 / max(w2, TINY), 1e300), TINY))
-    return 1.0 / math.sqrt(max(r2 + 3.0 * w2 / (4.0 + expm1(max(min(power, 700.0), -700.0))), TINY))
-
-
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def gain_hill_integer(r2, w, n):
-    """Psi = 3/(3 + (4 s)^n) for an integer n in 1..MOST_INTEGER, the power by squaring; infinity is a good power."""
-    w2 = w * w
-    base = 4.0 * r2 / max(w2, TINY)
-    power = 1.0
-    for bit in range(8):
-        power = power * base if (n >> bit) & 1 else power
-        base = base * base
-    return 1.0 / math.sqrt(max(r2 + 3.0 * w2 / (3.0 + power), TINY))
-
-
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def arguments(S, P, lane):
-    """``|p|^2`` and ebar (0 outside) in one lane: what a gain depends on."""
-    x, y = S[lane], S[lane + LANES]
-    return x * x + y * y, S[lane + 2 * LANES] * (0.5 - 0.5 * P[lane + SIGN])
+from .stepping_gains import (
+    ARITHMETIC,
+    MOST_EXPRESSIONS,
+    Kept,
+    arguments,
+    compiled,
+    family_name,
+    gain_custom,
+    gain_exponential,
+    gain_hill,
+    gain_hill_integer,
+    gain_rational,
+    gain_tanh,
+    source_of,
+)
+from .stepping_layout import LANES, PARAMETERS, SIGN, WIDTH
+from .stepping_numbers import PSI
 
 
 @njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
@@ -170,31 +80,25 @@ def _hill(state, out, parameters):
     S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
     for lane in range(LANES):
         r2, w = arguments(S, P, lane)
-        put(S, D, P, lane, gain_hill(r2, w, P[5]))
+        put(S, D, P, lane, gain_hill(r2, w, P[PSI]))
 
 
 def _hill_integer(state, out, parameters):
     S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-    n = int(P[5])
+    n = int(P[PSI])
     for lane in range(LANES):
         r2, w = arguments(S, P, lane)
         put(S, D, P, lane, gain_hill_integer(r2, w, n))
 
 
-def _custom(psi):
-    """Make a field for Psi given as a compiled scalar function of s."""
+def _custom(gain):
+    """Make a field for a Psi whose gain is given."""
 
     def field(state, out, parameters):
         S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
         for lane in range(LANES):
             r2, w = arguments(S, P, lane)
-            w2 = w * w
-            shape = 0.0
-            if r2 < LARGE * w2:
-                shape = w2 * psi(r2 / w2)
-                if not 0.0 <= shape < math.inf:  # a formula that leaves R1 here: the nonsmooth field instead
-                    shape = 0.0
-            put(S, D, P, lane, 1.0 / math.sqrt(max(r2 + shape, TINY)))
+            put(S, D, P, lane, gain(r2, w))
 
     return field
 
@@ -209,34 +113,17 @@ _FAMILIES = {
 }
 
 
-def _compiled(function: Callable[..., None], cache: bool) -> Any:
-    return cfunc(FIELD, cache=cache, nogil=True, fastmath=ARITHMETIC, error_model="numpy")(function)
-
-
 @lru_cache(maxsize=len(_FAMILIES))
 def _family(name: str) -> Any:
-    return _compiled(_FAMILIES[name], cache=True)
+    return compiled(_FAMILIES[name], cache=True)
 
 
-MOST_EXPRESSIONS = 64  # compiled custom formulas kept
-_expressions: dict[str, Any] = {}
-
-
-def _expression(source: str) -> Any:
-    if source not in _expressions:
-        scope: dict[str, Any] = {"math": math}
-        exec(f"def psi(s):\n    return {source}\n", scope)  # written by Expression: names and math.* only
-        compiled = _compiled(_custom(njit(error_model="numpy")(scope["psi"])), cache=False)
-        while len(_expressions) >= MOST_EXPRESSIONS:
-            _expressions.pop(next(iter(_expressions)), None)
-        _expressions[source] = compiled
-        return compiled
-    return _expressions[source]
+_custom_fields = Kept(MOST_EXPRESSIONS)
 
 
 def is_compiled(psi: Psi) -> bool:
     """Whether a custom Psi has its field already."""
-    return psi.expression is not None and psi.expression.python_source() in _expressions
+    return source_of(psi) in _custom_fields
 
 
 def field(psi: Psi) -> Any:
@@ -253,9 +140,6 @@ def field(psi: Psi) -> Any:
         come from the disk cache, custom text costs one compilation of a few lines (about 0.3 s), once a text.
     """
     if psi.family == "custom":
-        if psi.expression is None:
-            raise ValueError(f"{psi!r} has no expression; make it with psi.custom.")
-        return _expression(psi.expression.python_source())
-    if psi.family == "hill" and psi.parameter in range(1, MOST_INTEGER + 1):
-        return _family("hill, integer n")
-    return _family(psi.family)
+        source = source_of(psi)
+        return _custom_fields.get(source, lambda: compiled(_custom(gain_custom(source)), cache=False))
+    return _family(family_name(psi))

@@ -4,7 +4,7 @@
 then py, then w, the state of DESIGN's one chart (w = ebar on the hemisphere, rho outside). P holds the parameters.
 
 A right-hand side is a C function ``void(state, out, P)`` on such rows, entered by its address: the integrator is
-compiled once, whatever the system.
+compiled once, whatever the system. The gain of Psi, where a right-hand side asks for it, is entered in the same way.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
+from .stepping_numbers import SHARED
+
 # 32 doubles are four AVX-512 registers a component: stages then hide the latency of one another (measured:
 # 65 ns a step and lane with 8 lanes, 30 with 16, 20 with 32).
 LANES = 32
@@ -28,7 +30,6 @@ STATE, TRIAL, STEP, NEW, ERROR_5, ERROR_3 = (k * WIDTH for k in range(16, 22))
 DENSE = 22 * WIDTH  # seven rows
 WORKSPACE = 29 * WIDTH
 
-SHARED = 16  # P[0:5] = a, b, d, f1, f2; P[5] = the parameter of Psi
 SIGN = SHARED  # P[SIGN + lane] = -1 on the hemisphere, +1 outside
 PARAMETERS = SHARED + LANES
 
@@ -54,6 +55,21 @@ def _call_field(typing_context, address, S, source, target, P):  # noqa: ARG001 
 
 
 call_field: Any = intrinsic(_call_field)
+
+
+def _call_at(typing_context, address, state, out, parameters):  # noqa: ARG001
+    """Call the right-hand side at `address` from within another, on its own three pointers."""
+
+    def generate(context, builder, _signature, arguments):
+        address, *places = arguments
+        function = ir.FunctionType(ir.VoidType(), [place.type for place in places])
+        builder.call(builder.inttoptr(address, function.as_pointer()), places)
+        return context.get_dummy_value()
+
+    return types.void(types.int64, _POINTER, _POINTER, _POINTER), generate
+
+
+call_at: Any = intrinsic(_call_at)
 
 
 def _double_of_bits(typing_context, bits):  # noqa: ARG001

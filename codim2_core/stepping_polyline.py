@@ -14,7 +14,7 @@ from numba import njit
 from .dop853 import ARITHMETIC, dense
 from .stepping_layout import K0, LANES, SIGN, STATE
 
-# Rows of the cursor, one number a lane each: the last point and the velocity there, its time, the next spacing.
+# Rows of the cursor, a number a lane each: the last point and the velocity there, its time, the next spacing.
 X, Y, VX, VY, TIME, SPACING = range(6)
 CURSOR = 6
 LONGER = 4.0  # growth of the spacing from one chord to the next

@@ -82,6 +82,10 @@ class Coefficients:
         c, s = e[..., 0], e[..., 1]
         return np.stack([self.a * c - self.b * s + self.f1, self.b * c + self.d * s + self.f2], axis=-1)
 
+    def DU(self, e: ArrayLike) -> NDArray[np.float64]:
+        """``D_(c,s) U = A`` for e of shape (..., 2); shape (..., 2, 2)."""
+        return np.broadcast_to(self.A, (*np.shape(e)[:-1], 2, 2))
+
     def W(self, e: ArrayLike, xy: ArrayLike | None = None) -> NDArray[np.float64]:  # noqa: ARG002
         """``W = B e + g`` for e of shape (..., 2); shape (..., m)."""
         return np.asarray(e, float) @ self.B.T + self.g

@@ -14,8 +14,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .general import Frozen, System
 from .regularisation import Psi
 from .seeds import checked_seeds
+from .stepping_numbers import rate
 from .systems import Coefficients, ELinear
 from .trajectory_continuation import departures
 from .trajectory_result import Status, Trajectories, joined
@@ -23,24 +25,26 @@ from .trajectory_result import Status, Trajectories, joined
 __all__ = ["Status", "Trajectories", "continuation", "is_warm", "joined", "trajectories", "warm"]
 
 Array = NDArray[np.float64]
+AnySystem = ELinear | System | Coefficients | Frozen
 
 PIXEL = 1.0 / 180.0
 DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
 STEP_LIMIT = 10_000
-SHARED = 16  # parameters of the field, see `stepping_layout`
 
-_warm: set[str] = set()  # families used so far
+GENERAL = "general"
+_warm: set[str] = set()  # what has run: families of Psi for e-linear systems, GENERAL for any other
 
 
 @lru_cache(maxsize=1)
 def _kernels() -> SimpleNamespace:
     """Load the compiled parts on first use: compiling, or loading from the disk cache, starts with their first call."""
-    from . import stepping, stepping_fields, stepping_layout
+    from . import stepping, stepping_layout, stepping_problem
 
     return SimpleNamespace(
         integrate=stepping.integrate,
-        field=stepping_fields.field,
-        is_compiled=stepping_fields.is_compiled,
+        problem=stepping_problem.problem,
+        prepare=stepping_problem.prepare,
+        is_compiled=stepping_problem.is_compiled,
         states_of=stepping_layout.states_of,
     )
 
@@ -56,7 +60,7 @@ def _positive(value: float, what: str, remedy: str, low: float = 0.0, high: floa
 
 
 def trajectories(
-    system: ELinear | Coefficients,
+    system: AnySystem,
     psi: Psi,
     seeds: ArrayLike,
     z: ArrayLike = (),
@@ -76,7 +80,8 @@ def trajectories(
 
     Parameters
     ----------
-    system : ELinear, or Coefficients
+    system : ELinear or System, or either frozen at a z
+        A System costs one small compilation, whatever Psi, z and its parameters are.
     psi : Psi
     seeds : (k, 2)
         Points of the picture: |p| < 1 on the hemisphere, |p| = 1 + rho outside, |p| = 1 on the equator, which is
@@ -139,7 +144,7 @@ def trajectories(
 
 
 def _integrate(
-    system: ELinear | Coefficients,
+    system: AnySystem,
     psi: Psi,
     states: Array,
     signs: Array,
@@ -170,24 +175,18 @@ def _integrate(
         raise ValueError(f'samples is {samples!r}; give None for drawn lines or "ends" for the two ends.')
     if not 1 <= int(step_limit) <= 10**9:
         raise ValueError(f"step_limit is {step_limit!r}; give a number of steps from 1 to 1e9.")
-    # Time in units of 1/|U| makes step sizes, speeds and capture independent of the coefficients' scale.
-    plane = system.at(z).plane
-    size = max(map(abs, plane)) or 1.0
-    rate = size * math.hypot(*(value / size for value in plane)) or 1.0
-    direction = -1.0 if backward else 1.0
-    shared = np.zeros(SHARED)
-    shared[:5] = [direction * (value / rate) for value in plane]
-    shared[5] = psi.parameter
+    at = system.at(z)
     if len(states) == 0:
         return joined([])
     kernels = _kernels()
-    function = kernels.field(psi)
+    # Time in units of 1/|U| makes step sizes, speeds and capture independent of the scale of U.
+    problem, unit = kernels.problem(at, psi, backward), rate(at)
     buffer, clock, offsets, ends, codes, evaluations = kernels.integrate(
         states,
         signs,
-        shared,
-        function.address,
-        min(t_max * rate, 1e300),
+        problem.shared,
+        problem.address,
+        min(t_max * unit, 1e300),
         rtol,
         atol,
         int(step_limit),
@@ -196,32 +195,46 @@ def _integrate(
         0.0 if samples == "ends" else DRAWN * pixel,
         float(length),
     )
-    clock *= direction / rate
-    _warm.add(psi.family)
+    clock *= (-1.0 if backward else 1.0) / unit
+    _warm.add(psi.family if isinstance(at, Coefficients) else GENERAL)
     return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
 
 
-def warm(psi: Psi | None = None) -> None:
-    """Compile, or load from the disk cache, all that trajectories with this Psi need (default: Psi = 1)."""
+def warm(psi: Psi | None = None, system: AnySystem | None = None) -> None:
+    """Compile, or load from the disk cache, all that trajectories with this Psi need.
+
+    Parameters
+    ----------
+    psi : Psi, optional
+        Default Psi = 1.
+    system : System or Frozen, optional
+        Compile the field of this system too; it runs at once at any z and any values of its parameters.
+    """
     from .regularisation import constant
 
-    system, seeds = ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), np.array([(0.5, 0.0), (1.5, 0.0)])
     psi = constant() if psi is None else psi
-    trajectories(system, psi, seeds)
-    trajectories(system, psi, checked_seeds(seeds))  # read-only arrays are another type to Numba
+    general = system.system if isinstance(system, Frozen) else system
+    if isinstance(general, System):
+        _kernels().prepare(general, psi)
+    elinear, seeds = ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), np.array([(0.5, 0.0), (1.5, 0.0)])
+    trajectories(elinear, psi, seeds)
+    trajectories(elinear, psi, checked_seeds(seeds))  # read-only arrays are another type to Numba
 
 
-def is_warm(psi: Psi | None = None) -> bool:
-    """Whether trajectories (with this Psi, if it is given) run at once, without compiling or loading."""
-    if psi is None or psi.family not in _warm:
-        return psi is None and bool(_warm)
-    if psi.family != "custom":
+def is_warm(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
+    """Whether trajectories (with this Psi and system, if given) run at once, without compiling or loading."""
+    if not _warm:
+        return False
+    general = system.system if isinstance(system, Frozen) else system
+    if psi is None:
         return True
-    return _kernels().is_compiled(psi)
+    if isinstance(general, System):
+        return _kernels().is_compiled(general, psi)
+    return psi.family in _warm and _kernels().is_compiled(None, psi)
 
 
 def continuation(
-    system: ELinear | Coefficients,
+    system: AnySystem,
     psi: Psi,
     theta: ArrayLike,
     z: ArrayLike = (),

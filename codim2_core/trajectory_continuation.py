@@ -1,14 +1,14 @@
 """Local expansion of the orbit that leaves a limit direction up the hemisphere, thm:geneps0(b).
 
 Write ``p = sqrt(1 - w^2) (cos theta, sin theta)``, w = ebar. At a limit direction theta_0, Theta = 0, and
-``theta' = Theta - w^2 Psi Theta_A/2 + ...`` with ``Theta_A = (-sin, cos).A(cos, sin)``,
-``w' = -lambda_rho w``. Psi falls like s^-mu as s = 1/w^2 grows (mu = 0 for Psi = 1), so
+``theta' = Theta - w^2 Psi Theta_e/2 + ...`` with ``Theta_e = (-sin, cos).D_e U (cos, sin)`` (A for D_e U in the
+e-linear system), ``w' = -lambda_rho w``. Psi falls like s^-mu as s = 1/w^2 grows (mu = 0 for Psi = 1), so
 ``theta = theta_0 + k w^2`` with
 
-    k = (Psi/2) Theta_A/(lambda_theta + (2 + 2 mu) lambda_rho),
+    k = (Psi/2) Theta_e/(lambda_theta + (2 + 2 mu) lambda_rho),
 
 up to terms of order w^4. At the resonance, where that denominator vanishes, k has a logarithm instead:
-``k = (Psi/2) Theta_A ln(w)/lambda_rho``. Where lambda_theta > 0 many orbits leave; this is the smooth one.
+``k = (Psi/2) Theta_e ln(w)/lambda_rho``. Where lambda_theta > 0 many orbits leave; this is the smooth one.
 """
 
 from __future__ import annotations
@@ -16,11 +16,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .general import Frozen
 from .regularisation import Psi
+from .stepping_numbers import rate
 from .systems import Coefficients
 
 HIGHEST = 1e-3  # start no further up than this: 1 - |p| is then 5e-7, well below a pixel
-LIMIT = 1e-6  # |Theta| allowed of a limit direction, in units of the largest coefficient
+LIMIT = 1e-6  # |Theta| allowed of a limit direction, in units of |U|
 RESONANCE = 1e-6
 
 
@@ -38,13 +40,13 @@ def _tilt(
 
 
 def departures(
-    coefficients: Coefficients, psi: Psi, theta: ArrayLike, rtol: float, backward: bool
+    at: Coefficients | Frozen, psi: Psi, theta: ArrayLike, rtol: float, backward: bool
 ) -> NDArray[np.float64]:
     """First states (k, 3) of the orbits that leave limit directions.
 
     Parameters
     ----------
-    coefficients : Coefficients
+    at : Coefficients or Frozen
     psi : Psi
     theta : (k,)
         Zeros of Theta with lambda_rho < 0 (backward: > 0), radians.
@@ -68,15 +70,13 @@ def departures(
         raise ValueError(f"theta is {theta!r}; give limit directions in radians, shape (k,).") from error
     if not np.isfinite(angle).all():
         raise ValueError(f"theta is {theta!r}; every limit direction must be a finite angle in radians.")
-    plane = np.array(coefficients.plane)
-    size = float(np.abs(plane).max())
-    a, b, d, f1, f2 = plane / (size if size > 0.0 else 1.0)
-    c, s = np.cos(angle), np.sin(angle)
-    u, v = a * c - b * s, b * c + d * s
-    from_A = c * v - s * u
-    Theta = from_A + c * f2 - s * f1
-    lambda_rho = c * (u + f1) + s * (v + f2)
-    lambda_theta = (d - a) * np.cos(2.0 * angle) - f2 * s - f1 * c
+    size = rate(at)
+    e = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    across = np.stack([-e[:, 1], e[:, 0]], axis=-1)
+    U, DU = at.U(e) / size, at.DU(e) / size
+    Theta, lambda_rho = (across * U).sum(axis=-1), (e * U).sum(axis=-1)
+    tilting = np.einsum("ki,kij,kj->k", across, DU, e)
+    lambda_theta = np.einsum("ki,kij,kj->k", across, DU, across) - lambda_rho
     for i in np.flatnonzero(np.abs(Theta) > LIMIT):
         raise ValueError(
             f"theta[{i}] = {angle[i]} is no limit direction: Theta is {Theta[i] * size:.3g} there, not 0; "
@@ -92,6 +92,6 @@ def departures(
     far = 1.0 / (w * w)
     value = psi(far)
     mu = max(-far * psi.derivative(far) / value, 0.0) if value > 0.0 else 0.0
-    angle = angle + w * w * _tilt(lambda_theta, lambda_rho, 0.5 * value * from_A, mu, w)
+    angle = angle + w * w * _tilt(lambda_theta, lambda_rho, 0.5 * value * tilting, mu, w)
     r = np.sqrt((1.0 - w) * (1.0 + w))
     return np.stack([r * np.cos(angle), r * np.sin(angle), np.full_like(angle, w)], axis=-1)

@@ -49,6 +49,8 @@ class NumberControl {
 
 function plain(value) { return String(Number(value.toPrecision(6))) }
 
+const minus = (text) => text.replaceAll("-", "−")
+
 function sayAt(box, sentence) {
   const error = box.querySelector(".error")
   box.classList.toggle("bad", Boolean(sentence))

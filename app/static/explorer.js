@@ -3,7 +3,7 @@
 function wire({model, view, root, plot}) {
   const config = model.config
   const values = {...config.values}
-  const picture = new Picture(plot, config.themes)
+  const picture = new Picture(plot, config.themes, config.hatches)
   const inspector = new Inspector(root)
   const find = (name) => root.querySelector(name)
   const requests = new Requests((request) => model.send_msg(request), () => { root.dataset.settled = false })
@@ -15,12 +15,11 @@ function wire({model, view, root, plot}) {
     if (name in numbers && typeof value !== "number") { requests.set(name, value); return }
     values[name] = value
     requests.set(name, value)
-    if (name in outline) pad.draw(values)
+    if (name in numbers) drawPanels()
     if (config.presets[values.preset] && name in config.presets[values.preset].values) markChanged()
     keepLink()
   }
   const numbers = Object.fromEntries(config.numbers.map((name) => [name, true]))
-  const outline = {a: 1, b: 1, d: 1, f1: 1, f2: 1, k1: 1, k2: 1, z: 1}
 
   for (const box of root.querySelectorAll("[data-control]")) {
     const name = box.dataset.control
@@ -29,11 +28,40 @@ function wire({model, view, root, plot}) {
       if (config.locked.includes(name)) for (const input of box.querySelectorAll("input")) { input.disabled = true; input.title = "given by your system" }
     } else controls[name] = {box, say: (sentence) => sayAt(box, sentence), set: () => {}}
   }
-  const pad = new Pad(find(".pad"), find(".pad-names"), (f1, f2) => {
-    if (config.locked.includes("f1")) return
-    controls.f1.set(f1); controls.f2.set(f2); change("f1", f1); change("f2", f2); pad.draw(values)
-  })
-  find(".pad-box").hidden = ["a", "b", "d", "f1", "f2"].some((name) => config.locked.includes(name)) // as in refresh.py
+  // A panel moves controls: {name: value}.
+  const move = (wanted) => {
+    for (const [name, value] of Object.entries(wanted)) {
+      if (name.startsWith("own:")) systems.move(name.slice(4), value)
+      else if (!config.locked.includes(name)) { controls[name]?.set(value); change(name, value) }
+    }
+  }
+  const panels = new Panels(root, (name) => { change("panel", name); showPanels() })
+  const systems = new SystemChooser(root, config, values, {change, place: (name, control) => { controls[name] = control }, normal: controls.z})
+  controls.system.set = () => {}
+  const drift = new Along(root, config, move)
+  const motion = new Motion(root, config, move, (paths, place) => picture.trace(paths, place))
+  const zoom = (name) => (value) => { change(name, value); drawPanels() }
+  const shown = {
+    along: drift, solid: new Stack(root, config, (view) => { change("solid", view); drawPanels() }), psi: new PsiCurves(root), time: motion, planes: new Planes(root),
+    atlas: new Atlas(root, config, move, zoom("atlas_zoom")), diagram: new Diagram(root, config, move, zoom("zoom")),
+  }
+  const drawPanels = () => { shown[values.panel]?.draw(values); if (values.panel !== "time") motion.draw(values); if (values.panel !== "along") drift.toggle(false) }
+  const showPanels = () => { panels.show(values.panel); drawPanels() }
+  for (const name of ["across", "up", "along"]) {
+    const select = find(`select.${name}`)
+    select.addEventListener("change", () => { change(name, select.value); showPanels() })
+    controls[name].set = (value) => { select.value = value }
+  }
+  // The axes that the present system has; a chosen one that it does not have stays in the list.
+  const showAxes = (axes) => {
+    for (const [name, symbol, low, high] of axes) { config.symbols[name] = symbol; config.ranges[name] = [low, high] }
+    for (const name of ["across", "up", "along"]) {
+      const there = axes.some(([axis]) => axis === values[name])
+      const list = there ? axes : [[values[name], config.symbols[values[name]] ?? values[name].replace("own:", "")], ...axes]
+      find(`select.${name}`).innerHTML = list.map(([axis, symbol]) => `<option value="${axis}"${axis === values[name] ? " selected" : ""}>${escape(symbol)}</option>`).join("")
+    }
+  }
+  config.valueOf = (name) => name.startsWith("own:") ? systems.value(name.slice(4)) : values[name]
 
   const family = find("select.psi")
   const showFamily = () => {
@@ -49,8 +77,12 @@ function wire({model, view, root, plot}) {
   text.addEventListener("input", () => change("psi_text", text.value))
   controls.psi_text.set = (value) => { text.value = value }
 
+  const launch = controls.launch.box.querySelector("input")
+  launch.addEventListener("change", () => change("launch", launch.value))
+  controls.launch.set = (value) => { launch.value = value }
+
   const boxes = [...root.querySelectorAll(".layer input[type=checkbox]")]
-  const showLayers = () => { for (const box of boxes) box.checked = values.layers.includes(box.value); picture.show(values.layers) }
+  const showLayers = () => { for (const box of boxes) box.checked = values.layers.includes(box.value); picture.show(values.layers); find(".outcome-key").hidden = !values.layers.includes("outcomes") }
   for (const box of boxes) box.addEventListener("change", () => { change("layers", boxes.filter((b) => b.checked).map((b) => b.value)); showLayers() })
 
   // Set many controls at once: a portrait of the paper, or the first setting again.
@@ -61,7 +93,7 @@ function wire({model, view, root, plot}) {
       controls[name]?.set(value)
       requests.set(name, value)
     }
-    pad.draw(values); showLayers(); keepLink()
+    showPanels(); showLayers(); keepLink()
   }
   const portrait = find("select.preset"), note = find(".preset-note")
   const tell = () => { const p = config.presets[values.preset]; note.textContent = p ? `${p.label}. ${p.note}` : "" }
@@ -75,7 +107,10 @@ function wire({model, view, root, plot}) {
     if (p) setAll({...p.values, preset: portrait.value}); tell()
   })
   controls.preset.set = (value) => { portrait.value = value }
-  find(".reset").addEventListener("click", () => { setAll(config.defaults); tell(); picture.home(config.view) })
+  find(".reset").addEventListener("click", () => {
+    const {panel, across, up, along, zoom, atlas_zoom, ...first} = config.defaults // what is open stays open
+    setAll(first); tell(); picture.home(config.view)
+  })
   find(".home").addEventListener("click", () => picture.home(config.view))
 
   // Theme: JupyterLab's or the system's until a choice is made.
@@ -103,17 +138,20 @@ function wire({model, view, root, plot}) {
   const keepLink = () => {
     if (!config.page) return
     clearTimeout(linkTimer)
-    linkTimer = setTimeout(() => {
-      const query = new URLSearchParams(Object.entries(values).map(([name, value]) => [name, Array.isArray(value) ? value.join(",") : String(value)]))
-      history.replaceState(null, "", `?${query}`)
-    }, 300)
+    linkTimer = setTimeout(writeLink, 300)
+  }
+  const writeLink = () => {
+    const query = new URLSearchParams(Object.entries(values).map(([name, value]) => [name, Array.isArray(value) ? value.join(",") : typeof value === "object" ? JSON.stringify(value) : String(value)]))
+    history.replaceState(null, "", `?${query}`)
   }
 
-  const theorems = find(".theorems")
-  theorems.addEventListener("toggle", () => {
-    requests.beside.theorems = theorems.open
-    if (theorems.open) requests.refresh()
-  })
+  // What Python, or another browser that shows this view, has set: the controls follow, unless they are being moved.
+  const follow = (given) => {
+    const fresh = Object.entries(given).filter(([name, value]) => !requests.holds(name) && JSON.stringify(values[name]) !== JSON.stringify(value))
+    for (const [name, value] of fresh) { values[name] = value; controls[name]?.set(value) }
+    systems.set(values)
+    if (fresh.length) { showPanels(); showLayers(); tell(); if (config.presets[values.preset]) markChanged(); keepLink() }
+  }
 
   const busy = find(".busy")
   let warmTimer = null, restTimer = null
@@ -127,13 +165,18 @@ function wire({model, view, root, plot}) {
     }
     const general = Object.entries(errors).find(([name]) => !(name in controls))
     banner(general ? general[1] : "")
+    if (header.set) follow(header.set)
+    systems.apply(frame)
     picture.apply(frame)
     clearTimeout(restTimer)
-    if (pad.apply(frame)) restTimer = setTimeout(() => requests.rest(), 150)
-    inspector.apply(header, values)
+    const late = header.late ?? []
+    if (late.length) restTimer = setTimeout(() => requests.rest(), 150)
+    inspector.apply(header, values, late)
+    if (header.axes) showAxes(header.axes)
+    for (const panel of Object.values(shown)) panel.apply(frame, late)
     requests.arrived(header.id, errors)
-    root.dataset.frame = header.id
-    root.dataset.settled = requests.idle && header.ready !== false
+    if ("id" in header) root.dataset.frame = header.id
+    root.dataset.settled = requests.idle && header.ready !== false && !late.length
     if ("ready" in header) {
       busy.hidden = header.ready
       busy.textContent = "Compiling the integrator, once; trajectories follow …"
@@ -143,10 +186,13 @@ function wire({model, view, root, plot}) {
   }
   const banner = (sentence) => { const bar = find(".banner"); bar.hidden = !sentence; bar.textContent = sentence }
 
+  new Connection(view.model.document, {
+    page: config.page, say: banner, leave: writeLink, lost: () => { requests.held = true },
+  })
   model.on("msg:custom", (event) => apply((event.data ?? event).frame))
   if (model.first) apply(model.first instanceof ArrayBuffer ? model.first : model.first.buffer ?? model.first)
   for (const [name, sentence] of Object.entries(config.errors ?? {})) controls[name]?.say(sentence)
-  paint(); showLayers(); showFamily(); tell(); pad.draw(values)
+  paint(); showLayers(); showFamily(); tell(); showPanels()
   root.dataset.ready = "true"
   return {values, requests, picture, apply}
 }

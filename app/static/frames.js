@@ -9,7 +9,19 @@ function readFrame(buffer) {
   const header = JSON.parse(new TextDecoder().decode(aligned.subarray(4, 4 + length)))
   const blocks = {}
   let at = aligned.byteOffset + 4 + length
-  for (const [name, type, size] of header.blocks) {
+  if (header.lines) {
+    const total = (column) => header.lines.reduce((sum, row) => sum + row[column], 0)
+    const [pieces, points, heads] = [1, 2, 3].map(total)
+    const run = (Type, size) => { const all = new Type(aligned.buffer, at, size); at += 2 * size; return all }
+    const parts = {n: run(Uint16Array, pieces), xy: run(Int16Array, 2 * points), at: run(Int16Array, 2 * heads), angle: run(Int16Array, heads)}
+    const used = {n: 0, xy: 0, at: 0, angle: 0}
+    for (const [name, n, m, k] of header.lines) {
+      const sizes = k === null ? {n, xy: 2 * m} : {n, xy: 2 * m, at: 2 * k, angle: k}
+      for (const [part, size] of Object.entries(sizes)) blocks[`${name}.${part}`] = parts[part].subarray(used[part], used[part] += size)
+    }
+    at = aligned.byteOffset + 4 + length + Math.ceil((at - aligned.byteOffset - 4 - length) / 4) * 4
+  }
+  for (const [name, type, size] of header.blocks ?? []) {
     const Type = type === "uint16" ? Uint16Array : Int16Array
     blocks[name] = new Type(aligned.buffer, at, size)
     at += Math.ceil(blocks[name].byteLength / 4) * 4
@@ -26,12 +38,14 @@ class Requests {
     this.waiting = {}
     this.rejected = {}
     this.asked = null
-    this.number = 0
+    this.number = Math.floor(Math.random() * 1e12) // another browser that shows this view gets the replies too
     this.scheduled = false
     this.again = this.resting = false
-    this.beside = {} // what every request asks for besides
     this.timer = null
+    this.held = false // the connection is lost: values are kept, nothing is asked
   }
+
+  holds(name) { return name in this.waiting || (this.asked !== null && name in this.asked) }
 
   set(name, value) {
     this.waiting[name] = value
@@ -48,7 +62,7 @@ class Requests {
   get idle() { return this.asked === null && Object.keys(this.waiting).length === 0 }
 
   schedule() {
-    if (this.scheduled || this.asked !== null) return
+    if (this.held || this.scheduled || this.asked !== null) return
     this.scheduled = true
     const go = () => { clearTimeout(fallback); cancelAnimationFrame(frame); this.scheduled = false; this.leave() }
     const frame = requestAnimationFrame(go)
@@ -56,11 +70,11 @@ class Requests {
   }
 
   leave() {
-    if (this.asked !== null || (!this.again && Object.keys(this.waiting).length === 0)) return
+    if (this.held || this.asked !== null || (!this.again && Object.keys(this.waiting).length === 0)) return
     this.asked = {...this.rejected, ...this.waiting}
     this.waiting = {}
     this.number += 1
-    this.send({id: this.number, set: this.asked, rest: this.resting, ...this.beside})
+    this.send({id: this.number, set: this.asked, rest: this.resting})
     this.again = this.resting = false
     // a lost reply must not stop the explorer for ever
     this.timer = setTimeout(() => { this.waiting = {...this.asked, ...this.waiting}; this.asked = null; this.schedule() }, 20000)

@@ -2,18 +2,25 @@
 
 const escape = (text) => String(text).replace(/[&<>"]/g, (c) => ({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})[c])
 
+// A number that shows a claim: what is zero up to rounding is told apart from what is small.
+const measured = (value) => value !== 0 && Math.abs(value) < 1e-9 ? digits(value) : minus(plain(value))
+
 class Inspector {
   constructor(root) {
     this.find = (name) => root.querySelector(name)
   }
 
-  apply(header, values) {
+  apply(header, values, late) {
     if (header.portrait) this.portrait(header.portrait)
     if (header.equator) this.equator(header)
     if (header.critical) this.critical(header.critical)
     if (header.cycles) this.cycles(header.cycles)
     if (header.theorems) this.theorems(header.theorems)
-    if ("slow_flow" in header) this.slow(header.slow_flow, values.z)
+    if (header.unable?.theorems) this.find(".theorem-list").innerHTML = `<li class="idle">${escape(header.unable.theorems)}</li>`
+    if (header.outcomes) this.outcomes(header.outcomes.rows)
+    if (header.unable?.outcomes) this.find(".outcome-table").innerHTML = `<h2>Approach outcomes</h2><p class="note">${escape(header.unable.outcomes)}</p>`
+    this.find(".outcome-table").classList.toggle("old", late.includes("outcomes"))
+    if ("slow_flow" in header) { this.slow(header.slow_flow, values.z); this.slowLine(header.slow_flow) }
   }
 
   portrait({case: which, name, sentence, degeneracies}) {
@@ -52,12 +59,25 @@ class Inspector {
     this.find(".cycle-table").innerHTML = "<h2>Limit cycles</h2>" + rows.join("") + words.join("")
   }
 
+  outcomes(rows) {
+    const items = rows.map(([label, kind, words, sentence, families]) => `<li><i class="outcome ${kind}"></i><b>${escape(label)}</b> ${escape(words)}
+      <p class="note">${escape(sentence)}</p>${families.map(([what, psis]) => `<p class="note"><b>${escape(what)}</b> with Ψ = ${psis.map(escape).join(", ")}</p>`).join("")}</li>`)
+    this.find(".outcome-table").innerHTML = `<h2>Approach outcomes</h2><ul>${items.join("")}</ul>`
+  }
+
   theorems(rows) {
     const mark = {holds: ["✓", "holds"], fails: ["✗", "fails"], "does not apply": ["–", "idle"]}
     const words = (text) => escape(text).replace(/_(.)/g, "<sub>$1</sub>") // λ_ρ, e_Ψ
-    this.find(".theorem-list").innerHTML = rows.map(([theorem, statement, verdict, sentence]) =>
+    this.find(".theorem-list").innerHTML = rows.map(([theorem, statement, verdict, sentence, numbers]) =>
       `<li class="${mark[verdict][1]}"><b>${mark[verdict][0]} ${escape(verdict)}</b> <code>${escape(theorem)}</code>
-      <p>${words(statement)}</p><p class="note">${words(sentence)}</p></li>`).join("")
+      <p>${words(statement)}</p><p class="note">${words(sentence)}</p>${numbers.length
+        ? `<table>${numbers.map(([name, value]) => `<tr><td>${words(name)}</td><td>${measured(value)}</td></tr>`).join("")}</table>` : ""}</li>`).join("")
+  }
+
+  // One line that is always in view.
+  slowLine(flow) {
+    const sense = !flow || !flow.length || flow[0] === 0 ? "" : flow[0] > 0 ? ", ⊙ out of the page" : ", ⊗ into the page"
+    this.find(".slow-line").textContent = flow?.length ? `z′ = ${flow.map((v) => digits(v)).join(", ")} on C${sense}` : ""
   }
 
   // An arrow along the z axis; z points out of the page, as in the paper's circled dot and cross.

@@ -1,18 +1,13 @@
-// The plane of f as an atlas: regions of one portrait each, the curves between them, and the handle of f over them.
-// Curves and regions come from the server; they belong to f(z).
+// A plane of two parameters: regions of one portrait each, the curves between them, and a handle over them.
 
 const NAME_SIZE = 8.5 // of the letters, where the pad is 200 wide
-const AXES = `<path class="axis" d="M-100 0H100M0-100V100"/>`
 
 class Pad {
-  constructor(svg, key, onMove) {
+  // `onMove` is called with the two values under the handle, `onRegion` with the index of the region pointed at, or -1.
+  constructor(svg, onMove, onRegion) {
     this.svg = svg
-    this.key = key
     this.onMove = onMove
-    this.reach = 1
-    this.size = 0 // the largest coordinate on the curves
-    this.curves = {}
-    this.regions = []
+    this.box = [[-1, 1], [-1, 1]]
     this.boxes = this.covered = [] // of the regions' names, and of what hides them
     svg.innerHTML = ["regions", "curves", "names", "marks"].map((name) => `<g class="${name}"></g>`).join("")
     this.layer = (name) => svg.querySelector(`g.${name}`)
@@ -23,75 +18,66 @@ class Pad {
       this.dragging = true
       this.move(event)
     })
-    svg.addEventListener("pointermove", (event) => { if (this.dragging) this.move(event) })
-    for (const end of ["pointerup", "pointercancel"]) svg.addEventListener(end, () => { this.dragging = false; this.draw(this.values) })
+    svg.addEventListener("pointermove", (event) => {
+      if (this.dragging) this.move(event)
+      else onRegion(this.chart ? this.chart.regions.findIndex((region) => holds(region, this.under(event))) : -1)
+    })
+    svg.addEventListener("pointerleave", () => onRegion(-1))
+    for (const end of ["pointerup", "pointercancel"]) svg.addEventListener(end, () => { this.dragging = false; this.onMove(null) })
     svg.addEventListener("keydown", (event) => {
       const way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key]
-      if (!way || !this.values) return
+      if (!way || !this.chart) return
       event.preventDefault()
-      const step = this.reach / (event.shiftKey ? 10 : 100)
-      this.onMove(this.values.f1 + way[0] * step, this.values.f2 + way[1] * step)
+      const steps = this.box.map(([low, high]) => (high - low) / (event.shiftKey ? 20 : 200))
+      this.onMove(this.chart.handle.map((value, i) => value + way[i] * steps[i]))
     })
+  }
+
+  under(event) {
+    const box = this.svg.getBoundingClientRect()
+    const share = [(event.clientX - box.left) / box.width, 1 - (event.clientY - box.top) / box.height]
+    return this.box.map(([low, high], i) => low + Math.max(0, Math.min(1, share[i])) * (high - low))
   }
 
   move(event) {
-    const box = this.svg.getBoundingClientRect()
-    const x = (event.clientX - box.left) / box.width * 2 - 1
-    const y = 1 - (event.clientY - box.top) / box.height * 2
-    const round = (v) => Number((Math.max(-1, Math.min(1, v)) * this.reach).toPrecision(3))
-    this.onMove(round(x), round(y))
+    this.onMove(this.under(event).map((value, i) => {
+      const [low, high] = this.box[i]
+      const unit = 10 ** (Math.floor(Math.log10(high - low)) - 3)
+      return Number((Math.round(value / unit) * unit).toPrecision(6))
+    }))
   }
 
-  // Take the curves and regions of a frame, if it has any; returns whether the regions are older than the curves.
-  apply({header, blocks}) {
-    let fresh = false
-    if ("atlas_size" in header) {
-      this.size = header.atlas_size
-      for (const name of ["transcritical", "saddle_node"]) this.curves[name] = polygons(blocks[`${name}.n`], blocks[`${name}.xy`], this.size)
-      this.old = fresh = true
-    }
-    if (header.regions) {
-      const {name, inside, bounded, loops, size} = header.regions
-      const all = polygons(blocks["regions.n"], blocks["regions.xy"], size)
-      this.regions = name.map((words, i) => ({
-        name: words, bounded: bounded[i], inside: inside[i].map((v) => v * size), loops: all.splice(0, loops[i]),
-      }))
-      fresh = true
-    }
-    if (header.rest) this.old = false
-    this.svg.classList.toggle("old", Boolean(this.old))
-    if (fresh) { this.drawn = null; if (this.values) this.draw(this.values) }
-    return Boolean(this.old)
-  }
-
-  draw(values) {
-    this.values = values
-    const {f1, f2, k1, k2, z} = values
-    if (!this.dragging) this.reach = reachFor(Math.max(this.size, Math.abs(f1), Math.abs(f2), 0.5))
-    if (this.drawn !== this.reach) this.drawAtlas()
-    const here = [f1 + k1 * z, f2 + k2 * z]
+  // Draw a chart: `box`; `regions` (name, bounded, inside, loops), `curves` by name, `points` [type, x, y, sentence];
+  // `handle` and `here` (where the portrait is); `path` through the handle or null; `old`; the axes' `words`.
+  draw(chart) {
+    const old = this.chart
+    this.chart = chart
+    this.svg.classList.toggle("old", Boolean(chart.old))
+    const same = old && String(old.box) === String(chart.box) && ["regions", "curves", "points"].every((name) => old[name] === chart[name]) && String(old.words) === String(chart.words)
+    this.box = chart.box
+    if (!same) this.drawBase()
+    const {handle, here, regions} = chart
     const shown = this.layer("regions").children
-    const around = this.regions.map((region) => holds(region, here))
+    const around = regions.map((region) => holds(region, here))
     around.forEach((is, i) => shown[i].classList.toggle("here", is))
-    const dot = ([x, y], r, name) => { const p = this.place([x, y]); return `<circle class="${name}" cx="${p[0]}" cy="${p[1]}" r="${r}"/>` }
-    const moved = z !== 0 && (k1 !== 0 || k2 !== 0)
-    const far = 3 * this.reach / (Math.hypot(k1, k2) || 1)
-    const end = (way) => this.at([f1 + way * far * k1, f2 + way * far * k2])
-    const line = k1 || k2 ? `<path class="path" d="M${end(-1)}L${end(1)}"/>` : ""
-    this.layer("marks").innerHTML = `${line}${moved ? dot(here, 3.2, "here") : ""}${dot([f1, f2], 5, "handle")}${this.tag(here, this.regions[around.indexOf(true)])}`
-    const [x, y] = this.place([f1, f2])
+    const dot = (point, r, name) => { const p = this.place(point); return `<circle class="${name}" cx="${p[0]}" cy="${p[1]}" r="${r}"/>` }
+    const moved = here[0] !== handle[0] || here[1] !== handle[1]
+    const line = chart.path ? `<path class="path" d="M${chart.path.map((p) => this.at(p)).join("L")}"/>` : ""
+    this.layer("marks").innerHTML = `${line}${moved ? dot(here, 3.2, "here") : ""}${dot(handle, 5, "handle")}${this.tag(here, regions[around.indexOf(true)])}`
+    const [x, y] = this.place(handle)
     const words = this.layer("names").querySelectorAll(".name")
     this.boxes.forEach((box, i) => {
-      const hidden = !this.old && around[box.region] || [...this.covered, [x, y, 10, 10]].some((other) => meet(box, other))
+      const hidden = !chart.old && around[box.region] || [...this.covered, [x, y, 10, 10]].some((other) => meet(box, other))
       words[i].style.opacity = hidden ? 0 : ""
     })
+    return around.indexOf(true)
   }
 
-  // The name of the region that f(z) is in goes along with it, in place of that region's own name; names that it or the
-  // handle would cover are hidden.
+  // The name of the region that the portrait is in goes along with it, in place of that region's own name; names that it
+  // or the handle would cover are hidden.
   tag(here, region) {
     this.covered = []
-    if (!region || this.old) return ""
+    if (!region || this.chart.old) return ""
     const [x, y] = this.place(here)
     const width = 0.7 * NAME_SIZE * region.name.length
     if (Math.abs(x) > 100 || Math.abs(y) > 100) return ""
@@ -100,31 +86,47 @@ class Pad {
     return `<text class="name tag" x="${at[0]}" y="${at[1] + 0.35 * NAME_SIZE}" text-anchor="middle">${region.name}</text>`
   }
 
-  place([x, y]) { return [Number((100 * x / this.reach).toFixed(2)), Number((-100 * y / this.reach).toFixed(2))] }
+  place([x, y]) {
+    const [[left, right], [low, high]] = this.box
+    return [Number((200 * (x - left) / (right - left) - 100).toFixed(2)), Number((100 - 200 * (y - low) / (high - low)).toFixed(2))]
+  }
 
   at(point) { return this.place(point).join(" ") }
 
-  drawAtlas() {
-    this.drawn = this.reach
-    const open = (points) => `M${points.map((p) => this.at(p)).join("L")}`
-    this.layer("regions").innerHTML = this.regions.map(({name, bounded, loops}) =>
-      `<path class="region ${name}" data-region="${name}" fill-rule="evenodd" d="${bounded ? "" : "M-100-100H100V100H-100Z"}${loops.map((l) => `${open(l)}Z`).join("")}"/>`).join("")
+  drawBase() {
+    const {regions, curves, points, words, box: [[left, right], [low, high]]} = this.chart
+    const open = (line) => `M${line.map((p) => this.at(p)).join("L")}`
+    this.layer("regions").innerHTML = regions.map(({name, bounded, loops}) =>
+      `<path class="region ${regionClass(name)}" data-region="${name}" fill-rule="evenodd" d="${bounded ? "" : "M-100-100H100V100H-100Z"}${loops.map((l) => `${open(l)}Z`).join("")}"/>`).join("")
     // a branch of one point is drawn as a dot: a round cap on no length
-    const curve = (name) => `<path class="${name}" d="${(this.curves[name] ?? []).map((l) => open(l.length > 1 ? l : [l[0], l[0]])).join("")}"/>`
-    this.layer("curves").innerHTML = AXES + curve("transcritical") + curve("saddle_node")
-    this.layer("names").innerHTML = `<text class="tick" x="97" y="-4" text-anchor="end">f₁</text><text class="tick" x="4" y="-90">f₂</text>
-      <text class="tick" x="97" y="10" text-anchor="end">${plain(this.reach)}</text>${this.names()}`
-    // a region may be too small for its name
-    const found = [...new Set(this.regions.map((region) => region.name))].sort()
-    this.key.innerHTML = found.map((name) => `<span><i class="${name}"></i>${name}</span>`).join("")
+    const curve = ([name, lines]) => `<path class="${name}" d="${lines.map((l) => open(l.length > 1 ? l : [l[0], l[0]])).join("")}"/>`
+    const [x0, y0] = this.place([0, 0])
+    const axes = `<path class="axis" d="${Math.abs(y0) < 100 ? `M-100 ${y0}H100` : ""}${Math.abs(x0) < 100 ? `M${x0}-100V100` : ""}"/>`
+    const marks = points.map(([type, x, y, sentence]) => `<path class="special" d="M${this.at([x, y])}m0-2.6l2.6 2.6l-2.6 2.6l-2.6-2.6z"><title>${escape(type)}. ${escape(sentence)}</title></path>`)
+    this.layer("curves").innerHTML = axes + Object.entries(curves).map(curve).join("") + marks.join("")
+    this.ticks = Math.abs(y0) < 84 && Math.abs(x0) < 84 ? this.crossing(words, x0, y0, right) : this.border(words, left, right, low, high)
+    this.layer("names").innerHTML = this.ticks.map(([x, y, text, anchor]) => `<text class="tick" x="${x}" y="${y}" text-anchor="${anchor}">${text}</text>`).join("") + this.names()
+  }
+
+  // The axes' words beside axes that cross in the pad, or along its border.
+  crossing([across, up], x0, y0, right) {
+    return [[97, y0 - 4, across, "end"], [x0 + 4, -90, up, "start"], [97, y0 + 10, plain(right), "end"]]
+  }
+
+  border([across, up], left, right, low, high) {
+    return [[97, 96, minus(plain(right)), "end"], [-97, 96, minus(plain(left)), "start"], [0, 96, across, "middle"],
+      [-97, -91, minus(plain(high)), "start"], [-97, 86, minus(plain(low)), "start"], [-97, 3, up, "start"]]
   }
 
   // The regions' names, where they fit: inside their region, and clear of each other and of the axes' words.
   names() {
-    const ticks = [[92, -7, 14, 10], [88, 7, 24, 10], [8, -93, 12, 10]] // middle, width, height
+    const ticks = this.ticks.map(([x, y, text, anchor]) => {
+      const width = 0.6 * NAME_SIZE * text.length + 3
+      return [anchor === "end" ? x - width / 2 : anchor === "start" ? x + width / 2 : x, y - 3, width, 10]
+    })
     this.boxes = []
     const words = []
-    for (const [i, region] of this.regions.entries()) {
+    for (const [i, region] of this.chart.regions.entries()) {
       const width = 0.7 * NAME_SIZE * region.name.length, height = NAME_SIZE
       const [x, y] = [96 - width / 2, 95 - height / 2]
       const corners = region.bounded ? [] : [[-x, y], [x, y], [-x, -y], [x, -y]]
@@ -140,13 +142,17 @@ class Pad {
 
   fits(region, x, y, width, height) {
     if (Math.abs(x) + width / 2 > 98 || Math.abs(y) + height / 2 > 98) return false
-    const border = (u, v) => holds(region, [(x + u * width / 2) * this.reach / 100, -(y + v * height / 2) * this.reach / 100])
+    const [[left, right], [low, high]] = this.box
+    const border = (u, v) => holds(region, [left + (x + u * width / 2 + 100) * (right - left) / 200, high - (y + v * height / 2 + 100) * (high - low) / 200])
     for (const u of [-1, -0.5, 0, 0.5, 1]) for (const v of [-1, 0, 1]) if (!border(u, v)) return false
     return true
   }
 }
 
-// Half the width of the pad: some tenths more than what it must show, and a round number.
+// The class of a region's colour: that of its portrait's name, up to the first space.
+function regionClass(name) { return name.split(" ")[0].replace(/[^\w-]/g, "") }
+
+// Half the width of the plane of f: some tenths more than what it must show, and a round number.
 function reachFor(far) {
   const power = 10 ** Math.floor(Math.log10(1.12 * far))
   return Number((power * [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((k) => power * k >= 1.12 * far || k === 10)).toPrecision(2))
@@ -157,7 +163,7 @@ function meet(one, other) {
   return Math.abs(one[0] - other[0]) < (one[2] + other[2]) / 2 && Math.abs(one[1] - other[1]) < (one[3] + other[3]) / 2
 }
 
-// Lists of points [f1, f2] from counts and coordinates of a frame.
+// Lists of points from counts and coordinates of a frame, times `size`.
 function polygons(counts, points, size) {
   let at = 0
   return Array.from(counts, (count) => Array.from({length: count}, () => { at += 2; return [points[at - 2] * STEP * size, points[at - 1] * STEP * size] }))

@@ -6,12 +6,14 @@ const LINE_PARTS = {
   outside: ["outside", "arrows:outside"], inside: ["inside", "arrows:inside"],
   continuations: ["continuations", "arrows:continuations"], cycles: ["cycles", "arrows:cycles"],
   separatrices: ["separatrices_stable", "arrows:separatrices_stable", "separatrices_unstable", "arrows:separatrices_unstable"],
-  equator: ["equator", "text:equator"], critical: ["critical", "text:critical"],
+  equator: ["equator", "text:equator"], critical: ["critical", "text:critical"], outcomes: ["outcomes"],
+  basins: ["basins"],
 }
 const COLOUR_OF = {
   rho_inside: "rho", rho_outside: "rho", theta_inside: "theta", theta_outside: "theta", lines_inside: "lines_inside", lines_outside: "lines_outside",
   outside: "outside", inside: "orbit", continuations: "continuation",
   separatrices_stable: "separatrix", separatrices_unstable: "separatrix", cycles: "cycle",
+  motion: "motion", limit: "motion",
 }
 const CRITICAL_MARK = {
   "stable node": ["square", true], "unstable node": ["square", false], "stable focus": ["circle", true],
@@ -33,7 +35,7 @@ function eigen([first, second]) {
 function outOfPage(flow) { return !flow || !flow.length || flow[0] === 0 ? "" : flow[0] > 0 ? " ⊙" : " ⊗" }
 
 class Picture {
-  constructor(plot, themes) {
+  constructor(plot, themes, hatches) {
     this.plot = plot
     this.themes = themes
     this.renderers = {}
@@ -41,6 +43,8 @@ class Picture {
     this.theme = themes.light
     this.equator = null
     this.critical = null
+    this.outcomes = null
+    this.hatches = hatches
   }
 
   source(name) { return this.renderers[name].data_source }
@@ -52,6 +56,10 @@ class Picture {
     }
     if (header.equator) { this.equator = header.equator; this.drawEquator(); this.drawSense(header) }
     if (header.critical) { this.critical = header.critical; this.drawCritical() }
+    if (header.outcomes) { this.outcomes = header.outcomes; this.drawOutcomes() }
+    if (header.basins) { this.basins = {...header.basins, runs: blocks.basins}; this.drawBasins() }
+    this.old = header.late ?? []
+    if (this.layers) this.show(this.layers)
   }
 
   polylines(counts, points) {
@@ -111,9 +119,50 @@ class Picture {
     }
   }
 
+  drawOutcomes() {
+    const {start, end, kind} = this.outcomes
+    this.source("outcomes").data = {start, end, colour: kind.map((name) => this.theme[name]), hatch: kind.map((name) => this.hatches[name])}
+  }
+
+  // A motion and its limit, as [xs, ys], and the moving point; null clears them.
+  trace(paths, place) {
+    if (!paths && !this.traced) return
+    this.traced = Boolean(paths)
+    ;["motion", "limit"].forEach((name, i) => { // unchanged paths are not drawn anew
+      const path = paths?.[i] ?? null
+      if (path !== this[name]) { this[name] = path; this.source(name).data = path ? {x: path[0], y: path[1]} : {x: [], y: []} }
+    })
+    this.source("motion_at").data = paths ? {x: [place[0]], y: [place[1]]} : {x: [], y: []}
+  }
+
+  // Cells drawn on a small canvas, enlarged smoothly and cut to the disc. Rows rise with y, those of a canvas fall.
+  drawBasins() {
+    const {cells, destinations, runs} = this.basins, size = 4 * cells
+    const small = new OffscreenCanvas(cells, cells), pen = small.getContext("2d")
+    const colours = destinations.map((label, i) => label.startsWith("Q") || label === "equator" ? this.theme.cross : this.theme.basins[i % this.theme.basins.length])
+    let at = 0
+    for (let k = 0; k < runs.length; k += 2) {
+      pen.fillStyle = runs[k + 1] < 1 ? "transparent" : runs[k + 1] < 2 ? this.theme.undecided : colours[runs[k + 1] - 2]
+      for (let left = runs[k]; left > 0;) {
+        const column = at % cells, length = Math.min(left, cells - column)
+        pen.fillRect(column, cells - 1 - Math.floor(at / cells), length, 1)
+        at += length; left -= length
+      }
+    }
+    const large = document.createElement("canvas")
+    large.width = large.height = size
+    const brush = large.getContext("2d")
+    brush.beginPath(); brush.arc(size / 2, size / 2, size / 2, 0, 7); brush.clip()
+    brush.globalAlpha = 0.3
+    brush.drawImage(small, 0, 0, size, size)
+    this.source("basins").data = {url: [large.toDataURL()]}
+  }
+
+  // An old ring would tell something false: it is hidden until the new one comes.
   show(layers) {
+    this.layers = layers
     for (const [layer, names] of Object.entries(LINE_PARTS)) {
-      for (const name of names) this.renderers[name].visible = layers.includes(layer)
+      for (const name of names) this.renderers[name].visible = layers.includes(layer) && !this.old?.includes(layer)
     }
   }
 
@@ -136,6 +185,11 @@ class Picture {
     }
     if (this.equator) this.drawEquator()
     if (this.critical) this.drawCritical()
+    this.renderers.motion_at.glyph.fill_color = theme.motion
+    this.renderers.motion_at.glyph.line_color = theme.page
+    this.renderers.outcomes.glyph.hatch_color = theme.page
+    if (this.outcomes) this.drawOutcomes()
+    if (this.basins) this.drawBasins()
   }
 
   home(view) {

@@ -36,14 +36,14 @@ def lines(blocks, name, size):
 def test_curves_go_with_the_matrix_and_regions_at_rest(frames):
     header, _, names = atlas_of(frames, a=-1.7)
     assert names == {"saddle_node", "transcritical"}
-    assert "rest" not in header
+    assert "regions" in header["late"]
     assert frames.scene.runs["regions"] == 1  # of the first frame
     header, _, names = atlas_of(frames, rest=True)
     assert names == {"regions"}
-    assert header["rest"] is True
+    assert "regions" not in header.get("late", [])
     header, _, names = atlas_of(frames, rest=True)
     assert names == set()
-    assert header["rest"] is True
+    assert "regions" not in header.get("late", [])
 
 
 @pytest.mark.parametrize(
@@ -63,7 +63,7 @@ def test_going_back_at_once_leaves_the_regions_that_the_browser_has(frames):
     assert names == {"saddle_node", "transcritical"}
     header, _, names = atlas_of(frames, rest=True)
     assert names == set()
-    assert header["rest"] is True
+    assert "regions" not in header.get("late", [])
 
 
 def test_a_value_that_is_refused_does_not_keep_the_regions_back(frames):
@@ -124,9 +124,11 @@ def test_degenerate_matrices_are_drawn(frames, matrix):
 def test_thinning_keeps_ends_and_corners():
     leg = np.linspace(0.0, 1.0, 101)
     corner = np.concatenate([np.stack([leg, 0 * leg], 1), np.stack([1 + 0 * leg, leg], 1)[1:]])
-    few = atlas.thin(corner, 1.0)
-    assert len(few) < 40
-    assert furthest(corner, few) < 1e-15
+    offsets, few = atlas.thin([corner, corner[:3], 2 * corner], 1.0)
+    assert offsets[2] - offsets[1] == 3
+    assert len(few) < 80
+    assert furthest(corner, few[: offsets[1]]) < 1e-15
+    assert furthest(2 * corner, few[offsets[2] :]) < 1e-15
 
 
 def furthest(points, line):

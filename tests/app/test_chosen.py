@@ -11,7 +11,7 @@ from codim2_core import examples
 @pytest.mark.parametrize("choice", [key for key in TITLES if key != "normal"])
 def test_every_choice_opens_with_a_picture_and_a_control_for_each_of_its_names(choice):
     system = build(choice, {}, {})
-    z = starting_z(choice, system.m)
+    z = starting_z(choice) or (0.0,) * system.m
     assert len(z) == system.m
     assert np.isfinite(system.at(z).U((0.6, 0.8))).all()
     told = describe(choice, system)

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 from codim2_app import glyphs
-from codim2_app.packing import EXTENT, STEP, pack, quantise, unpack
+from codim2_app.packing import EXTENT, STEP, Polylines, pack, quantise, unpack
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -19,15 +19,19 @@ def test_join_never_mixes_pieces():
 
 
 def test_arrowhead_sits_at_half_length_and_points_with_time():
-    heads = glyphs.arrowheads(*glyphs.join([LINE, LINE[::-1] + np.array([0, 3])]))
+    pieces, halves = np.array([0, 1]), np.array([0.5, 0.5])
+    heads, kept = glyphs.arrowheads(*glyphs.join([LINE, LINE[::-1] + np.array([0, 3])]), pieces, halves)
     assert heads == pytest.approx(np.array([[0.5, 0, 0], [0.5, 3, math.pi]]))
+    assert kept.tolist() == [0, 1]
 
 
 def test_arrowheads_skip_short_empty_and_resting_pieces():
     short, rest, none, single = LINE * 0.01, np.ones((4, 2)), np.zeros((0, 2)), np.ones((1, 2))
-    heads = glyphs.arrowheads(*glyphs.join([none, short, single, LINE, rest, none]), where=(0.25, 0.75))
+    pieces, fractions = np.tile(np.arange(6), 2), np.repeat([0.25, 0.75], 6)
+    heads, kept = glyphs.arrowheads(*glyphs.join([none, short, single, LINE, rest, none]), pieces, fractions)
     assert heads[:, 0] == pytest.approx([0.25, 0.75])
-    assert glyphs.arrowheads(*glyphs.join([])).shape == (0, 3)
+    assert kept.tolist() == [3, 9]
+    assert glyphs.arrowheads(*glyphs.join([]), pieces[:0], fractions[:0])[0].shape == (0, 3)
 
 
 @given(st.lists(st.floats(0, 6.28), min_size=1, max_size=8).map(sorted))
@@ -71,6 +75,29 @@ def test_packing_round_trip():
     assert (header["id"], header["words"]) == (3, "θ")
     assert blocks["n"].tolist() == [101]
     assert np.abs(blocks["xy"].reshape(-1, 2) * STEP - points).max() <= STEP / 2 * 1.001
+
+
+POLYLINES = st.lists(st.integers(0, 9), max_size=5).map(
+    lambda sizes: [np.random.default_rng(size).uniform(-2, 2, (size, 2)) for size in sizes]
+)
+
+
+@given(st.lists(st.tuples(POLYLINES, st.sampled_from([(), (0.5,), (0.3, 0.7)])), max_size=4))
+def test_layers_packed_together_are_the_layers_alone(layers):
+    """Arrowheads and coordinates of all layers are made in one pass; each must be as if there were no other."""
+    blocks = {f"layer {i}": Polylines(*glyphs.join(pieces), where) for i, (pieces, where) in enumerate(layers)}
+    _, together = unpack(pack({}, {**blocks, "more": np.arange(3, dtype=np.int16)}))
+    assert together.pop("more").tolist() == [0, 1, 2]
+    alone = {}
+    for name, block in blocks.items():
+        alone |= unpack(pack({}, {name: block}))[1]
+        counts, points = alone[f"{name}.n"], alone[f"{name}.xy"]
+        assert counts.tolist() == np.diff(block.offsets).tolist()
+        assert points.tolist() == quantise(block.points).ravel().tolist()
+        assert (f"{name}.at" in alone) == bool(block.where)
+    assert {name: values.tolist() for name, values in together.items()} == {
+        name: values.tolist() for name, values in alone.items()
+    }
 
 
 def test_far_points_move_to_the_edge_and_nan_is_refused():

@@ -4,6 +4,8 @@ from bokeh.document import Document
 from bokeh.models import ImportedStyleSheet
 from codim2_app import explorer
 from codim2_app.packing import unpack
+from codim2_app.state import ExplorerState
+from codim2_app.view import ExplorerView
 
 
 @pytest.fixture(autouse=True)
@@ -27,9 +29,69 @@ def test_model_names_no_other_host():
 def test_shown_once_more_it_is_as_it_is_now():
     view = explorer(a=-2)
     assert view.get_root(Document()).data.config["values"]["a"] == -2.0
-    view.frames.answer({"id": 1, "set": {"a": -1.5}})
+    view._handle_msg({"id": 1, "set": {"a": -1.5}})
     again = view.get_root(Document()).data
     assert again.config["values"]["a"] == -1.5
     assert "-1.5" in again.markup
     header, _ = unpack(again.first)
     assert "portrait" in header
+
+
+@pytest.fixture
+def shown():
+    """A view that is shown, the frames that its browser gets, and what asks for one as the browser does."""
+    view = explorer(a=-2, b=0, d=-1, f1=-0.5, f2=0)
+    document = Document()
+    document.add_root(view.get_root(document))
+    sent = []
+    view._send_msg = lambda data: sent.append(unpack(data["frame"])[0])
+    return view, sent
+
+
+def test_a_value_set_in_python_is_one_frame(shown):
+    view, sent = shown
+    view.state.a = -1.2
+    assert [header["set"] for header in sent] == [{"a": -1.2}]
+    assert view.frames.scene.coefficients.a == -1.2
+    view.state.param.update(a=-1.0, f1=0.25)
+    assert [header["set"] for header in sent[1:]] == [{"a": -1.0, "f1": 0.25}]
+    assert view.frames.scene.coefficients.plane == (-1.0, 0.0, -1.0, 0.25, 0.0)
+
+
+def test_a_change_of_the_browser_is_in_the_state_and_no_echo(shown):
+    view, sent = shown
+    seen = []
+    view.watch(lambda event: seen.append((event.name, event.new)), "a")
+    view._handle_msg({"id": 5, "set": {"a": -1.7}})
+    assert (view.state.a, seen) == (-1.7, [("a", -1.7)])
+    assert [header["id"] for header in sent] == [5]
+
+
+def test_a_watcher_that_sets_another_value_gets_its_own_frame_after_it(shown):
+    view, sent = shown
+    view.watch(lambda event: setattr(view.state, "d", 2 * event.new), "a")
+    view._handle_msg({"id": 6, "set": {"a": -1.5}})
+    assert [(header.get("id"), header["set"]) for header in sent] == [(6, {"a": -1.5}), (None, {"d": -3.0})]
+    assert view.frames.scene.coefficients.plane[:3] == (-1.5, 0.0, -3.0)
+
+
+def test_a_bad_value_is_refused_where_it_is_set(shown):
+    view, sent = shown
+    with pytest.raises(ValueError, match="finite"):
+        view.state.a = float("nan")
+    assert (view.state.a, view.frames.values["a"], sent) == (-2.0, -2.0, [])
+
+
+def test_one_state_can_have_two_views():
+    state = ExplorerState()
+    one, other = ExplorerView(state), ExplorerView(state)
+    one._handle_msg({"id": 1, "set": {"a": -1.25}})
+    assert other.frames.scene.coefficients.a == state.a == -1.25
+    state.f1 = 0.5
+    assert one.frames.scene.coefficients.f1 == other.frames.scene.coefficients.f1 == 0.5
+
+
+def test_what_was_set_before_it_is_shown_is_shown():
+    view = explorer()
+    view.state.a = -1.25
+    assert view.get_root(Document()).data.config["values"]["a"] == -1.25

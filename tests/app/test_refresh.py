@@ -12,7 +12,6 @@ HEAVY = {"cycles", "inside", "outside", "continuations", "rho_inside", "rho_outs
          "lines_inside", "lines_outside"}  # fmt: skip
 
 CURVES = {"saddle_node", "transcritical"}
-ATLAS = CURVES | {"regions"}
 
 
 @pytest.fixture
@@ -31,7 +30,7 @@ def test_first_frame_holds_everything_within_the_budget():
     buffer = Frames(ExplorerState()).answer({"id": 7, "all": True})
     header, blocks = unpack(buffer)
     assert header["id"] == 7
-    assert {name.split(".")[0] for name in blocks} == HEAVY | ATLAS
+    assert {name.split(".")[0] for name in blocks} - {"hopf", "node_focus"} == HEAVY | CURVES | {"regions"}
     assert {"equator", "critical", "portrait"} <= header.keys()
     assert len(buffer) <= 60_000
 
@@ -105,16 +104,71 @@ def test_bad_psi_text_is_named_and_recovers(frames):
     assert "inside" in blocks
 
 
-def test_state_follows(frames):
+def test_state_follows_once_the_frame_is_on_its_way(frames):
     seen = []
-    frames.state.param.watch(lambda event: seen.append((event.name, event.new)), ["a"])
+    frames.state.param.watch(lambda *events: seen.append({e.name: e.new for e in events}), ["a", "d", "f1"])
     ask(frames, a=-1.25)
-    assert seen == [("a", -1.25)]
+    assert (seen, frames.state.a) == ([], -2.0)
+    frames.publish()
+    assert seen == [{"a": -1.25}]
+    ask(frames, a=-1.5, d=-2)
+    frames.publish()
+    frames.publish()
+    assert seen == [{"a": -1.25}, {"a": -1.5, "d": -2.0}]
+
+
+def test_values_from_python_are_drawn_and_told(frames):
+    header, blocks = unpack(frames.follow({"a": -1.1, "f1": 1, "d": -1.0}))
+    assert header["set"] == {"a": -1.1, "f1": 1.0}
+    assert "id" not in header
+    assert {name.split(".")[0] for name in blocks} >= HEAVY
+    assert frames.scene.coefficients.plane == (-1.1, 0.0, -1.0, 1.0, 0.0)
+
+
+def test_values_that_are_drawn_already_are_no_news(frames):
+    ask(frames, a=-1.25)
+    runs = dict(frames.scene.runs)
+    assert frames.follow({"a": -1.25, "layers": list(frames.values["layers"])}) is None
+    assert dict(frames.scene.runs) == runs
+
+
+def test_a_portrait_from_python_brings_its_values(frames):
+    header, _ = unpack(frames.follow({"preset": "case1-cm0", "f2": 0.1}))
+    values = next(item["values"] for item in portraits() if item["key"] == "case1-cm0")
+    assert {name: frames.values[name] for name in values} == {**values, "f2": 0.1}
+    frames.publish()
+    assert frames.state.a == values["a"]
+    assert header["set"]["preset"] == "case1-cm0"
+
+
+@pytest.mark.parametrize(
+    ("bad", "says"),
+    [
+        ({"a": math.nan}, "finite"),
+        ({"a": 1e200}, "1e"),
+        ({"psi": "custom", "psi_text": "1/(s"}, "s"),
+        ({"n": "x"}, "number"),
+    ],
+)
+def test_what_python_cannot_have_leaves_state_and_picture(frames, bad, says):
+    before, values = frames.scene, dict(frames.values)
+    with pytest.raises(ValueError, match=says):
+        frames.follow({**bad, "d": -1.3})
+    assert frames.scene is before
+    assert frames.values == values == frames.state.values()
+    assert frames.follow({"a": -1.5}) is not None
+
+
+def test_what_the_system_gives_as_text_is_not_for_python():
+    frames = Frames(ExplorerState(), c2.ELinear(-1, "0.1*z1", -2, ("0.2", 0.3), B=((1, 0),), g=("z1",)))
+    with pytest.raises(ValueError, match="b: given by your system"):
+        frames.follow({"b": 1.0})
+    assert frames.values["b"] == frames.state.b
 
 
 def test_cold_integrator_sends_closed_forms_then_the_rest():
     ready = [False]
-    frames = Frames(ExplorerState(), ready=lambda psi: ready[0])
+    frames = Frames(ExplorerState(), ready=lambda _psi, _system: ready[0])
     header, blocks = unpack(frames.answer({"all": True}))
     assert header["ready"] is False
     assert header["portrait"]["name"] == "CM4"
@@ -131,7 +185,8 @@ def test_presets_draw_their_portrait(frames, portrait):
     header, _ = unpack(frames.answer({"all": True}))
     case, name, kind = c2.presets[portrait["key"]].portrait
     assert (header["portrait"]["case"], header["portrait"]["name"]) == (case, name)
-    assert header["critical"]["kind"] == ([] if kind is None else [kind])
+    if kind is not None:  # None: none, or the figure does not say
+        assert header["critical"]["kind"] == [kind]
 
 
 def test_own_system_locks_what_it_gives_as_text():
@@ -153,24 +208,8 @@ def test_a_new_custom_psi_is_compiled_in_the_background():
 
     psi = custom("1/(1 + s/7)**4")
     assert not is_ready(psi)  # and so the frame goes out at once, without trajectories
-    assert any(thread.name == "codim2-custom-psi" for thread in threading.enumerate())
+    assert any(thread.name == "codim2-compile" for thread in threading.enumerate())
     deadline = time.monotonic() + 60
     while not is_ready(psi):
         assert time.monotonic() < deadline
         time.sleep(0.02)
-
-
-def test_theorems_are_evaluated_only_while_their_list_is_open(frames):
-    ask(frames, a=-1.9)
-    assert "certificates" not in frames.scene.runs
-    header, _ = unpack(frames.answer({"id": 2, "theorems": True}))
-    rows = {row[0]: row for row in header["theorems"]}
-    assert rows["thm:case1(c)"][2:] == ["holds", "This one is CM4."]
-    assert rows["thm:case2(a)"][2] == "does not apply"
-    header, _ = unpack(frames.answer({"id": 3, "set": {"k2": 0.5}, "theorems": True}))
-    assert "theorems" not in header
-    header, _ = unpack(frames.answer({"id": 4, "set": {"f1": 3.0}, "theorems": True}))
-    assert {row[0]: row for row in header["theorems"]}["thm:case1(c)"][3] == "This one is NCM2."
-    runs = frames.scene.runs["certificates"]
-    ask(frames, a=-1.5)
-    assert frames.scene.runs["certificates"] == runs

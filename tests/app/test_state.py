@@ -3,7 +3,7 @@ from urllib.parse import parse_qs
 
 import pytest
 from codim2_app.portraits import portraits
-from codim2_app.state import NAMES, NUMBERS, ExplorerState, InputError, build_psi, clean, scene_changes
+from codim2_app.state import NAMES, NUMBERS, ExplorerState, InputError, build_psi, clean
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -65,8 +65,29 @@ def test_bad_psi_is_blamed_on_its_control(values, control):
     assert caught.value.control == control
 
 
-def test_layers_and_preset_reach_no_computation():
-    assert scene_changes(["layers", "preset"], ExplorerState().values()) == {}
+@given(st.dictionaries(st.text(min_size=1, max_size=8), finite, max_size=8))
+def test_query_carries_parameters_and_texts(numbers):
+    texts = {"U1": "c + \u00e9 & s", "W": "1\n2"}
+    state = ExplorerState(system="own", parameters=numbers, texts=texts)
+    read, errors = ExplorerState.from_query(state.to_query())
+    assert errors == []
+    assert read.values() == state.values()
+
+
+@pytest.mark.parametrize(("name", "value"), [
+    ("parameters", "[1]"), ("parameters", {"k": "x"}), ("parameters", {f"p{i}": 1.0 for i in range(40)}),
+    ("parameters", "{" * 50_000), ("texts", {"U1": 3}), ("texts", {"U1": "c" * 5000}), ("texts", "{not json"),
+])  # fmt: skip
+def test_mappings_that_cannot_be_used_name_their_control(name, value):
+    with pytest.raises(InputError):
+        clean(name, value)
+
+
+def test_a_link_may_name_a_system_and_opens_where_that_starts():
+    state, errors = ExplorerState.from_query("system=ball_in_pool&z2=1.5")
+    assert errors == []
+    assert (state.z, state.z2, state.t_end) == (4.0, 1.5, 5.0)
+    assert state.launch == "9, 3, 9, 0"
 
 
 def test_presets_set_only_known_controls_to_allowed_values():

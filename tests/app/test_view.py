@@ -81,6 +81,7 @@ def test_notebook_widget_is_the_same_view_and_answers():
     assert "portrait-name" in view.markup
     header, _ = unpack(view.frames.answer({"id": 1, "set": {"b": 0.0}, "all": True}))
     assert header["portrait"]["name"] == "CM∞"
+    view.frames.publish()
     assert view.state.b == 0.0
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 README = Path(__file__).parents[2] / "README.md"
 START, END = "<!-- benchmarks -->", "<!-- /benchmarks -->"
-REPORTS = ("trajectories", "scene", "app", "equator")  # bench_<name>.report() -> Markdown
+REPORTS = ("trajectories", "scene", "general", "app", "equator")  # bench_<name>.report() -> Markdown
 
 
 def machine() -> str:

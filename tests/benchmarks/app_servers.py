@@ -1,18 +1,65 @@
-"""The servers that `bench_app` compares; run as ``python -m tests.benchmarks.app_servers KIND PORT``."""
+"""The servers that `bench_app` compares; run as ``python -m tests.benchmarks.app_servers KIND PORT [PROCESSES]``."""
 
 from __future__ import annotations
 
+import gc
 import sys
+from collections.abc import Callable
+from typing import Any
 
 
-def explorer(port: int) -> None:
+def explorer(port: int, processes: str = "1") -> None:
     """Serve the explorer as `codim2 serve` does."""
     from codim2_app.cli import main
 
-    main(["serve", "--port", str(port)])
+    main(["serve", "--port", str(port), "--processes", processes])
 
 
-def bare(port: int) -> None:
+def forgetful(port: int) -> None:
+    """Serve the explorer with sessions that end at once, and ``/left``: what they have left behind."""
+    from codim2_app.main import make_server
+    from codim2_app.view import ExplorerView
+    from tornado.web import RequestHandler
+
+    from codim2_core.scene import Scene
+
+    class Left(RequestHandler):
+        def get(self) -> None:
+            gc.collect()
+            living = gc.get_objects()
+            with open("/proc/self/statm") as pages:
+                resident = int(pages.read().split()[1]) * 4096
+            counts = {kind.__name__: sum(isinstance(o, kind) for o in living) for kind in (ExplorerView, Scene)}
+            self.write({"resident": resident, "objects": len(living), **counts})
+
+    soon: dict[str, Any] = {"unused_session_lifetime_milliseconds": 2000, "check_unused_sessions_milliseconds": 200}
+    server = make_server(port, **soon)
+    server._tornado.add_handlers(r".*", [("/left", Left)])
+    server.start()
+    server.io_loop.start()
+
+
+def mathematics(port: int) -> None:
+    """Serve what `bare` does, and compute the explorer's scene before each swap."""
+    from codim2_app.refresh import make_scene
+    from codim2_app.state import ExplorerState
+
+    from .app_load import value
+    from .bench_app import PICTURE
+
+    scene, count = make_scene(ExplorerState().values()), 0
+
+    def compute() -> None:
+        nonlocal scene, count
+        count += 1
+        scene = scene.evolve(a=value(count))
+        for name in PICTURE:
+            scene[name]
+
+    bare(port, compute)
+
+
+def bare(port: int, before: Callable[[], None] = lambda: None) -> None:
     """Serve a Bokeh document that swaps one precomputed buffer, as large as the explorer's frame."""
     import numpy as np
     from bokeh.events import ButtonClick
@@ -24,7 +71,7 @@ def bare(port: int) -> None:
 
     frames = Frames(ExplorerState())
     frames.answer({"all": True})
-    size = len(frames.answer({"set": {"f1": 0.3}})) // 2
+    size = len(frames.answer({"set": {"a": -1.7}})) // 2
     buffers = [np.full(size, k, np.int16) for k in range(2)]
 
     def page(doc) -> None:
@@ -32,6 +79,7 @@ def bare(port: int) -> None:
 
         def swap(_event) -> None:
             count[0] += 1
+            before()
             source.data = {"frame": buffers[count[0] % 2]}
 
         button.on_event(ButtonClick, swap)
@@ -46,4 +94,8 @@ def bare(port: int) -> None:
 
 
 if __name__ == "__main__":
-    {"explorer": explorer, "bare": bare}[sys.argv[1]](int(sys.argv[2]))
+    kind, port, *more = sys.argv[1:]
+    kinds: dict[str, Callable[..., None]] = {
+        "explorer": explorer, "forgetful": forgetful, "bare": bare, "mathematics": mathematics,
+    }  # fmt: skip
+    kinds[kind](int(port), *more)

@@ -21,8 +21,8 @@ def encoded(value: Any) -> Any:
 class Wire:
     """One page's connection. `patches` counts the patches that arrived, `bytes` the size of everything."""
 
-    def __init__(self, socket: WebSocketClientConnection, root: str) -> None:
-        self.socket, self.root = socket, root
+    def __init__(self, socket: WebSocketClientConnection) -> None:
+        self.socket, self.root = socket, ""
         self.count = 0
         self.patches = 0
         self.bytes = 0
@@ -35,17 +35,16 @@ class Wire:
             with urlopen(f"http://localhost:{port}/{query}") as answer:
                 page = answer.read().decode()
         token = re.search(r'"token":"([^"]+)"', page)
-        roots = re.search(r'"roots":\{"(\w+)"', page)
         assert token is not None
-        assert roots is not None
         request = HTTPRequest(f"ws://localhost:{port}/ws", headers={"Sec-WebSocket-Protocol": f"bokeh, {token[1]}"})
         opened = await websocket_connect(request, max_message_size=2**26)
         opened.protocol.stream.set_nodelay(True)  # as browsers do
-        wire = cls(opened, roots[1])
+        wire = cls(opened)
         await wire.read()  # ACK
         await wire.send("PULL-DOC-REQ", {})
         _, content, _ = await wire.read()
         wire.document = content["doc"]
+        wire.root = wire.document["roots"][0]["id"]  # another process than the page's may have made the document
         return wire
 
     async def send(self, kind: str, content: Any) -> None:

@@ -165,20 +165,8 @@ def test_region_under_the_handle_is_the_portrait(explorer, preset):
 def test_regions_follow_once_the_matrix_rests(explorer):
     before = explorer.find(".pad .regions").inner_html()
     explorer.type("a", "-1.2").type("b", "0.4")
-    explorer.page.wait_for_selector(".pad:not(.old)")
     assert explorer.find(".pad .regions").inner_html() != before
     assert region_under_the_handle(explorer) == [explorer.name()]
-
-
-def test_theorems_open_and_follow(explorer):
-    rows = explorer.find(".theorem-list li")
-    assert rows.count() == 0
-    explorer.find(".theorems summary").click()
-    rows.first.wait_for()
-    assert rows.filter(has_text="thm:case1(c)").text_content().count("This one is CM4.") == 1
-    explorer.type("f1", "3")
-    assert "This one is NCM2." in rows.filter(has_text="thm:case1(c)").text_content()
-    assert rows.filter(has_text="✗").count() == 0
 
 
 def test_reset_returns_to_the_first_setting(explorer):

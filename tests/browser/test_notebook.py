@@ -17,6 +17,7 @@ pytestmark = [
 START = "import panel, codim2_app\npanel.config.comms = '{}'\nview = codim2_app.explorer()\nview"
 SECOND = "second = codim2_app.explorer(a=-1, b=1, d=-1, f1=0)\nsecond"
 TELL = "print(view.state.a, view.frames.scene.system.a, view.state.d, second.state.a)"
+SET = "view.state.param.update(a=-1.25, f1=0.5)"
 KERNEL = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
 RUN = """cell => {
     window.jupyterapp.shell.currentWidget.content.activeCellIndex = cell
@@ -73,7 +74,7 @@ def lab(tmp_path_factory):
 @pytest.fixture
 def notebook(lab, chromium, request):
     address, folder = lab
-    write_notebook(folder / f"{request.param}.ipynb", [START.format(request.param), SECOND, TELL])
+    write_notebook(folder / f"{request.param}.ipynb", [START.format(request.param), SECOND, TELL, SET])
     context = chromium.new_context(viewport={"width": 1280, "height": 1000})
     context.set_default_timeout(60_000)  # the kernel may have to compile the integrator
     yield Notebook(context.new_page(), address).open(f"{request.param}.ipynb")
@@ -90,7 +91,7 @@ def test_sliders_draw_in_jupyterlab_and_python_follows(notebook):
         slider.press("ArrowRight")
     slider.press("x")  # in JupyterLab's command mode this cuts the cell
     notebook.settle()
-    assert (slider.input_value(), notebook.cells()) == ("-1.995", 3)
+    assert (slider.input_value(), notebook.cells()) == ("-1.995", 4)
     assert notebook.frame() > frame
     assert notebook.find(".inspector").inner_text() != words
     notebook.drag(notebook.find("#c2-d"), 30)
@@ -108,6 +109,16 @@ def test_sliders_draw_in_jupyterlab_and_python_follows(notebook):
     said = notebook.find(".jp-OutputArea-output[data-mime-type='application/vnd.jupyter.stdout'] pre").inner_text()
     assert [float(word) for word in said.split()] == [-1.995, -1.995, d, -0.999]
     assert d > -1
+
+    picture, words = notebook.picture(), notebook.find(".inspector").inner_text()
+    notebook.run(3)
+    notebook.page.wait_for_timeout(300)
+    notebook.settle()
+    assert (slider.input_value(), notebook.find("#c2-f1").input_value()) == ("-1.25", "0.5")
+    assert notebook.find("[data-control=a] .number").input_value() == "-1.25"
+    assert notebook.find(".inspector").inner_text() != words
+    assert notebook.picture() != picture
+    assert other.input_value() == "-0.999"  # another view is left alone
 
     hosts = {urlparse(url).netloc for url in notebook.requests if not url.startswith(("data:", "blob:"))}
     assert hosts == {urlparse(notebook.address).netloc}

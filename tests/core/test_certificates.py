@@ -39,10 +39,10 @@ def test_nothing_ever_fails(system, regularisation, B1, g1):
             assert bool(c.numbers) or c.verdict is Verdict.DOES_NOT_APPLY or "≡" in c.sentence
 
 
-@pytest.mark.parametrize("name", presets)
+@pytest.mark.parametrize("name", [name for name, preset in presets.items() if preset.portrait[0]])
 def test_the_theorem_of_each_preset_holds(name):
     preset = presets[name]
-    found = verdicts(preset.system, preset.psi)
+    found = verdicts(preset.system.at(preset.z), preset.psi)
     case, portrait, _ = preset.portrait
     # At |A^-1 f| = 1 both parts ask for an inequality, and U vanishes on the equator: no degree there.
     expected = Verdict.DOES_NOT_APPLY if preset.degeneracy == "transcritical" else Verdict.HOLDS

@@ -17,12 +17,16 @@ from .strategies import regularisations, systems
 @given(systems, regularisations)
 def test_it_is_an_equilibrium_of_the_flow_and_of_50_digit_arithmetic(system, regularisation):
     at = system.at()
-    with mpmath.workdps(50):
+    with mpmath.workdps(80):  # exact: products of four doubles have up to 64 digits
         a, b, d, f1, f2 = map(mpmath.mpf, at.plane)
         det, n1, n2 = a * d + b * b, d * f1 + b * f2, a * f2 - b * f1
         exists = det != 0 and n1**2 + n2**2 < det**2
+        blurred = abs(n1**2 + n2**2 - det**2) < 1e-14 * det**2
         e = (-n1 / det, -n2 / det) if exists else None
     found = critical_sets(system, regularisation)
+    if blurred and locate(at).existence is Existence.EQUATOR:
+        assert not found
+        return
     assert len(found) == int(exists)
     if not exists or max(map(abs, e)) > 1 - 1e-9:
         return

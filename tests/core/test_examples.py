@@ -79,4 +79,5 @@ def test_the_catalogue_gives_every_parameter_a_range_around_its_default(example)
         assert low <= value <= high
     for value, (_, low, high) in zip(example.z, example.slow, strict=True):
         assert low <= value <= high
+    assert len(example.launch) == 2 + system.m
     assert np.isfinite(system.at(example.z).U((1.0, 0.0))).all()

@@ -39,10 +39,10 @@ def ran(scene, **changes):
 
 EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "outside"}
 HEMISPHERE = {"cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations", "classification",
-              "certificates"}  # fmt: skip
+              "certificates", "outcomes"}  # fmt: skip
 
 ATLAS = {"atlas_curves", "regions"}  # of the plane (f1, f2): neither f nor Psi is in them
-SLOW = {"critical", "classification", "certificates", "slow_flow"}
+SLOW = {"critical", "classification", "certificates", "slow_flow", "outcomes"}
 
 REACHES = {
     "a": ({"a": -1.7}, EQUATOR | HEMISPHERE | ATLAS | {"slow_flow"}),

@@ -9,14 +9,15 @@ import codim2_core as c2
 @pytest.mark.parametrize("name", c2.presets)
 def test_portrait(name):
     preset = c2.presets[name]
-    found = c2.classify(preset.system, preset.psi)
-    critical = c2.critical_sets(preset.system, preset.psi)
+    found = c2.classify(preset.system, preset.psi, preset.z)
+    critical = c2.critical_sets(preset.system, preset.psi, preset.z)
     kind = critical[0].kind if critical else None
     assert (found.case, found.name) == preset.portrait[:2]
     if preset.portrait[2] is not None or not critical:
         assert kind == preset.portrait[2]
     assert tuple(d.name for d in found.degeneracies) == ((preset.degeneracy,) if preset.degeneracy else ())
-    assert found.sentence.startswith(f"Case {found.case}, {found.name}.")
+    if found.case:
+        assert found.sentence.startswith(f"Case {found.case}, {found.name}.")
 
 
 def directions(name):
@@ -66,7 +67,7 @@ def test_the_saddle_has_four_directions_that_are_saddles_of_the_radial_and_angul
 def test_index_of_the_critical_sets_is_the_degree_on_the_equator(name):
     preset = c2.presets[name]
     theta = np.linspace(0, 2 * np.pi, 20001)
-    U = preset.system.at().U(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
+    U = preset.system.at(preset.z).U(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
     degree = round(np.diff(np.unwrap(np.arctan2(U[:, 1], U[:, 0]))).sum() / (2 * np.pi))
-    index = sum(-1 if C.kind == "saddle" else 1 for C in c2.critical_sets(preset.system, preset.psi))
+    index = sum(-1 if C.kind == "saddle" else 1 for C in c2.critical_sets(preset.system, preset.psi, preset.z))
     assert index == degree

@@ -1,0 +1,157 @@
+// The panel "Atlas": two parameters as a plane, with a portrait of each of its regions.
+// The plane of f comes in closed form and belongs to f(z); any other two axes are mapped by the server at rest.
+
+const CURVE_NAMES = {
+  transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", hopf: "Hopf", node_focus: "node–focus", determinant: "det A = 0", undefined: "undefined",
+}
+const CURVE_OF = {
+  transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "saddle_node", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant",
+}
+
+class Atlas {
+  // `move` sets controls: {name: value}. `choose` sets an axis.
+  constructor(root, config, move, zoom) {
+    this.box = root.querySelector(".panel-atlas")
+    this.config = config
+    this.setControls = move
+    this.find = (name) => this.box.querySelector(name)
+    this.plane = {size: 0, curves: {}, regions: [], points: []}
+    this.map = this.empty = {of: "", regions: [], curves: {}, points: []}
+    this.of = "" // the axes that the server draws, and whether they are the plane of f
+    this.tiles = []
+    this.pad = new Pad(this.find(".pad"), (at) => this.move(at), (region) => this.point(region))
+    this.find(".thumbnails").addEventListener("click", (event) => {
+      const tile = event.target.closest("button")
+      if (tile) this.go(this.tiles[tile.dataset.tile].at)
+    })
+    this.find(".zoom .in").addEventListener("click", () => zoom(Math.min(6, this.values.atlas_zoom + 1)))
+    this.find(".zoom .out").addEventListener("click", () => zoom(Math.max(0, this.values.atlas_zoom - 1)))
+    for (const [type, on] of [["pointerover", true], ["pointerout", false], ["focusin", true], ["focusout", false]]) {
+      this.find(".thumbnails").addEventListener(type, (event) => {
+        const tile = event.target.closest("button")
+        if (tile) this.pad.layer("regions").children[this.tiles[tile.dataset.tile].region]?.classList.toggle("pointed", on)
+      })
+    }
+  }
+
+  get axes() { return [this.values.across, this.values.up] }
+
+  get isPlane() { return this.of === "f1,f2,true" }
+
+  move(at) {
+    if (at === null) { this.draw(this.values); return }
+    const [x, y] = this.axes
+    this.setControls({[x]: at[0], [y]: at[1]})
+  }
+
+  // Bring the portrait to a place of the plane: in that of f it is f(z) that goes there.
+  go([x, y]) {
+    if (!this.isPlane) { this.move([x, y]); return }
+    const {k1, k2, z} = this.values
+    this.move([x - k1 * z, y - k2 * z].map((v) => Number(v.toPrecision(6))))
+  }
+
+  // The region pointed at shows which small portrait is its own.
+  point(region) { this.markTiles("pointed", region) }
+
+  markTiles(name, region) {
+    for (const tile of this.find(".thumbnails").children) tile.classList.toggle(name, this.tiles[tile.dataset.tile].region === region)
+  }
+
+  apply({header, blocks}, late) {
+    const lines = (name, size) => polygons(blocks[`${name}.n`], blocks[`${name}.xy`], size)
+    if ("atlas_size" in header) {
+      const size = header.atlas_size
+      this.plane = {...this.plane, size, curves: {...this.plane.curves, transcritical: lines("transcritical", size), saddle_node: lines("saddle_node", size)}}
+    }
+    if (header.regions) {
+      const {name, inside, bounded, loops, size} = header.regions
+      const all = lines("regions", size)
+      const regions = name.map((words, i) => ({name: words, bounded: bounded[i], inside: inside[i].map((v) => v * size), loops: all.splice(0, loops[i])}))
+      this.plane = {...this.plane, regions}
+    }
+    if (header.curves_of_psi) {
+      const {size, points} = header.curves_of_psi
+      this.plane = {...this.plane, points, curves: {...this.plane.curves, hopf: lines("hopf", size), node_focus: lines("node_focus", size)}}
+    }
+    if (header.atlas_of) this.of = String(header.atlas_of)
+    if (header.map) {
+      const {spans, name, inside, loops, curve, pieces} = header.map
+      const scaled = (block) => polygons(blocks[`${block}.n`], blocks[`${block}.xy`], 1)
+        .map((line) => line.map((p) => p.map((u, i) => (spans[i][0] + spans[i][1]) / 2 + u * (spans[i][1] - spans[i][0]) / 2)))
+      const all = scaled("map"), lines = scaled("map_curves"), curves = {}
+      for (const [i, kind] of curve.entries()) (curves[CURVE_OF[kind] ?? "undefined"] ??= []).push(...lines.splice(0, pieces[i]))
+      const regions = name.map((words, i) => ({name: words, bounded: true, inside: inside[i], loops: all.splice(0, loops[i])}))
+      this.map = {of: this.of, spans, regions, curves, points: []}
+    }
+    this.why = header.unable?.map ?? (header.map || header.atlas_of ? "" : this.why)
+    if (header.unable?.map) this.map = this.empty
+    if (header.thumbnails) this.showTiles(header.thumbnails)
+    this.old = late.includes("regions") || late.includes("map")
+    // curves that belong to another Psi or matrix are no longer true
+    this.stale = late.includes("curves of psi")
+    this.find(".thumbnails").classList.toggle("old", late.includes("thumbnails") || this.old)
+    if (this.values) this.draw(this.values)
+  }
+
+  draw(values) {
+    this.values = values
+    const words = this.axes.map((name) => this.config.symbols[name] ?? "")
+    const chart = this.isPlane ? this.chartOfPlane(values) : this.chartOfMap(values)
+    const here = this.pad.draw({...chart, words, old: this.old})
+    if (here !== this.here) { this.here = here; this.markTiles("here", here) }
+    this.find(".zoom .in").disabled = values.atlas_zoom >= 6
+    this.find(".zoom .out").disabled = values.atlas_zoom <= 0
+    this.find(".atlas-note").textContent = this.why ?? ""
+    this.find(".thumbnails").hidden = Boolean(this.why)
+    this.key(chart)
+  }
+
+  chartOfPlane({f1, f2, k1, k2, z}) {
+    const {size, regions, curves, points} = this.plane
+    if (!this.pad.dragging) this.reach = reachFor(Math.max(size, Math.abs(f1), Math.abs(f2), 0.5))
+    if (this.shownOf !== curves || this.shownStale !== this.stale) {
+      this.shownOf = curves
+      this.shownStale = this.stale
+      this.shown = this.stale ? {transcritical: curves.transcritical ?? [], saddle_node: curves.saddle_node ?? []} : curves
+      this.shownPoints = this.stale ? [] : points
+    }
+    const far = 3 * this.reach / (Math.hypot(k1, k2) || 1)
+    const path = k1 || k2 ? [-far, far].map((t) => [f1 + t * k1, f2 + t * k2]) : null
+    return {
+      box: [[-this.reach, this.reach], [-this.reach, this.reach]], regions, curves: this.shown, points: this.shownPoints,
+      handle: [f1, f2], here: [f1 + k1 * z, f2 + k2 * z], path,
+    }
+  }
+
+  chartOfMap(values) {
+    const handle = this.axes.map((name) => this.config.valueOf(name))
+    const {of, spans, regions, curves, points} = this.map.of === this.of ? this.map : this.empty
+    const box = of ? spans : this.axes.map((name, i) => rangeFor(this.config.ranges[name] ?? [-4, 4], handle[i]))
+    return {box, regions, curves, points, handle, here: handle, path: null}
+  }
+
+  // A region may be too small for its name: the key has them all, and the curves that are there.
+  key({regions, curves}) {
+    if (this.keyOf?.[0] === regions && this.keyOf[1] === curves) return
+    this.keyOf = [regions, curves]
+    const found = [...new Set(regions.map((region) => region.name))].sort()
+    this.find(".pad-names").innerHTML = found.map((name) => `<span><i class="${regionClass(name)}"></i>${name}</span>`).join("")
+    this.find(".pad-curves").innerHTML = Object.entries(curves).filter(([, lines]) => lines.length)
+      .map(([name]) => `<span><i class="${name}"></i>${CURVE_NAMES[name]}</span>`).join("")
+  }
+
+  showTiles(tiles) {
+    this.tiles = tiles.map(([region, name, at]) => ({region, name, at}))
+    this.find(".thumbnails").innerHTML = tiles.map(([, name, , svg], i) =>
+      `<button type="button" data-tile="${i}" title="${name}: go there" aria-label="${name}: go there">${svg}<span>${name}</span></button>`).join("")
+    this.here = null
+  }
+}
+
+// A slider's range, widened to hold a value, as in controls.js.
+function rangeFor([low, high], value) {
+  if (value >= low && value <= high) return [low, high]
+  const reach = roundUp(Math.abs(value))
+  return [low < 0 ? -reach : low, reach]
+}

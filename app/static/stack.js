@@ -1,0 +1,246 @@
+// The panel "3-D": the hemisphere of the blowup, or hemispheres stacked along z. Turned here, without asking the server.
+
+class Stack {
+  // `choose(view)` is called when another view is chosen.
+  constructor(root, config, choose) {
+    this.root = root
+    this.config = config
+    this.box = root.querySelector(".panel-solid")
+    this.find = (name) => this.box.querySelector(name)
+    this.canvas = this.find("canvas")
+    this.azimuth = -0.6
+    this.elevation = 0.5
+    this.view = "sphere"
+    this.data = {}
+    this.why = {}
+    for (const button of this.box.querySelectorAll("[data-view]")) button.addEventListener("click", () => choose(button.dataset.view))
+    this.canvas.addEventListener("pointerdown", (event) => { this.canvas.setPointerCapture(event.pointerId); this.from = [event.clientX, event.clientY] })
+    this.canvas.addEventListener("pointermove", (event) => {
+      if (!this.from) return
+      this.turn((event.clientX - this.from[0]) / 120, (event.clientY - this.from[1]) / 160)
+      this.from = [event.clientX, event.clientY]
+    })
+    for (const end of ["pointerup", "pointercancel"]) this.canvas.addEventListener(end, () => { this.from = null })
+    this.canvas.addEventListener("keydown", (event) => {
+      const way = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.08], ArrowDown: [0, -0.08]}[event.key]
+      if (way) { event.preventDefault(); this.turn(...way) }
+    })
+    new ResizeObserver(() => this.paint()).observe(this.canvas)
+  }
+
+  turn(azimuth, elevation) {
+    this.azimuth -= azimuth
+    this.elevation = Math.max(0.02, Math.min(1.56, this.elevation + elevation))
+    cancelAnimationFrame(this.frame)
+    this.frame = requestAnimationFrame(() => this.paint())
+  }
+
+  apply({header}, late) {
+    for (const name of ["sphere", "stack", "filippov"]) {
+      if (header[name]) { this.data[name] = header[name]; this.why[name] = "" }
+      if (header.unable?.[name]) { this.data[name] = null; this.why[name] = header.unable[name] }
+    }
+    this.canvas.classList.toggle("old", late.includes(this.view))
+    if (header.critical) this.critical = header.critical
+    if (header.equator) this.equator = header.equator
+    if (header.sphere || header.stack || header.filippov || header.critical || header.equator || header.unable) this.paint()
+  }
+
+  draw(values) { this.values = values; this.view = values.solid; this.paint() }
+
+  // From space to the canvas: x to the right, y away, z up; returns [x, y, depth], larger depth farther away.
+  project([x, y, z]) {
+    const c = Math.cos(this.azimuth), s = Math.sin(this.azimuth), ce = Math.cos(this.elevation), se = Math.sin(this.elevation)
+    const right = c * x - s * y, away = s * x + c * y
+    return [this.cx + this.scale * right, this.cy - this.scale * (ce * z + se * away), ce * away - se * z]
+  }
+
+  paint() {
+    if (this.box.hidden || !this.canvas.clientWidth) return
+    this.canvas.classList.toggle("stack", this.view === "stack")
+    const ratio = devicePixelRatio || 1, w = this.canvas.clientWidth, h = this.canvas.clientHeight
+    if (this.canvas.width !== Math.round(w * ratio) || this.canvas.height !== Math.round(h * ratio)) { this.canvas.width = Math.round(w * ratio); this.canvas.height = Math.round(h * ratio) }
+    const g = this.g = this.canvas.getContext("2d")
+    g.setTransform(ratio, 0, 0, ratio, 0, 0)
+    g.clearRect(0, 0, w, h)
+    g.lineCap = g.lineJoin = "round"
+    const style = getComputedStyle(this.root)
+    this.colour = (name) => style.getPropertyValue(`--${name}`).trim()
+    for (const button of this.box.querySelectorAll("[data-view]")) button.setAttribute("aria-pressed", button.dataset.view === this.view)
+    const data = this.data[this.view]
+    this.find(".solid-note").textContent = data ? data.sentence ?? "" : this.why[this.view] || "…"
+    if (!data) return
+    this.cx = w / 2
+    if (this.view === "sphere") this.paintSphere(data, w, h)
+    else if (this.view === "stack") this.paintStack(data, w, h)
+    else this.paintFilippov(data, w, h)
+  }
+
+  // `part(point)` names the style of the piece that begins there; a line is drawn in runs of one style.
+  line(points, style) {
+    const g = this.g
+    let at = this.project(points[0]), now = null
+    for (let i = 1; i < points.length; i++) {
+      const next = this.project(points[i]), key = style(points[i], next)
+      if (key !== now) {
+        if (now) g.stroke()
+        g.beginPath(); g.moveTo(at[0], at[1])
+        ;[g.strokeStyle, g.lineWidth, g.globalAlpha] = key
+        now = key
+      }
+      g.lineTo(next[0], next[1])
+      at = next
+    }
+    if (now) g.stroke()
+    g.globalAlpha = 1
+  }
+
+  circle(z, style, radius = 1) {
+    this.line(Array.from({length: 97}, (_, i) => [radius * Math.cos(i * Math.PI / 48), radius * Math.sin(i * Math.PI / 48), z]), style)
+  }
+
+  dot(point, {size = 4, fill, stroke, text, shape = "circle"}) {
+    const g = this.g, [x, y] = this.project(point)
+    g.beginPath()
+    if (shape === "square") g.rect(x - size, y - size, 2 * size, 2 * size)
+    else g.arc(x, y, size, 0, 7)
+    g.fillStyle = fill; g.fill()
+    g.strokeStyle = stroke; g.lineWidth = 1.8; g.stroke()
+    if (text) {
+      g.font = "600 12px system-ui, sans-serif"
+      g.lineWidth = 3; g.strokeStyle = this.colour("page"); g.strokeText(text, x + size + 3, y - size)
+      g.fillStyle = this.colour("ink"); g.fillText(text, x + size + 3, y - size)
+    }
+  }
+
+  paintSphere(data, w, h) {
+    const reach = 1.42
+    this.scale = Math.min(w / (2 * reach), h / (Math.cos(this.elevation) + 2 * reach * Math.sin(this.elevation)))
+    this.cy = h / 2 + this.scale * Math.cos(this.elevation) * 0.3
+    const outside = [this.colour("outside"), 1, 0.75], front = [this.colour("orbit"), 1.2, 0.9], back = [this.colour("orbit"), 1, 0.22]
+    for (const line of data.outside) {
+      let run = []
+      for (const [x, y] of line) {
+        if (Math.hypot(x, y) <= reach) { run.push([x, y, 0]); continue }
+        if (run.length > 1) this.line(run, () => outside)
+        run = []
+      }
+      if (run.length > 1) this.line(run, () => outside)
+    }
+    // a lit half ball: the circle of the silhouette above, the equator below
+    const g = this.g, s = this.scale
+    g.save()
+    g.beginPath()
+    g.ellipse(this.cx, this.cy, s, s * Math.sin(this.elevation), 0, 0, Math.PI)
+    g.arc(this.cx, this.cy, s, Math.PI, 2 * Math.PI)
+    const light = g.createRadialGradient(this.cx - 0.35 * s, this.cy - 0.75 * s, 0.1 * s, this.cx, this.cy, 1.1 * s)
+    light.addColorStop(0, this.colour("panel")); light.addColorStop(1, this.colour("line"))
+    g.globalAlpha = 0.82; g.fillStyle = light; g.fill()
+    g.restore()
+    // a point of the sphere faces the eye if its normal does: depth of the point itself is negative
+    for (const line of data.inside) this.line(line, (_, [, , depth]) => (depth < 0.02 ? front : back))
+    const ring = [this.colour("ink"), 2, 0.9], hidden = [this.colour("ink"), 1.4, 0.3]
+    this.circle(0, (_, [, , depth]) => (depth < 0.02 ? ring : hidden))
+    this.marks(0, true)
+  }
+
+  // Limit directions and critical sets of the present picture, on the circle at height z or lifted onto the sphere.
+  marks(z, lifted) {
+    const {equator = {}, critical = {}} = this
+    ;(equator.x ?? []).forEach((x, i) => {
+      const colour = this.colour(equator.filled[i] ? "attr" : "rep")
+      this.dot([x, equator.y[i], z], {fill: equator.filled[i] ? colour : this.colour("page"), stroke: colour, text: equator.label[i]})
+    })
+    ;(critical.x ?? []).forEach((x, i) => {
+      const y = critical.y[i], colour = this.colour("crit")
+      this.dot([x, y, lifted ? Math.sqrt(Math.max(0, 1 - x * x - y * y)) : z], {shape: "square", fill: critical.kind[i].startsWith("stable") ? colour : this.colour("page"), stroke: colour, text: critical.label[i]})
+    })
+  }
+
+  paintStack(data, w, h) {
+    const tall = 2.6
+    this.scale = Math.min(w / 2.5, h / (tall * Math.cos(this.elevation) + 2.3 * Math.sin(this.elevation) + 0.5))
+    this.cy = h / 2 + this.scale * Math.cos(this.elevation) * tall / 2
+    const up = (share) => tall * share, g = this.g
+    const side = [this.colour("soft"), 1, 0.35], thin = [this.colour("orbit"), 0.9, 0.55]
+    const around = this.azimuth
+    for (const way of [1, -1]) this.line([[way * Math.cos(around), -way * Math.sin(around), 0], [way * Math.cos(around), -way * Math.sin(around), tall]], () => side)
+    const [low, high] = data.span
+    const share = (z) => (z - low) / (high - low)
+    // limit directions on the far side of the cylinder, then the discs from below, then the near side
+    const directions = (near) => {
+      for (const [height, theta, arrives] of data.directions) {
+        const [x, y, depth] = this.project([Math.cos(theta), Math.sin(theta), up(height)])
+        const [, , middle] = this.project([0, 0, up(height)])
+        if ((depth < middle) !== near) continue
+        g.globalAlpha = near ? 1 : 0.4
+        g.fillStyle = this.colour(arrives ? "attr" : "rep")
+        g.fillRect(x - 1.2, y - 1.2, 2.4, 2.4)
+      }
+      g.globalAlpha = 1
+    }
+    directions(false)
+    for (const disc of data.discs) {
+      const z = up(share(disc.z)), [x, y] = this.project([0, 0, z])
+      g.beginPath(); g.ellipse(x, y, this.scale, this.scale * Math.sin(this.elevation), 0, 0, 7)
+      g.globalAlpha = 0.72; g.fillStyle = this.colour("panel"); g.fill(); g.globalAlpha = 1
+      this.circle(z, () => side)
+      for (const line of disc.lines) this.line(line.map(([px, py]) => [px, py, z]), () => thin)
+    }
+    const solid = [this.colour("crit"), 2.6, 1], faint = [this.colour("crit"), 1.6, 0.5]
+    for (const {points, stable, flow} of data.sets) {
+      if (points.length < 2) continue
+      const line = points.map(([x, y, height]) => [x, y, up(height)])
+      this.line(line, () => (stable ? solid : faint))
+      if (flow && points.length > 4) this.arrow(line, flow)
+    }
+    directions(true)
+    if (this.values) {
+      const here = share(this.values[data.control])
+      if (here >= 0 && here <= 1) {
+        const mark = [this.colour("accent"), 2.4, 1]
+        this.circle(up(here), () => mark)
+        this.marks(up(here), false)
+      }
+    }
+    g.font = "12px system-ui, sans-serif"; g.fillStyle = this.colour("soft"); g.textAlign = "center"
+    for (const value of [low, high]) { // below the lowest disc, above the highest
+      const [x, y] = this.project([0, 0, up(share(value))]), away = this.scale * Math.sin(this.elevation)
+      g.fillText(`${this.config.symbols[data.control]} = ${plain(value)}`, x, value === low ? y + away + 16 : y - away - 7)
+    }
+    g.textAlign = "left"
+  }
+
+  // Limit vectors (U₁, U₂, W): their curve, Σ as the upright axis, and what of Σ their combinations reach.
+  paintFilippov({curve, candidates, combined, selected}, w, h) {
+    const most = (i) => Math.max(1e-9, ...curve.map((v) => Math.abs(v[i])))
+    const size = Math.max(most(0), most(1))
+    const low = Math.min(0, ...curve.map((v) => v[2])), high = Math.max(0, ...curve.map((v) => v[2])), tall = high - low || 1
+    const lift = (value) => 1.5 * ((value - low) / tall - 0.5)
+    const at = ([u, v, value]) => [u / size, v / size, lift(value)]
+    this.scale = Math.min(w / 2.3, h / (1.9 * Math.cos(this.elevation) + 2 * Math.sin(this.elevation)))
+    this.cy = h / 2
+    const g = this.g, thin = [this.colour("soft"), 1, 0.6]
+    const flat = [-1, 1].flatMap((x) => [[[x, -1, lift(0)], [x, 1, lift(0)]], [[-1, x, lift(0)], [1, x, lift(0)]]])
+    for (const edge of flat) this.line(edge, () => [this.colour("line"), 1, 1])
+    this.line([[0, 0, -0.95], [0, 0, 0.95]], () => [this.colour("ink"), 1.6, 0.8])
+    g.beginPath()
+    curve.forEach((v, i) => { const [x, y] = this.project(at(v)); if (i) g.lineTo(x, y); else g.moveTo(x, y) })
+    g.globalAlpha = 0.13; g.fillStyle = this.colour("accent"); g.fill(); g.globalAlpha = 1
+    this.line(curve.map(at), () => [this.colour("attr"), 2.2, 1])
+    combined.forEach((ends, i) => { for (const end of ends) this.line([at(end), [0, 0, lift(candidates[i])]], () => thin) })
+    if (candidates.length > 1) this.line([[0, 0, lift(Math.min(...candidates))], [0, 0, lift(Math.max(...candidates))]], () => [this.colour("accent"), 5, 0.7])
+    for (const value of candidates) this.dot([0, 0, lift(value)], {fill: this.colour("page"), stroke: this.colour("accent"), size: 3.5})
+    for (const [value, kind] of selected) this.dot([0, 0, lift(value)], {shape: "square", fill: kind.startsWith("stable") ? this.colour("crit") : this.colour("page"), stroke: this.colour("crit"), text: `z′ = ${digits(value, 3)}`})
+    g.font = "12px system-ui, sans-serif"; g.fillStyle = this.colour("soft")
+    const [sx, sy] = this.project([0, 0, 0.95]); g.fillText("Σ", sx + 5, sy + 4)
+    const [fx, fy] = this.project(at(curve[Math.floor(curve.length / 8)])); g.fillText("F*(θ)", fx + 6, fy)
+  }
+
+  arrow(line, flow) {
+    const i = Math.round(line.length / 2), a = this.project(line[flow > 0 ? i - 1 : i]), b = this.project(line[flow > 0 ? i : i - 1])
+    const turn = Math.atan2(b[1] - a[1], b[0] - a[0]), g = this.g
+    g.save(); g.translate(b[0], b[1]); g.rotate(turn); g.beginPath(); g.moveTo(6, 0); g.lineTo(-4, 4.5); g.lineTo(-4, -4.5); g.closePath()
+    g.fillStyle = this.colour("crit"); g.fill(); g.restore()
+  }
+}

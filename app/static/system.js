@@ -1,0 +1,118 @@
+// Which system is drawn: a choice, its equations, text boxes for what can be typed, and a slider for every name in it.
+
+class SystemChooser {
+  // `change(name, value)` as everywhere; `place(name, control)` registers a control, by the name that errors use.
+  // `normal` is the control of z of the normal form.
+  constructor(root, config, values, {change, place, normal}) {
+    this.box = root.querySelector(".system-box")
+    this.root = root
+    this.config = config
+    this.values = values
+    this.change = change
+    this.place = place
+    this.normal = normal
+    this.find = (name) => this.box.querySelector(name)
+    this.select = this.find("select")
+    this.select?.addEventListener("change", () => this.choose(this.select.value))
+    this.sliders = {}
+    this.told = null
+  }
+
+  get choice() { return this.told?.choice ?? this.values.system }
+
+  choose(choice) {
+    this.change("texts", {}); this.change("parameters", {})
+    this.change("system", choice)
+  }
+
+  // What the server says of the system: its equations, parameters and slow variables.
+  apply({header}) {
+    if (!header.system) return
+    const same = this.told?.choice === header.system.choice
+    this.told = header.system
+    if (this.select) this.select.value = this.choice
+    this.root.classList.toggle("not-normal", this.choice !== "normal")
+    this.config.slowSymbols = this.told.slow.map((one) => one.symbol)
+    for (let i = 0; i < 4; i++) this.config.symbols[slowName(i)] = this.config.slowSymbols[i] ?? (i ? `z${"₁₂₃₄"[i]}` : "z")
+    this.find(".equations").innerHTML = this.told.equations
+    this.find(".system-note").textContent = [this.told.label && `(${this.told.label})`, this.told.sentence].filter(Boolean).join(" ")
+    if (!same) this.makeBoxes()
+    this.makeParameters()
+    this.makeSlow()
+  }
+
+  set(values) {
+    for (const [name, control] of Object.entries(this.sliders)) control.set(values.parameters[name] ?? this.defaults[name])
+    for (const area of this.box.querySelectorAll("textarea")) {
+      const text = values.texts[area.dataset.box]
+      if (text !== undefined && text !== area.value) area.value = text
+    }
+  }
+
+  makeBoxes() {
+    const boxes = this.config.boxes[this.choice] ?? []
+    this.find(".boxes").innerHTML = boxes.map(({name, label, lines}) => `<div class="control typed" data-box="${name}">
+      <label for="c2-box-${name}">${label}</label><textarea id="c2-box-${name}" data-box="${name}" rows="${lines}" spellcheck="false" autocapitalize="off" autocomplete="off"></textarea>
+      <p class="error" role="alert" hidden></p></div>`).join("")
+    for (const {name, text} of boxes) {
+      const box = this.find(`[data-box=${name}].control`), area = box.querySelector("textarea")
+      area.value = this.values.texts[name] ?? text
+      const fit = () => { area.rows = Math.max(boxes.find((b) => b.name === name).lines, area.value.split("\n").length) }
+      area.addEventListener("input", () => { fit(); this.change("texts", {...this.values.texts, [name]: area.value}) })
+      fit()
+      this.place(`text:${name}`, {box, say: (sentence) => sayAt(box, sentence), set: () => {}})
+    }
+  }
+
+  makeParameters() {
+    const wanted = this.told.parameters
+    const names = wanted.map((p) => p.name).join()
+    this.defaults = Object.fromEntries(wanted.map((p) => [p.name, p.value]))
+    if (names !== this.names) {
+      this.names = names
+      this.sliders = {}
+      this.find(".parameters").innerHTML = wanted.map((p) => slider(`parameter-${p.name}`, p.symbol)).join("")
+      for (const p of wanted) {
+        const box = this.find(`[data-control="parameter-${p.name}"]`)
+        const moved = (_, value) => {
+          if (typeof value === "number") this.change("parameters", {...this.values.parameters, [p.name]: value})
+          else sayAt(box, "Type a number such as −0.5.")
+        }
+        this.sliders[p.name] = new NumberControl(box, p.range, moved)
+      }
+    }
+    for (const p of wanted) if (document.activeElement !== this.sliders[p.name].number) this.sliders[p.name].set(p.value)
+  }
+
+  // The value of a parameter of the system, and moving it from elsewhere.
+  value(name) { return this.values.parameters[name] ?? this.defaults?.[name] ?? 0 }
+
+  move(name, value) {
+    this.sliders[name]?.set(value)
+    this.change("parameters", {...this.values.parameters, [name]: value})
+  }
+
+  makeSlow() {
+    const slow = this.choice === "normal" ? [] : this.told.slow.slice(0, 4)
+    const symbols = slow.map((one) => one.symbol).join()
+    if (symbols === this.symbols) return
+    this.symbols = symbols
+    const holder = this.root.querySelector(".slow-controls")
+    holder.hidden = !slow.length
+    if (!slow.length) this.place("z", this.normal)
+    holder.querySelector(".sliders").innerHTML = slow.map((one, i) => slider(`slow-${slowName(i)}`, one.symbol)).join("")
+    slow.forEach((one, i) => {
+      const box = holder.querySelector(`[data-control="slow-${slowName(i)}"]`)
+      const control = new NumberControl(box, one.range, (_, value) => this.change(slowName(i), value))
+      control.set(this.values[slowName(i)])
+      this.place(slowName(i), control)
+    })
+  }
+}
+
+const slowName = (i) => (i ? `z${i + 1}` : "z")
+
+function slider(name, symbol) {
+  return `<div class="control" data-control="${name}"><label>${escape(symbol)}</label><input type="range" aria-label="${escape(symbol)}">
+    <input type="text" inputmode="decimal" class="number" aria-label="${escape(symbol)}, typed"><p class="error" role="alert" hidden></p></div>`
+}

@@ -1,0 +1,217 @@
+// The panel "Time": one motion, for the chosen ε and in the limit ε → 0, as curves over time and in the picture.
+
+const PHASE = {slip: "slips", slide: "slides", cross: "crosses"}
+const PLAY_SECONDS = 9 // for the whole motion
+
+class Motion {
+  // `move` sets controls; `trace(paths, place)` draws paths and the moving point in the picture, or clears them.
+  constructor(root, config, move, trace) {
+    this.box = root.querySelector(".panel-time")
+    this.config = config
+    this.setControls = move
+    this.trace = trace
+    this.find = (name) => this.box.querySelector(name)
+    this.svg = this.find(".series")
+    this.ball = new Ball(root, this.find(".ball"))
+    this.at = 0
+    this.svg.addEventListener("pointerdown", (event) => { this.svg.setPointerCapture(event.pointerId); this.dragging = true; this.toggle(false); this.drag(event) })
+    this.svg.addEventListener("pointermove", (event) => { if (this.dragging) this.drag(event) })
+    for (const end of ["pointerup", "pointercancel"]) this.svg.addEventListener(end, () => { this.dragging = false })
+    this.svg.addEventListener("keydown", (event) => {
+      const way = {ArrowLeft: -1, ArrowRight: 1}[event.key]
+      if (way && this.motion) { event.preventDefault(); this.go(this.at + way * this.end / 100) }
+    })
+    this.find(".play").addEventListener("click", () => this.toggle())
+    this.find(".here").addEventListener("click", () => {
+      if (!this.motion) return
+      const m = this.motion.states.length - 2
+      const [x, y] = this.motion.start
+      this.setControls({launch: [x, y, ...Array.from({length: m}, (_, i) => this.values[slowName(i)] ?? 0)].map(plain).join(", ")})
+    })
+  }
+
+  drag(event) {
+    if (!this.motion) return
+    const box = this.svg.getBoundingClientRect()
+    this.go(this.end * ((event.clientX - box.left) / box.width * 200 - 14) / 182)
+  }
+
+  apply({header}, late) {
+    if (header.motion) { this.motion = header.motion; this.why = "" }
+    if (header.limit) this.limit = header.limit
+    for (const name of ["motion", "limit"]) if (header.unable?.[name]) { this[name] = null; this.why = header.unable[name] }
+    this.svg.classList.toggle("old", late.includes("motion"))
+    if (header.motion || header.limit || header.unable) this.drawAll()
+  }
+
+  draw(values) {
+    this.values = values
+    const open = values.panel === "time"
+    if (open === this.open) return
+    this.open = open
+    if (!open) this.toggle(false)
+    this.show()
+  }
+
+  get end() { return Math.max(this.motion.t.at(-1), this.limit?.t.at(-1) ?? 0) }
+
+  toggle(on = !this.playing) {
+    this.playing = on && Boolean(this.motion)
+    this.find(".play").textContent = this.playing ? "❚❚ Pause" : "▶ Play"
+    this.find(".play").setAttribute("aria-pressed", this.playing)
+    if (!this.playing) return
+    if (this.at >= this.end) this.at = 0
+    let before = performance.now()
+    const step = (now) => {
+      if (!this.playing) return
+      this.go(this.at + Math.min(now - before, 80) / 1000 * this.end / PLAY_SECONDS)
+      before = now
+      if (this.at >= this.end) this.toggle(false)
+      else requestAnimationFrame(step)
+    }
+    requestAnimationFrame(step)
+  }
+
+  go(t) { this.at = Math.max(0, Math.min(this.end, t)); this.show(true) }
+
+  // The state of a motion at the present time, linear between samples.
+  sample(run, columns) {
+    const {t} = run
+    let low = 0, high = t.length - 1
+    while (high - low > 1) { const mid = (low + high) >> 1; if (t[mid] <= this.at) low = mid; else high = mid }
+    const share = t[high] > t[low] ? Math.max(0, Math.min(1, (this.at - t[low]) / (t[high] - t[low]))) : 0
+    return columns.map((c) => c[low] + share * (c[high] - c[low]))
+  }
+
+  show(moved = false) {
+    if (!this.open || !this.motion) { if (!this.open) this.trace(null); return }
+    const x = -86 + 182 * this.at / this.end
+    this.svg.querySelector(".value")?.setAttribute("d", `M${fixed(x)} ${this.top}V${this.bottom}`)
+    this.svg.setAttribute("aria-valuenow", this.at)
+    const state = this.sample(this.motion, this.motion.states)
+    this.trace([this.motion.picture, this.limit?.picture], this.sample(this.motion, this.motion.picture))
+    // the other views follow: the portrait is that of the present z
+    if (moved) this.setControls(Object.fromEntries(state.slice(2, 6).map((z, i) => [slowName(i), Number(z.toPrecision(6))])))
+    const phase = this.motion.phases.findLast(([, start]) => start <= this.at) ?? this.motion.phases[0]
+    this.find(".phase-now").textContent = phase ? `t = ${digits(this.at, 3)}: ${PHASE[phase[0]]}. ${phase[3]}` : ""
+    if (this.motion.ball) this.ball.show(this.motion, this.at)
+  }
+
+  drawAll() {
+    const {motion, limit} = this
+    this.toggle(false)
+    this.find(".time-body").hidden = !motion
+    this.find(".time-note").textContent = motion ? [motion.t.at(-1) < this.end * 0.999 ? motion.reason : "", limit && limit.t.at(-1) < this.end * 0.999 ? `The limit: ${limit.reason}` : ""].filter(Boolean).join(" ") : this.why ?? ""
+    if (!motion) { this.trace(null); return }
+    this.at = Math.min(this.at, this.end)
+    const m = motion.states.length - 2
+    const rows = [["x, y", [0, 1]], [m === 1 ? this.slowSymbol(0) : "z", Array.from({length: Math.min(m, 4)}, (_, i) => 2 + i)]].filter(([, columns]) => columns.length)
+    const X = (t) => -86 + 182 * t / this.end
+    const parts = []
+    let top = -62
+    this.top = top
+    const height = rows.length > 1 ? 54 : 70
+    for (const [k, [title, columns]] of rows.entries()) {
+      const values = columns.flatMap((c) => [...motion.states[c], ...(limit?.states[c] ?? [])])
+      const low = Math.min(0, ...values), high = Math.max(0, ...values), pad = 0.06 * (high - low || 1)
+      const Y = (v) => top + height * (high + pad - v) / (high - low + 2 * pad)
+      parts.push(...motion.phases.map(([kind, from, to, why]) => `<rect class="band ${kind}" x="${fixed(X(from))}" y="${fixed(top)}" width="${fixed(Math.max(0, X(Math.min(to, this.end)) - X(from)))}" height="${height}"><title>${escape(why)}</title></rect>`))
+      parts.push(`<rect class="frame" x="-86" y="${fixed(top)}" width="182" height="${height}"/><path class="axis" d="M-86 ${fixed(Y(0))}H96"/>`)
+      for (const [i, c] of columns.entries()) {
+        const curve = (run, name) => `<path class="series-line s${i} ${name}" d="${polyline(run.t.map((t, j) => [X(t), Y(run.states[c][j])]))}"/>`
+        if (limit) parts.push(curve(limit, "limit"))
+        parts.push(curve(motion, ""))
+      }
+      const names = columns.map((c, i) => `<tspan class="s${i}">${escape(c < 2 ? "xy"[c] : this.slowSymbol(c - 2))}</tspan>`).join(" ")
+      parts.push(`<text class="title" x="-84" y="${fixed(top - 2.5)}">${names}</text><text x="-88" y="${fixed(Y(high) + 3)}" text-anchor="end">${digits(high, 2)}</text>${low < 0 ? `<text x="-88" y="${fixed(Y(low) + 1)}" text-anchor="end">${digits(low, 2)}</text>` : ""}`)
+      top += height + 14
+    }
+    this.bottom = top - 14
+    this.svg.setAttribute("viewBox", `-100 -72 200 ${fixed(this.bottom + 86)}`)
+    this.svg.setAttribute("aria-valuemin", 0); this.svg.setAttribute("aria-valuemax", this.end)
+    this.svg.innerHTML = `${parts.join("")}<text x="-86" y="${fixed(this.bottom + 8)}">0</text><text x="96" y="${fixed(this.bottom + 8)}" text-anchor="end">${digits(this.end, 3)}</text><text class="title" x="5" y="${fixed(this.bottom + 8)}" text-anchor="middle">t</text><path class="value"/>`
+    this.find(".time-key").innerHTML = `<span>full line: ε = ${plain(motion.eps)}</span><span>broken line: ε → 0</span>`
+    this.find(".phases").innerHTML = (limit ?? motion).phases.map(([kind, from, , why]) => `<li><i class="band ${kind}"></i><span>${digits(from, 4)}</span><span class="note">${PHASE[kind]}: ${escape(why)}</span></li>`).join("")
+    this.ball.canvas.hidden = !motion.ball
+    if (motion.ball) this.ball.prepare(motion)
+    this.show()
+  }
+
+  slowSymbol(i) { return this.config.slowSymbols?.[i] ?? (this.motion.states.length === 3 ? "z" : `z${"₁₂₃₄"[i]}`) }
+}
+
+// A ball seen from above and to the side: it translates with z and turns as its contact velocity says.
+class Ball {
+  constructor(root, canvas) { this.root = root; this.canvas = canvas }
+
+  // Positions and orientations along the motion. With contact slip u = v + ω × (−R k), ω × k = (v − u)/R.
+  prepare({t, states, ball}) {
+    const [u1, u2, v1, v2] = states
+    const n = t.length
+    const x = new Float64Array(n), y = new Float64Array(n), turns = [[1, 0, 0, 0]]
+    for (let i = 1; i < n; i++) {
+      const dt = t[i] - t[i - 1]
+      x[i] = x[i - 1] + 0.5 * dt * (v1[i] + v1[i - 1]); y[i] = y[i - 1] + 0.5 * dt * (v2[i] + v2[i - 1])
+    }
+    this.path = ball === "position" ? [states[4], states[5]] : [x, y]
+    const reach = (c) => [Math.min(...c), Math.max(...c)]
+    const [[a, b], [c, d]] = this.path.map(reach)
+    this.span = [b - a, d - c]
+    this.middle = [(a + b) / 2, (c + d) / 2]
+    this.radius = 0.07 * Math.max(b - a, d - c, 1e-6)
+    for (let i = 1; i < n; i++) {
+      const dt = t[i] - t[i - 1]
+      const wy = 0.5 * (v1[i] + v1[i - 1] - u1[i] - u1[i - 1]) / this.radius, wx = -0.5 * (v2[i] + v2[i - 1] - u2[i] - u2[i - 1]) / this.radius
+      const size = Math.hypot(wx, wy), half = 0.5 * size * dt, s = size ? Math.sin(half) / size : 0
+      turns.push(times([Math.cos(half), wx * s, wy * s, 0], turns[i - 1]))
+    }
+    this.turns = turns
+    this.t = t
+  }
+
+  show(_, at) {
+    const canvas = this.canvas, ratio = devicePixelRatio || 1, w = canvas.clientWidth, h = canvas.clientHeight
+    if (!w || !this.t) return
+    canvas.width = Math.round(w * ratio); canvas.height = Math.round(h * ratio)
+    const g = canvas.getContext("2d"), style = getComputedStyle(this.root), colour = (name) => style.getPropertyValue(`--${name}`).trim()
+    g.setTransform(ratio, 0, 0, ratio, 0, 0)
+    const scale = 0.92 * Math.min(w / (this.span[0] + 2 * this.radius), h / (this.span[1] + 2 * this.radius))
+    const place = (i) => [w / 2 + scale * (this.path[0][i] - this.middle[0]), h / 2 - scale * (this.path[1][i] - this.middle[1])]
+    let i = this.t.findIndex((time) => time > at)
+    i = i < 0 ? this.t.length - 1 : Math.max(0, i - 1)
+    g.beginPath(); this.t.forEach((_, k) => { const [px, py] = place(k); if (k) g.lineTo(px, py); else g.moveTo(px, py) })
+    g.strokeStyle = colour("line"); g.lineWidth = 1.5; g.stroke()
+    g.beginPath(); for (let k = 0; k <= i; k++) { const [px, py] = place(k); if (k) g.lineTo(px, py); else g.moveTo(px, py) }
+    g.strokeStyle = colour("accent"); g.lineWidth = 2; g.stroke()
+    const [cx, cy] = place(i), r = this.radius * scale
+    const light = g.createRadialGradient(cx - r / 3, cy - r / 3, r / 8, cx, cy, r)
+    light.addColorStop(0, colour("page")); light.addColorStop(1, colour("soft"))
+    g.beginPath(); g.arc(cx, cy, r, 0, 7); g.fillStyle = light; g.fill()
+    // three great circles painted on the ball; the half that faces us is seen
+    g.lineWidth = 1.6
+    ;["crit", "accent", "attr"].forEach((name, axis) => {
+      g.beginPath(); g.strokeStyle = colour(name)
+      let pen = false
+      for (let k = 0; k <= 48; k++) {
+        const angle = k * Math.PI / 24, v = [0, 0, 0]
+        v[(axis + 1) % 3] = Math.cos(angle); v[(axis + 2) % 3] = Math.sin(angle)
+        const [px, py, pz] = turned(this.turns[i], v)
+        if (pz < -0.02) { pen = false; continue }
+        if (pen) g.lineTo(cx + r * px, cy - r * py); else g.moveTo(cx + r * px, cy - r * py)
+        pen = true
+      }
+      g.stroke()
+    })
+    g.beginPath(); g.arc(cx, cy, r, 0, 7); g.strokeStyle = colour("ink"); g.lineWidth = 1; g.stroke()
+  }
+}
+
+// Quaternions (w, x, y, z): the product, and a vector turned.
+function times([a, b, c, d], [e, f, g, h]) {
+  return [a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e]
+}
+
+function turned([w, x, y, z], [a, b, c]) {
+  const [tx, ty, tz] = [2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)]
+  return [a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx]
+}

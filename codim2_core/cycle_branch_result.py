@@ -1,0 +1,118 @@
+"""What `continue_cycles` returns: branches of limit cycles along one parameter, and their special points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class CyclePoint:
+    """A special point of a branch of cycles.
+
+    Attributes
+    ----------
+    kind : str
+        "Hopf", "fold of cycles", "heteroclinic cycle through the equator", "equator" (the closed equator takes over the
+        cycle), "saddle-node on the equator", "det A = 0" (a line of critical points cuts
+        the cycle), "span" (an end of the span), "closed" (the branch has no ends) or
+        "undecided".
+    value : float
+        Of the parameter.
+    period, amplitude : float
+        There, as along the branch; the period is infinite on the equator.
+    sentence : str
+    """
+
+    kind: str
+    value: float
+    period: float
+    amplitude: float
+    sentence: str
+
+
+@dataclass(frozen=True, eq=False)
+class CycleBranch:
+    """One branch of limit cycles, in order along it; arrays are read-only and of the same length m.
+
+    Attributes
+    ----------
+    value : ndarray (m,)
+        Of the parameter.
+    period : ndarray (m,)
+        In tau, the fast time of kappa_2; infinite at an end on the equator.
+    amplitude : ndarray (m,)
+        Largest distance from C on the cycle, in the projected disc.
+    exponent, multiplier : ndarray (m,)
+        ln of the Floquet multiplier, from the integral of the divergence, and the multiplier itself.
+    stable : ndarray of bool (m,)
+        exponent < 0.
+    section : ndarray (m, 2)
+        Where the cycle crosses its section, in the projected disc: a seed on it.
+    start, end : CyclePoint
+    folds : tuple of CyclePoint
+        In order.
+    """
+
+    value: Array
+    period: Array
+    amplitude: Array
+    exponent: Array
+    multiplier: Array
+    stable: NDArray[np.bool_]
+    section: Array
+    start: CyclePoint
+    end: CyclePoint
+    folds: tuple[CyclePoint, ...]
+
+    def __len__(self) -> int:
+        return len(self.value)
+
+    @property
+    def special(self) -> tuple[CyclePoint, ...]:
+        """Start, folds and end."""
+        return (self.start, *self.folds, self.end)
+
+
+@dataclass(frozen=True, eq=False)
+class CycleBranches:
+    """All branches found over the span; iterates over them.
+
+    Attributes
+    ----------
+    name : str
+    span : (float, float)
+    branches : tuple of CycleBranch
+    reason : str
+        Why there is none, or how those there are were found.
+    notes : tuple of str
+        What was not decided.
+    """
+
+    name: str
+    span: tuple[float, float]
+    branches: tuple[CycleBranch, ...]
+    reason: str
+    notes: tuple[str, ...] = ()
+
+    def __iter__(self) -> Iterator[CycleBranch]:
+        return iter(self.branches)
+
+    def __len__(self) -> int:
+        return len(self.branches)
+
+    def __getitem__(self, i: int) -> CycleBranch:
+        return self.branches[i]
+
+    def count(self, value: float) -> int:
+        """Count the cycles at a value of the parameter (one between the ends of the branches and their folds)."""
+        total = 0
+        for branch in self.branches:
+            total += sum((one < value) != (two < value) for one, two in pairwise(branch.value.tolist()))
+        return total

@@ -1,0 +1,199 @@
+"""The one-parameter diagram of a general system, by the exact functions at single values and bisection."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .critical import CriticalSet, critical_sets
+from .diagram_equator import linked
+from .diagram_result import ClosedEquator, CriticalBranch, EquatorBranch, SpecialValue
+from .equator import EquatorEquilibria, equator_cycle, equator_equilibria
+from .regularisation import Psi
+from .vary import varied
+
+__all__ = ["general_parts"]
+
+Array = NDArray[np.float64]
+
+_GRID = 48
+_LEAST = 7  # values at least on each piece
+_BESIDE = 1e-7  # of the span: where the two sides of a special value are looked at
+_NARROW = 1e-12  # of the span
+
+
+class _State(NamedTuple):
+    value: float
+    equator: EquatorEquilibria
+    critical: tuple[CriticalSet, ...]
+    exponent: float | None  # of a closed equator
+
+    @property
+    def kind(self) -> tuple[Any, ...]:
+        """What does not change along a piece."""
+        around = Counter(self.equator.kind(i) for i in range(len(self.equator)))
+        sign = None if self.exponent is None else int(np.sign(self.exponent))
+        return frozenset(around.items()), frozenset(Counter(C.kind for C in self.critical).items()), sign
+
+
+Parts = tuple[list[EquatorBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
+
+
+def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike) -> Parts:
+    """Branches and special values of any system; see `diagram`."""
+
+    def state(value: float) -> _State:
+        at, psi_at, z_at = varied(system, psi, z, name, value)
+        equator = equator_equilibria(at, z_at)
+        cycle = None if len(equator) or equator.all_directions else equator_cycle(at, z_at)
+        return _State(value, equator, critical_sets(at, psi_at, z_at), None if cycle is None else cycle.exponent)
+
+    low, high = span
+    width = high - low
+    # off the round numbers on which special values like to lie
+    u = (np.arange(_GRID + 1) + 0.3 * np.sin(2.0 + 1.7 * np.arange(_GRID + 1))) / _GRID
+    grid = [state(v) for v in (low + width * np.clip(u, _BESIDE, 1.0 - _BESIDE)).tolist()]
+    special: list[SpecialValue] = []
+    pieces: list[list[_State]] = [[grid[0]]]
+    for left, right in pairwise(grid):
+        here = left
+        for _ in range(8):
+            if here.kind == right.kind:
+                break
+            value = _bisected(state, here, right, _NARROW * width)
+            before, here = state(max(here.value, value - _BESIDE * width)), state(value + _BESIDE * width)
+            special += _named(value, before, here)
+            pieces[-1].append(before)
+            pieces.append([here])
+            if here.value >= right.value:
+                break
+        pieces[-1].append(right)
+    equator: list[EquatorBranch] = []
+    closed: list[ClosedEquator] = []
+    critical: list[CriticalBranch] = []
+    for piece in pieces:
+        states = [s for s in sorted(piece, key=lambda s: s.value) if s.kind == piece[0].kind]
+        if len(states) < _LEAST and states[-1].value > states[0].value:
+            more = [state(v) for v in np.linspace(states[0].value, states[-1].value, _LEAST).tolist()[1:-1]]
+            states = sorted([*states, *(s for s in more if s.kind == piece[0].kind)], key=lambda s: s.value)
+        values = np.array([s.value for s in states])
+        equator += _directions(values, states)
+        critical += _sets(values, states)
+        if states[0].exponent is not None:
+            sign = states[len(states) // 2].exponent or 0.0
+            kind = "attracting from outside" if sign < 0 else "repelling from outside" if sign > 0 else "neutral"
+            x, y = _frozen(values, [s.exponent for s in states])
+            closed.append(ClosedEquator(x, y, kind))
+    return equator, closed, critical, special
+
+
+def _bisected(state: Callable[[float], _State], left: _State, right: _State, narrow: float) -> float:
+    """Find the first value seen at which the kind is no longer that of `left`."""
+    low, high, kind = left.value, right.value, left.kind
+    while high - low > narrow:
+        middle = 0.5 * (low + high)
+        if middle in (low, high):
+            break
+        low, high = (middle, high) if state(middle).kind == kind else (low, middle)
+    return 0.5 * (low + high)
+
+
+def _named(value: float, before: _State, after: _State) -> list[SpecialValue]:
+    """Name what happens between two states beside each other."""
+    out = []
+    more, fewer = (before, after) if len(before.equator) >= len(after.equator) else (after, before)
+    if len(more.equator) > len(fewer.equator):
+        theta = more.equator.theta
+        i = int(np.diff(theta, append=theta[0] + 2.0 * math.pi).argmin())
+        sentence = f"Two limit directions meet at θ = {theta[i]:.4g}: Θ has a double zero."
+        out.append(SpecialValue("saddle-node", value, (math.cos(theta[i]), math.sin(theta[i])), sentence, "fig:SNBIF"))
+    arriving = [int((s.equator.lambda_rho < 0.0).sum()) for s in (before, after)]
+    if arriving[0] != arriving[1] and len(before.equator) == len(after.equator):
+        i = int(abs(more.equator.lambda_rho).argmin())
+        t = float(more.equator.theta[i])
+        sentence = f"A critical set reaches the equator at θ = {t:.4g}, and the limit direction turns its stability."
+        out.append(SpecialValue("transcritical", value, (math.cos(t), math.sin(t)), sentence, "fig:transcrit"))
+    elif abs(len(before.critical) - len(after.critical)) == 2:
+        C = max(before.critical, after.critical, key=len)
+        near = min(
+            ((x, y) for k, x in enumerate(C) for y in C[k + 1 :]), key=lambda pair: math.dist(pair[0].p, pair[1].p)
+        )
+        sentence = "Two critical sets meet: a saddle and a node."
+        out.append(SpecialValue("fold of critical sets", value, _middle(near), sentence, "eq:critical_set"))
+    if len(before.critical) == len(after.critical):
+        left = _matched([C.p for C in before.critical], after.critical)
+        for C, D in zip(before.critical, left, strict=True):
+            if C.kind == D.kind:
+                continue
+            place = (float(D.p[0]), float(D.p[1]))
+            if C.kind.split()[0] == D.kind.split()[0]:
+                sentence = "tr(J)² = 4 det J: the critical set changes between node and focus."
+                out.append(SpecialValue("node-focus", value, place, sentence, "fig:bads"))
+            elif "saddle" in (C.kind, D.kind):
+                sentence = "det J = 0: a critical set turns from a saddle into another kind."
+                out.append(SpecialValue("det J = 0", value, place, sentence, "eq:scjaco"))
+            else:
+                sentence = "Hopf: tr J = 0 < det J."
+                out.append(SpecialValue("Hopf", value, place, sentence, "sec:case3"))
+    if before.exponent is not None and after.exponent is not None and before.kind[2] != after.kind[2]:
+        sentence = "The closed equator is neutral to first order: it turns its stability."
+        out.append(SpecialValue("neutral equator", value, (0.0, 0.0), sentence, "thm:geneps0"))
+    return out
+
+
+def _middle(pair: tuple[CriticalSet, CriticalSet]) -> tuple[float, float]:
+    p = 0.5 * (pair[0].p + pair[1].p)
+    return float(p[0]), float(p[1])
+
+
+def _matched(places: Sequence[Array], critical: Sequence[CriticalSet]) -> list[CriticalSet]:
+    """Critical sets in the order of the places nearest to them."""
+    left, out = list(critical), []
+    for p in places:
+        C = min(left, key=lambda C, p=p: math.dist(C.p, p))
+        left = [D for D in left if D is not C]
+        out.append(C)
+    return out
+
+
+def _directions(values: Array, states: list[_State]) -> list[EquatorBranch]:
+    first = states[0].equator
+    if not len(first):
+        return []
+    theta = linked(np.array([s.equator.theta for s in states]))
+    out = []
+    for j in range(len(first)):
+        own = [
+            int(abs(np.exp(1j * s.equator.theta) - np.exp(1j * t[j])).argmin())
+            for s, t in zip(states, theta, strict=True)
+        ]
+        rho = [s.equator.lambda_rho[i] for s, i in zip(states, own, strict=True)]
+        slope = [s.equator.lambda_theta[i] for s, i in zip(states, own, strict=True)]
+        x, t, rho_, slope_ = _frozen(values, theta[:, j], rho, slope)
+        out.append(EquatorBranch(x, t, rho_, slope_, first.kind(own[0])))
+    return out
+
+
+def _sets(values: Array, states: list[_State]) -> list[CriticalBranch]:
+    rows = [list(states[0].critical)]
+    for s in states[1:]:
+        rows.append(_matched([C.p for C in rows[-1]], s.critical))
+    out = []
+    for column in zip(*rows, strict=True):
+        x, e, p = _frozen(values, [C.e for C in column], [C.p for C in column])
+        trace, determinant = _frozen([C.trace for C in column], [C.determinant for C in column])
+        out.append(CriticalBranch(x, e, p, trace, determinant, column[0].kind))
+    return out
+
+
+def _frozen(*rows: Any) -> tuple[Array, ...]:
+    out = tuple(np.array(row, float) for row in rows)
+    for array in out:
+        array.flags.writeable = False
+    return out

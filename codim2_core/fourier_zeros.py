@@ -1,0 +1,221 @@
+"""All real zeros of a trigonometric polynomial of any degree, with multiplicity, and a proof that none was missed.
+
+With f = Re sum c_k exp(i k theta) every derivative is bounded by M_j = sum k^j |c_k|. Over an arc of half-width h about
+t, |f''| is at most S = |f''(t)| + h |f'''(t)| + h^2 M_4/2, so there is no zero if |f(t)| > h |f'(t)| + h^2 S/2, and at
+most one, simple, if |f'(t)| > h S. Arcs that are neither are cut in four. At a multiple zero that never ends: there the
+derivatives decide, within rounding.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .fourier_arcs import cut, lowest_extremum
+
+Array = NDArray[np.floating[Any]]
+
+UNIT = 2.0**-53
+ROUNDINGS = 16.0  # of the terms of f: what a zero's multiplicity is decided within
+COARSE = 2e-3  # half-width of an arc below which a multiple zero is asked for
+FINEST = 1e-11
+SAME = 1e-6  # a multiple zero found twice differs by less
+OFFSET = 0.1234567  # so that no arc of the first net ends at a multiple of pi/2, where zeros like to be
+HIGHEST = 8  # multiplicity
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """``f = Re sum_k c_k exp(i k theta)``.
+
+    Attributes
+    ----------
+    c : ndarray of complex (n + 1,)
+    size : float
+        Size of the terms f was summed from: it is known to within a few units of rounding of this.
+    resolved : bool
+        What was dropped lies within that rounding.
+    exact : bool
+        f is known to be a trigonometric polynomial of no higher degree.
+    """
+
+    c: NDArray[np.complex128]
+    size: float
+    resolved: bool
+    exact: bool
+
+    @property
+    def degree(self) -> int:
+        """The largest k."""
+        return len(self.c) - 1
+
+    def bound(self, j: int) -> float:
+        """``sum k^j |c_k|``, which no j-th derivative exceeds."""
+        return float(np.arange(len(self.c), dtype=float) ** j @ np.abs(self.c))
+
+    @cached_property
+    def tolerance(self) -> float:
+        """Values of f below this are zero within rounding."""
+        return ROUNDINGS * UNIT * self.size
+
+    @property
+    def vanishes(self) -> bool:
+        """Whether f is zero everywhere, within rounding."""
+        return float(np.abs(self.c).sum()) <= self.tolerance
+
+    def derivatives(self, theta: Array, orders: range) -> Array:
+        """Return the derivatives of the given orders at each theta; (len(orders), k)."""
+        waves = np.exp(1j * np.multiply.outer(theta, np.arange(len(self.c))))
+        return (waves @ self.columns[:, orders.start : orders.stop]).real.T
+
+    @cached_property
+    def columns(self) -> NDArray[np.complex128]:
+        """Coefficients of f and of its derivatives, a column for each order."""
+        k = 1j * np.arange(len(self.c))
+        return self.c[:, None] * k[:, None] ** np.arange(HIGHEST + 2)
+
+
+@dataclass(frozen=True, slots=True)
+class Zeros:
+    """Zeros of a `Series` in [0, 2 pi), increasing.
+
+    Attributes
+    ----------
+    theta : ndarray (k,)
+    multiplicity : ndarray of int (k,)
+    proven : bool
+        Every arc without a zero was shown to have none, and every simple zero lies on an arc where f is monotone.
+    distance : float
+        Estimate of the smallest relative change of f that makes a zero multiple: 0.0 if one is.
+    """
+
+    theta: Array
+    multiplicity: NDArray[np.int64]
+    proven: bool
+    distance: float
+
+
+def series(values: Array, size: float, degree: int | None = None) -> Series:
+    """Fourier series of a function sampled at an even number N of equally spaced angles from 0.
+
+    Parameters
+    ----------
+    values : ndarray (N,)
+    size : float
+        Size of the terms that the values were summed from.
+    degree : int, optional
+        Of the function, if it is known to be a trigonometric polynomial; N > 2 degree.
+    """
+    n = len(values)
+    c = np.fft.rfft(values) * (2.0 / n)
+    c[0] *= 0.5
+    small = np.abs(c) <= 4.0 * UNIT * size
+    if degree is None:
+        resolved = bool(small[n // 3 :].all())
+    else:
+        resolved = True
+        small[degree + 1 :] = True
+    kept = np.flatnonzero(~small)
+    return Series(c[: (kept[-1] if len(kept) else 0) + 1], size, resolved, degree is not None)
+
+
+def zeros(f: Series) -> Zeros:
+    """All zeros of f, by cutting arcs until each is decided; none if f vanishes identically."""
+    none = Zeros(np.zeros(0), np.zeros(0, np.int64), True, math.inf)
+    if f.vanishes:
+        return none
+    first, fourth = f.bound(1), f.bound(4)
+    cells = 16 * max(2, f.degree)
+    h = math.pi / cells
+    theta = OFFSET + h * (1.0 + 2.0 * np.arange(cells))
+    distance = float(lowest_extremum(f.c, theta, h)) / f.size
+    simple: list[float] = []
+    multiple: list[tuple[float, int, float]] = []
+    proven, least, most = True, COARSE, 16 * (f.degree + 32)
+    while True:
+        at = np.empty(2 * f.degree + 16)
+        theta, h = cut(f.c, theta, h, least, most, f.tolerance, first, fourth, at)
+        simple += at[~np.isnan(at)].tolist()
+        if len(theta) and len(theta) <= most:
+            least = h / 50.0  # by then what lies close together has come apart
+            _add_multiple(f, theta, h, multiple)
+            for centre, _, radius in multiple:
+                theta = theta[np.abs(np.remainder(theta - centre + math.pi, 2 * math.pi) - math.pi) > radius - 1.5 * h]
+        if not len(theta):
+            break
+        if h < FINEST or len(theta) > most:
+            proven = False
+            break
+        h *= 0.25
+        theta = (theta[:, None] + h * np.array([-3.0, -1.0, 1.0, 3.0])).ravel()
+    return _collected(f, simple, multiple, proven, distance)
+
+
+def _add_multiple(f: Series, theta: Array, h: float, found: list[tuple[float, int, float]]) -> None:
+    """Add multiple zeros in clusters of undecided arcs: (where, multiplicity, radius without another zero)."""
+    theta = np.sort(np.remainder(theta, 2 * math.pi))
+    breaks = np.flatnonzero(np.diff(theta) > 3.0 * h)
+    for cluster in np.split(theta, breaks + 1):
+        middle, width = 0.5 * (cluster[0] + cluster[-1]), 0.5 * (cluster[-1] - cluster[0]) + 4.0 * h
+        for m in range(HIGHEST, 1, -1):
+            x = middle
+            for _ in range(8):
+                u, rate = f.derivatives(np.array([x]), range(m - 1, m + 1))[:, 0]
+                step = u / rate if rate != 0.0 else math.inf
+                x -= step
+                if abs(step) < 1e-15 or not abs(x - middle) <= width:
+                    break
+            if not abs(x - middle) <= width:
+                continue
+            taylor = f.derivatives(np.array([x]), range(m + 1))[:, 0]
+            within = all(abs(taylor[j]) <= ROUNDINGS * UNIT * max(f.size, f.bound(j)) for j in range(m - 1))
+            if within and abs(taylor[m]) > 1e-9 * f.bound(m):
+                radius = 0.5 * (m + 1) * abs(taylor[m]) / f.bound(m + 1)
+                if not any(abs(math.remainder(x - other, 2 * math.pi)) < max(r, SAME) for other, _, r in found):
+                    found.append((x, m, radius))
+                break
+
+
+def _collected(
+    f: Series, simple: list[float], multiple: list[tuple[float, int, float]], proven: bool, distance: float
+) -> Zeros:
+    # what lies as near to a multiple zero as its own rounding blurs it is that zero
+    angles = [t for t in simple if all(abs(math.remainder(t - c, 2 * math.pi)) > r for c, _, r in multiple)]
+    signs = f.derivatives(np.array(angles), range(1, 2))[0] > 0.0 if angles else np.zeros(0, bool)
+    entries = [(turn(t), 1, bool(up)) for t, up in zip(angles, signs, strict=True)]
+    entries += [(turn(c), m, False) for c, m, _ in multiple]
+    entries.sort()
+    if not entries:
+        return Zeros(np.zeros(0), np.zeros(0, np.int64), proven, distance)
+    kept: list[tuple[float, int, bool]] = []
+    for entry in entries:
+        # a zero on the border of two arcs is found from both: two neighbours cannot both be rising
+        if kept and entry[1] == kept[-1][1] == 1 and entry[2] == kept[-1][2] and entry[0] - kept[-1][0] < 1e-9:
+            continue
+        kept.append(entry)
+    first, last = kept[0], kept[-1]
+    if len(kept) > 1 and first[1:] == last[1:] and first[1] == 1 and first[0] + 2 * math.pi - last[0] < 1e-9:
+        kept.pop()
+    ups = [up for _, m, up in kept if m == 1]
+    if all(m == 1 for _, m, _ in kept):
+        proven = proven and len(ups) % 2 == 0 and all(a != b for a, b in pairwise(ups))
+    return Zeros(
+        np.array([t for t, _, _ in kept], float),
+        np.array([m for _, m, _ in kept], np.int64),
+        proven,
+        0.0 if multiple else distance,
+    )
+
+
+def turn(theta: float) -> float:
+    """Return the angle in [0, 2 pi); just below 0 within rounding is 0."""
+    theta = math.remainder(theta, 2.0 * math.pi)
+    if theta < 0.0:
+        theta += 2.0 * math.pi
+    return 0.0 if theta >= 2.0 * math.pi - 4e-16 else theta

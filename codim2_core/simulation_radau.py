@@ -1,0 +1,272 @@
+"""Radau IIA of order 9 (five stages) for ``Y' = F(Y)``: one implicit method for slip, entry, sliding and exit.
+
+Near Sigma the vector field of eq:vf changes over distances of eps (or of rho itself in the nonsmooth system), while z
+moves over distances of 1: stiff while sliding, and smooth while slipping. The method is L-stable, so that steps are as
+long as the solution is smooth. Its polynomial through the stages is the dense output.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import roots_jacobi
+
+Array = NDArray[np.float64]
+
+STAGES = 5
+ITERATIONS = 10  # of Newton's method in one step
+SAFETY, SHRINK, GROW, FAILED = 0.9, 0.2, 8.0, 0.3
+CAREFUL, GROWTH_AFTER_FAILURE = 6, 1.2  # so many steps after Newton's method failed, a step grows by so much at most
+
+
+@dataclass(frozen=True)
+class Tableau:
+    """Coefficients of the method.
+
+    Attributes
+    ----------
+    nodes : ndarray (5,)
+    A : ndarray (5, 5)
+    gamma : float
+        Inverse of the real eigenvalue of A^-1.
+    error : ndarray (5,)
+        Weights of the stage increments Z in the error estimate ``gamma h F(Y0) + error . Z``, of order 5.
+    fit : ndarray (5, 5)
+        From Z to the coefficients of u, ..., u^5 of the polynomial through Y0 and the stages.
+    """
+
+    nodes: Array
+    A: Array
+    gamma: float
+    error: Array
+    fit: Array
+
+
+@lru_cache(maxsize=1)
+def tableau() -> Tableau:
+    """Coefficients, from the zeros of the Jacobi polynomial P_4^(1,0)."""
+    nodes = np.append(0.5 * (np.sort(roots_jacobi(STAGES - 1, 1.0, 0.0)[0]) + 1.0), 1.0)
+    k = np.arange(STAGES)
+    powers = nodes[:, None] ** k
+    A = np.asarray(np.linalg.solve(powers.T, (nodes[:, None] ** (k + 1) / (k + 1)).T).T, float)
+    inverse = np.linalg.inv(A)
+    values = np.linalg.eigvals(inverse)
+    gamma = 1.0 / float(values[np.argmin(np.abs(values.imag))].real)
+    target = 1.0 / (k + 1.0)
+    target[0] -= gamma
+    embedded = np.linalg.solve(powers.T, target)
+    fit = np.linalg.inv(powers * nodes[:, None])
+    return Tableau(nodes, A, gamma, (embedded - A[-1]) @ inverse, fit)
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step: ``Y(start + u h) = first + polynomial . (u, ..., u^5)``, 0 <= u <= 1."""
+
+    start: float
+    h: float
+    first: Array
+    last: Array
+    polynomial: Array
+
+    @property
+    def end(self) -> float:
+        """Time at the end of the step."""
+        return self.start + self.h
+
+    def at(self, u: float) -> Array:
+        """State at the fraction u of the step."""
+        return self.first + self.polynomial @ (u ** np.arange(1, STAGES + 1))
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is integrated.
+
+    Attributes
+    ----------
+    F : callable
+        State (n,) to its rate (n,); NaN where undefined: the step is then tried shorter.
+    J : callable
+        State to the Jacobian (n, n).
+    scale : callable
+        State to the size (n,) by which errors are measured; times rtol it is the error allowed in a step.
+    limit : callable
+        (state, rate, Jacobian) to the longest step allowed from there.
+    """
+
+    F: Callable[[Array], Array]
+    J: Callable[[Array], Array]
+    scale: Callable[[Array], Array]
+    limit: Callable[[Array, Array, Array], float]
+
+
+class TooManyStepsError(Exception):
+    """The step limit is reached."""
+
+
+class StepsTooShortError(TooManyStepsError):
+    """Steps became shorter than the shortest allowed: the solution ends, or its formulas are undefined from here on."""
+
+
+def steps(
+    problem: Problem,
+    t_start: float,
+    t_end: float,
+    first: Array,
+    rtol: float,
+    h: float,
+    most: int,
+    shortest: float = 1e-290,
+) -> Iterator[Step]:
+    """Step from t_start to t_end; the field does not depend on time.
+
+    Parameters
+    ----------
+    problem : Problem
+    t_start, t_end : float
+    first : ndarray (n,)
+    rtol : float
+    h : float
+        First step to try.
+    most : int
+        Steps tried before `TooManyStepsError`.
+    shortest : float
+        A shorter step raises `StepsTooShortError`.
+
+    Yields
+    ------
+    Step
+    """
+    y, t, lost = first, t_start, 0.0
+    previous: Step | None = None
+    eager, careful, tried = False, 0, 0
+    here = _linearised(problem, y)
+    while (remaining := (t_end - t) - lost) > 0.0:
+        h = min(h, here.bound)
+        if h >= 0.99 * remaining:
+            h = remaining
+        elif h > 0.5 * remaining:
+            h = 0.5 * remaining
+        tried += 1
+        if tried > most:
+            raise TooManyStepsError
+        if not h > shortest:
+            raise StepsTooShortError
+        found, factor = _attempt(problem, here, y, h, previous, rtol, refine=not eager)
+        if found is None:
+            previous = None  # a prediction may have misled
+            h, eager = h * factor, False
+            careful = CAREFUL if factor == FAILED else careful
+            continue
+        Z, polynomial = found
+        step = Step(t, h, y, y + Z[-1], polynomial)
+        yield step
+        # Compensated: close to Sigma steps are far shorter than the spacing of doubles at t.
+        total = h + lost
+        ahead = t + total
+        lost = total - (ahead - t)
+        t, y, previous = ahead, step.last, step
+        here = _linearised(problem, y)
+        most_growth = 1.0 if not eager and tried > 1 else GROWTH_AFTER_FAILURE if careful else GROW
+        h, eager, careful = h * min(factor, most_growth), True, max(careful - 1, 0)
+
+
+@dataclass(frozen=True)
+class _Linearised:
+    """A state's rate, size, Jacobian in units of size, and the longest step allowed from it."""
+
+    rate: Array
+    size: Array
+    jacobian: Array
+    bound: float
+
+
+def _linearised(problem: Problem, y: Array) -> _Linearised:
+    with np.errstate(all="ignore"):
+        rate, jacobian, size = problem.F(y), problem.J(y), problem.scale(y)
+        bound = problem.limit(y, rate, jacobian)
+        return _Linearised(rate, size, jacobian * size[None, :] / size[:, None], bound)
+
+
+def _attempt(
+    problem: Problem, here: _Linearised, y: Array, h: float, previous: Step | None, rtol: float, refine: bool
+) -> tuple[tuple[Array, Array] | None, float]:
+    """Try one step: (stage increments and polynomial, or None if it fails), and the factor to the next step."""
+    table, n, size = tableau(), len(y), here.size
+    with np.errstate(all="ignore"):
+        scaled = h * here.jacobian
+        kron = (table.A[:, None, :, None] * scaled[None, :, None, :]).reshape(n * STAGES, n * STAGES)
+        guess = np.zeros((STAGES, n)) if previous is None else _extrapolated(previous, h, y, table.nodes)
+        try:
+            inverse = np.asarray(np.linalg.inv(np.eye(n * STAGES) - kron), float)
+            damping = np.linalg.inv(np.eye(n) - table.gamma * scaled)
+        except np.linalg.LinAlgError:
+            return None, FAILED
+        Z = _solved(problem.F, y, h, guess, inverse, size, rtol, table)
+        if Z is None:
+            return None, 1.0 if guess.any() else FAILED
+        small = np.minimum(size, problem.scale(y + Z[-1]))
+        error = damping @ ((table.gamma * h * here.rate + table.error @ Z) / size)
+        norm = float(np.max(np.abs(error) * size / small)) / rtol
+        if norm > 1.0 and refine:  # the estimate of a stiff component is too large: filter it once more
+            error = damping @ ((table.gamma * h * problem.F(y + size * error) + table.error @ Z) / size)
+            again = float(np.max(np.abs(error) * size / small)) / rtol
+            norm = min(norm, again) if again == again else norm
+    if not norm < math.inf:
+        return None, SHRINK
+    factor = min(max(SAFETY * max(norm, 1e-12) ** (-1.0 / (STAGES + 1)), SHRINK), GROW)
+    if norm > 1.0:
+        return None, min(factor, 0.8)
+    return (Z, (table.fit @ Z).T), factor
+
+
+def _extrapolated(previous: Step, h: float, y: Array, nodes: Array) -> Array:
+    """Stage increments that the last step's polynomial predicts."""
+    ratio = h / previous.h
+    if ratio > 4.0:
+        return np.zeros((STAGES, len(y)))
+    u = 1.0 + ratio * nodes
+    ahead = (u[:, None] ** np.arange(1, STAGES + 1)) @ previous.polynomial.T
+    return ahead + (previous.first - y)
+
+
+def _solved(
+    F: Callable[[Array], Array],
+    y: Array,
+    h: float,
+    Z: Array,
+    inverse: Array,
+    size: Array,
+    rtol: float,
+    table: Tableau,
+) -> Array | None:
+    """Stage increments by simplified Newton, or None if it does not converge."""
+    enough = max(1e-2 * rtol, 1e-14)
+    before, theta = math.inf, 1.0
+    for iteration in range(ITERATIONS):
+        rates = np.array([F(y + increment) for increment in Z])
+        change = (inverse @ (((h * (table.A @ rates)) - Z) / size).ravel()).reshape(Z.shape)
+        change_size = float(np.max(np.abs(change)))
+        if not change_size < math.inf:
+            return None
+        Z = Z + change * size
+        if iteration:
+            theta = change_size / before if before > 0.0 else 0.0
+            stalled = change_size <= 100.0 * enough and theta > 0.3 and iteration > 3
+            if stalled:
+                return Z
+            hopeless = theta ** (ITERATIONS - 1 - iteration) * change_size > enough * (1.0 - theta)
+            if change_size > enough and (theta >= 1.0 or (iteration > 2 and hopeless)):
+                return None
+            if theta < 1.0 and theta / (1.0 - theta) * change_size <= enough:
+                return Z
+        if change_size <= 1e-3 * enough:
+            return Z
+        before = change_size
+    return None

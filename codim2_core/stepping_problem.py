@@ -1,0 +1,72 @@
+"""What the compiled stepping needs of a system and Psi: the address of the field and the numbers that it reads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import stepping_fields, stepping_fields_general
+from .general import Frozen, System
+from .regularisation import Psi
+from .stepping_gains import gains, has_gains
+from .stepping_numbers import numbers
+from .systems import Coefficients
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A right-hand side, scaled so that |U| is about 1.
+
+    Attributes
+    ----------
+    address : int
+        Of the field.
+    shared : ndarray (SHARED,)
+        Its parameters.
+    functions : tuple
+        The compiled functions behind the addresses: they must outlive their use.
+    """
+
+    address: int
+    shared: NDArray[np.float64]
+    functions: tuple[Any, ...]
+
+
+def problem(at: Coefficients | Frozen, psi: Psi, backward: bool = False) -> Problem:
+    """Prepare a right-hand side, compiling what is new of it.
+
+    Parameters
+    ----------
+    at : Coefficients or Frozen
+    psi : Psi
+    backward : bool
+        Against time.
+    """
+    if isinstance(at, Coefficients):
+        field = stepping_fields.field(psi)
+        return Problem(field.address, numbers(at, psi, backward), (field,))
+    function, gain = prepare(at.system, psi)
+    return Problem(function.address, numbers(at, psi, backward, gain.address), (function, gain))
+
+
+def prepare(system: System, psi: Psi) -> tuple[Any, Any]:
+    """Compile the field of a general system, and the gain of Psi that it calls, for all z and parameters."""
+    own = stepping_fields_general.general_field(system)
+    return own.function, gains(psi, own.smooth)
+
+
+def is_compiled(system: System | None, psi: Psi) -> bool:
+    """Whether `problem` answers without compiling anything (but for what the disk cache holds).
+
+    Parameters
+    ----------
+    system : System or None
+        None for e-linear systems, which share their fields.
+    psi : Psi
+    """
+    if system is not None:
+        return stepping_fields_general.is_compiled(system) and has_gains(psi)
+    return psi.family != "custom" or stepping_fields.is_compiled(psi)

@@ -1,0 +1,138 @@
+"""The panels "Along z", "3-D", "Time" and "Ψ": what the browser is sent, against the core and closed forms."""
+
+import json
+from concurrent.futures import Executor, Future
+
+import numpy as np
+import pytest
+from codim2_app import panel_along, panel_filippov, panel_psi, panel_stack, panel_time
+from codim2_app.panel_draft import Draft
+from codim2_app.panel_jobs import Jobs
+from codim2_app.scenes import make_scene
+from codim2_app.state import ExplorerState, InputError, opening
+
+import codim2_core as c2
+
+
+class Now(Executor):
+    """Computes when asked, so that a test need not wait."""
+
+    def submit(self, fn, /, *args, **kwargs):
+        future = Future()
+        future.set_result(fn(*args, **kwargs))
+        return future
+
+
+def sent(panel, *, rest=True, **changes):
+    """The header that a panel adds, after the second frame at rest (the first one asks)."""
+    values = {**ExplorerState().values(), **opening(changes.get("system", "normal")), **changes}
+    scene, jobs = make_scene(values), Jobs(Now())
+    for _ in range(2):
+        draft = Draft(scene, values, {}, {}, {}, jobs, rest, True, ())
+        panel.add(draft)
+    json.dumps(draft.header, allow_nan=False)
+    return draft.header
+
+
+@pytest.mark.parametrize("panel", [panel_along, panel_stack, panel_time])
+def test_while_controls_move_nothing_is_computed(panel):
+    header = sent(panel, rest=False, system="ball_in_pool")
+    assert set(header) == {"late"}
+
+
+def test_along_z_the_ball_slides_between_minus_and_plus_z_crit():
+    along = sent(panel_along, system="ball_in_pool")["along"]
+    crit = 3.5 * 0.2 * c2.examples.GRAVITY
+    assert [i["kind"] for i in along["intervals"]] == ["crossing", "sliding", "crossing"]
+    assert [p["z"] for p in along["points"]] == pytest.approx([-crit, 0.0, crit])
+    assert along["points"][1]["z"] == 0.0
+    (branch,) = along["branches"]
+    np.testing.assert_allclose(branch["flow"], -5 / 7 * np.array(branch["z"]), rtol=1e-4, atol=1e-4)
+
+
+def test_the_plane_of_two_slow_variables_has_arrows_where_it_slides_only():
+    plane = sent(panel_along, system="ball_in_pool")["slow_plane"]
+    crit = 3.5 * 0.2 * c2.examples.GRAVITY
+    z = np.array([arrow[:2] for arrow in plane["arrows"]])
+    assert (np.hypot(*z.T) < crit).all()
+    np.testing.assert_allclose([arrow[2:4] for arrow in plane["arrows"]], -5 / 7 * z, atol=1e-3)
+
+
+def test_without_slow_variables_it_says_so():
+    values = ExplorerState().values()
+    scene = make_scene(values, c2.ELinear(-1, 0, -1))
+    for panel in (panel_along, panel_stack):
+        draft = Draft(scene, values, {}, {}, {}, Jobs(Now()), True, True, ())
+        panel.add(draft)
+        assert "no slow variable" in str(draft.header["unable"])
+
+
+def test_the_lifted_hemisphere_lies_on_the_sphere():
+    sphere = sent(panel_stack)["sphere"]
+    points = np.concatenate([np.array(line) for line in sphere["inside"]])
+    np.testing.assert_allclose(np.sum(points**2, axis=1), 1.0, atol=5e-3)  # three digits are sent
+    assert points[:, 2].min() >= 0.0
+
+
+def test_the_stack_carries_critical_sets_and_limit_directions_of_every_height():
+    stack = sent(panel_stack, system="nonunique_sliding")["stack"]
+    low, high = stack["span"]
+    for height, theta, _, _ in stack["directions"][::40]:
+        z = low + height * (high - low)
+        limits = c2.equator_equilibria(c2.examples.nonunique_sliding(), (z,)).theta
+        assert np.abs(np.exp(1j * limits) - np.exp(1j * theta)).min() < 1e-3
+    assert len(stack["sets"]) == 3
+    assert sum(one["stable"] for one in stack["sets"]) == 2
+
+
+def test_the_motion_of_a_ball_slips_then_slides_and_its_limit_lies_over_it():
+    header = sent(panel_time, system="ball_in_pool", log_eps=-4.0)
+    motion, limit = header["motion"], header["limit"]
+    assert [p[0] for p in motion["phases"]] == [p[0] for p in limit["phases"]] == ["slip", "slide"]
+    assert motion["phases"][1][1] == pytest.approx(limit["phases"][1][1], abs=1e-3)
+    for smooth, sharp in zip(motion["states"], limit["states"], strict=True):
+        np.testing.assert_allclose(np.interp(limit["t"], motion["t"], smooth), sharp, atol=5e-3)
+    ends = [np.array(run["picture"])[:, -1] for run in (motion, limit)]
+    np.testing.assert_allclose(*ends, atol=2e-3)
+    assert motion["ball"] == "integral"
+
+
+def test_a_jump_up_the_hemisphere_takes_no_time():
+    limit = sent(panel_time, system="attracting_repelling", launch="0.3, 0.6, 1", t_end=3.0)["limit"]
+    (_, arrival, _, _) = limit["phases"][1]
+    at = np.flatnonzero(np.abs(np.array(limit["t"]) - arrival) < 1e-4)
+    radius = np.hypot(*np.array(limit["picture"])[:, at])
+    assert len(at) > 3
+    assert radius[1] > 0.97
+    assert radius[-1] < 0.9
+
+
+@pytest.mark.parametrize("launch", ["", "1,2", "1,2,3,4", "a,b,c", "1,2,nan"])
+def test_a_start_that_is_no_state_is_told(launch):
+    with pytest.raises(InputError, match="give 3 numbers: x, y, z1"):
+        panel_time.launch_of({"launch": launch, "t_end": 1.0}, 1)
+    assert "give 3 numbers" in sent(panel_time, launch=launch)["unable"]["motion"]
+
+
+def test_the_filippov_view_has_the_whole_interval_and_what_is_selected():
+    header = sent(panel_stack, system="nonunique_sliding", solid="filippov")["filippov"]
+    assert sorted(header["candidates"]) == pytest.approx([-0.75, 1.25])
+    assert sorted(flow for flow, _ in header["selected"]) == pytest.approx([-0.75, 0.25, 1.25])
+    for vertex, ends in zip(header["candidates"], header["combined"], strict=True):
+        heights = [end[2] for end in ends]
+        assert min(heights) - 1e-3 <= vertex <= max(heights) + 1e-3
+    assert len(header["curve"]) == panel_filippov.POINTS
+
+
+@pytest.mark.parametrize("family", ["constant", "tanh", "exponential"])
+def test_psi_is_sent_once_and_as_it_is(family):
+    values = {**ExplorerState().values(), "psi": family}
+    scene, now = make_scene(values), {}
+    header = {}
+    panel_psi.add(Draft(scene, values, header, {}, now, Jobs(Now()), False, True, ()))
+    curves = header["psi_curves"]
+    np.testing.assert_allclose(curves["psi"], scene.psi(np.array(curves["s"])), rtol=1e-4)
+    np.testing.assert_allclose(curves["modulus"], scene.psi.modulus(np.array(curves["zeta"])), rtol=1e-4)
+    again = {}
+    panel_psi.add(Draft(scene, values, again, {}, now, Jobs(Now()), False, True, ()))
+    assert again == {}

@@ -1,0 +1,167 @@
+"""Many sessions at once, and one after the other: delay under load, and what closed sessions leave behind."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from urllib.request import urlopen
+
+import numpy as np
+
+from .bokeh_wire import Wire
+
+RATE = 10.0  # requests a second of each session
+SECONDS = 4.0
+CROWDS = (1, 2, 4, 8, 16)
+
+
+def free_port() -> int:
+    """Return a port that nothing listens on."""
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        return probe.getsockname()[1]
+
+
+@contextmanager
+def serving(kind: str, *options: str) -> Iterator[tuple[int, int]]:
+    """Run one server in its own process; yields (port, pid)."""
+    port = free_port()
+    command = [sys.executable, "-m", "tests.benchmarks.app_servers", kind, str(port), *options]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        for _ in range(300):
+            try:
+                urlopen(f"http://localhost:{port}/", timeout=20).read()
+                if kind in ("bare", "mathematics") or b'"ready"' in urlopen(f"http://localhost:{port}/health").read():
+                    break
+            except OSError:
+                time.sleep(0.2)
+        yield port, process.pid
+    finally:
+        process.terminate()
+        process.wait(10)
+
+
+def cpu(pid: int) -> float:
+    """Return the seconds of CPU that a process has used, without its children."""
+    total = 0
+    for thread in os.listdir(f"/proc/{pid}/task"):
+        try:
+            with open(f"/proc/{pid}/task/{thread}/schedstat") as stat:
+                total += int(stat.read().split()[0])
+        except OSError:  # it has just ended
+            continue
+    return total * 1e-9
+
+
+async def at_rest(pid: int, most: float = 30.0) -> None:
+    """Wait until a server has no work left, such as what its panels compute beside the frames."""
+    for _ in range(int(2 * most)):
+        before = cpu(pid)
+        await asyncio.sleep(0.5)
+        if cpu(pid) - before < 0.01:
+            return
+
+
+def value(i: float) -> float:
+    """Return `a` of tick i, never the same twice in a row nor one remembered by a scene."""
+    return -2.0 + 1.2 * np.sin(0.037 * i)
+
+
+async def crowd(port: int, sessions: int) -> list[float]:
+    """Let sessions drag at `RATE`, each with one frame in flight; return the delays from tick to message."""
+    wires = [await Wire.connect(port) for _ in range(sessions)]
+    delays: list[float] = []
+
+    async def drag(wire: Wire, which: int) -> None:
+        await asyncio.sleep(which / RATE / sessions)
+        start, tick = time.perf_counter(), 0
+        while (now := time.perf_counter()) - start < SECONDS:
+            await wire.frame(tick, a=value(tick + 7.3 * which))
+            delays.append(time.perf_counter() - now)
+            # a tick that comes while a frame is under way is superseded, as in the browser
+            tick = max(tick + 1, int((time.perf_counter() - start) * RATE) + 1)
+            await asyncio.sleep(max(0.0, start + tick / RATE - time.perf_counter()))
+
+    await asyncio.gather(*(drag(wire, i) for i, wire in enumerate(wires)))
+    await asyncio.gather(*(wire.close() for wire in wires))
+    return delays
+
+
+def load(processes: int) -> dict[int, dict[str, float]]:
+    """Return median and p95 of the delay in seconds, and frames a second of each session, by number of sessions."""
+    found = {}
+    with serving("explorer", str(processes)) as (port, pid):
+        asyncio.run(crowd(port, 2))
+        asyncio.run(at_rest(pid))
+        for sessions in CROWDS:
+            delays = asyncio.run(crowd(port, sessions))
+            found[sessions] = {
+                "median": float(np.median(delays)),
+                "p95": float(np.quantile(delays, 0.95)),
+                "rate": len(delays) / SECONDS / sessions,
+            }
+    return found
+
+
+def left(port: int) -> dict[str, float]:
+    """Return what a `forgetful` server holds: resident bytes, and living objects by kind."""
+    return json.loads(urlopen(f"http://localhost:{port}/left").read())
+
+
+def memory(warm: int = 100, sessions: int = 200) -> tuple[dict[str, float], dict[str, float]]:
+    """Open and close sessions, each with a few frames; return what is held after `warm` and `sessions` more."""
+
+    async def visit(count: int) -> None:
+        for i in range(count):
+            wire = await Wire.connect(port)
+            for tick in range(3):
+                await wire.frame(tick, a=value(3 * i + tick))
+            await wire.close()
+        await asyncio.sleep(3.0)  # until the last one is forgotten
+
+    with serving("forgetful") as (port, pid):
+        asyncio.run(visit(warm))
+        asyncio.run(at_rest(pid))
+        before = left(port)
+        asyncio.run(visit(sessions))
+        asyncio.run(at_rest(pid))
+        return before, left(port)
+
+
+def report() -> str:
+    """Return both as Markdown."""
+    alone, pair = load(1), load(2)
+    lines = [
+        f"| sessions at {RATE:.0f} Hz | 1 process: median, p95 | frames/s each | 2 processes: median, p95 "
+        "| frames/s each |",
+        "|---|---|---|---|---|",
+    ]
+    for n in CROWDS:
+        cells = [
+            f"{1e3 * row['median']:.1f}, {1e3 * row['p95']:.1f} ms | {row['rate']:.1f}" for row in (alone[n], pair[n])
+        ]
+        lines.append(f"| {n} | {' | '.join(cells)} |")
+    ratios = [row[max(CROWDS)]["p95"] / row[1]["median"] for row in (alone, pair)]
+    lines.append(
+        f"\np95 with {max(CROWDS)} sessions over the median of one: {ratios[0]:.1f} with 1 process, {ratios[1]:.1f} "
+        "with 2. The sessions are played by a third process on the same machine."
+    )
+    before, after = memory()
+    lines.append(
+        f"200 sessions opened and closed: {(after['resident'] - before['resident']) / 200e3:+.1f} kB of memory and "
+        f"{(after['objects'] - before['objects']) / 200:+.1f} objects each; {after['ExplorerView']} explorers and "
+        f"{after['Scene']} scenes are left."
+    )
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(report())

@@ -1,0 +1,92 @@
+"""What typed systems cost: redraws beside a built-in system of the same size, and their one compilation.
+
+Run with ``python -m tests.benchmarks.bench_general``.
+"""
+
+from __future__ import annotations
+
+import statistics
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+import codim2_core as c2
+from codim2_core.scene import layers
+from codim2_core.seeds import structured_seeds
+from codim2_core.trajectories import trajectories
+
+ON_REQUEST = ("separatrices", "regions", "certificates", "outcomes", "cycles", "atlas_curves", "location")
+PICTURE = tuple(name for name in layers if name not in ON_REQUEST)
+COMPILED = {
+    "e-linear as text": 'c2.System(U=("a*c - b*s", "b*c + d*s"), parameters={"a": -2.0, "b": 0.5, "d": -1.0})',
+    "attracting and repelling directions": "c2.examples.attracting_repelling()",
+    "non-unique sliding": "c2.examples.nonunique_sliding()",
+    "with sin, exp, sqrt": 'c2.System(U=("sin(3*c) - exp(s)/2", "tanh(c) - s + c**3*sqrt(2 + c*s)"))',
+}
+
+
+def as_text(system: c2.ELinear) -> c2.System:
+    """The same e-linear system as typed formulas."""
+    a, b, d, f1, f2 = system.at(()).plane
+    values = {"a": a, "b": b, "d": d, "f1": f1, "f2": f2}
+    return c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=values)
+
+
+def redraw(system: c2.ELinear | c2.System, psi: c2.Psi, repeats: int = 60) -> list[float]:
+    """Milliseconds of each redraw while the slider of f1 moves."""
+    scene, spent = c2.Scene(system, psi), []
+    for f1 in np.linspace(-0.5, -0.4, repeats + 5):
+        start = time.perf_counter()
+        scene = scene.evolve(f1=float(f1))
+        for name in PICTURE:
+            scene[name]
+        spent.append(1e3 * (time.perf_counter() - start))
+    return spent[5:]
+
+
+def stepping(system: c2.ELinear | c2.System, psi: c2.Psi, repeats: int = 40) -> float:
+    """Microseconds of 64 trajectories, best of many."""
+    at, seeds, best = system.at(()), structured_seeds(64, 2.0), 1e9
+    for _ in range(repeats):
+        start = time.perf_counter()
+        trajectories(at, psi, seeds, t_max=8.0, rtol=1e-8)
+        best = min(best, time.perf_counter() - start)
+    return 1e6 * best
+
+
+def compile_seconds(expression: str) -> float:
+    """Seconds of the compilation of one system in a fresh interpreter that has drawn another one."""
+    code = (
+        "import time; import codim2_core as c2; from codim2_core.trajectories import warm; p = c2.psi.tanh(); "
+        f"warm(p, c2.System(U=('-c', '-s'))); s = {expression}; t = time.perf_counter(); warm(p, s); "
+        "print(time.perf_counter() - t)"
+    )
+    return float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
+
+
+def report() -> str:
+    """Return both tables as Markdown."""
+    lines = [
+        "| e-linear, built in and as text | built-in redraw, ms | typed redraw, ms | ratio | ratio of its stepping |",
+        "|---|---|---|---|---|",
+    ]
+    for name in ("case1-cm4", "case1-cm0", "case2-saddle", "case3-n2"):
+        preset = c2.presets[name]
+        twin = as_text(preset.system)
+        redraw(twin, preset.psi), redraw(preset.system, preset.psi)
+        one, two = redraw(preset.system, preset.psi), redraw(twin, preset.psi)
+        ratio = statistics.median(b / a for a, b in zip(one, two, strict=True))
+        steps = stepping(twin, preset.psi) / stepping(preset.system, preset.psi)
+        lines.append(
+            f"| {name} | {statistics.median(one):.2f} | {statistics.median(two):.2f} | {ratio:.2f} | {steps:.2f} |"
+        )
+    lines += ["", "| compilation, once for each system | s |", "|---|---|"]
+    for name, expression in COMPILED.items():
+        lines.append(f"| {name} | {statistics.median(compile_seconds(expression) for _ in range(3)):.2f} |")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(report())

@@ -1,0 +1,42 @@
+import socket
+
+import pytest
+
+from tests.app.serving import serving
+
+pytestmark = pytest.mark.browser
+
+BANNER = ".codim2 .banner"
+
+
+@pytest.fixture
+def port():
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        return str(probe.getsockname()[1])
+
+
+def test_a_lost_connection_is_said_and_the_page_returns_as_it_was(open_page, port):
+    page = open_page()
+    with serving("--port", port) as page.address:
+        page.open("?psi=rational").type("a", "-1.5")
+        assert not page.find(BANNER).is_visible()
+    banner = page.find(BANNER)
+    banner.wait_for(state="visible")
+    assert banner.text_content() == "Connection lost. Trying again …"
+    box = page.find("[data-control=d] .number")  # what is set meanwhile is kept
+    box.fill("-1.25")
+    box.press("Enter")
+    page.page.wait_for_timeout(1500)  # several attempts
+    assert banner.is_visible()
+    with serving("--port", port):
+        banner.wait_for(state="hidden")
+        page.page.wait_for_selector(".codim2[data-ready]")
+        page.settle()
+        assert page.find("[data-control=a] .number").input_value() == "-1.5"
+        assert page.find("[data-control=d] .number").input_value() == "-1.25"
+        assert page.find("select.psi").input_value() == "rational"
+        frame = page.frame()
+        page.type("a", "-1")
+        assert page.frame() > frame
+        assert page.find("[data-control=a] .number").input_value() == "-1"

@@ -1,0 +1,224 @@
+"""What a person does with the panels: open them, pick parameters, click special points, drag across the atlas."""
+
+from urllib.parse import parse_qs, urlparse
+
+import pytest
+
+pytestmark = pytest.mark.browser
+
+#: Elements of the inspector whose content is wider than they are.
+TOO_WIDE = """() => {
+    const all = (root) => [...root.querySelectorAll('*')].flatMap((e) => e.shadowRoot ? [e, ...all(e.shadowRoot)] : [e])
+    return all(document).filter((e) => e.closest('.inspector') && e.offsetParent && e.scrollWidth > e.clientWidth + 1
+        && getComputedStyle(e).display !== 'inline').map((e) => e.className) }"""
+
+OWN = ["Atlas", "Numbers", "Planes", "Diagram", "Theorems"]
+
+
+def value(explorer, name):
+    return float(explorer.find(f"[data-control={name}] .number").input_value())
+
+
+def open_panel(explorer, words):
+    explorer.find(".tabs").get_by_role("tab", name=words, exact=True).click()
+    return explorer.settle()
+
+
+def choose(explorer, name, option):
+    explorer.find(f"select.{name}").select_option(option)
+    return explorer.settle()
+
+
+def drag(explorer, selector, *places):
+    """Press at the first place, given in parts of width and height, and move through the others."""
+    box = explorer.find(selector).bounding_box()
+    points = [(box["x"] + u * box["width"], box["y"] + v * box["height"]) for u, v in places]
+    explorer.page.mouse.move(*points[0])
+    explorer.page.mouse.down()
+    for point in points[1:]:
+        explorer.page.mouse.move(*point, steps=8)
+        yield point
+    explorer.page.mouse.up()
+    explorer.settle()
+
+
+@pytest.mark.parametrize("words", OWN)
+def test_a_tab_opens_its_panel_and_the_address_keeps_it(explorer, words):
+    open_panel(explorer, words)
+    tab = explorer.find("[role=tab][aria-selected=true]")
+    assert tab.text_content() == words
+    assert explorer.find("[role=tabpanel]:visible").count() == 1
+    assert explorer.find(f"#{tab.get_attribute('aria-controls')}").is_visible()
+    explorer.page.wait_for_timeout(400)
+    name = tab.get_attribute("data-panel")
+    if words != "Atlas":  # that one is open from the start
+        assert parse_qs(urlparse(explorer.page.url).query)["panel"] == [name]
+    explorer.page.reload()
+    explorer.page.wait_for_selector(".codim2[data-ready]")
+    explorer.settle()
+    assert explorer.find(f"[role=tabpanel][data-panel={name}]").is_visible()
+
+
+def test_tabs_are_moved_by_the_keyboard(explorer):
+    explorer.find("[role=tab][aria-selected=true]").focus()
+    explorer.page.keyboard.press("ArrowRight")
+    explorer.settle()
+    assert explorer.find("[role=tab][aria-selected=true]").text_content() == "Numbers"
+    assert explorer.find("[role=tab]:focus").text_content() == "Numbers"
+    explorer.page.keyboard.press("ArrowLeft")
+    explorer.page.keyboard.press("ArrowLeft")
+    explorer.settle()
+    assert explorer.find("[role=tab][aria-selected=true]").get_attribute("tabindex") == "0"
+    assert explorer.find("[role=tab][tabindex='0']").count() == 1
+
+
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (1180, 800), (390, 844)])
+def test_controls_and_tabs_fit(open_page, width, height):
+    page = open_page(viewport={"width": width, "height": height}).open()
+    for words in OWN:
+        open_panel(page, words)
+        assert page.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        wide = page.page.evaluate(TOO_WIDE)
+        assert wide == [], words
+    if (width, height) == (1440, 900):
+        assert page.find(".controls").evaluate("(e) => e.scrollHeight <= e.clientHeight")
+    assert page.complaints == []
+
+
+def test_portrait_changes_while_the_atlas_is_dragged(explorer):
+    seen = []
+    for _ in drag(explorer, ".pad", (0.5, 0.5), (0.72, 0.5), (0.95, 0.95)):
+        explorer.page.wait_for_timeout(250)
+        seen.append((explorer.name(), explorer.find(".pad .tag").text_content()))
+    assert seen == [("CM2", "CM2"), ("NCM2", "NCM2")]
+
+
+def test_a_small_portrait_is_clicked(explorer):
+    tiles = explorer.find(".thumbnails button")
+    tiles.first.wait_for()
+    assert tiles.count() == 4
+    assert explorer.find(".thumbnails .here").text_content() == "CM4"
+    tiles.filter(has_text="NCM2").click()
+    explorer.settle()
+    assert explorer.name() == "NCM2"
+    assert explorer.find(".thumbnails .here").text_content() == "NCM2"
+
+
+def test_pointing_at_a_region_marks_its_small_portrait(explorer):
+    explorer.find(".thumbnails button").first.wait_for()
+    box = explorer.find(".pad").bounding_box()
+    explorer.page.mouse.move(box["x"] + 0.05 * box["width"], box["y"] + 0.05 * box["height"])
+    assert explorer.find(".thumbnails .pointed").text_content() == "NCM2"
+    explorer.find(".thumbnails button").filter(has_text="CM4").hover()
+    assert explorer.find(".pad .region.pointed").get_attribute("data-region") == "CM4"
+
+
+def test_other_axes_of_the_atlas(explorer):
+    choose(explorer, "across", "a")
+    choose(explorer, "up", "d")
+    explorer.find(".pad .region").first.wait_for()
+    assert "det A = 0" in explorer.find(".pad-curves").text_content()
+    assert explorer.find(".pad .tag").text_content() == "CM4, stable node"
+    for _ in drag(explorer, ".pad", (0.25, 0.62), (0.2, 0.2)):
+        explorer.page.wait_for_timeout(250)
+        assert explorer.find(".portrait-case").text_content() == "Case II"
+    assert value(explorer, "a") == pytest.approx(-2.4, abs=0.05)
+    assert value(explorer, "d") == pytest.approx(2.4, abs=0.05)
+    assert explorer.find(".pad .tag").text_content() == "CM4, saddle"
+    choose(explorer, "up", "a")
+    assert "two different" in explorer.find(".atlas-note").text_content()
+    choose(explorer, "across", "f1")
+    choose(explorer, "up", "f2")
+    assert explorer.find(".pad .region").count() > 1
+    assert explorer.find(".atlas-note").text_content() == ""
+
+
+def test_the_atlas_is_narrowed_around_the_handle(explorer):
+    explorer.find(".panel-atlas .zoom .in").click()
+    explorer.settle()
+    assert explorer.find(".pad .tag").text_content() == "CM4, stable node"
+    box = explorer.find(".pad").bounding_box()
+    explorer.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.3 * box["height"])
+    explorer.settle()
+    assert 0 < value(explorer, "f2") < 0.75
+    explorer.find(".panel-atlas .zoom .out").click()
+    explorer.settle()
+    assert explorer.find(".panel-atlas .zoom .out").is_disabled()
+
+
+def test_a_special_point_is_gone_to_exactly(open_page):
+    page = open_page().open("?preset=case3-n3&panel=diagram&along=n")
+    page.find(".diagram .cycle").first.wait_for()
+    page.find(".special-list button").filter(has_text="Hopf").click()
+    page.settle()
+    page.page.wait_for_timeout(400)
+    assert float(parse_qs(urlparse(page.page.url).query)["n"][0]) == pytest.approx(284 / 129, abs=1e-12)
+    assert "here" in page.find(".special-list button").filter(has_text="Hopf").get_attribute("class")
+    page.find(".diagram .special").first.click()
+    page.settle()
+    page.page.wait_for_timeout(400)
+    assert float(parse_qs(urlparse(page.page.url).query)["n"][0]) == pytest.approx(4 / 3, abs=1e-9)
+    assert page.complaints == []
+
+
+def test_the_diagram_sets_its_parameter(explorer):
+    open_panel(explorer, "Diagram")
+    choose(explorer, "along", "d")
+    for _ in drag(explorer, ".diagram", (0.3, 0.5), (0.8, 0.5)):
+        pass
+    assert value(explorer, "d") > 1.5
+    explorer.find(".diagram").press("ArrowRight")
+    explorer.settle()
+    where = value(explorer, "d")
+    explorer.find(".panel-diagram .zoom .in").click()
+    explorer.settle()
+    low, high = (float(explorer.find(".diagram").get_attribute(f"aria-value{end}")) for end in ("min", "max"))
+    assert high - low == pytest.approx(2.0)
+    assert low < where < high
+    line = explorer.find(".diagram .value").get_attribute("d")
+    explorer.type("d", str(where + 0.1))
+    assert explorer.find(".diagram .value").get_attribute("d") != line
+
+
+def test_a_slider_leaves_a_trail_in_the_planes(open_page):
+    page = open_page().open("?preset=case3-n2&panel=planes")
+    assert page.find(".trace-plane .over").count() == 1
+    assert "n = 4" in page.find(".plane-table").text_content()
+    slider = page.find("#c2-n")
+    slider.focus()
+    for _ in range(5):
+        slider.press("PageUp")
+        page.settle()
+    assert page.find(".trace-plane .trail").count() >= 5
+    assert page.find(".eigen-plane .trail").count() == 2 * page.find(".trace-plane .trail").count()
+    assert "unstable" in page.find(".trace-plane").get_attribute("aria-label")
+    assert page.complaints == []
+
+
+def test_outcomes_are_told_by_ring_and_table(open_page):
+    page = open_page().open("?preset=case1-ncm4&panel=numbers")
+    assert not page.find(".outcome-key").is_visible()
+    before = page.picture()
+    page.find(".layer input[value=outcomes]").check()
+    page.settle()
+    assert page.find(".outcome-key").is_visible()
+    assert page.picture() != before
+    rows = page.find(".outcome-table li")
+    assert rows.count() == 4
+    assert rows.filter(has_text="Q₃").locator(".outcome.cross").count() == 1
+    page.find("select.preset").select_option("case3-n3")
+    page.settle()
+    assert "slides around cycle 1" in page.find(".outcome-table").text_content()
+    assert page.complaints == []
+
+
+def test_theorems_come_with_their_numbers_and_follow(explorer):
+    rows = explorer.find(".theorem-list li")
+    assert rows.count() == 0
+    open_panel(explorer, "Theorems")
+    claim = rows.filter(has_text="thm:case1(c)")
+    assert "This one is CM4." in claim.text_content()
+    assert "limit directions" in claim.locator("table").text_content()
+    explorer.type("f1", "3")
+    assert "This one is NCM2." in rows.filter(has_text="thm:case1(c)").text_content()
+    assert rows.filter(has_text="✗").count() == 0

@@ -1,0 +1,129 @@
+"""What a person does with other systems: choose one, type one's own, play a motion, turn the 3-D view."""
+
+from urllib.parse import parse_qs, urlparse
+
+import pytest
+
+pytestmark = pytest.mark.browser
+
+
+def choose(explorer, key):
+    explorer.find(".system-box select").select_option(key)
+    return explorer.settle()
+
+
+def open_panel(explorer, words):
+    explorer.find(".tabs").get_by_role("tab", name=words, exact=True).click()
+    return explorer.settle()
+
+
+def value(explorer, name):
+    return float(explorer.find(f"[data-control={name}] .number").input_value())
+
+
+def test_an_example_brings_its_equations_sliders_and_place(explorer):
+    choose(explorer, "ball_in_pool")
+    assert explorer.find(".equations math mtr").count() == 4
+    assert explorer.find(".parameters .control").count() == 4
+    assert explorer.name() == "CM2"
+    assert value(explorer, "slow-z") == 4
+    assert not explorer.find("[data-control=f1]").is_visible()
+    explorer.type("slow-z", "9")
+    assert explorer.name() == "NCM2"  # beyond z_crit = 6.867 it slips
+    explorer.type("parameter-mu", "0.5")
+    assert explorer.name() == "CM2"  # more friction: z_crit = 17.2
+    explorer.page.wait_for_timeout(400)
+    query = parse_qs(urlparse(explorer.page.url).query)
+    assert query["parameters"] == ['{"mu":0.5}']
+    explorer.page.reload()
+    explorer.page.wait_for_selector(".codim2[data-ready]")
+    explorer.settle()
+    assert value(explorer, "parameter-mu") == 0.5
+    assert explorer.name() == "CM2"
+
+
+def test_back_to_the_normal_form_everything_is_as_before(explorer):
+    before = explorer.name()
+    choose(explorer, "attracting_repelling")
+    assert "6 limit directions" in explorer.name()
+    choose(explorer, "normal")
+    assert explorer.name() == before
+    assert explorer.find("[data-control=f1]").is_visible()
+    explorer.type("f1", "-1.5")
+    assert explorer.name() != before
+
+
+def test_typed_equations_are_drawn_and_their_names_become_sliders(explorer):
+    choose(explorer, "own")
+    box = explorer.find("textarea[data-box=U1]")
+    box.fill("-q*c + 1/4")
+    explorer.settle()
+    symbols = explorer.find(".parameters label").all_text_contents()
+    assert symbols == ["q", "k"]
+    explorer.find("textarea[data-box=U2]").fill("-q*s")
+    explorer.settle()
+    assert "1 critical set" in explorer.name() or "CM" in explorer.name()
+    box.fill("-q*c + (")
+    explorer.settle()
+    error = explorer.find(".boxes [data-box=U1] .error")
+    assert "column" in error.text_content()
+    assert error.is_visible()
+    box.fill("q*c")
+    explorer.settle()
+    assert not error.is_visible()
+
+
+def test_hostile_text_is_refused_beside_its_box_and_the_page_lives(explorer):
+    choose(explorer, "own")
+    for text in ("__import__('os').system('true')", "c.__class__", "9**9**9**9", "(" * 900):
+        explorer.find("textarea[data-box=U1]").fill(text)
+        explorer.settle()
+        assert explorer.find(".boxes [data-box=U1] .error").is_visible()
+    choose(explorer, "normal")
+    assert explorer.name() == "CM4"
+
+
+def test_play_drifts_along_the_slow_flow_to_its_equilibrium(explorer):
+    choose(explorer, "ball_in_pool")
+    open_panel(explorer, "Along z")
+    explorer.find(".panel-along .speed").evaluate("(e) => { e.value = 4 }")
+    explorer.find(".panel-along .play").click()
+    explorer.page.wait_for_timeout(1500)
+    assert 0 < value(explorer, "slow-z") < 3.5
+    explorer.page.locator(".along-note", has_text="rest").wait_for(timeout=30_000)
+    assert abs(value(explorer, "slow-z")) < 0.1
+
+
+def test_a_motion_plays_in_step_in_all_views(explorer):
+    choose(explorer, "ball_in_pool")
+    open_panel(explorer, "Time")
+    explorer.page.wait_for_selector(".phases li:nth-child(2)")
+    start = value(explorer, "slow-z")
+    explorer.find(".panel-time .play").click()
+    explorer.page.wait_for_timeout(1500)
+    explorer.find(".panel-time .play").click()
+    explorer.settle()
+    assert "t =" in explorer.find(".phase-now").text_content()
+    assert value(explorer, "slow-z") != start
+    drawn = explorer.page.evaluate("""() => Bokeh.documents[0].get_model_by_name('picture')
+        .renderers.find((r) => r.name === 'motion_at').data_source.data.x.length""")
+    assert drawn == 1
+
+
+def test_the_solid_view_turns_without_asking_the_server(explorer):
+    open_panel(explorer, "3-D")
+    canvas = explorer.find("canvas.solid")
+    before, frame = canvas.screenshot(), explorer.frame()
+    box = canvas.bounding_box()
+    explorer.page.mouse.move(box["x"] + 60, box["y"] + 80)
+    explorer.page.mouse.down()
+    explorer.page.mouse.move(box["x"] + 160, box["y"] + 110, steps=6)
+    explorer.page.mouse.up()
+    explorer.page.wait_for_timeout(150)
+    assert canvas.screenshot() != before
+    assert explorer.frame() == frame
+    for words in ("Along z", "Filippov"):
+        explorer.find(".panel-solid").get_by_role("button", name=words).click()
+        explorer.settle()
+        explorer.page.wait_for_timeout(200)
+        assert explorer.find(".solid-note").text_content() != "…"

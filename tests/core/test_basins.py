@@ -1,0 +1,60 @@
+"""Basins against symmetry, the one-attractor theorem, and trajectories followed one by one."""
+
+import numpy as np
+import pytest
+
+import codim2_core as c2
+from codim2_core.basins import OUTSIDE, basins
+
+
+def centres(n):
+    x = (np.arange(n) + 0.5) * (2.0 / n) - 1.0
+    return np.stack(np.meshgrid(x, x), axis=-1)
+
+
+def test_the_two_basins_of_nonunique_sliding_are_the_halves_of_the_disc():
+    """x = 0 is invariant (the saddle C2 and its stable manifold) and everything is odd in x."""
+    found = basins(c2.examples.nonunique_sliding(), c2.psi.tanh(), (0.4,), n=64)
+    assert found.destinations == ("C1", "C3")
+    x = centres(64)[..., 0]
+    inside = found.cells != OUTSIDE
+    np.testing.assert_array_equal(found.cells[inside], (x[inside] > 0).astype(np.int8))
+    chi = (1.0 + 2.0 * 0.16) / 1.16
+    np.testing.assert_allclose([flow[0] for flow in found.slow_flow], [chi + 0.25, -chi + 0.25])
+
+
+def test_cells_cover_the_open_disc_and_nothing_else():
+    found = basins(c2.presets["case1-cm4"].system, c2.psi.constant(), n=64)
+    np.testing.assert_array_equal(found.cells == OUTSIDE, np.hypot(*np.moveaxis(centres(64), -1, 0)) >= 1.0)
+
+
+@pytest.mark.parametrize("name", ["case1-cm0", "case1-cm2", "case1-cm4"])
+def test_in_case_one_all_of_the_disc_belongs_to_the_stable_critical_set(name):
+    preset = c2.presets[name]  # thm:case1: no cycles, so nothing else attracts
+    found = basins(preset.system, c2.psi.rational(), n=32)
+    assert found.destinations == ("C",)
+    assert set(np.unique(found.cells)) == {OUTSIDE, 0}
+
+
+def test_refined_cells_agree_with_those_computed_everywhere():
+    preset = c2.presets["attracting-repelling"]
+    coarse_first = basins(preset.system, preset.psi, preset.z, n=64)
+    inside = coarse_first.cells != OUTSIDE
+    lines = c2.trajectories(preset.system, preset.psi, centres(64)[inside], preset.z, t_max=200.0, samples="ends")
+    (C, *_) = c2.critical_sets(preset.system, preset.psi, preset.z)
+    at_C = np.hypot(*(lines.ends[:, :2] - C.p).T) < 1e-2
+    np.testing.assert_array_equal(coarse_first.cells[inside] == coarse_first.destinations.index("C1"), at_C)
+
+
+def test_case_three_has_the_cycle_as_a_destination_with_the_mean_slow_flow():
+    system = c2.presets["case3-n4"].system
+    slow = c2.ELinear(system.a, system.b, system.d, system.f, B=((1.0, 2.0),), g=(0.5,))
+    found = basins(slow, c2.psi.hill(4), (0.0,), n=32)
+    assert "cycle 1" in found.destinations
+    flow = found.slow_flow[found.destinations.index("cycle 1")]
+    np.testing.assert_allclose(flow, c2.sliding_flow(slow, (0.0,)), atol=1e-6)  # prop:LC
+
+
+def test_a_size_that_cannot_be_refined_to_is_refused():
+    with pytest.raises(ValueError, match="32 times a power of two"):
+        basins(c2.presets["case1-cm4"].system, c2.psi.constant(), n=100)

@@ -1,0 +1,140 @@
+"""Where limit cycles vanish, as curves in (f1, f2): folds, loops through the equator, the closed equator."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from codim2_core import ELinear, bifurcations, equator_cycle, psi
+from codim2_core.bifurcation_geometry import Geometry
+from codim2_core.cycle_branch import continue_cycles
+from codim2_core.cycle_loop import gap, loops
+from codim2_core.cycles import limit_cycles
+
+ABD = (1.0, 1.3, -1.2)
+A = np.array([[1.0, -1.3], [1.3, -1.2]])
+
+
+def system(f):
+    return ELinear(*ABD, tuple(f))
+
+
+@pytest.fixture(scope="module")
+def folds():
+    return bifurcations.cycle_folds(*ABD, psi.hill(3))
+
+
+@pytest.fixture(scope="module")
+def loop_curve():
+    return bifurcations.heteroclinic(*ABD, psi.hill(3))
+
+
+def corners():
+    plane = Geometry(*ABD)
+    return [np.array(plane.saddle_node_at(t)) for t in plane.touching]
+
+
+def from_nearest(point, places):
+    return min(np.hypot(*(point - place)) for place in places)
+
+
+def test_closed_equator_has_exponent_zero():
+    curve = bifurcations.closed_equator(*ABD)
+    assert curve.kind == "equator"
+    assert len(curve) == 2
+    assert np.allclose(curve.branches[0], -curve.branches[1])
+    a, b, d = ABD
+    for f in curve.branches[0][3:-3:8]:
+
+        def rate(t, f=f):
+            c, s = math.cos(t), math.sin(t)
+            return (a * c * c + d * s * s + f[0] * c + f[1] * s) / abs((d - a) * s * c + f[1] * c - f[0] * s + b)
+
+        # whole turns by the trapezoidal rule would do; quad is of another kind than the closed form
+        assert abs(quad(rate, 0.0, 2 * math.pi, limit=400, epsabs=1e-10)[0]) < 1e-7
+    ends = [curve.branches[0][0], curve.branches[0][-1]]
+    assert min(from_nearest(end, corners()) for end in ends) < 1e-9
+    double = Geometry(*ABD).saddle_node_at(Geometry(*ABD).double[0][0])
+    assert min(from_nearest(end, [np.array(double), -np.array(double)]) for end in ends) < 1e-9
+
+
+def test_a_cycle_is_born_from_the_closed_equator():
+    curve = bifurcations.closed_equator(*ABD)
+    f = curve.branches[0][20]
+    p = psi.rational()
+    along = np.diff(curve.branches[0], axis=0)[20]
+    across = 1e-4 * np.array([-along[1], along[0]]) / np.hypot(*along)
+    counts = [len(limit_cycles(system(f + s * across), p)) for s in (-1.0, 1.0)]
+    exponents = [equator_cycle(system(f + s * across)).exponent for s in (-1.0, 1.0)]
+    assert exponents[0] * exponents[1] < 0.0
+    assert abs(counts[0] - counts[1]) == 1
+
+
+def test_equator_of_reversible_systems_and_none():
+    flat = bifurcations.closed_equator(1.0, 3.0, -1.0)
+    assert "reversible" in flat.sentence
+    for line in flat.branches:
+        assert np.allclose(abs(line[:, 0]), abs(line[:, 1]))
+    for curve in (
+        bifurcations.closed_equator(-1, 1, -2),
+        bifurcations.heteroclinic(-1, 1, -2, psi.tanh()),
+        bifurcations.cycle_folds(-1, 1, -2, psi.tanh()),
+    ):
+        assert len(curve) == 0
+        assert "Case III" in curve.sentence
+    with pytest.raises(ValueError, match="psi"):
+        bifurcations.heteroclinic(1, 1.3, -1.2, "tanh")
+
+
+def test_loops_close_on_their_curve(loop_curve):
+    """On its two sides the branch of Q passes inside and outside of P; test_cycle_branch follows it by SciPy."""
+    assert len(loop_curve) == 2
+    line, ratio = loop_curve.branches[0], loop_curve.values[0]
+    assert len(line) == len(ratio)
+    p = psi.hill(3)
+    for i in range(2, len(line) - 2, 6):
+        (arc,) = loops(system(line[i]).at(()))
+        assert abs(gap(system(line[i]).at(()), p, arc)) < 1e-8
+        assert arc.ratio == pytest.approx(ratio[i], rel=1e-9)
+    assert min(from_nearest(end, corners()) for end in (line[0], line[-1])) < 1e-9
+    place = {s.type: s.place for s in loop_curve.special}["resonant loop"]
+    (arc,) = loops(system(place).at(()))
+    assert arc.ratio == pytest.approx(1.0, abs=1e-6)
+
+
+def test_branches_of_cycles_end_on_the_curve_of_loops(loop_curve):
+    line = loop_curve.branches[0]
+    f = line[len(line) // 2]
+    found = continue_cycles(system(f), psi.hill(3), "f1", (f[0] - 0.05, f[0] + 0.05))
+    ends = [s.value for b in found for s in b.special if s.kind == "heteroclinic cycle through the equator"]
+    assert ends == [pytest.approx(f[0], abs=1e-7)]
+
+
+def test_folds_from_generalised_hopf_points(folds):
+    p = psi.hill(3)
+    points = [np.array(s.place) for s in bifurcations.hopf(*ABD, p).special if s.type == "generalised Hopf"]
+    ends = [end for line in folds.branches for end in (line[0], line[-1])]
+    for point in points:
+        assert from_nearest(point, ends) < 1e-9
+    for line, sizes in zip(folds.branches, folds.values, strict=True):
+        assert len(line) == len(sizes)
+        assert not line.flags.writeable
+        assert np.hypot(*np.linalg.solve(A, line.T)).max() <= 1.0 + 1e-9
+    assert {s.type for s in folds.special} <= {"touching", "resonant loop"}
+
+
+def test_on_the_curve_a_branch_of_cycles_turns_round(folds):
+    p = psi.hill(3)
+    for line, sizes in list(zip(folds.branches, folds.values, strict=True))[::2]:
+        i = int(np.argmin(abs(sizes - 0.6 * sizes.max())))
+        f = line[i]
+        found = continue_cycles(system(f), p, "f2", (f[1] - 0.03, f[1] + 0.03))
+        values = [fold.value for branch in found for fold in branch.folds]
+        assert min(abs(value - f[1]) for value in values) < 1e-7
+
+
+def test_no_folds_where_there_are_none():
+    curve = bifurcations.cycle_folds(1.0, 3.0, -2.0, psi.constant())
+    assert len(curve) == 0
+    assert "lines" in curve.sentence or "Hopf" in curve.sentence

@@ -1,0 +1,248 @@
+"""Branches of limit cycles: against integrations of another kind, closed forms, and the count at each parameter."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from codim2_core import ELinear, System, critical_sets, equator_cycle, equator_equilibria, psi
+from codim2_core.cycle_branch import continue_cycles
+from codim2_core.cycles import limit_cycles
+from codim2_core.vary import varied
+
+CASE_III = ELinear(172, 186, -200, (-86, -93))
+HOPF = 284 / 129
+FOLD = ELinear(1.6215774162507035, -2.4647033090719974, -2.095840045086004, (1.3369924, -1.0251566))
+LOOP = ELinear(0.6285923608169889, -1.2085733311350155, -1.5844770979730014, (-0.861192783343166, 0.99838561970375))
+
+
+def kinds(branch):
+    return [point.kind for point in branch.special]
+
+
+def with_divergence(system, p):
+    """x2' = U(e_Psi(x2)) for the Hill family, and the integral of its divergence, in NumPy-free arithmetic."""
+    q, n = system.at(()), p.parameter
+
+    def field(_, x):
+        s = x[0] * x[0] + x[1] * x[1]
+        v = (4.0 * s) ** n
+        P = 3.0 / (3.0 + v)
+        slope = -P * P * n * v / (3.0 * s)  # Psi'
+        r = math.sqrt(s + P)
+        c, w = x[0] / r, x[1] / r
+        # D e_Psi = I/r - x x^T (1 + Psi')/r^3
+        k = (1.0 + slope) / r**3
+        divergence = (q.a + q.d) / r - k * (q.a * x[0] ** 2 + q.d * x[1] ** 2)
+        return [q.a * c - q.b * w + q.f1, q.b * c + q.d * w + q.f2, divergence]
+
+    return field
+
+
+def once_round(system, p, start, period):
+    """(distance by which it does not close, integral of the divergence), by SciPy's DOP853."""
+    height = math.sqrt(1.0 - start @ start)
+    x = start / height
+    end = solve_ivp(with_divergence(system, p), (0.0, period), [*x, 0.0], method="DOP853", rtol=1e-12, atol=1e-12).y[
+        :, -1
+    ]
+    return math.dist(end[:2], x), end[2]
+
+
+def test_case_III_from_its_hopf_point():
+    (branch,) = continue_cycles(CASE_III, psi.hill(3), "n", (2.0, 4.0))
+    assert kinds(branch) == ["Hopf", "span"]
+    assert branch.start.value == pytest.approx(HOPF, abs=1e-12)
+    assert "supercritical" in branch.start.sentence
+    assert branch.stable[1:].all()
+    # pinned by an extrapolation method at 22 digits, see test_cycles
+    assert branch.end.value == 4.0
+    assert branch.end.period == pytest.approx(0.6066957493683202, rel=1e-9)
+    assert (np.diff(branch.value) > 0.0).all()
+    assert (np.diff(branch.amplitude) > 0.0).all()
+    # a square root, as at a Hopf point
+    rate = branch.amplitude[1:4] ** 2 / (branch.value[1:4] - HOPF)
+    assert rate.max() / rate.min() == pytest.approx(1.0, abs=0.05)
+    C = critical_sets(CASE_III, psi.hill(HOPF))[0]
+    assert branch.start.period == pytest.approx(2 * math.pi / abs(C.eigenvalues[0].imag), rel=1e-12)
+    for array in (branch.value, branch.period, branch.amplitude, branch.multiplier, branch.stable, branch.section):
+        assert len(array) == len(branch)
+        assert not array.flags.writeable
+
+
+def test_sign_of_the_lyapunov_coefficient_is_the_side_of_the_branch():
+    (branch,) = continue_cycles(CASE_III, psi.hill(3), "a", (171.8, 172.4))
+    assert kinds(branch) == ["Hopf", "fold of cycles", "Hopf"]
+    assert "subcritical" in branch.start.sentence
+    assert "supercritical" in branch.end.sentence
+    assert not branch.stable[1:4].any()
+    assert branch.stable[-4:-1].all()
+
+
+@pytest.mark.parametrize(("system", "name", "span"), [(FOLD, "f1", (1.25, 1.4)), (FOLD, "b", (-2.55, -2.2))])
+def test_through_a_fold_to_the_equator(system, name, span):
+    p = psi.hill(3)
+    (branch,) = continue_cycles(system, p, name, span)
+    assert branch.start.kind == "equator" or branch.end.kind == "equator"
+    (fold,) = branch.folds
+    # every cycle closes, and has the multiplier that it is said to have
+    inner = np.flatnonzero(np.isfinite(branch.period) & (branch.period < 12.0) & (branch.amplitude > 0.01))
+    for i in [*inner[:: max(len(inner) // 4, 1)], int(np.flatnonzero(branch.value == fold.value)[0])]:
+        at, _, _ = varied(system, p, (), name, branch.value[i])
+        missed, exponent = once_round(at, p, branch.section[i], branch.period[i])
+        assert missed < 2e-8
+        assert exponent == pytest.approx(branch.exponent[i], abs=1e-8)
+    i = int(np.flatnonzero(branch.value == fold.value)[0])
+    assert branch.multiplier[i] == pytest.approx(1.0, abs=1e-8)
+    assert branch.stable[i - 1] != branch.stable[i + 1]
+    step = 1e-6 * (span[1] - span[0])
+    side = math.copysign(1.0, branch.value[i - 1] - fold.value)
+    assert len(limit_cycles(varied(system, p, (), name, fold.value + side * step)[0], p)) == 2
+    assert len(limit_cycles(varied(system, p, (), name, fold.value - side * step)[0], p)) == 0
+    end = branch.end if branch.end.kind == "equator" else branch.start
+    assert abs(equator_cycle(varied(system, p, (), name, end.value)[0]).exponent) < 1e-12
+    assert end.period == math.inf
+
+
+def fate(system, p, theta):
+    """What becomes of the orbit that leaves the limit direction theta: where it meets the equator, or "inside"."""
+    q = system.at(())
+    n = p.parameter
+
+    def field(_, y):
+        # the sphere: p' = U - p (p.U), w' = -w (p.U)
+        w2 = y[2] * y[2]
+        r2 = y[0] ** 2 + y[1] ** 2
+        shape = 3.0 * w2 / (3.0 + (4.0 * r2 / w2) ** n)
+        g = 1.0 / math.sqrt(r2 + shape)
+        u = q.a * g * y[0] - q.b * g * y[1] + q.f1
+        v = q.b * g * y[0] + q.d * g * y[1] + q.f2
+        along = y[0] * u + y[1] * v
+        return [u - y[0] * along, v - y[1] * along, -y[2] * along]
+
+    w = 1e-3
+    start = [math.sqrt(1 - w * w) * math.cos(theta), math.sqrt(1 - w * w) * math.sin(theta), w]
+
+    def low(_, y):
+        return y[2] - 3e-4
+
+    low.terminal, low.direction = True, -1
+
+    solution = solve_ivp(field, (0.0, 400.0), start, method="DOP853", rtol=1e-12, atol=1e-14, events=low)
+    if not len(solution.t_events[0]):
+        return "inside", solution.y
+    return math.atan2(solution.y[1, -1], solution.y[0, -1]), solution.y
+
+
+def test_branch_ends_in_a_loop_through_the_equator():
+    """At its end the branch of Q goes over to P: beside it, it misses P on the one side and on the other."""
+    p = psi.hill(2)
+    (branch,) = continue_cycles(LOOP, p, "f1", (-0.9, -0.8))
+    assert kinds(branch) == ["Hopf", "fold of cycles", "fold of cycles", "heteroclinic cycle through the equator"]
+    assert branch.end.period == math.inf
+    assert (np.diff(branch.period[-6:-1]) > 0.0).all()
+    assert branch.end.value == pytest.approx(branch.value[-2], abs=1e-5)
+    lowest = []
+    for sign in (-1.0, 1.0):
+        system = LOOP.evolve(f1=branch.end.value + sign * 1e-7)
+        equator = equator_equilibria(system)
+        (Q,) = (i for i in range(4) if equator.lambda_rho[i] < 0.0 and equator.lambda_theta[i] < 0.0)
+        # b < 0: orbits go clockwise, so P is the next direction anticlockwise
+        P = (Q + 1) % 4
+        assert equator.lambda_rho[P] > 0.0
+        assert equator.lambda_theta[P] > 0.0
+        where, line = fate(system, p, float(equator.theta[Q]))
+        past = math.remainder(where - float(equator.theta[P]), 2 * math.pi)
+        lowest.append(math.copysign(1.0, past))
+        assert abs(past) < 0.05  # it comes down close to P
+        assert line[2].max() > 0.1
+    assert lowest[0] != lowest[1]
+
+
+def test_saddle_node_on_the_equator():
+    (branch,) = continue_cycles(LOOP, psi.rational(), "f2", (0.9, 1.1))
+    assert kinds(branch) == ["Hopf", "saddle-node on the equator"]
+    end = branch.end.value
+    assert len(equator_equilibria(LOOP.evolve(f2=end - 1e-9))) != len(equator_equilibria(LOOP.evolve(f2=end + 1e-9)))
+
+
+def test_a_line_of_critical_points_ends_a_branch():
+    (branch,) = continue_cycles(CASE_III, psi.hill(3), "d", (-205.0, -190.0))
+    assert kinds(branch) == ["det A = 0", "span"]
+    assert branch.start.value == pytest.approx(-(186**2) / 172, rel=1e-9)
+    assert branch.period[1] > 10 * branch.period[-1]
+
+
+def test_named_degeneracies_and_empty_results():
+    centre = ELinear(1, 3, -1, (0.5, -0.5))
+    found = continue_cycles(centre, psi.tanh(), "a", (0.5, 1.5))
+    assert len(found) == 0
+    assert "reversible" in found.notes[0]
+    assert "reversible" in continue_cycles(centre, psi.tanh(), "b", (2.0, 3.0)).reason
+    assert "Bendixson" in continue_cycles(ELinear(1, 3, 2, (0.5, 0.1)), psi.tanh(), "f1", (0.0, 1.0)).reason
+    assert "no Hopf point" in continue_cycles(ELinear(1, 3, -2, (0.5, 0.0)), psi.tanh(), "f1", (0.3, 0.6)).reason
+    for span in ((1.0, 1.0), (2.0, 1.0), (0.0, math.inf), "ab"):
+        with pytest.raises(ValueError, match="span"):
+            continue_cycles(centre, psi.tanh(), "a", span)
+    with pytest.raises(ValueError, match="cannot be varied"):
+        continue_cycles(centre, psi.tanh(), "n", (1.0, 2.0))
+    general = System(U=("k*c - s", "c + s"), parameters={"k": 1.0})
+    with pytest.raises(ValueError, match="e-linear"):
+        continue_cycles(general, psi.tanh(), "k", (1.0, 2.0))
+
+
+def test_a_slow_variable_as_the_parameter():
+    system = ELinear("1+z", 3, "z-1", (0.5, -0.3))
+    (branch,) = continue_cycles(system, psi.tanh(), "z1", (-0.1, 0.1), z=(0.0,))
+    assert kinds(branch) == ["Hopf", "equator"]
+    assert abs(critical_sets(system, psi.tanh(), (branch.start.value,))[0].trace) < 1e-12
+
+
+def test_small_cycles_grow_like_a_square_root_from_the_start():
+    """Below the sampled map a cycle is placed by the expansion at C, down to 1e-6 of the picture."""
+    sizes, exponents = [], []
+    steps = [1e-6, 1e-8, 1e-10, 1e-11]
+    for step in steps:
+        p = psi.hill(HOPF + step)
+        (cycle,) = limit_cycles(CASE_III, p)
+        assert cycle.kind == "stable"
+        C = critical_sets(CASE_III, p)[0]
+        sizes.append(np.hypot(*(cycle.points - C.p).T).max() / math.sqrt(step))
+        # it attracts as fast as C repels, twice over: ln multiplier = -T tr J
+        exponents.append(math.log(cycle.divergence_multiplier) / (-cycle.period * C.trace))
+    assert sizes == pytest.approx([sizes[0]] * len(sizes), rel=5e-3)
+    assert exponents == pytest.approx([1.0] * len(steps), rel=1e-2)
+
+
+@st.composite
+def families(draw):
+    a, d = draw(st.floats(0.3, 2.5)), -draw(st.floats(0.3, 2.5))
+    if draw(st.booleans()):
+        a, d = d, a
+    b = math.sqrt(-a * d) * (1.05 + draw(st.floats(0.0, 1.5))) * draw(st.sampled_from([-1, 1]))
+    r, t = draw(st.floats(0.2, 0.9)), draw(st.floats(0.0, 2 * math.pi))
+    f = -np.array([[a, -b], [b, d]]) @ (r * math.cos(t), r * math.sin(t))
+    p = draw(st.sampled_from([psi.constant(), psi.rational(), psi.tanh(), psi.hill(2), psi.hill(4)]))
+    return ELinear(a, b, d, tuple(f)), p, draw(st.sampled_from(["a", "b", "d", "f1", "f2"])), draw(st.floats(0.2, 1.0))
+
+
+@settings(max_examples=12, deadline=None, derandomize=True)
+@given(families())
+def test_no_cycle_is_missing(family):
+    system, p, name, width = family
+    at = system.at(())
+    span = (getattr(at, name) - width, getattr(at, name) + 0.8 * width)
+    found = continue_cycles(system, p, name, span)
+    assert all("reversible" in note for note in found.notes)
+    for value in np.linspace(*span, 8)[1:-1] + 0.013 * width:
+        special = [point.value for branch in found for point in branch.special]
+        if min((abs(value - v) for v in special), default=1.0) < 1e-4:
+            continue
+        assert found.count(value) == len(limit_cycles(varied(system, p, (), name, value)[0], p))
+    for branch in found:
+        for one, two in pairwise(branch.value.tolist()):
+            assert span[0] - 1e-9 <= min(one, two) <= max(one, two) <= span[1] + 1e-9

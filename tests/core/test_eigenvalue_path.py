@@ -1,0 +1,86 @@
+"""The trails of fig:bads against a closed form and against `critical_sets`, point by point."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import codim2_core as c2
+from codim2_core.eigenvalue_path import linearisation_path
+
+BAD = c2.ELinear(172, 186, -200, f=(-86, -93))
+numbers = st.floats(-3, 3).map(lambda v: round(v, 3))
+
+
+def test_hill_n_moves_the_paper_s_case_iii_along_a_line() -> None:
+    # e = (1/2, 0), Psi = 3/4 at 4s = 1: both are linear in n
+    n = np.linspace(1, 4, 31)
+    path = linearisation_path(BAD, c2.psi.hill(1), "n", n)
+    assert path.exists.all()
+    np.testing.assert_allclose(path.trace, -71 + 32.25 * n, rtol=0, atol=2e-12)
+    np.testing.assert_allclose(path.determinant, 147 + 36.75 * n, rtol=1e-13)
+    np.testing.assert_allclose(path.discriminant, path.trace**2 - 4 * path.determinant, rtol=1e-9, atol=1e-9)
+    assert path.kind[0] == "stable node"
+    assert path.kind[-1] == "unstable node"
+    assert "stable focus" in path.kind
+    assert "unstable focus" in path.kind
+    assert linearisation_path(BAD, c2.psi.hill(1), "n", [284 / 129]).trace[0] == pytest.approx(0, abs=1e-12)
+
+
+@given(numbers, numbers, numbers, numbers, st.sampled_from([c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(2)]))
+def test_every_point_agrees_with_critical_sets(b: float, d: float, f1: float, f2: float, psi: c2.Psi) -> None:
+    values = np.linspace(-2, 2, 9) + 1e-3
+    system = c2.ELinear(1, b, d, f=(f1, f2))
+    path = linearisation_path(system, psi, "a", values)
+    for i, value in enumerate(values):
+        found = c2.critical_sets(system.evolve(a=value), psi)
+        if path.exists[i] != bool(found):  # only within rounding of the border
+            assert c2.classify(system.evolve(a=value), psi).degeneracies
+            continue
+        if found:
+            scale = abs(found[0].jacobian).max()
+            assert path.trace[i] == pytest.approx(found[0].trace, abs=1e-13 * scale)
+            assert path.determinant[i] == pytest.approx(found[0].determinant, rel=1e-11, abs=1e-14 * scale**2)
+            assert path.discriminant[i] == pytest.approx(found[0].discriminant, rel=1e-11, abs=1e-13 * scale**2)
+            np.testing.assert_allclose(path.eigenvalues[i].sum(), path.trace[i], atol=1e-12 * scale)
+            np.testing.assert_allclose(path.eigenvalues[i].prod(), path.determinant[i], atol=1e-12 * scale**2)
+            if abs(path.discriminant[i]) > 1e-12 * scale**2 and abs(path.trace[i]) > 1e-12 * scale:
+                assert path.kind[i] == found[0].kind
+
+
+def test_no_critical_set_is_masked_and_nothing_is_nan() -> None:
+    path = linearisation_path(c2.ELinear(-1, 0, -2), c2.psi.rational(), "f1", [-2, -1, 0, 1, 2, 0.5])
+    assert path.exists.tolist() == [False, False, True, False, False, True]
+    assert path.kind[0] == ""
+    for array in (path.trace, path.determinant, path.discriminant, path.eigenvalues):
+        assert np.isfinite(array).all()
+        assert (array[~path.exists] == 0).all()
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1
+
+
+def test_slow_variables_and_parameters_in_text() -> None:
+    system = c2.ELinear("k - z1", 1, -2, f=("z1**2/4", 0.1), parameters={"k": 0.5})
+    for name, other in (("z1", "k"), ("k", "z1")):
+        path = linearisation_path(system, c2.psi.exponential(), name, [0.1, 0.4, 0.7], z=(0.3,))
+        for i, value in enumerate([0.1, 0.4, 0.7]):
+            z, k = (value, 0.5) if name == "z1" else (0.3, value)
+            C = c2.critical_sets(system.evolve(k=k), c2.psi.exponential(), z=(z,))[0]
+            assert path.trace[i] == pytest.approx(C.trace, rel=1e-13), other
+    turned = c2.ELinear.from_matrix([["1 + z", 0.3], [-0.7, -2]], f=("z/9", 0.1))
+    path = linearisation_path(turned, c2.psi.tanh(), "z1", [0.2, 0.9], z=(0,))
+    for i, z in enumerate([0.2, 0.9]):
+        assert path.trace[i] == pytest.approx(c2.critical_sets(turned, c2.psi.tanh(), z=z)[0].trace, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "message"),
+    [("n", [1], "cannot be varied"), ("a", [np.nan], "finite"), ("q", [0], "choose one of a, b, d, f1, f2")],
+)
+def test_wrong_input_is_explained(name: str, values: list[float], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        linearisation_path(c2.ELinear(1, 2, 3), c2.psi.tanh(), name, values)
+    with pytest.raises(ValueError, match=r"beyond 0\.01 to 1000"):
+        linearisation_path(BAD, c2.psi.hill(1), "n", [0.0])

@@ -1,0 +1,302 @@
+"""The nonsmooth limit: closed forms, quadratures, and the regularised system as eps goes to 0."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+from codim2_core import ELinear, System, examples
+from codim2_core import psi as families
+from codim2_core.nonsmooth import simulate_nonsmooth
+from codim2_core.simulate import SimulationStatus, simulate
+
+G = 9.81
+CASE_3 = ELinear(172.0, 186.0, -200.0, ("-172*z", "-186*z"), B=((0.5, 0.0),))  # C at e = (z, 0), z' = e_1/2
+
+
+def kinds(run):
+    return [phase.kind for phase in run.phases]
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.floats(0.05, 1.0), st.floats(0.1, 10.0), st.floats(-3.0, 3.0))
+def test_textbook_ball(mu, v0, direction):
+    c, s = math.cos(direction), math.sin(direction)
+    slips = 2.0 * v0 / (7.0 * mu * G)
+    run = simulate_nonsmooth(examples.ball_in_pool(K=0.0, mu=mu), (v0 * c, v0 * s, v0 * c, v0 * s), (0.0, 2.0 * slips))
+    assert kinds(run) == ["slip", "slide"]
+    assert run.phases[0].t_end == pytest.approx(slips, rel=1e-9)
+    np.testing.assert_allclose(run.states[-1], (0.0, 0.0, 5 / 7 * v0 * c, 5 / 7 * v0 * s), atol=1e-9 * v0)
+    half = 0.5 * slips
+    np.testing.assert_allclose(run.dense(half)[2:], (v0 - mu * G * half) * np.array([c, s]), atol=1e-9 * v0)
+
+
+def test_ball_in_a_pool_along_a_line():
+    # Slipping: z' = -mu g - k z, x' = -7/2 mu g - k z with k = K/m; rolling: z' = -(5/7) k z.
+    mu, K, m, v0 = 0.2, 1.5, 1.2, 3.0
+    k, friction = K / m, mu * G
+    run = simulate_nonsmooth(examples.ball_in_pool(mu=mu, K=K, m=m), (v0, 0.0, v0, 0.0), (0.0, 2.0))
+    z = lambda t: (v0 + friction / k) * np.exp(-k * t) - friction / k  # noqa: E731
+    x = lambda t: v0 - 2.5 * friction * t + (z(t) - v0)  # noqa: E731 (x - z falls at the rate 5/2 mu g)
+    arrives = run.phases[0].t_end
+    assert kinds(run) == ["slip", "slide"]
+    assert x(arrives) == pytest.approx(0.0, abs=1e-9)
+    t = np.linspace(0.0, arrives, 11)
+    np.testing.assert_allclose(run.dense(t)[:, 0], x(t), atol=1e-9)
+    np.testing.assert_allclose(run.dense(t)[:, 2], z(t), atol=1e-9)
+    t = np.linspace(arrives, 2.0, 11)
+    np.testing.assert_allclose(run.dense(t)[:, 2], z(arrives) * np.exp(-5 / 7 * k * (t - arrives)), atol=1e-9)
+    assert not run.dense(t)[:, :2].any()
+
+
+def test_ball_sticks_below_the_critical_speed_and_slips_above():
+    ball, critical = examples.ball_in_pool(K=2.0), 7 * 0.2 * G / 4.0
+    at = lambda speed: (0.0, 0.0, 0.6 * speed, 0.8 * speed)  # noqa: E731
+    assert kinds(simulate_nonsmooth(ball, at(0.999 * critical), (0.0, 0.1))) == ["slide"]
+    assert kinds(simulate_nonsmooth(ball, at(1.001 * critical), (0.0, 1e-4))) == ["slip"]
+    # At the critical speed itself C lies on the equator and moves in.
+    run = simulate_nonsmooth(ball, (0.0, 0.0, critical, 0.0), (0.0, 1.0))
+    assert kinds(run) == ["slide"]
+    assert run.states[-1, 2] == pytest.approx(critical * math.exp(-10 / 7), rel=1e-9)
+
+
+def test_crossing_at_once_and_coming_back():
+    run = simulate_nonsmooth(examples.ball_in_pool(K=2.0), (1.0, 0.0, 12.0, 0.0), (0.0, 3.0))
+    assert kinds(run) == ["slip", "cross", "slip", "slide"]
+    cross = run.phases[1]
+    assert cross.t_start == cross.t_end == run.phases[0].t_end
+    assert "crossing" in cross.reason
+    # Leaving: z' = mu g - 2 z, x' = 7/2 mu g - 2 z from (0, z) on.
+    z0, friction, t = run.dense(cross.t_end)[2], 0.2 * G, 1.0
+    z = (z0 - friction / 2) * math.exp(-2 * t) + friction / 2
+    np.testing.assert_allclose(run.dense(cross.t_end + t)[[0, 2]], [2.5 * friction * t + z - z0, z], atol=1e-9)
+
+
+def arrival_by_quadrature(system, rho, theta, target):
+    """Time to Sigma from drho/dtheta = rho lambda_rho/Theta and dt/dtheta = rho/Theta, u = ln|theta - target|."""
+    at = system.at()
+
+    def rates(angle):
+        c, s = math.cos(angle), math.sin(angle)
+        u, v = at.U((c, s))
+        return u * c + v * s, v * c - u * s
+
+    side = math.copysign(1.0, theta - target)
+    start = math.log(abs(theta - target))
+
+    def log_rho(u):
+        def slope(w):
+            angle = target + side * math.exp(w)
+            radial, turning = rates(angle)
+            return radial / turning * side * math.exp(w)
+
+        return quad(slope, start, u, epsabs=1e-13, epsrel=1e-13)[0]
+
+    def dt(u):
+        angle = target + side * math.exp(u)
+        return rho * math.exp(log_rho(u)) / rates(angle)[1] * side * math.exp(u)
+
+    return quad(dt, start, start - 30.0, epsabs=1e-13, epsrel=1e-12, limit=200)[0]
+
+
+def test_arrival_time_where_the_direction_turns():
+    system = ELinear(-1.0, 0.0, -1.3, (0.4, 0.0))  # Q at theta = 0: lambda_rho = -0.6, lambda_theta = -0.7
+    rho, theta = 0.8, 1.2
+    run = simulate_nonsmooth(system, (rho * math.cos(theta), rho * math.sin(theta)), (0.0, 5.0), rtol=1e-12)
+    assert run.phases[0].t_end == pytest.approx(arrival_by_quadrature(system, rho, theta, 0.0), abs=1e-10)
+    assert "Q1" in run.phases[1].reason
+    assert not run.states[-1].any()
+
+
+def test_arrival_by_a_spiral():
+    # f = 0, a = d: rho' = a, theta' = b/rho.
+    run = simulate_nonsmooth(ELinear(-0.3, 1.0, -0.3), (0.6, 0.8), (0.0, 5.0))
+    assert run.phases[0].t_end == pytest.approx(1.0 / 0.3, abs=1e-10)
+    assert kinds(run) == ["slip", "slide"]
+    t = np.linspace(0.0, 3.0, 7)
+    rho, theta = 1.0 - 0.3 * t, math.atan2(0.8, 0.6) - np.log(1.0 - 0.3 * t) / 0.3
+    np.testing.assert_allclose(run.dense(t), (rho * np.array([np.cos(theta), np.sin(theta)])).T, atol=1e-8)
+
+
+def test_sliding_ends_where_the_critical_set_reaches_the_equator():
+    # x' = -c + z, z' = 1 along a line: slides until z = 1, and then x = (z - 1)^2/2.
+    system = ELinear(-1.0, 0.0, -1.0, ("z", 0.0), g=(1.0,))
+    run = simulate_nonsmooth(system, (0.0, 0.0, 0.25), (0.0, 2.0))
+    assert kinds(run) == ["slide", "slip"]
+    assert run.phases[0].t_end == pytest.approx(0.75, abs=1e-10)
+    t = np.linspace(0.75, 2.0, 9)
+    np.testing.assert_allclose(run.dense(t), np.stack([(t - 0.75) ** 2 / 2, 0 * t, 0.25 + t], axis=-1), atol=1e-10)
+
+
+def test_block_slips_when_the_incline_leaves_the_friction_ellipse():
+    run = simulate_nonsmooth(examples.tilting_block(), (0.3, 0.1, 0.1), (0.0, 12.0), rtol=1e-11)
+    assert kinds(run) == ["slip", "slide", "slip"]
+    steepest = math.atan(1.0 / math.hypot(math.cos(0.5) / 0.3, math.sin(0.5) / 0.6))
+    assert run.phases[1].t_end == pytest.approx((steepest - 0.1) / 0.02, abs=1e-9)
+    coarse = simulate_nonsmooth(examples.tilting_block(), (0.3, 0.1, 0.1), (0.0, 12.0), rtol=1e-8)
+    np.testing.assert_allclose(coarse.states[-1], run.states[-1], rtol=1e-6)
+
+
+FOLD = System(U=("c**2 - z", "-s"), W=("-1/2 + c/4",))
+
+
+def test_sliding_ends_in_a_fold():
+    # On C1, c = -sqrt(z): with u = sqrt(z), dt = 2 u du/(1/2 + u/4), and the fold is at u = 0.
+    u = math.sqrt(0.3)
+    run = simulate_nonsmooth(FOLD, (0.0, 0.0, 0.3), (0.0, 1.0), families.constant())
+    assert kinds(run) == ["slide", "slip"]
+    assert run.phases[0].t_end == pytest.approx(8.0 * (u - 2.0 * math.log(1.0 + u / 2.0)), abs=1e-9)
+    assert "fold" in run.phases[1].reason
+    # Then along theta = 0: z' = -1/4, x' = 1 - z.
+    t = 1.0 - run.phases[0].t_end
+    np.testing.assert_allclose(run.states[-1], (t + t * t / 8.0, 0.0, -t / 4.0), atol=1e-8)
+
+
+def test_the_side_of_approach_decides_how_it_slides():
+    # e = -+chi/2 on C1 and C3, with z' = +-chi + 1/4 there.
+    ends = {}
+    for label, theta in (("C3", 0.5), ("C1", math.pi - 0.5)):
+        state0 = (0.02 * math.cos(theta), 0.02 * math.sin(theta), 0.1)
+        run = simulate_nonsmooth(examples.nonunique_sliding(), state0, (0.0, 0.1), families.constant())
+        assert kinds(run) == ["slip", "slide"]
+        assert run.phases[1].onto == label
+        z, before = run.states[-1, 2], run.dense(run.times[-1] - 1e-4)[2]
+        chi = (1 + 2 * z * z) / (1 + z * z)
+        ends[label] = (z - before) / 1e-4
+        assert ends[label] == pytest.approx((chi if label == "C1" else -chi) + 0.25, abs=1e-3)
+    assert ends["C3"] < 0.0 < ends["C1"]
+
+
+def test_slides_and_crosses_by_the_angle_of_approach():
+    for theta, kind in ((2.0, "slide"), (4.0, "slide"), (0.9, "slip")):
+        state0 = (0.3 * math.cos(theta), 0.3 * math.sin(theta), 0.5)
+        run = simulate_nonsmooth(examples.attracting_repelling(), state0, (0.0, 2.0), families.constant())
+        assert run.phases[-1].kind == kind
+
+
+@pytest.mark.parametrize("general", [False, True])
+def test_sliding_on_a_limit_cycle_has_the_averaged_slow_flow(general):
+    system = System(U=("172*c - 186*s - 172*z", "186*c - 200*s - 186*z"), W=("c/2",)) if general else CASE_3
+    run = simulate_nonsmooth(system, (0.0, 0.0, 0.45), (0.0, 0.2), families.hill(3))
+    assert kinds(run) == ["slide"]
+    assert run.phases[0].onto == "cycle 1"
+    assert "averaged" in run.phases[0].reason
+    assert run.states[-1, 2] == pytest.approx(0.45 * math.exp(0.1), abs=1e-5 if general else 1e-9)
+
+
+def test_through_two_hopf_bifurcations_and_off_the_equator():
+    run = simulate_nonsmooth(CASE_3, (0.0, 0.0, 0.3), (0.0, 2.6), families.hill(3))
+    assert [(phase.kind, phase.onto) for phase in run.phases] == [
+        ("slide", "C"),
+        ("slide", "cycle 1"),
+        ("slide", "C"),
+        ("slip", None),
+    ]
+    # z = 0.3 exp(t/2) all along (prop:LC), to z = 1.
+    np.testing.assert_allclose(run.dense(np.array([0.5, 1.5, 2.2]))[:, 2], 0.3 * np.exp([0.25, 0.75, 1.1]), atol=1e-9)
+    assert run.phases[2].t_end == pytest.approx(2.0 * math.log(1.0 / 0.3), abs=1e-9)
+
+
+def stopped(system, state0, psi=None):
+    run = simulate_nonsmooth(system, state0, (0.0, 5.0), psi)
+    assert run.status is SimulationStatus.NOT_UNIQUE
+    assert run.reason.startswith(run.status.value)
+    assert len(run.reason) > len(run.status.value)
+    return run
+
+
+def test_stops_where_the_limit_is_not_unique():
+    # Psi decides whether C attracts, and none was given.
+    assert "give psi" in stopped(CASE_3, (0.1, 0.0, 0.5)).reason
+    # On Sigma two critical sets attract.
+    assert (
+        "2 stable critical sets" in stopped(examples.nonunique_sliding(), (0.0, 0.0, 0.1), families.constant()).reason
+    )
+    # C repels, and every direction leads away.
+    assert stopped(ELinear(1.0, 0.0, 1.0), (0.0, 0.0)).times[-1] == 0.0
+    # Spirals away from Sigma, at any phase.
+    assert not stopped(ELinear(1.0, 3.0, 1.0), (0.0, 0.0)).phases
+    # In Case I with a, d > 0 an approach along a repelling direction cannot choose a way out.
+    assert "Σ" in stopped(ELinear(2.0, 0.0, 1.0, (0.0, 0.0)), (0.0, 0.0)).reason
+
+
+def test_starting_on_sigma_with_one_way_out():
+    run = simulate_nonsmooth(ELinear(-1.0, 0.0, -1.0, (1.5, 0.0), g=("x0",), parameters={"x0": 1.0}), (0, 0, 0), (0, 2))
+    assert kinds(run) == ["slip"]
+    np.testing.assert_allclose(run.states[-1], (1.0, 0.0, 2.0), atol=1e-9)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_turn_close_to_sigma_is_no_arrival(side):
+    # x' = -c, y' = s: x y is constant, and with x y = 1e-28 the motion turns 1e-14 from Sigma.
+    run = simulate_nonsmooth(ELinear(-1.0, 0.0, 1.0), (1.0, side * 1e-28), (0.0, 3.0), families.constant())
+    assert kinds(run) == ["slip"]
+    assert 1e-16 < np.hypot(*run.states[:, :2].T).min() < 1e-13
+    np.testing.assert_allclose(run.states[-1], (0.0, side * 2.0), atol=1e-9)
+    near = simulate_nonsmooth(ELinear(-1.0, 0.0, 1.0), (1.0, side * 1e-4), (0.0, 3.0), rtol=1e-12)
+    np.testing.assert_allclose(near.states[:, 0] * near.states[:, 1], side * 1e-4, rtol=1e-6)
+
+
+def test_no_slow_variables():
+    run = simulate_nonsmooth(ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), (1.0, 0.2), (0.0, 3.0))
+    assert kinds(run) == ["slip", "slide"]
+    np.testing.assert_array_equal(run.dense(3.0), (0.0, 0.0))
+
+
+def slope(system, psi, state0, t, eps):
+    limit = simulate_nonsmooth(system, state0, (0.0, t), psi, rtol=1e-12, atol=1e-14)
+    errors = [
+        np.abs(simulate(system, psi, e, state0, (0.0, t), rtol=1e-12, atol=1e-14).states[-1] - limit.states[-1]).max()
+        for e in eps
+    ]
+    return np.diff(np.log10(errors)) / np.diff(np.log10(eps)), kinds(limit)
+
+
+@pytest.mark.parametrize(
+    ("system", "state0", "t", "phases"),
+    [
+        (examples.ball_in_pool(K=2.0), (-1.0, 0.3, 10.0, 0.0), 2.5, ["slip", "slide"]),
+        (examples.ball_in_pool(K=2.0), (1.0, 0.0, 12.0, 0.0), 2.5, ["slip", "cross", "slip", "slide"]),
+        (examples.tilting_block(), (0.3, 0.1, 0.1), 5.0, ["slip", "slide"]),
+        (examples.nonunique_sliding(), (0.02, 0.01, 0.1), 0.2, ["slip", "slide"]),
+    ],
+)
+@pytest.mark.parametrize("psi", [families.constant(), families.tanh()])
+def test_the_two_agree_to_first_order_in_eps(system, state0, t, phases, psi):
+    slopes, found = slope(system, psi, state0, t, [1e-4, 1e-6, 1e-8])
+    assert found == phases
+    np.testing.assert_allclose(slopes, 1.0, atol=0.1)
+
+
+@pytest.mark.parametrize(("psi", "order"), [(families.constant(), 4 / 5), (families.rational(), 8 / 9)])
+def test_after_an_exit_through_the_equator_the_order_is_lower(psi, order):
+    # x' = beta t + k (eps/x)^q, Psi ~ s^-mu, q = 2 + 2 mu: the balance t ~ (eps/t^2)^q gives x ~ eps^(2 q/(1 + 2 q)).
+    slopes, found = slope(ELinear(-1.0, 0.0, -1.0, ("z", 0.0), g=(1.0,)), psi, (0.0, 0.0, 0.8), 0.8, [1e-5, 1e-7, 1e-9])
+    assert found == ["slide", "slip"]
+    np.testing.assert_allclose(slopes, order, atol=0.01)
+
+
+@settings(max_examples=12, deadline=None)
+@given(st.integers(0, 10**6))
+def test_random_systems_agree_with_a_small_eps(seed):
+    rng = np.random.default_rng(seed)
+    a, b, d, f1, f2, g1, g2 = np.round(rng.uniform(-2.0, 2.0, 7), 2).tolist()
+    system = ELinear(
+        -abs(a), b, -abs(d), ("p + q*z", "u + v*z"), B=((0.3, -0.2),), g=("1/2 - z/3",),
+        parameters={"p": f1, "q": g1, "u": f2, "v": g2},
+    )  # fmt: skip
+    state0 = np.round(rng.uniform(-1.0, 1.0, 3), 2)
+    limit = simulate_nonsmooth(system, state0, (0.0, 3.0), families.constant())
+    run = simulate(system, families.constant(), 1e-9, state0, (0.0, 3.0), rtol=1e-9)
+    np.testing.assert_allclose(run.dense(limit.times[-1]), limit.states[-1], atol=1e-4)
+
+
+@pytest.mark.parametrize(("state0", "t_span", "message"), [((1.0,), (0, 1), "state0"), ((1.0, 0.0), (1, 0), "t_start")])
+def test_wrong_arguments_say_so(state0, t_span, message):
+    with pytest.raises(ValueError, match=message):
+        simulate_nonsmooth(ELinear(-1.0, 0.0, -1.0), state0, t_span)

@@ -1,0 +1,80 @@
+"""What the portrait's sentences say of the directions, of the critical set, and of what is degenerate."""
+
+import pytest
+
+from codim2_core import ELinear, classify, equator_equilibria, psi
+
+
+def said(a, b, d, f1, f2, family=None):
+    return classify(ELinear(a, b, d, (f1, f2)), family or psi.constant())
+
+
+@pytest.mark.parametrize(
+    ("plane", "words"),
+    [
+        ((-1, 1, -1, 0, 0), "No limit directions: the equator is a closed orbit that attracts outside and repels on"),
+        ((1, 1, 1, 0, 0), "No limit directions: the equator is a closed orbit that repels outside and attracts on"),
+        ((0, 1, 0, 0.3, 0), "No limit directions: the equator is a closed orbit. "),
+        ((-1, 0, -1, 0, 0), "Every direction is a limit direction."),
+        ((-2, 0, -1, 0.1, 0.1), "4 limit directions: trajectories reach Σ along them."),
+        ((2, 0, 1, 0.1, 0.1), "4 limit directions: trajectories leave Σ along them."),
+        ((-1, 5, -1, 3, 4), "1 limit direction: trajectories reach Σ along it."),
+        ((7, -5, 7, -4, 3), "1 limit direction: trajectories leave Σ along it."),
+        ((-1, 0, -1, 1.5, 0), "2 limit directions: trajectories reach Σ along 1 and leave it along 1."),
+        ((1, 0, -2, 0.2, 0.3), "4 limit directions: trajectories reach Σ along 2 and leave it along 2."),
+        ((-2, 0, -1, 0.1, 0.1), "The critical set C is a stable node: stable sliding along Σ."),
+        ((2, 0, 1, 0.1, 0.1), "The critical set C is an unstable node: sliding along C itself is unstable."),
+        ((1, 0, -2, 0.2, 0.3), "The critical set C is a saddle whatever Ψ is"),
+        ((0, 1, 0, 0.3, 0), "The critical set C is a centre to first order."),
+        ((-1, 0, -1, 1.5, 0), "There is no critical set, so nothing slides: what reaches Σ crosses it."),
+        ((1, 1, -1, 0.5, 0.25), "det A = 0 within rounding, and f is not in the range of A: no critical set."),
+    ],
+)
+def test_sentence(plane, words):
+    assert words in said(*plane).sentence
+
+
+@pytest.mark.parametrize(
+    ("plane", "names", "case"),
+    [
+        ((0, 1, -1, 0.1, 0.1), ["a = 0"], None),
+        ((-1, 1, 0, 0.1, 0.1), ["d = 0"], None),
+        ((-1, 1, -2, 0.1, 0.1), [], "I"),
+        ((0.5, 1, 0.5, 0.1, 0.1), [], "I"),
+        ((225, -180, 100, -171, 172), ["cusp"], "I"),
+        ((-1, 0, -1.5, -0.5, 0), ["pitchfork"], "I"),
+        ((0, 1.5, 1, 2**0.5, -(2**0.5)), ["a = 0", "quadruple zero"], None),
+        ((-1, 5, -1, 3, 4), ["saddle-node"], "I"),
+        ((0.5, 1.0, -0.5, 0.1, 0.1), ["neutral equator", "tr J = 0"], "III"),
+        ((0.6, 1.0, -0.5, 0.1, 0.1), [], "III"),
+    ],
+)
+def test_names(plane, names, case):
+    found = said(*plane)
+    assert [d.name for d in found.degeneracies] == names
+    assert found.case == case
+
+
+def test_a_triple_zero_is_a_pitchfork_only_where_the_system_is_symmetric():
+    for f1, f2, d in ((-0.5, 0.0, -1.5), (0.0, 2.0, 1.0)):
+        found = equator_equilibria(ELinear(-1.0, 0.0, d, (f1, f2)))
+        assert found.symmetric
+        assert any("pitchfork" in found.kind(i) for i in range(len(found)))
+    for plane in ((225, -180, 100, -171, 172), (225, -180, 100, -171.0, 172.0)):
+        assert not equator_equilibria(ELinear(*plane[:3], plane[3:])).symmetric
+    assert not equator_equilibria(ELinear(1, 0, 2, (0.1, 0.1))).symmetric
+    assert not equator_equilibria(ELinear(1, 0.5, 2, (0.1, 0.0))).symmetric
+    assert not equator_equilibria(ELinear(1, 0.5, 2, (0.0, 0.1))).symmetric
+    assert equator_equilibria(ELinear(1, 0.0, 2, (0.0, 0.1))).symmetric
+    fourfold = equator_equilibria(ELinear(0, 1.5, 1, (2**0.5, -(2**0.5))))
+    assert fourfold.kind(0).endswith("fourfold zero")
+    weakly = equator_equilibria(ELinear(1.0, 0.0, 1.5, (0.5, 0.0)))  # the paper's pitchfork, backward
+    assert [weakly.kind(i).endswith("weakly attracting") for i in range(2)].count(True) == 1
+
+
+def test_sentences_count_from_one():
+    found = equator_equilibria(ELinear(1, 0, 2, (0.5, 0)))
+    assert [found.sentence(i).split()[0] for i in range(4)] == ["Q1", "Q2", "Q3", "Q4"]
+    assert (
+        equator_equilibria(ELinear(-1, 5, -1, (3, 4))).summary == "1 equilibrium on the equator, 1 of them degenerate."
+    )

@@ -1,0 +1,331 @@
+"""Separatrices, outcomes and limit cycles of typed systems: exact cases, the paper's examples, e-linear twins."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from codim2_core import (
+    System,
+    approach_outcomes,
+    critical_sets,
+    equator_cycle,
+    equator_equilibria,
+    examples,
+    hemisphere,
+    limit_cycles,
+    presets,
+    psi,
+    separatrices,
+)
+from codim2_core.endings import half_saddle
+from codim2_core.stepping_numbers import rate
+
+FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3), psi.custom("1/(1+s)**2")]
+ANY_PSI = pytest.mark.parametrize("p", FAMILIES, ids=lambda p: p.text)
+AR, NU = examples.attracting_repelling(), examples.nonunique_sliding()
+QUADRATIC = System(
+    U=("u0 + u1*c + u2*s + u3*c**2 + u4*c*s", "v0 + v1*c + v2*s + v3*c*s + v4*s**2"),
+    parameters={f"{w}{i}": 0.0 for w in "uv" for i in range(5)},
+)
+RINGS = System(  # cycles where |e| = a, b, whatever Psi is
+    U=("-w*s - k*c*(c**2 + s**2 - a**2)*(c**2 + s**2 - b**2)", "w*c - k*s*(c**2 + s**2 - a**2)*(c**2 + s**2 - b**2)"),
+    W=("c**2", "s"),
+    parameters={"w": 1.3, "k": 2.0, "a": 0.4, "b": 0.7},
+)
+
+
+def as_text(system, **options):
+    """The same e-linear system as typed formulas."""
+    a, b, d, f1, f2 = system.at(()).plane
+    values = {"a": a, "b": b, "d": d, "f1": f1, "f2": f2}
+    return System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=values, **options)
+
+
+# ---- outcomes -----------------------------------------------------------------------------------------------------
+
+
+@ANY_PSI
+def test_attracting_repelling_crosses_exactly_within_a_third_of_pi(p):
+    """sec:mateslidecross: |theta| < pi/3 crosses, all other angles slide on the stable node."""
+    found = approach_outcomes(AR, p, 0.5)
+    (stable,) = [i for i, C in enumerate(critical_sets(AR, p, 0.5)) if C.kind == "stable node"]
+    edges = sorted(edge for low, high, outcome in found.arcs if not outcome.slides for edge in (low, high))
+    inside = [e for e in edges if abs(math.remainder(e, 2 * math.pi)) > 1e-9]
+    assert inside == pytest.approx([math.pi / 3, 2 * math.pi - math.pi / 3], abs=1e-12)
+    for theta in np.linspace(-math.pi, math.pi, 50):
+        outcome = found.outcome(theta)
+        assert outcome.slides == (abs(theta) > math.pi / 3)
+        if outcome.slides:
+            assert (outcome.verdict, outcome.onto) == ("slide", f"C{stable + 1}")
+            assert outcome.slow_flow == pytest.approx([-0.5])
+            assert outcome.depends_on_psi is False
+    assert "crossing" in found.outcome(0.3).reason
+
+
+@pytest.mark.parametrize("z", [0.0, 0.6, 1.3])
+def test_nonunique_sliding_depends_on_the_side(z):
+    """sec:nonunique: slow flow chi + 1/4 from x < 0, -chi + 1/4 from x > 0."""
+    chi = (1 + 2 * z * z) / (1 + z * z)
+    found = approach_outcomes(NU, psi.rational(), z, compare=())
+    assert len(found.arcs) == (8 if chi**2 < 2 else 4)
+    for theta in np.linspace(0.03, 6.2, 40):
+        if abs(math.cos(theta)) > 0.05:
+            outcome = found.outcome(theta)
+            assert outcome.verdict == "slide"
+            assert outcome.slow_flow == pytest.approx([-math.copysign(chi, math.cos(theta)) + 0.25], abs=1e-13)
+
+
+def test_the_regularised_system_does_as_foretold():
+    """x2' = U(e_Psi(x2)) from |x2| = 1e3 at random angles."""
+    random, p, far = np.random.default_rng(1), psi.rational(), 1e3
+    for system, z in ((AR, 0.5), (NU, 0.3), (NU, 1.2)):
+        at, critical = system.at(z), critical_sets(system, p, z)
+        found = approach_outcomes(system, p, z, compare=())
+        for theta in random.uniform(0.0, 2.0 * math.pi, 5):
+            if np.abs(np.angle(np.exp(1j * (found.equator.theta - theta)))).min() < 0.1:
+                continue
+
+            def field(_, x, at=at):
+                zeta = max(math.hypot(*x), 1e-300)
+                return at.U(np.array(x) * (float(p.modulus(zeta)) / zeta))
+
+            start = [far * math.cos(theta), far * math.sin(theta)]
+            x = solve_ivp(field, (0.0, 50.0 * far), start, method="LSODA", rtol=1e-8, atol=1e-6).y[:, -1]
+            outcome = found.outcome(theta)
+            if outcome.slides:
+                i = int(outcome.onto[1:]) - 1
+                assert x == pytest.approx(critical[i].x2, abs=1e-3)
+            else:
+                assert math.hypot(*x) > far
+
+
+@pytest.mark.parametrize("name", ["case1-cm2", "case2-saddle", "case3-n3", "case1-cm4"])
+def test_outcomes_of_an_e_linear_system_as_text(name):
+    preset = presets[name]
+    one = approach_outcomes(preset.system, preset.psi, compare=())
+    other = approach_outcomes(as_text(preset.system), preset.psi, compare=())
+    assert [(o.verdict, o.onto, o.arrives) for o in one] == [(o.verdict, o.onto, o.arrives) for o in other]
+
+
+def test_every_direction_of_a_nonlinear_system():
+    at = System(U=("-c*(1 + c**2)", "-s*(1 + c**2)"))
+    assert equator_equilibria(at).all_directions
+    found = approach_outcomes(at, psi.tanh(), compare=())
+    assert found.outcome(1.0).slides
+    assert approach_outcomes(at.evolve(U=("c", "s")), psi.tanh(), compare=()).outcome(1.0).verdict == "misses"
+    assert approach_outcomes(at.evolve(U=("c*c", "c*s")), psi.tanh(), compare=()).outcome(1.0).verdict == "undecided"
+
+
+# ---- separatrices -------------------------------------------------------------------------------------------------
+
+
+@ANY_PSI
+def test_skeleton_of_attracting_repelling(p):
+    found = separatrices(AR, p, 0.5)
+    kinds = {f"C{i + 1}": C.kind for i, C in enumerate(critical_sets(AR, p, 0.5))}
+    (node,), (saddle,) = ([n for n, kind in kinds.items() if kind.endswith(what)] for what in ("node", "saddle"))
+    inside = {pair for pair, branch in zip(found.graph, found, strict=True) if branch.inside}
+    expected = {(saddle, node), (saddle, "Q1"), ("Q2", saddle), ("Q6", saddle), ("Q3", node), ("Q5", node)}
+    assert inside == expected
+    # On y = 0 the flow stays there: the saddle's unstable branches are straight.
+    for branch in found:
+        if branch.origin == saddle and branch.direction == "unstable":
+            assert np.abs(branch.points[:, 1]).max() < 1e-9
+
+
+@pytest.mark.parametrize("name", ["case1-cm2", "case2-saddle", "case3-n3"])
+def test_separatrices_of_an_e_linear_system_as_text(name):
+    preset = presets[name]
+    one, other = separatrices(preset.system, preset.psi), separatrices(as_text(preset.system), preset.psi)
+    assert sorted(one.graph) == sorted(other.graph)
+    for a, b in zip(sorted(one, key=key_of), sorted(other, key=key_of), strict=True):
+        if not a.end.startswith("cycle"):  # on which it is cut off somewhere
+            assert a.points[[0, -1]] == pytest.approx(b.points[[0, -1]], abs=1e-5)
+
+
+def key_of(branch):
+    return (branch.origin, branch.direction, branch.end, round(branch.departure_angle, 6))
+
+
+coefficients = st.tuples(*[st.floats(-2.0, 2.0).map(lambda v: round(v, 3))] * 10)
+
+
+@settings(max_examples=40)
+@given(coefficients, st.sampled_from(FAMILIES[:5]))
+def test_skeleton_of_random_quadratic_systems_is_consistent(values, p):
+    system = QUADRATIC.evolve(**dict(zip(dict(QUADRATIC.parameters), values, strict=True)))
+    at = system.at()
+    equator, critical, size = equator_equilibria(at), critical_sets(at, p), rate(at)
+    assume(size > 0.3)
+    assume(not equator.all_directions and (equator.multiplicity == 1).all() and not equator.radially_degenerate.any())
+    assume((np.abs(equator.lambda_rho) > 0.02 * size).all() and (np.abs(equator.lambda_theta) > 0.02 * size).all())
+    closed = equator_cycle(at)
+    assume(closed is None or abs(closed.exponent) > 0.05)
+    for C in critical:
+        assume(np.abs(C.eigenvalues.real).min() > 0.02 * size and math.hypot(*C.p) < 0.99)
+    saddles = sum(half_saddle(equator, i) for i in range(len(equator)))
+    index = sum(-1 if C.kind == "saddle" else 1 for C in critical)
+    assert 2 * index + (len(equator) - saddles) - saddles == 2
+    found = separatrices(at, p)
+    inside = [branch for branch in found if branch.inside]
+    assert len(inside) == saddles + 4 * sum(C.kind == "saddle" for C in critical)
+    names = {f"C{i + 1}" if len(critical) > 1 else "C": C for i, C in enumerate(critical)}
+    for branch in inside:
+        assert branch.end != "undecided", found.notes
+        if branch.end in names and not branch.connection:
+            assert names[branch.end].kind.startswith("stable" if branch.direction == "unstable" else "unstable")
+        if branch.origin in names:
+            origin = branch.points[0 if branch.direction == "unstable" else -1]
+            assert origin == pytest.approx(names[branch.origin].p, abs=1e-12)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_branches_outside_bend_with_x_and_y(sign):
+    system = System(U=("k*(2*c + x*y/2 + y/3)", "k*(-s + x/4 - y*y/3)"), parameters={"k": sign})
+    at, straight = system.at(), System(U=("k*2*c", "-k*s"), parameters={"k": sign})
+    bent = [b for b in separatrices(system, psi.tanh()) if not b.inside]
+    rays = [b for b in separatrices(straight, psi.tanh()) if not b.inside]
+    assert [(b.origin, b.direction, b.departure_angle) for b in bent] == [
+        (b.origin, b.direction, pytest.approx(b.departure_angle)) for b in rays
+    ]
+    assert len(bent) == 4
+    for branch in bent:
+        r = np.hypot(*branch.points.T)
+        home = branch.points[0 if branch.direction == "unstable" else -1]
+        assert home == pytest.approx([math.cos(branch.departure_angle), math.sin(branch.departure_angle)])
+        assert np.abs(branch.points).max() > 1.99
+        # The branch is an orbit of (x, y)' = U(e, x, y): chords lie along U, in the direction of time.
+        e, place = branch.points / r[:, None], (1 - 1 / r)[:, None] * branch.points
+        middle, chord = 0.5 * (place[1:] + place[:-1]), np.diff(place, axis=0)
+        U = at.U(0.5 * (e[1:] + e[:-1]) / np.hypot(*(0.5 * (e[1:] + e[:-1])).T)[:, None], middle)
+        long = np.hypot(*chord.T) > 1e-3
+        across = np.abs(chord[:, 0] * U[:, 1] - chord[:, 1] * U[:, 0]) / np.hypot(*U.T)
+        assert across[long].max() < 2e-3
+        assert ((chord * U).sum(axis=1)[long] > 0.0).all()
+        halfway = branch.points[len(r) // 2] / r[len(r) // 2]
+        assert abs(home[0] * halfway[1] - home[1] * halfway[0]) > 1e-3
+
+
+# ---- limit cycles -------------------------------------------------------------------------------------------------
+
+
+@ANY_PSI
+def test_two_exact_cycles(p):
+    found = limit_cycles(RINGS, p, (0.0, 0.0))
+    assert [cycle.kind for cycle in found] == ["unstable", "stable"]
+    for cycle, r, other in zip(found, (0.4, 0.7), (0.7, 0.4), strict=True):
+        zeta = float(p.radius(r))
+        radial = float(p.jacobian_factors(zeta)[0])
+        period = 2 * math.pi * zeta / (1.3 * r)
+        assert cycle.period == pytest.approx(period, rel=1e-10)
+        assert cycle.direction == 1
+        slope = -2.0 * r * (2 * r) * (r * r - other * other) * radial
+        assert cycle.multiplier == pytest.approx(math.exp(slope * period), rel=1e-8)
+        assert cycle.divergence_multiplier == pytest.approx(cycle.multiplier, rel=1e-8)
+        assert np.abs(np.hypot(*hemisphere.e_psi(p, cycle.points).T) - r).max() < 1e-10
+        assert cycle.mean_e == pytest.approx([0.0, 0.0], abs=1e-10)
+        assert cycle.slow_flow == pytest.approx([r * r / 2, 0.0], abs=1e-10)  # the mean of W, not W of the mean
+    assert "can be missed" in found.reason
+
+
+@pytest.mark.parametrize("p", FAMILIES[:4], ids=lambda p: p.text)
+def test_cycles_that_meet(p):
+    near = limit_cycles(RINGS.evolve(a=0.5, b=0.501), p, (0.0, 0.0))
+    assert [cycle.kind for cycle in near] == ["unstable", "stable"]
+    met = limit_cycles(RINGS.evolve(a=0.5, b=0.5), p, (0.0, 0.0))
+    assert [cycle.kind for cycle in met] == ["semistable"]
+    assert any("fold" in note for note in met.notes)
+
+
+def test_clockwise_cycles_and_time_units():
+    found = limit_cycles(RINGS.evolve(w=-1.3e6, k=2e6), psi.tanh(), (0.0, 0.0))
+    assert [cycle.direction for cycle in found] == [-1, -1]
+    ahead = limit_cycles(RINGS, psi.tanh(), (0.0, 0.0))
+    assert [1e6 * c.period for c in found] == pytest.approx([c.period for c in ahead], rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["case3-n3", "case3-n4"])
+def test_cycles_of_an_e_linear_system_as_text(name):
+    preset = presets[name]
+    (one,) = limit_cycles(preset.system, preset.psi)
+    (other,) = limit_cycles(as_text(preset.system, W=("2*c - s + 1/3",)), preset.psi, 0.0)
+    assert other.kind == one.kind
+    assert (other.period, other.period_T) == pytest.approx((one.period, one.period_T), rel=1e-10)
+    assert other.multiplier == pytest.approx(one.multiplier, rel=1e-6)
+    assert other.mean_e == pytest.approx(one.mean_e, abs=1e-10)
+    (C,) = critical_sets(preset.system, preset.psi)
+    assert other.slow_flow == pytest.approx([2 * C.e[0] - C.e[1] + 1 / 3], abs=1e-9)  # prop:LC
+
+
+DUFFING = System(U=("s", "c - 6*c**3 + k*s*(m - c**2)"), parameters={"k": 1.0, "m": 0.13})
+
+
+@pytest.mark.parametrize(
+    ("m", "around_all", "around_one"),
+    [(0.11, [], 0), (0.12, ["stable", "unstable"], 0), (0.127, ["stable", "unstable"], 0), (0.129, ["stable"], 2),
+     (0.13, ["stable"], 2), (0.15, ["stable"], 2), (0.2, [], 0)],
+)  # fmt: skip
+def test_the_unfolding_of_two_wells(m, around_all, around_one):
+    """Fold of big cycles, two homoclinic loops (0.127 < m < 0.129), Hopf at m = 1/6: each cycle is found once."""
+    system = DUFFING.evolve(m=m)
+    critical = critical_sets(system, psi.constant())
+    assert [C.kind.split()[-1] for C in critical] == ["focus", "saddle", "focus"]
+    found = limit_cycles(system, psi.constant())
+    count = [sum(inside(cycle.points, C.p) for C in critical) for cycle in found]
+    assert sorted(cycle.kind for cycle, n in zip(found, count, strict=True) if n == 3) == around_all
+    assert [cycle.kind for cycle, n in zip(found, count, strict=True) if n == 1] == ["unstable"] * around_one
+    assert len(found) == len(around_all) + around_one
+    # The system is symmetric: the small ones are images of each other. (Near the loop periods grow like a logarithm.)
+    small = [cycle.period for cycle, n in zip(found, count, strict=True) if n == 1]
+    assert small == pytest.approx(small[:1] * len(small), rel=1e-6)
+
+
+@pytest.mark.parametrize(("m", "count"), [(-0.31, 0), (-0.29, 1), (-0.22, 1), (-0.208, 1), (-0.205, 1), (-0.19, 0)])
+def test_from_hopf_to_a_loop_beyond_which_nothing_returns(m, count):
+    """Bogdanov and Takens: one cycle between the Hopf bifurcation, m = -0.3, and the loop; there it ends on an edge."""
+    system = System(U=("s", "2*c**2 - 0.18 + s*(c - m)/2"), parameters={"m": m})
+    found = limit_cycles(system, psi.constant())
+    assert [cycle.kind for cycle in found] == ["unstable"] * count
+    for cycle in found:
+        assert cycle.divergence_multiplier == pytest.approx(cycle.multiplier, rel=1e-6)
+        assert cycle.closure < 1e-10
+        assert cycle.mean_e[1] == pytest.approx(0.0, abs=1e-9)  # as x2' = s
+
+
+def test_the_big_cycle_is_where_orbits_run():
+    """An independent look: long after, an orbit from outside runs along it."""
+    system = DUFFING.evolve(m=0.14, k=3.0)
+    (cycle,) = [c for c in limit_cycles(system, psi.constant()) if c.stable]
+    at, long = system.at(), 8.0 * cycle.period_T / -math.log(cycle.multiplier)
+    path = solve_ivp(lambda t, q: hemisphere.flow(at, psi.constant(), q), (0, long), [0.0, 0.9], rtol=1e-8, atol=1e-10)
+    start, along = cycle.points[:-1], np.diff(cycle.points, axis=0)
+    for p in path.y[:, -40:].T:
+        part = np.clip(((p - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
+        assert np.hypot(*(start + part[:, None] * along - p).T).min() < 1e-3
+
+
+def inside(points, p):
+    angle = np.unwrap(np.arctan2(points[:, 1] - p[1], points[:, 0] - p[0]))
+    return abs(abs(angle[-1] - angle[0]) - 2 * math.pi) < 1.0
+
+
+def test_no_cycle_where_the_index_forbids_it():
+    found = limit_cycles(System(U=("1 + c**2", "s")), psi.tanh())
+    assert len(found) == 0
+    assert "no critical set" in found.reason
+    found = limit_cycles(System(U=("c + c**3", "-s")), psi.tanh())
+    assert len(found) == 0
+    assert "saddles" in found.reason
+    found = limit_cycles(System(U=("-c + 2*s + 1/3", "-3*c - s")), psi.tanh())
+    assert len(found) == 0
+    assert "Bendixson" in found.reason  # as it is e-linear, by its formulas
+
+
+def test_a_band_of_closed_orbits_is_no_limit_cycle():
+    found = limit_cycles(System(U=("-s*(1 + c**2)", "c*(1 + c**2)")), psi.rational())
+    assert len(found) == 0
+    assert any("band" in note for note in found.notes)

@@ -1,0 +1,226 @@
+"""Symmetries of the mathematics as symmetries of every number, also of those that cross several modules.
+
+Turning the axes (`from_matrix`), another unit of time, reversing it, (x, y) -> (-x, -y), reflecting, and another Psi.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
+
+from codim2_core import (
+    ELinear,
+    approach_outcomes,
+    classify,
+    critical_sets,
+    equator_cycle,
+    equator_equilibria,
+    limit_cycles,
+    psi,
+    separatrices,
+    sliding_flow,
+    trajectories,
+)  # fmt: skip
+
+coefficient = st.floats(-3, 3).map(lambda v: round(v, 3))
+planes = st.tuples(*[coefficient] * 5)
+FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3)]
+families = st.sampled_from(FAMILIES)
+B, G = np.array([[1.0, -2.0], [0.5, 0.25]]), np.array([0.5, -1.0])
+CASE3 = (172.0, 186.0, -200.0, -86.0, -93.0)
+
+
+def system(plane, b=B):
+    return ELinear(*plane[:3], plane[3:], B=b, g=G)
+
+
+def robust(plane):
+    """Not within 1e-6 of any change: then a rounding of the coefficients changes no name."""
+    at = system(plane)
+    equator = equator_equilibria(at)
+    if classify(at, psi.constant()).degeneracies or equator.distance < 1e-6 or not any(plane[:3]):
+        return False
+    a, b, d, f1, f2 = plane
+    det = a * d + b * b
+    e = math.hypot(d * f1 + b * f2, a * f2 - b * f1)
+    return abs(det) > 1e-6 and abs(e - abs(det)) > 1e-6 and (np.abs(equator.lambda_rho) > 1e-6).all()
+
+
+def circular(theta):
+    return np.sort(np.remainder(theta + 1e-9, 2 * math.pi))
+
+
+@settings(max_examples=60)
+@given(planes, families, st.floats(0, 6.28))
+def test_turning_the_axes(plane, family, phi):
+    """A R-conjugate system through from_matrix: the same numbers, places turned by its own angle."""
+    assume(robust(plane))
+    a, b, d, f1, f2 = plane
+    c, s = math.cos(phi), math.sin(phi)
+    R = np.array([[c, -s], [s, c]])
+    turned = ELinear.from_matrix(R @ np.array([[a, -b], [b, d]]) @ R.T, R @ [f1, f2], B @ R.T, G)
+    angle = turned.at().rotation + phi  # from the axes of `plane` to those of `turned`
+    one, other = equator_equilibria(system(plane)), equator_equilibria(turned)
+    assert len(one) == len(other)
+    np.testing.assert_allclose(circular(one.theta + angle), circular(other.theta), atol=1e-6)
+    np.testing.assert_allclose(np.sort(one.lambda_rho), np.sort(other.lambda_rho), atol=1e-7)
+    np.testing.assert_allclose(np.sort(one.lambda_theta), np.sort(other.lambda_theta), atol=1e-7)
+    assert classify(turned, family).name == classify(system(plane), family).name
+    Q = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    for C, D in zip(critical_sets(system(plane), family), critical_sets(turned, family), strict=True):
+        np.testing.assert_allclose(Q @ C.e, D.e, atol=1e-7)
+        np.testing.assert_allclose(Q @ C.x2, D.x2, rtol=1e-5, atol=1e-7)
+        np.testing.assert_allclose(Q @ C.jacobian @ Q.T, D.jacobian, rtol=1e-5, atol=1e-6)
+        np.testing.assert_allclose(C.slow_flow, D.slow_flow, atol=1e-6)
+
+
+@settings(max_examples=60)
+@given(planes, families, st.integers(-300, 300))
+def test_another_unit_of_time(plane, family, power):
+    """Coefficients times 2^k: every rate times 2^k, every place and name the same to the last bit."""
+    assume(any(plane))
+    scale = 2.0**power
+    one, other = system(plane), ELinear(*(v * scale for v in plane[:3]), [v * scale for v in plane[3:]], B=B, g=G)
+    Q, P = equator_equilibria(one), equator_equilibria(other)
+    assert (Q.theta == P.theta).all()
+    assert (Q.lambda_rho * scale == P.lambda_rho).all()
+    assert (Q.lambda_theta * scale == P.lambda_theta).all()
+    assert classify(one, family) == classify(other, family)
+    for C, D in zip(critical_sets(one, family), critical_sets(other, family), strict=True):
+        assert (C.p == D.p).all()
+        assert (C.slow_flow == D.slow_flow).all()
+        assert C.trace * scale == D.trace
+    own, scaled = equator_cycle(one), equator_cycle(other)
+    assert (own is None) == (scaled is None)
+    if own is not None and scaled is not None:
+        assert own.exponent == scaled.exponent
+        assert own.period / scale == scaled.period
+
+
+@settings(max_examples=60)
+@given(planes, families)
+@example(CASE3, psi.hill(4))
+def test_reversing_time(plane, family):
+    """U -> -U: every eigenvalue changes its sign, every place stays."""
+    assume(any(plane))
+    one, other = system(plane), system(tuple(-v + 0.0 for v in plane))
+    Q, P = equator_equilibria(one), equator_equilibria(other)
+    assert (Q.multiplicity == P.multiplicity).all()
+    np.testing.assert_allclose(Q.theta, P.theta, atol=2e-15)
+    np.testing.assert_allclose(Q.lambda_rho, -P.lambda_rho, atol=1e-14)
+    np.testing.assert_allclose(Q.lambda_theta, -P.lambda_theta, atol=1e-14)
+    swap = {"stable": "unstable", "unstable": "stable"}
+    for C, D in zip(critical_sets(one, family), critical_sets(other, family), strict=True):
+        assert (C.e == D.e).all()
+        assert (C.jacobian == -D.jacobian).all()
+        assert C.trace == -D.trace
+        assert C.determinant == D.determinant
+        word, *rest = C.kind.split()
+        assert D.kind.split() == [swap.get(word, word), *rest]
+    assert (sliding_flow(one) is None) == (sliding_flow(other) is None)
+
+
+@settings(max_examples=60)
+@given(planes, families)
+def test_minus_the_plane(plane, family):
+    """(x, y) -> (-x, -y) is f -> -f and B -> -B: all places turn by pi, all rates stay."""
+    assume(robust(plane))
+    a, b, d, f1, f2 = plane
+    one, other = system(plane), system((a, b, d, -f1 + 0.0, -f2 + 0.0), -B)
+    Q, P = equator_equilibria(one), equator_equilibria(other)
+    np.testing.assert_allclose(circular(Q.theta + math.pi), circular(P.theta), atol=1e-14)
+    np.testing.assert_allclose(np.sort(Q.lambda_rho), np.sort(P.lambda_rho), atol=1e-14)
+    for C, D in zip(critical_sets(one, family), critical_sets(other, family), strict=True):
+        assert (C.e == -D.e).all()
+        assert (C.jacobian == D.jacobian).all()
+        assert C.kind == D.kind
+        np.testing.assert_array_equal(C.slow_flow, D.slow_flow)
+    a_, b_ = equator_cycle(one), equator_cycle(other)
+    assert (a_ is None) == (b_ is None)
+    if a_ is not None and b_ is not None:
+        assert b_.exponent == pytest.approx(a_.exponent, rel=1e-11, abs=1e-12)
+        assert b_.period == pytest.approx(a_.period, rel=1e-11)
+
+
+@settings(max_examples=60)
+@given(planes, families)
+def test_reflecting(plane, family):
+    """(x, y) -> (x, -y) is b -> -b, f2 -> -f2 and B -> B diag(1, -1)."""
+    assume(robust(plane))
+    a, b, d, f1, f2 = plane
+    one, other = system(plane), system((a, -b + 0.0, d, f1, -f2 + 0.0), B @ np.diag([1.0, -1.0]))
+    Q, P = equator_equilibria(one), equator_equilibria(other)
+    np.testing.assert_allclose(circular(-Q.theta), circular(P.theta), atol=1e-14)
+    np.testing.assert_allclose(np.sort(Q.lambda_theta), np.sort(P.lambda_theta), atol=1e-13)
+    for C, D in zip(critical_sets(one, family), critical_sets(other, family), strict=True):
+        assert (C.e == D.e * (1.0, -1.0)).all()
+        assert C.kind == D.kind
+        assert C.trace == D.trace
+        np.testing.assert_array_equal(C.slow_flow, D.slow_flow)
+    assert classify(one, family).name == classify(other, family).name
+
+
+@settings(max_examples=60)
+@given(planes)
+def test_what_does_not_know_psi(plane):
+    """thm:lineps1, thm:case1, thm:case2: name, index, determinant's sign, slow flow, and in Cases I, II stability."""
+    names = {classify(system(plane), family).name for family in FAMILIES}
+    cases = {classify(system(plane), family).case for family in FAMILIES}
+    assert len(names) == len(cases) == 1
+    sets = [critical_sets(system(plane), family) for family in FAMILIES]
+    assert len({len(found) for found in sets}) == 1
+    for found in zip(*sets, strict=True):
+        assert all((C.e == found[0].e).all() and (C.slow_flow == found[0].slow_flow).all() for C in found)
+        assert len({C.kind == "saddle" for C in found}) == 1
+        angle = {round(math.atan2(C.p[1], C.p[0]), 9) for C in found if found[0].e.any()}
+        assert len(angle) <= 2  # -pi and pi
+        if cases & {"I", "II"}:
+            assert len({C.kind.split()[0] for C in found}) == 1
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda p: p.text)
+def test_turned_and_reversed_trajectories(family):
+    """Half a turn of the seeds is half a turn of the lines; backward in time is forward with -U."""
+    plane = (-2.0, 0.5, -1.0, -0.5, 0.2)
+    seeds = np.array([[0.3, 0.1], [-0.2, 0.7], [1.4, 0.3], [-0.99, 0.05]])
+    options = {"t_max": 2.0, "rtol": 1e-9, "atol": 1e-11}
+    one = trajectories(system(plane), family, seeds, (0, 0), **options)
+    a, b, d, f1, f2 = plane
+    half = trajectories(system((a, b, d, -f1, -f2)), family, -seeds, (0, 0), **options)
+    np.testing.assert_allclose(one.ends[:, :2], -half.ends[:, :2], atol=1e-12)
+    back = trajectories(system(plane), family, seeds, (0, 0), backward=True, **options)
+    minus = trajectories(system(tuple(-v for v in plane)), family, seeds, (0, 0), **options)
+    np.testing.assert_array_equal(back.ends, minus.ends)
+    np.testing.assert_array_equal(back.clock, -minus.clock)
+
+
+@pytest.mark.parametrize("n", [3, 4])
+def test_cycles_under_all_of_them(n):
+    (one,) = limit_cycles(system(CASE3), psi.hill(n))
+    a, b, d, f1, f2 = CASE3
+    for plane, turn in (((a, b, d, -f1, -f2), 1), ((a, -b, d, f1, -f2), -1), (tuple(-v for v in CASE3), -1)):
+        (other,) = limit_cycles(system(plane), psi.hill(n))
+        assert other.period == pytest.approx(one.period, rel=1e-11)
+        sign = -1.0 if plane[0] < 0.0 else 1.0
+        assert math.log(other.multiplier) == pytest.approx(sign * math.log(one.multiplier), rel=1e-9)
+        assert other.direction == turn * one.direction
+        assert other.kind == ("unstable" if sign < 0.0 else "stable")
+    (scaled,) = limit_cycles(system(tuple(v / 64.0 for v in CASE3)), psi.hill(n))
+    assert scaled.period == 64.0 * one.period
+    assert scaled.multiplier == one.multiplier
+
+
+@pytest.mark.parametrize(
+    "plane", [(-2.0, 0.3, -1.0, -0.5, 0.1), (1.0, 0.3, -2.0, 0.2, 0.3), (-1.0, 0.2, -1.0, 1.5, 0.0)]
+)
+def test_graphs_and_outcomes_turn_with_the_plane(plane):
+    """Labels are turned by as many places as limit directions pass theta = 0; verdicts and the graph stay."""
+    a, b, d, f1, f2 = plane
+    one, other = system(plane), system((a, b, d, -f1, -f2), -B)
+    for family in FAMILIES[:2]:
+        graph = sorted((x[0], y[0]) for x, y in separatrices(one, family).graph)
+        assert graph == sorted((x[0], y[0]) for x, y in separatrices(other, family).graph)
+        verdicts = sorted(o.verdict for o in approach_outcomes(one, family, (0, 0), compare=()).directions)
+        assert verdicts == sorted(o.verdict for o in approach_outcomes(other, family, (0, 0), compare=()).directions)
