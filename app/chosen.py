@@ -199,12 +199,20 @@ def slow_ranges(choice: str, m: int) -> list[tuple[float, float]]:
 def describe(choice: str, system: System_) -> dict[str, Any]:
     """Return what the page needs to show a choice: its equations, and a control for each parameter and slow variable.
 
-    The keys are ``equations`` (MathML), ``sentence``, ``label``, and ``parameters`` and ``slow``: lists of name,
-    symbol, low, high.
+    The keys are ``equations`` (MathML), ``sentence``, ``label``, ``parameters`` and ``slow`` (lists of name, symbol,
+    range, value), and ``coefficients``: whether the controls a, b, d, f, … belong to it.
     """
     example = catalogue.get(choice)
     if choice == NORMAL:  # its coefficients have controls of their own
-        return {"choice": choice, "equations": "", "sentence": "", "label": "", "parameters": [], "slow": []}
+        return {
+            "choice": choice,
+            "equations": "",
+            "sentence": "",
+            "label": "",
+            "parameters": [],
+            "slow": [],
+            "coefficients": True,
+        }
     ranges = example.ranges if example else {}
     parameters = [
         {"name": name, "symbol": plain_symbol(name), "range": list(ranges.get(name, PARAMETER_RANGE)), "value": value}
@@ -219,6 +227,7 @@ def describe(choice: str, system: System_) -> dict[str, Any]:
         "label": example.label if example else "",
         "parameters": parameters,
         "slow": slow,
+        "coefficients": choice == GIVEN and isinstance(system, ELinear),
     }
 
 

@@ -6,19 +6,21 @@ from typing import Any
 
 from codim2_core.systems import ELinear
 
+from .chosen import System_
 from .state import NAMES, ExplorerState, InputError, clean
 from .view import ExplorerView
 
 
-def explorer(system: ELinear | None = None, **state: Any) -> ExplorerView:
+def explorer(system: System_ | None = None, **state: Any) -> ExplorerView:
     """Return the live explorer, to be shown by a notebook.
 
     Parameters
     ----------
-    system : ELinear, optional
-        Your own system. Numbers in it stay adjustable; coefficients given as text do not.
+    system : ELinear or System, optional
+        Your own system. Its parameters, and the numbers of an `ELinear`, have sliders; what is given as text has not.
     **state
-        Values of controls: preset, a, b, d, f1, f2, z, k1, k2, B1, B2, g0, psi, n, psi_text, trajectories, layers.
+        Values of controls: preset, system (an example's name), parameters, a, b, d, f1, f2, z, k1, k2, B1, B2, g0, psi,
+        n, psi_text, trajectories, layers, panel, ...
 
     Returns
     -------
@@ -53,10 +55,13 @@ def explorer(system: ELinear | None = None, **state: Any) -> ExplorerView:
     return ExplorerView(ExplorerState.of(values), system)
 
 
-def _values_of(system: ELinear, z: float) -> dict[str, Any]:
-    """Return the controls that show this system's coefficients at z."""
+def _values_of(system: System_, z: float) -> dict[str, Any]:
+    """Return the controls that show this system's coefficients at z, and a state from which a motion may start."""
+    launch = ", ".join(f"{v:g}" for v in (0.6, 0.8, *[0.0] * system.m))
+    if not isinstance(system, ELinear):
+        return {"launch": launch}
     at = system.at((z, *[0.0] * (system.m - 1)) if system.m else ())
-    values = {"a": at.a, "b": at.b, "d": at.d, "f1": at.f1, "f2": at.f2, "k1": 0.0, "k2": 0.0}
+    values = {"a": at.a, "b": at.b, "d": at.d, "f1": at.f1, "f2": at.f2, "k1": 0.0, "k2": 0.0, "launch": launch}
     if system.m:
         values |= {"B1": float(at.B[0, 0]), "B2": float(at.B[0, 1]), "g0": float(at.g[0])}
     return values

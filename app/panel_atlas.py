@@ -82,7 +82,9 @@ def _plane_of_f(draft: Draft) -> None:
 def _curves_of_psi(draft: Draft, size: float) -> None:
     """Add the Hopf and node-focus curves: there are some in Case III only."""
     scene = draft.scene
-    a, b, d = scene.coefficients.plane[:3]
+    at = scene.coefficients
+    assert isinstance(at, Coefficients)  # the system has a, b, d
+    a, b, d = at.plane[:3]
     psi = scene.psi
     found = draft.slow("curves of psi", scene.key("matrix", "psi"),
                        lambda: (bifurcations.hopf(a, b, d, psi), bifurcations.node_focus(a, b, d, psi)))  # fmt: skip

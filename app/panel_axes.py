@@ -51,7 +51,7 @@ def available(draft: Draft) -> dict[str, Axis]:
     """
     scene, values = draft.scene, draft.values
     known = names(scene.system, scene.psi, scene.z)
-    normal = values["system"] == NORMAL
+    normal, example = values["system"] == NORMAL, catalogue.get(values["system"])
     own = dict(getattr(scene.system, "parameters", ()))
     found = {}
     # a parameter of a typed system may be called a, but then it is not the control a
@@ -61,8 +61,8 @@ def available(draft: Draft) -> dict[str, Axis]:
             continue
         declared = ExplorerState.param[name]
         low, high = declared.softbounds if normal or name == "n" else slow_ranges(values["system"], 1)[0]
-        found[name] = Axis(name, core, declared.label, float(low), float(high), float(values[name]))
-    example = catalogue.get(values["system"])
+        symbol = example.slow[0][0] if example and name == "z" else declared.label
+        found[name] = Axis(name, core, symbol, float(low), float(high), float(values[name]))
     for parameter, value in own.items():
         if normal and parameter in COEFFICIENTS:
             continue
@@ -83,12 +83,10 @@ def missing(draft: Draft, there: dict[str, Axis], *wanted: str) -> str:
             continue
         if name == "n":
             return "n is a parameter of Ψ = 3/(3 + (4s)ⁿ) only."
-        symbol = (
-            plain_symbol(name.removeprefix(OWN_AXIS)) if name.startswith(OWN_AXIS) else ExplorerState.param[name].label
-        )
-        return (
-            f"{symbol} is {'given by your system' if name in draft.locked else 'not in this system'}: choose another."
-        )
+        own = name.startswith(OWN_AXIS)
+        symbol = plain_symbol(name.removeprefix(OWN_AXIS)) if own else ExplorerState.param[name].label
+        where = "given by your system" if name in draft.locked else "not in this system"
+        return f"{symbol} is {where}: choose another."
     return ""
 
 

@@ -103,7 +103,7 @@ def small(scene: Scene, view: float) -> str:
     for C in scene["critical"]:
         [[u, v]] = place([C.p])
         cross = f'<path d="M{u - 9} {v - 9}l18 18m0-18l-18 18" stroke="var(--crit)" stroke-width="6"/>'
-        parts.append(cross if C.kind == "saddle" else dot(*C.p, "crit", C.kind.startswith("stable")))
+        parts.append(cross if C.kind == "saddle" else dot(C.p[0], C.p[1], "crit", C.kind.startswith("stable")))
     return "".join(parts) + "</svg>"
 
 

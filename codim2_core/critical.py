@@ -173,7 +173,11 @@ def _locate_exactly(a: float, b: float, d: float, f1: float, f2: float) -> Locat
         + abs(n1 * D * F1 - n2 * B * F1)
         + abs(n1 * B * F2 + n2 * A * F2)
     )
-    if abs(gap) <= 2 * Fraction(ROUNDING) * change:
+    off = 2 * Fraction(ROUNDING)
+    # Near det A = 0 first order is not enough: |adj(A) f| and |det A| must be able to meet.
+    parts = ((n1, abs(D * F1) + abs(B * F2)), (n2, abs(A * F2) + abs(B * F1)))
+    least = sum(max(abs(n) - off * size, 0) ** 2 for n, size in parts)
+    if abs(gap) <= off * change and least <= (abs(det) + off * (abs(A * D) + B * B)) ** 2:
         return Location(Existence.EQUATOR, direction=math.atan2(-n2 / det, -n1 / det))
     if gap < 0:
         return Location(Existence.NONE)
@@ -228,6 +232,9 @@ class Frame:
     determinant: float
     sign: int
     size: float
+
+
+_Parts = tuple[tuple[float, float], tuple[float, float], tuple[float, float, float, float], Frame]
 
 
 def linearisation(
@@ -329,7 +336,7 @@ def critical_sets(
     shift = math.frexp(max(map(abs, at.plane[:3])))[1]
     a, b, d = (math.ldexp(v, -shift) for v in at.plane[:3])
     parts = linearisation((a, b, d), psi, location.e, location.complement)
-    return (_critical_set(location.e, *parts, shift, at.W(location.e)),)
+    return (_critical_set(location.e, parts, shift, at.W(location.e)),)
 
 
 def _general_sets(at: Frozen, psi: Psi) -> tuple[CriticalSet, ...]:
@@ -342,7 +349,7 @@ def _general_sets(at: Frozen, psi: Psi) -> tuple[CriticalSet, ...]:
         shift = math.frexp(max(abs(m11), abs(m12), abs(m21), abs(m22), 1e-290))[1]
         M = (math.ldexp(m11, -shift), math.ldexp(m12, -shift), math.ldexp(m21, -shift), math.ldexp(m22, -shift))
         parts = _linearisation_of(M, psi, (c, s), (1.0 - modulus) * (1.0 + modulus), int(index))
-        C = _critical_set((c, s), *parts, shift, at.W((c, s)))
+        C = _critical_set((c, s), parts, shift, at.W((c, s)))
         if degenerate:
             # index 0: a saddle and a node have just met; +1 or -1: three critical sets have
             C = replace(C, determinant=0.0, kind="saddle-node" if index == 0 else "degenerate")
@@ -352,7 +359,7 @@ def _general_sets(at: Frozen, psi: Psi) -> tuple[CriticalSet, ...]:
 
 def _linearisation_of(
     M: tuple[float, float, float, float], psi: Psi, e: tuple[float, float], complement: float, sign: int
-) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float, float, float], Frame]:
+) -> _Parts:
     """As `linearisation`, for ``J = M . D e_Psi`` with any M = D_e U (rows first) whose determinant has that sign."""
     m11, m12, m21, m22 = M
     modulus = math.hypot(*e)
@@ -362,8 +369,7 @@ def _linearisation_of(
     # M in the axes along e and across it, where D e_Psi is diag(radial, tangential)
     n11, n12 = c * c * m11 + c * s * (m12 + m21) + s * s * m22, c * c * m12 + c * s * (m22 - m11) - s * s * m21
     n21, n22 = c * c * m21 + c * s * (m22 - m11) - s * s * m12, c * c * m22 - c * s * (m12 + m21) + s * s * m11
-    cc, cs, ss = c * c, abs(c * s), s * s
-    mixed = cs * (abs(m12) + abs(m21))
+    cc, ss, mixed = c * c, s * s, abs(c * s) * (abs(m12) + abs(m21))
     frame = Frame(
         radial * n11,
         tangential * n22,
@@ -375,20 +381,12 @@ def _linearisation_of(
     spread = radial - tangential
     D11, D12, D22 = tangential + spread * c * c, spread * c * s, tangential + spread * s * s
     jacobian = (m11 * D11 + m12 * D12, m11 * D12 + m12 * D22, m21 * D11 + m22 * D12, m21 * D12 + m22 * D22)
-    r = zeta / math.hypot(1.0, zeta)
-    return (zeta * c, zeta * s), (r * c, r * s), jacobian, frame
+    return (zeta * c, zeta * s), (zeta * c / math.hypot(1.0, zeta), zeta * s / math.hypot(1.0, zeta)), jacobian, frame
 
 
-def _critical_set(
-    e: tuple[float, float],
-    x2: tuple[float, float],
-    p: tuple[float, float],
-    jacobian: tuple[float, float, float, float],
-    frame: Frame,
-    shift: int,
-    slow: NDArray[np.float64],
-) -> CriticalSet:
+def _critical_set(e: tuple[float, float], parts: _Parts, shift: int, slow: NDArray[np.float64]) -> CriticalSet:
     """Put the parts together; the linearisation is in a unit of time that is 2^-shift of the system's."""
+    x2, p, jacobian, frame = parts
     trace, determinant, discriminant, kind, eigenvalues = spectrum(frame)
     trace = math.ldexp(trace, shift)
     determinant, discriminant = math.ldexp(determinant, 2 * shift), math.ldexp(discriminant, 2 * shift)

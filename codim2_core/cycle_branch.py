@@ -210,7 +210,8 @@ class _Search:
                 if abs(guess - chi) > FAR:
                     continue
                 near = one if part < 0.5 else two
-                found = self.tracer.corrected(near.xi(guess), nu, (0.0, 1.0), near.turn.exponent > 0.0)
+                xi = near.xi(guess, (nu - near.nu) * (self.high - self.low))
+                found = self.tracer.corrected(xi, nu, (0.0, 1.0), near.turn.exponent > 0.0)
                 if found is not None and abs(found[0].chi - chi) < SAME:
                     return True
         return False

@@ -88,11 +88,32 @@ def equator_ends(family: Family, low: float, high: float) -> list[End]:
     low, high : float
     """
 
+    exponent = _exponent(family)
+    return [_on_equator(family, "equator", value) for value in _roots(exponent, values(low, high))]
+
+
+def _exponent(family: Family) -> Callable[[float], float | None]:
     def exponent(value: float) -> float | None:
         found = equator_cycle(family.at(value)[0]) if family.allows(value) else None
-        return None if found is None else found.exponent
+        return None if found is None else math.atan(found.exponent)
 
-    return [_on_equator(family, "equator", value) for value in _roots(exponent, values(low, high))]
+    return exponent
+
+
+def _exchange_near(family: Family, value: float, direction: float, width: float, ahead: float | None) -> End | None:
+    """Find the zero of the closed equator's exponent nearest to a value, ahead of it or just behind."""
+    exponent = _exponent(family)
+    here = exponent(value)
+    for k in range(1, 11):
+        for sign in (1.0, -1.0) if k < 8 else (1.0,):
+            there = value + sign * direction * width * 10.0 ** (0.8 * (k - 11.0)) * AHEAD
+            if ahead is not None and sign > 0.0 and (there - ahead) * direction > 0.0:
+                there = ahead
+            after = exponent(there)
+            if here is not None and after is not None and here * after <= 0.0:
+                place = root_between(lambda v: exponent(v) or 0.0, min(value, there), max(value, there))
+                return _on_equator(family, "equator", place)
+    return None
 
 
 def _on_equator(family: Family, kind: str, value: float, measure: float = 0.0) -> End:
@@ -187,6 +208,10 @@ def at_equator(family: Family, value: float, direction: float, width: float, kno
     if nearest is not None and abs(nearest.value - value) < 1e-4 * width:
         return nearest
     ahead = _saddle_node_ahead(family, value, direction, width)
+    if equator_cycle(family.at(value)[0]) is not None:
+        end = _exchange_near(family, value, direction, width, ahead)
+        if end is not None:
+            return min((e for e in known if abs(e.value - end.value) < 1e-9 * width), key=id, default=end)
     arcs = loops(family.at(value)[0]) if family.allows(value) else ()
     for k in range(1, 9):
         step = direction * width * 10.0 ** (k - 9.0)
@@ -244,6 +269,20 @@ def _roots(function: Callable[[float], float | None], places: list[float]) -> li
     """
     found = [function(v) for v in places]
     more: list[tuple[float, float]] = []
+    for i in range(len(places) - 1):
+        if (found[i] is None) != (found[i + 1] is None):
+            # up to where it stops being defined: it may change its sign there
+            inside, outside = (places[i], places[i + 1])[:: 1 if found[i] is not None else -1]
+            last = None
+            for _ in range(36):
+                middle = 0.5 * (inside + outside)
+                value = function(middle)
+                if value is None:
+                    outside = middle
+                else:
+                    inside, last = middle, (middle, value)
+            if last is not None:
+                more.append(last)
     for i in range(1, len(places) - 1):
         y0, y1, y2 = found[i - 1 : i + 2]
         if y0 is None or y1 is None or y2 is None:

@@ -23,7 +23,8 @@ SMALL = 3e-3  # amplitude at which a branch has come to C
 LARGE, LOW, LOWEST = 0.999, 1e-3, 1e-7  # chi, ebar at which it has come to the equator: all of it, or a part
 LEVEL, DEAD = 0.05, 1e-8  # ebar and exponent at which cycle and closed equator cannot be told apart
 MOST = 600  # points
-TURNED = 0.9  # cosine between successive tangents below which a step is too long
+MISSED = 0.3  # distance of a point from its prediction, in steps, beyond which a step is too long
+TURNED = 0.95  # cosine between successive tangents below which a step is too long
 
 
 @dataclass(frozen=True)
@@ -34,12 +35,12 @@ class Point:
     nu: float
     tangent: tuple[float, float]
 
-    def xi(self, chi: float) -> float:
-        """Find the xi of a chi nearby: ln y is nearly linear in it."""
+    def xi(self, chi: float, change: float) -> float:
+        """Find the xi of a chi nearby, where the value has changed: ln y is nearly linear in both."""
         here = self.turn
         chi = min(max(chi, 0.05 * here.chi), 1.0 - 0.05 * (1.0 - here.chi))
         logit = math.log(chi / (1.0 - chi)) - math.log(here.chi / (1.0 - here.chi))
-        return here.xi + logit * here.chi * (1.0 - here.chi) / here.rate
+        return here.xi + (logit * here.chi * (1.0 - here.chi) - here.drift * change) / here.rate
 
 
 @dataclass(frozen=True)
@@ -128,7 +129,7 @@ class Tracer:
             return getattr(two, name) + part * (getattr(two, name) - getattr(one, name))
 
         p = (two.p[0] + part * (two.p[0] - one.p[0]), two.p[1] + part * (two.p[1] - one.p[1]))
-        names = ("by_xi", "by_value", "exponent", "period", "amplitude", "height", "rate", "chi")
+        names = ("by_xi", "by_value", "exponent", "period", "amplitude", "height", "rate", "drift", "chi")
         return Turn(xi=xi, value=value, shift=0.0, p=p, **{name: carried(name) for name in names})
 
     @staticmethod
@@ -138,7 +139,7 @@ class Tracer:
 
     def point(self, turn: Turn, nu: float, towards: tuple[float, float]) -> Point:
         """Give a closed turn the tangent that makes an acute angle with `towards` (chi, nu)."""
-        tc, tn = turn.by_value * self.width, -turn.by_xi / turn.rate
+        tc, tn = turn.by_value * self.width - turn.by_xi * turn.drift / turn.rate * self.width, -turn.by_xi / turn.rate
         length = math.hypot(tc, tn)
         sign = math.copysign(1.0 / length, tc * towards[0] + tn * towards[1])
         return Point(turn, nu, (sign * tc, sign * tn))
@@ -211,18 +212,24 @@ class Tracer:
             if 0.05 < s < 4.0:
                 chi = _hermite(back.turn.chi, here.turn.chi, h * back.tangent[0], h * tc, s)
                 nu = _hermite(back.nu, here.nu, h * back.tangent[1], h * tn, s)
-        found = self.corrected(here.xi(chi), nu, (here.turn.rate * tc, tn), backward, carry=CARRY * step * step)
+        xi = here.xi(chi, (nu - here.nu) * self.width)
+        found = self.corrected(xi, nu, self._across(here), backward, carry=CARRY * step * step)
         if found is None:
             return None
         point = self.point(*found, here.tangent)
         ahead = tc * (point.turn.chi - here.turn.chi) + tn * (point.nu - here.nu)
         cosine = tc * point.tangent[0] + tn * point.tangent[1]
-        return point if 0.3 * step < ahead < 3.0 * step and cosine > TURNED else None
+        missed = math.hypot(point.turn.chi - chi, point.nu - nu)
+        return point if missed < MISSED * step < ahead < 3.0 * step and cosine > TURNED else None
+
+    def _across(self, point: Point) -> tuple[float, float]:
+        """Covector by (xi, nu) of the lengths along the tangent of a point."""
+        tc, tn = point.tangent
+        return point.turn.rate * tc, tn + point.turn.drift * self.width * tc
 
     def _fold(self, here: Point, there: Point) -> Point | None:
         """Find the point between two where the exponent is zero: the secant rule, kept in the bracket."""
-        tc, tn = here.tangent
-        along = (here.turn.rate * tc, tn)
+        along = self._across(here)
 
         def place(point: Point) -> float:
             return (point.turn.xi - here.turn.xi) * along[0] + (point.nu - here.nu) * along[1]
@@ -234,9 +241,10 @@ class Tracer:
             margin = 0.01 * abs(s1 - s0)
             s = min(max(s, min(s0, s1) + margin), max(s0, s1) - margin)
             near = min((low, high), key=lambda point: abs(place(point) - s))
-            rate, (nc, nn) = near.turn.rate, near.tangent
-            part = (s - place(near)) / (along[0] * nc / rate + along[1] * nn)
-            found = self.corrected(near.turn.xi + part * nc / rate, near.nu + part * nn, along, False, CLOSER)
+            nc, nn = near.tangent
+            moved = (nc - near.turn.drift * self.width * nn) / near.turn.rate
+            part = (s - place(near)) / (along[0] * moved + along[1] * nn)
+            found = self.corrected(near.turn.xi + part * moved, near.nu + part * nn, along, False, CLOSER)
             if found is None:
                 return None
             near = self.point(*found, near.tangent)

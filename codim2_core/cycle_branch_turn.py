@@ -56,6 +56,8 @@ class Turn:
         Smallest ebar on it: how near to the equator it comes.
     rate : float
         d chi/d xi, where chi = y/(1 + y) is the place on the section, in [0, 1), ``y = u.(x2 - C)``.
+    drift : float
+        d chi/d value at fixed xi.
     chi : float
     p : (float, float)
         Where it crosses the section, in the projected disc.
@@ -71,6 +73,7 @@ class Turn:
     amplitude: float
     height: float
     rate: float
+    drift: float
     chi: float
     p: tuple[float, float]
 
@@ -161,6 +164,7 @@ class Family:
             amplitude=_largest(np.hypot(size[:, 0], size[:, 1])),
             height=float(way.inner[:, 2].min()),
             rate=q_xi * first.y / (1.0 + first.y) ** 2,
+            drift=q_0 * first.y / (1.0 + first.y) ** 2,
             chi=first.y / (1.0 + first.y),
             p=(float(start[0]), float(start[1])),
         )

@@ -58,6 +58,7 @@ def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z
     width = high - low
     # off the round numbers on which special values like to lie
     u = (np.arange(_GRID + 1) + 0.3 * np.sin(2.0 + 1.7 * np.arange(_GRID + 1))) / _GRID
+    u[[0, -1]] = 0.0, 1.0
     grid = [state(v) for v in (low + width * np.clip(u, _BESIDE, 1.0 - _BESIDE)).tolist()]
     special: list[SpecialValue] = []
     pieces: list[list[_State]] = [[grid[0]]]

@@ -169,8 +169,8 @@ def _certificate(f: Series, proven: bool) -> str:
     if not proven:
         return start + "Close to a multiple zero the count could not be decided."
     return start + (
-        "Bounds from its derivatives and Σ k⁴|c_k| show |Θ| > 0 on every arc without a zero, and Θ monotone on every arc "
-        "with one: none is missing."
+        "Bounds from its derivatives and Σ k⁴|c_k| show |Θ| > 0 on every arc without a zero, and Θ monotone on every "
+        "arc with one: none is missing."
     )
 
 

@@ -173,7 +173,13 @@ class _Course:
     def past_fold(self, e: Array, C: str | None) -> Verdict:
         """C has met another critical set and both are gone: follow the orbit that leaves the place."""
         reason = f"{C} ends in a fold (det J = 0)."
-        return self.onward(reason, self.ahead(e, PAST), in_disc(self.own, e)[None])
+        point = in_disc(self.own, e)[None]
+        # Just past the fold orbits take long to leave the place; a little further they are followed to their end.
+        for further in (1.0, 1e2, 3e3):
+            verdict = self.onward(reason, self.ahead(e, further * PAST), point)
+            if verdict.kind != "stop":
+                break
+        return verdict
 
     def past_cycle(self, ahead: Array) -> Verdict:
         """Follow orbits from all around a cycle that has ended."""

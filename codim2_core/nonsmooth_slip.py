@@ -22,6 +22,7 @@ ARRIVED = 1e-13  # of the largest rho of the phase
 FIRST = 1e-2
 START, SLOW_START = 1e-9, 1e-5  # first part of the time ahead, covered by an expansion at Sigma
 TILT = 1e-6  # largest angle that this expansion may cover
+NEWTON, FURTHEST = 6, 0.05  # steps to polish theta, and how far one may go
 NEUTRAL = 1e-7  # of the size of U's slopes: lambda_rho counts as zero
 
 
@@ -105,7 +106,7 @@ def leave(field: Field, theta: float, t: float, z: Array, t_end: float) -> Step 
     ----------
     field : Field
     theta : float
-        A zero of Theta at z.
+        Near a zero of Theta at z.
     t, t_end : float
     z : ndarray (m,)
 
@@ -114,8 +115,9 @@ def leave(field: Field, theta: float, t: float, z: Array, t_end: float) -> Step 
     Step, or str
         The first, short step; or why there is none, as a sentence.
     """
-    c, s = math.cos(theta), math.sin(theta)
     slow = z.tolist()
+    theta = _polished(field, theta, slow)
+    c, s = math.cos(theta), math.sin(theta)
     u, v, *w = field.value(c, s, 0.0, 0.0, *slow)
     D = field.jacobian(c, s, 0.0, 0.0, slow)
     radial, angular, across = np.array([c, s]), np.array([-s, c]), D[:2, :2] @ np.array([-s, c])
@@ -149,3 +151,18 @@ def leave(field: Field, theta: float, t: float, z: Array, t_end: float) -> Step 
     square = np.array([rho * math.cos(end), rho * math.sin(end), *bend])
     first = np.array([0.0, 0.0, *slow])
     return Step(t, h, first, first + linear + square, _polynomial(linear, square))
+
+
+def _polished(field: Field, theta: float, slow: list[float]) -> float:
+    """Return the zero of Theta near theta, by Newton's method."""
+    angle = theta
+    for _ in range(NEWTON):
+        c, s = math.cos(angle), math.sin(angle)
+        u, v = field.value(c, s, 0.0, 0.0, *slow)[:2]
+        D = field.jacobian(c, s, 0.0, 0.0, slow)[:2, :2]
+        rate = float(np.array([-s, c]) @ D @ np.array([-s, c])) - (c * u + s * v)
+        change = (c * v - s * u) / rate if rate != 0.0 else math.nan
+        if not abs(change) < FURTHEST:
+            return theta
+        angle -= change
+    return angle

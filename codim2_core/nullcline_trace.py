@@ -16,6 +16,7 @@ from .compiled_tape import gradients
 
 RHO, THETA, U1, U2 = range(4)  # kinds
 LONGEST, SHORTEST = 0.04, 1e-6  # steps, in units of the disc
+CLOSE = 2e-3  # distance of two branches that is taken for a crossing: a third of a pixel
 BEND = 0.12  # radians between neighbouring points
 BORDER, CLOSED, STUCK = range(3)  # how a curve ends
 
@@ -115,7 +116,7 @@ def follow(op, left, right, number, roots, kind, outside, X, Y, tx, ty, largest,
     floor = 1e-9 * size
     most = largest if outside else 1.0
     out[0, 0], out[0, 1], out[0, 2], out[0, 3] = X, Y, tx, ty
-    count, h = 1, 0.25 * LONGEST
+    count, h, slope_X, slope_Y = 1, 0.25 * LONGEST, 0.0, 0.0
     while count < len(out):
         ok, nX, nY, gx, gy = _corrected(
             op, left, right, number, roots, kind, outside, X + h * tx, Y + h * ty, 0.3 * h, floor, seed, work, rows
@@ -127,7 +128,10 @@ def follow(op, left, right, number, roots, kind, outside, X, Y, tx, ty, largest,
             if nx * tx + ny * ty < 0.0:
                 nx, ny = -nx, -ny
             turn = abs(math.atan2(tx * ny - ty * nx, tx * nx + ty * ny))
-        if not ok or turn > BEND:
+        # a gradient that changes much tells of another branch close by; closer than CLOSE is as good as a crossing
+        change = math.hypot(gx - slope_X, gy - slope_Y)
+        leap = count > 1 and h > CLOSE and change > 0.5 * min(length, math.hypot(slope_X, slope_Y))
+        if not ok or turn > BEND or leap:
             h *= 0.5
             if h < SHORTEST:
                 return count, STUCK
@@ -155,7 +159,7 @@ def follow(op, left, right, number, roots, kind, outside, X, Y, tx, ty, largest,
                 out,
                 count,
             )
-        X, Y, tx, ty = nX, nY, nx, ny
+        X, Y, tx, ty, slope_X, slope_Y = nX, nY, nx, ny, gx, gy
         out[count, 0], out[count, 1], out[count, 2], out[count, 3] = X, Y, tx, ty
         count += 1
         home_X, home_Y = out[0, 0] - X, out[0, 1] - Y

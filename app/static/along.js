@@ -36,7 +36,7 @@ class Along {
       this.setControls({z: l1 + (h1 - l1) * share(event.clientX - box.left, box.width), z2: h2 - (h2 - l2) * share(event.clientY - box.top, box.height)})
     } else if (this.data) {
       const [low, high] = this.data.span
-      this.setControls({[this.data.control]: Number((low + (high - low) * share((event.clientX - box.left) / box.width * 200 - 14, 182)).toPrecision(6))})
+      this.setControls({[this.data.control]: Number((low + (high - low) * share((event.clientX - box.left) / box.width * 206 - 20, 182)).toPrecision(6))})
     }
   }
 

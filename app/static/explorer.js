@@ -149,7 +149,7 @@ function wire({model, view, root, plot}) {
   const follow = (given) => {
     const fresh = Object.entries(given).filter(([name, value]) => !requests.holds(name) && JSON.stringify(values[name]) !== JSON.stringify(value))
     for (const [name, value] of fresh) { values[name] = value; controls[name]?.set(value) }
-    systems.set(values)
+    if (fresh.some(([name]) => name === "parameters" || name === "texts")) systems.set(values)
     if (fresh.length) { showPanels(); showLayers(); tell(); if (config.presets[values.preset]) markChanged(); keepLink() }
   }
 

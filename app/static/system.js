@@ -31,7 +31,7 @@ class SystemChooser {
     const same = this.told?.choice === header.system.choice
     this.told = header.system
     if (this.select) this.select.value = this.choice
-    this.root.classList.toggle("not-normal", this.choice !== "normal")
+    this.root.classList.toggle("not-normal", !this.told.coefficients)
     this.config.slowSymbols = this.told.slow.map((one) => one.symbol)
     for (let i = 0; i < 4; i++) this.config.symbols[slowName(i)] = this.config.slowSymbols[i] ?? (i ? `z${"₁₂₃₄"[i]}` : "z")
     this.find(".equations").innerHTML = this.told.equations
@@ -93,19 +93,20 @@ class SystemChooser {
   }
 
   makeSlow() {
-    const slow = this.choice === "normal" ? [] : this.told.slow.slice(0, 4)
+    // z itself has a control among the coefficients
+    const slow = this.told.slow.slice(0, 4).map((one, i) => ({...one, name: slowName(i)})).slice(this.told.coefficients ? 1 : 0)
     const symbols = slow.map((one) => one.symbol).join()
     if (symbols === this.symbols) return
     this.symbols = symbols
     const holder = this.root.querySelector(".slow-controls")
     holder.hidden = !slow.length
-    if (!slow.length) this.place("z", this.normal)
-    holder.querySelector(".sliders").innerHTML = slow.map((one, i) => slider(`slow-${slowName(i)}`, one.symbol)).join("")
-    slow.forEach((one, i) => {
-      const box = holder.querySelector(`[data-control="slow-${slowName(i)}"]`)
-      const control = new NumberControl(box, one.range, (_, value) => this.change(slowName(i), value))
-      control.set(this.values[slowName(i)])
-      this.place(slowName(i), control)
+    if (this.told.coefficients) this.place("z", this.normal)
+    holder.querySelector(".sliders").innerHTML = slow.map((one) => slider(`slow-${one.name}`, one.symbol)).join("")
+    slow.forEach((one) => {
+      const box = holder.querySelector(`[data-control="slow-${one.name}"]`)
+      const control = new NumberControl(box, one.range, (_, value) => this.change(one.name, value))
+      control.set(this.values[one.name])
+      this.place(one.name, control)
     })
   }
 }

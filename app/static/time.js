@@ -33,7 +33,7 @@ class Motion {
   drag(event) {
     if (!this.motion) return
     const box = this.svg.getBoundingClientRect()
-    this.go(this.end * ((event.clientX - box.left) / box.width * 200 - 14) / 182)
+    this.go(this.end * ((event.clientX - box.left) / box.width * 206 - 20) / 182)
   }
 
   apply({header}, late) {
@@ -127,7 +127,7 @@ class Motion {
       top += height + 14
     }
     this.bottom = top - 14
-    this.svg.setAttribute("viewBox", `-100 -72 200 ${fixed(this.bottom + 86)}`)
+    this.svg.setAttribute("viewBox", `-106 -72 206 ${fixed(this.bottom + 86)}`)
     this.svg.setAttribute("aria-valuemin", 0); this.svg.setAttribute("aria-valuemax", this.end)
     this.svg.innerHTML = `${parts.join("")}<text x="-86" y="${fixed(this.bottom + 8)}">0</text><text x="96" y="${fixed(this.bottom + 8)}" text-anchor="end">${digits(this.end, 3)}</text><text class="title" x="5" y="${fixed(this.bottom + 8)}" text-anchor="middle">t</text><path class="value"/>`
     this.find(".time-key").innerHTML = `<span>full line: ε = ${plain(motion.eps)}</span><span>broken line: ε → 0</span>`

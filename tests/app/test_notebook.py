@@ -7,6 +7,8 @@ from codim2_app.packing import unpack
 from codim2_app.state import ExplorerState
 from codim2_app.view import ExplorerView
 
+import codim2_core as c2
+
 
 @pytest.fixture(autouse=True)
 def _panel_as_it_was():
@@ -95,3 +97,18 @@ def test_what_was_set_before_it_is_shown_is_shown():
     view = explorer()
     view.state.a = -1.25
     assert view.get_root(Document()).data.config["values"]["a"] == -1.25
+
+
+def test_a_system_of_any_form_brings_sliders_for_its_parameters():
+    system = c2.System(U=("-k*c + z", "-s"), W=("-z",), parameters={"k": 2.0})
+    view = explorer(system, z=0.3)
+    header, _ = unpack(view.first)
+    assert header["system"]["parameters"][0]["name"] == "k"
+    assert header["system"]["coefficients"] is False
+    view.state.parameters = {"k": 0.2}
+    assert view.frames.scene.system.at((0.3,)).U((1.0, 0.0)) == pytest.approx([0.1, 0.0])
+
+
+def test_the_numbers_of_a_given_elinear_keep_their_sliders():
+    header, _ = unpack(explorer(c2.ELinear(-1, "z", -2, g=(0.5,))).first)
+    assert header["system"]["coefficients"] is True

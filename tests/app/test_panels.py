@@ -12,6 +12,7 @@ from codim2_app.panel_jobs import Failed, Jobs
 from codim2_app.panel_thumbnails import thumbnails
 from codim2_app.refresh import Frames
 from codim2_app.state import AXES, ExplorerState
+from codim2_app.svg import draw
 
 import codim2_core as c2
 
@@ -229,6 +230,13 @@ def test_the_ring_is_sent_when_its_layer_is_on_whatever_is_open():
     frames, header = opened("theorems")
     assert "outcomes" not in header
     assert "outcomes" in ask(frames, layers=["outcomes", "inside"])
+
+
+def test_the_first_picture_has_the_ring():
+    hidden = draw(Frames(ExplorerState()).answer({"all": True}))
+    shown = draw(Frames(ExplorerState(layers=["outcomes", "inside"])).answer({"all": True}))
+    assert "var(--slide)" not in hidden
+    assert shown.count("var(--slide)") == 4
 
 
 def test_theorems_are_evaluated_with_their_numbers():

@@ -222,3 +222,15 @@ def test_theorems_come_with_their_numbers_and_follow(explorer):
     explorer.type("f1", "3")
     assert "This one is NCM2." in rows.filter(has_text="thm:case1(c)").text_content()
     assert rows.filter(has_text="✗").count() == 0
+
+
+def test_parameters_of_a_chosen_system_are_axes(explorer):
+    open_panel(explorer, "Diagram")
+    explorer.find(".system-box select").select_option("ball_in_pool")
+    explorer.settle()
+    assert "choose another" in explorer.find(".diagram-note").text_content()
+    choose(explorer, "along", "own:K")
+    explorer.find(".special-list button").filter(has_text="transcritical").click()
+    explorer.settle()
+    shown = explorer.find("[data-control=parameter-K] .number").input_value()
+    assert float(shown) == pytest.approx(3.5 * 0.2 * 9.81 / 4, abs=1e-5)  # |z| = 7 mu m g/(2 K), the paper's boundary

@@ -160,7 +160,7 @@ def test_every_point_lies_in_one_region_and_has_its_class(
     assert sum(r.area for r in M.regions) == pytest.approx(area(M), rel=1e-9)
     borders = [line for boundary in M.boundaries for line in boundary.lines]
     thin = {name for name, _ in M.thin}
-    for x, y in points:
+    for x, y in np.round(points, 3).tolist():
         around = [r for r in M.regions if holds(r.boundary, x, y)]
         assert len(around) == 1
         near = min((np.hypot(line[:, 0] - x, line[:, 1] - y).min() for line in borders), default=9.0)

@@ -148,12 +148,22 @@ def test_events_are_found_and_stop():
     assert run.status is SimulationStatus.T_END
     np.testing.assert_allclose(run.events[0], [exact], atol=1e-9)
     stop = Event(fell_to_half, terminal=True, direction=-1)
-    rises = Event(fell_to_half, direction=1)
+    rises = Event(lambda t, state: -fell_to_half(t, state), direction=-1)
     run = simulate(ball, families.constant(), 1e-6, (1.0, 0.0, 1.0, 0.0), (0.0, 1.0), events=(rises, stop))
     assert run.status is SimulationStatus.EVENT
     assert run.times[-1] == pytest.approx(exact, abs=1e-9)
     assert len(run.events[0]) == 0
     assert run.states[-1, 2] == pytest.approx(0.9, abs=1e-9)
+
+
+def test_only_the_length_of_time_matters():
+    for eps in (1e-3, 1e-12):
+        early, late = (
+            simulate(examples.ball_in_pool(), families.constant(), eps, (1.0, 0.5, -1.0, 0.4), (t, t + 3.0))
+            for t in (0.0, 1000.0)
+        )
+        np.testing.assert_allclose(early.states[-1], late.states[-1], rtol=1e-9, atol=1e-12)
+        assert late.times[-1] == 1003.0
 
 
 def test_a_limit_cycle_ends_at_the_step_limit():

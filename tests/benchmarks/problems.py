@@ -1,0 +1,189 @@
+"""The problems on which trajectories are raced: a system, Psi, 64 seeds, a time; and where they end, to 30 digits.
+
+The field is text in x, y (and w = ebar where a problem needs it), P[0], P[1], ... its numbers, so that every
+competitor compiles or evaluates the same formula in its own way. `data/ends.json` holds the ends (`references`).
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from codim2_core import ELinear, critical_sets, equator_equilibria, examples, presets, psi
+from codim2_core.general import System
+from codim2_core.regularisation import Psi
+
+DATA = Path(__file__).parent / "data" / "ends.json"
+COUNT = 64
+Array = np.ndarray
+
+# e_Psi = gain p on the sphere, where |p|^2 + ebar^2 = 1; s = |p|^2, h = ebar^2.
+GAINS = {
+    "constant": "1.0",
+    "rational": "1/sqrt(s + h*h)",
+    "exponential": "1/sqrt(s + h*exp(-s/h))",
+    "tanh": "tanh(sqrt(s/h))/sqrt(s)",
+    "hill": "1/sqrt(s + 3*h/(3 + (4*s/h)**P[5]))",
+    "custom": "1/sqrt(s + h*h*h)",  # Psi = (1 + s)^-2
+}
+ELINEAR = ("P[0]*c - P[1]*e + P[3]", "P[1]*c + P[2]*e + P[4]")
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One race.
+
+    Attributes
+    ----------
+    name : str
+    system : ELinear or System
+    psi : Psi
+    seeds : ndarray (64, 2)
+    t_end : float
+        T, dT = dt/rho.
+    U : (str, str)
+        Text in c, e = e_Psi and P.
+    numbers : tuple of float
+        P, six of them.
+    height : bool
+        Whether competitors follow ebar beside p: where 1 - |p| is small it cannot be had from p.
+    note : str
+        What the problem is there for.
+    """
+
+    name: str
+    system: ELinear | System
+    psi: Psi
+    seeds: Array = field(repr=False)
+    t_end: float
+    U: tuple[str, str] = ELINEAR
+    numbers: tuple[float, ...] = ()
+    height: bool = False
+    note: str = ""
+
+    @property
+    def start(self) -> Array:
+        """(64, 2), or (64, 3) with ebar."""
+        if not self.height:
+            return self.seeds
+        r = np.hypot(*self.seeds.T)
+        return np.column_stack([self.seeds, np.sqrt((1.0 - r) * (1.0 + r))])
+
+    @property
+    def end(self) -> Array:
+        """p at T, (64, 2), from the data."""
+        return ends()[self.name]
+
+    @property
+    def text(self) -> str:
+        """Python source of ``field(x, y[, w], P)``; what it calls is left to the caller's names."""
+        w = ", w" if self.height else ""
+        lines = [
+            f"def field(x, y{w}, P):",
+            "    s = x*x + y*y",
+            f"    h = {'w*w' if self.height else 'positive(1.0 - s)'}",
+            f"    k = {GAINS[self.psi.family]}",
+            "    c, e = k*x, k*y",
+            f"    u = {self.U[0]}",
+            f"    v = {self.U[1]}",
+            "    q = x*u + y*v",
+            f"    return u - x*q, v - y*q{', -w*q' if self.height else ''}",
+        ]
+        return "\n".join(lines)
+
+
+@lru_cache(maxsize=1)
+def ends() -> dict[str, Array]:
+    """Return the stored ends."""
+    return {name: np.array(rows) for name, rows in json.loads(DATA.read_text()).items()}
+
+
+def sunflower(radius: float = 0.98, about: tuple[float, float] = (0.0, 0.0)) -> Array:
+    """64 points, evenly over a disc."""
+    k = np.arange(COUNT)
+    r, t = radius * np.sqrt((k + 0.5) / COUNT), 2.399963 * k
+    return np.stack([about[0] + r * np.cos(t), about[1] + r * np.sin(t)], axis=-1)
+
+
+def _elinear(name: str, system: ELinear, shape: Psi, t: float, seeds: Array | None = None, **more) -> Problem:
+    numbers = (*system.at(()).plane, shape.parameter)
+    return Problem(name, system, shape, sunflower() if seeds is None else seeds, t, numbers=numbers, **more)
+
+
+def near_equator() -> Problem:
+    """Seeds from 1 - |p| = 1e-2 to 1e-12, near limit directions from which they leave along the hemisphere."""
+    system = presets["case1-cm4"].system
+    theta = equator_equilibria(system).theta
+    gap = np.logspace(-2, -12, COUNT)
+    angle = np.resize(theta, COUNT) + 1e-3 * np.cos(np.arange(COUNT))
+    seeds = (1.0 - gap)[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return _elinear("near the equator", system, psi.rational(), 16.0, seeds, height=True, note="1 − |p| = 1e-2 … 1e-12")
+
+
+def near_saddle() -> Problem:
+    """Seeds beside the stable manifold of the saddle of Case II: they come near C, stay for long, and leave."""
+    preset = presets["case2-saddle"]
+    C = critical_sets(preset.system, psi.rational())[0]
+    values, vectors = np.linalg.eig(C.jacobian)
+    vectors = vectors.real / np.hypot(*vectors.real)
+    stable, unstable = vectors[:, np.argmin(values.real)], vectors[:, np.argmax(values.real)]
+    side = np.resize((1.0, -1.0), COUNT)
+    seeds = C.p + 0.05 * side[:, None] * stable + (1e-2 * np.logspace(0, -5, COUNT) * np.sign(0.5 - side))[:, None] * unstable
+    return _elinear("past a saddle", preset.system, psi.rational(), 16.0, seeds, note="errors grow up to 1e5 times")
+
+
+@lru_cache(maxsize=1)
+def problems() -> tuple[Problem, ...]:
+    """All of them."""
+    rotation = ELinear(0.0, 1.0, 0.0, (0.3, 0.2))
+    found = [
+        _elinear("so(2,1)", rotation, psi.constant(), 16.0, note="a = d = 0, Ψ = 1: exact, a matrix exponential"),
+        _elinear("f = 0", ELinear(-1.0, 0.5, -1.6), psi.constant(), 8.0, note="x₂' = A x₂: exact"),
+    ]
+    for name in ("cm0", "cm2", "cm4", "ncm2", "ncm4"):
+        preset = presets[f"case1-{name}"]
+        found.append(_elinear(f"Case I {name.upper()}", preset.system, preset.psi, 8.0, note="Ψ = 1"))
+    mixed = ELinear(-2.0, 0.5, -1.0, (-0.5, 0.2))
+    for shape in (psi.rational(), psi.exponential(), psi.tanh(), psi.custom("1/(1+s)**2")):
+        found.append(_elinear(f"Case I, Ψ = {shape.text}", mixed, shape, 8.0))
+    found.append(_elinear("Case I, hill n = 16", mixed, psi.hill(16), 8.0, note="a steep Ψ"))
+    three = presets["case3-n2"].system
+    for n in range(1, 9):
+        found.append(_elinear(f"Case III n = {n}", three, psi.hill(n), 0.1))
+    found += [
+        Problem(
+            "attracting, repelling", examples.attracting_repelling(), psi.tanh(), sunflower(), 8.0,
+            ("2*c*c - c - 0.5", "-e"), (0.0,) * 6, note="a general system",
+        ),
+        Problem(
+            "non-unique sliding", examples.nonunique_sliding(), psi.rational(), sunflower(), 16.0,
+            ("-c*(c - P[0])*(c + P[0])", "-0.5*e"), ((1.0 + 2.0 * 0.09) / (1.0 + 0.09) / 2.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+            note="a general system, z = 0.3",
+        ),
+        near_equator(),
+        near_saddle(),
+    ]  # fmt: skip
+    return tuple(found)
+
+
+def slow(problem: Problem) -> tuple[float, ...]:
+    """z at which a problem's system is frozen."""
+    return {"attracting, repelling": (0.5,), "non-unique sliding": (0.3,)}.get(problem.name, ())
+
+
+def condition(problem: Problem) -> float:
+    """About how many times the ends move when the seeds do: what rounding alone costs, in ulp."""
+    from codim2_core.trajectories import trajectories
+
+    shift = 1e-7
+    options = {"t_max": problem.t_end, "rtol": 1e-13, "atol": 1e-15, "capture": 1e-15, "samples": "ends"}
+    at = problem.system.at(slow(problem))
+    one = trajectories(at, problem.psi, problem.seeds, **options).ends[:, :2]
+    two = trajectories(at, problem.psi, problem.seeds * (1.0 - shift), **options).ends[:, :2]
+    return max(1.0, float(np.abs(two - one).max()) / shift)
+
+
