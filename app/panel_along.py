@@ -5,6 +5,7 @@ One slow variable runs; with two or more of them the plane of the first two is s
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -23,15 +24,15 @@ NONE = "There is no slow variable: m = 0."
 
 def add(draft: Draft) -> None:
     """Add the slow portrait along the chosen slow variable, once nothing moves."""
-    system, values = draft.scene.system, draft.values
-    m = getattr(system, "m", 0)
-    if not m:
+    system, values = draft.system, draft.values
+    if system is None or not system.m:
         if draft.fresh("along", NONE):
             draft.header.setdefault("unable", {})["along"] = NONE
         return
     z, psi = draft.scene.z, draft.scene.psi
+    m = system.m
     axis = min(SLOW_CONTROLS.index(values["drift"]), m - 1, len(SLOW_CONTROLS) - 1)
-    spans = spans_of(draft)
+    spans = spans_of(system, values)
     others = tuple(0.0 if i == axis else v for i, v in enumerate(z))
     found = draft.slow("along", (system, psi, others, axis, spans), lambda: line(system, psi, others, axis, spans))
     if found is not None:
@@ -43,9 +44,8 @@ def add(draft: Draft) -> None:
             draft.header["slow_plane"] = plane
 
 
-def spans_of(draft: Draft) -> tuple[tuple[float, float], ...]:
+def spans_of(system: System_, values: Mapping[str, Any]) -> tuple[tuple[float, float], ...]:
     """Return the range of the slider of each slow variable."""
-    system, values = draft.scene.system, draft.values
     ranges = slow_ranges(values["system"], system.m)
     return tuple(
         slider_range(low, high, values[name])[:2] for name, (low, high) in zip(SLOW_CONTROLS, ranges, strict=False)

@@ -6,8 +6,11 @@ from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from codim2_core.general import System
 from codim2_core.scene import Scene
+from codim2_core.systems import ELinear
 
+from .chosen import System_
 from .panel_jobs import Failed, Jobs
 
 
@@ -42,6 +45,11 @@ class Draft:
     rest: bool
     ready: bool
     locked: tuple[str, ...]
+
+    @property
+    def system(self) -> System_ | None:
+        """The system at all z, or None where the scene was made of frozen coefficients."""
+        return self.scene.system if isinstance(self.scene.system, (ELinear, System)) else None
 
     def fresh(self, name: str, result: Any) -> bool:
         """Say whether the browser lacks this result, and note that it will have it."""

@@ -38,19 +38,19 @@ def add(draft: Draft) -> None:
         sphere = draft.slow("sphere", scene.key("plane", "psi"), lambda: hemisphere(scene))
         if sphere is not None:
             draft.header["sphere"] = sphere
-    m = getattr(scene.system, "m", 0)
-    if not m:
+    system = draft.system
+    if system is None or not system.m:
         if draft.fresh("stack", NONE):
             draft.header.setdefault("unable", {}).update(stack=NONE, filippov=NONE)
         return
     if draft.values["solid"] == "filippov":
-        panel_filippov.add(draft, scene.system)
-    axis = min(SLOW_CONTROLS.index(draft.values["drift"]), m - 1, len(SLOW_CONTROLS) - 1)
-    span = spans_of(draft)[axis]
+        panel_filippov.add(draft, system)
+    axis = min(SLOW_CONTROLS.index(draft.values["drift"]), system.m - 1, len(SLOW_CONTROLS) - 1)
+    span = spans_of(system, draft.values)[axis]
     others = tuple(0.0 if i == axis else v for i, v in enumerate(scene.z))
     if draft.ready:
-        key = (scene.system, scene.psi, others, axis, span)
-        stack = draft.slow("stack", key, lambda: stacked(scene.system, scene.psi, others, axis, span))
+        key = (system, scene.psi, others, axis, span)
+        stack = draft.slow("stack", key, lambda: stacked(system, scene.psi, others, axis, span))
         if stack is not None:
             draft.header["stack"] = {**stack, "control": SLOW_CONTROLS[axis]}
 

@@ -32,8 +32,8 @@ BALLS = {"ball_in_pool": "integral", "ball_on_turntable": "position"}
 def add(draft: Draft) -> None:
     """Add the motion for eps and that of the limit, once nothing moves."""
     scene, values = draft.scene, draft.values
-    system, psi = scene.system, scene.psi
-    if not hasattr(system, "parameters"):
+    system, psi = draft.system, scene.psi
+    if system is None:
         return
     try:
         start, t_end = launch_of(values, system.m)

@@ -10,7 +10,8 @@ from codim2_core.presets import presets
 
 #: Layers of a figure that shows where approaches lead.
 WITH_OUTCOMES = [
-    "outside", "inside", "continuations", "cycles", "rho", "theta", "lines", "equator", "critical", "outcomes", "basins",
+    "outside", "inside", "continuations", "cycles", "rho", "theta", "lines", "equator", "critical",
+    "outcomes", "basins",
 ]  # fmt: skip
 #: What opens the view of a preset.
 VIEWS: dict[str, dict[str, Any]] = {

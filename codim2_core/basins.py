@@ -119,7 +119,7 @@ def basins(
 
 
 def _centres(size: int) -> NDArray[np.float64]:
-    x = (np.arange(size) + 0.5) * (2.0 / size) - 1.0
+    x: NDArray[np.float64] = (np.arange(size, dtype=np.float64) + 0.5) * (2.0 / size) - 1.0
     return np.stack(np.meshgrid(x, x), axis=-1)
 
 

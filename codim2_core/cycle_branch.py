@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from .critical import critical_sets
 from .cycle_branch_ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, reversible, values
 from .cycle_branch_result import CycleBranch, CycleBranches, CyclePoint
-from .cycle_branch_trace import Trace, Tracer, reversed_trace
+from .cycle_branch_trace import LEVEL, Trace, Tracer, reversed_trace
 from .cycle_branch_turn import Family, Turn
 from .cycle_search import search
 from .cycles import reason_for_none
@@ -229,7 +229,8 @@ class _Search:
         elif trace.reason in ("equator", "stuck"):
             direction, width = math.copysign(1.0, last.tangent[1]), self.high - self.low
             end = at_equator(self.family, turn.value, direction, width, self.closed + self.loops)
-            if trace.reason == "stuck" and end is not None and abs(end.value - turn.value) > 1e-4 * width:
+            reach = width * (0.02 if turn.height < LEVEL else 1e-4)
+            if trace.reason == "stuck" and end is not None and abs(end.value - turn.value) > reach:
                 end = None
             if trace.reason == "stuck" and end is None:
                 end = at_singular(self.family, turn.value, direction, width)

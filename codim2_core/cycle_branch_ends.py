@@ -87,7 +87,6 @@ def equator_ends(family: Family, low: float, high: float) -> list[End]:
     family : Family
     low, high : float
     """
-
     exponent = _exponent(family)
     return [_on_equator(family, "equator", value) for value in _roots(exponent, values(low, high))]
 
@@ -218,9 +217,10 @@ def at_equator(family: Family, value: float, direction: float, width: float, kno
         if ahead is not None and abs(step) > abs(ahead - value):
             step = (1.0 - 1e-9) * (ahead - value)
         for loop in arcs:
-            end = loop_end(family, min(value - step, value + step), max(value - step, value + step), loop)
-            if end is not None:
-                return end
+            for there in (value + step, value - step):  # on the other side there may be no loop at all
+                end = loop_end(family, min(value, there), max(value, there), loop)
+                if end is not None:
+                    return end
     return None if ahead is None else _on_equator(family, "saddle-node on the equator", ahead)
 
 

@@ -17,11 +17,12 @@ SMALLEST = 1e-7  # below this the branch is said to end
 FARTHEST = 1.0  # in ln y
 ROUNDS = 7  # of Newton's method
 CLOSE, CLOSER = 1e-9, 1e-11  # the last correction, and at a fold
-CARRY = 1e-9  # product of the last two corrections, in steps
+CARRY = 1e-8  # product of the last two corrections, in steps
 NEUTRAL = 2e-10  # exponent of a fold
 SMALL = 3e-3  # amplitude at which a branch has come to C
 LARGE, LOW, LOWEST = 0.999, 1e-3, 1e-7  # chi, ebar at which it has come to the equator: all of it, or a part
 LEVEL, DEAD = 0.05, 1e-8  # ebar and exponent at which cycle and closed equator cannot be told apart
+BENT, ROUNDING = 1e-9, 1e-12  # change of nu about a fold near the equator, where exponents tend to 0, and elsewhere
 MOST = 600  # points
 MISSED = 0.3  # distance of a point from its prediction, in steps, beyond which a step is too long
 TURNED = 0.95  # cosine between successive tangents below which a step is too long
@@ -171,14 +172,16 @@ class Tracer:
                 continue
             if (found.turn.exponent > 0.0) != (here.turn.exponent > 0.0):
                 fold = self._fold(here, found)
-                if fold is None:
+                if fold is None and found.turn.height > LEVEL:
                     step *= 0.4
                     if step < SMALLEST:
                         break
                     continue
-                folds.append(len(points))
-                points.append(fold)
-                length.append(length[-1] + _distance(here, fold))
+                bent = 0.0 if fold is None else max(abs(fold.nu - here.nu), abs(fold.nu - found.nu))
+                if fold is not None and bent > (BENT if fold.turn.height < LEVEL else ROUNDING):
+                    folds.append(len(points))
+                    points.append(fold)
+                    length.append(length[-1] + _distance(here, fold))
             if not 0.0 <= found.nu <= 1.0:
                 edge = self._edge(points[-1], found, backward)
                 if edge is not None:

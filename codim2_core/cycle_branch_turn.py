@@ -31,6 +31,7 @@ Array = NDArray[np.float64]
 RTOL = 1e-12  # of one turn
 STEP = 1e-5  # of the differences for derivatives of coefficients: they are smooth, mostly linear
 MOST_EXPONENT = 600.0
+SMALLEST = 1e-280  # eigenvalue of D e_Psi
 
 At = Callable[[float], tuple[Coefficients, Psi]]
 
@@ -129,6 +130,9 @@ class Family:
         way = path(section, start, RTOL, backward)
         if way is None:
             return None
+        outermost = max(zeta, math.hypot(way.end[0], way.end[1]) / way.end[2])
+        if section.psi.jacobian_factors(float(outermost))[0] < SMALLEST:
+            return None  # the section has no room left before the equator
         derivative = self._derivative(value, section)
         F, U_mu, divergence = _along(section, np.concatenate([way.inner, [start, way.end]]), derivative)
         first = _Place(section, derivative, x2, r)

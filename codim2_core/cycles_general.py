@@ -44,6 +44,7 @@ MOST_ROUNDS = 40  # of narrowing one place
 JUMP = 4.0  # times the steps beside it: a step of the displacement that is a jump
 SMOOTH = 1e-6  # displacement left at a fixed point that is none but a jump
 DIRECTIONS = 16
+MOST_FEET = 12
 
 BAND_NOTE = "Closed orbits fill a band (a centre): those are not counted as limit cycles."
 HOW = (
@@ -100,10 +101,9 @@ class TurnSection:
         return turn_map, stepping_problem.problem(self.at, self.psi)
 
     def shared(self, backward: bool = False) -> Array:
-        """Parameters of the compiled field."""
-        from .stepping_problem import problem
-
-        return problem(self.at, self.psi, backward).shared
+        """Parameters of the compiled field that `_kernel` keeps alive."""
+        _, kept = self._kernel
+        return np.array(kept.reversed.shared if backward else kept.shared)
 
     def field(self, e: Array) -> Array:
         """U (n, 2) in units of `rate`."""
@@ -190,6 +190,11 @@ def find(at: Frozen, psi: Psi) -> tuple[list[tuple[Crossing, Orbit, int]], str, 
         return [], ONLY_SADDLES, ()
     found: list[tuple[Crossing, Orbit, int]] = []
     notes: list[str] = []
+    if len(feet) > MOST_FEET:
+        notes.append(
+            f"Searched about {MOST_FEET} of {len(feet)} critical sets only: cycles around others may be missing."
+        )
+        feet = sorted(feet, key=lambda C: C.discriminant)[:MOST_FEET]  # where orbits turn fastest
     for C in feet:
         section = TurnSection(at, psi, C, critical)
         crossings, said = _searched(section)

@@ -26,6 +26,34 @@ def _value(c, t):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _only_zero(c, low, high, rising, tolerance):
+    """Return (whether there is one, the zero) on an arc where f is monotone, by its signs at the two ends."""
+    first, last = _value(c, low)[0], _value(c, high)[0]
+    if not rising:
+        first, last = -first, -last
+    if first > 0.0 or last < 0.0:
+        # where an end is a zero within rounding, its sign is not known
+        if abs(first) <= tolerance:
+            return True, low
+        return abs(last) <= tolerance, high
+    x = 0.5 * (low + high)
+    for _ in range(60):
+        f, d, _, _ = _value(c, x)
+        if (f > 0.0) == rising:
+            high = x
+        else:
+            low = x
+        step = f / d if d != 0.0 else math.inf
+        if abs(step) < 1e-12:
+            x -= step
+            break
+        x -= step
+        if not low < x < high:
+            x = 0.5 * (low + high)
+    return True, x
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def cut(c, theta, h, least, most, tolerance, first, fourth, simple):
     """Decide arcs, cutting the undecided ones in four, until none is left or they are shorter than `least`.
 
@@ -62,19 +90,13 @@ def cut(c, theta, h, least, most, tolerance, first, fourth, simple):
             second = abs(w) + h * abs(q) + 0.5 * h * h * fourth  # bound of f'' on the arc
             if abs(f) > h * abs(d) + 0.5 * h * h * second + tolerance:
                 continue
-            if abs(d) <= h * second + 1.2e-16 * first:
+            wide = h * (1.0 + 1e-9) + 1e-14  # arcs overlap a little: a zero between two of them lies on both
+            if abs(d) <= wide * second + 1.2e-16 * first:
                 left[count] = t
                 count += 1
                 continue
-            x = t
-            for _ in range(8):
-                f, d, _, _ = _value(c, x)
-                step = f / d if d != 0.0 else 0.0
-                # on a monotone arc f' is at least half of that at the middle: a longer step leaves the arc
-                x = min(max(x - step, t - 1.5 * h), t + 1.5 * h)
-                if abs(step) < 1e-12:
-                    break
-            if abs(x - t) <= h * (1.0 + 1e-9) + 1e-14 and found < len(simple):
+            ok, x = _only_zero(c, t - wide, t + wide, d > 0.0, tolerance)
+            if ok and found < len(simple):
                 simple[found] = x
                 found += 1
         if count == 0 or h < least or count > most:

@@ -187,22 +187,19 @@ def _collected(
 ) -> Zeros:
     # what lies as near to a multiple zero as its own rounding blurs it is that zero
     angles = [t for t in simple if all(abs(math.remainder(t - c, 2 * math.pi)) > r for c, _, r in multiple)]
-    signs = f.derivatives(np.array(angles), range(1, 2))[0] > 0.0 if angles else np.zeros(0, bool)
-    entries = [(turn(t), 1, bool(up)) for t, up in zip(angles, signs, strict=True)]
-    entries += [(turn(c), m, False) for c, m, _ in multiple]
+    slopes = f.derivatives(np.array(angles), range(1, 2))[0].tolist() if angles else []
+    entries = [(turn(t), 1, slope) for t, slope in zip(angles, slopes, strict=True)]
+    entries += [(turn(c), m, 0.0) for c, m, _ in multiple]
     entries.sort()
     if not entries:
         return Zeros(np.zeros(0), np.zeros(0, np.int64), proven, distance)
-    kept: list[tuple[float, int, bool]] = []
+    kept: list[tuple[float, int, float]] = []
     for entry in entries:
-        # a zero on the border of two arcs is found from both: two neighbours cannot both be rising
-        if kept and entry[1] == kept[-1][1] == 1 and entry[2] == kept[-1][2] and entry[0] - kept[-1][0] < 1e-9:
-            continue
-        kept.append(entry)
-    first, last = kept[0], kept[-1]
-    if len(kept) > 1 and first[1:] == last[1:] and first[1] == 1 and first[0] + 2 * math.pi - last[0] < 1e-9:
+        if not (kept and _same(f, kept[-1], entry)):
+            kept.append(entry)
+    if len(kept) > 1 and _same(f, kept[-1], (kept[0][0] + 2.0 * math.pi, *kept[0][1:])):
         kept.pop()
-    ups = [up for _, m, up in kept if m == 1]
+    ups = [slope > 0.0 for _, m, slope in kept if m == 1]
     if all(m == 1 for _, m, _ in kept):
         proven = proven and len(ups) % 2 == 0 and all(a != b for a, b in pairwise(ups))
     return Zeros(
@@ -211,6 +208,15 @@ def _collected(
         proven,
         0.0 if multiple else distance,
     )
+
+
+def _same(f: Series, one: tuple[float, int, float], next_: tuple[float, int, float]) -> bool:
+    """Whether neighbours are one simple zero, found from both of the arcs that it lies between: both rise or fall."""
+    (t, m, slope), (u, n, other) = one, next_
+    if not m == n == 1 or (slope > 0.0) != (other > 0.0):
+        return False
+    blur = 4.0 * f.tolerance / max(min(abs(slope), abs(other)), 1e-300)
+    return u - t < max(1e-9, min(blur, SAME))
 
 
 def turn(theta: float) -> float:

@@ -245,6 +245,9 @@ def simulate_nonsmooth(
     it on the hemisphere decides what follows (thm:geneps0(b), sec:geneps1): sliding on the critical set that it comes
     to, with its slow flow, or crossing. Sliding ends where the critical set does.
 
+    The regularised motion differs from it by O(eps), after an exit through the equator (fig:transcrit) by
+    O(eps^(2 q/(1 + 2 q))) where Psi ~ s^(1 - q/2): 4/5 for Psi = 1, near 1 for one that falls exponentially.
+
     Parameters
     ----------
     system : ELinear, System, or one of them frozen at a z

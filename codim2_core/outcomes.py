@@ -43,6 +43,7 @@ Array = NDArray[np.float64]
 
 RTOL = 1e-8
 FAN = 0.02  # radius, in (theta, ebar), of the half circle of starts around a Q that many orbits leave
+MOST_COMPARED = 8  # critical sets: with more, other regularisations are asked only on request
 AT_ZERO = 1e-9  # angle to a limit direction that counts as that direction
 
 
@@ -302,7 +303,7 @@ def approach_outcomes(
     z : (m,) floats
     compare : sequence of Psi, optional
         Regularisations asked for `Outcome.depends_on_psi`, where no theorem answers; default the built-in families
-        with n = 1 to 4 of the Hill family. An empty sequence asks none.
+        with n = 1 to 4 of the Hill family (none if there are more than 8 critical sets). An empty sequence asks none.
 
     Returns
     -------
@@ -316,6 +317,8 @@ def approach_outcomes(
     arriving = equator.all_directions or (equator.lambda_rho < 0.0).any()
     cycle = equator_cycle(at)
     if sensitive and (arriving or (cycle is not None and cycle.exponent < 0.0)):
+        if compare is None and len(own.critical) > MOST_COMPARED:
+            compare = ()
         if compare is None:
             compare = [regularisation.make(name) for name in ("constant", "rational", "exponential", "tanh")]
             compare += [regularisation.hill(n) for n in (1, 2, 3, 4)]

@@ -89,6 +89,26 @@ bits_of_double: Any = intrinsic(_bits_of_double)
 ON_EQUATOR = 8.9e-16  # | |p| - 1 | of a seed that was meant to lie on the equator: four roundings
 
 
+@njit(cache=True, error_model="numpy")
+def _square(x):
+    """x^2 and what its rounding lost (Dekker)."""
+    big = 134217729.0 * x
+    high = big - (big - x)
+    low = x - high
+    square = x * x
+    return square, ((high * high - square) + 2.0 * high * low) + low * low
+
+
+@njit(cache=True, error_model="numpy")
+def _defect(x, y):
+    """1 - x^2 - y^2 to a few roundings of itself: near the equator |p| alone, rounded, would lose its digits."""
+    x2, x_lost = _square(max(abs(x), abs(y)))
+    y2, y_lost = _square(min(abs(x), abs(y)))
+    one = 1.0 - x2
+    lost = (1.0 - one) - x2
+    return (one - y2) + (((one - (one - y2)) - y2) + lost - x_lost - y_lost)
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
 def states_of(points):
     """States (k, 3), signs (k,) of picture points (k, 2): p, and ebar (sign -1) or rho (+1); whether all are finite."""
@@ -102,6 +122,6 @@ def states_of(points):
         inside = r - 1.0 < -ON_EQUATOR
         scale = 1.0 if inside else r
         states[i, 0], states[i, 1] = x / scale, y / scale
-        states[i, 2] = math.sqrt((1.0 - r) * (1.0 + r)) if inside else r - 1.0 if r - 1.0 > ON_EQUATOR else 0.0
+        states[i, 2] = math.sqrt(_defect(x, y)) if inside else r - 1.0 if r - 1.0 > ON_EQUATOR else 0.0
         signs[i] = -1.0 if inside else 1.0
     return states, signs, finite

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from . import stepping_fields, stepping_fields_general
 from .general import Frozen, System
 from .regularisation import Psi
 from .stepping_gains import gains, has_gains
-from .stepping_numbers import numbers
+from .stepping_numbers import FACTOR, numbers
 from .systems import Coefficients
 
 
@@ -28,11 +28,21 @@ class Problem:
         Its parameters.
     functions : tuple
         The compiled functions behind the addresses: they must outlive their use.
+    factors : slice
+        The parameters to which the right-hand side is proportional.
     """
 
     address: int
     shared: NDArray[np.float64]
     functions: tuple[Any, ...]
+    factors: slice
+
+    @property
+    def reversed(self) -> Problem:
+        """The same right-hand side against time."""
+        shared = self.shared.copy()
+        shared[self.factors] *= -1.0
+        return replace(self, shared=shared)
 
 
 def problem(at: Coefficients | Frozen, psi: Psi, backward: bool = False) -> Problem:
@@ -47,9 +57,11 @@ def problem(at: Coefficients | Frozen, psi: Psi, backward: bool = False) -> Prob
     """
     if isinstance(at, Coefficients):
         field = stepping_fields.field(psi)
-        return Problem(field.address, numbers(at, psi, backward), (field,))
+        return Problem(field.address, numbers(at, psi, backward), (field,), slice(0, 5))
     function, gain = prepare(at.system, psi)
-    return Problem(function.address, numbers(at, psi, backward, gain.address), (function, gain))
+    return Problem(
+        function.address, numbers(at, psi, backward, gain.address), (function, gain), slice(FACTOR, FACTOR + 1)
+    )
 
 
 def prepare(system: System, psi: Psi) -> tuple[Any, Any]:

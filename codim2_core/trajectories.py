@@ -167,7 +167,7 @@ def _integrate(
     view = _positive(view, "view", "give the finite half-width of the view, greater than 1 (the equator)", 1.0)
     pixel = _positive(pixel, "pixel", "give the size of a pixel in picture units, up to 1", high=1.0)
     if capture is None:
-        capture = rtol + atol
+        capture = min(rtol + atol, 0.1)
     capture = _positive(capture, "capture", "give a distance from an attractor, up to 0.1; or None", high=0.1)
     if not length > 0.0:
         raise ValueError(f"length is {length!r}; give a positive length in picture units, or leave it out.")

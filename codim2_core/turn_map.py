@@ -34,7 +34,7 @@ SHARE = 0.1  # of the tolerance, for one step
 TRIALS = 40
 FARTHEST = 2.0  # radians about the point in one step: more could be a turn unseen
 FULL = 2.0 * math.pi
-STILL = 1e-11  # a speed at which an orbit has come to rest
+STILL = 3.0  # times the tolerance: a speed at which an orbit has come to rest
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -168,7 +168,7 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
                         finished, code = True, OUTWARD
                     else:
                         vx, vy, vw = S[K12 + k], S[K12 + LANES + k], S[K12 + 2 * LANES + k]
-                        still = vx * vx + vy * vy + vw * vw < STILL * STILL
+                        still = vx * vx + vy * vy + vw * vw < (STILL * rtol) ** 2
                         if still or clock[k] + h >= t_max:
                             finished, code = True, UNDECIDED
                 if base + k == 0 and logged < record:

@@ -98,8 +98,10 @@ class Pad {
     const open = (line) => `M${line.map((p) => this.at(p)).join("L")}`
     this.layer("regions").innerHTML = regions.map(({name, bounded, loops}) =>
       `<path class="region ${regionClass(name)}" data-region="${name}" fill-rule="evenodd" d="${bounded ? "" : "M-100-100H100V100H-100Z"}${loops.map((l) => `${open(l)}Z`).join("")}"/>`).join("")
-    // a branch of one point is drawn as a dot: a round cap on no length
-    const curve = ([name, lines]) => `<path class="${name}" d="${lines.map((l) => open(l.length > 1 ? l : [l[0], l[0]])).join("")}"/>`
+    // a branch that is a point, or that nobody could tell from one, is drawn as a dot
+    const isPoint = (line) => line.every((p) => { const [x, y] = this.place(p), [u, v] = this.place(line[0]); return Math.abs(x - u) < 0.5 && Math.abs(y - v) < 0.5 })
+    const curve = ([name, lines]) => `<path class="${name}" d="${lines.filter((l) => !isPoint(l)).map(open).join("")}"/>` +
+      lines.filter(isPoint).map((l) => { const [x, y] = this.place(l[0]); return `<circle class="point ${name}" cx="${x}" cy="${y}" r="1.7"/>` }).join("")
     const [x0, y0] = this.place([0, 0])
     const axes = `<path class="axis" d="${Math.abs(y0) < 100 ? `M-100 ${y0}H100` : ""}${Math.abs(x0) < 100 ? `M${x0}-100V100` : ""}"/>`
     const marks = points.map(([type, x, y, sentence]) => `<path class="special" d="M${this.at([x, y])}m0-2.6l2.6 2.6l-2.6 2.6l-2.6-2.6z"><title>${escape(type)}. ${escape(sentence)}</title></path>`)

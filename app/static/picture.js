@@ -18,6 +18,7 @@ const COLOUR_OF = {
 const CRITICAL_MARK = {
   "stable node": ["square", true], "unstable node": ["square", false], "stable focus": ["circle", true],
   "unstable focus": ["circle", false], saddle: ["x", false], "centre (linear)": ["circle_dot", false],
+  "saddle-node": ["triangle", false], degenerate: ["hex", false],
 }
 const EQUATOR_MARK = {circle: ["circle", 13], diamond: ["diamond", 18], triangle: ["triangle", 15]}
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 
@@ -70,8 +71,8 @@ class Problem:
         """(64, 2), or (64, 3) with ebar."""
         if not self.height:
             return self.seeds
-        r = np.hypot(*self.seeds.T)
-        return np.column_stack([self.seeds, np.sqrt((1.0 - r) * (1.0 + r))])
+        gaps = [float(1 - Fraction(x) ** 2 - Fraction(y) ** 2) for x, y in self.seeds.tolist()]
+        return np.column_stack([self.seeds, np.sqrt(gaps)])
 
     @property
     def end(self) -> Array:

@@ -9,7 +9,8 @@ from tests.app.serving import serving
 
 pytestmark = pytest.mark.browser
 
-SLIDERS = [name for name in NUMBERS if name != "n"]
+ELSEWHERE = {"n", "z2", "z3", "z4", "log_eps", "t_end"}  # of Hill's Ψ, of other systems, of the panel "Time"
+SLIDERS = [name for name in NUMBERS if name not in ELSEWHERE]
 
 
 def test_page_asks_nobody_else_and_says_nothing(explorer):

@@ -212,6 +212,14 @@ def test_outcomes_are_told_by_ring_and_table(open_page):
     assert page.complaints == []
 
 
+def test_the_words_of_the_ring_leave_a_phone_its_place(open_page):
+    page = open_page(viewport={"width": 390, "height": 844}).open()
+    before = page.find(".hero").bounding_box()["height"]
+    page.find(".layer input[value=outcomes]").check()
+    page.settle()
+    assert page.find(".hero").bounding_box()["height"] < before + 8
+
+
 def test_theorems_come_with_their_numbers_and_follow(explorer):
     rows = explorer.find(".theorem-list li")
     assert rows.count() == 0

@@ -265,3 +265,45 @@ def test_rotated_elinear_has_rotated_directions():
     typed = System(U=("-c + 2*s + 0.2", "0.5*c - 0.3*s + 0.1"))
     rotated = np.sort(np.remainder(equator_equilibria(at).theta - at.rotation, 2 * math.pi))
     np.testing.assert_allclose(equator_equilibria(typed).theta, rotated, atol=1e-14)
+
+
+def _typed(a, b, d, f, extra=0.0):
+    more = f" + ({extra!r})*c**2*s" if extra else ""
+    return System(U=(f"({a!r})*c - ({b!r})*s + ({f[0]!r}){more}", f"({b!r})*c + ({d!r})*s + ({f[1]!r})"))
+
+
+unit = st.floats(-1.0, 1.0, allow_subnormal=False)
+
+
+@given(unit, unit, unit, unit, unit)
+@settings(max_examples=150)
+def test_across_saddle_nodes_counts_are_those_of_the_closed_form(a, d, f1, f2, from_b):
+    """Theta loses its zeros in pairs as b grows: up to each loss, and past it, no zero is lost or made up."""
+    closed = lambda b: equator_equilibria(ELinear(a, b, d, (f1, f2)))  # noqa: E731
+    low, high = from_b, 4.0
+    assume(len(closed(low)) > len(closed(high)) == 0)
+    while high - low > 1e-12:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if len(closed(middle)) else (low, middle)
+    for step in 10.0 ** np.arange(-10.0, -1.0, 0.5):
+        for b in (low - step, low + step):
+            exact = closed(b)
+            for extra in (0.0, 1e-4 * exact.distance):  # a change too small to make a zero multiple
+                found = equator_equilibria(_typed(a, b, d, (f1, f2), extra))
+                if (found.multiplicity > 1).any() or (exact.multiplicity > 1).any():
+                    assert min(found.distance, exact.distance) < 1e-12
+                    continue
+                assert len(found) == len(exact)
+                assert found.proven
+
+
+@pytest.mark.parametrize(("span", "d", "f"), [((-0.4, 0.4), -1.5, (-0.1, 0.05)), ((-1.2, 1.2), 0.5, (0.4, -0.8))])
+def test_a_dense_sweep_has_the_counts_of_the_closed_form(span, d, f):
+    typed = System(
+        U=(f"-c - b*s + ({f[0]!r})", f"b*c + ({d!r})*s + ({f[1]!r})"),
+        parameters={"b": 0.0},
+    )
+    for b in np.linspace(*span, 1001).tolist():
+        found, exact = equator_equilibria(typed.evolve(b=b)), equator_equilibria(ELinear(-1.0, b, d, f))
+        assert len(found) == len(exact)
+        assert found.proven

@@ -133,3 +133,30 @@ def test_a_lineage_may_pass_from_one_kind_of_system_to_the_other():
     one, two = first["critical"][0], other["critical"][0]
     assert two.p == pytest.approx(one.p, abs=1e-14)
     assert dataclasses.is_dataclass(two)
+
+
+DEGENERATE = [
+    ("0", "0"),  # nothing moves
+    ("c**2", "c*s"),  # a curve of critical points, every direction a limit direction
+    ("c*(c**2 + s**2 - 1)", "s*(c**2 + s**2 - 1)"),  # U = 0 all along the equator
+    ("c*(c**2 + s**2 - 1/4)", "s*(c**2 + s**2 - 1/4)"),  # a circle of critical points
+    ("c**2 - s**2", "2*c*s"),  # a critical set of index 2
+    ("-c**3", "-s**3"),  # no linear part
+    ("abs(c) - 1/2", "-s"),  # not smooth
+    ("0", "s**2"),
+    ("x", "y"),  # nothing on Sigma
+    ("1e120*c", "-1e120*s"),
+    ("-c + 1", "-s"),  # a critical set on the equator
+]
+
+
+@pytest.mark.parametrize("U", DEGENERATE, ids=lambda U: ", ".join(U))
+def test_degenerate_systems_have_every_layer(U):
+    shown = c2.Scene(c2.System(U=U), c2.psi.tanh(), count=12)
+    for name in layers:
+        assert (shown[name] is None) == (name in ELINEAR_ONLY) or name in ("equator_cycle", "slow_flow")
+    for orbits in (shown["inside"], shown["outside"]):
+        assert np.isfinite(orbits.buffer).all()
+    assert shown["classification"].sentence
+    for outcome in shown["outcomes"]:
+        assert outcome.reason.endswith(".")

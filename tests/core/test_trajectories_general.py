@@ -171,6 +171,13 @@ def test_neither_parameters_nor_z_nor_psi_compile_anything():
     assert is_warm(fresh, system)
 
 
+@pytest.mark.parametrize("system", [ODD.at(0.3), ELinear(-2.0, 0.5, -1.0, (-0.5, 0.2)).at()], ids=["typed", "built in"])
+def test_reversed_is_backward(system):
+    ahead, back = problem(system, psi.hill(3.7)), problem(system, psi.hill(3.7), backward=True)
+    np.testing.assert_array_equal(ahead.reversed.shared, back.shared)
+    np.testing.assert_array_equal(back.reversed.shared, ahead.shared)
+
+
 def test_parameters_may_have_any_name():
     names = ["D", "S", "P", "lane", "factor", "q", "u", "gain", "px", "n0", "t1", "w", "rho", "carray"]
     values = {name: 0.1 * (i + 1) for i, name in enumerate(names)}
