@@ -14,7 +14,7 @@ from codim2_core.vary import names, varied
 from .chosen import NORMAL, PARAMETER_RANGE, slow_ranges
 from .mathml import plain_symbol
 from .panel_draft import Draft
-from .state import AXES, COEFFICIENTS, OWN_AXIS, ExplorerState, slider_range
+from .state import AXES, COEFFICIENTS, OWN_AXIS, SLOW_CONTROLS, ExplorerState, slider_range
 
 #: Coefficients of the slow flow: nothing in a diagram or a map depends on them.
 SLOW = ("B1", "B2", "g0")
@@ -55,13 +55,15 @@ def available(draft: Draft) -> dict[str, Axis]:
     own = dict(getattr(scene.system, "parameters", ()))
     found = {}
     # a parameter of a typed system may be called a, but then it is not the control a
-    for name in AXES if normal else ("z", "n"):
-        core = "z1" if name == "z" else name
+    ranges = slow_ranges(values["system"], getattr(scene.system, "m", 0))
+    for name in AXES if normal else (*SLOW_CONTROLS, "n"):
+        slow = SLOW_CONTROLS.index(name) if name in SLOW_CONTROLS else None
+        core = name if slow is None else f"z{slow + 1}"
         if core not in known or name in draft.locked or (name == "n" and "n" in own):
             continue
         declared = ExplorerState.param[name]
-        low, high = declared.softbounds if normal or name == "n" else slow_ranges(values["system"], 1)[0]
-        symbol = example.slow[0][0] if example and name == "z" else declared.label
+        low, high = declared.softbounds if normal or slow is None else ranges[slow]
+        symbol = example.slow[slow][0] if example and slow is not None else declared.label
         found[name] = Axis(name, core, symbol, float(low), float(high), float(values[name]))
     for parameter, value in own.items():
         if normal and parameter in COEFFICIENTS:

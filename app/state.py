@@ -15,6 +15,7 @@ from urllib.parse import parse_qsl, urlencode
 import param
 
 from codim2_core import psi as psi_families
+from codim2_core.examples import catalogue
 from codim2_core.regularisation import Psi
 
 from .chosen import NORMAL, TITLES, starting_launch, starting_z
@@ -55,7 +56,7 @@ PANELS = {
 }
 
 #: What a bifurcation diagram can run along, and what the axes of the atlas can be.
-AXES = ("a", "b", "d", "f1", "f2", "z", "n")
+AXES = ("a", "b", "d", "f1", "f2", "z", "z2", "z3", "z4", "n")
 #: Or a parameter of the system, after this: own:mu.
 OWN_AXIS = "own:"
 
@@ -179,7 +180,19 @@ def opening(choice: str) -> dict[str, Any]:
     z = (*starting_z(choice), *(0.0,) * len(SLOW_CONTROLS))
     launch, t_end = starting_launch(choice)
     slow = dict(zip(SLOW_CONTROLS, z, strict=False))
-    return {"texts": {}, "parameters": {}, **slow, "launch": ", ".join(f"{v:g}" for v in launch), "t_end": t_end}
+    across, up = axes_of(choice)
+    motion = {"launch": ", ".join(f"{v:g}" for v in launch), "t_end": t_end}
+    return {"texts": {}, "parameters": {}, **slow, **motion, "across": across, "up": up, "along": across}
+
+
+def axes_of(choice: str) -> tuple[str, str]:
+    """Return the axes with which the atlas of a system opens: slow variables, or one and the first parameter."""
+    example = catalogue.get(choice)
+    if example is None:
+        return ("f1", "f2") if choice == NORMAL else ("z", "n")
+    if len(example.z) > 1:
+        return "z", "z2"
+    return "z", next((OWN_AXIS + name for name in example.ranges), "n")
 
 
 def preset_values(key: str | None) -> dict[str, Any]:

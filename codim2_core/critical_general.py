@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .compiled_tape import Program, program
-from .disc_search import CAPACITY, search
 from .equator_general import component_series, equator_zeros
 from .fourier_zeros import UNIT
 
@@ -94,6 +93,8 @@ _NET = np.stack(np.meshgrid(np.linspace(-0.7, 0.7, 9), np.linspace(-0.7, 0.7, 9)
 
 
 def _searched(run: Program, size: float, degree: int | None, levels: int, most: int, operations: int) -> DiscZeros:
+    from .disc_search import CAPACITY, search  # on first use: it loads the compiler
+
     found, rest = np.empty((CAPACITY, 3)), np.empty((most, 2))
     budget = 1000 + operations // len(run.op)
     count, undecided, half, complete = search(*run.arrays, levels, most, budget, found, rest)

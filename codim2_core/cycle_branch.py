@@ -26,7 +26,7 @@ from .cycle_search import search
 from .cycles import reason_for_none
 from .regularisation import Psi
 from .systems import Coefficients, ELinear
-from .vary import varied
+from .vary import limits, varied
 
 __all__ = ["CycleBranch", "CycleBranches", "CyclePoint", "continue_cycles"]
 
@@ -67,16 +67,24 @@ def continue_cycles(
     if not (math.isfinite(low) and math.isfinite(high) and low < high):
         raise ValueError(f"span is {span!r}; give finite numbers low < high.")
 
-    def at(value: float) -> tuple[Coefficients, Psi]:
+    def inside(value: float) -> tuple[Coefficients, Psi]:
         changed, family_psi, place = varied(system, psi, z, name, value)
         found = changed.at(place)
         if not isinstance(found, Coefficients):
             raise ValueError("continue_cycles is for e-linear systems; give an ELinear.")
         return found, family_psi
 
+    def at(value: float) -> tuple[Coefficients, Psi]:
+        try:
+            return inside(value)
+        except ValueError:
+            if low <= value <= high:
+                raise
+            return inside(min(max(value, low), high))  # a look beyond the span, where the system ends
+
     for value in (low, high):
         at(value)
-    family = Family(at, high - low)
+    family = Family(at, high - low, limits(system, psi, name))
     allowed = [v for v in values(low, high) if family.allows(v)]
     if all(reversible(at(v)[0]) for v in allowed):
         coefficients, member = at(allowed[len(allowed) // 2] if allowed else 0.5 * (low + high))

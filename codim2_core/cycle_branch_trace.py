@@ -23,6 +23,7 @@ SMALL = 3e-3  # amplitude at which a branch has come to C
 LARGE, LOW, LOWEST = 0.999, 1e-3, 1e-7  # chi, ebar at which it has come to the equator: all of it, or a part
 LEVEL, DEAD = 0.05, 1e-8  # ebar and exponent at which cycle and closed equator cannot be told apart
 BENT, ROUNDING = 1e-9, 1e-12  # change of nu about a fold near the equator, where exponents tend to 0, and elsewhere
+BESIDE = 1e-4  # of the span: so close to its end a branch that breaks off is followed to it
 MOST = 600  # points
 MISSED = 0.3  # distance of a point from its prediction, in steps, beyond which a step is too long
 TURNED = 0.95  # cosine between successive tangents below which a step is too long
@@ -203,6 +204,14 @@ class Tracer:
                 reason = "closed"
                 break
             step *= 1.6
+        last = points[-1]
+        if reason == "stuck" and min(last.nu, 1.0 - last.nu) < BESIDE:
+            # beyond the span the parameter may not be allowed, so that no step leads there
+            nu = float(round(last.nu))
+            found_there = self.corrected(last.turn.xi, nu, (0.0, 1.0), backward)
+            if found_there is not None:
+                points.append(self.point(found_there[0], nu, last.tangent))
+                reason = "span"
         return Trace(tuple(points), tuple(folds), reason)
 
     def _step(self, points: list[Point], length: list[float], step: float, backward: bool) -> Point | None:

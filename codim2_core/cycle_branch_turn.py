@@ -88,15 +88,18 @@ class Family:
         value -> (Coefficients, Psi).
     scale : float
         Size of changes of the value.
+    bounds : (float, float), optional
+        What the parameter may be.
     """
 
-    def __init__(self, at: At, scale: float) -> None:
-        self.at, self.scale = lru_cache(maxsize=64)(at), scale
+    def __init__(self, at: At, scale: float, bounds: tuple[float, float] = (-math.inf, math.inf)) -> None:
+        self.at, self.scale, self.bounds = lru_cache(maxsize=64)(at), scale, bounds
         self.ray: int | None = None
-        self.turns = 0
 
     def allows(self, value: float) -> bool:
         """Whether a, d differ in sign and C exists with det A > 0: else no theorem leaves room for cycles."""
+        if not self.bounds[0] <= value <= self.bounds[1]:
+            return False
         coefficients, _ = self.at(value)
         a, b, d = coefficients.plane[:3]
         return a * d < 0.0 and a * d + b * b > 0.0 and locate(coefficients).existence is Existence.INSIDE
@@ -117,7 +120,6 @@ class Family:
         """
         if not self.allows(value):
             return None
-        self.turns += 1
         section = self.section(value)
         r = section.reach / (1.0 + math.exp(-xi))
         rest = section.reach / (1.0 + math.exp(xi))
@@ -176,12 +178,14 @@ class Family:
     def _derivative(self, value: float, section: Section) -> _Derivative:
         """Differentiate what depends on the parameter, in units of the section's rate of time."""
         h = STEP * self.scale
-        (low, psi_low), (high, psi_high) = self.at(value - h), self.at(value + h)
-        plane = (np.array(high.plane) - np.array(low.plane)) / (2.0 * h * section.rate)
+        before, after = max(value - h, self.bounds[0]), min(value + h, self.bounds[1])
+        width = after - before
+        (low, psi_low), (high, psi_high) = self.at(before), self.at(after)
+        plane = (np.array(high.plane) - np.array(low.plane)) / (width * section.rate)
 
         def modulus(zeta: Array) -> Array:
             # by 1 - |e|^2, which keeps its digits where |e| is all but 1
-            change = (psi_high.complement(zeta) - psi_low.complement(zeta)) / (2.0 * h)
+            change = (psi_high.complement(zeta) - psi_low.complement(zeta)) / width
             return -0.5 * change / np.maximum(section.psi.modulus(zeta), 1e-300)
 
         return _Derivative(plane, *_ray_moves(section, plane), None if psi_low is psi_high else modulus)

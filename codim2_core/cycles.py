@@ -89,7 +89,7 @@ class LimitCycles:
     reason : str
         Why there is none, or how those there are were found.
     notes : tuple of str
-        Named near-degeneracies: near-homoclinic, semistable, just born at a Hopf bifurcation, undecided.
+        Named near-degeneracies: near a loop through the equator, semistable, too small, undecided.
     """
 
     cycles: tuple[LimitCycle, ...]

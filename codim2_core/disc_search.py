@@ -13,8 +13,8 @@ import math
 import numpy as np
 from numba import njit
 
-from .compiled_tape import gradients
 from .interval_kernels import enclose
+from .tape_kernels import gradients
 
 # A square around the disc, off centre so that zeros on the axes lie inside boxes and not on their borders.
 LEFT, BELOW, SIDE = -1.0137, -1.0211, 2.047

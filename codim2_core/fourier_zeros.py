@@ -17,8 +17,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .fourier_arcs import cut, lowest_extremum
-
 Array = NDArray[np.floating[Any]]
 
 UNIT = 2.0**-53
@@ -127,6 +125,8 @@ def series(values: Array, size: float, degree: int | None = None) -> Series:
 
 def zeros(f: Series) -> Zeros:
     """All zeros of f, by cutting arcs until each is decided; none if f vanishes identically."""
+    from .fourier_arcs import cut, lowest_extremum  # on first use: it loads the compiler
+
     none = Zeros(np.zeros(0), np.zeros(0, np.int64), True, math.inf)
     if f.vanishes:
         return none

@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numba import njit
 
-from .compiled_tape import gradients
+from .tape_kernels import gradients
 
 RHO, THETA, U1, U2 = range(4)  # kinds
 LONGEST, SHORTEST = 0.04, 1e-6  # steps, in units of the disc

@@ -159,7 +159,8 @@ def test_parameters_of_a_chosen_system_are_axes():
     frames = Frames(ExplorerState(panel="diagram"))
     frames.answer({"all": True})
     frames.answer({"set": {"system": "ball_in_pool"}})
-    header = settled(frames, rest=True)
+    assert settled(frames, rest=True)["diagram"]["control"] == "z"  # it opens with what it has
+    frames.answer({"set": {"along": "f1"}})
     assert "not in this system" in settled(frames, all=True)["unable"]["diagram"]
     frames.answer({"set": {"along": "own:K"}})
     header = settled(frames, rest=True)
@@ -168,6 +169,13 @@ def test_parameters_of_a_chosen_system_are_axes():
     assert low < dict(frames.scene.system.parameters)["K"] < high
     frames.answer({"set": {"panel": "atlas", "across": "own:K", "up": "z"}})
     assert len(settled(frames, rest=True)["map"]["name"]) > 1
+
+
+def test_the_atlas_of_two_slow_variables_has_the_disc_in_which_the_ball_sticks():
+    frames = Frames(ExplorerState.of({"system": "ball_in_pool", "panel": "atlas"}))
+    header = settled(frames, all=True, rest=True)
+    assert header["atlas_of"] == ["z", "z2", False]
+    assert set(header["map"]["name"]) == {"CM2, stable node", "NCM2"}
 
 
 def test_an_axis_that_is_no_name_is_refused():

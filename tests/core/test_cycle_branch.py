@@ -246,3 +246,11 @@ def test_no_cycle_is_missing(family):
     for branch in found:
         for one, two in pairwise(branch.value.tolist()):
             assert span[0] - 1e-9 <= min(one, two) <= max(one, two) <= span[1] + 1e-9
+
+
+def test_the_span_may_end_where_the_parameter_does():
+    found = continue_cycles(FOLD, psi.hill(3), "n", (0.01, 3.0))
+    ends = sorted((branch.start.kind, branch.end.kind) for branch in found)
+    assert ends == [("Hopf", "span"), ("span", "span")]
+    assert found.notes == ()
+    assert min(branch.value.min() for branch in found) == 0.01

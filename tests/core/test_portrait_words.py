@@ -2,7 +2,7 @@
 
 import pytest
 
-from codim2_core import ELinear, classify, equator_equilibria, psi
+from codim2_core import ELinear, System, classify, equator_equilibria, psi
 
 
 def said(a, b, d, f1, f2, family=None):
@@ -78,3 +78,14 @@ def test_sentences_count_from_one():
     assert (
         equator_equilibria(ELinear(-1, 5, -1, (3, 4))).summary == "1 equilibrium on the equator, 1 of them degenerate."
     )
+
+
+def test_a_general_system_that_is_affine_has_the_name_of_its_normal_form():
+    for a, b, d, f1, f2 in ((-2.0, 0.3, -1.0, -0.5, 0.1), (1.0, 0.25, -2.0, 0.2, 0.3), (-1.0, 0.0, -1.0, 1.5, 0.0)):
+        typed = System(U=(f"{a}*c - {b}*s + {f1}", f"{b}*c + {d}*s + {f2}"))
+        for family in (psi.constant(), psi.hill(3)):
+            found, exact = classify(typed, family), said(a, b, d, f1, f2, family)
+            assert (found.case, found.name) == (exact.case, exact.name)
+            assert found.sentence == exact.sentence
+    bent = classify(System(U=("2*c**2 - c - 1/2", "-s")), psi.constant())
+    assert bent.case is None

@@ -84,7 +84,7 @@ def check(folder: Path, module: str, sample: int | None, seed: int, limit: float
     """Try mutants of one module; return those that live without an explanation."""
     path = folder / "codim2_core" / f"{module}.py"
     source = path.read_text()
-    tests = tuple(test for test in TARGETS[module] if (folder / "tests" / test).exists())
+    tests = TARGETS[module]
     start = time.monotonic()
     if run(folder, tests, 600.0) != "passed":
         raise SystemExit(f"{module}: its tests fail as they are ({', '.join(tests)}); mend that first.")
