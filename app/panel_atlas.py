@@ -75,6 +75,7 @@ def _plane_of_f(draft: Draft) -> None:
         else:
             draft.late("regions")
     _curves_of_psi(draft, size)
+    _curves_of_cycles(draft, size)
     if draft.ready:
         _portraits_of_plane(draft)
 
@@ -92,6 +93,35 @@ def _curves_of_psi(draft: Draft, size: float) -> None:
         return
     draft.header["curves_of_psi"] = {"size": size, "points": special_points(found)}
     for name, curve in zip(("hopf", "node_focus"), found, strict=True):
+        draft.blocks[name] = Polylines(*atlas.curve_lines(curve, size))
+
+
+def _curves_of_cycles(draft: Draft, size: float) -> None:
+    """Add the curves on which limit cycles meet, or end at the equator: in Case III, where they are asked for.
+
+    They take seconds to continue.
+    """
+    at, psi = draft.scene.coefficients, draft.scene.psi
+    assert isinstance(at, Coefficients)  # the system has a, b, d
+    a, b, d = at.plane[:3]
+    possible = a * d < 0.0 < a * d + b * b
+    if draft.fresh("cycles possible", possible):
+        draft.header["cycles_possible"] = possible
+    if not possible or draft.values["cycle_curves"] == "hide" or not draft.ready:
+        return
+
+    def make() -> tuple[BifurcationCurve, ...]:
+        return (
+            bifurcations.cycle_folds(a, b, d, psi),
+            bifurcations.heteroclinic(a, b, d, psi),
+            bifurcations.closed_equator(a, b, d),
+        )
+
+    found = draft.slow("curves of cycles", draft.scene.key("matrix", "psi"), make)
+    if found is None:
+        return
+    draft.header["curves_of_cycles"] = {"size": size, "points": special_points(found)}
+    for name, curve in zip(("cycle_folds", "heteroclinic", "closed_equator"), found, strict=True):
         draft.blocks[name] = Polylines(*atlas.curve_lines(curve, size))
 
 

@@ -117,9 +117,13 @@ class Frames:
         changed = [name for name in changes if values[name] != self.values[name]]
         scene = evolved(self.scene, values, [name for name in changed if name not in self.locked], self.given)
         ready = self.ready(scene.psi, scene.system)
-        header, blocks, now_sent = make_frame(scene, values, sent, ready)
+        drawable = ready or isinstance(scene.coefficients, Coefficients)  # all of a general system needs the compiler
+        header, blocks, now_sent = (
+            make_frame(scene, values, sent, ready) if drawable else ({"ready": False}, {}, dict(sent))
+        )
         self._tell_system(header, scene, values, now_sent)
-        panels.add(Draft(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked))
+        if drawable:
+            panels.add(Draft(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked))
         self.scene, self.values, self._sent = scene, values, now_sent
         if changed:
             header["set"] = {name: values[name] for name in changed}

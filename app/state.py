@@ -127,6 +127,9 @@ class ExplorerState(param.Parameterized):
     along = param.String("f1", label="Along", doc="Parameter of the bifurcation diagram.")
     zoom = param.Integer(0, bounds=(0, 6), label="Zoom", doc="The diagram shows a 4^zoom-th of the slider's range.")
     across = param.String("f1", label="Across", doc="Horizontal axis of the atlas.")
+    cycle_curves = param.Selector(
+        default="hide", objects=["hide", "show"], label="Cycles", doc="Bifurcations of limit cycles in the atlas."
+    )
     atlas_zoom = param.Integer(0, bounds=(0, 6), label="Zoom", doc="The atlas shows a 4^zoom-th of the ranges.")
     up = param.String("f2", label="Up", doc="Vertical axis of the atlas.")
 

@@ -3,57 +3,84 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
+from typing import Any
 
 from codim2_core.cycles import limit_cycles
 from codim2_core.general import System
 from codim2_core.presets import presets
 from codim2_core.regularisation import FAMILIES, Psi, constant, make
-from codim2_core.trajectories import is_warm, warm
-
-from .chosen import System_
+from codim2_core.scene import Scene
+from codim2_core.trajectories import AnySystem, is_warm, warm
 
 MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
 BUILT_IN = tuple(make(family) for family in FAMILIES if family != "custom")
+
+MOST_REMEMBERED = 256  # texts that have been compiled, or could not be
+GENERAL = "kernels of general systems"
 
 _lock = threading.Lock()
 _threads: dict[Hashable, threading.Thread] = {}
 
 
 def warm_all() -> None:
-    """Compile, or load from the disk cache, what all built-in families need."""
+    """Compile, or load from the disk cache, what all built-in families and the kernels of general systems need."""
     for psi in BUILT_IN:
         warm(psi)
     three = presets["case3-n3"]
     limit_cycles(three.system, three.psi)
+    warm_general()
+
+
+def warm_general() -> None:
+    """Compile, or load, what searches a general system: once for all of them."""
+    example = presets["nonunique-sliding"]
+    scene = Scene(example.system, example.psi, example.z)
+    for layer in ("equator", "critical", "nullclines_inside", "nullclines_outside", "cycles", "separatrices"):
+        scene[layer]
 
 
 def start() -> None:
     """Begin compiling (or loading from the cache) in a background thread; further calls do nothing."""
     with _lock:
         if constant() not in _threads:
-            _threads[constant()] = threading.Thread(target=warm_all, name="codim2-warm-up", daemon=True)
-            _threads[constant()].start()
+            _begin(constant(), warm_all)
 
 
-def is_ready(psi: Psi | None = None, system: System_ | None = None) -> bool:
-    """Say whether trajectories can be drawn without waiting for the compiler; if not, see that it is at work.
+def _begin(key: Hashable, target: Callable[..., None], *arguments: Any) -> None:
+    _threads[key] = threading.Thread(target=target, args=arguments, name="codim2-compile", daemon=True)
+    _threads[key].start()
 
-    If compiling failed, trajectories are asked for all the same, so that their error is seen.
+
+def is_ready(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
+    """Say whether all layers can be drawn without waiting for the compiler; if not, see that it is at work.
+
+    If compiling failed, they are asked for all the same, so that their error is seen.
     """
     psi = constant() if psi is None else psi
+    typed = isinstance(system, System)
+    if typed and not _done(GENERAL, warm_general):
+        return False
     if is_warm(psi, system):
         return True
-    typed = isinstance(system, System)
-    key: Hashable = (psi, system.U) if typed else psi
+    if typed:
+        return _done((psi, system.U), warm, psi, system)
+    if psi.family == "custom":
+        return _done(psi, warm, psi)
+    with _lock:
+        return not any(thread.is_alive() for thread in _threads.values())
+
+
+def _done(key: Hashable, target: Callable[..., None], *arguments: Any) -> bool:
+    """Whether a thread has compiled this; if there was none, begin one as soon as few others are at work."""
     with _lock:
         thread = _threads.get(key)
         if thread is not None:
-            if thread.is_alive():
-                return False
-            del _threads[key]
-            return True
-        if (typed or psi.family == "custom") and sum(t.is_alive() for t in _threads.values()) < MOST_THREADS:
-            _threads[key] = threading.Thread(target=warm, args=(psi, system), name="codim2-compile", daemon=True)
-            _threads[key].start()
-    return not any(t.is_alive() for t in _threads.values())
+            return not thread.is_alive()
+        alive = {key: thread for key, thread in _threads.items() if thread.is_alive()}
+        if len(_threads) > MOST_REMEMBERED:
+            for old in _threads.keys() - alive.keys() - {constant(), GENERAL}:
+                del _threads[old]
+        if len(alive) < MOST_THREADS:
+            _begin(key, target, *arguments)
+    return False

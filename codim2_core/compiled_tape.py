@@ -28,10 +28,6 @@ _CODES = {
     **{"tanh": TANH, "sinh": SINH, "cosh": COSH},
 }
 
-# What `gradients` starts from where c and s are the variables themselves and x = y = 0.
-PLAIN = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
-PLAIN.flags.writeable = False
-
 
 @dataclass(frozen=True, eq=False)
 class Program:

@@ -87,9 +87,10 @@ def continue_cycles(
     family = Family(at, high - low, limits(system, psi, name))
     allowed = [v for v in values(low, high) if family.allows(v)]
     if all(reversible(at(v)[0]) for v in allowed):
-        coefficients, member = at(allowed[len(allowed) // 2] if allowed else 0.5 * (low + high))
-        reason = reason_for_none(coefficients, critical_sets(coefficients, member))
-        return CycleBranches(name, (low, high), (), reason or "No limit cycle anywhere on the span.")
+        settings = (at(float(v)) for v in values(low, high))
+        reasons = dict.fromkeys(reason_for_none(q, critical_sets(q, member)) for q, member in settings)
+        sentence = " Elsewhere on the span: ".join(r for r in reasons if r)
+        return CycleBranches(name, (low, high), (), sentence or "No limit cycle anywhere on the span.")
     middle = allowed[len(allowed) // 2]
     family.ray = family.section(middle).ray
     return _Search(family, name, low, high).run()

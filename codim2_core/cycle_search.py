@@ -356,8 +356,8 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
             found.append(Crossing(_polished(section, low, high, repelling), repelling))
     last = shift[:-1][finite[:-1] & (shift[1:] == np.inf)]
     notes += [
-        f"Near a loop through the equator: the last orbit that returns misses its start by {y:.1e} in ln|x₂ − C|; beyond "
-        "it orbits go to the equator."
+        f"Near a loop through the equator: the last orbit that returns misses its start by {y:.1e} in ln|x₂ − C|; "
+        "beyond it orbits go to the equator."
         for y in last.tolist()
         if abs(y) < NEAR_LOOP
     ]

@@ -1,9 +1,9 @@
 """Nullclines of a general system as branches: rho' = 0, theta' = 0, U1 = 0 and U2 = 0.
 
-Branches begin at the zeros on the equator, which are known with proof, and are followed (`nullcline_trace`) to where
-they end. What a net of the disc still shows as sign changes belongs to closed loops. Where branches cross, each goes
-straight on. A loop smaller than a cell of the net, and a curve that a component touches without a change of sign, are
-not found.
+Branches begin at the zeros on the equator, which are known with proof, and at crossings (`nullcline_crossings`); they
+are followed (`nullcline_trace`) to where they end. What a net of the disc still shows as sign changes belongs to closed
+loops. Where branches cross, each goes straight on. A loop smaller than a cell of the net, and a curve that a component
+touches without a change of sign, are not found.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from .compiled_tape import Program, program
 from .equator_general import component_zeros, directions
 from .general import Frozen
-from .nullcline_trace import CLOSED, follow, settle
+from .nullcline_crossings import Crossing, crossings
 
 Array = NDArray[np.floating[Any]]
 Kind = Literal["rho", "theta", "U1", "U2"]
@@ -82,18 +82,10 @@ class Traced:
 
 def inside_curves(at: Frozen) -> list[tuple[Kind, Traced]]:
     """All branches in the closed e-disc."""
-    run, size = program(at.key), at.size
     nodes_c = LEFT + SIDE / CELLS * np.arange(CELLS + 1)
     nodes_s = BELOW + SIDE / CELLS * np.arange(CELLS + 1)
     points = np.stack(np.meshgrid(nodes_c, nodes_s, indexing="ij"), axis=-1)
-    U = run.at(points.reshape(-1, 2))[:, :, 0].reshape(*points.shape)
-    inside = (points**2).sum(axis=-1) < 1.0
-    found: list[tuple[Kind, Traced]] = []
-    for kind in KINDS:
-        net = _Net(_part(kind, points, U), inside, nodes_c, nodes_s)
-        for branch in _branches(at.key, run, size, kind, net, 0.0):
-            found.append((kind, branch))  # noqa: PERF401 (a comprehension loses the type of kind)
-    return found
+    return _curves(at, points, (points**2).sum(axis=-1) < 1.0, nodes_c, nodes_s, 0.0)
 
 
 def outside_curves(at: Frozen, reach: float) -> list[tuple[Kind, Traced]]:
@@ -104,26 +96,29 @@ def outside_curves(at: Frozen, reach: float) -> list[tuple[Kind, Traced]]:
             for u in directions(component_zeros(at.key, kind)[0]):
                 rays.append((kind, Traced(np.stack([u, reach * u]), np.stack([u, u]))))  # noqa: PERF401 (type of kind)
         return rays
-    run, size = program(at.key), at.size
     radii = np.linspace(1.0, reach, CELLS + 1)
     angles = 1e-3 + 2.0 * math.pi * np.arange(4 * CELLS + 1) / (4 * CELLS)
-    e = directions(angles)
-    points = radii[:, None, None] * e
-    U = at.U(np.broadcast_to(e, points.shape), points - e)
+    points = radii[:, None, None] * directions(angles)
+    return _curves(at, points, np.ones(points.shape[:2], bool), radii, angles, reach)
+
+
+def _curves(
+    at: Frozen, points: Array, usable: NDArray[np.bool_], first: Array, second: Array, reach: float
+) -> list[tuple[Kind, Traced]]:
+    """Branches of all kinds, on a net of the inside (reach 0) or of the outside."""
+    from .nullcline_trace import sample  # on first use: it loads the compiler
+
+    run = program(at.key)
+    parts = sample(*run.arrays, reach > 0.0, points.reshape(-1, 2)).reshape(4, 3, *points.shape[:2])
     found: list[tuple[Kind, Traced]] = []
-    for kind in KINDS:
-        net = _Net(_part(kind, np.broadcast_to(e, points.shape), U), np.ones(points.shape[:2], bool), radii, angles)
-        for branch in _branches(at.key, run, size, kind, net, reach):
+    for number, kind in enumerate(KINDS):
+        net = _Net(parts[number, 0], usable, first, second)
+        if net.largest <= NOTHING * at.size:
+            continue
+        met = crossings(run, number, reach > 0.0, reach, points, parts[number], at.size)
+        for branch in _Tracer(at.key, run, at.size, kind, net, reach, met).branches():
             found.append((kind, branch))  # noqa: PERF401 (a comprehension loses the type of kind)
     return found
-
-
-def _part(kind: Kind, e: Array, U: Array) -> Array:
-    if kind == "rho":
-        return (e * U).sum(axis=-1)
-    if kind == "theta":
-        return e[..., 0] * U[..., 1] - e[..., 1] * U[..., 0]
-    return U[..., 0 if kind == "U1" else 1]
 
 
 _AROUND = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)])
@@ -174,72 +169,138 @@ class _Net:
                 yield np.array([first, second]), float(self.steps.max())
 
 
-def _branches(key: Hashable, run: Program, size: float, kind: Kind, net: _Net, reach: float) -> list[Traced]:
-    """Branches of one kind: from the equator, then from what the net shows besides; reach 0 means inside."""
-    outside, number = reach > 0.0, KINDS.index(kind)
-    if net.largest <= NOTHING * size:
-        return []
-    angles, multiplicity = component_zeros(key, kind)
-    ends = directions(angles[multiplicity % 2 == 1])
-    waiting = np.ones(len(ends), bool)
-    found: list[Traced] = []
-    for i, u in enumerate(ends):
-        if not waiting[i] or _enough(found):
-            continue
-        waiting[i] = False
-        ok, _, _, tx, ty = settle(*run.arrays, number, outside, u[0], u[1], 0.01, size)
-        if not ok:
-            continue
-        if (tx * u[0] + ty * u[1] > 0.0) != outside:
-            tx, ty = -tx, -ty
-        branch, ending = _followed(run, size, number, outside, reach, u, np.array([tx, ty]))
-        if len(branch.points) > 1:
-            found.append(_joined(branch, ending, ends, waiting))
-            net.passed(branch)
-    for middle, cell in net.seeds():
-        if _enough(found):
-            break
-        ok, X, Y, tx, ty = settle(*run.arrays, number, outside, middle[0], middle[1], 2.0 * cell, size)
-        start = np.array([X, Y])
-        r = math.hypot(X, Y)
-        if not ok or not (1.0 <= r <= reach if outside else r <= 1.0) or np.abs(start - middle).max() > cell:
-            continue
-        branch, ending = _followed(run, size, number, outside, reach, start, np.array([tx, ty]))
-        if ending != CLOSED:
-            branch = _joined(branch, ending, ends, waiting)
-            back, other = _followed(run, size, number, outside, reach, start, np.array([-tx, -ty]))
-            back = _joined(back, other, ends, waiting)
-            branch = Traced(
-                np.concatenate([back.points[:0:-1], branch.points]),
-                np.concatenate([-back.tangents[:0:-1], branch.tangents]),
+class _Tracer:
+    """Traces the branches of one kind: from the equator, from crossings, then from what the net shows besides."""
+
+    def __init__(
+        self, key: Hashable, run: Program, size: float, kind: Kind, net: _Net, reach: float, met: list[Crossing]
+    ) -> None:
+        self.run, self.size, self.kind, self.net, self.reach = run, size, KINDS.index(kind), net, reach
+        self.outside = reach > 0.0
+        angles, multiplicity = component_zeros(key, kind)
+        self.ends = directions(angles[multiplicity % 2 == 1])
+        self.waiting = np.ones(len(self.ends), bool)
+        self.met = met
+        self.circles = np.array([c.circle for c in met]).reshape(-1, 3)
+        self.unseen = [np.ones(len(c.angles), bool) for c in met]
+        self.found: list[Traced] = []
+
+    def branches(self) -> list[Traced]:
+        """All of them, but no more than make a picture."""
+        for i, u in enumerate(self.ends):
+            if not self.waiting[i] or self._enough():
+                continue
+            self.waiting[i] = False
+            start = self._settled(u, 0.01)
+            if start is not None:
+                start[:2] = u
+                outwards = start[2] * u[0] + start[3] * u[1] > 0.0
+                self._add(self._followed(start if outwards == self.outside else _reversed(start))[0])
+        for which, crossing in enumerate(self.met):
+            for i in range(len(crossing.angles)):
+                if self.unseen[which][i] and not self._enough():
+                    self._through(which, i)
+        for middle, cell in self.net.seeds():
+            if self._enough():
+                break
+            start = self._settled(middle, 2.0 * cell)
+            if start is None:
+                continue
+            r = math.hypot(start[0], start[1])
+            within = 1.0 <= r <= self.reach if self.outside else r <= 1.0
+            met = np.hypot(self.circles[:, 0] - start[0], self.circles[:, 1] - start[1]) < self.circles[:, 2]
+            if within and not met.any() and np.abs(start[:2] - middle).max() <= cell:
+                self._both_ways(start)
+        return self.found
+
+    def _enough(self) -> bool:
+        return sum(len(branch.points) for branch in self.found) > ALL_POINTS
+
+    def _settled(self, point: Array, reach: float) -> Array | None:
+        """Return the point of the curve nearest to another, with its tangent."""
+        from .nullcline_trace import settle
+
+        ok, X, Y, tx, ty = settle(*self.run.arrays, self.kind, self.outside, point[0], point[1], reach, self.size)
+        return np.array([X, Y, tx, ty]) if ok else None
+
+    def _both_ways(self, start: Array) -> None:
+        rows, closed = self._followed(start)
+        if not closed:
+            back, _ = self._followed(_reversed(start))
+            rows = np.concatenate([_backwards(back[1:]), rows])
+        self._add(rows)
+
+    def _through(self, which: int, i: int) -> None:
+        """Trace the branch through a crossing along half-branch i."""
+        j = self.met[which].opposite(i)
+        self.unseen[which][[i, j]] = False
+        start, other = self._leaving(which, i), self._leaving(which, j)
+        if start is None or other is None:
+            return
+        rows, closed = self._followed(start, (which, i))
+        if not closed:
+            rows = np.concatenate([_backwards(self._followed(other)[0]), rows])
+        self._add(rows)
+
+    def _leaving(self, which: int, i: int) -> Array | None:
+        """Return the point where half-branch i leaves the circle around a crossing, with its tangent."""
+        crossing = self.met[which]
+        guess = crossing.start(i)
+        settled = self._settled(guess[:2], 0.1 * crossing.circle[2])
+        if settled is None:
+            return None
+        return settled if settled[2:] @ guess[2:] > 0.0 else _reversed(settled)
+
+    def _add(self, rows: Array) -> None:
+        if len(rows) > 1:
+            branch = Traced(rows[:, :2].copy(), rows[:, 2:].copy())
+            self.found.append(branch)
+            self.net.passed(branch)
+
+    def _followed(self, start: Array, origin: tuple[int, int] | None = None) -> tuple[Array, bool]:
+        """Follow a curve, straight on through crossings; points with tangents (n, 4), and whether it closed.
+
+        origin : the crossing and its half-branch at which it starts.
+        """
+        from .nullcline_trace import BORDER, CLOSED, CROSSING, follow
+
+        pieces: list[Array] = []
+        here, total = start, 0
+        while True:
+            out = np.empty((MOST_POINTS, 4))
+            count, ending, which = follow(
+                *self.run.arrays, self.kind, self.outside, here, start, self.circles, self.reach, self.size, out
             )
-        if len(branch.points) > 1:
-            found.append(branch)
-            net.passed(branch)
-    return found
+            pieces.append(out[:count])
+            total += count
+            if ending == BORDER:
+                self._end(out[count - 1])
+            if ending != CROSSING or total > MOST_POINTS:
+                return np.concatenate(pieces), ending == CLOSED
+            i = self.met[which].nearest(out[count - 1])
+            j = self.met[which].opposite(i)
+            if origin == (which, j):
+                return np.concatenate([*pieces, start[None]]), True
+            leaving = self._leaving(which, j)
+            if leaving is None or not self.unseen[which][j]:
+                return np.concatenate(pieces), False
+            self.unseen[which][[i, j]] = False
+            here = leaving
+
+    def _end(self, last: Array) -> None:
+        """End a branch that has reached the equator exactly at the zero there."""
+        if not len(self.ends) or abs(math.hypot(last[0], last[1]) - 1.0) > 1e-4:
+            return
+        distance = np.hypot(*(self.ends - last[:2]).T)
+        nearest = int(np.argmin(distance))
+        if distance[nearest] <= 1e-3:
+            self.waiting[nearest] = False
+            last[:2] = self.ends[nearest]
 
 
-def _enough(found: list[Traced]) -> bool:
-    return sum(len(branch.points) for branch in found) > ALL_POINTS
+def _reversed(start: Array) -> Array:
+    return start * (1.0, 1.0, -1.0, -1.0)
 
 
-def _followed(
-    run: Program, size: float, kind: int, outside: bool, reach: float, start: Array, tangent: Array
-) -> tuple[Traced, int]:
-    out = np.empty((MOST_POINTS, 4))
-    count, ending = follow(*run.arrays, kind, outside, start[0], start[1], tangent[0], tangent[1], reach, size, out)
-    return Traced(out[:count, :2].copy(), out[:count, 2:].copy()), ending
-
-
-def _joined(branch: Traced, ending: int, ends: Array, waiting: NDArray[np.bool_]) -> Traced:
-    """End a branch that has reached the equator exactly at the zero there."""
-    last = branch.points[-1]
-    if ending == CLOSED or not len(ends) or abs(math.hypot(*last) - 1.0) > 1e-4:
-        return branch
-    distance = np.hypot(*(ends - last).T)
-    nearest = int(np.argmin(distance))
-    if distance[nearest] > 1e-3:
-        return branch
-    waiting[nearest] = False
-    branch.points[-1] = ends[nearest]
-    return branch
+def _backwards(rows: Array) -> Array:
+    return _reversed(rows[::-1])

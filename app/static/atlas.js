@@ -2,7 +2,7 @@
 // The plane of f comes in closed form and belongs to f(z); any other two axes are mapped by the server at rest.
 
 const CURVE_NAMES = {
-  transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", hopf: "Hopf", node_focus: "node–focus", determinant: "det A = 0", undefined: "undefined",
+  transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", closed_equator: "cycle at the equator", determinant: "det A = 0", undefined: "undefined",
 }
 const CURVE_OF = {
   transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "saddle_node", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant",
@@ -74,6 +74,11 @@ class Atlas {
       const {size, points} = header.curves_of_psi
       this.plane = {...this.plane, points, curves: {...this.plane.curves, hopf: lines("hopf", size), node_focus: lines("node_focus", size)}}
     }
+    if ("cycles_possible" in header) this.possible = header.cycles_possible
+    if (header.curves_of_cycles) {
+      const {size, points} = header.curves_of_cycles
+      this.cycles = {points, curves: Object.fromEntries(["cycle_folds", "heteroclinic", "closed_equator"].map((name) => [name, lines(name, size)]))}
+    }
     if (header.atlas_of) this.of = String(header.atlas_of)
     if (header.map) {
       const {spans, name, inside, loops, curve, pieces} = header.map
@@ -90,6 +95,7 @@ class Atlas {
     this.old = late.includes("regions") || late.includes("map")
     // curves that belong to another Psi or matrix are no longer true
     this.stale = late.includes("curves of psi")
+    this.staleCycles = late.includes("curves of cycles")
     this.find(".thumbnails").classList.toggle("old", late.includes("thumbnails") || this.old)
     if (this.values) this.draw(this.values)
   }
@@ -102,19 +108,22 @@ class Atlas {
     if (here !== this.here) { this.here = here; this.markTiles("here", here) }
     this.find(".zoom .in").disabled = values.atlas_zoom >= 6
     this.find(".zoom .out").disabled = values.atlas_zoom <= 0
+    this.find(".cycle-curves").hidden = !this.isPlane || !this.possible
     this.find(".atlas-note").textContent = this.why ?? ""
     this.find(".thumbnails").hidden = Boolean(this.why)
     this.key(chart)
   }
 
-  chartOfPlane({f1, f2, k1, k2, z}) {
+  chartOfPlane(values) {
+    const {f1, f2, k1, k2, z} = values
     const {size, regions, curves, points} = this.plane
     if (!this.pad.dragging) this.reach = reachFor(Math.max(size, Math.abs(f1), Math.abs(f2), 0.5))
-    if (this.shownOf !== curves || this.shownStale !== this.stale) {
-      this.shownOf = curves
-      this.shownStale = this.stale
-      this.shown = this.stale ? {transcritical: curves.transcritical ?? [], saddle_node: curves.saddle_node ?? []} : curves
-      this.shownPoints = this.stale ? [] : points
+    const ofCycles = this.possible && values.cycle_curves === "show" && !this.staleCycles ? this.cycles : null
+    const now = [curves, this.stale, ofCycles]
+    if (!this.shownOf || now.some((v, i) => v !== this.shownOf[i])) {
+      this.shownOf = now
+      this.shown = {...(this.stale ? {transcritical: curves.transcritical ?? [], saddle_node: curves.saddle_node ?? []} : curves), ...ofCycles?.curves}
+      this.shownPoints = [...(this.stale ? [] : points), ...(ofCycles?.points ?? [])]
     }
     const far = 3 * this.reach / (Math.hypot(k1, k2) || 1)
     const path = k1 || k2 ? [-far, far].map((t) => [f1 + t * k1, f2 + t * k2]) : null

@@ -77,6 +77,9 @@ function wire({model, view, root, plot}) {
   text.addEventListener("input", () => change("psi_text", text.value))
   controls.psi_text.set = (value) => { text.value = value }
 
+  const cycleCurves = controls.cycle_curves.box.querySelector("input")
+  cycleCurves.addEventListener("change", () => { change("cycle_curves", cycleCurves.checked ? "show" : "hide"); drawPanels() })
+  controls.cycle_curves.set = (value) => { cycleCurves.checked = value === "show" }
   const launch = controls.launch.box.querySelector("input")
   launch.addEventListener("change", () => change("launch", launch.value))
   controls.launch.set = (value) => { launch.value = value }

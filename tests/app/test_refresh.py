@@ -179,6 +179,22 @@ def test_cold_integrator_sends_closed_forms_then_the_rest():
     assert sent == {"inside", "outside", "continuations", "cycles"}
 
 
+def test_a_general_system_that_is_not_compiled_yet_leaves_the_picture_and_shows_its_equations():
+    ready = [True]
+    frames = Frames(ExplorerState(), ready=lambda _psi, _system: ready[0])
+    frames.answer({"all": True})
+    ready[0] = False
+    header, blocks = unpack(frames.answer({"id": 1, "set": {"system": "attracting_repelling"}}))
+    assert header["ready"] is False
+    assert "critical" not in header
+    assert blocks == {}
+    assert header["system"]["equations"].startswith("<math")
+    ready[0] = True
+    header, _ = unpack(frames.answer({"id": 2}))
+    assert header["portrait"]["name"] == "2 critical sets, 6 limit directions"
+    assert len(header["critical"]["kind"]) == 2
+
+
 @pytest.mark.parametrize("portrait", portraits(), ids=lambda item: item["key"])
 def test_presets_draw_their_portrait(frames, portrait):
     frames.answer({"set": portrait["values"]})

@@ -8,11 +8,17 @@ README = (ROOT / "README.md").read_text()
 
 
 def test_the_core_in_use_runs(capsys):
-    (code,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
-    exec(compile(code, "README.md", "exec"), {})
+    first, second = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+    exec(compile(first, "README.md", "exec"), {})
     printed = capsys.readouterr().out
     assert printed.startswith("Case I, CM4.")
     assert "stable node" in printed
+    exec(compile(second, "README.md", "exec"), {})
+    printed = capsys.readouterr().out
+    assert printed.startswith("['stable node', 'saddle', 'stable node']")
+    assert "Q2 slide C3" in printed
+    assert "\nslip 0.0" in printed
+    assert "\nslide 0.857" in printed
 
 
 def test_ci_runs_the_test_command_of_the_readme():

@@ -1,4 +1,4 @@
-"""Make the README's picture: ``python -m tests.browser.picture`` (needs Chromium, as the browser tests do)."""
+"""Make the README's pictures: ``python -m tests.browser.picture`` (needs Chromium, as the browser tests do)."""
 
 from __future__ import annotations
 
@@ -10,20 +10,24 @@ from playwright.sync_api import sync_playwright
 
 from ..app.serving import serving
 
-PICTURE = Path(__file__).parents[2] / ".readme" / "explorer.png"
+FOLDER = Path(__file__).parents[2] / ".readme"
+#: Name of the picture, and the address of the page.
+PICTURES = {"explorer": "", "systems": "?preset=nonunique-sliding&panel=solid&solid=stack"}
 
 
 def main() -> None:
-    """Write a screenshot of the explorer as it opens."""
-    PICTURE.parent.mkdir(exist_ok=True)
+    """Write a screenshot of the explorer as it opens, and one of another system."""
+    FOLDER.mkdir(exist_ok=True)
     path = os.environ.get("CODIM2_CHROMIUM") or shutil.which("chromium")
     with serving() as address, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-gpu"])
-        page = browser.new_page(viewport={"width": 1440, "height": 900}, color_scheme="light")
-        page.goto(address)
-        page.wait_for_selector(".codim2[data-ready]")
-        page.wait_for_timeout(1500)
-        page.screenshot(path=str(PICTURE))
+        for name, query in PICTURES.items():
+            page = browser.new_page(viewport={"width": 1440, "height": 900}, color_scheme="light")
+            page.goto(f"{address}/{query}")
+            page.wait_for_selector(".codim2[data-settled=true]")
+            page.wait_for_timeout(1500)
+            page.screenshot(path=str(FOLDER / f"{name}.png"))
+            page.close()
         browser.close()
 
 

@@ -123,7 +123,7 @@ def direction(start: float) -> Callable[[Values], list[mp.mpf]]:
             slope = (d - a) * (c * c - s * s) - f2 * s - f1 * c
             step = ((d - a) * s * c + f2 * c - f1 * s + b) / slope
             theta -= step
-            if abs(step) < mp.mpf(10) ** (3 - mp.mp.dps):
+            if abs(step) < mp.mpf(10) ** (12 - mp.mp.dps):
                 break
         else:
             raise AssertionError(f"no zero of Theta near {start}")

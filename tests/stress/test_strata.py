@@ -65,7 +65,7 @@ def test_index_theorem(stratum):
             check_index(stratum.moved(path, change), families(stratum)[0])
 
 
-@settings(max_examples=200)
+@settings(max_examples=100)
 @given(st.sampled_from(STRATA), st.lists(st.floats(-1, 1), min_size=5, max_size=5), st.integers(0, 17))
 def test_any_direction_off_a_stratum(stratum, direction, power):
     """All five coefficients move at once."""
