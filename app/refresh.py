@@ -24,7 +24,8 @@ from .packing import Polylines, pack
 from .panel_draft import Draft
 from .panel_jobs import FAILURES, Jobs
 from .scenes import evolved, locked_controls, make_scene, settled
-from .state import ExplorerState, InputError, clean, preset_values
+from .sides import sides
+from .state import AXES, ExplorerState, InputError, clean, preset_values
 
 #: Layers made by the compiled integrator.
 ORBITS = ("outside", "inside", "continuations")
@@ -32,6 +33,9 @@ ORBITS = ("outside", "inside", "continuations")
 ARROWS = {"outside": (0.3, 0.7), "inside": (0.35, 0.75), "continuations": (0.5,)}
 #: Kinds of branches that each nullcline control shows.
 NULLCLINES = {"rho": ("rho",), "theta": ("theta",), "lines": ("U1", "U2")}
+
+#: Controls that are axes of the picture's parameters.
+MOVED = frozenset(AXES)
 
 Blocks = dict[str, NDArray[Any] | Polylines]
 
@@ -61,6 +65,7 @@ class Frames:
         self.locked = locked_controls(self.scene, self.given)
         self.ready = ready
         self.jobs = Jobs()
+        self._moved = "f1"  # the control moved last, along which a degenerate setting is looked at from both sides
         self._unpublished: dict[str, Any] = {}
         self._sent: dict[str, Any] = {}
 
@@ -122,6 +127,9 @@ class Frames:
             make_frame(scene, values, sent, ready) if drawable else ({"ready": False}, {}, dict(sent))
         )
         self._tell_system(header, scene, values, now_sent)
+        self._moved = next((name for name in changed if name in MOVED), self._moved)
+        if header.get("portrait", {}).get("degeneracies"):
+            header["portrait"]["sides"] = sides(scene, values, self._moved)
         if drawable:
             panels.add(Draft(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked))
         self.scene, self.values, self._sent = scene, values, now_sent

@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 
 NODES = 6
 MOST_STEPS = 8000
+CLOSED = 1e-11  # on the sphere
 
 
 @dataclass(frozen=True)
@@ -155,7 +156,12 @@ def orbit(section: Section | TurnSection, crossing: Crossing) -> Orbit | None:
     start, _ = section.states(np.array([crossing.xi]))
     backward = crossing.repelling  # so that errors fade
     sign = -1.0 if backward else 1.0
-    way = path(section, start[0], FINE, backward)
+    begin = start[0]
+    way = path(section, begin, FINE, backward)
+    if way is not None and math.dist(way.end, begin) > CLOSED:
+        # The way it is followed the orbit attracts: once more round, from where it came.
+        begin = way.end
+        way = path(section, begin, FINE, backward)
     if way is None:
         return None
     first, h, inner, weight = way.first, way.h, way.inner, way.weight
@@ -177,7 +183,7 @@ def orbit(section: Section | TurnSection, crossing: Crossing) -> Orbit | None:
         multiplier,
         divergence,
         mean_e,
-        math.dist(way.end, start[0]),
+        math.dist(way.end, begin),
         e,
         weight / period,
     )

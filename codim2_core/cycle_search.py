@@ -30,6 +30,7 @@ SUNK_INWARD, SUNK_OUTWARD = 1e-3, 1e-9  # of the innermost sample, of the first 
 CLOSE = 1e-3  # width at which a jump from -inf to +inf is left to the map backward in time
 MOST, UNDECIDED = 96, 0.25  # samples added in a round; share of undecided ones at which looking closer is in vain
 NOISE = 1e-8  # displacement that COARSE cannot tell from zero
+FINE_NOISE = 1e-11  # and FINE
 NEAR_LOOP = 1e-3
 MEASURED, SMALLEST = 2.0, 1e-8  # where the expansion at C is measured, in INNER; the smallest cycle, in r/R
 
@@ -341,6 +342,9 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
         notes.append("Some orbits were not followed to a decision: they pass an equilibrium too slowly.")
     known = ~np.isnan(shift)
     xi, shift, finite = xi[known], shift[known], finite[known]
+    doubtful = finite & (np.abs(shift) < NOISE)
+    if doubtful.any():
+        shift[doubtful] = section.displacement(xi[doubtful], FINE)
     for i in range(len(xi) - 1):
         y, after = float(shift[i]), float(shift[i + 1])
         if (y < 0.0) == (after < 0.0):
@@ -365,7 +369,7 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
         y0, y1, y2 = (float(v) for v in shift[i - 1 : i + 2])
         if not np.isfinite([y0, y1, y2]).all() or (y0 < 0.0) != (y1 < 0.0) or (y1 < 0.0) != (y2 < 0.0):
             continue
-        if abs(y1) <= min(abs(y0), abs(y2)) and abs(y1) < NOISE and float(xi[i]) > math.log(100.0 * INNER):
+        if abs(y1) <= min(abs(y0), abs(y2)) and abs(y1) < FINE_NOISE and float(xi[i]) > math.log(100.0 * INNER):
             found.append(Crossing(float(xi[i]), touching=True))
     trace = section.critical.trace
     if finite.any() and finite[0] and section.critical.discriminant < 0.0 and shift[0] * trace < 0.0:

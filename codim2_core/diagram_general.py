@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,18 +29,43 @@ _BESIDE = 1e-7  # of the span: where the two sides of a special value are looked
 _NARROW = 1e-12  # of the span
 
 
-class _State(NamedTuple):
-    value: float
-    equator: EquatorEquilibria
-    critical: tuple[CriticalSet, ...]
-    exponent: float | None  # of a closed equator
+class _State:
+    """What stands still at one value; each part is found when it is asked for."""
 
-    @property
-    def kind(self) -> tuple[Any, ...]:
-        """What does not change along a piece."""
-        around = Counter(self.equator.kind(i) for i in range(len(self.equator)))
-        sign = None if self.exponent is None else int(np.sign(self.exponent))
-        return frozenset(around.items()), frozenset(Counter(C.kind for C in self.critical).items()), sign
+    def __init__(self, system: Any, psi: Psi, name: str, value: float, z: ArrayLike) -> None:
+        self.value = value
+        at, self._psi, z_at = varied(system, psi, z, name, value)
+        self._at = at.at(z_at)
+
+    @cached_property
+    def equator(self) -> EquatorEquilibria:
+        """The limit directions."""
+        return equator_equilibria(self._at)
+
+    @cached_property
+    def critical(self) -> tuple[CriticalSet, ...]:
+        """The critical sets."""
+        return critical_sets(self._at, self._psi)
+
+    @cached_property
+    def exponent(self) -> float | None:
+        """Of a closed equator; None where there is none."""
+        if len(self.equator) or self.equator.all_directions:
+            return None
+        cycle = equator_cycle(self._at)
+        return None if cycle is None else cycle.exponent
+
+    def part(self, i: int) -> Any:
+        """Return what does not change along a piece: of the equator (0), critical sets (1), a closed equator (2)."""
+        if i == 0:
+            return Counter(self.equator.kind(k) for k in range(len(self.equator)))
+        if i == 1:
+            return Counter(C.kind for C in self.critical)
+        return None if self.exponent is None else int(np.sign(self.exponent))
+
+    def difference(self, other: _State) -> int | None:
+        """First part that is not that of the other; None if all are."""
+        return next((i for i in range(3) if self.part(i) != other.part(i)), None)
 
 
 Parts = tuple[list[EquatorBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
@@ -49,10 +75,7 @@ def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z
     """Branches and special values of any system; see `diagram`."""
 
     def state(value: float) -> _State:
-        at, psi_at, z_at = varied(system, psi, z, name, value)
-        equator = equator_equilibria(at, z_at)
-        cycle = None if len(equator) or equator.all_directions else equator_cycle(at, z_at)
-        return _State(value, equator, critical_sets(at, psi_at, z_at), None if cycle is None else cycle.exponent)
+        return _State(system, psi, name, value, z)
 
     low, high = span
     width = high - low
@@ -63,26 +86,19 @@ def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z
     special: list[SpecialValue] = []
     pieces: list[list[_State]] = [[grid[0]]]
     for left, right in pairwise(grid):
-        here = left
-        for _ in range(8):
-            if here.kind == right.kind:
-                break
-            value = _bisected(state, here, right, _NARROW * width)
-            before, here = state(max(here.value, value - _BESIDE * width)), state(value + _BESIDE * width)
-            special += _named(value, before, here)
+        for value, before, after in _changes(state, left, right, width):
+            special += _named(value, before, after)
             pieces[-1].append(before)
-            pieces.append([here])
-            if here.value >= right.value:
-                break
+            pieces.append([after])
         pieces[-1].append(right)
     equator: list[EquatorBranch] = []
     closed: list[ClosedEquator] = []
     critical: list[CriticalBranch] = []
     for piece in pieces:
-        states = [s for s in sorted(piece, key=lambda s: s.value) if s.kind == piece[0].kind]
+        states = [s for s in sorted(piece, key=lambda s: s.value) if s.difference(piece[0]) is None]
         if len(states) < _LEAST and states[-1].value > states[0].value:
             more = [state(v) for v in np.linspace(states[0].value, states[-1].value, _LEAST).tolist()[1:-1]]
-            states = sorted([*states, *(s for s in more if s.kind == piece[0].kind)], key=lambda s: s.value)
+            states = sorted([*states, *(s for s in more if s.difference(piece[0]) is None)], key=lambda s: s.value)
         values = np.array([s.value for s in states])
         equator += _directions(values, states)
         critical += _sets(values, states)
@@ -94,14 +110,31 @@ def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z
     return equator, closed, critical, special
 
 
-def _bisected(state: Callable[[float], _State], left: _State, right: _State, narrow: float) -> float:
-    """Find the first value seen at which the kind is no longer that of `left`."""
-    low, high, kind = left.value, right.value, left.kind
+def _changes(
+    state: Callable[[float], _State], left: _State, right: _State, width: float, deeper: int = 4
+) -> Iterator[tuple[float, _State, _State]]:
+    """All changes between two states, in order: the value, and the states beside it."""
+    part = left.difference(right)
+    if part is None or not deeper:
+        return
+    value = _bisected(state, left, right, part, _NARROW * width)
+    before = state(max(left.value, value - _BESIDE * width))
+    after = state(min(right.value, value + _BESIDE * width))
+    if before.value > left.value:
+        yield from _changes(state, left, before, width, deeper - 1)
+    yield value, before, after
+    if after.value < right.value:
+        yield from _changes(state, after, right, width, deeper - 1)
+
+
+def _bisected(state: Callable[[float], _State], left: _State, right: _State, part: int, narrow: float) -> float:
+    """Find a value at which that part is no longer what it is at `left`."""
+    low, high, here = left.value, right.value, left.part(part)
     while high - low > narrow:
         middle = 0.5 * (low + high)
         if middle in (low, high):
             break
-        low, high = (middle, high) if state(middle).kind == kind else (low, middle)
+        low, high = (middle, high) if state(middle).part(part) == here else (low, middle)
     return 0.5 * (low + high)
 
 
@@ -142,7 +175,7 @@ def _named(value: float, before: _State, after: _State) -> list[SpecialValue]:
             else:
                 sentence = "Hopf: tr J = 0 < det J."
                 out.append(SpecialValue("Hopf", value, place, sentence, "sec:case3"))
-    if before.exponent is not None and after.exponent is not None and before.kind[2] != after.kind[2]:
+    if before.exponent is not None and after.exponent is not None and before.part(2) != after.part(2):
         sentence = "The closed equator is neutral to first order: it turns its stability."
         out.append(SpecialValue("neutral equator", value, (0.0, 0.0), sentence, "thm:geneps0"))
     return out

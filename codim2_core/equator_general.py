@@ -257,16 +257,17 @@ def closed_equator(key: Hashable) -> tuple[int, float, float, bool] | None:
     if on.all_directions or len(on.theta):
         return None
     run = program(key)
-    n, last = 64, (math.inf, math.inf)
+    n, sums, last = 64, np.zeros(3), (math.inf, math.inf)
+    theta = np.arange(n) * (2.0 * math.pi / n)
     while True:
-        theta = np.arange(n) * (2.0 * math.pi / n)
         Theta, _, radial, _, U = _components(run, theta)
-        step = 2.0 * math.pi / n
-        period, exponent = step * float((1.0 / np.abs(Theta)).sum()), step * float((radial / np.abs(Theta)).sum())
-        terms = step * float((np.abs(U * directions(theta)).sum(axis=1) / np.abs(Theta)).sum())
+        rows = np.stack([np.ones(len(theta)), radial, np.abs(U * directions(theta)).sum(axis=1)])
+        sums += (rows / np.abs(Theta)).sum(axis=1)
+        period, exponent, terms = (sums * (2.0 * math.pi / n)).tolist()
         close = abs(period - last[0]) <= 1e-15 * period and abs(exponent - last[1]) <= 1e-15 * max(terms, abs(exponent))
         if close or n >= MOST_OF_A_TURN:
             break
+        theta = (np.arange(n) + 0.5) * (2.0 * math.pi / n)  # what is new where n is doubled
         n, last = 2 * n, (period, exponent)
     neutral = abs(exponent) <= NEUTRAL * terms
     return (1 if Theta[0] > 0.0 else -1), period, 0.0 if neutral else exponent, neutral

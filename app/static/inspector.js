@@ -23,12 +23,13 @@ class Inspector {
     if ("slow_flow" in header) { this.slow(header.slow_flow, values.z); this.slowLine(header.slow_flow) }
   }
 
-  portrait({case: which, name, sentence, degeneracies}) {
+  portrait({case: which, name, sentence, degeneracies, sides}) {
     this.find(".portrait-name").textContent = name
     this.find(".portrait-case").textContent = which ? `Case ${which}` : ""
     this.find(".sentence").textContent = sentence.replace(/^(Case \S+, )?\S+\. /, "")
     this.find(".degeneracies").innerHTML = degeneracies
-      .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${escape(words)}</p>`).join("")
+      .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${escape(words)}</p>`).join("") + (sides?.below && sides.above
+        ? `<p class="note sides">A little less ${escape(sides.symbol)}: <b>${escape(sides.below)}</b>. A little more: <b>${escape(sides.above)}</b>.</p>` : "")
   }
 
   equator({equator: q, cycle, all_directions: all}) {

@@ -1,6 +1,6 @@
 """The problems on which trajectories are raced: a system, Psi, 64 seeds, a time; and where they end, to 30 digits.
 
-The field is text in x, y (and w = ebar where a problem needs it), P[0], P[1], ... its numbers, so that every
+The field is text in x, y (theta and ebar near the equator) and P[0], P[1], ..., so that every
 competitor compiles or evaluates the same formula in its own way. `data/ends.json` holds the ends (`references`).
 """
 
@@ -50,8 +50,8 @@ class Problem:
         Text in c, e = e_Psi and P.
     numbers : tuple of float
         P, six of them.
-    height : bool
-        Whether competitors follow ebar beside p: where 1 - |p| is small it cannot be had from p.
+    polar : bool
+        Whether competitors follow (theta, ebar) and not p: where 1 - |p| is small, ebar cannot be had from p.
     note : str
         What the problem is there for.
     """
@@ -63,37 +63,56 @@ class Problem:
     t_end: float
     U: tuple[str, str] = ELINEAR
     numbers: tuple[float, ...] = ()
-    height: bool = False
+    polar: bool = False
     note: str = ""
 
     @property
     def start(self) -> Array:
-        """(64, 2), or (64, 3) with ebar."""
-        if not self.height:
+        """States from which competitors start: p, (64, 2), or (theta, ebar)."""
+        if not self.polar:
             return self.seeds
         gaps = [float(1 - Fraction(x) ** 2 - Fraction(y) ** 2) for x, y in self.seeds.tolist()]
-        return np.column_stack([self.seeds, np.sqrt(gaps)])
+        return np.column_stack([np.arctan2(self.seeds[:, 1], self.seeds[:, 0]), np.sqrt(gaps)])
+
+    def disc(self, states: Array) -> Array:
+        """p of competitors' states."""
+        if not self.polar:
+            return states
+        theta, w = states.T
+        return np.sqrt((1.0 - w) * (1.0 + w))[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
 
     @property
     def end(self) -> Array:
         """p at T, (64, 2), from the data."""
         return ends()[self.name]
 
-    @property
-    def text(self) -> str:
-        """Python source of ``field(x, y[, w], P)``; what it calls is left to the caller's names."""
-        w = ", w" if self.height else ""
-        lines = [
-            f"def field(x, y{w}, P):",
-            "    s = x*x + y*y",
-            f"    h = {'w*w' if self.height else 'positive(1.0 - s)'}",
-            f"    k = {GAINS[self.psi.family]}",
-            "    c, e = k*x, k*y",
-            f"    u = {self.U[0]}",
-            f"    v = {self.U[1]}",
-            "    q = x*u + y*v",
-            f"    return u - x*q, v - y*q{', -w*q' if self.height else ''}",
-        ]
+    def text(self, polar: bool) -> str:
+        """Python source of ``field(x, y, P)`` or ``field(t, w, P)``; what it calls is left to the caller's names."""
+        gain, U, V = GAINS[self.psi.family], *self.U
+        if polar:
+            lines = [
+                "def field(t, w, P):",
+                "    h = w*w",
+                "    s = positive(1.0 - h)",
+                "    r, C, S = sqrt(s), cos(t), sin(t)",
+                f"    k = r*({gain})",
+                "    c, e = k*C, k*S",
+                f"    u = {U}",
+                f"    v = {V}",
+                "    return (C*v - S*u)/r, -w*r*(C*u + S*v)",
+            ]
+        else:
+            lines = [
+                "def field(x, y, P):",
+                "    s = x*x + y*y",
+                "    h = positive(1.0 - s)",
+                f"    k = {gain}",
+                "    c, e = k*x, k*y",
+                f"    u = {U}",
+                f"    v = {V}",
+                "    q = x*u + y*v",
+                "    return u - x*q, v - y*q",
+            ]
         return "\n".join(lines)
 
 
@@ -122,7 +141,7 @@ def near_equator() -> Problem:
     gap = np.logspace(-2, -12, COUNT)
     angle = np.resize(theta, COUNT) + 1e-3 * np.cos(np.arange(COUNT))
     seeds = (1.0 - gap)[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return _elinear("near the equator", system, psi.rational(), 16.0, seeds, height=True, note="1 − |p| = 1e-2 … 1e-12")
+    return _elinear("near the equator", system, psi.rational(), 16.0, seeds, polar=True, note="1 − |p| = 1e-2 … 1e-12")
 
 
 def near_saddle() -> Problem:
@@ -133,8 +152,9 @@ def near_saddle() -> Problem:
     vectors = vectors.real / np.hypot(*vectors.real)
     stable, unstable = vectors[:, np.argmin(values.real)], vectors[:, np.argmax(values.real)]
     side = np.resize((1.0, -1.0), COUNT)
-    seeds = C.p + 0.05 * side[:, None] * stable + (1e-2 * np.logspace(0, -5, COUNT) * np.sign(0.5 - side))[:, None] * unstable
-    return _elinear("past a saddle", preset.system, psi.rational(), 16.0, seeds, note="errors grow up to 1e5 times")
+    beside = -side * np.logspace(-2, -7, COUNT)
+    seeds = C.p + 0.05 * side[:, None] * stable + beside[:, None] * unstable
+    return _elinear("past a saddle", preset.system, psi.rational(), 12.0, seeds, note="errors grow 1e4 times")
 
 
 @lru_cache(maxsize=1)
@@ -149,12 +169,11 @@ def problems() -> tuple[Problem, ...]:
         preset = presets[f"case1-{name}"]
         found.append(_elinear(f"Case I {name.upper()}", preset.system, preset.psi, 8.0, note="Ψ = 1"))
     mixed = ELinear(-2.0, 0.5, -1.0, (-0.5, 0.2))
-    for shape in (psi.rational(), psi.exponential(), psi.tanh(), psi.custom("1/(1+s)**2")):
-        found.append(_elinear(f"Case I, Ψ = {shape.text}", mixed, shape, 8.0))
+    shapes = (psi.rational(), psi.exponential(), psi.tanh(), psi.custom("1/(1+s)**2"))
+    found += [_elinear(f"Case I, Ψ = {shape.text}", mixed, shape, 8.0) for shape in shapes]
     found.append(_elinear("Case I, hill n = 16", mixed, psi.hill(16), 8.0, note="a steep Ψ"))
     three = presets["case3-n2"].system
-    for n in range(1, 9):
-        found.append(_elinear(f"Case III n = {n}", three, psi.hill(n), 0.1))
+    found += [_elinear(f"Case III n = {n}", three, psi.hill(n), 0.1) for n in range(1, 9)]
     found += [
         Problem(
             "attracting, repelling", examples.attracting_repelling(), psi.tanh(), sunflower(), 8.0,

@@ -41,24 +41,17 @@ def taylor(problem: Problem) -> np.ndarray:
     import heyoka as hy
 
     real = hy.real128
-    names = ("x", "y", "w")[: 3 if problem.height else 2]
-    variables = hy.make_vars(*names)
-    P = list(problem.numbers)
+    variables = hy.make_vars("x", "y")
     scope = {"sqrt": hy.sqrt, "exp": hy.exp, "tanh": hy.tanh, "positive": lambda h: h}
-    exec(problem.text, scope)
-    right = scope["field"](*variables, P)
+    exec(problem.text(polar=False), scope)
+    right = scope["field"](*variables, problem.numbers)
     run = hy.taylor_adaptive(
-        list(zip(variables, right, strict=True)), [real(0)] * len(names), fp_type=real, tol=real("1e-25"),
-        compact_mode=True,
-    )  # fmt: skip
+        list(zip(variables, right, strict=True)), [real(0)] * 2, fp_type=real, tol=real("1e-25"), compact_mode=True
+    )
     ends = []
-    for seed in problem.seeds:
-        x, y = real(float(seed[0])), real(float(seed[1]))
-        state = [x, y]
-        if problem.height:
-            state.append((real(1) - x * x - y * y) ** real("0.5"))
+    for x, y in problem.seeds.tolist():
         run.time = real(0)
-        run.state[:] = state
+        run.state[:] = [real(x), real(y)]
         run.propagate_until(real(problem.t_end))
         ends.append((float(run.state[0]), float(run.state[1])))
     return np.array(ends)

@@ -44,8 +44,6 @@ def branches(at, kind):
 def test_every_traced_point_lies_on_its_curve(system):
     at = system.at()
     for kind, curve in inside_curves(at):
-        if (component_zeros(at.key, kind)[1] > 1).any():
-            continue  # near a multiple zero on the equator branches touch
         values = parts(at, curve.points)[kind]
         firm = gradient(at, kind, curve.points) > 1e-3 * at.size
         np.testing.assert_allclose(values[firm], 0.0, atol=1e-12 * at.size)
@@ -115,6 +113,53 @@ def test_curves_go_straight_on_through_crossings():
     assert len(curves) == 4
     (lemniscate,) = branches(at, "rho")
     np.testing.assert_array_equal(lemniscate.points[0], lemniscate.points[-1])
+
+
+@pytest.mark.parametrize("angle", [2.0, 0.3, 0.05, 0.01])
+@pytest.mark.parametrize("place", [(0.0, 0.0), (0.31, -0.27), (0.5, 0.862)])
+def test_lines_that_cross_at_any_angle_stay_straight(angle, place):
+    """U1 = product of two lines through one point: two chords, whole."""
+    p, q = place
+    lines = [f"({math.sin(t)!r}*(c - ({p})) - {math.cos(t)!r}*(s - ({q})))" for t in (0.4, 0.4 + angle)]
+    found = branches(System(U=("*".join(lines), "s - 2")).at(), "U1")
+    assert len(found) == 2
+    for curve in found:
+        along = (curve.points[-1] - curve.points[0]) / np.hypot(*(curve.points[-1] - curve.points[0]))
+        np.testing.assert_allclose(np.hypot(*curve.points[[0, -1]].T), 1.0, atol=1e-12)
+        away = (curve.points - curve.points[0]) @ [along[1], -along[0]]
+        np.testing.assert_allclose(away, 0.0, atol=1e-11 / angle)
+
+
+@pytest.mark.parametrize("k", [3, 4, 5])
+def test_many_lines_through_one_point(k):
+    lines = "*".join(
+        f"({math.sin(1 + 3 * i / k)!r}*(c - 0.2) - {math.cos(1 + 3 * i / k)!r}*(s + 0.1))" for i in range(k)
+    )
+    found = branches(System(U=(lines, "s - 2")).at(), "U1")
+    assert len(found) == k
+    for curve in found:
+        along = (curve.points[-1] - curve.points[0]) / np.hypot(*(curve.points[-1] - curve.points[0]))
+        np.testing.assert_allclose((curve.points - (0.2, -0.1)) @ [along[1], -along[0]], 0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("gap", [1e-2, 1e-3, 3e-4, -3e-4, -1e-2])
+def test_hyperbolas_keep_to_their_side(gap):
+    """U1 = (c - s) (c + s) - gap**2, with 2 |gap| between its two branches."""
+    found = branches(System(U=(f"(c - s)*(c + s) - {gap * abs(gap)!r}", "s - 2")).at(), "U1")
+    assert len(found) == 2
+    for curve in found:
+        along = curve.points[:, 0 if gap > 0 else 1]
+        assert (along > 0).all() or (along < 0).all()
+        assert abs(along).min() == pytest.approx(abs(gap), rel=0.05)
+
+
+def test_a_figure_of_eight_is_one_loop():
+    """Bernoulli's lemniscate, away from the middle; its crossing is at (0.2, 0.1)."""
+    x, y = "(c - 0.2)", "(s - 0.1)"
+    (loop,) = branches(System(U=(f"({x}**2 + {y}**2)**2 - 0.3*({x}**2 - {y}**2)", "s - 2")).at(), "U1")
+    np.testing.assert_array_equal(loop.points[0], loop.points[-1])
+    length = np.hypot(*np.diff(loop.points, axis=0).T).sum()
+    assert length == pytest.approx(5.2441 * math.sqrt(0.3), rel=0.01)
 
 
 @pytest.mark.parametrize("radius", [0.1, 0.3, 0.7])

@@ -1,0 +1,37 @@
+"""Both sides of a degenerate setting are told, along the control that was moved."""
+
+import pytest
+from codim2_app.packing import unpack
+from codim2_app.refresh import Frames
+from codim2_app.state import ExplorerState
+
+
+def told(control, start, value):
+    frames = Frames(ExplorerState(**start))
+    frames.answer({"all": True})
+    header, _ = unpack(frames.answer({"id": 1, "set": {control: value}}))
+    return header["portrait"]
+
+
+def test_the_pitchfork_of_the_papers_cm2_has_two_on_one_side_and_four_on_the_other():
+    portrait = told("f1", {"a": -1.0, "b": 0.0, "d": -1.5, "f1": -0.2}, -0.5)
+    assert portrait["degeneracies"][0][0] == "pitchfork"
+    assert portrait["sides"] == {"symbol": "f₁", "below": "CM2", "above": "CM4"}
+
+
+def test_the_control_that_was_moved_decides_which_sides():
+    portrait = told("d", {"a": -1.0, "b": 0.0, "d": -1.2, "f1": -0.5}, -1.5)
+    assert portrait["sides"] == {"symbol": "d", "below": "CM4", "above": "CM2"}
+
+
+def test_the_ball_on_the_point_of_slipping():
+    state = ExplorerState.of({"system": "ball_in_pool", "z": 3.0})
+    frames = Frames(state)
+    frames.answer({"all": True})
+    header, _ = unpack(frames.answer({"id": 1, "set": {"z": 7.0 * 0.2 * 9.81 / 2.0}}))
+    assert header["portrait"]["sides"] == {"symbol": "v₁", "below": "CM2", "above": "NCM2"}
+
+
+@pytest.mark.parametrize("f1", [-0.4, -0.6])
+def test_a_portrait_that_is_not_degenerate_has_none(f1):
+    assert "sides" not in told("f1", {"a": -1.0, "b": 0.0, "d": -1.5, "f1": -0.2}, f1)
