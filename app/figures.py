@@ -65,7 +65,7 @@ def make_figure() -> Plot:
     _add(plot, "discs", Circle(x="x", y="y", radius="r", fill_color=LIGHT["shade"],
                                fill_alpha=LIGHT["shade_alpha"], line_color=None),
          x=[0.0] * len(DISCS), y=[0.0] * len(DISCS), r=list(DISCS))  # fmt: skip
-    _add(plot, "basins", ImageURL(url="url", x=-1, y=-1, w=2, h=2, anchor="bottom_left"), url=[])
+    _add(plot, "basins", ImageURL(url="url", x=-1, y=1, w=2, h=2), url=[])
     _add(plot, "outcomes", AnnularWedge(x=0, y=0, inner_radius=RING[0], outer_radius=RING[1], start_angle="start",
                                         end_angle="end", fill_color="colour", line_color=None, hatch_pattern="hatch",
                                         hatch_color=LIGHT["page"], hatch_scale=7, hatch_weight=1.4),
@@ -107,7 +107,8 @@ def make_figure() -> Plot:
     everything, policy = AllIndices(), UnionRenderers()
     for renderer in plot.renderers:  # one each for all: every patch walks through all models of a document
         if isinstance(renderer, GlyphRenderer):
-            renderer.view.filter, renderer.data_source.selection_policy = everything, policy
+            renderer.view.filter = everything
+            renderer.data_source.update(selection_policy=policy)
     for model in plot.references():
         model.syncable = False
     return plot

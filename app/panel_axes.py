@@ -63,7 +63,7 @@ def available(draft: Draft) -> dict[str, Axis]:
             continue
         declared = ExplorerState.param[name]
         low, high = declared.softbounds if normal or slow is None else ranges[slow]
-        symbol = example.slow[slow][0] if example and slow is not None else declared.label
+        symbol = example.slow[slow][0] if example and slow is not None else str(declared.label)
         found[name] = Axis(name, core, symbol, float(low), float(high), float(values[name]))
     for parameter, value in own.items():
         if normal and parameter in COEFFICIENTS:

@@ -123,9 +123,11 @@ class Frames:
         scene = evolved(self.scene, values, [name for name in changed if name not in self.locked], self.given)
         ready = self.ready(scene.psi, scene.system)
         drawable = ready or isinstance(scene.coefficients, Coefficients)  # all of a general system needs the compiler
-        header, blocks, now_sent = (
-            make_frame(scene, values, sent, ready) if drawable else ({"ready": False}, {}, dict(sent))
-        )
+        header: dict[str, Any] = {"ready": False}
+        blocks: Blocks = {}
+        now_sent = dict(sent)
+        if drawable:
+            header, blocks, now_sent = make_frame(scene, values, sent, ready)
         self._tell_system(header, scene, values, now_sent)
         self._moved = next((name for name in changed if name in MOVED), self._moved)
         if header.get("portrait", {}).get("degeneracies"):

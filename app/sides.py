@@ -56,4 +56,4 @@ def _symbol(name: str, values: Mapping[str, Any]) -> str:
         if example and i < len(example.slow):
             return example.slow[i][0]
         return "z" if i == 0 else plain_symbol(name)
-    return ExplorerState.param[name].label if name in ExplorerState.param else plain_symbol(name)
+    return str(ExplorerState.param[name].label) if name in ExplorerState.param else plain_symbol(name)

@@ -233,7 +233,8 @@ def clean(name: str, value: Any) -> Any:
         return _finite(name, declared.label, value)
     if type(declared) is param.Integer:
         count = _finite(name, declared.label, value)
-        low, high = declared.bounds
+        bounds: tuple[int, int] = declared.bounds  # type: ignore[assignment]  # all are declared with both
+        low, high = bounds
         if count != int(count) or not low <= count <= high:
             raise InputError(name, f"{declared.label}: {value} given; give a whole number from {low} to {high}.")
         return int(count)

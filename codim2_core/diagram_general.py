@@ -27,6 +27,7 @@ _GRID = 48
 _LEAST = 7  # values at least on each piece
 _BESIDE = 1e-7  # of the span: where the two sides of a special value are looked at
 _NARROW = 1e-12  # of the span
+_TOGETHER = 0.05  # radians from a triple zero within which its three zeros lie, beside the special value
 
 
 class _State:
@@ -143,10 +144,7 @@ def _named(value: float, before: _State, after: _State) -> list[SpecialValue]:
     out = []
     more, fewer = (before, after) if len(before.equator) >= len(after.equator) else (after, before)
     if len(more.equator) > len(fewer.equator):
-        theta = more.equator.theta
-        i = int(np.diff(theta, append=theta[0] + 2.0 * math.pi).argmin())
-        sentence = f"Two limit directions meet at θ = {theta[i]:.4g}: Θ has a double zero."
-        out.append(SpecialValue("saddle-node", value, (math.cos(theta[i]), math.sin(theta[i])), sentence, "fig:SNBIF"))
+        out += [_meeting(value, *met) for met in _meetings(more.equator.theta, fewer.equator.theta)]
     arriving = [int((s.equator.lambda_rho < 0.0).sum()) for s in (before, after)]
     if arriving[0] != arriving[1] and len(before.equator) == len(after.equator):
         i = int(abs(more.equator.lambda_rho).argmin())
@@ -179,6 +177,30 @@ def _named(value: float, before: _State, after: _State) -> list[SpecialValue]:
         sentence = "The closed equator is neutral to first order: it turns its stability."
         out.append(SpecialValue("neutral equator", value, (0.0, 0.0), sentence, "thm:geneps0"))
     return out
+
+
+def _meetings(more: Array, fewer: Array) -> list[tuple[int, float]]:
+    """How many limit directions meet and where, from what lies on the two sides."""
+    away = np.abs(np.remainder(more[:, None] - fewer + math.pi, 2.0 * math.pi) - math.pi)
+    own = away.argmin(axis=1) if len(fewer) else np.zeros(len(more), int)
+    close = away.min(axis=1, initial=math.inf) < _TOGETHER
+    met = [(3, float(fewer[j])) for j in range(len(fewer)) if (close & (own == j)).sum() == 3]
+    alone = more[~close]
+    if len(alone):
+        gaps = np.remainder(np.roll(alone, -1) - alone, 2.0 * math.pi)
+        first = int(gaps.argmin())  # of a pair: from there on every second gap is one
+        pairs = range(first, first + len(alone) - 1, 2)
+        met += [(2, float((alone[i % len(alone)] + 0.5 * gaps[i % len(alone)]) % (2.0 * math.pi))) for i in pairs]
+    return sorted(met, key=lambda m: m[1])
+
+
+def _meeting(value: float, count: int, theta: float) -> SpecialValue:
+    place, at = (math.cos(theta), math.sin(theta)), f"θ = {theta:.4g}"
+    if count == 2:
+        sentence = f"Two limit directions meet at {at}: Θ has a double zero."
+        return SpecialValue("saddle-node", value, place, sentence, "fig:SNBIF")
+    sentence = f"One limit direction splits into three at {at}: Θ has a triple zero."
+    return SpecialValue("pitchfork", value, place, sentence, "fig:SNBIF")
 
 
 def _middle(pair: tuple[CriticalSet, CriticalSet]) -> tuple[float, float]:

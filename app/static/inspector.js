@@ -49,8 +49,9 @@ class Inspector {
       <tr><td>(x₂, y₂)</td><td>${pair(c.x2[i])}</td></tr>
       <tr><td>tr J</td><td>${digits(c.trace[i])}</td></tr><tr><td>det J</td><td>${digits(c.determinant[i])}</td></tr>
       <tr><td>Δ(J)</td><td>${digits(c.discriminant[i])}</td></tr>
-      <tr><td>eigenvalues</td><td>${eigen(c.eigenvalues[i])}</td></tr></table>`)
-    this.find(".critical-table").innerHTML = "<h2>Critical set</h2>" + (rows.join("") || '<p class="note">None in the scaling chart.</p>')
+      <tr><td>eigenvalues</td><td>${eigen(c.eigenvalues[i])}</td></tr>
+      ${c.slow_flow[i].length && c.label.length > 1 ? `<tr><td>z′</td><td>${c.slow_flow[i].map((v) => digits(v)).join(", ")}</td></tr>` : ""}</table>`)
+    this.find(".critical-table").innerHTML = `<h2>${c.label.length > 1 ? "Critical sets" : "Critical set"}</h2>` + (rows.join("") || '<p class="note">None in the scaling chart.</p>')
   }
 
   cycles(c) {

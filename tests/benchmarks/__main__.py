@@ -1,16 +1,57 @@
-"""Run all benchmarks and write their tables into the README: ``python -m tests.benchmarks [name ...]``."""
+"""Run the benchmarks: ``python -m tests.benchmarks [--quick] [--html FILE] [name ...]``.
+
+Each is also a command of its own, ``python -m tests.benchmarks.bench_<name>``. A full run (without names and
+``--quick``) rewrites the tables and pictures of the README; every run writes the report with its plots as one HTML
+file (default build/benchmarks.html) that needs no network. Nothing here is asserted: these are measurements.
+"""
 
 from __future__ import annotations
 
+import argparse
 import importlib
 import os
 import platform
 import sys
+import time
+from dataclasses import dataclass
 from pathlib import Path
 
-README = Path(__file__).parents[2] / "README.md"
+from .page import page
+from .pictures import Plot, svg
+from .words import WORDS
+
+ROOT = Path(__file__).parents[2]
+README, PICTURES = ROOT / "README.md", ROOT / ".readme"
 START, END = "<!-- benchmarks -->", "<!-- /benchmarks -->"
-REPORTS = ("trajectories", "scene", "general", "app", "equator")  # bench_<name>.report() -> Markdown
+# bench_<name>: `measure` with `text` and `plots` where there is something to draw, else `report` alone.
+DRAWN = {
+    "trajectories": "Trajectories",
+    "roots": "Limit directions and critical sets",
+    "orbits": "Limit cycles and separatrices",
+    "motions": "Motions",
+    "growth": "Layers of a scene",
+}
+TABLES = {
+    "scene": "A cold scene", "general": "Typed systems", "simulate": "Simulated motions against eps",
+    "app": "The server", "equator": "Counts of limit directions",
+}  # fmt: skip
+IN_README = ("trajectories", "scene", "general", "app", "equator")
+# Titles of the plots of the second picture, by their beginnings.
+OTHERS = ("limit directions: wrong", "period, n = 3", "separatrices", "ball, ε = 1e-03", "distance from", "case1-cm4: count")
+ALT = {
+    "work-precision.svg": "Error against run time of 64 trajectories on six problems, for all methods",
+    "work-others.svg": "Error against run time of limit directions, cycles, separatrices and motions; growth of layers",
+}
+
+
+@dataclass(frozen=True)
+class Section:
+    """One benchmark's results."""
+
+    name: str
+    text: str
+    short: str
+    plots: list[Plot]
 
 
 def machine() -> str:
@@ -22,19 +63,62 @@ def machine() -> str:
     return f"{model}, {os.cpu_count()} processors, Python {platform.python_version()}."
 
 
-def main(names: list[str]) -> None:
-    """Run the named benchmarks, or all of them; only a full run rewrites the README."""
-    parts = [machine()]
-    for name in names or REPORTS:
-        module = importlib.import_module(f"{__package__}.bench_{name}")
+def measured(name: str, quick: bool) -> Section:
+    """Run one benchmark."""
+    module = importlib.import_module(f"{__package__}.bench_{name}")
+    if name in TABLES:
         text = module.report()
-        print(text, "\n", flush=True)
-        parts.append(text)
-    if not names:
-        before, rest = README.read_text().split(START)
-        after = rest.split(END)[1]
-        README.write_text(f"{before}{START}\n" + "\n\n".join(parts) + f"\n{END}{after}")
+        return Section(name, text, text, [])
+    found = module.measure(quick)
+    text = module.text(found)
+    short = module.readme(found) if hasattr(module, "readme") else text
+    return Section(name, text, short, module.plots(found))
+
+
+def pictures(sections: list[Section]) -> dict[str, str]:
+    """The README's pictures, by file name."""
+    from .bench_trajectories import SHOWN
+
+    plots = [drawn for section in sections for drawn in section.plots]
+    first = [drawn for drawn in plots if drawn.title in SHOWN]
+    second = [drawn for start in OTHERS for drawn in plots if drawn.title.startswith(start)]
+    return {name: svg(chosen) for name, chosen in zip(ALT, (first, second), strict=True) if chosen}
+
+
+def rewrite(sections: list[Section]) -> None:
+    """Put tables and pictures into the README."""
+    for name, picture in pictures(sections).items():
+        (PICTURES / name).write_text(picture)
+    parts = [machine()]
+    parts += [f"![{alt}](.readme/{name})" for name, alt in ALT.items()]
+    parts += [section.short for section in sections if section.name in IN_README]
+    before, rest = README.read_text().split(START)
+    after = rest.split(END)[1]
+    README.write_text(f"{before}{START}\n" + "\n\n".join(parts) + f"\n{END}{after}")
+
+
+def main() -> None:
+    """Run what is asked for, and write it down."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", choices=[*DRAWN, *TABLES, []], metavar="name")
+    parser.add_argument("--quick", action="store_true", help="a few cases of what is drawn, under a minute")
+    parser.add_argument("--html", type=Path, default=ROOT / "build" / "benchmarks.html", help="where the report goes")
+    options = parser.parse_args()
+    names = options.names or [*DRAWN, *(() if options.quick else TABLES)]
+    sections = []
+    for name in names:
+        start = time.perf_counter()
+        sections.append(measured(name, options.quick))
+        print(sections[-1].text, "\n", flush=True)
+        print(f"{name}: {time.perf_counter() - start:.0f} s", file=sys.stderr, flush=True)
+    options.html.parent.mkdir(parents=True, exist_ok=True)
+    titles = DRAWN | TABLES
+    body = [(f"# codim2, measured\n\n{machine()}\n\n{WORDS}", [])]
+    body += [(f"## {titles[section.name]}\n\n{section.text}", section.plots) for section in sections]
+    options.html.write_text(page("codim2, measured", body))
+    if not options.names and not options.quick:
+        rewrite(sections)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -14,7 +14,7 @@ import codim2_core as c2
 from codim2_core.scene import layers
 
 TRAJECTORIES = ("inside", "outside")
-ON_REQUEST = ("separatrices", "regions", "certificates")  # drawn or listed only when a person asks, or at rest
+ON_REQUEST = ("separatrices", "regions", "certificates", "outcomes")  # only when a person asks, or at rest
 PICTURE = tuple(name for name in layers if name not in ON_REQUEST)  # what a frame of the explorer computes
 
 

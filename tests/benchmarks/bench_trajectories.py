@@ -133,7 +133,7 @@ def slower(races: list[Race]) -> str:
     return "Slower than another one: " + ("; ".join(found) + "." if found else "nowhere, at any error from 1e-3 to 1e-12.")
 
 
-def readme_table(races: list[Race]) -> str:
+def readme(races: list[Race]) -> str:
     """The best competitors over ours, least and median over all problems, at four errors."""
     errors = (1e-3, 1e-6, 1e-9, 1e-12)
     groups = {"SciPy, alone": ", alone", "SciPy, stacked": ", stacked"}
@@ -154,7 +154,7 @@ def readme_table(races: list[Race]) -> str:
             cells.append(f"{short(float(np.median(found)))} (least {short(min(found))})")
         best = " (best method)" if title in groups else ""
         lines.append(f"| {title}{best} | {' | '.join(cells)} |")
-    return "\n".join(lines)
+    return "\n".join(lines) + "\n\n" + slower(races)
 
 
 def plots(races: list[Race]) -> list[Plot]:
@@ -165,18 +165,13 @@ def plots(races: list[Race]) -> list[Plot]:
     ]
 
 
-def shown(races: list[Race]) -> list[Plot]:
-    """The plots of the README."""
-    return [figure for figure in plots(races) if figure.title in SHOWN]
-
-
 def missing(races: list[Race]) -> str:
     """Who could not run."""
     absent = {name: why for item in races for name, why in item.absent.items()}
     return "\n\n".join(f"Not run: {name} ({why})." for name, why in absent.items())
 
 
-def full_text(races: list[Race]) -> str:
+def text(races: list[Race]) -> str:
     """All tables, as Markdown."""
     parts = [best_table(races), method_table(races), absolute_table(races), slower(races), missing(races)]
     return "\n\n".join(part for part in parts if part)
@@ -184,9 +179,9 @@ def full_text(races: list[Race]) -> str:
 
 def report(quick: bool = False) -> str:
     """Return all tables as Markdown."""
-    return full_text(measure(quick))
+    return text(measure(quick))
 
 
 if __name__ == "__main__":
     names = tuple(name for name in sys.argv[1:] if not name.startswith("-"))
-    print(full_text(measure("--quick" in sys.argv, names)))
+    print(text(measure("--quick" in sys.argv, names)))

@@ -9,7 +9,7 @@ from bokeh.embed import components
 from bokeh.layouts import gridplot
 from bokeh.models import Legend
 from bokeh.plotting import figure
-from bokeh.resources import INLINE
+from bokeh.resources import Resources
 
 from .pictures import Plot, style
 
@@ -71,5 +71,6 @@ def page(title: str, sections: list[tuple[str, list[Plot]]]) -> str:
             script, place = components(gridplot(figures, ncols=2, toolbar_location=None))
             scripts.append(script)
             body.append(place)
-    head = f'<meta charset="utf-8"><title>{escape(title)}</title><style>{STYLE}</style>{INLINE.render()}'
+    resources = Resources(mode="inline", components=["bokeh"])
+    head = f'<meta charset="utf-8"><title>{escape(title)}</title><style>{STYLE}</style>{resources.render()}'
     return f'<!doctype html><html lang="en"><head>{head}</head><body>{"".join(body)}{"".join(scripts)}</body></html>\n'

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+import time
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import codim2_core as c2
 from codim2_core import vary
 from codim2_core.diagram import Diagram, diagram
+
+from .general_systems import NONUNIQUE
 
 BAD = c2.ELinear(172, 186, -200, f=(-86, -93))
 PSIS = (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3), c2.psi.rational(), c2.psi.exponential())
@@ -238,3 +241,51 @@ def test_a_general_system_has_the_values_of_its_e_linear_twin() -> None:
     assert [b.kind for b in D.critical] == [b.kind for b in E.critical] == ["stable node", "stable focus"]
     assert {b.kind for b in D.equator} == {b.kind for b in E.equator}
     assert_allclose(D.critical[0].p[0], E.critical[0].p[0], atol=1e-6)
+
+
+_PLANE = ("a", "b", "d", "f1", "f2")
+_TYPED = c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=dict.fromkeys(_PLANE, 0.0))
+
+
+@settings(max_examples=12)
+@given(st.tuples(*5 * [st.integers(-200, 200)]), st.sampled_from(_PLANE))
+def test_typed_systems_have_the_special_values_of_their_e_linear_twins(hundredths, name) -> None:
+    """Every special value of the equator, and none besides; det A = 0 outside the disc is nothing in general."""
+    # off the round numbers, which are on the borders for every value of a parameter
+    a, b, d, f1, f2 = (
+        n / 100 + off for n, off in zip(hundredths, (0.0037, 0.0011, 0.0059, 0.0023, 0.0043), strict=True)
+    )
+    values = dict(zip(_PLANE, (a, b, d, f1, f2), strict=True))
+    span = (values[name] - 1.013, values[name] + 0.971)
+    D = diagram(_TYPED.evolve(**values), c2.psi.tanh(), name, span)
+    E = diagram(c2.ELinear(a, b, d, (f1, f2)), c2.psi.tanh(), name, span)
+    for kind in ("saddle-node", "transcritical", "Hopf", "neutral equator"):
+        exact = found(E, kind)
+        assume(min(np.diff(exact), default=1.0) > 0.1)  # two in one step of the grid may be missed
+        assert_allclose(found(D, kind), exact, atol=1e-9)
+
+
+def test_pitchforks_of_a_general_system_are_both_named() -> None:
+    """sec:nonunique with the errata: 8 limit directions become 4 at |z| = 2^(-1/4), in two pitchforks."""
+    D = diagram(NONUNIQUE, c2.psi.tanh(), "z1", (-1.5, 1.5), 0.3)
+    forks = [s for s in D.special if s.kind == "pitchfork"]
+    assert_allclose([s.value for s in forks], 2**-0.25 * np.array([-1, -1, 1, 1]), atol=1e-7)
+    assert_allclose([s.place for s in forks], [(1, 0), (-1, 0)] * 2, atol=1e-2)
+    assert not [s for s in D.special if s.kind == "saddle-node"]
+
+
+def test_saddle_nodes_of_a_general_system() -> None:
+    """Theta = sin(theta)^2 - p: two saddle-nodes at p = 0, at 0 and pi, and two at p = 1."""
+    system = c2.System(U=("-c - s*(s**2 - p)", "-s + c*(s**2 - p)"), parameters={"p": 0.0})
+    D = diagram(system, c2.psi.tanh(), "p", (-0.5, 1.3))
+    saddle_nodes = [s for s in D.special if s.kind == "saddle-node"]
+    assert_allclose([s.value for s in saddle_nodes], [0, 0, 1, 1], atol=1e-9)
+    assert_allclose([s.place for s in saddle_nodes], [(1, 0), (-1, 0), (0, 1), (0, -1)], atol=1e-3)
+
+
+def test_a_diagram_of_a_general_system_is_quick() -> None:
+    values = dict(zip(_PLANE, (-1.0, 0.2, -1.5, -0.1, 0.05), strict=True))
+    diagram(_TYPED.evolve(**values), c2.psi.tanh(), "b", (-0.4, 0.4))
+    started = time.process_time()
+    diagram(_TYPED.evolve(**values), c2.psi.tanh(), "b", (-0.41, 0.4))
+    assert time.process_time() - started < 0.5

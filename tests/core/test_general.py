@@ -1,6 +1,8 @@
 """General systems: what is read, frozen and differentiated, and that hostile text is refused quickly, nothing run."""
 
 import pickle
+import subprocess
+import sys
 import time
 
 import mpmath
@@ -292,3 +294,17 @@ def test_elinear_written_as_text_is_the_same_field():
     e = np.random.default_rng(1).uniform(-1, 1, (20, 2))
     np.testing.assert_allclose(typed.U(e), closed.U(e), atol=1e-15)
     np.testing.assert_allclose(typed.DU(e), np.broadcast_to(closed.A, (20, 2, 2)), atol=0)
+
+
+def test_e_linear_systems_need_no_compiler():
+    """Only systems typed as text, and trajectories, are run by compiled code: it takes seconds to load."""
+    code = """if True:
+        import sys, codim2_core as c2
+        from codim2_core.diagram import diagram
+        system, psi = c2.ELinear(-1.0, 0.3, -1.5, (-0.1, 0.05)), c2.psi.tanh()
+        c2.critical_sets(system, psi), c2.equator_equilibria(system), c2.equator_cycle(system)
+        c2.classify(system, psi), c2.nullclines(system, psi), diagram(system, psi, "b", (-0.4, 0.4))
+        c2.System(U=("a*c", "-s"), parameters={"a": 1.0}).at()
+        sys.exit("numba" in sys.modules)
+    """
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -5,7 +5,8 @@ import time
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
 
 from codim2_core import ELinear, equator_equilibria, hemisphere, nullclines, psi
 from codim2_core.equator_general import component_zeros
@@ -193,17 +194,30 @@ def test_drawn_polylines_do_not_sag(system, regularisation):
         assert away.max() < QUARTER_PIXEL
 
 
-def test_elinear_written_as_text():
-    closed = ELinear(-2.0, 0.5, -1.0, (-0.5, 0.3)).at()
-    typed = System(U=("-2*c - 0.5*s - 0.5", "0.5*c - s + 0.3"))
-    for regularisation in (psi.constant(), psi.rational()):
-        for one, other in ((closed, typed.at()), (typed.at(), closed)):
-            for branch in nullclines(one, regularisation):
-                if not branch.inside:
-                    continue
-                targets = [b.points for b in nullclines(other, regularisation) if b.inside and b.kind == branch.kind]
-                for p in branch.points[:: max(1, len(branch.points) // 20)]:
-                    assert min(distance(p, polyline) for polyline in targets) < 4 * QUARTER_PIXEL
+_hundredths = st.integers(-200, 200).map(lambda n: n / 100)
+
+
+@given(st.tuples(*5 * [_hundredths]), st.sampled_from([ONE, psi.rational()]))
+@settings(max_examples=25)
+@example((-2.0, 0.5, -1.0, -0.5, 0.3), ONE)
+@example((0.062, -1.75, 1.062, 0.0, 0.0), ONE)  # two diameters
+def test_traced_branches_are_the_closed_conics(numbers, regularisation):
+    """An e-linear system written as text: as many branches of each kind as in closed form, and the same ones."""
+    a, b, d, f1, f2 = numbers
+    closed = ELinear(a, b, d, (f1, f2)).at()
+    assume(closed.plane[:3] != (0.0, 0.0, 0.0))
+    typed = System(U=(f"({a})*c - ({b})*s + ({f1})", f"({b})*c + ({d})*s + ({f2})")).at()
+    first, second = ([x for x in nullclines(at, regularisation) if x.inside] for at in (closed, typed))
+    for kind in KINDS:
+        one, other = ([x.points for x in found if x.kind == kind] for found in (first, second))
+        ends = equator_equilibria(closed).multiplicity if kind == "theta" else component_zeros(typed.key, kind)[1]
+        if (ends == 1).all():
+            assert len(one) == len(other)
+            for some, targets in ((one, other), (other, one)):
+                for p in np.concatenate(
+                    [points[:: max(1, len(points) // 20)] for points in some] or [np.zeros((0, 2))]
+                ):
+                    assert min(distance(p, polyline) for polyline in targets) < 2 * QUARTER_PIXEL
 
 
 def distance(p, polyline):
