@@ -14,7 +14,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import linprog
 
 from .general import Frozen, System
 from .systems import Coefficients, ELinear
@@ -91,7 +90,10 @@ def filippov_sliding(system: ELinear | System | Coefficients | Frozen, z: ArrayL
     for count, n in enumerate(_normals(m)):
         if count == 2 * m > 0 and len(vertices) == 1:
             break  # all axes agree: one point
-        vertex, directions, weight = _extreme(field, theta, n)
+        found = _extreme(field, theta, n)
+        if found is None:
+            return FilippovSliding(_frozen(np.zeros((0, m))), (), (), False, _TOUCHES)
+        vertex, directions, weight = found
         if not any(np.abs(vertex - other).max() <= UNIQUE * field.size for other in vertices):
             vertices.append(vertex)
             combinations.append((directions, weight))
@@ -115,6 +117,7 @@ def filippov_sliding(system: ELinear | System | Coefficients | Frozen, z: ArrayL
     )
 
 
+_TOUCHES = "Σ only touches the hull of the limit vectors, within 1e-10: whether a combination is tangent is undecided."
 _NONE = "No convex combination of the limit vectors is tangent to Σ: crossing, by the Filippov convention."
 
 
@@ -161,6 +164,8 @@ class _Field:
 
 def _separating(field: _Field) -> tuple[bool, Array]:
     """Whether a line through 0 has all of U on one side, and directions whose U otherwise has 0 in its hull."""
+    from scipy.optimize import linprog  # imported late: it takes longer than all of this package
+
     theta = field.theta[:: DENSE // START]
     for _ in range(ROUNDS):
         U, _ = field(theta)
@@ -183,8 +188,10 @@ def _separating(field: _Field) -> tuple[bool, Array]:
     return True, theta  # closer than rounding can tell: no combination was found
 
 
-def _extreme(field: _Field, theta: Array, n: Array) -> tuple[Array, Array, Array]:
-    """Return the candidate that is farthest along n, its directions and weights."""
+def _extreme(field: _Field, theta: Array, n: Array) -> tuple[Array, Array, Array] | None:
+    """Return the candidate that is farthest along n, its directions and weights; None if rounding leaves none."""
+    from scipy.optimize import linprog
+
     weights, slope = np.zeros(0), np.zeros(2)
     for _ in range(ROUNDS):
         U, W = field(theta)
@@ -196,6 +203,8 @@ def _extreme(field: _Field, theta: Array, n: Array) -> tuple[Array, Array, Array
             method="highs",
             options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
         )
+        if not result.success:  # 0 is on the border of the hull of U
+            return None
         slope, level = result.eqlin.marginals[:2], -result.eqlin.marginals[2]
         weights = result.x
 

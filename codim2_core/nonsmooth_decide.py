@@ -12,7 +12,7 @@ from . import regularisation
 from .critical import CriticalSet, critical_sets
 from .cycles import limit_cycles
 from .equator import EquatorEquilibria, equator_equilibria
-from .outcomes import _hemisphere, approach_outcomes
+from .outcomes import approach_outcomes, layer_problem
 from .regularisation import Psi
 from .trajectories import AnySystem
 
@@ -82,7 +82,7 @@ def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Ver
     """
     at = tuple(z.tolist())
     frozen = system.at(at)
-    hemisphere = _hemisphere(frozen, psi, equator_equilibria(frozen))
+    hemisphere = layer_problem(frozen, psi, equator_equilibria(frozen))
     ends = hemisphere.ends(hemisphere.followed(points))
     verdict, onto, leaving, _, reason = hemisphere.judge(ends, "Orbits go on from there")
     return _followed(system, psi, at, verdict, onto, leaving, reason)

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import root_scalar
 
 from .regularisation import Psi
 from .simulation_field import Field
@@ -236,6 +235,8 @@ def _zero(sheet: Sheet, gauge: Callable[[Array, Array], float], step: Step) -> f
 
     if value(0.0) <= 0.0:  # began on the border itself, and stays outside
         return 0.0
+    from scipy.optimize import root_scalar  # imported late: it takes longer than all of this package
+
     return float(root_scalar(value, bracket=(0.0, 1.0), xtol=1e-15).root)
 
 

@@ -210,8 +210,9 @@ def follow(op, left, right, number, roots, kind, outside, start, home, crossings
     most = largest if outside else 1.0
     X, Y, tx, ty = start[0], start[1], start[2], start[3]
     out[0] = start
+    _, slope_X, slope_Y = _component(op, left, right, number, roots, kind, outside, X, Y, seed, work, rows)
     leaving = _entered(crossings, X, Y)  # by rounding, at its circle
-    count, h, slope_X, slope_Y, bend = 1, 0.25 * LONGEST, 0.0, 0.0, 0.0
+    count, h, bend = 1, 0.25 * LONGEST, 0.0
     from_home = home[0] == start[0] and home[1] == start[1]
     while count < len(out) - 1:
         for i in range(len(crossings)):  # do not step over a circle
@@ -229,7 +230,7 @@ def follow(op, left, right, number, roots, kind, outside, start, home, crossings
             turn = math.atan2(tx * ny - ty * nx, tx * nx + ty * ny)
         # a gradient that changes much tells of another branch close by
         change = math.hypot(gx - slope_X, gy - slope_Y)
-        leap = count > 1 and change > 0.5 * min(length, math.hypot(slope_X, slope_Y))
+        leap = change > 0.5 * min(length, math.hypot(slope_X, slope_Y))
         uneven = count > 1 and abs(turn - bend * h) * h > UNEVEN
         if not ok or abs(turn) > BEND or leap or uneven:
             h *= 0.5

@@ -1,9 +1,9 @@
 """Nullclines of a general system as branches: rho' = 0, theta' = 0, U1 = 0 and U2 = 0.
 
-Branches begin at the zeros on the equator, which are known with proof, and at crossings (`nullcline_crossings`); they
-are followed (`nullcline_trace`) to where they end. What a net of the disc still shows as sign changes belongs to closed
-loops. Where branches cross, each goes straight on. A loop smaller than a cell of the net, and a curve that a component
-touches without a change of sign, are not found.
+Branches begin at e = 0, at the zeros on the equator, which are known with proof, and at crossings
+(`nullcline_crossings`); they are followed (`nullcline_trace`) to where they end. What a net of the disc still shows as
+sign changes belongs to closed loops. Where branches cross, each goes straight on. A loop smaller than a cell of the
+net, and a curve that a component touches without a change of sign, are not found.
 """
 
 from __future__ import annotations
@@ -187,6 +187,10 @@ class _Tracer:
 
     def branches(self) -> list[Traced]:
         """All of them, but no more than make a picture."""
+        if not self.outside and self.kind < 2:  # e.U and its like vanish at e = 0: a loop through it may be small
+            start = self._settled(np.zeros(2), 1e-6)
+            if start is not None and not self._at_crossing(start):
+                self._both_ways(start)
         for i, u in enumerate(self.ends):
             if not self.waiting[i] or self._enough():
                 continue
@@ -208,13 +212,16 @@ class _Tracer:
                 continue
             r = math.hypot(start[0], start[1])
             within = 1.0 <= r <= self.reach if self.outside else r <= 1.0
-            met = np.hypot(self.circles[:, 0] - start[0], self.circles[:, 1] - start[1]) < self.circles[:, 2]
-            if within and not met.any() and np.abs(start[:2] - middle).max() <= cell:
+            if within and not self._at_crossing(start) and np.abs(start[:2] - middle).max() <= cell:
                 self._both_ways(start)
         return self.found
 
     def _enough(self) -> bool:
         return sum(len(branch.points) for branch in self.found) > ALL_POINTS
+
+    def _at_crossing(self, start: Array) -> bool:
+        away = np.hypot(self.circles[:, 0] - start[0], self.circles[:, 1] - start[1])
+        return bool((away < self.circles[:, 2]).any())
 
     def _settled(self, point: Array, reach: float) -> Array | None:
         """Return the point of the curve nearest to another, with its tangent."""

@@ -37,7 +37,7 @@ from .regularisation import Psi
 from .systems import Coefficients
 from .trajectories import AnySystem, Trajectories, continuation, trajectories
 
-__all__ = ["Outcome", "Outcomes", "approach_outcomes"]
+__all__ = ["LayerProblem", "Outcome", "Outcomes", "approach_outcomes", "layer_problem"]
 
 Array = NDArray[np.float64]
 
@@ -179,8 +179,17 @@ class Outcomes:
 
 
 @dataclass(frozen=True)
-class _Hemisphere:
-    """All that one regularisation decides."""
+class LayerProblem:
+    """The layer problem eq:LP at one z under one regularisation: what stands still in it, and where orbits end.
+
+    Attributes
+    ----------
+    at : Coefficients or Frozen
+    psi : Psi
+    equator : EquatorEquilibria
+    critical : tuple of CriticalSet
+    cycles : LimitCycles
+    """
 
     at: Coefficients | Frozen
     psi: Psi
@@ -189,15 +198,18 @@ class _Hemisphere:
     cycles: LimitCycles
 
     def ends(self, lines: Trajectories) -> list[Ending]:
+        """Say where trajectories end."""
         return endings(self.at, self.psi, lines, self.equator, self.critical, self.cycles, rtol=RTOL)
 
     def followed(self, points: Array) -> Trajectories:
+        """Follow points of the picture (k, 2) until they have ended somewhere."""
         time = drawn_time(self.at, self.equator)
         return trajectories(
             self.at, self.psi, points, t_max=time, rtol=RTOL, atol=0.1 * RTOL, capture=CAPTURE, samples="ends"
         )
 
     def from_equator(self, i: int) -> Trajectories:
+        """Follow the orbit that leaves the limit direction i (from 0) up the hemisphere."""
         time = drawn_time(self.at, self.equator)
         return continuation(
             self.at,
@@ -253,8 +265,9 @@ class _Hemisphere:
         return self.judge(self.ends(self.followed(ring)), many)
 
 
-def _hemisphere(at: Coefficients | Frozen, psi: Psi, equator: EquatorEquilibria) -> _Hemisphere:
-    return _Hemisphere(at, psi, equator, critical_sets(at, psi), limit_cycles(at, psi))
+def layer_problem(at: Coefficients | Frozen, psi: Psi, equator: EquatorEquilibria) -> LayerProblem:
+    """Gather what stands still in the layer problem; the equator does not depend on Psi."""
+    return LayerProblem(at, psi, equator, critical_sets(at, psi), limit_cycles(at, psi))
 
 
 def _sensitive(at: Coefficients | Frozen, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...]) -> bool:
@@ -311,8 +324,8 @@ def approach_outcomes(
     """
     at = system.at(z)
     equator = equator_equilibria(at)
-    own = _hemisphere(at, psi, equator)
-    others: list[_Hemisphere] = []
+    own = layer_problem(at, psi, equator)
+    others: list[LayerProblem] = []
     sensitive = _sensitive(at, equator, own.critical)
     arriving = equator.all_directions or (equator.lambda_rho < 0.0).any()
     cycle = equator_cycle(at)
@@ -322,7 +335,7 @@ def approach_outcomes(
         if compare is None:
             compare = [regularisation.make(name) for name in ("constant", "rational", "exponential", "tanh")]
             compare += [regularisation.hill(n) for n in (1, 2, 3, 4)]
-        others = [_hemisphere(at, other, equator) for other in compare]
+        others = [layer_problem(at, other, equator) for other in compare]
     if equator.all_directions or cycle is not None or not len(equator):
         whole = _whole(own, others, sensitive, cycle)
         found = () if whole.verdict == "misses" else (whole,)
@@ -342,7 +355,7 @@ def _compared(outcome: Outcome, verdicts: list[tuple[str, str, str | None]], sen
     return replace(outcome, depends_on_psi=depends, families=tuple(verdicts))
 
 
-def _direction(own: _Hemisphere, others: list[_Hemisphere], sensitive: bool, i: int) -> Outcome:
+def _direction(own: LayerProblem, others: list[LayerProblem], sensitive: bool, i: int) -> Outcome:
     equator, label = own.equator, f"Q{i + 1}"
     theta = float(equator.theta[i])
     if radially_neutral(equator, i):
@@ -363,7 +376,7 @@ def _direction(own: _Hemisphere, others: list[_Hemisphere], sensitive: bool, i: 
     return _compared(outcome, verdicts, sensitive)
 
 
-def _whole(own: _Hemisphere, others: list[_Hemisphere], sensitive: bool, cycle: EquatorCycle | None) -> Outcome:
+def _whole(own: LayerProblem, others: list[LayerProblem], sensitive: bool, cycle: EquatorCycle | None) -> Outcome:
     if own.equator.all_directions:
         label, radial = "every direction", _radial(own.at)
         if radial.max() < 0.0:

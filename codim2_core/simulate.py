@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import root_scalar
 
 from .regularisation import Psi
 from .simulation_field import field
@@ -196,6 +195,8 @@ def _followed(
 def _zero(event: Event, step: Step) -> float:
     if event.function(step.end, step.last) == 0.0:
         return 1.0
+    from scipy.optimize import root_scalar  # imported late: it takes longer than all of this package
+
     return float(
         root_scalar(lambda u: event.function(step.start + u * step.h, step.at(u)), bracket=(0.0, 1.0), xtol=1e-15).root
     )

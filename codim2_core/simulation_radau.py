@@ -14,7 +14,6 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import roots_jacobi
 
 Array = NDArray[np.float64]
 
@@ -50,6 +49,8 @@ class Tableau:
 @lru_cache(maxsize=1)
 def tableau() -> Tableau:
     """Coefficients, from the zeros of the Jacobi polynomial P_4^(1,0)."""
+    from scipy.special import roots_jacobi  # imported late: it takes longer than all of this package
+
     nodes = np.append(0.5 * (np.sort(roots_jacobi(STAGES - 1, 1.0, 0.0)[0]) + 1.0), 1.0)
     k = np.arange(STAGES)
     powers = nodes[:, None] ** k

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq, linear_sum_assignment
 
 from .critical import CriticalSet, critical_sets
 from .general import Frozen, System
@@ -256,6 +255,8 @@ def _place(C: CriticalSet) -> tuple[float, float]:
 
 def _matching(before: Sequence[CriticalSet], after: Sequence[CriticalSet]) -> list[tuple[CriticalSet, CriticalSet]]:
     """Pair the critical sets at two neighbouring z, each with the one that moved least."""
+    from scipy.optimize import linear_sum_assignment  # imported late: it takes longer than all of this package
+
     distance = [[float(np.hypot(*(p.e - q.e))) for q in after] for p in before]
     rows, columns = linear_sum_assignment(np.array(distance).reshape(len(before), len(after)))
     return [(before[i], after[j]) for i, j in zip(rows, columns, strict=True)]
@@ -279,6 +280,8 @@ def _follow(values: list[float], sets: list[tuple[CriticalSet, ...]]) -> list[Sl
 
 def _equilibria(line: _Line, branch: SlowBranch) -> list[SlowPoint]:
     """Zeros of the slow flow along z on one branch, to rounding."""
+    from scipy.optimize import brentq
+
     flow = branch.flow[:, line.axis]
     found = []
     for i in np.flatnonzero((flow[:-1] * flow[1:] < 0.0) | ((flow[:-1] == 0.0) & (flow[1:] != 0.0))):

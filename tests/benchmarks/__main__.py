@@ -37,7 +37,14 @@ TABLES = {
 }  # fmt: skip
 IN_README = ("trajectories", "scene", "general", "app", "equator")
 # Titles of the plots of the second picture, by their beginnings.
-OTHERS = ("limit directions: wrong", "period, n = 3", "separatrices", "ball, ε = 1e-03", "distance from", "case1-cm4: count")
+OTHERS = (
+    "limit directions: wrong",
+    "period, n = 3",
+    "separatrices",
+    "ball, ε = 1e-03",
+    "distance from",
+    "case1-cm4: count",
+)
 ALT = {
     "work-precision.svg": "Error against run time of 64 trajectories on six problems, for all methods",
     "work-others.svg": "Error against run time of limit directions, cycles, separatrices and motions; growth of layers",

@@ -1,4 +1,4 @@
-"""How the layers of a scene grow: with the number of trajectories, the pixel, the tolerance, the view; and their shares.
+"""How the layers of a scene grow with the number of trajectories, pixel, tolerance and view; and their shares.
 
 Run ``python -m tests.benchmarks.bench_growth [--quick]``. Each scene is new, so that nothing is remembered; the
 layers' needs are computed first, so that each layer is charged for itself alone.
@@ -28,7 +28,7 @@ AXES: dict[str, Sequence[float]] = {
 TITLES = {
     "count": "trajectories", "pixel": "pixel, picture units", "tolerance": "rtol of trajectories", "view": "view",
 }  # fmt: skip
-LEAST = 0.02  # of the picture: layers below it at every setting are drawn as one
+LEAST = 0.06  # of the picture: layers below it at every setting are drawn as one
 Spent = dict[str, float]
 
 
@@ -75,9 +75,9 @@ def measure(quick: bool = False) -> dict[tuple[str, str], dict[float, Spent]]:
 
 
 def growth(rows: dict[float, Spent]) -> float:
-    """Exponent of the whole picture's time over the upper half of the axis."""
+    """Exponent of the trajectories' time over the upper half of the axis."""
     values = sorted(rows)[len(rows) // 2 - 1 :]
-    times = [sum(rows[value].values()) for value in values]
+    times = [rows[value]["inside"] + rows[value]["outside"] for value in values]
     return float(np.polyfit(np.log(values), np.log(times), 1)[0])
 
 
@@ -96,7 +96,7 @@ def text(found: dict[tuple[str, str], dict[float, Spent]]) -> str:
             f"{value:g}: {1e3 * sum(spent.values()):.2f} ({1e3 * (spent['inside'] + spent['outside']):.2f})"
             for value, spent in rows.items()
         ]
-        extra = f"; grows as count^{growth(rows):.2f}" if axis == "count" else ""
+        extra = f"; trajectories grow as count^{growth(rows):.2f}" if axis == "count" else ""
         lines.append(f"| {preset}, {TITLES[axis]} | {', '.join(cells)}{extra} |")
     return "\n".join(lines)
 

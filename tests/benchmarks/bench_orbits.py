@@ -97,7 +97,9 @@ def followed(offset: float, tolerance: float, dense: bool = False) -> list:
 
         gone.terminal = True  # type: ignore[attr-defined]
         results.append(
-            solve_ivp(field, (0.0, 60.0), start, "DOP853", rtol=tolerance, atol=tolerance, events=gone, dense_output=dense)
+            solve_ivp(
+                field, (0.0, 60.0), start, "DOP853", rtol=tolerance, atol=tolerance, events=gone, dense_output=dense
+            )
         )
     return results
 

@@ -101,7 +101,7 @@ def equator_rows(count: int, turns: int) -> list[Row]:
         times: dict[str, list[float]] = {name: [] for name in METHODS}
         for _ in range(turns):
             for name, method in METHODS.items():
-                times[name].append(clock(lambda _, m=method: [m(q) for q in systems], 0.0) / count)
+                times[name].append(clock(lambda _, m=method, all_=systems: [m(q) for q in all_], 0.0) / count)
         for name, method in METHODS.items():
             found = [method(q) for q in systems]
             right = [i for i in range(count) if len(found[i]) == counts[i]]

@@ -130,7 +130,9 @@ def slower(races: list[Race]) -> str:
             missed = [error for error, value in values.items() if math.isnan(value)]
             if missed and name == "heyoka, batch of 8" and math.isfinite(curve.cost(missed[-1])):
                 found.append(f"{item.problem.name}: ours stops short of {missed[-1]:.0e}, {name} does not")
-    return "Slower than another one: " + ("; ".join(found) + "." if found else "nowhere, at any error from 1e-3 to 1e-12.")
+    return "Slower than another one: " + (
+        "; ".join(found) + "." if found else "nowhere, at any error from 1e-3 to 1e-12."
+    )
 
 
 def readme(races: list[Race]) -> str:

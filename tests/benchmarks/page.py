@@ -13,14 +13,14 @@ from bokeh.resources import Resources
 
 from .pictures import Plot, style
 
-STYLE = """body { font: 15px/1.5 system-ui, sans-serif; max-width: 1180px; margin: 2em auto; padding: 0 1em; color: #222 }
+STYLE = """body { font: 15px/1.5 system-ui, sans-serif; max-width: 1180px; margin: 2em auto; padding: 0 1em }
 table { border-collapse: collapse; margin: 1em 0; font-size: 13px } td, th { border: 1px solid #ddd; padding: 2px 8px }
 td:not(:first-child) { text-align: right }"""
 
 
 def bokeh_figure(drawn: Plot):
     """One log-log plot; a click on the legend hides a curve."""
-    styles = style([line.name for line in drawn.lines])
+    styles = style(drawn.lines)
     result = figure(
         title=drawn.title, x_axis_type="log", y_axis_type="log", x_axis_label=drawn.x, y_axis_label=drawn.y,
         width=560, height=400, tools="pan,wheel_zoom,box_zoom,reset,save,hover",
@@ -29,7 +29,7 @@ def bokeh_figure(drawn: Plot):
     items = []
     for line in drawn.lines:
         colour, dash = styles[line.name]
-        x, y = zip(*sorted(line.points), strict=True)
+        x, y = zip(*line.points, strict=True)
         options = {"color": colour, "name": line.name}
         drawn_line = result.line(x, y, line_width=3 if line.bold else 1.3, line_dash=dash or "solid", **options)
         items.append((line.name, [drawn_line, result.scatter(x, y, size=6 if line.bold else 4, **options)]))

@@ -52,11 +52,13 @@ def plot(title: str, curves: dict[str, Sequence[tuple[float, float]]], first: st
     return Plot(title, tuple(lines), **labels)
 
 
-def style(names: Sequence[str]) -> dict[str, tuple[str, str]]:
-    """Colour and dash of each name; the same in all plots that list the same names."""
-    return {
-        name: (COLOURS[i % len(COLOURS)], DASHES[(i // 5) % len(DASHES)]) for i, name in enumerate(dict.fromkeys(names))
-    }
+def style(lines: Sequence[Line]) -> dict[str, tuple[str, str]]:
+    """Colour and dash of each name, ours the first colour; the same in all plots that list the same names."""
+    bold = {line.name for line in lines if line.bold}
+    others = [name for name in dict.fromkeys(line.name for line in lines) if name not in bold]
+    rest = COLOURS[1:]
+    styles = {name: (rest[i % len(rest)], DASHES[(i // 5) % len(DASHES)]) for i, name in enumerate(others)}
+    return {name: (COLOURS[0], "") for name in bold} | styles
 
 
 def _decades(values: Sequence[float]) -> tuple[int, int]:
@@ -82,23 +84,22 @@ def panel(figure: Plot, left: float, top: float, width: float, height: float, st
         return f"{u:.1f},{v:.1f}"
 
     out = [f'<text x="{left + 42}" y="{top + 13}" font-weight="600">{escape(figure.title)}</text>']
-    for k in range(x0, x1 + 1, max(1, (x1 - x0) // 6)):
+    for k in range(x0, x1 + 1, math.ceil((x1 - x0) / 6)):
         u, v = place(10.0**k, 10.0**y0).split(",")
         out.append(f'<path d="M{u} {v}V{top + 20}" stroke="#dddddd"/>')
         out.append(f'<text x="{u}" y="{float(v) + 14:.1f}" text-anchor="middle">{_power(k)}</text>')
-    for k in range(y0, y1 + 1):
+    for k in range(y0, y1 + 1, math.ceil((y1 - y0) / 8)):
         u, v = place(10.0**x0, 10.0**k).split(",")
         out.append(f'<path d="M{u} {v}H{left + 42 + across:.1f}" stroke="#dddddd"/>')
         out.append(f'<text x="{float(u) - 4:.1f}" y="{float(v) + 3:.1f}" text-anchor="end">{_power(k)}</text>')
     foot = top + 20 + up + 27
     out.append(f'<text x="{left + 42 + across / 2:.0f}" y="{foot:.0f}" text-anchor="middle">{escape(figure.x)}</text>')
     middle = top + 20 + up / 2
-    out.append(
-        f'<text transform="translate({left + 9} {middle:.0f}) rotate(-90)" text-anchor="middle">{escape(figure.y)}</text>'
-    )
+    turned = f'transform="translate({left + 9} {middle:.0f}) rotate(-90)"'
+    out.append(f'<text {turned} text-anchor="middle">{escape(figure.y)}</text>')
     for line in sorted(figure.lines, key=lambda line: line.bold):
         colour, dash = styles[line.name]
-        path = " ".join(place(*point) for point in sorted(line.points))
+        path = " ".join(place(*point) for point in line.points)
         wide = 2.6 if line.bold else 1.2
         out.append(
             f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="{wide}" stroke-dasharray="{dash}"/>'
@@ -109,23 +110,38 @@ def panel(figure: Plot, left: float, top: float, width: float, height: float, st
     return "\n".join(out)
 
 
+def _legend(entries: Sequence[tuple[str, tuple[str, str]]], left: float, top: float, columns: int, width: float) -> str:
+    out = []
+    for i, (name, (colour, dash)) in enumerate(entries):
+        x, y = left + 42 + (i % columns) * width, top + 12 + 15 * (i // columns)
+        out.append(f'<path d="M{x:.0f} {y - 3:.0f}h20" stroke="{colour}" stroke-width="2" stroke-dasharray="{dash}"/>')
+        out.append(f'<text x="{x + 24:.0f}" y="{y:.0f}">{escape(name)}</text>')
+    return "\n".join(out)
+
+
 def svg(figures: Sequence[Plot], columns: int = 3, width: float = 300.0, height: float = 250.0) -> str:
-    """Some plots side by side with one legend, as an SVG picture that needs nothing else."""
-    styles = style([line.name for figure in figures for line in figure.lines])
-    rows = math.ceil(len(figures) / columns)
+    """Some plots side by side as an SVG picture that needs nothing else; one legend if all show the same curves."""
     columns = min(columns, len(figures))
+    rows = math.ceil(len(figures) / columns)
+    names = [{line.name for line in figure.lines} for figure in figures]
+    shared = all(len(other & names[0]) >= 2 for other in names)
+    most = max(map(len, names))
+    band = 0 if shared else 15 * most + 8
+    styles = style([line for figure in figures for line in figure.lines])
     per_row = max(1, int(columns * width // 165))
-    legend = 18 * math.ceil(len(styles) / per_row) + 8
-    total = (columns * width, rows * height + legend)
+    foot = 15 * math.ceil(len(styles) / per_row) + 10 if shared else 0
+    across, down = columns * width, rows * (height + band) + foot
     out = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {total[0]:.0f} {total[1]:.0f}" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {across:.0f} {down:.0f}" '
         'font-family="system-ui, sans-serif" font-size="10" fill="#222222">',
-        f'<rect width="{total[0]:.0f}" height="{total[1]:.0f}" fill="#ffffff"/>',
+        f'<rect width="{across:.0f}" height="{down:.0f}" fill="#ffffff"/>',
     ]
     for i, figure in enumerate(figures):
-        out.append(panel(figure, (i % columns) * width, (i // columns) * height, width, height, styles))
-    for i, (name, (colour, dash)) in enumerate(styles.items()):
-        x, y = 42 + (i % per_row) * 165, rows * height + 12 + 18 * (i // per_row)
-        out.append(f'<path d="M{x} {y - 3}h22" stroke="{colour}" stroke-width="2" stroke-dasharray="{dash}"/>')
-        out.append(f'<text x="{x + 27}" y="{y}">{escape(name)}</text>')
+        left, top = (i % columns) * width, (i // columns) * (height + band)
+        own = styles if shared else style(figure.lines)
+        out.append(panel(figure, left, top, width, height, own))
+        if not shared:
+            out.append(_legend(list(own.items()), left, top + height, 1, width))
+    if shared:
+        out.append(_legend(list(styles.items()), 0.0, rows * height, per_row, 165.0))
     return "\n".join([*out, "</svg>\n"])

@@ -141,7 +141,9 @@ def near_equator() -> Problem:
     gap = np.logspace(-2, -12, COUNT)
     angle = np.resize(theta, COUNT) + 1e-3 * np.cos(np.arange(COUNT))
     seeds = (1.0 - gap)[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return _elinear("near the equator", system, psi.rational(), 16.0, seeds, polar=True, note="1 − |p| = 1e-2 … 1e-12")
+    return _elinear(
+        "near the equator", system, psi.rational(), 16.0, seeds, polar=True, note="ebar = 0.14 … 1.4e-6 at the seeds"
+    )
 
 
 def near_saddle() -> Problem:
@@ -205,5 +207,3 @@ def condition(problem: Problem) -> float:
     one = trajectories(at, problem.psi, problem.seeds, **options).ends[:, :2]
     two = trajectories(at, problem.psi, problem.seeds * (1.0 - shift), **options).ends[:, :2]
     return max(1.0, float(np.abs(two - one).max()) / shift)
-
-

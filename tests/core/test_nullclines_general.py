@@ -210,8 +210,12 @@ def test_traced_branches_are_the_closed_conics(numbers, regularisation):
     first, second = ([x for x in nullclines(at, regularisation) if x.inside] for at in (closed, typed))
     for kind in KINDS:
         one, other = ([x.points for x in found if x.kind == kind] for found in (first, second))
-        ends = equator_equilibria(closed).multiplicity if kind == "theta" else component_zeros(typed.key, kind)[1]
-        if (ends == 1).all():
+        angles, multiplicity = component_zeros(typed.key, kind)
+        if (multiplicity > 1).any():
+            continue  # a curve on which the component does not change sign is not found
+        ends = np.sort(angles)
+        # between two that are closer the curve leaves the disc by less than a pixel, which a step may not notice
+        if np.diff(ends, append=ends[:1] + 2 * math.pi).min(initial=math.inf) > 0.2:
             assert len(one) == len(other)
             for some, targets in ((one, other), (other, one)):
                 for p in np.concatenate(
