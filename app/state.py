@@ -185,7 +185,7 @@ def opening(choice: str) -> dict[str, Any]:
     slow = dict(zip(SLOW_CONTROLS, z, strict=False))
     across, up = axes_of(choice)
     motion = {"launch": ", ".join(f"{v:g}" for v in launch), "t_end": t_end}
-    return {"texts": {}, "parameters": {}, **slow, **motion, "across": across, "up": up, "along": across}
+    return {"texts": {}, "parameters": {}, **slow, **motion, "drift": "z", "across": across, "up": up, "along": across}
 
 
 def axes_of(choice: str) -> tuple[str, str]:

@@ -3,7 +3,8 @@
 const DRIFT_SECONDS = 10 // in which play would cross the whole range at the largest slow flow shown
 
 class Along {
-  constructor(root, config, move) {
+  // `choose(name)` is called when another slow variable is chosen.
+  constructor(root, config, move, choose) {
     this.box = root.querySelector(".panel-along")
     this.config = config
     this.setControls = move
@@ -24,6 +25,8 @@ class Along {
       const [low, high] = this.data.span
       this.setControls({[this.data.control]: this.values[this.data.control] + way * (high - low) / (event.shiftKey ? 20 : 200)})
     })
+    this.which = this.find(".drift")
+    this.which.addEventListener("change", () => choose(this.which.value))
     this.find(".play").addEventListener("click", () => this.toggle())
   }
 
@@ -141,6 +144,9 @@ class Along {
       <text x="-86" y="70">${plain(span[0])}</text><text x="96" y="70" text-anchor="end">${plain(span[1])}</text><text class="title" x="5" y="70" text-anchor="middle">${escape(words)}</text><path class="value"/>`
     this.find(".along-points").innerHTML = points.filter((p) => p.kind !== "node-focus").slice(0, 12).map((p) => `<li><button type="button" data-z="${p.z}"><svg viewBox="-5 -5 10 10">${p.kind === "equilibrium" ? `<circle r="3" style="fill:${p.stable ? "currentColor" : "none"}"/>` : shape(p.kind === "equator" ? "transcritical" : p.kind)}</svg><span>${escape(words)} = ${digits(p.z, 6)}</span><span class="note">${escape(p.sentence)}</span></button></li>`).join("")
     for (const button of this.find(".along-points").querySelectorAll("button")) button.onclick = () => this.setControls({[control]: Number(button.dataset.z)})
+    const symbols = this.config.slowSymbols ?? []
+    this.find(".which").hidden = symbols.length < 2
+    this.which.innerHTML = symbols.slice(0, 4).map((symbol, i) => `<option value="${slowName(i)}"${slowName(i) === control ? " selected" : ""}>${escape(symbol)}</option>`).join("")
     this.drawPlane()
   }
 
@@ -148,6 +154,7 @@ class Along {
     this.find(".plane-box").hidden = !this.planeData
     if (!this.planeData) return
     const {arrows} = this.planeData
+    this.find(".plane-box h2").textContent = `Slow flow in the plane of ${(this.config.slowSymbols ?? []).slice(0, 2).join(" and ")}`
     const most = Math.max(1e-12, ...arrows.map(([, , u, v]) => Math.hypot(u, v)))
     const parts = arrows.map(([z1, z2, u, v, stable]) => {
       const [px, py] = this.place(z1, z2), size = 11 * Math.sqrt(Math.hypot(u, v) / most), turn = Math.atan2(-v, u) * 180 / Math.PI

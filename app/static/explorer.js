@@ -38,7 +38,7 @@ function wire({model, view, root, plot}) {
   const panels = new Panels(root, (name) => { change("panel", name); showPanels() })
   const systems = new SystemChooser(root, config, values, {change, place: (name, control) => { controls[name] = control }, normal: controls.z})
   controls.system.set = () => {}
-  const drift = new Along(root, config, move)
+  const drift = new Along(root, config, move, (name) => { change("drift", name); drawPanels() })
   const motion = new Motion(root, config, move, (paths, place) => picture.trace(paths, place))
   const zoom = (name) => (value) => { change(name, value); drawPanels() }
   const shown = {

@@ -127,3 +127,12 @@ def test_the_solid_view_turns_without_asking_the_server(explorer):
         explorer.settle()
         explorer.page.wait_for_timeout(200)
         assert explorer.find(".solid-note").text_content() != "…"
+
+
+def test_another_slow_variable_can_run_along_the_panel(explorer):
+    choose(explorer, "ball_on_turntable")
+    open_panel(explorer, "Along z")
+    explorer.find("select.drift").select_option("z2")
+    explorer.settle()
+    assert "v₂′" in explorer.find("svg.along").text_content()
+    assert "v₁ and v₂" in explorer.find(".plane-box").text_content()
