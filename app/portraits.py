@@ -20,6 +20,8 @@ VIEWS: dict[str, dict[str, Any]] = {
     "filippov": {"panel": "solid", "solid": "filippov"},
     "outcomes": {"panel": "numbers", "layers": WITH_OUTCOMES},
     "psi": {"panel": "psi"},
+    "planes": {"panel": "planes"},
+    "along": {"panel": "along"},
     "time": {"panel": "time"},
 }
 

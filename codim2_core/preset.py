@@ -37,7 +37,8 @@ class Preset:
     family : str
         Another family of Psi.
     view : str
-        What shows it: "" the picture, "outcomes", "sphere", "stack", "filippov", "psi" or "time".
+        What shows it: "" the picture, "outcomes", "sphere", "stack", "filippov", "psi",
+        "planes", "along" or "time".
     portrait : (case, name, kind or None)
         What must be true.
     degeneracy : str or None

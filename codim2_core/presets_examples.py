@@ -48,7 +48,7 @@ def example_presets() -> dict[str, Preset]:
     )  # fmt: skip
     add(
         "nonunique-sliding-outside", several, title="Non-unique sliding, |z| > 2^(−1/4)", z=(1.2,),
-        portrait=(None, "3 critical sets, 4 limit directions", None),
+        portrait=(None, "3 critical sets, 4 limit directions", None), view="along",
         note="χ² > 2: four of the eight limit directions are gone.",
     )  # fmt: skip
     views = "The blowup, Ψ and the Filippov convention"

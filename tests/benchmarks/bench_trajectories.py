@@ -153,16 +153,21 @@ def readme(races: list[Race]) -> str:
             for item in races:
                 group = [ratio(c, item.curves["ours"], error) for name, c in item.curves.items() if part in name]
                 found.append(min((value for value in group if not math.isnan(value)), default=math.inf))
-            cells.append(f"{short(float(np.median(found)))} (least {short(min(found))})")
+            middle, least = short(float(np.median(found))), short(min(found))
+            cells.append(middle if middle == least else f"{middle} (least {least})")
         best = " (best method)" if title in groups else ""
         lines.append(f"| {title}{best} | {' | '.join(cells)} |")
     return "\n".join(lines) + "\n\n" + slower(races)
 
 
 def plots(races: list[Race]) -> list[Plot]:
-    """One plot for each problem."""
+    """One plot for each problem; an error above 1 says nothing on the disc."""
     return [
-        plot(item.problem.name, {name: curve.points for name, curve in item.curves.items()}, x="largest error")
+        plot(
+            item.problem.name,
+            {name: [point for point in curve.points if point[0] <= 1.0] for name, curve in item.curves.items()},
+            x="largest error",
+        )
         for item in races
     ]
 
