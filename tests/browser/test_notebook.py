@@ -1,3 +1,4 @@
+import time
 from importlib.util import find_spec
 from urllib.parse import urlparse
 
@@ -27,6 +28,12 @@ RUN = """cell => {
 
 class Notebook(Explorer):
     """A notebook in JupyterLab; `Explorer` finds the first explorer that is shown in it."""
+
+    def until(self, holds, patience=20.0):
+        """Wait until something holds; what follows says what did not."""
+        end = time.monotonic() + patience
+        while not holds() and time.monotonic() < end:
+            self.page.wait_for_timeout(50)
 
     def open(self, name):
         self.page.goto(f"{self.address}/lab/tree/{name}?reset")
@@ -112,7 +119,7 @@ def test_sliders_draw_in_jupyterlab_and_python_follows(notebook):
 
     picture, words = notebook.picture(), notebook.find(".inspector").inner_text()
     notebook.run(3)
-    notebook.page.wait_for_timeout(300)
+    notebook.until(lambda: slider.input_value() == "-1.25")  # the kernel draws in its own time
     notebook.settle()
     assert (slider.input_value(), notebook.find("#c2-f1").input_value()) == ("-1.25", "0.5")
     assert notebook.find("[data-control=a] .number").input_value() == "-1.25"
