@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .classify_general import as_elinear
 from .equator import equator_equilibria
 from .general import Frozen, System
 from .nullclines_general import Kind, Traced, inside_curves, outside_curves
@@ -65,14 +66,23 @@ def _radial_angles(coefficients: Coefficients) -> list[float]:
     return list(radial_zeros(coefficients.a, coefficients.d, coefficients.f1, coefficients.f2).theta)
 
 
-def _quadratic(kind: Kind, a: float, b: float, d: float) -> tuple[float, float, float]:
+Affine = tuple[float, float, float, float, float, float]  # U = (A11 c + A12 s + f1, A21 c + A22 s + f2), row by row
+
+
+def _affine(coefficients: Coefficients) -> Affine:
+    a, b, d, f1, f2 = coefficients.plane
+    return a, -b, f1, b, d, f2
+
+
+def _quadratic(kind: Kind, U: Affine) -> tuple[float, float, float]:
     """Q as (q11, q12, q22): q11 cos² + q12 sin cos + q22 sin²."""
-    return (a, 0.0, d) if kind == "rho" else (b, d - a, b)
+    a11, a12, _, a21, a22, _ = U
+    return (a11, a12 + a21, a22) if kind == "rho" else (a21, a22 - a11, -a12)
 
 
-def _linear(kind: Kind, f1: float, f2: float) -> tuple[float, float]:
+def _linear(kind: Kind, U: Affine) -> tuple[float, float]:
     """L as (l1, l2): l1 cos + l2 sin."""
-    return (f1, f2) if kind == "rho" else (f2, -f1)
+    return (U[2], U[5]) if kind == "rho" else (U[5], -U[2])
 
 
 def _chord(n1: float, n2: float, k: float) -> tuple[Array, Array] | None:
@@ -112,10 +122,10 @@ class _Straight:
         return bool(self.start[0] * self.end[1] == self.start[1] * self.end[0])
 
 
-def _conic(kind: Kind, coefficients: Coefficients, ends: list[float]) -> list[Curve]:
+def _conic(kind: Kind, U: Affine, ends: list[float]) -> list[Curve]:
     """Branches of one conic in the e-disc; `ends` are the angles in [0, 2 pi) where it meets the unit circle."""
-    q11, q12, q22 = _quadratic(kind, coefficients.a, coefficients.b, coefficients.d)
-    l1, l2 = _linear(kind, coefficients.f1, coefficients.f2)
+    q11, q12, q22 = _quadratic(kind, U)
+    l1, l2 = _linear(kind, U)
     size_q, size_l = max(abs(q11), abs(q12), abs(q22)), math.hypot(l1, l2)
     if size_l == 0.0:
         diameters = [np.array([math.cos(t), math.sin(t)]) for t in _null_directions(q11, q12, q22)]
@@ -223,16 +233,24 @@ def inside_nullclines(
 ) -> tuple[NullclineBranch, ...]:
     """Nullclines on the hemisphere; `limit_directions` are the zeros of Theta (where theta-nullclines end)."""
     if isinstance(coefficients, Frozen):
-        return tuple(_branch(kind, True, _drawn(curve, psi)) for kind, curve in inside_curves(coefficients))
+        normal = as_elinear(coefficients)
+        if normal is None:
+            return tuple(_branch(kind, True, _drawn(curve, psi)) for kind, curve in inside_curves(coefficients))
+        (a11, a12), (a21, a22) = coefficients.DU((0.0, 0.0)).tolist()
+        f1, f2 = coefficients.U((0.0, 0.0)).tolist()
+        U: Affine = (a11, a12, f1, a21, a22, f2)
+        radial = [(theta - normal.rotation) % (2.0 * math.pi) for theta in _radial_angles(normal)]
+    else:
+        U, radial = _affine(coefficients), _radial_angles(coefficients)
     ends: tuple[tuple[Kind, list[float]], ...] = (
-        ("rho", _radial_angles(coefficients)),
+        ("rho", radial),
         ("theta", limit_directions),
     )
     shapes: list[tuple[Kind, Curve]] = []
     for kind, angles in ends:
-        for curve in _conic(kind, coefficients, angles):
+        for curve in _conic(kind, U, angles):
             shapes.append((kind, curve))  # noqa: PERF401 (a comprehension loses the type of kind)
-    for kind, line in _lines(coefficients):
+    for kind, line in _lines(U):
         chord = _chord(*line)
         if chord is not None:
             shapes.append((kind, _Straight(*chord)))
@@ -244,10 +262,9 @@ def _branch(kind: Kind, inside: bool, points: Array) -> NullclineBranch:
     return NullclineBranch(kind, inside, points)
 
 
-def _lines(coefficients: Coefficients) -> tuple[tuple[Kind, tuple[float, float, float]], ...]:
+def _lines(U: Affine) -> tuple[tuple[Kind, tuple[float, float, float]], ...]:
     """U1 = 0 and U2 = 0 as lines n.e + k = 0, given as (n1, n2, k)."""
-    a, b, d, f1, f2 = coefficients.plane
-    return ("U1", (a, -b, f1)), ("U2", (b, d, f2))
+    return ("U1", U[:3]), ("U2", U[3:])
 
 
 def outside_nullclines(
@@ -270,7 +287,7 @@ def outside_nullclines(
         for t in angles:
             u = np.array([math.cos(t), math.sin(t)])
             branches.append(NullclineBranch(kind, False, np.stack([u, reach * u])))
-    for kind, (n1, n2, k) in _lines(coefficients):
+    for kind, (n1, n2, k) in _lines(_affine(coefficients)):
         outer, inner = _chord(n1, n2, k / reach), _chord(n1, n2, k)
         if outer is None:
             continue
