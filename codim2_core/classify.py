@@ -5,7 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
-from .classify_general import as_elinear, general_portrait
+from .classify_general import general_portrait
 from .critical import NEUTRAL_TRACE, CriticalSet, Existence, Location, critical_sets, determinant_sign, locate
 from .equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
 from .general import Frozen, System
@@ -108,7 +108,7 @@ def portrait(
     whether there is a critical set.
     """
     if isinstance(at, Frozen):
-        coefficients = as_elinear(at)
+        coefficients = at.normal_form
         location = None if coefficients is None else locate(coefficients)
         if coefficients is None or location is None or (location.e is None) == bool(critical):
             return general_portrait(at, equator, cycle, critical)

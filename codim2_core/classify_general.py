@@ -7,23 +7,10 @@ from .critical import NEUTRAL_TRACE, CriticalSet
 from .critical_general import DiscZeros, disc_zeros
 from .equator import EquatorCycle, EquatorEquilibria
 from .fourier_zeros import ROUNDINGS, UNIT
-from .general import PLANE, Frozen
-from .systems import Coefficients, ELinear
+from .general import Frozen
 
 WITHIN = ROUNDINGS * UNIT
 TERMS = "the terms of U"
-
-
-def as_elinear(at: Frozen) -> Coefficients | None:
-    """Return U in the normal form of the e-linear system (lem:normalform), or None if it is not affine in (c, s).
-
-    U must not read x or y, and its derivatives by c and s must be free of them. Only the portrait's plane is brought
-    over, in the rotated axes: the result has m = 0.
-    """
-    rows = at.system.jacobian
-    if at.system.reads_position() or any(name in PLANE for row in rows for entry in row for name in entry.names):
-        return None
-    return ELinear.from_matrix(at.DU((0.0, 0.0)), at.U((0.0, 0.0)).tolist()).at()
 
 
 def general_portrait(

@@ -215,6 +215,8 @@ def critical_sets(
 
 
 def _general_sets(at: Frozen, psi: Psi) -> tuple[CriticalSet, ...]:
+    if at.as_given is not None:
+        return tuple(replace(C, slow_flow=_frozen(at.W(C.e))) for C in critical_sets(at.as_given, psi))
     found = disc_zeros(at.key)
     sets = []
     for e, DU, degenerate, index in zip(found.e, found.DU, found.degenerate, found.index, strict=True):
@@ -230,6 +232,11 @@ def _general_sets(at: Frozen, psi: Psi) -> tuple[CriticalSet, ...]:
             C = replace(C, determinant=0.0, kind="saddle-node" if index == 0 else "degenerate")
         sets.append(C)
     return tuple(sets)
+
+
+def _frozen(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    values.flags.writeable = False
+    return values
 
 
 def _critical_set(e: tuple[float, float], parts: Parts, shift: int, slow: NDArray[np.float64]) -> CriticalSet:

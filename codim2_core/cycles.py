@@ -189,10 +189,9 @@ def limit_cycles(system: ELinear | System | Coefficients | Frozen, psi: Psi, z: 
 
 
 def _general(at: Frozen, psi: Psi) -> LimitCycles:
-    from .classify_general import as_elinear
     from .cycles_general import find
 
-    form = as_elinear(at)
+    form = at.normal_form
     if form is not None:
         reason = reason_for_none(form, critical_sets(form, psi))
         if reason is not None:

@@ -185,6 +185,8 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
 
 
 def _general(at: Frozen) -> EquatorEquilibria:
+    if at.as_given is not None:
+        return equator_equilibria(at.as_given)
     found = equator_zeros(at.key)
     return EquatorEquilibria(
         found.theta,

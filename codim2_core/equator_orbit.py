@@ -82,6 +82,8 @@ def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
         If z does not fit the system or a coefficient is not finite.
     """
     q = system.at(z)
+    if isinstance(q, Frozen) and q.as_given is not None:
+        q = q.as_given
     if isinstance(q, Frozen):
         found = closed_equator(q.key)
         return None if found is None else EquatorCycle(*found)

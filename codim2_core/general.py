@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .expressions import Expression, ExpressionError, parse
 from .expressions_reader import MOST_CHARACTERS
-from .systems import LARGEST, MOST_SLOW_VARIABLES, SMALLEST, slow_values
+from .systems import LARGEST, MOST_SLOW_VARIABLES, SMALLEST, Coefficients, ELinear, slow_values
 
 Array = NDArray[np.float64]
 Text = str | float | int | Expression
@@ -216,6 +216,24 @@ class Frozen:
         (u_c, u_s), (v_c, v_s) = self.system.jacobian
         flat = self._vector((u_c, u_s, v_c, v_s), e, None)
         return flat.reshape((*flat.shape[:-1], 2, 2))
+
+    @cached_property
+    def normal_form(self) -> Coefficients | None:
+        """U in the normal form of the e-linear system (lem:normalform), or None if it is not affine in (c, s).
+
+        U must not read x or y, and its derivatives by c and s must be free of them. Only the portrait's plane is
+        brought over, in the rotated axes: the result has m = 0.
+        """
+        rows = self.system.jacobian
+        if self.system.reads_position() or any(name in PLANE for row in rows for entry in row for name in entry.names):
+            return None
+        return ELinear.from_matrix(self.DU((0.0, 0.0)), self.U((0.0, 0.0)).tolist()).at()
+
+    @property
+    def as_given(self) -> Coefficients | None:
+        """The normal form where U is in it already: the same axes, and nothing rounded on the way."""
+        normal = self.normal_form
+        return normal if normal is not None and normal.rotation == 0.0 else None
 
     @cached_property
     def size(self) -> float:

@@ -21,7 +21,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .classify_general import as_elinear
 from .equator import equator_equilibria
 from .general import Frozen, System
 from .nullclines_general import Kind, Traced, inside_curves, outside_curves
@@ -69,9 +68,18 @@ def _radial_angles(coefficients: Coefficients) -> list[float]:
 Affine = tuple[float, float, float, float, float, float]  # U = (A11 c + A12 s + f1, A21 c + A22 s + f2), row by row
 
 
-def _affine(coefficients: Coefficients) -> Affine:
-    a, b, d, f1, f2 = coefficients.plane
-    return a, -b, f1, b, d, f2
+def _affine(at: Coefficients | Frozen) -> tuple[Affine, list[float]] | None:
+    """U where it is affine in (c, s), and the angles at which lambda_rho vanishes; None where it is not."""
+    if isinstance(at, Coefficients):
+        a, b, d, f1, f2 = at.plane
+        return (a, -b, f1, b, d, f2), _radial_angles(at)
+    normal = at.normal_form
+    if normal is None:
+        return None
+    (a11, a12), (a21, a22) = at.DU((0.0, 0.0)).tolist()
+    f1, f2 = at.U((0.0, 0.0)).tolist()
+    radial = [(theta - normal.rotation) % (2.0 * math.pi) for theta in _radial_angles(normal)]
+    return (a11, a12, f1, a21, a22, f2), radial
 
 
 def _quadratic(kind: Kind, U: Affine) -> tuple[float, float, float]:
@@ -232,16 +240,11 @@ def inside_nullclines(
     coefficients: Coefficients | Frozen, psi: Psi, limit_directions: list[float]
 ) -> tuple[NullclineBranch, ...]:
     """Nullclines on the hemisphere; `limit_directions` are the zeros of Theta (where theta-nullclines end)."""
-    if isinstance(coefficients, Frozen):
-        normal = as_elinear(coefficients)
-        if normal is None:
-            return tuple(_branch(kind, True, _drawn(curve, psi)) for kind, curve in inside_curves(coefficients))
-        (a11, a12), (a21, a22) = coefficients.DU((0.0, 0.0)).tolist()
-        f1, f2 = coefficients.U((0.0, 0.0)).tolist()
-        U: Affine = (a11, a12, f1, a21, a22, f2)
-        radial = [(theta - normal.rotation) % (2.0 * math.pi) for theta in _radial_angles(normal)]
-    else:
-        U, radial = _affine(coefficients), _radial_angles(coefficients)
+    affine = _affine(coefficients)
+    if affine is None:
+        assert isinstance(coefficients, Frozen)
+        return tuple(_branch(kind, True, _drawn(curve, psi)) for kind, curve in inside_curves(coefficients))
+    U, radial = affine
     ends: tuple[tuple[Kind, list[float]], ...] = (
         ("rho", radial),
         ("theta", limit_directions),
@@ -272,22 +275,25 @@ def outside_nullclines(
 ) -> tuple[NullclineBranch, ...]:
     """Nullclines outside, to the corners of a view of that half-width: rays, and the straight lines continued.
 
-    For a general system U1 = 0 and U2 = 0 are rays too, and none is straight if U reads x or y.
+    Where U is not affine in (c, s), U1 = 0 and U2 = 0 are rays too, and none is straight if U reads x or y.
     """
     reach = math.sqrt(2.0) * view
-    if isinstance(coefficients, Frozen):
+    affine = _affine(coefficients)
+    if affine is None:
+        assert isinstance(coefficients, Frozen)
         one = constant()
         return tuple(_branch(kind, False, _drawn(curve, one)) for kind, curve in outside_curves(coefficients, reach))
+    U, radial = affine
     branches = []
     rays: tuple[tuple[Kind, list[float]], ...] = (
-        ("rho", _radial_angles(coefficients)),
+        ("rho", radial),
         ("theta", limit_directions),
     )
     for kind, angles in rays:
         for t in angles:
             u = np.array([math.cos(t), math.sin(t)])
             branches.append(NullclineBranch(kind, False, np.stack([u, reach * u])))
-    for kind, (n1, n2, k) in _lines(_affine(coefficients)):
+    for kind, (n1, n2, k) in _lines(U):
         outer, inner = _chord(n1, n2, k / reach), _chord(n1, n2, k)
         if outer is None:
             continue

@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import regularisation
-from .classify_general import as_elinear
 from .critical import CriticalSet, critical_sets
 from .cycles import LimitCycles, limit_cycles
 from .endings import (
@@ -272,7 +271,7 @@ def layer_problem(at: Coefficients | Frozen, psi: Psi, equator: EquatorEquilibri
 
 def _sensitive(at: Coefficients | Frozen, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...]) -> bool:
     """Whether no theorem fixes the outcome for every Psi: Case III, crossing with several ways out, any general U."""
-    form = as_elinear(at) if isinstance(at, Frozen) else at
+    form = at.normal_form if isinstance(at, Frozen) else at
     if form is None:
         return True
     if critical:

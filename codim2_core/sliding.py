@@ -30,7 +30,11 @@ def sliding_flow(system: ELinear | System | Coefficients | Frozen, z: ArrayLike 
     """
     at = system.at(z)
     if isinstance(at, Frozen):
-        points = disc_zeros(at.key).e
+        if at.as_given is not None:
+            place = locate(at.as_given).e
+            points = np.zeros((0, 2)) if place is None else np.array([place])
+        else:
+            points = disc_zeros(at.key).e
         if not len(points):
             return None
         flow = at.W(points)

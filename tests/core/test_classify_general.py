@@ -6,7 +6,6 @@ import pytest
 from hypothesis import assume, given, settings
 
 from codim2_core import ELinear, classify, psi
-from codim2_core.classify_general import as_elinear
 from codim2_core.general import System
 
 from .general_systems import ATTRACTING, NONUNIQUE, polynomials
@@ -46,11 +45,11 @@ def test_affine_systems_have_the_name_of_the_normal_form(system, regularisation)
 
 def test_affine_form():
     system = System(U=("p*c - s + z", "c - 2*s"), W=("-z",), parameters={"p": -1.0})
-    form = as_elinear(system.at(0.25))
+    form = system.at(0.25).normal_form
     expected = ELinear.from_matrix([[-1.0, -1.0], [1.0, -2.0]], (0.25, 0.0)).at()
     assert form.plane == pytest.approx(expected.plane)
-    assert as_elinear(System(U=("c**2", "s")).at()) is None
-    assert as_elinear(System(U=("c + x", "s")).at()) is None
+    assert System(U=("c**2", "s")).at().normal_form is None
+    assert System(U=("c + x", "s")).at().normal_form is None
 
 
 @given(polynomials, regularisations)

@@ -9,7 +9,6 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, equator_equilibria, hemisphere, nullclines, psi
-from codim2_core.classify_general import as_elinear
 from codim2_core.equator_general import component_zeros
 from codim2_core.general import System
 from codim2_core.nullclines_general import inside_curves
@@ -179,7 +178,7 @@ def test_closed_loops(radius):
 @settings(max_examples=30)
 def test_drawn_polylines_do_not_sag(system, regularisation):
     at = system.at()
-    assume(as_elinear(at) is None)  # affine formulas have closed conics
+    assume(at.normal_form is None)  # affine formulas have closed conics
     fine = np.linspace(0, 1, 2000)
     traced = inside_curves(at)
     drawn = [b for b in nullclines(at, regularisation) if b.inside]
@@ -210,7 +209,7 @@ def test_traced_branches_are_the_closed_conics(numbers, regularisation):
     assume(closed.plane[:3] != (0.0, 0.0, 0.0))
     # the last term is far below rounding, and keeps the formulas from being known as affine
     typed = System(U=(f"({a})*c - ({b})*s + ({f1}) + 1e-200*c^2*s", f"({b})*c + ({d})*s + ({f2})")).at()
-    assert as_elinear(typed) is None
+    assert typed.normal_form is None
     first, second = ([x for x in nullclines(at, regularisation) if x.inside] for at in (closed, typed))
     for kind in KINDS:
         one, other = ([x.points for x in found if x.kind == kind] for found in (first, second))
