@@ -120,6 +120,14 @@ class ExplorerView(JSComponent):
         self._send_msg({"frame": self.frames.answer(data or {})})
         self.frames.publish()
 
+    def _send_msg(self, data: Any) -> None:
+        """Send to all that show this view, also where an ipywidget holds the model in a document of its own."""
+        super()._send_msg(data)
+        for ref, (model, _) in self._models.items():
+            known = pn.state._views.get(ref)
+            if model.document is not None and (known is None or known[2] is not model.document):
+                model.document.callbacks.send_event(ESMEvent(model=model, data=data))
+
     def _follow(self, *changes: param.parameterized.Event) -> None:
         """Draw what the state was given in Python; what it was given by `publish` is drawn already."""
         frame = self.frames.follow({change.name: change.new for change in changes})
