@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 NODES = 6
 MOST_STEPS = 8000
 CLOSED = 1e-11  # on the sphere
+LEAST = 1e-300  # multiplier of a relaxation cycle: one that repels more strongly is reported with its inverse
 
 
 @dataclass(frozen=True)
@@ -174,7 +175,7 @@ def orbit(section: Section | TurnSection, crossing: Crossing) -> Orbit | None:
     across = velocity[:, ::-1] * (-1.0, 1.0) / np.linalg.norm(velocity, axis=1)[:, None]
     multiplier = _normal_growth((sign * J * per_T[:, None, None]).reshape(-1, NODES, 2, 2), h, across)
     if backward:
-        multiplier = 1.0 / multiplier
+        multiplier = 1.0 / max(multiplier, LEAST)
     line = np.concatenate([first[:, None, :], inner.reshape(-1, NODES, 3)], axis=1).reshape(-1, 3)[:, :2]
     return Orbit(
         np.concatenate([line, line[:1]])[:: int(sign)].copy(),

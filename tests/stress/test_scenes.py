@@ -129,6 +129,11 @@ def test_weak_damping_is_no_band_of_cycles(plane):
     assert len(limit_cycles(ELinear(*plane[:3], plane[3:]), psi.rational())) <= MOST_CYCLES
 
 
+@pytest.mark.parametrize("a", [0.9999, 0.99999])
+def test_a_cycle_that_repels_beyond_doubles_is_no_error(a):
+    check_scene((a, 1.0, -1.0, 0.5, 0.5), psi.constant())
+
+
 def test_checks_can_fail():
     class Bad:
         value = np.array([1.0, np.nan])
