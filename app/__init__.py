@@ -9,19 +9,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .holoviews_view import holoviews
-    from .notebook import explorer
+    from .draw.overlay import holoviews
+    from .view.notebook import explorer
 
 __all__ = ["explorer", "holoviews"]
 
 
 def __getattr__(name: str) -> Any:
     if name == "explorer":
-        from .notebook import explorer
+        from .view.notebook import explorer
 
         return explorer
     if name == "holoviews":
-        from .holoviews_view import holoviews
+        from .draw.overlay import holoviews
 
         return holoviews
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -4,29 +4,31 @@ Follows N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, "Regularisation of i
 discontinuity sets"; docstrings give the paper's equation labels.
 """
 
-from . import bifurcations, examples, hemisphere, psi
-from .basins import Basins, basins
-from .certificates import certificates
-from .classify import Classification, Degeneracy, classify
-from .critical import CriticalSet, critical_sets
-from .cycles import LimitCycle, LimitCycles, limit_cycles
-from .equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
-from .filippov import FilippovSliding, filippov_sliding
-from .general import Frozen, System
-from .nonsmooth import simulate_nonsmooth
-from .nullclines import NullclineBranch, nullclines
-from .outcomes import approach_outcomes
-from .preset import Preset
-from .presets import presets
-from .regularisation import Psi
+from . import bifurcations, examples, psi
+from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
+from .figures.preset import Preset
+from .figures.presets import presets
+from .layer_problem import hemisphere
+from .layer_problem.critical import CriticalSet, critical_sets
+from .layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+from .motion.nonsmooth import simulate_nonsmooth
+from .motion.regularised import simulate
+from .motion.result import Phase, Simulation
+from .orbits.trajectories import Trajectories, trajectories
+from .portrait.basins import Basins, basins
+from .portrait.classify import Classification, Degeneracy, classify
+from .portrait.nullclines import NullclineBranch, nullclines
+from .portrait.outcomes import approach_outcomes
+from .portrait.separatrices import Separatrices, Separatrix, separatrices
+from .psi.function import Psi
 from .scene import Scene
-from .separatrices import Separatrices, Separatrix, separatrices
-from .simulate import simulate
-from .simulation_result import Phase, Simulation
-from .sliding import sliding_flow
-from .slow import SlowPortrait, slow_portrait
-from .systems import Coefficients, ELinear
-from .trajectories import Trajectories, trajectories
+from .sliding.along import SlowPortrait, slow_portrait
+from .sliding.filippov import FilippovSliding, filippov_sliding
+from .sliding.flow import sliding_flow
+from .systems.coefficients import Coefficients
+from .systems.elinear import ELinear
+from .systems.typed import Frozen, System
+from .theorems.certificates import certificates
 
 __all__ = [
     "Basins",

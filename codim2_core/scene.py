@@ -17,23 +17,26 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import regularisation
 from .bifurcations import BifurcationCurve, Region, critical_boundary, regions, saddle_node
-from .certificates import Certificate, certificates
-from .classify import Classification, portrait
-from .critical import Location, critical_sets, locate
-from .cycles import LimitCycles, limit_cycles
-from .equator import equator_cycle, equator_equilibria
-from .general import System
-from .nullclines import NullclineBranch, inside_nullclines, outside_nullclines
-from .orbits import Orbits
-from .outcomes import approach_outcomes
-from .regularisation import Psi
-from .seeds import checked_seeds, ring, structured_seeds
-from .separatrices import Separatrices, separatrices
-from .sliding import sliding_flow
-from .systems import SMALLEST, Coefficients, ELinear, slow_values
-from .trajectories import AnySystem, Trajectories, continuation, trajectories
+from .cycles.limit_cycles import LimitCycles, limit_cycles
+from .layer_problem.critical import Location, critical_sets, locate
+from .layer_problem.equator import equator_cycle, equator_equilibria
+from .orbits.seeds import checked_seeds, ring, structured_seeds
+from .orbits.trajectories import Trajectories, continuation, trajectories
+from .orbits.whole import Orbits
+from .portrait.classify import Classification, portrait
+from .portrait.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
+from .portrait.outcomes import approach_outcomes
+from .portrait.separatrices import Separatrices, separatrices
+from .psi import constructors
+from .psi.function import Psi
+from .sliding.flow import sliding_flow
+from .systems.bounds import SMALLEST, slow_values
+from .systems.coefficients import Coefficients
+from .systems.elinear import ELinear
+from .systems.kinds import AnySystem
+from .systems.typed import System
+from .theorems.certificates import Certificate, certificates
 
 DRAWN_TIME = 40.0  # over the largest coefficient: slow directions, up to 40 times slower than that, are still drawn
 AROUND = 0.05  # radius of the seeds around an unstable critical set
@@ -111,7 +114,7 @@ class Scene:
         if not isinstance(system, AnySystem):
             raise ValueError(f"system is {system!r}; give an ELinear or a System.")
         if psi is None:
-            psi = regularisation.constant()
+            psi = constructors.constant()
         if not isinstance(psi, Psi):
             raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
         if not (np.isfinite(view) and view > 1.0):
@@ -246,7 +249,7 @@ def _orbits(scene: Scene, outside: bool) -> Orbits:
         seeds = np.concatenate([seeds, *(r for r in rings if np.hypot(r[:, 0], r[:, 1]).max() < 1.0)])
     # Outside, e is the direction itself: Psi has no say. E-linear systems have a field that is cheapest for Psi = 1.
     cheapest = outside and isinstance(scene.coefficients, Coefficients)
-    psi = regularisation.constant() if cheapest else scene.psi
+    psi = constructors.constant() if cheapest else scene.psi
     halves = (trajectories(scene.coefficients, psi, seeds, backward=back, **options) for back in (True, False))
     return Orbits(*halves)
 

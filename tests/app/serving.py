@@ -12,7 +12,7 @@ from urllib.request import urlopen
 @contextmanager
 def serving(*options):
     """Yield the address of a warm server on a free port."""
-    command = [sys.executable, "-m", "codim2_app.cli", "serve", "--port", "0", *options]
+    command = [sys.executable, "-m", "codim2_app.server.cli", "serve", "--port", "0", *options]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
     try:

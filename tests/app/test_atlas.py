@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from codim2_app import atlas
-from codim2_app.packing import STEP, unpack
-from codim2_app.refresh import Frames
-from codim2_app.state import ExplorerState
+from codim2_app.draw import plane_curves
+from codim2_app.draw.packing import STEP, unpack
+from codim2_app.state.controls import ExplorerState
+from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
 from codim2_core import bifurcations
@@ -124,7 +124,7 @@ def test_degenerate_matrices_are_drawn(frames, matrix):
 def test_thinning_keeps_ends_and_corners():
     leg = np.linspace(0.0, 1.0, 101)
     corner = np.concatenate([np.stack([leg, 0 * leg], 1), np.stack([1 + 0 * leg, leg], 1)[1:]])
-    offsets, few = atlas.thin([corner, corner[:3], 2 * corner], 1.0)
+    offsets, few = plane_curves.thin([corner, corner[:3], 2 * corner], 1.0)
     assert offsets[2] - offsets[1] == 3
     assert len(few) < 80
     assert furthest(corner, few[: offsets[1]]) < 1e-15

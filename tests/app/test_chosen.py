@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from codim2_app.chosen import BOXES, OWN, TITLES, TYPED, TextError, build, describe, starting_z, texts_of
+from codim2_app.state.chosen import BOXES, OWN, TITLES, TYPED, TextError, build, describe, starting_z, texts_of
 
 import codim2_core as c2
 from codim2_core import examples

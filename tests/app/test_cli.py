@@ -1,5 +1,5 @@
 import pytest
-from codim2_app.cli import main, parser
+from codim2_app.server.cli import main, parser
 
 
 def test_defaults_are_safe():

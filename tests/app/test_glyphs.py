@@ -2,8 +2,8 @@ import math
 
 import numpy as np
 import pytest
-from codim2_app import glyphs
-from codim2_app.packing import EXTENT, STEP, Polylines, pack, quantise, unpack
+from codim2_app.draw import glyphs
+from codim2_app.draw.packing import EXTENT, STEP, Polylines, pack, quantise, unpack
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -4,12 +4,12 @@ import math
 from xml.etree import ElementTree
 
 import pytest
-from codim2_app.mathml import equations, equations_mathml, mathml, plain_symbol
+from codim2_app.draw.mathml import equations, equations_mathml, mathml, plain_symbol
 from hypothesis import given
 from hypothesis import strategies as st
 
 import codim2_core as c2
-from codim2_core.expressions import parse
+from codim2_core.expressions.expression import parse
 
 NAMES = ("c", "s", "mu", "z1", "K")
 VALUES = {"c": 0.4, "s": -0.7, "mu": 1.3, "z1": 0.6, "K": 2.1}

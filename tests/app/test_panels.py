@@ -6,13 +6,14 @@ from concurrent.futures import Future
 
 import numpy as np
 import pytest
-from codim2_app import panel_axes, panel_outcomes, panel_theorems
-from codim2_app.packing import unpack
-from codim2_app.panel_jobs import Failed, Jobs
-from codim2_app.panel_thumbnails import thumbnails
-from codim2_app.refresh import Frames
-from codim2_app.state import AXES, ExplorerState
-from codim2_app.svg import draw
+from codim2_app.draw.packing import unpack
+from codim2_app.draw.svg import draw
+from codim2_app.draw.thumbnails import thumbnails
+from codim2_app.frame.jobs import Failed, Jobs
+from codim2_app.panels import axes, outcomes, theorems
+from codim2_app.state.choices import AXES
+from codim2_app.state.controls import ExplorerState
+from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
 
@@ -141,7 +142,7 @@ def test_span_of_the_diagram_holds_the_value_and_rests_while_it_moves_a_little(n
     low, high = ExplorerState.param[name].softbounds
 
     def span(value, zoom):
-        return panel_axes.Axis(name, name, name, low, high, float(value)).span(zoom)
+        return axes.Axis(name, name, name, low, high, float(value)).span(zoom)
 
     for zoom in range(7):
         for value in np.linspace(low, high, 41):
@@ -231,7 +232,7 @@ def test_the_ring_is_the_circle_cut_at_the_limit_directions():
         frames = Frames(ExplorerState(panel="numbers", **values))
         arcs = settled(frames, all=True)["outcomes"]
         assert sum(np.subtract(arcs["end"], arcs["start"])) == pytest.approx(2 * np.pi)
-        assert set(arcs["kind"]) <= panel_outcomes.WORDS.keys()
+        assert set(arcs["kind"]) <= outcomes.WORDS.keys()
 
 
 def test_the_ring_is_sent_when_its_layer_is_on_whatever_is_open():
@@ -265,7 +266,7 @@ def test_numbers_of_certificates_are_finite():
     for name in ("case1-cm4", "case2-saddle", "case3-n3"):
         preset = c2.presets[name]
         system = c2.ELinear(preset.a, preset.b, preset.d, (preset.f1, preset.f2))
-        for *_, numbers in panel_theorems.rows(c2.certificates(system, c2.psi.rational())):
+        for *_, numbers in theorems.rows(c2.certificates(system, c2.psi.rational())):
             assert all(np.isfinite(value) for _, value in numbers)
 
 

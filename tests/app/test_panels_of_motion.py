@@ -5,11 +5,13 @@ from concurrent.futures import Executor, Future
 
 import numpy as np
 import pytest
-from codim2_app import panel_along, panel_filippov, panel_psi, panel_stack, panel_time
-from codim2_app.panel_draft import Draft
-from codim2_app.panel_jobs import Jobs
-from codim2_app.scenes import make_scene
-from codim2_app.state import ExplorerState, InputError, opening
+from codim2_app.frame.draft import Draft
+from codim2_app.frame.jobs import Jobs
+from codim2_app.frame.scenes import make_scene
+from codim2_app.panels import along as panel_along
+from codim2_app.panels import filippov, psi, time
+from codim2_app.panels import stack as panel_stack
+from codim2_app.state.controls import ExplorerState, InputError, opening
 
 import codim2_core as c2
 
@@ -34,7 +36,7 @@ def sent(panel, *, rest=True, **changes):
     return draft.header
 
 
-@pytest.mark.parametrize("panel", [panel_along, panel_stack, panel_time])
+@pytest.mark.parametrize("panel", [panel_along, panel_stack, time])
 def test_while_controls_move_nothing_is_computed(panel):
     header = sent(panel, rest=False, system="ball_in_pool")
     assert set(header) == {"late"}
@@ -86,7 +88,7 @@ def test_the_stack_carries_critical_sets_and_limit_directions_of_every_height():
 
 
 def test_the_motion_of_a_ball_slips_then_slides_and_its_limit_lies_over_it():
-    header = sent(panel_time, system="ball_in_pool", log_eps=-4.0)
+    header = sent(time, system="ball_in_pool", log_eps=-4.0)
     motion, limit = header["motion"], header["limit"]
     assert [p[0] for p in motion["phases"]] == [p[0] for p in limit["phases"]] == ["slip", "slide"]
     assert motion["phases"][1][1] == pytest.approx(limit["phases"][1][1], abs=1e-3)
@@ -98,7 +100,7 @@ def test_the_motion_of_a_ball_slips_then_slides_and_its_limit_lies_over_it():
 
 
 def test_a_jump_up_the_hemisphere_takes_no_time():
-    limit = sent(panel_time, system="attracting_repelling", launch="0.3, 0.6, 1", t_end=3.0)["limit"]
+    limit = sent(time, system="attracting_repelling", launch="0.3, 0.6, 1", t_end=3.0)["limit"]
     (_, arrival, _, _) = limit["phases"][1]
     at = np.flatnonzero(np.abs(np.array(limit["t"]) - arrival) < 1e-4)
     radius = np.hypot(*np.array(limit["picture"])[:, at])
@@ -110,8 +112,8 @@ def test_a_jump_up_the_hemisphere_takes_no_time():
 @pytest.mark.parametrize("launch", ["", "1,2", "1,2,3,4", "a,b,c", "1,2,nan"])
 def test_a_start_that_is_no_state_is_told(launch):
     with pytest.raises(InputError, match="give 3 numbers: x, y, z1"):
-        panel_time.launch_of({"launch": launch, "t_end": 1.0}, 1)
-    assert "give 3 numbers" in sent(panel_time, launch=launch)["unable"]["motion"]
+        time.launch_of({"launch": launch, "t_end": 1.0}, 1)
+    assert "give 3 numbers" in sent(time, launch=launch)["unable"]["motion"]
 
 
 def test_the_filippov_view_has_the_whole_interval_and_what_is_selected():
@@ -121,7 +123,7 @@ def test_the_filippov_view_has_the_whole_interval_and_what_is_selected():
     for vertex, ends in zip(header["candidates"], header["combined"], strict=True):
         heights = [end[2] for end in ends]
         assert min(heights) - 1e-3 <= vertex <= max(heights) + 1e-3
-    assert len(header["curve"]) == panel_filippov.POINTS
+    assert len(header["curve"]) == filippov.POINTS
 
 
 @pytest.mark.parametrize("family", ["constant", "tanh", "exponential"])
@@ -129,10 +131,10 @@ def test_psi_is_sent_once_and_as_it_is(family):
     values = {**ExplorerState().values(), "psi": family}
     scene, now = make_scene(values), {}
     header = {}
-    panel_psi.add(Draft(scene, values, header, {}, now, Jobs(Now()), False, True, ()))
+    psi.add(Draft(scene, values, header, {}, now, Jobs(Now()), False, True, ()))
     curves = header["psi_curves"]
     np.testing.assert_allclose(curves["psi"], scene.psi(np.array(curves["s"])), rtol=1e-4)
     np.testing.assert_allclose(curves["modulus"], scene.psi.modulus(np.array(curves["zeta"])), rtol=1e-4)
     again = {}
-    panel_psi.add(Draft(scene, values, again, {}, now, Jobs(Now()), False, True, ()))
+    psi.add(Draft(scene, values, again, {}, now, Jobs(Now()), False, True, ()))
     assert again == {}

@@ -1,10 +1,11 @@
 import math
 
 import pytest
-from codim2_app.packing import unpack
-from codim2_app.portraits import portraits
-from codim2_app.refresh import Frames
-from codim2_app.state import LAYERS, ExplorerState
+from codim2_app.draw.packing import unpack
+from codim2_app.state.choices import LAYERS
+from codim2_app.state.controls import ExplorerState
+from codim2_app.state.portraits import portraits
+from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
 
@@ -218,9 +219,9 @@ def test_a_new_custom_psi_is_compiled_in_the_background():
     import threading
     import time
 
-    from codim2_app.warmup import is_ready
+    from codim2_app.view.warmup import is_ready
 
-    from codim2_core.regularisation import custom
+    from codim2_core.psi.constructors import custom
 
     psi = custom("1/(1 + s/7)**4")
     assert not is_ready(psi)  # and so the frame goes out at once, without trajectories

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from codim2_app.scenes import chosen_system, evolved, locked_controls, make_scene, settled
-from codim2_app.state import ExplorerState, InputError
+from codim2_app.frame.scenes import chosen_system, evolved, locked_controls, make_scene, settled
+from codim2_app.state.controls import ExplorerState, InputError
 
 import codim2_core as c2
 

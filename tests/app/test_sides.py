@@ -1,9 +1,9 @@
 """Both sides of a degenerate setting are told, along the control that was moved."""
 
 import pytest
-from codim2_app.packing import unpack
-from codim2_app.refresh import Frames
-from codim2_app.state import ExplorerState
+from codim2_app.draw.packing import unpack
+from codim2_app.state.controls import ExplorerState
+from codim2_app.view.refresh import Frames
 
 
 def told(control, start, value):

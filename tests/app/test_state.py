@@ -2,8 +2,8 @@ import math
 from urllib.parse import parse_qs
 
 import pytest
-from codim2_app.portraits import portraits
-from codim2_app.state import NAMES, NUMBERS, ExplorerState, InputError, build_psi, clean
+from codim2_app.state.controls import NAMES, NUMBERS, ExplorerState, InputError, build_psi, clean
+from codim2_app.state.portraits import portraits
 from hypothesis import given
 from hypothesis import strategies as st
 

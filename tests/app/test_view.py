@@ -4,9 +4,9 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from codim2_app.cli import main, parser
-from codim2_app.packing import unpack
-from codim2_app.state import ExplorerState
+from codim2_app.draw.packing import unpack
+from codim2_app.server.cli import main, parser
+from codim2_app.state.controls import ExplorerState
 
 import codim2_core as c2
 from tests.app.serving import serving
@@ -81,7 +81,7 @@ def test_importing_the_package_is_cheap():
 
 def test_notebook_widget_is_the_same_view_and_answers():
     import codim2_app
-    from codim2_app.view import ExplorerView
+    from codim2_app.view.explorer import ExplorerView
 
     view = codim2_app.explorer(a=-1, b=1, d=-1, f1=0)
     assert isinstance(view, ExplorerView)

@@ -29,9 +29,14 @@ def test_importing_the_app_starts_no_plotting_library():
     assert "holoviews" not in {name.split(".")[0] for name in imported_by("codim2_app")}
 
 
-def test_the_wheel_installs_no_package_called_app():
+def test_the_wheel_installs_every_package_and_none_called_app():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())
-    assert project["tool"]["setuptools"]["packages"] == ["codim2_app", "codim2_core"]
+    found = {
+        ".".join((name, *face.parent.relative_to(ROOT / folder).parts))
+        for name, folder in (("codim2_app", "app"), ("codim2_core", "codim2_core"))
+        for face in (ROOT / folder).rglob("__init__.py")
+    }
+    assert sorted(found) == project["tool"]["setuptools"]["packages"]
 
 
 def test_the_top_level_is_what_was_asked_for():

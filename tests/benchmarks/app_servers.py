@@ -10,15 +10,15 @@ from typing import Any
 
 def explorer(port: int, processes: str = "1") -> None:
     """Serve the explorer as `codim2 serve` does."""
-    from codim2_app.cli import main
+    from codim2_app.server.cli import main
 
     main(["serve", "--port", str(port), "--processes", processes])
 
 
 def forgetful(port: int) -> None:
     """Serve the explorer with sessions that end at once, and ``/left``: what they have left behind."""
-    from codim2_app.main import make_server
-    from codim2_app.view import ExplorerView
+    from codim2_app.server.page import make_server
+    from codim2_app.view.explorer import ExplorerView
     from tornado.web import RequestHandler
 
     from codim2_core.scene import Scene
@@ -41,8 +41,8 @@ def forgetful(port: int) -> None:
 
 def mathematics(port: int) -> None:
     """Serve what `bare` does, and compute the explorer's scene before each swap."""
-    from codim2_app.refresh import make_scene
-    from codim2_app.state import ExplorerState
+    from codim2_app.state.controls import ExplorerState
+    from codim2_app.view.refresh import make_scene
 
     from .app_load import value
     from .bench_app import PICTURE
@@ -65,9 +65,9 @@ def bare(port: int, before: Callable[[], None] = lambda: None) -> None:
     from bokeh.events import ButtonClick
     from bokeh.models import Button, Column, ColumnDataSource
     from bokeh.server.server import Server
-    from codim2_app.main import _prompt_websockets
-    from codim2_app.refresh import Frames
-    from codim2_app.state import ExplorerState
+    from codim2_app.server.page import _prompt_websockets
+    from codim2_app.state.controls import ExplorerState
+    from codim2_app.view.refresh import Frames
 
     frames = Frames(ExplorerState())
     frames.answer({"all": True})

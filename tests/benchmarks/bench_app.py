@@ -79,9 +79,9 @@ def holoviews() -> Row:
     Measured in this process, without a server: the real cost has the protocol on top.
     """
     import holoviews as hv
-    from codim2_app.holoviews_view import elements
-    from codim2_app.refresh import make_scene
-    from codim2_app.state import ExplorerState
+    from codim2_app.draw.overlay import elements
+    from codim2_app.state.controls import ExplorerState
+    from codim2_app.view.refresh import make_scene
 
     hv.extension("bokeh")
     scenes = [make_scene(ExplorerState().values())]

@@ -9,7 +9,7 @@ import random
 import sys
 import time
 
-from codim2_core.trigonometric import tangential_zeros
+from codim2_core.numerics.trigonometric import tangential_zeros
 
 from ..core.exact_trigonometric import count_equilibria, root_error, theta_coefficients
 

@@ -13,9 +13,9 @@ import time
 import numpy as np
 
 import codim2_core as c2
+from codim2_core.orbits.seeds import structured_seeds
+from codim2_core.orbits.trajectories import trajectories
 from codim2_core.scene import layers
-from codim2_core.seeds import structured_seeds
-from codim2_core.trajectories import trajectories
 
 ON_REQUEST = ("separatrices", "regions", "certificates", "outcomes", "cycles", "atlas_curves", "location")
 PICTURE = tuple(name for name in layers if name not in ON_REQUEST)
@@ -59,7 +59,7 @@ def stepping(system: c2.ELinear | c2.System, psi: c2.Psi, repeats: int = 40) -> 
 def compile_seconds(expression: str) -> float:
     """Seconds of the compilation of one system in a fresh interpreter that has drawn another one."""
     code = (
-        "import time; import codim2_core as c2; from codim2_core.trajectories import warm; p = c2.psi.tanh(); "
+        "import time; import codim2_core as c2; from codim2_core.orbits.trajectories import warm; p = c2.psi.tanh(); "
         f"warm(p, c2.System(U=('-c', '-s'))); s = {expression}; t = time.perf_counter(); warm(p, s); "
         "print(time.perf_counter() - t)"
     )

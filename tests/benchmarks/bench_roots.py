@@ -18,7 +18,7 @@ import numpy as np
 from scipy.optimize import brentq, root
 
 from codim2_core import ELinear, critical_sets, equator_equilibria, examples, psi
-from codim2_core.systems import Coefficients
+from codim2_core.systems.coefficients import Coefficients
 
 from ..core.exact_trigonometric import count_equilibria, root_error, theta_coefficients
 from .bench_equator import near

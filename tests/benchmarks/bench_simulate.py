@@ -9,8 +9,8 @@ import time
 import numpy as np
 
 from codim2_core import examples, psi
-from codim2_core.nonsmooth import simulate_nonsmooth
-from codim2_core.simulate import simulate
+from codim2_core.motion.nonsmooth import simulate_nonsmooth
+from codim2_core.motion.regularised import simulate
 
 EPS = 10.0 ** -np.arange(1, 11)
 COURSES = {

@@ -1,10 +1,10 @@
 from urllib.parse import parse_qs, urlparse
 
 import pytest
-from codim2_app.portraits import portraits
-from codim2_app.state import NUMBERS
+from codim2_app.state.controls import NUMBERS
+from codim2_app.state.portraits import portraits
 
-from codim2_core.presets import presets
+from codim2_core.figures.presets import presets
 from tests.app.serving import serving
 
 pytestmark = pytest.mark.browser

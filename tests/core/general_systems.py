@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import strategies as st
 
-from codim2_core.general import System
+from codim2_core.systems.typed import System
 
 ATTRACTING = System(U=("2*c**2 - c - 1/2", "-s"), W=("-z",))  # eq:ex4p5
 NONUNIQUE = System(

@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 import codim2_core as c2
-from codim2_core.certificate_facts import Verdict
-from codim2_core.equator import EquatorEquilibria
-from codim2_core.regularisation import Psi
-from codim2_core.systems import Coefficients
+from codim2_core.layer_problem.equator import EquatorEquilibria
+from codim2_core.psi.function import Psi
+from codim2_core.systems.coefficients import Coefficients
+from codim2_core.theorems.facts import Verdict
 
 
 def random_system(rng: np.random.Generator, case: str) -> Coefficients:

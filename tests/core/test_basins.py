@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.basins import OUTSIDE, basins
+from codim2_core.portrait.basins import OUTSIDE, basins
 
 
 def centres(n):

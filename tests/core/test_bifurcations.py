@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, bifurcations, classify, critical_sets, equator_equilibria, psi
-from codim2_core.bifurcation_geometry import Geometry
-from codim2_core.critical import determinant_sign
-from codim2_core.lyapunov import first_lyapunov, psi_derivatives
+from codim2_core.bifurcations.geometry import Geometry
+from codim2_core.layer_problem.critical import determinant_sign
+from codim2_core.layer_problem.lyapunov import first_lyapunov, psi_derivatives
 
 from .strategies import coefficient
 

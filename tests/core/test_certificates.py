@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, presets, psi
-from codim2_core.certificates import Verdict, certificates
+from codim2_core.theorems.certificates import Verdict, certificates
 
 from .strategies import coefficient, regularisations, systems
 

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import codim2_core as c2
-from codim2_core.class_map import ClassMap, class_map
-from codim2_core.sweep import class_name, classes, family
-from codim2_core.vary import varied
+from codim2_core.diagrams.class_map import ClassMap, class_map
+from codim2_core.diagrams.sweep import class_name, classes, family
+from codim2_core.layer_problem.vary import varied
 
 BAD = c2.ELinear(172, 186, -200, f=(-86, -93))
 PSIS = (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3), c2.psi.custom("1/(1+s)**2"))

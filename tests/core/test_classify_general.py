@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, given, settings
 
 from codim2_core import ELinear, classify, psi
-from codim2_core.general import System
+from codim2_core.systems.typed import System
 
 from .general_systems import ATTRACTING, NONUNIQUE, polynomials
 from .strategies import regularisations, systems

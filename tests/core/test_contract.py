@@ -9,9 +9,9 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import examples, hemisphere, psi
-from codim2_core.general import Frozen
-from codim2_core.stepping_numbers import rate
-from codim2_core.trajectories import trajectories
+from codim2_core.orbits.trajectories import trajectories
+from codim2_core.stepping.numbers import rate
+from codim2_core.systems.typed import Frozen
 
 PSIS = [
     psi.constant(),

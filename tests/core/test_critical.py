@@ -9,7 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, critical_sets, hemisphere, psi, sliding_flow
-from codim2_core.critical import Existence, determinant_sign, locate
+from codim2_core.layer_problem.critical import Existence, determinant_sign, locate
 
 from .strategies import regularisations, systems
 

@@ -10,10 +10,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import critical_sets, hemisphere, psi, sliding_flow
-from codim2_core.compiled_tape import polynomial_degree, program
-from codim2_core.critical_general import disc_zeros
-from codim2_core.general import System
-from codim2_core.interval_kernels import enclose
+from codim2_core.expressions.arrays import polynomial_degree, program
+from codim2_core.layer_problem.disc_zeros import disc_zeros
+from codim2_core.numerics.intervals import enclose
+from codim2_core.systems.typed import System
 
 from .general_systems import ATTRACTING, NONUNIQUE, circle, polynomials, smooth, turns
 from .strategies import regularisations, systems

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, System, critical_sets, equator_cycle, equator_equilibria, psi
-from codim2_core.cycle_branch import continue_cycles
-from codim2_core.cycles import limit_cycles
-from codim2_core.vary import varied
+from codim2_core.continuation.branches import continue_cycles
+from codim2_core.cycles.limit_cycles import limit_cycles
+from codim2_core.layer_problem.vary import varied
 
 CASE_III = ELinear(172, 186, -200, (-86, -93))
 HOPF = 284 / 129

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, psi, sliding_flow, trajectories
-from codim2_core.cycle_search import COARSE, FINE, Section
-from codim2_core.cycles import limit_cycles
+from codim2_core.cycles.limit_cycles import limit_cycles
+from codim2_core.cycles.section import COARSE, FINE, Section
 
 CASE_III = ELinear(172, 186, -200, (-86, -93), B=[[1.0, -2.0], [0.5, 3.0]], g=[0.25, -1.0])
 HOPF = 284 / 129
@@ -179,7 +179,7 @@ def test_reversible_centre_is_a_band_of_closed_orbits():
 
 def test_importing_and_case_I_load_no_compiler():
     code = (
-        "import sys, codim2_core as c2; from codim2_core.cycles import limit_cycles; "
+        "import sys, codim2_core as c2; from codim2_core.cycles.limit_cycles import limit_cycles; "
         "limit_cycles(c2.ELinear(-1, 1, -1), c2.psi.tanh()); sys.exit('numba' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

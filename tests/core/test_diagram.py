@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import codim2_core as c2
-from codim2_core import vary
-from codim2_core.diagram import Diagram, diagram
+from codim2_core.diagrams.diagram import Diagram, diagram
+from codim2_core.layer_problem import vary
 
 from .general_systems import NONUNIQUE
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import codim2_core as c2
-from codim2_core.eigenvalue_path import linearisation_path
+from codim2_core.diagrams.eigenvalue_path import linearisation_path
 
 BAD = c2.ELinear(172, 186, -200, f=(-86, -93))
 numbers = st.floats(-3, 3).map(lambda v: round(v, 3))

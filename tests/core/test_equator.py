@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codim2_core.equator import equator_cycle, equator_equilibria
-from codim2_core.systems import ELinear
+from codim2_core.layer_problem.equator import equator_cycle, equator_equilibria
+from codim2_core.systems.elinear import ELinear
 
 from .exact_trigonometric import count_equilibria, polished, theta_coefficients
 

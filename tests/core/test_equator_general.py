@@ -9,9 +9,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, equator_cycle, equator_equilibria
-from codim2_core.equator_general import component_series, equator_zeros
-from codim2_core.fourier_zeros import series, zeros
-from codim2_core.general import System
+from codim2_core.layer_problem.equator_zeros import component_series, equator_zeros
+from codim2_core.numerics.fourier_zeros import series, zeros
+from codim2_core.systems.typed import System
 
 from .general_systems import ATTRACTING, NONUNIQUE, circle, polynomials, smooth, turns
 from .strategies import systems

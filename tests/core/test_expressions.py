@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codim2_core.expressions import Expression, ExpressionError, parse
+from codim2_core.expressions.expression import Expression, ExpressionError, parse
 
 NAMES = ("x", "y")
 LEAVES = st.sampled_from(["x", "y", "2", "0.5", "pi", "3.25e-1", "1."])

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 import codim2_core as c2
-from codim2_core.filippov import filippov_sliding
+from codim2_core.sliding.filippov import filippov_sliding
 
 numbers = st.floats(-2.0, 2.0).map(lambda v: round(v, 3))
 

@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from codim2_core import ELinear
-from codim2_core.expressions import ExpressionError, parse
-from codim2_core.general import LONGEST_KEY, MOST_NAMES, MOST_NUMBERS, System
+from codim2_core.expressions.expression import ExpressionError, parse
+from codim2_core.systems.typed import LONGEST_KEY, MOST_NAMES, MOST_NUMBERS, System
 
 CUBIC = ("-c*(c - chi(z)/2)*(c + chi(z)/2)", "-s/2")
 CHI = {"chi(z)": "(1 + 2*z**2)/(1 + z**2)"}
@@ -300,7 +300,7 @@ def test_e_linear_systems_need_no_compiler():
     """Only systems typed as text, and trajectories, are run by compiled code: it takes seconds to load."""
     code = """if True:
         import sys, codim2_core as c2
-        from codim2_core.diagram import diagram
+        from codim2_core.diagrams.diagram import diagram
         system, psi = c2.ELinear(-1.0, 0.3, -1.5, (-0.1, 0.05)), c2.psi.tanh()
         c2.critical_sets(system, psi), c2.equator_equilibria(system), c2.equator_cycle(system)
         c2.classify(system, psi), c2.nullclines(system, psi), diagram(system, psi, "b", (-0.4, 0.4))

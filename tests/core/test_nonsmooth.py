@@ -12,11 +12,11 @@ from scipy.integrate import quad
 
 from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
-from codim2_core.nonsmooth import simulate_nonsmooth
-from codim2_core.nonsmooth_slide import Sheet
-from codim2_core.nonsmooth_slip import leave
-from codim2_core.simulate import SimulationStatus, simulate
-from codim2_core.simulation_field import field
+from codim2_core.motion.field import field
+from codim2_core.motion.nonsmooth import simulate_nonsmooth
+from codim2_core.motion.regularised import SimulationStatus, simulate
+from codim2_core.motion.slide import Sheet
+from codim2_core.motion.slip import leave
 
 G = 9.81
 CASE_3 = ELinear(172.0, 186.0, -200.0, ("-172*z", "-186*z"), B=((0.5, 0.0),))  # C at e = (z, 0), z' = e_1/2

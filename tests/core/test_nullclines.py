@@ -12,7 +12,7 @@ from codim2_core import ELinear, critical_sets, equator_equilibria, hemisphere, 
 
 from .strategies import regularisations, systems
 
-module = sys.modules["codim2_core.nullclines"]
+module = sys.modules["codim2_core.portrait.nullclines"]
 QUARTER_PIXEL = 0.25 / 180
 
 

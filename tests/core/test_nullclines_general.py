@@ -9,9 +9,9 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, equator_equilibria, hemisphere, nullclines, psi
-from codim2_core.equator_general import component_zeros
-from codim2_core.general import System
-from codim2_core.nullclines_general import inside_curves
+from codim2_core.layer_problem.equator_zeros import component_zeros
+from codim2_core.portrait.nullclines_typed import inside_curves
+from codim2_core.systems.typed import System
 
 from .general_systems import ATTRACTING, NONUNIQUE, circle, polynomials
 from .strategies import regularisations

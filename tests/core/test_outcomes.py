@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, Scene, critical_sets, equator_cycle, equator_equilibria, presets, psi, trajectories
-from codim2_core.outcomes import approach_outcomes
+from codim2_core.portrait.outcomes import approach_outcomes
 
 from .strategies import regularisations, systems
 

@@ -8,8 +8,8 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import examples
+from codim2_core.orbits.trajectories import is_warm
 from codim2_core.scene import ELINEAR_ONLY, layers
-from codim2_core.trajectories import is_warm
 
 from .test_scene import fingerprint
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from codim2_core.seeds import checked_seeds, structured_seeds
+from codim2_core.orbits.seeds import checked_seeds, structured_seeds
 
 
 @given(st.integers(0, 400), st.floats(1.1, 5.0))

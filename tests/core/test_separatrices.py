@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, hemisphere, presets, psi
-from codim2_core.endings import half_saddle
-from codim2_core.saddle_manifold import ORDER, expansion, starts
-from codim2_core.separatrices import separatrices
+from codim2_core.portrait.endings import half_saddle
+from codim2_core.portrait.saddle_manifold import ORDER, expansion, starts
+from codim2_core.portrait.separatrices import separatrices
 
 from .strategies import regularisations, systems
 

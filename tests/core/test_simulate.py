@@ -12,9 +12,9 @@ from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
-from codim2_core.simulate import Event, SimulationStatus, simulate
-from codim2_core.simulation_field import field
-from codim2_core.simulation_radau import tableau
+from codim2_core.motion.field import field
+from codim2_core.motion.regularised import Event, SimulationStatus, simulate
+from codim2_core.numerics.radau import tableau
 
 from .strategies import coefficient, regularisations
 

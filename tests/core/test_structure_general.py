@@ -21,8 +21,8 @@ from codim2_core import (
     psi,
     separatrices,
 )
-from codim2_core.endings import half_saddle
-from codim2_core.stepping_numbers import rate
+from codim2_core.portrait.endings import half_saddle
+from codim2_core.stepping.numbers import rate
 
 FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3), psi.custom("1/(1+s)**2")]
 ANY_PSI = pytest.mark.parametrize("p", FAMILIES, ids=lambda p: p.text)

@@ -10,9 +10,9 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 from codim2_core import hemisphere, psi
-from codim2_core.stepping_layout import K0, LANES, PARAMETERS, SIGN, STATE, WIDTH, WORKSPACE, call_field
-from codim2_core.systems import ELinear
-from codim2_core.trajectories import Status, continuation, is_warm, joined, trajectories, warm
+from codim2_core.orbits.trajectories import Status, continuation, is_warm, joined, trajectories, warm
+from codim2_core.stepping.layout import K0, LANES, PARAMETERS, SIGN, STATE, WIDTH, WORKSPACE, call_field
+from codim2_core.systems.elinear import ELinear
 
 FAMILIES = [
     psi.constant(),
@@ -57,7 +57,7 @@ def lorentz(b, f, T):
 
 @pytest.mark.parametrize("p", FAMILIES, ids=NAMES)
 def test_compiled_field_is_the_flow_on_the_disc(p):
-    from codim2_core.stepping_fields import field
+    from codim2_core.stepping.fields import field
 
     rng = np.random.default_rng(1)
     points = np.concatenate([sunflower(LANES - 2), [[0.0, 0.0], [0.6, -0.8]]])
@@ -161,7 +161,7 @@ def test_against_an_independent_integrator(p):
 
 def test_tiny_heights_keep_their_relative_accuracy():
     # 1 - |p| is out of reach of |p| itself: continue from a state with ebar = 1e-160.
-    from codim2_core.trajectories import _integrate
+    from codim2_core.orbits.trajectories import _integrate
 
     state = np.array([[1.0, 0.0, 1e-160]])
     options = {"t_max": 300.0, "rtol": 1e-12, "atol": 1e-12, "backward": False, "view": 2.0, "pixel": PIXEL}
@@ -338,8 +338,8 @@ def test_a_straight_leg_has_few_points():
 
 @pytest.mark.parametrize("p", [psi.constant(), psi.rational(), psi.custom("2/(2+sqrt(1+s))")], ids=str)
 def test_continuation_starts_on_the_invariant_manifold(p):
-    from codim2_core.equator import equator_equilibria
-    from codim2_core.trajectory_continuation import departures
+    from codim2_core.layer_problem.equator import equator_equilibria
+    from codim2_core.orbits.departures import departures
 
     equator = equator_equilibria(CASE_I)
     theta = equator.theta[(equator.lambda_rho < 0.0) & (equator.lambda_theta < 0.0)]
@@ -368,7 +368,7 @@ def test_continuation_starts_on_the_invariant_manifold(p):
 
 
 def test_continuation_ends_on_the_critical_set():
-    from codim2_core.equator import equator_equilibria
+    from codim2_core.layer_problem.equator import equator_equilibria
 
     equator = equator_equilibria(CASE_I)
     theta = equator.theta[equator.lambda_rho < 0.0]

@@ -8,15 +8,15 @@ from numba import njit
 from scipy.integrate import solve_ivp
 
 from codim2_core import examples, hemisphere, psi
-from codim2_core.expressions import parse
-from codim2_core.expressions_code import program
-from codim2_core.general import MOST_NUMBERS, System
-from codim2_core.stepping_layout import K0, LANES, PARAMETERS, SIGN, STATE, WIDTH, WORKSPACE, call_field
-from codim2_core.stepping_numbers import rate
-from codim2_core.stepping_problem import problem
-from codim2_core.systems import ELinear
-from codim2_core.trajectories import Status, continuation, is_warm, trajectories, warm
-from codim2_core.trajectory_continuation import departures
+from codim2_core.expressions.expression import parse
+from codim2_core.expressions.source import program
+from codim2_core.orbits.departures import departures
+from codim2_core.orbits.trajectories import Status, continuation, is_warm, trajectories, warm
+from codim2_core.stepping.layout import K0, LANES, PARAMETERS, SIGN, STATE, WIDTH, WORKSPACE, call_field
+from codim2_core.stepping.numbers import rate
+from codim2_core.stepping.problem import problem
+from codim2_core.systems.elinear import ELinear
+from codim2_core.systems.typed import MOST_NUMBERS, System
 
 FAMILIES = [
     psi.constant(),

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from codim2_core.trigonometric import ROUNDING, radial_zeros, real_zeros, tangential_zeros
+from codim2_core.numerics.trigonometric import ROUNDING, radial_zeros, real_zeros, tangential_zeros
 
 from .exact_trigonometric import (
     count_equilibria,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import codim2_core as c2
-from codim2_core.vary import limits, names, value_of, varied
+from codim2_core.layer_problem.vary import limits, names, value_of, varied
 
 TEXT = c2.ELinear(1.0, "k*z1", -2, f=(0.1, "z2"), g=(0, 1), parameters={"k": 2.0})
 HILL = c2.psi.hill(2)

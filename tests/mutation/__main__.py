@@ -82,7 +82,7 @@ def run(folder: Path, tests: tuple[str, ...], limit: float) -> str:
 
 def check(folder: Path, module: str, sample: int | None, seed: int, limit: float | None) -> list[Mutant]:
     """Try mutants of one module; return those that live without an explanation."""
-    path = folder / "codim2_core" / f"{module}.py"
+    path = folder / "codim2_core" / f"{module.replace('.', '/')}.py"
     source = path.read_text()
     tests = TARGETS[module]
     start = time.monotonic()

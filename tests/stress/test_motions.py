@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from codim2_core import psi
-from codim2_core.simulate import SimulationStatus, simulate
+from codim2_core.motion.regularised import SimulationStatus, simulate
 
 from .strata import STRATA, system
 

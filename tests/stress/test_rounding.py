@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from codim2_core import ELinear, classify, psi
-from codim2_core.critical import Existence, locate
+from codim2_core.layer_problem.critical import Existence, locate
 
 SIGNS = [*itertools.product((-1.0, 1.0), repeat=5), (1.0, 0.0, -1.0, 0.0, 1.0), (0.0,) * 5]
 UNIT = 2.0**-53

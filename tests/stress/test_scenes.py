@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, Scene, classify, critical_sets, limit_cycles, psi
-from codim2_core.trajectories import trajectories
+from codim2_core.orbits.trajectories import trajectories
 
 from .checks import MOST_CYCLES, MOST_EVALUATIONS, check_finite, check_scene, check_seeds, check_trajectories, numbers
 from .strata import CASE3, STRATA

@@ -1,0 +1,1 @@
+"""Shapes, colours and words: glyphs, polylines, formulas, the Bokeh figure, SVG, HoloViews."""

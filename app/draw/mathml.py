@@ -1,0 +1,176 @@
+"""Formulas as mathematics: MathML that every present browser draws itself, with no script and no font to fetch."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from html import escape
+from types import MappingProxyType
+
+from codim2_core.expressions.expression import Expression, parse
+from codim2_core.expressions.names import PLANE, SLOW
+from codim2_core.expressions.tape import compact
+from codim2_core.systems.elinear import ELinear
+from codim2_core.systems.typed import System
+
+_GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η", "theta": "θ",
+    "kappa": "κ", "lambda_": "λ", "lam": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "rho": "ρ", "sigma": "σ", "tau": "τ",
+    "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Omega": "Ω", "Gamma": "Γ", "Delta": "Δ", "Phi": "Φ", "Psi": "Ψ",
+}  # fmt: skip
+_SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(1, 6)  # how tightly a piece binds
+
+_MINUS = "<mo>−</mo>"
+
+Piece = tuple[str, int]
+
+
+def symbol(name: str, dot: bool = False) -> str:
+    """MathML of a name: Greek letters, digits at the end as an index, and a dot for the rate of change."""
+    match = re.fullmatch(r"([A-Za-z]+?)_?(\d+|(?<=_)\w+)?", name)
+    stem, index = (match[1], match[2]) if match else (name, None)
+    base = f"<mi>{escape(_GREEK.get(stem, stem))}</mi>"
+    if dot:
+        base = f"<mover>{base}<mo>˙</mo></mover>"
+    return base if index is None else f"<msub>{base}<mn>{escape(index)}</mn></msub>"
+
+
+def plain_symbol(name: str) -> str:
+    """Return a name as plain text: Greek letters, and digits at the end as an index."""
+    match = re.fullmatch(r"([A-Za-z]+?)_?(\d*)", name)
+    if match is None:
+        return name
+    return _GREEK.get(match[1], match[1]) + match[2].translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
+
+
+def mathml(expression: Expression, named: Mapping[Expression, str] = MappingProxyType({})) -> str:
+    """MathML, without the surrounding ``<math>``, of a formula.
+
+    Parameters
+    ----------
+    expression : Expression
+    named : mapping of Expression to str
+        Parts that are written as a name: definitions.
+    """
+    pieces: list[Piece] = []
+    tape = expression.tape
+    for k, (op, *args) in enumerate(tape):
+        name = named.get(Expression(compact(list(tape), k))) if named and args and op not in ("num", "name") else None
+        if name is not None:
+            pieces.append((symbol(name), _ATOM))
+        elif op == "num":
+            pieces.append(_number(args[0]))
+        elif op == "name":
+            pieces.append((symbol(args[0]), _ATOM))
+        elif len(args) == 1:
+            pieces.append(_function(op, pieces[args[0]]))
+        else:
+            left, right = pieces[args[0]], pieces[args[1]]
+            pieces.append(_binary(op, left, right, tape[args[0]][0] == "num", tape[args[1]][0] == "num"))
+    return pieces[-1][0]
+
+
+def _number(value: float) -> Piece:
+    text = f"{abs(value):.12g}"
+    return (f"<mn>{text}</mn>", _ATOM) if value >= 0.0 else (f"{_MINUS}<mn>{text}</mn>", _SIGN)
+
+
+def _closed(piece: Piece, least: int) -> str:
+    text, binding = piece
+    return f"<mrow>{text}</mrow>" if binding >= least else f"<mrow><mo>(</mo>{text}<mo>)</mo></mrow>"
+
+
+def _function(op: str, inside: Piece) -> Piece:
+    if op == "neg":
+        return f"{_MINUS}{_closed(inside, _PRODUCT)}", _SIGN
+    if op == "sqrt":
+        return f"<msqrt>{inside[0]}</msqrt>", _ATOM
+    if op == "abs":
+        return f"<mrow><mo>|</mo>{inside[0]}<mo>|</mo></mrow>", _ATOM
+    if op == "exp":
+        return f"<msup><mi>e</mi><mrow>{inside[0]}</mrow></msup>", _POWER
+    return f"<mrow><mi>{op}</mi><mo>(</mo>{inside[0]}<mo>)</mo></mrow>", _ATOM
+
+
+def _binary(op: str, left: Piece, right: Piece, left_number: bool, right_number: bool) -> Piece:
+    if op == "+":
+        if right[0].startswith(_MINUS):  # u + -v
+            return f"{left[0]}{right[0]}", _SUM
+        return f"{left[0]}<mo>+</mo>{_closed(right, _PRODUCT)}", _SUM
+    if op == "-":
+        return f"{left[0]}<mo>−</mo>{_closed(right, _PRODUCT)}", _SUM
+    if op == "/" and left[1] == _SIGN:
+        return f"{_MINUS}<mfrac><mrow>{left[0].removeprefix(_MINUS)}</mrow><mrow>{right[0]}</mrow></mfrac>", _SIGN
+    if op == "/":
+        return f"<mfrac><mrow>{left[0]}</mrow><mrow>{right[0]}</mrow></mfrac>", _ATOM
+    if op == "**":
+        return f"<msup>{_closed(left, _ATOM)}<mrow>{right[0]}</mrow></msup>", _POWER
+    times = "<mo>·</mo>" if right_number else "<mo>&#8290;</mo>"  # invisible times
+    first = left[0] if left_number or left[1] == _SIGN else _closed(left, _PRODUCT)
+    return f"{first}{times}{_closed(right, _POWER)}", _SIGN if left[1] == _SIGN else _PRODUCT
+
+
+def equations(system: ELinear | System) -> tuple[tuple[str, Expression], ...]:
+    """Left sides ("x", "y", "z1" …) and right sides of all equations of a system, eq:vf.
+
+    An e-linear system made from a matrix is written in its normal form only if that has formulas; otherwise as given.
+    """
+    if isinstance(system, System):
+        rows = (*system.U, *system.W)
+        left = ("x", "y", *SLOW[: len(system.W)])
+        return tuple(zip(left, rows, strict=True))
+    names = (*PLANE, "z", *SLOW, *dict(system.parameters), "A_", "B_", "C_")
+    template = parse("A_*c + B_*s + C_", names)
+
+    def row(c: object, s: object, constant: object) -> Expression:
+        result = template
+        for name, value in (("A_", c), ("B_", s), ("C_", constant)):
+            part = value if isinstance(value, Expression) else parse(repr(value), names)
+            result = result.substitute(name, part)
+        return result.substitute("z", parse("z1", names)) if "z" in result.names and system.m > 1 else result
+
+    (a11, a12), (a21, a22) = _matrix(system, names)
+    rows = [("x", row(a11, a12, system.f[0])), ("y", row(a21, a22, system.f[1]))]
+    for i in range(system.m):
+        B = (0.0, 0.0) if system.B is None else system.B[i]
+        rows.append((SLOW[i], row(B[0], B[1], 0.0 if system.g is None else system.g[i])))
+    return tuple(rows)
+
+
+def _matrix(system: ELinear, names: tuple[str, ...]) -> tuple[tuple[object, object], tuple[object, object]]:
+    if system._matrix is not None:
+        return system._matrix
+    if isinstance(system.b, Expression):
+        return (system.a, parse("-B_", names).substitute("B_", system.b)), (system.b, system.d)
+    return (system.a, -system.b), (system.b, system.d)
+
+
+def _meanings(system: ELinear | System) -> dict[str, Expression]:
+    """Return the definitions of a system as formulas, by name."""
+    if isinstance(system, ELinear) or not system.definitions:
+        return {}
+    given = {"parameters": dict(system.parameters), "definitions": dict(system.definitions)}
+    return {name: System(U=(name, "0"), **given).U[0] for name, _ in system.definitions}
+
+
+def _row(left: str, right: str) -> str:
+    return (
+        f'<mtr><mtd style="text-align:right">{left}</mtd><mtd><mo>=</mo></mtd>'
+        f'<mtd style="text-align:left"><mrow>{right}</mrow></mtd></mtr>'
+    )
+
+
+def equations_mathml(system: ELinear | System) -> str:
+    """Return a MathML table of a system's equations."""
+    plain = (
+        (lambda e: e.substitute("z1", parse("z", ("z",))) if "z1" in e.names else e) if system.m == 1 else lambda e: e
+    )
+    meanings = {plain(meaning): name for name, meaning in _meanings(system).items()}
+    rows = [
+        _row(symbol("z" if system.m == 1 and left == "z1" else left, dot=True), mathml(plain(right), meanings))
+        for left, right in equations(system)
+    ]
+    for k, (meaning, name) in enumerate(meanings.items()):
+        before = dict(list(meanings.items())[:k])
+        rows.append(_row(symbol(name), mathml(meaning, before)))
+    return f'<math display="block"><mtable displaystyle="true">{"".join(rows)}</mtable></math>'

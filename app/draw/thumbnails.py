@@ -1,0 +1,51 @@
+"""Small portraits of the regions of the atlas."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from codim2_core.layer_problem.vary import varied
+from codim2_core.psi.function import Psi
+from codim2_core.scene import Scene
+
+from .svg import small
+
+#: Half the width of a small portrait, its pixel in picture units (it is shown some 80 px wide), its starting points.
+VIEW = 1.5
+PIXEL = 1 / 28
+COUNT = 22
+#: At most as many regions are given one.
+MOST = 24
+
+
+def thumbnails(
+    system: Any,
+    psi: Psi,
+    z: tuple[float, ...],
+    names: tuple[str, str],
+    places: Sequence[tuple[int, str, tuple[float, float]]],
+) -> list[list[Any]]:
+    """Draw the portrait at each place of a plane of two parameters.
+
+    Parameters
+    ----------
+    system : ELinear or Coefficients
+    psi : Psi
+    z : (m,) floats
+    names : (str, str)
+        The parameters, by the core's names.
+    places : sequence of (region, its name, (x, y))
+
+    Returns
+    -------
+    list of [region, its name, [x, y], svg]
+    """
+    drawn = []
+    for region, name, place in places[:MOST]:
+        changed = system, psi, z
+        for axis, value in zip(names, place, strict=True):
+            changed = varied(*changed, axis, value)
+        scene = Scene(*changed, count=COUNT, view=VIEW * 1.4, pixel=PIXEL)
+        drawn.append([region, name, [float(v) for v in place], small(scene, VIEW)])
+    return drawn

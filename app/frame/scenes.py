@@ -1,0 +1,113 @@
+"""From the values of the controls to the scene that is drawn, and from changed values to the changed scene."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from typing import Any
+
+from codim2_core.scene import Scene
+from codim2_core.systems.elinear import ELinear
+from codim2_core.systems.typed import System
+
+from ..draw.theme import REACH
+from ..state.choices import COEFFICIENTS, SLOW_CONTROLS
+from ..state.chosen import NORMAL, System_, TextError, build
+from ..state.controls import InputError, build_psi, opening
+
+#: Text of f(z) = f + z k and of z' = B e + g. It never changes, so that nothing is parsed again on a tick:
+#: the numbers travel as parameters of the system.
+F_TEXT = ("f1 + k1*z", "f2 + k2*z")
+B_TEXT = (("B1", "B2"),)
+G_TEXT = ("g0",)
+
+
+def make_scene(values: Mapping[str, Any], system: System_ | None = None) -> Scene:
+    """Return the scene of these values, or of `system` instead of the one that they choose.
+
+    Raises
+    ------
+    InputError
+        A text or a value cannot be used.
+    """
+    system = chosen_system(values) if system is None else system
+    return Scene(system, build_psi(values), z=position(values, system.m), count=values["trajectories"], view=REACH)
+
+
+def chosen_system(values: Mapping[str, Any]) -> System_:
+    """Return the system that the values choose.
+
+    Raises
+    ------
+    InputError
+        With "text:" and the name of the box.
+    """
+    if values["system"] == NORMAL:
+        return ELinear(
+            values["a"],
+            values["b"],
+            values["d"],
+            f=F_TEXT,
+            B=B_TEXT,
+            g=G_TEXT,
+            parameters={name: values[name] for name in COEFFICIENTS[3:]},
+        )
+    try:
+        return build(values["system"], values["texts"], values["parameters"])
+    except TextError as error:
+        raise InputError(f"text:{error.box}", str(error)) from error
+
+
+def position(values: Mapping[str, Any], m: int) -> tuple[float, ...]:
+    """Return z: the values of the sliders, and 0 for slow variables that have none."""
+    return tuple(values[name] for name in SLOW_CONTROLS[:m]) + (0.0,) * (m - len(SLOW_CONTROLS))
+
+
+def settled(values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the changes with what another choice of system brings: its first place on Sigma, its own parameters."""
+    wanted = dict(changes)
+    choice = wanted.get("system")
+    if choice is None or choice == values["system"]:
+        return wanted
+    return {**opening(choice), **wanted}
+
+
+def evolved(scene: Scene, values: Mapping[str, Any], changed: Collection[str], given: bool) -> Scene:
+    """Return the scene after some values have changed; it shares all that they do not reach.
+
+    Parameters
+    ----------
+    given : bool
+        The system is the user's own, from Python: no value chooses another.
+    """
+    changes: dict[str, Any] = {}
+    system = scene.system
+    if not given and {"system", "texts"} & set(changed):
+        system = changes["system"] = chosen_system(values)
+    elif given or values["system"] == NORMAL:
+        changes.update((name, values[name]) for name in changed if name in COEFFICIENTS)
+    if "parameters" in changed and isinstance(system, (ELinear, System)):
+        own = dict(system.parameters)
+        changes.update((name, v) for name, v in values["parameters"].items() if name in own and own[name] != v)
+    if "system" in changes or set(SLOW_CONTROLS) & set(changed):
+        changes["z"] = position(values, system.m if isinstance(system, (ELinear, System)) else 0)
+    if {"psi", "n", "psi_text"} & set(changed):
+        changes["psi"] = build_psi(values)
+    if "trajectories" in changed:
+        changes["count"] = values["trajectories"]
+    return scene.evolve(**changes) if changes else scene
+
+
+def locked_controls(scene: Scene, given: bool) -> tuple[str, ...]:
+    """Name the controls that cannot change this scene: coefficients given as text, or not there."""
+    system = scene.system
+    if not given:
+        return ()
+    if not isinstance(system, ELinear):
+        return COEFFICIENTS
+    named = dict(system.parameters)
+    given_as = {"a": system.a, "b": system.b, "d": system.d, "f1": system.f[0], "f2": system.f[1]}
+    if system._matrix is not None:  # made by from_matrix: a, b, d follow from the rotation, and f is turned by it
+        given_as = {}
+    free = {*named, *(name for name, value in given_as.items() if isinstance(value, float))}
+    locked = tuple(name for name in COEFFICIENTS if name not in free)
+    return locked if system.m else (*locked, "z")

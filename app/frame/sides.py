@@ -1,0 +1,60 @@
+"""What lies on either side of a degenerate setting, along the control that was moved last."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from codim2_core.examples import catalogue
+from codim2_core.layer_problem.vary import names, value_of, varied
+from codim2_core.portrait.classify import classify
+from codim2_core.scene import Scene
+
+from ..draw.mathml import plain_symbol
+from ..state.choices import SLOW_CONTROLS
+from ..state.controls import ExplorerState
+
+STEP = 1e-6  # of the value or of 1: far beyond rounding, far below what can be seen
+
+
+def sides(scene: Scene, values: Mapping[str, Any], control: str) -> dict[str, Any] | None:
+    """Return the portraits a little below and a little above the present value of a control.
+
+    Parameters
+    ----------
+    scene : Scene
+    values : mapping
+        Of the controls.
+    control : str
+        A coefficient, a slow variable, n, or "own:" and a parameter; another that the system has if it lacks this one.
+
+    Returns
+    -------
+    dict or None
+        "symbol", and "below" and "above", names of portraits; None if nothing can be varied.
+    """
+    known = names(scene.system, scene.psi, scene.z)
+    name = f"z{SLOW_CONTROLS.index(control) + 1}" if control in SLOW_CONTROLS else control.removeprefix("own:")
+    if name not in known:
+        name = next((one for one in known if one != "n"), "")
+    if not name:
+        return None
+    value = value_of(scene.system, scene.psi, scene.z, name)
+    step = STEP * max(1.0, abs(value))
+    found = []
+    for moved in (value - step, value + step):
+        try:
+            system, psi, z = varied(scene.system, scene.psi, scene.z, name, moved)
+            found.append(classify(system, psi, z).name)
+        except ValueError:  # the end of what is allowed
+            found.append("")
+    return {"symbol": _symbol(name, values), "below": found[0], "above": found[1]}
+
+
+def _symbol(name: str, values: Mapping[str, Any]) -> str:
+    if name.startswith("z") and name[1:].isdigit():
+        i, example = int(name[1:]) - 1, catalogue.get(values["system"])
+        if example and i < len(example.slow):
+            return example.slow[i][0]
+        return "z" if i == 0 else plain_symbol(name)
+    return str(ExplorerState.param[name].label) if name in ExplorerState.param else plain_symbol(name)

@@ -1,0 +1,1 @@
+"""What is beside the picture: one module a panel."""

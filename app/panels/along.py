@@ -1,0 +1,110 @@
+"""The panel "Along z": sliding, crossing and unstable parts of Sigma, the slow flow, and its equilibria.
+
+One slow variable runs; with two or more of them the plane of the first two is shown besides.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from codim2_core.layer_problem.critical import critical_sets
+from codim2_core.psi.function import Psi
+from codim2_core.sliding.along import SlowPortrait, slow_portrait
+
+from ..frame.draft import Draft
+from ..state.choices import SLOW_CONTROLS
+from ..state.chosen import System_, slow_ranges
+from ..state.controls import slider_range
+
+PLANE = 15  # arrows along each axis of the plane
+NONE = "There is no slow variable: m = 0."
+
+
+def add(draft: Draft) -> None:
+    """Add the slow portrait along the chosen slow variable, once nothing moves."""
+    system, values = draft.system, draft.values
+    if system is None or not system.m:
+        if draft.fresh("along", NONE):
+            draft.header.setdefault("unable", {})["along"] = NONE
+        return
+    z, psi = draft.scene.z, draft.scene.psi
+    m = system.m
+    axis = min(SLOW_CONTROLS.index(values["drift"]), m - 1, len(SLOW_CONTROLS) - 1)
+    spans = spans_of(system, values)
+    others = tuple(0.0 if i == axis else v for i, v in enumerate(z))
+    found = draft.slow("along", (system, psi, others, axis, spans), lambda: line(system, psi, others, axis, spans))
+    if found is not None:
+        draft.header["along"] = found
+    if m > 1:
+        rest = z[2:]
+        plane = draft.slow("slow_plane", (system, psi, rest, spans), lambda: plane_of(system, psi, rest, spans))
+        if plane is not None:
+            draft.header["slow_plane"] = plane
+
+
+def spans_of(system: System_, values: Mapping[str, Any]) -> tuple[tuple[float, float], ...]:
+    """Return the range of the slider of each slow variable."""
+    ranges = slow_ranges(values["system"], system.m)
+    return tuple(
+        slider_range(low, high, values[name])[:2] for name, (low, high) in zip(SLOW_CONTROLS, ranges, strict=False)
+    )
+
+
+def line(
+    system: System_, psi: Psi, others: tuple[float, ...], axis: int, spans: tuple[tuple[float, float], ...]
+) -> dict[str, Any]:
+    """Return what the browser draws along one slow variable."""
+    found = slow_portrait(system, psi, spans[axis], others, axis)
+    return {"control": SLOW_CONTROLS[axis], "m": system.m, "span": list(spans[axis]), **columns(found, axis)}
+
+
+def columns(found: SlowPortrait, axis: int) -> dict[str, Any]:
+    """Return a slow portrait as numbers and words."""
+    width = found.intervals[-1].high - found.intervals[0].low
+    return {
+        "intervals": [{"low": i.low, "high": i.high, "kind": i.kind, "sentence": i.sentence} for i in found.intervals],
+        "branches": [
+            {"z": _short(b.z), "flow": _short(b.flow[:, axis]), "kind": b.kind, "stable": b.stable}
+            for b in found.branches
+        ],
+        "points": [
+            {
+                "kind": p.kind,
+                "z": p.z if abs(p.z) > 1e-14 * width else 0.0,
+                "stable": p.stable,
+                "sentence": p.sentence,
+                "flow": _flow_at(found, p.z, axis),
+            }
+            for p in found.points
+        ],
+    }
+
+
+def _flow_at(found: SlowPortrait, z: float, axis: int) -> float:
+    """Return the slow flow on the branch that is nearest to z."""
+    if not found.branches:
+        return 0.0
+    branch = min(found.branches, key=lambda b: float(np.abs(b.z - z).min()))
+    return float(np.interp(z, branch.z, branch.flow[:, axis]))
+
+
+def plane_of(
+    system: System_, psi: Psi, rest: tuple[float, ...], spans: tuple[tuple[float, float], ...]
+) -> dict[str, Any]:
+    """Return the slow flow over a net in the plane of the first two slow variables, where there is sliding."""
+    (low1, high1), (low2, high2) = spans[:2]
+    arrows = []
+    for z2 in np.linspace(low2, high2, PLANE):
+        for z1 in np.linspace(low1, high1, PLANE):
+            arrows += [
+                [float(z1), float(z2), *_short(C.slow_flow[:2]), int(C.kind.startswith("stable"))]
+                for C in critical_sets(system, psi, (z1, z2, *rest))
+            ]
+    return {"spans": [list(spans[0]), list(spans[1])], "arrows": arrows}
+
+
+def _short(values: Any) -> list[float]:
+    return [float(f"{v:.5g}") for v in values]

@@ -1,0 +1,186 @@
+"""The panel "Atlas": two parameters as a plane, cut into regions of one portrait each, with a small portrait of each.
+
+The plane (f1, f2) is known in closed form: its curves go with every frame. Any other pair of axes, and a part of that
+plane, is mapped by the core's `class_map` once nothing moves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from codim2_core import bifurcations
+from codim2_core.bifurcations import BifurcationCurve
+from codim2_core.diagrams.class_map import ClassMap, class_map
+from codim2_core.systems.coefficients import Coefficients
+from codim2_core.systems.elinear import ELinear
+
+from ..draw import plane_curves
+from ..draw.packing import Polylines
+from ..draw.thumbnails import thumbnails
+from ..frame.draft import Draft
+from .axes import Axis, available, missing, spans_of, without
+
+#: Controls of the plane of f: a system that lacks one of them has none.
+PLANE = ("a", "b", "d", "f1", "f2")
+#: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
+CURVES = ("saddle_node", "transcritical")
+#: A region narrower than this, of the width of the map, gets no small portrait.
+THINNEST = 0.012
+
+
+def add(draft: Draft) -> None:
+    """Add the map of the chosen axes."""
+    axes = draft.values["across"], draft.values["up"]
+    there = available(draft)
+    reason = missing(draft, there, *axes)
+    plane = axes == ("f1", "f2") and set(PLANE) <= there.keys() and draft.values["atlas_zoom"] == 0
+    if draft.now.get("atlas of") != (axes, plane):
+        draft.now["atlas of"] = (axes, plane)
+        draft.header["atlas_of"] = [*axes, plane]
+    if plane:
+        _plane_of_f(draft)
+        return
+    if axes[0] == axes[1]:
+        reason = "Choose two different parameters."
+    elif not isinstance(draft.scene.system, (ELinear, Coefficients)):
+        reason = "The atlas is of e-linear systems; this one is not."
+    if reason:
+        if draft.now.get("map") != reason:
+            draft.now["map"] = reason
+            draft.unable("map", reason)
+        return
+    _map(draft, (there[axes[0]], there[axes[1]]))
+
+
+# The plane of f ----------------------------------------------------------------------------------------------------
+
+
+def _plane_of_f(draft: Draft) -> None:
+    scene, header = draft.scene, draft.header
+    curves = scene["atlas_curves"]
+    size = plane_curves.size_of(curves)
+    if draft.fresh("atlas_curves", curves):
+        header["atlas_size"] = size
+        for name, curve in zip(CURVES, curves, strict=True):
+            draft.blocks[name] = Polylines(*plane_curves.curve_lines(curve, size))
+    matrix = scene.key("matrix")
+    if draft.now.get("regions at") != matrix:
+        if draft.rest:
+            draft.now["regions at"] = matrix
+            header["regions"] = plane_curves.region_columns(scene["regions"], size)
+            draft.blocks["regions"] = Polylines(*plane_curves.region_lines(scene["regions"], size))
+        else:
+            draft.late("regions")
+    _curves_of_psi(draft, size)
+    _curves_of_cycles(draft, size)
+    if draft.ready:
+        _portraits_of_plane(draft)
+
+
+def _curves_of_psi(draft: Draft, size: float) -> None:
+    """Add the Hopf and node-focus curves: there are some in Case III only."""
+    scene = draft.scene
+    at = scene.coefficients
+    assert isinstance(at, Coefficients)  # the system has a, b, d
+    a, b, d = at.plane[:3]
+    psi = scene.psi
+    found = draft.slow("curves of psi", scene.key("matrix", "psi"),
+                       lambda: (bifurcations.hopf(a, b, d, psi), bifurcations.node_focus(a, b, d, psi)))  # fmt: skip
+    if found is None:
+        return
+    draft.header["curves_of_psi"] = {"size": size, "points": special_points(found)}
+    for name, curve in zip(("hopf", "node_focus"), found, strict=True):
+        draft.blocks[name] = Polylines(*plane_curves.curve_lines(curve, size))
+
+
+def _curves_of_cycles(draft: Draft, size: float) -> None:
+    """Add the curves on which limit cycles meet, or end at the equator: in Case III, where they are asked for.
+
+    They take seconds to continue.
+    """
+    at, psi = draft.scene.coefficients, draft.scene.psi
+    assert isinstance(at, Coefficients)  # the system has a, b, d
+    a, b, d = at.plane[:3]
+    possible = a * d < 0.0 < a * d + b * b
+    if draft.fresh("cycles possible", possible):
+        draft.header["cycles_possible"] = possible
+    if not possible or draft.values["cycle_curves"] == "hide" or not draft.ready:
+        return
+
+    def make() -> tuple[BifurcationCurve, ...]:
+        return (
+            bifurcations.cycle_folds(a, b, d, psi),
+            bifurcations.heteroclinic(a, b, d, psi),
+            bifurcations.closed_equator(a, b, d),
+        )
+
+    found = draft.slow("curves of cycles", draft.scene.key("matrix", "psi"), make)
+    if found is None:
+        return
+    draft.header["curves_of_cycles"] = {"size": size, "points": special_points(found)}
+    for name, curve in zip(("cycle_folds", "heteroclinic", "closed_equator"), found, strict=True):
+        draft.blocks[name] = Polylines(*plane_curves.curve_lines(curve, size))
+
+
+def special_points(curves: Sequence[BifurcationCurve]) -> list[list[Any]]:
+    """Return type, place and sentence of the points of codimension two on some curves."""
+    return [[point.type, *point.place, point.sentence] for curve in curves for point in curve.special]
+
+
+def _portraits_of_plane(draft: Draft) -> None:
+    scene = draft.scene
+    places = [(i, region.name, region.inside) for i, region in enumerate(scene["regions"])] if draft.rest else []
+    system, psi, z = scene.coefficients, scene.psi, ()
+    found = draft.slow("thumbnails", scene.key("matrix", "psi"),
+                       lambda: thumbnails(system, psi, z, ("f1", "f2"), places))  # fmt: skip
+    if found is not None:
+        draft.header["thumbnails"] = found
+
+
+# Any two parameters ------------------------------------------------------------------------------------------------
+
+
+def _map(draft: Draft, axes: tuple[Axis, Axis]) -> None:
+    system, psi, z = without(draft.scene, *axes)
+    spans = spans_of(draft, "map", axes, draft.values["atlas_zoom"])
+    names = axes[0].core, axes[1].core
+    key = (system, psi, z, names, spans)
+    found: ClassMap | None = draft.slow("map", key, lambda: class_map(system, psi, names, spans, z))
+    if found is not None:
+        draft.header["map"], lines = map_columns(found)
+        draft.blocks.update(lines)
+        wide = [(i, r.name, r.inside) for i, r in enumerate(found.regions) if r.width >= THINNEST]
+        draft.now["places"] = (key, wide)
+    of, places = draft.now.get("places", (None, ()))
+    if draft.ready and of == key:
+        tiles = draft.slow("thumbnails", key, lambda: thumbnails(system, psi, z, names, places))
+        if tiles is not None:
+            draft.header["thumbnails"] = tiles
+
+
+def map_columns(found: ClassMap) -> tuple[dict[str, Any], dict[str, Polylines]]:
+    """Return regions and curves of a map: columns, and their lines where both spans are -1 to 1."""
+    spans = np.array(found.spans)
+    middle, half = spans.mean(axis=1), 0.5 * (spans[:, 1] - spans[:, 0])
+
+    def unit(points: NDArray[np.float64]) -> NDArray[np.float64]:
+        return (points - middle) / half
+
+    header = {
+        "spans": [list(span) for span in found.spans],
+        "name": [region.name for region in found.regions],
+        "inside": [list(region.inside) for region in found.regions],
+        "loops": [len(region.boundary) for region in found.regions],
+        "curve": [boundary.happening[0] for boundary in found.boundaries],
+        "pieces": [len(boundary.lines) for boundary in found.boundaries],
+    }
+    loops = [unit(loop) for region in found.regions for loop in region.boundary]
+    curves = [unit(line) for boundary in found.boundaries for line in boundary.lines]
+    return header, {
+        "map": Polylines(*plane_curves.thin(loops, 1.0)),
+        "map_curves": Polylines(*plane_curves.thin(curves, 1.0)),
+    }

@@ -1,0 +1,124 @@
+"""Parameters along which a diagram runs or a map spreads: which there are, and over which span."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from codim2_core.examples import catalogue
+from codim2_core.layer_problem.vary import names, varied
+from codim2_core.psi.function import Psi
+from codim2_core.scene import Scene
+from codim2_core.systems.elinear import ELinear
+
+from ..draw.mathml import plain_symbol
+from ..frame.draft import Draft
+from ..state.choices import AXES, COEFFICIENTS, OWN_AXIS, SLOW_CONTROLS
+from ..state.chosen import NORMAL, PARAMETER_RANGE, slow_ranges
+from ..state.controls import ExplorerState, slider_range
+
+#: Coefficients of the slow flow: nothing in a diagram or a map depends on them.
+SLOW = ("B1", "B2", "g0")
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """A parameter that can be varied: its name here and in the core, its symbol, its slider's range, its value."""
+
+    name: str
+    core: str
+    symbol: str
+    low: float
+    high: float
+    value: float
+
+    def span(self, zoom: int = 0) -> tuple[float, float]:
+        """Return the range of the slider, or a part of it: a 4^zoom-th, around the value.
+
+        The part moves in steps of a quarter of its width, so that it stays where it is while the value moves a little.
+        """
+        low, high, _ = slider_range(self.low, self.high, self.value)
+        if not zoom:
+            return low, high
+        width = (high - low) / 4.0**zoom
+        start = min(max(low + width * (round(4.0 * (self.value - low) / width) / 4.0 - 0.5), low), high - width)
+        return start, start + width
+
+
+def available(draft: Draft) -> dict[str, Axis]:
+    """Return, by name, the axes that belong to the present system and Psi; the browser is told when they change.
+
+    They are those of `AXES`, and "own:" with the name of any other parameter of the system.
+    """
+    scene, values = draft.scene, draft.values
+    known = names(scene.system, scene.psi, scene.z)
+    normal, example = values["system"] == NORMAL, catalogue.get(values["system"])
+    own = dict(getattr(scene.system, "parameters", ()))
+    found = {}
+    # a parameter of a typed system may be called a, but then it is not the control a
+    ranges = slow_ranges(values["system"], getattr(scene.system, "m", 0))
+    for name in AXES if normal else (*SLOW_CONTROLS, "n"):
+        slow = SLOW_CONTROLS.index(name) if name in SLOW_CONTROLS else None
+        core = name if slow is None else f"z{slow + 1}"
+        if core not in known or name in draft.locked or (name == "n" and "n" in own):
+            continue
+        declared = ExplorerState.param[name]
+        low, high = declared.softbounds if normal or slow is None else ranges[slow]
+        symbol = example.slow[slow][0] if example and slow is not None else str(declared.label)
+        found[name] = Axis(name, core, symbol, float(low), float(high), float(values[name]))
+    for parameter, value in own.items():
+        if normal and parameter in COEFFICIENTS:
+            continue
+        low, high = example.ranges.get(parameter, PARAMETER_RANGE) if example else PARAMETER_RANGE
+        name = OWN_AXIS + parameter
+        found[name] = Axis(name, parameter, plain_symbol(parameter), float(low), float(high), float(value))
+    told = tuple((axis.name, axis.symbol, axis.low, axis.high) for axis in found.values())
+    if draft.now.get("axes") != told:
+        draft.now["axes"] = told
+        draft.header["axes"] = [list(row) for row in told]
+    return found
+
+
+def missing(draft: Draft, there: dict[str, Axis], *wanted: str) -> str:
+    """Say which of the wanted axes does not belong to the present system or Psi, or return nothing."""
+    for name in wanted:
+        if name in there:
+            continue
+        if name == "n":
+            return "n is a parameter of Ψ = 3/(3 + (4s)ⁿ) only."
+        own = name.startswith(OWN_AXIS)
+        symbol = plain_symbol(name.removeprefix(OWN_AXIS)) if own else ExplorerState.param[name].label
+        where = "given by your system" if name in draft.locked else "not in this system"
+        return f"{symbol} is {where}: choose another."
+    return ""
+
+
+def spans_of(draft: Draft, name: str, axes: tuple[Axis, ...], zoom: int) -> tuple[tuple[float, float], ...]:
+    """Return the spans of some axes: those that the browser has, as long as the present values are well inside."""
+    kind = tuple(axis.name for axis in axes), zoom
+    of, spans = draft.now.get(f"{name} spans", (None, ()))
+    if of == kind and zoom and all(map(_well_inside, spans, axes)):
+        return spans
+    # n has a short range; beside another parameter it stays whole
+    spans = tuple(axis.span(0 if axis.name == "n" and len(axes) > 1 else zoom) for axis in axes)
+    draft.now[f"{name} spans"] = kind, spans
+    return spans
+
+
+def _well_inside(span: tuple[float, float], axis: Axis) -> bool:
+    low, high = span
+    return 0.08 <= (axis.value - low) / (high - low) <= 0.92
+
+
+def without(scene: Scene, *along: Axis) -> tuple[Any, Psi, tuple[float, ...]]:
+    """Return system, Psi and z of a scene at a fixed value of some parameters, and without a slow flow.
+
+    They say all that a diagram along these depends on: moving their sliders, or those of B and g, asks for no new one.
+    """
+    system, psi, z = scene.system, scene.psi, scene.z
+    if isinstance(system, ELinear):
+        given = dict(system.parameters)
+        system = system.evolve(**{name: 0.0 for name in SLOW if name in given})
+    for axis in along:
+        system, psi, z = varied(system, psi, z, axis.core, axis.high)
+    return system, psi, tuple(z)

@@ -1,0 +1,97 @@
+"""The panel "Diagram": limit directions, critical sets and cycles along one parameter, special points marked."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from codim2_core.continuation.branches import CycleBranches, continue_cycles
+from codim2_core.diagrams.diagram import Diagram, diagram
+from codim2_core.systems.coefficients import Coefficients
+from codim2_core.systems.elinear import ELinear
+
+from ..frame.draft import Draft
+from .axes import available, missing, spans_of, without
+
+#: Most points that the browser is sent of a branch: it is drawn some 320 px wide.
+MOST = 160
+#: Systems whose limit cycles are followed.
+E_LINEAR = (ELinear, Coefficients)
+#: Special points of branches of cycles that the diagram has already, or that are none of the system's.
+KNOWN = ("Hopf", "span", "closed")
+
+
+def add(draft: Draft) -> None:
+    """Add the diagram along the chosen parameter, over a span around its value, once nothing moves; then the cycles."""
+    name = draft.values["along"]
+    there = available(draft)
+    reason = missing(draft, there, name)
+    if reason:
+        if draft.now.get("diagram") != reason:
+            draft.now["diagram"] = reason
+            draft.unable("diagram", reason)
+        return
+    axis = there[name]
+    (span,) = spans_of(draft, "diagram", (axis,), draft.values["zoom"])
+    system, psi, z = without(draft.scene, axis)
+    key = (system, psi, z, name, span)
+    found = draft.slow("diagram", key, lambda: columns(diagram(system, psi, axis.core, span, z)))
+    if found is not None:
+        draft.header["diagram"] = {**found, "control": name}
+    if draft.ready and draft.now.get("diagram") == key and isinstance(system, E_LINEAR):
+        cycles = draft.slow("cycles along", key,
+                            lambda: cycle_columns(continue_cycles(system, psi, axis.core, span, z)))  # fmt: skip
+        if cycles is not None:
+            draft.header["cycles_along"] = cycles
+
+
+def columns(found: Diagram) -> dict[str, Any]:
+    """Return what the browser draws: branches as x, y and kind, and the special values."""
+    return {
+        "span": list(found.span),
+        "equator": [
+            {**_line(b.value, b.theta), "attracting": bool(np.median(b.lambda_rho) < 0.0),
+             "turning": bool(np.median(b.lambda_theta) < 0.0)}
+            for b in found.equator
+        ],
+        "critical": [{**_line(b.value, b.radius), "kind": b.kind} for b in found.critical],
+        "closed": [[float(b.value[0]), float(b.value[-1])] for b in found.closed],
+        "special": [
+            {"kind": s.kind, "value": s.value, "place": [float(v) for v in s.place], "sentence": s.sentence}
+            for s in found.special
+        ],
+    }  # fmt: skip
+
+
+def cycle_columns(found: CycleBranches) -> dict[str, Any]:
+    """Return the branches of limit cycles, in pieces of one stability, their special points, and what is to say."""
+    pieces = []
+    for branch in found:
+        finite = np.isfinite(branch.period)
+        value, amplitude, period = branch.value[finite], branch.amplitude[finite], branch.period[finite]
+        # at a fold or a Hopf point the exponent is zero: the stability belongs to the steps between points
+        step = branch.exponent[finite]
+        stable = (step[1:] + step[:-1]) < 0.0
+        cuts = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(stable)]
+        for start, end in pairwise(cuts):
+            if end > start:
+                part = slice(start, end + 1)
+                line = _line(value[part], amplitude[part])
+                pieces.append({**line, "period": _line(value[part], period[part])["y"], "stable": bool(stable[start])})
+    special = [
+        {"kind": p.kind, "value": p.value, "amplitude": float(p.amplitude), "sentence": p.sentence}
+        for branch in found
+        for p in branch.special
+        if p.kind not in KNOWN and np.isfinite(p.amplitude)
+    ]
+    return {"pieces": pieces, "special": special, "sentence": " ".join([found.reason, *found.notes])}
+
+
+def _line(x: NDArray[np.float64], y: NDArray[np.float64]) -> dict[str, list[float]]:
+    if len(x) > MOST:
+        kept = np.unique(np.rint(np.linspace(0, len(x) - 1, MOST)).astype(int))
+        x, y = x[kept], y[kept]
+    return {"x": [float(f"{v:.7g}") for v in x], "y": [float(f"{v:.4g}") for v in y]}

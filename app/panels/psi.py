@@ -1,0 +1,29 @@
+"""The panel "Ψ" (fig:component): Psi itself, and the smooth step L_Psi(l; eps) that it makes of the sign function."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..frame.draft import Draft
+
+S = np.linspace(0.0, 4.0, 81)
+#: Distances in the chart kappa_2 at which |e_Psi| is sent; L(l; eps) is read from them in the browser for every eps.
+ZETA = np.concatenate([np.linspace(0.0, 3.0, 61), np.geomspace(3.2, 400.0, 24)])
+
+
+def add(draft: Draft) -> None:
+    """Add Psi(s) and |e_Psi|(zeta), which change with Psi only."""
+    psi = draft.scene.psi
+    if draft.now.get("psi_curves") != psi:
+        draft.now["psi_curves"] = psi
+        draft.header["psi_curves"] = {
+            "s": _short(S),
+            "psi": _short(psi(S)),
+            "zeta": _short(ZETA),
+            "modulus": _short(psi.modulus(ZETA)),
+            "text": psi.text,
+        }
+
+
+def _short(values: np.ndarray) -> list[float]:
+    return [float(f"{v:.5g}") for v in values]

@@ -1,0 +1,139 @@
+"""The panel "3-D": the hemisphere of the blowup, and hemispheres along z (fig:insert_sphere, fig:epsboth_3D).
+
+Polylines are sent once as points (x, y, height) and turned in the browser. A hemisphere is lifted from the projected
+disc by ebar = sqrt(1 - |p|^2); along z the discs are stacked, with the limit directions on the cylinder around them and
+the critical sets inside (fig:ballpool3d).
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from codim2_core.layer_problem.equator import equator_equilibria
+from codim2_core.psi.function import Psi
+from codim2_core.scene import Scene
+from codim2_core.sliding.along import slow_portrait
+
+from ..frame.draft import Draft
+from ..state.choices import SLOW_CONTROLS
+from ..state.chosen import System_
+from . import filippov
+from .along import NONE, spans_of
+
+SLICES = 5  # hemispheres along z
+SEEDS = 20  # trajectories of each
+ANGLES = 121  # values of z at which limit directions are followed
+STEP = 6e-3  # of the disc: points of a line nearer than this are left out
+
+
+def add(draft: Draft) -> None:
+    """Add the hemisphere, and the stack along the slow variable, once nothing moves."""
+    scene = draft.scene
+    if draft.ready:
+        sphere = draft.slow("sphere", scene.key("plane", "psi"), lambda: hemisphere(scene))
+        if sphere is not None:
+            draft.header["sphere"] = sphere
+    system = draft.system
+    if system is None or not system.m:
+        if draft.fresh("stack", NONE):
+            draft.header.setdefault("unable", {}).update(stack=NONE, filippov=NONE)
+        return
+    if draft.values["solid"] == "filippov":
+        filippov.add(draft, system)
+    axis = min(SLOW_CONTROLS.index(draft.values["drift"]), system.m - 1, len(SLOW_CONTROLS) - 1)
+    span = spans_of(system, draft.values)[axis]
+    others = tuple(0.0 if i == axis else v for i, v in enumerate(scene.z))
+    if draft.ready:
+        key = (system, scene.psi, others, axis, span)
+        stack = draft.slow("stack", key, lambda: stacked(system, scene.psi, others, axis, span))
+        if stack is not None:
+            draft.header["stack"] = {**stack, "control": SLOW_CONTROLS[axis]}
+
+
+def hemisphere(scene: Scene) -> dict[str, Any]:
+    """Return the layer problem's trajectories lifted onto the hemisphere, and the outside on the plane around it."""
+    small = scene.evolve(count=2 * SEEDS, seeds=None)
+    return {
+        "inside": [_lifted(line) for line in _lines(small["inside"])],
+        "outside": [_flat(line) for line in _lines(small["outside"])],
+    }
+
+
+def stacked(
+    system: System_, psi: Psi, others: tuple[float, ...], axis: int, span: tuple[float, float]
+) -> dict[str, Any]:
+    """Return discs at even values of z, the limit directions on the cylinder, and the critical sets inside it.
+
+    Heights are shares of the span, from 0 to 1.
+    """
+    low, high = span
+    at = lambda value: (*others[:axis], float(value), *others[axis + 1 :])  # noqa: E731
+    discs = []
+    for value in np.linspace(low, high, SLICES):
+        scene = Scene(system, psi, at(value), count=SEEDS)
+        discs.append({"z": float(value), "lines": [_flat(line) for line in _lines(scene["inside"])]})
+    directions = []
+    for value in np.linspace(low, high, ANGLES):
+        found = equator_equilibria(system, at(value))
+        height = round((float(value) - low) / (high - low), 4)
+        directions += [
+            [height, round(float(theta), 4), int(rho < 0.0), int(turn < 0.0)]
+            for theta, rho, turn in zip(found.theta, found.lambda_rho, found.lambda_theta, strict=True)
+        ]
+    portrait = slow_portrait(system, psi, span, others, axis)
+    sets = [
+        {
+            "points": [
+                [*_short(_on_disc(psi, e)), round((float(z) - low) / (high - low), 4)]
+                for z, e in zip(branch.z, branch.e, strict=True)
+            ],
+            "stable": branch.stable,
+            "flow": float(np.sign(branch.flow[len(branch.z) // 2, axis])),
+        }
+        for branch in portrait.branches
+    ]
+    return {"span": [low, high], "discs": discs, "directions": directions, "sets": sets}
+
+
+def _on_disc(psi: Psi, e: NDArray[np.float64]) -> tuple[float, float]:
+    """Return the place in the projected disc of the critical set with this e."""
+    modulus = math.hypot(*e)
+    if modulus == 0.0:
+        return 0.0, 0.0
+    if modulus >= 1.0 - 1e-12:
+        return float(e[0]) / modulus, float(e[1]) / modulus
+    zeta = float(psi.radius(modulus))
+    r = zeta / math.hypot(1.0, zeta)
+    return float(e[0]) * r / modulus, float(e[1]) * r / modulus
+
+
+def _lines(orbits: Any) -> list[NDArray[np.float64]]:
+    offsets, points = orbits.offsets, orbits.buffer
+    return [_thin(points[a:b]) for a, b in pairwise(offsets) if b - a > 1]
+
+
+def _thin(line: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Leave out points that lie within `STEP` of the one before along the line; both ends stay."""
+    steps = np.hypot(*np.diff(line, axis=0).T)
+    along = np.floor(np.cumsum(steps) / STEP)
+    kept = np.ones(len(line), bool)
+    kept[1:-1] = np.diff(along[:-1], prepend=0.0)[: len(line) - 2] > 0 if len(line) > 2 else True
+    return line[kept]
+
+
+def _lifted(line: NDArray[np.float64]) -> list[list[float]]:
+    height = np.sqrt(np.maximum(0.0, 1.0 - np.sum(line * line, axis=1)))
+    return [_short((x, y, h)) for (x, y), h in zip(line, height, strict=True)]
+
+
+def _flat(line: NDArray[np.float64]) -> list[list[float]]:
+    return [_short(point) for point in line]
+
+
+def _short(values: Any) -> list[float]:
+    return [round(float(v), 3) for v in values]

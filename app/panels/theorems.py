@@ -1,0 +1,30 @@
+"""The panel "Theorems": the paper's claims, evaluated, with the numbers that show them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from codim2_core.theorems.certificates import Certificate
+
+from ..frame.draft import Draft
+
+Row = tuple[str, str, str, str, list[tuple[str, float]]]
+
+
+def add(draft: Draft) -> None:
+    """Add the certificates in the order of the paper, once the integrator is ready: prop:LC asks for cycles."""
+    scene = draft.scene
+    if not draft.ready or not draft.fresh("certificates", scene["certificates"]):
+        return
+    if scene["certificates"] is None:
+        draft.unable("theorems", "Most claims are about e-linear systems; this one is not.")
+    else:
+        draft.header["theorems"] = rows(scene["certificates"])
+
+
+def rows(certificates: Sequence[Certificate]) -> list[Row]:
+    """Return theorem, statement, verdict, sentence and numbers (name, value) of each."""
+    return [
+        (c.theorem, c.statement, c.verdict.value, c.sentence, [(name, float(value)) for name, value in c.numbers])
+        for c in certificates
+    ]

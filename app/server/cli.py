@@ -1,0 +1,83 @@
+"""The command `codim2`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import socket
+import sys
+from collections.abc import Sequence
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    top = argparse.ArgumentParser(
+        prog="codim2", description="Dynamics near an isolated codimension-2 discontinuity set."
+    )
+    commands = top.add_subparsers(dest="command", required=True)
+    serve = commands.add_parser("serve", help="serve the explorer")
+    serve.add_argument("--port", type=int, default=5006, help="default 5006; 0 takes any free port")
+    serve.add_argument("--address", default="localhost", help="default localhost; 0.0.0.0 for all interfaces")
+    serve.add_argument(
+        "--allow-origin",
+        action="append",
+        default=[],
+        metavar="HOST[:PORT]",
+        help="a host under which browsers reach this server; may be repeated (also CODIM2_ORIGINS, with commas)",
+    )
+    serve.add_argument("--processes", type=int, default=1, help="server processes that share the port")
+    serve.add_argument(
+        "--show",
+        action=argparse.BooleanOptionalAction,
+        default=_at_a_screen(),
+        help="open a browser window (default: when started from a terminal on a screen)",
+    )
+    commands.add_parser("warm", help="compile the integrator into the disk cache, so that servers start warm")
+    return top
+
+
+def _at_a_screen() -> bool:
+    screen = sys.platform in ("darwin", "win32") or "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ
+    return screen and sys.stdout.isatty()
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; return the exit status."""
+    chosen = parser().parse_args(arguments)
+    if chosen.command == "warm":
+        from ..view.warmup import warm_all
+
+        warm_all()
+        print("codim2: the integrator is compiled for all built-in regularisation functions")
+        return 0
+    origins = [*chosen.allow_origin, *filter(None, os.environ.get("CODIM2_ORIGINS", "").split(","))]
+    try:
+        _try_to_listen(chosen.address, chosen.port)
+    except OSError as error:
+        print(f"codim2: cannot listen on {chosen.address}:{chosen.port}: {error.strerror}. Give another --port.")
+        return 1
+    from .page import make_server  # heavy, and not needed for --help
+
+    server = make_server(chosen.port, chosen.address, origins, chosen.processes)
+    host = "localhost" if chosen.address in ("0.0.0.0", "::") else chosen.address
+    print(f"codim2: the explorer is at http://{host}:{server.port}/  (stop with Ctrl+C)", flush=True)
+    server.start()
+    if chosen.show:
+        server.io_loop.add_callback(server.show, "/")
+    try:
+        server.io_loop.start()
+    except KeyboardInterrupt:
+        print("codim2: stopped")
+    return 0
+
+
+def _try_to_listen(address: str, port: int) -> None:
+    """Raise OSError before anything heavy is loaded if the address cannot be listened on."""
+    family, kind, _, _, place = socket.getaddrinfo(address, port, type=socket.SOCK_STREAM)[0]
+    with socket.socket(family, kind) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        probe.bind(place)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,169 @@
+"""The page: one session of the explorer, and the server around it. Composition only."""
+
+from __future__ import annotations
+
+import logging
+import os
+import struct
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+import panel as pn
+from bokeh.protocol.message import Message
+from bokeh.server.urls import per_app_patterns
+from panel.io.server import WSHandler
+from tornado.ioloop import IOLoop, PeriodicCallback
+from tornado.iostream import StreamClosedError
+from tornado.locks import Lock
+from tornado.web import RequestHandler
+from tornado.websocket import WebSocketClosedError
+
+from ..state.controls import ExplorerState
+from ..view import warmup
+from ..view.explorer import ExplorerView
+from ..view.markup import page_template
+
+TITLE = "Isolated codimension-2 discontinuity: explorer"
+
+
+def session() -> ExplorerView:
+    """Return one session's explorer; the query of the page's address is its state."""
+    doc = pn.state.curdoc
+    assert doc is not None  # Bokeh's server calls this with a document
+    arguments = pn.state.session_args or {}
+    query = {name: values[-1].decode("utf-8", "replace") for name, values in arguments.items() if values}
+    state, errors = ExplorerState.from_query(query)
+    view = ExplorerView(state, page=True, errors=tuple(errors))
+    # The page says itself when the connection is lost, and loads itself again: see connection.js.
+    doc.config.update(reconnect_session=False, notify_connection_status=False, notifications=None)
+    doc.template = page_template()  # type: ignore[assignment]
+    doc.template_variables["explorer_markup"] = view.page_markup
+    return view
+
+
+class _Parts:
+    """What Bokeh's messages are sent to: keeps the parts of one message, as websocket frames (RFC 6455, 5.2)."""
+
+    def __init__(self, write_lock: Lock) -> None:
+        self.write_lock = write_lock
+        self.frames: list[bytes] = []
+
+    async def write_message(self, part: str | bytes, binary: bool = False, locked: bool = True) -> None:  # noqa: ARG002
+        """Keep one part; `Message.send` holds the lock meanwhile."""
+        data = part.encode() if isinstance(part, str) else part
+        size = len(data)
+        kind = 0x82 if binary else 0x81
+        if size < 126:
+            self.frames.append(bytes((kind, size)))
+        elif size < 1 << 16:
+            self.frames.append(struct.pack("!BBH", kind, 126, size))
+        else:
+            self.frames.append(struct.pack("!BBQ", kind, 127, size))
+        self.frames.append(data)
+
+
+class PromptSocket(WSHandler):
+    """Bokeh's websocket with one write for each message, and without Nagle's algorithm.
+
+    A frame is a message of five parts. Written one by one they cost half of all that a bare swap costs; and with
+    Nagle's algorithm each waits for the browser's delayed acknowledgement, 40 ms.
+    """
+
+    def open(self, *arguments: str, **named: str) -> None:
+        """Start the connection."""
+        super().open(*arguments, **named)
+        self.set_nodelay(True)
+
+    async def send_message(self, message: Message[Any]) -> None:
+        """Send one message of Bokeh's protocol."""
+        parts = _Parts(self.write_lock)
+        await message.send(parts)  # type: ignore[arg-type]  # asks for no more than `_Parts` has
+        connection = self.ws_connection
+        try:
+            if connection is None or connection.is_closing():
+                raise WebSocketClosedError
+            await connection.stream.write(b"".join(parts.frames))  # type: ignore[attr-defined]
+        except (WebSocketClosedError, StreamClosedError):
+            logging.getLogger(__name__).info("the browser left before its frame")  # `on_close` tidies up
+
+
+@contextmanager
+def _prompt_websockets() -> Iterator[None]:
+    """Let a server that is made meanwhile use `PromptSocket`; Bokeh has no option for it."""
+    kept = list(per_app_patterns)
+    per_app_patterns[:] = [("/ws", PromptSocket) if route[0] == "/ws" else route for route in kept]
+    try:
+        yield
+    finally:
+        per_app_patterns[:] = kept
+
+
+class Health(RequestHandler):
+    """Answers 200 while the process serves, for container health checks."""
+
+    def get(self) -> None:
+        """Say whether the integrator is ready."""
+        self.set_header("Cache-Control", "no-store")
+        self.write({"status": "ok", "integrator": "ready" if warmup.is_ready() else "compiling"})
+
+    head = get
+
+
+def make_server(
+    port: int = 5006,
+    address: str = "localhost",
+    allow_origin: Sequence[str] = (),
+    processes: int = 1,
+    **options: Any,
+) -> Any:
+    """Return a server of the explorer, not yet started (``.start()``, ``.io_loop.start()``).
+
+    Parameters
+    ----------
+    port : int
+        0 takes any free port.
+    address : str
+        Where to listen; "0.0.0.0" for all interfaces.
+    allow_origin : sequence of str
+        Host names (with port) whose pages may open the websocket, besides this address.
+    processes : int
+        Number of server processes that share the port.
+    """
+    warmup_now = processes == 1
+    if warmup_now:
+        warmup.start()
+    parent = os.getpid()
+    with _prompt_websockets():
+        server = _server(port, address, allow_origin, processes, options)
+    if not warmup_now:
+        server.io_loop.add_callback(warmup.start)
+    if os.getpid() != parent:
+        _stop_with(parent, server.io_loop)
+    return server
+
+
+def _stop_with(parent: int, loop: IOLoop) -> None:
+    """Stop this forked process within a second when its parent has ended, so that no orphan keeps the port."""
+
+    def check() -> None:
+        if os.getppid() != parent:
+            loop.stop()
+
+    loop.add_callback(PeriodicCallback(check, 1000).start)
+
+
+def _server(port: int, address: str, allow_origin: Sequence[str], processes: int, options: dict[str, Any]) -> Any:
+    return pn.io.server.get_server(
+        {"/": session},
+        port=port,
+        address=address,
+        websocket_origin=list(allow_origin) or None,
+        title={"/": TITLE},
+        location=False,
+        num_procs=processes,
+        extra_patterns=[(r"/health", Health)],
+        compress_response=True,
+        start=False,
+        **options,
+    )

@@ -1,0 +1,236 @@
+"""Which system is drawn: the e-linear normal form of the sliders, one of the examples, or one that the user types.
+
+Pure functions from plain values to a system and to the controls that belong to it. Names that a typed formula uses
+and that nothing else explains become parameters, each with a slider.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from types import MappingProxyType
+from typing import Any
+
+from codim2_core.examples import catalogue
+from codim2_core.expressions.expression import ExpressionError, parse
+from codim2_core.expressions.names import PLANE
+from codim2_core.expressions.tape import CONSTANTS, FUNCTIONS
+from codim2_core.systems.elinear import ELinear
+from codim2_core.systems.typed import System
+
+from ..draw.mathml import equations_mathml, plain_symbol
+
+NORMAL, TYPED, OWN = "normal", "typed", "own"
+GIVEN = "given"  # the user's own system, from Python
+MOST_SLOW = 4  # slow variables that have a slider
+MOST_PARAMETERS = 12
+LONGEST_TEXT = 1000
+PARAMETER, PARAMETER_RANGE, SLOW_RANGE = 1.0, (-4.0, 4.0), (-4.0, 4.0)
+
+System_ = ELinear | System
+
+
+class TextError(ValueError):
+    """A text that cannot be used: the box that holds it and, if reading stopped there, the column from 1."""
+
+    def __init__(self, box: str, message: str, column: int | None = None) -> None:
+        super().__init__(message)
+        self.box, self.column = box, column
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """One text box: its name, what stands before it, and what it holds at first."""
+
+    name: str
+    label: str
+    text: str
+    lines: int = 1
+
+
+BOXES: Mapping[str, tuple[Box, ...]] = MappingProxyType(
+    {
+        TYPED: (
+            Box("a", "a", "-2"),
+            Box("b", "b", "0"),
+            Box("d", "d", "-1"),
+            Box("f1", "f₁", "-1/2 + z/2"),
+            Box("f2", "f₂", "0"),
+            Box("B1", "B₁", "1"),
+            Box("B2", "B₂", "0"),
+            Box("g", "g", "0"),
+        ),
+        OWN: (
+            Box("U1", "ẋ = U₁", "-c*(c - chi(z)/2)*(c + chi(z)/2)"),
+            Box("U2", "ẏ = U₂", "-k*s"),
+            Box("W", "ż = W", "-2*c + 1/4", 2),
+            Box("where", "where", "chi(z) = (1 + 2*z^2)/(1 + z^2)", 2),
+        ),
+    }
+)
+#: What the choice is called, in the order in which it is offered.
+TITLES: Mapping[str, str] = MappingProxyType(
+    {
+        NORMAL: "e-linear normal form",
+        TYPED: "e-linear, coefficients as text",
+        **{key: example.title for key, example in catalogue.items()},
+        OWN: "Your own",
+    }
+)
+
+
+def texts_of(choice: str, texts: Mapping[str, str]) -> dict[str, str]:
+    """Return the text of every box of a choice: as given, or as at first."""
+    return {box.name: texts.get(box.name, box.text) for box in BOXES.get(choice, ())}
+
+
+def build(choice: str, texts: Mapping[str, str], parameters: Mapping[str, float]) -> System_:
+    """Return the system of an example or of typed text.
+
+    Parameters
+    ----------
+    choice : str
+        A key of `TITLES` other than "normal".
+    texts : mapping of box to text
+        As far as they differ from the first ones.
+    parameters : mapping of str to float
+        Values by name; names that the system does not have are left alone.
+
+    Raises
+    ------
+    TextError
+        With the box and the column.
+    """
+    if choice in catalogue:
+        example = catalogue[choice]
+        return example.make(**{name: value for name, value in parameters.items() if name in example.ranges})
+    made = _typed(choice, tuple(texts_of(choice, texts).items()))
+    return made.evolve(**{name: value for name, value in parameters.items() if name in dict(made.parameters)})
+
+
+@lru_cache(maxsize=64)
+def _typed(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
+    boxes = dict(texts)
+    for box, text in texts:
+        if len(text) > LONGEST_TEXT:
+            raise TextError(box, f"The text has {len(text)} characters; write at most {LONGEST_TEXT}.", LONGEST_TEXT)
+    definitions = _definitions(boxes.pop("where", ""))
+    known = {*PLANE, "z", *(f"z{i}" for i in range(1, 17)), *FUNCTIONS, *CONSTANTS}
+    known |= {key.split("(")[0].strip() for key in definitions}
+    names: list[str] = []
+    for text in (*boxes.values(), *definitions.values()):
+        for word in re.findall(r"(?<![\w.])[A-Za-z]\w*", text, re.ASCII):
+            if word not in known and word not in names:
+                names.append(word)
+    if len(names) > MOST_PARAMETERS:
+        shown = ", ".join(names[:6])
+        raise TextError(next(iter(boxes)), f"There are {len(names)} names ({shown}, …); use at most {MOST_PARAMETERS}.")
+    parameters = dict.fromkeys(names, PARAMETER)
+    make = _elinear if choice == TYPED else _own
+    return make(boxes, definitions, parameters)
+
+
+def _definitions(text: str) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for line in filter(None, map(str.strip, text.splitlines())):
+        name, equals, formula = line.partition("=")
+        if not equals or not formula.strip():
+            raise TextError("where", f"{line[:40]!r} defines nothing; write a line such as chi(z) = 1 + z^2.")
+        found[name.strip()] = formula.strip()
+    return found
+
+
+def _elinear(boxes: Mapping[str, str], _: Mapping[str, str], parameters: dict[str, float]) -> ELinear:
+    names = ("z", "z1", *parameters)
+    read: dict[str, Any] = {}
+    for box, text in boxes.items():
+        try:
+            read[box] = parse(text, names)
+        except ExpressionError as error:
+            raise TextError(box, str(error), error.column) from error
+    return ELinear(
+        read["a"],
+        read["b"],
+        read["d"],
+        (read["f1"], read["f2"]),
+        B=((read["B1"], read["B2"]),),
+        g=(read["g"],),
+        parameters=parameters,
+    )
+
+
+def _own(boxes: Mapping[str, str], definitions: dict[str, str], parameters: dict[str, float]) -> System:
+    rows = [row.strip() for row in boxes["W"].splitlines() if row.strip()]
+    if len(rows) > MOST_SLOW:
+        raise TextError("W", f"There are {len(rows)} slow equations; write at most {MOST_SLOW}, one a line.")
+    try:
+        made = System(U=(boxes["U1"], boxes["U2"]), W=rows, parameters=parameters, definitions=definitions)
+        if made.m > MOST_SLOW:
+            raise TextError("W", f"The formulas name z{made.m}; at most {MOST_SLOW} slow variables have a slider.")
+    except ExpressionError as error:
+        box = str(error).split(":")[0]
+        place = "where" if box.startswith("definition") else "W" if box.startswith("W") else box
+        raise TextError(place, str(error).partition(": ")[2], error.column) from error
+    except TextError:
+        raise
+    except ValueError as error:
+        raise TextError("where" if "definition" in str(error) else "W", str(error)) from error
+    return made
+
+
+def starting_z(choice: str) -> tuple[float, ...]:
+    """Return where an example starts along Sigma; () is at 0."""
+    return catalogue[choice].z if choice in catalogue else ()
+
+
+def starting_launch(choice: str) -> tuple[tuple[float, ...], float]:
+    """Return a state from which a motion is worth following, and for how long."""
+    example = catalogue.get(choice)
+    return (example.launch, example.t_end) if example else ((0.6, 0.8, 0.0), 8.0)
+
+
+def slow_ranges(choice: str, m: int) -> list[tuple[float, float]]:
+    """Return the range of the slider of each slow variable."""
+    example = catalogue.get(choice)
+    return [(low, high) for _, low, high in example.slow] if example else [SLOW_RANGE] * m
+
+
+def describe(choice: str, system: System_) -> dict[str, Any]:
+    """Return what the page needs to show a choice: its equations, and a control for each parameter and slow variable.
+
+    The keys are ``equations`` (MathML), ``sentence``, ``label``, ``parameters`` and ``slow`` (lists of name, symbol,
+    range, value), and ``coefficients``: whether the controls a, b, d, f, … belong to it.
+    """
+    example = catalogue.get(choice)
+    if choice == NORMAL:  # its coefficients have controls of their own
+        return {
+            "choice": choice,
+            "equations": "",
+            "sentence": "",
+            "label": "",
+            "parameters": [],
+            "slow": [],
+            "coefficients": True,
+        }
+    ranges = example.ranges if example else {}
+    parameters = [
+        {"name": name, "symbol": plain_symbol(name), "range": list(ranges.get(name, PARAMETER_RANGE)), "value": value}
+        for name, value in system.parameters
+    ]
+    symbols = [one[0] for one in example.slow] if example else [_slow_symbol(i, system.m) for i in range(system.m)]
+    slow = [{"symbol": s, "range": list(r)} for s, r in zip(symbols, slow_ranges(choice, system.m), strict=True)]
+    return {
+        "choice": choice,
+        "equations": equations_mathml(system),
+        "sentence": example.sentence if example else "",
+        "label": example.label if example else "",
+        "parameters": parameters,
+        "slow": slow,
+        "coefficients": choice == GIVEN and isinstance(system, ELinear),
+    }
+
+
+def _slow_symbol(i: int, m: int) -> str:
+    return "z" if m == 1 else plain_symbol(f"z{i + 1}")

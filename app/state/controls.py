@@ -1,0 +1,290 @@
+"""Every value a user can set: its symbol, slider range and meaning, declared in one place.
+
+The state holds plain values. It knows how to read them from a URL or a request, how to write them into a
+URL, and how to hand them to the core. It knows nothing of Bokeh, and it computes nothing.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from typing import Any
+from urllib.parse import parse_qsl, urlencode
+
+import param
+
+from codim2_core import psi as psi_families
+from codim2_core.examples import catalogue
+from codim2_core.psi.function import Psi
+
+from .choices import AXES, HIDDEN, LAYERS, MAX_TRAJECTORIES, OWN_AXIS, PANELS, SLOW_CONTROLS, SOLIDS
+from .chosen import NORMAL, TITLES, starting_launch, starting_z
+from .portraits import portraits
+
+MOST_ENTRIES = 16  # of a mapping that a browser sends
+LONGEST_TEXT = 2000
+
+
+class InputError(ValueError):
+    """A value that cannot be used, and the name of the control that holds it."""
+
+    def __init__(self, control: str, message: str) -> None:
+        super().__init__(message)
+        self.control = control
+
+
+def _number(default: float, low: float, high: float, symbol: str, doc: str) -> Any:
+    """Declare a number: the slider starts with [low, high], and a typed value may widen it."""
+    return param.Number(default, softbounds=(low, high), step=0.01, label=symbol, doc=doc)
+
+
+class ExplorerState(param.Parameterized):
+    """What the picture shows. Defaults are the paper's fig:simCM4 (preset case1-cm4)."""
+
+    a = _number(-2.0, -4, 4, "a", "First entry of A = [[a, −b], [b, d]].")
+    b = _number(0.0, -4, 4, "b", "Rotation in A = [[a, −b], [b, d]].")
+    d = _number(-1.0, -4, 4, "d", "Last entry of A = [[a, −b], [b, d]].")
+    f1 = _number(-0.5, -3, 3, "f₁", "First component of f at z = 0.")
+    f2 = _number(0.0, -3, 3, "f₂", "Second component of f at z = 0.")
+    system = param.Selector(default=NORMAL, objects=list(TITLES), label="System", doc="Which system is drawn.")
+    texts = param.Dict({}, label="Formulas", doc="Typed formulas, by box, as far as they differ from the first ones.")
+    parameters = param.Dict({}, label="Parameters", doc="Parameters of the chosen system, by name.")
+    z = _number(0.0, -4, 4, "z", "Position along the discontinuity set.")
+    z2 = _number(0.0, -4, 4, "z₂", "Second slow variable.")
+    z3 = _number(0.0, -4, 4, "z₃", "Third slow variable.")
+    z4 = _number(0.0, -4, 4, "z₄", "Fourth slow variable.")
+    k1 = _number(0.5, -2, 2, "k₁", "f(z) = f + z k: how f₁ changes along z.")
+    k2 = _number(0.0, -2, 2, "k₂", "f(z) = f + z k: how f₂ changes along z.")
+    B1 = _number(1.0, -3, 3, "B₁", "z' = B e + g: weight of cos θ.")
+    B2 = _number(0.0, -3, 3, "B₂", "z' = B e + g: weight of sin θ.")
+    g0 = _number(0.0, -3, 3, "g", "z' = B e + g: constant part of the slow flow.")
+    psi = param.Selector(
+        default="constant",
+        objects=["constant", "rational", "exponential", "tanh", "hill", "custom"],
+        label="Ψ",
+        doc="Regularisation function Ψ(s), s = (x² + y²)/ε².",
+    )
+    n = _number(2.0, 0.5, 6, "n", "Exponent of Ψ(s) = 3/(3 + (4s)ⁿ).")
+    psi_text = param.String("1/(1+s)**2", label="Ψ(s) =", doc="Your own Ψ(s), positive, with s Ψ'(s) < Ψ(s).")
+    trajectories = param.Integer(
+        64, bounds=(0, MAX_TRAJECTORIES), label="Trajectories", doc="Number of starting points."
+    )
+    layers = param.ListSelector(
+        default=[name for name in LAYERS if name not in HIDDEN],
+        objects=list(LAYERS),
+        instantiate=True,
+        label="Layers",
+        doc="What is drawn.",
+    )
+    preset = param.String("", label="Portrait", doc="A figure of the paper; the values start from it.")
+    panel = param.Selector(default="atlas", objects=list(PANELS), label="Panel", doc="What is open beside the picture.")
+    along = param.String("f1", label="Along", doc="Parameter of the bifurcation diagram.")
+    zoom = param.Integer(0, bounds=(0, 6), label="Zoom", doc="The diagram shows a 4^zoom-th of the slider's range.")
+    across = param.String("f1", label="Across", doc="Horizontal axis of the atlas.")
+    cycle_curves = param.Selector(
+        default="hide", objects=["hide", "show"], label="Cycles", doc="Bifurcations of limit cycles in the atlas."
+    )
+    atlas_zoom = param.Integer(0, bounds=(0, 6), label="Zoom", doc="The atlas shows a 4^zoom-th of the ranges.")
+    up = param.String("f2", label="Up", doc="Vertical axis of the atlas.")
+
+    solid = param.Selector(default="sphere", objects=list(SOLIDS), label="3-D", doc="What the panel “3-D” shows.")
+    drift = param.Selector(default="z", objects=list(SLOW_CONTROLS), label="Along", doc="Slow variable of “Along z”.")
+    log_eps = _number(-2.0, -10, 0, "log₁₀ ε", "Size of the regularised region, eq:ePsi.")
+    launch = param.String("0.6, 0.8, 0", label="Start", doc="State (x, y, z₁, …) from which a motion starts.")
+    t_end = _number(8.0, 0, 40, "until t", "How long a motion is followed.")
+
+    def values(self) -> dict[str, Any]:
+        """Return every value by name, in the order of declaration."""
+        return {name: getattr(self, name) for name in NAMES}
+
+    def to_query(self) -> str:
+        """Return a URL query that carries every value, changed or not."""
+        return urlencode({name: _to_text(value) for name, value in self.values().items()})
+
+    @classmethod
+    def from_query(cls, query: str | Mapping[str, str]) -> tuple[ExplorerState, list[InputError]]:
+        """Read a state from a URL query: a preset's values, then those of the other names over them.
+
+        Returns
+        -------
+        state, errors
+            Unknown names are ignored; a value that cannot be used keeps its default and is reported.
+        """
+        pairs = parse_qsl(query, keep_blank_values=True) if isinstance(query, str) else list(query.items())
+        good: dict[str, Any] = {}
+        errors: list[InputError] = []
+        for name, text in pairs:
+            if name not in NAMES:
+                continue
+            try:
+                good[name] = clean(name, text)
+            except InputError as error:
+                errors.append(error)
+        return cls.of(good), errors
+
+    @classmethod
+    def of(cls, values: Mapping[str, Any]) -> ExplorerState:
+        """Return the state of some clean values: those of their preset, if they name one, and theirs over them."""
+        start = {**preset_values(values.get("preset")), **values}
+        choice = start.get("system", NORMAL)
+        if choice != NORMAL:
+            start = {**opening(choice), **start}
+        return cls(**start)
+
+
+def opening(choice: str) -> dict[str, Any]:
+    """Return what a choice of system brings: its first place on Sigma, its own parameters, a motion worth seeing."""
+    z = (*starting_z(choice), *(0.0,) * len(SLOW_CONTROLS))
+    launch, t_end = starting_launch(choice)
+    slow = dict(zip(SLOW_CONTROLS, z, strict=False))
+    across, up = axes_of(choice)
+    motion = {"launch": ", ".join(f"{v:g}" for v in launch), "t_end": t_end}
+    return {"texts": {}, "parameters": {}, **slow, **motion, "drift": "z", "across": across, "up": up, "along": across}
+
+
+def axes_of(choice: str) -> tuple[str, str]:
+    """Return the axes with which the atlas of a system opens: slow variables, or one and the first parameter."""
+    example = catalogue.get(choice)
+    if example is None:
+        return ("f1", "f2") if choice == NORMAL else ("z", "n")
+    if len(example.z) > 1:
+        return "z", "z2"
+    return "z", next((OWN_AXIS + name for name in example.ranges), "n")
+
+
+def preset_values(key: str | None) -> dict[str, Any]:
+    """Return the values of a portrait by its key; none if there is no such portrait."""
+    return next((portrait["values"] for portrait in portraits() if portrait["key"] == key), {})
+
+
+NAMES: tuple[str, ...] = tuple(
+    name
+    for name in ExplorerState.param
+    if name != "name"  # declaration order; `name` is param's own
+)
+NUMBERS: tuple[str, ...] = tuple(name for name in NAMES if type(ExplorerState.param[name]) is param.Number)
+
+
+def clean(name: str, value: Any) -> Any:
+    """Return the value of one control, converted and checked.
+
+    Parameters
+    ----------
+    name : str
+        One of `NAMES`.
+    value : object
+        A number, text or list; text is read as a URL writes it.
+
+    Raises
+    ------
+    InputError
+        With the name of the control.
+    """
+    if name not in NAMES:
+        raise InputError(name, f"There is no control {name!r}; the controls are {', '.join(NAMES)}.")
+    declared = ExplorerState.param[name]
+    if name in NUMBERS:
+        return _finite(name, declared.label, value)
+    if type(declared) is param.Integer:
+        count = _finite(name, declared.label, value)
+        bounds: tuple[int, int] = declared.bounds  # type: ignore[assignment]  # all are declared with both
+        low, high = bounds
+        if count != int(count) or not low <= count <= high:
+            raise InputError(name, f"{declared.label}: {value} given; give a whole number from {low} to {high}.")
+        return int(count)
+    if type(declared) is param.Selector:
+        if value not in declared.objects:
+            raise InputError(name, f"{declared.label}: {value!r} given; choose one of {', '.join(declared.objects)}.")
+        return str(value)
+    if name == "layers":
+        chosen = value.split(",") if isinstance(value, str) else list(value)
+        chosen = [layer for layer in chosen if layer]
+        unknown = [layer for layer in chosen if layer not in LAYERS]
+        if unknown:
+            raise InputError(name, f"Layers: no layer {unknown[0]!r}; they are {', '.join(LAYERS)}.")
+        return chosen
+    if name in ("along", "across", "up"):
+        own = isinstance(value, str) and value.startswith(OWN_AXIS) and value.removeprefix(OWN_AXIS).isidentifier()
+        if not own and value not in AXES:
+            known = ", ".join([*AXES, f"{OWN_AXIS}mu"])
+            raise InputError(name, f"{declared.label}: {str(value)[:40]!r} given; choose one such as {known}.")
+        return str(value)
+    if name in ("texts", "parameters"):
+        return _mapping(name, declared.label, value)
+    if not isinstance(value, str) or len(value) > 200:
+        raise InputError(name, f"{declared.label}: give text of at most 200 characters.")
+    return value
+
+
+def _mapping(name: str, label: str | None, value: Any) -> dict[str, Any]:
+    """Return texts or numbers by name, from a mapping or from JSON."""
+    if isinstance(value, str):
+        try:
+            value = json.loads(value) if len(value) <= 10 * LONGEST_TEXT else None
+        except ValueError:
+            value = None
+    if not isinstance(value, Mapping) or len(value) > MOST_ENTRIES or not all(isinstance(key, str) for key in value):
+        raise InputError(name, f"{label}: give at most {MOST_ENTRIES} values by name.")
+    if name == "parameters":
+        return {key: _finite(name, key, entry) for key, entry in value.items()}
+    if not all(isinstance(entry, str) and len(entry) <= LONGEST_TEXT for entry in value.values()):
+        raise InputError(name, f"{label}: give texts of at most {LONGEST_TEXT} characters.")
+    return dict(value)
+
+
+def _finite(name: str, label: str | None, value: Any) -> float:
+    """Return a finite float, or say what to type."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise InputError(name, f"{label}: {str(value)[:40]!r} is not a number; type one such as −0.5.") from None
+    if not math.isfinite(number):
+        raise InputError(name, f"{label}: {number} given; give a finite number.")
+    return number
+
+
+def _to_text(value: Any) -> str:
+    """Write a value so that `clean` reads the same value back."""
+    if isinstance(value, dict):
+        return json.dumps(value, separators=(",", ":"))
+    if isinstance(value, list):
+        return ",".join(value)
+    return repr(value) if isinstance(value, float) else str(value)
+
+
+def slider_range(low: float, high: float, value: float) -> tuple[float, float, float]:
+    """Return (low, high, step) of a slider, widened to hold the value; the same rule as in controls.js."""
+    size = abs(value)
+    if value < low or value > high:
+        reach = _round_up(size)
+        low, high = (-reach, reach) if low < 0 else (low, reach)
+    return low, high, 10.0 ** (len(str(int(high - low))) - 4)
+
+
+def _round_up(size: float) -> float:
+    """Return 1, 2 or 5 times a power of ten, at least 1.2 times the size."""
+    target, power = 1.2 * size, 1.0
+    while power * 10 <= target:
+        power *= 10
+    return next(power * k for k in (1, 2, 5, 10) if power * k >= target)
+
+
+def build_psi(values: Mapping[str, Any]) -> Psi:
+    """Return the regularisation function.
+
+    Raises
+    ------
+    InputError
+        For a text that is no function of s, or an exponent out of range.
+    """
+    family = values["psi"]
+    control = "psi_text" if family == "custom" else "n" if family == "hill" else "psi"
+    try:
+        if family == "hill":
+            return psi_families.hill(values["n"])
+        if family == "custom":
+            return psi_families.custom(values["psi_text"])
+        return getattr(psi_families, family)()
+    except ValueError as error:
+        raise InputError(control, str(error)) from error

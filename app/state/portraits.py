@@ -1,0 +1,61 @@
+"""The paper's figures as values of the controls."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from codim2_core.examples import catalogue
+from codim2_core.figures.preset import Preset
+from codim2_core.figures.presets import presets
+
+#: Layers of a figure that shows where approaches lead.
+WITH_OUTCOMES = [
+    "outside", "inside", "continuations", "cycles", "rho", "theta", "lines", "equator", "critical",
+    "outcomes", "basins",
+]  # fmt: skip
+#: What opens the view of a preset.
+VIEWS: dict[str, dict[str, Any]] = {
+    "sphere": {"panel": "solid", "solid": "sphere"},
+    "stack": {"panel": "solid", "solid": "stack"},
+    "filippov": {"panel": "solid", "solid": "filippov"},
+    "outcomes": {"panel": "numbers", "layers": WITH_OUTCOMES},
+    "psi": {"panel": "psi"},
+    "planes": {"panel": "planes"},
+    "along": {"panel": "along"},
+    "time": {"panel": "time"},
+}
+
+
+def portraits() -> list[dict[str, Any]]:
+    """Return one entry for each preset: key, group, title, the paper's label, note, and the values it sets."""
+    return [
+        {
+            "key": preset.name,
+            "group": preset.group,
+            "title": preset.title,
+            "label": preset.label,
+            "note": preset.note,
+            "values": _values(preset),
+        }
+        for preset in presets.values()
+    ]
+
+
+def _values(preset: Preset) -> dict[str, Any]:
+    values: dict[str, Any] = {
+        "psi": preset.family if preset.hill is None else "hill",
+        "n": 2.0 if preset.hill is None else float(preset.hill),
+        "texts": {},
+        "parameters": {},
+        **VIEWS.get(preset.view, {}),
+    }
+    z = (*preset.z, 0.0, 0.0, 0.0, 0.0)
+    values.update(zip(("z", "z2", "z3", "z4"), z, strict=False))
+    if preset.example:
+        example = catalogue[preset.example]
+        launch = ", ".join(f"{v:g}" for v in example.launch)
+        return {"system": preset.example, **values, "launch": launch, "t_end": example.t_end}
+    values.update((name, getattr(preset, name)) for name in ("a", "b", "d", "f1", "f2"))
+    if preset.B:
+        values.update(zip(("B1", "B2", "g0"), (*preset.B[0], preset.g[0]), strict=True))
+    return {"system": "normal", **values}

@@ -1,0 +1,1 @@
+"""The explorer as one component, in a page or in a notebook."""

@@ -1,0 +1,150 @@
+"""The explorer as one component: the same class in a page and in a notebook.
+
+The server writes the markup, Bokeh holds the picture, and one hand-made front end (static/*.js) drives both. A
+request and its frame are two small events past all property syncing, so that a tick is one message each way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import panel as pn
+import param
+from panel.custom import JSComponent
+from panel.models.esm import DataEvent, ESMEvent
+from panel.viewable import Child
+
+from ..draw.figure import make_figure
+from ..draw.packing import unpack
+from ..draw.svg import draw
+from ..state.chosen import System_
+from ..state.controls import NAMES, ExplorerState, InputError
+from .markup import STATIC, config, explorer_html, script
+from .refresh import Frames
+from .warmup import is_ready
+
+
+class ExplorerView(JSComponent):
+    """The live explorer.
+
+    Parameters
+    ----------
+    state : ExplorerState, optional
+    system : ELinear or System, optional
+        Drawn instead of one that the controls choose; its parameters get sliders.
+    page : bool
+        True in the explorer's own page, which brings the markup; False in a notebook.
+    errors : sequence of InputError
+        Values of the page's address that could not be used; shown beside their controls.
+    """
+
+    picture = Child()
+    config = param.Dict({})
+    first = param.Bytes(b"")
+    markup = param.String("")
+
+    _esm = script()
+
+    def __init__(
+        self,
+        state: ExplorerState | None = None,
+        system: System_ | None = None,
+        *,
+        page: bool = False,
+        errors: tuple[InputError, ...] = (),
+        **params: Any,
+    ) -> None:
+        self.state = ExplorerState() if state is None else state
+        self._opened: dict[str, Any] = {}
+        self.frames = Frames(self.state, system, is_ready)
+        super().__init__(
+            picture=pn.pane.Bokeh(make_figure(), sizing_mode="stretch_both"),
+            stylesheets=[] if page else [(STATIC / "notebook.css").read_text(encoding="utf-8")],
+            sizing_mode="stretch_width",
+            **self._opening(page, errors),
+            **params,
+        )
+        self.state.param.watch(self._follow, list(NAMES))
+
+    def _opening(self, page: bool, errors: tuple[InputError, ...] = ()) -> dict[str, Any]:
+        """Return what a browser starts from: the values of the controls, the first frame and the markup."""
+        first = self.frames.answer({"all": True})
+        self._opened = self.frames.values
+        header, _ = unpack(first)
+        settings = config(self.state, self.frames.locked)
+        settings["page"] = page
+        settings["errors"] = {error.control: str(error) for error in errors} | header.get("errors", {})
+        self.page_markup = explorer_html(self.state, _words(header, first), ("system",) if self.frames.given else ())
+        return {"config": settings, "first": first, "markup": "" if page else self.page_markup}
+
+    def get_root(self, doc: Any = None, comm: Any = None, preprocess: bool = True) -> Any:
+        """Return the Bokeh model, without Panel's style sheets, which come from a public host in some set-ups.
+
+        (A page that one server process wrote and another one answers; reused sessions; notebooks.) The explorer's
+        own style sheet is in its markup.
+        """
+        if not self.config["page"] and (self._models or self._opened is not self.frames.values):
+            # a notebook shows it once more, or after its state was changed: as it is now
+            self.param.update(**self._opening(page=False))
+        root = super().get_root(doc, comm, preprocess)
+        for model in root.references():
+            sheets = getattr(model, "stylesheets", None)
+            if sheets:
+                model.update(stylesheets=[sheet for sheet in sheets if isinstance(sheet, str)])
+        return root
+
+    def _register_events(self, *event_names: str, model: Any, doc: Any, comm: Any) -> None:
+        """Listen to the browser.
+
+        On a server the request is answered within Bokeh's own handling of the event, where the document's lock is
+        held: Panel's scheduling would cost more than the frame, and threads more than they gain. Notebooks go Panel's
+        way.
+        """
+        if comm is None and "data_event" in event_names:
+            model.on_event("data_event", self._answer)
+        else:
+            super()._register_events(*event_names, model=model, doc=doc, comm=comm)
+
+    def _answer(self, event: DataEvent) -> None:
+        model = event.model
+        if len(self._models) > 1 or model is None or model.document is None:
+            self._handle_msg(event.data)
+            return
+        reply = ESMEvent(model=model, data={"frame": self.frames.answer(event.data or {})})
+        model.document.callbacks.send_event(reply)
+        self.frames.publish()
+
+    def _handle_msg(self, data: Any) -> None:
+        """Answer a request of one browser with one frame to all that show this view."""
+        self._send_msg({"frame": self.frames.answer(data or {})})
+        self.frames.publish()
+
+    def _send_msg(self, data: Any) -> None:
+        """Send to all that show this view, also where an ipywidget holds the model in a document of its own."""
+        super()._send_msg(data)
+        for ref, (model, _) in self._models.items():
+            known = pn.state._views.get(ref)
+            if model.document is not None and (known is None or known[2] is not model.document):
+                model.document.callbacks.send_event(ESMEvent(model=model, data=data))
+
+    def _follow(self, *changes: param.parameterized.Event) -> None:
+        """Draw what the state was given in Python; what it was given by `publish` is drawn already."""
+        frame = self.frames.follow({change.name: change.new for change in changes})
+        if frame is not None:
+            self._send_msg({"frame": frame})
+            self.frames.publish()
+
+    def watch(self, callback: Callable[..., None], *names: str) -> None:
+        """Call `callback` when one of the named values of the state has changed."""
+        self.state.param.watch(callback, list(names))
+
+
+def _words(header: dict[str, Any], first: bytes) -> dict[str, str]:
+    """Return what the page says and shows before any script runs."""
+    portrait = header.get("portrait")
+    if portrait is None:
+        return {}
+    sentence = portrait["sentence"].split(". ", 1)[-1]
+    case = f"Case {portrait['case']}" if portrait["case"] else ""
+    return {"name": portrait["name"], "case": case, "sentence": sentence, "svg": draw(first)}

@@ -1,0 +1,123 @@
+"""The page's HTML, written by the server, so that controls and first picture are there before any script runs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, Template, select_autoescape
+
+from ..draw.theme import HATCHES, LIGHT, THEMES, VIEW
+from ..panels.outcomes import WORDS as OUTCOMES
+from ..state.choices import AXES, LAYERS, MAX_TRAJECTORIES, PANELS, SLOW_CONTROLS, SOLIDS
+from ..state.chosen import BOXES, TITLES
+from ..state.controls import NUMBERS, ExplorerState, slider_range
+from ..state.portraits import portraits
+
+STATIC = Path(__file__).parents[1] / "static"
+SCRIPTS = (
+    "frames.js", "connection.js", "picture.js", "controls.js", "pad.js",
+    "panels/atlas.js", "panels/planes.js", "panels/diagram.js", "inspector.js", "panels.js", "system.js",
+    "panels/along.js", "panels/stack.js", "panels/time.js", "panels/psi.js", "explorer.js",
+)  # fmt: skip
+
+PSI_NAMES = {
+    "constant": "1",
+    "rational": "1/(1 + s)",
+    "exponential": "exp(−s)",
+    "tanh": "s/sinh²√s",
+    "hill": "3/(3 + (4s)ⁿ)",
+    "custom": "your own …",
+}
+
+#: Controls by group: the matrix A, f, the slow variable, the slow flow.
+GROUPS = {"A": ("a", "b", "d"), "f": ("f1", "f2"), "z": ("z", "k1", "k2"), "slow": ("B1", "B2", "g0")}
+
+
+@cache
+def _template(name: str) -> Template:
+    loader = FileSystemLoader(STATIC)
+    return Environment(loader=loader, autoescape=select_autoescape(), trim_blocks=True).get_template(name)
+
+
+@cache
+def stylesheet() -> str:
+    """Return the style sheet; every rule is scoped to `.codim2`."""
+    return (STATIC / "explorer.css").read_text(encoding="utf-8")
+
+
+@cache
+def script() -> str:
+    """Return the front end as one ES module."""
+    return "\n".join((STATIC / name).read_text(encoding="utf-8") for name in SCRIPTS)
+
+
+def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]:
+    """Return what the front end must know: controls, presets, defaults, colours."""
+    return {
+        "numbers": list(NUMBERS),
+        "ranges": {name: list(state.param[name].softbounds) for name in NUMBERS},
+        "symbols": {name: state.param[name].label for name in NUMBERS},
+        "values": state.values(),
+        "defaults": ExplorerState().values(),
+        "layers": list(LAYERS),
+        "boxes": {
+            choice: [{"name": b.name, "label": b.label, "text": b.text, "lines": b.lines} for b in boxes]
+            for choice, boxes in BOXES.items()
+        },
+        "presets": {item["key"]: item for item in portraits()},
+        "themes": THEMES,
+        "hatches": HATCHES,
+        "view": VIEW,
+        "locked": list(locked),
+    }
+
+
+def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, locked: tuple[str, ...] = ()) -> str:
+    """Return the explorer's markup: controls with their values, legend, and the first picture as SVG.
+
+    Parameters
+    ----------
+    state : ExplorerState
+    first : mapping, optional
+        "svg", and the words of the portrait: "name", "case", "sentence".
+    locked : tuple of str
+        Controls that the user's own system does not have.
+    """
+    values = state.values()
+
+    def control(name: str) -> dict[str, Any]:
+        declared = state.param[name]
+        low, high, step = slider_range(declared.softbounds[0], declared.softbounds[1], values[name])
+        return {"name": name, "symbol": declared.label, "doc": declared.doc, "value": values[name],
+                "low": low, "high": high, "step": step}  # fmt: skip
+
+    groups = groupby(portraits(), key=lambda item: item["group"])
+    return _template("explorer.html").render(
+        css=stylesheet(),
+        groups={group: [control(name) for name in names] for group, names in GROUPS.items()},
+        exponent=control("n"),
+        portraits=[(group, list(items)) for group, items in groups],
+        psi_names=PSI_NAMES,
+        layers=LAYERS,
+        panels=PANELS,
+        outcomes=OUTCOMES,
+        systems=TITLES,
+        limits={name: control(name) for name in ("log_eps", "t_end")},
+        slow_controls=SLOW_CONTROLS,
+        solids=SOLIDS,
+        axes={name: state.param[name].label for name in AXES},
+        values=values,
+        locked=locked,
+        most=MAX_TRAJECTORIES,
+        first=first or {},
+        colours=LIGHT,
+    )
+
+
+def page_template() -> str:
+    """Return the page around the explorer, for Bokeh's server; it asks no other host for anything."""
+    return (STATIC / "page.html").read_text(encoding="utf-8")

@@ -1,0 +1,278 @@
+"""From a request of the browser to one frame: state, then scene, then only what is visible and has changed.
+
+The browser decides when to ask: one request is out at a time and newer values replace older ones there, so that
+nothing ever queues here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from param.parameterized import batch_call_watchers
+
+from codim2_core.psi.function import Psi
+from codim2_core.scene import Scene
+from codim2_core.systems.coefficients import Coefficients
+from codim2_core.systems.typed import Frozen
+
+from ..draw import glyphs
+from ..draw.packing import Polylines, pack
+from ..frame.draft import Draft
+from ..frame.jobs import FAILURES, Jobs
+from ..frame.scenes import evolved, locked_controls, make_scene, settled
+from ..frame.sides import sides
+from ..panels import registry
+from ..state.choices import AXES
+from ..state.chosen import GIVEN, System_, describe
+from ..state.controls import ExplorerState, InputError, clean, preset_values
+
+#: Layers made by the compiled integrator.
+ORBITS = ("outside", "inside", "continuations")
+#: Where arrowheads sit on an orbit, as fractions of its length.
+ARROWS = {"outside": (0.3, 0.7), "inside": (0.35, 0.75), "continuations": (0.5,)}
+#: Kinds of branches that each nullcline control shows.
+NULLCLINES = {"rho": ("rho",), "theta": ("theta",), "lines": ("U1", "U2")}
+
+#: Controls that are axes of the picture's parameters.
+MOVED = frozenset(AXES)
+
+Blocks = dict[str, NDArray[Any] | Polylines]
+
+
+class Frames:
+    """The picture of one browser: its state, its scene, and which results it has been sent.
+
+    Parameters
+    ----------
+    state : ExplorerState
+    system : ELinear or System, optional
+        Drawn instead of one that the controls choose.
+    ready : callable, optional
+        Says whether the compiled integrator is ready for this Psi and system; until then trajectories are left out.
+    """
+
+    def __init__(
+        self,
+        state: ExplorerState,
+        system: System_ | None = None,
+        ready: Callable[[Psi, Any], bool] = lambda _psi, _system: True,
+    ) -> None:
+        self.state = state
+        self.values = state.values()
+        self.given = system is not None
+        self.scene = make_scene(self.values, system)
+        self.locked = locked_controls(self.scene, self.given)
+        self.ready = ready
+        self.jobs = Jobs()
+        self._moved = "f1"  # the control moved last, along which a degenerate setting is looked at from both sides
+        self._unpublished: dict[str, Any] = {}
+        self._sent: dict[str, Any] = {}
+
+    def answer(self, request: Mapping[str, Any]) -> bytes:
+        """Return the frame for ``{"id": number, "set": {control: value}, "all", "rest": bool}``.
+
+        ``all`` asks for every layer again, as a browser does that has just connected; ``rest`` says that no control
+        is moving, so that there is time for what the open panel shows besides. A value that cannot be used, and a
+        computation that fails, leave the last good picture: the frame then holds only ``errors``, with the name of the
+        control and a sentence.
+        """
+        identity = request.get("id", 0)
+        sent = {} if request.get("all") else self._sent
+        errors: dict[str, str] = {}
+        good: dict[str, Any] = {}
+        for name, value in (request.get("set") or {}).items():
+            try:
+                good[name] = clean(name, value)
+            except InputError as error:
+                errors[error.control] = str(error)
+        rest = bool(request.get("rest") or request.get("all"))
+        drawn = self._accept(good, sent, errors, rest)
+        if drawn is None and rest and good:
+            # the browser still lacks what was left out while the last good picture was moving
+            drawn = self._accept({}, sent, errors, rest)
+        if drawn is None:
+            return pack({"id": identity, "errors": errors}, {})
+        header, blocks = drawn
+        return pack({"id": identity, "errors": errors, **header}, blocks)
+
+    def _accept(
+        self, good: Mapping[str, Any], sent: Mapping[str, Any], errors: dict[str, str], rest: bool
+    ) -> tuple[dict[str, Any], Blocks] | None:
+        """Draw with all changes or, where that fails, with those that can be had one after the other."""
+        try:
+            return self._draw(good, sent, rest)
+        except FAILURES as error:
+            if len(good) < 2:
+                errors[_culprit(error, next(iter(good), ""))] = str(error)
+                return None
+        kept: dict[str, Any] = {}
+        drawn = None
+        for name, value in good.items():
+            try:
+                drawn = self._draw({**kept, name: value}, sent, rest)
+                kept[name] = value
+            except FAILURES as error:
+                errors[_culprit(error, name)] = str(error)
+        return drawn
+
+    def _draw(self, changes: Mapping[str, Any], sent: Mapping[str, Any], rest: bool) -> tuple[dict[str, Any], Blocks]:
+        changes = changes if self.given else settled(self.values, changes)
+        values = {**self.values, **changes}
+        changed = [name for name in changes if values[name] != self.values[name]]
+        scene = evolved(self.scene, values, [name for name in changed if name not in self.locked], self.given)
+        ready = self.ready(scene.psi, scene.system)
+        drawable = ready or isinstance(scene.coefficients, Coefficients)  # all of a general system needs the compiler
+        header: dict[str, Any] = {"ready": False}
+        blocks: Blocks = {}
+        now_sent = dict(sent)
+        if drawable:
+            header, blocks, now_sent = make_frame(scene, values, sent, ready)
+        self._tell_system(header, scene, values, now_sent)
+        self._moved = next((name for name in changed if name in MOVED), self._moved)
+        if header.get("portrait", {}).get("degeneracies"):
+            header["portrait"]["sides"] = sides(scene, values, self._moved)
+        if drawable:
+            registry.add(Draft(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked))
+        self.scene, self.values, self._sent = scene, values, now_sent
+        if changed:
+            header["set"] = {name: values[name] for name in changed}
+            self._unpublished.update(header["set"])
+        return header, blocks
+
+    def _tell_system(
+        self, header: dict[str, Any], scene: Scene, values: Mapping[str, Any], now: dict[str, Any]
+    ) -> None:
+        """Describe the system when its formulas are others than those that the browser has."""
+        choice = GIVEN if self.given else values["system"]
+        key = (choice, tuple(values["texts"].items()))
+        if now.get("system") != key and not isinstance(scene.system, (Coefficients, Frozen)):
+            now["system"] = key
+            header["system"] = describe(choice, scene.system)
+
+    def publish(self) -> None:
+        """Let the state follow what has been drawn, as one change; its watchers run now.
+
+        Called when the frame is on its way, so that a watcher that sets further values asks for a frame after it.
+        """
+        fresh, self._unpublished = self._unpublished, {}
+        if len(fresh) == 1:
+            setattr(self.state, *next(iter(fresh.items())))  # param's batches cost as much as half of a frame's bytes
+        elif fresh:
+            with batch_call_watchers(self.state):
+                for name, value in fresh.items():
+                    setattr(self.state, name, value)
+
+    def follow(self, changes: Mapping[str, Any]) -> bytes | None:
+        """Return the frame for values that the state was given from outside, or None if they are those drawn.
+
+        A portrait brings its values.
+
+        Raises
+        ------
+        ValueError
+            A value cannot be used, or the system gives it as text; the state is then what it was, as is the picture.
+        """
+        wanted = {name: value for name, value in changes.items() if value != self.values[name]}
+        if not wanted:
+            return None
+        wanted = {**preset_values(wanted.get("preset")), **wanted}
+        refused = [name for name in wanted if name in self.locked and name in changes]
+        try:
+            if refused:
+                raise ValueError(f"{', '.join(refused)}: given by your system, and so not to be set.")
+            good = {name: clean(name, value) for name, value in wanted.items() if name not in self.locked}
+            header, blocks = self._draw(good, self._sent, rest=False)
+        except FAILURES as error:
+            self._unpublished.update({name: self.values[name] for name in changes})
+            self.publish()
+            raise ValueError(str(error)) from error
+        return pack({"errors": {}, **header}, blocks)
+
+
+def _culprit(error: Exception, name: str) -> str:
+    return error.control if isinstance(error, InputError) else name
+
+
+def make_frame(
+    scene: Scene,
+    values: Mapping[str, Any],
+    sent: Mapping[str, Any],
+    ready: bool = True,
+) -> tuple[dict[str, Any], Blocks, dict[str, Any]]:
+    """Return header and blocks of one frame, and what the browser then holds.
+
+    Only visible layers are computed, and only those whose result is another object than the one in `sent` are
+    packed. `scene` shares results that a change does not reach, so that identity is the whole test. The panel beside
+    the picture is added by `panels.registry.add`.
+    """
+    visible = set(values["layers"])
+    now = dict(sent)
+    header: dict[str, Any] = {"ready": ready}
+    blocks: Blocks = {}
+
+    def fresh(key: str, result: Any) -> bool:
+        if key in now and now[key] is result:
+            return False
+        now[key] = result
+        return True
+
+    nullclines = [name for name in NULLCLINES if name in visible]
+    for layer in ("nullclines_inside", "nullclines_outside") if nullclines else ():
+        _add_nullclines(blocks, layer, nullclines, scene[layer], fresh)
+    for name in ORBITS:
+        if ready and name in visible and fresh(name, scene[name]):
+            orbits = scene[name]
+            _add_lines(blocks, name, orbits.offsets, orbits.buffer, ARROWS[name])
+    if ready and "cycles" in visible and fresh("cycles", scene["cycles"]):
+        header["cycles"] = glyphs.cycle_columns(scene["cycles"])
+        _add_lines(blocks, "cycles", *glyphs.join([c.points for c in scene["cycles"]]), where=(0.25, 0.75))
+    if ready and "separatrices" in visible and fresh("separatrices", scene["separatrices"]):
+        for direction in ("stable", "unstable"):
+            branches = [b.points for b in scene["separatrices"] if b.inside and b.direction == direction]
+            _add_lines(blocks, f"separatrices_{direction}", *glyphs.join(branches), where=(0.5,))
+    equator, cycle, critical = scene["equator"], scene["equator_cycle"], scene["critical"]
+    if fresh("equator", equator):
+        header["equator"] = glyphs.equator_columns(equator)
+        header["sense"] = glyphs.equator_arrows(equator, 0 if cycle is None else int(cycle.direction))
+        header["all_directions"] = bool(equator.all_directions)
+        header["cycle"] = None if cycle is None else float(cycle.exponent)
+    if fresh("critical", critical):
+        header["critical"] = glyphs.critical_columns(critical)
+    name = scene["classification"]
+    if fresh("classification", name):
+        header["portrait"] = {
+            "case": name.case,
+            "name": name.name,
+            "sentence": name.sentence,
+            "degeneracies": [[item.name, item.sentence] for item in name.degeneracies],
+        }
+    flow = scene["slow_flow"]
+    if flow is not None and flow.ndim > 1:  # a general system has a slow flow for each critical set
+        flow = flow[0] if len(flow) == 1 else None
+    header["slow_flow"] = None if flow is None else [float(v) for v in flow]
+    if isinstance(scene.coefficients, Coefficients):
+        header["f"] = [float(scene.coefficients.f1), float(scene.coefficients.f2)]
+    return header, blocks, now
+
+
+def _add_nullclines(
+    blocks: Blocks, layer: str, names: Sequence[str], branches: Sequence[Any], fresh: Callable[[str, Any], bool]
+) -> None:
+    side = layer.removeprefix("nullclines_")
+    wanted = [name for name in names if fresh(f"{name}_{side}", branches)]
+    for name in wanted:
+        kinds = NULLCLINES[name]
+        _add_lines(blocks, f"{name}_{side}", *glyphs.join([b.points for b in branches if b.kind in kinds]))
+
+
+def _add_lines(
+    blocks: Blocks,
+    name: str,
+    offsets: NDArray[np.int64],
+    points: NDArray[np.float64],
+    where: tuple[float, ...] = (),
+) -> None:
+    blocks[name] = Polylines(offsets, points, where)

@@ -1,0 +1,88 @@
+"""Compile the integrator in the background, once for each process and each new regularisation function."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Hashable
+from typing import Any
+
+from codim2_core.cycles.limit_cycles import limit_cycles
+from codim2_core.figures.presets import presets
+from codim2_core.orbits.trajectories import is_warm, warm
+from codim2_core.psi.constructors import FAMILIES, constant, make
+from codim2_core.psi.function import Psi
+from codim2_core.scene import Scene
+from codim2_core.systems.kinds import AnySystem
+from codim2_core.systems.typed import System
+
+MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
+BUILT_IN = tuple(make(family) for family in FAMILIES if family != "custom")
+
+MOST_REMEMBERED = 256  # texts that have been compiled, or could not be
+GENERAL = "kernels of general systems"
+
+_lock = threading.Lock()
+_threads: dict[Hashable, threading.Thread] = {}
+
+
+def warm_all() -> None:
+    """Compile, or load from the disk cache, what all built-in families and the kernels of general systems need."""
+    for psi in BUILT_IN:
+        warm(psi)
+    three = presets["case3-n3"]
+    limit_cycles(three.system, three.psi)
+    warm_general()
+
+
+def warm_general() -> None:
+    """Compile, or load, what searches a general system: once for all of them."""
+    example = presets["nonunique-sliding"]
+    scene = Scene(example.system, example.psi, example.z)
+    for layer in ("equator", "critical", "nullclines_inside", "nullclines_outside", "cycles", "separatrices"):
+        scene[layer]
+
+
+def start() -> None:
+    """Begin compiling (or loading from the cache) in a background thread; further calls do nothing."""
+    with _lock:
+        if constant() not in _threads:
+            _begin(constant(), warm_all)
+
+
+def _begin(key: Hashable, target: Callable[..., None], *arguments: Any) -> None:
+    _threads[key] = threading.Thread(target=target, args=arguments, name="codim2-compile", daemon=True)
+    _threads[key].start()
+
+
+def is_ready(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
+    """Say whether all layers can be drawn without waiting for the compiler; if not, see that it is at work.
+
+    If compiling failed, they are asked for all the same, so that their error is seen.
+    """
+    psi = constant() if psi is None else psi
+    typed = isinstance(system, System)
+    if typed and not _done(GENERAL, warm_general):
+        return False
+    if is_warm(psi, system):
+        return True
+    if typed:
+        return _done((psi, system.U), warm, psi, system)
+    if psi.family == "custom":
+        return _done(psi, warm, psi)
+    with _lock:
+        return not any(thread.is_alive() for thread in _threads.values())
+
+
+def _done(key: Hashable, target: Callable[..., None], *arguments: Any) -> bool:
+    """Whether a thread has compiled this; if there was none, begin one as soon as few others are at work."""
+    with _lock:
+        thread = _threads.get(key)
+        if thread is not None:
+            return not thread.is_alive()
+        alive = {key: thread for key, thread in _threads.items() if thread.is_alive()}
+        if len(_threads) > MOST_REMEMBERED:
+            for old in _threads.keys() - alive.keys() - {constant(), GENERAL}:
+                del _threads[old]
+        if len(alive) < MOST_THREADS:
+            _begin(key, target, *arguments)
+    return False

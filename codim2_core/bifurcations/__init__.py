@@ -1,0 +1,33 @@
+"""Bifurcations of the e-linear system in the plane (f1, f2), for given a, b, d and Psi (sec:bifurcations).
+
+The saddle-node curve of equator equilibria and the ellipse |A^-1 f| = 1 are closed forms and cut the plane into the
+regions of `regions`, which do not depend on Psi. `hopf` and `node_focus` depend on Psi (Case III), one root a point.
+Limit cycles vanish on `cycle_folds`, and at the equator on `closed_equator` and `heteroclinic`; these three are
+followed by continuation, which takes seconds where the others take milliseconds.
+"""
+
+from __future__ import annotations
+
+from .borders import critical_boundary, saddle_node
+from .curve import BifurcationCurve, SpecialPoint
+from .cycles import cycle_folds
+from .equator import closed_equator, heteroclinic
+from .hill_exponent import ParameterChange, hill_changes
+from .plane_regions import Region, regions
+from .trace import hopf, node_focus
+
+__all__ = [
+    "BifurcationCurve",
+    "ParameterChange",
+    "Region",
+    "SpecialPoint",
+    "closed_equator",
+    "critical_boundary",
+    "cycle_folds",
+    "heteroclinic",
+    "hill_changes",
+    "hopf",
+    "node_focus",
+    "regions",
+    "saddle_node",
+]

@@ -1,0 +1,127 @@
+"""The two closed-form curves in (f1, f2): saddle-nodes of limit directions, and the ellipse |A^-1 f| = 1."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .curve import BifurcationCurve, SpecialPoint, frozen, matrix, place
+from .geometry import Geometry
+
+_TAU = 2.0 * math.pi
+_TURN = _TAU / 360  # the tangent turns by at most this from point to point
+_CUSP = {
+    True: "Θ has a triple zero, and b = 0 makes the system symmetric: a pitchfork of limit directions (D2).",
+    False: "Θ has a triple zero: two saddle-nodes of limit directions meet in a cusp.",
+}
+
+
+def saddle_node(a: float, b: float, d: float) -> BifurcationCurve:
+    """Saddle-nodes of equator equilibria, where Theta has a double zero (fig:SNBIF, eq:tangencies).
+
+    ``f1 = b sin(theta) - (a - d) cos(theta)^3``, ``f2 = (a - d) sin(theta)^3 - b cos(theta)``; an astroid when b = 0.
+
+    Parameters
+    ----------
+    a, b, d : float
+
+    Returns
+    -------
+    BifurcationCurve
+        Branches end at the cusps. `special`: "cusp" (b = 0: "pitchfork"), at sin(2 theta) = -2b/(3(a - d));
+        "quadruple zero" where cusps have met (|b| = 3|a - d|/2); "double saddle-node" where the curve meets itself;
+        "all directions" at f = 0 when a = d and b = 0, where the curve is that point.
+
+    Raises
+    ------
+    ValueError
+        A coefficient is not a finite number.
+    """
+    a, b, d = matrix(a, b, d)
+    plane = Geometry(a, b, d)
+    label = "fig:SNBIF, eq:tangencies"
+    sentence = "Two limit directions meet: Θ has a double zero."
+    if a == d and b == 0.0:
+        point = SpecialPoint(
+            "all directions", (0.0, 0.0), "a = d, b = 0 and f = 0: Θ ≡ 0, every direction is a limit direction."
+        )
+        return BifurcationCurve(
+            "saddle-node", "saddle-node: the point f = 0", label, frozen([np.zeros((1, 2))]), (point,), (),
+            "a = d and b = 0: there are two limit directions for every f except f = 0.",
+        )  # fmt: skip
+    special: list[SpecialPoint] = []
+    for theta in plane.cusps:
+        where = place(plane.saddle_node_at(theta))
+        if plane.swallowtail:
+            special.append(SpecialPoint("quadruple zero", where, "Θ has a fourfold zero: two cusps have met."))
+        else:
+            special.append(SpecialPoint("pitchfork" if b == 0.0 else "cusp", where, _CUSP[b == 0.0]))
+    special += [
+        SpecialPoint("double saddle-node", place(plane.saddle_node_at(theta)), "Θ has two double zeros at the same f.")
+        for theta, _ in plane.double
+    ]
+    starts = [] if plane.swallowtail else plane.cusps
+    branches = []
+    for i, start in enumerate(starts or [0.0]):
+        end = starts[i + 1] if i + 1 < len(starts) else (starts[0] if starts else 0.0) + _TAU
+        theta = np.linspace(start, end, max(2, math.ceil((end - start) / _TURN) + 1))
+        branches.append(plane.saddle_node(theta))
+        if not starts:
+            branches[-1][-1] = branches[-1][0]
+    if a == d:
+        return BifurcationCurve(
+            "saddle-node", "saddle-node: the circle |f| = |b|", label, frozen(branches), tuple(special), (),
+            sentence + " a = d: that is on the circle |f| = |b| (D1).",
+        )  # fmt: skip
+    return BifurcationCurve("saddle-node", "saddle-node", label, frozen(branches), tuple(special), (), sentence)
+
+
+def critical_boundary(a: float, b: float, d: float) -> BifurcationCurve:
+    """Ellipse |A^-1 f| = 1, on which the critical set reaches the equator (fig:ellipse, fig:transcrit).
+
+    It is the image of the unit circle under -A.
+
+    Parameters
+    ----------
+    a, b, d : float
+
+    Returns
+    -------
+    BifurcationCurve
+        `special`: "saddle-node on the equator" where it touches the saddle-node curve (lambda_rho and lambda_theta are
+        both zero there), "saddle-node elsewhere" where the two cross. det A = 0: a segment (A = 0: a point), on which,
+        and only there, A e = -f has a whole line of solutions.
+
+    Raises
+    ------
+    ValueError
+        A coefficient is not a finite number.
+    """
+    a, b, d = matrix(a, b, d)
+    plane = Geometry(a, b, d)
+    label = "fig:ellipse, fig:transcrit"
+    if plane.determinant_sign == 0:
+        left, sizes, _ = np.linalg.svd(np.array([[a, -b], [b, d]]))
+        reach = sizes[0] * left[:, 0]
+        degenerate = sizes[0] == 0.0
+        branch = np.zeros((1, 2)) if degenerate else np.stack([-reach, reach])
+        name = "transcritical: the point f = 0" if degenerate else "transcritical: a segment (det A = 0)"
+        sentence = (
+            "A = 0: everything stands still at f = 0, and there is no critical set elsewhere."
+            if degenerate
+            else "det A = 0: no critical set, except on this segment, where there is a whole line of them."
+        )
+        return BifurcationCurve("transcritical", name, label, frozen([branch]), (), (), sentence)
+    phi = np.linspace(0.0, _TAU, 361)
+    branch = plane.ellipse(phi)
+    branch[-1] = branch[0]
+    touching = "The critical set reaches the equator just where two limit directions meet: λ_ρ = λ_θ = 0."
+    crossing = "The critical set reaches the equator, and elsewhere on it two limit directions meet."
+    special = [
+        *(SpecialPoint("saddle-node on the equator", place(plane.saddle_node_at(t)), touching) for t in plane.touching),
+        *(SpecialPoint("saddle-node elsewhere", place(plane.saddle_node_at(t)), crossing) for t in plane.crossing),
+    ]
+    name = "transcritical: the circle |f| = |b|, also the saddle-node curve" if plane.coincide else "transcritical"
+    sentence = "|A⁻¹f| = 1: the critical set reaches the equator, and one limit direction turns its radial stability."
+    return BifurcationCurve("transcritical", name, label, frozen([branch]), tuple(special), (), sentence)

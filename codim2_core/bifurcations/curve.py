@@ -1,0 +1,96 @@
+"""What the bifurcation functions return: curves in the plane (f1, f2), and the points on them that are special."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..systems.elinear import ELinear
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class SpecialPoint:
+    """A point of codimension two on a bifurcation curve.
+
+    Attributes
+    ----------
+    type : str
+        Such as "cusp", "pitchfork", "double saddle-node", "generalised Hopf".
+    place : (f1, f2)
+    sentence : str
+    """
+
+    type: str
+    place: tuple[float, float]
+    sentence: str
+
+
+@dataclass(frozen=True, eq=False)
+class BifurcationCurve:
+    """One bifurcation in the plane (f1, f2) at fixed a, b, d (and Psi).
+
+    Attributes
+    ----------
+    kind : str
+        "saddle-node", "transcritical", "hopf", "node-focus", "fold of cycles", "equator" or "heteroclinic".
+    name : str
+        A short title for people, which says so where the curve degenerates.
+    label : str
+        The paper's label.
+    branches : tuple of ndarray (m, 2)
+        Smooth pieces, in order along each; a closed one repeats its first point. A piece ends at a cusp, at the
+        equator, or on the next piece, and pieces are never joined across a gap. One row: an isolated point.
+    special : tuple of SpecialPoint
+    values : tuple of ndarray (m,)
+        For "hopf", the first Lyapunov coefficient at the points of each branch (negative: supercritical, a stable
+        cycle is born; positive: subcritical); for cycles what `cycle_folds` and `heteroclinic` say. Else empty.
+    sentence : str
+        What happens on the curve, or why there is none.
+    """
+
+    kind: str
+    name: str
+    label: str
+    branches: tuple[Array, ...]
+    special: tuple[SpecialPoint, ...] = ()
+    values: tuple[Array, ...] = ()
+    sentence: str = ""
+
+    def __len__(self) -> int:
+        return len(self.branches)
+
+
+def matrix(a: object, b: object, d: object) -> tuple[float, float, float]:
+    """Numbers a, b, d, checked as `ELinear` checks them (ValueError)."""
+    found = ELinear(a, b, d).at()
+    return found.a, found.b, found.d
+
+
+def frozen(arrays: Iterable[Array]) -> tuple[Array, ...]:
+    """Make arrays read-only."""
+    out = []
+    for array in arrays:
+        array = np.ascontiguousarray(array, float)
+        array.flags.writeable = False
+        out.append(array)
+    return tuple(out)
+
+
+def place(f: Array | tuple[float, float]) -> tuple[float, float]:
+    """Round -0 to 0 and make plain floats."""
+    return float(f[0]) + 0.0, float(f[1]) + 0.0
+
+
+def angles_of_cosine(ratio: float, middle: float) -> list[float]:
+    """Find the four angles in [0, 2 pi) with ``cos(2 theta - middle) = ratio``; none if ratio is beyond +-1."""
+    if not abs(ratio) <= 1.0:
+        return []
+    half = math.acos(ratio)
+    found = ((0.5 * (middle + sign * half) + turn) % (2 * math.pi) for sign in (1, -1) for turn in (0.0, math.pi))
+    return sorted(found)

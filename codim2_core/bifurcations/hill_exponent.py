@@ -1,0 +1,115 @@
+"""Where the parameter n of the Hill family changes the kind of the critical set (fig:bads)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..layer_problem.critical import determinant_sign, locate
+from ..numerics.root_between import root_between
+from ..psi import constructors
+from ..psi.constructors import LARGEST_N, SMALLEST_N
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterChange:
+    """A value of n in Psi = 3/(3 + (4s)^n) where the critical set changes its kind.
+
+    Attributes
+    ----------
+    type : "Hopf" or "node-focus"
+    n : float
+    before, after : str
+        The kinds of C just below and just above n.
+    sentence : str
+    """
+
+    type: str
+    n: float
+    before: str
+    after: str
+    sentence: str
+
+
+def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> tuple[ParameterChange, ...]:
+    """Every n at which the critical set of the Hill family eq:bad_reg changes its kind, in increasing order.
+
+    e does not depend on Psi, and J only through ``sigma = (1 - |e|^2)(1 + n (1 - Psi))``. With
+    ``alpha = e.diag(a, d) e/|e|^2`` and ``beta = a + d - alpha``: tr J = 0 at sigma = -beta/alpha, and the discriminant
+    is zero at ``(alpha sigma + beta)^2 = 4 sigma det A``: the values of sigma are closed forms and n(sigma) a root.
+    The paper's Case III changes at n = 284/129 (Hopf).
+
+    Parameters
+    ----------
+    system : ELinear, or Coefficients
+    z : (m,) floats
+
+    Returns
+    -------
+    tuple of ParameterChange
+        For 0.01 <= n <= 1000, n to about 1e-14 relative. Empty without a critical set, or if it is a saddle.
+
+    Raises
+    ------
+    ValueError
+        z does not fit the system.
+    """
+    coefficients = system.at(z)
+    a, b, d = coefficients.a, coefficients.b, coefficients.d
+    location = locate(coefficients)
+    if location.e is None or determinant_sign(a, b, d) <= 0:
+        return ()
+    c, s = location.e
+    square = c * c + s * s
+    if square == 0.0:
+        return ()
+    modulus = math.sqrt(square)
+    # beta is formed from squares too: a + d - alpha would cancel
+    alpha, beta = (a * c * c + d * s * s) / square, (a * s * s + d * c * c) / square
+
+    def sigma(n: float) -> float:
+        psi = constructors.hill(n)
+        zeta = float(psi.radius(modulus, location.complement))
+        y = 2.0 * n * math.log(2.0 * zeta) - math.log(3.0)  # 1 - Psi = logistic(y)
+        rise = 1.0 / (1.0 + math.exp(-y)) if y > -700.0 else 0.0
+        return location.complement * (1.0 + n * rise)
+
+    wanted: list[tuple[str, float]] = []
+    if alpha * beta < 0.0:
+        wanted.append(("Hopf", -beta / alpha))
+    root = math.sqrt(a * d + b * b)
+    for tau in (-1.0, 1.0):
+        inner = root * root - alpha * beta
+        if inner >= 0.0 and alpha != 0.0:
+            # alpha w^2 - 2 tau root w + beta = 0 for w = sqrt(sigma) > 0, without cancellation
+            large = tau * root + math.copysign(math.sqrt(inner), tau)
+            wanted += [("node-focus", w * w) for w in (large / alpha, beta / large if large else 0.0) if w > 0.0]
+        elif alpha == 0.0 and tau * beta > 0.0:
+            wanted.append(("node-focus", (beta / (2.0 * root)) ** 2))
+    grid = np.geomspace(SMALLEST_N, LARGEST_N, 241).tolist()
+    values = [sigma(n) for n in grid]
+    found: list[tuple[float, str]] = []
+    for kind, target in wanted:
+        for i in range(len(grid) - 1):
+            if (values[i] < target) != (values[i + 1] < target):
+                n = root_between(lambda n, t=target: sigma(n) / t - 1.0, grid[i], grid[i + 1])
+                found.append((n, kind))
+    found.sort()
+    changes = []
+    for i, (n, kind) in enumerate(found):
+        low = math.sqrt(n * (found[i - 1][0] if i else SMALLEST_N))
+        high = math.sqrt(n * (found[i + 1][0] if i + 1 < len(found) else LARGEST_N))
+        before, after = (_kind(alpha, beta, root, sigma(v)) for v in (low, high))
+        changes.append(ParameterChange(kind, n, before, after, f"n = {n:.6g}: C turns from {before} into {after}."))
+    return tuple(changes)
+
+
+def _kind(alpha: float, beta: float, root: float, sigma: float) -> str:
+    trace, determinant = alpha * sigma + beta, sigma * root * root
+    shape = "node" if trace * trace >= 4.0 * determinant else "focus"
+    return ("stable " if trace < 0.0 else "unstable ") + shape

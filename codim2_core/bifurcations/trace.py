@@ -1,0 +1,317 @@
+"""Hopf and node-focus curves of the critical set: where the trace of J (eq:scjaco) reaches a level.
+
+Let ``e = m (cos t, sin t)`` be the critical set, ``f = -A e``, and sigma(m) the ratio of the radial to the tangential
+eigenvalue of D e_Psi (rem:jaco_properties). Then, with p = a + d, k = a - d,
+
+    tr J / tangential = (p (1 + sigma) - k (1 - sigma) cos 2t)/2,      det J / tangential^2 = sigma det A.
+
+tr J = 2 tau sqrt(det J), with tau = 0 for Hopf and tau = +-1 for node-focus, is linear in cos 2t: for each modulus m
+there are at most four angles, t, -t, pi - t and pi + t.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..layer_problem.critical import determinant_sign
+from ..layer_problem.lyapunov import first_lyapunov
+from ..numerics.root_between import root_between
+from ..psi.function import Psi
+from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
+
+_GRID = 256  # moduli at which the existence of the curve is looked at
+_POINTS = 160  # points along one piece
+_MOST = 1.0 - 2.0**-40  # the largest modulus followed; from there to the equator nothing can be seen
+_FLAT = 4 * 2.0**-53
+
+
+def _ratio(psi: Psi, m: Array) -> Array:
+    """sigma(m) = radial/tangential eigenvalue of D e_Psi where e_Psi has modulus m."""
+    radial, tangential = psi.jacobian_factors(psi.radius(m))
+    return radial / tangential
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """An interval of moduli on which 0 <= t(m) <= pi/2 exists; at its ends cos 2t = 1, -1, or neither (0)."""
+
+    low: float
+    high: float
+    at_low: int
+    at_high: int
+
+
+class _Level:
+    """tr J = 2 tau sqrt(det J) as a curve t(m)."""
+
+    def __init__(self, a: float, b: float, d: float, psi: Psi, tau: float) -> None:
+        self.psi, self.tau = psi, tau
+        self.p, self.k = a + d, a - d
+        self.root = math.sqrt(a * d + b * b)
+        self.A = np.array([[a, -b], [b, d]])
+
+    def sides(self, m: Array) -> tuple[Array, Array]:
+        """(N, D) with ``cos 2t = N/D``."""
+        sigma = _ratio(self.psi, m)
+        return self.p * (1.0 + sigma) - 4.0 * self.tau * self.root * np.sqrt(sigma), self.k * (1.0 - sigma)
+
+    def margin(self, m: float, sign: int) -> float:
+        """N - sign D: zero where cos 2t = sign."""
+        N, D = self.sides(np.array([m]))
+        return float(N[0] - sign * D[0])
+
+    def angle(self, m: Array) -> Array:
+        """t(m) in [0, pi/2]."""
+        N, D = self.sides(m)
+        return 0.5 * np.arctan2(np.sqrt(np.maximum((D - N) * (D + N), 0.0)), N * np.sign(D))
+
+    def pieces(self, m: Array) -> list[_Piece]:
+        N, D = self.sides(m)
+        inside = abs(N) <= abs(D)
+        changes = np.flatnonzero(inside[1:] != inside[:-1])
+        found: list[_Piece] = []
+        start, kind = (float(m[0]), 0) if inside[0] else (0.0, 0)
+        for i in changes:
+            sign = 1 if N[i] * D[i] + N[i + 1] * D[i + 1] > 0.0 else -1
+            end = root_between(lambda v, sign=sign: self.margin(v, sign), float(m[i]), float(m[i + 1]))
+            if inside[i]:
+                found.append(_Piece(start, end, kind, sign))
+            else:
+                start, kind = end, sign
+        if inside[-1]:
+            found.append(_Piece(start, float(m[-1]), kind, 0))
+        return found
+
+
+def _chains(piece: _Piece, t: Array) -> list[tuple[NDArray[np.intp], Array]]:
+    """Join the four mirror images of one piece where they meet: (index along the piece, angle) of each branch."""
+    images = [t, -t, math.pi - t, math.pi + t]
+    partner = {1: (1, 0, 3, 2), -1: (2, 3, 0, 1)}  # at t = 0: t with -t; at t = pi/2: t with pi - t
+    forward = np.arange(len(t))
+    ends = (piece.at_low, piece.at_high)
+    out: list[tuple[NDArray[np.intp], Array]] = []
+    left = {0, 1, 2, 3}
+    while left:
+        # an open chain is begun at a loose end; without one the chain closes
+        image = min(left)
+        side = 0 if ends[0] == 0 else 1 if ends[1] == 0 else 0
+        index: list[NDArray[np.intp]] = []
+        angle: list[Array] = []
+        while image in left:
+            left.discard(image)
+            order = forward if side == 0 else forward[::-1]
+            index.append(order if not index else order[1:])
+            angle.append(images[image][order] if not angle else images[image][order][1:])
+            side = 1 - side  # now at the other end
+            if ends[side] == 0:
+                break
+            image = partner[ends[side]][image]
+        out.append((np.concatenate(index), np.concatenate(angle)))
+    return out
+
+
+def _is_straight(e: Array) -> bool:
+    """Whether a branch is one of the two diameters that belong to a + d = 0."""
+    return bool((e[0] == -e[-1]).all() and (e[len(e) // 2] == 0.0).all())
+
+
+def _branches(level: _Level) -> list[Array]:
+    """All branches as critical sets e, (m, 2) each."""
+    # u -> sin^2 u crowds both ends: the curve starts at the centre or ends on the equator with any slope
+    m = np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, _GRID + 1)[1:-1])
+    m = np.unique(np.concatenate([[1e-6, 1e-4, 1e-3], m, 1.0 - np.geomspace(1e-4, 1.0 - _MOST, 12), [_MOST]]))
+    scale = abs(level.p) + abs(level.k) + level.root
+    if abs(level.k) <= _FLAT * scale:
+        return _circles(level, m, lambda v: level.sides(np.array([v]))[0][0])
+    found: list[Array] = []
+    if abs(level.p - 2.0 * level.tau * level.root) <= _FLAT * scale:
+        # N/D loses its meaning where sigma = 1: tr J has the level on the whole circle
+        found += _circles(level, m, lambda v: float(_ratio(level.psi, np.array([v]))[0]) - 1.0)
+        if level.p == 0.0 and level.tau == 0.0:
+            ends = np.array([0.25, 0.75]) * math.pi
+            r = np.linspace(-1.0, 1.0, 2 * _POINTS + 1)[:, None]
+            return found + [r * np.array([math.cos(t), math.sin(t)]) for t in ends]
+    u = 0.5 * (1.0 - np.cos(np.linspace(0.0, math.pi, _POINTS)))
+    for piece in level.pieces(m):
+        if piece.high - piece.low <= 1e-12:
+            continue
+        along = piece.low + (piece.high - piece.low) * u
+        t = level.angle(along)
+        for end, sign in ((0, piece.at_low), (-1, piece.at_high)):
+            if sign:
+                t[end] = 0.0 if sign > 0 else 0.5 * math.pi
+        for index, angle in _chains(piece, t):
+            r = along[index][:, None]
+            found.append(r * np.stack([np.cos(angle), np.sin(angle)], axis=-1))
+    return found
+
+
+def _circles(level: _Level, m: Array, function: Callable[[float], float]) -> list[Array]:
+    """Circles |e| = m through the zeros of a function of m."""
+    values = np.array([function(float(v)) for v in m])
+    size = float(abs(values).max())
+    if size <= 64 * _FLAT * (abs(level.p) + abs(level.root) + 1.0):
+        return []
+    t = np.linspace(0.0, 2.0 * math.pi, 2 * _POINTS + 1)
+    ring = np.stack([np.cos(t), np.sin(t)], axis=-1)
+    ring[-1] = ring[0]
+    solid = abs(values) > 1e-9 * size
+    m, values = m[solid], values[solid]
+    where = np.flatnonzero(np.sign(values[1:]) != np.sign(values[:-1]))
+    return [root_between(function, float(m[i]), float(m[i + 1])) * ring for i in where]
+
+
+def hopf(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
+    """Hopf curve of the layer problem in (f1, f2): tr J = 0 with det J > 0; Case III only (sec:case3).
+
+    Parameters
+    ----------
+    a, b, d : float
+    psi : Psi
+
+    Returns
+    -------
+    BifurcationCurve
+        `values` holds the first Lyapunov coefficient along each branch, and `special` the generalised Hopf (Bautin)
+        points where it changes sign. For Psi = 1 the curve ends on the equator at the points where the saddle-node
+        curve touches the ellipse.
+
+    Raises
+    ------
+    ValueError
+        A coefficient is not a finite number, or psi is not a Psi.
+    """
+    a, b, d = matrix(a, b, d)
+    _check(psi)
+    label = "sec:case3"
+    if a == d == 0.0 and b != 0.0:
+        return BifurcationCurve(
+            "hopf", "Hopf: everywhere", label, (),
+            sentence="a = d = 0: tr J = 0 wherever there is a critical set, so none of them is a Hopf bifurcation.",
+        )  # fmt: skip
+    if determinant_sign(a, b, d) <= 0 or a * d >= 0.0:
+        return BifurcationCurve(
+            "hopf", "Hopf: none", label, (),
+            sentence="tr J = 0 < det J needs a and d of opposite sign and det A > 0 (Case III): no Hopf bifurcation.",
+        )  # fmt: skip
+    level = _Level(a, b, d, psi, 0.0)
+    branches, values, special = [], [], []
+    for e in _branches(level):
+        branches.append(-e @ level.A.T)
+        if level.p == 0.0 and _is_straight(e):
+            # a = -d, e at 45 degrees: reflecting in e and reversing time leaves the layer problem as it is
+            values.append(np.zeros(len(e)))
+            continue
+        values.append(_lyapunov(level, e))
+        special += _bautin(level, e, values[-1])
+    if not branches:
+        sentence = "tr J keeps one sign wherever there is a critical set: no Hopf bifurcation with this Ψ."
+    elif level.p == 0.0:
+        sentence = (
+            "a = −d: on the two straight lines the layer problem is reversible and C is a centre; its first Lyapunov "
+            "coefficient is zero there."
+        )
+    else:
+        sentence = (
+            "C turns from a focus that attracts into one that repels; a cycle of the layer problem is born or dies: "
+            "stable where the first Lyapunov coefficient is negative, unstable where it is positive."
+        )
+    name = "Hopf" if branches else "Hopf: none"
+    return BifurcationCurve("hopf", name, label, frozen(branches), tuple(special), frozen(values), sentence)
+
+
+def _lyapunov(level: _Level, e: Array) -> Array:
+    modulus = np.hypot(e[:, 0], e[:, 1])
+    safe = np.clip(modulus, 1e-9, _MOST)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        unit = np.where(modulus[:, None] > 0.0, e / modulus[:, None], np.array([math.sqrt(0.5), math.sqrt(0.5)]))
+    x2 = level.psi.radius(safe)[:, None] * unit
+    values = first_lyapunov(level.A, level.psi, x2)
+    return np.where(np.isfinite(values), values, 0.0)
+
+
+def _bautin(level: _Level, e: Array, values: Array) -> list[SpecialPoint]:
+    """Where the coefficient changes sign between neighbours, by the secant through the curve's own equation."""
+    found = []
+    # next to the equator, and where it underflows, its sign means nothing
+    solid = (abs(values) > 1e-12 * abs(values).max()) & (np.hypot(e[:, 0], e[:, 1]) < 1.0 - 1e-6)
+    for i in np.flatnonzero((np.sign(values[1:]) != np.sign(values[:-1])) & solid[1:] & solid[:-1]):
+        m0, m1 = np.hypot(*e[i]), np.hypot(*e[i + 1])
+        t0, t1 = math.atan2(e[i, 1], e[i, 0]), math.atan2(e[i + 1, 1], e[i + 1, 0])
+        t1 = t0 + math.remainder(t1 - t0, 2.0 * math.pi)
+
+        def on_curve(u: float, m0=m0, m1=m1, t0=t0, t1=t1) -> Array:
+            m, t = m0 + u * (m1 - m0), t0 + u * (t1 - t0)
+            N, D = level.sides(np.array([m]))
+            if m0 != m1 and abs(N[0]) <= abs(D[0]) * (1.0 - 1e-9) and abs(level.k) > 0.0:
+                near = float(level.angle(np.array([m]))[0])
+                images = (near, -near, math.pi - near, math.pi + near)
+                t = min((v for v in images), key=lambda v: abs(math.remainder(v - t, 2.0 * math.pi)))
+            return m * np.array([[math.cos(t), math.sin(t)]])
+
+        def coefficient(u: float, on_curve=on_curve) -> float:
+            return float(_lyapunov(level, on_curve(u))[0])
+
+        e0 = on_curve(root_between(coefficient, 0.0, 1.0, 1e-9))[0]
+        found.append(
+            SpecialPoint(
+                "generalised Hopf", place(-(level.A @ e0)),
+                "The first Lyapunov coefficient is zero (Bautin): a fold of cycles ends here.",
+            )
+        )  # fmt: skip
+    return found
+
+
+def node_focus(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
+    """Node-focus curve in (f1, f2): the discriminant tr(J)^2 - 4 det J = 0 with det J > 0 (fig:bads).
+
+    It is no bifurcation (both sides are topologically the same), but the picture changes its looks.
+
+    Parameters
+    ----------
+    a, b, d : float
+    psi : Psi
+
+    Returns
+    -------
+    BifurcationCurve
+        First the branches where both eigenvalues are negative, then those where both are positive.
+
+    Raises
+    ------
+    ValueError
+        A coefficient is not a finite number, or psi is not a Psi.
+    """
+    a, b, d = matrix(a, b, d)
+    _check(psi)
+    label = "fig:bads"
+    if determinant_sign(a, b, d) <= 0:
+        return BifurcationCurve(
+            "node-focus", "node-focus: none", label, (),
+            sentence="det A ≤ 0: the critical set is a saddle or there is none.",
+        )  # fmt: skip
+    branches = []
+    special: tuple[SpecialPoint, ...] = ()
+    if a == d and b == 0.0:
+        special = (SpecialPoint("star node", (0.0, 0.0), "J is a multiple of the identity: both eigenvalues agree."),)
+    else:
+        for tau in (-1.0, 1.0):
+            level = _Level(a, b, d, psi, tau)
+            branches += [-e @ level.A.T for e in _branches(level)]
+    sentence = (
+        "The discriminant tr(J)² − 4 det J is zero: C changes between node and focus."
+        if branches or special
+        else "C is of one kind, node or focus, wherever it exists."
+    )
+    name = "node-focus" if branches or special else "node-focus: none"
+    return BifurcationCurve("node-focus", name, label, frozen(branches), special, (), sentence)
+
+
+def _check(psi: object) -> None:
+    if not isinstance(psi, Psi):
+        raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")

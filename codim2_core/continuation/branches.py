@@ -1,0 +1,317 @@
+"""All branches of limit cycles along one parameter: from where they are born, through folds, to where they end.
+
+A cycle is a fixed point of the return map of `cycles`; `turn` has its derivatives and
+`trace` follows it. Branches are begun at every Hopf point and at every end on the equator
+(`ends`), and at every cycle that is seen at one of several values and that no branch has yet passed: so
+closed branches between two folds are found too.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..cycles.limit_cycles import reason_for_none
+from ..cycles.search import search
+from ..layer_problem.critical import critical_sets
+from ..layer_problem.vary import limits, varied
+from ..psi.function import Psi
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, reversible, values
+from .result import CycleBranch, CycleBranches, CyclePoint
+from .trace import LEVEL, Trace, Tracer, reversed_trace
+from .turn import Family, Turn
+
+__all__ = ["CycleBranch", "CycleBranches", "CyclePoint", "continue_cycles"]
+
+FIRST = 1e-3  # of the reach: where branches start at C
+OUTER, SEEN = np.array([5.0, 10.0, 20.0, 50.0, 100.0, 300.0]), 1e-12  # |x2| where they start at the equator; 1 - |e|^2
+COLUMNS = 9  # values at which all cycles are looked for
+FAR, SAME = 0.1, 1e-6  # distances in chi: a branch does not pass near a cycle; a cycle is that of the branch
+
+
+def continue_cycles(
+    system: ELinear | Coefficients, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike = ()
+) -> CycleBranches:
+    """Continue all limit cycles of the layer problem eq:LP along one parameter (sec:case3).
+
+    Parameters
+    ----------
+    system : ELinear, or Coefficients
+    psi : Psi
+    name : str
+        What varies: a, b, d, f1, f2, a parameter of the system, z1, z2, ..., or n of a Hill Psi:
+        see `layer_problem.vary.names`.
+    span : (low, high)
+    z : (m,) floats
+
+    Returns
+    -------
+    CycleBranches
+
+    Raises
+    ------
+    ValueError
+        The span is not an interval, nothing variable has this name, a value is not allowed, or the system is not
+        e-linear.
+    """
+    try:
+        low, high = (float(v) for v in span)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"span is {span!r}; give two numbers (low, high).") from error
+    if not (math.isfinite(low) and math.isfinite(high) and low < high):
+        raise ValueError(f"span is {span!r}; give finite numbers low < high.")
+
+    def inside(value: float) -> tuple[Coefficients, Psi]:
+        changed, family_psi, place = varied(system, psi, z, name, value)
+        found = changed.at(place)
+        if not isinstance(found, Coefficients):
+            raise ValueError("continue_cycles is for e-linear systems; give an ELinear.")
+        return found, family_psi
+
+    def at(value: float) -> tuple[Coefficients, Psi]:
+        try:
+            return inside(value)
+        except ValueError:
+            if low <= value <= high:
+                raise
+            return inside(min(max(value, low), high))  # a look beyond the span, where the system ends
+
+    for value in (low, high):
+        at(value)
+    family = Family(at, high - low, limits(system, psi, name))
+    allowed = [v for v in values(low, high) if family.allows(v)]
+    if all(reversible(at(v)[0]) for v in allowed):
+        settings = (at(float(v)) for v in values(low, high))
+        reasons = dict.fromkeys(reason_for_none(q, critical_sets(q, member)) for q, member in settings)
+        sentence = " Elsewhere on the span: ".join(r for r in reasons if r)
+        return CycleBranches(name, (low, high), (), sentence or "No limit cycle anywhere on the span.")
+    middle = allowed[len(allowed) // 2]
+    family.ray = family.section(middle).ray
+    return _Search(family, name, low, high).run()
+
+
+def folds_along(at: Callable[[float], tuple[Coefficients, Psi]], low: float, high: float) -> list[Turn]:
+    """Find the folds on all branches of cycles along a line.
+
+    Parameters
+    ----------
+    at : callable
+        value -> (Coefficients, Psi).
+    low, high : float
+
+    Returns
+    -------
+    list of Turn
+    """
+    family = Family(at, high - low)
+    allowed = [v for v in values(low, high) if family.allows(v)]
+    if all(reversible(at(v)[0]) for v in allowed):
+        return []
+    family.ray = family.section(allowed[len(allowed) // 2]).ray
+    search_ = _Search(family, "t", low, high)
+    search_.run()
+    return [trace.points[i].turn for trace, *_ in search_.found for i in trace.folds]
+
+
+class _Search:
+    """One call of `continue_cycles`."""
+
+    def __init__(self, family: Family, name: str, low: float, high: float) -> None:
+        self.family, self.name, self.low, self.high = family, name, low, high
+        self.tracer = Tracer(family, low, high)
+        self.hopf = hopf_ends(family, low, high)
+        self.closed = equator_ends(family, low, high)
+        self.loops = loop_ends(family, low, high)
+        self.used: set[int] = set()
+        self.found: list[tuple[Trace, CyclePoint, CyclePoint, End | None, End | None]] = []
+        centres = {end.value for end in self.hopf if reversible(family.at(end.value)[0])}
+        self.notes = [
+            f"{name} = {v:.6g}: the layer problem is reversible; closed orbits fill a band, and none is a limit cycle."
+            for v in sorted(centres)
+        ]
+        self.hopf = [end for end in self.hopf if end.value not in centres]
+        self.closed = [end for end in self.closed if not reversible(family.at(end.value)[0])]
+
+    def run(self) -> CycleBranches:
+        for end in self.hopf:
+            if id(end) not in self.used:
+                self._from_end(end, math.log(FIRST), 1.0)
+        for end in self.closed:
+            if id(end) not in self.used:
+                section = self.family.section(end.value)
+                outside = section.psi.complement(OUTER) > SEEN
+                self._from_end(
+                    end, float(section.xi_at_radius(OUTER[[min(int(outside.sum()), len(OUTER) - 1)]])[0]), -1.0
+                )
+        self._columns()
+        branches = tuple(self._branch(*entry) for entry in self.found)
+        missed = [e for e in self.loops if id(e) not in self.used]
+        self.notes += [f"A loop closes at {self.name} = {e.value:.6g} with no cycle seen beside it." for e in missed]
+        count = f"{len(branches)} branch{'' if len(branches) == 1 else 'es'} of limit cycles"
+        reason = f"{count}, from the return map on a section from C to the equator." if branches else (
+            f"No limit cycle for {self.name} from {self.low:.6g} to {self.high:.6g}: no Hopf point, no end on the "
+            f"equator, and none at the {COLUMNS} values where all were looked for."
+        )  # fmt: skip
+        return CycleBranches(self.name, (self.low, self.high), branches, reason, tuple(self.notes))
+
+    def _nu(self, value: float) -> float:
+        return (value - self.low) / (self.high - self.low)
+
+    def _from_end(self, end: End, xi: float, towards: float) -> None:
+        """Begin where the cycle is smallest or largest; the parameter is then what is solved for."""
+        self.used.add(id(end))
+        first = None
+        for start in (xi, xi - 0.4 * towards * abs(xi)):
+            first = first or self.tracer.corrected(start, self._nu(end.value), (1.0, 0.0), False)
+        if first is None or not -1e-12 <= first[1] <= 1.0 + 1e-12:
+            if first is None:
+                self.notes.append(f"The cycle born at {end.kind} {self.name} = {end.value:.6g} was not caught.")
+            return
+        trace = self.tracer.trace(self.tracer.point(*first, (towards, 0.0)))
+        self._keep(trace, self._special(end), end)
+
+    def _columns(self) -> None:
+        """Begin at each cycle that no branch has passed."""
+        for value in values(self.low, self.high, COLUMNS):
+            if not self.family.allows(value):
+                continue
+            coefficients, psi = self.family.at(value)
+            if reason_for_none(coefficients, critical_sets(coefficients, psi)) is not None:
+                continue
+            crossings, _ = search(self.family.section(value))
+            for crossing in crossings:
+                first = self.tracer.corrected(crossing.xi, self._nu(value), (0.0, 1.0), crossing.repelling)
+                if first is None or self._known(first[0].chi, first[1]):
+                    continue
+                point = self.tracer.point(*first, (1.0, 0.0))
+                trace = self.tracer.trace(point)
+                if trace.reason == "closed":
+                    special = CyclePoint(
+                        "closed", point.turn.value, point.turn.period, point.turn.amplitude, "The branch is closed."
+                    )
+                    self.found.append((trace, special, special, None, None))
+                    continue
+                other = self.tracer.trace(self.tracer.point(*first, (-point.tangent[0], -point.tangent[1])))
+                start, end = self._end(other)
+                back = reversed_trace(other)
+                joined = Trace(
+                    back.points[:-1] + trace.points,
+                    back.folds + tuple(i + len(back.points) - 1 for i in trace.folds),
+                    trace.reason,
+                )
+                self._keep(joined, start, end)
+
+    def _known(self, chi: float, nu: float) -> bool:
+        """Whether a branch passes here: its own cycle at this value is computed where that is not plain."""
+        for trace, *_ in self.found:
+            for one, two in pairwise(trace.points):
+                low, high = sorted((one.nu, two.nu))
+                if not low - 1e-9 <= nu <= high + 1e-9:
+                    continue
+                part = (nu - one.nu) / (two.nu - one.nu) if two.nu != one.nu else 0.5
+                guess = one.turn.chi + part * (two.turn.chi - one.turn.chi)
+                if abs(guess - chi) > FAR:
+                    continue
+                near = one if part < 0.5 else two
+                xi = near.xi(guess, (nu - near.nu) * (self.high - self.low))
+                found = self.tracer.corrected(xi, nu, (0.0, 1.0), near.turn.exponent > 0.0)
+                if found is not None and abs(found[0].chi - chi) < SAME:
+                    return True
+        return False
+
+    def _keep(self, trace: Trace, start: CyclePoint, first: End | None) -> None:
+        special, last = self._end(trace)
+        self.found.append((trace, start, special, first, last))
+
+    def _end(self, trace: Trace) -> tuple[CyclePoint, End | None]:
+        """Name the end of a trace."""
+        last = trace.points[-1]
+        turn, end = last.turn, None
+        if trace.reason == "C":
+            end = min(self.hopf, key=lambda e: abs(e.value - turn.value), default=None)
+        elif trace.reason in ("equator", "stuck"):
+            direction, width = math.copysign(1.0, last.tangent[1]), self.high - self.low
+            end = at_equator(self.family, turn.value, direction, width, self.closed + self.loops)
+            reach = width * (0.02 if turn.height < LEVEL else 1e-4)
+            if trace.reason == "stuck" and end is not None and abs(end.value - turn.value) > reach:
+                end = None
+            if trace.reason == "stuck" and end is None:
+                end = at_singular(self.family, turn.value, direction, width)
+        if end is not None:
+            self.used.add(id(end))
+            if end.kind not in ("Hopf", "equator"):
+                end = replace(end, amplitude=turn.amplitude)  # that of the last cycle: the limit's is not known
+            return self._special(end), end
+        kind = "span" if trace.reason == "span" else "undecided"
+        sentence = f"{self.name} = {turn.value:.6g}: the end of the span." if kind == "span" else (
+            f"The branch was followed to {self.name} = {turn.value:.6g} and no further."
+        )  # fmt: skip
+        if kind == "undecided":
+            self.notes.append(sentence)
+        return CyclePoint(kind, turn.value, turn.period, turn.amplitude, sentence), None
+
+    def _special(self, end: End) -> CyclePoint:
+        at = f"{self.name} = {end.value:.6g}: "
+        if end.kind == "Hopf":
+            how = "supercritical" if end.measure < 0.0 else "subcritical"
+            text = f"Hopf bifurcation of C, {how} (first Lyapunov coefficient {end.measure:.3g})."
+        elif end.kind == "equator":
+            text = "the cycle becomes the equator, which is a closed orbit and changes its stability."
+        elif end.kind == "det A = 0":
+            text = (
+                "the cycle meets a whole line of critical points, where motion stops: its period grows beyond bounds."
+            )
+        elif end.kind == "saddle-node on the equator":
+            text = "the cycle reaches the equator in a loop through a saddle-node of limit directions."
+        else:
+            how = "attracting" if end.measure > 1.0 else "repelling"
+            text = f"the cycle becomes a loop of two limit directions and the equator between them, {how} from inside."
+        return CyclePoint(end.kind, end.value, end.period, end.amplitude, at + text)
+
+    def _branch(
+        self, trace: Trace, start: CyclePoint, end: CyclePoint, first: End | None, last: End | None
+    ) -> CycleBranch:
+        """Assemble the arrays, with the limits at ends that are no cycles."""
+        rows: list[tuple[float, ...]] = [
+            (t.value, t.period, t.amplitude, t.exponent, *t.p) for t in (point.turn for point in trace.points)
+        ]
+        if first is not None:
+            rows.insert(0, self._limit(first, rows[0]))
+        if last is not None:
+            rows.append(self._limit(last, rows[-1]))
+        table = np.array(rows)
+        folds = []
+        for i in trace.folds:
+            t = trace.points[i].turn
+            text = f"{self.name} = {t.value:.6g}: two cycles, one stable and one unstable, meet and vanish."
+            folds.append(CyclePoint("fold of cycles", t.value, t.period, t.amplitude, text))
+        exponent = np.ascontiguousarray(table[:, 3])
+        columns: dict[str, Any] = {
+            "value": table[:, 0],
+            "period": table[:, 1],
+            "amplitude": table[:, 2],
+            "exponent": exponent,
+            "multiplier": np.exp(np.clip(exponent, -700.0, 700.0)),
+            "stable": exponent < 0.0,
+            "section": table[:, 4:6],
+        }
+        for key, array in columns.items():
+            columns[key] = np.ascontiguousarray(array)
+            columns[key].flags.writeable = False
+        return CycleBranch(start=start, end=end, folds=tuple(folds), **columns)
+
+    def _limit(self, end: End, beside: tuple[float, ...]) -> tuple[float, ...]:
+        """Row of the arrays at an end that is no cycle: C, or a loop on the equator."""
+        coefficients, psi = self.family.at(end.value)
+        found = critical_sets(coefficients, psi)
+        place = tuple(found[0].p.tolist()) if end.kind == "Hopf" and found else beside[4:6]
+        exponent = 0.0 if end.kind in ("Hopf", "equator") else math.copysign(math.inf, beside[3])
+        return (end.value, end.period, end.amplitude, exponent, *place)

@@ -1,0 +1,312 @@
+"""Where branches of limit cycles can begin and end, found for themselves: roots along the parameter.
+
+On the closed hemisphere a cycle of the e-linear layer problem can only shrink to C (Hopf), meet another (fold), or
+reach the equator: the closed equator where its exponent changes sign, a loop through two half-saddles
+(`cycles.loop`), or such a loop through a saddle-node of the equator.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from ..cycles.loop import Loop, gap, loops
+from ..layer_problem.critical import critical_sets
+from ..layer_problem.equator import equator_cycle, equator_equilibria
+from ..layer_problem.lyapunov import first_lyapunov
+from ..numerics.root_between import root_between
+from ..systems.coefficients import Coefficients
+from .turn import Family
+
+SAMPLES = 129  # values at which traces and exponents are looked at
+COLUMNS = 9  # and gaps of loops
+SIGN = 1e-7  # tolerance for the sign of a gap
+AHEAD = 0.1  # of the span: how far beyond the last cycle its end is looked for
+
+
+@dataclass(frozen=True)
+class End:
+    """A value of the parameter at which a cycle is born or dies.
+
+    Attributes
+    ----------
+    kind : str
+        "Hopf", "equator", "heteroclinic cycle through the equator", "saddle-node on the equator" or "det A = 0".
+    value : float
+    period, amplitude : float
+        Limits of those of the cycle.
+    measure : float
+        First Lyapunov coefficient; ratio of the loop; 0 for the rest.
+    """
+
+    kind: str
+    value: float
+    period: float
+    amplitude: float
+    measure: float = 0.0
+
+
+def values(low: float, high: float, count: int = SAMPLES) -> list[float]:
+    """Values of the parameter at which a family is looked at, ends included."""
+    return [low + (high - low) * i / (count - 1) for i in range(count)]
+
+
+def hopf_ends(family: Family, low: float, high: float) -> list[End]:
+    """All Hopf points: tr J = 0 < det J.
+
+    Parameters
+    ----------
+    family : Family
+    low, high : float
+    """
+
+    def trace(value: float) -> float | None:
+        if not family.allows(value):
+            return None
+        coefficients, psi = family.at(value)
+        return critical_sets(coefficients, psi)[0].trace
+
+    ends = []
+    for value in _roots(trace, values(low, high)):
+        coefficients, psi = family.at(value)
+        (C,) = critical_sets(coefficients, psi)
+        number = float(first_lyapunov(coefficients.A, psi, C.x2[None, :])[0])
+        ends.append(End("Hopf", value, 2.0 * math.pi / math.sqrt(C.determinant), 0.0, number))
+    return ends
+
+
+def equator_ends(family: Family, low: float, high: float) -> list[End]:
+    """All values at which the closed equator has the exponent zero.
+
+    Parameters
+    ----------
+    family : Family
+    low, high : float
+    """
+    exponent = _exponent(family)
+    return [_on_equator(family, "equator", value) for value in _roots(exponent, values(low, high))]
+
+
+def _exponent(family: Family) -> Callable[[float], float | None]:
+    def exponent(value: float) -> float | None:
+        found = equator_cycle(family.at(value)[0]) if family.allows(value) else None
+        return None if found is None else math.atan(found.exponent)
+
+    return exponent
+
+
+def _exchange_near(family: Family, value: float, direction: float, width: float, ahead: float | None) -> End | None:
+    """Find the zero of the closed equator's exponent nearest to a value, ahead of it or just behind."""
+    exponent = _exponent(family)
+    here = exponent(value)
+    for k in range(1, 11):
+        for sign in (1.0, -1.0) if k < 8 else (1.0,):
+            there = value + sign * direction * width * 10.0 ** (0.8 * (k - 11.0)) * AHEAD
+            if ahead is not None and sign > 0.0 and (there - ahead) * direction > 0.0:
+                there = ahead
+            after = exponent(there)
+            if here is not None and after is not None and here * after <= 0.0:
+                place = root_between(lambda v: exponent(v) or 0.0, min(value, there), max(value, there))
+                return _on_equator(family, "equator", place)
+    return None
+
+
+def _on_equator(family: Family, kind: str, value: float, measure: float = 0.0) -> End:
+    coefficients, psi = family.at(value)
+    found = critical_sets(coefficients, psi)
+    away = 1.0 + float(np.hypot(*found[0].p)) if found else 2.0
+    return End(kind, value, math.inf, away, measure)
+
+
+def loop_ends(family: Family, low: float, high: float) -> list[End]:
+    """All values found at which a loop closes: gaps that change sign between `COLUMNS` values.
+
+    Parameters
+    ----------
+    family : Family
+    low, high : float
+    """
+    columns = values(low, high, COLUMNS)
+    arcs = [loops(family.at(v)[0]) if family.allows(v) else () for v in columns]
+    ends = []
+    for i in range(len(columns) - 1):
+        for loop in arcs[i]:
+            if not arcs[i + 1]:
+                continue
+            after = _nearest(arcs[i + 1], loop)
+            signs = [gap(*family.at(v), arc, SIGN) for v, arc in ((columns[i], loop), (columns[i + 1], after))]
+            if signs[0] * signs[1] < 0.0:
+                end = loop_end(family, columns[i], columns[i + 1], loop)
+                if end is not None:
+                    ends.append(end)
+    return ends
+
+
+def loop_end(family: Family, low: float, high: float, loop: Loop) -> End | None:
+    """Find the value between two at which a loop closes, or None if the gap is not seen to change sign.
+
+    Parameters
+    ----------
+    family : Family
+    low, high : float
+    loop : Loop
+        At, or near, one of them.
+    """
+
+    def miss(value: float) -> float:
+        arcs = loops(family.at(value)[0]) if family.allows(value) else ()
+        if not arcs:
+            return math.nan
+        return math.atan(gap(*family.at(value), _nearest(arcs, loop, loop.ray)))
+
+    at_low, at_high = miss(low), miss(high)
+    if not at_low * at_high < 0.0:
+        return None
+    value = root_between(miss, low, high)
+    arcs = loops(family.at(value)[0])
+    if not arcs or abs(miss(value)) > 1e-6:
+        return None
+    return _on_equator(family, "heteroclinic cycle through the equator", value, _nearest(arcs, loop).ratio)
+
+
+def _nearest(arcs: tuple[Loop, ...], loop: Loop, ray: int | None = None) -> Loop:
+    def distance(other: Loop) -> float:
+        return abs(math.remainder(other.sink - loop.sink, 2.0 * math.pi)) + abs(
+            math.remainder(other.source - loop.source, 2.0 * math.pi)
+        )
+
+    found = min(arcs, key=distance)
+    return found if ray is None else Loop(found.source, found.sink, found.ratio, ray)
+
+
+def at_equator(family: Family, value: float, direction: float, width: float, known: list[End]) -> End | None:
+    """How a branch ends that has come to the equator near a value.
+
+    Parameters
+    ----------
+    family : Family
+    value : float
+        Of the last cycle.
+    direction : float
+        +1 or -1: the sense in which the value moved.
+    width : float
+        Length of the span.
+    known : list of End
+        Those on the equator found before.
+
+    Returns
+    -------
+    End, or None
+        None if no end explains it.
+    """
+    nearest = min((end for end in known), key=lambda end: abs(end.value - value), default=None)
+    if nearest is not None and abs(nearest.value - value) < 1e-4 * width:
+        return nearest
+    ahead = _saddle_node_ahead(family, value, direction, width)
+    if equator_cycle(family.at(value)[0]) is not None:
+        end = _exchange_near(family, value, direction, width, ahead)
+        if end is not None:
+            return min((e for e in known if abs(e.value - end.value) < 1e-9 * width), key=id, default=end)
+    arcs = loops(family.at(value)[0]) if family.allows(value) else ()
+    for k in range(1, 9):
+        step = direction * width * 10.0 ** (k - 9.0)
+        if ahead is not None and abs(step) > abs(ahead - value):
+            step = (1.0 - 1e-9) * (ahead - value)
+        for loop in arcs:
+            for there in (value + step, value - step):  # on the other side there may be no loop at all
+                end = loop_end(family, min(value, there), max(value, there), loop)
+                if end is not None:
+                    return end
+    return None if ahead is None else _on_equator(family, "saddle-node on the equator", ahead)
+
+
+def at_singular(family: Family, value: float, direction: float, width: float) -> End | None:
+    """Find det A = 0 close ahead, with a whole line of critical points through the cycle, or None."""
+
+    def determinant(v: float) -> float:
+        a, b, d = family.at(v)[0].plane[:3]
+        return a * d + b * b
+
+    far = value + 0.02 * direction * width
+    if determinant(far) > 0.0:
+        return None
+    place = root_between(determinant, *sorted((value, far)))
+    return End("det A = 0", place, math.inf, math.nan)
+
+
+def reversible(coefficients: Coefficients) -> bool:
+    """Whether a = -d and |f1| = |f2|, within 1e-9: C is then a centre, and no cycle is a limit cycle."""
+    a, _, d, f1, f2 = coefficients.plane
+    return abs(a + d) <= 1e-9 * abs(a - d) and abs(abs(f1) - abs(f2)) <= 1e-9 * (abs(f1) + abs(f2))
+
+
+def _saddle_node_ahead(family: Family, value: float, direction: float, width: float) -> float | None:
+    """Find the first value ahead at which the number of limit directions changes, within `AHEAD` of the span."""
+    count = len(equator_equilibria(family.at(value)[0]))
+    near = value
+    for k in range(1, 41):
+        far = value + direction * width * AHEAD * (k / 40.0) ** 3
+        if len(equator_equilibria(family.at(far)[0])) != count:
+            for _ in range(60):
+                middle = 0.5 * (near + far)
+                if len(equator_equilibria(family.at(middle)[0])) == count:
+                    near = middle
+                else:
+                    far = middle
+            return near
+        near = far
+    return None
+
+
+def _roots(function: Callable[[float], float | None], places: list[float]) -> list[float]:
+    """Zeros of a function that may be undefined (None) in parts, by its changes of sign between the places.
+
+    Where it comes near zero and turns back, the vertex of a parabola is asked too.
+    """
+    found = [function(v) for v in places]
+    more: list[tuple[float, float]] = []
+    for i in range(len(places) - 1):
+        if (found[i] is None) != (found[i + 1] is None):
+            # up to where it stops being defined: it may change its sign there
+            inside, outside = (places[i], places[i + 1])[:: 1 if found[i] is not None else -1]
+            last = None
+            for _ in range(36):
+                middle = 0.5 * (inside + outside)
+                value = function(middle)
+                if value is None:
+                    outside = middle
+                else:
+                    inside, last = middle, (middle, value)
+            if last is not None:
+                more.append(last)
+    for i in range(1, len(places) - 1):
+        y0, y1, y2 = found[i - 1 : i + 2]
+        if y0 is None or y1 is None or y2 is None:
+            continue
+        s = math.copysign(1.0, y1)
+        bend = s * (y0 - 2.0 * y1 + y2)
+        if s * y0 > s * y1 < s * y2 and bend > 0.0 and s * y1 < (s * (y2 - y0)) ** 2 / (4.0 * bend):
+            vertex = places[i] - 0.5 * (places[i + 1] - places[i]) * s * (y2 - y0) / bend
+            value = function(vertex)
+            if value is not None:
+                more.append((vertex, value))
+    line = sorted([(v, y) for v, y in zip(places, found, strict=True) if y is not None] + more)
+    gaps = {v for v, y in zip(places, found, strict=True) if y is None}
+
+    def defined(value: float) -> float:
+        y = function(value)
+        return math.nan if y is None else y
+
+    roots = []
+    for (v0, y0), (v1, y1) in pairwise(line):
+        if y0 == 0.0:
+            roots.append(v0)
+        elif y0 * y1 < 0.0 and not any(v0 < v < v1 for v in gaps):
+            roots.append(root_between(defined, v0, v1))
+    if line and line[-1][1] == 0.0:
+        roots.append(line[-1][0])
+    return roots

@@ -1,0 +1,1 @@
+"""Limit cycles of the layer problem: all that a return map finds."""

@@ -1,0 +1,228 @@
+"""Limit cycles of the layer problem, all that a return map finds, and why there are none where there are none.
+
+In kappa_2 the e-linear layer problem is ``x2' = A (e - e_C)``, e = e_Psi(x2), so on a ray ``e = e_C + r u`` all
+velocities are parallel to A u. For ``a u1^2 + d u2^2 = 0``, real exactly where a and d differ in sign, A u is
+perpendicular to u, ``A u = lambda u_perp`` with ``lambda = b -+ sqrt|a d|``; since D e_Psi is positive definite
+(rem:jaco_properties) every orbit crosses that ray in the one sense sign(b). It reaches from C to the equator: a
+section that no cycle misses, on which the return map is increasing, and defined on an interval.
+
+Everywhere else there is a theorem, see `reason_for_none`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..layer_problem.critical import CriticalSet, Existence, critical_sets, determinant_sign, locate
+from ..psi.function import Psi
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+from ..systems.typed import Frozen, System
+from .orbit import Orbit, orbit
+from .search import search
+from .section import Crossing, Section
+
+__all__ = ["LimitCycle", "LimitCycles", "limit_cycles", "reason_for_none"]
+
+Array = NDArray[np.float64]
+
+SEMISTABLE = 1e-5  # |ln multiplier| below which a cycle counts as semistable: a fold of cycles
+SEMISTABLE_NOTE = "A cycle is semistable within resolution: a fold, where two cycles meet."
+
+
+@dataclass(frozen=True, eq=False)
+class LimitCycle:
+    """A limit cycle of the layer problem eq:LP; arrays are read-only.
+
+    Attributes
+    ----------
+    points : ndarray (m, 2)
+        A closed polyline in the projected disc, in order of increasing time; the last point is the first.
+    period : float
+        In tau, the fast time of kappa_2.
+    period_T : float
+        The same in T, the time of `trajectories` (dT = ebar dtau).
+    multiplier : float
+        Floquet multiplier, from the variational equation along the cycle.
+    divergence_multiplier : float
+        exp of the integral over tau of the divergence of ``U(e_Psi(x2))``: the same number by Liouville's formula.
+    kind : str
+        "stable", "unstable" or "semistable" (a fold of cycles, within resolution).
+    direction : int
+        +1 anticlockwise, -1 clockwise.
+    mean_e : ndarray (2,)
+        Mean of e_Psi over a period; in an e-linear system ``-A^-1 f`` by prop:LC.
+    slow_flow : ndarray (m,)
+        Mean of z' over a period; in an e-linear system ``B mean_e + g``, that on the critical set, by prop:LC.
+    closure : float
+        Distance on the sphere between the start and the end of one period.
+    """
+
+    points: Array
+    period: float
+    period_T: float
+    multiplier: float
+    divergence_multiplier: float
+    kind: str
+    direction: int
+    mean_e: Array
+    slow_flow: Array
+    closure: float
+
+    @property
+    def stable(self) -> bool:
+        """Whether orbits on both sides approach it."""
+        return self.kind == "stable"
+
+
+@dataclass(frozen=True, eq=False)
+class LimitCycles:
+    """All limit cycles found, innermost first, and what is to be said about them; iterates over the cycles.
+
+    Attributes
+    ----------
+    cycles : tuple of LimitCycle
+    reason : str
+        Why there is none, or how those there are were found.
+    notes : tuple of str
+        Named near-degeneracies: near a loop through the equator, semistable, too small, undecided.
+    """
+
+    cycles: tuple[LimitCycle, ...]
+    reason: str
+    notes: tuple[str, ...] = ()
+
+    def __iter__(self) -> Iterator[LimitCycle]:
+        return iter(self.cycles)
+
+    def __len__(self) -> int:
+        return len(self.cycles)
+
+    def __getitem__(self, i: int) -> LimitCycle:
+        return self.cycles[i]
+
+
+_NO_CRITICAL_SET = (
+    "No limit cycle: no critical set lies on the hemisphere, and a closed orbit would have to surround one (index)."
+)
+
+
+def reason_for_none(coefficients: Coefficients, critical: tuple[CriticalSet, ...]) -> str | None:
+    """Why a theorem forbids limit cycles, or None where none does: then a, d differ in sign and det A > 0.
+
+    Parameters
+    ----------
+    coefficients : Coefficients
+    critical : tuple of CriticalSet
+        Of the same system.
+    """
+    a, b, d, f1, f2 = coefficients.plane
+    if not critical:
+        existence = locate(coefficients).existence
+        if existence is Existence.NONE:
+            return _NO_CRITICAL_SET
+        return f"No limit cycle: a closed orbit would have to surround an isolated critical set. {existence.value}"
+    if determinant_sign(a, b, d) < 0:
+        return (
+            "No limit cycle: the only critical set is a saddle (det A < 0), and the equilibria inside a closed orbit "
+            "have indices that add up to 1 (thm:case2)."
+        )
+    if a == d == 0.0:
+        return (
+            "No limit cycle: for a = d = 0 the layer problem preserves area (no divergence in κ₂); "
+            "closed orbits fill bands."
+        )
+    if a * d >= 0.0:
+        sign = "negative" if a + d < 0.0 else "positive"
+        return f"No limit cycle: the divergence is {sign} on all of κ₂ (Bendixson, thm:case1)."
+    if f1 == f2 == 0.0:
+        return "No limit cycle: for f = 0 the orbits are those of the linear system x2' = A x2, whatever Ψ is."
+    if a == -d and abs(f1) == abs(f2):
+        return (
+            "No limit cycle: for a = −d, |f₁| = |f₂| the layer problem is reversible about a diagonal through C; "
+            "closed orbits fill bands."
+        )
+    return None
+
+
+def limit_cycles(system: ELinear | System | Coefficients | Frozen, psi: Psi, z: ArrayLike = ()) -> LimitCycles:
+    """Find the limit cycles of the layer problem, eq:LP, sec:case3 (the closed equator is not one of them).
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+    psi : Psi
+    z : (m,) floats
+
+    Returns
+    -------
+    LimitCycles
+        Empty, with a reason, wherever a theorem forbids cycles: that costs no integration. For a general system its
+        `reason` says how they were searched for (`first_turns`).
+    """
+    coefficients = system.at(z)
+    if isinstance(coefficients, Frozen):
+        return _general(coefficients, psi)
+    critical = critical_sets(coefficients, psi)
+    reason = reason_for_none(coefficients, critical)
+    if reason is not None:
+        return LimitCycles((), reason)
+    section = Section(coefficients, psi, critical[0])
+    crossings, notes = search(section)
+    orbits = [(crossing, orbit(section, crossing)) for crossing in crossings]
+    sense = 1 if coefficients.b > 0.0 else -1
+    cycles = tuple(
+        _cycle(crossing, found, coefficients.W(found.mean_e), sense) for crossing, found in orbits if found is not None
+    )
+    if len(cycles) < len(orbits):
+        notes = (*notes, "A fixed point of the return map was found whose cycle takes too many steps to follow.")
+    if any(cycle.kind == "semistable" for cycle in cycles):
+        notes = (*notes, SEMISTABLE_NOTE)
+    count = f"{len(cycles)} limit cycle{'' if len(cycles) == 1 else 's'}" if cycles else "No limit cycle"
+    return LimitCycles(
+        cycles, f"{count}: all fixed points of the return map on a section from C to the equator.", notes
+    )
+
+
+def _general(at: Frozen, psi: Psi) -> LimitCycles:
+    from .first_turns import find
+
+    form = at.normal_form
+    if form is not None:
+        reason = reason_for_none(form, critical_sets(form, psi))
+        if reason is not None:
+            return LimitCycles((), reason)
+    found, reason, notes = find(at, psi)
+    cycles = tuple(_cycle(crossing, closed, closed.share @ at.W(closed.e), sense) for crossing, closed, sense in found)
+    if any(cycle.kind == "semistable" for cycle in cycles):
+        notes = (*notes, SEMISTABLE_NOTE)
+    return LimitCycles(cycles, reason, notes)
+
+
+def _cycle(crossing: Crossing, found: Orbit, slow: Array, sense: int) -> LimitCycle:
+    exponent = found.divergence
+    small = abs(exponent) < SEMISTABLE and not crossing.born
+    kind = "semistable" if small or crossing.touching else "stable" if exponent < 0.0 else "unstable"
+    if crossing.born:
+        kind = "unstable" if crossing.repelling else "stable"
+    for array in (found.points, found.mean_e, slow):
+        array.flags.writeable = False
+    values: dict[str, Any] = {
+        "points": found.points,
+        "period": found.period,
+        "period_T": found.period_T,
+        "multiplier": found.multiplier,
+        "divergence_multiplier": math.exp(max(min(exponent, 700.0), -700.0)),
+        "kind": kind,
+        "direction": sense,
+        "mean_e": found.mean_e,
+        "slow_flow": slow,
+        "closure": found.closure,
+    }
+    return LimitCycle(**values)

@@ -1,0 +1,186 @@
+"""A limit cycle as an orbit: period, multiplier and means, by Gauss quadrature on the steps of one return.
+
+The states at the Gauss nodes of each step are computed by steps of their own from its start, so they are as accurate
+as the integration; the quadrature has order 2 NODES in each step. The multiplier comes from the collocation
+method of the same order for ``Y' = J(tau) Y``.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .section import FINE, Crossing, Section
+from .turn_section import TurnSection
+
+Array = NDArray[np.float64]
+
+NODES = 6
+MOST_STEPS = 8000
+CLOSED = 1e-11  # on the sphere
+LEAST = 1e-300  # multiplier of a relaxation cycle: one that repels more strongly is reported with its inverse
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """One closed orbit, see `limit_cycles.LimitCycle`; `divergence` is the integral of the divergence over tau.
+
+    A mean over the period is ``share @ values(e)``: `e` (n, 2) at the nodes, `share` (n,) of the period at each.
+    """
+
+    points: Array
+    period: float
+    period_T: float
+    multiplier: float
+    divergence: float
+    mean_e: Array
+    closure: float
+    e: Array
+    share: Array
+
+
+@lru_cache(maxsize=1)
+def gauss() -> tuple[Array, Array, Array]:
+    """Nodes, weights on [0, 1] and the collocation matrix ``a_ij``, the integral of l_j from 0 to c_i."""
+    nodes, weights = np.polynomial.legendre.leggauss(NODES)
+    c, w = 0.5 * (nodes + 1.0), 0.5 * weights
+    powers = np.arange(NODES)
+    vandermonde = nodes[:, None] ** powers
+    integrals = (nodes[:, None] ** (powers + 1) - (-1.0) ** (powers + 1)) / (powers + 1)
+    return c, w, 0.5 * integrals @ np.linalg.inv(vandermonde)
+
+
+@dataclass(frozen=True)
+class Path:
+    """One return as nodes of a quadrature; k steps with NODES nodes each, scaled coefficients, time as integrated.
+
+    Attributes
+    ----------
+    first : ndarray (k, 3)
+        States where steps start.
+    h : ndarray (k,)
+        Lengths of the steps in T.
+    inner : ndarray (k NODES, 3)
+        States at the nodes.
+    weight : ndarray (k NODES,)
+        Quadrature weights of tau.
+    end : ndarray (3,)
+        The state on return.
+    time : float
+        T of the return.
+    """
+
+    first: Array
+    h: Array
+    inner: Array
+    weight: Array
+    end: Array
+    time: float
+
+
+def path(section: Section | TurnSection, start: Array, rtol: float, backward: bool) -> Path | None:
+    """Follow one return from a state (3,) of the section; None if MOST_STEPS steps do not bring it round.
+
+    Parameters
+    ----------
+    section : Section or TurnSection
+    start : ndarray (3,)
+    rtol : float
+    backward : bool
+    """
+    from .return_map import RETURNED, reached
+
+    ends, times, codes, steps = section.turn(start[None, :], rtol, backward, MOST_STEPS, MOST_STEPS)
+    if codes[0] != RETURNED:
+        return None
+    first, h = np.ascontiguousarray(steps[:, :3]), np.ascontiguousarray(steps[:, 3])
+    nodes, weights, _ = gauss()
+    _, function = section._kernel
+    inner = reached(
+        np.repeat(first, NODES, axis=0), np.outer(h, nodes).ravel(), section.shared(backward), function.address
+    )
+    return Path(first, h, inner, np.outer(h, weights).ravel() / inner[:, 2], ends[0], float(times[0]))
+
+
+def _linearisation(section: Section | TurnSection, states: Array) -> tuple[Array, Array]:
+    """Compute e (n, 2) and ``D_e U D e_Psi`` (n, 2, 2) in kappa_2, for the scaled field."""
+    x2 = states[:, :2] / states[:, 2:]
+    zeta = np.hypot(x2[:, 0], x2[:, 1])
+    unit = x2 / np.maximum(zeta, 1e-300)[:, None]
+    radial, tangential = section.psi.jacobian_factors(zeta)
+    D = tangential[:, None, None] * np.eye(2) + (radial - tangential)[:, None, None] * (
+        unit[:, :, None] * unit[:, None, :]
+    )
+    e = unit * section.psi.modulus(zeta)[:, None]
+    return e, section.derivative(e) @ D
+
+
+def _normal_growth(J: Array, h: Array, across: Array) -> float:
+    """Growth over all steps of a deviation across the orbit.
+
+    J (k, NODES, 2, 2) is already times dtau/dT, h (k,) in T, `across` (k, 2) the unit normals where steps start. The
+    flow direction is carried into itself, so in frames along and across the orbit the fundamental matrix of each step
+    is triangular, and the multiplier is the product of its entries across: to full relative accuracy.
+    """
+    _, weights, matrix = gauss()
+    k, size = len(h), 2 * NODES
+    # Stage slopes K_i solve K_i = J_i (1 + h sum_j a_ij K_j).
+    coupling = h[:, None, None, None, None] * J[:, :, :, None, :] * matrix[None, :, None, :, None]
+    left = np.eye(size) - coupling.reshape(k, size, size)
+    first = (J @ across[:, None, :, None]).reshape(k, size, 1)
+    slopes = np.linalg.solve(left, first).reshape(k, NODES, 2)
+    after = across + h[:, None] * np.einsum("i,kim->km", weights, slopes)
+    return float(np.prod(np.sum(np.roll(across, -1, axis=0) * after, axis=1)))
+
+
+def orbit(section: Section | TurnSection, crossing: Crossing) -> Orbit | None:
+    """Follow the cycle through a fixed point of the return map once round.
+
+    Parameters
+    ----------
+    section : Section or TurnSection
+    crossing : Crossing
+
+    Returns
+    -------
+    Orbit, or None
+        None if MOST_STEPS steps do not bring it round.
+    """
+    start, _ = section.states(np.array([crossing.xi]))
+    backward = crossing.repelling  # so that errors fade
+    sign = -1.0 if backward else 1.0
+    begin = start[0]
+    way = path(section, begin, FINE, backward)
+    if way is not None and math.dist(way.end, begin) > CLOSED:
+        # The way it is followed the orbit attracts: once more round, from where it came.
+        begin = way.end
+        way = path(section, begin, FINE, backward)
+    if way is None:
+        return None
+    first, h, inner, weight = way.first, way.h, way.inner, way.weight
+    e, J = _linearisation(section, inner)
+    per_T = 1.0 / inner[:, 2]  # dtau/dT
+    period = float(weight.sum())
+    mean_e = (weight @ e) / period
+    divergence = float(weight @ (J[:, 0, 0] + J[:, 1, 1]))
+    velocity = section.field(_linearisation(section, first)[0])
+    across = velocity[:, ::-1] * (-1.0, 1.0) / np.linalg.norm(velocity, axis=1)[:, None]
+    multiplier = _normal_growth((sign * J * per_T[:, None, None]).reshape(-1, NODES, 2, 2), h, across)
+    if backward:
+        multiplier = 1.0 / max(multiplier, LEAST)
+    line = np.concatenate([first[:, None, :], inner.reshape(-1, NODES, 3)], axis=1).reshape(-1, 3)[:, :2]
+    return Orbit(
+        np.concatenate([line, line[:1]])[:: int(sign)].copy(),
+        period / section.rate,
+        way.time / section.rate,
+        multiplier,
+        divergence,
+        mean_e,
+        math.dist(way.end, begin),
+        e,
+        weight / period,
+    )

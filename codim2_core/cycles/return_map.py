@@ -1,0 +1,229 @@
+"""Compiled return map of the layer problem on the section where x2' has one given direction; see `cycles`.
+
+With ``x2' = U``, the field of `stepping.fields` gives ``U = p' - p w'/w``: the section ``u.U = 0`` needs nothing of
+Psi. Lanes step as in `stepping`; a lane that has crossed goes back to the start of its step and finds the length
+that ends on the section, so that a crossing is as accurate as a step, not as its dense output.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from ..stepping.dop853 import ARITHMETIC, advance
+from ..stepping.layout import (
+    ERROR_3,
+    ERROR_5,
+    K0,
+    K12,
+    LANES,
+    NEW,
+    PARAMETERS,
+    SIGN,
+    STATE,
+    STEP,
+    WORKSPACE,
+    call_field,
+)
+
+RETURNED, INWARD, OUTWARD, UNDECIDED = range(4)  # inward: onto C; outward: onto the equator
+DONE, FIRST_HALF, TURNED, SECOND_HALF, REFINING = range(5)
+SHARE = 0.1  # of the tolerance, for one step
+TRIALS = 40
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
+def _velocity(S, state, slope, k):
+    """``U = x2'`` of one lane."""
+    q = S[slope + 2 * LANES + k] / S[state + 2 * LANES + k]
+    return S[slope + k] - S[state + k] * q, S[slope + LANES + k] - S[state + LANES + k] * q
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def _error(S, k, rtol):
+    """Error of the step tried in lane k, in units of what is allowed; puts NEW back on the sphere."""
+    x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
+    plane, height = 1.0 / rtol, 1.0 / (rtol * abs(w) + 1e-300)
+    five = (S[ERROR_5 + k] * plane) ** 2 + (S[ERROR_5 + LANES + k] * plane) ** 2
+    five += (S[ERROR_5 + 2 * LANES + k] * height) ** 2
+    three = (S[ERROR_3 + k] * plane) ** 2 + (S[ERROR_3 + LANES + k] * plane) ** 2
+    three += (S[ERROR_3 + 2 * LANES + k] * height) ** 2
+    length = 1.0 / math.sqrt(x * x + y * y + w * w)
+    S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k] = x * length, y * length, w * length
+    return five / math.sqrt(3.0 * (five + 0.01 * three) + 1e-300)
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, limit, record, elsewhere):
+    """First return of each state to the section ``u.U = 0``, ``sense (-u2, u1).U > 0`` on which it starts.
+
+    Parameters
+    ----------
+    states : (n, 3)
+        (px, py, w) on the section; w > 0.
+    shared : (SHARED,)
+        Parameters of the field, of size about 1.
+    field : int
+        Address of the field.
+    u, centre : (2,)
+        Direction of the section, and x2 of the critical set.
+    sense : float
+        +1 or -1: the sense of rotation.
+    floor : float
+        Distance from the centre in x2 below which an orbit has gone inward.
+    sunk : float
+        Fraction of the first w below which an orbit has gone outward.
+    t_max, rtol : float
+    limit : int
+        Steps tried.
+    record : int
+        Room for the steps of state 0; 0 records nothing.
+    elsewhere : bool
+        The states do not lie on the section: it is their first crossing that is wanted.
+
+    Returns
+    -------
+    ends (n, 3), times (n,), codes (n,), steps (k, 4): the states of state 0 where its steps start, and their lengths
+    """
+    n = states.shape[0]
+    ends, times, codes = states.copy(), np.zeros(n), np.full(n, UNDECIDED)
+    log, logged = np.empty((record, 4)), 0
+    S, P = np.zeros(WORKSPACE), np.zeros(PARAMETERS)
+    P[:SIGN] = shared
+    P[SIGN:] = -1.0
+    phase, tries = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
+    clock, step = np.zeros(LANES), np.zeros(LANES)
+    low, high, at_low, at_high = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
+    side = np.zeros(LANES, np.int64)
+    allowed = SHARE * rtol
+    for base in range(0, n, LANES):
+        active = min(LANES, n - base)
+        for k in range(LANES):
+            i = base + k if k < active else base
+            for c in range(3):
+                S[STATE + c * LANES + k] = states[i, c]
+            phase[k] = FIRST_HALF if k < active else DONE
+            clock[k], step[k] = 0.0, 0.5 * rtol**0.125 if k < active else 0.0
+        call_field(field, S, STATE, K0, P)
+        if elsewhere:
+            # Orbits go round in one sense: where u.U > 0 they come to this section next, else to the opposite one.
+            for k in range(active):
+                vx, vy = _velocity(S, STATE, K0, k)
+                phase[k] = SECOND_HALF if u[0] * vx + u[1] * vy > 0.0 else TURNED
+        spent, running = 0, active
+        while running > 0 and spent < limit:
+            spent += 1
+            for k in range(LANES):
+                for c in range(3):
+                    S[STEP + c * LANES + k] = step[k]
+            advance(S, P, field)
+            for k in range(LANES):
+                if phase[k] != REFINING:
+                    continue
+                x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
+                length = 1.0 / math.sqrt(x * x + y * y + w * w)
+                S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k] = x * length, y * length, w * length
+            # Errors before the field at NEW, which belongs on the sphere.
+            for k in range(LANES):
+                if phase[k] == DONE or phase[k] == REFINING:
+                    continue
+                error = _error(S, k, allowed)
+                good = error <= 1.0
+                factor = 0.9 / math.sqrt(math.sqrt(math.sqrt(error + 1e-30)))
+                factor = min(factor if factor > 0.2 else 0.2, 5.0)
+                tries[k] = 1 if good else 0
+                low[k] = step[k]  # the length just tried
+                step[k] *= factor
+            call_field(field, S, NEW, K12, P)
+            for k in range(LANES):
+                if phase[k] == DONE:
+                    continue
+                vx, vy = _velocity(S, NEW, K12, k)
+                g = u[0] * vx + u[1] * vy
+                if phase[k] == REFINING:
+                    h = step[k]
+                    tries[k] += 1
+                    # The Illinois rule: an end kept twice counts half.
+                    if g > 0.0:
+                        low[k], at_low[k] = h, g
+                        at_high[k] *= 0.5 if side[k] == 1 else 1.0
+                        side[k] = 1
+                    else:
+                        high[k], at_high[k] = h, g
+                        at_low[k] *= 0.5 if side[k] == -1 else 1.0
+                        side[k] = -1
+                    size = math.sqrt(vx * vx + vy * vy)
+                    if abs(g) > 1e-16 * size and high[k] - low[k] > 4e-16 * high[k] and tries[k] < TRIALS:
+                        step[k] = (low[k] * at_high[k] - high[k] * at_low[k]) / (at_high[k] - at_low[k])
+                        if not low[k] < step[k] < high[k]:
+                            step[k] = 0.5 * (low[k] + high[k])
+                        continue
+                    if base + k == 0 and logged < record:
+                        for c in range(3):
+                            log[logged, c] = S[STATE + c * LANES + k]
+                        log[logged, 3] = h
+                        logged += 1
+                    codes[base + k], times[base + k] = RETURNED, clock[k] + h
+                    phase[k] = DONE
+                elif tries[k] == 1:
+                    h = low[k]
+                    forward = sense * (u[0] * vy - u[1] * vx)
+                    if phase[k] == FIRST_HALF and forward < 0.0:
+                        phase[k] = TURNED
+                    if phase[k] == TURNED and g > 0.0:
+                        phase[k] = SECOND_HALF
+                    elif phase[k] == SECOND_HALF and g <= 0.0:
+                        ox, oy = _velocity(S, STATE, K0, k)
+                        low[k], at_low[k], high[k], at_high[k] = 0.0, u[0] * ox + u[1] * oy, h, g
+                        step[k] = h * at_low[k] / (at_low[k] - g)
+                        phase[k], tries[k], side[k] = REFINING, 0, 0
+                        continue
+                    if base + k == 0 and logged < record:
+                        for c in range(3):
+                            log[logged, c] = S[STATE + c * LANES + k]
+                        log[logged, 3] = h
+                        logged += 1
+                    clock[k] += h
+                    w = S[NEW + 2 * LANES + k]
+                    dx, dy = S[NEW + k] / w - centre[0], S[NEW + LANES + k] / w - centre[1]
+                    if dx * dx + dy * dy < floor * floor:
+                        codes[base + k], times[base + k], phase[k] = INWARD, clock[k], DONE
+                    elif w < sunk * states[base + k, 2]:
+                        codes[base + k], times[base + k], phase[k] = OUTWARD, clock[k], DONE
+                    elif clock[k] >= t_max:
+                        times[base + k], phase[k] = clock[k], DONE
+                    for c in range(3):
+                        m = c * LANES + k
+                        S[STATE + m] = S[NEW + m]
+                        S[K0 + m] = S[K12 + m]
+                if phase[k] == DONE:
+                    for c in range(3):
+                        ends[base + k, c] = S[NEW + c * LANES + k]
+                    step[k] = 0.0
+                    running -= 1
+    return ends, times, codes, log[:logged]
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def reached(states, lengths, shared, field):
+    """Take one step of given length (n,) from each state (n, 3): for short ones as accurate as the stepping."""
+    n = states.shape[0]
+    out = np.empty((n, 3))
+    S, P = np.zeros(WORKSPACE), np.zeros(PARAMETERS)
+    P[:SIGN] = shared
+    P[SIGN:] = -1.0
+    for base in range(0, n, LANES):
+        for k in range(LANES):
+            i = min(base + k, n - 1)
+            for c in range(3):
+                S[STATE + c * LANES + k] = states[i, c]
+                S[STEP + c * LANES + k] = lengths[i]
+        call_field(field, S, STATE, K0, P)
+        advance(S, P, field)
+        for k in range(min(LANES, n - base)):
+            x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
+            length = 1.0 / math.sqrt(x * x + y * y + w * w)
+            out[base + k, 0], out[base + k, 1], out[base + k, 2] = x * length, y * length, w * length
+    return out

@@ -1,0 +1,209 @@
+"""The global section of an e-linear layer problem, and its crossings."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..layer_problem.critical import CriticalSet, locate
+from ..psi.function import Psi
+from ..systems.coefficients import Coefficients
+
+Array = NDArray[np.float64]
+SAMPLES = 64
+INNER, OUTER = 1e-4, 1e5  # of the reach R, and in zeta: how near C and the equator the section is sampled
+COARSE, FINE = 1e-9, 1e-13  # tolerances
+STEPS, LONGEST = 2000, 1e6  # steps tried, and T in units of 1/|(a, b, d, f1, f2)|
+SUNK_INWARD, SUNK_OUTWARD = 1e-3, 1e-9  # of the innermost sample, of the first ebar: gone, within one turn
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A fixed point of the return map: its parameter, and how the displacement meets zero there.
+
+    `born`: just born in a Hopf bifurcation, too small for the sampled map and placed by its expansion at C.
+    """
+
+    xi: float
+    repelling: bool = False
+    touching: bool = False
+    born: bool = False
+
+
+def rays(
+    a: float, d: float, e: tuple[float, float], complement: float
+) -> list[tuple[float, float, tuple[float, float]]]:
+    """Find the four rays ``e + r u`` with ``a u1^2 + d u2^2 = 0``.
+
+    Parameters
+    ----------
+    a, d : float
+        Of opposite sign.
+    e : (c, s)
+        Where they start, in the open disc.
+    complement : float
+        ``1 - |e|^2``.
+
+    Returns
+    -------
+    four (reach, other, u)
+        ``|e + r u|^2 - 1 = (r - reach)(r + other)``.
+    """
+    a, d = abs(a), abs(d)
+    u1, u2 = math.sqrt(d / (a + d)), math.sqrt(a / (a + d))
+    found = []
+    for s1, s2 in ((1, 1), (-1, 1), (-1, -1), (1, -1)):
+        u = (s1 * u1, s2 * u2)
+        along = u[0] * e[0] + u[1] * e[1]
+        root = math.sqrt(along * along + complement)
+        reach = complement / (root + along) if along > 0.0 else root - along
+        found.append((reach, complement / reach, u))
+    return found
+
+
+class Section:
+    """The section of one system, and its return map (forward, or backward in time).
+
+    Parameters
+    ----------
+    coefficients : Coefficients
+        With a d < 0 and a critical set.
+    psi : Psi
+    critical : CriticalSet
+    ray : int, optional
+        Which of the four rays; by default the one that is longest in e.
+    """
+
+    def __init__(self, coefficients: Coefficients, psi: Psi, critical: CriticalSet, ray: int | None = None) -> None:
+        self.psi, self.critical, self.coefficients = psi, critical, coefficients
+        plane = np.array(coefficients.plane)
+        size = float(np.abs(plane).max())
+        self.rate = size * math.hypot(*(plane / size).tolist())
+        self.plane = plane / self.rate
+        location = locate(coefficients)
+        if location.e is None:
+            raise ValueError("there is no critical set, so no section starts from it.")
+        found = rays(coefficients.a, coefficients.d, location.e, location.complement)
+        self.ray = max(range(4), key=lambda i: found[i][0]) if ray is None else ray
+        self.reach, self._other, u = found[self.ray]
+        self.u = np.array(u)
+        self.e = np.array(location.e)
+
+    @property
+    def matrix(self) -> Array:
+        """A in units of `rate`, (2, 2)."""
+        a, b, d = self.plane[:3].tolist()
+        return np.array([[a, -b], [b, d]])
+
+    def field(self, e: Array) -> Array:
+        """``U = A (e - e_C)`` in units of `rate`, (n, 2)."""
+        return (e - self.e) @ self.matrix.T
+
+    def derivative(self, e: Array) -> Array:  # noqa: ARG002 (the same everywhere)
+        """D_e U = A in units of `rate`, (2, 2)."""
+        return self.matrix
+
+    @cached_property
+    def inverse(self) -> Array:
+        """Inverse of A in units of `rate`, transposed, (2, 2)."""
+        a, b, d = self.plane[:3].tolist()
+        return np.array([[d, -b], [b, a]]) / (a * d + b * b)
+
+    @cached_property
+    def _kernel(self) -> Any:
+        from ..stepping import fields
+        from . import return_map
+
+        return return_map, fields.field(self.psi)
+
+    def xi_at_radius(self, zeta: Array) -> Array:
+        """Find the parameter, to first order, far out where |x2| = zeta."""
+        gap = np.maximum(self.psi.complement(zeta), 1e-290) / (self.reach + self._other)
+        return np.log(self.reach) - np.log(np.minimum(gap, self.reach))
+
+    def states(self, xi: Array) -> tuple[Array, Array]:
+        """States (n, 3) = (p_x, p_y, ebar), and q (n,), at parameters (n,)."""
+        inner = self.reach / (1.0 + np.exp(-xi))
+        rest = self.reach / (1.0 + np.exp(xi))  # reach - inner, to all digits
+        e = self.e + inner[:, None] * self.u
+        modulus = np.minimum(np.hypot(e[:, 0], e[:, 1]), 1.0)
+        zeta = self.psi.radius(modulus, np.clip(rest * (inner + self._other), 1e-300, 1.0))
+        x2 = zeta[:, None] * e / np.maximum(modulus, 1e-300)[:, None]
+        height = 1.0 / np.hypot(1.0, zeta)
+        states = np.column_stack([x2 * height[:, None], height])
+        return states, self.coordinate(states)
+
+    def coordinate(self, states: Array) -> Array:
+        """``q = ln u.(x2 - x2_C)``, (n,)."""
+        along = (states[:, :2] / states[:, 2:] - self.critical.x2) @ self.u
+        return np.log(np.maximum(along, 1e-300))
+
+    def turn(
+        self,
+        states: Array,
+        rtol: float,
+        backward: bool = False,
+        record: int = 0,
+        limit: int = STEPS,
+        elsewhere: bool = False,
+    ) -> tuple[Array, Array, Any, Any]:
+        """Follow one turn: states on return (n, 3), times, codes and recorded steps of `return_map.returns`."""
+        module, function = self._kernel
+        away = states[:, :2] / states[:, 2:] - self.critical.x2
+        nearest = min(self.inner, float(np.hypot(away[:, 0], away[:, 1]).min()))
+        return module.returns(
+            states,
+            self.shared(backward),
+            function.address,
+            self.u,
+            self.critical.x2,
+            math.copysign(1.0, -self.plane[1] if backward else self.plane[1]),
+            SUNK_INWARD * nearest,
+            SUNK_OUTWARD,
+            LONGEST,
+            rtol,
+            limit,
+            record,
+            elsewhere,
+        )
+
+    def shared(self, backward: bool = False) -> Array:
+        """Parameters of the compiled field."""
+        from ..stepping.layout import SHARED
+
+        shared = np.zeros(SHARED)
+        shared[:5] = -self.plane if backward else self.plane
+        shared[5] = self.psi.parameter
+        return shared
+
+    @cached_property
+    def inner(self) -> float:
+        """Distance from C in x2 of the innermost sample, to first order."""
+        radial, tangential = self.psi.jacobian_factors(float(np.hypot(*self.critical.x2)))
+        along = float(self.e @ self.u) / max(float(np.hypot(*self.e)), 1e-300)
+        return INNER * self.reach * (1.0 / tangential + along * along * (1.0 / radial - 1.0 / tangential))
+
+    def displacement(self, xi: Array, rtol: float = COARSE, backward: bool = False) -> Array:
+        """Displacement of q over a turn (n,): -inf to C, +inf to the equator, NaN undecided."""
+        module, _ = self._kernel
+        states, q = self.states(xi)
+        ends, _, codes, _ = self.turn(states, rtol, backward)
+        shift = self.coordinate(ends) - q
+        shift[codes == module.INWARD] = -np.inf
+        shift[codes == module.OUTWARD] = np.inf
+        shift[codes == module.UNDECIDED] = np.nan
+        return shift
+
+    def grid(self) -> Array:
+        """Choose samples: even in ln r near C, in ln zeta near the equator."""
+        inner = np.linspace(math.log(INNER), math.log(9.0), SAMPLES - 24)
+        start = float(np.linalg.norm(self.states(inner[-1:])[0][0, :2]))
+        start = max(start / math.sqrt(max(1.0 - start * start, 1e-12)), 1e-3)
+        outer = self.xi_at_radius(np.geomspace(start, max(OUTER, 10.0 * start), 26)[1:])
+        xi = np.concatenate([inner, outer[outer > inner[-1] + 1e-3]])
+        return np.unique(np.minimum(xi, 600.0))

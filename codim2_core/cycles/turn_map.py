@@ -1,0 +1,193 @@
+"""Compiled first turn of the layer problem about a point of the disc; see `first_turns`.
+
+The angle of p about the point is followed along the orbit, and the turn is complete when it has first changed by 2 pi,
+in either sense. Lanes step as in `return_map`: a lane that has turned goes back to the start of its step and finds the
+length that ends on the ray, so that the end is as accurate as a step.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from ..stepping.dop853 import ARITHMETIC, advance
+from ..stepping.layout import (
+    ERROR_3,
+    ERROR_5,
+    K0,
+    K12,
+    LANES,
+    NEW,
+    PARAMETERS,
+    SIGN,
+    STATE,
+    STEP,
+    WORKSPACE,
+    call_field,
+)
+from .return_map import INWARD, OUTWARD, RETURNED, UNDECIDED
+
+DONE, RUNNING, REFINING = range(3)
+SHARE = 0.1  # of the tolerance, for one step
+TRIALS = 40
+FARTHEST = 2.0  # radians about the point in one step: more could be a turn unseen
+FULL = 2.0 * math.pi
+STILL = 3.0  # times the tolerance: a speed at which an orbit has come to rest
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def _judged(S, k, rtol, refining):
+    """Error of the step tried in lane k, in units of what is allowed; puts NEW back on the sphere."""
+    x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
+    length = 1.0 / math.sqrt(x * x + y * y + w * w)
+    S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k] = x * length, y * length, w * length
+    if refining:
+        return 0.0
+    plane, height = 1.0 / rtol, 1.0 / (rtol * abs(w) + 1e-300)
+    five = (S[ERROR_5 + k] * plane) ** 2 + (S[ERROR_5 + LANES + k] * plane) ** 2
+    five += (S[ERROR_5 + 2 * LANES + k] * height) ** 2
+    three = (S[ERROR_3 + k] * plane) ** 2 + (S[ERROR_3 + LANES + k] * plane) ** 2
+    three += (S[ERROR_3 + 2 * LANES + k] * height) ** 2
+    return five / math.sqrt(3.0 * (five + 0.01 * three) + 1e-300)
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
+def _swept(S, centre, k):
+    """Angle about the point from STATE to NEW."""
+    ax, ay = S[STATE + k] - centre[0], S[STATE + LANES + k] - centre[1]
+    bx, by = S[NEW + k] - centre[0], S[NEW + LANES + k] - centre[1]
+    return math.atan2(ax * by - ay * bx, ax * bx + ay * by)
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record):
+    """Follow each state until it has gone once round a point.
+
+    Parameters
+    ----------
+    states : (n, 3)
+        (px, py, w), w > 0.
+    shared : (SHARED,)
+        Parameters of the field, of size about 1.
+    field : int
+        Address of the field.
+    centre : (2,)
+        The point, in the disc.
+    floor : float
+        Distance from it below which an orbit has gone inward.
+    sunk : float
+        Fraction of the first w below which an orbit has gone outward.
+    t_max, rtol : float
+    limit : int
+        Steps tried.
+    record : int
+        Room for the steps of state 0; 0 records nothing.
+
+    Returns
+    -------
+    ends (n, 3), times (n,), codes (n,) of `return_map`, steps (k, 4): as `return_map.returns`
+    """
+    n = states.shape[0]
+    ends, times, codes = states.copy(), np.zeros(n), np.full(n, UNDECIDED)
+    log, logged = np.empty((record, 4)), 0
+    S, P = np.zeros(WORKSPACE), np.zeros(PARAMETERS)
+    P[:SIGN] = shared
+    P[SIGN:] = -1.0
+    phase, tries, side = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
+    clock, step, angle, errors = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
+    low, high, at_low, at_high = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
+    for base in range(0, n, LANES):
+        active = min(LANES, n - base)
+        for k in range(LANES):
+            i = base + k if k < active else base
+            for c in range(3):
+                S[STATE + c * LANES + k] = states[i, c]
+            phase[k] = RUNNING if k < active else DONE
+            clock[k], angle[k], step[k] = 0.0, 0.0, 0.5 * rtol**0.125 if k < active else 0.0
+        call_field(field, S, STATE, K0, P)
+        spent, running = 0, active
+        while running > 0 and spent < limit:
+            spent += 1
+            for k in range(LANES):
+                for c in range(3):
+                    S[STEP + c * LANES + k] = step[k]
+            advance(S, P, field)
+            for k in range(LANES):
+                if phase[k] != DONE:
+                    errors[k] = _judged(S, k, SHARE * rtol, phase[k] == REFINING)
+            call_field(field, S, NEW, K12, P)
+            for k in range(LANES):
+                if phase[k] == DONE:
+                    continue
+                h, swept = step[k], _swept(S, centre, k)
+                finished, code = False, RETURNED
+                if phase[k] == REFINING:
+                    tries[k] += 1
+                    g = abs(angle[k] + swept) - FULL
+                    # The Illinois rule: an end kept twice counts half.
+                    if g < 0.0:
+                        low[k], at_low[k] = h, g
+                        at_high[k] *= 0.5 if side[k] == 1 else 1.0
+                        side[k] = 1
+                    else:
+                        high[k], at_high[k] = h, g
+                        at_low[k] *= 0.5 if side[k] == -1 else 1.0
+                        side[k] = -1
+                    if abs(g) > 1e-15 and high[k] - low[k] > 4e-16 * high[k] and tries[k] < TRIALS:
+                        step[k] = (low[k] * at_high[k] - high[k] * at_low[k]) / (at_high[k] - at_low[k])
+                        if not low[k] < step[k] < high[k]:
+                            step[k] = 0.5 * (low[k] + high[k])
+                        continue
+                    finished = True
+                else:
+                    factor = 0.9 / math.sqrt(math.sqrt(math.sqrt(errors[k] + 1e-30)))
+                    factor = min(factor if factor > 0.2 else 0.2, 5.0)
+                    if not errors[k] <= 1.0:
+                        step[k] *= factor
+                        continue
+                    if abs(swept) > FARTHEST:
+                        step[k] *= 0.5
+                        continue
+                    if abs(angle[k] + swept) >= FULL:
+                        low[k], at_low[k], high[k], at_high[k] = (
+                            0.0,
+                            abs(angle[k]) - FULL,
+                            h,
+                            abs(angle[k] + swept) - FULL,
+                        )
+                        step[k] = h * at_low[k] / (at_low[k] - at_high[k])
+                        phase[k], tries[k], side[k] = REFINING, 0, 0
+                        continue
+                    step[k] *= factor
+                    dx, dy = S[NEW + k] - centre[0], S[NEW + LANES + k] - centre[1]
+                    if dx * dx + dy * dy < floor * floor:
+                        finished, code = True, INWARD
+                    elif S[NEW + 2 * LANES + k] < sunk * states[base + k, 2]:
+                        finished, code = True, OUTWARD
+                    else:
+                        vx, vy, vw = S[K12 + k], S[K12 + LANES + k], S[K12 + 2 * LANES + k]
+                        still = vx * vx + vy * vy + vw * vw < (STILL * rtol) ** 2
+                        if still or clock[k] + h >= t_max:
+                            finished, code = True, UNDECIDED
+                if base + k == 0 and logged < record:
+                    for c in range(3):
+                        log[logged, c] = S[STATE + c * LANES + k]
+                    log[logged, 3] = h
+                    logged += 1
+                clock[k] += h
+                angle[k] += swept
+                for c in range(3):
+                    m = c * LANES + k
+                    S[STATE + m] = S[NEW + m]
+                    S[K0 + m] = S[K12 + m]
+                if finished:
+                    codes[base + k], times[base + k], phase[k], step[k] = code, clock[k], DONE, 0.0
+                    running -= 1
+        for k in range(active):
+            for c in range(3):
+                ends[base + k, c] = S[STATE + c * LANES + k]
+            if phase[k] != DONE:
+                times[base + k] = clock[k]
+    return ends, times, codes, log[:logged]

@@ -1,0 +1,1 @@
+"""Along one parameter, and over two: bifurcation diagrams and maps of classes."""

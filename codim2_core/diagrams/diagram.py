@@ -1,0 +1,118 @@
+"""One-parameter bifurcation diagrams: all that stands still along one parameter, with the points that are special."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.sign_changes import roots
+from ..psi.function import Psi
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+from .critical import borders, critical_part
+from .equator import equator_part
+from .result import ClosedEquator, CriticalBranch, Diagram, EquatorBranch, SpecialValue
+from .sweep import Line, Plane, family, scale
+from .typed import general_parts
+
+__all__ = ["ClosedEquator", "CriticalBranch", "Diagram", "EquatorBranch", "SpecialValue", "diagram"]
+
+Array = NDArray[np.float64]
+
+_GRID = 512
+# Grid points are moved off the round numbers on which special values like to lie
+_WOBBLE = 0.3 * np.sin(2.0 + np.arange(_GRID + 1) * 1.7)
+_WOBBLE[[0, -1]] = 0.0
+
+
+def diagram(
+    system: Any,
+    psi: Psi,
+    name: str,
+    span: Sequence[float],
+    z: ArrayLike = (),
+    *,
+    cycles: Sequence[Any] = (),
+) -> Diagram:
+    """Everything that stands still, along one parameter.
+
+    Special values are found on a grid of 512 steps and then to the last digits. Two of one kind between neighbouring
+    grid points are found too, if the function behind them is smooth on that scale and exceeds 1e-13 of its largest
+    size between the two.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    name : str
+        One of `layer_problem.vary.names`.
+    span : (low, high)
+    z : (m,) floats
+    cycles : sequence
+        Branches of limit cycles, from `continuation.branches.continue_cycles` with the same arguments; they take
+        longer, and are only passed on.
+
+    Returns
+    -------
+    Diagram
+        For a general system special values are found by bisection, on a coarser grid, and take longer; two of them
+        nearer than a step of that grid may be missed.
+
+    Raises
+    ------
+    ValueError
+        The name cannot be varied, the span is empty, or z does not fit.
+    """
+    low, high = (float(v) for v in span)
+    if not (np.isfinite([low, high]).all() and low < high):
+        raise ValueError(f"the span of {name} is {low:g} to {high:g}; give two finite numbers, the smaller one first.")
+
+    if not isinstance(system, (ELinear, Coefficients)):
+        branches, closed_, sets, found = general_parts(system, psi, name, (low, high), z)
+        found.sort(key=lambda s: s.value)
+        return Diagram(name, (low, high), tuple(branches), tuple(closed_), tuple(sets), tuple(found), tuple(cycles))
+    path = Line(family(system, psi, z, name, spans=((low, high),)))
+    grid = low + (high - low) * (np.arange(_GRID + 1) + _WOBBLE) / _GRID
+    grid[-1] = high
+    whole = path(grid)
+    exponent = scale(whole)
+    runs, gaps = _runs(path, grid, whole)
+    equator: list[EquatorBranch] = []
+    closed: list[ClosedEquator] = []
+    critical: list[CriticalBranch] = []
+    special: list[SpecialValue] = []
+    for run in runs:
+        cuts = borders(path, run, exponent)
+        for held, new in zip((critical, special), critical_part(path, run, exponent, cuts), strict=True):
+            held += new
+        for held, new in zip((equator, closed, special), equator_part(path, run, exponent, cuts), strict=True):
+            held += new
+    special.sort(key=lambda s: s.value)
+    parts = tuple(equator), tuple(closed), tuple(critical), tuple(special), tuple(cycles), tuple(gaps)
+    return Diagram(name, (low, high), *parts)
+
+
+def _runs(path: Line, grid: Array, whole: Plane) -> tuple[list[Array], list[tuple[float, float]]]:
+    """Parts of the grid on which all coefficients are finite, and what lies between."""
+    defined = whole.defined
+    poles: list[float] = []
+    if not path.affine:
+        for i in range(5):
+            found = roots(lambda v, i=i: path(v).arrays[i], [grid], [whole.arrays[i]]).poles[0]
+            poles += found.tolist()
+    if defined.all() and not poles:
+        return [grid], []
+    cut = np.isin(np.arange(len(grid) - 1), np.searchsorted(grid, poles) - 1)
+    runs, start = [], None
+    for i in range(len(grid)):
+        if start is None and defined[i]:
+            start = i
+        if start is not None and (i + 1 == len(grid) or cut[i] or not defined[i + 1]):
+            if i - start > 2:
+                runs.append(grid[start : i + 1])
+            start = None
+    stops = [float(grid[0]), *(float(v) for run in runs for v in (run[0], run[-1])), float(grid[-1])]
+    return runs, [(u, v) for u, v in zip(stops[::2], stops[1::2], strict=True) if v > u]

@@ -1,0 +1,113 @@
+"""How the linearisation of the critical set moves as one thing varies: the trails of fig:bads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..layer_problem.critical import critical_sets
+from ..layer_problem.vary import varied
+from ..psi.function import Psi
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+from .sweep import KINDS, family, linearise
+
+__all__ = ["LinearisationPath", "linearisation_path"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LinearisationPath:
+    """The critical set's linearisation (eq:scjaco) along one parameter.
+
+    Attributes
+    ----------
+    name : str
+        What varies.
+    values : ndarray (k,)
+    exists : ndarray of bool (k,)
+        There is an isolated critical set; where not, the arrays below are 0.
+    trace, determinant, discriminant : ndarray (k,)
+        Of J in (x2, y2) and the fast time tau.
+    eigenvalues : ndarray (k, 2), complex
+        By falling real part, conjugates with the positive imaginary part first.
+    kind : tuple of str (k,)
+        As `CriticalSet.kind`; "" where there is none.
+    """
+
+    name: str
+    values: Array
+    exists: NDArray[np.bool_]
+    trace: Array
+    determinant: Array
+    discriminant: Array
+    eigenvalues: NDArray[np.complex128]
+    kind: tuple[str, ...]
+
+
+def linearisation_path(system: Any, psi: Psi, name: str, values: ArrayLike, z: ArrayLike = ()) -> LinearisationPath:
+    """Trace, determinant and eigenvalues of the critical set along one parameter (fig:bads).
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    name : str
+        One of `layer_problem.vary.names`, such as n of a Hill Psi.
+    values : (k,) floats
+        In any order.
+    z : (m,) floats
+
+    Returns
+    -------
+    LinearisationPath
+        Where a general system has several critical sets, the one nearest (in p) to the last; first the innermost.
+
+    Raises
+    ------
+    ValueError
+        The name cannot be varied, a value is not finite or beyond what it may be, or z does not fit.
+    """
+    given = np.atleast_1d(np.array(values, float))
+    if given.ndim != 1 or not np.isfinite(given).all():
+        raise ValueError(f"values of {name} have shape {given.shape}; give a list of finite numbers.")
+    if isinstance(system, (ELinear, Coefficients)):
+        path = family(system, psi, z, name, spans=(given,))
+        found = linearise(path(**{path.names[0]: given}))
+        numbers = found.exists, found.trace, found.determinant, found.discriminant
+        kind = tuple(KINDS[i] for i in found.kind.tolist())
+    else:
+        *numbers, kind = _one_by_one(system, psi, name, given, z)
+    exists, trace, determinant, discriminant = numbers
+    arrays = given, exists, trace, determinant, discriminant, _eigenvalues(trace, determinant, discriminant)
+    for array in arrays:
+        array.flags.writeable = False
+    return LinearisationPath(name, *arrays, kind)
+
+
+def _eigenvalues(trace: Array, determinant: Array, discriminant: Array) -> NDArray[np.complex128]:
+    half, root = 0.5 * trace, 0.5 * np.sqrt(abs(discriminant))
+    real = discriminant >= 0.0
+    large = half + np.where(half < 0.0, -root, root)
+    small = determinant / np.where(large != 0.0, large, 1.0)  # without the cancellation in half - root
+    first = np.where(real, np.maximum(large, small), half) + 1j * np.where(real, 0.0, root)
+    second = np.where(real, np.minimum(large, small), half) - 1j * np.where(real, 0.0, root)
+    return np.stack([first, second], axis=-1)
+
+
+def _one_by_one(system: Any, psi: Psi, name: str, values: Array, z: ArrayLike) -> tuple[Any, ...]:
+    exists = np.zeros(len(values), bool)
+    numbers = np.zeros((3, len(values)))
+    kind = [""] * len(values)
+    last = np.zeros(2)
+    for i, value in enumerate(values.tolist()):
+        found = critical_sets(*varied(system, psi, z, name, value))
+        if found:
+            C = min(found, key=lambda C, last=last: float(np.hypot(*(C.p - last))))
+            exists[i], kind[i], last = True, C.kind, C.p
+            numbers[:, i] = C.trace, C.determinant, C.discriminant
+    return exists, *numbers, tuple(kind)

@@ -1,0 +1,294 @@
+"""Limit directions along one parameter: where they meet, how their stability changes, and the closed equator."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..layer_problem.closed_equator import equator_cycle
+from ..numerics.root_between import root_between
+from ..numerics.sign_changes import refined, sign_changes
+from ..numerics.trigonometric import real_zeros, tangential_zeros
+from .critical import OFF_CENTRE, SPREAD, Borders
+from .result import ClosedEquator, EquatorBranch, SpecialValue
+from .sweep import Line, Plane, discriminant, equator_counts
+from .theta_zeros import Meeting, lambda_rho, meetings, theta_slope, theta_value, theta_zeros
+
+__all__ = ["equator_part", "linked"]
+
+Array = NDArray[np.float64]
+
+_TAU = 2.0 * math.pi
+_FLAT = 1e-13
+_TURN, _HALVINGS = 0.15, 6  # zeros turn by at most this between samples, unless so many halvings are not enough
+_CLOSED = 17  # values at which the exponent of a closed equator is computed
+
+
+def equator_part(
+    path: Line, grid: Array, exponent: int, cuts: Borders
+) -> tuple[list[EquatorBranch], list[ClosedEquator], list[SpecialValue]]:
+    """Branches of equator equilibria, pieces with a closed equator, and special values."""
+    plane = path(grid)
+    span = (float(grid[0]), float(grid[-1]))
+    values = discriminant(plane, exponent)
+    size = sum((abs(np.ldexp(v, exponent)) for v in plane.arrays), np.full(len(grid), 1e-300))
+    if plane.rigid or (abs(values) <= _FLAT * size**6).mean() > 0.5:
+        return _unchanging(path, grid, cuts)
+    everywhere = _all_directions(path, grid, plane)
+    found = _meetings(path, grid, values, plane, exponent, span)
+    width = span[1] - span[0]
+    found = [m for m in found if all(abs(m.value - v) > 1e-5 * width for v in everywhere)]
+    stops = sorted({m.value for m in found} | set(everywhere))
+    special = [_special(path, m) for m in found]
+    special += [_directions(v) for v in everywhere]
+    branches: list[EquatorBranch] = []
+    closed: list[ClosedEquator] = []
+    edges = [span[0], *stops, span[1]]
+    for low, high in pairwise(edges):
+        if high - low <= 1e-12 * width:
+            continue
+        middle = path(np.array([low + OFF_CENTRE * (high - low)])).coefficients(0)
+        count = len(tangential_zeros(*middle.plane).theta)
+        if count:
+            inner, theta = _sampled(path, low, high, count)
+            x = np.concatenate([[low], inner, [high]])
+            theta = np.concatenate([
+                _end(path, low, theta[:1], [m.theta for m in found if m.value == low]),
+                theta,
+                _end(path, high, theta[-1:], [m.theta for m in found if m.value == high]),
+            ])  # fmt: skip
+            branches += [part for j in range(count) for part in _split(path, x, theta[:, j], cuts)]
+        else:
+            pieces, neutral = _closed(path, low, high)
+            closed += pieces
+            special += neutral
+    return branches, closed, special
+
+
+def _meetings(
+    path: Line, grid: Array, values: Array, plane: Plane, exponent: int, span: tuple[float, float]
+) -> list[Meeting]:
+    """All multiple zeros of Theta along the path."""
+    changes = sign_changes(values)
+    size = abs(values)
+    lowest = 1 + np.flatnonzero((size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]))
+    ends = [i for i in (0, len(grid) - 1) if size[i] <= 1e-9 * size.max()]
+    starts = np.unique(np.concatenate([0.5 * (grid[changes] + grid[changes + 1]), grid[lowest], grid[ends]]))
+    found = meetings(path, span, starts, 1.5 * float(np.diff(grid).max())) if len(starts) else []
+    # every change of the number of zeros must have a meeting next to it
+    counts = equator_counts(plane, exponent)
+    missed = [
+        i
+        for i in np.flatnonzero(counts[1:] != counts[:-1])
+        if not any(grid[i] - 1e-9 <= m.value <= grid[i + 1] + 1e-9 for m in found)
+    ]
+    if missed:
+        at = np.array(missed)
+        places, poles = refined(lambda v: discriminant(path(v), exponent), grid[at], grid[at + 1])
+        for value in places[~poles].tolist():
+            q = path(np.array([value])).coefficients(0)
+            flat = real_zeros(0.0, -q.f1, -q.f2, q.d - q.a, 0.0).theta
+            one = path(np.full(len(flat), value))
+            lowest_ = int(abs(theta_value(one, np.array(flat))).argmin())
+            found.append(Meeting("saddle-node", value, flat[lowest_]))
+    return sorted(found, key=lambda m: (m.value, m.theta))
+
+
+def _all_directions(path: Line, grid: Array, plane: Plane) -> list[float]:
+    """Values at which a = d, b = 0 and f = 0."""
+
+    def rows(p: Plane) -> Array:
+        return np.stack([p.b, p.f1, p.f2, p.d - p.a], axis=1)
+
+    size = np.linalg.norm(rows(plane), axis=1)
+    most = max(float(abs(v).max()) for v in plane.arrays)
+    found = []
+    for i in np.flatnonzero(np.r_[True, size[1:] <= size[:-1]] & np.r_[size[:-1] <= size[1:], True]):
+        v, step = float(grid[i]), 1e-3 * float(grid[-1] - grid[0])
+        for _ in range(6):
+            left, here, right = rows(path(np.clip(np.array([v - step, v, v + step]), grid[0], grid[-1])))
+            span = min(v + step, grid[-1]) - max(v - step, grid[0])
+            slope = (right - left) / span
+            if not slope.any():
+                break
+            v = min(max(v - float(here @ slope) / float(slope @ slope), float(grid[0])), float(grid[-1]))
+        if float(np.linalg.norm(rows(path(np.array([v])))[0])) <= 1e-12 * most:
+            found.append(v)
+    return sorted(set(found))
+
+
+def _special(path: Line, m: Meeting) -> SpecialValue:
+    place = (math.cos(m.theta), math.sin(m.theta))
+    at = f"θ = {m.theta:.4g}"
+    if m.kind == "saddle-node":
+        text = f"Two limit directions meet at {at}: Θ has a double zero."
+        return SpecialValue("saddle-node", m.value, place, text, "fig:SNBIF, eq:tangencies")
+    if m.kind == "exchange":
+        text = f"Two limit directions pass through each other at {at} and exchange their angular stability."
+        return SpecialValue("exchange of limit directions", m.value, place, text, "eq:equator_zeros")
+    if m.kind == "touch":
+        text = f"Two limit directions exist at this value only, both at {at}: Θ has a double zero and no sign change."
+        return SpecialValue("saddle-node", m.value, place, text, "fig:SNBIF, eq:tangencies")
+    q = path(np.array([m.value])).coefficients(0)
+    size = 1e-10 * max(map(abs, q.plane))
+    if abs(q.b) <= size and min(abs(q.f1), abs(q.f2)) <= size:
+        text = f"One limit direction splits into three at {at}: Θ has a triple zero, and b = 0 makes it symmetric (D2)."
+        return SpecialValue("pitchfork", m.value, place, text, "fig:SNBIF")
+    text = f"Θ has a triple zero at {at}: the parameter passes through a cusp of the saddle-node curve."
+    return SpecialValue("cusp", m.value, place, text, "fig:SNBIF, eq:tangencies")
+
+
+def _sampled(path: Line, low: float, high: float, count: int) -> tuple[Array, Array]:
+    """Values inside a piece and the zeros there, (k, count), more densely where these move fast."""
+    x = low + (high - low) * SPREAD
+    for _ in range(_HALVINGS):
+        theta = linked(theta_zeros(path(x), count))
+        far = np.flatnonzero(abs(np.diff(theta, axis=0)).max(axis=1) > _TURN)
+        if not len(far):
+            break
+        x = np.sort(np.concatenate([x, 0.5 * (x[far] + x[far + 1])]))
+    return x, linked(theta_zeros(path(x), count))
+
+
+def linked(theta: Array) -> Array:
+    """Follow each zero from row to row: between meetings they keep their cyclic order."""
+    k, count = theta.shape
+    if k > 1:
+        cost = np.stack(
+            [
+                abs(np.angle(np.exp(1j * (np.roll(theta[1:], -r, axis=1) - theta[:-1])))).sum(axis=1)
+                for r in range(count)
+            ]
+        )
+        shift = np.concatenate([[0], np.cumsum(cost.argmin(axis=0))])
+        theta = np.take_along_axis(theta, (np.arange(count) + shift[:, None]) % count, axis=1)
+    return np.unwrap(theta, axis=0)
+
+
+def _end(path: Line, value: float, theta: Array, meeting: list[float]) -> Array:
+    """Zeros at the end of a piece, (1, count), from those next to it; the meeting's direction where they meet."""
+    count = theta.shape[1]
+    plane = path(np.full(count, value))
+    t = theta[0].copy()
+    with np.errstate(all="ignore"):
+        for _ in range(12):
+            step = theta_value(plane, t) / theta_slope(plane, t)
+            t = t - np.clip(np.where(np.isfinite(step), step, 0.0), -0.1, 0.1)
+    for at in meeting:
+        turn = np.round((theta[0] - at) / _TAU) * _TAU
+        # a zero that meets another comes nearer by half a step, one of three by a third
+        t = np.where((abs(t - at - turn) < 0.02) | (abs(t - theta[0]) > 0.5), at + turn, t)
+    return t[None]
+
+
+def _split(path: Line, x: Array, theta: Array, cuts: Borders) -> list[EquatorBranch]:
+    """Cut one branch where lambda_rho changes sign: there the critical set is on it."""
+    plane = path(x)
+    rho, slope = lambda_rho(plane, theta), theta_slope(plane, theta)
+    size = sum(abs(v) for v in plane.arrays)
+    inner = rho.copy()
+    inner[abs(inner) <= 1e-13 * size] = 0.0
+    if not inner.any():
+        return [_branch(x, theta, 0.0 * rho, slope)]
+    stops: list[float] = []
+    for i in sign_changes(np.where(inner == 0.0, np.sign(np.roll(inner, 1)), inner)):
+        slack = 1e-9 * (x[-1] - x[0])
+        near = [v for v in cuts.all.tolist() if x[i] - slack <= v <= x[i + 1] + slack]
+        guess = float(x[i] + (x[i + 1] - x[i]) * abs(rho[i]) / max(abs(rho[i]) + abs(rho[i + 1]), 1e-300))
+        stops.append(min(near, key=lambda v: abs(v - guess)) if near else guess)
+    out = []
+    edges = [float(x[0]), *(v for v in stops if x[0] < v < x[-1]), float(x[-1])]
+    t_edge, rho_edge, slope_edge = [theta[0]], [rho[0]], [slope[0]]
+    for v in edges[1:-1]:
+        t = _end(path, v, np.array([[np.interp(v, x, theta)]]), [])[0]
+        t_edge.append(t[0])
+        rho_edge.append(0.0)
+        slope_edge.append(theta_slope(path(np.array([v])), t)[0])
+    t_edge.append(theta[-1])
+    rho_edge.append(rho[-1])
+    slope_edge.append(slope[-1])
+    for k in range(len(edges) - 1):
+        inside = (x > edges[k]) & (x < edges[k + 1])
+        rows = (
+            np.concatenate([[u[k]], v[inside], [u[k + 1]]])
+            for u, v in ((edges, x), (t_edge, theta), (rho_edge, rho), (slope_edge, slope))
+        )
+        out.append(_branch(*rows))
+    return out
+
+
+def _branch(x: Array, theta: Array, rho: Array, slope: Array) -> EquatorBranch:
+    # by the sign in most places: the ends may be zero
+    radial = np.sign(rho).sum()
+    angular = np.sign(slope).sum()
+    first = "radially attracting" if radial < 0 else "radially repelling" if radial > 0 else "radially non-hyperbolic"
+    then = (
+        "angularly attracting" if angular < 0 else "angularly repelling" if angular > 0 else "angularly non-hyperbolic"
+    )
+    for array in (x, theta, rho, slope):
+        array.flags.writeable = False
+    return EquatorBranch(x, theta, rho, slope, f"{first}, {then}")
+
+
+def _closed(path: Line, low: float, high: float) -> tuple[list[ClosedEquator], list[SpecialValue]]:
+    """Exponent of the closed equator on a piece, cut where it changes sign."""
+
+    def exponent(v: float) -> float:
+        cycle = equator_cycle(path(np.array([v])).coefficients(0))
+        return cycle.exponent if cycle is not None else 0.0
+
+    x = low + (high - low) * 0.5 * (1.0 - np.cos(np.pi * (np.arange(_CLOSED) + 0.5) / _CLOSED))
+    y = np.array([exponent(v) for v in x.tolist()])
+    if not y.any():
+        return [_closed_branch(x, y)], []
+    stops = [root_between(exponent, float(x[i]), float(x[i + 1])) for i in sign_changes(y)]
+    sentence = "The closed equator is neutral to first order: it turns its stability, and a cycle may leave it."
+    special = [SpecialValue("neutral equator", v, (0.0, 0.0), sentence, "thm:geneps0") for v in stops]
+    edges = [-math.inf, *stops, math.inf]
+    out = []
+    for u, v in pairwise(edges):
+        inside = (x > u) & (x < v)
+        values = np.array([*([u] if u > -math.inf else []), *x[inside], *([v] if v < math.inf else [])])
+        numbers = np.array([*([0.0] if u > -math.inf else []), *y[inside], *([0.0] if v < math.inf else [])])
+        out.append(_closed_branch(values, numbers))
+    return out, special
+
+
+def _closed_branch(x: Array, y: Array) -> ClosedEquator:
+    total = np.sign(y).sum()
+    kind = "attracting from outside" if total < 0 else "repelling from outside" if total > 0 else "neutral"
+    x.flags.writeable = y.flags.writeable = False
+    return ClosedEquator(x, y, kind)
+
+
+def _unchanging(
+    path: Line, grid: Array, cuts: Borders
+) -> tuple[list[EquatorBranch], list[ClosedEquator], list[SpecialValue]]:
+    """Zeros of Theta that stay as they are, or stay multiple, along the whole path: the exact answer at each value."""
+    plane = path(grid)
+    everywhere = [] if plane.rigid else _all_directions(path, grid, plane)
+    special = [_directions(v) for v in everywhere]
+    branches: list[EquatorBranch] = []
+    closed: list[ClosedEquator] = []
+    for low, high in pairwise([float(grid[0]), *everywhere, float(grid[-1])]):
+        x = np.linspace(low, high, 2 if plane.rigid else 33)
+        at = path(x)
+        rows = [tangential_zeros(*(float(v[i]) for v in at.arrays)) for i in range(len(x))]
+        count = len(rows[len(x) // 2].theta)
+        good = np.array([len(row.theta) == count for row in rows])
+        if count and good.sum() > 1:
+            theta = linked(np.array([row.theta for row, ok in zip(rows, good, strict=True) if ok]))
+            branches += [part for j in range(count) for part in _split(path, x[good], theta[:, j], cuts)]
+        elif not count and not rows[len(x) // 2].identically_zero:
+            pieces, more = _closed(path, low, high)
+            closed += pieces
+            special += more
+    return branches, closed, special
+
+
+def _directions(value: float) -> SpecialValue:
+    sentence = "a = d, b = 0 and f = 0: Θ ≡ 0, every direction is a limit direction."
+    return SpecialValue("all directions", value, (0.0, 0.0), sentence, "eq:equator_zeros")

@@ -1,0 +1,207 @@
+"""Coefficients of an e-linear system, and its Psi, for many values of one or several parameters at once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..expressions.expression import Expression
+from ..layer_problem.vary import limits, names
+from ..psi.function import Psi
+from ..systems.bounds import LARGEST
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """Coefficients and Psi at k parameter values.
+
+    Attributes
+    ----------
+    a, b, d, f1, f2 : ndarray (k,)
+        Zero where `defined` is not.
+    psi : Psi
+    n : ndarray (k,) or None
+        n of the Hill Psi, where it varies; `psi` is then not to be used.
+    defined : ndarray of bool (k,)
+        Every coefficient is finite there.
+    """
+
+    a: Array
+    b: Array
+    d: Array
+    f1: Array
+    f2: Array
+    psi: Psi
+    n: Array | None
+    defined: NDArray[np.bool_]
+
+    def __len__(self) -> int:
+        return len(self.a)
+
+    @property
+    def arrays(self) -> tuple[Array, Array, Array, Array, Array]:
+        """``(a, b, d, f1, f2)``."""
+        return self.a, self.b, self.d, self.f1, self.f2
+
+    @property
+    def rigid(self) -> bool:
+        """Whether a, b, d, f1, f2 are the same everywhere."""
+        return bool(self.defined.all()) and all(bool((v == v[:1]).all()) for v in self.arrays)
+
+    def coefficients(self, i: int) -> Coefficients:
+        """Return the system at value i, without its slow part."""
+        a, b, d, f1, f2 = (float(v[i]) for v in self.arrays)
+        return Coefficients(a, b, d, f1, f2, np.zeros((0, 2)), np.zeros(0))
+
+
+_NAMES = ("a", "b", "d", "f1", "f2")
+
+
+@dataclass(frozen=True, eq=False)
+class Family:
+    """A system in which some names vary, prepared for many evaluations. Made by `family`.
+
+    Attributes
+    ----------
+    names : tuple of str
+    system : ELinear or Coefficients
+    psi : Psi
+    z : (m,) floats
+    fixed : tuple of float or None
+        a, b, d, f1, f2, where they vary by name only and in no formula.
+    hill : bool
+        n is among the names, and is that of the Hill Psi.
+    """
+
+    names: tuple[str, ...]
+    system: ELinear | Coefficients
+    psi: Psi
+    z: ArrayLike
+    fixed: tuple[float, ...] | None
+    hill: bool
+
+    def __call__(self, **values: Array) -> Plane:
+        """Coefficients at k values of every name, each of (k,), within `layer_problem.vary.limits` (not checked)."""
+        k = len(values[self.names[0]])
+        n = values["n"] if self.hill else None
+        if self.fixed is not None:
+            a, b, d, f1, f2 = (
+                values[name] if name in values else np.full(k, v) for name, v in zip(_NAMES, self.fixed, strict=True)
+            )
+            return Plane(a, b, d, f1, f2, self.psi, n, np.ones(k, bool))
+        assert isinstance(self.system, ELinear)
+        a, b, d, f1, f2 = (
+            v if isinstance(v, np.ndarray) and v.shape == (k,) else np.full(k, v)
+            for v in _rows(self.system, self.z, values)
+        )
+        defined = np.ones(k, bool)
+        with np.errstate(invalid="ignore"):
+            for v in (a, b, d, f1, f2):
+                defined &= abs(v) <= LARGEST
+        if not defined.all():
+            a, b, d, f1, f2 = (np.where(defined, v, 0.0) for v in (a, b, d, f1, f2))
+        return Plane(a, b, d, f1, f2, self.psi, n, defined)
+
+
+def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[ArrayLike] = ()) -> Family:
+    """Prepare an e-linear system in which some names vary (see `layer_problem.vary.names`).
+
+    Parameters
+    ----------
+    system : ELinear or Coefficients
+    psi : Psi
+    z : (m,) floats
+    *varying : str
+        Different names.
+    spans : sequence of arrays
+        For each name, values to be checked against its limits.
+
+    Returns
+    -------
+    Family
+
+    Raises
+    ------
+    ValueError
+        A name cannot be varied, a value is beyond what it may be, z does not fit, or the system is not e-linear.
+    """
+    if not isinstance(system, (ELinear, Coefficients)):
+        raise ValueError(f"the system is of type {type(system).__name__}; give an e-linear one (ELinear).")
+    varying = tuple("z1" if name == "z" else name for name in varying)
+    known = names(system, psi, z)
+    for i, name in enumerate(varying):
+        if name not in known:
+            raise ValueError(f"{name!r} cannot be varied here; choose one of {', '.join(known)}.")
+        if name in varying[:i]:
+            raise ValueError(f"{name!r} is given twice; choose two different names.")
+    for name, given in zip(varying, spans, strict=False):
+        low, high = limits(system, psi, name)
+        values = np.asarray(given, float)
+        if not (np.isfinite(values).all() and (values >= low).all() and (values <= high).all()):
+            raise ValueError(f"values of {name} are beyond {low:g} to {high:g}; give values between these.")
+    own = dict(getattr(system, "parameters", ()))
+    fixed = None if isinstance(system, ELinear) and _needs(system, varying) else system.at(z).plane
+    return Family(varying, system, psi, z, fixed, "n" in varying and "n" not in own)
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A family with one name: a path of systems."""
+
+    family: Family
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The one name."""
+        return self.family.names
+
+    @property
+    def affine(self) -> bool:
+        """Whether a, b, d, f1, f2 are constant, but for one that is the parameter itself."""
+        return self.family.fixed is not None
+
+    def __call__(self, values: Array) -> Plane:
+        """Coefficients at k values, (k,)."""
+        return self.family(**{self.family.names[0]: values})
+
+
+def _needs(system: ELinear, varying: tuple[str, ...]) -> bool:
+    """Whether a, b, d, f1, f2 are more than the numbers given and the values themselves."""
+    if system._matrix is not None:
+        return True
+    used = {name for what, e in system._expressions if what in _NAMES for name in e.names}
+    return bool(used & {*varying, "z" if "z1" in varying else ""})
+
+
+def _rows(system: ELinear, z: ArrayLike, values: Mapping[str, Array]) -> list[Any]:
+    held: dict[str, Any] = dict(system.parameters)
+    for i, value in enumerate(np.atleast_1d(np.asarray(z, float))):
+        held[f"z{i + 1}"] = float(value)
+    held |= {name: v for name, v in values.items() if name in held}
+    if "z1" in held:
+        held["z"] = held["z1"]
+
+    def number(name: str, value: Any) -> Any:
+        return (
+            value.evaluate({n: held[n] for n in value.names})
+            if isinstance(value, Expression)
+            else values.get(name, value)
+        )
+
+    f1, f2 = number("f1", system.f[0]), number("f2", system.f[1])
+    if system._matrix is None:
+        return [number(name, getattr(system, name)) for name in "abd"] + [f1, f2]
+    (a11, a12), (a21, a22) = (tuple(np.asarray(number("", v), float) for v in row) for row in system._matrix)
+    shear, stretch = a12 + a21 + 0.0, a22 - a11  # lem:normalform, as in `ELinear.from_matrix`
+    phi = 0.5 * np.arctan2(shear, stretch)
+    mean, half = 0.5 * a11 + 0.5 * a22, 0.5 * np.hypot(shear, stretch)
+    c, s = np.cos(phi), np.sin(phi)
+    return [mean - half, 0.5 * a21 - 0.5 * a12, mean + half, c * f1 - s * f2, s * f1 + c * f2]

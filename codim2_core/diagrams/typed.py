@@ -1,0 +1,255 @@
+"""The one-parameter diagram of a general system, by the exact functions at single values and bisection."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..layer_problem.critical import CriticalSet, critical_sets
+from ..layer_problem.equator import EquatorEquilibria, equator_cycle, equator_equilibria
+from ..layer_problem.vary import varied
+from ..psi.function import Psi
+from .equator import linked
+from .result import ClosedEquator, CriticalBranch, EquatorBranch, SpecialValue
+
+__all__ = ["general_parts"]
+
+Array = NDArray[np.float64]
+
+_GRID = 48
+_LEAST = 7  # values at least on each piece
+_BESIDE = 1e-7  # of the span: where the two sides of a special value are looked at
+_NARROW = 1e-12  # of the span
+_TOGETHER = 0.05  # radians from a triple zero within which its three zeros lie, beside the special value
+
+
+class _State:
+    """What stands still at one value; each part is found when it is asked for."""
+
+    def __init__(self, system: Any, psi: Psi, name: str, value: float, z: ArrayLike) -> None:
+        self.value = value
+        at, self._psi, z_at = varied(system, psi, z, name, value)
+        self._at = at.at(z_at)
+
+    @cached_property
+    def equator(self) -> EquatorEquilibria:
+        """The limit directions."""
+        return equator_equilibria(self._at)
+
+    @cached_property
+    def critical(self) -> tuple[CriticalSet, ...]:
+        """The critical sets."""
+        return critical_sets(self._at, self._psi)
+
+    @cached_property
+    def exponent(self) -> float | None:
+        """Of a closed equator; None where there is none."""
+        if len(self.equator) or self.equator.all_directions:
+            return None
+        cycle = equator_cycle(self._at)
+        return None if cycle is None else cycle.exponent
+
+    def part(self, i: int) -> Any:
+        """Return what does not change along a piece: of the equator (0), critical sets (1), a closed equator (2)."""
+        if i == 0:
+            return Counter(self.equator.kind(k) for k in range(len(self.equator)))
+        if i == 1:
+            return Counter(C.kind for C in self.critical)
+        return None if self.exponent is None else int(np.sign(self.exponent))
+
+    def difference(self, other: _State) -> int | None:
+        """First part that is not that of the other; None if all are."""
+        return next((i for i in range(3) if self.part(i) != other.part(i)), None)
+
+
+Parts = tuple[list[EquatorBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
+
+
+def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike) -> Parts:
+    """Branches and special values of any system; see `diagram`."""
+
+    def state(value: float) -> _State:
+        return _State(system, psi, name, value, z)
+
+    low, high = span
+    width = high - low
+    # off the round numbers on which special values like to lie
+    u = (np.arange(_GRID + 1) + 0.3 * np.sin(2.0 + 1.7 * np.arange(_GRID + 1))) / _GRID
+    u[[0, -1]] = 0.0, 1.0
+    grid = [state(v) for v in (low + width * np.clip(u, _BESIDE, 1.0 - _BESIDE)).tolist()]
+    special: list[SpecialValue] = []
+    pieces: list[list[_State]] = [[grid[0]]]
+    for left, right in pairwise(grid):
+        for value, before, after in _changes(state, left, right, width):
+            special += _named(value, before, after)
+            pieces[-1].append(before)
+            pieces.append([after])
+        pieces[-1].append(right)
+    equator: list[EquatorBranch] = []
+    closed: list[ClosedEquator] = []
+    critical: list[CriticalBranch] = []
+    for piece in pieces:
+        states = [s for s in sorted(piece, key=lambda s: s.value) if s.difference(piece[0]) is None]
+        if len(states) < _LEAST and states[-1].value > states[0].value:
+            more = [state(v) for v in np.linspace(states[0].value, states[-1].value, _LEAST).tolist()[1:-1]]
+            states = sorted([*states, *(s for s in more if s.difference(piece[0]) is None)], key=lambda s: s.value)
+        values = np.array([s.value for s in states])
+        equator += _directions(values, states)
+        critical += _sets(values, states)
+        if states[0].exponent is not None:
+            sign = states[len(states) // 2].exponent or 0.0
+            kind = "attracting from outside" if sign < 0 else "repelling from outside" if sign > 0 else "neutral"
+            x, y = _frozen(values, [s.exponent for s in states])
+            closed.append(ClosedEquator(x, y, kind))
+    return equator, closed, critical, special
+
+
+def _changes(
+    state: Callable[[float], _State], left: _State, right: _State, width: float, deeper: int = 4
+) -> Iterator[tuple[float, _State, _State]]:
+    """All changes between two states, in order: the value, and the states beside it."""
+    part = left.difference(right)
+    if part is None or not deeper:
+        return
+    value = _bisected(state, left, right, part, _NARROW * width)
+    before = state(max(left.value, value - _BESIDE * width))
+    after = state(min(right.value, value + _BESIDE * width))
+    if before.value > left.value:
+        yield from _changes(state, left, before, width, deeper - 1)
+    yield value, before, after
+    if after.value < right.value:
+        yield from _changes(state, after, right, width, deeper - 1)
+
+
+def _bisected(state: Callable[[float], _State], left: _State, right: _State, part: int, narrow: float) -> float:
+    """Find a value at which that part is no longer what it is at `left`."""
+    low, high, here = left.value, right.value, left.part(part)
+    while high - low > narrow:
+        middle = 0.5 * (low + high)
+        if middle in (low, high):
+            break
+        low, high = (middle, high) if state(middle).part(part) == here else (low, middle)
+    return 0.5 * (low + high)
+
+
+def _named(value: float, before: _State, after: _State) -> list[SpecialValue]:
+    """Name what happens between two states beside each other."""
+    out = []
+    more, fewer = (before, after) if len(before.equator) >= len(after.equator) else (after, before)
+    if len(more.equator) > len(fewer.equator):
+        out += [_meeting(value, *met) for met in _meetings(more.equator.theta, fewer.equator.theta)]
+    arriving = [int((s.equator.lambda_rho < 0.0).sum()) for s in (before, after)]
+    if arriving[0] != arriving[1] and len(before.equator) == len(after.equator):
+        i = int(abs(more.equator.lambda_rho).argmin())
+        t = float(more.equator.theta[i])
+        sentence = f"A critical set reaches the equator at θ = {t:.4g}, and the limit direction turns its stability."
+        out.append(SpecialValue("transcritical", value, (math.cos(t), math.sin(t)), sentence, "fig:transcrit"))
+    elif abs(len(before.critical) - len(after.critical)) == 2:
+        C = max(before.critical, after.critical, key=len)
+        near = min(
+            ((x, y) for k, x in enumerate(C) for y in C[k + 1 :]), key=lambda pair: math.dist(pair[0].p, pair[1].p)
+        )
+        sentence = "Two critical sets meet: a saddle and a node."
+        out.append(SpecialValue("fold of critical sets", value, _middle(near), sentence, "eq:critical_set"))
+    if len(before.critical) == len(after.critical):
+        left = _matched([C.p for C in before.critical], after.critical)
+        for C, D in zip(before.critical, left, strict=True):
+            if C.kind == D.kind:
+                continue
+            place = (float(D.p[0]), float(D.p[1]))
+            if C.kind.split()[0] == D.kind.split()[0]:
+                sentence = "tr(J)² = 4 det J: the critical set changes between node and focus."
+                out.append(SpecialValue("node-focus", value, place, sentence, "fig:bads"))
+            elif "saddle" in (C.kind, D.kind):
+                sentence = "det J = 0: a critical set turns from a saddle into another kind."
+                out.append(SpecialValue("det J = 0", value, place, sentence, "eq:scjaco"))
+            else:
+                sentence = "Hopf: tr J = 0 < det J."
+                out.append(SpecialValue("Hopf", value, place, sentence, "sec:case3"))
+    if before.exponent is not None and after.exponent is not None and before.part(2) != after.part(2):
+        sentence = "The closed equator is neutral to first order: it turns its stability."
+        out.append(SpecialValue("neutral equator", value, (0.0, 0.0), sentence, "thm:geneps0"))
+    return out
+
+
+def _meetings(more: Array, fewer: Array) -> list[tuple[int, float]]:
+    """How many limit directions meet and where, from what lies on the two sides."""
+    away = np.abs(np.remainder(more[:, None] - fewer + math.pi, 2.0 * math.pi) - math.pi)
+    own = away.argmin(axis=1) if len(fewer) else np.zeros(len(more), int)
+    close = away.min(axis=1, initial=math.inf) < _TOGETHER
+    met = [(3, float(fewer[j])) for j in range(len(fewer)) if (close & (own == j)).sum() == 3]
+    alone = more[~close]
+    if len(alone):
+        gaps = np.remainder(np.roll(alone, -1) - alone, 2.0 * math.pi)
+        first = int(gaps.argmin())  # of a pair: from there on every second gap is one
+        pairs = range(first, first + len(alone) - 1, 2)
+        met += [(2, float((alone[i % len(alone)] + 0.5 * gaps[i % len(alone)]) % (2.0 * math.pi))) for i in pairs]
+    return sorted(met, key=lambda m: m[1])
+
+
+def _meeting(value: float, count: int, theta: float) -> SpecialValue:
+    place, at = (math.cos(theta), math.sin(theta)), f"θ = {theta:.4g}"
+    if count == 2:
+        sentence = f"Two limit directions meet at {at}: Θ has a double zero."
+        return SpecialValue("saddle-node", value, place, sentence, "fig:SNBIF")
+    sentence = f"One limit direction splits into three at {at}: Θ has a triple zero."
+    return SpecialValue("pitchfork", value, place, sentence, "fig:SNBIF")
+
+
+def _middle(pair: tuple[CriticalSet, CriticalSet]) -> tuple[float, float]:
+    p = 0.5 * (pair[0].p + pair[1].p)
+    return float(p[0]), float(p[1])
+
+
+def _matched(places: Sequence[Array], critical: Sequence[CriticalSet]) -> list[CriticalSet]:
+    """Critical sets in the order of the places nearest to them."""
+    left, out = list(critical), []
+    for p in places:
+        C = min(left, key=lambda C, p=p: math.dist(C.p, p))
+        left = [D for D in left if D is not C]
+        out.append(C)
+    return out
+
+
+def _directions(values: Array, states: list[_State]) -> list[EquatorBranch]:
+    first = states[0].equator
+    if not len(first):
+        return []
+    theta = linked(np.array([s.equator.theta for s in states]))
+    out = []
+    for j in range(len(first)):
+        own = [
+            int(abs(np.exp(1j * s.equator.theta) - np.exp(1j * t[j])).argmin())
+            for s, t in zip(states, theta, strict=True)
+        ]
+        rho = [s.equator.lambda_rho[i] for s, i in zip(states, own, strict=True)]
+        slope = [s.equator.lambda_theta[i] for s, i in zip(states, own, strict=True)]
+        x, t, rho_, slope_ = _frozen(values, theta[:, j], rho, slope)
+        out.append(EquatorBranch(x, t, rho_, slope_, first.kind(own[0])))
+    return out
+
+
+def _sets(values: Array, states: list[_State]) -> list[CriticalBranch]:
+    rows = [list(states[0].critical)]
+    for s in states[1:]:
+        rows.append(_matched([C.p for C in rows[-1]], s.critical))
+    out = []
+    for column in zip(*rows, strict=True):
+        x, e, p = _frozen(values, [C.e for C in column], [C.p for C in column])
+        trace, determinant = _frozen([C.trace for C in column], [C.determinant for C in column])
+        out.append(CriticalBranch(x, e, p, trace, determinant, column[0].kind))
+    return out
+
+
+def _frozen(*rows: Any) -> tuple[Array, ...]:
+    out = tuple(np.array(row, float) for row in rows)
+    for array in out:
+        array.flags.writeable = False
+    return out

@@ -1,0 +1,1 @@
+"""Typed text as functions: read, kept as a tape, written as source, interpreted as arrays."""

@@ -1,0 +1,163 @@
+"""Formulas as arrays that compiled code (`interpreter`) interprets: a new system is evaluated without compiling it.
+
+The rows of U share one tape: equal sub-formulas are one entry. Numbers of the system (parameters, slow variables)
+are put in, and what then is constant is folded, in about a microsecond: a slider move costs no more than that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .expression import Expression
+from .names import PLANE, number_names
+from .opcodes import (
+    ABS,
+    ADD,
+    ATAN,
+    COS,
+    COSH,
+    DIV,
+    EXP,
+    LOG,
+    MUL,
+    NEG,
+    NUM,
+    POW,
+    SIN,
+    SINH,
+    SLOT,
+    SQRT,
+    SUB,
+    TAN,
+    TANH,
+    VAR,
+)
+
+Array = NDArray[np.floating[Any]]
+Key = tuple[tuple[Expression, ...], tuple[float, ...]]  # `Frozen.key`: rows of U, and the numbers that they read
+
+_CODES = {
+    **{"neg": NEG, "+": ADD, "-": SUB, "*": MUL, "/": DIV, "**": POW, "abs": ABS, "atan": ATAN},
+    **{"sin": SIN, "cos": COS, "tan": TAN, "exp": EXP, "log": LOG, "sqrt": SQRT},
+    **{"tanh": TANH, "sinh": SINH, "cosh": COSH},
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Program:
+    """Formulas with numbers put in: what the compiled interpreters run.
+
+    Attributes
+    ----------
+    op, left, right : ndarray of int (n,)
+        Operation of each entry and the entries it acts on (`left` of a variable: 0 … 3 for c, s, x, y).
+    number : ndarray (n,)
+        Value of a constant entry, and exponent of an integer power.
+    roots : ndarray of int (rows,)
+        Entries of the rows.
+    """
+
+    op: NDArray[np.int64]
+    left: NDArray[np.int64]
+    right: NDArray[np.int64]
+    number: Array
+    roots: NDArray[np.int64]
+
+    @property
+    def arrays(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], Array, NDArray[np.int64]]:
+        """The five arrays, as the kernels take them."""
+        return self.op, self.left, self.right, self.number, self.roots
+
+    def at(self, points: Array) -> Array:
+        """Rows and their exact partial derivatives by c and s on Sigma.
+
+        Parameters
+        ----------
+        points : ndarray (k, 2)
+
+        Returns
+        -------
+        ndarray (k, rows, 3)
+            Value, derivative by c, derivative by s.
+        """
+        out = np.empty((len(points), len(self.roots), 3))
+        from . import interpreter  # on first use: it loads the compiler
+
+        interpreter.batch(*self.arrays, np.ascontiguousarray(points), out)
+        return out
+
+
+@lru_cache(maxsize=64)
+def _encoded(rows: tuple[Expression, ...]) -> Program:
+    names = {name: slot for slot, name in enumerate(number_names(rows))}
+    where: dict[tuple[Any, ...], int] = {}
+    nodes: list[tuple[int, int, int, float]] = []
+    roots = []
+    for row in rows:
+        at: list[int] = []
+        for op, *args in row._tape:
+            if op == "num":
+                node: tuple[int, int, int, float] = (NUM, 0, 0, float(args[0]))
+            elif op == "name":
+                name = args[0]
+                node = (VAR, PLANE.index(name), 0, 0.0) if name in PLANE else (SLOT, names[name], 0, 0.0)
+            else:
+                node = (_CODES[op], at[args[0]], at[args[-1]], 0.0)
+            if node not in where:
+                where[node] = len(nodes)
+                nodes.append(node)
+            at.append(where[node])
+        roots.append(at[-1])
+    op, left, right, number = zip(*nodes, strict=True)
+    first, second, third = (np.array(v, np.int64) for v in (op, left, right))
+    return Program(first, second, third, np.array(number, float), np.array(roots, np.int64))
+
+
+@lru_cache(maxsize=32)
+def program(key: Hashable) -> Program:
+    """Return the tape of the formulas of `Frozen.key` with its numbers put in."""
+    from . import interpreter  # on first use: it loads the compiler
+
+    rows, numbers = key  # type: ignore[misc]
+    template = _encoded(rows)
+    op, right, number = template.op.copy(), template.right.copy(), template.number.copy()
+    interpreter.specialise(op, template.left, right, number, np.array(numbers, float))
+    return Program(op, template.left, right, number, template.roots)
+
+
+def polynomial_degree(rows: tuple[Expression, ...]) -> int | None:
+    """Total degree in c and s of formulas that are polynomials in them on Sigma, or None if one is not."""
+    degrees = [_degree(row) for row in rows]
+    return None if None in degrees else max(d for d in degrees if d is not None)
+
+
+@lru_cache(maxsize=256)
+def _degree(row: Expression) -> int | None:
+    found: list[int | None] = []
+    for op, *args in row._tape:
+        if op in ("num", "name"):
+            found.append(1 if op == "name" and args[0] in ("c", "s") else 0)
+            continue
+        of = [found[i] for i in args]
+        first, last = of[0], of[-1]
+        if first is None or last is None:
+            found.append(None)
+        elif all(d == 0 for d in of):
+            found.append(0)
+        elif op in ("+", "-", "neg"):
+            found.append(max(first, last))
+        elif op == "*":
+            found.append(first + last)
+        elif op == "/" and last == 0:
+            found.append(first)
+        elif op == "**" and row._tape[args[1]][0] == "num" and float(row._tape[args[1]][1]) in range(1, 65):
+            found.append(first * int(row._tape[args[1]][1]))
+        else:
+            found.append(None)
+    return found[-1]

@@ -1,0 +1,276 @@
+"""Typed text becomes functions, without eval: ``parse("1/(1+s)**2", ("s",))``.
+
+A whitelist is read: decimal numbers, the given names, ``+ - * / **`` (``^`` too), parentheses, the functions
+sin cos tan exp log sqrt tanh sinh cosh atan abs, and pi and e unless they are among the names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+
+from . import tape as tapes
+from .reader import ExpressionError, check_names, read
+
+__all__ = ["Expression", "ExpressionError", "parse"]
+
+LONGEST_SOURCE = 100_000
+DEEPEST_SOURCE = 150  # Python's own parser stops at 200 open parentheses
+
+
+class Expression:
+    """A formula in some names; immutable, equal and hashed by structure. Made by `parse`.
+
+    Attributes
+    ----------
+    names : tuple of str
+        The names that the formula uses, in order of appearance.
+    text : str
+        The formula, which `parse` reads back to an equal one.
+    """
+
+    def __init__(self, tape: tapes.Tape) -> None:
+        object.__setattr__(self, "_tape", tape)
+        object.__setattr__(self, "_hash", hash(tape))
+
+    _tape: tapes.Tape
+    _hash: int
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"an Expression is immutable: {name} cannot be set; parse another text.")
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Expression) and self._hash == other._hash and self._tape == other._tape
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    def __repr__(self) -> str:
+        return f"Expression({self.text!r})"
+
+    def __reduce__(self) -> tuple[type[Expression], tuple[tapes.Tape]]:
+        return Expression, (self._tape,)
+
+    @property
+    def tape(self) -> tapes.Tape:
+        """The operations in order, each on earlier entries; the last is the value."""
+        return self._tape
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """The names that the formula uses, in order of appearance."""
+        return tuple(node[1] for node in self._tape if node[0] == "name")
+
+    @cached_property
+    def constant(self) -> float | None:
+        """The value if the formula is a plain number, or None."""
+        return self._tape[-1][1] if self._tape[-1][0] == "num" else None
+
+    def evaluate(self, values: Mapping[str, Any]) -> Any:
+        """Value of the formula, in IEEE arithmetic: inf and nan where it has a pole or is undefined, no warnings.
+
+        Parameters
+        ----------
+        values : mapping of str to float or array
+            At least the names in `names`; arrays broadcast.
+
+        Returns
+        -------
+        float or ndarray
+            An array of the common shape if any value is an array of one or more dimensions, else a float.
+
+        Raises
+        ------
+        ValueError
+            A name has no value, or the arrays do not broadcast.
+        """
+        plain = True
+        for value in values.values():
+            if type(value) is not float and np.ndim(value):
+                plain = False
+                break
+        if not plain:
+            return self._evaluate_arrays(values)
+        try:
+            known = {name: float(values[name]) for name in self.names}
+        except KeyError as missing:
+            raise self._missing(missing.args[0]) from None
+        except TypeError as error:
+            raise ValueError(f"{self.text} needs real numbers: {error}.") from None
+        try:
+            return _run(self._tape, tapes.SCALAR, known)
+        except (ValueError, ArithmeticError):
+            with np.errstate(all="ignore"):
+                known = {name: np.float64(value) for name, value in known.items()}
+                return float(_run(self._tape, tapes.VECTOR, known))
+
+    def _missing(self, name: str) -> ValueError:
+        return ValueError(f"{self.text} needs a value of {name}; give one for each of {', '.join(self.names)}.")
+
+    def _evaluate_arrays(self, values: Mapping[str, Any]) -> np.ndarray:
+        known: dict[str, Any] = {}
+        for name in self.names:
+            if name not in values:
+                raise self._missing(name)
+            known[name] = np.asarray(values[name], float)
+        shape = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
+        with np.errstate(all="ignore"):
+            result = np.asarray(_run(self._tape, tapes.VECTOR, known), float)
+        if result.shape != shape:
+            return np.broadcast_to(result, shape).copy()
+        return result.copy() if len(self._tape) == 1 else result
+
+    def derivative(self, name: str) -> Expression:
+        """Symbolic partial derivative by `name`, lightly simplified; zero if the formula does not use it.
+
+        Raises
+        ------
+        ValueError
+            The derivative is too long (20000 operations).
+        """
+        return _derivative(self, name)
+
+    def substitute(self, name: str, replacement: Expression) -> Expression:
+        """Replace `name` by another formula."""
+        return Expression(tapes.substitute(self._tape, name, replacement._tape))
+
+    @cached_property
+    def text(self) -> str:
+        """The formula, which `parse` reads back to an equal one."""
+        return _render(self._tape, python=False)
+
+    def python_source(self) -> str:
+        """One scalar Python expression over the names and ``math.*``, to be compiled (by Numba, say).
+
+        Compile it with IEEE error handling (Numba's ``error_model="numpy"``): plain Python raises at poles.
+
+        Raises
+        ------
+        ValueError
+            The formula, written out, is too long or too deep for a compiler (only high derivatives are).
+        """
+        return _render(self._tape, python=True)
+
+
+def parse(text: str, names: Iterable[str]) -> Expression:
+    """Read a formula.
+
+    Parameters
+    ----------
+    text : str
+        At most 1000 ASCII characters, 400 operations and 40 levels of nesting; exponents up to 1000.
+    names : tuple of str
+        The variables that the text may use, e.g. ``("s",)``.
+
+    Returns
+    -------
+    Expression
+        The same object for the same text and names.
+
+    Raises
+    ------
+    ValueError
+        An `ExpressionError` with ``text``, ``column`` (from 1) and ``caret``; the message says what was written,
+        where reading stopped, what is allowed, and the mend.
+    """
+    if not isinstance(text, str):
+        raise ValueError(f"a formula was expected as text, not {type(text).__name__}; give a string such as '1/(1+s)'.")
+    if isinstance(names, str):
+        raise ValueError(f"names is the text {names!r}; give a tuple such as ({names!r},).")
+    return _parse(str(text), tuple(names))
+
+
+@lru_cache(maxsize=512)
+def _parse(text: str, names: tuple[str, ...]) -> Expression:
+    check_names(names)
+    return Expression(read(text, names))
+
+
+@lru_cache(maxsize=512)
+def _derivative(expression: Expression, name: str) -> Expression:
+    return Expression(tapes.derivative(expression._tape, name))
+
+
+def _run(tape: tapes.Tape, operations: Mapping[str, Any], known: Mapping[str, Any]) -> Any:
+    results: list[Any] = []
+    add = results.append
+    for node in tape:
+        op = node[0]
+        if op == "num":
+            add(node[1])
+        elif op == "name":
+            add(known[node[1]])
+        elif len(node) == 2:
+            add(operations[op](results[node[1]]))
+        else:
+            add(operations[op](results[node[1]], results[node[2]]))
+    return results[-1]
+
+
+# Rendered pieces are (text, how tightly it binds, depth of parentheses).
+_SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(1, 6)
+_Piece = tuple[str, int, int]
+
+
+def _render(tape: tapes.Tape, python: bool) -> str:
+    pieces: list[_Piece] = []
+    for op, *args in tape:
+        if op == "num":
+            piece = _number(args[0], python)
+        elif op == "name":
+            piece = (args[0], _ATOM, 0)
+        else:
+            piece = _operation(op, [pieces[i] for i in args], [tape[i] for i in args], python)
+        if len(piece[0]) > LONGEST_SOURCE or (python and piece[2] > DEEPEST_SOURCE):
+            if not python:
+                return f"(a formula of {len(tape)} operations)"
+            raise ValueError(
+                f"written out, a formula of {len(tape)} operations is too long or too deep to compile; shorten it."
+            )
+        pieces.append(piece)
+    return pieces[-1][0]
+
+
+def _number(value: float, python: bool) -> _Piece:
+    shown = repr(value)
+    if not python:
+        shown = shown.removesuffix(".0")
+    return (f"({shown})", _ATOM, 1) if value < 0.0 else (shown, _ATOM, 0)
+
+
+def _wrap(piece: _Piece, least: int) -> tuple[str, int]:
+    text, binding, depth = piece
+    return (text, depth) if binding >= least else (f"({text})", depth + 1)
+
+
+def _operation(op: str, pieces: list[_Piece], nodes: list[tapes.Node], python: bool) -> _Piece:
+    if op == "neg":
+        text, depth = _wrap(pieces[0], _POWER)
+        return f"-{text}", _SIGN, depth
+    if len(pieces) == 1:
+        text, _, depth = pieces[0]
+        prefix = "" if not python else "math."
+        return f"{prefix}{'fabs' if python and op == 'abs' else op}({text})", _ATOM, depth + 1
+    if op == "**":
+        return _power(pieces, nodes[1], python)
+    binding = _SUM if op in "+-" else _PRODUCT
+    (left, depth_left), (right, depth_right) = _wrap(pieces[0], binding), _wrap(pieces[1], binding + 1)
+    space = " " if binding == _SUM else ""
+    return f"{left}{space}{op}{space}{right}", binding, max(depth_left, depth_right)
+
+
+def _power(pieces: list[_Piece], exponent: tapes.Node, python: bool) -> _Piece:
+    base, depth = _wrap(pieces[0], _ATOM)
+    value = exponent[1] if exponent[0] == "num" else None
+    if not python:
+        text, depth_exponent = _wrap(pieces[1], _ATOM)
+        return f"{base}**{text}", _POWER, max(depth, depth_exponent)
+    if value is not None and value.is_integer() and value != 0.0:
+        n = int(value)
+        # a literal integer exponent becomes multiplications when compiled
+        return (f"{base}**{n}", _POWER, depth) if n > 0 else (f"(1.0/{base}**{-n})", _ATOM, depth + 1)
+    (left, _, depth_left), (right, _, depth_right) = pieces
+    return f"math.pow({left}, {right})", _ATOM, max(depth_left, depth_right) + 1

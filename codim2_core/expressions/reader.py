@@ -1,0 +1,247 @@
+"""From typed text to a tape: a tokeniser and a precedence parser over a whitelist. Nothing is run as code."""
+
+from __future__ import annotations
+
+import difflib
+import keyword
+import re
+
+from .tape import CONSTANTS, FUNCTIONS, Builder, NotFiniteError, Tape, compact
+
+MOST_CHARACTERS = 1000
+MOST_OPERATIONS = 400
+MOST_NESTING = 40
+LARGEST_EXPONENT = 1000
+
+_TOKEN = re.compile(
+    r"[ \t\r\n]*(?:(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
+    r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*)|(?P<op>\*\*|[-+*/^()]))"
+)
+_LEFT_BINDING = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4, "^": 4}
+_UNARY_BINDING = 3  # -s^2 is -(s^2), and 2*-s and s^-2 are read too
+
+
+class ExpressionError(ValueError):
+    """Text that cannot be read.
+
+    Attributes
+    ----------
+    text : str
+        What was written.
+    column : int
+        Where reading stopped, from 1.
+    """
+
+    def __init__(self, message: str, text: str, column: int) -> None:
+        super().__init__(message)
+        self.text = text
+        self.column = column
+
+    def __reduce__(self) -> tuple[type[ExpressionError], tuple[str, str, int]]:
+        return type(self), (str(self), self.text, self.column)
+
+    @property
+    def caret(self) -> str:
+        """The text (at most 60 characters of it, on one line) with a caret under the column."""
+        start = max(0, self.column - 31)
+        part = self.text[start : start + 60]
+        shown = "".join(ch if " " <= ch <= "~" else "?" for ch in part)
+        return f"{shown}\n{' ' * (self.column - 1 - start)}^"
+
+
+def check_names(names: tuple[str, ...]) -> None:
+    """Refuse names that the text or the generated source could mistake for something else."""
+    for name in names:
+        usable = isinstance(name, str) and re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name, re.ASCII) and len(name) <= 40
+        if not usable or name in FUNCTIONS or name == "math" or keyword.iskeyword(name):
+            raise ValueError(
+                f"{name!r} cannot name a variable; use at most 40 ASCII letters, digits and _, beginning with a "
+                f"letter, and none of {', '.join(FUNCTIONS)}, math or a Python keyword."
+            )
+
+
+def read(text: str, names: tuple[str, ...]) -> Tape:
+    """Tape of a formula.
+
+    Raises
+    ------
+    ExpressionError
+        A ValueError that says what was written, the column, what is allowed and the mend.
+    """
+    return _Reader(text, names).read()
+
+
+class _Reader:
+    def __init__(self, text: str, names: tuple[str, ...]) -> None:
+        self.text = text
+        self.names = names
+        self.build = Builder(limit=MOST_OPERATIONS)
+        self.tokens: list[tuple[str, str, int]] = []
+        self.at = 0
+        self.depth = 0
+
+    def read(self) -> Tape:
+        if len(self.text) > MOST_CHARACTERS:
+            raise self.error(MOST_CHARACTERS, f"it has {len(self.text)} characters", f"use {MOST_CHARACTERS} at most")
+        self.tokenise()
+        root = self.expression(0)
+        kind, what, column = self.tokens[self.at]
+        if what == ")":
+            raise self.error(column, "this ) closes nothing", "remove it, or open with ( before")
+        if kind != "end":
+            raise self.juxtaposed(what, column)
+        return compact(self.build.nodes, root)
+
+    def error(self, column: int, what: str, mend: str) -> ExpressionError:
+        words = [*self.names, *(name for name in CONSTANTS if name not in self.names)]
+        start = max(0, column - 31)
+        shown = ascii(self.text[start : start + 60])
+        shown = ("..." if start else "") + shown + ("..." if len(self.text) > start + 60 else "")
+        allowed = f"numbers, {', '.join(words)}, + - * / ** ( ) and {' '.join(FUNCTIONS)}"
+        return ExpressionError(
+            f"cannot read {shown}: at column {column}, {what}. Allowed are {allowed}. Mend: {mend}.",
+            self.text,
+            column,
+        )
+
+    def tokenise(self) -> None:
+        position, text = 0, self.text
+        while match := _TOKEN.match(text, position):
+            kind = match.lastgroup or ""
+            self.tokens.append((kind, match[kind], match.start(kind) + 1))
+            position = match.end()
+        rest = text[position:].lstrip(" \t\r\n")
+        column = len(text) - len(rest) + 1
+        if rest:
+            raise self.stranger(rest[0], column)
+        self.tokens.append(("end", "", column))
+
+    def stranger(self, ch: str, column: int) -> ExpressionError:
+        mend = "remove it"
+        if ch == ".":
+            mend = "write decimals such as 0.5; a dot has no other use here"
+        elif ch in "[]{}":
+            mend = "group with ( and )"
+        elif ch == ",":
+            mend = "functions take one argument; write decimals with a point"
+        elif ch in "−–—":
+            mend = "type - for minus"
+        elif ch in "×·⋅∗":
+            mend = "type * for times"
+        elif ch in "⁰¹²³⁴⁵⁶⁷⁸⁹":
+            mend = "type powers as s**2"
+        elif ch in "=<>!&|~%@?:;":
+            mend = "write one formula, with arithmetic only"
+        elif not " " <= ch <= "~":
+            mend = "type plain ASCII"
+        return self.error(column, f"the character {ch!a} has no meaning", mend)
+
+    def juxtaposed(self, what: str, column: int) -> ExpressionError:
+        before = self.tokens[self.at - 1][1]
+        return self.error(
+            column,
+            f"{what[:20]!r} follows {before[:20]!r} with no operator between them",
+            f"write {before[:20]}*{what[:20]} for a product",
+        )
+
+    def expression(self, binding: int) -> int:
+        """Read operators that bind tighter than `binding` (precedence climbing)."""
+        column = self.tokens[self.at][2]
+        if self.depth >= MOST_NESTING:
+            raise self.error(
+                column, f"nesting is deeper than {MOST_NESTING}", "use fewer parentheses or powers of powers"
+            )
+        self.depth += 1
+        left = self.operand()
+        while True:
+            kind, op, column = self.tokens[self.at]
+            strength = _LEFT_BINDING.get(op, 0) if kind == "op" else 0
+            if strength <= binding:
+                break
+            self.at += 1
+            if op in ("**", "^"):
+                right = self.expression(_UNARY_BINDING)  # from the right: s^2^3 is s^(2^3)
+                self.check_exponent(right, column)
+                left = self.apply(column, "**", left, right)
+            else:
+                left = self.apply(column, op, left, self.expression(strength))
+        self.depth -= 1
+        return left
+
+    def operand(self) -> int:
+        negative, signed = False, False
+        while self.tokens[self.at][1] in ("-", "+"):
+            negative ^= self.tokens[self.at][1] == "-"
+            signed = True
+            self.at += 1
+        kind, what, column = self.tokens[self.at]
+        if signed:
+            inner = self.expression(_UNARY_BINDING)
+            return self.apply(column, "neg", inner) if negative else inner
+        self.at += 1
+        if kind == "number":
+            value = float(what)
+            if value > 1e300:
+                raise self.error(column, f"the number {what[:20]} is too large", "use numbers below 1e300")
+            return self.build.number(value)
+        if kind == "name":
+            return self.word(what, column)
+        if what == "(":
+            return self.closed(column)
+        found = "the text ends" if kind == "end" else f"there is {what!r}"
+        raise self.error(column, f"{found} where a number, a name or ( should be", "complete the formula")
+
+    def word(self, word: str, column: int) -> int:
+        opens = self.tokens[self.at][1] == "("
+        if word in self.names:
+            if opens:
+                raise self.error(column, f"{word} is a variable, not a function", f"write {word}*( for a product")
+            return self.leaf(column, word)
+        if word in FUNCTIONS:
+            if not opens:
+                raise self.error(column, f"the function {word} has no argument in parentheses", f"write {word}(...)")
+            column_inside = self.tokens[self.at][2]
+            self.at += 1
+            return self.apply(column, word, self.closed(column_inside))
+        if word in CONSTANTS:
+            return self.build.number(CONSTANTS[word])
+        near = difflib.get_close_matches(word[:30], [*self.names, *FUNCTIONS], 1)
+        mend = f"did you mean {near[0]}?" if near else "use one of the names above"
+        raise self.error(column, f"the name {word[:30]!r} is not known here", mend)
+
+    def leaf(self, column: int, name: str) -> int:
+        try:
+            return self.build.name(name)
+        except ValueError:
+            raise self.too_long(column) from None
+
+    def closed(self, column: int) -> int:
+        """Read up to the matching parenthesis."""
+        inside = self.expression(0)
+        kind, what, here = self.tokens[self.at]
+        if what != ")":
+            if kind != "end":
+                raise self.juxtaposed(what, here)
+            raise self.error(column, "this ( is never closed", "add ) at its end")
+        self.at += 1
+        return inside
+
+    def too_long(self, column: int) -> ExpressionError:
+        return self.error(column, f"there are more than {MOST_OPERATIONS} operations", "write a shorter formula")
+
+    def apply(self, column: int, op: str, *args: int) -> int:
+        try:
+            return self.build.apply(op, *args)
+        except NotFiniteError:
+            raise self.error(column, "the numbers here give an infinite or undefined value", "change them") from None
+        except ValueError:
+            raise self.too_long(column) from None
+
+    def check_exponent(self, i: int, column: int) -> None:
+        value = self.build.value(i)
+        if value is not None and abs(value) > LARGEST_EXPONENT:
+            raise self.error(
+                column,
+                f"the exponent {value:g} is too large",
+                f"use exponents from -{LARGEST_EXPONENT} to {LARGEST_EXPONENT}",
+            )

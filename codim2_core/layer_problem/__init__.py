@@ -1,0 +1,1 @@
+"""The layer problem: critical sets, the equator, the charts of the hemisphere."""

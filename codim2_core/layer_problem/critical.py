@@ -1,0 +1,260 @@
+"""Critical sets: the equilibria of the layer problem, thm:lineps1 for the e-linear system.
+
+``A e + f = 0`` has the solution ``e = -A^-1 f = -n/det A`` with ``n = adj(A) f``, and a critical set exists iff
+``|n| < |det A|``. That form never divides by det A. Signs that rounding could blur are decided in exact rational
+arithmetic of the given doubles; within the rounding of the inputs the border itself is the (named) answer.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from enum import Enum
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.trigonometric import ROUNDING
+from ..psi.function import Psi
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+from ..systems.typed import Frozen, System
+from .disc_zeros import disc_zeros
+from .linearisation import (
+    CANCELLATION,
+    NEUTRAL_TRACE,
+    Parts,
+    determinant_sign,
+    linearisation,
+    linearisation_of,
+    scaled,
+    spectrum,
+)
+
+__all__ = ["NEUTRAL_TRACE", "CriticalSet", "Existence", "Location", "critical_sets", "determinant_sign", "locate"]
+
+
+class Existence(Enum):
+    """How many critical sets there are, and why; the value is the sentence shown."""
+
+    INSIDE = "One critical set: |A⁻¹f| < 1 (thm:lineps1)."
+    NONE = "No critical set: |A⁻¹f| > 1 (thm:lineps1)."
+    EQUATOR = "|A⁻¹f| = 1 within rounding: the critical set lies on the equator (transcritical, fig:transcrit)."
+    SINGULAR_NONE = "det A = 0 within rounding, and f is not in the range of A: no critical set."
+    SINGULAR_LINE = "det A = 0 within rounding, and f is in the range of A: a whole line A e = −f of critical points."
+    SINGULAR_OUTSIDE = "det A = 0 within rounding; the line A e = −f misses the hemisphere: no critical set."
+    EVERYTHING = "A = 0 and f = 0: every point of the hemisphere is an equilibrium of the layer problem."
+
+
+@dataclass(frozen=True, slots=True)
+class Location:
+    """Where ``A e = -f`` holds.
+
+    Attributes
+    ----------
+    existence : Existence
+    e : (c, s), or None
+        The solution, when it lies in the open disc.
+    complement : float
+        ``1 - |e|^2`` to full relative accuracy.
+    direction : float, or None
+        The angle of the solution when it lies on |e| = 1 within rounding.
+    line : ((c, s), (c, s)), or None
+        Ends on |e| = 1 of the line of solutions when det A = 0.
+    """
+
+    existence: Existence
+    e: tuple[float, float] | None = None
+    complement: float = 1.0
+    direction: float | None = None
+    line: tuple[tuple[float, float], tuple[float, float]] | None = None
+
+    @property
+    def singular(self) -> bool:
+        """Whether det A = 0 within the rounding of a, b, d."""
+        return self.existence not in (Existence.INSIDE, Existence.NONE, Existence.EQUATOR)
+
+
+@dataclass(frozen=True, slots=True)
+class CriticalSet:
+    """A critical set C of the layer problem, eq:critical_set, with its linearisation eq:scjaco.
+
+    Attributes
+    ----------
+    e : ndarray (2,)
+        (c, s) with U((c, s), 0, 0, z) = 0; independent of Psi.
+    x2 : ndarray (2,)
+        Its place in the scaling chart kappa_2.
+    p : ndarray (2,)
+        Its place in the projected disc.
+    jacobian : ndarray (2, 2)
+        ``J = D_e U . D e_Psi`` in (x2, y2) and the fast time tau.
+    trace, determinant, discriminant : float
+        Of J; the discriminant is trace^2 - 4 determinant.
+    eigenvalues : ndarray (2,), complex
+        By falling real part.
+    kind : str
+        "stable node", "stable focus", "unstable node", "unstable focus", "saddle", or "centre (linear)"; in general
+        systems also "saddle-node" (det J = 0: two critical sets have just met) and "degenerate" (more than two).
+    slow_flow : ndarray (m,)
+        z' on it, eq:linslowflow; independent of Psi.
+    """
+
+    e: NDArray[np.float64]
+    x2: NDArray[np.float64]
+    p: NDArray[np.float64]
+    jacobian: NDArray[np.float64]
+    trace: float
+    determinant: float
+    discriminant: float
+    eigenvalues: NDArray[np.complex128]
+    kind: str
+    slow_flow: NDArray[np.float64]
+
+
+def locate(coefficients: Coefficients) -> Location:
+    """Decide whether, and where, ``A e + f = 0`` in the disc |e| < 1 (thm:lineps1(a)), without dividing by det A."""
+    a, b, d, f1, f2 = scaled(coefficients.plane)
+    if determinant_sign(a, b, d) == 0:
+        return _locate_singular(a, b, d, f1, f2)
+    det = a * d + b * b
+    n1, n2 = d * f1 + b * f2, a * f2 - b * f1
+    w0 = abs(a * d) + b * b
+    w1, w2 = abs(d * f1) + abs(b * f2), abs(a * f2) + abs(b * f1)
+    gap, size = det * det - n1 * n1 - n2 * n2, det * det + n1 * n1 + n2 * n2
+    blurred = (
+        abs(gap) < CANCELLATION * size
+        or abs(det) < CANCELLATION * w0
+        or (0.0 < abs(n1) < CANCELLATION * w1)
+        or (0.0 < abs(n2) < CANCELLATION * w2)
+        or size < 1e-280
+    )
+    if blurred:
+        return _locate_exactly(a, b, d, f1, f2)
+    if gap < 0.0:
+        return Location(Existence.NONE)
+    return Location(Existence.INSIDE, (-n1 / det + 0.0, -n2 / det + 0.0), gap / (det * det))
+
+
+def _locate_exactly(a: float, b: float, d: float, f1: float, f2: float) -> Location:
+    A, B, D, F1, F2 = map(Fraction, (a, b, d, f1, f2))
+    det, n1, n2 = A * D + B * B, D * F1 + B * F2, A * F2 - B * F1
+    gap = det * det - n1 * n1 - n2 * n2
+    # Half the first-order change of the gap when each coefficient is off by a relative 1.
+    change = (
+        abs(n2 * A * F2 - det * A * D)
+        + abs(n1 * B * F2 - n2 * B * F1 - 2 * det * B * B)
+        + abs(n1 * D * F1 - det * A * D)
+        + abs(n1 * D * F1 - n2 * B * F1)
+        + abs(n1 * B * F2 + n2 * A * F2)
+    )
+    off = 2 * Fraction(ROUNDING)
+    # Near det A = 0 first order is not enough: |adj(A) f| and |det A| must be able to meet.
+    parts = ((n1, abs(D * F1) + abs(B * F2)), (n2, abs(A * F2) + abs(B * F1)))
+    least = sum(max(abs(n) - off * size, 0) ** 2 for n, size in parts)
+    if abs(gap) <= off * change and least <= (abs(det) + off * (abs(A * D) + B * B)) ** 2:
+        return Location(Existence.EQUATOR, direction=math.atan2(-n2 / det, -n1 / det))
+    if gap < 0:
+        return Location(Existence.NONE)
+    return Location(Existence.INSIDE, (float(-n1 / det), float(-n2 / det)), float(gap / det**2))
+
+
+def _locate_singular(a: float, b: float, d: float, f1: float, f2: float) -> Location:
+    if a == b == d == 0.0:
+        return Location(Existence.EVERYTHING if f1 == f2 == 0.0 else Existence.SINGULAR_NONE)
+    A, B, D, F1, F2 = map(Fraction, (a, b, d, f1, f2))
+    n1, n2 = D * F1 + B * F2, A * F2 - B * F1
+    rounding = 2 * Fraction(ROUNDING)
+    solvable = abs(n1) <= rounding * (abs(D * F1) + abs(B * F2)) and abs(n2) <= rounding * (abs(A * F2) + abs(B * F1))
+    if not solvable:
+        return Location(Existence.SINGULAR_NONE)
+    # The larger row r of A gives the line r.e = -f_r; its distance from the origin is |f_r|/|r|.
+    (r1, r2), f = ((a, -b), f1) if math.hypot(a, b) >= math.hypot(b, d) else ((b, d), f2)
+    length = math.hypot(r1, r2)
+    u1, u2, k = r1 / length, r2 / length, -f / length
+    if abs(k) >= 1.0:
+        return Location(Existence.SINGULAR_OUTSIDE)
+    half = math.sqrt((1.0 - k) * (1.0 + k))
+    return Location(
+        Existence.SINGULAR_LINE,
+        line=((k * u1 + half * u2, k * u2 - half * u1), (k * u1 - half * u2, k * u2 + half * u1)),
+    )
+
+
+def critical_sets(
+    system: ELinear | System | Coefficients | Frozen, psi: Psi, z: ArrayLike = ()
+) -> tuple[CriticalSet, ...]:
+    """All isolated critical sets at z, eq:critical_set.
+
+    For an e-linear system none or one (thm:lineps1(a), eq:lincriticalset), in closed form. For a general system all
+    zeros of U in the open disc, by increasing c, then s, from a search that proves them complete (`disc_zeros`).
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+    psi : Psi
+    z : (m,) floats
+
+    Returns
+    -------
+    tuple of CriticalSet
+        Without zeros on |e| = 1, and empty when det A = 0, within the rounding of the coefficients; `classify` names
+        these.
+    """
+    at = system.at(z)
+    if isinstance(at, Frozen):
+        return _general_sets(at, psi)
+    location = locate(at)
+    if location.e is None:
+        return ()
+    # Time in a unit that makes the largest coefficient about 1, so that no product under- or overflows.
+    shift = math.frexp(max(map(abs, at.plane[:3])))[1]
+    a, b, d = (math.ldexp(v, -shift) for v in at.plane[:3])
+    parts = linearisation((a, b, d), psi, location.e, location.complement)
+    return (_critical_set(location.e, parts, shift, at.W(location.e)),)
+
+
+def _general_sets(at: Frozen, psi: Psi) -> tuple[CriticalSet, ...]:
+    if at.as_given is not None:
+        return tuple(replace(C, slow_flow=_frozen(at.W(C.e))) for C in critical_sets(at.as_given, psi))
+    found = disc_zeros(at.key)
+    sets = []
+    for e, DU, degenerate, index in zip(found.e, found.DU, found.degenerate, found.index, strict=True):
+        c, s = float(e[0]), float(e[1])
+        modulus = math.hypot(c, s)
+        m11, m12, m21, m22 = DU.ravel().tolist()
+        shift = math.frexp(max(abs(m11), abs(m12), abs(m21), abs(m22), 1e-290))[1]
+        M = (math.ldexp(m11, -shift), math.ldexp(m12, -shift), math.ldexp(m21, -shift), math.ldexp(m22, -shift))
+        parts = linearisation_of(M, psi, (c, s), (1.0 - modulus) * (1.0 + modulus), int(index))
+        C = _critical_set((c, s), parts, shift, at.W((c, s)))
+        if degenerate:
+            # index 0: a saddle and a node have just met; +1 or -1: three critical sets have
+            C = replace(C, determinant=0.0, kind="saddle-node" if index == 0 else "degenerate")
+        sets.append(C)
+    return tuple(sets)
+
+
+def _frozen(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    values.flags.writeable = False
+    return values
+
+
+def _critical_set(e: tuple[float, float], parts: Parts, shift: int, slow: NDArray[np.float64]) -> CriticalSet:
+    """Put the parts together; the linearisation is in a unit of time that is 2^-shift of the system's."""
+    x2, p, jacobian, frame = parts
+    trace, determinant, discriminant, kind, eigenvalues = spectrum(frame)
+    trace = math.ldexp(trace, shift)
+    determinant, discriminant = math.ldexp(determinant, 2 * shift), math.ldexp(discriminant, 2 * shift)
+    arrays = [
+        np.array(e),
+        np.array(x2),
+        np.array(p),
+        np.ldexp(np.array(jacobian).reshape(2, 2), shift),
+        np.array([complex(math.ldexp(v.real, shift), math.ldexp(v.imag, shift)) for v in eigenvalues]),
+        np.array(slow),
+    ]
+    for array in arrays:
+        array.flags.writeable = False
+    e_, x2_, p_, J, values, slow_ = arrays
+    return CriticalSet(e_, x2_, p_, J, trace, determinant, discriminant, values, kind, slow_)

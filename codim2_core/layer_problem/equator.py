@@ -1,0 +1,214 @@
+"""The equator of the blown-up hemisphere: its equilibria (limit directions), or its closed orbit.
+
+On the equator theta' = Theta (eq:equator_zeros); an equilibrium Q there has the eigenvalues lambda_theta =
+dTheta/dtheta along the equator, lambda_rho outwards and -lambda_rho up the hemisphere (thm:geneps0).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.trigonometric import ROUNDING, THETA_PATTERNS, tangential_zeros
+from ..numerics.trigonometric_exact import quotient, solve_exactly, to_integers
+from ..systems.typed import Frozen
+from .closed_equator import EquatorCycle, equator_cycle
+from .critical import locate
+from .equator_zeros import equator_zeros
+
+__all__ = ["EquatorCycle", "EquatorEquilibria", "equator_cycle", "equator_equilibria"]
+
+
+SINGULAR = 8 * ROUNDING  # of the terms of lambda_rho: zero, where det A = 0 leaves no isolated critical set to ask
+
+
+@dataclass(frozen=True, eq=False)
+class EquatorEquilibria:
+    """Equilibria on the equator, Q1, Q2, ... in increasing theta (thm:geneps0, eq:equator_equilibria).
+
+    Attributes
+    ----------
+    theta : ndarray (k,)
+        Directions in [0, 2 pi), increasing.
+    lambda_rho : ndarray (k,)
+        Radial eigenvalue; exactly 0 where `radially_degenerate`. Negative: orbits arrive from outside.
+    lambda_theta : ndarray (k,)
+        Angular eigenvalue; exactly 0 where multiplicity >= 2, alternating in sign between simple ones.
+    multiplicity : ndarray of int (k,)
+        Multiplicity of the zero of Theta, within the rounding of a, b, d, f1, f2 (of the terms of U in general).
+    radially_degenerate : ndarray of bool (k,)
+        lambda_rho = 0 within that rounding: the critical set reaches the equator there, |A^-1 f| = 1.
+    all_directions : bool
+        Theta vanishes identically (a = d, b = 0, f = 0); the arrays are then empty.
+    exact_count : int
+        Distinct zeros of Theta for the doubles exactly as given (-1: all directions). It differs from k only
+        where a multiplicity is 2 or more. For a general system it is k.
+    distance : float
+        Estimated relative change of the coefficients (of U in general) to the nearest multiple zero; 0.0 on such a
+        stratum, inf where there is no such change or no estimate.
+    symmetric : bool
+        b = 0 and f1 = 0 or f2 = 0: a triple zero is then a pitchfork, otherwise a cusp. For a general system: Theta is
+        odd about every triple zero.
+    proven : bool
+        No equilibrium is missing.
+    certificate : str
+        The sentence that says why, or why that is not certain.
+    """
+
+    theta: NDArray[np.float64]
+    lambda_rho: NDArray[np.float64]
+    lambda_theta: NDArray[np.float64]
+    multiplicity: NDArray[np.int64]
+    radially_degenerate: NDArray[np.bool_]
+    all_directions: bool
+    exact_count: int
+    distance: float
+    symmetric: bool
+    proven: bool = True
+    certificate: str = (
+        "Θ has at most 4 zeros, a closed form. Their number is decided by its discriminant, where rounding could blur "
+        "that in exact arithmetic: none is missing."
+    )
+
+    def __len__(self) -> int:
+        return len(self.theta)
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Q1, Q2, ... in order of theta."""
+        return tuple(f"Q{i + 1}" for i in range(len(self)))
+
+    def kind(self, i: int) -> str:
+        """Describe the type of equilibrium i (from 0), such as "radially attracting, angularly repelling"."""
+        if self.radially_degenerate[i]:
+            radial = "radially non-hyperbolic"
+        else:
+            radial = "radially attracting" if self.lambda_rho[i] < 0 else "radially repelling"
+        return f"{radial}, {self._angular(i)}"
+
+    def _angular(self, i: int) -> str:
+        m = int(self.multiplicity[i])
+        if m == 1:
+            return "angularly attracting" if self.lambda_theta[i] < 0 else "angularly repelling"
+        if m == 2:
+            return "angularly non-hyperbolic: saddle-node"
+        if m == 4:
+            return "angularly non-hyperbolic: fourfold zero"
+        if m > 4:
+            return f"angularly non-hyperbolic: zero of multiplicity {m}"
+        name = "pitchfork" if self.symmetric else "cusp"
+        return f"angularly non-hyperbolic: triple zero ({name}){self._weakly(i)}"
+
+    def _weakly(self, i: int) -> str:
+        """Theta rises and falls in turn through its odd zeros: the next simple one tells how it passes zero i."""
+        rises = True
+        for j in (*range(i + 1, len(self)), *range(i)):
+            rises = rises != bool(self.multiplicity[j] % 2)
+            if self.multiplicity[j] == 1:
+                return ", weakly " + ("repelling" if rises == bool(self.lambda_theta[j] > 0.0) else "attracting")
+        return ""
+
+    def sentence(self, i: int) -> str:
+        """One sentence for people on equilibrium i (from 0)."""
+        return f"Q{i + 1} at θ = {self.theta[i]:.4g}: {self.kind(i)}."
+
+    @cached_property
+    def summary(self) -> str:
+        """One sentence for people on the whole equator."""
+        if self.all_directions:
+            return "Every direction is a limit direction: Θ vanishes identically."
+        if not len(self):
+            return "No equilibria on the equator: it is a closed orbit."
+        noun = "equilibrium" if len(self) == 1 else "equilibria"
+        multiple = int((self.multiplicity > 1).sum())
+        return f"{len(self)} {noun} on the equator" + (f", {multiple} of them degenerate." if multiple else ".")
+
+
+def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
+    """Equilibria on the equator at z (eq:equator_zeros), with multiplicity; of an e-linear system at most 4.
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+    z : (m,) floats
+        Slow variables; may be left out if no coefficient uses them.
+
+    Returns
+    -------
+    EquatorEquilibria
+
+    Raises
+    ------
+    ValueError
+        If z does not fit the system or a coefficient is not finite.
+    """
+    q = system.at(z)
+    if isinstance(q, Frozen):
+        return _general(q)
+    a, b, d, f1, f2 = q.a, q.b, q.d, q.f1, q.f2
+    zeros = tangential_zeros(a, b, d, f1, f2)
+    location = locate(q)
+    reached, nearest = location.direction, None
+    if reached is not None and zeros.theta:
+        nearest = min(zeros.theta, key=lambda t: abs(math.remainder(t - reached, 2.0 * math.pi)))
+    rho: list[float] = []
+    flat: list[bool] = []
+    for theta in zeros.theta:
+        c, s = math.cos(theta), math.sin(theta)
+        value = a * c * c + d * s * s + f1 * c + f2 * s
+        size = abs(a) + abs(d) + abs(f1) + abs(f2)
+        degenerate = False
+        if abs(value) <= 1e-3 * size:
+            value = _radial_exactly(a, b, d, f1, f2, theta)
+            if reached is not None:  # U(e) = 0 on the equator, within rounding: at the nearest zero of Theta
+                degenerate = theta == nearest
+            elif location.singular:
+                degenerate = abs(value) <= SINGULAR * size
+        rho.append(0.0 if degenerate else value)
+        flat.append(degenerate)
+    arrays = (
+        np.array(zeros.theta, float),
+        np.array(rho, float),
+        np.array(zeros.slope, float),
+        np.array(zeros.multiplicity, np.int64),
+        np.array(flat, bool),
+    )
+    for array in arrays:
+        array.flags.writeable = False
+    symmetric = b == 0.0 and (f1 == 0.0 or f2 == 0.0)
+    return EquatorEquilibria(*arrays, zeros.identically_zero, zeros.exact_count, zeros.distance, symmetric)
+
+
+def _general(at: Frozen) -> EquatorEquilibria:
+    if at.as_given is not None:
+        return equator_equilibria(at.as_given)
+    found = equator_zeros(at.key)
+    return EquatorEquilibria(
+        found.theta,
+        found.lambda_rho,
+        found.lambda_theta,
+        found.multiplicity,
+        found.radially_degenerate,
+        found.all_directions,
+        -1 if found.all_directions else len(found.theta),
+        found.distance,
+        found.symmetric,
+        found.proven,
+        found.certificate,
+    )
+
+
+def _radial_exactly(a: float, b: float, d: float, f1: float, f2: float, theta: float) -> float:
+    """lambda_rho at the zero of Theta that theta is the rounding of, to full relative accuracy."""
+    found = solve_exactly((b, f2, f1, a, d), THETA_PATTERNS).zeros
+    if not found:
+        return a
+    x, y, n = min(found, key=lambda q: abs(math.remainder(q.theta - theta, 2.0 * math.pi)))[:3]
+    (ia, id_, i1, i2), exponent = to_integers((a, d, f1, f2))
+    value = ia * x * x + id_ * y * y + (i1 * x + i2 * y) * n
+    return quotient(value, n * n, exponent)

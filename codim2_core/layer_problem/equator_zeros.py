@@ -1,0 +1,273 @@
+"""The equator of a general system: zeros of Theta, the degree of U on it, and the closed orbit where there is no zero.
+
+Theta = (-sin, cos).U is resolved by a trigonometric polynomial to machine precision, all of whose zeros are found with
+proof (`numerics.fourier_zeros`), and polished on Theta itself with its exact derivative.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..expressions.arrays import Program, polynomial_degree, program
+from ..numerics.fourier_zeros import UNIT, Series, series, turn, zeros
+
+Array = NDArray[np.floating[Any]]
+
+MOST_ANGLES = 1024  # a Theta that needs more is not smooth: its zeros are then sign changes
+NET = 4096  # on a net of that many angles
+MOST_OF_A_TURN = 65_536  # for the integrals over a closed equator close to a saddle-node
+NEUTRAL = 2.0**-49
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class EquatorZeros:
+    """Zeros of Theta and the eigenvalues there; as `EquatorEquilibria`, with in addition
+
+    Attributes
+    ----------
+    degree : int or None
+        Degree of theta -> U/|U|, which the indices of the critical sets add up to; None if U vanishes on the equator.
+    """  # noqa: D400
+
+    theta: NDArray[np.float64]
+    lambda_rho: NDArray[np.float64]
+    lambda_theta: NDArray[np.float64]
+    multiplicity: NDArray[np.int64]
+    radially_degenerate: NDArray[np.bool_]
+    all_directions: bool
+    distance: float
+    symmetric: bool
+    certificate: str
+    proven: bool
+    degree: int | None
+
+
+def directions(theta: Array) -> Array:
+    """``(cos, sin)`` of each angle; (k, 2)."""
+    return np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+
+
+def _components(run: Program, theta: Array) -> tuple[Array, Array, Array, Array, Array]:
+    """Theta, its derivative, lambda_rho, its derivative, and (U1, U2), at each angle, by the chain rule."""
+    e = directions(theta)
+    c, s = e[:, 0], e[:, 1]
+    rows = run.at(e)
+    u, v = rows[:, 0, 0], rows[:, 1, 0]
+    du = c * rows[:, 0, 2] - s * rows[:, 0, 1]
+    dv = c * rows[:, 1, 2] - s * rows[:, 1, 1]
+    Theta, radial = c * v - s * u, c * u + s * v
+    return Theta, c * dv - s * du - radial, radial, c * du + s * dv + Theta, rows[:, :, 0]
+
+
+def _by_name(parts: tuple[Array, Array, Array, Array, Array], kind: str) -> Array:
+    Theta, _, radial, _, U = parts
+    return {"theta": Theta, "rho": radial, "U1": U[:, 0], "U2": U[:, 1]}[kind]
+
+
+@lru_cache(maxsize=512)
+def component_series(key: Hashable, kind: str) -> Series:
+    """Resolve a component of U on the equator.
+
+    Parameters
+    ----------
+    key : `Frozen.key`
+    kind : "theta", "rho", "U1" or "U2"
+        Theta, lambda_rho, U1 or U2.
+    """
+    run, degree = program(key), polynomial_degree(key[0])  # type: ignore[index]
+    n = 64 if degree is None else max(16, 1 << (2 * degree + 3).bit_length())
+    if n > MOST_ANGLES:
+        n, degree = 64, None
+    while True:
+        parts = _components(run, np.arange(n) * (2.0 * math.pi / n))
+        U = parts[-1]
+        size = float(np.abs(U).sum(axis=1).max())
+        found = series(_by_name(parts, kind), size, None if degree is None else degree + 1)
+        if degree is not None:
+            return found
+        # a peak that Theta hides from the net, beside a zero of sin or cos, still shows in U
+        if found.resolved and all(series(U[:, i], size).resolved for i in (0, 1)):
+            between = (np.arange(n) + 0.5) * (2.0 * math.pi / n)
+            there = _by_name(_components(run, between), kind)
+            if np.abs(found.derivatives(between, range(1))[0] - there).max() <= 1e-13 * size:
+                return found
+        if n >= MOST_ANGLES:
+            return replace(found, resolved=False)
+        n *= 2
+
+
+@lru_cache(maxsize=128)
+def equator_zeros(key: Hashable) -> EquatorZeros:
+    """Zeros of Theta with eigenvalues; `key` is `Frozen.key`."""
+    run, f = program(key), component_series(key, "theta")
+    if f.vanishes:
+        return _result(key, np.zeros((4, 0)), f, math.inf, all_directions=True)
+    if not f.resolved:
+        theta = _sign_changes(run, "theta")
+        multiplicity, proven, distance = np.ones(len(theta), np.int64), False, math.inf
+    else:
+        found = zeros(f)
+        theta, multiplicity, proven, distance = found.theta, found.multiplicity, found.proven, found.distance
+    simple = multiplicity == 1
+    for _ in range(2):
+        Theta, rate, _, _, _ = _components(run, theta)
+        step = np.where(simple & (rate != 0.0), Theta / np.where(rate == 0.0, 1.0, rate), 0.0)
+        theta = np.where(np.abs(step) < 1e-6, theta - step, theta)
+    theta = np.array([turn(t) for t in theta.tolist()])
+    order = np.argsort(theta)
+    theta, multiplicity = theta[order], multiplicity[order]
+    Theta, rate, radial, radial_rate, _ = _components(run, theta)
+    slope = np.where(multiplicity == 1, rate, 0.0)
+    # a zero is known to within the rounding of Theta over its slope, which moves lambda_rho by so much
+    blur = np.where(slope != 0.0, np.abs(radial_rate) / np.where(slope == 0.0, 1.0, np.abs(slope)), 4.0)
+    flat = np.abs(radial) <= 16.0 * UNIT * f.size * (1.0 + np.minimum(blur, 1e6))
+    rows = np.stack([theta, np.where(flat, 0.0, radial), slope, multiplicity.astype(float)])
+    return _result(key, rows, f, distance, proven)
+
+
+def _result(
+    key: Hashable, rows: Array, f: Series, distance: float, proven: bool = True, all_directions: bool = False
+) -> EquatorZeros:
+    theta, radial, slope = np.asarray(rows[:3], np.float64)
+    multiplicity = rows[3].astype(np.int64)
+    flat = radial == 0.0
+    arrays = (theta, radial, slope, multiplicity, flat)
+    for array in arrays:
+        array.flags.writeable = False
+    triples = theta[multiplicity == 3]
+    symmetric = bool(len(triples)) and all(_odd_about(f, float(t)) for t in triples)
+    return EquatorZeros(
+        *arrays,
+        all_directions,
+        distance,
+        symmetric,
+        _certificate(f, proven),
+        proven,
+        _degree(key, rows, f, all_directions),
+    )
+
+
+def _certificate(f: Series, proven: bool) -> str:
+    if not f.resolved:
+        return (
+            f"Θ is not smooth: its zeros are its sign changes on a net of {NET} directions. No proof that "
+            "none was missed."
+        )
+    kind = (
+        "is a trigonometric polynomial"
+        if f.exact
+        else "agrees to machine precision, on a net twice as fine as needed, with a trigonometric polynomial"
+    )
+    start = f"Θ {kind} of degree {f.degree}, Σ c_k exp(ikθ). "
+    if not proven:
+        return start + "Close to a multiple zero the count could not be decided."
+    return start + (
+        "Bounds from its derivatives and Σ k⁴|c_k| show |Θ| > 0 on every arc without a zero, and Θ monotone on every "
+        "arc with one: none is missing."
+    )
+
+
+def _degree(key: Hashable, rows: Array, f: Series, all_directions: bool) -> int | None:
+    """Degree of U on the equator: 1 and the turns of (lambda_rho, Theta), counted where Theta = 0 < lambda_rho."""
+    _, radial, slope, multiplicity = rows
+    if (radial == 0.0).any():
+        return None
+    if all_directions:
+        radial_series = component_series(key, "rho")
+        return None if radial_series.vanishes or _changes_sign(radial_series) else 1
+    signs = np.sign(slope)
+    if (multiplicity > 1).any():
+        # across an odd zero the sign changes: from what lies between it and the next
+        signs = _crossings(f, rows[0], multiplicity)
+    return 1 + int(signs[radial > 0.0].sum())
+
+
+def _changes_sign(f: Series) -> bool:
+    values = f.derivatives(np.arange(256) * (2 * math.pi / 256), range(1))[0]
+    return bool(values.min() <= 0.0 <= values.max())
+
+
+def _crossings(f: Series, theta: Array, multiplicity: NDArray[np.int64]) -> Array:
+    """+1, -1 where f rises or falls through a zero, 0 where it only touches."""
+    gaps = np.remainder(np.roll(theta, -1) - theta, 2 * math.pi)
+    gaps = np.where(gaps == 0.0, 2 * math.pi, gaps)
+    after = np.sign(f.derivatives(theta + 0.5 * gaps, range(1))[0])
+    return np.where(multiplicity % 2 == 1, after, 0.0)
+
+
+def _odd_about(f: Series, theta: float) -> bool:
+    """Whether f(theta + t) = -f(theta - t): a reflection symmetry, with which a triple zero splits evenly."""
+    even = (f.c * np.exp(1j * theta * np.arange(len(f.c)))).real
+    return bool(np.abs(even).sum() <= f.tolerance)
+
+
+@lru_cache(maxsize=256)
+def component_zeros(key: Hashable, kind: str) -> tuple[Array, NDArray[np.int64]]:
+    """Angles at which a component of U vanishes on the equator, and multiplicities; where nullclines end.
+
+    Parameters
+    ----------
+    key : `Frozen.key`
+    kind : "rho", "theta", "U1" or "U2"
+        lambda_rho, Theta, U1 or U2.
+    """
+    if kind == "theta":
+        found = equator_zeros(key)
+        return found.theta, found.multiplicity
+    f = component_series(key, kind)
+    if f.vanishes or f.resolved:
+        result = zeros(f)
+        return result.theta, result.multiplicity
+    theta = _sign_changes(program(key), kind)
+    return theta, np.ones(len(theta), np.int64)
+
+
+def _sign_changes(run: Program, kind: str) -> Array:
+    """Zeros of a component that is not smooth: sign changes on a net, each bisected."""
+
+    def value(theta: Array) -> Array:
+        return _by_name(_components(run, theta), kind)
+
+    net = np.arange(NET + 1) * (2.0 * math.pi / NET) + 1e-3
+    values = value(net)
+    at = np.flatnonzero((values[:-1] > 0.0) != (values[1:] > 0.0))
+    low, high, sign = net[at], net[at + 1], values[at] > 0.0
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        same = (value(middle) > 0.0) == sign
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return 0.5 * (low + high)
+
+
+@lru_cache(maxsize=128)
+def closed_equator(key: Hashable) -> tuple[int, float, float, bool] | None:
+    """Direction, period, exponent and neutrality of the equator as a closed orbit; None where Theta has a zero.
+
+    The integrals of 1/|Theta| and lambda_rho/|Theta| over a turn are means over equally spaced angles, which converge
+    faster than any power for a smooth U.
+    """
+    on = equator_zeros(key)
+    if on.all_directions or len(on.theta):
+        return None
+    run = program(key)
+    n, sums, last = 64, np.zeros(3), (math.inf, math.inf)
+    theta = np.arange(n) * (2.0 * math.pi / n)
+    while True:
+        Theta, _, radial, _, U = _components(run, theta)
+        rows = np.stack([np.ones(len(theta)), radial, np.abs(U * directions(theta)).sum(axis=1)])
+        sums += (rows / np.abs(Theta)).sum(axis=1)
+        period, exponent, terms = (sums * (2.0 * math.pi / n)).tolist()
+        close = abs(period - last[0]) <= 1e-15 * period and abs(exponent - last[1]) <= 1e-15 * max(terms, abs(exponent))
+        if close or n >= MOST_OF_A_TURN:
+            break
+        theta = (np.arange(n) + 0.5) * (2.0 * math.pi / n)  # what is new where n is doubled
+        n, last = 2 * n, (period, exponent)
+    neutral = abs(exponent) <= NEUTRAL * terms
+    return (1 if Theta[0] > 0.0 else -1), period, 0.0 if neutral else exponent, neutral

@@ -1,0 +1,101 @@
+"""The blown-up hemisphere: the charts kappa_1 and kappa_2, the disc that shows it, and the flow on it.
+
+With ``rho = sqrt(x^2 + y^2 + eps^2)`` the point (x, y, eps) is ``rho (p, ebar)`` on the hemisphere
+``|p|^2 + ebar^2 = 1``, eq:blowup_def, and p in the closed unit disc is its projection. The equator is |p| = 1.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..psi.function import Psi
+from ..systems.coefficients import Coefficients
+
+Array = NDArray[np.float64]
+
+
+def disc_from_scaling(x2: ArrayLike) -> Array:
+    """``p = x2/sqrt(1 + |x2|^2)``: from the scaling chart kappa_2, eq:scalingchart, to the disc. Shapes (..., 2)."""
+    x2 = np.asarray(x2, float)
+    return x2 / np.hypot(1.0, np.hypot(x2[..., :1], x2[..., 1:]))
+
+
+def scaling_from_disc(p: ArrayLike) -> Array:
+    """``x2 = p/ebar``: from the open disc to the scaling chart kappa_2. Shapes (..., 2).
+
+    Raises
+    ------
+    ValueError
+        A point has |p| >= 1: the equator lies at infinity in kappa_2.
+    """
+    p = np.asarray(p, float)
+    ebar = height(p)
+    if not np.all(ebar > 0.0):
+        raise ValueError("a point has |p| >= 1; the chart κ₂ covers |p| < 1 only (the equator is at infinity).")
+    return p / ebar[..., None]
+
+
+def height(p: ArrayLike) -> Array:
+    """``ebar = sqrt(1 - |p|^2)`` above each point of the closed disc; (...,) for p of shape (..., 2)."""
+    p = np.asarray(p, float)
+    r = np.hypot(p[..., 0], p[..., 1])
+    return np.sqrt(np.maximum((1.0 - r) * (1.0 + r), 0.0))
+
+
+def entry_from_scaling(x2: ArrayLike, rho_2: float = 0.0) -> tuple[Array, Array, Array]:
+    """``kappa_12``, eq:coordinatechange: from kappa_2 to the entry chart kappa_1.
+
+    The angle is the two-argument arctangent (the paper prints arctan(y2/x2), which loses the quadrant).
+
+    Parameters
+    ----------
+    x2 : (..., 2)
+    rho_2 : float
+        eps.
+
+    Returns
+    -------
+    rho, epsilon_1, theta : (...,)
+    """
+    x2 = np.asarray(x2, float)
+    epsilon_1 = 1.0 / np.hypot(1.0, np.hypot(x2[..., 0], x2[..., 1]))
+    return rho_2 * epsilon_1, epsilon_1, np.arctan2(x2[..., 1], x2[..., 0])
+
+
+def disc_from_entry(epsilon_1: ArrayLike, theta: ArrayLike) -> Array:
+    """``p = xi (cos theta, sin theta)``, ``xi = sqrt(1 - epsilon_1^2)``: from kappa_1, eq:entrychart, to the disc.
+
+    The paper prints xi = (1 - epsilon_1)^(1/2) at eq:xi; the square is missing there.
+    """
+    epsilon_1, theta = np.asarray(epsilon_1, float), np.asarray(theta, float)
+    xi = np.sqrt((1.0 - epsilon_1) * (1.0 + epsilon_1))
+    return np.stack([xi * np.cos(theta), xi * np.sin(theta)], axis=-1)
+
+
+def e_psi(psi: Psi, p: ArrayLike) -> Array:
+    """``e_Psi`` at points of the closed disc, eq:ePsi with |(x, y, eps)| = 1. Shapes (..., 2)."""
+    p = np.asarray(p, float)
+    q = p[..., 0] ** 2 + p[..., 1] ** 2
+    h2 = np.maximum(1.0 - q, 0.0)
+    with np.errstate(divide="ignore"):
+        s = np.where(h2 > 0.0, q / np.where(h2 > 0.0, h2, 1.0), np.inf)
+    shape = np.where(h2 > 0.0, h2 * psi(np.where(np.isinf(s), 0.0, s)), 0.0)
+    return p / np.sqrt(q + shape)[..., None]
+
+
+def flow(coefficients: Coefficients, psi: Psi, p: ArrayLike) -> Array:
+    """``p' = U - p (p.U)``, U at e_Psi(p): the layer problem eq:LP on the disc, in the time T (dT = dt/rho).
+
+    One smooth field on the closed disc: charts kappa_1 and kappa_2 together. Shapes (..., 2).
+    """
+    p = np.asarray(p, float)
+    U = coefficients.U(e_psi(psi, p))
+    return U - p * np.sum(p * U, axis=-1, keepdims=True)
+
+
+def outside_flow(coefficients: Coefficients, theta: ArrayLike) -> tuple[Array, Array]:
+    """``(rho'/rho, theta')`` outside, eq:polar_gen_odes_desing: lambda_rho(theta) and Theta(theta), each (...,)."""
+    c, s = np.cos(theta), np.sin(theta)
+    U = coefficients.U(np.stack([c, s], axis=-1))
+    return U[..., 0] * c + U[..., 1] * s, U[..., 1] * c - U[..., 0] * s

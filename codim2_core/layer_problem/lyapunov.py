@@ -1,0 +1,133 @@
+"""The first Lyapunov coefficient of the layer problem ``x2' = A e_Psi(x2) + f`` where tr J = 0 (eq:linLP).
+
+With ``e_Psi = x h(|x|^2)`` and ``h(s) = (s + Psi(s))^(-1/2)`` the second and third differentials of e_Psi are exact
+polynomials in h', h'', h''' and hence in the first three derivatives of Psi.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..psi.function import Psi
+
+Array = NDArray[np.float64]
+
+_CIRCLE = np.exp(2j * np.pi * np.arange(32) / 32)
+
+
+def psi_derivatives(psi: Psi, s: Array) -> tuple[Array, Array, Array]:
+    """First three derivatives of Psi.
+
+    Parameters
+    ----------
+    psi : Psi
+    s : ndarray (m,)
+        Positive.
+
+    Returns
+    -------
+    three ndarrays (m,)
+        Closed forms for the families; symbolic derivatives of a custom formula; for "tanh", which is analytic for
+        s > -pi^2, Cauchy's integral on a circle of radius 1 (to rounding).
+    """
+    zero = np.zeros_like(s)
+    match psi.family:
+        case "constant":
+            return zero, zero, zero
+        case "rational":
+            u = 1.0 / (1.0 + s)
+            return -(u**2), 2.0 * u**3, -6.0 * u**4
+        case "exponential":
+            u = np.exp(-s)
+            return -u, u, -u
+        case "hill":
+            # Psi = 1/(1 + v), v = (4s)^n/3, and s dPsi/ds = -n Psi (1 - Psi)
+            n, P = psi.parameter, np.asarray(psi(s))
+            Q = 1.0 - P
+            first = -n * P * Q
+            second = n * n * P * Q * (1.0 - 2.0 * P)
+            third = -(n**3) * P * Q * (1.0 - 6.0 * P * Q)
+            # s d/ds to powers of d/ds
+            return first / s, (second - first) / s**2, (third - 3.0 * second + 2.0 * first) / s**3
+        case "tanh":
+            w = s[:, None] + _CIRCLE
+            root = np.sqrt(w)
+            decay = np.exp(-2.0 * root)
+            values = 4.0 * w * decay / (1.0 - decay) ** 2
+            return tuple(  # type: ignore[return-value]
+                math.factorial(j) * (values * _CIRCLE**-j).mean(axis=1).real for j in (1, 2, 3)
+            )
+    expression = psi.expression
+    assert expression is not None
+    found = []
+    for _ in range(3):
+        expression = expression.derivative("s")
+        values = np.broadcast_to(expression.evaluate({"s": s}), s.shape)
+        found.append(np.where(np.isfinite(values), values, 0.0))  # inf/inf in a tail that has long become 0
+    return tuple(found)  # type: ignore[return-value]
+
+
+def first_lyapunov(A: Array, psi: Psi, x2: Array) -> Array:
+    """First Lyapunov coefficient at critical sets with tr J = 0 < det J.
+
+    Parameters
+    ----------
+    A : ndarray (2, 2)
+    psi : Psi
+    x2 : ndarray (m, 2)
+        The critical sets in the scaling chart.
+
+    Returns
+    -------
+    ndarray (m,)
+        In Kuznetsov's normalisation ``<q, q> = <p, q> = 1``, with x2 and the fast time tau as they are. Negative: a
+        stable cycle is born (supercritical). A cycle at tr J = 2 mu has ``mu + omega l1 r^2 = 0`` to leading order.
+    """
+    with np.errstate(all="ignore"):
+        s = (x2**2).sum(axis=1)
+        P1, P2, P3 = psi_derivatives(psi, s)
+        w, w1 = s + np.asarray(psi(s)), 1.0 + P1
+        h0 = w**-0.5
+        h1 = -0.5 * h0**3 * w1
+        h2 = 0.75 * h0**5 * w1**2 - 0.5 * h0**3 * P2
+        h3 = -1.875 * h0**7 * w1**3 + 2.25 * h0**5 * w1 * P2 - 0.5 * h0**3 * P3
+    x = x2
+
+    def dot(u: NDArray, v: NDArray) -> NDArray:
+        return (u * v).sum(axis=1)[:, None]
+
+    h0, h1, h2, h3 = h0[:, None], h1[:, None], h2[:, None], h3[:, None]
+
+    def second(v: NDArray, u: NDArray) -> NDArray:
+        xv, xu = dot(x, v), dot(x, u)
+        return (2.0 * h1 * (xu * v + xv * u + dot(u, v) * x) + 4.0 * h2 * xu * xv * x) @ A.T
+
+    def third(u: NDArray, v: NDArray, t: NDArray) -> NDArray:
+        xu, xv, xt, uv, ut, vt = dot(x, u), dot(x, v), dot(x, t), dot(u, v), dot(u, t), dot(v, t)
+        plain = 2.0 * h1 * (ut * v + uv * t + vt * u)
+        mixed = 4.0 * h2 * (xu * xt * v + xu * xv * t + xv * xt * u + (uv * xt + xv * ut + xu * vt) * x)
+        return (plain + mixed + 8.0 * h3 * xu * xv * xt * x) @ A.T
+
+    eye = np.eye(2)
+    De = h0[:, :, None] * eye + 2.0 * h1[:, :, None] * x[:, :, None] * x[:, None, :]
+    J = A @ De
+    # On the curve tr J = 0; its rounding is taken out, so that the eigenvalues are +- i omega.
+    J = J - 0.5 * np.trace(J, axis1=1, axis2=2)[:, None, None] * eye
+    omega = np.sqrt(np.linalg.det(J))
+    # J q = i omega q: either column of J + i omega
+    columns = J + 1j * omega[:, None, None] * eye
+    size = (abs(columns) ** 2).sum(axis=1)
+    q = np.where((size[:, :1] >= size[:, 1:]), columns[:, :, 0], columns[:, :, 1])
+    q = q / np.sqrt((abs(q) ** 2).sum(axis=1))[:, None]
+    adjoint = np.swapaxes(J, 1, 2) - 1j * omega[:, None, None] * eye  # J^T p = -i omega p
+    size = (abs(adjoint) ** 2).sum(axis=1)
+    p = np.where((size[:, :1] >= size[:, 1:]), adjoint[:, :, 0], adjoint[:, :, 1])
+    p = p / np.conj((np.conj(p) * q).sum(axis=1))[:, None]
+    bar = np.conj(q)
+    still = np.linalg.solve(J.astype(complex), second(q, bar)[:, :, None])[:, :, 0]
+    double = np.linalg.solve(2j * omega[:, None, None] * eye - J, second(q, q)[:, :, None])[:, :, 0]
+    inner = third(q, q, bar) - 2.0 * second(q, still) + second(bar, double)
+    return (np.conj(p) * inner).sum(axis=1).real / (2.0 * omega)

@@ -1,0 +1,1 @@
+"""Motions in time: regularised (eps > 0), and nonsmooth (eps -> 0)."""

@@ -1,0 +1,197 @@
+"""What follows on Sigma in the limit eps -> 0: decided by the hemisphere, sec:geneps1."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..cycles.limit_cycles import limit_cycles
+from ..layer_problem.critical import CriticalSet, critical_sets
+from ..layer_problem.equator import EquatorEquilibria, equator_equilibria
+from ..portrait.layer_problem import layer_problem
+from ..portrait.outcomes import approach_outcomes
+from ..psi import constructors
+from ..psi.function import Psi
+from ..systems.kinds import AnySystem
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What follows.
+
+    Attributes
+    ----------
+    kind : str
+        "slide", "cycle", "leave", "away" (the trajectory turns before it reaches Sigma), or "stop".
+    reason : str
+    e : ndarray (2,) or None
+        Critical set to slide on (for "cycle": the one inside).
+    theta : float or None
+        Direction in which to leave.
+    onto : str or None
+    """
+
+    kind: str
+    reason: str
+    e: Array | None = None
+    theta: float | None = None
+    onto: str | None = None
+
+
+def families() -> list[Psi]:
+    """Regularisations to ask where none was given."""
+    names = ("constant", "rational", "exponential", "tanh")
+    return [*(constructors.make(name) for name in names), *(constructors.hill(n) for n in (1, 2, 3, 4))]
+
+
+def arriving(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Verdict:
+    """Decide what becomes of a trajectory that arrives at Sigma at angle theta.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi or None
+        None asks whether all the usual ones agree.
+    z : ndarray (m,)
+    theta : float
+    """
+    own = constructors.constant() if psi is None else psi
+    at = tuple(z.tolist())
+    outcomes = approach_outcomes(system, own, at, compare=None if psi is None else ())
+    outcome = outcomes.outcome(theta)
+    if psi is None and outcome.depends_on_psi:
+        return Verdict("stop", f"Arrives at Σ at θ = {theta:.4g}; what follows depends on Ψ: give psi.")
+    if outcome.verdict == "misses":
+        return Verdict("away", outcome.reason)
+    return _followed(system, own, at, outcome.verdict, outcome.onto, outcome.leaving, outcome.reason)
+
+
+def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Verdict:
+    """Decide what becomes of orbits of the layer problem at z that are now at points of the hemisphere.
+
+    Parameters
+    ----------
+    system, psi, z
+        As in `arriving`.
+    points : ndarray (k, 2)
+        In the projected disc, |p| < 1. Where they end at different places the verdict is "stop".
+    """
+    at = tuple(z.tolist())
+    frozen = system.at(at)
+    hemisphere = layer_problem(frozen, psi, equator_equilibria(frozen))
+    ends = hemisphere.ends(hemisphere.followed(points))
+    verdict, onto, leaving, _, reason = hemisphere.judge(ends, "Orbits go on from there")
+    return _followed(system, psi, at, verdict, onto, leaving, reason)
+
+
+def in_disc(psi: Psi, e: Array) -> Array:
+    """Point (2,) of the projected disc at which e_Psi = e, |e| < 1."""
+    modulus = math.hypot(e[0], e[1])
+    if modulus == 0.0:
+        return np.zeros(2)
+    zeta = float(psi.radius(modulus))
+    return e / modulus * (zeta / math.hypot(1.0, zeta))
+
+
+def _followed(
+    system: AnySystem,
+    psi: Psi,
+    at: tuple[float, ...],
+    verdict: str,
+    onto: str | None,
+    leaving: float | None,
+    reason: str,
+) -> Verdict:
+    """Turn what approach outcomes say into what the course does next."""
+    if verdict == "slide":
+        chosen = critical_sets(system, psi, at)[_index(onto)]
+        if not _stable(chosen):
+            return Verdict("stop", f"{reason} But {onto} is a {chosen.kind}: which side is left to ε.")
+        return Verdict("slide", reason, chosen.e, onto=onto)
+    if verdict == "cycle":
+        return Verdict("cycle", reason, critical_sets(system, psi, at)[0].e, onto=onto)
+    if verdict == "cross" and leaving is not None:
+        return Verdict("leave", reason, theta=leaving)
+    if verdict == "cross":
+        return Verdict("stop", f"{reason} At which phase of the spiral it leaves is left to ε.")
+    return Verdict("stop", reason)
+
+
+def _index(label: str | None) -> int:
+    digits = "".join(filter(str.isdigit, label or ""))
+    return int(digits) - 1 if digits else 0
+
+
+def starting(system: AnySystem, psi: Psi | None, z: Array) -> Verdict:
+    """Decide what follows from a state on Sigma, when nothing is known of how it came there.
+
+    Parameters
+    ----------
+    system, psi, z
+        As in `arriving`.
+
+    Returns
+    -------
+    Verdict
+        Sliding if there is one attractor on the open hemisphere; otherwise, with none, the one way out; otherwise stop.
+    """
+    at = tuple(z.tolist())
+    asked = families() if psi is None else [psi]
+    stable = [tuple(i for i, C in enumerate(critical_sets(system, own, at)) if _stable(C)) for own in asked]
+    if any(choice != stable[0] for choice in stable):
+        return Verdict("stop", "Whether the critical set is stable depends on Ψ: give psi.")
+    own = asked[0]
+    sets = critical_sets(system, own, at)
+    if len(stable[0]) > 1:
+        return Verdict("stop", f"There are {len(stable[0])} stable critical sets: sliding is not unique on Σ.")
+    if len(stable[0]) == 1:
+        i = stable[0][0]
+        onto = "C" if len(sets) == 1 else f"C{i + 1}"
+        reason = f"On Σ there is one stable critical set, {onto}: sliding.{_also(system, at)}"
+        return Verdict("slide", reason, sets[i].e, onto=onto)
+    cycles = [(i, cycle) for i, cycle in enumerate(limit_cycles(system, own, at)) if cycle.stable]
+    if len(cycles) == 1 and psi is not None:
+        reason = (
+            "On Σ the one attractor is a limit cycle: sliding, with z' averaged over the cycle (prop:LC)."
+            f"{_also(system, at)}"
+        )
+        return Verdict("cycle", reason, sets[0].e, onto=f"cycle {cycles[0][0] + 1}")
+    if cycles:
+        return Verdict("stop", "There are several limit cycles, or psi was not given: sliding is not unique on Σ.")
+    equator = equator_equilibria(system, at)
+    border = np.flatnonzero(equator.radially_degenerate)
+    if len(border) == 1:
+        theta = float(equator.theta[border[0]])
+        return Verdict("border", "The critical set lies on the equator.", _unit(theta), theta, "C")
+    ways = _ways_out(equator)
+    if len(ways) == 1:
+        theta = float(equator.theta[ways[0]])
+        return Verdict(
+            "leave", f"On Σ nothing attracts; the one way out is θ = {theta:.4g} (Q{ways[0] + 1}).", theta=theta
+        )
+    many = "no direction leads" if not len(ways) else f"{len(ways)} directions lead"
+    return Verdict("stop", f"On Σ nothing attracts, and {many} away from it: what follows is not unique.")
+
+
+def _ways_out(equator: EquatorEquilibria) -> list[int]:
+    return np.flatnonzero((equator.lambda_rho > 0.0) & (equator.lambda_theta < 0.0)).tolist()
+
+
+def _also(system: AnySystem, at: tuple[float, ...]) -> str:
+    ways = _ways_out(equator_equilibria(system, at))
+    if not len(ways):
+        return ""
+    return f" Not all of the hemisphere leads there: {', '.join(f'Q{i + 1}' for i in ways)} leads away from Σ."
+
+
+def _unit(theta: float) -> Array:
+    return np.array([math.cos(theta), math.sin(theta)])
+
+
+def _stable(critical: CriticalSet) -> bool:
+    return critical.kind.startswith("stable")

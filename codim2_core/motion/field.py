@@ -1,0 +1,178 @@
+"""U, W and their derivatives as plain Python functions of numbers, generated from a system's formulas.
+
+A simulation calls them some thousand times at one point each: straight-line code takes a microsecond, and costs a
+millisecond to make, so that no compiler has to be waited for.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..expressions.expression import Expression, parse
+from ..expressions.names import PLANE, SLOW
+from ..expressions.source import program
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+from ..systems.kinds import AnySystem
+from ..systems.typed import Frozen, System
+
+Array = NDArray[np.float64]
+BESIDE = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """U and W of eq:vf as functions of numbers.
+
+    Attributes
+    ----------
+    m : int
+        The number of slow variables.
+    value : callable
+        ``value(c, s, x, y, *z)`` is the tuple (U1, U2, W1, ..., Wm); NaNs where a formula has a pole.
+    slope : callable
+        ``slope(c, s, x, y, *z)`` is the flat tuple of its exact derivatives by all arguments, row by row.
+    """
+
+    m: int
+    value: Callable[..., tuple[float, ...]]
+    slope: Callable[..., tuple[float, ...]]
+
+    def jacobian(self, c: float, s: float, x: float, y: float, z: Sequence[float]) -> Array:
+        """``D (U, W)`` by (c, s, x, y, z), of shape (2 + m, 4 + m).
+
+        Where it is undefined, as that of abs(c) at 0, it is taken just beside; and as zero where that is no better.
+        """
+        arguments = (c, s, x, y, *z)
+        slopes = np.array(self.slope(*arguments))
+        if not np.isfinite(slopes).all():
+            slopes = np.array(self.slope(*(value + BESIDE * (1.0 + abs(value)) for value in arguments)))
+            slopes = np.nan_to_num(slopes, posinf=0.0, neginf=0.0)
+        return slopes.reshape(2 + self.m, 4 + self.m)
+
+
+@lru_cache(maxsize=32)
+def _of_hashable(system: ELinear | System | Frozen) -> Field:
+    if isinstance(system, ELinear):
+        return _field(_elinear_rows(system), system.m)
+    if isinstance(system, Frozen):
+        values = [_number(value) for value in system.z]
+        rows = _system_rows(system.system)
+        for name, value in zip(SLOW, values, strict=False):
+            rows = [row.substitute(name, value) for row in rows]
+        return _field(rows, system.m)
+    return _field(_system_rows(system), system.m)
+
+
+def field(system: AnySystem) -> Field:
+    """U and W of any system as functions of numbers; made once for each system.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+        One frozen at a z keeps U and W of that z, whatever z does.
+
+    Raises
+    ------
+    ValueError
+        An ELinear made `from_matrix` whose rotation into the normal form depends on z: its axes turn with z.
+    """
+    if isinstance(system, Coefficients):
+        rows = _affine(
+            (system.a, system.b, system.d), (system.f1, system.f2), system.B.tolist(), system.g.tolist(), (1.0, 0.0)
+        )
+        return _field(rows, len(system.g))
+    return _of_hashable(system)
+
+
+def _number(value: float) -> Expression:
+    return parse(repr(float(value)), ())
+
+
+def _system_rows(system: System) -> list[Expression]:
+    rows = [*system.U, *(system.W or [_number(0.0)] * system.m)]
+    return _with_parameters(rows, system.parameters)
+
+
+def _with_parameters(rows: Sequence[Expression], parameters: Sequence[tuple[str, float]]) -> list[Expression]:
+    values = [(name, _number(value)) for name, value in parameters]
+    found = []
+    for row in rows:
+        for name, value in values:
+            row = row.substitute(name, value) if name in row.names else row
+        found.append(row)
+    return found
+
+
+def _elinear_rows(system: ELinear) -> list[Expression]:
+    def known(value: Any) -> Expression:
+        expression = value if isinstance(value, Expression) else _number(value)
+        expression = _with_parameters([expression], system.parameters)[0]
+        return expression.substitute("z", parse("z1", SLOW)) if "z" in expression.names else expression
+
+    f = [known(value) for value in system.f]
+    B = [[known(value) for value in row] for row in system.B or [(0.0, 0.0)] * system.m]
+    g = [known(value) for value in system.g or [0.0] * system.m]
+    abd: list[Any] = [known(value) for value in (system.a, system.b, system.d)]
+    axes = (1.0, 0.0)
+    if system._matrix is not None:
+        entries = [[known(value).constant for value in row] for row in system._matrix]
+        if any(entry is None for row in entries for entry in row):
+            raise ValueError(
+                "A depends on z, and its rotation into the normal form would turn the axes of (x, y) with it: "
+                "nothing to simulate in. Give the system as System(U=..., W=...) in fixed axes."
+            )
+        still = ELinear.from_matrix(np.array(entries, float)).at()
+        abd, axes = [still.a, still.b, still.d], (math.cos(still.rotation), math.sin(still.rotation))
+    return _affine(abd, f, B, g, axes)
+
+
+def _affine(abd: Sequence[Any], f: Sequence[Any], B: Sequence[Any], g: Sequence[Any], axes: Any) -> list[Expression]:
+    """Rows of ``A e + R f`` and ``B R^T e + g``, R the rotation by the angle whose cosine and sine are `axes`."""
+    a, b, d = abd
+    k, n = axes
+    rows = [
+        _filled("a*c - b*s + (k*u - n*v)", a=a, b=b, k=k, n=n, u=f[0], v=f[1]),
+        _filled("b*c + d*s + (n*u + k*v)", b=b, d=d, k=k, n=n, u=f[0], v=f[1]),
+    ]
+    rows += [
+        _filled("(k*u - n*v)*c + (n*u + k*v)*s + w", k=k, n=n, u=row[0], v=row[1], w=last)
+        for row, last in zip(B, g, strict=True)
+    ]
+    return rows
+
+
+def _filled(template: str, **values: Any) -> Expression:
+    # Capitals: the values' own names c, s, z1 … must not be taken for placeholders.
+    for name in values:
+        template = template.replace(name, name.upper())
+    row = parse(template, (*PLANE, *(name.upper() for name in values)))
+    for name, value in values.items():
+        row = row.substitute(name.upper(), value if isinstance(value, Expression) else _number(value))
+    return row
+
+
+def _field(rows: Sequence[Expression], m: int) -> Field:
+    names = (*PLANE, *SLOW[:m])
+    slopes = [row.derivative(name) for row in rows for name in names]
+    return Field(m, _function(rows, names), _function(slopes, names))
+
+
+def _function(rows: Sequence[Expression], names: Sequence[str]) -> Callable[..., tuple[float, ...]]:
+    written = program(rows, {name: name for name in names}, names)
+    lines = [*written.before, *written.inside, f"return ({', '.join(written.results)},)"]
+    body = "\n        ".join(lines)
+    source = (
+        f"def function({', '.join(names)}):\n    try:\n        {body}\n"
+        f"    except (ArithmeticError, ValueError):\n        return undefined\n"
+    )
+    scope: dict[str, Any] = {"math": math, "undefined": (math.nan,) * len(rows)}
+    exec(source, scope)  # written by `program`: its own names, numbers and math.* only
+    return scope["function"]

@@ -1,0 +1,104 @@
+"""The state (x, y, z) as an initial value problem: regularised (eps > 0), or nonsmooth outside Sigma (eps = 0).
+
+These are the global coordinates of eq:blowup in another scaling: with rho = sqrt(x^2 + y^2 + eps^2), the errors of
+x and y are measured by rho. Relative accuracy then holds at every distance from Sigma, as it would with log(rho), but
+rho ebar = eps holds to the last digit, and a straight slip is one step.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.radau import Problem
+from ..psi.function import Psi
+from .field import Field
+
+Array = NDArray[np.float64]
+
+INWARD = 0.9  # of rho: how far towards Sigma one step may go
+GROWTH = 1.0  # longest step times a growth rate: an L-stable method damps faster growth away
+
+
+def growth_bound(jacobian: Array) -> float:
+    """Longest step in which an L-stable method follows growth away from an unstable state instead of damping it."""
+    growth = float(np.linalg.eigvals(jacobian).real.max()) if jacobian.size else 0.0
+    return GROWTH / growth if growth > 0.0 else math.inf
+
+
+def direction(psi: Psi | None, eps: float, x: float, y: float) -> tuple[float, float, float, float, float, float]:
+    """Return e and what its derivative by (x, y) is made of.
+
+    Parameters
+    ----------
+    psi : Psi or None
+        Unused for eps = 0.
+    eps : float
+        0 gives e = (x, y)/|(x, y)|.
+    x, y : float
+
+    Returns
+    -------
+    c, s : float
+        ``e_Psi``, eq:ePsi.
+    radial, tangential : float
+        Eigenvalues of ``D e_Psi`` along (x, y) and across it, rem:jaco_properties.
+    n1, n2 : float
+        Unit vector along (x, y).
+    """
+    r = math.hypot(x, y)
+    n1, n2 = (x / r, y / r) if r > 0.0 else (1.0, 0.0)
+    if eps == 0.0 or psi is None:
+        tangential = 1.0 / r if r > 0.0 else math.nan
+        return n1, n2, 0.0, tangential, n1, n2
+    radial, tangential = psi.jacobian_factors(r / eps)
+    radial, tangential = radial / eps, tangential / eps
+    return tangential * x, tangential * y, radial, tangential, n1, n2
+
+
+def plane_problem(field: Field, psi: Psi | None, eps: float, rtol: float, atol: float) -> Problem:
+    """State (x, y, z) of the regularised system; for eps = 0 of the nonsmooth one, away from Sigma.
+
+    Parameters
+    ----------
+    field : Field
+    psi : Psi or None
+    eps : float
+    rtol, atol : float
+        Errors of x and y are measured by rho, those of z by |z| + atol/rtol.
+    """
+    value, floor = field.value, atol / rtol
+
+    def F(state: Array) -> Array:
+        x, y, *z = state.tolist()
+        try:
+            c, s, *_ = direction(psi, eps, x, y)
+        except ValueError:  # a stage of a step far too long is at infinity
+            return np.full(len(state), math.nan)
+        return np.array(value(c, s, x, y, *z))
+
+    def J(state: Array) -> Array:
+        x, y, *z = state.tolist()
+        c, s, radial, tangential, n1, n2 = direction(psi, eps, x, y)
+        all_slopes = field.jacobian(c, s, x, y, z)
+        spread = radial - tangential
+        across = spread * n1 * n2
+        De = np.array([[tangential + spread * n1 * n1, across], [across, tangential + spread * n2 * n2]])
+        slopes = all_slopes[:, 2:].copy()
+        slopes[:, :2] += all_slopes[:, :2] @ De
+        return slopes
+
+    def scale(state: Array) -> Array:
+        size = np.abs(state) + floor
+        size[:2] = math.hypot(state[0], state[1], eps)
+        return size
+
+    def limit(state: Array, rate: Array, jacobian: Array) -> float:
+        x, y, u, v = float(state[0]), float(state[1]), float(rate[0]), float(rate[1])
+        inward, square = -(x * u + y * v), x * x + y * y + eps * eps
+        bound = INWARD * square / inward if inward > 0.0 else math.inf
+        return min(bound, growth_bound(jacobian))
+
+    return Problem(F, J, scale, limit)

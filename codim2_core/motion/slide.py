@@ -1,0 +1,258 @@
+"""Sliding in the limit eps -> 0: the slow flow on a critical set that is followed in z, and where that ends.
+
+On ``U((c, s), 0, 0, z) = 0``, ``z' = W((c, s), 0, 0, z)``, eq:linslowflow. The set is continued by Newton's method,
+with its exact derivative ``D_z e = -(D_e U)^-1 D_z U``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.radau import STAGES, Problem, Step, StepsTooShortError, steps
+from ..psi.function import Psi
+from .field import Field
+from .problem import growth_bound
+
+Array = NDArray[np.float64]
+
+NEWTON = 20
+SHORTEST = 1e-14  # of the time span: steps that short mean that the set ends here
+AT_EQUATOR = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
+AT_FOLD = 1e-3  # |det D_e U|, in units of its entries squared, at which it is taken for a fold
+NEAR_HOPF = 1e-2  # |tr J| in units of D_e U, below which a stable cycle may be too small to be found
+
+
+class Sheet:
+    """A critical set as a function of z, continued from the last state that was accepted.
+
+    Parameters
+    ----------
+    field : Field
+    e : ndarray (2,)
+        On the set at z.
+    z : ndarray (m,)
+    """
+
+    def __init__(self, field: Field, e: Array, z: Array) -> None:
+        self.field = field
+        self.e, self.z, self.slope = np.array(e, float), np.array(z, float), np.zeros((2, len(z)))
+        self.move(z)
+
+    def slopes(self, e: Array, z: Array) -> Array:
+        """``D (U, W)`` by (c, s, x, y, z) on the set."""
+        return self.field.jacobian(float(e[0]), float(e[1]), 0.0, 0.0, z.tolist())
+
+    def at(self, z: Array) -> Array | None:
+        """Return e at z, or None where the set is not found."""
+        e = self.e + self.slope @ (z - self.z)
+        slow, before = z.tolist(), math.inf
+        for _ in range(NEWTON):
+            u, v = self.field.value(float(e[0]), float(e[1]), 0.0, 0.0, *slow)[:2]
+            (j11, j12), (j21, j22) = self.slopes(e, z)[:2, :2].tolist()
+            det = j11 * j22 - j12 * j21
+            if det == 0.0 or det != det:
+                return None
+            change = np.array([j22 * u - j12 * v, j11 * v - j21 * u]) / det
+            size = float(np.abs(change).max())
+            if not size < 1.0:
+                return None
+            e = e - change
+            if size <= 1e-15 or (size <= 1e-11 and size >= 0.5 * before):
+                return e
+            before = size
+        return None
+
+    def move(self, z: Array) -> None:
+        """Continue from z from now on."""
+        e = self.at(z)
+        if e is not None:
+            D = self.slopes(e, z)
+            self.e, self.z = e, np.array(z)
+            self.slope = -np.linalg.solve(D[:2, :2], D[:2, 4:])
+
+    def problem(self, floor: float) -> Problem:
+        """Return the slow flow as an initial value problem in z; errors are measured by |z| + floor."""
+
+        def F(z: Array) -> Array:
+            e = self.at(z)
+            if e is None:
+                return np.full(len(z), math.nan)
+            return np.array(self.field.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:])
+
+        def J(z: Array) -> Array:
+            self.move(z)
+            D = self.slopes(self.e, self.z)
+            return D[2:, 4:] + D[2:, :2] @ self.slope
+
+        def limit(z: Array, rate: Array, jacobian: Array) -> float:  # noqa: ARG001 (the form of Problem.limit)
+            return growth_bound(jacobian)
+
+        return Problem(F, J, lambda z: np.abs(z) + floor, limit)
+
+
+def complement(e: Array) -> float:
+    """``1 - |e|^2``."""
+    r = math.hypot(e[0], e[1])
+    return (1.0 - r) * (1.0 + r)
+
+
+def determinant(sheet: Sheet, e: Array, z: Array) -> float:
+    """Det of D_e U: the sign of det J."""
+    return float(np.linalg.det(sheet.slopes(e, z)[:2, :2]))
+
+
+def trace(sheet: Sheet, psi: Psi, e: Array, z: Array) -> float:
+    """Tr J in units of the tangential eigenvalue of D e_Psi, which is positive: it has the sign of tr J."""
+    D = sheet.slopes(e, z)[:2, :2]
+    r, gap = math.hypot(e[0], e[1]), complement(e)
+    if r == 0.0 or gap <= 0.0:  # the two eigenvalues of D e_Psi are equal in the centre; radial/tangential is 0 outside
+        ratio, n = (1.0 if r == 0.0 else 0.0), e / (r or 1.0)
+    else:
+        radial, tangential = psi.jacobian_factors(psi.radius(min(r, 1.0), gap))
+        ratio, n = radial / tangential, e / r
+    return float(np.trace(D) + (ratio - 1.0) * (n @ D @ n))
+
+
+@dataclass(frozen=True)
+class Slide:
+    """A slide.
+
+    Attributes
+    ----------
+    taken : list of Step
+        Of the whole state, with x = y = 0.
+    end : str
+        "time", "equator", "fold", "hopf", or "cycle" (the limit cycle it slides on is there no longer).
+    e : ndarray (2,)
+        Critical set at the end.
+    """
+
+    taken: list[Step]
+    end: str
+    e: Array
+
+
+def slide(
+    field: Field,
+    psi: Psi,
+    e: Array,
+    t: float,
+    z: Array,
+    t_end: float,
+    *,
+    rtol: float,
+    atol: float,
+    most: int,
+    lives: Callable[[Array], bool] | None = None,
+) -> Slide:
+    """Follow the slow flow until the critical set reaches the equator, folds, or changes stability.
+
+    Parameters
+    ----------
+    field : Field
+    psi : Psi
+    e : ndarray (2,)
+        Critical set at z.
+    t, t_end : float
+    z : ndarray (m,)
+    rtol, atol : float
+    most : int
+        Steps.
+    lives : callable, optional
+        For sliding on a limit cycle: whether it is still there at z.
+
+    Raises
+    ------
+    TooManyStepsError
+        Also where W is undefined from some z on.
+    """
+    if not len(z):
+        return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e)
+    sheet = Sheet(field, e, z)
+    sign = math.copysign(1.0, determinant(sheet, sheet.e, z))
+    turn = 1.0 if lives is None else -1.0  # around a stable cycle C is unstable: tr J > 0
+    gauges: dict[str, Callable[[Array, Array], float]] = {
+        "equator": lambda e, z: complement(e),  # noqa: ARG005 (all gauges are called alike)
+        "fold": lambda e, z: sign * determinant(sheet, e, z),
+        "hopf": lambda e, z: -turn * trace(sheet, psi, e, z),
+    }
+
+    def alive(z: Array) -> bool:
+        if lives is None or lives(z):
+            return True
+        e = sheet.at(z)
+        return e is not None and abs(trace(sheet, psi, e, z)) < NEAR_HOPF * float(
+            np.abs(sheet.slopes(e, z)[:2, :2]).max()
+        )
+
+    problem = sheet.problem(atol / rtol)
+    rate = problem.F(z)
+    h = 1e-2 / float(np.max(np.abs(rate) / problem.scale(z))) if rate.any() else math.inf
+    taken: list[Step] = []
+    span = t_end - t
+    try:
+        for step in steps(problem, t, t_end, z, rtol, h, most, SHORTEST * span):
+            after = sheet.at(step.last)
+            if after is None:
+                raise StepsTooShortError
+            found: list[tuple[float, str]] = []
+            for name, gauge in gauges.items():
+                if gauge(after, step.last) < 0.0:
+                    found.append((_zero(sheet, gauge, step), name))
+            if not alive(step.last):
+                found.append((_last_alive(alive, step), "cycle"))
+            if found:
+                u, name = min(found)
+                last = step.at(u)
+                taken.append(_whole(step, u))
+                end = sheet.at(last)
+                return Slide(taken, name, after if end is None else end)
+            taken.append(_whole(step, 1.0))
+    except StepsTooShortError:
+        if complement(sheet.e) < AT_EQUATOR:
+            return Slide(taken, "equator", sheet.e)
+        if (
+            abs(determinant(sheet, sheet.e, sheet.z))
+            < AT_FOLD * np.abs(sheet.slopes(sheet.e, sheet.z)[:2, :2]).max() ** 2
+        ):
+            return Slide(taken, "fold", sheet.e)
+        raise
+    return Slide(taken, "time", sheet.e)
+
+
+def _zero(sheet: Sheet, gauge: Callable[[Array, Array], float], step: Step) -> float:
+    """Fraction of the step at which a gauge that is negative at its end turns negative."""
+
+    def value(u: float) -> float:
+        z = step.at(u)
+        e = sheet.at(z)
+        return -1.0 if e is None else gauge(e, z)
+
+    if value(0.0) <= 0.0:  # began on the border itself, and stays outside
+        return 0.0
+    from scipy.optimize import root_scalar  # imported late: it takes longer than all of this package
+
+    return float(root_scalar(value, bracket=(0.0, 1.0), xtol=1e-15).root)
+
+
+def _last_alive(alive: Callable[[Array], bool], step: Step) -> float:
+    low, high = 0.0, 1.0
+    for _ in range(20):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if alive(step.at(middle)) else (low, middle)
+    return low
+
+
+def _whole(step: Step, u: float) -> Step:
+    """Return the part of a step in z up to its fraction u, as a step of the whole state on Sigma."""
+    polynomial = np.zeros((2 + len(step.first), STAGES))
+    polynomial[2:] = step.polynomial * u ** np.arange(1, STAGES + 1)
+    last = step.last if u == 1.0 else step.at(u)
+    still = np.zeros(2)
+    first, last = np.concatenate([still, step.first]), np.concatenate([still, last])
+    return Step(step.start, u * step.h, first, last, polynomial)

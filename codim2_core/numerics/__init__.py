@@ -1,0 +1,1 @@
+"""Methods that know no system: zeros of functions, intervals, one implicit integrator."""

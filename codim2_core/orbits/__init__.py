@@ -1,0 +1,1 @@
+"""Trajectories and whole orbits on the hemisphere and outside it."""

@@ -1,0 +1,295 @@
+"""Trajectories of the layer problem on the projected hemisphere, and of the nonsmooth system outside.
+
+Both are one field in (p_x, p_y, w), w = ebar on the hemisphere and rho outside, see `stepping.fields`; w enters only
+as a factor, so that it keeps its relative accuracy however small it is. Time is T with dT = dt/rho.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from types import SimpleNamespace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..psi.function import Psi
+from ..stepping.numbers import rate
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+from ..systems.kinds import AnySystem
+from ..systems.typed import Frozen, System
+from .departures import departures
+from .result import Status, Trajectories, joined
+from .seeds import checked_seeds
+
+__all__ = ["Status", "Trajectories", "continuation", "is_warm", "joined", "trajectories", "warm"]
+
+Array = NDArray[np.float64]
+
+PIXEL = 1.0 / 180.0
+DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
+STEP_LIMIT = 10_000
+
+GENERAL = "general"
+_warm: set[str] = set()  # what has run: families of Psi for e-linear systems, GENERAL for any other
+
+
+@lru_cache(maxsize=1)
+def _kernels() -> SimpleNamespace:
+    """Load the compiled parts on first use: compiling, or loading from the disk cache, starts with their first call."""
+    from ..stepping import lanes, layout
+    from ..stepping import problem as stepping_problem
+
+    return SimpleNamespace(
+        integrate=lanes.integrate,
+        problem=stepping_problem.problem,
+        prepare=stepping_problem.prepare,
+        is_compiled=stepping_problem.is_compiled,
+        states_of=layout.states_of,
+    )
+
+
+def _positive(value: float, what: str, remedy: str, low: float = 0.0, high: float = math.inf) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not (math.isfinite(number) and low <= number <= high and number > 0.0):
+        raise ValueError(f"{what} is {value!r}; {remedy}.")
+    return number
+
+
+def trajectories(
+    system: AnySystem,
+    psi: Psi,
+    seeds: ArrayLike,
+    z: ArrayLike = (),
+    *,
+    t_max: float = 8.0,
+    rtol: float = 1e-6,
+    atol: float = 1e-8,
+    backward: bool = False,
+    view: float = 2.0,
+    pixel: float = PIXEL,
+    capture: float | None = None,
+    samples: Literal["ends"] | None = None,
+    length: float = math.inf,
+    step_limit: int = STEP_LIMIT,
+) -> Trajectories:
+    """Follow trajectories from points of the picture: eq:LP on the hemisphere, eq:polar_gen_odes_desing outside.
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+        A System costs one small compilation, whatever Psi, z and its parameters are.
+    psi : Psi
+    seeds : (k, 2)
+        Points of the picture: |p| < 1 on the hemisphere, |p| = 1 + rho outside, |p| = 1 on the equator, which is
+        followed exactly. They may be mixed.
+    z : (m,) floats
+    t_max : float
+        Longest time T (dT = dt/rho) along a trajectory.
+    rtol, atol : float
+        Tolerances of p on the unit sphere; those of w = ebar or rho are relative. rtol in [1e-14, 0.1].
+    backward : bool
+        Follow against time; `times` then decrease from 0.
+    view : float
+        Outside, a trajectory ends where |p_x| or |p_y| of its picture point reaches view. (One that bulges out and
+        back between two steps goes on.)
+    pixel : float
+        A pixel in picture units: lines stay within a quarter of it from the curve, with as few points as that takes.
+    capture : float, optional
+        Arc on the sphere (outside: distance in (theta, rho)) from an attracting equilibrium at which a trajectory
+        ends. Default rtol + atol. Saddles, centres and slow passages end nothing.
+    samples : "ends" or None
+        "ends" returns only the first and the last point of each trajectory.
+    length : float
+        Length of the drawn line, in picture units, at which a trajectory ends; a cycle is drawn a few times over
+        and not for ever.
+    step_limit : int
+        Steps tried before a trajectory is given up, with a status that says so.
+
+    Returns
+    -------
+    Trajectories
+
+    Raises
+    ------
+    ValueError
+        An argument is invalid; the message says which, and what is allowed.
+    """
+    points = seeds if isinstance(seeds, np.ndarray) and seeds.dtype == np.float64 else checked_seeds(seeds)
+    if points.ndim != 2 or points.shape[1] != 2:
+        points = checked_seeds(seeds)
+    states, signs, finite = _kernels().states_of(np.ascontiguousarray(points))
+    if not finite:
+        checked_seeds(seeds)  # says which
+    return _integrate(
+        system,
+        psi,
+        states,
+        signs,
+        z,
+        t_max=t_max,
+        rtol=rtol,
+        atol=atol,
+        backward=backward,
+        view=view,
+        pixel=pixel,
+        capture=capture,
+        samples=samples,
+        length=length,
+        step_limit=step_limit,
+    )
+
+
+def _integrate(
+    system: AnySystem,
+    psi: Psi,
+    states: Array,
+    signs: Array,
+    z: ArrayLike,
+    *,
+    t_max: float,
+    rtol: float,
+    atol: float,
+    backward: bool,
+    view: float,
+    pixel: float,
+    capture: float | None,
+    samples: Literal["ends"] | None,
+    length: float,
+    step_limit: int,
+) -> Trajectories:
+    t_max = _positive(t_max, "t_max", "give a finite positive time; backward=True follows trajectories backward")
+    rtol = _positive(rtol, "rtol", "give a relative tolerance from 1e-14 to 0.1", 1e-14, 0.1)
+    atol = _positive(atol, "atol", "give an absolute tolerance from 1e-15 to 0.1", 1e-15, 0.1)
+    view = _positive(view, "view", "give the finite half-width of the view, greater than 1 (the equator)", 1.0)
+    pixel = _positive(pixel, "pixel", "give the size of a pixel in picture units, up to 1", high=1.0)
+    if capture is None:
+        capture = min(rtol + atol, 0.1)
+    capture = _positive(capture, "capture", "give a distance from an attractor, up to 0.1; or None", high=0.1)
+    if not length > 0.0:
+        raise ValueError(f"length is {length!r}; give a positive length in picture units, or leave it out.")
+    if samples not in (None, "ends"):
+        raise ValueError(f'samples is {samples!r}; give None for drawn lines or "ends" for the two ends.')
+    if not 1 <= int(step_limit) <= 10**9:
+        raise ValueError(f"step_limit is {step_limit!r}; give a number of steps from 1 to 1e9.")
+    at = system.at(z)
+    if len(states) == 0:
+        return joined([])
+    kernels = _kernels()
+    # Time in units of 1/|U| makes step sizes, speeds and capture independent of the scale of U.
+    problem, unit = kernels.problem(at, psi, backward), rate(at)
+    buffer, clock, offsets, ends, codes, evaluations = kernels.integrate(
+        states,
+        signs,
+        problem.shared,
+        problem.address,
+        min(t_max * unit, 1e300),
+        rtol,
+        atol,
+        int(step_limit),
+        capture,
+        view,
+        0.0 if samples == "ends" else DRAWN * pixel,
+        float(length),
+    )
+    clock *= (-1.0 if backward else 1.0) / unit
+    _warm.add(psi.family if isinstance(at, Coefficients) else GENERAL)
+    return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
+
+
+def warm(psi: Psi | None = None, system: AnySystem | None = None) -> None:
+    """Compile, or load from the disk cache, all that trajectories with this Psi need.
+
+    Parameters
+    ----------
+    psi : Psi, optional
+        Default Psi = 1.
+    system : System or Frozen, optional
+        Compile the field of this system too; it runs at once at any z and any values of its parameters.
+    """
+    from ..psi.constructors import constant
+
+    psi = constant() if psi is None else psi
+    general = system.system if isinstance(system, Frozen) else system
+    if isinstance(general, System):
+        _kernels().prepare(general, psi)
+    elinear, seeds = ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), np.array([(0.5, 0.0), (1.5, 0.0)])
+    trajectories(elinear, psi, seeds)
+    trajectories(elinear, psi, checked_seeds(seeds))  # read-only arrays are another type to Numba
+
+
+def is_warm(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
+    """Whether trajectories (with this Psi and system, if given) run at once, without compiling or loading."""
+    if not _warm:
+        return False
+    general = system.system if isinstance(system, Frozen) else system
+    if psi is None:
+        return True
+    if isinstance(general, System):
+        return _kernels().is_compiled(general, psi)
+    return psi.family in _warm and _kernels().is_compiled(None, psi)
+
+
+def continuation(
+    system: AnySystem,
+    psi: Psi,
+    theta: ArrayLike,
+    z: ArrayLike = (),
+    *,
+    t_max: float = 8.0,
+    rtol: float = 1e-6,
+    atol: float = 1e-8,
+    backward: bool = False,
+    view: float = 2.0,
+    pixel: float = PIXEL,
+    capture: float | None = None,
+    samples: Literal["ends"] | None = None,
+    length: float = math.inf,
+    step_limit: int = STEP_LIMIT,
+) -> Trajectories:
+    """Continue trajectories that arrive at limit directions up the hemisphere, fig:side_of_sphere, thm:geneps0(b).
+
+    Where lambda_rho < 0 the equilibrium Q of the equator has one invariant direction up the hemisphere, with rate
+    -lambda_rho > 0 (backward: where lambda_rho > 0). The orbit that leaves along it is followed from Q itself, from
+    a local expansion whose error is below the tolerance.
+
+    Parameters
+    ----------
+    theta : (k,)
+        Limit directions, radians: zeros of Theta with lambda_rho < 0 (backward: > 0).
+    system, psi, z, t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit
+        As in `trajectories`; the time 0 is where the expansion hands over.
+
+    Returns
+    -------
+    Trajectories
+        Each starts less than 1e-6 (in |p|) above the equator, at theta.
+
+    Raises
+    ------
+    ValueError
+        A direction is not a limit direction, or no trajectory of the nonsmooth system arrives along it.
+    """
+    states = departures(system.at(z), psi, theta, rtol, backward)
+    return _integrate(
+        system,
+        psi,
+        states,
+        np.full(len(states), -1.0),
+        z,
+        t_max=t_max,
+        rtol=rtol,
+        atol=atol,
+        backward=backward,
+        view=view,
+        pixel=pixel,
+        capture=capture,
+        samples=samples,
+        length=length,
+        step_limit=step_limit,
+    )

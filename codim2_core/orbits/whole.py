@@ -1,0 +1,84 @@
+"""Whole orbits through seeds: a half followed back in time and a half followed forward, as one polyline."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .result import Status, Trajectories
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Orbits:
+    """Orbits through seeds; all arrays are read-only and points run with increasing time.
+
+    Attributes
+    ----------
+    backward, forward : Trajectories
+        The two halves; each starts at the seed, time T = 0.
+    """
+
+    backward: Trajectories
+    forward: Trajectories
+
+    def __len__(self) -> int:
+        return len(self.forward)
+
+    @cached_property
+    def _order(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Places of all points in (backward.buffer, forward.buffer) laid end to end, and offsets (k + 1,)."""
+        back, ahead = self.backward.offsets, self.forward.offsets
+        before, after = np.diff(back) - 1, np.diff(ahead)  # the seed is drawn once
+        offsets = np.concatenate([[0], np.cumsum(before + after)])
+        within = np.arange(offsets[-1]) - np.repeat(offsets[:-1], before + after)
+        past = within < np.repeat(before, before + after)
+        from_back = np.repeat(back[1:] - 1, before + after) - within
+        from_ahead = np.repeat(back[-1] + ahead[:-1] - before, before + after) + within
+        return np.where(past, from_back, from_ahead), offsets
+
+    @property
+    def offsets(self) -> NDArray[np.int64]:
+        """Orbit i is ``buffer[offsets[i]:offsets[i + 1]]``; (k + 1,)."""
+        return self._order[1]
+
+    @cached_property
+    def buffer(self) -> Array:
+        """Picture points of all orbits, one after the other; (N, 2)."""
+        points = np.concatenate([self.backward.buffer, self.forward.buffer])[self._order[0]]
+        points.flags.writeable = False
+        return points
+
+    @cached_property
+    def clock(self) -> Array:
+        """The time T at each point, 0 at the seed; (N,)."""
+        times = np.concatenate([self.backward.clock, self.forward.clock])[self._order[0]]
+        times.flags.writeable = False
+        return times
+
+    @cached_property
+    def points(self) -> list[Array]:
+        """One (m, 2) array an orbit."""
+        at = self.offsets.tolist()
+        return [self.buffer[i:j] for i, j in pairwise(at)]
+
+    @cached_property
+    def times(self) -> list[Array]:
+        """One (m,) array an orbit."""
+        at = self.offsets.tolist()
+        return [self.clock[i:j] for i, j in pairwise(at)]
+
+    @property
+    def status(self) -> tuple[Status, ...]:
+        """Why each orbit ends, forward in time."""
+        return self.forward.status
+
+    @property
+    def origin(self) -> tuple[Status, ...]:
+        """Why each orbit ends, backward in time: where it comes from."""
+        return self.backward.status

@@ -1,0 +1,1 @@
+"""One phase portrait: its name, nullclines, separatrices, where orbits end."""

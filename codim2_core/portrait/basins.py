@@ -1,0 +1,140 @@
+"""Basins on the projected disc: which critical set, cycle or limit direction the layer problem leads to from where.
+
+Where several critical sets attract, their basins decide which slow flow follows (sec:nonunique). Cells are refined
+only where neighbours lead elsewhere.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..cycles.limit_cycles import LimitCycles, limit_cycles
+from ..layer_problem.critical import critical_sets
+from ..layer_problem.equator import equator_equilibria
+from ..orbits.trajectories import trajectories
+from ..psi.function import Psi
+from ..systems.kinds import AnySystem
+from .endings import CAPTURE, critical_label, drawn_time, endings
+
+COARSEST = 32  # cells across the disc at first
+OUTSIDE, UNDECIDED = -2, -1
+RTOL = 1e-5
+
+
+@dataclass(frozen=True, eq=False)
+class Basins:
+    """Where trajectories of the layer problem lead from each cell of the disc.
+
+    Attributes
+    ----------
+    cells : ndarray of int8 (n, n)
+        Place in `destinations` for the centre of each cell of [-1, 1]^2, rows by rising y; -1 undecided (on a border,
+        or slower than was followed), -2 outside the disc.
+    destinations : tuple of str
+        "C" (or "C1", ...), "cycle 1", "Q2", "equator".
+    slow_flow : tuple of (ndarray (m,) or None)
+        z' at each destination; None where it leaves Sigma.
+    evaluations : int
+        Evaluations of the field.
+    """
+
+    cells: NDArray[np.int8]
+    destinations: tuple[str, ...]
+    slow_flow: tuple[NDArray[np.float64] | None, ...]
+    evaluations: int
+
+
+def basins(
+    system: AnySystem, psi: Psi, z: ArrayLike = (), *, n: int = 128, cycles: LimitCycles | None = None
+) -> Basins:
+    """Find the basins on the projected disc, eq:LP.
+
+    Parameters
+    ----------
+    system, psi, z
+        As everywhere.
+    n : int
+        Cells across the disc: 32 times a power of two.
+    cycles : LimitCycles, optional
+        The limit cycles, if they are known already.
+
+    Returns
+    -------
+    Basins
+        A basin thinner than 1/16 of the radius may be missed, since cells are refined only where neighbours of the
+        coarsest 32 x 32 cells differ.
+
+    Raises
+    ------
+    ValueError
+        n is not 32 times a power of two.
+    """
+    times, rest = divmod(n, COARSEST)
+    if rest or times < 1 or times & (times - 1):
+        raise ValueError(f"n is {n}; give 32 times a power of two: 32, 64, 128, …")
+    at = system.at(z)
+    equator, critical = equator_equilibria(at), critical_sets(at, psi)
+    cycles = limit_cycles(at, psi) if cycles is None else cycles
+    time = drawn_time(at, equator)
+    names: list[str] = [critical_label(critical, i) for i, C in enumerate(critical) if C.kind.startswith("stable")]
+    evaluations = 0
+
+    def lead(points: NDArray[np.float64]) -> NDArray[np.int8]:
+        nonlocal evaluations
+        lines = trajectories(at, psi, points, t_max=time, rtol=RTOL, atol=RTOL, capture=CAPTURE, samples="ends")
+        evaluations += lines.evaluations
+        found = np.full(len(points), UNDECIDED, np.int8)
+        for i, end in enumerate(endings(at, psi, lines, equator, critical, cycles, rtol=RTOL)):
+            if end.label == "undecided":
+                continue
+            if end.label not in names:
+                names.append(end.label)
+            found[i] = names.index(end.label)
+        return found
+
+    size = COARSEST
+    cells = np.full((size, size), OUTSIDE, np.int8)
+    inside = _inside(size)
+    cells[inside] = lead(_centres(size)[inside])
+    while size < n:
+        size *= 2
+        border = np.kron(_bordering(cells), np.ones((2, 2), bool))
+        cells = np.kron(cells, np.ones((2, 2), np.int8))
+        inside = _inside(size)
+        again = inside & (border | (cells == OUTSIDE))
+        cells[~inside] = OUTSIDE
+        cells[again] = lead(_centres(size)[again])
+    cells.flags.writeable = False
+    flows = []
+    for name in names:
+        if name.startswith("C"):
+            flows.append(critical[int(name[1:] or 1) - 1].slow_flow)
+        elif name.startswith("cycle"):
+            flows.append(cycles[int(name.split()[1]) - 1].slow_flow)
+        else:
+            flows.append(None)
+    return Basins(cells, tuple(names), tuple(flows), evaluations)
+
+
+def _centres(size: int) -> NDArray[np.float64]:
+    x: NDArray[np.float64] = (np.arange(size, dtype=np.float64) + 0.5) * (2.0 / size) - 1.0
+    return np.stack(np.meshgrid(x, x), axis=-1)
+
+
+def _inside(size: int) -> NDArray[np.bool_]:
+    return np.hypot(*np.moveaxis(_centres(size), -1, 0)) < 1.0 - 1e-9
+
+
+def _bordering(cells: NDArray[np.int8]) -> NDArray[np.bool_]:
+    """Cells with a neighbour, across an edge or a corner, of another kind; the outside is no kind."""
+    padded = np.pad(cells, 1, constant_values=OUTSIDE)
+    size = len(cells)
+    found = np.zeros_like(cells, bool)
+    for i in (0, 1, 2):
+        for j in (0, 1, 2):
+            other = padded[i : i + size, j : j + size]
+            found |= (other != cells) & (other != OUTSIDE) & (cells != OUTSIDE)
+    return found

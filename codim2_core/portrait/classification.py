@@ -1,0 +1,83 @@
+"""What the name of a portrait is made of, for e-linear and for general systems."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
+from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
+from ..numerics.trigonometric import ROUNDING
+
+
+@dataclass(frozen=True, slots=True)
+class Degeneracy:
+    """Something that a small change of the system would destroy.
+
+    Attributes
+    ----------
+    name : str
+    sentence : str
+        What it is; says where doubles leave it undecided.
+    within : float
+        Relative change of the coefficients (for "tr J = 0" and "neutral equator": of the terms of that number) within
+        which it cannot be told from what lies on either side. 0.0: the coefficients are of this kind exactly.
+    """
+
+    name: str
+    sentence: str
+    within: float = 0.0
+
+
+def undecided(name: str, sentence: str, within: float = ROUNDING, of: str = "each coefficient") -> Degeneracy:
+    """Make a degeneracy whose sentence says within what it cannot be told from its neighbours."""
+    return Degeneracy(name, f"{sentence} Undecided within {within:.1e} of {of}.", within)
+
+
+@dataclass(frozen=True, slots=True)
+class Classification:
+    """Name of a phase portrait.
+
+    Attributes
+    ----------
+    case : "I", "II", "III" or None
+        tab:cases; None on the borders between the cases, and for systems that are not e-linear.
+    name : str
+        "CM" or "NCM" (critical set or none) and the number of distinct equilibria on the equator, as in
+        fig:sketches: "CM0", "CM2", "CM4", "NCM2", "NCM4"; other numbers only where `degeneracies` says why. For a
+        system that is not e-linear a count, such as "2 critical sets, 6 limit directions".
+    sentence : str
+    degeneracies : tuple of Degeneracy
+    """
+
+    case: str | None
+    name: str
+    sentence: str
+    degeneracies: tuple[Degeneracy, ...]
+
+
+NEUTRAL_CLOSED_EQUATOR = undecided(
+    "neutral equator",
+    "The equator is a closed orbit with exponent 0: it neither attracts nor repels to first order.",
+    NEUTRAL_EQUATOR,
+    "the terms of the exponent",
+)
+
+
+def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
+    """Describe the limit directions in a sentence or two."""
+    if equator.all_directions:
+        return "Every direction is a limit direction."
+    count = len(equator.theta)
+    if count == 0:
+        if cycle is None or cycle.exponent == 0.0:
+            return "No limit directions: the equator is a closed orbit."
+        outer, inner = ("attracts", "repels") if cycle.exponent < 0.0 else ("repels", "attracts")
+        return f"No limit directions: the equator is a closed orbit that {outer} outside and {inner} on the hemisphere."
+    arriving = int((equator.lambda_rho < 0.0).sum())
+    leaving = int((equator.lambda_rho > 0.0).sum())
+    noun = "limit direction" if count == 1 else "limit directions"
+    if leaving == 0:
+        return f"{count} {noun}: trajectories reach Σ along {'it' if count == 1 else 'them'}."
+    if arriving == 0:
+        return f"{count} {noun}: trajectories leave Σ along {'it' if count == 1 else 'them'}."
+    return f"{count} {noun}: trajectories reach Σ along {arriving} and leave it along {leaving}."

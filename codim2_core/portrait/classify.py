@@ -1,0 +1,154 @@
+"""The portrait's name: case (tab:cases), name (fig:sketches, fig:3cases), degeneracies, and a student's sentence."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from ..layer_problem.critical import (
+    NEUTRAL_TRACE,
+    CriticalSet,
+    Existence,
+    Location,
+    critical_sets,
+    determinant_sign,
+    locate,
+)
+from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+from ..psi.function import Psi
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+from ..systems.typed import Frozen, System
+from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
+from .classify_typed import general_portrait
+
+_MULTIPLE = {
+    2: undecided(
+        "saddle-node",
+        "Θ has a double zero: two limit directions have just met (fig:SNBIF, eq:tangencies). Counted once here.",
+    ),
+    3: undecided(
+        "pitchfork",
+        "Θ has a triple zero with λ_θ = 0: one limit direction is splitting into three (degenerate case D2). "
+        "Counted once here.",
+    ),
+    4: undecided("quadruple zero", "Θ has a fourfold zero: all four limit directions have met. Counted once here."),
+}
+_CUSP = undecided(
+    "cusp", "Θ has a triple zero: two saddle-nodes of limit directions meet in a cusp. Counted once here."
+)
+
+
+def _equator_degeneracies(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
+    found = []
+    if equator.all_directions:
+        found.append(
+            undecided(
+                "all directions",
+                "a = d, b = 0 and f = 0: Θ ≡ 0, every direction is a limit direction (the ball at z = 0).",
+            )
+        )
+    multiple = sorted({int(k) for k in equator.multiplicity if k > 1})
+    found += [_CUSP if k == 3 and not equator.symmetric else _MULTIPLE[k] for k in multiple]
+    if cycle is not None and cycle.exponent == 0.0:
+        found.append(NEUTRAL_CLOSED_EQUATOR)
+    return found
+
+
+def _critical_degeneracies(location: Location, critical: tuple[CriticalSet, ...]) -> list[Degeneracy]:
+    names = {
+        Existence.EQUATOR: "transcritical",
+        Existence.SINGULAR_NONE: "det A = 0",
+        Existence.SINGULAR_OUTSIDE: "det A = 0",
+        Existence.SINGULAR_LINE: "line of critical points",
+        Existence.EVERYTHING: "everything stands still",
+    }
+    found = []
+    if location.existence in names:
+        found.append(undecided(names[location.existence], location.existence.value))
+    if any(C.kind == "centre (linear)" for C in critical):
+        found.append(
+            undecided(
+                "tr J = 0",
+                "tr J = 0 within rounding: a Hopf bifurcation of the layer problem. The linearisation is a centre; "
+                "whether C is stable is decided by nonlinear terms.",
+                NEUTRAL_TRACE,
+                "the terms of the trace",
+            )
+        )
+    return found
+
+
+def _case(coefficients: Coefficients) -> tuple[str | None, list[Degeneracy]]:
+    a, b, d = coefficients.a, coefficients.b, coefficients.d
+    if a == 0.0 or d == 0.0:
+        which = "a = d = 0" if a == d == 0.0 else "a = 0" if a == 0.0 else "d = 0"
+        return None, [Degeneracy(which, f"{which}: on the border between Case I and Cases II, III (tab:cases).")]
+    if (a > 0.0) == (d > 0.0):
+        return "I", []
+    sign = determinant_sign(a, b, d)
+    return (None if sign == 0 else "III" if sign > 0 else "II"), []
+
+
+def _consequence(location: Location, critical: tuple[CriticalSet, ...]) -> str:
+    if not critical:
+        if location.existence is Existence.NONE:
+            return "There is no critical set, so nothing slides: what reaches Σ crosses it."
+        return location.existence.value
+    kind = critical[0].kind
+    if kind.startswith("stable"):
+        return f"The critical set C is a {kind}: stable sliding along Σ."
+    if kind == "saddle":
+        return "The critical set C is a saddle whatever Ψ is: sliding along Σ is unstable, almost every orbit leaves."
+    if kind.startswith("unstable"):
+        return f"The critical set C is an {kind}: sliding along C itself is unstable."
+    return "The critical set C is a centre to first order."
+
+
+def portrait(
+    at: Coefficients | Frozen,
+    equator: EquatorEquilibria,
+    cycle: EquatorCycle | None,
+    location: Location | None,
+    critical: tuple[CriticalSet, ...],
+) -> Classification:
+    """Name a portrait from its parts (all at one z); `location` is that of `locate`, None for a general system.
+
+    A general system that is affine in (c, s) has the name of its normal form, unless the rotation's rounding blurs
+    whether there is a critical set.
+    """
+    if isinstance(at, Frozen):
+        coefficients = at.normal_form
+        location = None if coefficients is None else locate(coefficients)
+        if coefficients is None or location is None or (location.e is None) == bool(critical):
+            return general_portrait(at, equator, cycle, critical)
+    else:
+        coefficients = at
+        location = locate(at) if location is None else location
+    case, degeneracies = _case(coefficients)
+    degeneracies += _equator_degeneracies(equator, cycle) + _critical_degeneracies(location, critical)
+    count = "∞" if equator.all_directions else str(len(equator.theta))
+    name = ("CM" if critical else "NCM") + count
+    prefix = f"Case {case}, {name}. " if case else f"{name}. "
+    sentence = prefix + directions(equator, cycle) + " " + _consequence(location, critical)
+    return Classification(case, name, sentence, tuple(degeneracies))
+
+
+def classify(system: ELinear | System | Coefficients | Frozen, psi: Psi, z: ArrayLike = ()) -> Classification:
+    """Case, portrait name, sentence and degeneracies of the system at z.
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+        A general system that is affine in (c, s) is named as its e-linear normal form (lem:normalform); any other
+        has no case, and its name counts the critical sets and limit directions.
+    psi : Psi
+        Decides the kind of the critical sets (Case III: sec:case3), never the name.
+    z : (m,) floats
+
+    Returns
+    -------
+    Classification
+    """
+    at = system.at(z)
+    location = None if isinstance(at, Frozen) else locate(at)
+    return portrait(at, equator_equilibria(at), equator_cycle(at), location, critical_sets(at, psi))

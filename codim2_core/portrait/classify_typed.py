@@ -1,0 +1,113 @@
+"""The name of a general system's portrait: counts, what is degenerate, and whether the counts are certain."""
+
+from __future__ import annotations
+
+from ..layer_problem.critical import NEUTRAL_TRACE, CriticalSet
+from ..layer_problem.disc_zeros import DiscZeros, disc_zeros
+from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
+from ..numerics.fourier_zeros import ROUNDINGS, UNIT
+from ..systems.typed import Frozen
+from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
+
+WITHIN = ROUNDINGS * UNIT
+TERMS = "the terms of U"
+
+
+def general_portrait(
+    at: Frozen, equator: EquatorEquilibria, cycle: EquatorCycle | None, critical: tuple[CriticalSet, ...]
+) -> Classification:
+    """Name the portrait of a system that is not e-linear, from its parts (all at one z)."""
+    found = disc_zeros(at.key)
+    lines = "every direction" if equator.all_directions else _count(len(equator), "limit direction")
+    name = f"{_count(len(critical), 'critical set')}, {lines}"
+    sentence = f"{directions(equator, cycle)} {_consequence(critical, found)}"
+    degeneracies = _equator(equator, cycle) + _critical(critical, found)
+    return Classification(None, name, sentence, tuple(degeneracies))
+
+
+def _count(k: int, noun: str) -> str:
+    return f"no {noun}" if k == 0 else f"{k} {noun}" + ("" if k == 1 else "s")
+
+
+def _counted(k: int, kind: str) -> str:
+    for one, many in (("focus", "foci"), ("centre", "centres"), ("saddle-node", "saddle-nodes")):
+        if k > 1 and one in kind:
+            return f"{k} {kind.replace(one, many)}"
+    return f"{k} {kind}" + ("s" if k > 1 and kind != "degenerate" else "")
+
+
+def _consequence(critical: tuple[CriticalSet, ...], found: DiscZeros) -> str:
+    if not critical:
+        if found.everything or found.curve or found.on_equator or not found.proven:
+            return "No isolated critical set inside."
+        return "There is no critical set."
+    kinds = [C.kind for C in critical]
+    counted = ", ".join(_counted(kinds.count(kind), kind) for kind in sorted(set(kinds)))
+    stable = sum(kind.startswith("stable") for kind in kinds)
+    if stable == 0:
+        return f"Critical sets: {counted}. None is stable: sliding along them is not."
+    if stable == 1:
+        return f"Critical sets: {counted}. There is one way to slide stably along Σ."
+    return f"Critical sets: {counted}. There are {stable} ways to slide stably along Σ (sec:nonunique)."
+
+
+_MULTIPLE = {
+    2: ("saddle-node", "Θ has a double zero: two limit directions have just met (fig:SNBIF). Counted once here."),
+    3: ("pitchfork", "Θ has a triple zero: one limit direction is splitting into three. Counted once here."),
+    4: ("quadruple zero", "Θ has a fourfold zero: four limit directions have met. Counted once here."),
+}
+_CUSP = ("cusp", "Θ has a triple zero: two saddle-nodes of limit directions meet in a cusp. Counted once here.")
+
+
+def _equator(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
+    degeneracies = []
+    if equator.all_directions:
+        text = "Θ ≡ 0: every direction is a limit direction."
+        degeneracies.append(undecided("all directions", text, WITHIN, TERMS))
+    for m in sorted({int(m) for m in equator.multiplicity if m > 1}):
+        high = (f"zero of multiplicity {m}", f"{m} limit directions have met. Counted once here.")
+        name, text = _CUSP if m == 3 and not equator.symmetric else _MULTIPLE.get(m, high)
+        degeneracies.append(undecided(name, text, WITHIN, TERMS))
+    if not equator.proven:
+        degeneracies.append(Degeneracy("limit directions uncertain", equator.certificate))
+    if cycle is not None and cycle.neutral:
+        degeneracies.append(NEUTRAL_CLOSED_EQUATOR)
+    return degeneracies
+
+
+def _critical(critical: tuple[CriticalSet, ...], found: DiscZeros) -> list[Degeneracy]:
+    kinds = [C.kind for C in critical]
+    named = []
+    if found.everything:
+        named.append(("everything stands still", "U ≡ 0: every point of the hemisphere is an equilibrium."))
+    if found.curve:
+        named.append(("curve of critical points", "U = 0 along a whole curve of the hemisphere."))
+    if found.on_equator:
+        named.append(("transcritical", "U = 0 on the equator: a critical set is just reaching it (fig:transcrit)."))
+    if "saddle-node" in kinds:
+        named.append(("fold", "det J = 0: two critical sets have just met. Counted once here."))
+    if "degenerate" in kinds:
+        named.append(("degenerate critical set", "det J = 0: three or more critical sets have met. Counted once here."))
+    degeneracies = [undecided(name, text, WITHIN, TERMS) for name, text in named]
+    if "centre (linear)" in kinds:
+        text = (
+            "tr J = 0 within rounding: a Hopf bifurcation of the layer problem. The linearisation is a centre; whether "
+            "the critical set is stable is decided by nonlinear terms."
+        )
+        degeneracies.append(undecided("tr J = 0", text, NEUTRAL_TRACE, "the terms of the trace"))
+    if not found.proven:
+        degeneracies.append(
+            Degeneracy(
+                "critical sets uncertain",
+                "Somewhere on the hemisphere it could not be decided whether U = 0: is U smooth and finite there?",
+            )
+        )
+    if found.consistent is False:
+        degeneracies.append(
+            Degeneracy(
+                "index mismatch",
+                f"The indices of the critical sets found add up to {int(found.index.sum())}, but U turns "
+                f"{found.degree} times on the equator: a critical set or a limit direction is missing.",
+            )
+        )
+    return degeneracies

@@ -1,0 +1,211 @@
+"""Where trajectories on the hemisphere end: at which equilibrium, on which cycle, and from which side."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..cycles.limit_cycles import LimitCycles
+from ..layer_problem.critical import CriticalSet
+from ..layer_problem.equator import EquatorEquilibria
+from ..orbits.trajectories import Status, Trajectories, trajectories
+from ..psi.function import Psi
+from ..stepping.numbers import rate
+from ..systems.coefficients import Coefficients
+from ..systems.typed import Frozen
+from .saddle_manifold import to_disc
+
+Array = NDArray[np.float64]
+
+SPEEDS = 600.0  # length drawn of a branch that ends nowhere: T in units of 1/|(a, b, d, f1, f2)|, or 1/max |U|
+SLOW = 8.0  # and of 1/|lambda_rho|: enough to rise from where the expansion at the equator ends
+PATIENCE = 30.0  # and how many times longer it is followed to see where it ends
+CAPTURE = 1e-6  # distance from an attractor at which a branch has reached it
+ON_CYCLE = 1e-4  # distance to a limit cycle at which a branch has reached it
+AT_CRITICAL = 1e-2  # distance beyond which an equilibrium that captures is none of the critical sets known
+AT_SADDLE = 1e-4  # distance at which a branch that stopped nowhere else is at a saddle
+NEUTRAL = 1e-13  # of the largest eigenvalue on the equator
+CONNECTION = "Runs into a saddle: a saddle connection."
+
+
+@dataclass(frozen=True, eq=False)
+class Ending:
+    """Where a trajectory ends: the label, the angle of arrival if it has one, and a sentence."""
+
+    label: str
+    angle: float | None
+    sentence: str
+
+
+def critical_label(critical: tuple[CriticalSet, ...], i: int) -> str:
+    """Name critical set i (from 0): C where it is the only one, else C1, C2, ..."""
+    return "C" if len(critical) == 1 else f"C{i + 1}"
+
+
+def _nearest_critical(critical: tuple[CriticalSet, ...], p: Array, within: float) -> int | None:
+    gaps = [math.dist(C.p, p) for C in critical]
+    i = int(np.argmin(gaps)) if gaps else 0
+    return i if gaps and gaps[i] <= within else None
+
+
+def _on_cycle(cycles: LimitCycles, p: Array, backward: bool) -> int | None:
+    for i, cycle in enumerate(cycles):
+        if cycle.kind != "semistable" and (cycle.kind == "unstable") != backward:
+            continue
+        start = cycle.points[:-1]
+        along = np.diff(cycle.points, axis=0)
+        length = np.maximum((along**2).sum(axis=1), 1e-300)
+        part = np.clip(((p - start) * along).sum(axis=1) / length, 0.0, 1.0)
+        if np.hypot(*(start + part[:, None] * along - p).T).min() < ON_CYCLE:
+            return i
+    return None
+
+
+def _tangent_at(critical: CriticalSet, p: Array) -> float | None:
+    """Angle from C of the eigendirection along which an orbit, now at p, comes to a node or saddle."""
+    if critical.discriminant < 0.0:
+        return None
+    away, best = p - critical.p, None
+    for value in critical.eigenvalues.real:
+        rows = critical.jacobian - value * np.eye(2)
+        row = rows[int(np.argmax(np.hypot(rows[:, 0], rows[:, 1])))]
+        if not row.any():
+            return float(math.atan2(away[1], away[0]))  # a star node: any direction
+        t = to_disc(critical.x2, np.array([-row[1], row[0]]))
+        score = float(t @ away)
+        if best is None or abs(score) > abs(best[0]):
+            best = (score, t if score > 0.0 else -t)
+    return None if best is None else float(math.atan2(best[1][1], best[1][0]))
+
+
+def _nearest(equator: EquatorEquilibria, angle: float) -> tuple[int, float]:
+    gaps = [abs(math.remainder(angle - t, 2.0 * math.pi)) for t in equator.theta.tolist()]
+    i = int(np.argmin(gaps))
+    return i, gaps[i]
+
+
+def endings(
+    at: Coefficients | Frozen,
+    psi: Psi,
+    lines: Trajectories,
+    equator: EquatorEquilibria,
+    critical: tuple[CriticalSet, ...],
+    cycles: LimitCycles,
+    *,
+    rtol: float = 1e-9,
+    backward: bool = False,
+) -> list[Ending]:
+    """Where trajectories on the hemisphere end; those cut off by their time are followed further.
+
+    Parameters
+    ----------
+    at, psi
+        Of the system that `lines` belong to.
+    lines : Trajectories
+    equator, critical, cycles
+        Of the same system.
+    rtol : float
+    backward : bool
+        Whether `lines` run against time.
+
+    Returns
+    -------
+    list of Ending
+    """
+    statuses, states = list(lines.status), np.array(lines.ends)
+    found: list[Ending | None] = [None] * len(lines)
+    length = drawn_time(at, equator)
+    for more in (0.0, 1.0, PATIENCE):
+        open_ = [i for i, s in enumerate(statuses) if s in (Status.T_MAX, Status.STEP_LIMIT) and found[i] is None]
+        # A point of the disc says nothing of an ebar below 1e-7: there the orbit is not followed on.
+        follow = [i for i in open_ if states[i, 2] > 1e-7] if more else []
+        if follow:
+            time, places = more * length, states[follow, :2]
+            on = _followed(at, psi, places, time, rtol, backward)
+            for j, i in enumerate(follow):
+                statuses[i], states[i] = on.status[j], on.ends[j]
+        for i in open_ if more else range(len(lines)):
+            p, w = states[i, :2], float(states[i, 2])
+            angle = math.atan2(p[1], p[0])
+            near, gap = _nearest(equator, angle) if len(equator) else (0, math.inf)
+            label = f"Q{near + 1}"
+            k = _nearest_critical(critical, p, AT_CRITICAL if statuses[i] is Status.EQUILIBRIUM else AT_SADDLE)
+            if statuses[i] is Status.EQUILIBRIUM and k is not None:
+                found[i] = Ending(critical_label(critical, k), _tangent_at(critical[k], p), statuses[i].value)
+            elif statuses[i] is Status.ARRIVED and len(equator):
+                found[i] = Ending(label, float(equator.theta[near]), statuses[i].value)
+            elif statuses[i] is Status.SPIRALLED:
+                found[i] = Ending("equator", None, statuses[i].value)
+            elif (reached := _on_cycle(cycles, p, backward)) is not None:
+                found[i] = Ending(f"cycle {reached + 1}", None, "Winds onto a limit cycle.")
+            elif w < AT_SADDLE and gap < AT_SADDLE and more:
+                found[i] = Ending(label, float(equator.theta[near]), _stopping(equator, near, w))
+            elif k is not None and critical[k].kind == "saddle" and more:
+                found[i] = Ending(critical_label(critical, k), _tangent_at(critical[k], p), CONNECTION)
+    return [e if e is not None else Ending("undecided", None, s.value) for e, s in zip(found, statuses, strict=True)]
+
+
+def drawn_time(at: Coefficients | Frozen, equator: EquatorEquilibria) -> float:
+    """T in which a branch shows where it goes: long for |U|, and for the slowest way up from the equator."""
+    unit = rate(at)
+    slow = np.abs(equator.lambda_rho[~equator.radially_degenerate])
+    return SPEEDS / unit + (SLOW / max(float(slow.min()), 1e-4 * unit) if len(slow) else 0.0)
+
+
+def _followed(
+    at: Coefficients | Frozen, psi: Psi, places: Array, time: float, rtol: float, backward: bool
+) -> Trajectories:
+    return trajectories(
+        at,
+        psi,
+        places,
+        t_max=time,
+        rtol=rtol,
+        atol=0.1 * rtol,
+        backward=backward,
+        capture=CAPTURE,
+        samples="ends",
+    )
+
+
+def _stopping(equator: EquatorEquilibria, i: int, w: float) -> str:
+    """Why an orbit that no attractor captured is at Q_{i+1}."""
+    if equator.multiplicity[i] > 1 or radially_neutral(equator, i):
+        return "Comes to a degenerate equilibrium on the equator."
+    if half_saddle(equator, i) and w > 0.0:
+        return CONNECTION
+    return Status.ARRIVED.value
+
+
+def radially_neutral(equator: EquatorEquilibria, i: int) -> bool:
+    """Whether lambda_rho of Q_{i+1} is zero, or too near zero for doubles to tell its sign again."""
+    size = max(float(np.abs(equator.lambda_rho).max()), float(np.abs(equator.lambda_theta).max()))
+    return bool(equator.radially_degenerate[i]) or abs(float(equator.lambda_rho[i])) <= NEUTRAL * size
+
+
+def half_saddle(equator: EquatorEquilibria, i: int) -> bool:
+    """Whether Q_{i+1} has one branch on the hemisphere that bounds sectors: a half-saddle, or a multiple zero."""
+    if radially_neutral(equator, i):
+        return False
+    multiplicity, radial = int(equator.multiplicity[i]), float(equator.lambda_rho[i])
+    if multiplicity == 1:
+        return float(equator.lambda_theta[i]) * radial > 0.0
+    if multiplicity % 2 == 0:
+        return True
+    return angular_sign(equator, i) * radial > 0.0
+
+
+def angular_sign(equator: EquatorEquilibria, i: int) -> int:
+    """Sign of dTheta/dtheta at Q_{i+1}; at a zero of odd multiplicity, of Theta beyond it; 0 at an even one."""
+    if equator.multiplicity[i] % 2 == 0:
+        return 0
+    sign, count = 1, len(equator)
+    for step in range(count):  # the signs alternate between zeros of odd multiplicity
+        j = (i + step) % count
+        if equator.multiplicity[j] == 1:
+            return sign * (1 if equator.lambda_theta[j] > 0.0 else -1)
+        sign *= -1 if equator.multiplicity[j] % 2 else 1
+    return 0

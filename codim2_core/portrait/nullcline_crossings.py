@@ -1,0 +1,133 @@
+"""Where the branches of one nullcline cross each other, or come so close that it looks so.
+
+At a crossing the component and its gradient vanish. On a small circle around it the component changes sign once for
+each half-branch; with 2 k of them, half-branch i goes straight on as i + k.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..expressions.arrays import Program
+from ..numerics.fourier_zeros import series, zeros
+
+Array = NDArray[np.floating[Any]]
+
+RADIUS, SMALLEST = 0.02, 1e-3  # of the circle, in units of the disc
+CLOSE = 1e-4  # branches that pass each other at this distance are drawn as crossing: a fiftieth of a pixel
+ANGLES = 32  # on a circle
+OBLIQUE = 0.35  # radians by which half-branches may miss going straight on, or leaving along the radius
+MOST_CELLS = 300  # with more, the field is not smooth on the scale of the net
+MOST = 64  # crossings
+NEAR_BORDER = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Crossing:
+    """Branches that cross.
+
+    Attributes
+    ----------
+    circle : ndarray (3,)
+        Middle and radius.
+    angles : ndarray (2 k,)
+        Of the half-branches where they meet the circle, increasing.
+    """
+
+    circle: Array
+    angles: Array
+
+    def nearest(self, point: Array) -> int:
+        """Index of the half-branch through a point on the circle."""
+        angle = math.atan2(point[1] - self.circle[1], point[0] - self.circle[0])
+        return int(np.abs(np.remainder(self.angles - angle + math.pi, 2.0 * math.pi) - math.pi).argmin())
+
+    def opposite(self, i: int) -> int:
+        """Index of the half-branch that goes straight on."""
+        k = len(self.angles)
+        return (i + k // 2) % k
+
+    def start(self, i: int) -> Array:
+        """Return the point on the circle where half-branch i leaves it, with the direction away from the middle."""
+        u = np.array([math.cos(self.angles[i]), math.sin(self.angles[i])])
+        return np.concatenate([self.circle[:2] + self.circle[2] * u, u])
+
+
+def crossings(
+    run: Program, kind: int, outside: bool, reach: float, nodes: Array, parts: Array, size: float
+) -> list[Crossing]:
+    """All crossings of one component.
+
+    Parameters
+    ----------
+    run : Program
+    kind : int
+        As in `nullcline_trace`.
+    outside : bool
+    reach : float
+        Radius to which the outside is followed.
+    nodes : ndarray (n, m, 2)
+        Of a net.
+    parts : ndarray (3, n, m)
+        The component and its gradient at these.
+    size : float
+        Of U.
+    """
+    from .nullcline_trace import flat_cells, stationary  # on first use: it loads the compiler
+
+    width = float(np.abs(nodes[1:, 1:] - nodes[:-1, :-1]).max())
+    i, j = np.nonzero(flat_cells(parts, width))
+    found: list[Crossing] = []
+    if len(i) > MOST_CELLS:
+        return found
+    for middle in 0.5 * (nodes[i, j] + nodes[i + 1, j + 1]):
+        if any(math.hypot(*(middle - other.circle[:2])) < 0.5 * width for other in found):
+            continue
+        ok, X, Y, value = stationary(*run.arrays, kind, outside, middle[0], middle[1], 2.0 * width)
+        r = math.hypot(X, Y)
+        away = min(r - 1.0, reach - r) if outside else 1.0 - r
+        if not ok or abs(value) > 1e-5 * size or away < NEAR_BORDER:
+            continue
+        between = min((math.dist((X, Y), other.circle[:2]) for other in found), default=math.inf)
+        if between < 1e-4:
+            continue
+        crossing = _around(run, kind, outside, X, Y, value, size, min(RADIUS, 0.7 * away, 0.4 * between))
+        if crossing is not None:
+            found.append(crossing)
+            if len(found) >= MOST:
+                break
+    return found
+
+
+_UNIT = np.stack(
+    [np.cos(np.arange(ANGLES) * (2.0 * math.pi / ANGLES)), np.sin(np.arange(ANGLES) * (2.0 * math.pi / ANGLES))],
+    axis=-1,
+)
+
+
+def _around(
+    run: Program, kind: int, outside: bool, X: float, Y: float, value: float, size: float, r: float
+) -> Crossing | None:
+    """Return the crossing at a point where the gradient vanishes, or None if it is none."""
+    from .nullcline_trace import sample
+
+    while r >= SMALLEST:
+        ring = sample(*run.arrays, outside, np.array([X, Y]) + r * _UNIT)[kind, 0]
+        f = series(ring, 2.0 * size)
+        around = zeros(f) if f.resolved and not f.vanishes else None
+        if around is not None and around.proven:
+            angles = around.theta[around.multiplicity % 2 == 1]
+            k = len(angles) // 2
+            far = r * (abs(value) / float(np.abs(ring).max())) ** (1.0 / max(k, 2))
+            if k < 2 or len(angles) % 2 or far > CLOSE:
+                return None
+            miss = np.remainder(np.roll(angles, -k) - angles, 2.0 * math.pi) - math.pi
+            if np.abs(miss).max() < OBLIQUE:
+                return Crossing(np.array([X, Y, r]), angles)
+        r *= 0.5
+    return None

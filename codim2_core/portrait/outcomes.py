@@ -1,0 +1,297 @@
+"""Approach outcomes: what becomes of trajectories that reach the discontinuity set, for every angle of approach.
+
+Outside, a system that does not depend on x, y is the same at every distance, so the angle alone decides which limit
+direction a trajectory tends to; otherwise it does so near Sigma, and that is what is said here. Where lambda_rho < 0
+there it reaches Sigma, goes up the hemisphere from Q (thm:geneps0(b), fig:side_of_sphere), and what attracts it there
+is the outcome: a critical set or a limit cycle means sliding (thm:geneps1, prop:LC), another limit direction means
+crossing.
+"""
+
+from __future__ import annotations
+
+import bisect
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..layer_problem.critical import CriticalSet
+from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+from ..psi import constructors
+from ..psi.function import Psi
+from ..systems.coefficients import Coefficients
+from ..systems.kinds import AnySystem
+from ..systems.typed import Frozen
+from .endings import angular_sign, radially_neutral
+from .layer_problem import Array, LayerProblem, layer_problem
+
+__all__ = ["Outcome", "Outcomes", "approach_outcomes"]
+
+
+MOST_COMPARED = 8  # critical sets: with more, other regularisations are asked only on request
+AT_ZERO = 1e-9  # angle to a limit direction that counts as that direction
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What becomes of trajectories that arrive along one limit direction (or spiral onto the closed equator).
+
+    Attributes
+    ----------
+    theta : float or None
+        The limit direction, radians; None for the closed equator and where every direction is one.
+    label : str
+        "Q1", ...; "equator"; "every direction".
+    arrives : str
+        "open set" (angularly attracting), "one side", "single direction" (angularly repelling), or "nothing".
+    verdict : str
+        "slide", "cycle" (sliding around a limit cycle), "cross", "undecided", or "misses" (never reaches Sigma).
+    onto : str or None
+        What it slides on ("C", or "C1", "C2", ... where there are several; "cycle 1") or leaves along ("Q2",
+        "equator").
+    leaving : float or None
+        Direction in which it leaves Sigma, for "cross".
+    slow_flow : ndarray (m,) or None
+        z' while sliding; on a cycle its mean, in the e-linear system the same by prop:LC.
+    reason : str
+    depends_on_psi : bool or None
+        Whether other regularisations give another outcome; None where they were not asked.
+    families : tuple of (text of Psi, verdict, onto)
+        What they give; empty where a theorem makes asking needless.
+    """
+
+    theta: float | None
+    label: str
+    arrives: str
+    verdict: str
+    onto: str | None
+    leaving: float | None
+    slow_flow: Array | None
+    reason: str
+    depends_on_psi: bool | None = False
+    families: tuple[tuple[str, str, str | None], ...] = ()
+
+    @property
+    def slides(self) -> bool | None:
+        """Whether it ends up sliding; crossing includes turning away from Sigma, as in sec:mateslidecross.
+
+        None where it is undecided.
+        """
+        return None if self.verdict == "undecided" else self.verdict in ("slide", "cycle")
+
+
+@dataclass(frozen=True, eq=False)
+class Outcomes:
+    """Outcomes of all limit directions that trajectories arrive along, open sets first; iterates over them.
+
+    Attributes
+    ----------
+    outcomes : tuple of Outcome
+    directions : tuple of Outcome
+        The same for each of Q1, Q2, ... in order, also those that nothing arrives along ("misses").
+    equator : EquatorEquilibria
+    whole : Outcome or None
+        That of all angles, where no Q decides (closed equator, or every direction is a limit direction).
+    """
+
+    outcomes: tuple[Outcome, ...]
+    directions: tuple[Outcome, ...]
+    equator: EquatorEquilibria
+    whole: Outcome | None
+    _at: Coefficients | Frozen
+
+    def __iter__(self) -> Iterator[Outcome]:
+        return iter(self.outcomes)
+
+    def __len__(self) -> int:
+        return len(self.outcomes)
+
+    def __getitem__(self, i: int) -> Outcome:
+        return self.outcomes[i]
+
+    def destination(self, theta: float) -> int | None:
+        """Index (from 0) of the limit direction that a trajectory outside, now at angle theta, tends to.
+
+        Parameters
+        ----------
+        theta : float
+            Radians, finite.
+
+        Returns
+        -------
+        int or None
+            None where no Q decides.
+
+        Raises
+        ------
+        ValueError
+            theta is not finite.
+        """
+        if not math.isfinite(theta):
+            raise ValueError(f"theta is {theta}; give a finite angle in radians.")
+        zeros = self.equator.theta.tolist()
+        if self.whole is not None or not zeros:
+            return None
+        angle = theta % (2.0 * math.pi)
+        for i, zero in enumerate(zeros):
+            if abs(math.remainder(angle - zero, 2.0 * math.pi)) <= AT_ZERO:
+                return i
+        after = bisect.bisect(zeros, angle)
+        c, s = math.cos(angle), math.sin(angle)
+        u, v = self._at.U(np.array([c, s])).tolist()
+        turning = c * v - s * u
+        return after % len(zeros) if turning > 0.0 else (after - 1) % len(zeros)
+
+    def outcome(self, theta: float) -> Outcome:
+        """Outcome for a trajectory that starts outside at angle theta (radians).
+
+        At any distance, or near Sigma if U depends on x or y.
+        """
+        i = self.destination(theta)
+        if i is None:
+            assert self.whole is not None
+            return self.whole
+        return self.directions[i]
+
+    @property
+    def arcs(self) -> tuple[tuple[float, float, Outcome], ...]:
+        """The circle of approach angles, cut at the limit directions: (from, to, outcome), to > from."""
+        zeros = self.equator.theta.tolist()
+        if self.whole is not None or not zeros:
+            return ((0.0, 2.0 * math.pi, self.outcome(0.0)),)
+        ends = [*zeros[1:], zeros[0] + 2.0 * math.pi]
+        return tuple((t, e, self.outcome(0.5 * (t + e))) for t, e in zip(zeros, ends, strict=True))
+
+
+def _sensitive(at: Coefficients | Frozen, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...]) -> bool:
+    """Whether no theorem fixes the outcome for every Psi: Case III, crossing with several ways out, any general U."""
+    form = at.normal_form if isinstance(at, Frozen) else at
+    if form is None:
+        return True
+    if critical:
+        return form.a * form.d < 0.0 and critical[0].kind != "saddle"
+    return int(((equator.lambda_rho > 0.0) & (equator.lambda_theta < 0.0)).sum()) > 1
+
+
+def _radial(at: Coefficients | Frozen) -> Array:
+    """lambda_rho in many directions, where Theta vanishes identically."""
+    angle = 2.0 * math.pi * np.arange(64) / 64.0
+    e = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return (e * at.U(e)).sum(axis=-1)
+
+
+def _arrival(equator: EquatorEquilibria, i: int) -> str:
+    if equator.multiplicity[i] % 2 == 0:
+        return "one side"
+    return "open set" if angular_sign(equator, i) < 0 else "single direction"
+
+
+_SENTENCE = {
+    "open set": "An open set of trajectories arrives at {}.",
+    "one side": "Trajectories arrive at {} from one side only (Θ has a double zero).",
+    "single direction": "Only trajectories exactly along {} arrive; others turn away.",
+}
+
+
+def approach_outcomes(
+    system: AnySystem,
+    psi: Psi,
+    z: ArrayLike = (),
+    *,
+    compare: Sequence[Psi] | None = None,
+) -> Outcomes:
+    """Say of every limit direction whether what arrives there slides, and on what, or crosses, and where to.
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+    psi : Psi
+    z : (m,) floats
+    compare : sequence of Psi, optional
+        Regularisations asked for `Outcome.depends_on_psi`, where no theorem answers; default the built-in families
+        with n = 1 to 4 of the Hill family (none if there are more than 8 critical sets). An empty sequence asks none.
+
+    Returns
+    -------
+    Outcomes
+    """
+    at = system.at(z)
+    equator = equator_equilibria(at)
+    own = layer_problem(at, psi, equator)
+    others: list[LayerProblem] = []
+    sensitive = _sensitive(at, equator, own.critical)
+    arriving = equator.all_directions or (equator.lambda_rho < 0.0).any()
+    cycle = equator_cycle(at)
+    if sensitive and (arriving or (cycle is not None and cycle.exponent < 0.0)):
+        if compare is None and len(own.critical) > MOST_COMPARED:
+            compare = ()
+        if compare is None:
+            compare = [constructors.make(name) for name in ("constant", "rational", "exponential", "tanh")]
+            compare += [constructors.hill(n) for n in (1, 2, 3, 4)]
+        others = [layer_problem(at, other, equator) for other in compare]
+    if equator.all_directions or cycle is not None or not len(equator):
+        whole = _whole(own, others, sensitive, cycle)
+        found = () if whole.verdict == "misses" else (whole,)
+        return Outcomes(found, (), equator, whole, at)
+    directions = tuple(_direction(own, others, sensitive, i) for i in range(len(equator)))
+    order = ("open set", "one side", "single direction")
+    found = sorted((o for o in directions if o.arrives in order), key=lambda o: order.index(o.arrives))
+    return Outcomes(tuple(found), directions, equator, None, at)
+
+
+def _compared(outcome: Outcome, verdicts: list[tuple[str, str, str | None]], sensitive: bool) -> Outcome:
+    if not sensitive:
+        return outcome
+    if not verdicts:
+        return replace(outcome, depends_on_psi=None)
+    depends = any((verdict, onto) != (outcome.verdict, outcome.onto) for _, verdict, onto in verdicts)
+    return replace(outcome, depends_on_psi=depends, families=tuple(verdicts))
+
+
+def _direction(own: LayerProblem, others: list[LayerProblem], sensitive: bool, i: int) -> Outcome:
+    equator, label = own.equator, f"Q{i + 1}"
+    theta = float(equator.theta[i])
+    if radially_neutral(equator, i):
+        why = "radially non-hyperbolic (a critical set comes to the equator)"
+        reason = f"{label} is {why}: to first order nothing arrives or leaves."
+        return Outcome(theta, label, "nothing", "undecided", None, None, None, reason)
+    if equator.lambda_rho[i] > 0.0:
+        reason = f"{label} repels radially: trajectories that tend to it leave, and never reach Σ."
+        beside = equator.lambda_rho[[i - 1, (i + 1) % len(equator)]]
+        if angular_sign(equator, i) < 0 and (beside < 0.0).any():
+            reason += " Those that come in beside it turn away: crossing, in the words of sec:mateslidecross."
+        return Outcome(theta, label, "nothing", "misses", None, None, None, reason)
+    arrives = _arrival(equator, i)
+    verdict, onto, leaving, slow, reason = own.arriving(i)
+    reason = f"{_SENTENCE[arrives].format(label)} {reason}"
+    outcome = Outcome(theta, label, arrives, verdict, onto, leaving, slow, reason)
+    verdicts = [(other.psi.text, *other.arriving(i)[:2]) for other in others]
+    return _compared(outcome, verdicts, sensitive)
+
+
+def _whole(own: LayerProblem, others: list[LayerProblem], sensitive: bool, cycle: EquatorCycle | None) -> Outcome:
+    if own.equator.all_directions:
+        label, radial = "every direction", _radial(own.at)
+        if radial.max() < 0.0:
+            verdict, onto, leaving, slow, reason = own.spiralling("Orbits leave the equator at all angles")
+            reason = f"Every direction is a limit direction. {reason}"
+            outcome = Outcome(None, label, "open set", verdict, onto, leaving, slow, reason)
+            return _compared(outcome, [(other.psi.text, *other.spiralling()[:2]) for other in others], sensitive)
+        if radial.min() > 0.0:
+            return Outcome(None, label, "nothing", "misses", None, None, None, "Every direction leads away from Σ.")
+        reason = "Every direction is a limit direction, and some lead to Σ, others away from it."
+        if not radial.any():
+            reason = "U vanishes on the equator: to first order nothing arrives or leaves."
+        return Outcome(None, label, "nothing", "undecided", None, None, None, reason)
+    if cycle is None or cycle.neutral:
+        reason = "The closed equator is neutral: to first order trajectories neither approach Σ nor leave it."
+        return Outcome(None, "equator", "nothing", "undecided", None, None, None, reason)
+    if not cycle.stable_outside:
+        reason = "The closed equator repels outside: trajectories spiral away and never reach Σ."
+        return Outcome(None, "equator", "nothing", "misses", None, None, None, reason)
+    verdict, onto, leaving, slow, reason = own.spiralling()
+    reason = f"Trajectories from all angles spiral onto the closed equator (thm:geneps0(c)). {reason}"
+    outcome = Outcome(None, "equator", "open set", verdict, onto, leaving, slow, reason)
+    return _compared(outcome, [(other.psi.text, *other.spiralling()[:2]) for other in others], sensitive)

@@ -1,0 +1,309 @@
+"""Along Sigma: where a system slides, crosses or is unstable, and the slow flow on each critical set.
+
+One slow variable is varied, the others stay. Between special points the number and the kinds of the critical sets do
+not change; the special points are found by bisection on exactly that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..layer_problem.critical import CriticalSet, critical_sets
+from ..psi.function import Psi
+from ..systems.bounds import slow_values
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+from ..systems.typed import Frozen, System
+
+Array = NDArray[np.float64]
+
+BISECTIONS = 44  # of one step of the net: to the rounding of z
+AT_EQUATOR = 1e-4  # 1 - |e| of a critical set that is about to reach the equator, one bisected step before it does
+STABLE, UNSTABLE, CROSSING = "sliding", "unstable", "crossing"
+_SENTENCES = {
+    STABLE: "Sliding: a stable critical set.",
+    UNSTABLE: "No stable critical set: it slides only on an unstable one, or on a limit cycle around it.",
+    CROSSING: "Crossing: no critical set.",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class SlowBranch:
+    """One critical set followed along z.
+
+    Attributes
+    ----------
+    z : ndarray (k,)
+        Values of the slow variable that is varied.
+    e : ndarray (k, 2)
+    flow : ndarray (k, m)
+        z' on it, eq:RPCM.
+    kind : str
+        As `CriticalSet.kind`; it is the same along the branch.
+    """
+
+    z: Array
+    e: Array
+    flow: Array
+    kind: str
+
+    @property
+    def stable(self) -> bool:
+        """Whether the layer problem attracts to it."""
+        return self.kind.startswith("stable")
+
+
+@dataclass(frozen=True, slots=True)
+class SlowPoint:
+    """A value of z at which something happens.
+
+    Attributes
+    ----------
+    kind : str
+        "equator" (a critical set passes through the equator, fig:transcrit), "fold", "Hopf", "node-focus", or
+        "equilibrium" of the slow flow.
+    z : float
+    e : (c, s)
+    stable : bool or None
+        Of an equilibrium: whether the slow flow attracts to it.
+    sentence : str
+    """
+
+    kind: str
+    z: float
+    e: tuple[float, float]
+    stable: bool | None
+    sentence: str
+
+
+@dataclass(frozen=True, slots=True)
+class SlowInterval:
+    """An interval of z: kind "sliding", "unstable" or "crossing"."""
+
+    low: float
+    high: float
+    kind: str
+    sentence: str
+
+
+@dataclass(frozen=True, slots=True)
+class SlowPortrait:
+    """What happens on Sigma along one slow variable; made by `slow_portrait`."""
+
+    branches: tuple[SlowBranch, ...]
+    points: tuple[SlowPoint, ...]
+    intervals: tuple[SlowInterval, ...]
+
+
+@dataclass(frozen=True)
+class _Line:
+    """The critical sets as a function of one slow variable."""
+
+    system: ELinear | System | Coefficients | Frozen
+    psi: Psi
+    z: tuple[float, ...]
+    axis: int
+
+    def __call__(self, value: float) -> tuple[CriticalSet, ...]:
+        z = list(self.z)
+        z[self.axis] = value
+        return critical_sets(self.system, self.psi, tuple(z))
+
+
+def slow_portrait(
+    system: ELinear | System,
+    psi: Psi,
+    span: tuple[float, float],
+    z: ArrayLike = (),
+    axis: int = 0,
+    count: int = 81,
+) -> SlowPortrait:
+    """Sliding, crossing and unstable intervals of one slow variable, with the slow flow and its equilibria, eq:RPCM.
+
+    Parameters
+    ----------
+    system : ELinear or System
+        With m >= 1 slow variables.
+    psi : Psi
+        Decides stability where that depends on it; the slow flow itself does not.
+    span : (low, high)
+    z : (m,) floats
+        The other slow variables; entry `axis` is not used. May be left out if m = 1.
+    axis : int
+        Which slow variable is varied, from 0.
+    count : int
+        Values of z on which changes are looked for, and again where there are critical sets; two changes within one
+        step that undo one another are missed.
+
+    Returns
+    -------
+    SlowPortrait
+
+    Raises
+    ------
+    ValueError
+        There is no slow variable `axis`, or the span is empty.
+    """
+    if not 0 <= axis < system.m:
+        raise ValueError(f"axis is {axis}, but the system has m = {system.m} slow variable(s); give 0 … m - 1.")
+    low, high = (float(v) for v in span)
+    if not (np.isfinite([low, high]).all() and low < high):
+        raise ValueError(f"span is {span}; give (low, high) with low < high.")
+    others = slow_values(z if np.size(z) else (0.0,) * system.m, system.m)
+    line = _Line(system, psi, others, axis)
+    pieces: list[Piece] = []
+    outer, points = _pieces(line, np.linspace(low, high, count), len)
+    for values, sets in outer:  # where there are critical sets, however small that is, their kinds are looked at
+        net = np.linspace(values[0], values[-1], count if sets[0] else 2)
+        inner, changes = _pieces(line, net, _kinds)
+        pieces += inner
+        points += changes
+    branches: list[SlowBranch] = []
+    intervals: list[SlowInterval] = []
+    for values, sets in pieces:
+        followed = _follow(values, sets)
+        branches += followed
+        kind = STABLE if any(b.stable for b in followed) else UNSTABLE if followed else CROSSING
+        if intervals and intervals[-1].kind == kind:
+            intervals[-1] = SlowInterval(intervals[-1].low, values[-1], kind, _SENTENCES[kind])
+        else:
+            intervals.append(SlowInterval(intervals[-1].high if intervals else low, values[-1], kind, _SENTENCES[kind]))
+        for branch in followed:
+            points += _equilibria(line, branch)
+    return SlowPortrait(tuple(branches), tuple(sorted(points, key=lambda p: p.z)), tuple(intervals))
+
+
+def _kind(C: CriticalSet) -> str:
+    """Return its kind; at tr J = 0 within rounding ("centre (linear)") that of the sign of the trace."""
+    if C.kind.startswith("centre"):
+        return "stable focus" if C.trace < 0.0 else "unstable focus"
+    return C.kind
+
+
+def _kinds(sets: Sequence[CriticalSet]) -> tuple[str, ...]:
+    return tuple(sorted(map(_kind, sets)))
+
+
+Piece = tuple[list[float], list[tuple[CriticalSet, ...]]]
+
+
+def _pieces(
+    line: _Line, net: Array, state: Callable[[tuple[CriticalSet, ...]], Hashable]
+) -> tuple[list[Piece], list[SlowPoint]]:
+    """Split the net where the state of the critical sets, their number or their kinds, changes."""
+    start = float(net[0])
+    here = line(start)
+    pieces: list[Piece] = [([start], [here])]
+    points: list[SlowPoint] = []
+    for end in net[1:].tolist():
+        there = line(end)
+        left, before = start, here
+        for _ in range(8):  # changes within one step
+            if state(before) == state(there):
+                break
+            a, b, after = left, end, there
+            for _ in range(BISECTIONS):
+                middle = 0.5 * (a + b)
+                if middle in (a, b):
+                    break
+                sets = line(middle)
+                if state(sets) == state(before):
+                    a, before = middle, sets
+                else:
+                    b, after = middle, sets
+            pieces[-1][0].append(a)
+            pieces[-1][1].append(before)
+            points.append(_change(0.5 * (a + b), before, after))
+            pieces.append(([b], [after]))
+            left, before = b, after
+        if pieces[-1][0][-1] < end:
+            pieces[-1][0].append(end)
+            pieces[-1][1].append(there)
+        start, here = end, there
+    return pieces, points
+
+
+def _change(z: float, before: Sequence[CriticalSet], after: Sequence[CriticalSet]) -> SlowPoint:
+    """Name what happens where the critical sets `before` become `after`."""
+    more = max(before, after, key=len)
+    if len(before) != len(after):
+        outermost = max(more, key=lambda C: float(np.hypot(*C.e)))
+        if np.hypot(*outermost.e) > 1.0 - AT_EQUATOR:
+            sentence = "A critical set passes through the equator (transcritical, fig:transcrit)."
+            return SlowPoint("equator", z, _place(outermost), None, sentence)
+        flattest = min(more, key=lambda C: abs(C.determinant))
+        return SlowPoint("fold", z, _place(flattest), None, "Two critical sets meet and vanish: a fold, det J = 0.")
+    pairs = _matching(before, after)
+    old, new = next(((p, q) for p, q in pairs if _kind(p) != _kind(q)), pairs[0])
+    if {_kind(old).split()[0], _kind(new).split()[0]} == {"stable", "unstable"}:
+        return SlowPoint("Hopf", z, _place(new), None, f"tr J = 0: the critical set becomes {_article(_kind(new))}.")
+    if "saddle" in (old.kind, new.kind):
+        return SlowPoint("fold", z, _place(new), None, "det J = 0: critical sets meet and exchange their kinds.")
+    return SlowPoint("node-focus", z, _place(new), None, f"Δ(J) = 0: the critical set becomes {_article(_kind(new))}.")
+
+
+def _article(kind: str) -> str:
+    return f"an {kind}" if kind.startswith("unstable") else f"a {kind}"
+
+
+def _place(C: CriticalSet) -> tuple[float, float]:
+    return float(C.e[0]), float(C.e[1])
+
+
+def _matching(before: Sequence[CriticalSet], after: Sequence[CriticalSet]) -> list[tuple[CriticalSet, CriticalSet]]:
+    """Pair the critical sets at two neighbouring z, each with the one that moved least."""
+    from scipy.optimize import linear_sum_assignment  # imported late: it takes longer than all of this package
+
+    distance = [[float(np.hypot(*(p.e - q.e))) for q in after] for p in before]
+    rows, columns = linear_sum_assignment(np.array(distance).reshape(len(before), len(after)))
+    return [(before[i], after[j]) for i, j in zip(rows, columns, strict=True)]
+
+
+def _follow(values: list[float], sets: list[tuple[CriticalSet, ...]]) -> list[SlowBranch]:
+    """Follow each critical set along a piece on which their number and kinds stay."""
+    chains = [[C] for C in sets[0]]
+    for after in sets[1:]:
+        then = dict((id(p), q) for p, q in _matching([chain[-1] for chain in chains], after))
+        for chain in chains:
+            chain.append(then[id(chain[-1])])
+    branches = []
+    for chain in chains:
+        arrays = (np.array(values), np.array([C.e for C in chain]), np.array([C.slow_flow for C in chain]))
+        for array in arrays:
+            array.flags.writeable = False
+        branches.append(SlowBranch(*arrays, _kind(chain[len(chain) // 2])))
+    return branches
+
+
+def _equilibria(line: _Line, branch: SlowBranch) -> list[SlowPoint]:
+    """Zeros of the slow flow along z on one branch, to rounding."""
+    from scipy.optimize import brentq
+
+    flow = branch.flow[:, line.axis]
+    found = []
+    for i in np.flatnonzero((flow[:-1] * flow[1:] < 0.0) | ((flow[:-1] == 0.0) & (flow[1:] != 0.0))):
+        if flow[i] == 0.0 and i > 0 and flow[i - 1] * flow[i + 1] >= 0.0:
+            continue  # it only touches zero
+
+        def on_branch(z: float, i: int = int(i)) -> CriticalSet:
+            share = (z - branch.z[i]) / (branch.z[i + 1] - branch.z[i])
+            expected = (1.0 - share) * branch.e[i] + share * branch.e[i + 1]
+            return min(line(z), key=lambda C: float(np.hypot(*(C.e - expected))))
+
+        z = float(branch.z[i])
+        if flow[i] != 0.0:
+            root: Any = brentq(
+                lambda z: float(on_branch(z).slow_flow[line.axis]), z, float(branch.z[i + 1]), xtol=1e-15
+            )
+            z = float(root)
+        falling = bool(flow[i + 1] < (flow[i] if flow[i] != 0.0 else -flow[i + 1]))
+        words = "attracts" if falling else "repels"
+        found.append(
+            SlowPoint("equilibrium", z, _place(on_branch(z)), falling, f"z′ = 0: it {words} along the critical set.")
+        )
+    return found

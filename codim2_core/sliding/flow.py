@@ -1,0 +1,48 @@
+"""Sliding: the slow flow along a critical set."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..layer_problem.critical import locate
+from ..layer_problem.disc_zeros import disc_zeros
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+from ..systems.typed import Frozen, System
+
+
+def sliding_flow(system: ELinear | System | Coefficients | Frozen, z: ArrayLike = ()) -> NDArray[np.float64] | None:
+    """Z' along the critical sets, eq:RPSF: W at the zeros of U, whatever Psi is.
+
+    For an e-linear system, which has at most one, it is ``-B A^-1 f + g`` (eq:linslowflow): the Filippov convention,
+    and the mean of z' over a limit cycle of the layer problem (prop:LC).
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+    z : (m,) floats
+
+    Returns
+    -------
+    ndarray (m,), or (k, m) for a general system, or None
+        A general system has a row for each critical set, in the order of `critical_sets`: where rows differ, sliding
+        is not unique (sec:nonunique). None where there is no critical set: nothing slides there.
+    """
+    at = system.at(z)
+    if isinstance(at, Frozen):
+        if at.as_given is not None:
+            place = locate(at.as_given).e
+            points = np.zeros((0, 2)) if place is None else np.array([place])
+        else:
+            points = disc_zeros(at.key).e
+        if not len(points):
+            return None
+        flow = at.W(points)
+    else:
+        location = locate(at)
+        if location.e is None:
+            return None
+        flow = at.W(location.e)
+    flow.flags.writeable = False
+    return flow

@@ -1,0 +1,127 @@
+"""Where the numbers of the compiled stepping lie, and how a right-hand side is called.
+
+`LANES` trajectories step side by side. The workspace S is one array of rows of `WIDTH` numbers: px of every lane,
+then py, then w, the state of DESIGN's one chart (w = ebar on the hemisphere, rho outside). P holds the parameters.
+
+A right-hand side is a C function ``void(state, out, P)`` on such rows, entered by its address: the integrator is
+compiled once, whatever the system. The gain of Psi, where a right-hand side asks for it, is entered in the same way.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
+
+from .numbers import SHARED
+
+# 32 doubles are four AVX-512 registers a component: stages then hide the latency of one another (measured:
+# 65 ns a step and lane with 8 lanes, 30 with 16, 20 with 32).
+LANES = 32
+WIDTH = 3 * LANES
+
+K0, K1, K2, K3, K4, K5, K6, K7 = (k * WIDTH for k in range(8))
+K8, K9, K10, K11, K12, K13, K14, K15 = (k * WIDTH for k in range(8, 16))
+STATE, TRIAL, STEP, NEW, ERROR_5, ERROR_3 = (k * WIDTH for k in range(16, 22))
+DENSE = 22 * WIDTH  # seven rows
+WORKSPACE = 29 * WIDTH
+
+SIGN = SHARED  # P[SIGN + lane] = -1 on the hemisphere, +1 outside
+PARAMETERS = SHARED + LANES
+
+_POINTER = types.CPointer(types.float64)
+FIELD = types.void(_POINTER, _POINTER, _POINTER)
+
+
+def _call_field(typing_context, address, S, source, target, P):  # noqa: ARG001 (numba's protocol)
+    """Call the field at `address` on ``S[source:]``, ``S[target:]`` and P."""
+    signature = types.void(types.int64, S, types.int64, types.int64, P)
+
+    def generate(context, builder, _, arguments):
+        address, array, source, target, parameters = arguments
+        data = context.make_array(S)(context, builder, array).data
+        pointer = ir.DoubleType().as_pointer()
+        function = ir.FunctionType(ir.VoidType(), [pointer, pointer, pointer])
+        places = [builder.gep(data, [source]), builder.gep(data, [target])]
+        places.append(context.make_array(P)(context, builder, parameters).data)
+        builder.call(builder.inttoptr(address, function.as_pointer()), places)
+        return context.get_dummy_value()
+
+    return signature, generate
+
+
+call_field: Any = intrinsic(_call_field)
+
+
+def _call_at(typing_context, address, state, out, parameters):  # noqa: ARG001
+    """Call the right-hand side at `address` from within another, on its own three pointers."""
+
+    def generate(context, builder, _signature, arguments):
+        address, *places = arguments
+        function = ir.FunctionType(ir.VoidType(), [place.type for place in places])
+        builder.call(builder.inttoptr(address, function.as_pointer()), places)
+        return context.get_dummy_value()
+
+    return types.void(types.int64, _POINTER, _POINTER, _POINTER), generate
+
+
+call_at: Any = intrinsic(_call_at)
+
+
+def _double_of_bits(typing_context, bits):  # noqa: ARG001
+    """Return the double with these 64 bits."""
+    return types.float64(types.int64), lambda _c, builder, _s, a: builder.bitcast(a[0], ir.DoubleType())
+
+
+def _bits_of_double(typing_context, value):  # noqa: ARG001
+    """Return the 64 bits of a double."""
+    return types.int64(types.float64), lambda _c, builder, _s, a: builder.bitcast(a[0], ir.IntType(64))
+
+
+double_of_bits: Any = intrinsic(_double_of_bits)
+bits_of_double: Any = intrinsic(_bits_of_double)
+
+
+ON_EQUATOR = 8.9e-16  # | |p| - 1 | of a seed that was meant to lie on the equator: four roundings
+
+
+@njit(cache=True, error_model="numpy")
+def _square(x):
+    """x^2 and what its rounding lost (Dekker)."""
+    big = 134217729.0 * x
+    high = big - (big - x)
+    low = x - high
+    square = x * x
+    return square, ((high * high - square) + 2.0 * high * low) + low * low
+
+
+@njit(cache=True, error_model="numpy")
+def _defect(x, y):
+    """1 - x^2 - y^2 to a few roundings of itself: near the equator |p| alone, rounded, would lose its digits."""
+    x2, x_lost = _square(max(abs(x), abs(y)))
+    y2, y_lost = _square(min(abs(x), abs(y)))
+    one = 1.0 - x2
+    lost = (1.0 - one) - x2
+    return (one - y2) + (((one - (one - y2)) - y2) + lost - x_lost - y_lost)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def states_of(points):
+    """States (k, 3), signs (k,) of picture points (k, 2): p, and ebar (sign -1) or rho (+1); whether all are finite."""
+    n = points.shape[0]
+    finite = True
+    states, signs = np.empty((n, 3)), np.empty(n)
+    for i in range(n):
+        x, y = points[i, 0], points[i, 1]
+        r = math.hypot(x, y)
+        finite = finite and math.isfinite(r)
+        inside = r - 1.0 < -ON_EQUATOR
+        scale = 1.0 if inside else r
+        states[i, 0], states[i, 1] = x / scale, y / scale
+        states[i, 2] = math.sqrt(_defect(x, y)) if inside else r - 1.0 if r - 1.0 > ON_EQUATOR else 0.0
+        signs[i] = -1.0 if inside else 1.0
+    return states, signs, finite

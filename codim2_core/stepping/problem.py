@@ -1,0 +1,84 @@
+"""What the compiled stepping needs of a system and Psi: the address of the field and the numbers that it reads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..psi.function import Psi
+from ..systems.coefficients import Coefficients
+from ..systems.typed import Frozen, System
+from . import fields, fields_typed
+from .gains import gains, has_gains
+from .numbers import FACTOR, numbers
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A right-hand side, scaled so that |U| is about 1.
+
+    Attributes
+    ----------
+    address : int
+        Of the field.
+    shared : ndarray (SHARED,)
+        Its parameters.
+    functions : tuple
+        The compiled functions behind the addresses: they must outlive their use.
+    factors : slice
+        The parameters to which the right-hand side is proportional.
+    """
+
+    address: int
+    shared: NDArray[np.float64]
+    functions: tuple[Any, ...]
+    factors: slice
+
+    @property
+    def reversed(self) -> Problem:
+        """The same right-hand side against time."""
+        shared = self.shared.copy()
+        shared[self.factors] *= -1.0
+        return replace(self, shared=shared)
+
+
+def problem(at: Coefficients | Frozen, psi: Psi, backward: bool = False) -> Problem:
+    """Prepare a right-hand side, compiling what is new of it.
+
+    Parameters
+    ----------
+    at : Coefficients or Frozen
+    psi : Psi
+    backward : bool
+        Against time.
+    """
+    if isinstance(at, Coefficients):
+        field = fields.field(psi)
+        return Problem(field.address, numbers(at, psi, backward), (field,), slice(0, 5))
+    function, gain = prepare(at.system, psi)
+    return Problem(
+        function.address, numbers(at, psi, backward, gain.address), (function, gain), slice(FACTOR, FACTOR + 1)
+    )
+
+
+def prepare(system: System, psi: Psi) -> tuple[Any, Any]:
+    """Compile the field of a general system, and the gain of Psi that it calls, for all z and parameters."""
+    own = fields_typed.general_field(system)
+    return own.function, gains(psi, own.smooth)
+
+
+def is_compiled(system: System | None, psi: Psi) -> bool:
+    """Whether `problem` answers without compiling anything (but for what the disk cache holds).
+
+    Parameters
+    ----------
+    system : System or None
+        None for e-linear systems, which share their fields.
+    psi : Psi
+    """
+    if system is not None:
+        return fields_typed.is_compiled(system) and has_gains(psi)
+    return psi.family != "custom" or fields.is_compiled(psi)

@@ -1,0 +1,29 @@
+"""How large numbers of a system may be, and what a z must be."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+# Products of two coefficients (det A, |adj A f|^2 needs four, after scaling) must stay finite.
+LARGEST, SMALLEST = 1e150, 1e-150
+
+
+def slow_values(z: ArrayLike, m: int, needed: bool = True) -> tuple[float, ...]:
+    """Check z: m finite numbers (a lone number will do for m = 1; none if no coefficient reads z)."""
+    if isinstance(z, tuple) and not z:
+        values: tuple[float, ...] = ()
+    else:
+        try:
+            values = tuple(float(v) for v in np.atleast_1d(np.asarray(z, float)))
+        except (TypeError, ValueError) as error:
+            raise ValueError(f"z is {z!r}; give {m} finite number(s).") from error
+    if any(not math.isfinite(v) for v in values):
+        raise ValueError(f"z is {values}; give finite numbers.")
+    if len(values) == m or (not values and not needed):
+        return values
+    if m == 0:
+        raise ValueError(f"z has {len(values)} value(s), but this system has no slow variable (m = 0); leave z out.")
+    raise ValueError(f"z has {len(values)} value(s), but this system has m = {m}; give z=({', '.join(['...'] * m)}).")

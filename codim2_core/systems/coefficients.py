@@ -1,0 +1,76 @@
+"""The e-linear system at one z: numbers, all that the hemisphere there depends on."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+@dataclass(frozen=True, slots=True)
+class Coefficients:
+    """The e-linear system at one z: plain numbers, all that the hemisphere at that z depends on.
+
+    Attributes
+    ----------
+    a, b, d, f1, f2 : float
+        ``A = [[a, -b], [b, d]]`` and ``f(0, 0, z)``.
+    B : ndarray (m, 2)
+    g : ndarray (m,)
+    rotation : float
+        The angle phi, in radians, of the rotation into the normal form (lem:normalform); 0 if none was needed.
+    """
+
+    a: float
+    b: float
+    d: float
+    f1: float
+    f2: float
+    B: NDArray[np.float64]
+    g: NDArray[np.float64]
+    rotation: float = 0.0
+
+    @property
+    def plane(self) -> tuple[float, float, float, float, float]:
+        """``(a, b, d, f1, f2)``: what decides the portrait."""
+        return self.a, self.b, self.d, self.f1, self.f2
+
+    @property
+    def A(self) -> NDArray[np.float64]:
+        """The matrix A, eq:matrix_normal_form, (2, 2)."""
+        return np.array([[self.a, -self.b], [self.b, self.d]])
+
+    @property
+    def f(self) -> NDArray[np.float64]:
+        """f(0, 0, z), (2,)."""
+        return np.array([self.f1, self.f2])
+
+    def at(self, z: ArrayLike = ()) -> Coefficients:  # noqa: ARG002 (z is already chosen)
+        """Return itself: a system frozen at one z, accepted wherever a system is."""
+        return self
+
+    @property
+    def key(self) -> Hashable:
+        """What decides the portrait, as `Frozen.key` for a general system."""
+        return self.plane
+
+    @property
+    def slow_key(self) -> Hashable:
+        """What decides the slow flow on a given critical set."""
+        return self.B.tobytes(), self.g.tobytes()
+
+    def U(self, e: ArrayLike, xy: ArrayLike | None = None) -> NDArray[np.float64]:  # noqa: ARG002 (f at x = y = 0)
+        """``U = A e + f`` for e of shape (..., 2)."""
+        e = np.asarray(e, float)
+        c, s = e[..., 0], e[..., 1]
+        return np.stack([self.a * c - self.b * s + self.f1, self.b * c + self.d * s + self.f2], axis=-1)
+
+    def DU(self, e: ArrayLike) -> NDArray[np.float64]:
+        """``D_(c,s) U = A`` for e of shape (..., 2); shape (..., 2, 2)."""
+        return np.broadcast_to(self.A, (*np.shape(e)[:-1], 2, 2))
+
+    def W(self, e: ArrayLike, xy: ArrayLike | None = None) -> NDArray[np.float64]:  # noqa: ARG002
+        """``W = B e + g`` for e of shape (..., 2); shape (..., m)."""
+        return np.asarray(e, float) @ self.B.T + self.g

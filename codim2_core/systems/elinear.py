@@ -1,0 +1,284 @@
+"""The e-linear system in its normal form, eq:ode_normal_form with eq:matrix_normal_form.
+
+``(x, y)' = A e + f`` and ``z' = B e + g`` with ``e = (x, y)/|(x, y)|`` and ``A = [[a, -b], [b, d]]``.
+Every coefficient is a number, or text in the slow variables ``z1 … zm`` and in named parameters.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..expressions.expression import Expression, parse
+from ..expressions.names import MOST_SLOW_VARIABLES
+from .bounds import LARGEST, SMALLEST, slow_values
+from .coefficients import Coefficients
+
+Coefficient = float | Expression
+
+
+def _coefficient(value: object, what: str, names: tuple[str, ...]) -> Coefficient:
+    if isinstance(value, Expression):
+        return value
+    if isinstance(value, str):
+        try:
+            return parse(value, names)
+        except ValueError as error:
+            raise ValueError(f"{what}: {error}") from error
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{what} is {value!r}; give a number, or text in {', '.join(names)}.") from error
+    return _finite(number, what)
+
+
+def _finite(number: float, what: str) -> float:
+    if not math.isfinite(number):
+        raise ValueError(f"{what} is {number}; give a finite number.")
+    if abs(number) > LARGEST:
+        raise ValueError(
+            f"{what} is {number:.3g}; at most {LARGEST:g} in size is allowed. "
+            "Divide all coefficients by one common factor: that only rescales time."
+        )
+    return number
+
+
+def _grid(values: Any, what: str, shape_text: str, columns: int | None) -> tuple[tuple[Any, ...], ...]:
+    """Nested sequences as tuples, checked to be (m, columns), or (m,) seen as (m, 1)."""
+    if isinstance(values, (str, float, int, Expression)):
+        values = [values]
+    rows = []
+    for row in values:
+        if columns is None:
+            rows.append((row,))
+        elif isinstance(row, str) or not hasattr(row, "__len__") or len(row) != columns:
+            raise ValueError(f"{what} has a row {row!r}; give {what} of shape {shape_text}.")
+        else:
+            rows.append(tuple(row))
+    return tuple(rows)
+
+
+@dataclass(frozen=True)
+class ELinear:
+    """The normal form of the e-linear system, eq:ode_normal_form with eq:matrix_normal_form.
+
+    Parameters
+    ----------
+    a, b, d : float or str
+        ``A = [[a, -b], [b, d]]``. Text may use ``z1 … zm`` (``z`` is ``z1``) and the names in `parameters`.
+    f : (2,) floats or str
+    B : (m, 2) floats or str, optional
+    g : (m,) floats or str, optional
+        Default 0. The number m of slow variables is the number of rows of B or g, or the largest z that is named.
+    parameters : mapping of str to float, optional
+        Values of further names used in the text; `evolve` changes them without parsing anything again.
+
+    Raises
+    ------
+    ValueError
+        A coefficient is not finite or too large, text cannot be read, or a shape is wrong.
+    """
+
+    a: Any
+    b: Any
+    d: Any
+    f: Any = (0.0, 0.0)
+    B: Any = None
+    g: Any = None
+    parameters: Any = ()
+    _matrix: Any = None  # the raw entries ((a11, a12), (a21, a22)) when made by `from_matrix`
+
+    def __post_init__(self) -> None:
+        parameters = dict(self.parameters)
+        for name, value in parameters.items():
+            parameters[name] = _finite(_number(value, f"parameter {name}"), f"parameter {name}")
+        names = (*(f"z{i}" for i in range(1, MOST_SLOW_VARIABLES + 1)), "z", *parameters)
+        entry = lambda value, what: _coefficient(value, what, names)  # noqa: E731 (one short name for eight uses)
+        if isinstance(self.f, str) or not hasattr(self.f, "__len__") or len(self.f) != 2:
+            raise ValueError(f"f is {self.f!r}; give two coefficients (f1, f2).")
+        f = tuple(entry(value, f"f{i + 1}") for i, value in enumerate(self.f))
+        B = (
+            None
+            if self.B is None
+            else tuple(
+                tuple(entry(v, f"B[{i + 1},{j + 1}]") for j, v in enumerate(row))
+                for i, row in enumerate(_grid(self.B, "B", "(m, 2)", 2))
+            )
+        )
+        g = (
+            None
+            if self.g is None
+            else tuple(entry(row[0], f"g{i + 1}") for i, row in enumerate(_grid(self.g, "g", "(m,)", None)))
+        )
+        if B is not None and g is not None and len(B) != len(g):
+            raise ValueError(f"B has {len(B)} row(s) and g has {len(g)}; both need m, one for each slow variable.")
+        fix = object.__setattr__
+        for name in "abd":
+            fix(self, name, entry(getattr(self, name), name))
+        fix(self, "f", f)
+        fix(self, "B", B)
+        fix(self, "g", g)
+        fix(self, "parameters", tuple(parameters.items()))
+        if self._matrix is not None:
+            fix(self, "_matrix", tuple(
+                tuple(entry(v, f"A[{i + 1},{j + 1}]") for j, v in enumerate(row))
+                for i, row in enumerate(_grid(self._matrix, "A", "(2, 2)", 2))
+            ))  # fmt: skip
+
+    @classmethod
+    def from_matrix(
+        cls,
+        A: ArrayLike | Sequence[Sequence[float | str]],
+        f: Sequence[float | str] = (0.0, 0.0),
+        B: Any = None,
+        g: Any = None,
+        parameters: Mapping[str, float] | None = None,
+    ) -> ELinear:
+        """Bring any A into the normal form by the rotation of lem:normalform.
+
+        With ``2 phi = atan2(A12 + A21, A22 - A11)`` (two arguments, see the errata), ``R(phi) A R(phi)^T``
+        has the form [[a, -b], [b, d]], f becomes ``R f`` and B becomes ``B R^T``. The angle is
+        ``system.at(z).rotation``; a direction theta of the original system is ``theta + rotation`` of this one.
+
+        Parameters
+        ----------
+        A : (2, 2) floats or str
+        f, B, g, parameters
+            As for `ELinear`, in the original axes.
+        """
+        rows = A.tolist() if isinstance(A, np.ndarray) else A
+        if isinstance(rows, str) or not hasattr(rows, "__len__") or len(rows) != 2:  # type: ignore[arg-type]
+            raise ValueError(f"A is {A!r}; give a matrix of shape (2, 2).")
+        return cls(0.0, 0.0, 0.0, f, B, g, tuple((parameters or {}).items()), _matrix=rows)
+
+    @cached_property
+    def _expressions(self) -> tuple[tuple[str, Expression], ...]:
+        entries: list[tuple[str, Any]] = [(name, getattr(self, name)) for name in "abd"]
+        entries += [(f"f{i + 1}", value) for i, value in enumerate(self.f)]
+        entries += [(f"A[{i + 1},{j + 1}]", v) for i, row in enumerate(self._matrix or ()) for j, v in enumerate(row)]
+        entries += [(f"B[{i + 1},{j + 1}]", v) for i, row in enumerate(self.B or ()) for j, v in enumerate(row)]
+        entries += [(f"g{i + 1}", value) for i, value in enumerate(self.g or ())]
+        return tuple((name, value) for name, value in entries if isinstance(value, Expression))
+
+    @cached_property
+    def _slow_names(self) -> frozenset[str]:
+        used = {name for _, expression in self._expressions for name in expression.names}
+        return frozenset(used - set(dict(self.parameters)))
+
+    @cached_property
+    def m(self) -> int:
+        """The number of slow variables."""
+        named = max((1 if name == "z" else int(name[1:]) for name in self._slow_names), default=0)
+        rows = len(self.B) if self.B is not None else len(self.g) if self.g is not None else named
+        if named > rows:
+            raise ValueError(f"a coefficient names z{named}, but B or g has only {rows} row(s); give m rows to both.")
+        return rows
+
+    def evolve(self, **changes: Any) -> ELinear:
+        """Return the same system with some coefficients or parameters changed.
+
+        Parameters
+        ----------
+        **changes
+            Any of a, b, d, f, f1, f2, B, g, or a name in `parameters`.
+        """
+        parameters = dict(self.parameters)
+        fields: dict[str, Any] = {}
+        f = list(self.f)
+        for name, value in changes.items():
+            if name in parameters:
+                parameters[name] = value
+            elif name in ("f1", "f2"):
+                f[int(name[1]) - 1] = value
+            elif name in ("a", "b", "d") and self._matrix is not None:
+                raise ValueError(f"{name} belongs to the rotated form; this system was made from_matrix: make it anew.")
+            elif name in ("a", "b", "d", "f", "B", "g"):
+                fields[name] = value
+            else:
+                allowed = ", ".join(["a", "b", "d", "f", "f1", "f2", "B", "g", *parameters])
+                raise ValueError(f"{name!r} is no coefficient of this system; it has {allowed}.")
+        return replace(self, **{"f": tuple(f), "parameters": tuple(parameters.items()), **fields})
+
+    def at(self, z: ArrayLike = ()) -> Coefficients:
+        """All coefficients at z, as numbers.
+
+        Parameters
+        ----------
+        z : (m,) floats
+            May be left out if no coefficient depends on it.
+
+        Raises
+        ------
+        ValueError
+            z has the wrong length, or a coefficient is not finite there.
+        """
+        z = slow_values(z, self.m, needed=bool(self._slow_names))
+        return self._at(z)
+
+    def _at(self, z: tuple[float, ...]) -> Coefficients:
+        names: dict[str, float] = dict(self.parameters)
+        names.update((f"z{i + 1}", value) for i, value in enumerate(z))
+        if z:
+            names["z"] = z[0]
+
+        def number(value: Coefficient, what: str) -> float:
+            if not isinstance(value, Expression):
+                return value
+            try:
+                result = float(value.evaluate(names))
+            except (ArithmeticError, ValueError) as error:
+                raise ValueError(f"{what} cannot be computed at z = {z}: {error}.") from error
+            if not math.isfinite(result):
+                raise ValueError(f"{what} is {result} at z = {z}; every coefficient must be finite there.")
+            return _finite(result, f"{what} at z = {z}")
+
+        f1, f2 = number(self.f[0], "f1"), number(self.f[1], "f2")
+        B = np.zeros((self.m, 2))
+        g = np.zeros(self.m)
+        for i, row in enumerate(self.B or ()):
+            B[i] = number(row[0], f"B[{i + 1},1]"), number(row[1], f"B[{i + 1},2]")
+        for i, value in enumerate(self.g or ()):
+            g[i] = number(value, f"g{i + 1}")
+        if self._matrix is None:
+            a, b, d, phi = number(self.a, "a"), number(self.b, "b"), number(self.d, "d"), 0.0
+        else:
+            (a11, a12), (a21, a22) = (
+                tuple(number(v, f"A[{i + 1},{j + 1}]") for j, v in enumerate(row)) for i, row in enumerate(self._matrix)
+            )
+            a, b, d, phi = _rotate(a11, a12, a21, a22)
+            c, s = math.cos(phi), math.sin(phi)
+            f1, f2 = c * f1 - s * f2, s * f1 + c * f2
+            B = B @ np.array([[c, s], [-s, c]])
+        size = max(abs(a), abs(b), abs(d), abs(f1), abs(f2))
+        if 0.0 < size < SMALLEST:
+            raise ValueError(
+                f"the largest of a, b, d, f1, f2 is {size:.3g}; at least {SMALLEST:g} (or all zero) is allowed. "
+                "Multiply all coefficients by one common factor: that only rescales time."
+            )
+        B.flags.writeable = g.flags.writeable = False
+        return Coefficients(a, b, d, f1, f2, B, g, phi)
+
+
+def _number(value: object, what: str) -> float:
+    try:
+        return float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{what} is {value!r}; give a number.") from error
+
+
+def _rotate(a11: float, a12: float, a21: float, a22: float) -> tuple[float, float, float, float]:
+    """Return (a, b, d, phi) of R(phi) A R(phi)^T = [[a, -b], [b, d]], lem:normalform.
+
+    Rotation leaves the antisymmetric part b = (A21 - A12)/2 and the trace alone and diagonalises the symmetric
+    part, whose eigenvalues are mean -+ half the length of (A12 + A21, A22 - A11).
+    """
+    shear, stretch = a12 + a21 + 0.0, a22 - a11
+    phi = 0.5 * math.atan2(shear, stretch)
+    mean, half = 0.5 * a11 + 0.5 * a22, 0.5 * math.hypot(shear, stretch)
+    return mean - half, 0.5 * a21 - 0.5 * a12, mean + half, phi

@@ -1,0 +1,368 @@
+"""Any system of the paper's form, eq:vf: ``(x, y)' = U(e, x, y, z)``, ``z' = W(e, x, y, z)``, typed as text.
+
+The text is read by `expressions.expression.parse` against a whitelist and never evaluated as Python. The system is
+immutable; `System.at` freezes it at one z, which is all that the hemisphere there depends on.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import reprlib
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..expressions.expression import Expression, ExpressionError, parse
+from ..expressions.names import MOST_SLOW_VARIABLES, PLANE, SLOW, number_names
+from ..expressions.reader import MOST_CHARACTERS
+from .bounds import LARGEST, SMALLEST, slow_values
+from .coefficients import Coefficients
+from .elinear import ELinear
+
+Array = NDArray[np.float64]
+Text = str | float | int | Expression
+
+MOST_NUMBERS = 32  # parameters and slow variables that one system may read
+MOST_NAMES = 64  # parameters and definitions of one system
+LONGEST_KEY = 200  # characters of a definition's name with its arguments
+
+_SHORT = reprlib.Repr()
+_SHORT.maxstring = _SHORT.maxother = 60
+
+# Where U must be finite: rings of directions, the equator among them.
+_SIZES = (0.0, 0.35, 0.7, 1.0)
+_ANGLES = np.linspace(0.0, 2.0 * math.pi, 24, endpoint=False)
+_PROBES = np.concatenate([r * np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=-1) for r in _SIZES])
+
+
+@dataclass(frozen=True)
+class System:
+    """A system ``(x, y)' = U(e, x, y, z)``, ``z' = W(e, x, y, z)`` with ``e = (c, s) = (x, y)/|(x, y)|``, eq:vf.
+
+    Parameters
+    ----------
+    U : (2,) text
+        In c, s, x, y, the slow variables z1 … zm (z is z1), `parameters` and `definitions`.
+    W : (m,) text, optional
+        Likewise. Left out, W = 0 for as many slow variables as U names.
+    parameters : mapping of str to float, optional
+        `evolve` changes their values without reading or compiling anything again.
+    definitions : mapping of str to text, optional
+        Named sub-expressions, such as ``{"chi": "(1 + 2*z**2)/(1 + z**2)"}`` (the key may be ``"chi(z)"``); each may
+        use the ones before it. In U, W both ``chi`` and ``chi(z)`` can be written.
+
+    Raises
+    ------
+    ValueError
+        Text cannot be read (`ExpressionError`: with the column), or a shape or a value is wrong.
+
+    Examples
+    --------
+    >>> System(U=("2*c**2 - c - 1/2", "-s"), W=("-z",)).at(0.5).U((1.0, 0.0)).tolist()
+    [0.5, 0.0]
+    """
+
+    U: Any
+    W: Any = ()
+    parameters: Any = ()
+    definitions: Any = ()
+
+    def __post_init__(self) -> None:
+        fix = object.__setattr__
+        given, meanings = _mapping(self.parameters, "parameters"), _mapping(self.definitions, "definitions")
+        if len(given) + len(meanings) > MOST_NAMES:
+            raise ValueError(
+                f"there are {len(given)} parameters and {len(meanings)} definitions; at most {MOST_NAMES} are allowed."
+            )
+        parameters = {name: _parameter(name, value) for name, value in given.items()}
+        definitions = _definitions(meanings, tuple(parameters))
+        fix(self, "parameters", tuple(parameters.items()))
+        fix(self, "definitions", tuple((name, text) for name, text, _, _ in definitions))
+        U = _texts(self.U, "U")
+        if len(U) != 2:
+            raise ValueError(f"U is {shortened(self.U)}; give two formulas (U1, U2).")
+        read = lambda text, what: _read(text, what, tuple(parameters), definitions)  # noqa: E731
+        fix(self, "U", tuple(read(text, f"U{i + 1}") for i, text in enumerate(U)))
+        W = _texts(self.W, "W")
+        if len(W) > MOST_SLOW_VARIABLES:
+            raise ValueError(f"W has {len(W)} rows; at most {MOST_SLOW_VARIABLES} slow variables are allowed.")
+        fix(self, "W", tuple(read(text, f"W{i + 1}") for i, text in enumerate(W)))
+        if len(self.numbers) > MOST_NUMBERS:
+            raise ValueError(
+                f"the system reads {len(self.numbers)} parameters and slow variables; at most {MOST_NUMBERS}."
+            )
+        self.m  # noqa: B018 (raises where W has too few rows)
+
+    @cached_property
+    def m(self) -> int:
+        """The number of slow variables."""
+        used = {name for row in (*self.U, *self.W) for name in row.names}
+        named = max((i + 1 for i, name in enumerate(SLOW) if name in used), default=0)
+        if self.W and named > len(self.W):
+            raise ValueError(f"a formula names z{named}, but W has only {len(self.W)} row(s); give m rows.")
+        return len(self.W) or named
+
+    @cached_property
+    def numbers(self) -> tuple[str, ...]:
+        """Names of the slow variables and parameters that U reads: the arguments of its compiled field, in order."""
+        return number_names(self.U)
+
+    @cached_property
+    def jacobian(self) -> tuple[tuple[Expression, Expression], tuple[Expression, Expression]]:
+        """``D_(c,s) U`` as formulas, rows first; exact derivatives, not differences."""
+        first, second = ((u.derivative("c"), u.derivative("s")) for u in self.U)
+        return first, second
+
+    def evolve(self, **changes: Any) -> System:
+        """Return the same system with some parameters (by name), or U, W, parameters, definitions, changed."""
+        parameters = dict(self.parameters)
+        fields: dict[str, Any] = {}
+        for name, value in changes.items():
+            if name in parameters:
+                parameters[name] = _parameter(name, value)
+            elif name in ("U", "W", "parameters", "definitions"):
+                fields[name] = value
+            else:
+                allowed = ", ".join([*parameters, "U", "W", "parameters", "definitions"])
+                raise ValueError(f"{name!r} is no parameter of this system; it has {allowed}.")
+        if fields:
+            return replace(self, **{"parameters": tuple(parameters.items()), **fields})
+        copy = object.__new__(System)  # only numbers change: nothing is read again
+        copy.__dict__.update(self.__dict__)
+        copy.__dict__["parameters"] = tuple(parameters.items())
+        return copy
+
+    def at(self, z: ArrayLike = ()) -> Frozen:
+        """Freeze at z.
+
+        Parameters
+        ----------
+        z : (m,) floats
+            May be left out if no formula depends on it.
+
+        Raises
+        ------
+        ValueError
+            z has the wrong length, or U is not finite somewhere on the hemisphere.
+        """
+        used = any(name in SLOW for row in (*self.U, *self.W) for name in row.names)
+        frozen = Frozen(self, slow_values(z, self.m, needed=used))
+        frozen.size  # noqa: B018 (raises where U is not finite)
+        return frozen
+
+    def reads_position(self) -> bool:
+        """Whether U depends on x or y: then the outside differs from the hemisphere's continuation."""
+        return any(name in ("x", "y") for u in self.U for name in u.names)
+
+
+@dataclass(frozen=True)
+class Frozen:
+    """A general system at one z: all that the hemisphere there depends on. Made by `System.at`.
+
+    Attributes
+    ----------
+    system : System
+    z : tuple of float
+    """
+
+    system: System
+    z: tuple[float, ...]
+
+    @property
+    def m(self) -> int:
+        """The number of slow variables."""
+        return self.system.m
+
+    @cached_property
+    def values(self) -> dict[str, float]:
+        """Parameters and slow variables by name."""
+        return {**dict(self.system.parameters), **dict(zip(SLOW, self.z, strict=False))}
+
+    @cached_property
+    def numbers(self) -> tuple[float, ...]:
+        """Values of ``system.numbers``: the arguments of the compiled field."""
+        return tuple(self.values[name] for name in self.system.numbers)
+
+    @cached_property
+    def key(self) -> Hashable:
+        """What decides the portrait: the formulas of U and the numbers that they read."""
+        return self.system.U, self.numbers
+
+    @cached_property
+    def slow_key(self) -> Hashable:
+        """What decides the slow flow on a given critical set: the formulas of W and the numbers that they read."""
+        return self.system.W, tuple(self.values[name] for name in number_names(self.system.W))
+
+    def at(self, z: ArrayLike = ()) -> Frozen:  # noqa: ARG002 (z is already chosen)
+        """Return itself: a system frozen at one z, accepted wherever a system is."""
+        return self
+
+    def U(self, e: ArrayLike, xy: ArrayLike | None = None) -> Array:
+        """``U(e, x, y, z)`` for e of shape (..., 2) and xy of that shape (default x = y = 0, on Sigma)."""
+        return self._vector(self.system.U, e, xy)
+
+    def W(self, e: ArrayLike, xy: ArrayLike | None = None) -> Array:
+        """``W(e, x, y, z)`` likewise, of shape (..., m)."""
+        if not self.system.W:
+            return np.zeros((*np.shape(e)[:-1], self.m))
+        return self._vector(self.system.W, e, xy)
+
+    def DU(self, e: ArrayLike) -> Array:
+        """``D_(c,s) U`` on Sigma for e of shape (..., 2); shape (..., 2, 2), exact."""
+        (u_c, u_s), (v_c, v_s) = self.system.jacobian
+        flat = self._vector((u_c, u_s, v_c, v_s), e, None)
+        return flat.reshape((*flat.shape[:-1], 2, 2))
+
+    @cached_property
+    def normal_form(self) -> Coefficients | None:
+        """U in the normal form of the e-linear system (lem:normalform), or None if it is not affine in (c, s).
+
+        U must not read x or y, and its derivatives by c and s must be free of them. Only the portrait's plane is
+        brought over, in the rotated axes: the result has m = 0.
+        """
+        rows = self.system.jacobian
+        if self.system.reads_position() or any(name in PLANE for row in rows for entry in row for name in entry.names):
+            return None
+        return ELinear.from_matrix(self.DU((0.0, 0.0)), self.U((0.0, 0.0)).tolist()).at()
+
+    @property
+    def as_given(self) -> Coefficients | None:
+        """The normal form where U is in it already: the same axes, and nothing rounded on the way."""
+        normal = self.normal_form
+        return normal if normal is not None and normal.rotation == 0.0 else None
+
+    @cached_property
+    def size(self) -> float:
+        """The largest |U| on a coarse net over the closed disc: the unit of speed.
+
+        Raises
+        ------
+        ValueError
+            U is not finite there, or beyond 1e150, or not zero and below 1e-150.
+        """
+        speeds = np.hypot(*np.moveaxis(self.U(_PROBES), -1, 0))
+        largest = float(speeds.max())
+        if not largest <= LARGEST:  # also NaN
+            c, s = _PROBES[int(np.argmax(~(speeds <= LARGEST)))]
+            raise ValueError(
+                f"U is {self.U((c, s)).tolist()} at e = ({c:.3g}, {s:.3g}), z = {self.z}; it must be finite, and at "
+                f"most {LARGEST:g}, on the whole disc |e| <= 1."
+            )
+        if 0.0 < largest < SMALLEST:
+            raise ValueError(f"U is at most {largest:.3g}; multiply it by a factor: that only rescales time.")
+        return largest
+
+    def _vector(self, rows: Sequence[Expression], e: ArrayLike, xy: ArrayLike | None) -> Array:
+        e = np.asarray(e, float)
+        values: dict[str, Any] = {**self.values, "c": e[..., 0], "s": e[..., 1], "x": 0.0, "y": 0.0}
+        if xy is not None:
+            xy = np.asarray(xy, float)
+            values["x"], values["y"] = xy[..., 0], xy[..., 1]
+        if e.ndim == 1 and (xy is None or xy.ndim == 1):
+            values.update((name, float(values[name])) for name in PLANE)
+        return np.stack([np.asarray(row.evaluate(values), float) for row in rows], axis=-1)
+
+
+def shortened(value: object) -> str:
+    """Return repr(value) for a message, of bounded length and made in bounded time."""
+    return _SHORT.repr(value)
+
+
+def _mapping(values: Any, what: str) -> dict[str, Any]:
+    try:
+        return dict(values)
+    except (TypeError, ValueError):
+        raise ValueError(f"{what} is {shortened(values)}; give names with values, such as {{'mu': 0.2}}.") from None
+
+
+def _parameter(name: object, value: object) -> float:
+    if not isinstance(name, str) or len(name) > 40:
+        raise ValueError(f"{shortened(name)} cannot name a parameter; use at most 40 ASCII letters, digits and _.")
+    if name in PLANE or name == "z" or name in SLOW:
+        raise ValueError(f"{name!r} cannot name a parameter: c, s, x, y, z, z1 … z{MOST_SLOW_VARIABLES} are variables.")
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if not abs(number) <= LARGEST:
+        raise ValueError(
+            f"parameter {shortened(name)} is {shortened(value)}; give a finite number, at most {LARGEST:g} in size."
+        )
+    return number
+
+
+def _texts(rows: Any, what: str) -> tuple[Text, ...]:
+    if rows is None:
+        return ()
+    if isinstance(rows, (str, Expression, float, int)) or not hasattr(rows, "__iter__"):
+        rows = (rows,)
+    rows = tuple(rows)
+    for row in rows:
+        if not isinstance(row, (str, Expression, float, int)):
+            raise ValueError(f"{what} has the entry {shortened(row)}; give formulas as text, such as '-c + z'.")
+    return rows
+
+
+Definition = tuple[str, str, re.Pattern[str], Expression]  # key, text, what a call looks like, meaning
+
+
+def _definitions(given: Mapping[str, Any], parameters: tuple[str, ...]) -> tuple[Definition, ...]:
+    read: list[Definition] = []
+    for key, text in given.items():
+        short = isinstance(key, str) and len(key) <= LONGEST_KEY
+        match = re.fullmatch(r"\s*([A-Za-z]\w*)\s*(?:\(([\w\s,]*)\))?\s*", key, re.ASCII) if short else None
+        if match is None:
+            raise ValueError(f"{shortened(key)} cannot name a definition; write a name such as 'chi' or 'chi(z)'.")
+        name, arguments = match[1], match[2] or ""
+        if name in PLANE or name in SLOW or name == "z" or name in parameters or name in [d[0] for d in read]:
+            raise ValueError(f"the definition {shortened(name)} has the name of something else; choose another name.")
+        inside = r"\s*,\s*".join(re.escape(word.strip()) for word in arguments.split(","))
+        call = re.compile(rf"(?<!\w){name}\s*\(\s*{inside or r'z'}\s*\)", re.ASCII)
+        meaning = _read(text, f"definition {name}", parameters, tuple(read))
+        read.append((name, text.text if isinstance(text, Expression) else str(text), call, meaning))
+    return tuple(read)
+
+
+def _read(text: Text, what: str, parameters: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
+    """Parse one formula; `z` becomes `z1` and definitions are put in."""
+    names = (*PLANE, "z", *SLOW, *parameters, *(definition[0] for definition in definitions))
+    if isinstance(text, Expression):
+        foreign = [name for name in text.names if name not in names]
+        if foreign:
+            raise ValueError(f"{what} reads {shortened(foreign[0])}, which is no variable, parameter or definition.")
+        return _resolved(text, names, definitions)
+    if not isinstance(text, (str, float, int)):
+        raise ValueError(f"{what} is {shortened(text)}; give a formula as text, such as '1 + z**2'.")
+    source = text if isinstance(text, str) else _numeral(text, what)
+    for name, _, call, _ in definitions if len(source) <= MOST_CHARACTERS else ():
+        # chi(z) is written as chi, padded to the same length so that columns in messages stay right
+        source = call.sub(lambda match, name=name: name.ljust(len(match[0])), source)
+    try:
+        expression = parse(source, names)
+    except ExpressionError as error:
+        raise ExpressionError(f"{what}: {error}", error.text, error.column) from error
+    return _resolved(expression, names, definitions)
+
+
+def _numeral(value: float, what: str) -> str:
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not abs(number) <= LARGEST:
+        raise ValueError(f"{what} is {shortened(value)}; give a finite number, at most {LARGEST:g} in size, or text.")
+    return repr(number)
+
+
+def _resolved(expression: Expression, names: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
+    """Put z1 for z, and the definitions' meanings for their names."""
+    expression = expression.substitute("z", parse("z1", names)) if "z" in expression.names else expression
+    for name, _, _, meaning in reversed(definitions):
+        if name in expression.names:
+            expression = expression.substitute(name, meaning)
+    return expression

@@ -1,0 +1,1 @@
+"""The paper's theorems, evaluated on the present system."""

@@ -1,0 +1,110 @@
+"""Certificates of thm:case1 and thm:case2."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..layer_problem.critical import Existence, critical_sets
+from .facts import FAMILIES, RAYS, Certificate, Facts, not_applicable, verdict_of
+
+
+def case1(facts: Facts) -> tuple[Certificate, ...]:
+    """Evaluate thm:case1."""
+    with_set = "Case I, |A⁻¹f| < 1: a unique critical set that all orbits of the layer problem reach; 0, 2 or 4 limit "
+    with_set += "directions. (Time runs backwards for a, d > 0.)"
+    without = "Case I, |A⁻¹f| > 1: no critical set; 2 or 4 limit directions."
+    five = "Case I has five generic portraits: CM0, CM2, CM4, NCM2 and NCM4."
+    if facts.portrait.case != "I":
+        why = "This is not Case I: a and d are not of one sign."
+        parts = ("thm:case1(a)", with_set), ("thm:case1(b)", without), ("thm:case1(c)", five)
+        return tuple(not_applicable(*part, why) for part in parts)
+    return _case1a(facts, with_set), _without_set("thm:case1(b)", facts, without), _five(facts, five)
+
+
+def _case1a(facts: Facts, statement: str) -> Certificate:
+    theorem = "thm:case1(a)"
+    if not facts.critical:
+        return not_applicable(theorem, statement, facts.location.existence.value)
+    a, d = facts.at.a, facts.at.d
+    backwards = a > 0.0
+    # div = tangential (beta + alpha sigma), alpha and beta between a and d, sigma > 0: it has the sign of a and d.
+    # (The paper prints the denominator zeta^2 + Psi; it is (zeta^2 + Psi)^(3/2).)
+    zeta = np.geomspace(1e-4, 1e4, 81)
+    s = zeta**2
+    P, slope = facts.psi(s), facts.psi.derivative(s)
+    x, y = zeta[:, None] * np.cos(RAYS), zeta[:, None] * np.sin(RAYS)
+    weight = (s + P)[:, None]
+    top = (a + d) * P[:, None] - (a * x**2 + d * y**2) * slope[:, None] + a * y**2 + d * x**2
+    divergence = top / weight**1.5
+    # scaled by 1/sqrt(zeta^2 + Psi): between the bound and its double or more, all over the plane
+    scaled = divergence * np.sqrt(weight) * (-1.0 if backwards else 1.0)
+    bound = -min(abs(a), abs(d))
+    one_sign = float(scaled.max()) <= bound * (1.0 - 1e-9)
+    count = len(facts.equator)
+    towards = facts.equator.lambda_rho * (-1.0 if backwards else 1.0)
+    arriving = bool((towards[~facts.equator.radially_degenerate] < 0.0).all())
+    kind = facts.critical[0].kind
+    stable = kind.startswith("unstable" if backwards else "stable")
+    holds = len(facts.critical) == 1 and one_sign and stable and arriving and (count in (0, 2, 4) or not facts.generic)
+    what = "largest √(ζ²+Ψ) div" + (" (time reversed)" if backwards else "")
+    numbers = (("critical sets", 1.0), (what, float(scaled.max())), ("its bound −min(|a|, |d|)", bound),
+               ("tr J", facts.critical[0].trace), ("limit directions", float(count)))  # fmt: skip
+    sentence = (
+        f"The divergence {'is positive' if backwards else 'is negative'} everywhere, so there is no limit cycle, "
+        f"and C is a {kind}.".replace("a unstable", "an unstable")
+    )
+    if not facts.generic:
+        sentence += " The equator is degenerate here, so that the count of directions is not a generic one."
+    return Certificate(theorem, statement, verdict_of(holds), numbers, sentence)
+
+
+def _without_set(theorem: str, facts: Facts, statement: str) -> Certificate:
+    if facts.location.existence is not Existence.NONE:
+        return not_applicable(theorem, statement, facts.location.existence.value)
+    count = len(facts.equator)
+    numbers = (("critical sets", float(len(facts.critical))), ("limit directions", float(count)))
+    if not facts.generic:
+        holds = not facts.critical and count >= 1
+        return Certificate(
+            theorem, statement, verdict_of(holds), numbers,
+            f"No critical set, and {count} limit directions: on the border between the generic counts.",
+        )  # fmt: skip
+    return Certificate(
+        theorem, statement, verdict_of(not facts.critical and count in (2, 4)), numbers,
+        f"No critical set, and {count} limit directions.",
+    )  # fmt: skip
+
+
+def _five(facts: Facts, statement: str) -> Certificate:
+    if facts.portrait.degeneracies:
+        names = ", ".join(d.name for d in facts.portrait.degeneracies)
+        return not_applicable("thm:case1(c)", statement, f"The portrait is not a generic one: {names}.")
+    name = facts.portrait.name
+    return Certificate(
+        "thm:case1(c)", statement, verdict_of(name in ("CM0", "CM2", "CM4", "NCM2", "NCM4")),
+        (("limit directions", float(len(facts.equator))), ("critical sets", float(len(facts.critical)))),
+        f"This one is {name}.",
+    )  # fmt: skip
+
+
+def case2(facts: Facts) -> tuple[Certificate, ...]:
+    """Evaluate thm:case2."""
+    with_set = "Case II, |A⁻¹f| < 1: C is a saddle for every Ψ, and there are exactly four limit directions, each a "
+    with_set += "saddle of the radial and angular flow."
+    without = "Case II, |A⁻¹f| > 1: no critical set; 2 or 4 limit directions."
+    if facts.portrait.case != "II":
+        why = "This is not Case II: a and d of opposite sign with det A < 0."
+        return not_applicable("thm:case2(a)", with_set, why), not_applicable("thm:case2(b)", without, why)
+    second = _without_set("thm:case2(b)", facts, without)
+    if not facts.critical:
+        return not_applicable("thm:case2(a)", with_set, facts.location.existence.value), second
+    equator = facts.equator
+    products = (equator.lambda_rho * equator.lambda_theta).tolist()
+    saddles = all(C.kind == "saddle" for psi in (facts.psi, *FAMILIES) for C in critical_sets(facts.at, psi))
+    holds = saddles and len(products) == 4 and all(v < 0.0 for v in products)
+    numbers = (("det J", facts.critical[0].determinant), ("limit directions", float(len(products))),
+               *((f"λ_ρ λ_θ at {label}", v) for label, v in zip(equator.labels, products, strict=True)))  # fmt: skip
+    first = Certificate(
+        "thm:case2(a)", with_set, verdict_of(holds), numbers, "One limit direction for each separatrix of the saddle."
+    )
+    return first, second

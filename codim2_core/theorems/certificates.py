@@ -1,0 +1,323 @@
+"""The paper's theorems as certificates: each claim evaluated on the present system, with the numbers that show it.
+
+A certificate never repeats how a result was computed: it holds the numbers of one module against those of another, or
+against the formula of the theorem. "fails" should never be seen.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..layer_problem.critical import Existence, critical_sets, determinant_sign, locate
+from ..layer_problem.equator import equator_cycle, equator_equilibria
+from ..portrait.classify import portrait
+from ..psi.function import Psi
+from ..sliding.flow import sliding_flow
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
+from .cases import case1, case2
+from .facts import CLOSE, FAMILIES, RAYS, Certificate, Facts, Verdict, not_applicable, verdict_of
+
+__all__ = ["Certificate", "Verdict", "certificates"]
+
+MOST_CONDITION = 1e12
+_ILL = "The condition number of A is {:.1e}: a check of A⁻¹f in doubles would say nothing."
+
+
+def certificates(
+    system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (), cycles: Iterable[Any] | None = None
+) -> tuple[Certificate, ...]:
+    """Evaluate the claims of thm:geneps0, geneps1, lineps1, case1, case2, prop:LC and the index on a system.
+
+    Parameters
+    ----------
+    system : ELinear, or Coefficients
+    psi : Psi
+    z : (m,) floats
+    cycles : iterable, optional
+        Limit cycles of the layer problem, each with `.slow_flow` (m,) and, if it has it, `.mean_e` (2,), the mean of
+        e_Psi over a period. Without them prop:LC does not apply.
+
+    Returns
+    -------
+    tuple of Certificate
+
+    Raises
+    ------
+    ValueError
+        z does not fit the system, or psi is not a Psi.
+    """
+    if not isinstance(psi, Psi):
+        raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
+    at = system.at(z)
+    equator, cycle, location, critical = (
+        equator_equilibria(at),
+        equator_cycle(at),
+        locate(at),
+        critical_sets(at, psi),
+    )
+    facts = Facts(at, psi, equator, cycle, location, critical, portrait(at, equator, cycle, location, critical))
+    return (
+        _equilibria(facts),
+        _up_the_sphere(facts),
+        _closed_equator(facts),
+        _slow_on_the_sphere(),
+        _critical_kind(facts),
+        _slow_flow(facts),
+        _existence(facts),
+        _filippov(facts),
+        *case1(facts),
+        *case2(facts),
+        _index(facts),
+        _limit_cycles(facts, cycles),
+    )
+
+
+# thm:geneps0 -------------------------------------------------------------------------------------------------------
+
+
+def _equilibria(facts: Facts) -> Certificate:
+    theorem, statement = "thm:geneps0(a)", "Where Θ(θ) = 0 the equator of the hemisphere has an equilibrium."
+    if facts.equator.all_directions:
+        return Certificate(theorem, statement, Verdict.HOLDS, (), "Θ ≡ 0: every point of the equator is one.")
+    if not len(facts.equator):
+        return not_applicable(theorem, statement, "Θ has no zero here: the equator is a closed orbit (see (c)).")
+    numbers, worst = [], 0.0
+    for label, theta in zip(facts.equator.labels, facts.equator.theta.tolist(), strict=True):
+        c, s = math.cos(theta), math.sin(theta)
+        u1, u2 = facts.at.U((c, s))
+        numbers.append((f"Θ at {label}", float(c * u2 - s * u1)))
+        worst = max(worst, abs(numbers[-1][1]))
+    count = len(numbers)
+    return Certificate(
+        theorem, statement, verdict_of(worst <= CLOSE * facts.size), tuple(numbers),
+        f"Θ vanishes in {count} direction{'s' if count > 1 else ''}, up to rounding.",
+    )  # fmt: skip
+
+
+def _up_the_sphere(facts: Facts) -> Certificate:
+    theorem = "thm:geneps0(b)"
+    statement = "At an equilibrium of the equator the rates outwards and up the hemisphere are λ_ρ and −λ_ρ."
+    if not len(facts.equator):
+        return not_applicable(theorem, statement, "There are no isolated equilibria on the equator.")
+    numbers, holds = [], True
+    equator = facts.equator
+    rows = zip(equator.labels, equator.theta, equator.lambda_rho, equator.radially_degenerate, strict=True)
+    for label, theta, rate, flat in rows:
+        p = np.array([math.cos(theta), math.sin(theta)])
+        # ebar'/ebar = -p.U(e_Psi), far out in the scaling chart, where ebar is small
+        up = -float(p @ facts.at.U(facts.psi.modulus(1e8) * p))
+        numbers += [(f"λ_ρ at {label}", float(rate)), (f"rate up the hemisphere at {label}", up)]
+        # a degenerate one is named so within 1e-4 of the direction of the critical set, with lambda_rho set to 0
+        holds &= abs(up + rate) <= (1e-3 if flat else 1e-6) * facts.size
+    return Certificate(
+        theorem, statement, verdict_of(holds), tuple(numbers),
+        "What arrives from outside goes on up the hemisphere along the same direction, and the other way round.",
+    )  # fmt: skip
+
+
+def _closed_equator(facts: Facts) -> Certificate:
+    theorem = "thm:geneps0(c)"
+    statement = "Without limit directions the equator is a closed orbit; ∫ λ_ρ/|Θ| dθ decides its stability."
+    cycle = facts.cycle
+    if cycle is None:
+        return not_applicable(theorem, statement, "There are limit directions.")
+    # The trapezoidal rule converges fast for a periodic analytic integrand; the exponent itself is a closed form.
+    theta = np.linspace(0.0, 2.0 * math.pi, 4096, endpoint=False)
+    e = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+    U = facts.at.U(e)
+    a, b, d, f1, f2 = facts.at.plane
+    # Theta itself, not the component of U: a, however much larger than b, stays out of it
+    out, around = (e * U).sum(axis=1), (d - a) * e[:, 1] * e[:, 0] + f2 * e[:, 0] - f1 * e[:, 1] + b
+    integral = float((out / abs(around)).mean() * 2.0 * math.pi)
+    weight = float((abs(out) / abs(around)).mean() * 2.0 * math.pi)
+    rounding = 1e-15 * (abs(d - a) + abs(f1) + abs(f2) + abs(b))
+    one_sign = bool((around > -rounding).all() or (around < rounding).all())
+    sharp = float(abs(around).min()) > 0.02 * float(abs(around).max())  # else 4096 points do not resolve the peak
+    holds = one_sign and (not sharp or abs(integral - cycle.exponent) <= 1e-8 * max(weight, 1.0))
+    least = float(abs(around).min())
+    ends = "is neutral" if cycle.neutral else "attracts" if cycle.stable_outside else "repels"
+    other = "is neutral" if cycle.neutral else "repels" if cycle.stable_outside else "attracts"
+    return Certificate(
+        theorem, statement, verdict_of(holds),
+        (("∫ λ_ρ/|Θ| dθ", cycle.exponent), ("the same by quadrature", integral), ("least |Θ|", least)),
+        f"The equator {ends} outside and {other} on the hemisphere.",
+    )  # fmt: skip
+
+
+def _slow_on_the_sphere() -> Certificate:
+    return Certificate(
+        "thm:geneps0(d)", "On the hemisphere z stays constant.", Verdict.HOLDS, (("ρ", 0.0), ("dz/dT = ρ W", 0.0)),
+        "dz/dT = ρ W, and ρ = 0 on the hemisphere: it holds for every system.",
+    )  # fmt: skip
+
+
+# thm:geneps1 and thm:lineps1 ---------------------------------------------------------------------------------------
+
+
+def _critical_kind(facts: Facts) -> Certificate:
+    theorem = "thm:geneps1(b)"
+    statement = "The critical set is a saddle, whatever Ψ is, if det A < 0; a node or focus if det A > 0."
+    if not facts.critical:
+        return not_applicable(theorem, statement, "There is no isolated critical set.")
+    C = facts.critical[0]
+    sign = determinant_sign(facts.at.a, facts.at.b, facts.at.d)
+    det = facts.at.a * facts.at.d + facts.at.b**2
+    factor = C.determinant / det if sign and det else 0.0
+    holds = (C.kind == "saddle") == (sign < 0) and sign * C.determinant >= 0.0  # = 0.0: det J has underflown
+    article = "an" if C.kind.startswith("unstable") else "a"
+    return Certificate(
+        theorem, statement, verdict_of(holds),
+        (("det A", det), ("det J", C.determinant), ("det D e_Ψ", factor), ("tr J", C.trace)),
+        f"det J = det A · det D e_Ψ, and the second factor is positive for every Ψ. C is {article} {C.kind}.",
+    )  # fmt: skip
+
+
+def _slow_flow(facts: Facts) -> Certificate:
+    theorem = "thm:geneps1(c)"
+    statement = "The slow flow on the critical set does not depend on Ψ."
+    if not facts.critical:
+        return not_applicable(theorem, statement, "There is no isolated critical set.")
+    if not len(facts.at.g):
+        return not_applicable(theorem, statement, "There is no slow variable (m = 0).")
+    slow = facts.critical[0].slow_flow
+    numbers, holds = [], True
+    for other in dict.fromkeys((facts.psi, *FAMILIES)):
+        found = critical_sets(facts.at, other)
+        x2 = found[0].x2
+        zeta = float(np.hypot(*x2))
+        e = other.modulus(zeta) * x2 / zeta if zeta else x2  # back from the scaling chart
+        W = facts.at.W(e)
+        difference = float(abs(W - slow).max())
+        numbers.append((f"largest change of z′ with Ψ = {other.text}", difference))
+        size = float(abs(facts.at.B).max(initial=0.0) + abs(facts.at.g).max(initial=0.0)) or 1.0
+        holds &= difference <= CLOSE * size
+    return Certificate(
+        theorem, statement, verdict_of(holds), tuple(numbers),
+        "Each Ψ puts the critical set elsewhere in the chart, and all give one slow flow.",
+    )  # fmt: skip
+
+
+def _existence(facts: Facts) -> Certificate:
+    theorem = "thm:lineps1(a)"
+    statement = "There is a critical set, and only one, just if |A⁻¹f| < 1."
+    if facts.location.singular:
+        return not_applicable(theorem, statement, "det A = 0 within rounding: A has no inverse.")
+    A, f = facts.at.A, facts.at.f
+    condition = float(np.linalg.cond(A))
+    if not condition < MOST_CONDITION:
+        return not_applicable(theorem, statement, _ILL.format(condition))
+    length = float(np.linalg.norm(np.linalg.solve(A, f)))
+    if facts.location.existence is Existence.EQUATOR:
+        return not_applicable(theorem, statement, f"|A⁻¹f| = {length:.6g}: the critical set is on the equator.")
+    numbers: list[tuple[str, float]] = [("|A⁻¹f|", length), ("critical sets", float(len(facts.critical)))]
+    near = abs(length - 1.0) <= 1e-9 * condition
+    holds = near or (length < 1.0) == (len(facts.critical) == 1)
+    if facts.critical:
+        # the equation itself, at the place in the chart
+        C = facts.critical[0]
+        zeta = float(np.hypot(*C.x2))
+        e = facts.psi.modulus(zeta) * C.x2 / zeta if zeta else C.x2
+        residual = float(abs(facts.at.U(e)).max())
+        numbers.append(("|A e_Ψ + f| there", residual))
+        holds &= residual <= CLOSE * facts.size
+    return Certificate(
+        theorem, statement, verdict_of(holds), tuple(numbers),
+        f"|A⁻¹f| = {length:.6g}: {'one critical set' if facts.critical else 'no critical set'}.",
+    )  # fmt: skip
+
+
+def _filippov(facts: Facts) -> Certificate:
+    theorem = "thm:lineps1(b)"
+    statement = "The slow flow is −B A⁻¹f + g, as the Filippov convention has it."
+    if not facts.critical:
+        return not_applicable(theorem, statement, "There is no isolated critical set.")
+    if not len(facts.at.g):
+        return not_applicable(theorem, statement, "There is no slow variable (m = 0).")
+    e, slow = facts.critical[0].e, facts.critical[0].slow_flow
+    formula = sliding_flow(facts.at)
+    if formula is None:
+        return not_applicable(theorem, statement, "The sliding flow is not defined.")
+    size = float(abs(facts.at.B).max(initial=0.0) + abs(facts.at.g).max(initial=0.0)) or 1.0
+    worst = float(abs(slow - formula).max())
+    spread = 0.0
+    for angle in RAYS[:6]:
+        # two limit vectors along a chord through e: their convex combination that is tangent to the discontinuity set
+        u = np.array([math.cos(angle), math.sin(angle)])
+        half = math.sqrt(max(0.0, 1.0 - (e[0] * u[1] - e[1] * u[0]) ** 2))
+        first, second = e + (half - e @ u) * u, e - (half + e @ u) * u
+        weight = (half + e @ u) / (2.0 * half)
+        combined = weight * facts.at.W(first) + (1.0 - weight) * facts.at.W(second)
+        across = weight * facts.at.U(first) + (1.0 - weight) * facts.at.U(second)
+        spread = max(spread, float(abs(combined - slow).max()) / size, float(abs(across).max()) / facts.size)
+    numbers = [(f"z{i + 1}′", float(v)) for i, v in enumerate(slow)]
+    numbers += [("difference from −B A⁻¹f + g", worst), ("difference from six Filippov combinations", spread)]
+    holds = worst <= CLOSE * size and spread <= CLOSE
+    return Certificate(
+        theorem, statement, verdict_of(holds), tuple(numbers),
+        "Every convex combination of two limit vectors that is tangent to Σ gives this same vector.",
+    )  # fmt: skip
+
+
+# Index and limit cycles --------------------------------------------------------------------------------------------
+
+
+def _index(facts: Facts) -> Certificate:
+    theorem = "sec:geneps0, index theory"
+    statement = "The indices of the critical sets add up to the number of turns of U along the equator."
+    equator = facts.equator
+    if equator.all_directions or equator.radially_degenerate.any() or facts.location.singular:
+        return not_applicable(theorem, statement, "U vanishes on the equator, or the critical sets are not isolated.")
+    # Seen from the turning frame U is (lambda_rho, Theta): it crosses the radial axis where Theta changes sign.
+    odd = equator.multiplicity % 2 == 1
+    slopes, rates = np.sign(equator.lambda_theta[odd]), np.sign(equator.lambda_rho[odd])
+    if (slopes == 0.0).any():  # a triple zero: crossings alternate
+        slopes = np.where(slopes == 0.0, -slopes.sum(), slopes)
+    degree = 1 + 0.5 * float((slopes * rates).sum())
+    theta = np.linspace(0.0, 2.0 * math.pi, 721)
+    U = facts.at.U(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
+    index = float(sum(-1 if C.kind == "saddle" else 1 for C in facts.critical))
+    holds = degree == index
+    numbers: list[tuple[str, float]] = [("sum of the indices", index), ("turns, from λ_ρ and Θ", degree)]
+    steps = np.diff(np.unwrap(np.arctan2(U[:, 1], U[:, 0])))
+    if abs(steps).max() < 0.5:  # U turns slowly enough to be followed
+        turns = float(steps.sum() / (2.0 * math.pi))
+        numbers.append(("turns of U, followed along the equator", turns))
+        holds &= abs(turns - index) < 1e-6
+    return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), "No critical set is missing.")
+
+
+def _limit_cycles(facts: Facts, cycles: Iterable[Any] | None) -> Certificate:
+    theorem = "prop:LC"
+    statement = "Along a limit cycle of the layer problem the reduced flow is −B A⁻¹f + g; the mean of e_Ψ is −A⁻¹f."
+    found = () if cycles is None else tuple(cycles)
+    if not found:
+        why = "No limit cycle was given." if cycles is None else "There is no limit cycle."
+        return not_applicable(theorem, statement, why)
+    if facts.location.singular:
+        return not_applicable(theorem, statement, "det A = 0 within rounding: A has no inverse.")
+    condition = float(np.linalg.cond(facts.at.A))
+    if not condition < MOST_CONDITION:
+        return not_applicable(theorem, statement, _ILL.format(condition))
+    mean = -np.linalg.solve(facts.at.A, facts.at.f)
+    slow = facts.at.W(mean)
+    numbers, holds = [], True
+    size = float(abs(facts.at.B).max(initial=0.0) + abs(facts.at.g).max(initial=0.0)) or 1.0
+    for i, cycle in enumerate(found):
+        own = getattr(cycle, "mean_e", None)
+        if own is not None:
+            numbers.append((f"cycle {i + 1}: |mean of e_Ψ + A⁻¹f|", float(abs(np.asarray(own) - mean).max())))
+            holds &= numbers[-1][1] <= 1e-6
+        if len(slow):
+            gap = float(abs(np.asarray(cycle.slow_flow, float) - slow).max())
+            numbers.append((f"cycle {i + 1}: difference of slow flows", gap))
+            holds &= gap <= 1e-6 * size
+    if not numbers:
+        return not_applicable(theorem, statement, "There is no slow variable (m = 0), and no mean of e_Ψ was given.")
+    sentence = "The mean of e_Ψ over the cycle is that of the critical set."
+    return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), sentence)
