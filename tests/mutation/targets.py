@@ -1,7 +1,7 @@
 """Which tests guard which module, and which mutants are known to change nothing that anybody can see.
 
 Left out: modules compiled by Numba (`stepping`, `cycles.return_map`), where each mutant costs a compilation of tens
-of seconds. `core/test_trajectories.py` holds them against exact solutions at every tolerance instead.
+of seconds. `core/orbits/test_trajectories.py` holds them against exact solutions at every tolerance instead.
 """
 
 from __future__ import annotations
@@ -11,35 +11,57 @@ from typing import NamedTuple
 # Files, or single tests of them; quick ones first, as a mutant dies at the first failure.
 TARGETS: dict[str, tuple[str, ...]] = {
     "layer_problem.equator": (
-        "core/test_equator.py", "core/test_portrait_words.py", "core/test_classify.py", "precision/test_equator.py",
-        "core/test_equator_general.py",
+        "core/layer_problem/test_equator.py",
+        "core/portrait/test_portrait_words.py",
+        "core/portrait/test_classify.py",
+        "precision/test_equator.py",
+        "core/layer_problem/test_equator_zeros.py",
     ),
-    "layer_problem.closed_equator": ("core/test_equator.py", "precision/test_equator.py"),
-    "numerics.trigonometric": ("core/test_equator.py", "precision/test_equator.py", "core/test_trigonometric.py"),
-    "numerics.trigonometric_exact": ("core/test_equator.py", "core/test_trigonometric.py"),
+    "layer_problem.closed_equator": ("core/layer_problem/test_equator.py", "precision/test_equator.py"),
+    "numerics.trigonometric": (
+        "core/layer_problem/test_equator.py",
+        "precision/test_equator.py",
+        "core/numerics/test_trigonometric.py",
+    ),
+    "numerics.trigonometric_exact": ("core/layer_problem/test_equator.py", "core/numerics/test_trigonometric.py"),
     "layer_problem.critical": (
-        "core/test_critical.py", "core/test_classify.py", "precision/test_critical.py", "stress/test_rounding.py",
-        "core/test_critical_general.py",
+        "core/layer_problem/test_critical.py",
+        "core/portrait/test_classify.py",
+        "precision/test_critical.py",
+        "stress/test_rounding.py",
+        "core/layer_problem/test_disc_zeros.py",
     ),
     "layer_problem.linearisation": (
-        "core/test_critical.py", "core/test_classify.py", "precision/test_critical.py", "core/test_critical_general.py",
+        "core/layer_problem/test_critical.py",
+        "core/portrait/test_classify.py",
+        "precision/test_critical.py",
+        "core/layer_problem/test_disc_zeros.py",
     ),
     "portrait.nullclines": (
-        "core/test_nullcline_pieces.py", "core/test_nullclines.py", "core/test_nullclines_general.py",
+        "core/portrait/test_nullcline_pieces.py",
+        "core/portrait/test_nullclines.py",
+        "core/portrait/test_nullclines_typed.py",
     ),
-    "layer_problem.hemisphere": ("core/test_hemisphere_values.py", "core/test_hemisphere.py"),
-    "sliding.flow": ("core/test_critical.py",),
-    "portrait.classify": ("core/test_portrait_words.py", "core/test_classify.py", "core/test_classify_general.py"),
-    "systems.elinear": ("core/test_systems.py", "core/test_critical.py"),
+    "layer_problem.hemisphere": (
+        "core/layer_problem/test_hemisphere_values.py",
+        "core/layer_problem/test_hemisphere.py",
+    ),
+    "sliding.flow": ("core/layer_problem/test_critical.py",),
+    "portrait.classify": (
+        "core/portrait/test_portrait_words.py",
+        "core/portrait/test_classify.py",
+        "core/portrait/test_classify_typed.py",
+    ),
+    "systems.elinear": ("core/systems/test_elinear.py", "core/layer_problem/test_critical.py"),
     "layer_problem.lyapunov": (
         "precision/test_bifurcations.py::test_three_derivatives_of_psi",
         "precision/test_bifurcations.py::test_first_lyapunov_coefficient",
     ),
-    "psi.function": ("core/test_regularisation.py",),
-    "psi.families": ("precision/test_steepness.py", "core/test_regularisation.py"),
-    "bifurcations.geometry": ("core/test_bifurcations.py", "precision/test_bifurcations.py"),
-    "bifurcations.trace": ("core/test_bifurcations.py", "precision/test_bifurcations.py"),
-}  # fmt: skip
+    "psi.function": ("core/psi/test_psi.py",),
+    "psi.families": ("precision/test_steepness.py", "core/psi/test_psi.py"),
+    "bifurcations.geometry": ("core/bifurcations/test_bifurcations.py", "precision/test_bifurcations.py"),
+    "bifurcations.trace": ("core/bifurcations/test_bifurcations.py", "precision/test_bifurcations.py"),
+}
 
 
 class Allowed(NamedTuple):
@@ -72,7 +94,7 @@ ALLOWED: tuple[Allowed, ...] = (
     Allowed("layer_problem.equator", "SINGULAR = ", "A tolerance of a few roundings."),
     Allowed("layer_problem.equator", "abs(value) <= 1e-3 * size", _EXACT),
     Allowed("layer_problem.equator", "size = abs(a) + abs(d)", _EXACT),
-    Allowed("layer_problem.equator", "if m > 4", "General systems only: core/test_equator_general.py."),
+    Allowed("layer_problem.equator", "if m > 4", "General systems only: core/layer_problem/test_equator_zeros.py."),
     Allowed(
         "layer_problem.equator",
         "reached is not None and zeros.theta",

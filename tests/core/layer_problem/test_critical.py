@@ -1,0 +1,142 @@
+"""Critical sets against 50-digit arithmetic, finite differences and the paper's numbers."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from codim2_core import ELinear, critical_sets, hemisphere, psi, sliding_flow
+from codim2_core.layer_problem.critical import Existence, determinant_sign, locate
+from tests.core.strategies import regularisations, systems
+
+
+@given(systems, regularisations)
+def test_it_is_an_equilibrium_of_the_flow_and_of_50_digit_arithmetic(system, regularisation):
+    at = system.at()
+    with mpmath.workdps(80):  # exact: products of four doubles have up to 64 digits
+        a, b, d, f1, f2 = map(mpmath.mpf, at.plane)
+        det, n1, n2 = a * d + b * b, d * f1 + b * f2, a * f2 - b * f1
+        exists = det != 0 and n1**2 + n2**2 < det**2
+        blurred = abs(n1**2 + n2**2 - det**2) < 1e-14 * det**2
+        e = (-n1 / det, -n2 / det) if exists else None
+    found = critical_sets(system, regularisation)
+    if blurred and locate(at).existence is Existence.EQUATOR:
+        assert not found
+        return
+    assert len(found) == int(exists)
+    if not exists or max(map(abs, e)) > 1 - 1e-9:
+        return
+    C = found[0]
+    np.testing.assert_allclose(C.e, np.array(e, float), rtol=1e-14, atol=4e-16)
+    size = max(map(abs, at.plane))
+    np.testing.assert_allclose(hemisphere.flow(at, regularisation, C.p), 0.0, atol=1e-13 * size)
+    np.testing.assert_allclose(hemisphere.disc_from_scaling(C.x2), C.p, rtol=1e-14, atol=1e-300)
+
+
+@given(systems, regularisations)
+def test_jacobian_is_the_derivative_of_the_layer_problem(system, regularisation):
+    found = critical_sets(system, regularisation)
+    assume(found and np.hypot(*found[0].e) < 0.98)
+    C, at = found[0], system.at()
+
+    def U(x2):
+        zeta = float(np.hypot(*x2))
+        return at.U(x2 / math.sqrt(zeta**2 + regularisation(zeta**2)))
+
+    h = 1e-5 * (1 + np.hypot(*C.x2))
+    numeric = np.stack([(U(C.x2 + h * u) - U(C.x2 - h * u)) / (2 * h) for u in np.eye(2)], axis=1)
+    np.testing.assert_allclose(C.jacobian, numeric, atol=2e-7 * max(map(abs, at.plane)))
+    assert C.trace == pytest.approx(np.trace(C.jacobian), rel=1e-12, abs=1e-12)
+    expected = np.linalg.eigvals(C.jacobian)
+    scale = np.abs(C.jacobian).max()
+    assert np.prod(C.eigenvalues) == pytest.approx(C.determinant, rel=1e-10, abs=1e-12 * scale**2)
+    np.testing.assert_allclose(np.sort_complex(C.eigenvalues), np.sort_complex(expected), atol=1e-6 * scale)
+
+
+@pytest.mark.parametrize("n", range(1, 9))
+def test_case_three_trace_and_determinant(n):
+    system = ELinear(172, 186, -200, (-86, -93))
+    (C,) = critical_sets(system, psi.hill(n))
+    np.testing.assert_allclose(C.e, [0.5, 0.0], atol=1e-16)
+    assert C.trace == pytest.approx(-71 + 32.25 * n, rel=1e-13)
+    assert C.determinant == pytest.approx(147 + 36.75 * n, rel=1e-12)
+    assert C.discriminant == pytest.approx(C.trace**2 - 4 * C.determinant, rel=1e-11)
+
+
+@given(systems, st.floats(0, 2 * math.pi), st.sampled_from([10.0**-k for k in range(3, 16)]), st.booleans())
+def test_existence_changes_exactly_at_the_ellipse(system, angle, distance, inside):
+    a, b, d = (system.at().a, system.at().b, system.at().d)
+    assume(abs(a * d + b * b) > 1e-3 * (abs(a * d) + b * b) > 0)
+    unit = (math.cos(angle), math.sin(angle))
+    scale = 1 - distance if inside else 1 + distance
+    f = (scale * (a * unit[0] - b * unit[1]), scale * (b * unit[0] + d * unit[1]))
+    with mpmath.workdps(60):
+        A, B, D, F1, F2 = map(mpmath.mpf, (a, b, d, *f))
+        det, n1, n2 = A * D + B * B, D * F1 + B * F2, A * F2 - B * F1
+        gap = det**2 - n1**2 - n2**2
+        weight = 4 * (abs(det) * (abs(A * D) + B * B) + abs(n1) * (abs(D * F1) + abs(B * F2))
+                      + abs(n2) * (abs(A * F2) + abs(B * F1)))  # fmt: skip
+        blurred = abs(gap) <= weight * mpmath.mpf(2) ** -52
+    existence = locate(ELinear(a, b, d, f).at()).existence
+    if not blurred:
+        assert existence is (Existence.INSIDE if gap > 0 else Existence.NONE)
+    else:
+        assert existence in (Existence.EQUATOR, Existence.INSIDE if gap > 0 else Existence.NONE)
+
+
+@pytest.mark.parametrize("scale", [1e-150, 1e-40, 1.0, 1e40, 1e149])
+def test_the_border_is_named_at_every_scale(scale):
+    on = ELinear(-1 * scale, 0, -1 * scale, (0.6 * scale, 0.8 * scale)).at()
+    assert locate(on).existence is Existence.EQUATOR
+    within = ELinear(-1 * scale, 0, -1 * scale, (0.6 * scale, 0.8 * scale * (1 - 1e-14))).at()
+    assert locate(within).existence is Existence.INSIDE
+
+
+@pytest.mark.parametrize(
+    ("plane", "existence"),
+    [
+        ((1.0, 1.0, -1.0, 0.5, 0.5), Existence.SINGULAR_LINE),
+        ((1.0, 1.0, -1.0, 0.5, 0.4), Existence.SINGULAR_NONE),
+        ((1.0, 1.0, -1.0, 5.0, 5.0), Existence.SINGULAR_OUTSIDE),
+        ((0.0, 0.0, 0.0, 0.5, 0.5), Existence.SINGULAR_NONE),
+        ((0.0, 0.0, 0.0, 0.0, 0.0), Existence.EVERYTHING),
+        ((0.0, 0.0, 2.0, 0.0, 1.0), Existence.SINGULAR_LINE),
+        ((0.1 * 3, 0.3, -0.3, 0.0, 0.0), Existence.SINGULAR_LINE),
+    ],
+)
+def test_singular_matrices_are_named(plane, existence):
+    a, b, d, f1, f2 = plane
+    found = locate(ELinear(a, b, d, (f1, f2)).at())
+    assert found.existence is existence
+    assert critical_sets(ELinear(a, b, d, (f1, f2)), psi.constant()) == ()
+    for e in found.line or ():
+        assert np.hypot(*e) == pytest.approx(1.0, abs=1e-15)
+        np.testing.assert_allclose(ELinear(a, b, d, (f1, f2)).at().U(e), 0.0, atol=1e-15)
+
+
+@pytest.mark.parametrize("relative", [10.0**-k for k in range(3, 16)])
+def test_determinant_sign_either_side(relative):
+    assert determinant_sign(1.0 * (1 + relative), 1.0, -1.0) == -1
+    assert determinant_sign(1.0 * (1 - relative), 1.0, -1.0) == 1
+    assert determinant_sign(3e-120, 3e-120, -3e-120) == 0
+
+
+@given(systems)
+def test_sliding_is_the_filippov_flow_and_does_not_know_psi(system):
+    typed = ELinear(system.a, system.b, system.d, system.f, B=[[1.0, -2.0], [0.5, 3.0]], g=[0.25, -1.0])
+    flow, found = sliding_flow(typed), critical_sets(typed, psi.rational())
+    assert (flow is None) == (not found)
+    if found and abs(np.linalg.det(typed.at().A)) > 1e-6:
+        at = typed.at()
+        expected = -at.B @ np.linalg.solve(at.A, at.f) + at.g
+        np.testing.assert_allclose(flow, expected, rtol=1e-9, atol=1e-9)
+        np.testing.assert_array_equal(flow, found[0].slow_flow)
+
+
+def test_results_cannot_be_changed():
+    (C,) = critical_sets(ELinear(-1, 0, -1), psi.constant())
+    with pytest.raises(ValueError, match="read-only"):
+        C.e[0] = 1.0

@@ -1,0 +1,314 @@
+"""Critical sets of general systems: none is missing, each is one, J is exact, and what is degenerate has its name."""
+
+import math
+import time
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from codim2_core import critical_sets, hemisphere, psi, sliding_flow
+from codim2_core.expressions.arrays import polynomial_degree, program
+from codim2_core.layer_problem.disc_zeros import disc_zeros
+from codim2_core.numerics.intervals import enclose
+from codim2_core.systems.typed import System
+from tests.core.general_systems import ATTRACTING, NONUNIQUE, circle, polynomials, smooth, turns
+from tests.core.strategies import regularisations, systems
+
+FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3)]
+
+
+def zeros_of(*U, **parameters):
+    return disc_zeros(System(U=U, parameters=parameters).at().key)
+
+
+@pytest.mark.parametrize("regularisation", FAMILIES, ids=str)
+def test_attracting_and_repelling_directions(regularisation):
+    """eq:criticalman: x2 = +-sqrt((1 +- 2/sqrt 5) Psi(x2^2)), that is e = (1 +- sqrt 5)/4; a node and a saddle."""
+    minus, plus = critical_sets(ATTRACTING, regularisation, 0.7)
+    for C, sign, kind in ((minus, -1, "stable node"), (plus, 1, "saddle")):
+        np.testing.assert_allclose(C.e, [(1 + sign * math.sqrt(5)) / 4, 0.0], rtol=1e-15, atol=1e-17)
+        x = C.x2[0]
+        assert x == pytest.approx(sign * math.sqrt((1 + sign * 2 / math.sqrt(5)) * regularisation(x * x)), rel=1e-13)
+        assert C.kind == kind
+        np.testing.assert_allclose(C.slow_flow, [-0.7], rtol=1e-15)
+        radial, tangential = regularisation.jacobian_factors(abs(x))
+        np.testing.assert_allclose(
+            C.jacobian, [[(4 * C.e[0] - 1) * radial, 0], [0, -tangential]], rtol=1e-13, atol=1e-15
+        )
+
+
+@pytest.mark.parametrize("regularisation", FAMILIES, ids=str)
+@pytest.mark.parametrize("z", [0.0, 0.3, -2.0, 0.5])
+def test_nonunique_sliding(regularisation, z):
+    """sec:nonunique: C1, C2, C3 at c = -chi/2, 0, chi/2; nodes and a saddle between; z' = 1/4 - 2 c."""
+    chi = (1 + 2 * z**2) / (1 + z**2)
+    found = critical_sets(NONUNIQUE, regularisation, z)
+    np.testing.assert_allclose([C.e for C in found], [[-chi / 2, 0], [0, 0], [chi / 2, 0]], rtol=1e-14, atol=1e-17)
+    assert [C.kind for C in found] == ["stable node", "saddle", "stable node"]
+    np.testing.assert_allclose(sliding_flow(NONUNIQUE, z)[:, 0], [chi + 0.25, 0.25, 0.25 - chi], rtol=1e-14)
+    np.testing.assert_allclose([C.slow_flow[0] for C in found], sliding_flow(NONUNIQUE, z)[:, 0], rtol=1e-15)
+    assert disc_zeros(NONUNIQUE.at(z).key).consistent
+
+
+@given(systems, regularisations)
+@settings(max_examples=150)
+def test_elinear_systems_written_as_text(system, regularisation):
+    at = system.at()
+    a, b, d, f1, f2 = at.plane
+    closed = critical_sets(at, regularisation)
+    typed = System(U=(f"({a!r})*c - ({b!r})*s + ({f1!r})", f"({b!r})*c + ({d!r})*s + ({f2!r})"))
+    determinant, size = a * d + b * b, max(map(abs, at.plane))
+    reach = math.hypot(d * f1 + b * f2, a * f2 - b * f1)
+    assume(abs(determinant) > 1e-3 * size**2 and abs(reach / abs(determinant) - 1.0) > 1e-3)
+    found = critical_sets(typed, regularisation)
+    assert len(found) == len(closed)
+    for C, exact in zip(found, closed, strict=True):
+        np.testing.assert_allclose(C.e, exact.e, atol=1e-12)
+        np.testing.assert_allclose(C.p, exact.p, atol=1e-11)
+        np.testing.assert_allclose(C.jacobian, exact.jacobian, atol=1e-11 * size)
+        assert C.trace == pytest.approx(exact.trace, abs=1e-11 * size)
+        assert C.determinant == pytest.approx(exact.determinant, abs=1e-11 * size**2)
+        if abs(exact.trace) > 1e-9 * size and abs(exact.discriminant) > 1e-9 * size**2:
+            assert C.kind == exact.kind
+
+
+@given(st.one_of(polynomials, smooth))
+@settings(max_examples=120)
+def test_the_indices_add_up_to_the_turns_of_the_field(system):
+    """Independent of the search and of the zeros of Theta: angles of U added up along the circle."""
+    at = system.at()
+    counted = turns(at)
+    assume(counted is not None)
+    found = disc_zeros(at.key)
+    assert found.degree == counted
+    if not (found.curve or found.degenerate.any()):
+        assert found.proven
+        assert found.consistent
+
+
+@given(polynomials, st.tuples(st.floats(-0.6, 0.6), st.floats(-0.6, 0.6)), regularisations)
+@settings(max_examples=120)
+def test_a_zero_that_was_put_in_is_found(system, e, regularisation):
+    """Subtracting the value at e makes e a zero."""
+    at = system.at()
+    u, v = at.U(e)
+    shifted = System(U=(f"{system.U[0].text} - ({float(u)!r})", f"{system.U[1].text} - ({float(v)!r})"))
+    D = shifted.at().DU(e)
+    assume(abs(np.linalg.det(D)) > 1e-4 * np.abs(D).max() ** 2 > 0.0)
+    found = critical_sets(shifted, regularisation)
+    away = [np.abs(C.e - e).max() for C in found]
+    nearest = int(np.argmin(away))
+    assert away[nearest] < 1e-12 * shifted.at().size / np.linalg.svd(D, compute_uv=False)[1]
+    C = found[nearest]
+    assert (C.kind == "saddle") == (np.linalg.det(D) < 0)
+    np.testing.assert_allclose(hemisphere.flow(shifted.at(), regularisation, C.p), 0.0, atol=1e-13 * shifted.at().size)
+
+
+@pytest.mark.parametrize(
+    ("c", "s"),
+    [
+        ((-0.5, 0.1, 0.3), (-0.6, 0.2)),
+        ((0.0, 0.25, -0.5, 0.5), (0.0, 0.3, -0.45, 0.6)),
+        ((0.2, 0.2001), (0.0,)),
+        ((0.2, 0.200001), (0.1, -0.3)),
+        ((0.99,), (0.05,)),
+        ((0.9999,), (0.0, 1e-4)),
+    ],
+)
+def test_grids_of_zeros(c, s):
+    found = zeros_of("*".join(f"(c - {v})" for v in c), "*".join(f"(s - {v})" for v in s))
+    expected = sorted((u, v) for u in c for v in s if math.hypot(u, v) < 1)
+    assert found.proven
+    assert len(found.e) == len(expected)
+    np.testing.assert_allclose(sorted(map(tuple, found.e)), expected, atol=1e-14 / min([1e-3, *np.diff(sorted(c))]))
+    assert found.consistent
+
+
+@given(st.one_of(polynomials, smooth), regularisations)
+@settings(max_examples=80)
+def test_jacobian_against_the_complex_step(system, regularisation):
+    """J's formula, DU by the complex step in 30-digit arithmetic."""
+    at = system.at()
+    for C in critical_sets(at, regularisation):
+        h = mpmath.mpf("1e-25")
+        texts = [row.text for row in system.U]
+        functions = {"exp": mpmath.exp, "sin": mpmath.sin}
+        with mpmath.workdps(60):
+            c, s = map(mpmath.mpf, C.e.tolist())
+            D = [
+                [
+                    float(mpmath.im(eval(text, functions, {"c": c + 1j * h * i, "s": s + 1j * h * (1 - i)})) / h)
+                    for i in (1, 0)
+                ]
+                for text in texts
+            ]
+        zeta = float(np.hypot(*C.x2))
+        radial, tangential = regularisation.jacobian_factors(zeta)
+        u = C.e / np.hypot(*C.e) if C.e.any() else np.array([1.0, 0.0])
+        spread = tangential * np.eye(2) + (radial - tangential) * np.outer(u, u)
+        scale = np.abs(D).max() * max(radial, tangential)
+        np.testing.assert_allclose(C.jacobian, np.array(D) @ spread, atol=1e-12 * scale + 1e-40)
+        expected = np.linalg.eigvals(C.jacobian)
+        assert C.trace == pytest.approx(np.trace(C.jacobian), abs=1e-12 * scale)
+        np.testing.assert_allclose(np.sort_complex(C.eigenvalues), np.sort_complex(expected), atol=1e-6 * scale)
+
+
+def test_fold():
+    """c^2 = p: no critical set, one degenerate, two."""
+    assert len(zeros_of("c**2 - p", "s - 1/7", p=-1e-9).e) == 0
+    two = zeros_of("c**2 - p", "s - 1/7", p=1e-9)
+    np.testing.assert_allclose(two.e[:, 0], [-math.sqrt(1e-9), math.sqrt(1e-9)], rtol=1e-9)
+    assert two.index.tolist() == [-1, 1]
+    one = zeros_of("c**2 - p", "s - 1/7", p=0.0)
+    assert one.degenerate.tolist() == [True]
+    assert one.index.tolist() == [0]
+    assert one.proven
+    assert one.consistent
+    np.testing.assert_allclose(one.e, [[0.0, 1 / 7]], atol=1e-7)
+    (C,) = critical_sets(System(U=("c**2", "s - 1/7")), psi.rational())
+    assert C.kind == "saddle-node"
+    assert C.determinant == 0.0
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_three_critical_sets_that_meet(sign):
+    found = zeros_of(f"{sign}*(c - 0.1)**3", "s + 0.2*c")
+    assert found.degenerate.tolist() == [True]
+    assert found.index.tolist() == [sign]
+    assert found.proven
+    (C,) = critical_sets(System(U=(f"{sign}*(c - 0.1)**3", "s + 0.2*c")), psi.constant())
+    assert C.kind == "degenerate"
+
+
+def test_a_fold_beside_others():
+    found = zeros_of("(c - 0.3)**2*(c + 0.4)", "s")
+    np.testing.assert_allclose(found.e, [[-0.4, 0.0], [0.3, 0.0]], atol=1e-7)
+    assert found.degenerate.tolist() == [False, True]
+    assert found.index.tolist() == [1, 0]
+
+
+@pytest.mark.parametrize("shift", [-1e-9, 0.0, 1e-9])
+def test_a_zero_on_the_equator(shift):
+    found = zeros_of("(c - 0.6 - p*0.6)*(c + 2)", "s - 0.8 - p*0.8", p=shift)
+    assert len(found.e) == (1 if shift < 0 else 0)
+    np.testing.assert_allclose(found.on_equator, [math.atan2(0.8, 0.6)] * (shift == 0.0), atol=1e-14)
+    assert (found.degree is None) == (shift == 0.0)
+
+
+@pytest.mark.parametrize(
+    "U", [("c*(c - s)", "s*(c - s)"), ("c + s - 1/2", "2*c + 2*s - 1"), ("c*s", "0"), ("sin(3*c - s)", "3*c - s")]
+)
+def test_curves_of_zeros(U):
+    found = zeros_of(*U)
+    assert found.curve
+    assert len(found.e) == 0
+
+
+def test_a_curve_and_an_isolated_zero():
+    found = zeros_of("c*(c**2 + s**2 - 1/4)", "s*(c**2 + s**2 - 1/4)")
+    assert found.curve
+    np.testing.assert_allclose(found.e, [[0.0, 0.0]], atol=1e-17)
+
+
+def test_everything_stands_still():
+    assert zeros_of("0*c", "0").everything
+    assert zeros_of("c - c", "0").everything
+    assert not zeros_of("c**2 + s**2 - 1", "c**2 + s**2 - 1").everything
+
+
+def test_a_hole_is_not_decided():
+    """A pole inside: no zero there, but no proof either."""
+    found = zeros_of("c/(1/3 + s) - 1", "exp(c) - 1.2 + s")
+    assert not found.proven
+
+
+@given(st.one_of(polynomials, smooth), st.tuples(st.floats(-1, 1), st.floats(-1, 1)), st.floats(1e-6, 0.5))
+@settings(max_examples=200)
+def test_enclosures_contain(system, middle, half):
+    """The range of U and its derivatives over a box lies in the enclosure, by 30-digit arithmetic at random points."""
+    run = program(system.at().key)
+    out = np.empty((2, 6))
+    (c, s), work = middle, np.empty((len(run.op), 6))
+    enclose(*run.arrays, c - half, c + half, s - half, s + half, work, out)
+    points = np.array(middle) + half * np.random.default_rng(0).uniform(-1, 1, (50, 2))
+    values = run.at(points)
+    slack = 1e-14 * max(1.0, np.abs(values).max())
+    for row in range(2):
+        for j in range(3):
+            assert (values[:, row, j] >= out[row, 2 * j] - slack).all()
+            assert (values[:, row, j] <= out[row, 2 * j + 1] + slack).all()
+
+
+ROWS = ["sin(9*c)", "cos(9*s - 1)", "tan(c/2)", "exp(2*c)", "log(2 + s)", "sqrt(1.3 + c)", "tanh(3*s)", "sinh(c)",
+        "cosh(2*s)", "atan(5*c)", "abs(s)", "(c - s)**3", "(c - s)**4", "1/(2 + c)**2", "(2 + c)**1.5", "(2 + c)**s",
+        "c/(3 - s)", "-c*s"]  # fmt: skip
+
+
+@pytest.mark.parametrize("text", ROWS)
+def test_every_operation_is_enclosed_and_differentiated(text):
+    system = System(U=(text, "s"))
+    run = program(system.at().key)
+    rng = np.random.default_rng(3)
+    for half in (0.4, 0.05, 1e-4):
+        for c, s in rng.uniform(-0.6, 0.6, (20, 2)):
+            out, work = np.empty((2, 6)), np.empty((len(run.op), 6))
+            enclose(*run.arrays, c - half, c + half, s - half, s + half, work, out)
+            points = np.array([c, s]) + half * rng.uniform(-1, 1, (200, 2))
+            points[:4] = np.array([c, s]) + half * np.array([(1, 1), (1, -1), (-1, 1), (-1, -1)])
+            with np.errstate(all="ignore"):
+                exact = np.concatenate([system.at().U(points)[:, :1], system.at().DU(points)[:, 0]], axis=1)
+            values = run.at(points)[:, 0]
+            defined = np.isfinite(exact).all(axis=1)
+            np.testing.assert_allclose(values[defined], exact[defined], rtol=1e-14, atol=1e-15)
+            for j in range(3):
+                assert (exact[defined, j] >= out[0, 2 * j]).all()
+                assert (exact[defined, j] <= out[0, 2 * j + 1]).all()
+    tight = values[:, 0].max() - values[:, 0].min()
+    assert out[0, 1] - out[0, 0] < 3 * tight + 1e-12
+
+
+@pytest.mark.parametrize(
+    ("U", "degree"),
+    [(("c*s - 1", "(c + s)**3"), 3), (("c/2 + x*c**9", "exp(z)*s"), 9), (("c/s", "s"), None), (("exp(c)", "s"), None)],
+)
+def test_degree_of_polynomials(U, degree):
+    assert polynomial_degree(System(U=U).U) == degree
+
+
+def test_numbers_change_without_a_new_tape():
+    system = System(U=("p*c**2 - q", "s + z*p"), parameters={"p": 2.0, "q": 0.5})
+    for p, q, z in ((2.0, 0.5, 0.1), (1.0, 0.25, -0.2), (4.0, 0.09, 0.05)):
+        found = disc_zeros(system.evolve(p=p, q=q).at(z).key)
+        root = math.sqrt(q / p)
+        np.testing.assert_allclose(found.e, [[-root, -z * p], [root, -z * p]], rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    "U",
+    [
+        ("sin(400*c)*cos(300*s)", "cos(350*s*c) - sin(200*c)"),
+        (
+            "+".join(f"sin({k}*c)*cos({k}*s)" for k in range(1, 40)),
+            "+".join(f"cos({k}*c + {k}*s)" for k in range(1, 40)),
+        ),
+        ("abs(abs(c) - 0.5)", "abs(s)"),
+        ("(c**1000)**1000", "(s**1000)**1000"),
+        ("c**2 + s**2 - 1", "c**2 + s**2 - 1"),
+    ],
+)
+def test_wild_fields_end_in_bounded_time(U):
+    system = System(U=U).at()
+    disc_zeros(system.key)  # compiled
+    disc_zeros.cache_clear()
+    started = time.process_time()
+    disc_zeros(system.key)
+    assert time.process_time() - started < 6.0
+
+
+def test_points_outside_the_disc_are_no_critical_sets():
+    assert len(zeros_of("c - 1.01", "s").e) == 0
+    assert len(zeros_of("c - 0.8", "s - 0.8").e) == 0
+    assert len(circle(4)[1]) == 4

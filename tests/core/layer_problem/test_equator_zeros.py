@@ -1,0 +1,306 @@
+"""The equator of general systems: the paper's examples, closed forms, and zeros counted by a net that is much finer."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from codim2_core import ELinear, equator_cycle, equator_equilibria
+from codim2_core.layer_problem.equator_zeros import component_series, equator_zeros
+from codim2_core.numerics.fourier_zeros import series, zeros
+from codim2_core.systems.typed import System
+from tests.core.general_systems import ATTRACTING, NONUNIQUE, circle, polynomials, smooth, turns
+from tests.core.strategies import systems
+
+THIRD = math.pi / 3
+
+
+def test_attracting_and_repelling_directions():
+    """sec:mateslidecross: Q_i at (i - 1) pi/3; lambda_rho = 2 cos^3 - cos/2 - 1 (the paper's formula slips)."""
+    found = equator_equilibria(ATTRACTING, 0.3)
+    np.testing.assert_allclose(found.theta, [i * THIRD for i in range(6)], atol=2e-15)
+    np.testing.assert_allclose(found.lambda_rho, [0.5, -1, -1, -2.5, -1, -1], rtol=1e-14)
+    np.testing.assert_allclose(found.lambda_theta, [-1.5, 1.5] * 3, rtol=1e-14)
+    assert found.proven
+    assert "degree 3" in found.certificate
+    assert found.exact_count == 6
+    assert found.kind(0) == "radially repelling, angularly attracting"
+
+
+@pytest.mark.parametrize("z", [0.0, 0.5, -0.8, 0.84])
+def test_eight_directions_while_chi_is_small(z):
+    """sec:nonunique with the errata: 8 directions while |z| < 2^(-1/4)."""
+    chi2 = ((1 + 2 * z**2) / (1 + z**2)) ** 2
+    inner = math.acos(math.sqrt((chi2 + 2) / 4))
+    expected = sorted(
+        t % (2 * math.pi)
+        for t in (0, math.pi / 2, math.pi, -math.pi / 2, inner, -inner, math.pi + inner, math.pi - inner)
+    )
+    found = equator_equilibria(NONUNIQUE, z)
+    # near z = 0.84 the outer ones are about to meet at 0 and pi: a coefficient's rounding moves them by more
+    np.testing.assert_allclose(found.theta, expected, atol=4e-15 / inner)
+    assert (found.lambda_rho < 0).all()
+    np.testing.assert_array_equal(np.sign(found.lambda_theta), [1, -1] * 4)
+
+
+def test_four_directions_beyond():
+    found = equator_equilibria(NONUNIQUE, 0.842)
+    np.testing.assert_allclose(found.theta, [0, math.pi / 2, math.pi, 1.5 * math.pi], atol=1e-15)
+    np.testing.assert_array_equal(np.sign(found.lambda_theta), [-1, 1, -1, 1])
+
+
+def test_the_pitchfork_between_them_is_named():
+    found = equator_equilibria(System(U=("-c*(c**2 - 1/2)", "-s/2")))  # chi^2 = 2 exactly
+    np.testing.assert_array_equal(found.multiplicity, [3, 1, 3, 1])
+    np.testing.assert_array_equal(found.lambda_theta[[0, 2]], 0.0)
+    assert found.symmetric
+    assert found.kind(0) == "radially attracting, angularly non-hyperbolic: triple zero (pitchfork), weakly attracting"
+    assert found.distance == 0.0
+
+
+@given(systems)
+@settings(max_examples=200)
+def test_elinear_systems_written_as_text(system):
+    at = system.at()
+    a, b, d, f1, f2 = at.plane
+    closed = equator_equilibria(at)
+    typed = System(U=(f"({a!r})*c - ({b!r})*s + ({f1!r})", f"({b!r})*c + ({d!r})*s + ({f2!r})"))
+    found = equator_equilibria(typed)
+    assert found.all_directions == closed.all_directions
+    if closed.distance < 1e-9:
+        return
+    assert len(found) == len(closed)
+    assert found.proven
+    size = max(map(abs, at.plane))
+    np.testing.assert_allclose(found.theta, closed.theta, atol=1e-12)
+    np.testing.assert_allclose(found.lambda_rho, closed.lambda_rho, atol=1e-12 * size)
+    np.testing.assert_allclose(found.lambda_theta, closed.lambda_theta, atol=1e-12 * size)
+    orbit, exact = equator_cycle(typed), equator_cycle(at)
+    assert (orbit is None) == (exact is None)
+    if exact is not None:
+        assert orbit.direction == exact.direction
+        assert orbit.period == pytest.approx(exact.period, rel=1e-12)
+        assert orbit.exponent == pytest.approx(exact.exponent, rel=1e-11, abs=1e-12)
+        assert orbit.neutral == exact.neutral
+
+
+@given(st.one_of(polynomials, smooth))
+@settings(max_examples=60)
+def test_no_direction_is_missing_and_every_one_is_one(system):
+    at = system.at()
+    found = equator_equilibria(at)
+    assume(not found.all_directions)
+    assert found.proven
+    n = 20_000
+    theta, e = circle(n)
+    U = at.U(e)
+    Theta = e[:, 0] * U[:, 1] - e[:, 1] * U[:, 0]
+    size = np.abs(U).sum(axis=1).max()
+    changes = theta[np.flatnonzero((Theta > 0) != (np.roll(Theta, -1) > 0))]
+    if found.distance > 1e-6:
+        assert len(changes) == (found.multiplicity % 2 == 1).sum()
+    for t in changes:
+        away = np.abs(np.remainder(found.theta - t + math.pi, 2 * math.pi) - math.pi)
+        assert away.min() < 2 * 2 * math.pi / n
+    c, s = np.cos(found.theta), np.sin(found.theta)
+    at_zero = at.U(np.stack([c, s], axis=-1))
+    np.testing.assert_allclose(c * at_zero[:, 1] - s * at_zero[:, 0], 0.0, atol=4e-15 * size)
+    np.testing.assert_allclose(found.lambda_rho, c * at_zero[:, 0] + s * at_zero[:, 1], atol=1e-12 * size)
+    simple = found.multiplicity == 1
+    if simple.all() and len(found):
+        assert (np.sign(found.lambda_theta) == -np.sign(np.roll(found.lambda_theta, 1))).all()
+
+
+@given(st.one_of(polynomials, smooth))
+@settings(max_examples=50)
+def test_degree_of_the_field(system):
+    counted = turns(system.at())
+    assume(counted is not None)
+    assert equator_zeros(system.at().key).degree == counted
+
+
+@given(st.lists(st.floats(0.0, 6.28), min_size=2, max_size=8), st.floats(0.3, 2.0))
+@settings(max_examples=200)
+def test_zeros_that_were_put_in_are_found(angles, factor):
+    """A product of sin((theta - t)/2): an even number of zeros, any of them close together."""
+    angles = sorted(angles[: len(angles) // 2 * 2])
+    gaps = np.diff([*angles, angles[0] + 2 * math.pi])
+    assume(gaps.min() > 1e-4)
+    theta = circle(64)[0]
+    values = factor * np.prod([np.sin((theta - t) / 2) for t in angles], axis=0)
+    found = zeros(series(values, float(np.abs(values).max()), len(angles) // 2))
+    # close together they are ill-conditioned: rounding over the slope
+    slopes = [abs(np.prod([math.sin((t - u) / 2) for u in angles if u != t])) / 2 * factor for t in angles]
+    assume(min(slopes) > 1e-7 * np.abs(values).max())
+    assert len(found.theta) == len(angles)
+    assert found.proven
+    for t, slope in zip(angles, slopes, strict=True):
+        away = np.abs(np.remainder(found.theta - t + math.pi, 2 * math.pi) - math.pi).min()
+        assert away < 1e-14 * np.abs(values).max() / slope + 1e-15
+
+
+@pytest.mark.parametrize(
+    ("function", "multiplicity"),
+    [
+        (lambda t: 1 - np.cos(t - 1), [2]),
+        (lambda t: (1 - np.cos(t - 1)) ** 2, [4]),
+        (lambda t: np.sin(t - 1) ** 3, [3, 3]),
+        (lambda t: (1 - np.cos(t - 1)) * np.sin(t - 1.001), [2, 1, 1]),
+        (lambda t: (1 - np.cos(t - 1)) ** 2 * np.sin(t - 1), [5, 1]),
+        (lambda t: 1 - np.cos(t - 1) + 1e-11, []),
+        (lambda t: 1 - np.cos(t - 1) - 1e-11, [1, 1]),
+        (lambda t: (1 - np.cos(t - 1)) * (1 - np.cos(t - 2)), [2, 2]),
+    ],
+)
+def test_multiple_zeros(function, multiplicity):
+    values = function(circle(64)[0])
+    found = zeros(series(values, float(np.abs(values).max())))
+    assert found.multiplicity.tolist() == multiplicity
+    assert found.proven
+    assert (found.distance == 0.0) == any(m > 1 for m in multiplicity)
+    if len(multiplicity) == 1:
+        np.testing.assert_allclose(found.theta, 1.0, atol=1e-8)
+
+
+def test_saddle_node_of_limit_directions():
+    """Theta = sin(theta)^2 - p, with lambda_rho = -1: touching at p = 0."""
+
+    def at(p):
+        return equator_equilibria(System(U=("-c - s*(s**2 - p)", "-s + c*(s**2 - p)"), parameters={"p": p}))
+
+    assert at(0.0).multiplicity.tolist() == [2, 2]
+    np.testing.assert_allclose(at(0.0).theta, [0.0, math.pi], atol=1e-12)
+    assert len(at(-1e-6)) == 0
+    assert len(at(1e-6)) == 4
+    assert at(1e-6).distance == pytest.approx(1e-6, rel=1.0)
+
+
+def test_zero_of_the_whole_field_on_the_equator():
+    found = equator_equilibria(System(U=("2*c**2 - c - 1", "-s")))
+    assert found.radially_degenerate.tolist() == [True] + [False] * 5
+    assert found.lambda_rho[0] == 0.0
+    assert equator_zeros(System(U=("2*c**2 - c - 1", "-s")).at().key).degree is None
+
+
+@pytest.mark.parametrize("U", [("-3*c", "-3*s"), ("c*(1 + c*s)", "s*(1 + c*s)"), ("c**3 + c*s**2", "s*(c**2 + s**2)")])
+def test_all_directions(U):
+    found = equator_equilibria(System(U=U))
+    assert found.all_directions
+    assert len(found) == 0
+    assert found.exact_count == -1
+    assert equator_cycle(System(U=U)) is None
+
+
+def test_closed_equator_against_quadrature():
+    system = System(U=("-c - 3*s + c*s*exp(c)", "3*c - s/2 + tanh(s)/4"))
+    assert len(equator_equilibria(system)) == 0
+    orbit = equator_cycle(system)
+    mp = mpmath
+
+    def parts(t):
+        c, s = mp.cos(t), mp.sin(t)
+        u, v = -c - 3 * s + c * s * mp.exp(c), 3 * c - s / 2 + mp.tanh(s) / 4
+        return c * u + s * v, c * v - s * u
+
+    with mp.workdps(30):
+        knots = [2 * mp.pi * k / 8 for k in range(9)]
+        period = mp.quad(lambda t: 1 / abs(parts(t)[1]), knots)
+        exponent = mp.quad(lambda t: parts(t)[0] / abs(parts(t)[1]), knots)
+    assert orbit.direction == 1
+    assert orbit.period == pytest.approx(float(period), rel=1e-14)
+    assert orbit.exponent == pytest.approx(float(exponent), rel=1e-13)
+    assert orbit.stable_outside
+
+
+def test_neutral_closed_equator():
+    assert equator_cycle(System(U=("-s + c**3*s", "c + c**2*s**2"))).neutral  # lambda_rho = c^2 s, Theta = 1
+
+
+def test_a_field_with_a_kink_is_not_proven_but_found():
+    system = System(U=("-c/(1 + abs(s)) + 0.1", "-abs(s)*s - c/2"))
+    found = equator_equilibria(system)
+    theta, e = circle(100_000)
+    U = system.at().U(e)
+    Theta = e[:, 0] * U[:, 1] - e[:, 1] * U[:, 0]
+    changes = theta[np.flatnonzero((Theta > 0) != (np.roll(Theta, -1) > 0))]
+    np.testing.assert_allclose(found.theta, changes, atol=1e-4)
+    assert not found.proven
+    assert "not smooth" in found.certificate
+
+
+def test_high_degrees_are_resolved_or_said_not_to_be():
+    assert len(equator_equilibria(System(U=("-c - s*cos(30*c)", "-s + c*cos(30*c)")))) == 40  # 30 c = pi/2 + k pi
+    assert equator_equilibria(System(U=("-c - s*c**40", "-s + c*(c**40 - 1/2)"))).proven
+    assert not equator_equilibria(System(U=("-(c**1000)**100 + s", "-s*c**77 - 2*c"))).proven
+
+
+def test_rounding_of_a_zero_below_zero_is_zero():
+    assert equator_equilibria(System(U=("-c", "-2*s"))).theta[0] == 0.0
+
+
+def test_the_series_are_those_of_the_field():
+    at = NONUNIQUE.at(0.3)
+    theta, e = circle(50)
+    U = at.U(e)
+    expected = {
+        "U1": U[:, 0],
+        "U2": U[:, 1],
+        "rho": (U * e).sum(axis=1),
+        "theta": e[:, 0] * U[:, 1] - e[:, 1] * U[:, 0],
+    }
+    for kind, values in expected.items():
+        f = component_series(at.key, kind)
+        np.testing.assert_allclose(f.derivatives(theta, range(1))[0], values, atol=1e-15)
+        assert f.exact
+        assert f.degree == {"U1": 3, "U2": 1, "rho": 4, "theta": 4}[kind]
+
+
+def test_rotated_elinear_has_rotated_directions():
+    A, f = [[-1.0, 2.0], [0.5, -0.3]], (0.2, 0.1)
+    at = ELinear.from_matrix(A, f).at()
+    typed = System(U=("-c + 2*s + 0.2", "0.5*c - 0.3*s + 0.1"))
+    rotated = np.sort(np.remainder(equator_equilibria(at).theta - at.rotation, 2 * math.pi))
+    np.testing.assert_allclose(equator_equilibria(typed).theta, rotated, atol=1e-14)
+
+
+_NEAR = System(
+    U=("a*c - b*s + f1 + k*c**2*s", "b*c + d*s + f2"), parameters={"a": 0, "b": 0, "d": 0, "f1": 0, "f2": 0, "k": 0}
+)
+_thousandths = st.integers(-1000, 1000).map(lambda n: n / 1000)
+
+
+@given(_thousandths, _thousandths, _thousandths, _thousandths, _thousandths)
+@settings(max_examples=60)
+def test_across_saddle_nodes_counts_are_those_of_the_closed_form(a, d, f1, f2, from_b):
+    """Theta loses its last zeros as b grows: up to the loss, and past it, none is missed or made up."""
+    closed = lambda b: equator_equilibria(ELinear(a, b, d, (f1, f2)))  # noqa: E731
+    low, high = from_b, 4.0
+    assume(max(map(abs, (a, d, f1, f2, from_b))) > 0.0)
+    assume(len(closed(low)) > len(closed(high)) == 0)
+    while high - low > 1e-13:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if len(closed(middle)) else (low, middle)
+    for step in 10.0 ** np.arange(-10.0, -1.0, 0.7):
+        for b in (low - step, low + step):
+            exact = closed(b)
+            if exact.distance < 1e-11:
+                continue  # both may name the multiple zero, within their own roundings
+            for k in (0.0, 1e-4 * exact.distance * max(map(abs, (a, b, d, f1, f2)))):  # too little for a multiple zero
+                found = equator_equilibria(_NEAR.evolve(a=a, b=b, d=d, f1=f1, f2=f2, k=k))
+                assert len(found) == len(exact)
+                assert found.proven
+
+
+@pytest.mark.parametrize(("span", "d", "f"), [((-0.4, 0.4), -1.5, (-0.1, 0.05)), ((-1.2, 1.2), 0.5, (0.4, -0.8))])
+def test_a_dense_sweep_has_the_counts_of_the_closed_form(span, d, f):
+    typed = System(
+        U=(f"-c - b*s + ({f[0]!r})", f"b*c + ({d!r})*s + ({f[1]!r})"),
+        parameters={"b": 0.0},
+    )
+    for b in np.linspace(*span, 1001).tolist():
+        found, exact = equator_equilibria(typed.evolve(b=b)), equator_equilibria(ELinear(-1.0, b, d, f))
+        assert len(found) == len(exact)
+        assert found.proven

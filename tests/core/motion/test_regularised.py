@@ -1,0 +1,254 @@
+"""The regularised system: closed forms, independent integration, and every eps from 1e3 to 1e-12."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from codim2_core import ELinear, System, examples
+from codim2_core import psi as families
+from codim2_core.motion.field import field
+from codim2_core.motion.regularised import Event, SimulationStatus, simulate
+from codim2_core.numerics.radau import tableau
+from tests.core.strategies import coefficient, regularisations
+
+G = 9.81
+
+
+def reference(system, psi, eps, state0, t_end):
+    """The same motion by an explicit method of another kind, straight from the definitions."""
+
+    def rate(_, state):
+        xy, z = state[:2], tuple(state[2:])
+        r = math.hypot(*xy)
+        e = xy / math.sqrt(r * r + eps * eps * psi(r * r / (eps * eps)))
+        at = system.at(z)
+        return np.concatenate([at.U(e, xy), at.W(e, xy)])
+
+    return solve_ivp(rate, (0.0, t_end), state0, method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+
+
+def test_order_conditions_of_the_method():
+    table = tableau()
+    k = np.arange(1, 6)
+    powers = table.nodes[:, None] ** (k - 1)
+    np.testing.assert_allclose(table.A @ powers, table.nodes[:, None] ** k / k, atol=1e-14)
+    # The last row is the quadrature: exact up to degree 8, that is order 9, and no further.
+    for degree in range(9):
+        assert table.A[-1] @ table.nodes**degree == pytest.approx(1.0 / (degree + 1), abs=1e-13)
+    assert abs(table.A[-1] @ table.nodes**9 - 0.1) > 1e-7
+
+
+@settings(max_examples=15, deadline=None)
+@given(coefficient, coefficient, coefficient, coefficient, coefficient, regularisations, st.sampled_from((2.0, 0.3)))
+def test_agrees_with_another_method(a, b, d, f1, f2, psi, eps):
+    system = ELinear(a, b, d, (f1, "f2 + z"), B=((0.5, -1.0),), g=("1 - z",), parameters={"f2": f2})
+    state0 = (0.4, -0.3, 0.2)
+    run = simulate(system, psi, eps, state0, (0.0, 1.0), rtol=1e-10, atol=1e-12)
+    assert run.status is SimulationStatus.T_END
+    np.testing.assert_allclose(run.states[-1], reference(system, psi, eps, state0, 1.0), rtol=1e-7, atol=1e-8)
+
+
+@pytest.mark.parametrize("name", ["attracting_repelling", "nonunique_sliding", "unit_vector_control"])
+def test_general_systems_agree_with_another_method(name):
+    system = getattr(examples, name)()
+    state0 = np.array([0.5, 0.4, *([0.3, -0.2][: system.m])])
+    run = simulate(system, families.rational(), 0.1, state0, (0.0, 2.0), rtol=1e-11, atol=1e-13)
+    np.testing.assert_allclose(run.states[-1], reference(system, families.rational(), 0.1, state0, 2.0), atol=1e-9)
+
+
+@pytest.mark.parametrize("eps", [1e3, 1.0, 1e-3, 1e-6, 1e-10, 1e-12])
+@pytest.mark.parametrize("state0", [(1.0, 0.5, -1.0, 0.4), (0.0, 0.0, 3.0, 1.0)])
+def test_any_eps_without_choosing_a_method(eps, state0):
+    run = simulate(examples.ball_in_pool(), families.hill(2), eps, state0, (0.0, 3.0))
+    assert run.status is SimulationStatus.T_END
+    assert run.times[-1] == 3.0
+    assert np.isfinite(run.states).all()
+    assert (np.diff(run.times) >= 0.0).all()
+    assert run.invariant < 1e-12
+    if eps < 1e-2:  # it has come to Sigma, and rolls
+        assert run.phases[-1].kind == "slide"
+        assert np.hypot(*run.states[-1, :2]) < 20.0 * eps
+
+
+def test_a_small_eps_costs_no_more_than_five_times_a_large_one():
+    def work(eps):
+        return simulate(
+            examples.ball_in_pool(K=2.0), families.constant(), eps, (-1.0, 0.3, 10.0, 0.0), (0.0, 4.0)
+        ).evaluations
+
+    assert work(1e-10) < 5 * work(1e-3)
+
+
+def test_textbook_ball_to_order_eps():
+    mu, eps = 0.25, 1e-9
+    run = simulate(
+        examples.ball_in_pool(K=0.0, mu=mu), families.exponential(), eps, (2.0, 0.0, 2.0, 0.0), (0.0, 2.0), rtol=1e-11
+    )
+    slips = 2.0 * 2.0 / (7.0 * mu * G)
+    assert [phase.kind for phase in run.phases] == ["slip", "slide"]
+    assert run.phases[0].t_end == pytest.approx(slips, abs=40 * eps)
+    assert run.states[-1, 2] == pytest.approx(5.0 / 7.0 * 2.0, abs=2 * eps)
+    # While it slips everything is linear in time, whatever eps.
+    t = np.linspace(0.0, 0.9 * slips, 7)
+    np.testing.assert_allclose(run.dense(t)[:, 2], 2.0 - mu * G * t, atol=1e-9)
+
+
+def test_sliding_decays_as_it_should():
+    eps, K, m = 1e-11, 1.5, 1.2
+    run = simulate(
+        examples.ball_in_pool(K=K, m=m), families.constant(), eps, (0.0, 0.0, 2.0, -1.0), (0.0, 3.0), rtol=1e-11
+    )
+    t = np.linspace(0.1, 3.0, 9)
+    np.testing.assert_allclose(run.dense(t)[:, 2:], np.outer(np.exp(-5 * K * t / (7 * m)), (2.0, -1.0)), atol=1e-9)
+
+
+def test_dense_output_between_steps():
+    system, psi, eps, state0 = examples.nonunique_sliding(), families.constant(), 0.05, (0.3, 0.2, 0.1)
+    run = simulate(system, psi, eps, state0, (0.0, 1.5), rtol=1e-10)
+    for t in (0.123, 0.7, 1.234):
+        np.testing.assert_allclose(run.dense(t), reference(system, psi, eps, state0, t), atol=1e-7)
+    np.testing.assert_array_equal(run.dense(run.times), run.states)
+    assert run.dense(np.zeros((2, 3))).shape == (2, 3, 3)
+    with pytest.raises(ValueError, match="known for"):
+        run.dense(1.6)
+
+
+def test_an_unstable_critical_set_is_left_and_not_damped():
+    # U = e: x2 = 0 repels at the rate 1/eps. L-stable steps longer than eps would hold the motion there.
+    system, eps = ELinear(1.0, 0.0, 1.0), 1e-6
+    run = simulate(system, families.constant(), eps, (1e-12, 0.0), (0.0, 1.0))
+    # It grows as exp(t/eps) up to x = eps, which takes some 14 eps, and then moves at speed 1.
+    assert 1.0 - 20 * eps < run.states[-1, 0] < 1.0 - 10 * eps
+    assert run.phases[-1].kind == "slip"
+
+
+def test_crossing_is_named():
+    run = simulate(examples.ball_in_pool(K=2.0), families.constant(), 1e-8, (1.0, 0.0, 12.0, 0.0), (0.0, 3.0))
+    assert [phase.kind for phase in run.phases] == ["slip", "cross", "slip", "slide"]
+    assert all(a.t_end == b.t_start for a, b in zip(run.phases, run.phases[1:], strict=False))
+    assert run.phases[0].t_start == 0.0
+    assert run.phases[-1].t_end == 3.0
+    assert run.phase_at(1.0) is run.phases[2]
+
+
+def test_events_are_found_and_stop():
+    def fell_to_half(t, state):
+        return state[2] - 0.9
+
+    ball = examples.ball_in_pool(K=0.0, mu=0.2)
+    exact = 0.1 / (0.2 * G)
+    run = simulate(ball, families.constant(), 1e-6, (1.0, 0.0, 1.0, 0.0), (0.0, 1.0), events=(fell_to_half,))
+    assert run.status is SimulationStatus.T_END
+    np.testing.assert_allclose(run.events[0], [exact], atol=1e-9)
+    stop = Event(fell_to_half, terminal=True, direction=-1)
+    rises = Event(lambda t, state: -fell_to_half(t, state), direction=-1)
+    run = simulate(ball, families.constant(), 1e-6, (1.0, 0.0, 1.0, 0.0), (0.0, 1.0), events=(rises, stop))
+    assert run.status is SimulationStatus.EVENT
+    assert run.times[-1] == pytest.approx(exact, abs=1e-9)
+    assert len(run.events[0]) == 0
+    assert run.states[-1, 2] == pytest.approx(0.9, abs=1e-9)
+
+
+def test_only_the_length_of_time_matters():
+    for eps in (1e-3, 1e-12):
+        early, late = (
+            simulate(examples.ball_in_pool(), families.constant(), eps, (1.0, 0.5, -1.0, 0.4), (t, t + 3.0))
+            for t in (0.0, 1000.0)
+        )
+        np.testing.assert_allclose(early.states[-1], late.states[-1], rtol=1e-9, atol=1e-12)
+        assert late.times[-1] == 1003.0
+
+
+def test_a_limit_cycle_ends_at_the_step_limit():
+    system = ELinear(172.0, 186.0, -200.0, (-86.0, -93.0), B=((0.5, 0.0),))
+    run = simulate(system, families.hill(4), 1e-8, (5.5e-9, 0.0, 0.0), (0.0, 1.0), max_steps=300)
+    assert run.status is SimulationStatus.STEP_LIMIT
+    assert "limit cycle" in run.reason
+    assert 0.0 < run.times[-1] < 1.0
+
+
+def test_frozen_systems_and_no_slow_variables():
+    for system in (ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), System(U=("-c - s/2 + 1/10", "c/2 - s"))):
+        run = simulate(system, families.constant(), 0.01, (1.0, 0.2), (0.0, 2.0))
+        again = simulate(system.at(), families.constant(), 0.01, (1.0, 0.2), (0.0, 2.0))
+        assert run.states.shape[1] == 2
+        np.testing.assert_array_equal(run.states, again.states)
+    ball = examples.ball_in_pool()
+    frozen = simulate(ball.at((1.0, 0.0)), families.constant(), 0.1, (1.0, 0.0, 5.0, 0.0), (0.0, 1.0))
+    by_hand = ELinear(-6.867, 0.0, -6.867, (-1.0, 0.0), B=((-1.962, 0.0), (0.0, -1.962)), g=(-1.0, 0.0))
+    other = simulate(by_hand, families.constant(), 0.1, (1.0, 0.0, 5.0, 0.0), (0.0, 1.0))
+    np.testing.assert_allclose(frozen.states[-1], other.states[-1], rtol=1e-9, atol=1e-11)
+
+
+def test_formulas_with_corners_and_edges():
+    system = System(U=("-abs(c) - c/2 + z/4", "-s"), W=("1/3",))
+    run = simulate(system, families.constant(), 1e-3, (0.0, 0.0, 0.0), (0.0, 2.0))
+    assert run.status is SimulationStatus.T_END
+    system = System(U=("-c", "-s"), W=("-1/2 + log(z) - log(z)",))  # undefined from t = 2 on
+    run = simulate(system, families.constant(), 1e-3, (1.0, 0.0, 1.0), (0.0, 3.0))
+    assert run.status is SimulationStatus.STEP_LIMIT
+    assert run.times[-1] == pytest.approx(2.0, abs=1e-6)
+
+
+SYSTEMS = [
+    examples.ball_in_pool(),
+    examples.nonunique_sliding(),
+    examples.tilting_block(),
+    examples.ball_on_turntable(),
+    examples.unit_vector_control(),
+    ELinear.from_matrix([[1.0, 2.0], [0.5, -3.0]], (0.1, "z"), B=((1.0, 2.0),), g=("z**2",)),
+]
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_fields_are_those_of_the_system_with_exact_slopes(system):
+    formulas, rng = field(system), np.random.default_rng(1)
+    for _ in range(5):
+        point = rng.uniform(-0.8, 0.8, 4 + system.m)
+        at = system.at(tuple(point[4:]))
+        expected = np.concatenate([at.U(point[:2], point[2:4]), at.W(point[:2], point[2:4])])
+        np.testing.assert_allclose(formulas.value(*point), expected, rtol=1e-13, atol=1e-13)
+        slopes = formulas.jacobian(*point[:4], point[4:])
+        for j in range(len(point)):
+            h = 1e-5 * np.eye(len(point))[j]
+            central = (np.array(formulas.value(*(point + h))) - formulas.value(*(point - h))) / 2e-5
+            np.testing.assert_allclose(slopes[:, j], central, rtol=1e-8, atol=1e-8)
+
+
+def test_axes_that_turn_with_z_are_refused():
+    with pytest.raises(ValueError, match="turn the axes"):
+        field(ELinear.from_matrix([["z", 1.0], [0.0, 1.0]], g=(1.0,)))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"eps": 0.0}, "eps"),
+        ({"eps": math.nan}, "eps"),
+        ({"state0": (1.0, 0.0)}, "state0"),
+        ({"state0": (1.0, 0.0, math.inf, 0.0)}, "finite"),
+        ({"t_span": (1.0, 1.0)}, "t_start < t_end"),
+        ({"t_span": 3.0}, "t_span"),
+        ({"rtol": 1e-20}, "rtol"),
+        ({"atol": 0.0}, "atol"),
+        ({"max_steps": 0}, "max_steps"),
+    ],
+)
+def test_wrong_arguments_say_so(changes, message):
+    given_ = {"eps": 0.1, "state0": (1.0, 0.0, 1.0, 0.0), "t_span": (0.0, 1.0), **changes}
+    eps, state0, t_span = given_.pop("eps"), given_.pop("state0"), given_.pop("t_span")
+    with pytest.raises(ValueError, match=message):
+        simulate(examples.ball_in_pool(), families.constant(), eps, state0, t_span, **given_)
+
+
+def test_results_are_read_only():
+    run = simulate(examples.ball_in_pool(), families.constant(), 0.1, (1.0, 0.0, 1.0, 0.0), (0.0, 1.0))
+    for array in (run.times, run.states):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0.0

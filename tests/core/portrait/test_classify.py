@@ -1,0 +1,96 @@
+"""Names of portraits: the theorems as properties, the borders by name."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+
+from codim2_core import ELinear, classify, critical_sets, equator_equilibria, psi
+from tests.core.strategies import regularisations, systems
+
+
+def names(system, regularisation=None):
+    return {d.name for d in classify(system, regularisation or psi.constant()).degeneracies}
+
+
+@given(systems, regularisations)
+def test_cases_are_those_of_the_table(system, regularisation):
+    at, found = system.at(), classify(system, regularisation)
+    det = at.a * at.d + at.b**2
+    assume(at.a != 0 and at.d != 0 and abs(det) > 1e-9)
+    expected = "I" if at.a * at.d > 0 else "II" if det < 0 else "III"
+    assert found.case == expected
+    assert found.sentence.startswith(f"Case {expected}, {found.name}.")
+
+
+@given(systems, regularisations)
+def test_theorems_case1_and_case2(system, regularisation):
+    found = classify(system, regularisation)
+    assume(not found.degeneracies)
+    count = len(equator_equilibria(system).theta)
+    if found.case == "I":
+        assert found.name in ("CM0", "CM2", "CM4", "NCM2", "NCM4")  # thm:case1(c)
+        for C in critical_sets(system, regularisation):
+            assert C.kind.split()[0] == ("stable" if system.at().a < 0 else "unstable")
+    if found.case == "II":
+        assert found.name in ("CM4", "NCM2", "NCM4")  # thm:case2
+        assert all(C.kind == "saddle" for C in critical_sets(system, regularisation))
+    assert count in (0, 2, 4)
+
+
+@given(systems, regularisations)
+def test_index_of_the_critical_set_is_the_degree_on_the_equator(system, regularisation):
+    found = classify(system, regularisation)
+    assume(not found.degeneracies)
+    at = system.at()
+    theta = np.linspace(0, 2 * np.pi, 4001)
+    U = at.U(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
+    turn = np.diff(np.unwrap(np.arctan2(U[:, 1], U[:, 0])))
+    assume(np.abs(turn).max() < 0.5)
+    index = sum(-1 if C.kind == "saddle" else 1 for C in critical_sets(system, regularisation))
+    assert index == round(turn.sum() / (2 * np.pi))
+
+
+@pytest.mark.parametrize(
+    ("system", "name", "degeneracy"),
+    [
+        (ELinear(-1, 0, -1), "CM∞", "all directions"),
+        (ELinear(-1, 0, -1.5, (-0.5, 0)), "CM2", "pitchfork"),
+        (ELinear(-1, 1, -1, (0.6, 0.8)), "CM1", "saddle-node"),
+        (ELinear(-1, 0, -1, (0.6, 0.8)), "NCM2", "transcritical"),
+        (ELinear(1, 1, -1, (0.5, 0.5)), "NCM3", "line of critical points"),
+        (ELinear(1, 1, -1, (0.5, 0.2)), "NCM2", "det A = 0"),
+        (ELinear(0, 0, 0), "NCM∞", "everything stands still"),
+        (ELinear(0, 1, 0), "CM0", "tr J = 0"),
+        (ELinear(0, 1, 0), "CM0", "neutral equator"),
+        (ELinear(0, 1, 0), "CM0", "a = d = 0"),
+        (ELinear(0, 1, -1), "CM0", "a = 0"),
+    ],
+)
+def test_degenerate_settings_are_named(system, name, degeneracy):
+    found = classify(system, psi.constant())
+    assert degeneracy in {d.name for d in found.degeneracies}
+    if name not in ("NCM3", "NCM2"):
+        assert found.name == name
+    assert all(d.sentence.endswith(".") for d in found.degeneracies)
+
+
+@pytest.mark.parametrize("relative", [10.0**-k for k in range(3, 16)])
+@pytest.mark.parametrize("scale", [1e-150, 1.0, 1e149])
+def test_either_side_of_a_border_has_its_own_name(relative, scale):
+    def at(f1, f2):
+        return ELinear(-scale, scale, -scale, (f1 * scale, f2 * scale))
+
+    assert classify(at(0.6, 0.8 * (1 - relative)), psi.constant()).name == "CM0"
+    assert classify(at(0.6, 0.8 * (1 + relative)), psi.constant()).name == "CM2"
+
+    def slip(f1):  # the ball: a = d, b = 0
+        return ELinear(-scale, 0, -scale, (f1 * scale, 0))
+
+    assert classify(slip(1 - relative), psi.constant()).name == "CM2"
+    assert classify(slip(1 + relative), psi.constant()).name == "NCM2"
+
+
+def test_hopf_in_case_three_is_named_at_its_parameter():
+    system = ELinear(172, 186, -200, (-86, -93))
+    assert names(system, psi.hill(284 / 129)) == {"tr J = 0"}
+    assert names(system, psi.hill(2)) == names(system, psi.hill(3)) == set()

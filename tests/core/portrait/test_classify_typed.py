@@ -1,0 +1,110 @@
+"""Names of general portraits: counts, degeneracies, and the e-linear name where the field is affine."""
+
+import math
+
+import pytest
+from hypothesis import assume, given, settings
+
+from codim2_core import ELinear, classify, psi
+from codim2_core.systems.typed import System
+from tests.core.general_systems import ATTRACTING, NONUNIQUE, polynomials
+from tests.core.strategies import regularisations, systems
+
+RATIONAL = psi.rational()
+
+
+def names(*U, **parameters):
+    return [d.name for d in classify(System(U=U, parameters=parameters), RATIONAL).degeneracies]
+
+
+def test_names_of_the_examples():
+    found = classify(ATTRACTING, RATIONAL, 0.4)
+    assert found.case is None
+    assert found.name == "2 critical sets, 6 limit directions"
+    assert found.degeneracies == ()
+    assert "reach Σ along 5 and leave it along 1" in found.sentence
+    assert "one way to slide stably" in found.sentence
+    assert classify(NONUNIQUE, RATIONAL, 0.4).name == "3 critical sets, 8 limit directions"
+    assert "2 ways to slide stably" in classify(NONUNIQUE, RATIONAL, 0.4).sentence
+    assert classify(NONUNIQUE, RATIONAL, 1.0).name == "3 critical sets, 4 limit directions"
+
+
+@given(systems, regularisations)
+@settings(max_examples=60)
+def test_affine_systems_have_the_name_of_the_normal_form(system, regularisation):
+    at = system.at()
+    a, b, d, f1, f2 = at.plane
+    # turned by a right angle: (c, s) -> (s, -c) and the rows likewise
+    typed = System(U=(f"({d!r})*c - ({b!r})*s + ({f2!r})", f"({b!r})*c + ({a!r})*s - ({f1!r})"))
+    expected = classify(at, regularisation)
+    assume(not expected.degeneracies)
+    found = classify(typed, regularisation)
+    assert (found.case, found.name, found.sentence) == (expected.case, expected.name, expected.sentence)
+
+
+def test_affine_form():
+    system = System(U=("p*c - s + z", "c - 2*s"), W=("-z",), parameters={"p": -1.0})
+    form = system.at(0.25).normal_form
+    expected = ELinear.from_matrix([[-1.0, -1.0], [1.0, -2.0]], (0.25, 0.0)).at()
+    assert form.plane == pytest.approx(expected.plane)
+    assert System(U=("c**2", "s")).at().normal_form is None
+    assert System(U=("c + x", "s")).at().normal_form is None
+
+
+@given(polynomials, regularisations)
+@settings(max_examples=60)
+def test_psi_never_changes_the_name(system, regularisation):
+    assert classify(system, regularisation).name == classify(system, RATIONAL).name
+
+
+def test_degeneracies_are_named():
+    assert names("-c - s*s**2", "-s + c*s**2") == ["saddle-node"]
+    assert names("-c*(c**2 - 1/2)", "-s/2") == ["pitchfork"]
+    assert names("-c*(1 + c*s)", "-s*(1 + c*s)") == ["all directions"]
+    assert names("2*c**2 - c - 1", "-s") == ["transcritical"]
+    assert "fold" in names("c**2", "s - 1/7")
+    assert "degenerate critical set" in names("c**3", "s - 1/7")
+    assert "curve of critical points" in names("c*(c - s)", "s*(c - s) + s*(c - s)")
+    assert "everything stands still" in names("c - c", "0*s")
+    assert "limit directions uncertain" in names("-c/(1 + abs(s)) + 0.1", "-abs(s)*s - c/2")
+    assert "critical sets uncertain" in names("c/(1/3 + s) - 1", "exp(c) - 1.2 + s")
+
+
+def test_neutral_equator_and_hopf():
+    neutral = names("-s + c**3*s", "c + c**2*s**2")
+    assert "neutral equator" in neutral
+    assert "tr J = 0" in neutral
+    assert "tr J = 0" not in names("p*c - s + c**2", "c + p*s", p=1e-9)
+    assert "tr J = 0" in names("p*c - s + c**2", "c - p*s", p=0.5)
+
+
+def test_cusp_of_limit_directions():
+    """Theta = (theta - t0)^3 (...) without symmetry: sin^3 times something uneven."""
+    found = classify(System(U=("-c - s*s**3*(2 + c + s)", "-s + c*s**3*(2 + c + s)")), RATIONAL)
+    assert "cusp" in [d.name for d in found.degeneracies]
+
+
+def test_sentences_say_why_an_equator_is_uncertain():
+    (found,) = [
+        d
+        for d in classify(System(U=("-c/(1 + abs(s)) + 0.1", "-abs(s)*s - c/2")), RATIONAL).degeneracies
+        if d.name == "limit directions uncertain"
+    ]
+    assert "No proof" in found.sentence
+
+
+@pytest.mark.parametrize("k", [1, 2, 3])
+def test_plurals(k):
+    factors = "*".join(f"(c - {0.3 * math.cos(2 * math.pi * i / k):.3f})" for i in range(k)) if k < 3 else "c**3 - c/9"
+    name = classify(System(U=(factors, "s + c*s")), RATIONAL).name
+    assert name.startswith("1 critical set," if k == 1 else f"{k} critical sets,")
+
+
+@pytest.mark.parametrize("k", ["1e-140", "1", "1e140"])
+def test_the_unit_of_time_changes_nothing(k):
+    assert (
+        classify(System(U=(f"{k}*(2*c**2 - c - 1/2)", f"-{k}*s")), RATIONAL).name
+        == classify(ATTRACTING, RATIONAL, 0.0).name
+    )
+    assert "fold" in names(f"{k}*c**2", f"{k}*(s - 1/7)")
+    assert names(f"{k}*(-c*(1 + c*s))", f"-{k}*s*(1 + c*s)") == ["all directions"]

@@ -1,0 +1,149 @@
+"""Nullclines: the field component vanishes on every point, no branch is missing, none is falsely joined."""
+
+import math
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from codim2_core import ELinear, critical_sets, equator_equilibria, hemisphere, nullclines, psi
+from tests.core.strategies import regularisations, systems
+
+module = sys.modules["codim2_core.portrait.nullclines"]
+QUARTER_PIXEL = 0.25 / 180
+
+
+def component(branch, system, regularisation, points):
+    """The component of U that should vanish, by the plain formulas, and its natural size."""
+    at = system.at()
+    if branch.inside:
+        U = at.U(hemisphere.e_psi(regularisation, points))
+    else:
+        U = at.U(points / np.hypot(points[:, :1], points[:, 1:]))
+    r = np.hypot(points[:, 0], points[:, 1])
+    radial, angular = points / np.maximum(r, 1e-300)[:, None], None
+    angular = np.stack([-radial[:, 1], radial[:, 0]], axis=-1)
+    values = {"rho": (U * radial).sum(1), "theta": (U * angular).sum(1), "U1": U[:, 0], "U2": U[:, 1]}
+    return values[branch.kind] * (r > 1e-9)
+
+
+@given(systems, regularisations)
+def test_the_component_vanishes_on_every_point(system, regularisation):
+    size = max(map(abs, system.at().plane))
+    for branch in nullclines(system, regularisation):
+        assert np.isfinite(branch.points).all()
+        if not branch.inside and branch.kind in ("U1", "U2"):
+            continue
+        r = np.hypot(branch.points[:, 0], branch.points[:, 1])
+        assert (r <= 1 + 1e-12).all() if branch.inside else (r >= 1 - 1e-12).all()
+        points = branch.points[(r < 1 - 1e-6) | (not branch.inside)]
+        # Psi = 1 is a closed form; else the radius is read from a table to a tenth of a pixel, and the e-disc is
+        # steep in |p| there by d|e|/d|p| <= 8 for these families.
+        atol = 3e-7 if regularisation.family == "constant" else 8 * 0.1 / 180
+        np.testing.assert_allclose(component(branch, system, regularisation, points), 0.0, atol=atol * size)
+
+
+@given(systems)
+def test_no_branch_is_missing(system):
+    """Each sign change of the component along a circle has a branch point there (Psi = 1)."""
+    at, one = system.at(), psi.constant()
+    branches = nullclines(system, one)
+    for r in (0.35, 0.8):
+        theta = np.linspace(0, 2 * math.pi, 2001)
+        circle = r * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+        U = at.U(circle)
+        u = circle / r
+        parts = {
+            "rho": (U * u).sum(1),
+            "theta": U[:, 1] * u[:, 0] - U[:, 0] * u[:, 1],
+            "U1": U[:, 0],
+            "U2": U[:, 1],
+        }
+        size = max(map(abs, at.plane)) + 1e-300
+        for kind, values in parts.items():
+            safe = np.abs(values) > 1e-3 * size
+            for i in np.flatnonzero(values[:-1] * values[1:] < 0):
+                if not (safe[max(i - 20, 0)] and safe[min(i + 21, 2000)]):
+                    continue  # nearly tangent: a crossing there is no sharp statement
+                here = 0.5 * (circle[i] + circle[i + 1])
+                nearest = min(
+                    (distance_to_polyline(here, b.points) for b in branches if b.kind == kind and b.inside),
+                    default=math.inf,
+                )
+                assert nearest < 5e-3, (kind, here)
+
+
+def distance_to_polyline(point, line):
+    start, step = line[:-1], np.diff(line, axis=0)
+    length = np.maximum((step**2).sum(1), 1e-300)
+    t = np.clip(((point - start) * step).sum(1) / length, 0, 1)
+    return np.hypot(*(start + t[:, None] * step - point).T).min()
+
+
+def exactly_onto_disc(regularisation, e):
+    m = np.hypot(e[:, 0], e[:, 1])
+    inside = (m > 0) & (m < 1 - 1e-15)
+    zeta = regularisation.radius(np.where(inside, m, 0.5))
+    return e * np.where(inside, zeta / np.hypot(1, zeta) / np.where(m > 0, m, 1), 1.0)[:, None]
+
+
+def worst_gap(system, regularisation, monkeypatch):
+    """Largest distance of a fine version of each inside branch from the drawn polyline."""
+    drawn = [b for b in nullclines(system, regularisation) if b.inside]
+    with monkeypatch.context() as fine:
+        # The exact radius instead of the table, and thirty times the points.
+        fine.setattr(module, "_onto_disc", exactly_onto_disc)
+        fine.setattr(module, "POINTS", 2049)
+        fine.setattr(module, "_GRID", 0.5 - 0.5 * np.cos(np.linspace(0.0, math.pi, 2049)))
+        exact = [b for b in nullclines(system, regularisation) if b.inside]
+    assert [b.kind for b in drawn] == [b.kind for b in exact]
+    gaps = [distance_to_polyline(p, a.points) for a, b in zip(drawn, exact, strict=True) for p in b.points[::3]]
+    return max(gaps, default=0.0)
+
+
+@settings(max_examples=30)
+@given(systems, regularisations)
+def test_polylines_stay_within_a_quarter_pixel(system, regularisation):
+    with pytest.MonkeyPatch.context() as patch:
+        assert worst_gap(system, regularisation, patch) < QUARTER_PIXEL
+
+
+def test_nullclines_meet_at_the_critical_set_and_end_at_the_limit_directions():
+    system, one = ELinear(-2, 0.3, -1, (-0.5, 0.2)), psi.rational()
+    (C,) = critical_sets(system, one)
+    for kind in ("rho", "theta", "U1", "U2"):
+        inside = [b for b in nullclines(system, one) if b.kind == kind and b.inside]
+        assert min(distance_to_polyline(C.p, b.points) for b in inside) < 1e-3
+    ends = [b.points[0] for b in nullclines(system, one) if b.kind == "theta" and not b.inside]
+    angles = np.sort(np.arctan2(*np.array(ends).T[::-1]) % (2 * math.pi))
+    np.testing.assert_allclose(angles, equator_equilibria(system).theta, atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("system", "count"),
+    [
+        (ELinear(-1, 0, -1), {"rho": 0, "theta": 0, "U1": 1, "U2": 1}),  # Θ ≡ 0: no curve
+        (ELinear(-1, 0, -1, (0.5, 0)), {"rho": 1, "theta": 1, "U1": 1, "U2": 1}),  # D1: the line along f
+        (ELinear(-2, 0, -1, (-0.5, 0)), {"rho": 1, "theta": 2, "U1": 1, "U2": 1}),  # D2: a diameter and a chord
+        (ELinear(1, 0, -1), {"rho": 2, "theta": 2, "U1": 1, "U2": 1}),  # f = 0: diameters
+        (ELinear(0, 0, 0), {"rho": 0, "theta": 0, "U1": 0, "U2": 0}),
+    ],
+)
+def test_degenerate_conics_fall_into_lines(system, count):
+    inside = [b for b in nullclines(system, psi.constant()) if b.inside]
+    assert {k: sum(b.kind == k for b in inside) for k in count} == count
+
+
+@given(st.floats(-12, -1))
+def test_a_sharp_corner_near_the_origin_is_resolved(exponent):
+    """f = 0 splits the conic at the origin; just beside it the two arms are joined by a tight bend."""
+    system = ELinear(1.0, 0.3, -1.0, (10.0**exponent, 10.0**exponent / 3))
+    with pytest.MonkeyPatch.context() as patch:
+        assert worst_gap(system, psi.constant(), patch) < QUARTER_PIXEL
+
+
+def test_view_must_show_the_outside():
+    with pytest.raises(ValueError, match="greater than 1"):
+        nullclines(ELinear(-1, 0, -1), psi.constant(), view=0.5)

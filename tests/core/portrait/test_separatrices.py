@@ -1,0 +1,201 @@
+"""Separatrices: the order of the local expansion, the theorems, the index, and saddle connections."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, hemisphere, presets, psi
+from codim2_core.portrait.endings import half_saddle
+from codim2_core.portrait.saddle_manifold import ORDER, expansion, starts
+from codim2_core.portrait.separatrices import separatrices
+from tests.core.strategies import regularisations, systems
+
+SADDLE = presets["case2-saddle"].system
+FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3)]
+
+
+def robust(system, p):
+    """Away from every bifurcation, so that nothing is slow."""
+    plane = np.array(system.at(()).plane)
+    size = np.abs(plane).max()
+    equator = equator_equilibria(system)
+    assume(size > 0.1)
+    assume(not equator.all_directions and (equator.multiplicity == 1).all() and not equator.radially_degenerate.any())
+    assume((np.abs(equator.lambda_rho) > 0.02 * size).all() and (np.abs(equator.lambda_theta) > 0.02 * size).all())
+    closed = equator_cycle(system)
+    assume(closed is None or abs(closed.exponent) > 0.05)
+    critical = critical_sets(system, p)
+    for C in critical:
+        assume(np.abs(C.eigenvalues.real).min() > 0.01 * size)
+        assume(np.hypot(*C.p) < 0.999)
+    return equator, critical
+
+
+# ---- the local expansion ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("p", FAMILIES, ids=lambda p: p.text)
+@pytest.mark.parametrize("which", [0, 1])
+def test_expansion_has_its_order(p, which):
+    (C,) = critical_sets(SADDLE, p)
+    value = float(C.eigenvalues.real[which])
+    defect = [expansion(SADDLE.at(()), p, C, value, reach)[1] for reach in (0.03, 0.015)]
+    assert math.log2(defect[0] / defect[1]) == pytest.approx(ORDER + 1, abs=0.25)
+    assert defect[0] < 2e-9
+
+
+@pytest.mark.parametrize("p", FAMILIES, ids=lambda p: p.text)
+def test_expansion_is_tangent_and_invariant(p):
+    (C,) = critical_sets(SADDLE, p)
+    value = float(C.eigenvalues.real[0])
+    terms, _ = expansion(SADDLE.at(()), p, C, value, 0.02)
+    assert C.jacobian @ terms[1] == pytest.approx(value * terms[1], abs=1e-12)
+
+    # On the manifold sigma' = lambda sigma: doubling sigma takes ln 2/lambda.
+    def field(_, x):
+        zeta = math.hypot(*x)
+        return SADDLE.at(()).U(x * float(p.modulus(zeta)) / zeta)
+
+    near, far = (np.array([0.01, 0.02])[:, None] ** np.arange(ORDER + 1)) @ terms
+    end = solve_ivp(field, (0.0, math.log(2.0) / value), near, method="DOP853", rtol=1e-13, atol=1e-14).y[:, -1]
+    assert end == pytest.approx(far, abs=3e-11)
+
+
+def test_expansion_is_exact_where_manifolds_are_straight():
+    """For f = 0 the orbits are those of x2' = A x2."""
+    system = ELinear(1.0, 0.3, -1.0)
+    (C,) = critical_sets(system, psi.tanh())
+    terms, defect = expansion(system.at(()), psi.tanh(), C, float(C.eigenvalues.real[0]), 0.05)
+    assert np.abs(terms[1][0] * terms[2:, 1] - terms[1][1] * terms[2:, 0]).max() < 1e-6
+    assert defect < 1e-9
+    points, tangents = starts(system.at(()), psi.tanh(), C, float(C.eigenvalues.real[0]), 1e-10)
+    assert tangents == pytest.approx(points / np.linalg.norm(points, axis=1)[:, None], abs=1e-9)
+
+
+@pytest.mark.parametrize("p", FAMILIES, ids=lambda p: p.text)
+def test_separatrices_are_rays_for_f_0(p):
+    system = ELinear(1.0, 0.3, -1.0)
+    for branch in separatrices(system, p):
+        angle = np.arctan2(branch.points[:, 1], branch.points[:, 0])[np.hypot(*branch.points.T) > 1e-6]
+        miss = np.abs(np.angle(np.exp(1j * (angle - branch.departure_angle))))
+        assert miss.max() < 1e-8
+
+
+# ---- theorems -----------------------------------------------------------------------------------------------------
+
+
+coefficient = st.floats(0.1, 3.0)
+
+
+@settings(max_examples=60)
+@given(coefficient, coefficient, st.floats(-3, 3), st.floats(0, 0.95), st.floats(0, 6.28), regularisations)
+def test_case_II_saddle_joins_all_four(a, d, b, r, t, p):
+    """thm:case2(a): the four branches of C end at the four Q, the unstable ones where orbits leave."""
+    assume(b * b < 0.9 * a * d)
+    f = -np.array([[a, -b], [b, -d]]) @ [r * math.cos(t), r * math.sin(t)]
+    system = ELinear(a, b, -d, (float(f[0]), float(f[1])))
+    equator, critical = robust(system, p)
+    assert [C.kind for C in critical] == ["saddle"]
+    found = separatrices(system, p)
+    inside = [branch for branch in found if branch.inside]
+    assert {branch.origin for branch in inside} == {"C"}
+    assert {branch.end for branch in inside} == {"Q1", "Q2", "Q3", "Q4"}
+    for branch in inside:
+        outwards = equator.lambda_rho[int(branch.end[1]) - 1] > 0.0
+        assert outwards == (branch.direction == "unstable")
+        assert not branch.connection
+    assert len(found) == 8  # and every Q is a half-saddle outside
+
+
+@settings(max_examples=60)
+@given(coefficient, coefficient, st.floats(-3, 3), st.floats(0, 0.95), st.floats(0, 6.28), regularisations)
+def test_case_I_all_branches_meet_C(a, d, b, r, t, p):
+    """thm:case1(a), and the same backward in time for a, d > 0."""
+    f = np.array([[a, b], [-b, d]]) @ [r * math.cos(t), r * math.sin(t)]
+    for sign in (1.0, -1.0):
+        system = ELinear(-sign * a, sign * b, -sign * d, (float(sign * f[0]), float(sign * f[1])))
+        equator, critical = robust(system, p)
+        assert len(critical) == 1
+        inside = [branch for branch in separatrices(system, p) if branch.inside]
+        assert all(branch.end == "C" for branch in inside)
+        assert {branch.direction for branch in inside} <= {"unstable" if sign > 0 else "stable"}
+        assert len(inside) == len(equator) // 2
+
+
+@settings(max_examples=120)
+@given(systems, regularisations)
+def test_skeleton_is_consistent(system, p):
+    equator, critical = robust(system, p)
+    saddles = sum(half_saddle(equator, i) for i in range(len(equator)))
+    # Two copies of the hemisphere make a sphere, of Euler characteristic 2.
+    index = sum(-1 if C.kind == "saddle" else 1 for C in critical)
+    assert 2 * index + (len(equator) - saddles) - saddles == 2
+    found = separatrices(system, p)
+    inside = [branch for branch in found if branch.inside]
+    assert len(inside) == saddles + 4 * sum(C.kind == "saddle" for C in critical)
+    assert len(found) - len(inside) == len(equator) - saddles
+    for branch in found:
+        assert branch.end != "undecided", found.notes
+        assert not branch.points.flags.writeable
+        assert np.isfinite(branch.points).all()
+        origin = branch.points[0 if branch.direction == "unstable" else -1]
+        if branch.origin == "C":
+            assert origin == pytest.approx(critical[0].p, abs=1e-12)
+        else:
+            theta = equator.theta[int(branch.origin[1]) - 1]
+            assert origin == pytest.approx([math.cos(theta), math.sin(theta)], abs=1e-12)
+    for branch in inside:
+        if branch.end[0] == "Q":
+            i = int(branch.end[1]) - 1
+            assert branch.arrival_angle == pytest.approx(equator.theta[i])
+            assert (equator.lambda_rho[i] > 0.0) == (branch.direction == "unstable")
+        # Points run with time: the field points along the line (halfway, away from rests and bends).
+        middle = len(branch.points) // 2
+        if len(branch.points) >= 8:
+            chord = branch.points[middle] - branch.points[middle - 1]
+            flow = hemisphere.flow(system.at(()), p, 0.5 * (branch.points[middle] + branch.points[middle - 1]))
+            if np.linalg.norm(chord) > 1e-3:
+                assert chord @ flow > 0.0
+
+
+def test_case_III_winds_onto_the_cycle():
+    found = separatrices(presets["case3-n3"].system, psi.hill(3))
+    assert ("Q1", "cycle 1") in found.graph
+    assert ("Q2", "Q4") in found.graph
+
+
+# ---- saddle connections -------------------------------------------------------------------------------------------
+
+
+def test_saddle_connection_is_found_and_named():
+    """Bisect between two portraits whose branch from a half-saddle ends at different places."""
+    a, b, d = 1.4670492107996933, 1.9395381950388753, -2.429203677317721
+    low, high = 1.0, 1.005
+
+    def skeleton(t):
+        return separatrices(ELinear(a, b, d, (t * 1.4613588858914937, t * 1.8156491036456746)), psi.hill(2))
+
+    def ends(found):
+        return [branch.end for branch in found if branch.inside and branch.direction == "unstable"]
+
+    first = ends(skeleton(low))
+    assert first != ends(skeleton(high))
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        found = skeleton(middle)
+        if any(branch.connection for branch in found):
+            break
+        if ends(found) == first:
+            low = middle
+        else:
+            high = middle
+    joined = [branch for branch in found if branch.connection]
+    assert len(joined) == 2
+    leaving, entering = sorted(joined, key=lambda branch: branch.direction == "stable")
+    assert (leaving.end, entering.end) == (entering.origin, leaving.origin)
+    assert leaving.gap <= 1e-6
+    assert any("connection" in note for note in found.notes)
