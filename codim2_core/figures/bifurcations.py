@@ -14,7 +14,9 @@ _CONICS = "Conics and the ellipse"
 
 
 def bifurcation_presets() -> dict[str, Preset]:
-    """Presets of fig:SNBIF, fig:transcrit, D2, fig:intersections and fig:ellipse (see FIGURES.md), by name.
+    """Presets of fig:SNBIF, fig:transcrit, D2, fig:intersections and fig:ellipse, by name.
+
+    The paper prints no numbers for these sketches: all values here are round ones that give the portrait sketched.
 
     Returns
     -------

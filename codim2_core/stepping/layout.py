@@ -1,7 +1,8 @@
 """Where the numbers of the compiled stepping lie, and how a right-hand side is called.
 
 `LANES` trajectories step side by side. The workspace S is one array of rows of `WIDTH` numbers: px of every lane,
-then py, then w, the state of DESIGN's one chart (w = ebar on the hemisphere, rho outside). P holds the parameters.
+then py, then w: one state (px, py, w) for both sides of the equator, w = ebar on the hemisphere and rho outside.
+P holds the parameters.
 
 A right-hand side is a C function ``void(state, out, P)`` on such rows, entered by its address: the integrator is
 compiled once, whatever the system. The gain of Psi, where a right-hand side asks for it, is entered in the same way.

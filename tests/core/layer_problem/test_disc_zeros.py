@@ -1,7 +1,6 @@
 """Critical sets of general systems: none is missing, each is one, J is exact, and what is degenerate has its name."""
 
 import math
-import time
 
 import mpmath
 import numpy as np
@@ -11,11 +10,13 @@ from hypothesis import strategies as st
 
 from codim2_core import critical_sets, hemisphere, psi, sliding_flow
 from codim2_core.expressions.arrays import polynomial_degree, program
-from codim2_core.layer_problem.disc_zeros import disc_zeros
+from codim2_core.layer_problem.disc_zeros import EFFORTS, disc_zeros
+from codim2_core.numerics import disc_search
 from codim2_core.numerics.intervals import enclose
 from codim2_core.systems.typed import System
 from tests.core.general_systems import ATTRACTING, NONUNIQUE, circle, polynomials, smooth, turns
 from tests.core.strategies import regularisations, systems
+from tests.work import calls
 
 FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3)]
 
@@ -299,13 +300,23 @@ def test_numbers_change_without_a_new_tape():
         ("c**2 + s**2 - 1", "c**2 + s**2 - 1"),
     ],
 )
-def test_wild_fields_end_in_bounded_time(U):
+def test_wild_fields_end_in_bounded_work(U, monkeypatch):
+    operations = []
+
+    def counted(*arguments):
+        budget, undecided = arguments[-3], arguments[-1]
+        operations.append(budget * len(arguments[0]))
+        assert len(undecided) <= EFFORTS[-1][1]
+        return search(*arguments)
+
+    search = disc_search.search
+    monkeypatch.setattr(disc_search, "search", counted)
     system = System(U=U).at()
-    disc_zeros(system.key)  # compiled
-    disc_zeros.cache_clear()
-    started = time.process_time()
     disc_zeros(system.key)
-    assert time.process_time() - started < 6.0
+    disc_zeros.cache_clear()
+    operations.clear()
+    assert calls(lambda: disc_zeros(system.key)) < 100_000
+    assert sum(operations) <= sum(most for _, _, most in EFFORTS) + 2000 * len(program(system.key).op)
 
 
 def test_points_outside_the_disc_are_no_critical_sets():

@@ -3,7 +3,6 @@
 import pickle
 import subprocess
 import sys
-import time
 
 import mpmath
 import numpy as np
@@ -14,6 +13,7 @@ from hypothesis import strategies as st
 from codim2_core import ELinear
 from codim2_core.expressions.expression import ExpressionError, parse
 from codim2_core.systems.typed import LONGEST_KEY, MOST_NAMES, MOST_NUMBERS, System
+from tests.work import calls
 
 CUBIC = ("-c*(c - chi(z)/2)*(c + chi(z)/2)", "-s/2")
 CHI = {"chi(z)": "(1 + 2*z**2)/(1 + z**2)"}
@@ -187,6 +187,15 @@ STRANGE = [
 NAMES = ["__builtins__", "__import__", "print", "globals", "import", "lambda", "None", "True", "self", "os", "numpy"]
 
 
+def refused_at_once(**arguments):
+    def refused():
+        with pytest.raises(ValueError, match=r".") as caught:
+            System(**arguments)
+        assert len(str(caught.value)) < 2000
+
+    assert calls(refused) < 3000  # however long the text, and however many the names
+
+
 @pytest.mark.parametrize("text", CODE + BIG + STRANGE, ids=lambda text: ascii(text[:30]))
 @pytest.mark.parametrize("where", ["U", "W", "definition"])
 def test_hostile_text_is_refused_at_once(text, where):
@@ -195,11 +204,7 @@ def test_hostile_text_is_refused_at_once(text, where):
         "W": {"U": ("c", "s"), "W": (text,), "definitions": CHI},
         "definition": {"U": ("g", "s"), "definitions": {**CHI, "g": text}},
     }[where]
-    started = time.process_time()
-    with pytest.raises(ValueError, match=r".") as caught:
-        System(**arguments)
-    assert time.process_time() - started < 0.05
-    assert len(str(caught.value)) < 2000
+    refused_at_once(**arguments)
 
 
 @pytest.mark.parametrize("text", NAMES)
@@ -226,11 +231,7 @@ HOSTILE_KEYS = [
 @pytest.mark.parametrize("key", HOSTILE_KEYS, ids=lambda key: ascii(key)[:30])
 @pytest.mark.parametrize("where", ["parameters", "definitions"])
 def test_hostile_names_are_refused_at_once(key, where):
-    started = time.process_time()
-    with pytest.raises(ValueError, match=r".") as caught:
-        System(U=("c", "s"), **{where: {key: 1.0}})
-    assert time.process_time() - started < 0.05
-    assert len(str(caught.value)) < 2000
+    refused_at_once(U=("c", "s"), **{where: {key: 1.0}})
 
 
 @pytest.mark.parametrize("name", ["c", "s", "x", "y", "z", "z1", "z16"])
@@ -265,11 +266,7 @@ def test_variables_cannot_be_redefined(name):
     ],
 )
 def test_wrong_shapes_and_values_are_refused(arguments):
-    started = time.process_time()
-    with pytest.raises(ValueError, match=r".") as caught:
-        System(**arguments)
-    assert time.process_time() - started < 0.1
-    assert len(str(caught.value)) < 2000
+    refused_at_once(**arguments)
 
 
 def test_limits_are_reachable():
@@ -283,9 +280,7 @@ def test_limits_are_reachable():
 def test_definitions_that_double_their_size_stay_small_or_are_refused():
     definitions = {"d0": "c + s"}
     definitions.update({f"d{i}": f"d{i - 1}*d{i - 1} + d{i - 1}" for i in range(1, 40)})
-    started = time.process_time()
-    System(U=("d39", "s"), definitions=definitions)
-    assert time.process_time() - started < 1.0
+    assert calls(lambda: System(U=("d39", "s"), definitions=definitions)) < 150_000
 
 
 def test_elinear_written_as_text_is_the_same_field():
