@@ -3,7 +3,7 @@
 
 const RETRY = [500, 1000, 2000, 3000, 5000] // ms between attempts; the last one goes on
 
-class Connection {
+export class Connection {
   // `say` shows a sentence; `leave` is called before the page is loaded again.
   constructor(document, {page, lost, say, leave}) {
     this.attempts = 0

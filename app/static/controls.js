@@ -1,11 +1,9 @@
 // Controls: a slider with an editable number, whose range widens for a typed value.
 
-function roundUp(size) {
-  const power = 10 ** Math.floor(Math.log10(1.2 * size))
-  return [1, 2, 5, 10].map((k) => k * power).find((v) => v >= 1.2 * size)
-}
+import {roundUp} from "./ranges.js"
+import {plain} from "./words.js"
 
-class NumberControl {
+export class NumberControl {
   constructor(box, range, onValue) {
     this.box = box
     this.name = box.dataset.control
@@ -47,11 +45,7 @@ class NumberControl {
   say(sentence) { sayAt(this.box, sentence) }
 }
 
-function plain(value) { return String(Number(value.toPrecision(6))) }
-
-const minus = (text) => text.replaceAll("-", "−")
-
-function sayAt(box, sentence) {
+export function sayAt(box, sentence) {
   const error = box.querySelector(".error")
   box.classList.toggle("bad", Boolean(sentence))
   if (!error) return

@@ -1,5 +1,21 @@
 // The explorer: markup from the server, one Bokeh figure, one request in flight.
 
+import {Connection} from "./connection.js"
+import {NumberControl, sayAt} from "./controls.js"
+import {readFrame, Requests} from "./frames.js"
+import {Inspector} from "./inspector.js"
+import {Panels} from "./panels.js"
+import {Along} from "./panels/along.js"
+import {Atlas} from "./panels/atlas.js"
+import {Diagram} from "./panels/diagram.js"
+import {Planes} from "./panels/planes.js"
+import {PsiCurves} from "./panels/psi.js"
+import {Stack} from "./panels/stack.js"
+import {Motion} from "./panels/time.js"
+import {Picture} from "./picture.js"
+import {SystemChooser} from "./system.js"
+import {escape} from "./words.js"
+
 function wire({model, view, root, plot}) {
   const config = model.config
   const values = {...config.values}
@@ -42,7 +58,7 @@ function wire({model, view, root, plot}) {
   const motion = new Motion(root, config, move, (paths, place) => picture.trace(paths, place))
   const zoom = (name) => (value) => { change(name, value); drawPanels() }
   const shown = {
-    along: drift, solid: new Stack(root, config, (view) => { change("solid", view); drawPanels() }), psi: new PsiCurves(root), time: motion, planes: new Planes(root),
+    along: drift, solid: new Stack(root, config, (wanted) => { change("solid", wanted); drawPanels() }), psi: new PsiCurves(root), time: motion, planes: new Planes(root),
     atlas: new Atlas(root, config, move, zoom("atlas_zoom")), diagram: new Diagram(root, config, move, zoom("zoom")),
   }
   const drawPanels = () => { shown[values.panel]?.draw(values); if (values.panel !== "time") motion.draw(values); if (values.panel !== "along") drift.toggle(false) }
@@ -111,7 +127,7 @@ function wire({model, view, root, plot}) {
   })
   controls.preset.set = (value) => { portrait.value = value }
   find(".reset").addEventListener("click", () => {
-    const {panel, across, up, along, zoom, atlas_zoom, ...first} = config.defaults // what is open stays open
+    const {panel, across, up, along, zoom: _zoom, atlas_zoom, ...first} = config.defaults // what is open stays open
     setAll(first); tell(); picture.home(config.view)
   })
   find(".home").addEventListener("click", () => picture.home(config.view))

@@ -1,7 +1,9 @@
 // Frames: reading one packed buffer, and asking for the next so that nothing ever queues.
 
+export const STEP = 4 / 32767 // a unit of the packed coordinates
+
 // The layout is described in packing.py.
-function readFrame(buffer) {
+export function readFrame(buffer) {
   const bytes = buffer instanceof ArrayBuffer ? new Uint8Array(buffer) : new Uint8Array(buffer.buffer ?? buffer, buffer.byteOffset ?? 0, buffer.byteLength)
   const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice()
   const view = new DataView(aligned.buffer, aligned.byteOffset, aligned.byteLength)
@@ -29,9 +31,15 @@ function readFrame(buffer) {
   return {header, blocks}
 }
 
+// Lists of points from counts and coordinates of a frame, times `size`.
+export function polygons(counts, points, size) {
+  let at = 0
+  return Array.from(counts, (count) => Array.from({length: count}, () => { at += 2; return [points[at - 2] * STEP * size, points[at - 1] * STEP * size] }))
+}
+
 // Latest wins: one request is out at a time; while it is, only the newest value of each control is kept.
 // A rejected value goes along with the next request, since another control may have made it valid.
-class Requests {
+export class Requests {
   constructor(send, onAsk) {
     this.send = send
     this.onAsk = onAsk

@@ -1,11 +1,9 @@
 // The inspector: portrait, degeneracies, tables of equator equilibria and critical sets, slow flow along z.
 
-const escape = (text) => String(text).replace(/[&<>"]/g, (c) => ({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})[c])
+import {roundUp} from "./ranges.js"
+import {digits, eigen, escape, measured, pair, plain} from "./words.js"
 
-// A number that shows a claim: what is zero up to rounding is told apart from what is small.
-const measured = (value) => value !== 0 && Math.abs(value) < 1e-9 ? digits(value) : minus(plain(value))
-
-class Inspector {
+export class Inspector {
   constructor(root) {
     this.find = (name) => root.querySelector(name)
   }

@@ -1,14 +1,18 @@
 // A plane of two parameters: regions of one portrait each, the curves between them, and a handle over them.
 
+import {holds, meet} from "./regions.js"
+import {escape, minus, plain} from "./words.js"
+
 const NAME_SIZE = 8.5 // of the letters, where the pad is 200 wide
 
-class Pad {
+export class Pad {
   // `onMove` is called with the two values under the handle, `onRegion` with the index of the region pointed at, or -1.
   constructor(svg, onMove, onRegion) {
     this.svg = svg
     this.onMove = onMove
     this.box = [[-1, 1], [-1, 1]]
     this.boxes = this.covered = [] // of the regions' names, and of what hides them
+    this.named = [] // the regions that have one
     svg.innerHTML = ["regions", "curves", "names", "marks"].map((name) => `<g class="${name}"></g>`).join("")
     this.layer = (name) => svg.querySelector(`g.${name}`)
     svg.addEventListener("pointerdown", (event) => {
@@ -67,7 +71,7 @@ class Pad {
     const [x, y] = this.place(handle)
     const words = this.layer("names").querySelectorAll(".name")
     this.boxes.forEach((box, i) => {
-      const hidden = !chart.old && around[box.region] || [...this.covered, [x, y, 10, 10]].some((other) => meet(box, other))
+      const hidden = !chart.old && around[this.named[i]] || [...this.covered, [x, y, 10, 10]].some((other) => meet(box, other))
       words[i].style.opacity = hidden ? 0 : ""
     })
     return around.indexOf(true)
@@ -127,6 +131,7 @@ class Pad {
       return [anchor === "end" ? x - width / 2 : anchor === "start" ? x + width / 2 : x, y - 3, width, 10]
     })
     this.boxes = []
+    this.named = []
     const words = []
     for (const [i, region] of this.chart.regions.entries()) {
       const width = 0.7 * NAME_SIZE * region.name.length, height = NAME_SIZE
@@ -135,8 +140,8 @@ class Pad {
       const boxes = [...corners, this.place(region.inside)].map((spot) => [...spot, width, height])
       const box = boxes.find((one) => this.fits(region, ...one) && ![...ticks, ...this.boxes].some((other) => meet(one, other)))
       if (!box) continue
-      box.region = i
       this.boxes.push(box)
+      this.named.push(i)
       words.push(`<text class="name" x="${box[0]}" y="${box[1] + 0.35 * NAME_SIZE}" text-anchor="middle">${region.name}</text>`)
     }
     return words.join("")
@@ -152,33 +157,4 @@ class Pad {
 }
 
 // The class of a region's colour: that of its portrait's name, up to the first space.
-function regionClass(name) { return name.split(" ")[0].replace(/[^\w-]/g, "") }
-
-// Half the width of the plane of f: some tenths more than what it must show, and a round number.
-function reachFor(far) {
-  const power = 10 ** Math.floor(Math.log10(1.12 * far))
-  return Number((power * [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((k) => power * k >= 1.12 * far || k === 10)).toPrecision(2))
-}
-
-// Whether two boxes, each a middle, width and height, overlap.
-function meet(one, other) {
-  return Math.abs(one[0] - other[0]) < (one[2] + other[2]) / 2 && Math.abs(one[1] - other[1]) < (one[3] + other[3]) / 2
-}
-
-// Lists of points from counts and coordinates of a frame, times `size`.
-function polygons(counts, points, size) {
-  let at = 0
-  return Array.from(counts, (count) => Array.from({length: count}, () => { at += 2; return [points[at - 2] * STEP * size, points[at - 1] * STEP * size] }))
-}
-
-// Whether a point is in a region, by the even-odd rule.
-function holds({loops, bounded}, [x, y]) {
-  let inside = !bounded
-  for (const loop of loops) {
-    for (let i = 0, j = loop.length - 1; i < loop.length; j = i++) {
-      const [x1, y1] = loop[i], [x2, y2] = loop[j]
-      if (y1 > y !== y2 > y && x < x1 + (y - y1) * (x2 - x1) / (y2 - y1)) inside = !inside
-    }
-  }
-  return inside
-}
+export function regionClass(name) { return name.split(" ")[0].replace(/[^\w-]/g, "") }

@@ -1,6 +1,6 @@
 // The panels beside the picture: a strip of tabs, one panel open at a time. What a closed one shows is not asked for.
 
-class Panels {
+export class Panels {
   // `choose(name)` is called when a tab is chosen.
   constructor(root, choose) {
     this.strip = root.querySelector(".tabs")

@@ -1,6 +1,8 @@
 // The picture: fills the sources of the Bokeh figure, and colours its glyphs.
 
-const STEP = 4 / 32767 // as in packing.py
+import {STEP} from "./frames.js"
+import {digits, eigen, outOfPage, pair} from "./words.js"
+
 const LINE_PARTS = {
   rho: ["rho_inside", "rho_outside"], theta: ["theta_inside", "theta_outside"], lines: ["lines_inside", "lines_outside"],
   outside: ["outside", "arrows:outside"], inside: ["inside", "arrows:inside"],
@@ -22,20 +24,7 @@ const CRITICAL_MARK = {
 }
 const EQUATOR_MARK = {circle: ["circle", 13], diamond: ["diamond", 18], triangle: ["triangle", 15]}
 
-function digits(value, places = 4) {
-  if (value === 0) return "0"
-  const size = Math.abs(value)
-  const text = size >= 1e5 || size < 1e-3 ? value.toExponential(2) : value.toFixed(Math.max(0, places - 1 - Math.max(0, Math.floor(Math.log10(size)))))
-  return text.replace("-", "−")
-}
-const pair = (v, places) => `(${digits(v[0], places)}, ${digits(v[1], places)})`
-function eigen([first, second]) {
-  if (first[1] !== 0) return `${digits(first[0])} ± ${digits(Math.abs(first[1]))} i`
-  return `${digits(first[0])}, ${digits(second[0])}`
-}
-function outOfPage(flow) { return !flow || !flow.length || flow[0] === 0 ? "" : flow[0] > 0 ? " ⊙" : " ⊗" }
-
-class Picture {
+export class Picture {
   constructor(plot, themes, hatches) {
     this.plot = plot
     this.themes = themes

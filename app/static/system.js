@@ -1,6 +1,9 @@
 // Which system is drawn: a choice, its equations, text boxes for what can be typed, and a slider for every name in it.
 
-class SystemChooser {
+import {NumberControl, sayAt} from "./controls.js"
+import {escape, slowName} from "./words.js"
+
+export class SystemChooser {
   // `change(name, value)` as everywhere; `place(name, control)` registers a control, by the name that errors use.
   // `normal` is the control of z of the normal form.
   constructor(root, config, values, {change, place, normal}) {
@@ -110,8 +113,6 @@ class SystemChooser {
     })
   }
 }
-
-const slowName = (i) => (i ? `z${i + 1}` : "z")
 
 function slider(name, symbol) {
   return `<div class="control" data-control="${name}"><label>${escape(symbol)}</label><input type="range" aria-label="${escape(symbol)}">

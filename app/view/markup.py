@@ -16,13 +16,9 @@ from ..state.choices import AXES, LAYERS, MAX_TRAJECTORIES, PANELS, SLOW_CONTROL
 from ..state.chosen import BOXES, TITLES
 from ..state.controls import NUMBERS, ExplorerState, slider_range
 from ..state.portraits import portraits
+from .bundle import bundle
 
 STATIC = Path(__file__).parents[1] / "static"
-SCRIPTS = (
-    "frames.js", "connection.js", "picture.js", "controls.js", "pad.js",
-    "panels/atlas.js", "panels/planes.js", "panels/diagram.js", "inspector.js", "panels.js", "system.js",
-    "panels/along.js", "panels/stack.js", "panels/time.js", "panels/psi.js", "explorer.js",
-)  # fmt: skip
 
 PSI_NAMES = {
     "constant": "1",
@@ -52,7 +48,7 @@ def stylesheet() -> str:
 @cache
 def script() -> str:
     """Return the front end as one ES module."""
-    return "\n".join((STATIC / name).read_text(encoding="utf-8") for name in SCRIPTS)
+    return bundle(STATIC / "explorer.js")
 
 
 def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]:

@@ -1,8 +1,12 @@
 // The panel "Along z": where Sigma slides, the slow flow on each critical set, and play, which lets z drift with it.
 
+import {shape} from "../marks.js"
+import {fixed, polyline} from "../svg.js"
+import {digits, escape, plain, slowName} from "../words.js"
+
 const DRIFT_SECONDS = 10 // in which play would cross the whole range at the largest slow flow shown
 
-class Along {
+export class Along {
   // `choose(name)` is called when another slow variable is chosen.
   constructor(root, config, move, choose) {
     this.box = root.querySelector(".panel-along")

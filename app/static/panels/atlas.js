@@ -1,6 +1,10 @@
 // The panel "Atlas": two parameters as a plane, with a portrait of each of its regions.
 // The plane of f comes in closed form and belongs to f(z); any other two axes are mapped by the server at rest.
 
+import {Pad, regionClass} from "../pad.js"
+import {rangeFor, reachFor} from "../ranges.js"
+import {polygons} from "../frames.js"
+
 const CURVE_NAMES = {
   transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", closed_equator: "cycle at the equator", determinant: "det A = 0", undefined: "undefined",
 }
@@ -8,7 +12,7 @@ const CURVE_OF = {
   transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "saddle_node", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant",
 }
 
-class Atlas {
+export class Atlas {
   // `move` sets controls: {name: value}. `choose` sets an axis.
   constructor(root, config, move, zoom) {
     this.box = root.querySelector(".panel-atlas")
@@ -84,8 +88,8 @@ class Atlas {
       const {spans, name, inside, loops, curve, pieces} = header.map
       const scaled = (block) => polygons(blocks[`${block}.n`], blocks[`${block}.xy`], 1)
         .map((line) => line.map((p) => p.map((u, i) => (spans[i][0] + spans[i][1]) / 2 + u * (spans[i][1] - spans[i][0]) / 2)))
-      const all = scaled("map"), lines = scaled("map_curves"), curves = {}
-      for (const [i, kind] of curve.entries()) (curves[CURVE_OF[kind] ?? "undefined"] ??= []).push(...lines.splice(0, pieces[i]))
+      const all = scaled("map"), between = scaled("map_curves"), curves = {}
+      for (const [i, kind] of curve.entries()) (curves[CURVE_OF[kind] ?? "undefined"] ??= []).push(...between.splice(0, pieces[i]))
       const regions = name.map((words, i) => ({name: words, bounded: true, inside: inside[i], loops: all.splice(0, loops[i])}))
       this.map = {of: this.of, spans, regions, curves, points: []}
     }
@@ -103,7 +107,7 @@ class Atlas {
   draw(values) {
     this.values = values
     const words = this.axes.map((name) => this.config.symbols[name] ?? "")
-    const chart = this.isPlane ? this.chartOfPlane(values) : this.chartOfMap(values)
+    const chart = this.isPlane ? this.chartOfPlane(values) : this.chartOfMap()
     const here = this.pad.draw({...chart, words, old: this.old})
     if (here !== this.here) { this.here = here; this.markTiles("here", here) }
     this.find(".zoom .in").disabled = values.atlas_zoom >= 6
@@ -133,7 +137,7 @@ class Atlas {
     }
   }
 
-  chartOfMap(values) {
+  chartOfMap() {
     const handle = this.axes.map((name) => this.config.valueOf(name))
     const {of, spans, regions, curves, points} = this.map.of === this.of ? this.map : this.empty
     const box = of ? spans : this.axes.map((name, i) => rangeFor(this.config.ranges[name] ?? [-4, 4], handle[i]))
@@ -156,11 +160,4 @@ class Atlas {
       `<button type="button" data-tile="${i}" title="${name}: go there" aria-label="${name}: go there">${svg}<span>${name}</span></button>`).join("")
     this.here = null
   }
-}
-
-// A slider's range, widened to hold a value, as in controls.js.
-function rangeFor([low, high], value) {
-  if (value >= low && value <= high) return [low, high]
-  const reach = roundUp(Math.abs(value))
-  return [low < 0 ? -reach : low, reach]
 }

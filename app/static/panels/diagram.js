@@ -1,15 +1,16 @@
 // The panel "Diagram": limit directions, critical sets and cycles along one parameter, over the range of its slider.
 // A click sets the parameter; a click on a special point goes exactly there.
 
-const SPECIAL_MARK = {
-  "saddle-node": "M0-3.4L3.4 0L0 3.4L-3.4 0Z", pitchfork: "M0-3.8L3.6 2.6H-3.6Z", cusp: "M0 3.8L3.6-2.6H-3.6Z", transcritical: "M-3-3L3 3M-3 3L3-3",
-  Hopf: "", "node-focus": "M-2.7-2.7H2.7V2.7H-2.7Z",
-}
-const OTHER_MARK = "M-3.4 0H3.4M0-3.4V3.4"
-const LEFT = -86, RIGHT = 96 // of the plots, where the diagram is 200 wide
+import {shape} from "../marks.js"
+import {fixed, polyline} from "../svg.js"
+import {digits, escape, minus, plain} from "../words.js"
+
+// of the plots, where the diagram is 200 wide
+const LEFT = -86
+const RIGHT = 96
 const TURN = 2 * Math.PI
 
-class Diagram {
+export class Diagram {
   constructor(root, config, move, zoom) {
     this.box = root.querySelector(".panel-diagram")
     this.config = config
@@ -154,9 +155,4 @@ class Diagram {
     const height = amplitude !== undefined ? amplitudes.y(amplitude) : radius > 1 - 1e-9 ? angles.y((Math.atan2(y, x) + TURN) % TURN) : radii.y(radius)
     return `<g class="special" data-special="${i}" transform="translate(${fixed(at)} ${fixed(height)})"><title>${escape(kind)} at ${minus(plain(value))}. ${escape(sentence)}</title><circle class="catch" r="6"/>${shape(kind)}</g>`
   }
-}
-
-function shape(kind) {
-  const d = SPECIAL_MARK[kind] ?? OTHER_MARK
-  return d ? `<path d="${d}"/>` : '<circle r="3.1"/>'
 }

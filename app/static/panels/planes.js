@@ -1,10 +1,15 @@
 // The panel "Planes" (fig:bads): trace and determinant, and eigenvalues, of each critical set, with the trail that a
 // moving slider leaves while the panel is open.
 
+import {eigenvalues, kindAt} from "../jacobian.js"
+import {meet} from "../regions.js"
+import {fixed, polyline} from "../svg.js"
+import {digits, eigen, escape} from "../words.js"
+
 const TRAIL = 90 // positions remembered
 const PLANE_NAME = 7.8 // size of the letters, where a plane is 200 wide
 
-class Planes {
+export class Planes {
   constructor(root) {
     this.box = root.querySelector(".panel-planes")
     this.trail = []
@@ -49,7 +54,9 @@ class Planes {
     reach = Math.max(reach, Math.sqrt(Math.max(high, low)))
     high = Math.max(high, 0.4 * reach * reach / 4, 0.5 * low)
     const bottom = -Math.max(low, 0.28 * high)
+    /** @param {number[]} point */
     const place = ([trace, det]) => [100 * trace / reach, 50 - 150 * (det - bottom) / (high - bottom)]
+    /** @param {number[]} point */
     const back = ([x, y]) => ({trace: x * reach / 100, determinant: bottom + (50 - y) * (high - bottom) / 150})
     const at = (one) => place([one.trace, one.determinant])
     const level = place([0, 0])[1]
@@ -69,7 +76,7 @@ class Planes {
 
   // The regions' names, each as near to its favourite place as it fits.
   regionNames(back, level, covered) {
-    const wanted = [["saddle", -90, 45], ["stable focus", -30, -84], ["unstable focus", 36, -84], ["stable node", -80, level - 6], ["unstable node", 70, level - 6]]
+    const wanted = /** @type {[string, number, number][]} */ ([["saddle", -90, 45], ["stable focus", -30, -84], ["unstable focus", 36, -84], ["stable node", -80, level - 6], ["unstable node", 70, level - 6]])
     return wanted.map(([name, u, v]) => {
       const width = 0.56 * PLANE_NAME * name.length + 2, height = PLANE_NAME
       let best = null
@@ -90,6 +97,7 @@ class Planes {
   drawEigenvalues(shown, beside) {
     const svg = this.find(".eigen-plane")
     const reach = 1.2 * Math.max(1e-12, ...shown.flatMap((p) => eigenvalues(p).flatMap(([re, im]) => [Math.abs(re), Math.abs(im) / 0.72])))
+    /** @param {number[]} value */
     const place = ([re, im]) => [100 * re / reach, -100 * im / reach]
     const at = [0, 1].map((k) => (one) => place(eigenvalues(one)[k]))
     const covered = [...this.critical, ...beside.named].flatMap((one) => at.map((where) => [...where(one), 9, 9]))
@@ -128,22 +136,8 @@ class Planes {
     return curve + dots.join("") + names.join("")
   }
 
+  /** @param {{label: string, kind: string}} C @param {number[]} at */
   dot(C, [x, y]) {
     return `<circle class="now${C.kind.startsWith("stable") ? " filled" : ""}" cx="${fixed(x)}" cy="${fixed(y)}" r="4"><title>${C.label}: ${C.kind}</title></circle>`
   }
 }
-
-function kindAt({trace, determinant}) {
-  if (determinant < 0) return "saddle"
-  return `${trace < 0 ? "stable" : "unstable"} ${trace * trace < 4 * determinant ? "focus" : "node"}`
-}
-
-// Both eigenvalues as [real, imaginary], from trace and determinant.
-function eigenvalues({trace, determinant}) {
-  const half = trace / 2, inner = half * half - determinant
-  const root = Math.sqrt(Math.abs(inner))
-  return inner < 0 ? [[half, root], [half, -root]] : [[half + root, 0], [half - root, 0]]
-}
-
-const fixed = (value) => Number(value.toFixed(2))
-const polyline = (points) => points.length ? `M${points.map(([x, y]) => `${fixed(x)} ${fixed(y)}`).join("L")}` : ""

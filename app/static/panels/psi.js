@@ -1,6 +1,9 @@
 // The panel "Ψ" (fig:component): Ψ(s), and the smooth step L(l; ε) = l/√(l² + ε²Ψ(l²/ε²)) along a line through 0.
 
-class PsiCurves {
+import {fixed, polyline} from "../svg.js"
+import {escape, plain} from "../words.js"
+
+export class PsiCurves {
   constructor(root) {
     this.box = root.querySelector(".panel-psi")
     this.svg = this.box.querySelector(".psi-curves")

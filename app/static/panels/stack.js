@@ -1,6 +1,8 @@
 // The panel "3-D": the hemisphere of the blowup, or hemispheres stacked along z. Turned here, without asking the server.
 
-class Stack {
+import {digits, plain} from "../words.js"
+
+export class Stack {
   // `choose(view)` is called when another view is chosen.
   constructor(root, config, choose) {
     this.root = root
@@ -49,6 +51,7 @@ class Stack {
   draw(values) { this.values = values; this.view = values.solid; this.paint() }
 
   // From space to the canvas: x to the right, y away, z up; returns [x, y, depth], larger depth farther away.
+  /** @param {number[]} point */
   project([x, y, z]) {
     const c = Math.cos(this.azimuth), s = Math.sin(this.azimuth), ce = Math.cos(this.elevation), se = Math.sin(this.elevation)
     const right = c * x - s * y, away = s * x + c * y
@@ -99,6 +102,7 @@ class Stack {
     this.line(Array.from({length: 97}, (_, i) => [radius * Math.cos(i * Math.PI / 48), radius * Math.sin(i * Math.PI / 48), z]), style)
   }
 
+  /** @param {number[]} point @param {{size?: number, fill: string, stroke: string, text?: string, shape?: string}} style */
   dot(point, {size = 4, fill, stroke, text, shape = "circle"}) {
     const g = this.g, [x, y] = this.project(point)
     g.beginPath()

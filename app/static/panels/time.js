@@ -1,9 +1,13 @@
 // The panel "Time": one motion, for the chosen ε and in the limit ε → 0, as curves over time and in the picture.
 
+import {Ball} from "../ball.js"
+import {fixed, polyline} from "../svg.js"
+import {digits, escape, plain, slowName} from "../words.js"
+
 const PHASE = {slip: "slips", slide: "slides", cross: "crosses"}
 const PLAY_SECONDS = 9 // for the whole motion
 
-class Motion {
+export class Motion {
   // `move` sets controls; `trace(paths, place)` draws paths and the moving point in the picture, or clears them.
   constructor(root, config, move, trace) {
     this.box = root.querySelector(".panel-time")
@@ -105,13 +109,13 @@ class Motion {
     if (!motion) { this.trace(null); return }
     this.at = Math.min(this.at, this.end)
     const m = motion.states.length - 2
-    const rows = [["x, y", [0, 1]], [m === 1 ? this.slowSymbol(0) : "z", Array.from({length: Math.min(m, 4)}, (_, i) => 2 + i)]].filter(([, columns]) => columns.length)
+    const rows = [[0, 1], Array.from({length: Math.min(m, 4)}, (_, i) => 2 + i)].filter((columns) => columns.length)
     const X = (t) => -86 + 182 * t / this.end
     const parts = []
     let top = -62
     this.top = top
     const height = rows.length > 1 ? 54 : 70
-    for (const [k, [title, columns]] of rows.entries()) {
+    for (const columns of rows) {
       const values = columns.flatMap((c) => [...motion.states[c], ...(limit?.states[c] ?? [])])
       const low = Math.min(0, ...values), high = Math.max(0, ...values), pad = 0.06 * (high - low || 1)
       const Y = (v) => top + height * (high + pad - v) / (high - low + 2 * pad)
@@ -138,80 +142,4 @@ class Motion {
   }
 
   slowSymbol(i) { return this.config.slowSymbols?.[i] ?? (this.motion.states.length === 3 ? "z" : `z${"₁₂₃₄"[i]}`) }
-}
-
-// A ball seen from above and to the side: it translates with z and turns as its contact velocity says.
-class Ball {
-  constructor(root, canvas) { this.root = root; this.canvas = canvas }
-
-  // Positions and orientations along the motion. With contact slip u = v + ω × (−R k), ω × k = (v − u)/R.
-  prepare({t, states, ball}) {
-    const [u1, u2, v1, v2] = states
-    const n = t.length
-    const x = new Float64Array(n), y = new Float64Array(n), turns = [[1, 0, 0, 0]]
-    for (let i = 1; i < n; i++) {
-      const dt = t[i] - t[i - 1]
-      x[i] = x[i - 1] + 0.5 * dt * (v1[i] + v1[i - 1]); y[i] = y[i - 1] + 0.5 * dt * (v2[i] + v2[i - 1])
-    }
-    this.path = ball === "position" ? [states[4], states[5]] : [x, y]
-    const reach = (c) => [Math.min(...c), Math.max(...c)]
-    const [[a, b], [c, d]] = this.path.map(reach)
-    this.span = [b - a, d - c]
-    this.middle = [(a + b) / 2, (c + d) / 2]
-    this.radius = 0.07 * Math.max(b - a, d - c, 1e-6)
-    for (let i = 1; i < n; i++) {
-      const dt = t[i] - t[i - 1]
-      const wy = 0.5 * (v1[i] + v1[i - 1] - u1[i] - u1[i - 1]) / this.radius, wx = -0.5 * (v2[i] + v2[i - 1] - u2[i] - u2[i - 1]) / this.radius
-      const size = Math.hypot(wx, wy), half = 0.5 * size * dt, s = size ? Math.sin(half) / size : 0
-      turns.push(times([Math.cos(half), wx * s, wy * s, 0], turns[i - 1]))
-    }
-    this.turns = turns
-    this.t = t
-  }
-
-  show(_, at) {
-    const canvas = this.canvas, ratio = devicePixelRatio || 1, w = canvas.clientWidth, h = canvas.clientHeight
-    if (!w || !this.t) return
-    canvas.width = Math.round(w * ratio); canvas.height = Math.round(h * ratio)
-    const g = canvas.getContext("2d"), style = getComputedStyle(this.root), colour = (name) => style.getPropertyValue(`--${name}`).trim()
-    g.setTransform(ratio, 0, 0, ratio, 0, 0)
-    const scale = 0.92 * Math.min(w / (this.span[0] + 2 * this.radius), h / (this.span[1] + 2 * this.radius))
-    const place = (i) => [w / 2 + scale * (this.path[0][i] - this.middle[0]), h / 2 - scale * (this.path[1][i] - this.middle[1])]
-    let i = this.t.findIndex((time) => time > at)
-    i = i < 0 ? this.t.length - 1 : Math.max(0, i - 1)
-    g.beginPath(); this.t.forEach((_, k) => { const [px, py] = place(k); if (k) g.lineTo(px, py); else g.moveTo(px, py) })
-    g.strokeStyle = colour("line"); g.lineWidth = 1.5; g.stroke()
-    g.beginPath(); for (let k = 0; k <= i; k++) { const [px, py] = place(k); if (k) g.lineTo(px, py); else g.moveTo(px, py) }
-    g.strokeStyle = colour("accent"); g.lineWidth = 2; g.stroke()
-    const [cx, cy] = place(i), r = this.radius * scale
-    const light = g.createRadialGradient(cx - r / 3, cy - r / 3, r / 8, cx, cy, r)
-    light.addColorStop(0, colour("page")); light.addColorStop(1, colour("soft"))
-    g.beginPath(); g.arc(cx, cy, r, 0, 7); g.fillStyle = light; g.fill()
-    // three great circles painted on the ball; the half that faces us is seen
-    g.lineWidth = 1.6
-    ;["crit", "accent", "attr"].forEach((name, axis) => {
-      g.beginPath(); g.strokeStyle = colour(name)
-      let pen = false
-      for (let k = 0; k <= 48; k++) {
-        const angle = k * Math.PI / 24, v = [0, 0, 0]
-        v[(axis + 1) % 3] = Math.cos(angle); v[(axis + 2) % 3] = Math.sin(angle)
-        const [px, py, pz] = turned(this.turns[i], v)
-        if (pz < -0.02) { pen = false; continue }
-        if (pen) g.lineTo(cx + r * px, cy - r * py); else g.moveTo(cx + r * px, cy - r * py)
-        pen = true
-      }
-      g.stroke()
-    })
-    g.beginPath(); g.arc(cx, cy, r, 0, 7); g.strokeStyle = colour("ink"); g.lineWidth = 1; g.stroke()
-  }
-}
-
-// Quaternions (w, x, y, z): the product, and a vector turned.
-function times([a, b, c, d], [e, f, g, h]) {
-  return [a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e]
-}
-
-function turned([w, x, y, z], [a, b, c]) {
-  const [tx, ty, tz] = [2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)]
-  return [a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx]
 }

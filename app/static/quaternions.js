@@ -1,0 +1,23 @@
+// Turns in space, as quaternions (w, x, y, z).
+
+/** @typedef {[number, number, number, number]} Quaternion */
+
+/**
+ * The turn that does the second one first, then the first one.
+ * @param {Quaternion} first
+ * @param {Quaternion} second
+ * @returns {Quaternion}
+ */
+export function times([a, b, c, d], [e, f, g, h]) {
+  return [a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e]
+}
+
+/**
+ * A vector turned.
+ * @param {Quaternion} turn
+ * @param {number[]} vector
+ */
+export function turned([w, x, y, z], [a, b, c]) {
+  const [tx, ty, tz] = [2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)]
+  return [a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx]
+}

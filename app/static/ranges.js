@@ -1,0 +1,19 @@
+// Ranges that hold a value and end at a round number.
+
+export function roundUp(size) {
+  const power = 10 ** Math.floor(Math.log10(1.2 * size))
+  return [1, 2, 5, 10].map((k) => k * power).find((v) => v >= 1.2 * size)
+}
+
+// A slider's range, widened to hold a value, as in controls.js.
+export function rangeFor([low, high], value) {
+  if (value >= low && value <= high) return [low, high]
+  const reach = roundUp(Math.abs(value))
+  return [low < 0 ? -reach : low, reach]
+}
+
+// Half the width of the plane of f: some tenths more than what it must show, and a round number.
+export function reachFor(far) {
+  const power = 10 ** Math.floor(Math.log10(1.12 * far))
+  return Number((power * [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((k) => power * k >= 1.12 * far || k === 10)).toPrecision(2))
+}

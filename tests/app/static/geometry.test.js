@@ -1,0 +1,59 @@
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import {polygons, STEP} from "../../../app/static/frames.js"
+import {eigenvalues, kindAt} from "../../../app/static/jacobian.js"
+import {times, turned} from "../../../app/static/quaternions.js"
+import {rangeFor, reachFor, roundUp} from "../../../app/static/ranges.js"
+import {holds, meet} from "../../../app/static/regions.js"
+import {polyline} from "../../../app/static/svg.js"
+
+const near = (one, other, most = 1e-12) => one.flat().forEach((v, i) => assert.ok(Math.abs(v - other.flat()[i]) <= most, `${one} is not ${other}`))
+
+test("ranges end at 1, 2 or 5 times a power of ten, and hold the value", () => {
+  assert.deepEqual([1.6, 3, 0.4, 37, 9].map(roundUp), [2, 5, 0.5, 50, 20])
+  assert.deepEqual(rangeFor([-4, 4], -7), [-10, 10])
+  assert.deepEqual(rangeFor([0, 4], 7), [0, 10])
+  assert.deepEqual(rangeFor([-4, 4], 4), [-4, 4])
+  for (const far of [0.51, 1, 2.7, 8.9, 9.3, 75]) assert.ok(reachFor(far) >= 1.1 * far && reachFor(far) < 2.3 * far, `${far}`)
+})
+
+test("a region with a hole, and one that reaches to infinity", () => {
+  const square = (r) => [[-r, -r], [r, -r], [r, r], [-r, r]]
+  const ring = {loops: [square(2), square(1)], bounded: true}
+  assert.deepEqual([[0, 0], [1.5, 0.2], [0.3, -1.5], [3, 0]].map((p) => holds(ring, p)), [false, true, true, false])
+  assert.equal(holds({loops: [square(1)], bounded: false}, [5, 3]), true)
+})
+
+test("boxes meet when both shares overlap", () => {
+  assert.equal(meet([0, 0, 4, 2], [3, 0.5, 4, 2]), true)
+  assert.equal(meet([0, 0, 4, 2], [3, 2.5, 4, 2]), false)
+  assert.equal(meet([0, 0, 4, 2], [4.5, 0, 4, 2]), false)
+})
+
+test("packed points keep their order, x before y", () => {
+  const lines = polygons([2, 1], Int16Array.of(100, 200, -300, 400, 5, -6), 10)
+  near(lines.flat(), [[100, 200], [-300, 400], [5, -6]].map((p) => p.map((v) => v * STEP * 10)))
+  assert.deepEqual(lines.map((line) => line.length), [2, 1])
+})
+
+test("eigenvalues have the trace and determinant that they were made of, and the kind says how they lie", () => {
+  const cases = [[-3, 2, "stable node"], [1, 5, "unstable focus"], [-1, 5, "stable focus"], [3, 1, "unstable node"], [2, -1, "saddle"]]
+  for (const [trace, determinant, kind] of cases) {
+    const [[a, b], [c, d]] = eigenvalues({trace, determinant})
+    near([a + c, b + d, a * c - b * d, a * d + b * c], [trace, 0, determinant, 0])
+    assert.equal(kindAt({trace, determinant}), kind)
+  }
+})
+
+test("a quarter turn about z takes x to y, and turns follow one another", () => {
+  const h = Math.SQRT1_2
+  const aboutZ = /** @type {const} */ ([h, 0, 0, h]), aboutX = /** @type {const} */ ([h, h, 0, 0])
+  near(turned([...aboutZ], [1, 0, 0]), [0, 1, 0])
+  near(turned(times([...aboutX], [...aboutZ]), [1, 0, 0]), [0, 0, 1]) // first about z, then about x
+})
+
+test("an SVG path writes x before y", () => {
+  assert.equal(polyline([[1, 2.345], [-3, 4]]), "M1 2.35L-3 4".replace("2.35", String(Number((2.345).toFixed(2)))))
+  assert.equal(polyline([]), "")
+})

@@ -1,0 +1,79 @@
+"""The front end's modules: their own tests, run by Node, and how they are joined."""
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from codim2_app.view.bundle import bundle
+from codim2_app.view.markup import script
+
+HERE = Path(__file__).parent
+STATIC = Path(__file__).parents[3] / "app" / "static"
+
+
+@pytest.fixture(scope="module")
+def node():
+    """The path of Node; where it is missing the test is left out, but in CI it fails."""
+    path = shutil.which("node")
+    if path is None:
+        (pytest.fail if os.environ.get("CI") else pytest.skip)("no Node: install nodejs")
+    return path
+
+
+def write(folder, **modules):
+    for name, text in modules.items():
+        (folder / f"{name}.js").write_text(text)
+    return folder / f"{next(reversed(modules))}.js"
+
+
+def test_node_tests(node):
+    done = subprocess.run(
+        [node, "--test", "--test-reporter=tap"], cwd=HERE, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert int(re.search(r"^# pass (\d+)$", done.stdout, re.M)[1]) >= len(list(HERE.glob("*.test.js")))
+
+
+def test_the_joined_modules_are_one_module_that_node_reads(node, tmp_path):
+    joined = tmp_path / "all.mjs"
+    joined.write_text(script(), encoding="utf-8")
+    done = subprocess.run([node, "--check", str(joined)], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "\nimport " not in script()
+
+
+def test_every_module_is_reached():
+    joined = script()
+    for path in STATIC.rglob("*.js"):
+        first = next(line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("// "))
+        assert joined.count(first + "\n") == 1, path.name
+
+
+def test_what_is_imported_stands_before_what_imports_it_and_stands_once(tmp_path):
+    entry = write(
+        tmp_path,
+        one="export const a = 1\n",
+        two='import {a} from "./one.js"\nexport const b = a + 1\n',
+        all='import {b} from "./two.js"\nimport {a} from "./one.js"\nexport default {a, b}\n',
+    )
+    assert bundle(entry) == "const a = 1\n\nconst b = a + 1\n\nexport default {a, b}\n"
+
+
+@pytest.mark.parametrize(
+    ("modules", "words"),
+    [
+        ({"one": "const a = 1\n", "two": 'import "./one.js"\nconst a = 2\n'}, "two.js and one.js both declare a"),
+        ({"one": 'import {b} from "./two.js"\n', "two": 'import {a} from "./one.js"\n'}, "in a circle"),
+        ({"one": "const a = 1\n", "two": 'import {a} from "./one.js"\n'}, "exports no such name"),
+        ({"one": 'import {a} from "./none.js"\n'}, "does not exist"),
+        ({"one": "export default 1\n", "two": 'import "./one.js"\n'}, "is not read"),
+        ({"one": "export const a = 1\n", "two": 'import * as b from "./one.js"\n'}, "is not read"),
+        ({"one": "export const a = 1\n", "two": 'import {a as b} from "./one.js"\n'}, "exports no such name"),
+    ],
+)
+def test_what_cannot_be_joined_is_said(tmp_path, modules, words):
+    with pytest.raises(ValueError, match=words):
+        bundle(write(tmp_path, **modules))
