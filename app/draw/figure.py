@@ -31,8 +31,10 @@ from bokeh.models import (
 )
 from bokeh.models.glyph import Glyph
 
-from .theme import ARROWED, DASHED, DISCS, LIGHT, LINES, RING, VIEW
+from .layers import TRACES, painted
+from .theme import DISCS, RING, VIEW, themes
 
+LIGHT = themes()["light"]
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif"
 
 EQUATOR_TOOLTIP = """<div class="codim2-tip"><b>@label</b> @type<br>θ = @theta_text<br>
@@ -44,7 +46,7 @@ tr J = @trace_text, det J = @det_text<br>eigenvalues @eig_text<br>z' = @slow_tex
 def make_figure() -> Plot:
     """Return the empty picture: equal axes on [-VIEW, VIEW], the shaded hemisphere, and a source per layer.
 
-    Sources are found by name: those of `theme.LINES` ("rho_inside", ..., "continuations")
+    Sources are found by name: those of the parts of `layers.LAYERS` ("rho_inside", ..., "continuations")
     with columns x, y (pieces separated by NaN); "outcomes" (start, end, colour, hatch);
     "arrows:<layer>" with x, y, angle; "equator", "critical" and "sense" with the columns of `codim2_app.draw.glyphs`.
     """
@@ -63,26 +65,27 @@ def make_figure() -> Plot:
         syncable=False,
     )
     _add(plot, "discs", Circle(x="x", y="y", radius="r", fill_color=LIGHT["shade"],
-                               fill_alpha=LIGHT["shade_alpha"], line_color=None),
+                               fill_alpha=float(LIGHT["shade-alpha"]), line_color=None),
          x=[0.0] * len(DISCS), y=[0.0] * len(DISCS), r=list(DISCS))  # fmt: skip
     _add(plot, "basins", ImageURL(url="url", x=-1, y=1, w=2, h=2), url=[])
     _add(plot, "outcomes", AnnularWedge(x=0, y=0, inner_radius=RING[0], outer_radius=RING[1], start_angle="start",
                                         end_angle="end", fill_color="colour", line_color=None, hatch_pattern="hatch",
                                         hatch_color=LIGHT["page"], hatch_scale=7, hatch_weight=1.4),
          start=[], end=[], colour=[], hatch=[])  # fmt: skip
-    for name, colour, width in LINES:
-        _add(plot, name, Line(x="x", y="y", line_color=LIGHT[colour], line_width=width, line_join="round",
-                              line_dash=list(DASHED.get(name, ()))),
+    parts = [*(part for layer in painted() for part in layer.parts), *TRACES]
+    for part in parts:
+        _add(plot, part.name, Line(x="x", y="y", line_color=LIGHT[part.colour], line_width=part.width,
+                                   line_join="round", line_dash=[*map(int, part.dash)]),
              x=[], y=[])  # fmt: skip
-    for name, colour, _ in LINES:
-        if name in ARROWED:
-            _add(plot, f"arrows:{name}", Scatter(x="x", y="y", angle="angle", marker="triangle", size=6.5,
-                                                 fill_color=LIGHT[colour], line_color=None),
+    for part in parts:
+        if part.arrows:
+            _add(plot, f"arrows:{part.name}", Scatter(x="x", y="y", angle="angle", marker="triangle", size=6.5,
+                                                      fill_color=LIGHT[part.colour], line_color=None),
                  x=[], y=[], angle=[])  # fmt: skip
-    _add(plot, "circle", Circle(x="x", y="y", radius="r", fill_color=None, line_color=LIGHT["equator"],
+    _add(plot, "circle", Circle(x="x", y="y", radius="r", fill_color=None, line_color=LIGHT["ink"],
                                 line_width=2.0), x=[0.0], y=[0.0], r=[1.0])  # fmt: skip
     _add(plot, "sense", Scatter(x="x", y="y", angle="angle", marker="triangle", size=10,
-                                fill_color=LIGHT["equator"], line_color=None), x=[], y=[], angle=[])  # fmt: skip
+                                fill_color=LIGHT["ink"], line_color=None), x=[], y=[], angle=[])  # fmt: skip
     marks: dict[str, Any] = {"x": "x", "y": "y", "marker": "marker", "fill_color": "fill", "line_color": "colour"}
     equator = _add(plot, "equator", Scatter(size="size", line_width=2.4, **marks),
                    **_columns("label_x", "label_y", "size"))  # fmt: skip

@@ -21,8 +21,20 @@ LABEL_GAP = 0.16
 LABEL_RADIUS = 1.11
 #: A label stands beside its direction, since the θ-nullcline runs along it.
 LABEL_TURN = 0.095
-#: A piece shorter than this (in radii of the disc) carries no arrowhead.
-SHORTEST_WITH_ARROW = 0.08
+#: Marks of critical sets: shape, and whether it is filled. Stable is filled, a node a square, a focus a circle.
+CRITICAL_MARKS = {
+    "stable node": ("square", 1),
+    "unstable node": ("square", 0),
+    "stable focus": ("circle", 1),
+    "unstable focus": ("circle", 0),
+    "saddle": ("x", 0),
+    "centre (linear)": ("circle_dot", 0),
+    "saddle-node": ("triangle", 0),
+    "degenerate": ("hex", 0),
+}
+#: Widths of marks in px: a circle, a square, … of one size do not look equally large.
+EQUATOR_SIZES = {"circle": 13, "diamond": 18, "triangle": 15}
+CRITICAL_SIZE = 15
 
 
 def join(pieces: Sequence[Points]) -> tuple[NDArray[np.int64], Points]:
@@ -30,49 +42,6 @@ def join(pieces: Sequence[Points]) -> tuple[NDArray[np.int64], Points]:
     if not pieces:
         return np.zeros(1, np.int64), np.zeros((0, 2))
     return np.cumsum([0, *map(len, pieces)]), np.concatenate(pieces)
-
-
-def arrowheads(
-    offsets: NDArray[np.int64], points: Points, pieces: NDArray[np.int64], fractions: Points
-) -> tuple[Points, NDArray[np.int64]]:
-    """Place arrowheads on pieces of polylines, all in one pass.
-
-    Parameters
-    ----------
-    offsets : ndarray (k + 1,)
-    points : ndarray (n, 2)
-        Piece i is ``points[offsets[i]:offsets[i + 1]]``, in order of increasing time.
-    pieces, fractions : ndarray (j,)
-        Arrowhead i sits on piece ``pieces[i]``, at this fraction of its length.
-
-    Returns
-    -------
-    heads : ndarray (l, 3)
-        x, y and direction in radians.
-    kept : ndarray (l,)
-        Which of the j are drawn, in order: pieces shorter than `SHORTEST_WITH_ARROW` have none.
-    """
-    if len(points) < 2 or not len(pieces):
-        return np.zeros((0, 3)), np.zeros(0, np.int64)
-    steps = points[1:] - points[:-1]
-    lengths = np.hypot(steps[:, 0], steps[:, 1])
-    joints = offsets[1:-1] - 1
-    lengths[joints[(joints >= 0) & (joints < len(lengths))]] = 0.0  # a jump to the next piece belongs to neither
-    travelled = np.zeros(len(points))
-    np.cumsum(lengths, out=travelled[1:])
-    first, last = offsets[pieces], offsets[pieces + 1] - 1  # places of a piece's ends
-    begin, end = travelled[np.minimum(first, len(lengths))], travelled[last]
-    kept = np.flatnonzero((last > first) & (end - begin > SHORTEST_WITH_ARROW))
-    first, last, begin, end = first[kept], last[kept], begin[kept], end[kept]
-    target = begin + fractions[kept] * (end - begin)
-    step = np.searchsorted(travelled, target) - 1
-    np.maximum(step, first, out=step)
-    np.minimum(step, last - 1, out=step)
-    along = steps[step]
-    heads = np.empty((len(kept), 3))
-    heads[:, :2] = points[step] + ((target - travelled[step]) / lengths[step])[:, None] * along
-    heads[:, 2] = np.arctan2(along[:, 1], along[:, 0])
-    return heads, kept
 
 
 def spread(angles: Sequence[float], gap: float = LABEL_GAP) -> list[float]:
@@ -118,7 +87,8 @@ def equator_columns(equator: Any) -> dict[str, list[Any]]:
     """Return the columns of the equator equilibria Q1, Q2, ... in order of theta.
 
     ``filled`` is 1 where the equilibrium is radially attracting (trajectories arrive), 0 where it is repelling;
-    ``shape`` is "circle" where it is angularly attracting, "diamond" where repelling, "triangle" if degenerate.
+    ``shape`` is "circle" where it is angularly attracting, "diamond" where repelling, "triangle" if degenerate;
+    ``colour`` is a key of the themes.
     """
     theta = [float(v) for v in equator.theta]
     rho = [float(v) for v in equator.lambda_rho]
@@ -137,7 +107,12 @@ def equator_columns(equator: Any) -> dict[str, list[Any]]:
         "multiplicity": multiplicity,
         "type": [equator_type(r, v, m) for r, v, m in zip(rho, ang, multiplicity, strict=True)],
         "shape": shapes,
+        "size": [EQUATOR_SIZES[shape] for shape in shapes],
         "filled": [int(v < 0) for v in rho],
+        "colour": [
+            "degenerate" if shape == "triangle" or v == 0 else "attr" if v < 0 else "rep"
+            for v, shape in zip(rho, shapes, strict=True)
+        ],
         "x": [math.cos(v) for v in theta],
         "y": [math.sin(v) for v in theta],
         "label_x": [LABEL_RADIUS * math.cos(v) for v in labels],
@@ -173,20 +148,32 @@ def equator_arrows(equator: Any, direction: int = 0) -> list[tuple[float, float,
 
 def critical_columns(critical: Sequence[Any]) -> dict[str, list[Any]]:
     """Return the columns of the critical sets C (C1, C2, ... if there are several)."""
+    flows = [[] if c.slow_flow is None else [float(v) for v in np.atleast_1d(c.slow_flow)] for c in critical]
+    marks = [CRITICAL_MARKS.get(str(c.kind), ("circle", 0)) for c in critical]
     names = ["C"] if len(critical) == 1 else [f"C{subscript(i + 1)}" for i in range(len(critical))]
     return {
         "label": names,
         "x": [float(c.p[0]) for c in critical],
         "y": [float(c.p[1]) for c in critical],
         "kind": [str(c.kind) for c in critical],
+        "shape": [shape for shape, _ in marks],
+        "size": [CRITICAL_SIZE] * len(marks),
+        "filled": [filled for _, filled in marks],
+        "colour": ["crit"] * len(marks),
         "e": [[float(v) for v in c.e] for c in critical],
         "x2": [[float(v) for v in c.x2] for c in critical],
         "trace": [float(c.trace) for c in critical],
         "determinant": [float(c.determinant) for c in critical],
         "discriminant": [float(c.discriminant) for c in critical],
         "eigenvalues": [[[float(v.real), float(v.imag)] for v in np.asarray(c.eigenvalues)] for c in critical],
-        "slow_flow": [[] if c.slow_flow is None else [float(v) for v in np.atleast_1d(c.slow_flow)] for c in critical],
+        "slow_flow": flows,
+        "sense": [_out_of_page(flow) for flow in flows],
     }
+
+
+def _out_of_page(flow: list[float]) -> str:
+    """Return the sense of z' as the paper's circled dot (out of the page, z1' > 0) or cross."""
+    return "" if not flow or flow[0] == 0 else "⊙" if flow[0] > 0 else "⊗"
 
 
 def cycle_columns(cycles: Any) -> dict[str, Any]:

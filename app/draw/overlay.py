@@ -10,10 +10,11 @@ import numpy as np
 from codim2_core.scene import Scene
 
 from . import glyphs
-from .theme import LIGHT, VIEW
+from .layers import painted
+from .theme import VIEW, themes
 
 AXES = ["x̄", "ȳ"]
-MARKERS = {"circle": "circle", "diamond": "diamond", "triangle": "triangle"}
+LIGHT = themes()["light"]
 
 
 def elements(scene: Scene) -> dict[str, Any]:
@@ -26,19 +27,17 @@ def elements(scene: Scene) -> dict[str, Any]:
     Returns
     -------
     dict of str to Element
-        "hemisphere", "rho", "theta", "lines_inside", "lines_outside", "outside", "inside", "continuations", "cycles"
-        (paths), "equator" and "critical" (points with the inspector's numbers as further dimensions).
+        "hemisphere", the layers of curves that are shown at first (paths; a layer of two colours is two elements, by
+        the names of its parts), "equator" and "critical" (points with the inspector's numbers as further dimensions).
     """
-    branches = [*scene["nullclines_inside"], *scene["nullclines_outside"]]
     made: dict[str, Any] = {"hemisphere": _circle()}
-    for name in ("rho", "theta"):
-        made[name] = _paths([b.points for b in branches if b.kind == name], name, LIGHT[name], 1.8)
-    for name, inside in (("lines_inside", True), ("lines_outside", False)):
-        pieces = [b.points for b in branches if b.kind in ("U1", "U2") and b.inside is inside]
-        made[name] = _paths(pieces, name, LIGHT[name], 1.5)
-    for name, colour in (("outside", "outside"), ("inside", "orbit"), ("continuations", "continuation")):
-        made[name] = _paths(scene[name].points, name, LIGHT[colour], 0.9)
-    made["cycles"] = _paths([cycle.points for cycle in scene["cycles"]], "cycles", LIGHT["cycle"], 2.8)
+    for layer in painted():
+        colours = dict.fromkeys(part.colour for part in layer.parts)
+        for colour in colours if not layer.hidden else ():
+            parts = [part for part in layer.parts if part.colour == colour]
+            label = layer.name if len(colours) == 1 else parts[0].name
+            pieces = [piece for part in parts for piece in _pieces(*part.pieces(scene[part.scene]))]
+            made[label] = _paths(pieces, label, LIGHT[colour], parts[0].width)
     made["equator"] = _equator(scene)
     made["critical"] = _critical(scene)
     return made
@@ -71,8 +70,12 @@ def holoviews(scene: Scene) -> Any:
     )
 
 
+def _pieces(offsets: Any, points: Any) -> list[Any]:
+    return np.split(points, offsets[1:-1]) if len(points) else []
+
+
 def _circle() -> Any:
-    return _styled(hv.Ellipse(0, 0, 2, label="hemisphere"), color=LIGHT["equator"], line_width=2)
+    return _styled(hv.Ellipse(0, 0, 2, label="hemisphere"), color=LIGHT["ink"], line_width=2)
 
 
 def _paths(pieces: list[Any], label: str, colour: str, width: float) -> Any:
@@ -82,10 +85,9 @@ def _paths(pieces: list[Any], label: str, colour: str, width: float) -> Any:
 
 def _equator(scene: Scene) -> Any:
     q = glyphs.equator_columns(scene["equator"])
-    colours = [LIGHT["attracting"] if filled else LIGHT["repelling"] for filled in q["filled"]]
-    fills = [colour if filled else LIGHT["hollow"] for colour, filled in zip(colours, q["filled"], strict=True)]
+    colours, fills = _coloured(q)
     columns = (q["x"], q["y"], q["label"], q["type"], q["theta"], q["lambda_rho"], q["lambda_theta"],
-               [MARKERS[shape] for shape in q["shape"]], colours, fills)  # fmt: skip
+               q["shape"], colours, fills)  # fmt: skip
     names = ["label", "type", "theta", "lambda_rho", "lambda_theta", "marker", "colour", "fill"]
     points = hv.Points(columns, kdims=AXES, vdims=names, label="equator")
     return _styled(points, marker=hv.dim("marker"), line_color=hv.dim("colour"), fill_color=hv.dim("fill"),
@@ -94,12 +96,19 @@ def _equator(scene: Scene) -> Any:
 
 def _critical(scene: Scene) -> Any:
     c = glyphs.critical_columns(scene["critical"])
-    fills = [LIGHT["critical"] if kind.startswith("stable") else LIGHT["hollow"] for kind in c["kind"]]
-    columns = (c["x"], c["y"], c["label"], c["kind"], c["trace"], c["determinant"], c["discriminant"], fills)
-    names = ["label", "kind", "trace", "determinant", "discriminant", "fill"]
+    colours, fills = _coloured(c)
+    columns = (c["x"], c["y"], c["label"], c["kind"], c["trace"], c["determinant"], c["discriminant"],
+               c["shape"], colours, fills)  # fmt: skip
+    names = ["label", "kind", "trace", "determinant", "discriminant", "marker", "colour", "fill"]
     points = hv.Points(columns, kdims=AXES, vdims=names, label="critical")
-    return _styled(points, marker="square", line_color=LIGHT["critical"], fill_color=hv.dim("fill"),
+    return _styled(points, marker=hv.dim("marker"), line_color=hv.dim("colour"), fill_color=hv.dim("fill"),
                    size=12, line_width=2, tools=["hover"])  # fmt: skip
+
+
+def _coloured(columns: Any) -> tuple[list[str], list[str]]:
+    """Return the colours of the marks' outlines and of their insides."""
+    colours = [LIGHT[key] for key in columns["colour"]]
+    return colours, [c if filled else LIGHT["page"] for c, filled in zip(colours, columns["filled"], strict=True)]
 
 
 def _styled(element: Any, **bokeh: Any) -> Any:

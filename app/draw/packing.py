@@ -17,26 +17,27 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .glyphs import arrowheads
+from .arrowheads import arrowheads
+from .theme import REACH, VIEW
 
 #: Coordinates travel as int16 multiples of EXTENT / 32767, that is 1.2e-4 of the disc's radius: at 400 px
 #: for the radius this is 0.05 px, five times finer than the polylines are sampled.
 EXTENT = 4.0
 STEP = EXTENT / 32767
 
+#: Where arrowheads are placed: as it looks in a picture of 700 px.
+PIXEL, WINDOW = VIEW / 350, (-REACH, REACH, -REACH, REACH)
+
 #: Angles of arrowheads travel as int16 multiples of this.
 ANGLE_STEP = np.pi / 32767
 
 
 class Polylines(NamedTuple):
-    """A layer of lines: piece i is ``points[offsets[i]:offsets[i + 1]]``, with arrowheads at fractions of its length.
-
-    Without ``where`` lines never carry arrowheads.
-    """
+    """A layer of lines: piece i is ``points[offsets[i]:offsets[i + 1]]``; `arrows` asks for arrowheads."""
 
     offsets: NDArray[np.int64]
     points: NDArray[np.float64]
-    where: tuple[float, ...] = ()
+    arrows: bool = False
 
 
 Blocks = Mapping[str, NDArray[Any] | Polylines]
@@ -90,46 +91,24 @@ def pack(header: Mapping[str, Any], blocks: Blocks) -> bytes:
 
 
 def _run(lines: Mapping[str, Polylines]) -> tuple[list[tuple[str, int, int, int | None]], bytes]:
-    """Return [name, pieces, points, arrowheads] of each layer, those with arrowheads first, and the data of all.
+    """Return [name, pieces, points, arrowheads] of each layer, and the data of all.
 
-    Everything is done once for all layers: a frame has a dozen of them, most with a few points.
+    Coordinates of all layers are converted at once: a frame has a dozen of them, most with a few points.
     """
-    layers = sorted(lines.items(), key=lambda item: not item[1].where)
-    starts, points, pieces, fractions, heads_from = [], [], [], [], [0]
-    at = first = armed = 0  # points and pieces so far; points of layers with arrowheads
-    for _, layer in layers:
-        starts.append(layer.offsets[:-1] + at)
-        points.append(layer.points)
-        at += len(layer.points)
-        count = len(layer.offsets) - 1
-        if layer.where:
-            armed = at
-            for fraction in layer.where:
-                pieces.append(np.arange(first, first + count))
-                fractions.append(np.full(count, fraction))
-            heads_from.append(heads_from[-1] + count * len(layer.where))
-        first += count
-    starts.append(np.array([at]))
-    offsets = np.concatenate(starts)
-    joined = np.concatenate(points)
-    counts: list[int | None] = [None] * len(layers)
-    data = [np.diff(offsets).astype(np.uint16).tobytes()]
-    if pieces:
-        with_heads = int(np.searchsorted(offsets, armed, side="right"))
-        heads, kept = arrowheads(
-            offsets[:with_heads], joined[:armed], np.concatenate(pieces), np.concatenate(fractions)
-        )
-        between = np.searchsorted(kept, heads_from)
-        data.append(quantise(np.concatenate([joined, heads[:, :2]])).tobytes())
-        data.append(np.rint(heads[:, 2] * (1 / ANGLE_STEP)).astype(np.int16).tobytes())
-        counts[: len(between) - 1] = np.diff(between).tolist()
-    else:
-        data.append(quantise(joined).tobytes())
-    rows = [
-        (name, len(layer.offsets) - 1, len(layer.points), count)
-        for (name, layer), count in zip(layers, counts, strict=True)
-    ]
-    return rows, b"".join(data)
+    rows, heads = [], []
+    for name, (offsets, points, arrows) in lines.items():
+        placed = arrowheads(offsets, points, PIXEL, WINDOW) if arrows else None
+        if placed is not None:
+            heads.append(placed)
+        rows.append((name, len(offsets) - 1, len(points), None if placed is None else len(placed)))
+    all_heads = np.concatenate(heads) if heads else np.zeros((0, 3))
+    places = np.concatenate([*(layer.points for layer in lines.values()), all_heads[:, :2]])
+    data = (
+        np.concatenate([np.diff(layer.offsets) for layer in lines.values()]).astype(np.uint16),
+        quantise(places),
+        np.rint(all_heads[:, 2] * (1 / ANGLE_STEP)).astype(np.int16),
+    )
+    return rows, b"".join(part.tobytes() for part in data)
 
 
 def unpack(buffer: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:

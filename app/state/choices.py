@@ -4,23 +4,6 @@ from __future__ import annotations
 
 #: Coefficients of the normal form: f(z) = f + z k, z' = B e + g.
 COEFFICIENTS = ("a", "b", "d", "f1", "f2", "k1", "k2", "B1", "B2", "g0")
-#: Layers that a user can hide: name of the control, and the words beside it.
-LAYERS = {
-    "outside": "Trajectories outside",
-    "inside": "Trajectories on the hemisphere",
-    "continuations": "Up the hemisphere",
-    "separatrices": "Separatrices",
-    "cycles": "Limit cycles",
-    "rho": "ρ-nullclines",
-    "theta": "θ-nullclines",
-    "lines": "Lines U₁ = 0, U₂ = 0",
-    "equator": "Equator equilibria",
-    "critical": "Critical sets",
-    "outcomes": "Approach outcomes",
-    "basins": "Basins",
-}
-#: Layers that are hidden until they are asked for.
-HIDDEN = ("separatrices", "outcomes", "basins")
 #: Panels beside the picture, one open at a time: name in the address, and the word on its tab.
 PANELS = {
     "atlas": "Atlas",

@@ -18,7 +18,8 @@ from codim2_core import psi as psi_families
 from codim2_core.examples import catalogue
 from codim2_core.psi.function import Psi
 
-from .choices import AXES, HIDDEN, LAYERS, MAX_TRAJECTORIES, OWN_AXIS, PANELS, SLOW_CONTROLS, SOLIDS
+from ..draw.layers import LAYERS, shown
+from .choices import AXES, MAX_TRAJECTORIES, OWN_AXIS, PANELS, SLOW_CONTROLS, SOLIDS
 from .chosen import NORMAL, TITLES, starting_launch, starting_z
 from .portraits import portraits
 
@@ -71,7 +72,7 @@ class ExplorerState(param.Parameterized):
         64, bounds=(0, MAX_TRAJECTORIES), label="Trajectories", doc="Number of starting points."
     )
     layers = param.ListSelector(
-        default=[name for name in LAYERS if name not in HIDDEN],
+        default=shown(),
         objects=list(LAYERS),
         instantiate=True,
         label="Layers",

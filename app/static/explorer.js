@@ -19,7 +19,7 @@ import {escape} from "./words.js"
 function wire({model, view, root, plot}) {
   const config = model.config
   const values = {...config.values}
-  const picture = new Picture(plot, config.themes, config.hatches)
+  const picture = new Picture(plot, config)
   const inspector = new Inspector(root)
   const find = (name) => root.querySelector(name)
   const requests = new Requests((request) => model.send_msg(request), () => { root.dataset.settled = false })

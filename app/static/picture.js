@@ -1,33 +1,14 @@
 // The picture: fills the sources of the Bokeh figure, and colours its glyphs.
 
 import {STEP} from "./frames.js"
-import {digits, eigen, outOfPage, pair} from "./words.js"
-
-const LINE_PARTS = {
-  rho: ["rho_inside", "rho_outside"], theta: ["theta_inside", "theta_outside"], lines: ["lines_inside", "lines_outside"],
-  outside: ["outside", "arrows:outside"], inside: ["inside", "arrows:inside"],
-  continuations: ["continuations", "arrows:continuations"], cycles: ["cycles", "arrows:cycles"],
-  separatrices: ["separatrices_stable", "arrows:separatrices_stable", "separatrices_unstable", "arrows:separatrices_unstable"],
-  equator: ["equator", "text:equator"], critical: ["critical", "text:critical"], outcomes: ["outcomes"],
-  basins: ["basins"],
-}
-const COLOUR_OF = {
-  rho_inside: "rho", rho_outside: "rho", theta_inside: "theta", theta_outside: "theta", lines_inside: "lines_inside", lines_outside: "lines_outside",
-  outside: "outside", inside: "orbit", continuations: "continuation",
-  separatrices_stable: "separatrix", separatrices_unstable: "separatrix", cycles: "cycle",
-  motion: "motion", limit: "motion",
-}
-const CRITICAL_MARK = {
-  "stable node": ["square", true], "unstable node": ["square", false], "stable focus": ["circle", true],
-  "unstable focus": ["circle", false], saddle: ["x", false], "centre (linear)": ["circle_dot", false],
-  "saddle-node": ["triangle", false], degenerate: ["hex", false],
-}
-const EQUATOR_MARK = {circle: ["circle", 13], diamond: ["diamond", 18], triangle: ["triangle", 15]}
+import {digits, eigen, pair} from "./words.js"
 
 export class Picture {
-  constructor(plot, themes, hatches) {
+  constructor(plot, {themes, hatches, layers, traces}) {
     this.plot = plot
     this.themes = themes
+    this.table = layers
+    this.parts = [...layers.flatMap((layer) => layer.parts), ...traces]
     this.renderers = {}
     for (const renderer of plot.renderers) this.renderers[renderer.name] = renderer
     this.theme = themes.light
@@ -40,7 +21,7 @@ export class Picture {
   source(name) { return this.renderers[name].data_source }
 
   apply({header, blocks}) {
-    for (const name of Object.keys(COLOUR_OF)) {
+    for (const {name} of this.parts) {
       if (blocks[`${name}.n`]) this.source(name).data = this.polylines(blocks[`${name}.n`], blocks[`${name}.xy`])
       if (blocks[`${name}.at`]) this.source(`arrows:${name}`).data = this.arrows(blocks[`${name}.at`], blocks[`${name}.angle`])
     }
@@ -81,16 +62,16 @@ export class Picture {
     // every direction is a limit direction: the whole circle is drawn as equilibria
     this.allDirections = header.all_directions
     this.renderers.circle.glyph.line_width = this.allDirections ? 6 : 2
-    this.renderers.circle.glyph.line_color = this.allDirections ? this.theme.degenerate : this.theme.equator
+    this.renderers.circle.glyph.line_color = this.allDirections ? this.theme.degenerate : this.theme.ink
   }
 
   drawEquator() {
     const q = this.equator, theme = this.theme
-    const colour = q.lambda_rho.map((v, i) => q.shape[i] === "triangle" || v === 0 ? theme.degenerate : v < 0 ? theme.attracting : theme.repelling)
+    const colour = q.colour.map((key) => theme[key])
     this.source("equator").data = {
       ...q, colour, text: q.label,
-      fill: colour.map((c, i) => q.filled[i] ? c : theme.hollow),
-      marker: q.shape.map((s) => EQUATOR_MARK[s][0]), size: q.shape.map((s) => EQUATOR_MARK[s][1]),
+      fill: colour.map((c, i) => q.filled[i] ? c : theme.page),
+      marker: q.shape,
       theta_text: q.theta.map((v) => `${digits(v, 5)} (${digits(v * 180 / Math.PI)}°)`),
       rho_text: q.lambda_rho.map((v) => digits(v, 5)), ang_text: q.lambda_theta.map((v) => digits(v, 5)),
     }
@@ -98,11 +79,9 @@ export class Picture {
 
   drawCritical() {
     const c = this.critical, theme = this.theme
-    const marks = c.kind.map((kind) => CRITICAL_MARK[kind] ?? ["circle", false])
     this.source("critical").data = {
-      ...c, text: c.label.map((label, i) => label + outOfPage(c.slow_flow[i])),
-      marker: marks.map((m) => m[0]), colour: c.kind.map(() => theme.critical),
-      fill: marks.map((m) => m[1] ? theme.critical : theme.hollow),
+      ...c, text: c.label.map((label, i) => `${label} ${c.sense[i]}`.trim()),
+      marker: c.shape, colour: c.colour.map((key) => theme[key]), fill: c.colour.map((key, i) => c.filled[i] ? theme[key] : theme.page),
       e_text: c.e.map((v) => pair(v)), x2_text: c.x2.map((v) => pair(v)),
       trace_text: c.trace.map((v) => digits(v)), det_text: c.determinant.map((v) => digits(v)),
       eig_text: c.eigenvalues.map(eigen), slow_text: c.slow_flow.map((v) => v.map((w) => digits(w)).join(", ") || "–"),
@@ -111,7 +90,7 @@ export class Picture {
 
   drawOutcomes() {
     const {start, end, kind} = this.outcomes
-    this.source("outcomes").data = {start, end, colour: kind.map((name) => this.theme[name]), hatch: kind.map((name) => this.hatches[name])}
+    this.source("outcomes").data = {start, end, colour: kind.map((name) => this.theme[name]), hatch: kind.map((name) => this.hatches[name] || " ")}
   }
 
   // A motion and its limit, as [xs, ys], and the moving point; null clears them.
@@ -127,12 +106,11 @@ export class Picture {
 
   // Cells drawn on a small canvas, enlarged smoothly and cut to the disc. Rows rise with y, those of a canvas fall.
   drawBasins() {
-    const {cells, destinations, runs} = this.basins, size = 4 * cells
+    const {cells, colours, runs} = this.basins, size = 4 * cells
     const small = new OffscreenCanvas(cells, cells), pen = small.getContext("2d")
-    const colours = destinations.map((label, i) => label.startsWith("Q") || label === "equator" ? this.theme.cross : this.theme.basins[i % this.theme.basins.length])
     let at = 0
     for (let k = 0; k < runs.length; k += 2) {
-      pen.fillStyle = runs[k + 1] < 1 ? "transparent" : runs[k + 1] < 2 ? this.theme.undecided : colours[runs[k + 1] - 2]
+      pen.fillStyle = this.theme[colours[runs[k + 1]]] ?? "transparent"
       for (let left = runs[k]; left > 0;) {
         const column = at % cells, length = Math.min(left, cells - column)
         pen.fillRect(column, cells - 1 - Math.floor(at / cells), length, 1)
@@ -151,8 +129,9 @@ export class Picture {
   // An old ring would tell something false: it is hidden until the new one comes.
   show(layers) {
     this.layers = layers
-    for (const [layer, names] of Object.entries(LINE_PARTS)) {
-      for (const name of names) this.renderers[name].visible = layers.includes(layer) && !this.old?.includes(layer)
+    for (const {name, parts} of this.table) {
+      const names = parts.length ? parts.flatMap((part) => [part.name, `arrows:${part.name}`]) : [name, `text:${name}`]
+      for (const drawn of names) if (this.renderers[drawn]) this.renderers[drawn].visible = layers.includes(name) && !this.old?.includes(name)
     }
   }
 
@@ -161,14 +140,14 @@ export class Picture {
     this.plot.background_fill_color = this.plot.border_fill_color = theme.page
     const discs = this.renderers.discs.glyph
     discs.fill_color = theme.shade
-    discs.fill_alpha = theme.shade_alpha
-    for (const [line, key] of Object.entries(COLOUR_OF)) {
-      this.renderers[line].glyph.line_color = theme[key]
+    discs.fill_alpha = Number(theme["shade-alpha"])
+    for (const {name: line, colour} of this.parts) {
+      this.renderers[line].glyph.line_color = theme[colour]
       const heads = this.renderers[`arrows:${line}`]
-      if (heads) heads.glyph.fill_color = theme[key]
+      if (heads) heads.glyph.fill_color = theme[colour]
     }
-    this.renderers.sense.glyph.fill_color = theme.equator
-    this.renderers.circle.glyph.line_color = this.allDirections ? theme.degenerate : theme.equator
+    this.renderers.sense.glyph.fill_color = theme.ink
+    this.renderers.circle.glyph.line_color = this.allDirections ? theme.degenerate : theme.ink
     for (const text of ["text:equator", "text:critical"]) {
       this.renderers[text].glyph.text_color = theme.ink
       this.renderers[text].glyph.background_fill_color = theme.page

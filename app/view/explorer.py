@@ -75,7 +75,9 @@ class ExplorerView(JSComponent):
         settings = config(self.state, self.frames.locked)
         settings["page"] = page
         settings["errors"] = {error.control: str(error) for error in errors} | header.get("errors", {})
-        self.page_markup = explorer_html(self.state, _words(header, first), ("system",) if self.frames.given else ())
+        self.page_markup = explorer_html(
+            self.state, _words(header, first, self.state.layers), ("system",) if self.frames.given else ()
+        )
         return {"config": settings, "first": first, "markup": "" if page else self.page_markup}
 
     def get_root(self, doc: Any = None, comm: Any = None, preprocess: bool = True) -> Any:
@@ -140,11 +142,11 @@ class ExplorerView(JSComponent):
         self.state.param.watch(callback, list(names))
 
 
-def _words(header: dict[str, Any], first: bytes) -> dict[str, str]:
+def _words(header: dict[str, Any], first: bytes, layers: list[str]) -> dict[str, str]:
     """Return what the page says and shows before any script runs."""
     portrait = header.get("portrait")
     if portrait is None:
         return {}
     sentence = portrait["sentence"].split(". ", 1)[-1]
     case = f"Case {portrait['case']}" if portrait["case"] else ""
-    return {"name": portrait["name"], "case": case, "sentence": sentence, "svg": draw(first)}
+    return {"name": portrait["name"], "case": case, "sentence": sentence, "svg": draw(first, layers)}

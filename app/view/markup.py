@@ -10,9 +10,10 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, Template, select_autoescape
 
-from ..draw.theme import HATCHES, LIGHT, THEMES, VIEW
+from ..draw.layers import LAYERS, TRACES, looks, swatches, table
+from ..draw.theme import HATCHES, VIEW, custom_properties, themes
 from ..panels.outcomes import WORDS as OUTCOMES
-from ..state.choices import AXES, LAYERS, MAX_TRAJECTORIES, PANELS, SLOW_CONTROLS, SOLIDS
+from ..state.choices import AXES, MAX_TRAJECTORIES, PANELS, SLOW_CONTROLS, SOLIDS
 from ..state.chosen import BOXES, TITLES
 from ..state.controls import NUMBERS, ExplorerState, slider_range
 from ..state.portraits import portraits
@@ -39,10 +40,9 @@ def _template(name: str) -> Template:
     return Environment(loader=loader, autoescape=select_autoescape(), trim_blocks=True).get_template(name)
 
 
-@cache
 def stylesheet() -> str:
-    """Return the style sheet; every rule is scoped to `.codim2`."""
-    return (STATIC / "explorer.css").read_text(encoding="utf-8")
+    """Return the style sheet; every rule is scoped to `.codim2`, and its colours are the table's."""
+    return "\n".join((custom_properties(), swatches(), (STATIC / "explorer.css").read_text(encoding="utf-8")))
 
 
 @cache
@@ -59,13 +59,14 @@ def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]
         "symbols": {name: state.param[name].label for name in NUMBERS},
         "values": state.values(),
         "defaults": ExplorerState().values(),
-        "layers": list(LAYERS),
+        "layers": table(),
+        "traces": looks(TRACES),
         "boxes": {
             choice: [{"name": b.name, "label": b.label, "text": b.text, "lines": b.lines} for b in boxes]
             for choice, boxes in BOXES.items()
         },
         "presets": {item["key"]: item for item in portraits()},
-        "themes": THEMES,
+        "themes": themes(),
         "hatches": HATCHES,
         "view": VIEW,
         "locked": list(locked),
@@ -98,7 +99,7 @@ def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, 
         exponent=control("n"),
         portraits=[(group, list(items)) for group, items in groups],
         psi_names=PSI_NAMES,
-        layers=LAYERS,
+        layers={layer.name: layer.words for layer in LAYERS.values()},
         panels=PANELS,
         outcomes=OUTCOMES,
         systems=TITLES,
@@ -110,7 +111,6 @@ def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, 
         locked=locked,
         most=MAX_TRAJECTORIES,
         first=first or {},
-        colours=LIGHT,
     )
 
 

@@ -6,10 +6,9 @@ nothing ever queues here.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 from param.parameterized import batch_call_watchers
 
@@ -19,6 +18,7 @@ from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.typed import Frozen
 
 from ..draw import glyphs
+from ..draw.layers import LAYERS
 from ..draw.packing import Polylines, pack
 from ..frame.draft import Draft
 from ..frame.jobs import FAILURES, Jobs
@@ -28,13 +28,6 @@ from ..panels import registry
 from ..state.choices import AXES
 from ..state.chosen import GIVEN, System_, describe
 from ..state.controls import ExplorerState, InputError, clean, preset_values
-
-#: Layers made by the compiled integrator.
-ORBITS = ("outside", "inside", "continuations")
-#: Where arrowheads sit on an orbit, as fractions of its length.
-ARROWS = {"outside": (0.3, 0.7), "inside": (0.35, 0.75), "continuations": (0.5,)}
-#: Kinds of branches that each nullcline control shows.
-NULLCLINES = {"rho": ("rho",), "theta": ("theta",), "lines": ("U1", "U2")}
 
 #: Controls that are axes of the picture's parameters.
 MOVED = frozenset(AXES)
@@ -219,20 +212,15 @@ def make_frame(
         now[key] = result
         return True
 
-    nullclines = [name for name in NULLCLINES if name in visible]
-    for layer in ("nullclines_inside", "nullclines_outside") if nullclines else ():
-        _add_nullclines(blocks, layer, nullclines, scene[layer], fresh)
-    for name in ORBITS:
-        if ready and name in visible and fresh(name, scene[name]):
-            orbits = scene[name]
-            _add_lines(blocks, name, orbits.offsets, orbits.buffer, ARROWS[name])
-    if ready and "cycles" in visible and fresh("cycles", scene["cycles"]):
+    for layer in LAYERS.values():
+        if layer.name not in visible or (layer.compiled and not ready):
+            continue
+        for part in layer.parts:
+            result = scene[part.scene]
+            if fresh(part.name, result):
+                blocks[part.name] = Polylines(*part.pieces(result), part.arrows)
+    if "cycles" in blocks:
         header["cycles"] = glyphs.cycle_columns(scene["cycles"])
-        _add_lines(blocks, "cycles", *glyphs.join([c.points for c in scene["cycles"]]), where=(0.25, 0.75))
-    if ready and "separatrices" in visible and fresh("separatrices", scene["separatrices"]):
-        for direction in ("stable", "unstable"):
-            branches = [b.points for b in scene["separatrices"] if b.inside and b.direction == direction]
-            _add_lines(blocks, f"separatrices_{direction}", *glyphs.join(branches), where=(0.5,))
     equator, cycle, critical = scene["equator"], scene["equator_cycle"], scene["critical"]
     if fresh("equator", equator):
         header["equator"] = glyphs.equator_columns(equator)
@@ -256,23 +244,3 @@ def make_frame(
     if isinstance(scene.coefficients, Coefficients):
         header["f"] = [float(scene.coefficients.f1), float(scene.coefficients.f2)]
     return header, blocks, now
-
-
-def _add_nullclines(
-    blocks: Blocks, layer: str, names: Sequence[str], branches: Sequence[Any], fresh: Callable[[str, Any], bool]
-) -> None:
-    side = layer.removeprefix("nullclines_")
-    wanted = [name for name in names if fresh(f"{name}_{side}", branches)]
-    for name in wanted:
-        kinds = NULLCLINES[name]
-        _add_lines(blocks, f"{name}_{side}", *glyphs.join([b.points for b in branches if b.kind in kinds]))
-
-
-def _add_lines(
-    blocks: Blocks,
-    name: str,
-    offsets: NDArray[np.int64],
-    points: NDArray[np.float64],
-    where: tuple[float, ...] = (),
-) -> None:
-    blocks[name] = Polylines(offsets, points, where)

@@ -18,22 +18,6 @@ def test_join_never_mixes_pieces():
     assert points[11].tolist() == [5, 5]
 
 
-def test_arrowhead_sits_at_half_length_and_points_with_time():
-    pieces, halves = np.array([0, 1]), np.array([0.5, 0.5])
-    heads, kept = glyphs.arrowheads(*glyphs.join([LINE, LINE[::-1] + np.array([0, 3])]), pieces, halves)
-    assert heads == pytest.approx(np.array([[0.5, 0, 0], [0.5, 3, math.pi]]))
-    assert kept.tolist() == [0, 1]
-
-
-def test_arrowheads_skip_short_empty_and_resting_pieces():
-    short, rest, none, single = LINE * 0.01, np.ones((4, 2)), np.zeros((0, 2)), np.ones((1, 2))
-    pieces, fractions = np.tile(np.arange(6), 2), np.repeat([0.25, 0.75], 6)
-    heads, kept = glyphs.arrowheads(*glyphs.join([none, short, single, LINE, rest, none]), pieces, fractions)
-    assert heads[:, 0] == pytest.approx([0.25, 0.75])
-    assert kept.tolist() == [3, 9]
-    assert glyphs.arrowheads(*glyphs.join([]), pieces[:0], fractions[:0])[0].shape == (0, 3)
-
-
 @given(st.lists(st.floats(0, 6.28), min_size=1, max_size=8).map(sorted))
 def test_labels_are_apart(angles):
     moved = glyphs.spread(angles)
@@ -82,10 +66,10 @@ POLYLINES = st.lists(st.integers(0, 9), max_size=5).map(
 )
 
 
-@given(st.lists(st.tuples(POLYLINES, st.sampled_from([(), (0.5,), (0.3, 0.7)])), max_size=4))
+@given(st.lists(st.tuples(POLYLINES, st.booleans()), max_size=4))
 def test_layers_packed_together_are_the_layers_alone(layers):
     """Arrowheads and coordinates of all layers are made in one pass; each must be as if there were no other."""
-    blocks = {f"layer {i}": Polylines(*glyphs.join(pieces), where) for i, (pieces, where) in enumerate(layers)}
+    blocks = {f"layer {i}": Polylines(*glyphs.join(pieces), arrows) for i, (pieces, arrows) in enumerate(layers)}
     _, together = unpack(pack({}, {**blocks, "more": np.arange(3, dtype=np.int16)}))
     assert together.pop("more").tolist() == [0, 1, 2]
     alone = {}
@@ -94,7 +78,7 @@ def test_layers_packed_together_are_the_layers_alone(layers):
         counts, points = alone[f"{name}.n"], alone[f"{name}.xy"]
         assert counts.tolist() == np.diff(block.offsets).tolist()
         assert points.tolist() == quantise(block.points).ravel().tolist()
-        assert (f"{name}.at" in alone) == bool(block.where)
+        assert (f"{name}.at" in alone) == block.arrows
     assert {name: values.tolist() for name, values in together.items()} == {
         name: values.tolist() for name, values in alone.items()
     }

@@ -242,8 +242,9 @@ def test_the_ring_is_sent_when_its_layer_is_on_whatever_is_open():
 
 
 def test_the_first_picture_has_the_ring():
-    hidden = draw(Frames(ExplorerState()).answer({"all": True}))
-    shown = draw(Frames(ExplorerState(layers=["outcomes", "inside"])).answer({"all": True}))
+    layers = ["outcomes", "inside"]
+    hidden = draw(Frames(ExplorerState()).answer({"all": True}), layers)
+    shown = draw(Frames(ExplorerState(layers=layers)).answer({"all": True}), layers)
     assert "var(--slide)" not in hidden
     assert shown.count("var(--slide)") == 4
 

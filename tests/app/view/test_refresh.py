@@ -1,8 +1,8 @@
 import math
 
 import pytest
+from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.packing import unpack
-from codim2_app.state.choices import LAYERS
 from codim2_app.state.controls import ExplorerState
 from codim2_app.state.portraits import portraits
 from codim2_app.view.refresh import Frames

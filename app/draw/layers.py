@@ -1,0 +1,206 @@
+"""The layers of the picture: one table, a row a layer, read by the page, the SVG, HoloViews, the legend and the frames.
+
+To add a layer of curves, write its row here and, if the scene does not have it yet, the row of `codim2_core.scene`.
+The four layers without `parts` (basins, outcomes, equator, critical) are no curves: `static/picture.js` and `svg`
+draw them by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import glyphs
+
+#: Offsets (k + 1,) and points (n, 2): piece i is ``points[offsets[i]:offsets[i + 1]]``.
+Pieces = tuple[NDArray[np.int64], NDArray[np.float64]]
+
+
+@dataclass(frozen=True)
+class Part:
+    """Curves of one look.
+
+    Attributes
+    ----------
+    name : str
+        In the packed frame.
+    colour : str
+        A key of the themes, and a custom property of the style sheet.
+    width : float
+        In px.
+    scene : str
+        The layer of the scene that holds it.
+    pieces : callable
+        Takes what the scene holds, and returns the curves.
+    dash : tuple of float
+        Lengths of dashes and gaps in px; () is solid. What differs in meaning differs by more than colour.
+    arrows : bool
+        Whether arrowheads tell the sense of time.
+    """
+
+    name: str
+    colour: str
+    width: float
+    scene: str = ""
+    pieces: Callable[[Any], Pieces] = lambda result: glyphs.join([curve.points for curve in result])
+    dash: tuple[float, ...] = ()
+    arrows: bool = False
+
+
+@dataclass(frozen=True)
+class Layer:
+    """What a user shows or hides as one.
+
+    Attributes
+    ----------
+    name, words : str
+        Of its control, and beside it.
+    height : int
+        Layers are painted from low to high.
+    parts : tuple of Part
+    colours : mapping of str to (light, dark)
+        Those that belong to it.
+    swatch : str
+        Declarations of the legend's mark; default a stroke in the look of its first part.
+    hidden : bool
+        Until it is asked for.
+    compiled : bool
+        Made by the compiled integrator, so that it is left out until that is ready.
+    """
+
+    name: str
+    words: str
+    height: int
+    parts: tuple[Part, ...] = ()
+    colours: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    swatch: str = ""
+    hidden: bool = False
+    compiled: bool = False
+
+
+def _orbits(result: Any) -> Pieces:
+    return result.offsets, result.buffer
+
+
+def _kinds(*kinds: str) -> Callable[[Any], Pieces]:
+    return lambda branches: glyphs.join([branch.points for branch in branches if branch.kind in kinds])
+
+
+def _direction(direction: str) -> Callable[[Any], Pieces]:
+    return lambda branches: glyphs.join([b.points for b in branches if b.inside and b.direction == direction])
+
+
+def _nullcline(name: str, colours: tuple[str, str], widths: tuple[float, float], *kinds: str) -> tuple[Part, Part]:
+    """Return the two parts of a nullcline: on the hemisphere, and outside."""
+    return (
+        Part(f"{name}_inside", colours[0], widths[0], "nullclines_inside", _kinds(*kinds)),
+        Part(f"{name}_outside", colours[1], widths[1], "nullclines_outside", _kinds(*kinds)),
+    )
+
+
+_ROWS = (
+    Layer(
+        "outside", "Trajectories outside", 50, compiled=True, colours={"outside": ("#5b6675", "#8d99aa")},
+        parts=(Part("outside", "outside", 0.9, "outside", _orbits, arrows=True),),
+    ),
+    Layer(
+        "inside", "Trajectories on the hemisphere", 60, compiled=True, colours={"orbit": ("#1c2430", "#d6dce5")},
+        parts=(Part("inside", "orbit", 0.9, "inside", _orbits, arrows=True),),
+    ),
+    Layer(
+        "continuations", "Up the hemisphere", 70, compiled=True, colours={"continuation": ("#b3123f", "#ff6b8f")},
+        parts=(Part("continuations", "continuation", 1.6, "continuations", _orbits, arrows=True),),
+    ),
+    Layer(
+        "separatrices", "Separatrices", 80, compiled=True, hidden=True, colours={"separatrix": ("#6d28d9", "#b794ff")},
+        parts=(
+            Part("separatrices_stable", "separatrix", 2.0, "separatrices", _direction("stable"), (7, 4), arrows=True),
+            Part("separatrices_unstable", "separatrix", 2.0, "separatrices", _direction("unstable"), arrows=True),
+        ),
+    ),
+    Layer(
+        "cycles", "Limit cycles", 90, compiled=True, colours={"cycle": ("#e0121f", "#ff3b47")},
+        parts=(Part("cycles", "cycle", 2.8, "cycles", arrows=True),),
+    ),
+    # nullclines have the paper's colours (matlab1 to matlab4 of fig:sim_5cases), lighter on dark
+    Layer(
+        "rho", "ρ-nullclines", 30, _nullcline("rho", ("rho", "rho"), (1.8, 1.8), "rho"),
+        {"rho": ("#0072bd", "#4aa8e8")},
+    ),
+    Layer(
+        "theta", "θ-nullclines", 40, _nullcline("theta", ("theta", "theta"), (1.8, 1.8), "theta"),
+        {"theta": ("#d95319", "#ff8552")},
+    ),
+    Layer(
+        "lines", "Lines U₁ = 0, U₂ = 0", 20, _nullcline("lines", ("lines-in", "lines-out"), (1.8, 1.4), "U1", "U2"),
+        {"lines-in": ("#edb120", "#f2c14e"), "lines-out": ("#7e2f8e", "#c58ad6")},
+        swatch="border-image: linear-gradient(90deg, var(--lines-in) 50%, var(--lines-out) 50%) 1",
+    ),
+    Layer(
+        "equator", "Equator equilibria", 110,
+        colours={"attr": ("#15803d", "#4ade80"), "rep": ("#be185d", "#f472b6"), "degenerate": ("#6b7280", "#aab2bf")},
+        swatch="width: 10px; height: 10px; border: 0; border-radius: 50%; background: var(--attr)",
+    ),
+    Layer(
+        "critical", "Critical sets", 120, colours={"crit": ("#c8102e", "#ff5468")},
+        swatch="width: 10px; height: 10px; border: 0; background: var(--crit)",
+    ),
+    Layer(
+        "outcomes", "Approach outcomes", 10, hidden=True,
+        colours={"slide": ("#0d9488", "#2dd4bf"), "cross": ("#e8751a", "#fb923c"), "depends": ("#7c3aed", "#a78bfa"),
+                 "undecided": ("#64748b", "#94a3b8"), "misses": ("#dfe4ea", "#2c3440")},
+        swatch="height: 9px; border: 0; background: linear-gradient(90deg, var(--slide) 50%, var(--cross) 50%)",
+    ),
+    Layer(
+        "basins", "Basins", 0, hidden=True,
+        colours={"basin-1": ("#0d9488", "#2dd4bf"), "basin-2": ("#7c3aed", "#a78bfa"),
+                 "basin-3": ("#0284c7", "#38bdf8"), "basin-4": ("#a16207", "#facc15")},
+        swatch="width: 16px; height: 10px; border: 0; opacity: .45; "
+               "background: linear-gradient(90deg, var(--basin-1) 50%, var(--basin-2) 50%)",
+    ),
+)  # fmt: skip
+
+#: All layers, in the order of the legend.
+LAYERS: dict[str, Layer] = {layer.name: layer for layer in _ROWS}
+
+#: One motion and its limit eps -> 0, which the panel "Time" draws over the picture, and their colours.
+TRACES = (Part("limit", "motion", 1.6, dash=(5, 4)), Part("motion", "motion", 2.4))
+TRACE_COLOURS = {"motion": ("#c026d3", "#f0abfc")}
+
+
+def painted() -> list[Layer]:
+    """Return the layers from bottom to top."""
+    return sorted(LAYERS.values(), key=lambda layer: layer.height)
+
+
+def shown() -> list[str]:
+    """Name the layers that are shown until a user chooses."""
+    return [layer.name for layer in LAYERS.values() if not layer.hidden]
+
+
+def table() -> list[dict[str, Any]]:
+    """Return what the browser must know of each layer, from bottom to top."""
+    return [{"name": layer.name, "parts": looks(layer.parts)} for layer in painted()]
+
+
+def looks(parts: Iterable[Part]) -> list[dict[str, Any]]:
+    """Return how each part is drawn."""
+    return [
+        {"name": p.name, "colour": p.colour, "width": p.width, "dash": list(p.dash), "arrows": p.arrows} for p in parts
+    ]
+
+
+def swatches() -> str:
+    """Return the rules of the legend's marks."""
+    return "\n".join(
+        f".codim2 .swatch-{layer.name} {{ {layer.swatch or _stroke(layer)} }}" for layer in LAYERS.values()
+    )
+
+
+def _stroke(layer: Layer) -> str:
+    part = layer.parts[0]
+    return f"border-top: {max(part.width, 1.5):g}px {'dashed' if part.dash else 'solid'} var(--{part.colour})"
