@@ -24,6 +24,5 @@ export function eigen([first, second]) {
   return `${digits(first[0])}, ${digits(second[0])}`
 }
 
-export function outOfPage(flow) { return !flow || !flow.length || flow[0] === 0 ? "" : flow[0] > 0 ? " ⊙" : " ⊗" }
 
 export const slowName = (i) => (i ? `z${i + 1}` : "z")

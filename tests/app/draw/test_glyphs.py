@@ -35,6 +35,12 @@ def test_equator_marks_tell_the_types_apart():
         assert shape == ("circle" if rate < 0 else "diamond")
 
 
+@pytest.mark.parametrize(("g0", "sense"), [(1.0, "⊙"), (-1.0, "⊗"), (0.0, "")])
+def test_the_slow_flow_comes_out_of_the_page_where_it_is_positive(g0, sense):
+    system = c2.ELinear(-2, 0, -1, (0, 0), B=((0, 0),), g=(g0,))
+    assert glyphs.critical_columns(c2.critical_sets(system, c2.psi.constant(), (0.0,)))["sense"] == [sense]
+
+
 def test_equator_arrows_follow_theta():
     system = c2.ELinear(-2, 0.3, -1, (-0.5, 0.1))
     at = system.at()

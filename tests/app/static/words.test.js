@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {digits, eigen, escape, measured, outOfPage, plain} from "../../../app/static/words.js"
+import {digits, eigen, escape, measured, plain} from "../../../app/static/words.js"
 
 test("numbers have four places, a real minus, and no exponent where none is needed", () => {
   assert.equal(digits(0), "0")
@@ -15,10 +15,6 @@ test("numbers have four places, a real minus, and no exponent where none is need
 test("complex eigenvalues are a pair, real ones are two", () => {
   assert.equal(eigen([[-1, 2], [-1, -2]]), "−1.000 ± 2.000 i")
   assert.equal(eigen([[-1, 0], [3, 0]]), "−1.000, 3.000")
-})
-
-test("z' > 0 comes out of the page", () => {
-  assert.deepEqual([[1], [-1], [0], [], null].map(outOfPage), [" ⊙", " ⊗", "", "", ""])
 })
 
 test("what was typed cannot become markup", () => {
