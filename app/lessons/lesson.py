@@ -1,0 +1,112 @@
+"""What a lesson is: prose, and questions whose answers are conditions on the scene that the student sees."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from .condition import Condition
+from .words import fields
+
+
+@dataclass(frozen=True)
+class Prose:
+    """A stretch of text.
+
+    Attributes
+    ----------
+    html : str
+        Safe HTML. ``<button data-set='{...}'>`` sets values of controls, ``<span data-drag="f1">`` is a number that
+        can be dragged, ``<output data-fact="stable">`` shows a fact of the present scene.
+    """
+
+    html: str
+
+
+@dataclass(frozen=True)
+class Option:
+    """One possible answer: its words, and when it is the right one."""
+
+    html: str
+    when: Condition
+
+
+@dataclass(frozen=True)
+class Vary:
+    """A goal to reach with the controls: what to do, when it is reached, and a hint."""
+
+    html: str
+    goal: Condition
+    hint: str = ""
+
+
+@dataclass(frozen=True)
+class Question:
+    """Predict, reveal, explain, vary.
+
+    Attributes
+    ----------
+    html : str
+        What is asked about the system on the sliders.
+    options : tuple of Option
+        Exactly one is right at every setting that `require` admits; which one, the scene decides.
+    explain : str
+        HTML, shown once an answer is given; ``{limit_directions}`` stands for a fact.
+    draw : mapping
+        Values of controls that the question starts from; a pair of numbers is a range to draw from.
+    require : Condition or None
+        What the drawn system must fulfil; it is drawn again until it does.
+    hide : tuple of str
+        Layers hidden until the answer is given.
+    hint : str
+    vary : Vary or None
+    """
+
+    html: str
+    options: tuple[Option, ...]
+    explain: str
+    draw: Mapping[str, Any] = field(default_factory=dict)
+    require: Condition | None = None
+    hide: tuple[str, ...] = ()
+    hint: str = ""
+    vary: Vary | None = None
+
+    @property
+    def facts(self) -> frozenset[str]:
+        """Names of the facts that answering and explaining it needs."""
+        needed = set(fields(self.explain))
+        for option in self.options:
+            needed |= option.when.names
+        if self.vary is not None:
+            needed |= self.vary.goal.names
+        return frozenset(needed)
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """One station of the course.
+
+    Attributes
+    ----------
+    key : str
+        The name of its file without ending; the key in links.
+    title : str
+    summary : str
+        One line for the list of lessons.
+    values : mapping
+        Of the controls, when the lesson opens: those of its portrait, and what it sets besides.
+    parts : tuple of Prose or Question
+        In the order of the file.
+    """
+
+    key: str
+    title: str
+    summary: str
+    values: Mapping[str, Any]
+    parts: tuple[Prose | Question, ...]
+
+    @property
+    def questions(self) -> tuple[Question, ...]:
+        """The questions, in order."""
+        return tuple(part for part in self.parts if isinstance(part, Question))

@@ -1,0 +1,44 @@
+"""The lessons that are offered: those of the package, and those of a lecturer's own folder."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+from pathlib import Path
+from types import MappingProxyType
+
+from .lesson import Lesson
+from .reading import LessonError, read_lesson
+
+#: A lesson is one file here; its name's number gives the order.
+TEXT = Path(__file__).parent / "text"
+
+
+@lru_cache(maxsize=1)
+def built_in() -> Mapping[str, Lesson]:
+    """Return the package's own lessons by key, in order; a broken one raises LessonError."""
+    return MappingProxyType({path.stem: read_lesson(path) for path in sorted(TEXT.glob("*.md"))})
+
+
+def from_folder(folder: Path) -> tuple[dict[str, Lesson], list[LessonError]]:
+    """Return the lessons of a folder by key, in order, and what is wrong with the others.
+
+    Parameters
+    ----------
+    folder : Path
+
+    Raises
+    ------
+    ValueError
+        It is no folder.
+    """
+    if not folder.is_dir():
+        raise ValueError(f"{folder} is no folder; give one that holds lessons as Markdown files.")
+    found: dict[str, Lesson] = {}
+    errors: list[LessonError] = []
+    for path in sorted(folder.glob("*.md")):
+        try:
+            found[path.stem] = read_lesson(path)
+        except LessonError as error:
+            errors.append(error)
+    return found, errors

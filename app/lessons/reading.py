@@ -1,0 +1,223 @@
+"""From a Markdown file to a lesson; what cannot be used is told with its file and line."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+import yaml
+from markdown_it.token import Token
+
+from ..state.choices import LAYERS
+from ..state.controls import NAMES, InputError, clean, preset_values
+from .condition import Condition, condition
+from .facts import KNOWN
+from .lesson import Lesson, Option, Prose, Question, Vary
+from .markdown import LinkError, button, draggable, inline, live, parser, rendered
+from .words import fields
+
+HEAD = frozenset({"title", "summary", "portrait", "set"})
+OF_QUESTION = frozenset({"ask", "options", "explain", "draw", "require", "hide", "hint", "vary"})
+OF_OPTION = frozenset({"say", "when"})
+OF_VARY = frozenset({"say", "goal", "hint"})
+
+
+class LessonError(ValueError):
+    """A file that is no lesson: which, where, and why."""
+
+    def __init__(self, path: Path, line: int, message: str) -> None:
+        super().__init__(f"{path.name}, line {line}: {message}")
+        self.path, self.line = path, line
+
+
+def read_lesson(path: Path) -> Lesson:
+    """Return the lesson in a file.
+
+    Parameters
+    ----------
+    path : Path
+        Markdown with front matter (`title`, `summary`, and `portrait` or `set`), and fences ```` ```question ````.
+
+    Raises
+    ------
+    LessonError
+        The file cannot be read, or something in it cannot be used.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise LessonError(path, 1, f"the file cannot be read: {error}.") from error
+    tokens = parser().parse(text)
+    if not tokens or tokens[0].type != "front_matter":
+        raise LessonError(path, 1, "a lesson begins with a line ---, then title: and summary:, then a line ---.")
+    head = _mapping(path, 1, tokens[0].content, HEAD, needed=("title", "summary"))
+    values = _start(path, head)
+    parts: list[Prose | Question] = []
+    gathered: list[Token] = []
+    where = 1
+
+    def close() -> None:
+        if gathered:
+            parts.append(Prose(_html(path, where, gathered)))
+            gathered.clear()
+
+    for token in tokens[1:]:
+        where = token.map[0] + 1 if token.map else where
+        if token.type == "fence" and token.info.strip() == "question":
+            close()
+            parts.append(_question(path, where, token.content))
+        else:
+            gathered.append(token)
+    close()
+    return Lesson(path.stem, head["title"], head["summary"], values, tuple(parts))
+
+
+def _start(path: Path, head: Mapping[str, Any]) -> dict[str, Any]:
+    values: dict[str, Any] = {}
+    key = head.get("portrait")
+    if key is not None:
+        values.update(_portrait(path, 1, str(key)))
+    values.update(_values(path, 1, head.get("set") or {}))
+    return values
+
+
+def _portrait(path: Path, line: int, key: str) -> dict[str, Any]:
+    found = preset_values(key)
+    if not found:
+        raise LessonError(path, line, f"there is no portrait {key!r}; `codim2 presets` lists them.")
+    return {**found, "preset": key}
+
+
+def _values(path: Path, line: int, wanted: Any) -> dict[str, Any]:
+    """Check values of controls."""
+    if not isinstance(wanted, Mapping):
+        raise LessonError(path, line, f"values are {wanted!r}; give names and values of controls.")
+    found = {}
+    for name, value in wanted.items():
+        if name not in NAMES:
+            raise LessonError(path, line, f"there is no control {name!r}; there are {', '.join(NAMES)}.")
+        try:
+            found[name] = clean(name, value)
+        except InputError as error:
+            raise LessonError(path, line, str(error)) from error
+    return found
+
+
+def _draw(path: Path, line: int, wanted: Any) -> dict[str, Any]:
+    """Check what a question draws: values, or (low, high) for numbers."""
+    if not isinstance(wanted, Mapping):
+        raise LessonError(path, line, f"draw is {wanted!r}; give names of controls, each with a value or [low, high].")
+    ranges = {name: span for name, span in wanted.items() if isinstance(span, list) and name != "layers"}
+    found = _values(path, line, {name: value for name, value in wanted.items() if name not in ranges})
+    for name, span in ranges.items():
+        if len(span) != 2 or not all(isinstance(end, (int, float)) for end in span) or not span[0] < span[1]:
+            raise LessonError(path, line, f"{name} is drawn from {span!r}; give [low, high] with low < high.")
+        ends = _values(path, line, {name: span[0]}), _values(path, line, {name: span[1]})
+        found[name] = (ends[0][name], ends[1][name])
+    return found
+
+
+def _mapping(
+    path: Path, line: int, text: str, known: frozenset[str], needed: tuple[str, ...] = ()
+) -> dict[str, Any]:
+    try:
+        found = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        at = line + 1 + (mark.line if mark else 0)
+        raise LessonError(path, at, f"this is no YAML: {getattr(error, 'problem', None) or error}.") from error
+    return _keys(path, line, found, known, needed)
+
+
+def _keys(path: Path, line: int, found: Any, known: frozenset[str], needed: tuple[str, ...]) -> dict[str, Any]:
+    if not isinstance(found, dict):
+        raise LessonError(path, line, f"give {', '.join(sorted(known))}, each on a line with its value.")
+    for name in found:
+        if name not in known:
+            raise LessonError(path, line, f"{name!r} means nothing here; known are {', '.join(sorted(known))}.")
+    for name in needed:
+        if not found.get(name):
+            raise LessonError(path, line, f"{name!r} is missing.")
+    return found
+
+
+def _question(path: Path, line: int, text: str) -> Question:
+    found = _mapping(path, line, text, OF_QUESTION, ("ask", "options", "explain"))
+    options = found["options"]
+    if not isinstance(options, list) or len(options) < 2:
+        raise LessonError(path, line, "options: give two or more, each with say: and when:.")
+    made = []
+    for option in options:
+        words = _keys(path, line, option, OF_OPTION, ("say", "when"))
+        made.append(Option(_line(path, line, words["say"]), _condition(path, line, words["when"])))
+    hide = tuple(found.get("hide") or ())
+    if unknown := [layer for layer in hide if layer not in LAYERS]:
+        raise LessonError(path, line, f"hide: no layer {unknown[0]!r}; they are {', '.join(LAYERS)}.")
+    explain = _line(path, line, found["explain"])
+    if unknown := [name for name in fields(explain) if name not in KNOWN]:
+        raise LessonError(path, line, f"explain: no fact {unknown[0]!r}; facts are {', '.join(sorted(KNOWN))}.")
+    require = found.get("require")
+    return Question(
+        html=_line(path, line, found["ask"]),
+        options=tuple(made),
+        explain=explain,
+        draw=_draw(path, line, found.get("draw") or {}),
+        require=None if require is None else _condition(path, line, require),
+        hide=hide,
+        hint=_line(path, line, found.get("hint") or ""),
+        vary=_vary(path, line, found["vary"]) if found.get("vary") else None,
+    )
+
+
+def _vary(path: Path, line: int, found: Any) -> Vary:
+    words = _keys(path, line, found, OF_VARY, ("say", "goal"))
+    hint = _line(path, line, words.get("hint") or "")
+    return Vary(_line(path, line, words["say"]), _condition(path, line, words["goal"]), hint)
+
+
+def _condition(path: Path, line: int, text: Any) -> Condition:
+    try:
+        return condition(str(text), KNOWN)
+    except ValueError as error:
+        raise LessonError(path, line, str(error)) from error
+
+
+def _html(path: Path, line: int, tokens: list[Token]) -> str:
+    try:
+        return rendered(tokens, _resolver(path, line))
+    except LinkError as error:
+        raise LessonError(path, line, str(error)) from error
+
+
+def _line(path: Path, line: int, text: Any) -> str:
+    try:
+        return inline(str(text).strip(), _resolver(path, line))
+    except LinkError as error:
+        raise LessonError(path, line, str(error)) from error
+
+
+def _resolver(path: Path, line: int):
+    def resolve(scheme: str, target: str, words: str) -> str:
+        target = unquote(target)
+        match scheme:
+            case "portrait":
+                return button(_portrait(path, line, target), words)
+            case "set":
+                pairs = dict(pair.split("=", 1) for pair in target.split(",") if "=" in pair)
+                if "layers" in pairs:  # commas stand between controls: layers are joined by +
+                    pairs["layers"] = pairs["layers"].replace("+", ",")
+                return button(_values(path, line, pairs), words)
+            case "drag" if target in NAMES:
+                return draggable(target, words or target)
+            case "fact" if target in KNOWN:
+                return live(target)
+            case "lesson":
+                return button({"panel": "lessons", "lesson": target}, words)
+        raise LinkError(
+            f"a link to {scheme}:{target} leads nowhere; give portrait:KEY, set:NAME=VALUE, drag:NAME, "
+            "fact:NAME or lesson:KEY."
+        )
+
+    return resolve
