@@ -5,6 +5,8 @@ discontinuity sets"; docstrings give the paper's equation labels.
 """
 
 from . import bifurcations, examples, psi
+from .counting.census import census
+from .counting.table import Census
 from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
 from .figures.preset import Preset
 from .figures.presets import presets
@@ -32,6 +34,7 @@ from .theorems.certificates import certificates
 
 __all__ = [
     "Basins",
+    "Census",
     "Classification",
     "Coefficients",
     "CriticalSet",
@@ -57,6 +60,7 @@ __all__ = [
     "approach_outcomes",
     "basins",
     "bifurcations",
+    "census",
     "certificates",
     "classify",
     "critical_sets",

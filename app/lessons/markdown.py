@@ -35,7 +35,7 @@ def parser() -> MarkdownIt:
     reader.use(front_matter_plugin).use(
         dollarmath_plugin, renderer=lambda text, how: formula(text, how["display_mode"]), double_inline=True
     )
-    reader.validateLink = lambda url: True  # type: ignore[method-assign]  # schemes are judged by `resolve`
+    reader.validateLink = lambda _url: True  # type: ignore[method-assign]  # schemes are judged by `resolve`
     return reader
 
 

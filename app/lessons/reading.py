@@ -119,9 +119,7 @@ def _draw(path: Path, line: int, wanted: Any) -> dict[str, Any]:
     return found
 
 
-def _mapping(
-    path: Path, line: int, text: str, known: frozenset[str], needed: tuple[str, ...] = ()
-) -> dict[str, Any]:
+def _mapping(path: Path, line: int, text: str, known: frozenset[str], needed: tuple[str, ...] = ()) -> dict[str, Any]:
     try:
         found = yaml.safe_load(text)
     except yaml.YAMLError as error:

@@ -1,4 +1,4 @@
-"""Words with facts in them: ``There are {limit_directions} of them, |e| = {radius:.3f}.``"""
+"""Words with facts in them, such as ``Limit directions: {limit_directions}, |e| = {radius:.3f}``."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
 """Conditions of lessons: what they may hold, and that nothing of a text is run."""
 
 import pytest
-
 from codim2_app.lessons.condition import condition
 
 KNOWN = frozenset({"stable", "name", "radius", "fates"})

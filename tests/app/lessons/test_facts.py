@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from codim2_app.lessons.facts import FACTS, KNOWN, facts_of
 
 import codim2_core as c2
-from codim2_app.lessons.facts import FACTS, KNOWN, facts_of
 
 
 @pytest.mark.parametrize("key", list(c2.presets))

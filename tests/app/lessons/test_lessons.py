@@ -4,7 +4,6 @@ import json
 import re
 
 import pytest
-
 from codim2_app.frame.scenes import make_scene
 from codim2_app.lessons.asking import judge, pose, reached
 from codim2_app.lessons.library import TEXT, built_in, from_folder

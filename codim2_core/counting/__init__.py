@@ -1,0 +1,1 @@
+"""A census: the names of very many systems, each decided as `classify` decides it."""
