@@ -7,6 +7,9 @@ import os
 import socket
 import sys
 from collections.abc import Sequence
+from importlib.metadata import version
+
+from .commands import add_census, add_classify, add_presets
 
 
 def parser() -> argparse.ArgumentParser:
@@ -14,6 +17,7 @@ def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(
         prog="codim2", description="Dynamics near an isolated codimension-2 discontinuity set."
     )
+    top.add_argument("--version", action="version", version=f"codim2 {version('codim2')}")
     commands = top.add_subparsers(dest="command", required=True)
     serve = commands.add_parser("serve", help="serve the explorer")
     serve.add_argument("--port", type=int, default=5006, help="default 5006; 0 takes any free port")
@@ -33,6 +37,8 @@ def parser() -> argparse.ArgumentParser:
         help="open a browser window (default: when started from a terminal on a screen)",
     )
     commands.add_parser("warm", help="compile the integrator into the disk cache, so that servers start warm")
+    for add in (add_classify, add_presets, add_census):
+        add(commands)
     return top
 
 
@@ -44,6 +50,8 @@ def _at_a_screen() -> bool:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit status."""
     chosen = parser().parse_args(arguments)
+    if "run" in chosen:
+        return chosen.run(chosen)
     if chosen.command == "warm":
         from ..view.warmup import warm_all
 

@@ -1,0 +1,149 @@
+"""The commands that answer in the terminal: `classify`, `presets`, `census`. None of them loads the server."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from typing import Any
+
+import codim2_core as c2
+from codim2_core.psi.constructors import make
+
+
+def add_classify(commands: Any) -> None:
+    """Add `codim2 classify`."""
+    command = commands.add_parser("classify", help="name the portrait of an e-linear system, and say what stands still")
+    for name in ("a", "b", "d"):
+        command.add_argument(f"-{name}", type=float, required=name != "b", default=0.0, help=f"{name} of A")
+    for name in ("f1", "f2"):
+        command.add_argument(f"--{name}", type=float, default=0.0)
+    command.add_argument(
+        "--psi", default="constant", help="constant, rational, exponential, tanh, hill:N, or text in s"
+    )
+    command.add_argument("--json", action="store_true", help="as JSON")
+    command.set_defaults(run=classify)
+
+
+def add_presets(commands: Any) -> None:
+    """Add `codim2 presets`."""
+    command = commands.add_parser("presets", help="list the paper's figures")
+    command.add_argument("--json", action="store_true", help="as JSON")
+    command.set_defaults(run=presets)
+
+
+def add_census(commands: Any) -> None:
+    """Add `codim2 census`."""
+    command = commands.add_parser(
+        "census", help="count the portraits of e-linear systems with standard normal a, b, d, f1, f2"
+    )
+    command.add_argument("--count", type=_whole, default=1_000_000, help="default 1e6")
+    command.add_argument("--seed", type=int, default=0)
+    command.add_argument("--processes", type=int, default=1)
+    command.add_argument("--csv", metavar="FILE", help="write the table there too")
+    command.set_defaults(run=census)
+
+
+def _whole(text: str) -> int:
+    value = float(text)
+    if not value.is_integer():
+        raise argparse.ArgumentTypeError(f"{text} is no whole number")
+    return int(value)
+
+
+def psi_of(text: str) -> c2.Psi:
+    """Return the Psi that a text names: a family, hill:N, or a formula in s.
+
+    Raises
+    ------
+    ValueError
+        It is none of these.
+    """
+    family, _, number = text.partition(":")
+    if family == "hill" and number:
+        return c2.psi.hill(number)  # type: ignore[arg-type]  # it reads text, and says what is wrong with it
+    try:
+        return make(family) if family not in ("hill", "custom") else c2.psi.hill(2)
+    except ValueError:
+        return c2.psi.custom(text)
+
+
+def classify(chosen: argparse.Namespace) -> int:
+    """Print the portrait of one system."""
+    try:
+        psi = psi_of(chosen.psi)
+        system = c2.ELinear(chosen.a, chosen.b, chosen.d, (chosen.f1, chosen.f2))
+        found = c2.classify(system, psi)
+    except ValueError as error:
+        print(f"codim2: {error}", file=sys.stderr)
+        return 2
+    equator, critical = c2.equator_equilibria(system), c2.critical_sets(system, psi)
+    if chosen.json:
+        print(
+            json.dumps(
+                {
+                    "case": found.case,
+                    "name": found.name,
+                    "sentence": found.sentence,
+                    "degeneracies": [item.name for item in found.degeneracies],
+                    "limit_directions": [
+                        {"theta": t, "lambda_rho": r, "lambda_theta": a}
+                        for t, r, a in zip(
+                            equator.theta.tolist(),
+                            equator.lambda_rho.tolist(),
+                            equator.lambda_theta.tolist(),
+                            strict=True,
+                        )
+                    ],
+                    "critical_sets": [
+                        {"e": list(map(float, C.e)), "kind": C.kind, "trace": C.trace, "determinant": C.determinant}
+                        for C in critical
+                    ],
+                }
+            )
+        )
+        return 0
+    print(found.sentence)
+    for item in found.degeneracies:
+        print(f"  {item.name}: {item.sentence}")
+    for i, theta in enumerate(equator.theta.tolist()):
+        print(f"  Q{i + 1}: θ = {theta:.6g}, λ_ρ = {equator.lambda_rho[i]:.6g}, λ_θ = {equator.lambda_theta[i]:.6g}")
+    for C in critical:
+        print(f"  C: e = ({C.e[0]:.6g}, {C.e[1]:.6g}), {C.kind}, tr J = {C.trace:.6g}, det J = {C.determinant:.6g}")
+    return 0
+
+
+def presets(chosen: argparse.Namespace) -> int:
+    """Print the presets: key, the paper's label, title."""
+    if chosen.json:
+        print(json.dumps({key: {"label": p.label, "title": p.title} for key, p in c2.presets.items()}))
+        return 0
+    wide = max(map(len, c2.presets))
+    for key, preset in c2.presets.items():
+        print(f"{key:{wide}}  {preset.title}  ({preset.label})")
+    return 0
+
+
+def census(chosen: argparse.Namespace) -> int:
+    """Print the table of a census."""
+
+    def progress(done: int, count: int) -> None:
+        if sys.stderr.isatty():
+            print(f"\r{done / count:6.1%}", end="", file=sys.stderr, flush=True)
+
+    try:
+        if chosen.processes > 1:
+            with ProcessPoolExecutor(chosen.processes) as executor:
+                found = c2.census(count=chosen.count, seed=chosen.seed, executor=executor, progress=progress)
+        else:
+            found = c2.census(count=chosen.count, seed=chosen.seed, progress=progress)
+    except ValueError as error:
+        print(f"codim2: {error}", file=sys.stderr)
+        return 2
+    print(f"\r{'portrait':10} {'count':>12} {'share':>9}  95 % interval")
+    for row in found.table:
+        print(f"{row.name:10} {row.count:12d} {row.share:9.5f}  {row.low:.5f} to {row.high:.5f}")
+    if chosen.csv:
+        found.to_csv(chosen.csv)
+    return 0

@@ -1,0 +1,92 @@
+"""The commands that answer in the terminal say what the core says."""
+
+import json
+
+import pytest
+from codim2_app.server.cli import main
+from codim2_app.server.commands import psi_of
+
+import codim2_core as c2
+
+
+def test_classify_in_words_and_as_json(capsys):
+    assert main(["classify", "-a", "-2", "-d", "-1", "--f1", "-0.5"]) == 0
+    said = capsys.readouterr().out
+    system = c2.ELinear(-2, 0, -1, (-0.5, 0))
+    assert said.startswith(c2.classify(system, c2.psi.constant()).sentence)
+    assert said.count("λ_ρ") == 4
+    assert (
+        main(
+            [
+                "classify",
+                "-a",
+                "172",
+                "-b",
+                "186",
+                "-d",
+                "-200",
+                "--f1",
+                "-86",
+                "--f2",
+                "-93",
+                "--psi",
+                "hill:3",
+                "--json",
+            ]
+        )
+        == 0
+    )
+    found = json.loads(capsys.readouterr().out)
+    assert (found["case"], found["name"]) == ("III", "CM4")
+    (C,) = found["critical_sets"]
+    assert C["e"] == pytest.approx([0.5, 0.0])
+    assert C["trace"] == pytest.approx(-71 + 32.25 * 3)
+    assert C["kind"] == "unstable focus"
+    assert len(found["limit_directions"]) == 4
+
+
+@pytest.mark.parametrize(
+    ("text", "psi"),
+    [
+        ("constant", c2.psi.constant()),
+        ("tanh", c2.psi.tanh()),
+        ("hill:3", c2.psi.hill(3)),
+        ("hill", c2.psi.hill(2)),
+        ("1/(1+s)**2", c2.psi.custom("1/(1+s)**2")),
+    ],
+)
+def test_a_psi_by_its_text(text, psi):
+    assert psi_of(text) == psi
+
+
+@pytest.mark.parametrize("wrong", [["--psi", "hill:many"], ["--psi", "s +"], ["--f1", "nan"]])
+def test_what_cannot_be_used_is_said_in_one_line(wrong, capsys):
+    assert main(["classify", "-a", "-2", "-d", "-1", *wrong]) == 2
+    told = capsys.readouterr().err
+    assert told.startswith("codim2: ")
+    assert "Traceback" not in told
+
+
+def test_presets_are_listed(capsys):
+    assert main(["presets"]) == 0
+    assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == list(c2.presets)
+    assert main(["presets", "--json"]) == 0
+    assert list(json.loads(capsys.readouterr().out)) == list(c2.presets)
+
+
+def test_census_prints_its_table(capsys, tmp_path):
+    assert main(["census", "--count", "1e4", "--csv", str(tmp_path / "t.csv")]) == 0
+    lines = capsys.readouterr().out.strip("\r").splitlines()[1:]
+    expected = c2.census(count=10_000).table
+    assert [(" ".join(line.split()[:2]), int(line.split()[2])) for line in lines] == [
+        (r.name, r.count) for r in expected
+    ]
+    assert (tmp_path / "t.csv").read_text().count("\n") == len(expected) + 1
+    assert main(["census", "--count", "0"]) == 2
+
+
+def test_the_version_is_told(capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(["--version"])
+    assert ended.value.code == 0
+    assert capsys.readouterr().out.startswith("codim2 0.")
