@@ -33,9 +33,7 @@ from .psi.function import Psi
 from .sliding.flow import sliding_flow
 from .systems.bounds import SMALLEST, slow_values
 from .systems.coefficients import Coefficients
-from .systems.elinear import ELinear
-from .systems.kinds import AnySystem
-from .systems.typed import System
+from .systems.kinds import KINDS, AnySystem
 from .theorems.certificates import Certificate, certificates
 
 DRAWN_TIME = 40.0  # over the largest coefficient: slow directions, up to 40 times slower than that, are still drawn
@@ -111,7 +109,7 @@ class Scene:
         pixel: float = 1.0 / 180.0,
         _memory: _Memory | None = None,
     ) -> None:
-        if not isinstance(system, AnySystem):
+        if not isinstance(system, KINDS):
             raise ValueError(f"system is {system!r}; give an ELinear or a System.")
         if psi is None:
             psi = constructors.constant()
@@ -122,7 +120,7 @@ class Scene:
         if not (np.isfinite(pixel) and 0.0 < pixel < 1.0):
             raise ValueError(f"pixel is {pixel}; give the size of a pixel in picture units, in (0, 1).")
         self.system, self.psi = system, psi
-        self.z = slow_values(z, system.m, needed=False) if isinstance(system, (ELinear, System)) else ()
+        self.z = slow_values(z, system.m, needed=False) if not system.frozen else ()
         self.seeds = None if seeds is None else checked_seeds(seeds)
         self.count, self.rtol, self.atol = count, float(rtol), float(atol)
         self.t_max, self.length = None if t_max is None else float(t_max), float(length)
@@ -149,7 +147,7 @@ class Scene:
         values = {name: getattr(self, name) for name in _PARAMETERS}
         values.update(own)
         if changes:
-            if not isinstance(values["system"], (ELinear, System)):
+            if values["system"].frozen:
                 raise ValueError("this scene was made from a system frozen at one z; give it a system to change.")
             values["system"] = values["system"].evolve(**changes)
         return Scene(values.pop("system"), values.pop("psi"), values.pop("z"), **values, _memory=self._memory)
@@ -177,7 +175,7 @@ class Scene:
 
     def has(self, name: str) -> bool:
         """Whether a layer exists for this system; one that does not is None."""
-        return name in layers and (name not in ELINEAR_ONLY or isinstance(self.coefficients, Coefficients))
+        return name in layers and (name not in ELINEAR_ONLY or self.coefficients.typed is None)
 
     def key(self, *inputs: str) -> tuple[Hashable, ...]:
         """Return the present values of some inputs of layers ("plane", "matrix", "slow", "psi", …), hashable."""
@@ -200,7 +198,7 @@ _INPUTS: dict[str, Callable[[Scene], Hashable]] = {
     "plane": lambda s: s.coefficients.key,
     "matrix": lambda s: _matrix(s),
     "slow": lambda s: s.coefficients.slow_key,
-    "mean": lambda s: None if isinstance(s.coefficients, Coefficients) else s.coefficients.slow_key,
+    "mean": lambda s: None if s.coefficients.typed is None else s.coefficients.slow_key,
     "psi": lambda s: s.psi,
     "inner seeds": lambda s: s.count if s.seeds is None else _start(s, outside=False).tobytes(),
     "outer seeds": lambda s: s.count if s.seeds is None else _start(s, outside=True).tobytes(),
@@ -229,7 +227,7 @@ def _structured(count: int, view: float) -> tuple[np.ndarray, np.ndarray]:
 
 def _stepping(scene: Scene) -> dict[str, Any]:
     at = scene.coefficients
-    largest = (max(map(abs, at.plane)) if isinstance(at, Coefficients) else at.size) or 1.0
+    largest = at.size or 1.0
     return {
         "t_max": DRAWN_TIME / largest if scene.t_max is None else scene.t_max,
         "length": scene.length,
@@ -248,7 +246,7 @@ def _orbits(scene: Scene, outside: bool) -> Orbits:
         rings = [C.p + ring(AROUND, 6) for C in scene["critical"] if C.kind.startswith(("unstable", "centre"))]
         seeds = np.concatenate([seeds, *(r for r in rings if np.hypot(r[:, 0], r[:, 1]).max() < 1.0)])
     # Outside, e is the direction itself: Psi has no say. E-linear systems have a field that is cheapest for Psi = 1.
-    cheapest = outside and isinstance(scene.coefficients, Coefficients)
+    cheapest = outside and scene.coefficients.typed is None
     psi = constructors.constant() if cheapest else scene.psi
     halves = (trajectories(scene.coefficients, psi, seeds, backward=back, **options) for back in (True, False))
     return Orbits(*halves)
@@ -263,9 +261,8 @@ def _continuations(scene: Scene) -> Trajectories:
 
 def _cycles(scene: Scene) -> LimitCycles:
     """Return the limit cycles; in an e-linear system without their slow flow: by prop:LC that is "slow_flow"."""
-    at = scene.coefficients
-    if isinstance(at, Coefficients):
-        at = replace(at, B=np.zeros((0, 2)), g=np.zeros(0))
+    form = _elinear(scene)
+    at = scene.coefficients if form is None else replace(form, B=np.zeros((0, 2)), g=np.zeros(0))
     return limit_cycles(at, scene.psi)
 
 
@@ -273,11 +270,18 @@ def _separatrices(scene: Scene) -> Separatrices:
     return separatrices(scene.coefficients, scene.psi, rtol=scene.rtol, pixel=scene.pixel, cycles=scene["cycles"])
 
 
+def _elinear(scene: Scene) -> Coefficients | None:
+    """Return the coefficients of an e-linear system, None for a typed one."""
+    at = scene.coefficients
+    return at.as_given if at.typed is None else None
+
+
 def _matrix(scene: Scene) -> tuple[float, float, float] | None:
     """Return a, b, d; all zero where they are so small beside f that a system of them alone is refused."""
-    if not isinstance(scene.coefficients, Coefficients):
+    at = _elinear(scene)
+    if at is None:
         return None
-    a, b, d = scene.coefficients.plane[:3]
+    a, b, d = at.plane[:3]
     return (a, b, d) if max(abs(a), abs(b), abs(d)) >= SMALLEST else (0.0, 0.0, 0.0)
 
 
@@ -293,13 +297,13 @@ def _regions(scene: Scene) -> tuple[Region, ...] | None:
 
 
 def _location(scene: Scene) -> Location | None:
-    at = scene.coefficients
-    return locate(at) if isinstance(at, Coefficients) else None
+    at = _elinear(scene)
+    return None if at is None else locate(at)
 
 
 def _certificates(scene: Scene) -> tuple[Certificate, ...] | None:
-    at = scene.coefficients
-    if not isinstance(at, Coefficients):
+    at = _elinear(scene)
+    if at is None:
         return None
     cycles = [replace(cycle, slow_flow=at.W(cycle.mean_e)) for cycle in scene["cycles"]]
     return certificates(at, scene.psi, cycles=cycles)

@@ -138,8 +138,8 @@ def equations(system: ELinear | System) -> tuple[tuple[str, Expression], ...]:
 
 
 def _matrix(system: ELinear, names: tuple[str, ...]) -> tuple[tuple[object, object], tuple[object, object]]:
-    if system._matrix is not None:
-        return system._matrix
+    if system.given_matrix is not None:
+        return system.given_matrix
     if isinstance(system.b, Expression):
         return (system.a, parse("-B_", names).substitute("B_", system.b)), (system.b, system.d)
     return (system.a, -system.b), (system.b, system.d)

@@ -106,7 +106,7 @@ def locked_controls(scene: Scene, given: bool) -> tuple[str, ...]:
         return COEFFICIENTS
     named = dict(system.parameters)
     given_as = {"a": system.a, "b": system.b, "d": system.d, "f1": system.f[0], "f2": system.f[1]}
-    if system._matrix is not None:  # made by from_matrix: a, b, d follow from the rotation, and f is turned by it
+    if system.given_matrix is not None:  # made by from_matrix: a, b, d follow from the rotation, and f is turned by it
         given_as = {}
     free = {*named, *(name for name, value in given_as.items() if isinstance(value, float))}
     locked = tuple(name for name in COEFFICIENTS if name not in free)

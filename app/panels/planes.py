@@ -16,7 +16,7 @@ from codim2_core.layer_problem.critical import critical_sets
 from codim2_core.psi import constructors
 from codim2_core.psi.function import Psi
 from codim2_core.systems.coefficients import Coefficients
-from codim2_core.systems.typed import Frozen
+from codim2_core.systems.frozen import AtZ
 
 from ..frame.draft import Draft
 
@@ -48,7 +48,7 @@ def add(draft: Draft) -> None:
         draft.header["planes"] = found
 
 
-def over_n(at: Coefficients | Frozen, psi: Psi) -> dict[str, Any]:
+def over_n(at: AtZ, psi: Psi) -> dict[str, Any]:
     """Return the curve over n, as columns "trace", "determinant", "text" and "kind"; those of `MARKED` have text."""
     path = linearisation_path(at, psi, "n", N)
     rows = [
@@ -63,7 +63,7 @@ def over_n(at: Coefficients | Frozen, psi: Psi) -> dict[str, Any]:
     return _columns(rows, line=True, sentence="Dashed: over n of Ψ = 3/(3 + (4s)ⁿ), from 0.5 to 6.")
 
 
-def over_families(at: Coefficients | Frozen, psi: Psi) -> dict[str, Any]:
+def over_families(at: AtZ, psi: Psi) -> dict[str, Any]:
     """Return the points of the built-in families that differ from this Psi, as `over_n` does."""
     rows = [
         (C.trace, C.determinant, words, C.kind)

@@ -117,7 +117,7 @@ class Frames:
         changed = [name for name in changes if values[name] != self.values[name]]
         scene = evolved(self.scene, values, [name for name in changed if name not in self.locked], self.given)
         ready = self.ready(scene.psi, scene.system)
-        drawable = ready or isinstance(scene.coefficients, Coefficients)  # all of a general system needs the compiler
+        drawable = ready or scene.coefficients.typed is None  # all of a general system needs the compiler
         header: dict[str, Any] = {"ready": False}
         blocks: Blocks = {}
         now_sent = dict(sent)

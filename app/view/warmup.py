@@ -13,7 +13,6 @@ from codim2_core.psi.constructors import FAMILIES, constant, make
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.kinds import AnySystem
-from codim2_core.systems.typed import System
 
 MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
 BUILT_IN = tuple(make(family) for family in FAMILIES if family != "custom")
@@ -60,13 +59,13 @@ def is_ready(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
     If compiling failed, they are asked for all the same, so that their error is seen.
     """
     psi = constant() if psi is None else psi
-    typed = isinstance(system, System)
-    if typed and not _done(GENERAL, warm_general):
+    typed = None if system is None else system.typed
+    if typed is not None and not _done(GENERAL, warm_general):
         return False
     if is_warm(psi, system):
         return True
-    if typed:
-        return _done((psi, system.U), warm, psi, system)
+    if typed is not None:
+        return _done((psi, typed.U), warm, psi, system)
     if psi.family == "custom":
         return _done(psi, warm, psi)
     with _lock:

@@ -72,7 +72,7 @@ def continue_cycles(
     def inside(value: float) -> tuple[Coefficients, Psi]:
         changed, family_psi, place = varied(system, psi, z, name, value)
         found = changed.at(place)
-        if not isinstance(found, Coefficients):
+        if found.typed is not None:
             raise ValueError("continue_cycles is for e-linear systems; give an ELinear.")
         return found, family_psi
 

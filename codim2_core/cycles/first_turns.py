@@ -16,7 +16,7 @@ import numpy as np
 
 from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi
-from ..systems.typed import Frozen
+from ..systems.frozen import AtZ
 from .orbit import Orbit, orbit
 from .section import FINE, Crossing
 from .turn_section import Array, TurnSection
@@ -47,7 +47,7 @@ ONLY_SADDLES = (
 )
 
 
-def find(at: Frozen, psi: Psi) -> tuple[list[tuple[Crossing, Orbit, int]], str, tuple[str, ...]]:
+def find(at: AtZ, psi: Psi) -> tuple[list[tuple[Crossing, Orbit, int]], str, tuple[str, ...]]:
     """Search for limit cycles.
 
     Parameters

@@ -22,8 +22,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..layer_problem.critical import CriticalSet, Existence, critical_sets, determinant_sign, locate
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from ..systems.elinear import ELinear
-from ..systems.typed import Frozen, System
+from ..systems.frozen import AtZ
+from ..systems.kinds import AnySystem
 from .orbit import Orbit, orbit
 from .search import search
 from .section import Crossing, Section
@@ -151,7 +151,7 @@ def reason_for_none(coefficients: Coefficients, critical: tuple[CriticalSet, ...
     return None
 
 
-def limit_cycles(system: ELinear | System | Coefficients | Frozen, psi: Psi, z: ArrayLike = ()) -> LimitCycles:
+def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> LimitCycles:
     """Find the limit cycles of the layer problem, eq:LP, sec:case3 (the closed equator is not one of them).
 
     Parameters
@@ -166,9 +166,10 @@ def limit_cycles(system: ELinear | System | Coefficients | Frozen, psi: Psi, z: 
         Empty, with a reason, wherever a theorem forbids cycles: that costs no integration. For a general system its
         `reason` says how they were searched for (`first_turns`).
     """
-    coefficients = system.at(z)
-    if isinstance(coefficients, Frozen):
-        return _general(coefficients, psi)
+    at = system.at(z)
+    coefficients = at.as_given
+    if coefficients is None:
+        return _general(at, psi)
     critical = critical_sets(coefficients, psi)
     reason = reason_for_none(coefficients, critical)
     if reason is not None:
@@ -178,7 +179,7 @@ def limit_cycles(system: ELinear | System | Coefficients | Frozen, psi: Psi, z: 
     orbits = [(crossing, orbit(section, crossing)) for crossing in crossings]
     sense = 1 if coefficients.b > 0.0 else -1
     cycles = tuple(
-        _cycle(crossing, found, coefficients.W(found.mean_e), sense) for crossing, found in orbits if found is not None
+        _cycle(crossing, found, at.W(found.mean_e), sense) for crossing, found in orbits if found is not None
     )
     if len(cycles) < len(orbits):
         notes = (*notes, "A fixed point of the return map was found whose cycle takes too many steps to follow.")
@@ -190,7 +191,7 @@ def limit_cycles(system: ELinear | System | Coefficients | Frozen, psi: Psi, z: 
     )
 
 
-def _general(at: Frozen, psi: Psi) -> LimitCycles:
+def _general(at: AtZ, psi: Psi) -> LimitCycles:
     from .first_turns import find
 
     form = at.normal_form

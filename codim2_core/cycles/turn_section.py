@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from ..layer_problem.critical import CriticalSet
 from ..psi.function import Psi
-from ..stepping.numbers import rate
-from ..systems.typed import Frozen
+from ..systems.frozen import AtZ
 from .section import COARSE
 
 Array = NDArray[np.float64]
@@ -37,9 +36,9 @@ class TurnSection:
         All critical sets; the ray keeps away from the others.
     """
 
-    def __init__(self, at: Frozen, psi: Psi, critical: CriticalSet, others: tuple[CriticalSet, ...]) -> None:
+    def __init__(self, at: AtZ, psi: Psi, critical: CriticalSet, others: tuple[CriticalSet, ...]) -> None:
         self.at, self.psi, self.critical = at, psi, critical
-        self.rate = rate(at)
+        self.rate = at.speed
         self._rests = np.array([C.p for C in others])
         self.u = self._direction([C.p - critical.p for C in others if C is not critical])
         along = float(self.u @ critical.p)

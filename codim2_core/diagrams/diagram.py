@@ -10,8 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.sign_changes import roots
 from ..psi.function import Psi
-from ..systems.coefficients import Coefficients
-from ..systems.elinear import ELinear
 from .critical import borders, critical_part
 from .equator import equator_part
 from .result import ClosedEquator, CriticalBranch, Diagram, EquatorBranch, SpecialValue
@@ -70,7 +68,7 @@ def diagram(
     if not (np.isfinite([low, high]).all() and low < high):
         raise ValueError(f"the span of {name} is {low:g} to {high:g}; give two finite numbers, the smaller one first.")
 
-    if not isinstance(system, (ELinear, Coefficients)):
+    if system.typed is not None:
         branches, closed_, sets, found = general_parts(system, psi, name, (low, high), z)
         found.sort(key=lambda s: s.value)
         return Diagram(name, (low, high), tuple(branches), tuple(closed_), tuple(sets), tuple(found), tuple(cycles))

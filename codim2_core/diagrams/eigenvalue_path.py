@@ -11,8 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 from ..layer_problem.critical import critical_sets
 from ..layer_problem.vary import varied
 from ..psi.function import Psi
-from ..systems.coefficients import Coefficients
-from ..systems.elinear import ELinear
 from .sweep import KINDS, family, linearise
 
 __all__ = ["LinearisationPath", "linearisation_path"]
@@ -75,7 +73,7 @@ def linearisation_path(system: Any, psi: Psi, name: str, values: ArrayLike, z: A
     given = np.atleast_1d(np.array(values, float))
     if given.ndim != 1 or not np.isfinite(given).all():
         raise ValueError(f"values of {name} have shape {given.shape}; give a list of finite numbers.")
-    if isinstance(system, (ELinear, Coefficients)):
+    if system.typed is None:
         path = family(system, psi, z, name, spans=(given,))
         found = linearise(path(**{path.names[0]: given}))
         numbers = found.exists, found.trace, found.determinant, found.discriminant

@@ -175,9 +175,9 @@ class Line:
 
 def _needs(system: ELinear, varying: tuple[str, ...]) -> bool:
     """Whether a, b, d, f1, f2 are more than the numbers given and the values themselves."""
-    if system._matrix is not None:
+    if system.given_matrix is not None:
         return True
-    used = {name for what, e in system._expressions if what in _NAMES for name in e.names}
+    used = {name for what, e in system.expressions if what in _NAMES for name in e.names}
     return bool(used & {*varying, "z" if "z1" in varying else ""})
 
 
@@ -197,9 +197,9 @@ def _rows(system: ELinear, z: ArrayLike, values: Mapping[str, Array]) -> list[An
         )
 
     f1, f2 = number("f1", system.f[0]), number("f2", system.f[1])
-    if system._matrix is None:
+    if system.given_matrix is None:
         return [number(name, getattr(system, name)) for name in "abd"] + [f1, f2]
-    (a11, a12), (a21, a22) = (tuple(np.asarray(number("", v), float) for v in row) for row in system._matrix)
+    (a11, a12), (a21, a22) = (tuple(np.asarray(number("", v), float) for v in row) for row in system.given_matrix)
     shear, stretch = a12 + a21 + 0.0, a22 - a11  # lem:normalform, as in `ELinear.from_matrix`
     phi = 0.5 * np.arctan2(shear, stretch)
     mean, half = 0.5 * a11 + 0.5 * a22, 0.5 * np.hypot(shear, stretch)

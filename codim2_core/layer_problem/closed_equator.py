@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from ..numerics.trigonometric import line_pair, tangential_zeros
 from ..numerics.trigonometric_exact import to_integers
-from ..systems.typed import Frozen
 from .equator_zeros import closed_equator
 
 __all__ = ["NEUTRAL_EQUATOR", "EquatorCycle", "equator_cycle"]
@@ -81,11 +80,10 @@ def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
     ValueError
         If z does not fit the system or a coefficient is not finite.
     """
-    q = system.at(z)
-    if isinstance(q, Frozen) and q.as_given is not None:
-        q = q.as_given
-    if isinstance(q, Frozen):
-        found = closed_equator(q.key)
+    at = system.at(z)
+    q = at.as_given
+    if q is None:
+        found = closed_equator(at.key)
         return None if found is None else EquatorCycle(*found)
     a, b, d, f1, f2 = q.a, q.b, q.d, q.f1, q.f2
     zeros = tangential_zeros(a, b, d, f1, f2)

@@ -18,8 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.trigonometric import ROUNDING
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from ..systems.elinear import ELinear
-from ..systems.typed import Frozen, System
+from ..systems.frozen import AtZ
+from ..systems.kinds import AnySystem
 from .disc_zeros import disc_zeros
 from .linearisation import (
     CANCELLATION,
@@ -182,9 +182,7 @@ def _locate_singular(a: float, b: float, d: float, f1: float, f2: float) -> Loca
     )
 
 
-def critical_sets(
-    system: ELinear | System | Coefficients | Frozen, psi: Psi, z: ArrayLike = ()
-) -> tuple[CriticalSet, ...]:
+def critical_sets(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> tuple[CriticalSet, ...]:
     """All isolated critical sets at z, eq:critical_set.
 
     For an e-linear system none or one (thm:lineps1(a), eq:lincriticalset), in closed form. For a general system all
@@ -203,21 +201,20 @@ def critical_sets(
         these.
     """
     at = system.at(z)
-    if isinstance(at, Frozen):
+    form = at.as_given
+    if form is None:
         return _general_sets(at, psi)
-    location = locate(at)
+    location = locate(form)
     if location.e is None:
         return ()
     # Time in a unit that makes the largest coefficient about 1, so that no product under- or overflows.
-    shift = math.frexp(max(map(abs, at.plane[:3])))[1]
-    a, b, d = (math.ldexp(v, -shift) for v in at.plane[:3])
+    shift = math.frexp(max(map(abs, form.plane[:3])))[1]
+    a, b, d = (math.ldexp(v, -shift) for v in form.plane[:3])
     parts = linearisation((a, b, d), psi, location.e, location.complement)
     return (_critical_set(location.e, parts, shift, at.W(location.e)),)
 
 
-def _general_sets(at: Frozen, psi: Psi) -> tuple[CriticalSet, ...]:
-    if at.as_given is not None:
-        return tuple(replace(C, slow_flow=_frozen(at.W(C.e))) for C in critical_sets(at.as_given, psi))
+def _general_sets(at: AtZ, psi: Psi) -> tuple[CriticalSet, ...]:
     found = disc_zeros(at.key)
     sets = []
     for e, DU, degenerate, index in zip(found.e, found.DU, found.degenerate, found.index, strict=True):
@@ -233,11 +230,6 @@ def _general_sets(at: Frozen, psi: Psi) -> tuple[CriticalSet, ...]:
             C = replace(C, determinant=0.0, kind="saddle-node" if index == 0 else "degenerate")
         sets.append(C)
     return tuple(sets)
-
-
-def _frozen(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    values.flags.writeable = False
-    return values
 
 
 def _critical_set(e: tuple[float, float], parts: Parts, shift: int, slow: NDArray[np.float64]) -> CriticalSet:

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.trigonometric import ROUNDING, THETA_PATTERNS, tangential_zeros
 from ..numerics.trigonometric_exact import quotient, solve_exactly, to_integers
-from ..systems.typed import Frozen
+from ..systems.frozen import AtZ
 from .closed_equator import EquatorCycle, equator_cycle
 from .critical import locate
 from .equator_zeros import equator_zeros
@@ -147,9 +147,10 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
     ValueError
         If z does not fit the system or a coefficient is not finite.
     """
-    q = system.at(z)
-    if isinstance(q, Frozen):
-        return _general(q)
+    at = system.at(z)
+    q = at.as_given
+    if q is None:
+        return _general(at)
     a, b, d, f1, f2 = q.a, q.b, q.d, q.f1, q.f2
     zeros = tangential_zeros(a, b, d, f1, f2)
     location = locate(q)
@@ -184,9 +185,7 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
     return EquatorEquilibria(*arrays, zeros.identically_zero, zeros.exact_count, zeros.distance, symmetric)
 
 
-def _general(at: Frozen) -> EquatorEquilibria:
-    if at.as_given is not None:
-        return equator_equilibria(at.as_given)
+def _general(at: AtZ) -> EquatorEquilibria:
     found = equator_zeros(at.key)
     return EquatorEquilibria(
         found.theta,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,12 +12,8 @@ from ..psi import constructors
 from ..psi.constructors import LARGEST_N, SMALLEST_N
 from ..psi.function import Psi
 from ..systems.bounds import LARGEST
-from ..systems.coefficients import Coefficients
-from ..systems.elinear import ELinear
 
 __all__ = ["limits", "names", "value_of", "varied"]
-
-_PLANE = ("a", "b", "d", "f1", "f2")
 
 
 def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
@@ -37,8 +32,8 @@ def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
         Of an e-linear system those of a, b, d, f1, f2 that are numbers and not text; then the system's parameters, z1
         to zm, and n for a Hill Psi (unless a parameter of the system has that name).
     """
-    found = [*_coefficients(system), *dict(getattr(system, "parameters", ()))]
-    if hasattr(system, "evolve"):  # a system frozen at one z does not depend on z any more
+    found = [*system.variable]
+    if not system.frozen:  # else z is chosen
         found += [f"z{i + 1}" for i in range(len(_slow(z)))]
     if psi.family == "hill" and "n" not in found:
         found.append("n")
@@ -68,12 +63,9 @@ def varied(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tupl
         Nothing variable has this name, or the value is not allowed there.
     """
     slow = _slow(z)
-    if name in _coefficients(system) or name in dict(getattr(system, "parameters", ())):
-        value = _finite(name, value)
-        if isinstance(system, Coefficients):
-            return replace(system, **{name: value}), psi, slow
-        return system.evolve(**{name: value}), psi, slow
-    if hasattr(system, "evolve") and (index := _slow_index(name)) in range(len(slow)):
+    if name in system.variable:
+        return system.varied(name, _finite(name, value)), psi, slow
+    if not system.frozen and (index := _slow_index(name)) in range(len(slow)):
         return system, psi, (*slow[:index], _finite(name, value), *slow[index + 1 :])
     if name == "n" and psi.family == "hill":
         return system, constructors.hill(value), slow
@@ -97,15 +89,10 @@ def value_of(system: Any, psi: Psi, z: ArrayLike, name: str) -> float:
     ValueError
         Nothing variable has this name.
     """
-    if name in _coefficients(system):
-        if isinstance(system, ELinear) and name[0] == "f":
-            return system.f[int(name[1]) - 1]
-        return float(getattr(system, name))
-    parameters = dict(getattr(system, "parameters", ()))
-    if name in parameters:
-        return float(parameters[name])
+    if name in system.variable:
+        return system.value_of(name)
     slow = _slow(z)
-    if hasattr(system, "evolve") and (index := _slow_index(name)) in range(len(slow)):
+    if not system.frozen and (index := _slow_index(name)) in range(len(slow)):
         return slow[index]
     if name == "n" and psi.family == "hill":
         return psi.parameter
@@ -114,21 +101,9 @@ def value_of(system: Any, psi: Psi, z: ArrayLike, name: str) -> float:
 
 def limits(system: Any, psi: Psi, name: str) -> tuple[float, float]:
     """Return the smallest and the largest value that `varied` takes for a name."""
-    taken = name in _coefficients(system) or name in dict(getattr(system, "parameters", ()))
-    if name == "n" and psi.family == "hill" and not taken:
+    if name == "n" and psi.family == "hill" and name not in system.variable:
         return SMALLEST_N, LARGEST_N
     return -LARGEST, LARGEST
-
-
-def _coefficients(system: Any) -> tuple[str, ...]:
-    if isinstance(system, Coefficients):
-        return _PLANE
-    if not isinstance(system, ELinear):
-        return ()
-    held = {"f1": system.f[0], "f2": system.f[1]}
-    if system._matrix is None:  # else a, b, d belong to the rotated form
-        held |= {"a": system.a, "b": system.b, "d": system.d}
-    return tuple(name for name in _PLANE if isinstance(held.get(name), float))
 
 
 def _slow(z: ArrayLike) -> tuple[float, ...]:

@@ -122,8 +122,8 @@ def _elinear_rows(system: ELinear) -> list[Expression]:
     g = [known(value) for value in system.g or [0.0] * system.m]
     abd: list[Any] = [known(value) for value in (system.a, system.b, system.d)]
     axes = (1.0, 0.0)
-    if system._matrix is not None:
-        entries = [[known(value).constant for value in row] for row in system._matrix]
+    if system.given_matrix is not None:
+        entries = [[known(value).constant for value in row] for row in system.given_matrix]
         if any(entry is None for row in entries for entry in row):
             raise ValueError(
                 "A depends on z, and its rotation into the normal form would turn the axes of (x, y) with it: "

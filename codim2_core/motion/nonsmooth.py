@@ -14,7 +14,6 @@ from ..numerics.radau import Problem, Step, TooManyStepsError
 from ..psi import constructors
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from ..systems.typed import Frozen, System
 from .decide import Verdict, arriving, from_hemisphere, in_disc, starting
 from .field import Field, field
 from .problem import plane_problem
@@ -118,7 +117,7 @@ class _Course:
     def slide(self, verdict: Verdict) -> Verdict | None:
         assert verdict.e is not None
         on_cycle = verdict.kind == "cycle"
-        if on_cycle and isinstance(self.system, (System, Frozen)):
+        if on_cycle and self.system.typed is not None:
             return self.slide_on_cycle(verdict)
         lives = self.has_cycle if on_cycle else None
         part = slide(
@@ -151,7 +150,6 @@ class _Course:
 
     def slide_on_cycle(self, verdict: Verdict) -> Verdict | None:
         """Slide on a limit cycle of a general system."""
-        assert isinstance(self.system, (System, Frozen))
         assert verdict.onto is not None
         index, z = int(verdict.onto.split()[1]) - 1, self.state[2:]
         if not len(z):
@@ -209,7 +207,7 @@ class _Course:
     def past_hopf(self, e: Array, C: str | None) -> Verdict:
         """C has lost its stability to the fast flow: slide on the cycle born there, if it is stable."""
         if any(self.has_cycle(self.ahead(e, part)) for part in (PAST, 100.0 * PAST)):
-            if isinstance(self.system, (System, Frozen)):
+            if self.system.typed is not None:
                 reason = f"{C} loses its stability (Hopf) to a stable limit cycle: after what delay is left to ε."
                 return Verdict("stop", reason)
             reason = (

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..cycles.limit_cycles import LimitCycle, limit_cycles
 from ..numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
 from ..psi.function import Psi
-from ..systems.typed import Frozen, System
+from ..systems.kinds import AnySystem
 from .problem import growth_bound
 
 Array = NDArray[np.float64]
@@ -42,9 +42,7 @@ class CycleSlide:
     lives: bool
 
 
-def slide_on_cycle(
-    system: System | Frozen, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int
-) -> CycleSlide:
+def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int) -> CycleSlide:
     """Follow the averaged slow flow of a general system.
 
     Parameters

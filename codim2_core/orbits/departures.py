@@ -17,9 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..psi.function import Psi
-from ..stepping.numbers import rate
-from ..systems.coefficients import Coefficients
-from ..systems.typed import Frozen
+from ..systems.frozen import AtZ
 
 HIGHEST = 1e-3  # start no further up than this: 1 - |p| is then 5e-7, well below a pixel
 LIMIT = 1e-6  # |Theta| allowed of a limit direction, in units of |U|
@@ -39,9 +37,7 @@ def _tilt(
     return np.where(resonant, forcing * np.log(w) / lambda_rho, forcing / np.where(resonant, 1.0, gap))
 
 
-def departures(
-    at: Coefficients | Frozen, psi: Psi, theta: ArrayLike, rtol: float, backward: bool
-) -> NDArray[np.float64]:
+def departures(at: AtZ, psi: Psi, theta: ArrayLike, rtol: float, backward: bool) -> NDArray[np.float64]:
     """First states (k, 3) of the orbits that leave limit directions.
 
     Parameters
@@ -70,7 +66,7 @@ def departures(
         raise ValueError(f"theta is {theta!r}; give limit directions in radians, shape (k,).") from error
     if not np.isfinite(angle).all():
         raise ValueError(f"theta is {theta!r}; every limit direction must be a finite angle in radians.")
-    size = rate(at)
+    size = at.speed
     e = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     across = np.stack([-e[:, 1], e[:, 0]], axis=-1)
     U, DU = at.U(e) / size, at.DU(e) / size

@@ -15,11 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..psi.function import Psi
-from ..stepping.numbers import rate
-from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
 from ..systems.kinds import AnySystem
-from ..systems.typed import Frozen, System
 from .departures import departures
 from .result import Status, Trajectories, joined
 from .seeds import checked_seeds
@@ -182,7 +179,7 @@ def _integrate(
         return joined([])
     kernels = _kernels()
     # Time in units of 1/|U| makes step sizes, speeds and capture independent of the scale of U.
-    problem, unit = kernels.problem(at, psi, backward), rate(at)
+    problem, unit = kernels.problem(at, psi, backward), at.speed
     buffer, clock, offsets, ends, codes, evaluations = kernels.integrate(
         states,
         signs,
@@ -198,7 +195,7 @@ def _integrate(
         float(length),
     )
     clock *= (-1.0 if backward else 1.0) / unit
-    _warm.add(psi.family if isinstance(at, Coefficients) else GENERAL)
+    _warm.add(psi.family if at.typed is None else GENERAL)
     return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
 
 
@@ -215,9 +212,8 @@ def warm(psi: Psi | None = None, system: AnySystem | None = None) -> None:
     from ..psi.constructors import constant
 
     psi = constant() if psi is None else psi
-    general = system.system if isinstance(system, Frozen) else system
-    if isinstance(general, System):
-        _kernels().prepare(general, psi)
+    if system is not None and system.typed is not None:
+        _kernels().prepare(system.typed, psi)
     elinear, seeds = ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), np.array([(0.5, 0.0), (1.5, 0.0)])
     trajectories(elinear, psi, seeds)
     trajectories(elinear, psi, checked_seeds(seeds))  # read-only arrays are another type to Numba
@@ -227,11 +223,10 @@ def is_warm(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
     """Whether trajectories (with this Psi and system, if given) run at once, without compiling or loading."""
     if not _warm:
         return False
-    general = system.system if isinstance(system, Frozen) else system
     if psi is None:
         return True
-    if isinstance(general, System):
-        return _kernels().is_compiled(general, psi)
+    if system is not None and system.typed is not None:
+        return _kernels().is_compiled(system.typed, psi)
     return psi.family in _warm and _kernels().is_compiled(None, psi)
 
 

@@ -16,8 +16,8 @@ from ..layer_problem.critical import (
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from ..systems.elinear import ELinear
-from ..systems.typed import Frozen, System
+from ..systems.frozen import AtZ
+from ..systems.kinds import AnySystem
 from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
 from .classify_typed import general_portrait
 
@@ -105,7 +105,7 @@ def _consequence(location: Location, critical: tuple[CriticalSet, ...]) -> str:
 
 
 def portrait(
-    at: Coefficients | Frozen,
+    at: AtZ,
     equator: EquatorEquilibria,
     cycle: EquatorCycle | None,
     location: Location | None,
@@ -116,14 +116,12 @@ def portrait(
     A general system that is affine in (c, s) has the name of its normal form, unless the rotation's rounding blurs
     whether there is a critical set.
     """
-    if isinstance(at, Frozen):
-        coefficients = at.normal_form
-        location = None if coefficients is None else locate(coefficients)
-        if coefficients is None or location is None or (location.e is None) == bool(critical):
-            return general_portrait(at, equator, cycle, critical)
-    else:
-        coefficients = at
-        location = locate(at) if location is None else location
+    coefficients = at.normal_form
+    if coefficients is None:
+        return general_portrait(at, equator, cycle, critical)
+    location = locate(coefficients) if location is None else location
+    if (location.e is None) == bool(critical):
+        return general_portrait(at, equator, cycle, critical)
     case, degeneracies = _case(coefficients)
     degeneracies += _equator_degeneracies(equator, cycle) + _critical_degeneracies(location, critical)
     count = "∞" if equator.all_directions else str(len(equator.theta))
@@ -133,7 +131,7 @@ def portrait(
     return Classification(case, name, sentence, tuple(degeneracies))
 
 
-def classify(system: ELinear | System | Coefficients | Frozen, psi: Psi, z: ArrayLike = ()) -> Classification:
+def classify(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> Classification:
     """Case, portrait name, sentence and degeneracies of the system at z.
 
     Parameters
@@ -150,5 +148,4 @@ def classify(system: ELinear | System | Coefficients | Frozen, psi: Psi, z: Arra
     Classification
     """
     at = system.at(z)
-    location = None if isinstance(at, Frozen) else locate(at)
-    return portrait(at, equator_equilibria(at), equator_cycle(at), location, critical_sets(at, psi))
+    return portrait(at, equator_equilibria(at), equator_cycle(at), None, critical_sets(at, psi))

@@ -6,7 +6,7 @@ from ..layer_problem.critical import NEUTRAL_TRACE, CriticalSet
 from ..layer_problem.disc_zeros import DiscZeros, disc_zeros
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
 from ..numerics.fourier_zeros import ROUNDINGS, UNIT
-from ..systems.typed import Frozen
+from ..systems.frozen import AtZ
 from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
 
 WITHIN = ROUNDINGS * UNIT
@@ -14,7 +14,7 @@ TERMS = "the terms of U"
 
 
 def general_portrait(
-    at: Frozen, equator: EquatorEquilibria, cycle: EquatorCycle | None, critical: tuple[CriticalSet, ...]
+    at: AtZ, equator: EquatorEquilibria, cycle: EquatorCycle | None, critical: tuple[CriticalSet, ...]
 ) -> Classification:
     """Name the portrait of a system that is not e-linear, from its parts (all at one z)."""
     found = disc_zeros(at.key)

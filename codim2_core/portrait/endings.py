@@ -13,9 +13,7 @@ from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
 from ..orbits.trajectories import Status, Trajectories, trajectories
 from ..psi.function import Psi
-from ..stepping.numbers import rate
-from ..systems.coefficients import Coefficients
-from ..systems.typed import Frozen
+from ..systems.frozen import AtZ
 from .saddle_manifold import to_disc
 
 Array = NDArray[np.float64]
@@ -88,7 +86,7 @@ def _nearest(equator: EquatorEquilibria, angle: float) -> tuple[int, float]:
 
 
 def endings(
-    at: Coefficients | Frozen,
+    at: AtZ,
     psi: Psi,
     lines: Trajectories,
     equator: EquatorEquilibria,
@@ -148,16 +146,14 @@ def endings(
     return [e if e is not None else Ending("undecided", None, s.value) for e, s in zip(found, statuses, strict=True)]
 
 
-def drawn_time(at: Coefficients | Frozen, equator: EquatorEquilibria) -> float:
+def drawn_time(at: AtZ, equator: EquatorEquilibria) -> float:
     """T in which a branch shows where it goes: long for |U|, and for the slowest way up from the equator."""
-    unit = rate(at)
+    unit = at.speed
     slow = np.abs(equator.lambda_rho[~equator.radially_degenerate])
     return SPEEDS / unit + (SLOW / max(float(slow.min()), 1e-4 * unit) if len(slow) else 0.0)
 
 
-def _followed(
-    at: Coefficients | Frozen, psi: Psi, places: Array, time: float, rtol: float, backward: bool
-) -> Trajectories:
+def _followed(at: AtZ, psi: Psi, places: Array, time: float, rtol: float, backward: bool) -> Trajectories:
     return trajectories(
         at,
         psi,

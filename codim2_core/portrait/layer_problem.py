@@ -14,8 +14,7 @@ from ..layer_problem.critical import CriticalSet, critical_sets
 from ..layer_problem.equator import EquatorEquilibria
 from ..orbits.trajectories import Trajectories, continuation, trajectories
 from ..psi.function import Psi
-from ..systems.coefficients import Coefficients
-from ..systems.typed import Frozen
+from ..systems.frozen import AtZ
 from .endings import CAPTURE, CONNECTION, Ending, critical_label, drawn_time, endings
 
 Array = NDArray[np.float64]
@@ -36,7 +35,7 @@ class LayerProblem:
     cycles : LimitCycles
     """
 
-    at: Coefficients | Frozen
+    at: AtZ
     psi: Psi
     equator: EquatorEquilibria
     critical: tuple[CriticalSet, ...]
@@ -82,7 +81,7 @@ class LayerProblem:
         if label.startswith("cycle"):
             cycle = self.cycles[int(label.split()[1]) - 1]
             reason = "They wind onto a limit cycle around C: sliding, with the slow flow of C on average (prop:LC)."
-            if isinstance(self.at, Frozen):
+            if self.at.normal_form is None:
                 reason = "They wind onto a limit cycle: sliding, with the mean slow flow over the cycle."
             return "cycle", label, None, cycle.slow_flow, reason
         if label.startswith("Q"):
@@ -110,6 +109,6 @@ class LayerProblem:
         return self.judge(self.ends(self.followed(ring)), many)
 
 
-def layer_problem(at: Coefficients | Frozen, psi: Psi, equator: EquatorEquilibria) -> LayerProblem:
+def layer_problem(at: AtZ, psi: Psi, equator: EquatorEquilibria) -> LayerProblem:
     """Gather what stands still in the layer problem; the equator does not depend on Psi."""
     return LayerProblem(at, psi, equator, critical_sets(at, psi), limit_cycles(at, psi))

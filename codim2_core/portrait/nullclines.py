@@ -26,8 +26,8 @@ from ..numerics.trigonometric import radial_zeros
 from ..psi.constructors import constant
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from ..systems.elinear import ELinear
-from ..systems.typed import Frozen, System
+from ..systems.frozen import AtZ
+from ..systems.kinds import AnySystem
 from .nullclines_typed import Kind, Traced, inside_curves, outside_curves
 
 Array = NDArray[np.floating[Any]]
@@ -70,14 +70,14 @@ def _radial_angles(coefficients: Coefficients) -> list[float]:
 Affine = tuple[float, float, float, float, float, float]  # U = (A11 c + A12 s + f1, A21 c + A22 s + f2), row by row
 
 
-def _affine(at: Coefficients | Frozen) -> tuple[Affine, list[float]] | None:
+def _affine(at: AtZ) -> tuple[Affine, list[float]] | None:
     """U where it is affine in (c, s), and the angles at which lambda_rho vanishes; None where it is not."""
-    if isinstance(at, Coefficients):
-        a, b, d, f1, f2 = at.plane
-        return (a, -b, f1, b, d, f2), _radial_angles(at)
     normal = at.normal_form
     if normal is None:
         return None
+    if at.as_given is not None:
+        a, b, d, f1, f2 = at.as_given.plane
+        return (a, -b, f1, b, d, f2), _radial_angles(at.as_given)
     (a11, a12), (a21, a22) = at.DU((0.0, 0.0)).tolist()
     f1, f2 = at.U((0.0, 0.0)).tolist()
     radial = [(theta - normal.rotation) % (2.0 * math.pi) for theta in _radial_angles(normal)]
@@ -238,13 +238,10 @@ def _drawn(curve: Curve, psi: Psi) -> Array:
     return points
 
 
-def inside_nullclines(
-    coefficients: Coefficients | Frozen, psi: Psi, limit_directions: list[float]
-) -> tuple[NullclineBranch, ...]:
+def inside_nullclines(coefficients: AtZ, psi: Psi, limit_directions: list[float]) -> tuple[NullclineBranch, ...]:
     """Nullclines on the hemisphere; `limit_directions` are the zeros of Theta (where theta-nullclines end)."""
     affine = _affine(coefficients)
     if affine is None:
-        assert isinstance(coefficients, Frozen)
         return tuple(_branch(kind, True, _drawn(curve, psi)) for kind, curve in inside_curves(coefficients))
     U, radial = affine
     ends: tuple[tuple[Kind, list[float]], ...] = (
@@ -272,9 +269,7 @@ def _lines(U: Affine) -> tuple[tuple[Kind, tuple[float, float, float]], ...]:
     return ("U1", U[:3]), ("U2", U[3:])
 
 
-def outside_nullclines(
-    coefficients: Coefficients | Frozen, limit_directions: list[float], view: float
-) -> tuple[NullclineBranch, ...]:
+def outside_nullclines(coefficients: AtZ, limit_directions: list[float], view: float) -> tuple[NullclineBranch, ...]:
     """Nullclines outside, to the corners of a view of that half-width: rays, and the straight lines continued.
 
     Where U is not affine in (c, s), U1 = 0 and U2 = 0 are rays too, and none is straight if U reads x or y.
@@ -282,7 +277,6 @@ def outside_nullclines(
     reach = math.sqrt(2.0) * view
     affine = _affine(coefficients)
     if affine is None:
-        assert isinstance(coefficients, Frozen)
         one = constant()
         return tuple(_branch(kind, False, _drawn(curve, one)) for kind, curve in outside_curves(coefficients, reach))
     U, radial = affine
@@ -307,9 +301,7 @@ def outside_nullclines(
     return tuple(branches)
 
 
-def nullclines(
-    system: ELinear | System | Coefficients | Frozen, psi: Psi, z: ArrayLike = (), *, view: float = 2.0
-) -> tuple[NullclineBranch, ...]:
+def nullclines(system: AnySystem, psi: Psi, z: ArrayLike = (), *, view: float = 2.0) -> tuple[NullclineBranch, ...]:
     """All nullclines in the picture, as separate branches.
 
     Parameters

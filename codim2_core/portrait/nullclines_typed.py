@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..expressions.arrays import Program, program
 from ..layer_problem.equator_zeros import component_zeros, directions
-from ..systems.typed import Frozen
+from ..systems.frozen import AtZ
 from .nullcline_crossings import Crossing, crossings
 
 Array = NDArray[np.floating[Any]]
@@ -80,7 +80,7 @@ class Traced:
         return np.where((t >= 1.0)[:, None], P[-1], curve)
 
 
-def inside_curves(at: Frozen) -> list[tuple[Kind, Traced]]:
+def inside_curves(at: AtZ) -> list[tuple[Kind, Traced]]:
     """All branches in the closed e-disc."""
     nodes_c = LEFT + SIDE / CELLS * np.arange(CELLS + 1)
     nodes_s = BELOW + SIDE / CELLS * np.arange(CELLS + 1)
@@ -88,9 +88,9 @@ def inside_curves(at: Frozen) -> list[tuple[Kind, Traced]]:
     return _curves(at, points, (points**2).sum(axis=-1) < 1.0, nodes_c, nodes_s, 0.0)
 
 
-def outside_curves(at: Frozen, reach: float) -> list[tuple[Kind, Traced]]:
+def outside_curves(at: AtZ, reach: float) -> list[tuple[Kind, Traced]]:
     """All branches outside, up to that distance from the middle: rays unless U reads x or y."""
-    if not at.system.reads_position():
+    if not at.reads_position:
         rays: list[tuple[Kind, Traced]] = []
         for kind in KINDS:
             for u in directions(component_zeros(at.key, kind)[0]):
@@ -103,7 +103,7 @@ def outside_curves(at: Frozen, reach: float) -> list[tuple[Kind, Traced]]:
 
 
 def _curves(
-    at: Frozen, points: Array, usable: NDArray[np.bool_], first: Array, second: Array, reach: float
+    at: AtZ, points: Array, usable: NDArray[np.bool_], first: Array, second: Array, reach: float
 ) -> list[tuple[Kind, Traced]]:
     """Branches of all kinds, on a net of the inside (reach 0) or of the outside."""
     from .nullcline_trace import sample  # on first use: it loads the compiler

@@ -21,9 +21,8 @@ from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
 from ..psi import constructors
 from ..psi.function import Psi
-from ..systems.coefficients import Coefficients
+from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
-from ..systems.typed import Frozen
 from .endings import angular_sign, radially_neutral
 from .layer_problem import Array, LayerProblem, layer_problem
 
@@ -100,7 +99,7 @@ class Outcomes:
     directions: tuple[Outcome, ...]
     equator: EquatorEquilibria
     whole: Outcome | None
-    _at: Coefficients | Frozen
+    _at: AtZ
 
     def __iter__(self) -> Iterator[Outcome]:
         return iter(self.outcomes)
@@ -165,9 +164,9 @@ class Outcomes:
         return tuple((t, e, self.outcome(0.5 * (t + e))) for t, e in zip(zeros, ends, strict=True))
 
 
-def _sensitive(at: Coefficients | Frozen, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...]) -> bool:
+def _sensitive(at: AtZ, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...]) -> bool:
     """Whether no theorem fixes the outcome for every Psi: Case III, crossing with several ways out, any general U."""
-    form = at.normal_form if isinstance(at, Frozen) else at
+    form = at.normal_form
     if form is None:
         return True
     if critical:
@@ -175,7 +174,7 @@ def _sensitive(at: Coefficients | Frozen, equator: EquatorEquilibria, critical: 
     return int(((equator.lambda_rho > 0.0) & (equator.lambda_theta < 0.0)).sum()) > 1
 
 
-def _radial(at: Coefficients | Frozen) -> Array:
+def _radial(at: AtZ) -> Array:
     """lambda_rho in many directions, where Theta vanishes identically."""
     angle = 2.0 * math.pi * np.arange(64) / 64.0
     e = np.stack([np.cos(angle), np.sin(angle)], axis=-1)

@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from ..layer_problem.critical import CriticalSet
 from ..psi.function import Psi
-from ..systems.coefficients import Coefficients
-from ..systems.typed import Frozen
+from ..systems.frozen import AtZ
 
 Array = NDArray[np.float64]
 
@@ -35,17 +34,15 @@ def _fit() -> tuple[Array, Array]:
     return t, (np.linalg.inv(powers) / t[None, :] ** 2)[: ORDER - 1]
 
 
-def _field(at: Coefficients | Frozen, psi: Psi, critical: CriticalSet, x2: Array) -> Array:
+def _field(at: AtZ, psi: Psi, critical: CriticalSet, x2: Array) -> Array:
     zeta = np.hypot(x2[:, 0], x2[:, 1])
     e = x2 * (psi.modulus(zeta) / np.maximum(zeta, 1e-300))[:, None]
-    if isinstance(at, Coefficients):
-        return (e - critical.e) @ at.A.T
+    if at.as_given is not None:
+        return (e - critical.e) @ at.as_given.A.T
     return at.U(e) - at.U(critical.e)  # what rounding leaves of U at C would be amplified
 
 
-def expansion(
-    at: Coefficients | Frozen, psi: Psi, critical: CriticalSet, eigenvalue: float, reach: float
-) -> tuple[Array, float]:
+def expansion(at: AtZ, psi: Psi, critical: CriticalSet, eigenvalue: float, reach: float) -> tuple[Array, float]:
     """Coefficients (ORDER + 1, 2) of W in powers of sigma, and its defect, for |sigma| <= reach.
 
     Parameters
@@ -91,9 +88,7 @@ def expansion(
     return scaled / reach**order, float(np.abs(defect).max() / abs(eigenvalue))
 
 
-def starts(
-    at: Coefficients | Frozen, psi: Psi, critical: CriticalSet, eigenvalue: float, tolerance: float
-) -> tuple[Array, Array]:
+def starts(at: AtZ, psi: Psi, critical: CriticalSet, eigenvalue: float, tolerance: float) -> tuple[Array, Array]:
     """Points of the disc (2, 2) on the two halves of a manifold, and unit tangents (2, 2) there at C.
 
     Parameters

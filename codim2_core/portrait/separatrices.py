@@ -22,10 +22,8 @@ from ..layer_problem.critical import CriticalSet, critical_sets
 from ..layer_problem.equator import EquatorEquilibria, equator_equilibria
 from ..orbits.trajectories import Status, continuation, joined, trajectories
 from ..psi.function import Psi
-from ..stepping.numbers import rate
-from ..systems.coefficients import Coefficients
+from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
-from ..systems.typed import Frozen
 from .endings import (
     CAPTURE,
     CONNECTION,
@@ -173,7 +171,7 @@ def separatrices(
         gaps = _gaps(inside(min(pixel, tolerance)))
     branches = _connected(branches, gaps, tolerance)
     rays = [i for i in range(len(equator)) if _outside_half_saddle(equator, i)]
-    if isinstance(at, Frozen) and at.system.reads_position():
+    if at.reads_position:
         branches += [_bent(at, psi, equator, i, longest, rtol, view, pixel) for i in rays]
     else:
         branches += [_ray(equator, i, view) for i in rays]
@@ -183,7 +181,7 @@ def separatrices(
 
 
 def _inside(
-    at: Coefficients | Frozen,
+    at: AtZ,
     psi: Psi,
     equator: EquatorEquilibria,
     critical: tuple[CriticalSet, ...],
@@ -200,7 +198,7 @@ def _inside(
     angles = equator.theta[owners].tolist()
     firsts = [np.array([math.cos(angle), math.sin(angle)]) for angle in angles]
     # A slow branch needs more time than another should be drawn for.
-    unit = rate(at)
+    unit = at.speed
     parts = []
     for i in owners:
         own = min(t_max, SPEEDS / unit + SLOW / abs(float(equator.lambda_rho[i])))
@@ -265,7 +263,7 @@ def _ray(equator: EquatorEquilibria, i: int, view: float) -> Separatrix:
 
 
 def _bent(
-    at: Frozen, psi: Psi, equator: EquatorEquilibria, i: int, t_max: float, rtol: float, view: float, pixel: float
+    at: AtZ, psi: Psi, equator: EquatorEquilibria, i: int, t_max: float, rtol: float, view: float, pixel: float
 ) -> Separatrix:
     """Follow the branch outside where U depends on x or y: ``theta = theta_i + k rho + ...``, rho' = rho lambda_rho."""
     angle, growth = float(equator.theta[i]), float(equator.lambda_rho[i])

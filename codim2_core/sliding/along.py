@@ -16,9 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 from ..layer_problem.critical import CriticalSet, critical_sets
 from ..psi.function import Psi
 from ..systems.bounds import slow_values
-from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
-from ..systems.typed import Frozen, System
+from ..systems.kinds import AnySystem
+from ..systems.typed import System
 
 Array = NDArray[np.float64]
 
@@ -104,7 +104,7 @@ class SlowPortrait:
 class _Line:
     """The critical sets as a function of one slow variable."""
 
-    system: ELinear | System | Coefficients | Frozen
+    system: AnySystem
     psi: Psi
     z: tuple[float, ...]
     axis: int

@@ -15,9 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..systems.coefficients import Coefficients
-from ..systems.elinear import ELinear
-from ..systems.typed import Frozen, System
+from ..systems.frozen import AtZ
+from ..systems.kinds import AnySystem
 
 Array = NDArray[np.float64]
 
@@ -62,7 +61,7 @@ class FilippovSliding:
         return len(self.vertices)
 
 
-def filippov_sliding(system: ELinear | System | Coefficients | Frozen, z: ArrayLike = ()) -> FilippovSliding:
+def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
     """All candidates of the Filippov convention for z' on Sigma, sec:filippov and fig:generic_nonuniqueness_of_sliding.
 
     Parameters
@@ -141,7 +140,7 @@ def _normals(m: int) -> Iterator[Array]:
 class _Field:
     """(U, W) on the circle: at any direction, and on a dense grid."""
 
-    def __init__(self, at: Coefficients | Frozen) -> None:
+    def __init__(self, at: AtZ) -> None:
         self._at = at
         self.theta = np.linspace(0.0, 2.0 * math.pi, DENSE, endpoint=False)
         self.U, self.W = self(self.theta)

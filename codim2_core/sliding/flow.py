@@ -7,12 +7,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..layer_problem.critical import locate
 from ..layer_problem.disc_zeros import disc_zeros
-from ..systems.coefficients import Coefficients
-from ..systems.elinear import ELinear
-from ..systems.typed import Frozen, System
+from ..systems.kinds import AnySystem
 
 
-def sliding_flow(system: ELinear | System | Coefficients | Frozen, z: ArrayLike = ()) -> NDArray[np.float64] | None:
+def sliding_flow(system: AnySystem, z: ArrayLike = ()) -> NDArray[np.float64] | None:
     """Z' along the critical sets, eq:RPSF: W at the zeros of U, whatever Psi is.
 
     For an e-linear system, which has at most one, it is ``-B A^-1 f + g`` (eq:linslowflow): the Filippov convention,
@@ -30,19 +28,13 @@ def sliding_flow(system: ELinear | System | Coefficients | Frozen, z: ArrayLike 
         is not unique (sec:nonunique). None where there is no critical set: nothing slides there.
     """
     at = system.at(z)
-    if isinstance(at, Frozen):
-        if at.as_given is not None:
-            place = locate(at.as_given).e
-            points = np.zeros((0, 2)) if place is None else np.array([place])
-        else:
-            points = disc_zeros(at.key).e
-        if not len(points):
-            return None
-        flow = at.W(points)
+    if at.as_given is not None:
+        place = locate(at.as_given).e
+        points = np.zeros((0, 2)) if place is None else np.array([place])
     else:
-        location = locate(at)
-        if location.e is None:
-            return None
-        flow = at.W(location.e)
+        points = disc_zeros(at.key).e
+    if not len(points):
+        return None
+    flow = at.W(points if at.typed is not None else points[0])
     flow.flags.writeable = False
     return flow

@@ -35,7 +35,7 @@ def _source(system: System) -> tuple[str, bool]:
     """Python source of the field, and whether U is smooth beyond |e| = 1."""
     numbers = {name: f"n{i}" for i, name in enumerate(system.numbers)}
     written = program(system.U, {**{name: name for name in PLANE}, **numbers}, PLANE)
-    far = system.reads_position()
+    far = system.reads_position
     # x = rho p outside, 0 on the hemisphere.
     position = ["rho = w*(0.5 + 0.5*P[lane + SIGN])", "x, y = rho*px, rho*py"] if far else []
     u, v = written.results

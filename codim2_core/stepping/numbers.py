@@ -6,32 +6,22 @@ speed, negative backward in time), at GAIN the address of the gain of Psi, and i
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..systems.coefficients import Coefficients
+from ..systems.frozen import AtZ
 from ..systems.typed import MOST_NUMBERS
 
 if TYPE_CHECKING:
     from ..psi.function import Psi
-    from ..systems.typed import Frozen
 
 FACTOR, PSI, GAIN, OWN = 0, 5, 6, 7
 SHARED = OWN + MOST_NUMBERS + 1  # a multiple of 8
 
 
-def rate(at: Coefficients | Frozen) -> float:
-    """Return the speed that compiled fields count in, |(a, b, d, f1, f2)| or the largest |U|; 1 where all is zero."""
-    if not isinstance(at, Coefficients):
-        return at.size or 1.0
-    size = max(map(abs, at.plane)) or 1.0
-    return size * math.hypot(*(value / size for value in at.plane)) or 1.0
-
-
-def numbers(at: Coefficients | Frozen, psi: Psi, backward: bool, gain: int = 0) -> NDArray[np.float64]:
+def numbers(at: AtZ, psi: Psi, backward: bool, gain: int = 0) -> NDArray[np.float64]:
     """Return the parameters (SHARED,) of a compiled field, scaled so that |U| is about 1.
 
     Parameters
@@ -43,11 +33,11 @@ def numbers(at: Coefficients | Frozen, psi: Psi, backward: bool, gain: int = 0) 
     gain : int
         Address of the gain of Psi, which a general system's field calls.
     """
-    sign, unit = -1.0 if backward else 1.0, rate(at)
+    sign, unit = -1.0 if backward else 1.0, at.speed
     shared = np.zeros(SHARED)
     shared[PSI] = psi.parameter
-    if isinstance(at, Coefficients):
-        shared[:5] = [sign * (value / unit) for value in at.plane]
+    if at.typed is None:
+        shared[:5] = [sign * (value / unit) for value in at.numbers]
     else:
         shared[FACTOR], shared[GAIN] = sign / unit, float(gain)  # exact: addresses have fewer than 53 bits
         shared[OWN : OWN + len(at.numbers)] = at.numbers

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..psi.function import Psi
-from ..systems.coefficients import Coefficients
-from ..systems.typed import Frozen, System
+from ..systems.frozen import AtZ
+from ..systems.typed import System
 from . import fields, fields_typed
 from .gains import gains, has_gains
 from .numbers import FACTOR, numbers
@@ -45,7 +45,7 @@ class Problem:
         return replace(self, shared=shared)
 
 
-def problem(at: Coefficients | Frozen, psi: Psi, backward: bool = False) -> Problem:
+def problem(at: AtZ, psi: Psi, backward: bool = False) -> Problem:
     """Prepare a right-hand side, compiling what is new of it.
 
     Parameters
@@ -55,10 +55,10 @@ def problem(at: Coefficients | Frozen, psi: Psi, backward: bool = False) -> Prob
     backward : bool
         Against time.
     """
-    if isinstance(at, Coefficients):
+    if at.typed is None:
         field = fields.field(psi)
         return Problem(field.address, numbers(at, psi, backward), (field,), slice(0, 5))
-    function, gain = prepare(at.system, psi)
+    function, gain = prepare(at.typed, psi)
     return Problem(
         function.address, numbers(at, psi, backward, gain.address), (function, gain), slice(FACTOR, FACTOR + 1)
     )

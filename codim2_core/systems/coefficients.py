@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,6 +34,24 @@ class Coefficients:
     g: NDArray[np.float64]
     rotation: float = 0.0
 
+    frozen: ClassVar[bool] = True
+    variable: ClassVar[tuple[str, ...]] = ("a", "b", "d", "f1", "f2")
+
+    @property
+    def typed(self) -> None:
+        """None: numbers alone."""
+        return None
+
+    @property
+    def reads_position(self) -> bool:
+        """False: on Sigma, x = y = 0."""
+        return False
+
+    @property
+    def m(self) -> int:
+        """The number of slow variables."""
+        return len(self.g)
+
     @property
     def plane(self) -> tuple[float, float, float, float, float]:
         """``(a, b, d, f1, f2)``: what decides the portrait."""
@@ -50,6 +70,40 @@ class Coefficients:
     def at(self, z: ArrayLike = ()) -> Coefficients:  # noqa: ARG002 (z is already chosen)
         """Return itself: a system frozen at one z, accepted wherever a system is."""
         return self
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """What the compiled field reads: `plane`."""
+        return self.plane
+
+    @property
+    def normal_form(self) -> Coefficients:
+        """Itself."""
+        return self
+
+    @property
+    def as_given(self) -> Coefficients:
+        """Itself."""
+        return self
+
+    @property
+    def size(self) -> float:
+        """The largest of |a|, |b|, |d|, |f1|, |f2|."""
+        return max(map(abs, self.plane))
+
+    @property
+    def speed(self) -> float:
+        """|(a, b, d, f1, f2)|, or 1 where all are zero: the unit of speed of the compiled field."""
+        size = self.size or 1.0
+        return size * math.hypot(*(value / size for value in self.plane)) or 1.0
+
+    def varied(self, name: str, value: float) -> Coefficients:
+        """Return the same system with one of `variable` changed (not checked)."""
+        return replace(self, **{name: value})
+
+    def value_of(self, name: str) -> float:
+        """Present value of one of `variable`."""
+        return float(getattr(self, name))
 
     @property
     def key(self) -> Hashable:

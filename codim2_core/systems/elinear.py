@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -92,7 +92,10 @@ class ELinear:
     B: Any = None
     g: Any = None
     parameters: Any = ()
-    _matrix: Any = None  # the raw entries ((a11, a12), (a21, a22)) when made by `from_matrix`
+    given_matrix: Any = None  # the raw entries ((a11, a12), (a21, a22)) when made by `from_matrix`
+
+    frozen: ClassVar[bool] = False
+    typed: ClassVar[None] = None
 
     def __post_init__(self) -> None:
         parameters = dict(self.parameters)
@@ -125,10 +128,10 @@ class ELinear:
         fix(self, "B", B)
         fix(self, "g", g)
         fix(self, "parameters", tuple(parameters.items()))
-        if self._matrix is not None:
-            fix(self, "_matrix", tuple(
+        if self.given_matrix is not None:
+            fix(self, "given_matrix", tuple(
                 tuple(entry(v, f"A[{i + 1},{j + 1}]") for j, v in enumerate(row))
-                for i, row in enumerate(_grid(self._matrix, "A", "(2, 2)", 2))
+                for i, row in enumerate(_grid(self.given_matrix, "A", "(2, 2)", 2))
             ))  # fmt: skip
 
     @classmethod
@@ -155,20 +158,22 @@ class ELinear:
         rows = A.tolist() if isinstance(A, np.ndarray) else A
         if isinstance(rows, str) or not hasattr(rows, "__len__") or len(rows) != 2:  # type: ignore[arg-type]
             raise ValueError(f"A is {A!r}; give a matrix of shape (2, 2).")
-        return cls(0.0, 0.0, 0.0, f, B, g, tuple((parameters or {}).items()), _matrix=rows)
+        return cls(0.0, 0.0, 0.0, f, B, g, tuple((parameters or {}).items()), given_matrix=rows)
 
     @cached_property
-    def _expressions(self) -> tuple[tuple[str, Expression], ...]:
+    def expressions(self) -> tuple[tuple[str, Expression], ...]:
+        """The coefficients that are text, by name: ("f1", ...), ("A[1,2]", ...), ("B[1,1]", ...), ("g1", ...)."""
+        matrix = self.given_matrix or ()
         entries: list[tuple[str, Any]] = [(name, getattr(self, name)) for name in "abd"]
         entries += [(f"f{i + 1}", value) for i, value in enumerate(self.f)]
-        entries += [(f"A[{i + 1},{j + 1}]", v) for i, row in enumerate(self._matrix or ()) for j, v in enumerate(row)]
+        entries += [(f"A[{i + 1},{j + 1}]", v) for i, row in enumerate(matrix) for j, v in enumerate(row)]
         entries += [(f"B[{i + 1},{j + 1}]", v) for i, row in enumerate(self.B or ()) for j, v in enumerate(row)]
         entries += [(f"g{i + 1}", value) for i, value in enumerate(self.g or ())]
         return tuple((name, value) for name, value in entries if isinstance(value, Expression))
 
     @cached_property
     def _slow_names(self) -> frozenset[str]:
-        used = {name for _, expression in self._expressions for name in expression.names}
+        used = {name for _, expression in self.expressions for name in expression.names}
         return frozenset(used - set(dict(self.parameters)))
 
     @cached_property
@@ -196,7 +201,7 @@ class ELinear:
                 parameters[name] = value
             elif name in ("f1", "f2"):
                 f[int(name[1]) - 1] = value
-            elif name in ("a", "b", "d") and self._matrix is not None:
+            elif name in ("a", "b", "d") and self.given_matrix is not None:
                 raise ValueError(f"{name} belongs to the rotated form; this system was made from_matrix: make it anew.")
             elif name in ("a", "b", "d", "f", "B", "g"):
                 fields[name] = value
@@ -204,6 +209,26 @@ class ELinear:
                 allowed = ", ".join(["a", "b", "d", "f", "f1", "f2", "B", "g", *parameters])
                 raise ValueError(f"{name!r} is no coefficient of this system; it has {allowed}.")
         return replace(self, **{"f": tuple(f), "parameters": tuple(parameters.items()), **fields})
+
+    @property
+    def variable(self) -> tuple[str, ...]:
+        """Names of what `varied` changes: those of a, b, d, f1, f2 that are numbers, and the parameters."""
+        held = {"f1": self.f[0], "f2": self.f[1]}
+        if self.given_matrix is None:  # else a, b, d belong to the rotated form
+            held |= {"a": self.a, "b": self.b, "d": self.d}
+        numbers = (name for name in Coefficients.variable if isinstance(held.get(name), float))
+        return (*numbers, *dict(self.parameters))
+
+    def varied(self, name: str, value: float) -> ELinear:
+        """Return the same system with one of `variable` changed."""
+        return self.evolve(**{name: value})
+
+    def value_of(self, name: str) -> float:
+        """Present value of one of `variable`."""
+        parameters = dict(self.parameters)
+        if name in parameters:
+            return parameters[name]
+        return self.f[int(name[1]) - 1] if name[0] == "f" else getattr(self, name)
 
     def at(self, z: ArrayLike = ()) -> Coefficients:
         """All coefficients at z, as numbers.
@@ -245,11 +270,12 @@ class ELinear:
             B[i] = number(row[0], f"B[{i + 1},1]"), number(row[1], f"B[{i + 1},2]")
         for i, value in enumerate(self.g or ()):
             g[i] = number(value, f"g{i + 1}")
-        if self._matrix is None:
+        if self.given_matrix is None:
             a, b, d, phi = number(self.a, "a"), number(self.b, "b"), number(self.d, "d"), 0.0
         else:
             (a11, a12), (a21, a22) = (
-                tuple(number(v, f"A[{i + 1},{j + 1}]") for j, v in enumerate(row)) for i, row in enumerate(self._matrix)
+                tuple(number(v, f"A[{i + 1},{j + 1}]") for j, v in enumerate(row))
+                for i, row in enumerate(self.given_matrix)
             )
             a, b, d, phi = _rotate(a11, a12, a21, a22)
             c, s = math.cos(phi), math.sin(phi)

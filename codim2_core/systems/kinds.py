@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from .coefficients import Coefficients
 from .elinear import ELinear
+from .frozen import AtZ
 from .typed import Frozen, System
 
-AnySystem = ELinear | System | Coefficients | Frozen
+AnySystem = ELinear | System | AtZ
+KINDS = (ELinear, System, Coefficients, Frozen)  # for `isinstance`, at the door

@@ -12,7 +12,7 @@ import reprlib
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -71,6 +71,8 @@ class System:
     W: Any = ()
     parameters: Any = ()
     definitions: Any = ()
+
+    frozen: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         fix = object.__setattr__
@@ -137,6 +139,24 @@ class System:
         copy.__dict__["parameters"] = tuple(parameters.items())
         return copy
 
+    @property
+    def typed(self) -> System:
+        """Itself."""
+        return self
+
+    @property
+    def variable(self) -> tuple[str, ...]:
+        """Names of what `varied` changes: the parameters."""
+        return tuple(dict(self.parameters))
+
+    def varied(self, name: str, value: float) -> System:
+        """Return the same system with one of `variable` changed."""
+        return self.evolve(**{name: value})
+
+    def value_of(self, name: str) -> float:
+        """Present value of one of `variable`."""
+        return dict(self.parameters)[name]
+
     def at(self, z: ArrayLike = ()) -> Frozen:
         """Freeze at z.
 
@@ -155,6 +175,7 @@ class System:
         frozen.size  # noqa: B018 (raises where U is not finite)
         return frozen
 
+    @cached_property
     def reads_position(self) -> bool:
         """Whether U depends on x or y: then the outside differs from the hemisphere's continuation."""
         return any(name in ("x", "y") for u in self.U for name in u.names)
@@ -173,6 +194,19 @@ class Frozen:
     system: System
     z: tuple[float, ...]
 
+    frozen: ClassVar[bool] = True
+    variable: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    def typed(self) -> System:
+        """The system that this was frozen from."""
+        return self.system
+
+    @property
+    def reads_position(self) -> bool:
+        """Whether U depends on x or y: then the outside differs from the hemisphere's continuation."""
+        return self.system.reads_position
+
     @property
     def m(self) -> int:
         """The number of slow variables."""
@@ -183,7 +217,7 @@ class Frozen:
         """Parameters and slow variables by name."""
         return {**dict(self.system.parameters), **dict(zip(SLOW, self.z, strict=False))}
 
-    @cached_property
+    @property
     def numbers(self) -> tuple[float, ...]:
         """Values of ``system.numbers``: the arguments of the compiled field."""
         return tuple(self.values[name] for name in self.system.numbers)
@@ -218,15 +252,19 @@ class Frozen:
         flat = self._vector((u_c, u_s, v_c, v_s), e, None)
         return flat.reshape((*flat.shape[:-1], 2, 2))
 
-    @cached_property
+    @property
     def normal_form(self) -> Coefficients | None:
         """U in the normal form of the e-linear system (lem:normalform), or None if it is not affine in (c, s).
 
         U must not read x or y, and its derivatives by c and s must be free of them. Only the portrait's plane is
         brought over, in the rotated axes: the result has m = 0.
         """
+        return self._normal_form
+
+    @cached_property
+    def _normal_form(self) -> Coefficients | None:
         rows = self.system.jacobian
-        if self.system.reads_position() or any(name in PLANE for row in rows for entry in row for name in entry.names):
+        if self.reads_position or any(name in PLANE for row in rows for entry in row for name in entry.names):
             return None
         return ELinear.from_matrix(self.DU((0.0, 0.0)), self.U((0.0, 0.0)).tolist()).at()
 
@@ -236,7 +274,7 @@ class Frozen:
         normal = self.normal_form
         return normal if normal is not None and normal.rotation == 0.0 else None
 
-    @cached_property
+    @property
     def size(self) -> float:
         """The largest |U| on a coarse net over the closed disc: the unit of speed.
 
@@ -245,6 +283,10 @@ class Frozen:
         ValueError
             U is not finite there, or beyond 1e150, or not zero and below 1e-150.
         """
+        return self._size
+
+    @cached_property
+    def _size(self) -> float:
         speeds = np.hypot(*np.moveaxis(self.U(_PROBES), -1, 0))
         largest = float(speeds.max())
         if not largest <= LARGEST:  # also NaN
@@ -256,6 +298,11 @@ class Frozen:
         if 0.0 < largest < SMALLEST:
             raise ValueError(f"U is at most {largest:.3g}; multiply it by a factor: that only rescales time.")
         return largest
+
+    @property
+    def speed(self) -> float:
+        """The largest |U|, or 1 where U = 0: the unit of speed of the compiled field."""
+        return self.size or 1.0
 
     def _vector(self, rows: Sequence[Expression], e: ArrayLike, xy: ArrayLike | None) -> Array:
         e = np.asarray(e, float)

@@ -68,7 +68,7 @@ class Facts:
     @property
     def size(self) -> float:
         """The largest coefficient (1 if all are zero): what residuals are compared with."""
-        return max(map(abs, self.at.plane)) or 1.0
+        return self.at.size or 1.0
 
     @property
     def generic(self) -> bool:

@@ -22,7 +22,6 @@ from codim2_core import (
     separatrices,
 )
 from codim2_core.portrait.endings import half_saddle
-from codim2_core.stepping.numbers import rate
 
 FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3), psi.custom("1/(1+s)**2")]
 ANY_PSI = pytest.mark.parametrize("p", FAMILIES, ids=lambda p: p.text)
@@ -159,7 +158,7 @@ coefficients = st.tuples(*[st.floats(-2.0, 2.0).map(lambda v: round(v, 3))] * 10
 def test_skeleton_of_random_quadratic_systems_is_consistent(values, p):
     system = QUADRATIC.evolve(**dict(zip(dict(QUADRATIC.parameters), values, strict=True)))
     at = system.at()
-    equator, critical, size = equator_equilibria(at), critical_sets(at, p), rate(at)
+    equator, critical, size = equator_equilibria(at), critical_sets(at, p), at.speed
     assume(size > 0.3)
     assume(not equator.all_directions and (equator.multiplicity == 1).all() and not equator.radially_degenerate.any())
     assume((np.abs(equator.lambda_rho) > 0.02 * size).all() and (np.abs(equator.lambda_theta) > 0.02 * size).all())

@@ -13,7 +13,6 @@ from codim2_core.expressions.source import program
 from codim2_core.orbits.departures import departures
 from codim2_core.orbits.trajectories import Status, continuation, is_warm, trajectories, warm
 from codim2_core.stepping.layout import K0, LANES, PARAMETERS, SIGN, STATE, WIDTH, WORKSPACE, call_field
-from codim2_core.stepping.numbers import rate
 from codim2_core.stepping.problem import problem
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import MOST_NUMBERS, System
@@ -76,22 +75,22 @@ def test_compiled_field_is_the_flow_on_the_disc(system, p):
     at = system.at(0.3)
     points = np.concatenate([sunflower(LANES - 2), [[0.0, 0.0], [0.6, -0.8]]])
     w = hemisphere.height(points)
-    found = compiled(at, p, np.column_stack([points, w]), -1.0) * rate(at)
+    found = compiled(at, p, np.column_stack([points, w]), -1.0) * at.speed
     expected = hemisphere.flow(at, p, points)
-    assert np.abs(found[:, :2] - expected).max() < 1e-14 * rate(at) * 4
+    assert np.abs(found[:, :2] - expected).max() < 1e-14 * at.speed * 4
     radial = (points * at.U(hemisphere.e_psi(p, points))).sum(axis=1)
-    assert np.abs(found[:, 2] + w * radial).max() < 1e-14 * rate(at) * 4
+    assert np.abs(found[:, 2] + w * radial).max() < 1e-14 * at.speed * 4
 
 
 @pytest.mark.parametrize("system", [AR, NU, ODD], ids=["attracting-repelling", "nonunique", "odd"])
 def test_outside_e_is_the_direction_and_x_y_the_place(system):
     at = system.at(0.3)
     e, rho = ring(LANES, 1.0), np.geomspace(1e-3, 3.0, LANES)
-    found = compiled(at, psi.tanh(), np.column_stack([e, rho]), 1.0) * rate(at)
+    found = compiled(at, psi.tanh(), np.column_stack([e, rho]), 1.0) * at.speed
     U = at.U(e, rho[:, None] * e)
     radial = (e * U).sum(axis=1)
-    assert np.abs(found[:, :2] - (U - e * radial[:, None])).max() < 1e-13 * rate(at)
-    assert np.abs(found[:, 2] - rho * radial).max() < 1e-13 * rate(at)
+    assert np.abs(found[:, :2] - (U - e * radial[:, None])).max() < 1e-13 * at.speed
+    assert np.abs(found[:, 2] - rho * radial).max() < 1e-13 * at.speed
 
 
 @pytest.mark.parametrize("p", FAMILIES, ids=NAMES)
@@ -184,7 +183,7 @@ def test_parameters_may_have_any_name():
     system = System(U=("-c + " + "*".join(names), " + ".join(names) + " - 9*s"), parameters=values)
     at = system.at()
     points = sunflower(LANES)
-    found = compiled(at, psi.rational(), np.column_stack([points, hemisphere.height(points)]), -1.0) * rate(at)
+    found = compiled(at, psi.rational(), np.column_stack([points, hemisphere.height(points)]), -1.0) * at.speed
     assert np.abs(found[:, :2] - hemisphere.flow(at, psi.rational(), points)).max() < 1e-12
 
 
@@ -194,8 +193,8 @@ def test_as_many_numbers_as_are_allowed():
     system = System(U=("-c + " + " + ".join(names[:16]), "-s + " + "+c*".join(names[16:])), parameters=values)
     at, points = system.at(), sunflower(LANES)
     for p in (psi.hill(3.7), psi.hill(5)):  # whose parameter lies among those numbers
-        found = compiled(at, p, np.column_stack([points, hemisphere.height(points)]), -1.0) * rate(at)
-        assert np.abs(found[:, :2] - hemisphere.flow(at, p, points)).max() < 1e-13 * rate(at)
+        found = compiled(at, p, np.column_stack([points, hemisphere.height(points)]), -1.0) * at.speed
+        assert np.abs(found[:, :2] - hemisphere.flow(at, p, points)).max() < 1e-13 * at.speed
 
 
 # ---- formulas as source -------------------------------------------------------------------------------------------

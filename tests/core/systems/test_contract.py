@@ -10,7 +10,6 @@ import pytest
 import codim2_core as c2
 from codim2_core import examples, hemisphere, psi
 from codim2_core.orbits.trajectories import trajectories
-from codim2_core.stepping.numbers import rate
 from codim2_core.systems.typed import Frozen
 
 PSIS = [
@@ -72,7 +71,7 @@ def circle(count):
 @EVERY
 @ANY_PSI
 def test_the_flow_is_finite_on_the_closed_disc_and_the_equator_invariant(key, p):
-    at, size = frozen(key), rate(frozen(key))
+    at, size = frozen(key), frozen(key).speed
     inside, equator = disc(200), circle(200)
     assert np.isfinite(hemisphere.flow(at, p, np.concatenate([inside, equator, [[0.0, 0.0]]]))).all()
     flow = hemisphere.flow(at, p, equator)
@@ -121,7 +120,7 @@ def test_the_jacobian_is_the_derivative_and_U_is_zero_there(key, p):
 
         for C in c2.critical_sets(at, p):
             place = tuple(mpmath.mpf(v) for v in C.x2)
-            size = max(rate(at), 1.0)
+            size = max(at.speed, 1.0)
             assert max(abs(u) for u in U(*map(mpmath.mpf, C.e))) < 1e-13 * size
             for row in range(2):
                 assert abs(field(row, *place)) < 1e-12 * size
@@ -138,7 +137,7 @@ def test_the_jacobian_is_the_derivative_and_U_is_zero_there(key, p):
 def test_indices_add_up_to_the_degree_on_the_equator(key, p):
     at = frozen(key)
     U = at.U(circle(20_000))
-    assert np.hypot(*U.T).min() > 1e-3 * rate(at)
+    assert np.hypot(*U.T).min() > 1e-3 * at.speed
     angle = np.unwrap(np.arctan2(U[:, 1], U[:, 0]))
     last = np.angle(np.exp(1j * (np.arctan2(U[0, 1], U[0, 0]) - angle[-1])))
     degree = round((angle[-1] + last - angle[0]) / (2 * math.pi))
@@ -149,7 +148,7 @@ def test_indices_add_up_to_the_degree_on_the_equator(key, p):
 @ANY_PSI
 def test_going_back_returns(key, p):
     at, seeds = frozen(key), np.concatenate([disc(12, 0.9), 1.3 * circle(6)])
-    options = {"rtol": 1e-12, "atol": 1e-13, "capture": 1e-15, "samples": "ends", "view": 1e9, "t_max": 0.8 / rate(at)}
+    options = {"rtol": 1e-12, "atol": 1e-13, "capture": 1e-15, "samples": "ends", "view": 1e9, "t_max": 0.8 / at.speed}
     there = trajectories(at, p, seeds, **options)
     w = there.ends[:, 2]
     places = np.where(np.arange(18) < 12, 1.0, 1.0 + w)[:, None] * there.ends[:, :2]
@@ -164,7 +163,7 @@ def turned(at, e, R):
 
 @EVERY
 def test_rotation_equivariance_is_kept_where_the_system_has_it(key):
-    at, size = frozen(key), rate(frozen(key))
+    at, size = frozen(key), frozen(key).speed
     R = np.array([[math.cos(1.1), -math.sin(1.1)], [math.sin(1.1), math.cos(1.1)]])
     e = disc(50)
     has_it = np.abs(turned(at, e, R)).max() < 1e-13 * size

@@ -1,0 +1,85 @@
+"""What every system frozen at one z answers: all that the hemisphere there depends on."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    from .coefficients import Coefficients
+
+Array = NDArray[np.float64]
+
+
+class AtZ(Protocol):
+    """A system frozen at one z: numbers (`Coefficients`), or typed formulas with numbers (`Frozen`).
+
+    A quantity that has a closed form in e-linear systems asks for `as_given`; where that is None it is searched for.
+
+    Attributes
+    ----------
+    frozen : bool
+        True: z is chosen already.
+    m : int
+        The number of slow variables.
+    typed : System or None
+        The typed system that this was frozen from; None where U is known to be e-linear by numbers alone.
+    numbers : tuple of float
+        What its compiled field reads.
+    key : hashable
+        What decides the portrait.
+    slow_key : hashable
+        What decides the slow flow on a given critical set.
+    normal_form : Coefficients or None
+        U in the normal form of the e-linear system (lem:normalform), in axes of its own; None if U is not e-linear.
+    as_given : Coefficients or None
+        The normal form where it has the same axes.
+    size : float
+        The largest of |a|, |b|, |d|, |f1|, |f2|, or the largest |U|: what residuals are compared with; 0 if U = 0.
+    speed : float
+        The speed that compiled fields count in; 1 if U = 0.
+    reads_position : bool
+        Whether U depends on x or y: then the outside differs from the hemisphere's continuation.
+    """
+
+    frozen: ClassVar[bool]
+
+    @property
+    def m(self) -> int: ...  # noqa: D102
+    @property
+    def typed(self) -> Any: ...  # noqa: D102
+    @property
+    def numbers(self) -> tuple[float, ...]: ...  # noqa: D102
+    @property
+    def key(self) -> Hashable: ...  # noqa: D102
+    @property
+    def slow_key(self) -> Hashable: ...  # noqa: D102
+    @property
+    def normal_form(self) -> Coefficients | None: ...  # noqa: D102
+    @property
+    def as_given(self) -> Coefficients | None: ...  # noqa: D102
+    @property
+    def size(self) -> float: ...  # noqa: D102
+    @property
+    def speed(self) -> float: ...  # noqa: D102
+    @property
+    def reads_position(self) -> bool: ...  # noqa: D102
+
+    def at(self, z: ArrayLike = ()) -> AtZ:
+        """Return itself: a frozen system is accepted wherever a system is."""
+        ...
+
+    def U(self, e: ArrayLike, xy: ArrayLike | None = None) -> Array:
+        """``U(e, x, y, z)`` for e of shape (..., 2) and xy of that shape (default x = y = 0, on Sigma)."""
+        ...
+
+    def W(self, e: ArrayLike, xy: ArrayLike | None = None) -> Array:
+        """``W(e, x, y, z)`` likewise, of shape (..., m)."""
+        ...
+
+    def DU(self, e: ArrayLike) -> Array:
+        """``D_(c,s) U`` on Sigma for e of shape (..., 2); shape (..., 2, 2)."""
+        ...
