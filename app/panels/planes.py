@@ -1,7 +1,7 @@
 """The panel "Planes": trace and determinant, and the eigenvalues, of the critical set (fig:bads).
 
-The browser has the present point from the picture, and draws its trail; the server adds the curve over the parameter n
-of Psi = 3/(3 + (4s)^n) or, for any other Psi, the points of the built-in families.
+The browser has the present point from the picture, and draws its trail; the server adds the curve over the parameter
+of Psi, if it has one, or the points of other families.
 """
 
 from __future__ import annotations
@@ -13,31 +13,22 @@ import numpy as np
 
 from codim2_core.diagrams.eigenvalue_path import linearisation_path
 from codim2_core.layer_problem.critical import critical_sets
-from codim2_core.psi import constructors
+from codim2_core.psi import FAMILIES, make
 from codim2_core.psi.function import Psi
 from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.frozen import AtZ
 
 from ..frame.draft import Draft
 
-#: Values of n along the curve, and those that are marked on it (fig:bads).
-N = np.unique(np.concatenate([np.geomspace(0.5, 6.0, 120), [1.0, 2.0, 3.0, 4.0]]))
-MARKED = (1.0, 2.0, 3.0, 4.0)
-#: Families beside any Psi that is not of the Hill family, and the words at their points.
-FAMILIES: tuple[tuple[str, Psi], ...] = (
-    ("Ψ = 1", constructors.constant()),
-    ("1/(1+s)", constructors.rational()),
-    ("e⁻ˢ", constructors.exponential()),
-    ("s/sinh²√s", constructors.tanh()),
-    ("3/(3+16s²)", constructors.hill(2.0)),
-)
+POINTS = 120  # along the curve over the parameter
 
 
 def add(draft: Draft) -> None:
-    """Add the curve over n, or the points of the families; of a system that is not e-linear, once nothing moves."""
+    """Add the curve over the parameter of Psi, or points of other families; of a typed system, once nothing moves."""
     at, psi = draft.scene.coefficients, draft.scene.psi
-    key = (*draft.scene.key("plane"), "hill" if psi.family == "hill" else psi)
-    make = over_n if psi.family == "hill" else over_families
+    varies = psi.record.parameter is not None
+    key = (*draft.scene.key("plane"), psi.family if varies else psi)
+    make = over_parameter if varies else over_families
     if isinstance(at, Coefficients):
         if draft.now.get("planes") != key:
             draft.now["planes"] = key
@@ -48,26 +39,32 @@ def add(draft: Draft) -> None:
         draft.header["planes"] = found
 
 
-def over_n(at: AtZ, psi: Psi) -> dict[str, Any]:
-    """Return the curve over n, as columns "trace", "determinant", "text" and "kind"; those of `MARKED` have text."""
-    path = linearisation_path(at, psi, "n", N)
+def over_parameter(at: AtZ, psi: Psi) -> dict[str, Any]:
+    """Return the curve over Psi's parameter: columns "trace", "determinant", "text" (of those compared) and "kind"."""
+    family, shape = psi.record, psi.record.parameter
+    assert shape is not None
+    low, high = shape.shown
+    spaced = np.geomspace if low > 0.0 else np.linspace
+    path = linearisation_path(at, psi, shape.name, np.unique([*spaced(low, high, POINTS), *family.compared]))
     rows = [
         (
             path.trace[i],
             path.determinant[i],
-            f"n = {path.values[i]:g}" if path.values[i] in MARKED else "",
+            f"{shape.name} = {path.values[i]:g}" if path.values[i] in family.compared else "",
             path.kind[i],
         )
         for i in np.flatnonzero(path.exists)
     ]
-    return _columns(rows, line=True, sentence="Dashed: over n of Ψ = 3/(3 + (4s)ⁿ), from 0.5 to 6.")
+    sentence = f"Dashed: over {shape.name} of Ψ = {family.title}, from {low:g} to {high:g}."
+    return _columns(rows, line=True, sentence=sentence)
 
 
 def over_families(at: AtZ, psi: Psi) -> dict[str, Any]:
-    """Return the points of the built-in families that differ from this Psi, as `over_n` does."""
+    """Return the points of a member of each other family, as `over_parameter` does."""
+    members = [make(family.name) for family in FAMILIES.values() if family.compared]
     rows = [
-        (C.trace, C.determinant, words, C.kind)
-        for words, other in FAMILIES
+        (C.trace, C.determinant, f"Ψ = {other.text}" if other.record.identity else other.words, C.kind)
+        for other in members
         if other != psi
         for C in critical_sets(at, other)
     ]

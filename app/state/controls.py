@@ -62,11 +62,12 @@ class ExplorerState(param.Parameterized):
     g0 = _number(0.0, -3, 3, "g", "z' = B e + g: constant part of the slow flow.")
     psi = param.Selector(
         default="constant",
-        objects=["constant", "rational", "exponential", "tanh", "hill", "custom"],
+        objects=list(psi_families.FAMILIES),
+        check_on_set=False,  # a family may be registered later; `clean` asks the list
         label="Ψ",
         doc="Regularisation function Ψ(s), s = (x² + y²)/ε².",
     )
-    n = _number(2.0, 0.5, 6, "n", "Exponent of Ψ(s) = 3/(3 + (4s)ⁿ).")
+    n = _number(2.0, 0.5, 6, "n", "Parameter of Ψ, such as the exponent of 3/(3 + (4s)ⁿ).")
     psi_text = param.String("1/(1+s)**2", label="Ψ(s) =", doc="Your own Ψ(s), positive, with s Ψ'(s) < Ψ(s).")
     trajectories = param.Integer(
         64, bounds=(0, MAX_TRAJECTORIES), label="Trajectories", doc="Number of starting points."
@@ -195,8 +196,9 @@ def clean(name: str, value: Any) -> Any:
             raise InputError(name, f"{declared.label}: {value} given; give a whole number from {low} to {high}.")
         return int(count)
     if type(declared) is param.Selector:
-        if value not in declared.objects:
-            raise InputError(name, f"{declared.label}: {value!r} given; choose one of {', '.join(declared.objects)}.")
+        objects = psi_families.FAMILIES if name == "psi" else declared.objects
+        if value not in objects:
+            raise InputError(name, f"{declared.label}: {value!r} given; choose one of {', '.join(objects)}.")
         return str(value)
     if name == "layers":
         chosen = value.split(",") if isinstance(value, str) else list(value)
@@ -279,13 +281,9 @@ def build_psi(values: Mapping[str, Any]) -> Psi:
     InputError
         For a text that is no function of s, or an exponent out of range.
     """
-    family = values["psi"]
-    control = "psi_text" if family == "custom" else "n" if family == "hill" else "psi"
+    family = psi_families.FAMILIES[values["psi"]]
+    control = "psi_text" if family.typed else "psi" if family.parameter is None else "n"
     try:
-        if family == "hill":
-            return psi_families.hill(values["n"])
-        if family == "custom":
-            return psi_families.custom(values["psi_text"])
-        return getattr(psi_families, family)()
+        return psi_families.make(family.name, values["n"], values["psi_text"])
     except ValueError as error:
         raise InputError(control, str(error)) from error

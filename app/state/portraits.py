@@ -43,8 +43,8 @@ def portraits() -> list[dict[str, Any]]:
 
 def _values(preset: Preset) -> dict[str, Any]:
     values: dict[str, Any] = {
-        "psi": preset.family if preset.hill is None else "hill",
-        "n": 2.0 if preset.hill is None else float(preset.hill),
+        "psi": preset.family,
+        "n": preset.psi.parameter or 2.0,
         "texts": {},
         "parameters": {},
         **VIEWS.get(preset.view, {}),

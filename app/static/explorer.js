@@ -81,11 +81,11 @@ function wire({model, view, root, plot}) {
 
   const family = find("select.psi")
   const showFamily = () => {
-    find(".for-hill").hidden = values.psi !== "hill"
-    find(".for-custom").hidden = values.psi !== "custom"
+    find(".for-parameter").hidden = !config.families[values.psi].parameter
+    find(".for-custom").hidden = !config.families[values.psi].typed
   }
   family.addEventListener("change", () => {
-    if (family.value === "custom") requests.set("psi_text", values.psi_text)
+    if (config.families[family.value].typed) requests.set("psi_text", values.psi_text)
     change("psi", family.value); showFamily()
   })
   controls.psi.set = (value) => { family.value = value; showFamily() }

@@ -10,6 +10,8 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, Template, select_autoescape
 
+from codim2_core.psi import FAMILIES
+
 from ..draw.layers import LAYERS, TRACES, looks, swatches, table
 from ..draw.theme import HATCHES, VIEW, custom_properties, themes
 from ..panels.outcomes import WORDS as OUTCOMES
@@ -20,15 +22,6 @@ from ..state.portraits import portraits
 from .bundle import bundle
 
 STATIC = Path(__file__).parents[1] / "static"
-
-PSI_NAMES = {
-    "constant": "1",
-    "rational": "1/(1 + s)",
-    "exponential": "exp(−s)",
-    "tanh": "s/sinh²√s",
-    "hill": "3/(3 + (4s)ⁿ)",
-    "custom": "your own …",
-}
 
 #: Controls by group: the matrix A, f, the slow variable, the slow flow.
 GROUPS = {"A": ("a", "b", "d"), "f": ("f1", "f2"), "z": ("z", "k1", "k2"), "slow": ("B1", "B2", "g0")}
@@ -61,6 +54,10 @@ def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]
         "defaults": ExplorerState().values(),
         "layers": table(),
         "traces": looks(TRACES),
+        "families": {
+            name: {"typed": family.typed, "parameter": family.parameter and family.parameter.name}
+            for name, family in FAMILIES.items()
+        },
         "boxes": {
             choice: [{"name": b.name, "label": b.label, "text": b.text, "lines": b.lines} for b in boxes]
             for choice, boxes in BOXES.items()
@@ -98,7 +95,7 @@ def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, 
         groups={group: [control(name) for name in names] for group, names in GROUPS.items()},
         exponent=control("n"),
         portraits=[(group, list(items)) for group, items in groups],
-        psi_names=PSI_NAMES,
+        families=FAMILIES,
         layers={layer.name: layer.words for layer in LAYERS.values()},
         panels=PANELS,
         outcomes=OUTCOMES,

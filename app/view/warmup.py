@@ -9,13 +9,12 @@ from typing import Any
 from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.figures.presets import presets
 from codim2_core.orbits.trajectories import is_warm, warm
-from codim2_core.psi.constructors import FAMILIES, constant, make
+from codim2_core.psi import FAMILIES, constant, make
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.kinds import AnySystem
 
 MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
-BUILT_IN = tuple(make(family) for family in FAMILIES if family != "custom")
 
 MOST_REMEMBERED = 256  # texts that have been compiled, or could not be
 GENERAL = "kernels of general systems"
@@ -26,8 +25,9 @@ _threads: dict[Hashable, threading.Thread] = {}
 
 def warm_all() -> None:
     """Compile, or load from the disk cache, what all built-in families and the kernels of general systems need."""
-    for psi in BUILT_IN:
-        warm(psi)
+    for family in FAMILIES.values():
+        if not family.typed:
+            warm(make(family.name))
     three = presets["case3-n3"]
     limit_cycles(three.system, three.psi)
     warm_general()
@@ -66,7 +66,7 @@ def is_ready(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
         return True
     if typed is not None:
         return _done((psi, typed.U), warm, psi, system)
-    if psi.family == "custom":
+    if psi.expression is not None:
         return _done(psi, warm, psi)
     with _lock:
         return not any(thread.is_alive() for thread in _threads.values())

@@ -12,7 +12,7 @@ from .borders import critical_boundary, saddle_node
 from .curve import BifurcationCurve, SpecialPoint
 from .cycles import cycle_folds
 from .equator import closed_equator, heteroclinic
-from .hill_exponent import ParameterChange, hill_changes
+from .parameter_changes import ParameterChange, hill_changes, parameter_changes
 from .plane_regions import Region, regions
 from .trace import hopf, node_focus
 
@@ -28,6 +28,7 @@ __all__ = [
     "hill_changes",
     "hopf",
     "node_focus",
+    "parameter_changes",
     "regions",
     "saddle_node",
 ]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..layer_problem.lyapunov import first_lyapunov
 from ..numerics.sign_changes import roots
-from ..psi import constructors
+from ..psi.constructors import with_parameter
 from .result import CriticalBranch, SpecialValue
 from .sweep import KINDS, Line, Linearisation, Plane, border_functions, linearise
 
@@ -192,7 +192,7 @@ def _point(path: Line, value: float) -> tuple[Plane, Linearisation, tuple[float,
 
 def _hopf_point(path: Line, value: float) -> SpecialValue:
     plane, found, place = _point(path, value)
-    psi = plane.psi if plane.n is None else constructors.hill(float(plane.n[0]))
+    psi = plane.psi if plane.n is None else with_parameter(plane.psi, float(plane.n[0]))
     # in the centre the formulas for the derivatives of Psi divide by s = 0
     x2 = found.x2 if np.hypot(*found.x2[0]) > 1e-9 else np.full((1, 2), 1e-9)
     with np.errstate(all="ignore"):

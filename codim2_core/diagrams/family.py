@@ -29,7 +29,7 @@ class Plane:
         Zero where `defined` is not.
     psi : Psi
     n : ndarray (k,) or None
-        n of the Hill Psi, where it varies; `psi` is then not to be used.
+        The parameter of Psi, where it varies; of `psi` only the family then counts.
     defined : ndarray of bool (k,)
         Every coefficient is finite there.
     """
@@ -77,8 +77,8 @@ class Family:
     z : (m,) floats
     fixed : tuple of float or None
         a, b, d, f1, f2, where they vary by name only and in no formula.
-    hill : bool
-        n is among the names, and is that of the Hill Psi.
+    shape : str
+        The one of the names that is the parameter of Psi, or "".
     """
 
     names: tuple[str, ...]
@@ -86,12 +86,12 @@ class Family:
     psi: Psi
     z: ArrayLike
     fixed: tuple[float, ...] | None
-    hill: bool
+    shape: str
 
     def __call__(self, **values: Array) -> Plane:
         """Coefficients at k values of every name, each of (k,), within `layer_problem.vary.limits` (not checked)."""
         k = len(values[self.names[0]])
-        n = values["n"] if self.hill else None
+        n = values[self.shape] if self.shape else None
         if self.fixed is not None:
             a, b, d, f1, f2 = (
                 values[name] if name in values else np.full(k, v) for name, v in zip(_NAMES, self.fixed, strict=True)
@@ -149,7 +149,8 @@ def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[A
             raise ValueError(f"values of {name} are beyond {low:g} to {high:g}; give values between these.")
     own = dict(getattr(system, "parameters", ()))
     fixed = None if isinstance(system, ELinear) and _needs(system, varying) else system.at(z).plane
-    return Family(varying, system, psi, z, fixed, "n" in varying and "n" not in own)
+    shape = "" if psi.record.parameter is None else psi.record.parameter.name
+    return Family(varying, system, psi, z, fixed, shape if shape in varying and shape not in own else "")
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,9 +14,7 @@ from numpy.typing import NDArray
 
 from ..layer_problem.critical import locate
 from ..numerics.trigonometric import tangential_zeros
-from ..psi.constructors import LARGEST_N, SMALLEST_N
-from ..psi.families import Hill
-from ..psi.function import Psi
+from ..psi.constructors import many
 from .family import Family, Line, Plane, family
 
 __all__ = [
@@ -167,7 +165,7 @@ def linearise(plane: Plane, exponent: int | None = None) -> Linearisation:
         e1, e2 = -(d * f1 + b * f2) / det, (b * f1 - a * f2) / det
         modulus = np.hypot(e1, e2)
         complement = np.clip(gap / (det * det), 1e-300, 1.0)
-        psi = plane.psi if plane.n is None else _hills(plane.n[inside])
+        psi = plane.psi if plane.n is None else many(plane.psi, plane.n[inside])
         zeta = psi.radius(np.minimum(modulus, 1.0), complement)
         radial, tangential = psi.jacobian_factors(zeta)
         away = modulus > 0.0
@@ -190,13 +188,6 @@ def linearise(plane: Plane, exponent: int | None = None) -> Linearisation:
             (along + across) / np.where(total > 0.0, total, 1.0),
         )
     return Linearisation(exists, *pair, *numbers)
-
-
-def _hills(n: Array) -> Psi:
-    """One Hill Psi a value; it works on arrays of that length only."""
-    assert n.min(initial=SMALLEST_N) >= SMALLEST_N
-    assert n.max(initial=LARGEST_N) <= LARGEST_N
-    return Psi("hill", float("nan"), "3/(3+(4*s)**n)", None, Hill(n=n))  # type: ignore[arg-type]
 
 
 def classes(plane: Plane, found: Linearisation | None = None, known: Array | None = None) -> NDArray[np.int64]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ..examples import catalogue
-from ..psi import constructors
+from ..psi.constructors import make
 from ..psi.function import Psi
 from ..systems.elinear import ELinear
 from ..systems.typed import System
@@ -32,10 +32,10 @@ class Preset:
     example : str
         A key of `examples.offered.catalogue`, or "".
     z : tuple of float
-    hill : int or None
-        n of the hill family eq:bad_reg, or None for `family`.
     family : str
-        Another family of Psi.
+        Of Psi.
+    parameter : float or None
+        That of the family; None for its default.
     view : str
         What shows it: "" the picture, "outcomes", "sphere", "stack", "filippov", "psi",
         "planes", "along" or "time".
@@ -59,8 +59,8 @@ class Preset:
     g: tuple[float, ...] = ()
     example: str = ""
     z: tuple[float, ...] = ()
-    hill: int | None = None
     family: str = "constant"
+    parameter: float | None = None
     view: str = ""
     portrait: tuple[str | None, str, str | None] = field(default=("I", "CM0", None))
     degeneracy: str | None = None
@@ -75,4 +75,4 @@ class Preset:
     @property
     def psi(self) -> Psi:
         """The regularisation function."""
-        return constructors.make(self.family) if self.hill is None else constructors.hill(self.hill)
+        return make(self.family, self.parameter)

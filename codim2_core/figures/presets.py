@@ -129,7 +129,8 @@ def _all() -> dict[str, Preset]:
     )
     for n, kind, note in case3:
         add(
-            f"case3-n{n}", three, title=f"n = {n}: {kind}", hill=n, portrait=("III", "CM4", kind), view="planes",
+            f"case3-n{n}", three, title=f"n = {n}: {kind}", family="hill", parameter=float(n),
+            portrait=("III", "CM4", kind), view="planes",
             note=f"Ψ = 3/(3 + (4s)ⁿ) with n = {n}. {note}",
         )  # fmt: skip
     return found | bifurcation_presets() | example_presets()

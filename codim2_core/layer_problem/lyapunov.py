@@ -6,16 +6,13 @@ polynomials in h', h'', h''' and hence in the first three derivatives of Psi.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
+from ..expressions.expression import parse
 from ..psi.function import Psi
 
 Array = NDArray[np.float64]
-
-_CIRCLE = np.exp(2j * np.pi * np.arange(32) / 32)
 
 
 def psi_derivatives(psi: Psi, s: Array) -> tuple[Array, Array, Array]:
@@ -30,38 +27,11 @@ def psi_derivatives(psi: Psi, s: Array) -> tuple[Array, Array, Array]:
     Returns
     -------
     three ndarrays (m,)
-        Closed forms for the families; symbolic derivatives of a custom formula; for "tanh", which is analytic for
-        s > -pi^2, Cauchy's integral on a circle of radius 1 (to rounding).
+        As its family has them, or by differentiating its formula.
     """
-    zero = np.zeros_like(s)
-    match psi.family:
-        case "constant":
-            return zero, zero, zero
-        case "rational":
-            u = 1.0 / (1.0 + s)
-            return -(u**2), 2.0 * u**3, -6.0 * u**4
-        case "exponential":
-            u = np.exp(-s)
-            return -u, u, -u
-        case "hill":
-            # Psi = 1/(1 + v), v = (4s)^n/3, and s dPsi/ds = -n Psi (1 - Psi)
-            n, P = psi.parameter, np.asarray(psi(s))
-            Q = 1.0 - P
-            first = -n * P * Q
-            second = n * n * P * Q * (1.0 - 2.0 * P)
-            third = -(n**3) * P * Q * (1.0 - 6.0 * P * Q)
-            # s d/ds to powers of d/ds
-            return first / s, (second - first) / s**2, (third - 3.0 * second + 2.0 * first) / s**3
-        case "tanh":
-            w = s[:, None] + _CIRCLE
-            root = np.sqrt(w)
-            decay = np.exp(-2.0 * root)
-            values = 4.0 * w * decay / (1.0 - decay) ** 2
-            return tuple(  # type: ignore[return-value]
-                math.factorial(j) * (values * _CIRCLE**-j).mean(axis=1).real for j in (1, 2, 3)
-            )
-    expression = psi.expression
-    assert expression is not None
+    if psi.record.derivatives is not None:
+        return psi.record.derivatives(s, psi.parameter)
+    expression = parse(psi.text, ("s",)) if psi.expression is None else psi.expression
     found = []
     for _ in range(3):
         expression = expression.derivative("s")

@@ -1,4 +1,4 @@
-"""Vary one thing by its name: a coefficient, a parameter of the system, a slow variable, or n of a Hill Psi."""
+"""Vary one thing by its name: a coefficient, a parameter of the system, a slow variable, or the parameter of Psi."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..psi import constructors
-from ..psi.constructors import LARGEST_N, SMALLEST_N
+from ..psi.constructors import with_parameter
 from ..psi.function import Psi
 from ..systems.bounds import LARGEST
 
@@ -30,13 +29,13 @@ def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
     -------
     tuple of str
         Of an e-linear system those of a, b, d, f1, f2 that are numbers and not text; then the system's parameters, z1
-        to zm, and n for a Hill Psi (unless a parameter of the system has that name).
+        to zm, and that of Psi, such as n of the Hill family (unless one of the system has that name).
     """
     found = [*system.variable]
     if not system.frozen:  # else z is chosen
         found += [f"z{i + 1}" for i in range(len(_slow(z)))]
-    if psi.family == "hill" and "n" not in found:
-        found.append("n")
+    if psi.record.parameter is not None and psi.record.parameter.name not in found:
+        found.append(psi.record.parameter.name)
     return tuple(found)
 
 
@@ -67,8 +66,8 @@ def varied(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tupl
         return system.varied(name, _finite(name, value)), psi, slow
     if not system.frozen and (index := _slow_index(name)) in range(len(slow)):
         return system, psi, (*slow[:index], _finite(name, value), *slow[index + 1 :])
-    if name == "n" and psi.family == "hill":
-        return system, constructors.hill(value), slow
+    if _of_psi(psi, name):
+        return system, with_parameter(psi, value), slow
     raise _unknown(system, psi, z, name)
 
 
@@ -94,16 +93,21 @@ def value_of(system: Any, psi: Psi, z: ArrayLike, name: str) -> float:
     slow = _slow(z)
     if not system.frozen and (index := _slow_index(name)) in range(len(slow)):
         return slow[index]
-    if name == "n" and psi.family == "hill":
+    if _of_psi(psi, name):
         return psi.parameter
     raise _unknown(system, psi, z, name)
 
 
 def limits(system: Any, psi: Psi, name: str) -> tuple[float, float]:
     """Return the smallest and the largest value that `varied` takes for a name."""
-    if name == "n" and psi.family == "hill" and name not in system.variable:
-        return SMALLEST_N, LARGEST_N
+    shape = psi.record.parameter
+    if shape is not None and name == shape.name and name not in system.variable:
+        return shape.low, shape.high
     return -LARGEST, LARGEST
+
+
+def _of_psi(psi: Psi, name: str) -> bool:
+    return psi.record.parameter is not None and name == psi.record.parameter.name
 
 
 def _slow(z: ArrayLike) -> tuple[float, ...]:

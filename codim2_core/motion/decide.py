@@ -13,7 +13,7 @@ from ..layer_problem.critical import CriticalSet, critical_sets
 from ..layer_problem.equator import EquatorEquilibria, equator_equilibria
 from ..portrait.layer_problem import layer_problem
 from ..portrait.outcomes import approach_outcomes
-from ..psi import constructors
+from ..psi.constructors import compared, constant
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 
@@ -43,12 +43,6 @@ class Verdict:
     onto: str | None = None
 
 
-def families() -> list[Psi]:
-    """Regularisations to ask where none was given."""
-    names = ("constant", "rational", "exponential", "tanh")
-    return [*(constructors.make(name) for name in names), *(constructors.hill(n) for n in (1, 2, 3, 4))]
-
-
 def arriving(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Verdict:
     """Decide what becomes of a trajectory that arrives at Sigma at angle theta.
 
@@ -60,7 +54,7 @@ def arriving(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Verd
     z : ndarray (m,)
     theta : float
     """
-    own = constructors.constant() if psi is None else psi
+    own = constant() if psi is None else psi
     at = tuple(z.tolist())
     outcomes = approach_outcomes(system, own, at, compare=None if psi is None else ())
     outcome = outcomes.outcome(theta)
@@ -141,7 +135,7 @@ def starting(system: AnySystem, psi: Psi | None, z: Array) -> Verdict:
         Sliding if there is one attractor on the open hemisphere; otherwise, with none, the one way out; otherwise stop.
     """
     at = tuple(z.tolist())
-    asked = families() if psi is None else [psi]
+    asked = compared() if psi is None else [psi]
     stable = [tuple(i for i, C in enumerate(critical_sets(system, own, at)) if _stable(C)) for own in asked]
     if any(choice != stable[0] for choice in stable):
         return Verdict("stop", "Whether the critical set is stable depends on Ψ: give psi.")

@@ -197,7 +197,7 @@ def _radial_table(psi: Psi) -> tuple[Array, Array]:
 
 def _onto_disc(psi: Psi, e: Array) -> Array:
     """Picture points of points of the closed e-disc: Psi moves them along their radius."""
-    if psi.family == "constant":
+    if psi.record.identity:
         return e  # |p| = |e| for Psi = 1
     m = np.hypot(e[:, 0], e[:, 1])
     # Rounded to |e| = 1 means on the equator: exp(-s) gets there in doubles already at |p| = 0.984.
@@ -211,7 +211,7 @@ def _drawn(curve: Curve, psi: Psi) -> Array:
 
     At most POINTS, or for a traced curve so many for each half turn.
     """
-    if isinstance(curve, _Straight) and (psi.family == "constant" or curve.is_diameter):
+    if isinstance(curve, _Straight) and (psi.record.identity or curve.is_diameter):
         return _onto_disc(psi, np.stack([curve.start, curve.end]))  # Psi moves points along their radius
     count = POINTS
     if isinstance(curve, Traced):

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
-from ..psi import constructors
+from ..psi.constructors import compared
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
@@ -227,8 +227,7 @@ def approach_outcomes(
         if compare is None and len(own.critical) > MOST_COMPARED:
             compare = ()
         if compare is None:
-            compare = [constructors.make(name) for name in ("constant", "rational", "exponential", "tanh")]
-            compare += [constructors.hill(n) for n in (1, 2, 3, 4)]
+            compare = compared()
         others = [layer_problem(at, other, equator) for other in compare]
     if equator.all_directions or cycle is not None or not len(equator):
         whole = _whole(own, others, sensitive, cycle)

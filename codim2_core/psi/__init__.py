@@ -1,6 +1,31 @@
 """The constructors of Psi under one short name: ``from codim2_core import psi; psi.hill(3)``."""
 
-from .constructors import FAMILIES, constant, custom, exponential, hill, make, rational, tanh
+from collections.abc import Callable
+from functools import partial
+
+from .constructors import constant, custom, exponential, hill, make, rational, tanh
+from .families import FAMILIES, Family, Parameter, register, unregister
 from .function import Psi
 
-__all__ = ["FAMILIES", "Psi", "constant", "custom", "exponential", "hill", "make", "rational", "tanh"]
+__all__ = [
+    "FAMILIES",
+    "Family",
+    "Parameter",
+    "Psi",
+    "constant",
+    "custom",
+    "exponential",
+    "hill",
+    "make",
+    "rational",
+    "register",
+    "tanh",
+    "unregister",
+]
+
+
+def __getattr__(name: str) -> Callable[..., Psi]:
+    """Make ``psi.NAME`` of a registered family its constructor."""
+    if name in FAMILIES:
+        return partial(make, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

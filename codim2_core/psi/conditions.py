@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from ..expressions.expression import Expression, parse
-from .families import Kernel
+from .condition import Condition, PsiCheck
+from .families.record import Family
+from .kernel import Kernel
 from .typed import NEGLIGIBLE, PROBES, Array, first_not_positive, refine
 
 PROBED = "as far as probing s from 0 to 1e16 can tell"
@@ -18,75 +18,21 @@ PROBED = "as far as probing s from 0 to 1e16 can tell"
 ROUNDING = 1e-11
 
 
-@dataclass(frozen=True, slots=True)
-class Condition:
-    """One condition of def:Psi.
-
-    Attributes
-    ----------
-    name : str
-        "R1" to "R5".
-    holds : bool
-    where : float or None
-        The value of s where it fails (inf for R5), None if it holds.
-    sentence : str
-    """
-
-    name: str
-    holds: bool
-    where: float | None
-    sentence: str
-
-    def __bool__(self) -> bool:
-        return self.holds
-
-
-@dataclass(frozen=True, slots=True)
-class PsiCheck:
-    """R1 to R5 of def:Psi for one Psi; iterates over the five."""
-
-    R1: Condition
-    R2: Condition
-    R3: Condition
-    R4: Condition
-    R5: Condition
-
-    def __iter__(self) -> Iterator[Condition]:
-        return iter((self.R1, self.R2, self.R3, self.R4, self.R5))
-
-    @property
-    def holds(self) -> bool:
-        """Whether all five hold."""
-        return all(self)
-
-
 @lru_cache(maxsize=64)
-def check(family: str, parameter: float, text: str, expression: Expression | None, kernel: Kernel) -> PsiCheck:
+def check(family: Family, parameter: float, text: str, expression: Expression | None, kernel: Kernel) -> PsiCheck:
     """Decide the five conditions for one Psi; see `Psi.check`."""
     if expression is not None:
         return _probe(expression, kernel)
-    R1 = Condition("R1", True, None, f"Ψ = {text} is smooth for all s ≥ 0.")
-    R5 = Condition("R5", True, None, f"Ψ(1/s) is smooth down to s = 0, where it is {kernel.limit:g}.")
-    n = parameter
-    if family == "hill" and not n.is_integer():
-        k = math.ceil(n)
-        R1 = Condition(
-            "R1", False, 0.0,
-            f"Ψ = {text} is not smooth at s = 0: s^{n:g} has no finite derivative of order {k} there. "
-            "Smooth for whole n only; it is used all the same.",
-        )  # fmt: skip
-        R5 = Condition(
-            "R5", False, math.inf,
-            f"Ψ(1/s) tends to 0 as s^{n:g}, which has no finite derivative of order {k} at s = 0. "
-            "Smooth for whole n only.",
-        )  # fmt: skip
-    return PsiCheck(
-        R1,
-        Condition("R2", True, None, "Ψ(0) = 1."),
-        Condition("R3", True, None, "Ψ(s) > 0 for all s ≥ 0."),
-        Condition("R4", True, None, "Ψ′(s) ≤ 0 for all s ≥ 0."),
-        R5,
-    )
+    found = {
+        "R1": Condition("R1", True, None, f"Ψ = {text} is smooth for all s ≥ 0."),
+        "R2": Condition("R2", True, None, "Ψ(0) = 1."),
+        "R3": Condition("R3", True, None, "Ψ(s) > 0 for all s ≥ 0."),
+        "R4": Condition("R4", True, None, "Ψ′(s) ≤ 0 for all s ≥ 0."),
+        "R5": Condition("R5", True, None, f"Ψ(1/s) is smooth down to s = 0, where it is {kernel.limit:g}."),
+    }
+    if family.broken is not None:
+        found |= {condition.name: condition for condition in family.broken(parameter, text)}
+    return PsiCheck(**found)
 
 
 def _probe(expression: Expression, kernel: Kernel) -> PsiCheck:

@@ -1,34 +1,38 @@
-"""The families of Psi by name, and what makes each of them."""
+"""What makes a Psi: of a family by its name, or of a typed formula."""
 
 from __future__ import annotations
 
-from ..expressions.expression import parse
-from . import families
-from .function import Psi
-from .typed import custom_kernel
+from typing import Any
 
-FAMILIES = ("constant", "rational", "exponential", "tanh", "hill", "custom")
-SMALLEST_N, LARGEST_N = 1e-2, 1000.0
+import numpy as np
+from numpy.typing import NDArray
+
+from ..expressions.expression import parse
+from .families import FAMILIES, Family, listed
+from .families.custom import FAMILY as TYPED
+from .function import Psi
+from .kernel import Each
+from .typed import custom_kernel
 
 
 def constant() -> Psi:
     """``Psi = 1``: ``e_Psi`` is the point of the projected hemisphere itself."""
-    return Psi("constant", 0.0, "1", None, families.Constant())
+    return make("constant")
 
 
 def rational() -> Psi:
     """``Psi = 1/(1 + s)``."""
-    return Psi("rational", 0.0, "1/(1+s)", None, families.Rational())
+    return make("rational")
 
 
 def exponential() -> Psi:
     """``Psi = exp(-s)``."""
-    return Psi("exponential", 0.0, "exp(-s)", None, families.Exponential())
+    return make("exponential")
 
 
 def tanh() -> Psi:
     """``Psi = s/sinh(sqrt s)^2``, for which ``|e_Psi| = tanh zeta``, fig:component."""
-    return Psi("tanh", 0.0, "s/sinh(sqrt(s))**2", None, families.Tanh())
+    return make("tanh")
 
 
 def hill(n: float) -> Psi:
@@ -44,13 +48,7 @@ def hill(n: float) -> Psi:
     ValueError
         n is no number or out of range.
     """
-    try:
-        n = float(n)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"n is {n!r}; give a number from {SMALLEST_N:g} to {LARGEST_N:g}.") from error
-    if not SMALLEST_N <= n <= LARGEST_N:
-        raise ValueError(f"n is {n!r}; allowed is {SMALLEST_N:g} <= n <= {LARGEST_N:g} (the paper uses 1 to 4).")
-    return Psi("hill", n, f"3/(3+(4*s)**{n!r})".replace(".0)", ")"), None, families.Hill(n=n))
+    return _member(listed("hill"), n)
 
 
 def custom(text: str) -> Psi:
@@ -69,37 +67,73 @@ def custom(text: str) -> Psi:
         rise from 0 to 1 (then no inverse exists, lem:ePsi(c)).
     """
     expression = parse(text, ("s",))
-    return Psi("custom", 0.0, expression.text, expression, custom_kernel(expression))
+    return Psi(TYPED.name, 0.0, expression.text, expression, custom_kernel(expression), TYPED)
 
 
-def make(family: str, parameter: float = 1.0, text: str = "") -> Psi:
+def make(family: str, parameter: float | None = None, text: str = "") -> Psi:
     """Psi by the name of its family, for menus and links.
 
     Parameters
     ----------
     family : str
         One of `FAMILIES`.
-    parameter : float
-        n, read for "hill" only.
+    parameter : float, optional
+        That of the family, if it has one; default its own default.
     text : str
-        The formula, read for "custom" only.
+        The formula, read for the typed family only.
 
     Raises
     ------
     ValueError
-        No such family, or its constructor refuses.
+        No such family, or the parameter or the text is refused.
     """
-    match family:
-        case "constant":
-            return constant()
-        case "rational":
-            return rational()
-        case "exponential":
-            return exponential()
-        case "tanh":
-            return tanh()
-        case "hill":
-            return hill(parameter)
-        case "custom":
-            return custom(text)
-    raise ValueError(f"there is no family {family!r} of Psi; choose one of {', '.join(FAMILIES)}.")
+    record = listed(family)
+    if record.typed:
+        return custom(text)
+    return _member(record, record.parameter.default if parameter is None and record.parameter else parameter)
+
+
+def _member(record: Family, parameter: Any) -> Psi:
+    value = 0.0 if record.parameter is None else record.parameter.checked(parameter)
+    text = record.text(value)
+    if record.kernel is None:
+        expression = parse(text, ("s",))
+        return Psi(record.name, value, text, expression, custom_kernel(expression), record)
+    kernel = record.kernel() if record.parameter is None else record.kernel(value)
+    return Psi(record.name, value, text, None, kernel, record)
+
+
+def with_parameter(psi: Psi, value: Any) -> Psi:
+    """Return the member of the same family with another parameter.
+
+    Raises
+    ------
+    ValueError
+        The family has none, or the value is not allowed.
+    """
+    if psi.record.parameter is None:
+        raise ValueError(f"Psi = {psi.text} has no parameter; choose a family that has one, such as psi.hill(2).")
+    return _member(psi.record, value)
+
+
+def many(psi: Psi, values: NDArray[np.float64]) -> Psi:
+    """Members of the family of psi, one for each value: a Psi that works on arrays of that length only.
+
+    Parameters
+    ----------
+    psi : Psi
+        Of a family with a parameter.
+    values : ndarray (k,)
+        Allowed values (not checked).
+    """
+    record = psi.record
+    if record.batched and record.kernel is not None:
+        kernel = record.kernel(values)
+    else:
+        kernel = Each(tuple(with_parameter(psi, value)._kernel for value in values.tolist()))
+    return Psi(record.name, float("nan"), record.formula, None, kernel, record)
+
+
+def compared(most: int | None = None) -> tuple[Psi, ...]:
+    """Those members of all families, at most so many of each, with which "whatever Psi" is asked."""
+    return tuple(_member(record, value) for record in FAMILIES.values() for value in record.compared[:most])

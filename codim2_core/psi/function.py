@@ -19,8 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..expressions.expression import Expression
-from . import families
-from .conditions import PsiCheck, check
+from . import kernel as arithmetic
+from .condition import PsiCheck
+from .conditions import check
+from .families import constant
+from .families.record import Family
 
 __all__ = ["Psi"]
 
@@ -39,18 +42,26 @@ class Psi:
     family : str
         One of `FAMILIES`.
     parameter : float
-        n of the Hill family, else 0.
+        That of the family, such as n of the Hill family; 0 if it has none.
     text : str
         The formula in s.
     expression : Expression or None
-        The parsed formula of a custom Psi.
+        The parsed formula, where it is all that is known: of a custom Psi, or of a family without a kernel of its own.
+    record : Family
+        What is known of the whole family.
     """
 
     family: str
     parameter: float
     text: str
     expression: Expression | None = field(default=None, compare=False, repr=False)
-    _kernel: families.Kernel = field(default_factory=families.Constant, compare=False, repr=False)
+    _kernel: arithmetic.Kernel = field(default_factory=constant.Constant, compare=False, repr=False)
+    record: Family = field(default=constant.FAMILY, compare=False, repr=False)
+
+    @property
+    def words(self) -> str:
+        """The formula as a menu writes it, with the parameter's value; of a typed one, the text."""
+        return self.text if self.record.typed else self.record.words(self.parameter)
 
     @property
     def limit(self) -> float:
@@ -238,7 +249,7 @@ class Psi:
             Attributes R1, ..., R5 (also by iteration), each with .holds, .where (an s, or None) and .sentence;
             and .holds for all of them. Built-in families are decided by mathematics, custom text by probing.
         """
-        return check(self.family, self.parameter, self.text, self.expression, self._kernel)
+        return check(self.record, self.parameter, self.text, self.expression, self._kernel)
 
     def _modulus(self, lib: Any, zeta: Any) -> Any:
         return zeta / lib.hypot(zeta, self._kernel.root(lib, zeta))
@@ -252,7 +263,7 @@ class Psi:
         if complement is None:
             complement = (1.0 - modulus) * (1.0 + modulus)
         w = modulus / lib.sqrt(complement)
-        if w == 0.0 if lib is families.SCALAR else not w.size:
+        if w == 0.0 if lib is arithmetic.SCALAR else not w.size:
             return w
         zeta = self._kernel.inverse(lib, w)
         return lib.where(w > 0.0, zeta, 0.0)
@@ -287,8 +298,8 @@ def _apply(function: Any, x: Any, what: str, most: float, rule: str, *more: Any)
                 found = _culprit(x, lambda v: (v >= 0.0) & (v <= most))
                 raise ValueError(f"{what} is {found}; allowed is {rule}.")
             with np.errstate(all="ignore"):
-                return function(families.VECTOR, x, *more)
+                return function(arithmetic.VECTOR, x, *more)
         x = float(x)
     if not 0.0 <= x <= most:
         raise ValueError(f"{what} is {x!r}; allowed is {rule}.")
-    return function(families.SCALAR, x, *more)
+    return function(arithmetic.SCALAR, x, *more)

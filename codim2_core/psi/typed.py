@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..expressions.expression import Expression
-from .families import SCALAR, TINY, VECTOR, Kernel
+from .kernel import SCALAR, TINY, VECTOR, Kernel
 
 Array = NDArray[np.float64]
 

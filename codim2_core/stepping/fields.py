@@ -1,4 +1,4 @@
-"""The layer problem and the nonsmooth outside as one compiled field: e-linear systems, for each family of Psi.
+"""The layer problem and the nonsmooth outside as one compiled field: e-linear systems, for any Psi.
 
 ``p' = U - p (p.U)`` and ``w' = -w (p.U)`` (w = ebar) or ``w' = +w (p.U)`` (w = rho), with U at ``e = gain p``. For
 Psi = 1 the gain is 1 on the sphere, and leaving it out extends the field off the sphere smoothly.
@@ -8,7 +8,6 @@ Loops are free of branches and of library calls, so that they run in vector regi
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any
 
 from numba import (
@@ -17,19 +16,8 @@ from numba import (
 )
 
 from ..psi.function import Psi
-from .compiling import ARITHMETIC, Kept, compiled
-from .gains import (
-    MOST_EXPRESSIONS,
-    arguments,
-    family_name,
-    gain_custom,
-    gain_exponential,
-    gain_hill,
-    gain_hill_integer,
-    gain_rational,
-    gain_tanh,
-    source_of,
-)
+from .compiling import ARITHMETIC
+from .gains import Compiled, arguments, gain, kind, variant
 from .layout import LANES, PARAMETERS, SIGN, WIDTH
 from .numbers import PSI
 
@@ -47,81 +35,20 @@ def put(S, out, P, lane, gain):
     out[lane + 2 * LANES] = P[lane + SIGN] * w * q
 
 
-def _constant(state, out, parameters):
+def _field(state, out, parameters):
     S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-    for lane in range(LANES):
-        put(S, D, P, lane, 1.0)
-
-
-def _rational(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
+    parameter = kind(P[PSI])
     for lane in range(LANES):
         r2, w = arguments(S, P, lane)
-        put(S, D, P, lane, gain_rational(r2, w))
+        put(S, D, P, lane, gain(r2, w, parameter))
 
 
-def _exponential(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-    for lane in range(LANES):
-        r2, w = arguments(S, P, lane)
-        put(S, D, P, lane, gain_exponential(r2, w))
-
-
-def _tanh(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-    for lane in range(LANES):
-        r2, w = arguments(S, P, lane)
-        put(S, D, P, lane, gain_tanh(r2, w))
-
-
-def _hill(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-    for lane in range(LANES):
-        r2, w = arguments(S, P, lane)
-        put(S, D, P, lane, gain_hill(r2, w, P[PSI]))
-
-
-def _hill_integer(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-    n = int(P[PSI])
-    for lane in range(LANES):
-        r2, w = arguments(S, P, lane)
-        put(S, D, P, lane, gain_hill_integer(r2, w, n))
-
-
-def _custom(gain):
-    """Make a field for a Psi whose gain is given."""
-
-    def field(state, out, parameters):
-        S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-        for lane in range(LANES):
-            r2, w = arguments(S, P, lane)
-            put(S, D, P, lane, gain(r2, w))
-
-    return field
-
-
-_FAMILIES = {
-    "constant": _constant,
-    "rational": _rational,
-    "exponential": _exponential,
-    "tanh": _tanh,
-    "hill": _hill,
-    "hill, integer n": _hill_integer,
-}
-
-
-@lru_cache(maxsize=len(_FAMILIES))
-def _family(name: str) -> Any:
-    return compiled(_FAMILIES[name], cache=True)
-
-
-_custom_fields = Kept(MOST_EXPRESSIONS)
+_compiled = Compiled(_field)
 
 
 def is_compiled(psi: Psi) -> bool:
-    """Whether a custom Psi has its field already."""
-    return source_of(psi) in _custom_fields
+    """Whether `field` answers without compiling (a built-in family may still be loaded from the disk cache)."""
+    return variant(psi, True) in _compiled
 
 
 def field(psi: Psi) -> Any:
@@ -135,9 +62,6 @@ def field(psi: Psi) -> Any:
     -------
     CFunc
         Its `address` enters the integrator; keep the object alive while that address is in use. Built-in families
-        come from the disk cache, custom text costs one compilation of a few lines (about 0.3 s), once a text.
+        come from the disk cache, a typed formula costs one compilation of a few lines (about 0.3 s), once a text.
     """
-    if psi.family == "custom":
-        source = source_of(psi)
-        return _custom_fields.get(source, lambda: compiled(_custom(gain_custom(source)), cache=False))
-    return _family(family_name(psi))
+    return _compiled.get(variant(psi, True))

@@ -1,7 +1,8 @@
-"""The gain of each family of Psi: ``e_Psi = gain p``, ``gain = 1/sqrt(|p|^2 + w^2 Psi(|p|^2/w^2))``, eq:ePsi.
+"""The gain of Psi compiled: ``e_Psi = gain p``, ``gain = 1/sqrt(|p|^2 + w^2 Psi(|p|^2/w^2))``, eq:ePsi.
 
-Outside, where w is rho, ``gain = 1/|p|``. Scalar functions, inlined into the fields of e-linear systems, and the same
-for all lanes at an address, which the fields of general systems call: so a system is compiled once for all Psi.
+Outside, where w is rho, ``gain = 1/|p|``. A family brings its gain as a plain function of scalars (`Family.gain`). It
+is inlined into the fields of e-linear systems, and made into a function of all lanes at an address, which the fields
+of general systems call: so a system is compiled once for all Psi.
 
 Everything is free of branches and of library calls, so that it runs in vector registers.
 """
@@ -9,7 +10,10 @@ Everything is free of branches and of library calls, so that it runs in vector r
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+from collections.abc import Callable
+from dataclasses import dataclass
+from hashlib import blake2b
+from types import FunctionType
 from typing import Any
 
 from numba import (
@@ -26,7 +30,7 @@ TINY = 1e-300
 LOG2_E, LN2_HIGH, LN2_LOW = 1.4426950408889634, 0.6931471803691238, 1.9082149292705877e-10
 # Beyond s = LARGE, w^2 Psi(s) <= Psi(s) |p|^2/LARGE is lost beside |p|^2.
 LARGE = 1e20
-MOST_INTEGER = 255  # of n of the Hill family, for powers by squaring: eight bits
+MOST_EXPRESSIONS = 64  # compiled typed formulas kept
 
 
 @njit(cache=True, fastmath={"contract"}, error_model="numpy", forceinline=True)
@@ -75,67 +79,31 @@ def log(x):
 
 
 @njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def gain_rational(r2, w):
-    """Psi = 1/(1 + s)."""
-    w2 = w * w
-    return 1.0 / math.sqrt(max(r2 + w2 * w2 / max(r2 + w2, TINY), TINY))
-
-
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def gain_exponential(r2, w):
-    """Psi = exp(-s)."""
-    w2 = w * w
-    s = min(r2 / max(w2, TINY), 700.0)
-    return 1.0 / math.sqrt(max(r2 + w2 * (1.0 + expm1(-s)), TINY))
-
-
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def gain_tanh(r2, w):
-    """Psi = s/sinh^2 sqrt(s), that is e = tanh(zeta) p/|p|, with zeta = |p|/w."""
-    r = max(math.sqrt(r2), 1e-150)
-    m = expm1(-2.0 * min(r / max(abs(w), TINY), 350.0))
-    return -m / ((2.0 + m) * r)
-
-
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def gain_hill(r2, w, n):
-    """Psi = 3/(3 + (4 s)^n)."""
-    w2 = w * w
-    power = n * log(max(min(4.0 * r2 / max(w2, TINY), 1e300), TINY))
-    return 1.0 / math.sqrt(max(r2 + 3.0 * w2 / (4.0 + expm1(max(min(power, 700.0), -700.0))), TINY))
-
-
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def gain_hill_integer(r2, w, n):
-    """Psi = 3/(3 + (4 s)^n) for an integer n in 1..MOST_INTEGER, the power by squaring; infinity is a good power."""
-    w2 = w * w
-    base = 4.0 * r2 / max(w2, TINY)
-    power = 1.0
-    for bit in range(8):
-        power = power * base if (n >> bit) & 1 else power
-        base = base * base
-    return 1.0 / math.sqrt(max(r2 + 3.0 * w2 / (3.0 + power), TINY))
-
-
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
 def arguments(S, P, lane):
     """``|p|^2`` and ebar (0 outside) in one lane: what a gain depends on."""
     x, y = S[lane], S[lane + LANES]
     return x * x + y * y, S[lane + 2 * LANES] * (0.5 - 0.5 * P[lane + SIGN])
 
 
-def gain_custom(source: str) -> Any:
-    """Compile the gain for Psi given as Python source in s, as `Expression.python_source` writes it."""
+def _one(r2, w, parameter):  # noqa: ARG001 (a gain is called with all three)
+    return 1.0
+
+
+# What a function of all lanes calls; `Variant.make` puts a family's own in their place.
+gain, kind = _one, float
+
+
+def _typed_gain(source: str, parameter: str) -> Any:
+    """Write the gain for Psi given as Python source in s and a parameter, as `Expression.python_source` writes it."""
     scope: dict[str, Any] = {"math": math}
-    exec(f"def psi(s):\n    return {source}\n", scope)  # written by Expression: names and math.* only
+    exec(f"def psi(s, {parameter}):\n    return {source}\n", scope)  # written by Expression: names and math.* only
     psi = njit(error_model="numpy")(scope["psi"])
 
-    @njit(fastmath=ARITHMETIC, error_model="numpy")
-    def gain(r2, w):
+    def gain(r2, w, parameter):
         w2 = w * w
         shape = 0.0
         if r2 < LARGE * w2:
-            shape = w2 * psi(r2 / w2)
+            shape = w2 * psi(r2 / w2, parameter)
             if not 0.0 <= shape < math.inf:  # a formula that leaves R1 here: the nonsmooth field instead
                 shape = 0.0
         return 1.0 / math.sqrt(max(r2 + shape, TINY))
@@ -143,103 +111,96 @@ def gain_custom(source: str) -> Any:
     return gain
 
 
-def _ones(state, out, parameters):  # noqa: ARG001 (a gain is called with all three)
-    D = carray(out, (WIDTH,))
-    for lane in range(LANES):
-        D[lane] = 1.0
+@dataclass(frozen=True)
+class Variant:
+    """What is compiled for a Psi: one thing for a family, two with `Family.gain_whole`, or one for a typed formula.
 
-
-def _constant(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-    for lane in range(LANES):
-        r2, w = arguments(S, P, lane)
-        D[lane] = 1.0 / math.sqrt(max(r2 + w * w, TINY))
-
-
-def _rational(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-    for lane in range(LANES):
-        r2, w = arguments(S, P, lane)
-        D[lane] = gain_rational(r2, w)
-
-
-def _exponential(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-    for lane in range(LANES):
-        r2, w = arguments(S, P, lane)
-        D[lane] = gain_exponential(r2, w)
-
-
-def _tanh(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-    for lane in range(LANES):
-        r2, w = arguments(S, P, lane)
-        D[lane] = gain_tanh(r2, w)
-
-
-def _hill(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-    for lane in range(LANES):
-        r2, w = arguments(S, P, lane)
-        D[lane] = gain_hill(r2, w, P[PSI])
-
-
-def _hill_integer(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-    n = int(P[PSI])
-    for lane in range(LANES):
-        r2, w = arguments(S, P, lane)
-        D[lane] = gain_hill_integer(r2, w, n)
-
-
-def _custom(gain):
-    def gains(state, out, parameters):
-        S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
-        for lane in range(LANES):
-            r2, w = arguments(S, P, lane)
-            D[lane] = gain(r2, w)
-
-    return gains
-
-
-_FAMILIES = {
-    "ones": _ones,
-    "constant": _constant,
-    "rational": _rational,
-    "exponential": _exponential,
-    "tanh": _tanh,
-    "hill": _hill,
-    "hill, integer n": _hill_integer,
-}
-
-
-@lru_cache(maxsize=len(_FAMILIES))
-def _family(name: str) -> Any:
-    return compiled(_FAMILIES[name], cache=True)
-
-
-MOST_EXPRESSIONS = 64  # compiled custom formulas kept
-_custom_gains = Kept(MOST_EXPRESSIONS)
-
-
-def family_name(psi: Psi) -> str:
-    """Name the compiled variant of a built-in family: for integer n the Hill family has powers by squaring."""
-    if psi.family == "hill" and psi.parameter in range(1, MOST_INTEGER + 1):
-        return "hill, integer n"
-    return psi.family
-
-
-def source_of(psi: Psi) -> str:
-    """Python source of a custom Psi.
-
-    Raises
-    ------
-    ValueError
-        It has none.
+    Attributes
+    ----------
+    key : callable or str
+        The gain as its family gives it, or source.
+    whole : bool
+        The parameter is read as an int.
+    parameter : str
+        What the source calls the parameter.
+    cached : bool
+        The disk cache holds it: so for the families of this package.
     """
-    if psi.expression is None:
-        raise ValueError(f"{psi!r} has no expression; make it with psi.custom.")
-    return psi.expression.python_source()
+
+    key: Callable[..., Any] | str
+    whole: bool = False
+    parameter: str = "parameter"
+    cached: bool = False
+
+    def make(self, lanes: Callable[..., None]) -> Any:
+        """Compile a function of all lanes, which calls ``gain(r2, w, kind(P[PSI]))``, with this gain in its place."""
+        own = _typed_gain(self.key, self.parameter) if isinstance(self.key, str) else self.key
+        versions = {"expm1": expm1, "log": log}  # beside math's, these run in vector registers
+        bound = FunctionType(own.__code__, {**own.__globals__, **versions}, own.__name__, None, own.__closure__)
+        gain = njit(fastmath=ARITHMETIC, error_model="numpy", forceinline=not isinstance(self.key, str))(bound)
+        kind = int if self.whole else float
+        function = FunctionType(lanes.__code__, {**lanes.__globals__, "gain": gain, "kind": kind}, lanes.__name__)
+        # The disk cache knows a function by its file and its qualified name: a changed gain is another one.
+        written = repr((own.__code__.co_code, own.__code__.co_consts, own.__code__.co_names, self.whole))
+        function.__module__ = lanes.__module__
+        function.__qualname__ = f"{lanes.__name__}_{blake2b(written.encode(), digest_size=8).hexdigest()}"
+        return compiled(function, cache=self.cached)
+
+
+ONE = Variant(_one, cached=True)  # of Psi = 1 where the sphere |p|^2 + w^2 = 1 is kept to
+
+
+def variant(psi: Psi, smooth: bool) -> Variant:
+    """Say what is compiled for a Psi.
+
+    Parameters
+    ----------
+    psi : Psi
+    smooth : bool
+        The gain may be left out where it is 1 on the sphere: U is smooth beyond |e| = 1 too.
+    """
+    record = psi.record
+    if record.identity and smooth:
+        return ONE
+    if record.gain is None:
+        expression = psi.expression if record.typed else record.expression()
+        if expression is None:
+            raise ValueError(f"{psi!r} has no expression; make it with psi.custom.")
+        return Variant(expression.python_source(), parameter=record.names[-1] if len(record.names) > 1 else "parameter")
+    whole = record.whole(psi.parameter)
+    key = record.gain_whole if whole and record.gain_whole is not None else record.gain
+    return Variant(key, whole, cached=key.__module__.startswith(__name__.split(".")[0] + "."))
+
+
+class Compiled:
+    """The compiled variants of a function of all lanes: those of the families for good, the last typed ones."""
+
+    def __init__(self, lanes: Callable[..., None]) -> None:
+        self._lanes = lanes
+        self._families: dict[Variant, Any] = {}
+        self._typed = Kept(MOST_EXPRESSIONS)
+
+    def __contains__(self, asked: Variant) -> bool:
+        return asked.cached or asked in self._families or asked in self._typed
+
+    def get(self, asked: Variant) -> Any:
+        """Return a variant, compiling it or loading it from the disk cache the first time."""
+        if isinstance(asked.key, str):
+            return self._typed.get(asked, lambda: asked.make(self._lanes))
+        if asked not in self._families:
+            self._families[asked] = asked.make(self._lanes)
+        return self._families[asked]
+
+
+def _gains(state, out, parameters):
+    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
+    parameter = kind(P[PSI])
+    for lane in range(LANES):
+        r2, w = arguments(S, P, lane)
+        D[lane] = gain(r2, w, parameter)
+
+
+_compiled = Compiled(_gains)
 
 
 def gains(psi: Psi, smooth: bool) -> Any:
@@ -252,12 +213,9 @@ def gains(psi: Psi, smooth: bool) -> Any:
         U is smooth beyond |e| = 1 too. For Psi = 1 the gain, 1 on the sphere, is then left out; otherwise it holds
         |e| <= 1 where a step strays off the sphere.
     """
-    if psi.family == "custom":
-        source = source_of(psi)
-        return _custom_gains.get(source, lambda: compiled(_custom(gain_custom(source)), cache=False))
-    return _family("ones" if smooth and psi.family == "constant" else family_name(psi))
+    return _compiled.get(variant(psi, smooth))
 
 
 def has_gains(psi: Psi) -> bool:
     """Whether `gains` answers without compiling (a built-in family may still be loaded from the disk cache)."""
-    return psi.family != "custom" or source_of(psi) in _custom_gains
+    return variant(psi, False) in _compiled

@@ -81,4 +81,4 @@ def is_compiled(system: System | None, psi: Psi) -> bool:
     """
     if system is not None:
         return fields_typed.is_compiled(system) and has_gains(psi)
-    return psi.family != "custom" or fields.is_compiled(psi)
+    return fields.is_compiled(psi)

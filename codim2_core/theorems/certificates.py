@@ -16,12 +16,13 @@ from numpy.typing import ArrayLike
 from ..layer_problem.critical import Existence, critical_sets, determinant_sign, locate
 from ..layer_problem.equator import equator_cycle, equator_equilibria
 from ..portrait.classify import portrait
+from ..psi.constructors import compared
 from ..psi.function import Psi
 from ..sliding.flow import sliding_flow
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
 from .cases import case1, case2
-from .facts import CLOSE, FAMILIES, RAYS, Certificate, Facts, Verdict, not_applicable, verdict_of
+from .facts import CLOSE, RAYS, Certificate, Facts, Verdict, not_applicable, verdict_of
 
 __all__ = ["Certificate", "Verdict", "certificates"]
 
@@ -187,7 +188,7 @@ def _slow_flow(facts: Facts) -> Certificate:
         return not_applicable(theorem, statement, "There is no slow variable (m = 0).")
     slow = facts.critical[0].slow_flow
     numbers, holds = [], True
-    for other in dict.fromkeys((facts.psi, *FAMILIES)):
+    for other in dict.fromkeys((facts.psi, *compared(1))):
         found = critical_sets(facts.at, other)
         x2 = found[0].x2
         zeta = float(np.hypot(*x2))

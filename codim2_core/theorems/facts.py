@@ -12,13 +12,11 @@ from ..layer_problem.closed_equator import EquatorCycle
 from ..layer_problem.critical import CriticalSet, Existence, Location
 from ..layer_problem.equator import EquatorEquilibria
 from ..portrait.classify import Classification
-from ..psi import constructors
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 
 CLOSE = 1e-9  # of the size of what is compared
 RAYS = np.linspace(0.0, 2.0 * math.pi, 48, endpoint=False)
-FAMILIES = (constructors.constant(), constructors.rational(), constructors.tanh())
 
 
 class Verdict(Enum):

@@ -29,7 +29,7 @@ Array = np.ndarray
 def scipy_period(preset: Preset, method: str, period: float) -> Callable[[float], float]:
     """The time between the last two crossings of a half-line from C: the field in kappa_2, in floats."""
     a, b, d, f1, f2 = preset.system.at(()).plane
-    n, C = preset.hill or 1, critical_sets(preset.system, preset.psi)[0].x2
+    n, C = preset.psi.parameter or 1, critical_sets(preset.system, preset.psi)[0].x2
 
     def right(t: float, q: Array) -> tuple[float, float]:
         x, y = q.tolist()

@@ -206,7 +206,7 @@ def test_planes_over_n_pass_through_the_papers_points():
 def test_planes_of_another_psi_have_the_families_beside_it():
     _, header = opened("planes", psi="rational")
     found = header["planes"]
-    assert found["text"] == ["Ψ = 1", "e⁻ˢ", "s/sinh²√s", "3/(3+16s²)"]
+    assert found["text"] == ["Ψ = 1", "exp(−s)", "s/sinh²√s", "3/(3 + (4s)ⁿ), n = 2"]
     (C,) = c2.critical_sets(c2.ELinear(-2, 0, -1, (-0.5, 0)), c2.psi.exponential())
     assert found["trace"][1] == pytest.approx(C.trace, rel=1e-7)
     assert found["determinant"][1] == pytest.approx(C.determinant, rel=1e-7)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from mpmath import mpf
 
 from codim2_core import psi as constructors
-from codim2_core.psi.constructors import FAMILIES
+from codim2_core.psi import FAMILIES
 from codim2_core.psi.function import Psi
 
 ULP = 2.0**-52

@@ -1,4 +1,4 @@
-"""Where the parameter n of the Hill family changes the kind of the critical set (fig:bads)."""
+"""Where the parameter of Psi, such as n of the Hill family, changes the kind of the critical set (fig:bads)."""
 
 from __future__ import annotations
 
@@ -10,22 +10,25 @@ from numpy.typing import ArrayLike
 
 from ..layer_problem.critical import determinant_sign, locate
 from ..numerics.root_between import root_between
-from ..psi import constructors
-from ..psi.constructors import LARGEST_N, SMALLEST_N
+from ..psi.constructors import hill, with_parameter
+from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
+
+STEPS = 241
 
 
 @dataclass(frozen=True, slots=True)
 class ParameterChange:
-    """A value of n in Psi = 3/(3 + (4s)^n) where the critical set changes its kind.
+    """A value of the parameter of Psi where the critical set changes its kind.
 
     Attributes
     ----------
     type : "Hopf" or "node-focus"
     n : float
+        The value.
     before, after : str
-        The kinds of C just below and just above n.
+        The kinds of C just below and just above it.
     sentence : str
     """
 
@@ -37,28 +40,47 @@ class ParameterChange:
 
 
 def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> tuple[ParameterChange, ...]:
-    """Every n at which the critical set of the Hill family eq:bad_reg changes its kind, in increasing order.
+    """`parameter_changes` of the Hill family eq:bad_reg. The paper's Case III changes at n = 284/129 (Hopf).
 
-    e does not depend on Psi, and J only through ``sigma = (1 - |e|^2)(1 + n (1 - Psi))``. With
+    Parameters
+    ----------
+    system, z
+        As for `parameter_changes`.
+
+    Returns
+    -------
+    tuple of ParameterChange
+    """
+    return parameter_changes(system, hill(2.0), z)
+
+
+def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> tuple[ParameterChange, ...]:
+    """Every value of the parameter of Psi at which the critical set changes its kind, in increasing order.
+
+    e does not depend on Psi, and J only through ``sigma = (1 - |e|^2)(1 - s Psi'(s)/Psi(s))``. With
     ``alpha = e.diag(a, d) e/|e|^2`` and ``beta = a + d - alpha``: tr J = 0 at sigma = -beta/alpha, and the discriminant
-    is zero at ``(alpha sigma + beta)^2 = 4 sigma det A``: the values of sigma are closed forms and n(sigma) a root.
-    The paper's Case III changes at n = 284/129 (Hopf).
+    is zero at ``(alpha sigma + beta)^2 = 4 sigma det A``: the values of sigma are closed forms and n(sigma) a root,
+    looked for between `STEPS` values of n.
 
     Parameters
     ----------
     system : ELinear, or Coefficients
+    psi : Psi
+        Of a family with a parameter, whose value here does not matter.
     z : (m,) floats
 
     Returns
     -------
     tuple of ParameterChange
-        For 0.01 <= n <= 1000, n to about 1e-14 relative. Empty without a critical set, or if it is a saddle.
+        For all values allowed, to about 1e-14 relative. Empty without a critical set, or if it is a saddle.
 
     Raises
     ------
     ValueError
-        z does not fit the system.
+        z does not fit the system, or Psi has no parameter.
     """
+    shape = with_parameter(psi, psi.parameter).record.parameter
+    assert shape is not None
     coefficients = system.at(z)
     a, b, d = coefficients.a, coefficients.b, coefficients.d
     location = locate(coefficients)
@@ -73,11 +95,8 @@ def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> tuple[Par
     alpha, beta = (a * c * c + d * s * s) / square, (a * s * s + d * c * c) / square
 
     def sigma(n: float) -> float:
-        psi = constructors.hill(n)
-        zeta = float(psi.radius(modulus, location.complement))
-        y = 2.0 * n * math.log(2.0 * zeta) - math.log(3.0)  # 1 - Psi = logistic(y)
-        rise = 1.0 / (1.0 + math.exp(-y)) if y > -700.0 else 0.0
-        return location.complement * (1.0 + n * rise)
+        member = with_parameter(psi, n)
+        return location.complement * (1.0 + member.steepness(member.radius(modulus, location.complement)))
 
     wanted: list[tuple[str, float]] = []
     if alpha * beta < 0.0:
@@ -91,7 +110,8 @@ def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> tuple[Par
             wanted += [("node-focus", w * w) for w in (large / alpha, beta / large if large else 0.0) if w > 0.0]
         elif alpha == 0.0 and tau * beta > 0.0:
             wanted.append(("node-focus", (beta / (2.0 * root)) ** 2))
-    grid = np.geomspace(SMALLEST_N, LARGEST_N, 241).tolist()
+    spaced = np.geomspace if shape.low > 0.0 else np.linspace
+    grid = [shape.low, *spaced(shape.low, shape.high, STEPS)[1:-1].tolist(), shape.high]
     values = [sigma(n) for n in grid]
     found: list[tuple[float, str]] = []
     for kind, target in wanted:
@@ -102,10 +122,12 @@ def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> tuple[Par
     found.sort()
     changes = []
     for i, (n, kind) in enumerate(found):
-        low = math.sqrt(n * (found[i - 1][0] if i else SMALLEST_N))
-        high = math.sqrt(n * (found[i + 1][0] if i + 1 < len(found) else LARGEST_N))
+        low = 0.5 * (n + (found[i - 1][0] if i else shape.low))
+        high = 0.5 * (n + (found[i + 1][0] if i + 1 < len(found) else shape.high))
         before, after = (_kind(alpha, beta, root, sigma(v)) for v in (low, high))
-        changes.append(ParameterChange(kind, n, before, after, f"n = {n:.6g}: C turns from {before} into {after}."))
+        changes.append(
+            ParameterChange(kind, n, before, after, f"{shape.name} = {n:.6g}: C turns from {before} into {after}.")
+        )
     return tuple(changes)
 
 

@@ -1,0 +1,48 @@
+"""A condition of def:Psi, and the five together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """One condition of def:Psi.
+
+    Attributes
+    ----------
+    name : str
+        "R1" to "R5".
+    holds : bool
+    where : float or None
+        The value of s where it fails (inf for R5), None if it holds.
+    sentence : str
+    """
+
+    name: str
+    holds: bool
+    where: float | None
+    sentence: str
+
+    def __bool__(self) -> bool:
+        return self.holds
+
+
+@dataclass(frozen=True, slots=True)
+class PsiCheck:
+    """R1 to R5 of def:Psi for one Psi; iterates over the five."""
+
+    R1: Condition
+    R2: Condition
+    R3: Condition
+    R4: Condition
+    R5: Condition
+
+    def __iter__(self) -> Iterator[Condition]:
+        return iter((self.R1, self.R2, self.R3, self.R4, self.R5))
+
+    @property
+    def holds(self) -> bool:
+        """Whether all five hold."""
+        return all(self)

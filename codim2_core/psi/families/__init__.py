@@ -1,0 +1,81 @@
+"""The families of Psi: one file each, and one line each here. Everything that offers or compares them reads this."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from . import constant, custom, exponential, hill, rational, tanh
+from .record import Family, Parameter
+
+__all__ = ["FAMILIES", "Family", "Parameter", "listed", "register", "unregister"]
+
+LISTED: tuple[Family, ...] = (
+    constant.FAMILY,
+    rational.FAMILY,
+    exponential.FAMILY,
+    tanh.FAMILY,
+    hill.FAMILY,
+    custom.FAMILY,
+)
+
+_known: dict[str, Family] = {family.name: family for family in LISTED}
+FAMILIES: Mapping[str, Family] = MappingProxyType(_known)  # by name, in the order of menus; grows with `register`
+
+
+def register(family: Family) -> Family:
+    """List a family of your own beside the built-in ones, for this process: before the typed one in menus.
+
+    Parameters
+    ----------
+    family : Family
+
+    Returns
+    -------
+    Family
+        The same.
+
+    Raises
+    ------
+    ValueError
+        It is no record, its name is taken or is no identifier, or its formula cannot be read.
+    """
+    if not isinstance(family, Family):
+        raise ValueError(f"family is of type {type(family).__name__}; give a psi.Family.")
+    if not (isinstance(family.name, str) and family.name.isidentifier()):
+        raise ValueError(f"the family's name is {family.name!r}; give letters, digits and _, such as 'lorentz'.")
+    if family.name in _known:
+        raise ValueError(f"there is a family {family.name!r} already; choose another name.")
+    if not family.formula:
+        raise ValueError(f"the family {family.name!r} has no formula; give its text in s, such as '1/(1+s)**2'.")
+    family.expression()
+    typed = _known.pop(custom.FAMILY.name)
+    _known[family.name] = family
+    _known[typed.name] = typed
+    return family
+
+
+def unregister(name: str) -> None:
+    """Take a registered family off the list; the built-in ones stay.
+
+    Raises
+    ------
+    ValueError
+        There is no such family, or it is built in.
+    """
+    if listed(name) in LISTED:
+        raise ValueError(f"the family {name!r} is built in; only one that was registered can be taken off.")
+    del _known[name]
+
+
+def listed(name: str) -> Family:
+    """Return the family of a name.
+
+    Raises
+    ------
+    ValueError
+        There is none.
+    """
+    if not isinstance(name, str) or name not in _known:
+        raise ValueError(f"there is no family {name!r} of Psi; choose one of {', '.join(_known)}.")
+    return _known[name]
