@@ -1,4 +1,4 @@
-"""All branches of limit cycles along one parameter: from where they are born, through folds, to where they end.
+"""Branches of limit cycles along one parameter: from where they are born, through folds, to where they end.
 
 A cycle is a fixed point of the return map of `cycles`; `turn` has its derivatives and
 `trace` follows it. Branches are begun at every Hopf point and at every end on the equator
@@ -40,7 +40,10 @@ FAR, SAME = 0.1, 1e-6  # distances in chi: a branch does not pass near a cycle; 
 def continue_cycles(
     system: ELinear | Coefficients, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike = ()
 ) -> CycleBranches:
-    """Continue all limit cycles of the layer problem eq:LP along one parameter (sec:case3).
+    """Continue the limit cycles of the layer problem eq:LP along one parameter (sec:case3).
+
+    Branches are begun at Hopf points, at ends on the equator and at the cycles seen at some values: one that begins at
+    none of these and lies between those values is not seen.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Limit cycles of the layer problem, all that a return map finds, and why there are none where there are none.
+"""Limit cycles of the layer problem, as samples of a return map show them, and why there are none where none can be.
 
 In kappa_2 the e-linear layer problem is ``x2' = A (e - e_C)``, e = e_Psi(x2), so on a ray ``e = e_C + r u`` all
 velocities are parallel to A u. For ``a u1^2 + d u2^2 = 0``, real exactly where a and d differ in sign, A u is
@@ -34,6 +34,10 @@ Array = NDArray[np.float64]
 
 SEMISTABLE = 1e-5  # |ln multiplier| below which a cycle counts as semistable: a fold of cycles
 SEMISTABLE_NOTE = "A cycle is semistable within resolution: a fold, where two cycles meet."
+HOW = (
+    "from the return map on a section from C to the equator, which every cycle crosses, sampled until its samples "
+    "resolve it. That there are no more is not proved."
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +87,7 @@ class LimitCycle:
 
 @dataclass(frozen=True, eq=False)
 class LimitCycles:
-    """All limit cycles found, innermost first, and what is to be said about them; iterates over the cycles.
+    """The limit cycles found, innermost first, and what is to be said about them; iterates over the cycles.
 
     Attributes
     ----------
@@ -163,8 +167,8 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> LimitCycles:
     Returns
     -------
     LimitCycles
-        Empty, with a reason, wherever a theorem forbids cycles: that costs no integration. For a general system its
-        `reason` says how they were searched for (`first_turns`).
+        Empty, with a reason, wherever a theorem forbids cycles: that costs no integration. Elsewhere the `reason` says
+        how they were searched for: by samples (`search`, `first_turns`), which prove nothing of what they do not show.
     """
     at = system.at(z)
     coefficients = at.as_given
@@ -185,10 +189,8 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> LimitCycles:
         notes = (*notes, "A fixed point of the return map was found whose cycle takes too many steps to follow.")
     if any(cycle.kind == "semistable" for cycle in cycles):
         notes = (*notes, SEMISTABLE_NOTE)
-    count = f"{len(cycles)} limit cycle{'' if len(cycles) == 1 else 's'}" if cycles else "No limit cycle"
-    return LimitCycles(
-        cycles, f"{count}: all fixed points of the return map on a section from C to the equator.", notes
-    )
+    count = f"{len(cycles)} limit cycle{'' if len(cycles) == 1 else 's'}" if cycles else "No limit cycle found"
+    return LimitCycles(cycles, f"{count}, {HOW}", notes)
 
 
 def _general(at: AtZ, psi: Psi) -> LimitCycles:

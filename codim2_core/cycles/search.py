@@ -11,13 +11,12 @@ import math
 
 import numpy as np
 
+from .resolution import UNRESOLVED, Samples, zeros
 from .section import COARSE, FINE, INNER, Array, Crossing, Section
 
-ROUNDS, POINTS = 8, 31  # of refinement
+TOUCHING = 1e-9  # noise with which a fold can be told: not so near C that all displacements are small
 CLOSE = 1e-3  # width at which a jump from -inf to +inf is left to the map backward in time
-MOST, UNDECIDED = 96, 0.25  # samples added in a round; share of undecided ones at which looking closer is in vain
 NOISE = 1e-8  # displacement that COARSE cannot tell from zero
-FINE_NOISE = 1e-11  # and FINE
 NEAR_LOOP = 1e-3
 MEASURED, SMALLEST = 2.0, 1e-8  # where the expansion at C is measured, in INNER; the smallest cycle, in r/R
 
@@ -38,8 +37,8 @@ def _settled(shift: Array, inner: int, step: int) -> bool:
     return bool(np.isfinite(before) and abs(y) > 8.0 * abs(y - before))
 
 
-def _wanted(xi: Array, shift: Array) -> list[Array]:
-    """Where to look closer: ends of the interval that returns, and places where the displacement nearly vanishes."""
+def _ends(xi: Array, shift: Array) -> list[int]:
+    """Intervals at whose one end orbits return and at whose other they do not, where a fixed point may hide."""
     new = []
     finite = np.isfinite(shift)
     for i in range(len(xi) - 1):
@@ -47,42 +46,14 @@ def _wanted(xi: Array, shift: Array) -> list[Array]:
         if width <= 1e-12 * max(1.0, abs(xi[i])):
             continue
         if finite[i] != finite[i + 1]:
-            # Where it returns next to where it leaves: a fixed point may hide in the gap, before the displacement
-            # jumps to +inf; to -inf, on C, it goes continuously.
+            # Before the displacement jumps to +inf; to -inf, on C, it goes continuously.
             inner, outer, step = (i, i + 1, -1) if finite[i] else (i + 1, i, 1)
             hidden = shift[outer] > 0.0 or (np.isinf(shift[outer]) and shift[inner] > 0.0)
             if hidden and not (width < 0.05 and _settled(shift, inner, step)):
-                new.append(_between(xi[i], xi[i + 1], POINTS))
+                new.append(i)
         elif width > CLOSE and np.isinf(shift[i]) and shift[i + 1] == -shift[i]:
-            new.append(_between(xi[i], xi[i + 1], POINTS))
-    for i in range(1, len(xi) - 1):
-        y0, y1, y2 = shift[i - 1 : i + 2]
-        if not (finite[i - 1] and finite[i] and finite[i + 1]) or y1 == 0.0:
-            continue
-        s = math.copysign(1.0, y1)
-        y0, y1, y2 = s * y0, s * y1, s * y2
-        if not (0.0 < y1 <= y0 and y1 <= y2):
-            continue
-        # An extremum towards zero: could it reach zero between the samples?
-        depth = max(y0, y2) - y1
-        if y1 < depth + NOISE and xi[i + 1] - xi[i - 1] > 1e-6:
-            new += [_between(xi[i - 1], xi[i], 5), _between(xi[i], xi[i + 1], 5)]
+            new.append(i)
     return new
-
-
-def _sampled(section: Section, backward: bool) -> tuple[Array, Array]:
-    xi = section.grid()
-    shift = section.displacement(xi, backward=backward)
-    for _ in range(ROUNDS):
-        new = _wanted(xi, shift)
-        if not new or np.isnan(shift).mean() > UNDECIDED:
-            break
-        more = np.concatenate(new)[:MOST]
-        xi = np.concatenate([xi, more])
-        shift = np.concatenate([shift, section.displacement(more, backward=backward)])
-        order = np.argsort(xi, kind="stable")
-        xi, shift = xi[order], shift[order]
-    return xi, shift
 
 
 def _polished(section: Section, low: float, high: float, backward: bool) -> float:
@@ -127,7 +98,7 @@ def _newborn(section: Section) -> Crossing | None:
 
 
 def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
-    """All fixed points, innermost first, and notes on what is nearly degenerate.
+    """Find the fixed points that the samples show, innermost first, and notes on what is nearly degenerate.
 
     Parameters
     ----------
@@ -135,30 +106,31 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
     """
     found: list[Crossing] = []
     notes: list[str] = []
-    xi, shift = _sampled(section, backward=False)
-    finite = np.isfinite(shift)
-    if finite.sum() >= 8 and np.abs(shift[finite]).max() < NOISE:
+    samples = Samples(section, section.grid())
+    finite = np.isfinite(samples.shift)
+    if finite.sum() >= 8 and np.abs(samples.shift[finite]).max() < NOISE:
         return (), ("The return map is the identity within resolution: closed orbits fill a band (a centre).",)
-    if np.isnan(shift).any():
+    if not samples.resolve(_ends):
+        notes.append(UNRESOLVED)
+    known = ~np.isnan(samples.shift)
+    if not known.all():
         notes.append("Some orbits were not followed to a decision: they pass an equilibrium too slowly.")
-    known = ~np.isnan(shift)
-    xi, shift, finite = xi[known], shift[known], finite[known]
-    doubtful = finite & (np.abs(shift) < NOISE)
-    if doubtful.any():
-        shift[doubtful] = section.displacement(xi[doubtful], FINE)
-    for i in range(len(xi) - 1):
-        y, after = float(shift[i]), float(shift[i + 1])
-        if (y < 0.0) == (after < 0.0):
-            continue
-        low, high = float(xi[i]), float(xi[i + 1])
-        repelling = y < 0.0  # then it attracts backward, and is found and followed backward
-        both = finite[i] and finite[i + 1]
+    xi, q, shift, noise = (v[known] for v in (samples.xi, samples.q, samples.shift, samples.noise))
+    finite = np.isfinite(shift)
+    changes, touching, band = zeros(q, shift, noise)
+    if band:
+        notes.append("Closed orbits fill a band within resolution.")
+    for i, j in changes:
+        low, high = float(xi[i]), float(xi[j])
+        repelling = bool(shift[i] < 0.0)  # then it attracts backward, and is found and followed backward
+        both = finite[i] and finite[j]
         if not both and repelling:
             # It may be so repelling that forward no sample beside it returns.
             back = section.displacement(np.array([low, high]), backward=True)
             both = bool(back[0] > 0.0 > back[1])
         if both:
             found.append(Crossing(_polished(section, low, high, repelling), repelling))
+    found += [Crossing(float(xi[i]), touching=True) for i in touching if noise[i] < TOUCHING]
     last = shift[:-1][finite[:-1] & (shift[1:] == np.inf)]
     notes += [
         f"Near a loop through the equator: the last orbit that returns misses its start by {y:.1e} in ln|x₂ − C|; "
@@ -166,12 +138,6 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
         for y in last.tolist()
         if abs(y) < NEAR_LOOP
     ]
-    for i in range(1, len(xi) - 1):
-        y0, y1, y2 = (float(v) for v in shift[i - 1 : i + 2])
-        if not np.isfinite([y0, y1, y2]).all() or (y0 < 0.0) != (y1 < 0.0) or (y1 < 0.0) != (y2 < 0.0):
-            continue
-        if abs(y1) <= min(abs(y0), abs(y2)) and abs(y1) < FINE_NOISE and float(xi[i]) > math.log(100.0 * INNER):
-            found.append(Crossing(float(xi[i]), touching=True))
     trace = section.critical.trace
     if finite.any() and finite[0] and section.critical.discriminant < 0.0 and shift[0] * trace < 0.0:
         newborn = _newborn(section)

@@ -1,0 +1,230 @@
+"""Samples of the displacement of a return map, close enough together that between them nothing is hidden.
+
+The displacement is smooth where orbits return. On an interval between two samples it is approximated by the cubic
+through the four samples about it (Newton's divided differences: spacing need not be even), and the fourth divided
+difference tells how far it may be from that cubic. An interval is resolved when the cubic, wherever in that band
+the displacement lies, has the zeros that the signs at its two ends ask for and no other: none, or one. So an extremum
+is judged by slope and curvature, and not by the heights of samples that may lie far from it.
+
+What is hidden in a part that four samples on either side do not show at all is not found: this is no proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .section import COARSE, FINE
+
+Array = NDArray[np.float64]
+
+COARSE_NOISE, FINE_NOISE = 1e-8, 1e-11  # of a displacement at COARSE and FINE
+SAFETY = 8.0  # times the estimated error of the cubic
+PARTS = 16  # of an interval, where its cubic is evaluated
+BATCH, FEWEST = 32, 3  # samples in a round, at least in one interval: lanes step side by side
+NARROWEST, ROUNDING = 2e-6, 1e-12  # widths in xi below which an interval is left as it is: flat, and steep
+UNRESOLVED = "The return map is so steep in places that its samples do not resolve it: cycles may hide there."
+BAND = 0.05  # width in q of an interval of fixed points that is no fold
+STEEP = 1e-3  # change of the displacement
+MOST, ROUNDS = 900, 24  # samples in all; rounds
+UNDECIDED = 0.25  # share of undecided samples at which looking closer is in vain
+_INSIDE = np.linspace(0.0, 1.0, PARTS + 1)
+
+
+class ReturnSection(Protocol):
+    """A section with a return map: `section.Section`, `turn_section.TurnSection`."""
+
+    def states(self, xi: Array) -> tuple[Array, Array]:
+        """States (n, 3) and q (n,)."""
+        ...
+
+    def displacement(self, xi: Array, rtol: float = ..., backward: bool = ...) -> Array:
+        """Displacement of q over one turn."""
+        ...
+
+
+def differences(q: Array, shift: Array) -> Array:
+    """Fourth divided differences (n - 4,) of samples in order."""
+    d = shift
+    for k in range(1, 5):
+        d = np.diff(d) / (q[k:] - q[:-k])
+    return d
+
+
+def cubics(q: Array, shift: Array) -> tuple[Array, Array]:
+    """Approximate one run of samples between its samples.
+
+    Parameters
+    ----------
+    q, shift : ndarray (n,)
+        n >= 5, in order.
+
+    Returns
+    -------
+    values : ndarray (n - 1, PARTS + 1)
+        Of the cubic of each interval, at even places from its one end to the other.
+    error : ndarray (n - 1, PARTS + 1)
+        How far the displacement may be from it, by the fourth divided differences of the samples about it.
+    """
+    n = len(q)
+    first = np.clip(np.arange(n - 1) - 1, 0, n - 4)  # of the four samples
+    x = q[:-1, None] + np.diff(q)[:, None] * _INSIDE
+    values = np.zeros_like(x)
+    product = np.ones_like(x)
+    column = shift.copy()
+    for k in range(4):
+        values += column[first][:, None] * product
+        product = product * (x - q[first + k][:, None])
+        if k < 3:
+            column = np.diff(column) / (q[k + 1 :] - q[: n - k - 1])
+    fourth = np.abs(differences(q, shift))
+    # the largest over five samples that hold the interval's four, or three of them
+    near = np.max([fourth[np.clip(first + k, 0, n - 5)] for k in (-2, -1, 0, 1)], axis=0)
+    return values, near[:, None] * np.abs(product)
+
+
+def unresolved(q: Array, shift: Array, noise: Array) -> list[int]:
+    """Find the intervals i, between samples i and i + 1, on which zeros may be hidden.
+
+    Parameters
+    ----------
+    q : ndarray (n,)
+        In order; not all evenly spaced.
+    shift : ndarray (n,)
+        The displacement; not finite where orbits do not return.
+    noise : ndarray (n,)
+        What it is not known better than.
+    """
+    out: list[int] = []
+    finite = np.isfinite(shift)
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], finite, [False]]).astype(np.int8)))
+    for low, high in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        if high - low < 5:
+            out += range(low, high - 1)
+            continue
+        part = slice(low, high)
+        values, error = cubics(q[part], shift[part])
+        # between its places a cubic leaves the line through them by an eighth of its second difference at most
+        bend = np.abs(np.diff(values, 2)).max(axis=1, keepdims=True) / 8.0
+        doubt = SAFETY * error + bend + np.maximum(noise[part][:-1], noise[part][1:])[:, None]
+        hidden = _doubtful(values, doubt)
+        # where few samples show a dip, its depth is known no better than to the height it fell from
+        size = np.abs(shift[part])
+        dip = (size[1:-1] <= np.minimum(size[:-2], size[2:])) & (2.0 * size[1:-1] < np.maximum(size[:-2], size[2:]))
+        dip &= (shift[part][:-2] < 0.0) == (shift[part][2:] < 0.0)
+        hidden[:-1] |= dip
+        hidden[1:] |= dip
+        out += (np.flatnonzero(hidden) + low).tolist()
+    return out
+
+
+def _doubtful(values: Array, doubt: Array) -> NDArray[np.bool_]:
+    """Whether rows of values, known within a doubt, may have other zeros than the signs of their ends ask for."""
+    values = values * np.where(values[:, :1] < 0.0, -1.0, 1.0)  # from positive
+    same = values[:, -1] > 0.0
+    reached = values <= doubt  # may have crossed zero here
+    back = values >= -doubt  # and may be on the first side here
+    # after a place where it may have crossed, one where it may be back
+    again = np.logical_or.accumulate(reached, axis=1)[:, :-1] & back[:, 1:]
+    return np.where(same, reached.any(axis=1), again.any(axis=1))
+
+
+def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], list[int], bool]:
+    """Where the displacement changes sign, and where it comes to zero and turns back, within resolution.
+
+    Parameters
+    ----------
+    q, shift, noise : ndarray (n,)
+        As of `unresolved`; infinities have a sign as well.
+
+    Returns
+    -------
+    changes : list of (i, j)
+        Samples of opposite sign, with none between that can be told from zero.
+    touching : list of int
+        Samples that cannot be told from zero, between two of the same sign: a fold.
+    band : bool
+        Whether there is a whole interval that cannot be told from zero: a band of closed orbits.
+    """
+    decided = np.flatnonzero(np.abs(shift) > noise).tolist()
+    changes, touching, band = [], [], False
+    for i, j in pairwise(decided):
+        if j > i + 2 and q[j - 1] - q[i + 1] > BAND:
+            band = True
+        elif (shift[i] < 0.0) != (shift[j] < 0.0):
+            changes.append((i, j))
+        elif j > i + 1 and np.isfinite(shift[i : j + 1]).all():
+            touching.append(i + 1 + int(np.argmin(np.abs(shift[i + 1 : j]))))
+    return changes, touching, band
+
+
+class Samples:
+    """Samples of one return map, in order along the section; some of them at the fine tolerance.
+
+    Parameters
+    ----------
+    section : ReturnSection
+    xi : ndarray (n,)
+        Where to begin, in order.
+    backward : bool
+    """
+
+    def __init__(self, section: ReturnSection, xi: Array, backward: bool = False) -> None:
+        self.section, self.backward = section, backward
+        self.xi, self.q = xi, section.states(xi)[1]
+        self.shift = section.displacement(xi, COARSE, backward)
+        self.fine = np.zeros(len(xi), bool)
+
+    @property
+    def noise(self) -> Array:
+        """What the displacement is not known better than; near the critical set it is that of the distance from it."""
+        return np.where(self.fine, FINE_NOISE, COARSE_NOISE) * (1.0 + np.exp(-self.q))
+
+    def refine(self, xi: Array, also: NDArray[np.bool_]) -> None:
+        """Add samples at the fine tolerance, and repeat those marked that are not fine yet."""
+        also = also & ~self.fine
+        every = np.concatenate([xi, self.xi[also]])
+        shift = self.section.displacement(every, FINE, self.backward)
+        self.shift[also] = shift[len(xi) :]
+        self.fine = self.fine | also
+        order = np.argsort(np.concatenate([self.xi, xi]), kind="stable")
+        self.xi = np.concatenate([self.xi, xi])[order]
+        self.q = np.concatenate([self.q, self.section.states(xi)[1]])[order]
+        self.shift = np.concatenate([self.shift, shift[: len(xi)]])[order]
+        self.fine = np.concatenate([self.fine, np.ones(len(xi), bool)])[order]
+
+    def resolve(self, ends: Callable[[Array, Array], list[int]], steepest: float = ROUNDING) -> bool:
+        """Sample closer until every interval is resolved; whether that came about.
+
+        Parameters
+        ----------
+        ends : callable
+            xi, shift -> further intervals to look into: where the displacement ends.
+        steepest : float
+            Width in xi below which a steep interval, and so a jump, is left as it is.
+        """
+        for _ in range(ROUNDS):
+            doubtful = [i for i in unresolved(self.q, self.shift, self.noise) if not self._narrow(i, steepest)]
+            stencil = np.zeros(len(self.xi), bool)
+            for i in doubtful:
+                stencil[max(i - 1, 0) : i + 3] = True
+            open_ = sorted({*doubtful, *ends(self.xi, self.shift)})
+            if not open_:
+                return True
+            if len(self.xi) > MOST or np.isnan(self.shift).mean() > UNDECIDED:
+                return False
+            each = max(BATCH // len(open_), FEWEST)
+            part = np.arange(1, each + 1) / (each + 1)
+            left, right = self.xi[open_], self.xi[np.array(open_) + 1]
+            self.refine((left[:, None] + (right - left)[:, None] * part).ravel(), stencil)
+        return False
+
+    def _narrow(self, i: int, steepest: float) -> bool:
+        """Whether an interval is as narrow as makes sense: where it is steep, a jump may still be told from a slope."""
+        steep = abs(self.shift[i + 1] - self.shift[i]) > STEEP
+        width = self.xi[i + 1] - self.xi[i]
+        return bool(width < (NARROWEST if not steep else steepest * max(1.0, abs(self.xi[i]))))
