@@ -9,7 +9,7 @@ from concurrent.futures import ProcessPoolExecutor
 from typing import Any
 
 import codim2_core as c2
-from codim2_core.psi.constructors import make
+from codim2_core.psi import FAMILIES, make
 
 
 def add_classify(commands: Any) -> None:
@@ -19,9 +19,12 @@ def add_classify(commands: Any) -> None:
         command.add_argument(f"-{name}", type=float, required=name != "b", default=0.0, help=f"{name} of A")
     for name in ("f1", "f2"):
         command.add_argument(f"--{name}", type=float, default=0.0)
-    command.add_argument(
-        "--psi", default="constant", help="constant, rational, exponential, tanh, hill:N, or text in s"
+    known = ", ".join(
+        family.name + (f":{family.parameter.name.upper()}" if family.parameter else "")
+        for family in FAMILIES.values()
+        if not family.typed
     )
+    command.add_argument("--psi", default="1", help=f"{known}, or text in s; default 1")
     command.add_argument("--json", action="store_true", help="as JSON")
     command.set_defaults(run=classify)
 
@@ -60,13 +63,12 @@ def psi_of(text: str) -> c2.Psi:
     ValueError
         It is none of these.
     """
-    family, _, number = text.partition(":")
-    if family == "hill" and number:
-        return c2.psi.hill(number)  # type: ignore[arg-type]  # it reads text, and says what is wrong with it
-    try:
-        return make(family) if family not in ("hill", "custom") else c2.psi.hill(2)
-    except ValueError:
-        return c2.psi.custom(text)
+    name, _, number = text.partition(":")
+    family = FAMILIES.get(name)
+    if family is None or family.typed:
+        constant = next(known for known in FAMILIES.values() if known.identity)
+        return make(constant.name) if text == constant.formula else c2.psi.custom(text)
+    return make(name, number or None)  # type: ignore[arg-type]  # it reads text, and says what is wrong with it
 
 
 def classify(chosen: argparse.Namespace) -> int:
