@@ -79,7 +79,8 @@ def _tangent_at(critical: CriticalSet, p: Array) -> float | None:
     return None if best is None else float(math.atan2(best[1][1], best[1][0]))
 
 
-def _nearest(equator: EquatorEquilibria, angle: float) -> tuple[int, float]:
+def nearest(equator: EquatorEquilibria, angle: float) -> tuple[int, float]:
+    """Return the limit direction (from 0) nearest to an angle, and the gap between them."""
     gaps = [abs(math.remainder(angle - t, 2.0 * math.pi)) for t in equator.theta.tolist()]
     i = int(np.argmin(gaps))
     return i, gaps[i]
@@ -128,7 +129,7 @@ def endings(
         for i in open_ if more else range(len(lines)):
             p, w = states[i, :2], float(states[i, 2])
             angle = math.atan2(p[1], p[0])
-            near, gap = _nearest(equator, angle) if len(equator) else (0, math.inf)
+            near, gap = nearest(equator, angle) if len(equator) else (0, math.inf)
             label = f"Q{near + 1}"
             k = _nearest_critical(critical, p, AT_CRITICAL if statuses[i] is Status.EQUILIBRIUM else AT_SADDLE)
             if statuses[i] is Status.EQUILIBRIUM and k is not None:

@@ -1,0 +1,233 @@
+"""Orbits that somebody launches: each drawn both ways through its seed, with words for where it goes and comes from."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..cycles.limit_cycles import LimitCycles
+from ..layer_problem.critical import CriticalSet
+from ..layer_problem.equator import EquatorEquilibria
+from ..orbits.result import Status, Trajectories
+from ..orbits.trajectories import trajectories
+from ..orbits.whole import Orbits
+from ..psi.function import Psi
+from ..systems.frozen import AtZ
+from .endings import AT_SADDLE, CAPTURE, Ending, critical_label, drawn_time, endings, nearest
+from .outcomes import Outcome, Outcomes
+
+Array = NDArray[np.float64]
+
+RTOL = 1e-9
+LONG = 40.0  # picture units drawn of an orbit that winds
+PATIENCE = 30.0  # how many times longer than it is drawn an orbit is followed to see where it ends
+CUT = (Status.LENGTH, Status.T_MAX)  # drawn lines that have not ended
+
+
+@dataclass(frozen=True)
+class Fate:
+    """Where an orbit goes, or where it comes from.
+
+    Attributes
+    ----------
+    label : str
+        "C" (or "C1", ...), "Q1", ..., "cycle 1", "equator", "away" (it leaves the view) or "undecided".
+    onto : str or None
+        For an orbit from outside that reaches Sigma: what it slides on, or leaves along, then.
+    after : float or None
+        For an orbit from outside that reaches Sigma: the time t of eq:vf until then (before the seed: since then).
+        None where the line ends before, as it winds for too long.
+    sentence : str
+    """
+
+    label: str
+    onto: str | None
+    after: float | None
+    sentence: str
+
+
+@dataclass(frozen=True, eq=False)
+class Launched:
+    """Orbits through given points of the picture.
+
+    Attributes
+    ----------
+    orbits : Orbits
+        Their lines; the time T of each is 0 at its seed.
+    goes, comes : tuple of Fate
+        Forward and backward in time.
+    """
+
+    orbits: Orbits
+    goes: tuple[Fate, ...]
+    comes: tuple[Fate, ...]
+
+    def __len__(self) -> int:
+        return len(self.goes)
+
+
+def launched(
+    at: AtZ,
+    psi: Psi,
+    seeds: Array,
+    equator: EquatorEquilibria,
+    critical: tuple[CriticalSet, ...],
+    cycles: LimitCycles,
+    outcomes: Callable[[], Outcomes],
+    *,
+    view: float = 2.0,
+    pixel: float = 1.0 / 180.0,
+) -> Launched:
+    """Follow orbits through points of the picture, and say where they go and where they come from.
+
+    Parameters
+    ----------
+    at, psi
+        The system at one z, and Psi.
+    seeds : (k, 2)
+        Points of the picture.
+    equator, critical, cycles
+        Of the same system.
+    outcomes : callable
+        Returns what becomes of approaches; called only if an orbit from outside reaches Sigma.
+    view, pixel : float
+        Of the picture.
+
+    Returns
+    -------
+    Launched
+    """
+    time = drawn_time(at, equator)
+    back, ahead = (
+        trajectories(
+            at, psi, seeds, t_max=time, rtol=RTOL, atol=0.1 * RTOL, backward=backward, view=view, pixel=pixel,
+            capture=CAPTURE, length=LONG,
+        )
+        for backward in (True, False)
+    )  # fmt: skip
+    inside = np.hypot(seeds[:, 0], seeds[:, 1]) < 1.0
+    fates = []
+    for line, backward in ((ahead, False), (back, True)):
+        half = _ended(at, psi, line, seeds, PATIENCE * time, view, backward)
+        found: list[Fate | None] = [None] * len(seeds)
+        within = np.flatnonzero(inside).tolist()
+        ends = endings(at, psi, _part(half, within), equator, critical, cycles, rtol=RTOL, backward=backward)
+        for i, end in zip(within, ends, strict=True):
+            found[i] = _on_hemisphere(end, critical, backward)
+        for i in np.flatnonzero(~inside).tolist():
+            after = None if line.status[i] in CUT else _time(half, i)
+            found[i] = _outside(half, i, after, equator, outcomes, backward)
+        fates.append(tuple(fate for fate in found if fate is not None))
+    return Launched(Orbits(back, ahead), *fates)
+
+
+def _ended(
+    at: AtZ, psi: Psi, line: Trajectories, seeds: Array, time: float, view: float, backward: bool
+) -> Trajectories:
+    """Return the trajectories with the ends that those cut off would come to, were they drawn on."""
+    cut = [i for i, status in enumerate(line.status) if status in CUT]
+    if not cut:
+        return line
+    on = trajectories(
+        at, psi, seeds[cut], t_max=time, rtol=RTOL, atol=0.1 * RTOL, backward=backward, view=view, capture=CAPTURE,
+        samples="ends",
+    )  # fmt: skip
+    ends, codes = line.ends.copy(), line.codes.copy()
+    ends[cut], codes[cut] = on.ends, on.codes
+    return Trajectories(line.buffer, line.clock, line.offsets, ends, codes)
+
+
+def _part(lines: Trajectories, which: Sequence[int]) -> Trajectories:
+    """Return some of the trajectories, with their last points only: where they end needs no more."""
+    last = lines.offsets[1:][list(which)] - 1
+    chosen = list(which)
+    return Trajectories(
+        lines.buffer[last], lines.clock[last], np.arange(len(chosen) + 1), lines.ends[chosen], lines.codes[chosen]
+    )
+
+
+def _on_hemisphere(end: Ending, critical: tuple[CriticalSet, ...], backward: bool) -> Fate:
+    label = end.label
+    for i, C in enumerate(critical):
+        if label == critical_label(critical, i):
+            words = f"Comes from {label}, {_a(C.kind)}." if backward else f"Tends to {label}, {_a(C.kind)}: sliding."
+            return Fate(label, None, None, words)
+    if label.startswith("cycle"):
+        return Fate(label, None, None, f"{'Unwinds from' if backward else 'Winds onto'} limit {label}.")
+    if label.startswith("Q"):
+        words = f"Comes up from {label}, θ = {end.angle:.4g}." if backward else (
+            f"Comes down to {label} and leaves Σ along θ = {end.angle:.4g}."
+        )  # fmt: skip
+        return Fate(label, None, None, words)
+    if label == "equator":
+        words = "Spirals up from the closed equator." if backward else "Spirals down to the equator and leaves Σ."
+        return Fate(label, None, None, words)
+    return Fate("undecided", None, None, f"Not followed to an end: {end.sentence}")
+
+
+def _outside(
+    half: Trajectories,
+    i: int,
+    after: float | None,
+    equator: EquatorEquilibria,
+    outcomes: Callable[[], Outcomes],
+    backward: bool,
+) -> Fate:
+    status = half.status[i]
+    if status is Status.LEFT_VIEW:
+        return Fate("away", None, None, "Comes from outside the picture." if backward else "Leaves the picture.")
+    if status is Status.ON_EQUATOR:
+        return Fate("equator", None, None, "Stays on the equator, where it starts.")
+    k, gap = nearest(equator, math.atan2(half.ends[i, 1], half.ends[i, 0])) if len(equator) else (0, math.inf)
+    at_saddle = status in CUT and half.ends[i, 2] < AT_SADDLE and gap < AT_SADDLE  # saddles capture nothing
+    if (status is Status.ARRIVED and len(equator)) or at_saddle:
+        label, along = f"Q{k + 1}", f"along Q{k + 1}, θ = {equator.theta[k]:.4g}"
+    elif status is Status.SPIRALLED:
+        k, label, along = None, "equator", "in a spiral"
+    else:
+        return Fate("undecided", None, None, f"Not followed to an end: {status.value}")
+    if backward:
+        return Fate(label, None, after, f"Left Σ {along}{'' if after is None else f', t = {after:.3g} ago'}.")
+    found = outcomes()
+    outcome = found.whole if k is None or found.whole is not None else found.directions[k]
+    then, onto = _then(outcome)
+    when = "" if after is None else f", after t = {after:.3g}"
+    return Fate(label, onto, after, f"Reaches Σ {along}{when}{then}")
+
+
+def _then(outcome: Outcome | None) -> tuple[str, str | None]:
+    if outcome is None or outcome.verdict in ("undecided", "misses"):
+        return "; what follows is not decided.", None
+    if outcome.verdict == "cross":
+        way = f"θ = {outcome.leaving:.4g}" if outcome.leaving is not None else "the closed equator"
+        return f", and crosses: leaves along {way}.", outcome.onto
+    return f", and slides on {'limit ' if outcome.verdict == 'cycle' else ''}{outcome.onto}.", outcome.onto
+
+
+def _a(kind: str) -> str:
+    return f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}"
+
+
+def _time(half: Trajectories, i: int) -> float:
+    """Return t = ∫ rho dT along a drawn line outside, to its arrival.
+
+    Between drawn points rho changes almost exponentially in T, for which the integral is
+    (rho2 - rho1) dT/log(rho2/rho1); what is left after the last point is rho dT/d(log rho), to leading order.
+    """
+    start, stop = half.offsets[i], half.offsets[i + 1]
+    line, clock = half.buffer[start:stop], np.abs(half.clock[start:stop])
+    rho = np.maximum(np.hypot(line[:, 0], line[:, 1]) - 1.0, 0.0)
+    rho[-1] = half.ends[i, 2]
+    keep = rho > 0.0
+    rho, clock = rho[keep], clock[keep]
+    if len(rho) < 2:
+        return 0.0
+    steps, ratio = np.diff(clock), np.log(rho[1:] / rho[:-1])
+    flat = np.abs(ratio) < 1e-8
+    mean = np.where(flat, 0.5 * (rho[1:] + rho[:-1]), np.diff(rho) / np.where(flat, 1.0, ratio))
+    last = -ratio[-1] / steps[-1] if steps[-1] > 0.0 else 0.0
+    return float((mean * steps).sum() + (rho[-1] / last if last > 0.0 else 0.0))

@@ -1,0 +1,107 @@
+"""Launched orbits: where they go and come from, against what is known exactly and against other ways to ask."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+import codim2_core as c2
+from codim2_core.portrait.launched import launched
+
+PSI = c2.psi.constant()
+
+
+def launch(system, psi, seeds, z=()):
+    scene = c2.Scene(system, psi, z)
+    seeds = np.array(seeds, float)
+    return launched(
+        scene.coefficients, psi, seeds, scene["equator"], scene["critical"], scene["cycles"], lambda: scene["outcomes"]
+    )
+
+
+@given(st.floats(-3, -0.2), st.floats(-1, 1), st.floats(0, 6.28), st.floats(0.01, 0.9))
+def test_without_force_the_time_to_sigma_is_known(a, b, theta, rho):
+    """With f = 0 and a = d: rho' = a along every orbit, straight or spiralling."""
+    assume(abs(b) > 1e-3)
+    turns = abs(b / a) * 40  # how far it winds within the capture distance, in radians
+    assume(turns * (1 + rho) < 30)
+    (fate,) = launch(c2.ELinear(a, b, a), PSI, [[(1 + rho) * math.cos(theta), (1 + rho) * math.sin(theta)]]).goes
+    assert fate.label == "equator"
+    assert fate.onto == "C"
+    assert fate.after == pytest.approx(rho / -a, rel=2e-3)
+    assert "spiral" in fate.sentence
+
+
+def test_the_ball_without_viscosity_stops_slipping_when_it_must():
+    """2 v/(7 mu g) for a slip velocity v: here rho = 0.8, in the direction of the slip."""
+    ball = c2.examples.ball_in_pool(mu=0.2, m=1.0, K=1.0, g=9.81)
+    (fate,) = launch(ball, PSI, [[-1.8, 0.0]], z=(1e-9, 0.0)).goes
+    assert fate.after == pytest.approx(2 * 0.8 / (7 * 0.2 * 9.81), rel=1e-3)
+    assert fate.onto == "C"
+
+
+def test_words_of_an_orbit_from_outside_that_slides():
+    (fate,) = launch(c2.ELinear(-2, 0, -1, (-0.5, 0)), PSI, [[1.5, 0.3]]).goes
+    assert fate.sentence == f"Reaches Σ along Q2, θ = 2.094, after t = {fate.after:.3g}, and slides on C."
+    moved = c2.simulate_nonsmooth(c2.ELinear(-2, 0, -1, (-0.5, 0)), _outside(1.5, 0.3), (0, 2), psi=PSI)
+    slip = moved.phases[0]
+    assert slip.kind == "slip"
+    assert fate.after == pytest.approx(slip.t_end, rel=2e-3)
+
+
+def _outside(x, y):
+    """The state of a picture point outside the equator."""
+    r = math.hypot(x, y)
+    return ((r - 1) * x / r, (r - 1) * y / r)
+
+
+def test_words_of_orbits_on_the_hemisphere_and_of_crossing():
+    found = launch(c2.ELinear(-1, 0, -1, (1.1, 0)), PSI, [[0.2, 0.3], [-1.5, 0.1], [1.4, 0.2]])
+    assert [fate.label for fate in found.goes] == ["Q1", "away", "away"]
+    assert found.goes[0].sentence == "Comes down to Q1 and leaves Σ along θ = 0."
+    assert found.comes[0].sentence == "Comes up from Q2, θ = 3.142."
+    (exact,) = launch(c2.ELinear(-1, 0, -1, (1.1, 0)), PSI, [[-1.5, 0.0]]).goes
+    assert (exact.label, exact.onto) == ("Q2", "Q1")
+    assert "crosses" in exact.sentence
+
+
+def test_an_orbit_that_winds_onto_a_limit_cycle_says_so():
+    preset = c2.presets["case3-n3"]
+    found = launch(preset.system, preset.psi, [preset_point(preset) + 0.01])
+    assert found.goes[0].sentence == "Winds onto limit cycle 1."
+    assert found.comes[0].label == "C"
+    assert found.comes[0].sentence == "Comes from C, an unstable focus."
+
+
+def preset_point(preset):
+    return c2.critical_sets(preset.system, preset.psi)[0].p
+
+
+coefficient = st.floats(-2, 2).map(lambda v: round(v, 3))
+
+
+@given(st.tuples(*[coefficient] * 5), st.tuples(st.floats(-1.8, 1.8), st.floats(-1.8, 1.8)))
+def test_where_an_orbit_goes_agrees_with_the_approach_outcomes(numbers, seed):
+    a, b, d, f1, f2 = numbers
+    assume(abs(a) > 0.1 and abs(d) > 0.1 and math.hypot(*seed) > 1.05)
+    system = c2.ELinear(a, b, d, (f1, f2))
+    assume(not c2.classify(system, PSI).degeneracies)
+    (fate,) = launch(system, PSI, [seed]).goes
+    if not fate.label.startswith("Q"):
+        return
+    outcomes = c2.approach_outcomes(system, PSI)
+    assert fate.label == f"Q{outcomes.destination(math.atan2(seed[1], seed[0])) + 1}"
+    k = int(fate.label[1:]) - 1
+    assert c2.equator_equilibria(system).lambda_rho[k] < 0
+    assert fate.onto == outcomes.directions[k].onto
+
+
+def test_lines_run_through_their_seeds():
+    seeds = np.array([[0.3, 0.2], [1.3, -0.4]])
+    found = launch(c2.ELinear(-2, 0, -1, (-0.5, 0)), PSI, seeds)
+    for line, times, seed in zip(found.orbits.points, found.orbits.times, seeds, strict=True):
+        assert np.hypot(*(line[times == 0][0] - seed)) < 1e-12
+        assert (np.diff(times) > 0).all()
+    assert len(found) == 2
