@@ -4,8 +4,6 @@ import pytest
 
 from tests.app.serving import serving
 
-pytestmark = pytest.mark.browser
-
 BANNER = ".codim2 .banner"
 
 

@@ -7,13 +7,10 @@ import pytest
 from tests.browser.conftest import Explorer
 from tests.browser.jupyterlab import jupyterlab, write_notebook
 
-pytestmark = [
-    pytest.mark.browser,
-    pytest.mark.skipif(
-        find_spec("jupyterlab") is None or find_spec("jupyter_bokeh") is None,
-        reason='no JupyterLab: pip install jupyterlab, and this package with its extra "notebook"',
-    ),
-]
+pytestmark = pytest.mark.skipif(
+    find_spec("jupyterlab") is None or find_spec("jupyter_bokeh") is None,
+    reason='no JupyterLab: pip install jupyterlab, and this package with its extra "notebook"',
+)
 
 START = "import panel, codim2_app\npanel.config.comms = '{}'\nview = codim2_app.explorer()\nview"
 SECOND = "second = codim2_app.explorer(a=-1, b=1, d=-1, f1=0)\nsecond"

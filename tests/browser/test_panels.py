@@ -4,8 +4,6 @@ from urllib.parse import parse_qs, urlparse
 
 import pytest
 
-pytestmark = pytest.mark.browser
-
 #: Elements of the inspector whose content is wider than they are.
 TOO_WIDE = """() => {
     const all = (root) => [...root.querySelectorAll('*')].flatMap((e) => e.shadowRoot ? [e, ...all(e.shadowRoot)] : [e])

@@ -2,10 +2,6 @@
 
 from urllib.parse import parse_qs, urlparse
 
-import pytest
-
-pytestmark = pytest.mark.browser
-
 
 def choose(explorer, key):
     explorer.find(".system-box select").select_option(key)

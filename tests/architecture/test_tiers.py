@@ -1,0 +1,76 @@
+"""Marks come from one place, and the plain command leaves out only what is slow."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests import tiers
+
+ROOT = Path(__file__).parents[2]
+DUMMY = "def test_one():\n    pass\n\n\ndef test_two():\n    pass\n"
+
+
+@pytest.mark.parametrize(
+    ("folder", "name", "found"),
+    [
+        ("core", "core/a.py::test_a", ["fast"]),
+        ("app", "app/a.py::test_costly", []),
+        ("browser", "browser/a.py::test_a", ["browser"]),
+        ("faults", "faults/a.py::test_a", ["slow"]),
+        ("stress", "stress/a.py::test_a", []),
+    ],
+)
+def test_marks_of_a_test(folder, name, found):
+    assert tiers.marks(folder, name, frozenset({"app/a.py::test_costly"})) == found
+
+
+def test_every_folder_of_slow_tests_is_left_out_unless_it_is_asked_for(tmp_path):
+    """Tried on a copy of the configuration with tests that do nothing."""
+    tests = tmp_path / "tests"
+    for folder in ("core/psi", "stress", *tiers.SLOW):
+        (tests / folder).mkdir(parents=True)
+        for part in [tests / folder, *(tests / folder).parents][: folder.count("/") + 2]:
+            (part / "__init__.py").touch()
+        (tests / folder / "test_it.py").write_text(DUMMY)
+    for name in ("pyproject.toml", "tests/conftest.py", "tests/tiers.py"):
+        (tmp_path / name).write_text((ROOT / name).read_text())
+    (tests / "costly.txt").write_text("core/psi/test_it.py::test_two\n")
+
+    def passed(*arguments):
+        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+        return int(re.search(r"(\d+) passed", done.stdout)[1])
+
+    assert passed("-n0") == 4
+    assert passed("-n0", "-m", "fast") == 1
+    assert passed("-n0", "-m", "slow") == 2 * len(tiers.SLOW)
+    assert passed(f"tests/{tiers.SLOW[0]}") == 2
+    assert passed("-p", "no:xdist") == 4  # where pytest-xdist is not installed
+
+
+def test_a_test_named_runs_alone_and_folders_are_shared_among_the_processors(pytestconfig, monkeypatch):
+    class Asked:
+        invocation_params = type("Params", (), {"dir": ROOT})
+        option = type("Option", (), {"collectonly": False})
+
+        def __init__(self, *args):
+            self.args = args
+
+        def getoption(self, name):
+            return {"usepdb": False, "capture": "fd"}[name]
+
+    monkeypatch.delenv("PYTEST_XDIST_WORKER", raising=False)
+    monkeypatch.setattr(tiers.os, "sched_getaffinity", lambda _: {0, 1, 2})
+    for asked in (("tests",), (".",), ("tests/core", "tests/app")):
+        assert tiers.processes(Asked(*asked)) == 3
+    for asked in (
+        ("tests/core/psi",),
+        ("tests/core/psi/test_psi.py::test_a",),
+        ("tests", "tests/core/psi/test_psi.py"),
+    ):
+        assert tiers.processes(Asked(*asked)) == 0
+    monkeypatch.setenv("PYTEST_XDIST_WORKER", "gw0")
+    assert tiers.processes(Asked("tests")) == 0

@@ -1,0 +1,105 @@
+"""Which tests run when: marks given by folder and by cost, in one place. ``python -m tests.tiers`` measures the costs.
+
+===========  =====================================================================================
+`fast`       the inner loop: the rooms and the presets, without what `costly.txt` lists
+`browser`    what drives a headless Chromium
+`slow`       faults, fuzz, containers, other versions; left out unless asked for: ``-m slow``
+===========  =====================================================================================
+
+``python -m pytest`` runs all but `slow`.
+"""
+
+from __future__ import annotations
+
+import os
+import resource
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).parent
+FAST = ("core", "app", "presets")
+SLOW = ("faults", "fuzz", "containers", "versions")
+COSTLY = TESTS / "costly.txt"
+LIMIT = 0.25  # seconds of processor time, of a test that is fast
+
+
+def named(item: pytest.Item) -> str:
+    """File and function, without the values of its parameters."""
+    return f"{item.path.relative_to(TESTS).as_posix()}::{item.name.split('[')[0]}"
+
+
+def marks(folder: str, name: str, costly: frozenset[str]) -> list[str]:
+    """Marks of a test in a folder of ``tests``."""
+    found = [mark for mark, holds in (("browser", folder == "browser"), ("slow", folder in SLOW)) if holds]
+    return [*found, "fast"] if folder in FAST and name not in costly else found
+
+
+def mark(items: list[pytest.Item]) -> None:
+    """Give all tests their marks."""
+    costly = frozenset(COSTLY.read_text().split())
+    for item in items:
+        for name in marks(item.path.relative_to(TESTS).parts[0], named(item), costly):
+            item.add_marker(name)
+
+
+def asked_for(config: pytest.Config) -> list[tuple[str, ...]]:
+    """What the command names, as parts of paths below ``tests``; () is everything."""
+    found = []
+    for argument in config.args:
+        path = (config.invocation_params.dir / argument.split("::")[0]).resolve()
+        found.append(path.relative_to(TESTS).parts if path.is_relative_to(TESTS) else ())
+    return found
+
+
+def leaves_out_slow(config: pytest.Config) -> bool:
+    """Whether the command asks for no mark and for none of the slow folders."""
+    return not config.option.markexpr and not any(parts and parts[0] in SLOW for parts in asked_for(config))
+
+
+def processes(config: pytest.Config) -> int:
+    """Processes for this command: one a processor if it names nothing smaller than a folder of ``tests``."""
+    small = any(len(parts) > 1 or (parts and parts[0].endswith(".py")) for parts in asked_for(config))
+    alone = config.getoption("usepdb") or config.getoption("capture") == "no" or config.option.collectonly
+    return 0 if small or alone or "PYTEST_XDIST_WORKER" in os.environ else len(os.sched_getaffinity(0))
+
+
+def spent() -> float:
+    """Processor time of this process and of those that it waited for, in seconds."""
+    own, others = resource.getrusage(resource.RUSAGE_SELF), resource.getrusage(resource.RUSAGE_CHILDREN)
+    return own.ru_utime + own.ru_stime + others.ru_utime + others.ru_stime
+
+
+class Measured:
+    """A plugin that notes the largest processor time of each test function."""
+
+    def __init__(self) -> None:
+        self.costs: dict[str, float] = {}
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_protocol(self, item: pytest.Item):
+        """Measure one test, its fixtures included."""
+        before = spent()
+        try:
+            return (yield)
+        finally:
+            name = named(item)
+            self.costs[name] = max(self.costs.get(name, 0.0), spent() - before)
+
+
+def main() -> int:
+    """Run what may be fast in one process, and write `costly.txt`; ``codim2 warm`` should have compiled the core."""
+    measured = Measured()
+    folders = [str(TESTS / folder) for folder in FAST]
+    pytest.main(["-q", "-n0", "-p", "no:cacheprovider", *folders], plugins=[measured])
+    costly = sorted(name for name, cost in measured.costs.items() if cost > LIMIT)
+    COSTLY.write_text("\n".join(costly) + "\n")
+    total = sum(measured.costs.values())
+    left = sum(cost for name, cost in measured.costs.items() if name not in costly)
+    print(f"{len(costly)} of {len(measured.costs)} test functions take more than {LIMIT} s; {COSTLY} lists them.")
+    print(f"Processor time: {total:.0f} s, of the fast ones {left:.0f} s.")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
