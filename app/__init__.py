@@ -24,4 +24,8 @@ def __getattr__(name: str) -> Any:
         from .draw.overlay import holoviews
 
         return holoviews
+    if name == "__version__":
+        from codim2_core import __version__
+
+        return __version__
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -32,6 +32,8 @@ from .systems.elinear import ELinear
 from .systems.typed import Frozen, System
 from .theorems.certificates import certificates
 
+__version__ = "0.1.0"
+
 __all__ = [
     "Basins",
     "Census",
@@ -80,3 +82,8 @@ __all__ = [
     "slow_portrait",
     "trajectories",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names; the rooms that hold them are importable, but no part of the API."""
+    return ["__version__", *__all__]

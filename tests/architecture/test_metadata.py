@@ -1,0 +1,100 @@
+"""What the metadata says is so: dependencies, version, types, linters."""
+
+import ast
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import codim2_core
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+OWN = {"codim2_core", "codim2_app", "tests"}
+# Run as programs, or needed by a library that is imported.
+COMMANDS = {"pyright", "pytest-xdist", "ruff", "pre-commit", "import-linter", "ipywidgets", "jupyter-bokeh"}
+# Left out of the extras: the notebook tests are skipped where they are missing, CI installs them.
+OPTIONAL = {"jupyterlab", "jupyter-bokeh"}
+
+
+def imported(folder):
+    """Distributions that a folder imports anywhere, also on first use."""
+    found = set()
+    for path in (ROOT / folder).rglob("*.py"):
+        if "node_modules" in path.parts:
+            continue
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom) and not node.level:
+                names = [node.module]
+            else:
+                continue
+            found |= {name.split(".")[0] for name in names}
+    names = {"importlinter": "import-linter", "jupyter_bokeh": "jupyter-bokeh"}
+    return {names.get(name, name) for name in found} - OWN - set(sys.stdlib_module_names)
+
+
+def declared(*extras):
+    """Names of the dependencies, or of those of some extras."""
+    project = PROJECT["project"]
+    given = [one for extra in extras for one in project["optional-dependencies"][extra]]
+    return {re.match(r"[\w-]+", one)[0].replace("_", "-") for one in given or project["dependencies"]}
+
+
+def test_dependencies_are_those_imported():
+    used = imported("app") | imported("codim2_core")
+    optional = set(PROJECT["project"]["optional-dependencies"]) - {"test", "bench"}
+    assert declared() <= used
+    assert used <= declared() | declared(*optional)
+
+
+def test_extras_hold_what_the_tests_and_benchmarks_import():
+    used = imported("tests")
+    assert used <= declared() | declared("test", "bench") | OPTIONAL
+    assert declared("test", "bench", "notebook") - COMMANDS <= used
+
+
+def test_every_dependency_has_a_least_version():
+    project = PROJECT["project"]
+    for one in [*project["dependencies"], *(d for extra in project["optional-dependencies"].values() for d in extra)]:
+        assert re.fullmatch(r"[\w-]+>=\d+(\.\d+)*(,<[\d.]+)?", one), one
+
+
+def test_the_version_stands_in_one_place():
+    assert PROJECT["project"]["dynamic"] == ["version"]
+    assert PROJECT["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "codim2_core.__version__"}
+    assert re.fullmatch(r"\d+\.\d+\.\d+", codim2_core.__version__)
+    import codim2_app
+
+    assert codim2_app.__version__ == codim2_core.__version__
+    log = (ROOT / ".github" / "CHANGELOG.md").read_text()
+    assert f"\n## {codim2_core.__version__}" in log
+
+
+def test_dir_shows_the_public_names_and_nothing_else():
+    assert sorted(dir(codim2_core)) == sorted(["__version__", *codim2_core.__all__])
+
+
+@pytest.mark.parametrize(("package", "folder"), [("codim2_core", "codim2_core"), ("codim2_app", "app")])
+def test_the_packages_say_that_they_are_typed(package, folder):
+    assert (ROOT / folder / "py.typed").is_file()
+    assert "py.typed" in PROJECT["tool"]["setuptools"]["package-data"][package]
+    tracked = subprocess.run(["git", "ls-files", folder], capture_output=True, text=True, check=True, cwd=ROOT).stdout
+    data = PROJECT["tool"]["setuptools"]["package-data"][package]
+    for line in tracked.splitlines():
+        name = Path(line).relative_to(folder)
+        assert name.suffix == ".py" or any(name.match(one) and len(name.parts) == one.count("/") + 1 for one in data), (
+            f"{line} is tracked, but not in the wheel"
+        )
+
+
+def test_ci_and_pre_commit_run_the_same_linters():
+    assert ".ci/lint" in (ROOT / ".ci" / "run").read_text()
+    assert "entry: .ci/lint" in (ROOT / ".pre-commit-config.yaml").read_text()
+    assert "run: .ci/run" in (ROOT / ".github" / "workflows" / "ci.yml").read_text()
+    for name in ("lint", "run"):
+        assert (ROOT / ".ci" / name).stat().st_mode & 0o111
