@@ -10,7 +10,7 @@ from urllib.parse import unquote
 import yaml
 from markdown_it.token import Token
 
-from ..state.choices import LAYERS
+from ..draw.layers import LAYERS
 from ..state.controls import NAMES, InputError, clean, preset_values
 from .condition import Condition, condition
 from .facts import KNOWN

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 import tomllib
+from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import pytest
@@ -34,15 +35,19 @@ def imported(folder):
             else:
                 continue
             found |= {name.split(".")[0] for name in names}
-    names = {"importlinter": "import-linter", "jupyter_bokeh": "jupyter-bokeh"}
-    return {names.get(name, name) for name in found} - OWN - set(sys.stdlib_module_names)
+    given = packages_distributions()  # what is not installed bears the name of its module
+    return {normal(given.get(name, [name])[0]) for name in found - OWN - set(sys.stdlib_module_names)}
+
+
+def normal(name):
+    return name.lower().replace("_", "-")
 
 
 def declared(*extras):
     """Names of the dependencies, or of those of some extras."""
     project = PROJECT["project"]
     given = [one for extra in extras for one in project["optional-dependencies"][extra]]
-    return {re.match(r"[\w-]+", one)[0].replace("_", "-") for one in given or project["dependencies"]}
+    return {normal(re.match(r"[\w-]+", one)[0]) for one in given or project["dependencies"]}
 
 
 def test_dependencies_are_those_imported():
