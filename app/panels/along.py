@@ -18,6 +18,7 @@ from ..frame.draft import Draft
 from ..state.choices import SLOW_CONTROLS
 from ..state.chosen import System_, slow_ranges
 from ..state.controls import slider_range
+from .panel import Panel
 
 PLANE = 15  # arrows along each axis of the plane
 NONE = "There is no slow variable: m = 0."
@@ -108,3 +109,6 @@ def plane_of(
 
 def _short(values: Any) -> list[float]:
     return [float(f"{v:.5g}") for v in values]
+
+
+PANEL = Panel("along", "Along z", add, "Where Σ slides, and the slow flow along it.")

@@ -23,6 +23,7 @@ from ..draw.packing import Polylines
 from ..draw.thumbnails import thumbnails
 from ..frame.draft import Draft
 from .axes import Axis, available, missing, spans_of, without
+from .panel import Panel
 
 #: Controls of the plane of f: a system that lacks one of them has none.
 PLANE = ("a", "b", "d", "f1", "f2")
@@ -184,3 +185,6 @@ def map_columns(found: ClassMap) -> tuple[dict[str, Any], dict[str, Polylines]]:
         "map": Polylines(*plane_curves.thin(loops, 1.0)),
         "map_curves": Polylines(*plane_curves.thin(curves, 1.0)),
     }
+
+
+PANEL = Panel("atlas", "Atlas", add, "Two parameters as a plane, cut into regions of one portrait each.")

@@ -15,6 +15,7 @@ from codim2_core.systems.elinear import ELinear
 
 from ..frame.draft import Draft
 from .axes import available, missing, spans_of, without
+from .panel import Panel
 
 #: Most points that the browser is sent of a branch: it is drawn some 320 px wide.
 MOST = 160
@@ -95,3 +96,6 @@ def _line(x: NDArray[np.float64], y: NDArray[np.float64]) -> dict[str, list[floa
         kept = np.unique(np.rint(np.linspace(0, len(x) - 1, MOST)).astype(int))
         x, y = x[kept], y[kept]
     return {"x": [float(f"{v:.7g}") for v in x], "y": [float(f"{v:.4g}") for v in y]}
+
+
+PANEL = Panel("diagram", "Diagram", add, "All that stands still along one parameter, and where it changes.")

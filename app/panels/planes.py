@@ -19,6 +19,7 @@ from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.frozen import AtZ
 
 from ..frame.draft import Draft
+from .panel import Panel
 
 POINTS = 120  # along the curve over the parameter
 
@@ -80,3 +81,6 @@ def _columns(rows: Sequence[tuple[float, float, str, str]], *, line: bool, sente
         "text": [row[2] for row in rows],
         "kind": [row[3] for row in rows],
     }
+
+
+PANEL = Panel("planes", "Planes", add, "Trace and determinant, and eigenvalues, of each critical set (fig:bads).")

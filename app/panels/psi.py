@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..frame.draft import Draft
+from .panel import Panel
 
 S = np.linspace(0.0, 4.0, 81)
 #: Distances in the chart kappa_2 at which |e_Psi| is sent; L(l; eps) is read from them in the browser for every eps.
@@ -27,3 +28,6 @@ def add(draft: Draft) -> None:
 
 def _short(values: np.ndarray) -> list[float]:
     return [float(f"{v:.5g}") for v in values]
+
+
+PANEL = Panel("psi", "Ψ", add, "The regularisation function, and the smooth step that it makes.")

@@ -6,30 +6,39 @@ rest; until the browser has it, its name is in ``header["late"]``, and the panel
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from ..frame.draft import Draft
-from . import along, atlas, basins, diagram, outcomes, planes, psi, stack, theorems, time
+from ..state.controls import offer
+from . import along, atlas, basins, diagram, numbers, outcomes, planes, psi, stack, theorems, time
+from .panel import Panel
+
+#: By key, in the order of the tabs.
+PANELS: dict[str, Panel] = {}
+#: Layers of the picture that are computed as panels are, by name.
+LAYERS = {"basins": basins.add, "outcomes": outcomes.add}
+
+
+def register(panel: Panel) -> None:
+    """Add a panel: its tab comes last. This must be before the page is made (`codim2_app.view`).
+
+    Raises
+    ------
+    ValueError
+        There is a panel of this key, or its script is missing.
+    """
+    if panel.key in PANELS:
+        raise ValueError(f"There is a panel {panel.key!r} already; choose another key.")
+    if not panel.script.is_file():
+        raise ValueError(f"The panel {panel.key!r} has no script: write {panel.script.name} in its folder.")
+    PANELS[panel.key] = panel
+    offer("panel", PANELS)
 
 
 def add(draft: Draft) -> None:
-    """Add what the open panel shows, and the approach outcomes where they are visible, to a frame."""
-    name = draft.values["panel"]
-    if name in _PANELS:
-        _PANELS[name](draft)
-    if "basins" in draft.values["layers"]:
-        basins.add(draft)
-    if "outcomes" in draft.values["layers"] or name == "numbers":
-        outcomes.add(draft)
+    """Add what the open panel and the visible layers show to a frame."""
+    wanted = [PANELS[draft.values["panel"]].add, *(LAYERS[name] for name in LAYERS if name in draft.values["layers"])]
+    for each in dict.fromkeys(wanted):
+        each(draft)
 
 
-_PANELS: dict[str, Callable[[Draft], None]] = {
-    "atlas": atlas.add,
-    "planes": planes.add,
-    "diagram": diagram.add,
-    "theorems": theorems.add,
-    "along": along.add,
-    "solid": stack.add,
-    "time": time.add,
-    "psi": psi.add,
-}
+for module in (atlas, numbers, planes, diagram, theorems, along, stack, time, psi):
+    register(module.PANEL)

@@ -20,10 +20,11 @@ from codim2_core.scene import Scene
 from codim2_core.sliding.along import slow_portrait
 
 from ..frame.draft import Draft
-from ..state.choices import SLOW_CONTROLS
+from ..state.choices import SLOW_CONTROLS, SOLIDS
 from ..state.chosen import System_
 from . import filippov
 from .along import NONE, spans_of
+from .panel import Panel
 
 SLICES = 5  # hemispheres along z
 SEEDS = 20  # trajectories of each
@@ -137,3 +138,12 @@ def _flat(line: NDArray[np.float64]) -> list[list[float]]:
 
 def _short(values: Any) -> list[float]:
     return [round(float(v), 3) for v in values]
+
+
+PANEL = Panel(
+    "solid",
+    "3-D",
+    add,
+    "The hemisphere in space, hemispheres stacked along z, and Filippov's combinations.",
+    {"views": SOLIDS},
+)

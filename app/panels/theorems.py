@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from codim2_core.theorems.certificates import Certificate
 
 from ..frame.draft import Draft
+from .panel import Panel
 
 Row = tuple[str, str, str, str, list[tuple[str, float]]]
 
@@ -28,3 +29,6 @@ def rows(certificates: Sequence[Certificate]) -> list[Row]:
         (c.theorem, c.statement, c.verdict.value, c.sentence, [(name, float(value)) for name, value in c.numbers])
         for c in certificates
     ]
+
+
+PANEL = Panel("theorems", "Theorems", add, "The paper's claims, evaluated on this system.")

@@ -20,6 +20,7 @@ from codim2_core.psi.function import Psi
 from ..frame.draft import Draft
 from ..state.chosen import System_
 from ..state.controls import InputError
+from .panel import Panel
 
 SAMPLES = 240  # even times at which a motion is drawn, besides the ends of its steps
 MOST = 500  # points of a curve that the browser is sent
@@ -176,3 +177,6 @@ def _words(run: Simulation) -> dict[str, Any]:
 
 def _short(values: NDArray[np.float64]) -> list[float]:
     return [float(f"{v:.5g}") for v in values]
+
+
+PANEL = Panel("time", "Time", add, "One motion in time, for ε > 0 and in the limit ε → 0.")

@@ -1,21 +1,9 @@
-"""Names of controls, layers, panels and views, each with its words."""
+"""Names of controls, layers and views, each with its words."""
 
 from __future__ import annotations
 
 #: Coefficients of the normal form: f(z) = f + z k, z' = B e + g.
 COEFFICIENTS = ("a", "b", "d", "f1", "f2", "k1", "k2", "B1", "B2", "g0")
-#: Panels beside the picture, one open at a time: name in the address, and the word on its tab.
-PANELS = {
-    "atlas": "Atlas",
-    "numbers": "Numbers",
-    "planes": "Planes",
-    "diagram": "Diagram",
-    "theorems": "Theorems",
-    "along": "Along z",
-    "solid": "3-D",
-    "time": "Time",
-    "psi": "Ψ",
-}
 #: What a bifurcation diagram can run along, and what the axes of the atlas can be.
 AXES = ("a", "b", "d", "f1", "f2", "z", "z2", "z3", "z4", "n")
 #: Or a parameter of the system, after this: own:mu.

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
@@ -19,7 +19,7 @@ from codim2_core.examples import catalogue
 from codim2_core.psi.function import Psi
 
 from ..draw.layers import LAYERS, shown
-from .choices import AXES, MAX_TRAJECTORIES, OWN_AXIS, PANELS, SLOW_CONTROLS, SOLIDS
+from .choices import AXES, MAX_TRAJECTORIES, OWN_AXIS, SLOW_CONTROLS, SOLIDS
 from .chosen import NORMAL, TITLES, starting_launch, starting_z
 from .portraits import portraits
 
@@ -80,7 +80,7 @@ class ExplorerState(param.Parameterized):
         doc="What is drawn.",
     )
     preset = param.String("", label="Portrait", doc="A figure of the paper; the values start from it.")
-    panel = param.Selector(default="atlas", objects=list(PANELS), label="Panel", doc="What is open beside the picture.")
+    panel = param.Selector(default="atlas", objects=["atlas"], label="Panel", doc="What is open beside the picture.")
     along = param.String("f1", label="Along", doc="Parameter of the bifurcation diagram.")
     zoom = param.Integer(0, bounds=(0, 6), label="Zoom", doc="The diagram shows a 4^zoom-th of the slider's range.")
     across = param.String("f1", label="Across", doc="Horizontal axis of the atlas.")
@@ -158,6 +158,11 @@ def axes_of(choice: str) -> tuple[str, str]:
 def preset_values(key: str | None) -> dict[str, Any]:
     """Return the values of a portrait by its key; none if there is no such portrait."""
     return next((portrait["values"] for portrait in portraits() if portrait["key"] == key), {})
+
+
+def offer(name: str, options: Iterable[str]) -> None:
+    """Let a control offer these options: what is registered on a higher floor, such as the panels."""
+    ExplorerState.param[name].objects = list(options)
 
 
 NAMES: tuple[str, ...] = tuple(

@@ -1,7 +1,7 @@
 // Controls: a slider with an editable number, whose range widens for a typed value.
 
 import {roundUp} from "./ranges.js"
-import {plain} from "./words.js"
+import {escape, plain} from "./words.js"
 
 export class NumberControl {
   constructor(box, range, onValue) {
@@ -51,4 +51,10 @@ export function sayAt(box, sentence) {
   if (!error) return
   error.textContent = sentence ?? ""
   error.hidden = !sentence
+}
+
+// The markup of a number with a slider.
+export function slider(name, symbol, doc = symbol) {
+  return `<div class="control" data-control="${name}" title="${escape(doc)}"><label for="c2-${name}">${escape(symbol)}</label><input type="range" id="c2-${name}" aria-label="${escape(symbol)}: ${escape(doc)}">
+    <input type="text" inputmode="decimal" class="number" aria-label="value of ${escape(symbol)}" spellcheck="false" autocomplete="off"><p class="error" role="alert" hidden></p></div>`
 }

@@ -5,16 +5,8 @@ import {NumberControl, sayAt} from "./controls.js"
 import {readFrame, Requests} from "./frames.js"
 import {Inspector} from "./inspector.js"
 import {Panels} from "./panels.js"
-import {Along} from "./panels/along.js"
-import {Atlas} from "./panels/atlas.js"
-import {Diagram} from "./panels/diagram.js"
-import {Planes} from "./panels/planes.js"
-import {PsiCurves} from "./panels/psi.js"
-import {Stack} from "./panels/stack.js"
-import {Motion} from "./panels/time.js"
 import {Picture} from "./picture.js"
 import {SystemChooser} from "./system.js"
-import {escape} from "./words.js"
 
 function wire({model, view, root, plot}) {
   const config = model.config
@@ -31,19 +23,12 @@ function wire({model, view, root, plot}) {
     if (name in numbers && typeof value !== "number") { requests.set(name, value); return }
     values[name] = value
     requests.set(name, value)
-    if (name in numbers) drawPanels()
+    if (name in numbers) panels.draw(values)
     if (config.presets[values.preset] && name in config.presets[values.preset].values) markChanged()
     keepLink()
   }
   const numbers = Object.fromEntries(config.numbers.map((name) => [name, true]))
 
-  for (const box of root.querySelectorAll("[data-control]")) {
-    const name = box.dataset.control
-    if (name in numbers || name === "trajectories") {
-      controls[name] = new NumberControl(box, config.ranges[name], change)
-      if (config.locked.includes(name)) for (const input of box.querySelectorAll("input")) { input.disabled = true; input.title = "given by your system" }
-    } else controls[name] = {box, say: (sentence) => sayAt(box, sentence), set: () => {}}
-  }
   // A panel moves controls: {name: value}.
   const move = (wanted) => {
     for (const [name, value] of Object.entries(wanted)) {
@@ -51,33 +36,26 @@ function wire({model, view, root, plot}) {
       else if (!config.locked.includes(name)) { controls[name]?.set(value); change(name, value) }
     }
   }
-  const panels = new Panels(root, (name) => { change("panel", name); showPanels() })
+  const showPanels = () => panels.show(values.panel, values)
+  const choose = (name, value) => { change(name, value); showPanels() }
+  const setters = {}
+  const panels = new Panels(root, config.panels, {
+    root, values, move, choose, symbols: config.symbols, ranges: config.ranges, docs: config.docs,
+    slowSymbols: () => config.slowSymbols ?? [],
+    valueOf: (name) => name.startsWith("own:") ? systems.value(name.slice(4)) : values[name],
+    follow: (name, set) => { setters[name] = set },
+    trace: (paths, place) => picture.trace(paths, place),
+  }, (name) => choose("panel", name))
+
+  for (const box of root.querySelectorAll("[data-control]")) {
+    const name = box.dataset.control
+    if (name in numbers || name === "trajectories") {
+      controls[name] = new NumberControl(box, config.ranges[name], change)
+      if (box.closest("[role=tabpanel]")) controls[name].set(values[name])
+      if (config.locked.includes(name)) for (const input of box.querySelectorAll("input")) { input.disabled = true; input.title = "given by your system" }
+    } else controls[name] = {box, say: (sentence) => sayAt(box, sentence), set: setters[name] ?? (() => {})}
+  }
   const systems = new SystemChooser(root, config, values, {change, place: (name, control) => { controls[name] = control }, normal: controls.z})
-  controls.system.set = () => {}
-  const drift = new Along(root, config, move, (name) => { change("drift", name); drawPanels() })
-  const motion = new Motion(root, config, move, (paths, place) => picture.trace(paths, place))
-  const zoom = (name) => (value) => { change(name, value); drawPanels() }
-  const shown = {
-    along: drift, solid: new Stack(root, config, (wanted) => { change("solid", wanted); drawPanels() }), psi: new PsiCurves(root), time: motion, planes: new Planes(root),
-    atlas: new Atlas(root, config, move, zoom("atlas_zoom")), diagram: new Diagram(root, config, move, zoom("zoom")),
-  }
-  const drawPanels = () => { shown[values.panel]?.draw(values); if (values.panel !== "time") motion.draw(values); if (values.panel !== "along") drift.toggle(false) }
-  const showPanels = () => { panels.show(values.panel); drawPanels() }
-  for (const name of ["across", "up", "along"]) {
-    const select = find(`select.${name}`)
-    select.addEventListener("change", () => { change(name, select.value); showPanels() })
-    controls[name].set = (value) => { select.value = value }
-  }
-  // The axes that the present system has; a chosen one that it does not have stays in the list.
-  const showAxes = (axes) => {
-    for (const [name, symbol, low, high] of axes) { config.symbols[name] = symbol; config.ranges[name] = [low, high] }
-    for (const name of ["across", "up", "along"]) {
-      const there = axes.some(([axis]) => axis === values[name])
-      const list = there ? axes : [[values[name], config.symbols[values[name]] ?? values[name].replace("own:", "")], ...axes]
-      find(`select.${name}`).innerHTML = list.map(([axis, symbol]) => `<option value="${axis}"${axis === values[name] ? " selected" : ""}>${escape(symbol)}</option>`).join("")
-    }
-  }
-  config.valueOf = (name) => name.startsWith("own:") ? systems.value(name.slice(4)) : values[name]
 
   const family = find("select.psi")
   const showFamily = () => {
@@ -92,13 +70,6 @@ function wire({model, view, root, plot}) {
   const text = controls.psi_text.box.querySelector("input")
   text.addEventListener("input", () => change("psi_text", text.value))
   controls.psi_text.set = (value) => { text.value = value }
-
-  const cycleCurves = controls.cycle_curves.box.querySelector("input")
-  cycleCurves.addEventListener("change", () => { change("cycle_curves", cycleCurves.checked ? "show" : "hide"); drawPanels() })
-  controls.cycle_curves.set = (value) => { cycleCurves.checked = value === "show" }
-  const launch = controls.launch.box.querySelector("input")
-  launch.addEventListener("change", () => change("launch", launch.value))
-  controls.launch.set = (value) => { launch.value = value }
 
   const boxes = [...root.querySelectorAll(".layer input[type=checkbox]")]
   const showLayers = () => { for (const box of boxes) box.checked = values.layers.includes(box.value); picture.show(values.layers); find(".outcome-key").hidden = !values.layers.includes("outcomes") }
@@ -190,9 +161,9 @@ function wire({model, view, root, plot}) {
     clearTimeout(restTimer)
     const late = header.late ?? []
     if (late.length) restTimer = setTimeout(() => requests.rest(), 150)
-    inspector.apply(header, values, late)
-    if (header.axes) showAxes(header.axes)
-    for (const panel of Object.values(shown)) panel.apply(frame, late)
+    inspector.apply(header)
+    for (const [name, symbol, low, high] of header.axes ?? []) { config.symbols[name] = symbol; config.ranges[name] = [low, high] }
+    panels.apply(frame, late)
     requests.arrived(header.id, errors)
     if ("id" in header) root.dataset.frame = header.id
     root.dataset.settled = requests.idle && header.ready !== false && !late.length

@@ -1,24 +1,15 @@
-// The inspector: portrait, degeneracies, tables of equator equilibria and critical sets, slow flow along z.
+// What is always in view beside the picture: the portrait's name and sentence, what is degenerate, the slow flow.
 
-import {roundUp} from "./ranges.js"
-import {digits, eigen, escape, measured, pair, plain} from "./words.js"
+import {digits, escape} from "./words.js"
 
 export class Inspector {
   constructor(root) {
     this.find = (name) => root.querySelector(name)
   }
 
-  apply(header, values, late) {
+  apply(header) {
     if (header.portrait) this.portrait(header.portrait)
-    if (header.equator) this.equator(header)
-    if (header.critical) this.critical(header.critical)
-    if (header.cycles) this.cycles(header.cycles)
-    if (header.theorems) this.theorems(header.theorems)
-    if (header.unable?.theorems) this.find(".theorem-list").innerHTML = `<li class="idle">${escape(header.unable.theorems)}</li>`
-    if (header.outcomes) this.outcomes(header.outcomes.rows)
-    if (header.unable?.outcomes) this.find(".outcome-table").innerHTML = `<h2>Approach outcomes</h2><p class="note">${escape(header.unable.outcomes)}</p>`
-    this.find(".outcome-table").classList.toggle("old", late.includes("outcomes"))
-    if ("slow_flow" in header) { this.slow(header.slow_flow, values.z); this.slowLine(header.slow_flow) }
+    if ("slow_flow" in header) this.slowLine(header.slow_flow)
   }
 
   portrait({case: which, name, sentence, degeneracies, sides}) {
@@ -30,77 +21,9 @@ export class Inspector {
         ? `<p class="note sides">A little less ${escape(sides.symbol)}: <b>${escape(sides.below)}</b>. A little more: <b>${escape(sides.above)}</b>.</p>` : "")
   }
 
-  equator({equator: q, cycle, all_directions: all}) {
-    const rows = q.theta.map((theta, i) => `<tr class="plain"><td><b>${q.label[i]}</b></td><td>${digits(theta)}</td>
-      <td>${digits(q.lambda_rho[i])}</td><td>${digits(q.lambda_theta[i])}</td></tr>
-      <tr><td></td><td class="words" colspan="3">${q.type[i]}${q.multiplicity[i] > 1 ? `, multiplicity ${q.multiplicity[i]}` : ""}</td></tr>`)
-    const words = all ? "Every direction is a limit direction." : cycle === null ? "None." :
-      `None: the equator is a closed orbit, ${cycle < 0 ? "attracting" : cycle > 0 ? "repelling" : "neutral"} outside (exponent ${digits(cycle)}).`
-    this.find(".equator-table").innerHTML = "<h2>Equator equilibria</h2>" + (rows.length
-      ? `<table><tr><th></th><th>θ</th><th>λ<sub>ρ</sub></th><th>λ<sub>θ</sub></th></tr>${rows.join("")}</table>` : `<p class="note">${words}</p>`)
-  }
-
-  critical(c) {
-    const rows = c.label.map((label, i) => `<table>
-      <tr><td><b>${label}</b></td><td><b>${c.kind[i]}</b></td></tr>
-      <tr><td>(c, s)</td><td>${pair(c.e[i])}</td></tr>
-      <tr><td>(x₂, y₂)</td><td>${pair(c.x2[i])}</td></tr>
-      <tr><td>tr J</td><td>${digits(c.trace[i])}</td></tr><tr><td>det J</td><td>${digits(c.determinant[i])}</td></tr>
-      <tr><td>Δ(J)</td><td>${digits(c.discriminant[i])}</td></tr>
-      <tr><td>eigenvalues</td><td>${eigen(c.eigenvalues[i])}</td></tr>
-      ${c.slow_flow[i].length && c.label.length > 1 ? `<tr><td>z′</td><td>${c.slow_flow[i].map((v) => digits(v)).join(", ")}</td></tr>` : ""}</table>`)
-    this.find(".critical-table").innerHTML = `<h2>${c.label.length > 1 ? "Critical sets" : "Critical set"}</h2>` + (rows.join("") || '<p class="note">None in the scaling chart.</p>')
-  }
-
-  cycles(c) {
-    const rows = c.kind.map((kind, i) => `<table><tr><td><b>Limit cycle</b></td><td><b>${kind}</b></td></tr>
-      <tr><td>period (fast time τ)</td><td>${digits(c.period[i])}</td></tr><tr><td>multiplier</td><td>${digits(c.multiplier[i])}</td></tr></table>`)
-    const words = [...(rows.length ? [] : [c.reason]), ...c.notes].map((text) => `<p class="note">${escape(text)}</p>`)
-    this.find(".cycle-table").innerHTML = "<h2>Limit cycles</h2>" + rows.join("") + words.join("")
-  }
-
-  outcomes(rows) {
-    const items = rows.map(([label, kind, words, sentence, families]) => `<li><i class="outcome ${kind}"></i><b>${escape(label)}</b> ${escape(words)}
-      <p class="note">${escape(sentence)}</p>${families.map(([what, psis]) => `<p class="note"><b>${escape(what)}</b> with Ψ = ${psis.map(escape).join(", ")}</p>`).join("")}</li>`)
-    this.find(".outcome-table").innerHTML = `<h2>Approach outcomes</h2><ul>${items.join("")}</ul>`
-  }
-
-  theorems(rows) {
-    const mark = {holds: ["✓", "holds"], fails: ["✗", "fails"], "does not apply": ["–", "idle"]}
-    const words = (text) => escape(text).replace(/_(.)/g, "<sub>$1</sub>") // λ_ρ, e_Ψ
-    this.find(".theorem-list").innerHTML = rows.map(([theorem, statement, verdict, sentence, numbers]) =>
-      `<li class="${mark[verdict][1]}"><b>${mark[verdict][0]} ${escape(verdict)}</b> <code>${escape(theorem)}</code>
-      <p>${words(statement)}</p><p class="note">${words(sentence)}</p>${numbers.length
-        ? `<table>${numbers.map(([name, value]) => `<tr><td>${words(name)}</td><td>${measured(value)}</td></tr>`).join("")}</table>` : ""}</li>`).join("")
-  }
-
   // One line that is always in view.
   slowLine(flow) {
     const sense = !flow || !flow.length || flow[0] === 0 ? "" : flow[0] > 0 ? ", ⊙ out of the page" : ", ⊗ into the page"
     this.find(".slow-line").textContent = flow?.length ? `z′ = ${flow.map((v) => digits(v)).join(", ")} on C${sense}` : ""
-  }
-
-  // An arrow along the z axis; z points out of the page, as in the paper's circled dot and cross.
-  slow(flow, z) {
-    const box = this.find(".slow")
-    if (!flow || !flow.length) {
-      box.innerHTML = '<h2>Slow flow on C</h2><p class="note">No critical set, no sliding.</p>'
-      return
-    }
-    const rate = flow[0]
-    const reach = Math.max(4, roundUp(Math.max(Math.abs(z), 0.1)))
-    const y = (v) => 75 - 58 * v / reach
-    const length = Math.sign(rate) * (14 + 44 * Math.abs(rate) / (1 + Math.abs(rate)))
-    const tip = Math.max(8, Math.min(142, y(z) - length))
-    const head = tip < y(z) ? 7 : -7
-    const arrow = rate === 0 ? "" : `<path class="z-arrow" d="M42 ${y(z)}V${tip + head * 0.8}"/>
-      <path class="z-head" d="M42 ${tip}l5 ${head * 1.3}h-10Z"/>`
-    const sense = rate > 0 ? "⊙ out of the page" : rate < 0 ? "⊗ into the page" : "at rest"
-    box.innerHTML = `<h2>Slow flow on C</h2><div class="slow-box"><svg viewBox="0 0 84 150" aria-hidden="true">
-      <path class="z-axis" d="M30 6V144M26 ${y(reach)}h8M26 ${y(0)}h8M26 ${y(-reach)}h8"/><text x="22" y="12" text-anchor="end">z</text>
-      <text x="23" y="${y(reach) + 14}" text-anchor="end">${plain(reach)}</text><text x="23" y="${y(0) + 4}" text-anchor="end">0</text>
-      <text x="23" y="${y(-reach) + 4}" text-anchor="end">−${plain(reach)}</text>
-      ${arrow}<circle class="z-dot" cx="30" cy="${y(z)}" r="4"/></svg>
-      <div><b>z′ = ${flow.map((v) => digits(v)).join(", ")}</b><br>${sense}<br><span class="note">at z = ${digits(z)}; independent of Ψ</span></div></div>`
   }
 }

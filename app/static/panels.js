@@ -1,11 +1,51 @@
 // The panels beside the picture: a strip of tabs, one panel open at a time. What a closed one shows is not asked for.
 
+/**
+ * What a panel is given beside the empty element that it fills.
+ * @typedef {object} Tools
+ * @property {Element} root the explorer
+ * @property {any} settings what the server tells this panel's script
+ * @property {Record<string, any>} values of all controls, as they are now
+ * @property {Record<string, string>} symbols of parameters, by name
+ * @property {Record<string, number[]>} ranges of their sliders
+ * @property {Record<string, string>} docs what a control means
+ * @property {() => string[]} slowSymbols of the slow variables of the present system
+ * @property {(name: string) => number} valueOf a parameter, also one of the system's own ("own:mu")
+ * @property {(wanted: Record<string, any>) => void} move controls
+ * @property {(name: string, value: any) => void} choose a value that concerns the panels only, and draw them
+ * @property {(name: string, set: (value: any) => void) => void} follow a control of the panel that the state may move
+ * @property {(paths: any, place?: number[]) => void} trace a motion in the picture, or clear it with null
+ */
+
+/**
+ * A panel: `apply` is called with every frame, and the names of what in it is old; `draw` while the panel is open,
+ * whenever values or frames change; `close` when another one is opened.
+ * @typedef {{apply?: (frame: {header: any, blocks: any}, late: string[]) => void, draw?: (values: any) => void, close?: () => void}} Panel
+ */
+
+/** @type {Record<string, (box: any, tools: Tools) => Panel>} */
+const registered = {}
+
+/**
+ * Say how a panel is made: `make(box, tools)` fills the empty element of its tab.
+ * @param {string} key
+ * @param {(box: any, tools: Tools) => Panel} make
+ */
+export function register(key, make) { registered[key] = make }
+
 export class Panels {
-  // `choose(name)` is called when a tab is chosen.
-  constructor(root, choose) {
+  /**
+   * @param {any} root
+   * @param {Record<string, any>} settings of each panel
+   * @param {any} tools of all panels
+   * @param {(name: string) => void} choose is called when a tab is chosen
+   */
+  constructor(root, settings, tools, choose) {
     this.strip = root.querySelector(".tabs")
     this.tabs = [...this.strip.children]
-    this.panels = [...root.querySelectorAll("[role=tabpanel]")]
+    this.boxes = [...root.querySelectorAll("[role=tabpanel]")]
+    this.open = null
+    this.made = Object.fromEntries(this.boxes.map((box) => [box.dataset.panel, registered[box.dataset.panel](box, {...tools, settings: settings[box.dataset.panel]})]))
     this.strip.addEventListener("click", (event) => {
       const tab = event.target.closest("[role=tab]")
       if (tab) choose(tab.dataset.panel)
@@ -13,7 +53,7 @@ export class Panels {
     // what is being dragged over must not move when the words above it become longer
     const portrait = root.querySelector(".portrait")
     const hold = (height) => { portrait.style.height = height; portrait.style.overflow = height && "hidden" }
-    for (const panel of this.panels) panel.addEventListener("pointerdown", () => hold(`${portrait.offsetHeight}px`))
+    for (const box of this.boxes) box.addEventListener("pointerdown", () => hold(`${portrait.offsetHeight}px`))
     for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => hold(""))
     this.strip.addEventListener("keydown", (event) => {
       const at = this.tabs.findIndex((tab) => tab.tabIndex === 0)
@@ -26,12 +66,19 @@ export class Panels {
     })
   }
 
-  show(name) {
+  show(name, values) {
+    if (this.open !== name) this.made[this.open]?.close?.()
+    this.open = name
     for (const tab of this.tabs) {
       const open = tab.dataset.panel === name
       tab.setAttribute("aria-selected", open)
       tab.tabIndex = open ? 0 : -1
     }
-    for (const panel of this.panels) panel.hidden = panel.dataset.panel !== name
+    for (const box of this.boxes) box.hidden = box.dataset.panel !== name
+    this.draw(values)
   }
+
+  draw(values) { this.made[this.open]?.draw?.(values) }
+
+  apply(frame, late) { for (const panel of Object.values(this.made)) panel.apply?.(frame, late) }
 }

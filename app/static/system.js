@@ -1,7 +1,7 @@
 // Which system is drawn: a choice, its equations, text boxes for what can be typed, and a slider for every name in it.
 
-import {NumberControl, sayAt} from "./controls.js"
-import {escape, slowName} from "./words.js"
+import {NumberControl, sayAt, slider} from "./controls.js"
+import {slowName} from "./words.js"
 
 export class SystemChooser {
   // `change(name, value)` as everywhere; `place(name, control)` registers a control, by the name that errors use.
@@ -112,9 +112,4 @@ export class SystemChooser {
       this.place(one.name, control)
     })
   }
-}
-
-function slider(name, symbol) {
-  return `<div class="control" data-control="${name}"><label>${escape(symbol)}</label><input type="range" aria-label="${escape(symbol)}">
-    <input type="text" inputmode="decimal" class="number" aria-label="${escape(symbol)}, typed"><p class="error" role="alert" hidden></p></div>`
 }

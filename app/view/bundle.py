@@ -1,8 +1,7 @@
 """The front end's ES modules joined into one, which is what Panel's component takes; there is no build step.
 
-Each module is written as a browser or Node reads it. Here the imports are followed from one of them, what is imported
-stands before what imports it, and the words ``import`` and ``export`` fall away. All share one scope then, so no two
-modules may declare the same name at their top.
+Each module is written as a browser or Node reads it. Here the imports are followed, what is imported stands before what
+imports it, and each module becomes a function that returns what it exports: so all keep names of their own.
 """
 
 from __future__ import annotations
@@ -11,37 +10,28 @@ import re
 from pathlib import Path
 
 _IMPORT = re.compile(r'^import (?:\{([^}]*)\} from )?"(\.{1,2}/[^"]+)"\n', re.MULTILINE)
-_EXPORT = re.compile(r"^export (?=(?:const|let|class|function|async function)\b)", re.MULTILINE)
-_DECLARED = re.compile(r"^(export )?(?:const|let|class|function|async function) (\w+)", re.MULTILINE)
+_EXPORT = re.compile(r"^export (?=(?:const|let|class|function|async function) (\w+))", re.MULTILINE)
 _OTHER_IMPORT = re.compile(r"^import\b.*", re.MULTILINE)
-_OTHER = re.compile(r"^(?:import|export)\b.*", re.MULTILINE)
+_OTHER_EXPORT = re.compile(r"^export\b.*", re.MULTILINE)
 
 
 def bundle(*entries: Path) -> str:
-    """Return the modules that the entries import, in order of dependency, and the entries, as one ES module.
+    """Return the entries and all that they import, in order of dependency, as one ES module.
 
     What the last entry exports is exported.
 
     Raises
     ------
     ValueError
-        A module is missing or does not export what is imported of it, two import each other in a circle, two declare
-        one name, or an import or export is written in a way that is not read here.
+        A module is missing or does not export what is imported of it, modules import each other in a circle, or an
+        import or export is written in a way that is not read here.
     """
     order: list[Path] = []
     for entry in entries:
         _follow(entry.resolve(), order, ())
-    owner: dict[str, Path] = {}
-    exported: dict[Path, set[str]] = {}
-    for path in order:
-        text = path.read_text(encoding="utf-8")
-        declared = _DECLARED.findall(text)
-        for _, name in declared:
-            if name in owner:
-                raise ValueError(f"{path.name} and {owner[name].name} both declare {name} at their top; rename one.")
-            owner[name] = path
-        exported[path] = {name for export, name in declared if export}
-    return "\n".join(_inner(path, exported, path == order[-1]) for path in order)
+    exported = {path: _EXPORT.findall(path.read_text(encoding="utf-8")) for path in order}
+    names = {path: f"module{number}" for number, path in enumerate(order)}
+    return "\n".join(_joined(path, exported, names, path == order[-1]) for path in order)
 
 
 def _follow(path: Path, order: list[Path], above: tuple[Path, ...]) -> None:
@@ -56,16 +46,21 @@ def _follow(path: Path, order: list[Path], above: tuple[Path, ...]) -> None:
     order.append(path)
 
 
-def _inner(path: Path, exported: dict[Path, set[str]], last: bool) -> str:
-    """Return a module's text without its imports and, but for the last one, its exports."""
-    text = path.read_text(encoding="utf-8")
-    for names, target in _IMPORT.findall(text):
-        source = (path.parent / target).resolve()
-        for name in filter(None, (name.strip() for name in names.split(","))):
+def _joined(path: Path, exported: dict[Path, list[str]], names: dict[Path, str], last: bool) -> str:
+    """Return a module as a function that is called at once; the last one as it is, with its exports."""
+
+    def bound(match: re.Match[str]) -> str:
+        wanted = [name.strip() for name in (match[1] or "").split(",") if name.strip()]
+        source = (path.parent / match[2]).resolve()
+        for name in wanted:
             if name not in exported[source]:
                 raise ValueError(f"{path.name} imports {name} from {source.name}, which exports no such name.")
-    text = _IMPORT.sub("", text)
+        return f"const {{{', '.join(wanted)}}} = {names[source]}\n"
+
+    text = _IMPORT.sub(bound, path.read_text(encoding="utf-8"))
     inner = _EXPORT.sub("", text)
-    if other := (_OTHER_IMPORT if last else _OTHER).search(inner):
+    if other := _OTHER_IMPORT.search(inner) or (None if last else _OTHER_EXPORT.search(inner)):
         raise ValueError(f"{path.name}: {other.group()!r} is not read; write import {{a, b}} or export before a name.")
-    return text if last else inner
+    if last:
+        return text
+    return f"const {names[path]} = (() => {{\n{inner}return {{{', '.join(exported[path])}}}\n}})()\n"

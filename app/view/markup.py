@@ -15,7 +15,8 @@ from codim2_core.psi import FAMILIES
 from ..draw.layers import LAYERS, TRACES, looks, swatches, table
 from ..draw.theme import HATCHES, VIEW, custom_properties, themes
 from ..panels.outcomes import WORDS as OUTCOMES
-from ..state.choices import AXES, MAX_TRAJECTORIES, PANELS, SLOW_CONTROLS, SOLIDS
+from ..panels.registry import PANELS
+from ..state.choices import MAX_TRAJECTORIES, SLOW_CONTROLS
 from ..state.chosen import BOXES, TITLES
 from ..state.controls import NUMBERS, ExplorerState, slider_range
 from ..state.portraits import portraits
@@ -34,14 +35,15 @@ def _template(name: str) -> Template:
 
 
 def stylesheet() -> str:
-    """Return the style sheet; every rule is scoped to `.codim2`, and its colours are the table's."""
-    return "\n".join((custom_properties(), swatches(), (STATIC / "explorer.css").read_text(encoding="utf-8")))
+    """Return all rules, those of the panels last; they are scoped to `.codim2`, and their colours are the table's."""
+    own = (STATIC / "explorer.css").read_text(encoding="utf-8")
+    return "\n".join((custom_properties(), swatches(), own, *(panel.style for panel in PANELS.values())))
 
 
 @cache
 def script() -> str:
     """Return the front end as one ES module."""
-    return bundle(STATIC / "explorer.js")
+    return bundle(*(panel.script for panel in PANELS.values()), STATIC / "explorer.js")
 
 
 def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]:
@@ -50,6 +52,8 @@ def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]
         "numbers": list(NUMBERS),
         "ranges": {name: list(state.param[name].softbounds) for name in NUMBERS},
         "symbols": {name: state.param[name].label for name in NUMBERS},
+        "docs": {name: state.param[name].doc for name in NUMBERS},
+        "panels": {key: dict(panel.settings) for key, panel in PANELS.items()},
         "values": state.values(),
         "defaults": ExplorerState().values(),
         "layers": table(),
@@ -100,10 +104,7 @@ def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, 
         panels=PANELS,
         outcomes=OUTCOMES,
         systems=TITLES,
-        limits={name: control(name) for name in ("log_eps", "t_end")},
         slow_controls=SLOW_CONTROLS,
-        solids=SOLIDS,
-        axes={name: state.param[name].label for name in AXES},
         values=values,
         locked=locked,
         most=MAX_TRAJECTORIES,

@@ -1,18 +1,29 @@
 // The panel "Along z": where Sigma slides, the slow flow on each critical set, and play, which lets z drift with it.
 
 import {shape} from "../marks.js"
+import {register} from "../panels.js"
 import {fixed, polyline} from "../svg.js"
 import {digits, escape, plain, slowName} from "../words.js"
 
 const DRIFT_SECONDS = 10 // in which play would cross the whole range at the largest slow flow shown
 
-export class Along {
-  // `choose(name)` is called when another slow variable is chosen.
-  constructor(root, config, move, choose) {
-    this.box = root.querySelector(".panel-along")
-    this.config = config
-    this.setControls = move
-    this.find = (name) => this.box.querySelector(name)
+const MARKUP = `<div class="along-body">
+    <div class="row"><button type="button" class="play" aria-pressed="false">▶ Play</button>
+      <label class="which" hidden>along <select class="drift" aria-label="slow variable"></select></label>
+      <label class="rate">speed <input class="speed" type="range" min="0.1" max="4" step="0.1" value="1" aria-label="speed"></label></div>
+    <svg class="along" viewBox="-106 -60 206 134" role="slider" tabindex="0" aria-label="Slow flow along z: drag to move z, or use the arrow keys"></svg>
+    <div class="plane-box" hidden><h2>Slow flow in the plane of z₁ and z₂</h2><svg class="slow-plane" viewBox="-100 -100 200 200" role="img" aria-label="Where it slides, and the slow flow there"></svg></div>
+    <ul class="special-list along-points"></ul>
+  </div>
+  <p class="note along-note" aria-live="polite"></p>`
+
+class Along {
+  constructor(box, tools) {
+    box.innerHTML = MARKUP
+    this.box = box
+    this.tools = tools
+    this.setControls = tools.move
+    this.find = (name) => box.querySelector(name)
     this.svg = this.find(".along")
     this.plane = this.find(".slow-plane")
     this.playing = false
@@ -30,7 +41,7 @@ export class Along {
       this.setControls({[this.data.control]: this.values[this.data.control] + way * (high - low) / (event.shiftKey ? 20 : 200)})
     })
     this.which = this.find(".drift")
-    this.which.addEventListener("change", () => choose(this.which.value))
+    this.which.addEventListener("change", () => tools.choose("drift", this.which.value))
     this.find(".play").addEventListener("click", () => this.toggle())
   }
 
@@ -104,6 +115,8 @@ export class Along {
     return this.mean && kind.length ? this.mean : null
   }
 
+  close() { this.toggle(false) }
+
   draw(values) {
     this.values = values
     if (!this.data) return
@@ -132,7 +145,7 @@ export class Along {
     const {intervals, branches, points, span, control} = this.data
     const most = Math.max(1e-12, ...branches.flatMap((b) => b.flow.map(Math.abs)), ...points.map((p) => Math.abs(p.flow)))
     const y = (flow) => 10 - 46 * flow / most
-    const words = this.words = this.config.symbols[control]
+    const words = this.words = this.tools.symbols[control]
     const bands = intervals.map((i) => `<rect class="band ${i.kind}" x="${fixed(this.x(i.low))}" y="-48" width="${fixed(Math.max(0, this.x(i.high) - this.x(i.low)))}" height="110"><title>${escape(i.sentence)}</title></rect>`)
     const lines = branches.map((b) => `<path class="branch critical ${b.stable ? "stable" : b.kind === "saddle" ? "saddle" : "unstable"}" d="${polyline(b.z.map((z, i) => [this.x(z), y(b.flow[i])]))}"/>`)
     const arrows = branches.filter((b) => b.z.length > 2).flatMap((b) => [0.25, 0.5, 0.75].map((share) => {
@@ -148,7 +161,7 @@ export class Along {
       <text x="-86" y="70">${plain(span[0])}</text><text x="96" y="70" text-anchor="end">${plain(span[1])}</text><text class="title" x="5" y="70" text-anchor="middle">${escape(words)}</text><path class="value"/>`
     this.find(".along-points").innerHTML = points.filter((p) => p.kind !== "node-focus").slice(0, 12).map((p) => `<li><button type="button" data-z="${p.z}"><svg viewBox="-5 -5 10 10">${p.kind === "equilibrium" ? `<circle r="3" style="fill:${p.stable ? "currentColor" : "none"}"/>` : shape(p.kind === "equator" ? "transcritical" : p.kind)}</svg><span>${escape(words)} = ${digits(p.z, 6)}</span><span class="note">${escape(p.sentence)}</span></button></li>`).join("")
     for (const button of this.find(".along-points").querySelectorAll("button")) button.onclick = () => this.setControls({[control]: Number(button.dataset.z)})
-    const symbols = this.config.slowSymbols ?? []
+    const symbols = this.tools.slowSymbols()
     this.find(".which").hidden = symbols.length < 2
     this.which.innerHTML = symbols.slice(0, 4).map((symbol, i) => `<option value="${slowName(i)}"${slowName(i) === control ? " selected" : ""}>${escape(symbol)}</option>`).join("")
     this.drawPlane()
@@ -158,7 +171,7 @@ export class Along {
     this.find(".plane-box").hidden = !this.planeData
     if (!this.planeData) return
     const {arrows} = this.planeData
-    this.find(".plane-box h2").textContent = `Slow flow in the plane of ${(this.config.slowSymbols ?? []).slice(0, 2).join(" and ")}`
+    this.find(".plane-box h2").textContent = `Slow flow in the plane of ${(this.tools.slowSymbols()).slice(0, 2).join(" and ")}`
     const most = Math.max(1e-12, ...arrows.map(([, , u, v]) => Math.hypot(u, v)))
     const parts = arrows.map(([z1, z2, u, v, stable]) => {
       const [px, py] = this.place(z1, z2), size = 11 * Math.sqrt(Math.hypot(u, v) / most), turn = Math.atan2(-v, u) * 180 / Math.PI
@@ -167,3 +180,5 @@ export class Along {
     this.plane.innerHTML = `${parts.join("")}<circle class="here" r="4.4"/>`
   }
 }
+
+register("along", (box, tools) => new Along(box, tools))

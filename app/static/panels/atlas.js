@@ -1,9 +1,11 @@
 // The panel "Atlas": two parameters as a plane, with a portrait of each of its regions.
 // The plane of f comes in closed form and belongs to f(z); any other two axes are mapped by the server at rest.
 
-import {Pad, regionClass} from "../pad.js"
-import {rangeFor, reachFor} from "../ranges.js"
+import {axesMarkup, AxisChoice, ZoomButtons} from "../axes.js"
 import {polygons} from "../frames.js"
+import {Pad, regionClass} from "../pad.js"
+import {register} from "../panels.js"
+import {rangeFor, reachFor} from "../ranges.js"
 
 const CURVE_NAMES = {
   transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", closed_equator: "cycle at the equator", determinant: "det A = 0", undefined: "undefined",
@@ -12,13 +14,27 @@ const CURVE_OF = {
   transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "saddle_node", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant",
 }
 
-export class Atlas {
-  // `move` sets controls: {name: value}. `choose` sets an axis.
-  constructor(root, config, move, zoom) {
-    this.box = root.querySelector(".panel-atlas")
-    this.config = config
-    this.setControls = move
-    this.find = (name) => this.box.querySelector(name)
+const MARKUP = `${axesMarkup({across: "across", up: "up"}, "atlas_zoom")}
+  <svg class="pad" viewBox="-100 -100 200 200" role="application" tabindex="0" aria-label="The atlas: two parameters with the regions of one portrait each. Drag the handle, or use the arrow keys"></svg>
+  <p class="pad-key pad-names"></p>
+  <p class="pad-key pad-curves"></p>
+  <p class="pad-key cycle-curves" data-control="cycle_curves" hidden><label><input type="checkbox">bifurcations of limit cycles (some seconds)</label></p>
+  <p class="note atlas-note"></p>
+  <div class="thumbnails" role="group" aria-label="A portrait of each region"></div>`
+
+class Atlas {
+  constructor(box, tools) {
+    box.innerHTML = MARKUP
+    this.box = box
+    this.tools = tools
+    this.setControls = tools.move
+    this.find = (name) => box.querySelector(name)
+    this.lists = ["across", "up"].map((name) => new AxisChoice(name, this.find(`select.${name}`), tools))
+    this.zoom = new ZoomButtons("atlas_zoom", this.find(".zoom"), tools)
+    const cycles = this.find(".cycle-curves input")
+    cycles.checked = tools.values.cycle_curves === "show"
+    cycles.addEventListener("change", () => tools.choose("cycle_curves", cycles.checked ? "show" : "hide"))
+    tools.follow("cycle_curves", (value) => { cycles.checked = value === "show" })
     this.plane = {size: 0, curves: {}, regions: [], points: []}
     this.map = this.empty = {of: "", regions: [], curves: {}, points: []}
     this.of = "" // the axes that the server draws, and whether they are the plane of f
@@ -28,8 +44,6 @@ export class Atlas {
       const tile = event.target.closest("button")
       if (tile) this.go(this.tiles[tile.dataset.tile].at)
     })
-    this.find(".zoom .in").addEventListener("click", () => zoom(Math.min(6, this.values.atlas_zoom + 1)))
-    this.find(".zoom .out").addEventListener("click", () => zoom(Math.max(0, this.values.atlas_zoom - 1)))
     for (const [type, on] of [["pointerover", true], ["pointerout", false], ["focusin", true], ["focusout", false]]) {
       this.find(".thumbnails").addEventListener(type, (event) => {
         const tile = event.target.closest("button")
@@ -63,6 +77,7 @@ export class Atlas {
   }
 
   apply({header, blocks}, late) {
+    for (const list of this.lists) list.apply(header.axes)
     const lines = (name, size) => polygons(blocks[`${name}.n`], blocks[`${name}.xy`], size)
     if ("atlas_size" in header) {
       const size = header.atlas_size
@@ -106,12 +121,11 @@ export class Atlas {
 
   draw(values) {
     this.values = values
-    const words = this.axes.map((name) => this.config.symbols[name] ?? "")
+    const words = this.axes.map((name) => this.tools.symbols[name] ?? "")
     const chart = this.isPlane ? this.chartOfPlane(values) : this.chartOfMap()
     const here = this.pad.draw({...chart, words, old: this.old})
     if (here !== this.here) { this.here = here; this.markTiles("here", here) }
-    this.find(".zoom .in").disabled = values.atlas_zoom >= 6
-    this.find(".zoom .out").disabled = values.atlas_zoom <= 0
+    this.zoom.draw(values)
     this.find(".cycle-curves").hidden = !this.isPlane || !this.possible
     this.find(".atlas-note").textContent = this.why ?? ""
     this.find(".thumbnails").hidden = Boolean(this.why)
@@ -138,9 +152,9 @@ export class Atlas {
   }
 
   chartOfMap() {
-    const handle = this.axes.map((name) => this.config.valueOf(name))
+    const handle = this.axes.map((name) => this.tools.valueOf(name))
     const {of, spans, regions, curves, points} = this.map.of === this.of ? this.map : this.empty
-    const box = of ? spans : this.axes.map((name, i) => rangeFor(this.config.ranges[name] ?? [-4, 4], handle[i]))
+    const box = of ? spans : this.axes.map((name, i) => rangeFor(this.tools.ranges[name] ?? [-4, 4], handle[i]))
     return {box, regions, curves, points, handle, here: handle, path: null}
   }
 
@@ -161,3 +175,5 @@ export class Atlas {
     this.here = null
   }
 }
+
+register("atlas", (box, tools) => new Atlas(box, tools))

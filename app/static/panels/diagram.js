@@ -1,7 +1,9 @@
 // The panel "Diagram": limit directions, critical sets and cycles along one parameter, over the range of its slider.
 // A click sets the parameter; a click on a special point goes exactly there.
 
+import {axesMarkup, AxisChoice, ZoomButtons} from "../axes.js"
 import {shape} from "../marks.js"
+import {register} from "../panels.js"
 import {fixed, polyline} from "../svg.js"
 import {digits, escape, minus, plain} from "../words.js"
 
@@ -10,12 +12,21 @@ const LEFT = -86
 const RIGHT = 96
 const TURN = 2 * Math.PI
 
-export class Diagram {
-  constructor(root, config, move, zoom) {
-    this.box = root.querySelector(".panel-diagram")
-    this.config = config
-    this.setControls = move
-    this.find = (name) => this.box.querySelector(name)
+const MARKUP = `${axesMarkup({along: "along"}, "zoom")}
+  <svg class="diagram" role="slider" tabindex="0" aria-label="Bifurcation diagram: click to set the parameter, or use the arrow keys"></svg>
+  <p class="pad-key diagram-key"></p>
+  <p class="note diagram-note"></p>
+  <ul class="special-list"></ul>`
+
+class Diagram {
+  constructor(box, tools) {
+    box.innerHTML = MARKUP
+    this.box = box
+    this.tools = tools
+    this.setControls = tools.move
+    this.find = (name) => box.querySelector(name)
+    this.list = new AxisChoice("along", this.find("select.along"), tools)
+    this.zoom = new ZoomButtons("zoom", this.find(".zoom"), tools)
     this.svg = this.find(".diagram")
     this.data = null
     this.svg.addEventListener("pointerdown", (event) => {
@@ -33,14 +44,12 @@ export class Diagram {
       if (!way || !this.data) return
       event.preventDefault()
       const [low, high] = this.data.span
-      this.go(this.rounded(this.config.valueOf(this.values.along) + way * (high - low) / (event.shiftKey ? 20 : 200)))
+      this.go(this.rounded(this.tools.valueOf(this.values.along) + way * (high - low) / (event.shiftKey ? 20 : 200)))
     })
     this.find(".special-list").addEventListener("click", (event) => {
       const item = event.target.closest("button")
       if (item) this.go(this.special[item.dataset.special].value)
     })
-    this.find(".zoom .in").addEventListener("click", () => zoom(Math.min(6, this.values.zoom + 1)))
-    this.find(".zoom .out").addEventListener("click", () => zoom(Math.max(0, this.values.zoom - 1)))
   }
 
   go(value) { this.setControls({[this.values.along]: value}) }
@@ -59,6 +68,7 @@ export class Diagram {
   }
 
   apply({header}, late) {
+    this.list.apply(header.axes)
     const unable = header.unable?.diagram
     let fresh = Boolean(unable)
     if (header.diagram) { this.data = {...header.diagram, cycles: null}; this.why = ""; fresh = true }
@@ -77,15 +87,14 @@ export class Diagram {
 
   draw(values) {
     this.values = values
-    this.find(".zoom .in").disabled = values.zoom >= 6
-    this.find(".zoom .out").disabled = values.zoom <= 0
+    this.zoom.draw(values)
     const line = this.svg.querySelector(".value")
     if (!line || !this.fits()) return
-    const value = this.config.valueOf(values.along)
+    const value = this.tools.valueOf(values.along)
     const x = fixed(this.x(value))
     line.setAttribute("d", x >= LEFT - 0.01 && x <= RIGHT + 0.01 ? `M${x} ${this.top}V${this.bottom}` : "")
     this.svg.setAttribute("aria-valuenow", value)
-    this.svg.setAttribute("aria-valuetext", `${this.config.symbols[values.along]} = ${plain(value)}`)
+    this.svg.setAttribute("aria-valuetext", `${this.tools.symbols[values.along]} = ${plain(value)}`)
     for (const item of this.find(".special-list").querySelectorAll("button")) item.classList.toggle("here", this.special[item.dataset.special].value === value)
   }
 
@@ -134,7 +143,7 @@ export class Diagram {
     }
     this.bottom = top
     const [low, high] = span
-    const words = this.config.symbols[this.data.control]
+    const words = this.tools.symbols[this.data.control]
     parts.push(`<text x="${LEFT}" y="${top + 8}">${minus(plain(low))}</text><text x="${RIGHT}" y="${top + 8}" text-anchor="end">${minus(plain(high))}</text><text class="title" x="${(LEFT + RIGHT) / 2}" y="${top + 8}" text-anchor="middle">${words}</text>`)
     parts.push('<path class="value"/>')
     parts.push(...special.map((one, i) => this.mark(one, i, angles, radii, amplitudes)))
@@ -156,3 +165,5 @@ export class Diagram {
     return `<g class="special" data-special="${i}" transform="translate(${fixed(at)} ${fixed(height)})"><title>${escape(kind)} at ${minus(plain(value))}. ${escape(sentence)}</title><circle class="catch" r="6"/>${shape(kind)}</g>`
   }
 }
+
+register("diagram", (box, tools) => new Diagram(box, tools))

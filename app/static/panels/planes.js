@@ -2,6 +2,7 @@
 // moving slider leaves while the panel is open.
 
 import {eigenvalues, kindAt} from "../jacobian.js"
+import {register} from "../panels.js"
 import {meet} from "../regions.js"
 import {fixed, polyline} from "../svg.js"
 import {digits, eigen, escape} from "../words.js"
@@ -9,9 +10,9 @@ import {digits, eigen, escape} from "../words.js"
 const TRAIL = 90 // positions remembered
 const PLANE_NAME = 7.8 // size of the letters, where a plane is 200 wide
 
-export class Planes {
-  constructor(root) {
-    this.box = root.querySelector(".panel-planes")
+class Planes {
+  constructor(box) {
+    this.box = box
     this.trail = []
     this.critical = null
     this.beside = null // the curve over n, or the points of the families
@@ -141,3 +142,5 @@ export class Planes {
     return `<circle class="now${C.kind.startsWith("stable") ? " filled" : ""}" cx="${fixed(x)}" cy="${fixed(y)}" r="4"><title>${C.label}: ${C.kind}</title></circle>`
   }
 }
+
+register("planes", (box) => new Planes(box))

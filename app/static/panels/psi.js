@@ -1,12 +1,15 @@
 // The panel "Ψ" (fig:component): Ψ(s), and the smooth step L(l; ε) = l/√(l² + ε²Ψ(l²/ε²)) along a line through 0.
 
+import {register} from "../panels.js"
 import {fixed, polyline} from "../svg.js"
 import {escape, plain} from "../words.js"
 
-export class PsiCurves {
-  constructor(root) {
-    this.box = root.querySelector(".panel-psi")
-    this.svg = this.box.querySelector(".psi-curves")
+class PsiCurves {
+  constructor(box) {
+    box.innerHTML = `<svg class="series psi-curves" viewBox="-100 -98 200 200" role="img" aria-label="Psi, and the smooth step that it makes"></svg>
+      <p class="pad-key psi-key"></p>`
+    this.box = box
+    this.svg = box.querySelector(".psi-curves")
   }
 
   apply({header}) {
@@ -45,3 +48,5 @@ export class PsiCurves {
     return modulus[i - 1] + share * (modulus[i] - modulus[i - 1])
   }
 }
+
+register("psi", (box) => new PsiCurves(box))

@@ -1,22 +1,39 @@
 // The panel "Time": one motion, for the chosen ε and in the limit ε → 0, as curves over time and in the picture.
 
 import {Ball} from "../ball.js"
+import {slider} from "../controls.js"
+import {register} from "../panels.js"
 import {fixed, polyline} from "../svg.js"
 import {digits, escape, plain, slowName} from "../words.js"
 
 const PHASE = {slip: "slips", slide: "slides", cross: "crosses"}
 const PLAY_SECONDS = 9 // for the whole motion
 
-export class Motion {
-  // `move` sets controls; `trace(paths, place)` draws paths and the moving point in the picture, or clears them.
-  constructor(root, config, move, trace) {
-    this.box = root.querySelector(".panel-time")
-    this.config = config
-    this.setControls = move
-    this.trace = trace
-    this.find = (name) => this.box.querySelector(name)
+const MARKUP = `<div class="control typed" data-control="launch"><label for="c2-launch">start</label><input type="text" id="c2-launch" class="text" placeholder="x, y, z₁, …" spellcheck="false" autocomplete="off"><p class="error" role="alert" hidden></p></div>
+  <div class="time-body">
+    <div class="row"><button type="button" class="play" aria-pressed="false">▶ Play</button><button type="button" class="here" title="Start from the z of the sliders">start at this z</button></div>
+    <p class="note phase-now" aria-live="off"></p>
+    <svg class="series" viewBox="-100 -72 200 160" role="slider" tabindex="0" aria-label="The motion over time: drag to move along it"></svg>
+    <p class="pad-key time-key"></p>
+    <canvas class="ball" hidden role="img" aria-label="The ball, seen from above"></canvas>
+    <ul class="phases"></ul>
+  </div>
+  <p class="note time-note"></p>`
+
+class Motion {
+  constructor(box, tools) {
+    const {symbols, docs} = tools
+    box.innerHTML = ["log_eps", "t_end"].map((name) => slider(name, symbols[name], docs[name])).join("") + MARKUP
+    this.tools = tools
+    this.setControls = tools.move
+    this.trace = tools.trace
+    this.find = (name) => box.querySelector(name)
+    const launch = this.find("[data-control=launch] input")
+    launch.value = tools.values.launch
+    launch.addEventListener("change", () => tools.choose("launch", launch.value))
+    tools.follow("launch", (value) => { launch.value = value })
     this.svg = this.find(".series")
-    this.ball = new Ball(root, this.find(".ball"))
+    this.ball = new Ball(tools.root, this.find(".ball"))
     this.at = 0
     this.svg.addEventListener("pointerdown", (event) => { this.svg.setPointerCapture(event.pointerId); this.dragging = true; this.toggle(false); this.drag(event) })
     this.svg.addEventListener("pointermove", (event) => { if (this.dragging) this.drag(event) })
@@ -50,11 +67,15 @@ export class Motion {
 
   draw(values) {
     this.values = values
-    const open = values.panel === "time"
-    if (open === this.open) return
-    this.open = open
-    if (!open) this.toggle(false)
+    if (this.open) return
+    this.open = true
     this.show()
+  }
+
+  close() {
+    this.open = false
+    this.toggle(false)
+    this.trace(null)
   }
 
   get end() { return Math.max(this.motion.t.at(-1), this.limit?.t.at(-1) ?? 0) }
@@ -88,7 +109,7 @@ export class Motion {
   }
 
   show(moved = false) {
-    if (!this.open || !this.motion) { if (!this.open) this.trace(null); return }
+    if (!this.open || !this.motion) return
     const x = -86 + 182 * this.at / this.end
     this.svg.querySelector(".value")?.setAttribute("d", `M${fixed(x)} ${this.top}V${this.bottom}`)
     this.svg.setAttribute("aria-valuenow", this.at)
@@ -141,5 +162,7 @@ export class Motion {
     this.show()
   }
 
-  slowSymbol(i) { return this.config.slowSymbols?.[i] ?? (this.motion.states.length === 3 ? "z" : `z${"₁₂₃₄"[i]}`) }
+  slowSymbol(i) { return this.tools.slowSymbols()[i] ?? (this.motion.states.length === 3 ? "z" : `z${"₁₂₃₄"[i]}`) }
 }
+
+register("time", (box, tools) => new Motion(box, tools))

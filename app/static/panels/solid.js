@@ -1,21 +1,24 @@
 // The panel "3-D": the hemisphere of the blowup, or hemispheres stacked along z. Turned here, without asking the server.
 
+import {register} from "../panels.js"
 import {digits, plain} from "../words.js"
 
-export class Stack {
-  // `choose(view)` is called when another view is chosen.
-  constructor(root, config, choose) {
-    this.root = root
-    this.config = config
-    this.box = root.querySelector(".panel-solid")
-    this.find = (name) => this.box.querySelector(name)
+class Stack {
+  constructor(box, tools) {
+    const buttons = Object.entries(tools.settings.views).map(([view, words]) => `<button type="button" data-view="${view}">${words}</button>`)
+    box.innerHTML = `<div class="row">${buttons.join("")}</div>
+      <canvas class="solid" tabindex="0" role="application" aria-label="The blowup in three dimensions: drag to turn, or use the arrow keys"></canvas>
+      <p class="note solid-note"></p>`
+    this.box = box
+    this.tools = tools
+    this.find = (name) => box.querySelector(name)
     this.canvas = this.find("canvas")
     this.azimuth = -0.6
     this.elevation = 0.5
     this.view = "sphere"
     this.data = {}
     this.why = {}
-    for (const button of this.box.querySelectorAll("[data-view]")) button.addEventListener("click", () => choose(button.dataset.view))
+    for (const button of this.box.querySelectorAll("[data-view]")) button.addEventListener("click", () => tools.choose("solid", button.dataset.view))
     this.canvas.addEventListener("pointerdown", (event) => { this.canvas.setPointerCapture(event.pointerId); this.from = [event.clientX, event.clientY] })
     this.canvas.addEventListener("pointermove", (event) => {
       if (!this.from) return
@@ -67,7 +70,7 @@ export class Stack {
     g.setTransform(ratio, 0, 0, ratio, 0, 0)
     g.clearRect(0, 0, w, h)
     g.lineCap = g.lineJoin = "round"
-    const style = getComputedStyle(this.root)
+    const style = getComputedStyle(this.tools.root)
     this.colour = (name) => style.getPropertyValue(`--${name}`).trim()
     for (const button of this.box.querySelectorAll("[data-view]")) button.setAttribute("aria-pressed", button.dataset.view === this.view)
     const data = this.data[this.view]
@@ -210,7 +213,7 @@ export class Stack {
     g.font = "12px system-ui, sans-serif"; g.fillStyle = this.colour("soft"); g.textAlign = "center"
     for (const value of [low, high]) { // below the lowest disc, above the highest
       const [x, y] = this.project([0, 0, up(share(value))]), away = this.scale * Math.sin(this.elevation)
-      g.fillText(`${this.config.symbols[data.control]} = ${plain(value)}`, x, value === low ? y + away + 16 : y - away - 7)
+      g.fillText(`${this.tools.symbols[data.control]} = ${plain(value)}`, x, value === low ? y + away + 16 : y - away - 7)
     }
     g.textAlign = "left"
   }
@@ -248,3 +251,5 @@ export class Stack {
     g.fillStyle = this.colour("crit"); g.fill(); g.restore()
   }
 }
+
+register("solid", (box, tools) => new Stack(box, tools))

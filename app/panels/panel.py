@@ -1,0 +1,51 @@
+"""What a panel beside the picture is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..frame.draft import Draft
+
+STATIC = Path(__file__).parents[1] / "static" / "panels"
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A panel: its tab, what a frame brings while it is open, and the script that draws it.
+
+    Attributes
+    ----------
+    key : str
+        Its name in the address and in ``register("KEY", ...)`` of its script.
+    title : str
+        The word on its tab.
+    add : callable
+        Adds to a frame under way what the open panel shows.
+    tip : str
+        What is seen in it, in one sentence, for the tab's tooltip.
+    settings : mapping
+        What its script is told besides, as ``tools.settings``; JSON.
+    folder : Path
+        Where KEY.js is and, if the panel has rules of its own, KEY.css.
+    """
+
+    key: str
+    title: str
+    add: Callable[[Draft], None]
+    tip: str = ""
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    folder: Path = STATIC
+
+    @property
+    def script(self) -> Path:
+        """Return the panel's ES module."""
+        return self.folder / f"{self.key}.js"
+
+    @property
+    def style(self) -> str:
+        """Return the panel's rules; "" if it has none."""
+        path = self.folder / f"{self.key}.css"
+        return path.read_text(encoding="utf-8") if path.is_file() else ""
