@@ -19,7 +19,7 @@ from codim2_core.examples import catalogue
 from codim2_core.psi.function import Psi
 
 from ..draw.layers import LAYERS, shown
-from .choices import AXES, MAX_TRAJECTORIES, OWN_AXIS, SLOW_CONTROLS, SOLIDS
+from .choices import AXES, MAX_TRAJECTORIES, OWN_AXIS, PANELS, SLOW_CONTROLS, SOLIDS
 from .chosen import NORMAL, TITLES, starting_launch, starting_z
 from .portraits import portraits
 
@@ -80,7 +80,7 @@ class ExplorerState(param.Parameterized):
         doc="What is drawn.",
     )
     preset = param.String("", label="Portrait", doc="A figure of the paper; the values start from it.")
-    panel = param.Selector(default="atlas", objects=["atlas"], label="Panel", doc="What is open beside the picture.")
+    panel = param.Selector(default="atlas", objects=list(PANELS), label="Panel", doc="What is open beside the picture.")
     along = param.String("f1", label="Along", doc="Parameter of the bifurcation diagram.")
     zoom = param.Integer(0, bounds=(0, 6), label="Zoom", doc="The diagram shows a 4^zoom-th of the slider's range.")
     across = param.String("f1", label="Across", doc="Horizontal axis of the atlas.")

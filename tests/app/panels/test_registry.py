@@ -5,6 +5,7 @@ import re
 import pytest
 from codim2_app.panels import registry
 from codim2_app.panels.panel import Panel
+from codim2_app.state.choices import PANELS
 from codim2_app.state.controls import ExplorerState, InputError, clean
 from codim2_app.view.markup import config, explorer_html, script
 
@@ -15,6 +16,7 @@ def test_tabs_scripts_and_settings_follow_the_registry():
     assert re.findall(r'role="tab" id="c2-tab-(\w+)"', page) == keys
     assert re.findall(r'role="tabpanel" id="c2-panel-(\w+)"', page) == keys
     assert re.findall(r'^register\("(\w+)"', script(), re.MULTILINE) == keys
+    assert {*keys} == {*PANELS}  # a state on its own knows the same ones, by their scripts
     assert list(config(ExplorerState())["panels"]) == keys
     assert all(panel.tip for panel in registry.PANELS.values())
 
