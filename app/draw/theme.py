@@ -34,6 +34,8 @@ PAGE: Mapping[str, tuple[str, str]] = {
 
 #: Half the width of the picture: the disc has radius 1.
 VIEW = 1.75
+#: Half the width of what is seen at the nearest and at the widest.
+NEAREST, WIDEST = 0.05, 12.0
 #: Radius up to which the scene is computed: the corners of the square picture.
 REACH = 2.45
 

@@ -184,7 +184,7 @@ function wire({model, view, root, plot}) {
   for (const [name, sentence] of Object.entries(config.errors ?? {})) controls[name]?.say(sentence)
   paint(); showLayers(); showFamily(); tell(); showPanels()
   root.dataset.ready = "true"
-  return {values, requests, picture, apply}
+  return {values, requests, picture, apply, plot}
 }
 
 // JupyterLab takes arrows and letters for its commands, on the document and before any element is asked; the window is
@@ -207,7 +207,7 @@ export function render({model, view, el}) {
     keepKeys(root)
   }
   root.querySelector(".bokeh").append(model.get_child("picture"))
-  wire({model, view, root, plot: view.model.data.picture})
+  Object.assign(root, {explorer: wire({model, view, root, plot: view.model.data.picture})}) // for tests, and for whoever looks
   // The server's drawing stays until Bokeh has painted.
   const drawing = root.querySelector(".first")
   requestAnimationFrame(() => setTimeout(() => drawing.remove(), 150))

@@ -13,7 +13,7 @@ from jinja2 import Environment, FileSystemLoader, Template, select_autoescape
 from codim2_core.psi import FAMILIES
 
 from ..draw.layers import LAYERS, TRACES, looks, swatches, table
-from ..draw.theme import HATCHES, VIEW, custom_properties, themes
+from ..draw.theme import DISCS, HATCHES, RING, VIEW, custom_properties, themes
 from ..panels.outcomes import WORDS as OUTCOMES
 from ..panels.registry import PANELS
 from ..state.choices import MAX_TRAJECTORIES, SLOW_CONTROLS
@@ -37,7 +37,7 @@ def _template(name: str) -> Template:
 def stylesheet() -> str:
     """Return all rules, those of the panels last; they are scoped to `.codim2`, and their colours are the table's."""
     own = (STATIC / "explorer.css").read_text(encoding="utf-8")
-    return "\n".join((custom_properties(), swatches(), own, *(panel.style for panel in PANELS.values())))
+    return "\n".join((custom_properties(), own, swatches(), *(panel.style for panel in PANELS.values())))
 
 
 @cache
@@ -68,7 +68,7 @@ def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]
         },
         "presets": {item["key"]: item for item in portraits()},
         "themes": themes(),
-        "hatches": HATCHES,
+        "measures": {"discs": DISCS, "ring": RING, "hatches": HATCHES},
         "view": VIEW,
         "locked": list(locked),
     }

@@ -77,6 +77,11 @@ class Explorer:
     def picture(self):
         return self.find(".picture").screenshot()
 
+    def ask(self, script):
+        """Return the value of a script that may use `picture`, and `view`, Bokeh's view of the plot."""
+        names = "const {picture} = root.explorer, view = picture.drawn.view?.plot_view;"
+        return self.find(".codim2").evaluate(f"(root) => {{ {names} return {script} }}")
+
     def type(self, control, text):
         box = self.find(f"[data-control={control}] .number")
         box.fill(text)

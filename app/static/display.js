@@ -1,0 +1,91 @@
+// What the picture shows, as a list of things to draw from bottom to top, in data space: the projected hemisphere is
+// the unit disc, y upward. Nothing here knows pixels of the plot; `paint.js` draws the list, tests read it.
+
+/**
+ * @typedef {object} State
+ * @property {any[]} table  the layers from bottom to top, as draw/layers.py lists them
+ * @property {string[]} layers  names of those that are shown
+ * @property {string[]} old  names of those whose data are older than the rest, and so not drawn
+ * @property {Record<string, any>} header  the newest of each entry of the frames' headers
+ * @property {Record<string, any>} blocks  the newest of each array of the frames
+ * @property {Record<string, string>} theme  colours by name
+ * @property {{discs: number[], ring: [number, number], hatches: Record<string, string>}} measures
+ */
+
+/** @param {State} state */
+export function displayList({table, layers, old, header, blocks, theme, measures}) {
+  /** @type {any[]} */
+  const list = [
+    {kind: "page", colour: theme.page},
+    {kind: "discs", radii: measures.discs, colour: theme.shade, alpha: Number(theme["shade-alpha"])},
+  ]
+  const shown = table.filter(({name}) => layers.includes(name) && !old.includes(name))
+  for (const {name, parts} of shown) {
+    if (name === "basins" && header.basins) list.push(cells(header.basins, blocks.basins, theme))
+    if (name === "outcomes" && header.outcomes) list.push(...arcs(header.outcomes, theme, measures))
+    for (const part of parts) if (blocks[`${part.name}.n`]) list.push(curves(name, part, blocks, theme))
+  }
+  // heads lie over all curves, or else those of the lower layers would be crossed out
+  for (const {name, parts} of shown) {
+    for (const part of parts) if (blocks[`${part.name}.at`]?.length) list.push(heads(name, part, blocks, theme))
+  }
+  list.push(...circle(header, theme))
+  for (const name of ["equator", "critical"]) {
+    if (header[name] && shown.some((layer) => layer.name === name)) list.push(...marks(name, header[name], theme))
+  }
+  return list
+}
+
+// The motion of the panel "Time" and its limit, as [xs, ys] each, and the moving point.
+export function traceList(parts, paths, place, theme) {
+  const list = []
+  for (const part of parts) {
+    const path = paths?.[part.name]
+    if (path) list.push({kind: "path", layer: "trace", part: part.name, x: path[0], y: path[1], colour: theme[part.colour], width: part.width, dash: part.dash})
+  }
+  if (paths && place) list.push({kind: "mark", layer: "trace", shape: "circle", x: place[0], y: place[1], size: 12, width: 2.4, colour: theme.page, fill: theme.motion})
+  return list
+}
+
+function curves(layer, part, blocks, theme) {
+  const {name, colour, width, dash} = part
+  return {kind: "curves", layer, part: name, counts: blocks[`${name}.n`], points: blocks[`${name}.xy`], colour: theme[colour], width, dash}
+}
+
+function heads(layer, {name, colour}, blocks, theme) {
+  return {kind: "heads", layer, part: name, points: blocks[`${name}.at`], angles: blocks[`${name}.angle`], colour: theme[colour], size: 6.5}
+}
+
+function cells({cells: count, colours}, runs, theme) {
+  return {kind: "cells", layer: "basins", count, runs, colours: colours.map((key) => theme[key] ?? null), alpha: 0.3}
+}
+
+function arcs({start, end, kind}, theme, {ring: [inner, outer], hatches}) {
+  return kind.map((key, i) => ({
+    kind: "arc", layer: "outcomes", start: start[i], end: end[i], inner, outer, colour: theme[key], hatch: hatches[key], ink: theme.page,
+  }))
+}
+
+// The equator, thick where every direction is a limit direction, and the sense of theta' along it.
+function circle(header, theme) {
+  const all = header.all_directions
+  /** @type {any[]} */
+  const list = [{kind: "circle", radius: 1, colour: all ? theme.degenerate : theme.ink, width: all ? 6 : 2}]
+  for (const [x, y, angle] of header.sense ?? []) list.push({kind: "head", layer: "sense", x, y, angle, colour: theme.ink, size: 10})
+  return list
+}
+
+function marks(layer, columns, theme) {
+  const list = columns.label.map((_, i) => {
+    const colour = theme[columns.colour[i]]
+    return {
+      kind: "mark", layer, shape: columns.shape[i], x: columns.x[i], y: columns.y[i], size: columns.size[i],
+      width: 2.5, colour, fill: columns.filled[i] ? colour : theme.page,
+    }
+  })
+  const back = theme.page
+  const labels = layer === "equator"
+    ? columns.label.map((text, i) => ({kind: "label", layer, text, x: columns.label_x[i], y: columns.label_y[i], dx: 0, dy: 0, align: "center", size: 15, colour: theme.ink, back}))
+    : columns.label.map((text, i) => ({kind: "label", layer, text: `${text} ${columns.sense[i]}`.trim(), x: columns.x[i], y: columns.y[i], dx: 13, dy: -11, align: "left", size: 16, colour: theme.ink, back}))
+  return [...list, ...labels]
+}

@@ -1,0 +1,64 @@
+"""The picture as a browser has it: what is exported, what a tooltip says, what a motion adds."""
+
+import re
+
+import pytest
+
+pytestmark = pytest.mark.browser
+
+
+def exported(explorer):
+    """The picture as the save tool writes it, as SVG."""
+    return explorer.ask("view.export('svg').ctx.get_serialized_svg(true)")
+
+
+def test_the_exported_svg_holds_what_is_drawn(explorer):
+    svg = exported(explorer)
+    drawn = explorer.ask("""picture.list.filter((item) => item.kind === "curves").map((item) => [
+        item.colour, item.counts.length, item.points.length / 2])""")
+    assert len(drawn) == 10
+    for colour, pieces, points in filter(lambda row: row[1], drawn):
+        paths = [path for path in re.findall(r"<path [^>]*>", svg) if f'stroke="{colour}"' in path]
+        found = [re.search(r' d="([^"]*)"', path)[1] for path in paths]
+        assert (pieces, points - pieces) in [(path.count("M"), path.count("L")) for path in found]
+    for label in ("Q₁", "Q₂", "Q₃", "Q₄", "C ⊗"):
+        assert label in svg
+
+
+def test_the_exported_png_holds_the_picture(explorer):
+    colours = explorer.ask("""(({ctx, canvas}) => {
+        const {data} = ctx.getImageData(0, 0, canvas.width, canvas.height)
+        return new Set(new Uint32Array(data.buffer)).size })(view.export('png'))""")
+    assert colours > 500
+
+
+def test_the_document_is_small(explorer):
+    assert explorer.page.evaluate("Bokeh.documents[0]._all_models.size") < 40
+
+
+def test_a_mark_tells_its_numbers(explorer):
+    explorer.type("f2", "0.3")
+    explorer.page.wait_for_timeout(400)
+    x, y = explorer.ask("""(() => {
+        const c = picture.list.find((item) => item.kind === "mark" && item.layer === "critical")
+        const box = view.canvas_view.primary.canvas.getBoundingClientRect()
+        return [box.x + view.frame.x_scale.compute(c.x), box.y + view.frame.y_scale.compute(c.y)] })()""")
+    explorer.page.mouse.move(x, y, steps=3)
+    tip = explorer.find(".codim2-tip")
+    tip.wait_for()
+    words = tip.text_content()
+    assert "C stable node" in words
+    assert "(c, s) = (−0.250, 0.300)" in words  # -A^-1 f; then x2 = e / sqrt(1 - |e|^2) with Psi = 1
+    assert "(x₂, y₂) = (−0.272, 0.326)" in words
+
+
+def test_a_motion_lies_above_the_picture_and_leaves_it_alone(explorer):
+    explorer.open("?k1=0&k2=0&panel=time")  # z follows the motion, and the portrait does not depend on z
+    explorer.page.wait_for_timeout(500)
+    assert [item["kind"] for item in explorer.ask("picture.above.list")] == ["path", "path", "mark"]
+    before = explorer.ask("[picture.drawn.paints, picture.above.paints]")
+    explorer.find(".panel-time .series").press("ArrowRight")
+    explorer.page.wait_for_timeout(300)
+    after = explorer.ask("[picture.drawn.paints, picture.above.paints]")
+    assert after[0] == before[0]
+    assert after[1] > before[1]
