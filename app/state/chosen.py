@@ -70,15 +70,16 @@ BOXES: Mapping[str, tuple[Box, ...]] = MappingProxyType(
         ),
     }
 )
-#: What the choice is called, in the order in which it is offered.
-TITLES: Mapping[str, str] = MappingProxyType(
-    {
+
+
+def titles() -> dict[str, str]:
+    """Return what each choice is called, in the order in which it is offered."""
+    return {
         NORMAL: "e-linear normal form",
         TYPED: "e-linear, coefficients as text",
         **{key: example.title for key, example in catalogue.items()},
         OWN: "Your own",
     }
-)
 
 
 def texts_of(choice: str, texts: Mapping[str, str]) -> dict[str, str]:
@@ -92,7 +93,7 @@ def build(choice: str, texts: Mapping[str, str], parameters: Mapping[str, float]
     Parameters
     ----------
     choice : str
-        A key of `TITLES` other than "normal".
+        A key of `titles` other than "normal".
     texts : mapping of box to text
         As far as they differ from the first ones.
     parameters : mapping of str to float

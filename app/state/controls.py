@@ -20,7 +20,7 @@ from codim2_core.psi.function import Psi
 
 from ..draw.layers import LAYERS, shown
 from .choices import AXES, MAX_TRAJECTORIES, OWN_AXIS, PANELS, SLOW_CONTROLS, SOLIDS
-from .chosen import NORMAL, TITLES, starting_launch, starting_z
+from .chosen import NORMAL, starting_launch, starting_z, titles
 from .portraits import portraits
 
 MOST_ENTRIES = 16  # of a mapping that a browser sends
@@ -48,7 +48,9 @@ class ExplorerState(param.Parameterized):
     d = _number(-1.0, -4, 4, "d", "Last entry of A = [[a, −b], [b, d]].")
     f1 = _number(-0.5, -3, 3, "f₁", "First component of f at z = 0.")
     f2 = _number(0.0, -3, 3, "f₂", "Second component of f at z = 0.")
-    system = param.Selector(default=NORMAL, objects=list(TITLES), label="System", doc="Which system is drawn.")
+    system = param.Selector(
+        default=NORMAL, objects=list(titles()), check_on_set=False, label="System", doc="Which system is drawn."
+    )
     texts = param.Dict({}, label="Formulas", doc="Typed formulas, by box, as far as they differ from the first ones.")
     parameters = param.Dict({}, label="Parameters", doc="Parameters of the chosen system, by name.")
     z = _number(0.0, -4, 4, "z", "Position along the discontinuity set.")
@@ -201,7 +203,8 @@ def clean(name: str, value: Any) -> Any:
             raise InputError(name, f"{declared.label}: {value} given; give a whole number from {low} to {high}.")
         return int(count)
     if type(declared) is param.Selector:
-        objects = psi_families.FAMILIES if name == "psi" else declared.objects
+        listed = {"psi": psi_families.FAMILIES, "system": titles()}  # what has been registered is among them
+        objects = listed.get(name, declared.objects)
         if value not in objects:
             raise InputError(name, f"{declared.label}: {value!r} given; choose one of {', '.join(objects)}.")
         return str(value)

@@ -17,7 +17,7 @@ from ..draw.theme import DISCS, HATCHES, RING, VIEW, custom_properties, themes
 from ..panels.outcomes import WORDS as OUTCOMES
 from ..panels.registry import PANELS
 from ..state.choices import MAX_TRAJECTORIES, SLOW_CONTROLS
-from ..state.chosen import BOXES, TITLES
+from ..state.chosen import BOXES, titles
 from ..state.controls import NUMBERS, ExplorerState, slider_range
 from ..state.portraits import portraits
 from .bundle import bundle
@@ -103,7 +103,7 @@ def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, 
         layers={layer.name: layer.words for layer in LAYERS.values()},
         panels=PANELS,
         outcomes=OUTCOMES,
-        systems=TITLES,
+        systems=titles(),
         slow_controls=SLOW_CONTROLS,
         values=values,
         locked=locked,

@@ -5,10 +5,18 @@ All are in the units of their parameters; `catalogue` lists them with the ranges
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+from ..systems.elinear import ELinear
+from ..systems.typed import System
+from .attracting_repelling import attracting_repelling
+from .ball_in_pool import ball_in_pool
+from .ball_on_turntable import ball_on_turntable
 from .example import GRAVITY, Example
-from .literature import ball_on_turntable, tilting_block, unit_vector_control
-from .offered import catalogue
-from .paper import attracting_repelling, ball_in_pool, nonunique_sliding
+from .nonunique_sliding import nonunique_sliding
+from .offered import catalogue, register, unregister
+from .tilting_block import tilting_block
+from .unit_vector_control import unit_vector_control
 
 __all__ = [
     "GRAVITY",
@@ -18,6 +26,15 @@ __all__ = [
     "ball_on_turntable",
     "catalogue",
     "nonunique_sliding",
+    "register",
     "tilting_block",
     "unit_vector_control",
+    "unregister",
 ]
+
+
+def __getattr__(name: str) -> Callable[..., ELinear | System]:
+    """Make ``examples.NAME`` of a registered example its function."""
+    if name in catalogue:
+        return catalogue[name].make
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

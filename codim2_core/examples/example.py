@@ -11,18 +11,20 @@ from ..systems.typed import System
 GRAVITY = 9.81  # m/s²
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
 class Example:
     """One example as the explorer offers it.
 
     Attributes
     ----------
-    key, title, label : str
-        The function's name, what people call it, and the paper's label or the literature.
+    make : callable
+        The function; its name is the example's key, its keyword arguments are the parameters.
+    title, label : str
+        What people call it, and the paper's label or the kind of system.
+    source : str
+        Who wrote it down.
     sentence : str
         What there is to see.
-    make : callable
-        The function; its keyword arguments are the parameters.
     ranges : mapping of str to (low, high)
         In which each parameter is interesting.
     z : tuple of float
@@ -35,13 +37,38 @@ class Example:
         For how long.
     """
 
-    key: str
+    make: Callable[..., ELinear | System]
     title: str
     label: str
+    source: str
     sentence: str
-    make: Callable[..., ELinear | System]
     ranges: Mapping[str, tuple[float, float]]
     z: tuple[float, ...]
     slow: tuple[tuple[str, float, float], ...]
     launch: tuple[float, ...]
     t_end: float
+
+    @property
+    def key(self) -> str:
+        """The function's name."""
+        return self.make.__name__
+
+    def check(self) -> None:
+        """See that the numbers fit the system.
+
+        Raises
+        ------
+        ValueError
+            They do not.
+        """
+        system = self.make()
+        m = len(self.z)
+        system.at(self.z)
+        unknown = [name for name in self.ranges if name not in dict(system.parameters)]
+        if unknown:
+            raise ValueError(f"ranges of {self.key} name {unknown[0]!r}, which is no parameter of its system.")
+        if len(self.slow) != m or len(self.launch) != 2 + m:
+            raise ValueError(
+                f"{self.key} starts at z with {m} values, and gives {len(self.slow)} slow variables and a state of "
+                f"{len(self.launch)} values; give {m} and {2 + m}."
+            )

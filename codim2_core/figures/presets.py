@@ -136,4 +136,47 @@ def _all() -> dict[str, Preset]:
     return found | bifurcation_presets() | example_presets()
 
 
-presets: Mapping[str, Preset] = MappingProxyType(_all())
+_known = _all()
+_LISTED = frozenset(_known)
+presets: Mapping[str, Preset] = MappingProxyType(_known)  # by name, in the order of menus; grows with `register`
+
+
+def register(preset: Preset) -> Preset:
+    """List a preset of your own beside the paper's figures, for this process.
+
+    Parameters
+    ----------
+    preset : Preset
+        With name, group and title.
+
+    Returns
+    -------
+    Preset
+        The same.
+
+    Raises
+    ------
+    ValueError
+        It is no Preset, its name is missing or taken, or its system, Psi and z do not go together.
+    """
+    if not isinstance(preset, Preset):
+        raise ValueError(f"preset is of type {type(preset).__name__}; give a Preset.")
+    if not preset.name or not preset.title or preset.name in _known:
+        raise ValueError(f"the preset is named {preset.name!r}, {preset.title!r}; give a name of its own, and a title.")
+    preset.psi.check()  # both say what is wrong, if anything is
+    preset.system.at(preset.z)
+    _known[preset.name] = replace(preset, group=preset.group or "Your own")
+    return _known[preset.name]
+
+
+def unregister(name: str) -> None:
+    """Take a registered preset off the list; the paper's figures stay.
+
+    Raises
+    ------
+    ValueError
+        There is no such preset, or it is the paper's.
+    """
+    if name not in _known or name in _LISTED:
+        raise ValueError(f"{name!r} is no preset that was registered.")
+    del _known[name]

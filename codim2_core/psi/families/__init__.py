@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from importlib import import_module
 from types import MappingProxyType
 
-from . import constant, custom, exponential, hill, rational, tanh
 from .record import Family, Parameter
 
 __all__ = ["FAMILIES", "Family", "Parameter", "listed", "register", "unregister"]
 
-LISTED: tuple[Family, ...] = (
-    constant.FAMILY,
-    rational.FAMILY,
-    exponential.FAMILY,
-    tanh.FAMILY,
-    hill.FAMILY,
-    custom.FAMILY,
+NAMES = (
+    "constant",
+    "rational",
+    "exponential",
+    "tanh",
+    "hill",
+    "custom",
 )
+LISTED: tuple[Family, ...] = tuple(import_module(f".{name}", __package__).FAMILY for name in NAMES)
 
 _known: dict[str, Family] = {family.name: family for family in LISTED}
 FAMILIES: Mapping[str, Family] = MappingProxyType(_known)  # by name, in the order of menus; grows with `register`
@@ -49,7 +50,7 @@ def register(family: Family) -> Family:
     if not family.formula:
         raise ValueError(f"the family {family.name!r} has no formula; give its text in s, such as '1/(1+s)**2'.")
     family.expression()
-    typed = _known.pop(custom.FAMILY.name)
+    typed = _known.pop(next(name for name, one in _known.items() if one.typed))
     _known[family.name] = family
     _known[typed.name] = typed
     return family

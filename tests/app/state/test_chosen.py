@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from codim2_app.state.chosen import BOXES, OWN, TITLES, TYPED, TextError, build, describe, starting_z, texts_of
+from codim2_app.state.chosen import BOXES, OWN, TYPED, TextError, build, describe, starting_z, texts_of, titles
 
 import codim2_core as c2
 from codim2_core import examples
 
 
-@pytest.mark.parametrize("choice", [key for key in TITLES if key != "normal"])
+@pytest.mark.parametrize("choice", [key for key in titles() if key != "normal"])
 def test_every_choice_opens_with_a_picture_and_a_control_for_each_of_its_names(choice):
     system = build(choice, {}, {})
     z = starting_z(choice) or (0.0,) * system.m

@@ -1,10 +1,9 @@
-"""The paper's three systems, sec:examples."""
+"""Ball at the bottom of a pool, sec:ballpool: slips, sticks and rolls."""
 
 from __future__ import annotations
 
 from ..systems.elinear import ELinear
-from ..systems.typed import System
-from .example import GRAVITY
+from .example import GRAVITY, Example
 
 
 def ball_in_pool(mu: float = 0.2, m: float = 1.0, K: float = 1.0, g: float = GRAVITY) -> ELinear:
@@ -37,15 +36,15 @@ def ball_in_pool(mu: float = 0.2, m: float = 1.0, K: float = 1.0, g: float = GRA
     )
 
 
-def attracting_repelling() -> System:
-    """Attracting and repelling directions, sec:mateslidecross, eq:ex4p5: some approaches cross, others slide."""
-    return System(U=("2*c**2 - c - 1/2", "-s"), W=("-z",))
-
-
-def nonunique_sliding() -> System:
-    """Sliding that depends on the direction of approach, sec:nonunique, eq:exmult: two stable critical sets."""
-    return System(
-        U=("-c*(c - chi(z)/2)*(c + chi(z)/2)", "-s/2"),
-        W=("-2*c + 1/4",),
-        definitions={"chi(z)": "(1 + 2*z**2)/(1 + z**2)"},
-    )
+EXAMPLE = Example(
+    make=ball_in_pool,
+    title="Ball at the bottom of a pool",
+    label="sec:ballpool",
+    source="N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, sec:ballpool",
+    sentence="It sticks and rolls where |z| < 7μmg/(2K); faster, it slips.",
+    ranges={"mu": (0.05, 1.0), "m": (0.2, 3.0), "K": (0.0, 4.0), "g": (1.0, 20.0)},
+    z=(4.0, 0.0),
+    slow=(("v₁", -12.0, 12.0), ("v₂", -12.0, 12.0)),
+    launch=(9.0, 3.0, 9.0, 0.0),
+    t_end=5.0,
+)

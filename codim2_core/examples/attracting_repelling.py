@@ -1,0 +1,25 @@
+"""Attracting and repelling directions, sec:mateslidecross, eq:ex4p5: some approaches cross, others slide."""
+
+from __future__ import annotations
+
+from ..systems.typed import System
+from .example import Example
+
+
+def attracting_repelling() -> System:
+    """Attracting and repelling directions, sec:mateslidecross, eq:ex4p5: some approaches cross, others slide."""
+    return System(U=("2*c**2 - c - 1/2", "-s"), W=("-z",))
+
+
+EXAMPLE = Example(
+    make=attracting_repelling,
+    title="Attracting and repelling directions",
+    label="sec:mateslidecross",
+    source="N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, sec:mateslidecross",
+    sentence="Trajectories that arrive within π/3 of θ = 0 cross, all others slide.",
+    ranges={},
+    z=(0.5,),
+    slow=(("z", -2.0, 2.0),),
+    launch=(-1.0, 1.2, 1.0),
+    t_end=3.0,
+)

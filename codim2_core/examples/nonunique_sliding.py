@@ -1,0 +1,29 @@
+"""Sliding that depends on the direction of approach, sec:nonunique, eq:exmult: two stable critical sets."""
+
+from __future__ import annotations
+
+from ..systems.typed import System
+from .example import Example
+
+
+def nonunique_sliding() -> System:
+    """Sliding that depends on the direction of approach, sec:nonunique, eq:exmult: two stable critical sets."""
+    return System(
+        U=("-c*(c - chi(z)/2)*(c + chi(z)/2)", "-s/2"),
+        W=("-2*c + 1/4",),
+        definitions={"chi(z)": "(1 + 2*z**2)/(1 + z**2)"},
+    )
+
+
+EXAMPLE = Example(
+    make=nonunique_sliding,
+    title="Non-unique sliding",
+    label="sec:nonunique",
+    source="N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, sec:nonunique",
+    sentence="Two stable critical sets with different slow flows: sliding depends on the side of approach.",
+    ranges={},
+    z=(0.0,),
+    slow=(("z", -1.5, 1.5),),
+    launch=(-0.25, 0.3, -0.4),
+    t_end=5.0,
+)
