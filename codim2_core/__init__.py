@@ -13,9 +13,10 @@ from .figures.presets import presets
 from .layer_problem import hemisphere
 from .layer_problem.critical import CriticalSet, critical_sets
 from .layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+from .motion.events import Event
 from .motion.nonsmooth import simulate_nonsmooth
 from .motion.regularised import simulate
-from .motion.result import Phase, Simulation
+from .motion.result import Phase, Simulation, SimulationStatus
 from .orbits.trajectories import Trajectories, trajectories
 from .portrait.basins import Basins, basins
 from .portrait.classify import Classification, Degeneracy, classify
@@ -44,6 +45,7 @@ __all__ = [
     "ELinear",
     "EquatorCycle",
     "EquatorEquilibria",
+    "Event",
     "FilippovSliding",
     "Frozen",
     "LimitCycle",
@@ -56,6 +58,7 @@ __all__ = [
     "Separatrices",
     "Separatrix",
     "Simulation",
+    "SimulationStatus",
     "SlowPortrait",
     "System",
     "Trajectories",

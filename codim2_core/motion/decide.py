@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,9 @@ from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 
 Array = NDArray[np.float64]
+
+AT_MIDDLE = 1e-12  # |p| of a critical set that x = y = 0 lies on
+AROUND, BESIDE = 8, 1e-3  # orbits from around such a set that does not attract, and how far from it they start
 
 
 @dataclass(frozen=True)
@@ -83,13 +86,12 @@ def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Ver
     return _followed(system, psi, at, verdict, onto, leaving, reason)
 
 
-def in_disc(psi: Psi, e: Array) -> Array:
-    """Point (2,) of the projected disc at which e_Psi = e, |e| < 1."""
-    modulus = math.hypot(e[0], e[1])
-    if modulus == 0.0:
-        return np.zeros(2)
-    zeta = float(psi.radius(modulus))
-    return e / modulus * (zeta / math.hypot(1.0, zeta))
+def critical_name(system: AnySystem, psi: Psi, z: Array, e: Array) -> str:
+    """Name of the critical set at e: "C", or "C1", ... in the order of `critical_sets` where there are several."""
+    sets = critical_sets(system, psi, tuple(z.tolist()))
+    if len(sets) < 2:
+        return "C"
+    return f"C{1 + min(range(len(sets)), key=lambda k: float(np.hypot(*(sets[k].e - e))))}"
 
 
 def _followed(
@@ -121,6 +123,35 @@ def _index(label: str | None) -> int:
     return int(digits) - 1 if digits else 0
 
 
+def from_middle(system: AnySystem, psi: Psi, z: Array) -> Verdict:
+    """Decide what follows from a state on Sigma: x = y = 0 is p = 0 for every eps, so its orbit of the layer problem.
+
+    Parameters
+    ----------
+    system, psi, z
+        As in `arriving`.
+    """
+    at = tuple(z.tolist())
+    equator = equator_equilibria(system, at)
+    sets = critical_sets(system, psi, at)
+    middle = [i for i, C in enumerate(sets) if math.hypot(*C.p.tolist()) <= AT_MIDDLE]
+    if middle:
+        i = middle[0]
+        onto = "C" if len(sets) == 1 else f"C{i + 1}"
+        if _stable(sets[i]):
+            return Verdict("slide", f"On Σ, x = y = 0 is the {sets[i].kind} {onto}: sliding.", sets[i].e, onto=onto)
+        angle = math.tau * np.arange(AROUND) / AROUND
+        ring = BESIDE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        verdict = from_hemisphere(system, psi, z, ring)
+        return replace(verdict, reason=f"On Σ, x = y = 0 is {onto} itself, which does not attract. {verdict.reason}")
+    border = np.flatnonzero(equator.radially_degenerate)
+    if len(border) == 1 and not any(_stable(C) for C in sets):
+        theta = float(equator.theta[border[0]])
+        return Verdict("border", "The critical set lies on the equator.", _unit(theta), theta, "C")
+    verdict = from_hemisphere(system, psi, z, np.zeros((1, 2)))
+    return replace(verdict, reason=f"On Σ, x = y = 0 is the middle of the hemisphere. {verdict.reason}")
+
+
 def starting(system: AnySystem, psi: Psi | None, z: Array) -> Verdict:
     """Decide what follows from a state on Sigma, when nothing is known of how it came there.
 
@@ -132,10 +163,13 @@ def starting(system: AnySystem, psi: Psi | None, z: Array) -> Verdict:
     Returns
     -------
     Verdict
-        Sliding if there is one attractor on the open hemisphere; otherwise, with none, the one way out; otherwise stop.
+        If psi is given, by the orbit of the layer problem through p = 0. Otherwise sliding if there is one attractor on
+        the open hemisphere; with none, the one way out; else stop.
     """
+    if psi is not None:
+        return from_middle(system, psi, z)
     at = tuple(z.tolist())
-    asked = compared() if psi is None else [psi]
+    asked = compared()
     stable = [tuple(i for i, C in enumerate(critical_sets(system, own, at)) if _stable(C)) for own in asked]
     if any(choice != stable[0] for choice in stable):
         return Verdict("stop", "Whether the critical set is stable depends on Ψ: give psi.")
@@ -149,14 +183,8 @@ def starting(system: AnySystem, psi: Psi | None, z: Array) -> Verdict:
         reason = f"On Σ there is one stable critical set, {onto}: sliding.{_also(system, at)}"
         return Verdict("slide", reason, sets[i].e, onto=onto)
     cycles = [(i, cycle) for i, cycle in enumerate(limit_cycles(system, own, at)) if cycle.stable]
-    if len(cycles) == 1 and psi is not None:
-        reason = (
-            "On Σ the one attractor is a limit cycle: sliding, with z' averaged over the cycle (prop:LC)."
-            f"{_also(system, at)}"
-        )
-        return Verdict("cycle", reason, sets[0].e, onto=f"cycle {cycles[0][0] + 1}")
     if cycles:
-        return Verdict("stop", "There are several limit cycles, or psi was not given: sliding is not unique on Σ.")
+        return Verdict("stop", "There are limit cycles, and psi was not given: sliding is not unique on Σ.")
     equator = equator_equilibria(system, at)
     border = np.flatnonzero(equator.radially_degenerate)
     if len(border) == 1:

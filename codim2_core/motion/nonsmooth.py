@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from dataclasses import field as made_with
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,8 +16,14 @@ from ..numerics.radau import Problem, Step, TooManyStepsError
 from ..psi import constructors
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .decide import Verdict, arriving, from_hemisphere, in_disc, starting
+from .decide import Verdict, arriving, critical_name, from_hemisphere, starting
+from .dense import Dense, dense
+from .events import Events, Watch, checked_events
 from .field import Field, field
+from .followed import in_disc
+from .growth import BlowUpError
+from .line import Line, invariant_line
+from .places import Ascent, Leaving, OfState, OnCycle, OnSet, Place
 from .problem import plane_problem
 from .regularised import MAX_STEPS, checked_span, checked_state, checked_tolerances
 from .result import Phase, Simulation, SimulationStatus, simulation
@@ -29,13 +37,43 @@ Array = NDArray[np.float64]
 
 ON_SIGMA = 1e-200  # rho below which a state is on Sigma
 CLOSER = 1e-4  # a trajectory that turns before Sigma is followed this much closer, and asked again
-MOST_PHASES = 1000
 AROUND = 16  # points of a cycle that has ended, from which orbits are followed
 PAST = 1e-6  # of the time ahead: how far past a Hopf bifurcation its cycle is looked for
 
 
 class _Stop(Exception):
     """The limit is not unique, or not known; the message says why."""
+
+
+class _AtEventError(Exception):
+    """A terminal event."""
+
+
+@dataclass(frozen=True)
+class _Part:
+    """A phase whose motion is under way: made a `Phase` when all of it is known."""
+
+    phase: Phase
+    times: list[float]
+    ascent: Ascent | None
+    e: Sequence[Array] = ()  # at `times`, while it slides
+    p: Sequence[Array] = ()  # also, while it slides on a cycle of a general system
+    theta: float | None = None  # in which a crossing leaves
+
+    def placed(self, course: _Course, motion: Dense) -> Phase:
+        phase, times = self.phase, np.array(self.times)
+        e, p = (np.array(column[: len(times)]) for column in (self.e, self.p))
+        times = times[: len(e)] if len(e) else times
+        where: Place
+        if self.theta is not None:
+            where = Leaving(self.theta)
+        elif phase.kind != "slide":
+            where = OfState(motion, None, 0.0, phase.t_start, phase.t_end)
+        elif len(p):
+            where = OnCycle(times, e, p)
+        else:
+            where = OnSet(course.system, course.own, motion, times, e)
+        return replace(phase, _place=where, _ascent=self.ascent)
 
 
 @dataclass
@@ -46,6 +84,8 @@ class _Course:
     psi: Psi | None
     formulas: Field
     problem: Problem
+    line: Line | None
+    watch: Watch
     t: float
     state: Array
     t_end: float
@@ -53,7 +93,8 @@ class _Course:
     atol: float
     most: int
     taken: list[Step] = made_with(default_factory=list)
-    phases: list[Phase] = made_with(default_factory=list)
+    parts: list[_Part] = made_with(default_factory=list)
+    ascent: Ascent | None = None  # of the phase to come
 
     @property
     def own(self) -> Psi:
@@ -61,27 +102,70 @@ class _Course:
 
     @property
     def left(self) -> int:
-        return self.most - len(self.taken) - len(self.phases)
+        return self.most - len(self.taken) - len(self.parts)
 
-    def add(self, kind: str, taken: list[Step], reason: str, onto: str | None = None) -> None:
-        start = self.t
-        if taken:
-            self.taken += taken
-            self.t, self.state = max(taken[-1].end, start), taken[-1].last
-        self.phases.append(Phase(kind, start, self.t, reason, onto))
+    def add(
+        self,
+        kind: str,
+        taken: list[Step],
+        reason: str,
+        onto: str | None = None,
+        e: Sequence[Array] = (),
+        p: Sequence[Array] = (),
+    ) -> None:
+        """Add a phase, as far as no terminal event stops it."""
+        start, kept, stopped = self.t, list[Step](), False
+        for step in taken:
+            last = self.watch.step(step)
+            kept.append(step if last is None else last)
+            if last is not None:
+                stopped = True
+                break
+        times = [start, *(step.end for step in kept)]
+        if kept:
+            self.taken += kept
+            self.t, self.state = max(kept[-1].end, start), kept[-1].last
+        self.parts.append(_Part(Phase(kind, start, self.t, reason, onto), times, self.ascent, e, p))
+        self.ascent = None
+        if stopped:
+            raise _AtEventError
 
     def run(self) -> None:
-        if not self.state[:2].any():
-            verdict: Verdict | None = starting(self.system, self.psi, self.state[2:])
-            verdict = self.at_border(verdict) if verdict.kind == "border" else verdict
-        else:
-            verdict = self.slip([], "The motion starts outside Σ.")
+        on = not self.state[:2].any()
+        verdict = self.first() if on else self.slip([], "The motion starts outside Σ.")
         while verdict is not None and self.t < self.t_end:
-            if self.left <= 0 or len(self.phases) > MOST_PHASES:
+            if self.left <= 0:
                 raise TooManyStepsError
             if verdict.kind == "stop":
                 raise _Stop(verdict.reason)
             verdict = self.leave(verdict) if verdict.kind == "leave" else self.slide(verdict)
+
+    def first(self) -> Verdict:
+        """Decide what follows from a start on Sigma."""
+        if self.line is not None:
+            return self.in_line(0.0, "The motion starts at Σ, in an invariant line.")
+        verdict = starting(self.system, self.psi, self.state[2:])
+        if self.psi is not None:
+            self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=np.zeros(2))
+        return self.at_border(verdict) if verdict.kind == "border" else verdict
+
+    def in_line(self, q: float, reason: str) -> Verdict:
+        """Decide what follows on Sigma in an invariant line, where the layer problem is that of one variable."""
+        assert self.line is not None
+        z, n = self.state[2:], self.line.n
+        onward = self.line.onward(q, z)
+        if onward is None:
+            if self.line.slope(q, z) >= 0.0:
+                return Verdict("stop", f"{reason} It rests on a critical set that repels along the line.")
+            onward = q
+        self.ascent = Ascent(self.system, self.own, z, along=(in_disc(self.own, q * n), in_disc(self.own, onward * n)))
+        if abs(onward) < 1.0:
+            e = onward * n
+            onto = critical_name(self.system, self.own, z, e)
+            return Verdict("slide", f"{reason} Along it comes the critical set {onto}: sliding.", e, onto=onto)
+        theta = math.atan2(*(onward * n)[::-1].tolist())
+        reason = f"{reason} Along it there is no critical set: crossing, it leaves along θ = {theta:.4g}."
+        return Verdict("leave", reason, theta=theta)
 
     def slip(self, begun: list[Step], reason: str) -> Verdict | None:
         """Slip, and decide what follows at Sigma."""
@@ -93,24 +177,38 @@ class _Course:
             part = slip(self.problem, t, state, self.t_end, self.rtol, self.left, largest)
             if part.theta is None:
                 self.add("slip", taken + part.taken, reason)
+                if part.stopped is not None:
+                    raise part.stopped
                 return None
-            verdict = arriving(self.system, self.psi, part.taken[-1].last[2:], part.theta)
+            if self.line is not None:
+                self.add("slip", taken + part.taken, reason)
+                q = float(self.line.n @ [math.cos(part.theta), math.sin(part.theta)])
+                return self.crossed(self.in_line(math.copysign(1.0, q), "Arrives at Σ in an invariant line."))
+            z = part.taken[-1].last[2:]
+            verdict = arriving(self.system, self.psi, z, part.theta)
             if verdict.kind != "away":
                 self.add("slip", taken + part.taken, reason)
-                if verdict.kind == "leave":
-                    self.phases.append(Phase("cross", self.t, self.t, verdict.reason))
-                return verdict
+                self.ascent = Ascent(self.system, self.own, z, part.theta)
+                return self.crossed(verdict)
             # It will turn away from Sigma: go on from where it was close, and look again from closer.
             taken += part.taken[:-1]
             t, state = taken[-1].end, taken[-1].last
             largest = math.hypot(state[0], state[1]) * CLOSER
 
+    def crossed(self, verdict: Verdict) -> Verdict:
+        """Name the crossing, where what follows an arrival is to leave."""
+        if verdict.kind == "leave":
+            phase = Phase("cross", self.t, self.t, verdict.reason)
+            self.parts.append(_Part(phase, [self.t], self.ascent, theta=verdict.theta))
+            self.ascent = None
+        return verdict
+
     def leave(self, verdict: Verdict) -> Verdict | None:
         assert verdict.theta is not None
-        first = leave(self.formulas, verdict.theta, self.t, self.state[2:], self.t_end)
+        first = leave(self.formulas, verdict.theta, self.t, self.state[2:], self.t_end, self.line)
         if isinstance(first, str):
             raise _Stop(f"{verdict.reason} But {first}")
-        crossed = bool(self.phases) and self.phases[-1].kind == "cross"
+        crossed = bool(self.parts) and self.parts[-1].phase.kind == "cross"
         reason = f"Leaves Σ along θ = {verdict.theta:.4g}." if crossed else verdict.reason
         return self.slip([first], reason)
 
@@ -131,8 +229,11 @@ class _Course:
             atol=self.atol,
             most=self.left,
             lives=lives,
+            line=self.line,
         )
-        self.add("slide", part.taken, verdict.reason, verdict.onto)
+        self.add("slide", part.taken, verdict.reason, verdict.onto, part.places)
+        if part.stopped is not None:
+            raise part.stopped
         C = "C" if on_cycle else verdict.onto
         if part.end == "time":
             return None
@@ -140,6 +241,8 @@ class _Course:
             theta = math.atan2(part.e[1], part.e[0])
             reason = f"{C} reaches the equator (fig:transcrit) and sliding ends: slips away along θ = {theta:.4g}."
             return Verdict("leave", reason, theta=theta)
+        if part.end == "fold" and self.line is not None:
+            return self.past_fold_in_line(self.line, part.e, C)
         if part.end == "fold":
             return self.past_fold(part.e, C)
         if part.end == "cycle":
@@ -155,7 +258,7 @@ class _Course:
         if not len(z):
             raise _Stop(f"{verdict.reason} There is no z to follow (m = 0).")
         part = slide_on_cycle(self.system, self.own, index, self.t, z, self.t_end, self.left)
-        self.add("slide", part.taken, verdict.reason, verdict.onto)
+        self.add("slide", part.taken, verdict.reason, verdict.onto, part.e, part.p)
         if part.lives:
             return None
         if not part.taken:
@@ -168,10 +271,19 @@ class _Course:
         flow = self.formulas.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:]
         return z + part * (self.t_end - self.t) * np.array(flow)
 
+    def past_fold_in_line(self, line: Line, e: Array, C: str | None) -> Verdict:
+        """C has met another critical set in the line: the layer problem leads on from there, just past the fold."""
+        here, q = self.state.copy(), float(line.n @ e)
+        self.state[2:] = self.ahead(e, PAST)
+        verdict = self.in_line(q, f"{C} ends in a fold.")
+        self.state = here
+        return verdict
+
     def past_fold(self, e: Array, C: str | None) -> Verdict:
         """C has met another critical set and both are gone: follow the orbit that leaves the place."""
         reason = f"{C} ends in a fold (det J = 0)."
         point = in_disc(self.own, e)[None]
+        self.ascent = Ascent(self.system, self.own, self.ahead(e, PAST), start=point[0])
         # Just past the fold orbits take long to leave the place; a little further they are followed to their end.
         for further in (1.0, 1e2, 3e3):
             verdict = self.onward(reason, self.ahead(e, further * PAST), point)
@@ -235,6 +347,7 @@ def simulate_nonsmooth(
     *,
     rtol: float = 1e-10,
     atol: float = 1e-12,
+    events: Events = (),
     max_steps: int = MAX_STEPS,
 ) -> Simulation:
     """Follow one motion of eq:vf itself, as the limit eps -> 0 of the regularised system.
@@ -250,15 +363,18 @@ def simulate_nonsmooth(
     ----------
     system : ELinear, System, or one of them frozen at a z
     state0 : (2 + m,)
-        (x, y, z1, ..., zm). On Sigma (x = y = 0): slides if one critical set (or limit cycle) attracts, else leaves
-        along the one way out.
+        (x, y, z1, ..., zm). On Sigma x = y = 0 is p = 0 for every eps: the orbit of the layer problem through it
+        decides. Without psi: slides if one critical set attracts, else leaves along the one way out.
     t_span : (t_start, t_end)
         Increasing.
     psi : Psi, optional
         The regularisation of which this is the limit. Left out, the motion stops where it would matter.
     rtol, atol : float
         Error allowed in a step: rtol rho for x and y, rtol |z| + atol for z. rtol from 1e-13 to 0.01.
+    events : sequence of Event, or of callables (t, state) to float
+        As in `simulate`. An event that is zero over a while, as x is while sliding, counts where it becomes zero.
     max_steps : int
+        Steps and phases before the motion is given up, with a status that says so.
 
     Returns
     -------
@@ -291,13 +407,22 @@ def simulate_nonsmooth(
         return value(*arguments)
 
     formulas = Field(formulas.m, counted, formulas.slope)
+    line = invariant_line(formulas, first)
     problem = plane_problem(formulas, None, 0.0, rtol, atol)
-    course = _Course(system, psi, formulas, problem, t_start, first, t_end, rtol, atol, max_steps)
+    problem = problem if line is None else line.projected(problem)
+    watch = Watch(checked_events(events), t_start, first)
+    course = _Course(system, psi, formulas, problem, line, watch, t_start, first, t_end, rtol, atol, max_steps)
     status, detail = SimulationStatus.T_END, ""
     try:
         course.run()
+    except _AtEventError:
+        status = SimulationStatus.EVENT
     except _Stop as stop:
         status, detail = SimulationStatus.NOT_UNIQUE, str(stop)
-    except TooManyStepsError:
-        status = SimulationStatus.STEP_LIMIT
-    return simulation(t_start, first, course.taken, course.phases, status, detail=detail, evaluations=count[0])
+    except BlowUpError as error:
+        status, detail = SimulationStatus.BLOW_UP, str(error)
+    except TooManyStepsError as error:
+        status, detail = SimulationStatus.STEP_LIMIT, str(error)
+    motion = dense(t_start, first, course.taken)
+    phases = partial(tuple, [part.placed(course, motion) for part in course.parts])
+    return simulation(motion, phases, status, detail=detail, evaluations=count[0], events=watch.times)

@@ -1,100 +1,294 @@
-"""Phases of a regularised motion: what of it is slip, slide or cross, read off its steps."""
+"""Phases of a regularised motion: slip, slide, cross, by the set of the layer problem that its states follow.
+
+A motion is in contact with Sigma while r = |(x, y)| is of order eps: there, and only there, |p| < 1 in the limit. What
+it follows while in contact (see `followed`) makes it a slide, from the contact on; a contact that follows nothing is a
+crossing. So, as eps goes to 0, the phases become those of the nonsmooth limit, where contact takes no time.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.radau import Step
+from ..cycles.limit_cycles import limit_cycles
 from ..psi.function import Psi
-from .field import Field
-from .problem import direction
+from ..systems.kinds import AnySystem
+from .decide import critical_name, from_hemisphere
+from .dense import Dense
+from .field import Field, field
+from .followed import Followed, followed, place
+from .places import OfState
 from .result import Phase
 
 Array = NDArray[np.float64]
 
-NEAR = 20.0  # |(x, y)| in units of eps within which a state is at Sigma
-SLOW, REACH = 0.02, 1e4  # a state up to REACH eps away slides too, while |U| is below SLOW of U's size there
-BRIEF = 20.0  # times NEAR eps/|U|: a stay at Sigma that is no longer is a crossing
-HALVINGS = 40
+NEAR = 20.0  # r in units of eps within which a motion is in contact with Sigma
+HALVINGS = 45
+PASSING = (
+    35.0  # e-foldings: what does not attract, and is followed no longer than rounding takes to leave it, is passed
+)
+SAME = 0.1  # in e: two runs on one set, interrupted, whose e are no further apart
+TURNS = 2.0  # round the middle of a stay at Sigma, from which on it is asked for a limit cycle
+ON_CYCLE = 0.04  # in p, besides eps: distance to a cycle that is followed
+ASKED = 7  # states of a stay that are held against the limit cycles at their z
 
 
-def phases_of(
-    field: Field, psi: Psi, eps: float, t_start: float, first: Array, taken: Sequence[Step]
-) -> tuple[Phase, ...]:
+@dataclass(frozen=True)
+class _Run:
+    """Part of a motion, from step end `first` to `last`, on one set."""
+
+    first: int
+    last: int
+    t_start: float
+    t_end: float
+    onto: str
+    e: tuple[Array, Array] | None  # at both ends; None on a cycle
+
+
+@dataclass(frozen=True)
+class _Reader:
+    """A motion that is read."""
+
+    system: AnySystem
+    psi: Psi
+    eps: float
+    motion: Dense
+    formulas: Field
+
+    @property
+    def times(self) -> Array:
+        return self.motion.times
+
+    @property
+    def states(self) -> Array:
+        return self.motion.states
+
+    def near(self, state: Array) -> bool:
+        return math.hypot(state[0], state[1]) <= NEAR * self.eps
+
+    def set_at(self, state: Array) -> Followed | None:
+        return followed(self.formulas, self.psi, self.eps, state)
+
+    def boundary(self, i: int, holds: Callable[[Array], bool]) -> float:
+        """Time within the step from end i to end i + 1 at which `holds` changes."""
+        before = holds(self.states[i])
+        low, high = 0.0, 1.0
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if holds(self.motion.within(i, middle)) == before else (low, middle)
+        return min(float(self.times[i] + high * self.motion.lengths[i]), float(self.times[i + 1]))
+
+    def stays(self) -> Iterator[tuple[int, int]]:
+        """Contacts, as first and last step end; returns from within a middle distance belong to the same contact."""
+        r = np.hypot(self.states[:, 0], self.states[:, 1])
+        middle = max(NEAR * self.eps, math.sqrt(NEAR * self.eps * float(r.max())))
+        contact, i = r <= NEAR * self.eps, 0
+        within = r <= middle
+        while i < len(r):
+            if not contact[i]:
+                i += 1
+                continue
+            last = end = i
+            while end + 1 < len(r) and within[end + 1]:
+                end += 1
+                last = end if contact[end] else last
+            # What is followed further out, close to the equator, belongs to the contact too.
+            while last < end and self.set_at(self.states[last + 1]) is not None:
+                last += 1
+            first = i
+            while first > 0 and within[first - 1] and self.set_at(self.states[first - 1]) is not None:
+                first -= 1
+            yield first, last
+            i = end + 1
+
+    def runs(self, first: int, last: int) -> list[_Run]:
+        """Return the sets followed in one contact, in order."""
+        found = [self.set_at(self.states[i]) for i in range(first, last + 1)]
+        runs: list[_Run] = []
+        i = 0
+        while i < len(found):
+            start = found[i]
+            if start is None:
+                i += 1
+                continue
+            begin = i
+            while i + 1 < len(found) and self.goes_on(found[i], found[i + 1], first + i):
+                i += 1
+            end = found[i]
+            assert end is not None
+            run = self.on_set(first + begin, first + i, start, end)
+            if self.is_followed(run, found[begin : i + 1]):
+                runs.append(run)
+            i += 1
+        return _joined(self.with_cycles(first, last, runs))
+
+    def goes_on(self, here: Followed | None, there: Followed | None, i: int) -> bool:
+        """Whether two step ends in a row follow the same set."""
+        if here is None or there is None:
+            return False
+        middle = self.set_at(self.motion.within(i, 0.5))
+        if middle is None:
+            return bool(np.hypot(*(here.e - there.e)) < SAME)
+        return float(np.hypot(*(here.e - middle.e)) + np.hypot(*(there.e - middle.e))) < 3.0 * SAME
+
+    def on_set(self, first: int, last: int, start: Followed, end: Followed) -> _Run:
+        holds = lambda state: self.set_at(state) is not None  # noqa: E731
+        t_start = self.boundary(first - 1, holds) if first > 0 and not holds(self.states[first - 1]) else None
+        t_end = None
+        if last + 1 < len(self.times):
+            t_end = self.boundary(last, holds) if not holds(self.states[last + 1]) else float(self.times[last])
+        return _Run(
+            first,
+            last,
+            float(self.times[first]) if t_start is None else t_start,
+            float(self.times[last]) if t_end is None else t_end,
+            critical_name(self.system, self.psi, self.states[first, 2:], start.e),
+            (start.e, end.e),
+        )
+
+    def is_followed(self, run: _Run, found: list[Followed | None]) -> bool:
+        """Whether it is more than passed: anything that attracts is followed once it is reached."""
+        if any(one is not None and one.attracts for one in found):
+            return True
+        slowest = min(one.rate for one in found if one is not None)
+        return (run.t_end - run.t_start) * slowest > PASSING * self.eps
+
+    def with_cycles(self, first: int, last: int, runs: list[_Run]) -> list[_Run]:
+        """Look for limit cycles where the motion turns between the runs on critical sets."""
+        cuts = [first, *(i for run in runs for i in (run.first, run.last)), last]
+        gaps = [(cuts[k], cuts[k + 1]) for k in range(0, len(cuts), 2)]
+        found = [self.on_cycle(a, b) for a, b in gaps if b - a > 8]
+        return sorted([*runs, *(run for run in found if run is not None)], key=lambda run: run.t_start)
+
+    def on_cycle(self, first: int, last: int) -> _Run | None:
+        """Return the limit cycle that the motion follows from one step end to another."""
+        xy = self.states[first : last + 1, :2]
+        if float(np.abs(self.turned(xy))) < TURNS * math.tau:
+            return None
+        followed: list[tuple[int, str]] = []
+        for i in np.unique(np.linspace(first, last, ASKED + 1)[1:].astype(int)).tolist():
+            p = place(self.psi, self.eps, *self.states[i, :2].tolist())[1]
+            cycles = limit_cycles(self.system, self.psi, tuple(self.states[i, 2:].tolist()))
+            for k, cycle in enumerate(cycles):
+                if cycle.stable and _distance(p, cycle.points) <= ON_CYCLE + NEAR * self.eps:
+                    followed.append((i, f"cycle {k + 1}"))
+        if not followed:
+            return None
+        (begin, onto), (end, _) = followed[0], followed[-1]
+        return _Run(begin, end, float(self.times[begin]), float(self.times[end]), onto, None)
+
+    def turned(self, xy: Array) -> float:
+        """Angle through which a part of the motion turns about its middle."""
+        about = xy - 0.5 * (xy.min(axis=0) + xy.max(axis=0))
+        angle = np.unwrap(np.arctan2(about[:, 1], about[:, 0]))
+        return float(angle[-1] - angle[0])
+
+    def ahead(self, state: Array) -> str | None:
+        """Name of the set onto which the orbit of the layer problem through the state leads; None if it leaves."""
+        p = place(self.psi, self.eps, float(state[0]), float(state[1]))[1]
+        if not math.hypot(p[0], p[1]) < 1.0:
+            return None
+        try:
+            verdict = from_hemisphere(self.system, self.psi, state[2:], p[None])
+        except ValueError:  # at the edge of where the formulas are defined
+            return None
+        return verdict.onto if verdict.kind in ("slide", "cycle") else None
+
+    def phases(self) -> Iterator[Phase]:
+        """All of them: between contacts the motion slips."""
+        t, t_end = float(self.times[0]), float(self.times[-1])
+        reason = "The motion starts outside Σ."
+        for first, last in self.stays():
+            initial, final = first == 0, last + 1 == len(self.times)
+            runs = self.runs(first, last)
+            begins = t if initial else self.contact(first - 1, runs)
+            ends = t_end if final else max(self.boundary(last, self.near), runs[-1].t_end if runs else t)
+            onto = self.ahead(self.states[-1]) if final and (not runs or runs[-1].t_end < t_end) else None
+            if onto is not None:
+                if runs and runs[-1].onto == onto:
+                    runs[-1] = replace(runs[-1], t_end=t_end)
+                else:
+                    runs.append(_Run(last, last, runs[-1].t_end if runs else begins, t_end, onto, None))
+            if not runs:
+                if initial:  # it leaves, whatever follows: as in the limit, where that takes no time
+                    reason = "The motion starts at Σ, and follows nothing there."
+                    continue
+                yield Phase("slip", t, begins, reason)
+                yield Phase("cross", begins, ends, f"Passes Σ within {NEAR:g} ε, and follows nothing there: crossing.")
+                t, reason = ends, f"Leaves Σ: further than {NEAR:g} ε away."
+                continue
+            if not initial:
+                yield Phase("slip", t, begins, reason)
+            starts = [begins, *(run.t_end for run in runs[:-1])]
+            for k, (run, start) in enumerate(zip(runs, starts, strict=True)):
+                yield Phase(
+                    "slide", start, run.t_end, _why(run, "" if k else "starts" if initial else "comes"), run.onto
+                )
+            t, reason = runs[-1].t_end, f"No longer follows {runs[-1].onto}, and slips away."
+        if t < t_end or t == float(self.times[0]) == t_end:
+            yield Phase("slip", t, t_end, reason)
+
+    def contact(self, i: int, runs: list[_Run]) -> float:
+        """Time, in the step from end i on, at which a contact begins."""
+        if self.near(self.states[i + 1]) and not self.near(self.states[i]):
+            return self.boundary(i, self.near)
+        return runs[0].t_start if runs else float(self.times[i + 1])
+
+
+def phases_of(system: AnySystem, psi: Psi, eps: float, motion: Dense) -> tuple[Phase, ...]:
     """Cut a motion into phases.
 
     Parameters
     ----------
-    field : Field
+    system : ELinear, System, Coefficients or Frozen
     psi : Psi
     eps : float
-    t_start : float
-    first : ndarray (2 + m,)
-    taken : sequence of Step
-        The motion.
+    motion : Dense
 
     Returns
     -------
     tuple of Phase
-        Consecutive; "slide" where the state is within NEAR eps of Sigma, or slower than it could slip and within
-        REACH eps of it; "cross" where that lasts only as long as passing through takes.
+        Consecutive, from the first to the last time.
     """
-
-    def near(state: Array) -> bool:
-        return at_sigma(field, psi, eps, state)
-
-    cuts: list[tuple[float, bool, Array]] = [(t_start, near(first), first)]
-    for step in taken:
-        inside = near(step.last)
-        if inside != cuts[-1][1]:
-            low, high = 0.0, 1.0
-            for _ in range(HALVINGS):
-                middle = 0.5 * (low + high)
-                low, high = (low, middle) if near(step.at(middle)) == inside else (middle, high)
-            cuts.append((step.start + high * step.h, inside, step.at(high)))
-    t_end = max(taken[-1].end, t_start) if taken else t_start
-    found: list[Phase] = []
-    for i, (start, inside, state) in enumerate(cuts):
-        end = cuts[i + 1][0] if i + 1 < len(cuts) else t_end
-        last = i + 1 == len(cuts)
-        kind = "slip"
-        if inside:
-            passing = BRIEF * NEAR * eps / max(_speed(field, psi, eps, state)[1], 1e-300)
-            kind = "cross" if not last and i > 0 and end - start <= passing else "slide"
-        found.append(Phase(kind, start, max(end, start), _reason(kind, i == 0, eps)))
-    return tuple(found)
+    reader = _Reader(system, psi, eps, motion, field(system))
+    phases = list(reader.phases())
+    return tuple(replace(one, _place=OfState(motion, psi, eps, one.t_start, one.t_end)) for one in phases)
 
 
-def at_sigma(field: Field, psi: Psi, eps: float, state: Array) -> bool:
-    """Whether a state counts as sliding (or crossing): see `phases_of`."""
-    r = math.hypot(state[0], state[1])
-    if r <= NEAR * eps:
+def _why(run: _Run, how: str) -> str:
+    begun = {"starts": "The motion starts at Σ, and follows", "comes": "Comes to Σ, and follows"}.get(how, "Goes on to")
+    what = "the limit cycle" if run.onto.startswith("cycle") else "the critical set"
+    return f"{begun} {what} {run.onto} within O(ε): sliding."
+
+
+def _joined(runs: list[_Run]) -> list[_Run]:
+    """Join runs on one set that an excursion interrupts."""
+    found: list[_Run] = []
+    for run in runs:
+        before = found[-1] if found else None
+        if before is not None and before.onto == run.onto and _close(before, run):
+            found[-1] = replace(
+                before, last=run.last, t_end=run.t_end, e=(before.e[0], run.e[1]) if before.e and run.e else None
+            )
+        else:
+            found.append(run)
+    return found
+
+
+def _close(before: _Run, after: _Run) -> bool:
+    if after.first <= before.last + 1:
         return True
-    if r > REACH * eps or eps > 1.0 / REACH:
-        return False
-    speed, size = _speed(field, psi, eps, state)
-    return speed < SLOW * size
+    return not (before.e and after.e) or float(np.hypot(*(before.e[1] - after.e[0]))) < SAME
 
 
-def _speed(field: Field, psi: Psi, eps: float, state: Array) -> tuple[float, float]:
-    """Return |U| at the state, and its size: the largest |U| over e = 0 and four directions."""
-    x, y, *z = state.tolist()
-    here = field.value(*direction(psi, eps, x, y)[:2], x, y, *z)
-    around = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
-    sizes = [math.hypot(*field.value(c, s, x, y, *z)[:2]) for c, s in around]
-    return math.hypot(*here[:2]), max((size for size in sizes if size == size), default=0.0)
-
-
-def _reason(kind: str, initial: bool, eps: float) -> str:
-    if initial:
-        where = "outside Σ" if kind == "slip" else "at Σ"
-        return f"The motion starts {where}."
-    if kind == "slide":
-        return f"Comes to within {NEAR:g} ε of Σ (ε = {eps:.3g}) and stays: sliding."
-    if kind == "cross":
-        return f"Passes Σ within {NEAR:g} ε (ε = {eps:.3g}): crossing."
-    return f"Leaves Σ: further than {NEAR:g} ε away (ε = {eps:.3g})."
+def _distance(p: Array, points: Array) -> float:
+    """Distance of a point to a closed polyline."""
+    closed = np.concatenate([points, points[:1]])
+    start, along = closed[:-1], np.diff(closed, axis=0)
+    length = np.maximum((along**2).sum(axis=1), 1e-300)
+    share = np.clip(((p - start) * along).sum(axis=1) / length, 0.0, 1.0)
+    return float(np.hypot(*(start + share[:, None] * along - p).T).min())

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,37 +11,22 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.radau import Problem, Step, TooManyStepsError, steps
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from .dense import dense
+from .events import Events, Watch, checked_events
 from .field import field
+from .growth import BlowUpError, bounded
+from .line import invariant_line
 from .phases import phases_of
 from .problem import plane_problem
-from .result import Phase, Simulation, SimulationStatus, simulation
+from .result import Simulation, SimulationStatus, simulation
 
-__all__ = ["Event", "Phase", "Simulation", "SimulationStatus", "simulate"]
+__all__ = ["simulate"]
 
 Array = NDArray[np.float64]
 
 SMALLEST_EPS, LARGEST_EPS = 1e-14, 1e6
 FIRST = 1e-2  # of rho/|U|: the first step tried
 MAX_STEPS = 20_000
-
-
-@dataclass(frozen=True)
-class Event:
-    """Something to watch for.
-
-    Attributes
-    ----------
-    function : callable
-        (t, state) to a float, whose zeros are the event.
-    terminal : bool
-        Whether the motion stops there.
-    direction : int
-        +1 counts rising zeros only, -1 falling ones, 0 both.
-    """
-
-    function: Callable[[float, Array], float]
-    terminal: bool = False
-    direction: int = 0
 
 
 def checked_span(t_span: ArrayLike) -> tuple[float, float]:
@@ -88,7 +72,7 @@ def simulate(
     *,
     rtol: float = 1e-8,
     atol: float = 1e-10,
-    events: Sequence[Event | Callable[[float, Array], float]] = (),
+    events: Events = (),
     max_steps: int = MAX_STEPS,
 ) -> Simulation:
     """Follow one motion of the regularised system: eq:vf with e replaced by e_Psi, eq:ePsi.
@@ -107,19 +91,21 @@ def simulate(
         Error allowed in a step: rtol rho for x and y, rho = sqrt(x^2 + y^2 + eps^2), and rtol |z| + atol for z.
         rtol from 1e-13 to 0.01.
     events : sequence of Event, or of callables (t, state) to float
-        Their zeros are found in the dense output; an `Event` may be terminal.
+        Their zeros are found in the dense output, also several in one step; an `Event` may be terminal.
     max_steps : int
         Steps tried before the motion is given up, with a status that says so.
 
     Returns
     -------
     Simulation
-        In its phases "slide" means to be within some eps of Sigma, or very slow in (x, y) near it.
+        Its phases are read off the motion when they are first asked for: "slide" where it follows a critical set or a
+        limit cycle of the layer problem within O(eps). If it grows beyond bounds, or the step limit is reached, it
+        holds what was followed till then.
 
     Raises
     ------
     ValueError
-        An argument is invalid, or the field is not finite at state0.
+        An argument is invalid, the field is not finite at state0, or an event does not return a finite number.
 
     Examples
     --------
@@ -134,15 +120,18 @@ def simulate(
     checked_tolerances(rtol, atol, max_steps)
     formulas = field(system)
     first = checked_state(state0, formulas.m)
-    watched = tuple(event if isinstance(event, Event) else Event(event) for event in events)
     count = [0]
+    line = invariant_line(formulas, first)
     problem = plane_problem(formulas, psi, float(eps), rtol, atol)
+    problem = problem if line is None else line.projected(problem)
     rate = problem.F(first)
     if not np.isfinite(rate).all():
         raise ValueError(f"(U, W) is {rate.tolist()} at state0 = {first.tolist()}; it must be finite there.")
-    taken, times, status = _followed(_counting(problem, count), first, rate, (t_start, t_end), rtol, max_steps, watched)
-    phases = phases_of(formulas, psi, float(eps), t_start, first, taken)
-    return simulation(t_start, first, taken, phases, status, eps=float(eps), evaluations=count[0], events=times)
+    watch = Watch(checked_events(events), t_start, first)
+    taken, status, detail = _followed(_counting(problem, count), first, rate, (t_start, t_end), rtol, max_steps, watch)
+    motion = dense(t_start, first, taken)
+    phases = partial(phases_of, system, psi, float(eps), motion)
+    return simulation(motion, phases, status, detail=detail, eps=float(eps), evaluations=count[0], events=watch.times)
 
 
 def _counting(problem: Problem, count: list[int]) -> Problem:
@@ -160,49 +149,18 @@ def first_step(problem: Problem, state: Array, rate: Array) -> float:
 
 
 def _followed(
-    problem: Problem,
-    first: Array,
-    rate: Array,
-    span: tuple[float, float],
-    rtol: float,
-    max_steps: int,
-    events: Sequence[Event],
-) -> tuple[list[Step], list[list[float]], SimulationStatus]:
+    problem: Problem, first: Array, rate: Array, span: tuple[float, float], rtol: float, max_steps: int, watch: Watch
+) -> tuple[list[Step], SimulationStatus, str]:
     taken: list[Step] = []
-    times: list[list[float]] = [[] for _ in events]
-    before = [float(event.function(span[0], first)) for event in events]
+    stepping = steps(problem, *span, first, rtol, first_step(problem, first, rate), max_steps)
     try:
-        for step in steps(problem, *span, first, rtol, first_step(problem, first, rate), max_steps):
-            after = [float(event.function(step.end, step.last)) for event in events]
-            zeros: list[tuple[float, int]] = []
-            for i, event in enumerate(events):
-                rising = before[i] < 0.0 <= after[i]
-                falling = before[i] > 0.0 >= after[i]
-                if (rising and event.direction >= 0) or (falling and event.direction <= 0):
-                    zeros.append((_zero(event, step), i))
-            before = after
-            for u, i in sorted(zeros):
-                times[i].append(step.start + u * step.h)
-                if events[i].terminal:
-                    taken.append(shortened(step, u))
-                    return taken, times, SimulationStatus.EVENT
-            taken.append(step)
-    except TooManyStepsError:
-        return taken, times, SimulationStatus.STEP_LIMIT
-    return taken, times, SimulationStatus.T_END
-
-
-def _zero(event: Event, step: Step) -> float:
-    if event.function(step.end, step.last) == 0.0:
-        return 1.0
-    from scipy.optimize import root_scalar  # imported late: it takes longer than all of this package
-
-    return float(
-        root_scalar(lambda u: event.function(step.start + u * step.h, step.at(u)), bracket=(0.0, 1.0), xtol=1e-15).root
-    )
-
-
-def shortened(step: Step, u: float) -> Step:
-    """Return the first part of a step, up to its fraction u."""
-    powers = u ** np.arange(1, len(step.polynomial[0]) + 1)
-    return Step(step.start, u * step.h, step.first, step.at(u), step.polynomial * powers)
+        for step in bounded(problem, stepping):
+            last = watch.step(step)
+            taken.append(step if last is None else last)
+            if last is not None:
+                return taken, SimulationStatus.EVENT, ""
+    except BlowUpError as error:
+        return taken, SimulationStatus.BLOW_UP, str(error)
+    except TooManyStepsError as error:
+        return taken, SimulationStatus.STEP_LIMIT, str(error)
+    return taken, SimulationStatus.T_END, ""

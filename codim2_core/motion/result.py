@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.radau import STAGES, Step
+from .dense import Dense
+from .places import NONE, Ascent, Place
 
 Array = NDArray[np.float64]
+
+SAMPLES, MOST = 240, 500  # even times of a drawn motion besides the ends of its steps, and its most points
+ASCENT = 3  # every so many points of an orbit up the hemisphere are drawn
 
 
 class SimulationStatus(Enum):
@@ -21,10 +25,11 @@ class SimulationStatus(Enum):
     T_END = "Reached the end of the time span."
     EVENT = "Stopped at a terminal event."
     NOT_UNIQUE = "Stopped: in the limit ε → 0 what follows is not unique, or not known."
+    BLOW_UP = "Stopped: the motion grows beyond all bounds in finite time."
     STEP_LIMIT = (
         "Stopped at the step limit: the motion varies too fast for the time span (around a limit cycle once in a time "
-        "of order ε), grows beyond bounds, or comes to where its formulas are undefined; shorten the span, raise "
-        "max_steps, or use simulate_nonsmooth."
+        "of order ε), or comes to where its formulas are undefined; shorten the span, raise max_steps, or use "
+        "simulate_nonsmooth."
     )
 
 
@@ -35,12 +40,14 @@ class Phase:
     Attributes
     ----------
     kind : str
-        "slip" (outside Sigma), "slide" (on Sigma, or within some eps of it), or "cross" (through it at once).
+        "slide": it follows a critical set or a limit cycle of the layer problem, in the limit exactly and for eps > 0
+        within O(eps) in p, with the way onto it; "cross": it passes Sigma, and follows none; "slip": else.
     t_start, t_end : float
     reason : str
         Why it began: a sentence.
     onto : str or None
-        What it slides on: "C" (or "C1", ...), "cycle 1"; None elsewhere.
+        The set that it slides on, by its name at t_start: "C" (or "C1", ..., in the order of `critical_sets`),
+        "cycle 1"; None elsewhere.
     """
 
     kind: str
@@ -48,6 +55,79 @@ class Phase:
     t_end: float
     reason: str
     onto: str | None = None
+    _place: Place | None = field(default=None, repr=False, compare=False)
+    _ascent: Ascent | None = field(default=None, repr=False, compare=False)
+
+    def e(self, t: ArrayLike) -> Array:
+        """Return e at times within the phase: ``e_Psi`` of the state, in the limit that of the set it slides on.
+
+        On a limit cycle in the limit it is the mean over the cycle; for a crossing in the limit, which takes no time,
+        that of the direction in which it leaves.
+
+        Parameters
+        ----------
+        t : float or (...,)
+
+        Returns
+        -------
+        ndarray (..., 2)
+
+        Raises
+        ------
+        ValueError
+            A time is outside the phase.
+        """
+        return self._at(t)[0]
+
+    def p(self, t: ArrayLike) -> Array:
+        """Return the place in the projected disc at times within the phase; as `e`, with |p| = 1 on the equator.
+
+        Parameters
+        ----------
+        t : float or (...,)
+
+        Returns
+        -------
+        ndarray (..., 2)
+
+        Raises
+        ------
+        ValueError
+            A time is outside the phase.
+        """
+        return self._at(t)[1]
+
+    def _at(self, t: ArrayLike) -> tuple[Array, Array]:
+        when = np.asarray(t, float)
+        if self._place is None:
+            raise ValueError("this phase was not made by a simulation: it has no place.")
+        if when.size and not (when.min() >= self.t_start and when.max() <= self.t_end):
+            raise ValueError(f"t is {t}; this phase lasts from {self.t_start} to {self.t_end}.")
+        e, p = self._place.at(when.ravel())
+        return e.reshape(*when.shape, 2), p.reshape(*when.shape, 2)
+
+    @cached_property
+    def ascent(self) -> Array:
+        """Orbit (k, 2) of the layer problem that it begins with, in p: in the limit that takes no time; else empty."""
+        return NONE if self._ascent is None else self._ascent.path()
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """A motion as a curve of the picture; arrays are read-only.
+
+    Attributes
+    ----------
+    times : ndarray (k,)
+        Not decreasing: what takes no time in the limit has several points at one time.
+    states : ndarray (k, 2 + m)
+    points : ndarray (k, 2)
+        (1 + r) e outside in the limit, (1 + rho) p for eps > 0; p on the hemisphere.
+    """
+
+    times: Array
+    states: Array
+    points: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,16 +153,28 @@ class Simulation:
         Times of each event.
     """
 
-    times: Array
-    states: Array
-    phases: tuple[Phase, ...]
+    motion: Dense
     status: SimulationStatus
     reason: str
     eps: float
     evaluations: int
     events: tuple[Array, ...]
-    _lengths: Array
-    _polynomials: Array
+    _phases: Callable[[], tuple[Phase, ...]]
+
+    @property
+    def times(self) -> Array:
+        """Ends of the steps."""
+        return self.motion.times
+
+    @property
+    def states(self) -> Array:
+        """States there."""
+        return self.motion.states
+
+    @cached_property
+    def phases(self) -> tuple[Phase, ...]:
+        """Consecutive phases, read off the motion when first asked for."""
+        return self._phases()
 
     @cached_property
     def invariant(self) -> float:
@@ -115,33 +207,47 @@ class Simulation:
         ValueError
             t is outside the times covered, or not finite.
         """
-        when = np.asarray(t, float)
-        low, high = float(self.times[0]), float(self.times[-1])
-        if when.size and not (when.min() >= low and when.max() <= high):
-            wrong = when[~((when >= low) & (when <= high))].ravel()[0]
-            raise ValueError(f"t is {wrong}; this motion is known for {low} <= t <= {high} ({self.status.value})")
-        if not len(self._lengths):
-            return np.broadcast_to(self.states[0], (*when.shape, self.states.shape[1])).copy()
-        flat = when.ravel()
-        at = np.searchsorted(self.times, flat, side="right") - 1  # of several equal times the last
-        i = np.minimum(at, len(self._lengths) - 1)
-        u = np.clip((flat - self.times[i]) / self._lengths[i], 0.0, 1.0)
-        powers = u[:, None] ** np.arange(1, STAGES + 1)
-        found = self.states[i] + np.einsum("ijk,ik->ij", self._polynomials[i], powers)
-        found = np.where((flat == self.times[at])[:, None], self.states[at], found)
-        return found.reshape(*when.shape, self.states.shape[1])
+        return self.motion(t)
 
     def phase_at(self, t: float) -> Phase | None:
         """Return the phase at time t, at a change of phases the later one; None if the motion stopped at once."""
-        self.dense(t)  # raises where t is outside
+        self.motion(t)  # raises where t is outside
         return next((phase for phase in reversed(self.phases) if phase.t_start <= t), None)
+
+    def drawn(self) -> Drawn:
+        """Return the motion as a curve of the picture: at the ends of its steps and at even times, at most 500 points.
+
+        In the limit the orbits up the hemisphere, which take no time, are put in where phases begin with one.
+        """
+        times = self.times
+        if len(times) > 1 and times[-1] > times[0]:
+            times = np.union1d(np.linspace(times[0], times[-1], SAMPLES), times)
+            if len(times) > MOST:
+                times = times[np.unique(np.rint(np.linspace(0, len(times) - 1, MOST)).astype(int))]
+        states = self.dense(times)
+        points = states[:, :2].copy()
+        pieces: list[tuple[Array, Array, Array]] = []
+        done = 0
+        for k, phase in enumerate(self.phases):
+            last = k + 1 == len(self.phases)
+            end = len(times) if last else int(np.searchsorted(times, self.phases[k + 1].t_start, side="left"))
+            up = phase.ascent[::ASCENT]
+            state = self.dense(np.full(len(up), phase.t_start))
+            pieces.append((np.full(len(up), phase.t_start), state, up))
+            if end > done:
+                p = phase.p(np.clip(times[done:end], phase.t_start, phase.t_end))
+                rho = np.hypot(np.hypot(states[done:end, 0], states[done:end, 1]), self.eps)
+                points[done:end] = p * (1.0 + rho)[:, None]
+                pieces.append((times[done:end], states[done:end], points[done:end]))
+                done = end
+        if not pieces:
+            pieces.append((times, states, points))
+        return Drawn(*(np.concatenate(column) for column in zip(*pieces, strict=True)))
 
 
 def simulation(
-    t_start: float,
-    first: Array,
-    taken: Sequence[Step],
-    phases: Sequence[Phase],
+    motion: Dense,
+    phases: Callable[[], tuple[Phase, ...]],
     status: SimulationStatus,
     *,
     detail: str = "",
@@ -149,36 +255,18 @@ def simulation(
     evaluations: int = 0,
     events: Sequence[Sequence[float]] = (),
 ) -> Simulation:
-    """Gather steps into a result.
+    """Gather a result.
 
     Parameters
     ----------
-    t_start : float
-    first : ndarray (n,)
-        The state there; each step begins where the one before it ended.
-    taken : sequence of Step
-    phases, status, eps, evaluations, events
+    motion, status, eps, evaluations, events
         As in `Simulation`.
+    phases : callable
+        Makes the phases when they are first asked for.
     detail : str
         Added to the status as its reason.
     """
-    n = len(first)
-    times = np.maximum.accumulate(np.array([t_start, *(step.end for step in taken)]))
-    states = np.concatenate([first[None], *(step.last[None] for step in taken)])
-    lengths = np.array([step.h for step in taken])
-    polynomials = np.array([step.polynomial for step in taken]).reshape(len(taken), n, STAGES)
-    found = tuple(np.array(times_) for times_ in events)
-    for array in (times, states, lengths, polynomials, *found):
+    found = tuple(np.array(times) for times in events)
+    for array in found:
         array.flags.writeable = False
-    return Simulation(
-        times,
-        states,
-        tuple(phases),
-        status,
-        f"{status.value} {detail}".strip(),
-        eps,
-        evaluations,
-        found,
-        lengths,
-        polynomials,
-    )
+    return Simulation(motion, status, f"{status.value} {detail}".strip(), eps, evaluations, found, phases)

@@ -13,9 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.radau import STAGES, Problem, Step, StepsTooShortError, steps
+from ..numerics.radau import STAGES, Problem, Step, StepsTooShortError, TooManyStepsError, steps
 from ..psi.function import Psi
 from .field import Field
+from .growth import bounded
+from .line import Line
 from .problem import growth_bound
 
 Array = NDArray[np.float64]
@@ -127,14 +129,20 @@ class Slide:
     taken : list of Step
         Of the whole state, with x = y = 0.
     end : str
-        "time", "equator", "fold", "hopf", or "cycle" (the limit cycle it slides on is there no longer).
+        "time", "equator", "fold", "hopf", "cycle" (the limit cycle it slides on is there no longer), or "given up".
     e : ndarray (2,)
         Critical set at the end.
+    places : list of ndarray (2,)
+        The critical set at the beginning, and at the end of each step.
+    stopped : TooManyStepsError or None
+        Why it was given up; also where W is undefined from some z on.
     """
 
     taken: list[Step]
     end: str
     e: Array
+    places: list[Array]
+    stopped: TooManyStepsError | None = None
 
 
 def slide(
@@ -149,6 +157,7 @@ def slide(
     atol: float,
     most: int,
     lives: Callable[[Array], bool] | None = None,
+    line: Line | None = None,
 ) -> Slide:
     """Follow the slow flow until the critical set reaches the equator, folds, or changes stability.
 
@@ -165,14 +174,11 @@ def slide(
         Steps.
     lives : callable, optional
         For sliding on a limit cycle: whether it is still there at z.
-
-    Raises
-    ------
-    TooManyStepsError
-        Also where W is undefined from some z on.
+    line : Line, optional
+        The invariant line that the motion stays in, stable across it or not.
     """
     if not len(z):
-        return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e)
+        return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])
     sheet = Sheet(field, e, z)
     sign = math.copysign(1.0, determinant(sheet, sheet.e, z))
     turn = 1.0 if lives is None else -1.0  # around a stable cycle C is unstable: tr J > 0
@@ -181,6 +187,10 @@ def slide(
         "fold": lambda e, z: sign * determinant(sheet, e, z),
         "hopf": lambda e, z: -turn * trace(sheet, psi, e, z),
     }
+    if line is not None:
+        n = line.n
+        gauges["fold"] = lambda e, z: -float(n @ sheet.slopes(e, z)[:2, :2] @ n)
+        del gauges["hopf"]
 
     def alive(z: Array) -> bool:
         if lives is None or lives(z):
@@ -194,9 +204,10 @@ def slide(
     rate = problem.F(z)
     h = 1e-2 / float(np.max(np.abs(rate) / problem.scale(z))) if rate.any() else math.inf
     taken: list[Step] = []
+    places = [sheet.e]
     span = t_end - t
     try:
-        for step in steps(problem, t, t_end, z, rtol, h, most, SHORTEST * span):
+        for step in bounded(problem, steps(problem, t, t_end, z, rtol, h, most, SHORTEST * span), SHORTEST * span):
             after = sheet.at(step.last)
             if after is None:
                 raise StepsTooShortError
@@ -211,18 +222,22 @@ def slide(
                 last = step.at(u)
                 taken.append(_whole(step, u))
                 end = sheet.at(last)
-                return Slide(taken, name, after if end is None else end)
+                places.append(after if end is None else end)
+                return Slide(taken, name, places[-1], places)
             taken.append(_whole(step, 1.0))
-    except StepsTooShortError:
+            places.append(after)
+    except StepsTooShortError as error:
         if complement(sheet.e) < AT_EQUATOR:
-            return Slide(taken, "equator", sheet.e)
+            return Slide(taken, "equator", sheet.e, places)
         if (
             abs(determinant(sheet, sheet.e, sheet.z))
             < AT_FOLD * np.abs(sheet.slopes(sheet.e, sheet.z)[:2, :2]).max() ** 2
         ):
-            return Slide(taken, "fold", sheet.e)
-        raise
-    return Slide(taken, "time", sheet.e)
+            return Slide(taken, "fold", sheet.e, places)
+        return Slide(taken, "given up", sheet.e, places, error)
+    except TooManyStepsError as error:
+        return Slide(taken, "given up", sheet.e, places, error)
+    return Slide(taken, "time", sheet.e, places)
 
 
 def _zero(sheet: Sheet, gauge: Callable[[Array, Array], float], step: Step) -> float:

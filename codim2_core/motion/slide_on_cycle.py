@@ -36,10 +36,14 @@ class CycleSlide:
         Of the whole state, with x = y = 0.
     lives : bool
         Whether the cycle is there until the end of the time span.
+    e, p : list of ndarray (2,)
+        Their means over the cycle in time, at the beginning and at the end of each step.
     """
 
     taken: list[Step]
     lives: bool
+    e: list[Array]
+    p: list[Array]
 
 
 def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int) -> CycleSlide:
@@ -56,7 +60,9 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
     most : int
         Steps.
     """
-    middle = _middle(limit_cycles(system, psi, tuple(z.tolist()))[index])
+    first = limit_cycles(system, psi, tuple(z.tolist()))[index]
+    middle = _middle(first)
+    e, p = list[Array](), list[Array]()
     m = len(z)
 
     def rate(at: Array) -> Array:
@@ -69,7 +75,12 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
     def jacobian(at: Array) -> Array:
         nonlocal middle
         stable = [cycle for cycle in limit_cycles(system, psi, tuple(at.tolist())) if cycle.stable]
-        middle = min((_middle(cycle) for cycle in stable), key=lambda p: math.dist(p, middle), default=middle)
+        cycle = min(stable, key=lambda cycle: math.dist(_middle(cycle), middle), default=None)
+        if cycle is not None:  # asked once at the beginning, and at the end of each step
+            middle = _middle(cycle)
+            means = _means(system, psi, at, cycle)
+            e.append(means[0])
+            p.append(means[1])
         here, columns = rate(at), []
         for i in range(m):
             aside = at.copy()
@@ -92,10 +103,25 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
             first, last = np.concatenate([still, step.first]), np.concatenate([still, step.last])
             taken.append(Step(step.start, step.h, first, last, polynomial))
     except TooManyStepsError:
-        return CycleSlide(taken, False)
-    return CycleSlide(taken, True)
+        return CycleSlide(taken, False, e, p)
+    return CycleSlide(taken, True, e, p)
 
 
 def _middle(cycle: LimitCycle) -> tuple[float, float]:
     x, y = cycle.points.mean(axis=0).tolist()
     return x, y
+
+
+def _means(system: AnySystem, psi: Psi, z: Array, cycle: LimitCycle) -> tuple[Array, Array]:
+    """Means of e and of p over a cycle in the time of kappa_2, by the trapezoidal rule over its points."""
+    p = cycle.points
+    r2 = (p * p).sum(axis=1)
+    height = np.sqrt(np.maximum(1.0 - r2, 1e-300))
+    x2 = p / height[:, None]
+    zeta = np.hypot(*x2.T)
+    e = x2 * (psi.modulus(zeta) / np.maximum(zeta, 1e-300))[:, None]
+    speed = np.hypot(*system.at(tuple(z.tolist())).U(e).T)
+    distance = np.hypot(*(np.roll(x2, -1, axis=0) - x2).T)
+    time = distance / np.maximum(0.5 * (speed + np.roll(speed, -1)), 1e-300)
+    weight = 0.5 * (time + np.roll(time, 1)) / time.sum()
+    return weight @ e, weight @ p

@@ -13,8 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.radau import STAGES, Problem, Step, steps
+from ..numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
 from .field import Field
+from .growth import bounded
+from .line import Line
 
 Array = NDArray[np.float64]
 
@@ -35,10 +37,13 @@ class Slip:
     taken : list of Step
     theta : float or None
         Angle at which it arrives at Sigma; None if it ends outside, at the end of the time span.
+    stopped : TooManyStepsError or None
+        Why it was given up before.
     """
 
     taken: list[Step]
     theta: float | None
+    stopped: TooManyStepsError | None = None
 
 
 def slip(problem: Problem, t: float, state: Array, t_end: float, rtol: float, most: int, largest: float) -> Slip:
@@ -56,26 +61,25 @@ def slip(problem: Problem, t: float, state: Array, t_end: float, rtol: float, mo
         Steps.
     largest : float
         The scale of rho: it has arrived where rho is 1e-13 of that (or of a larger rho met on the way).
-
-    Raises
-    ------
-    TooManyStepsError
     """
     taken: list[Step] = []
     rate = problem.F(state)
     largest = max(largest, math.hypot(state[0], state[1]))
     h = FIRST / float(np.max(np.abs(rate) / problem.scale(state))) if rate.any() else math.inf
-    for step in steps(problem, t, t_end, state, rtol, h, most):
-        taken.append(step)
-        x, y = float(step.last[0]), float(step.last[1])
-        rho = math.hypot(x, y)
-        largest = max(largest, rho)
-        if rho <= ARRIVED * largest:
-            u, v = problem.F(step.last)[:2].tolist()
-            inward = -(x * u + y * v) / rho
-            if inward > 0.0 and step.end + rho / inward < t_end:
-                taken.append(_straight(problem, step, rho / inward))
-                return Slip(taken, math.atan2(y, x))
+    try:
+        for step in bounded(problem, steps(problem, t, t_end, state, rtol, h, most)):
+            taken.append(step)
+            x, y = float(step.last[0]), float(step.last[1])
+            rho = math.hypot(x, y)
+            largest = max(largest, rho)
+            if rho <= ARRIVED * largest:
+                u, v = problem.F(step.last)[:2].tolist()
+                inward = -(x * u + y * v) / rho
+                if inward > 0.0 and step.end + rho / inward < t_end:
+                    taken.append(_straight(problem, step, rho / inward))
+                    return Slip(taken, math.atan2(y, x))
+    except TooManyStepsError as error:
+        return Slip(taken, None, error)
     return Slip(taken, None)
 
 
@@ -95,7 +99,7 @@ def _polynomial(*terms: Array) -> Array:
     return polynomial
 
 
-def leave(field: Field, theta: float, t: float, z: Array, t_end: float) -> Step | str:
+def leave(field: Field, theta: float, t: float, z: Array, t_end: float, line: Line | None = None) -> Step | str:
     """Leave Sigma along a limit direction with lambda_rho > 0, or one whose lambda_rho just turns positive.
 
     Where lambda_rho > 0 the way out is the unstable manifold of Q in (rho, theta, z): rho = lambda_rho t + O(t^2), with
@@ -109,6 +113,8 @@ def leave(field: Field, theta: float, t: float, z: Array, t_end: float) -> Step 
         Near a zero of Theta at z.
     t, t_end : float
     z : ndarray (m,)
+    line : Line, optional
+        The invariant line that the motion stays in.
 
     Returns
     -------
@@ -116,8 +122,10 @@ def leave(field: Field, theta: float, t: float, z: Array, t_end: float) -> Step 
         The first, short step; or why there is none, as a sentence.
     """
     slow = z.tolist()
-    theta = _polished(field, theta, slow)
+    theta = _polished(field, theta, slow) if line is None else theta
     c, s = math.cos(theta), math.sin(theta)
+    if line is not None:  # exactly
+        c, s = (math.copysign(1.0, line.n[0] * c + line.n[1] * s) * line.n).tolist()
     u, v, *w = field.value(c, s, 0.0, 0.0, *slow)
     D = field.jacobian(c, s, 0.0, 0.0, slow)
     radial, angular, across = np.array([c, s]), np.array([-s, c]), D[:2, :2] @ np.array([-s, c])
@@ -125,30 +133,32 @@ def leave(field: Field, theta: float, t: float, z: Array, t_end: float) -> Step 
     lambda_rho = c * u + s * v
     lambda_theta = float(angular @ across) - lambda_rho
     size = float(np.abs(D[:2, :2]).max()) + math.hypot(u, v)
-    if lambda_theta >= 0.0:
+    if lambda_theta >= 0.0 and line is None:
         return f"θ = {theta:.4g} repels angularly too: orbits leave in a whole sector around it."
     drift = D[:2, 4:] @ W
     ahead = t_end - t
     if lambda_rho > NEUTRAL * size:
-        forced = float(angular @ (drift + lambda_rho * (D[:2, 2:4] @ radial)))
-        turning = forced / (lambda_rho - lambda_theta)
+        forced = 0.0 if line is not None else float(angular @ (drift + lambda_rho * (D[:2, 2:4] @ radial)))
+        turning = forced / (lambda_rho - lambda_theta) if forced else 0.0
         h = START * ahead
         h = min(h, TILT / abs(turning)) if turning else h
         end = theta + turning * h
-        change = np.array([lambda_rho * h * math.cos(end), lambda_rho * h * math.sin(end), *(W * h)])
+        n = radial if line is not None else np.array([math.cos(end), math.sin(end)])
+        change = np.array([*(lambda_rho * h * n), *(W * h)])
         first = np.array([0.0, 0.0, *slow])
         return Step(t, h, first, first + change, _polynomial(change))
     # On the equator and on the critical set U = 0: lambda_rho and Theta both vanish.
-    turning = -float(angular @ drift) / lambda_theta
+    turning = 0.0 if line is not None else -float(angular @ drift) / lambda_theta
     beta = float(radial @ drift) + float(radial @ across) * turning
     if lambda_rho < -NEUTRAL * size or not beta > 0.0:
         return f"nothing leaves Σ along θ = {theta:.4g} there: λρ is not positive, and does not become so."
-    h = SLOW_START * min(ahead, -lambda_theta / beta)
+    h = SLOW_START * min(ahead, abs(lambda_theta or size) / beta)
     h = min(h, 1e-2 * math.sqrt(TILT) / abs(turning)) if turning else h
     end, rho = theta + turning * h, 0.5 * beta * h * h
+    n = radial if line is not None else np.array([math.cos(end), math.sin(end)])
     bend = 0.5 * h * h * (D[2:, :2] @ angular * turning + D[2:, 4:] @ W)
     linear = np.array([0.0, 0.0, *(W * h)])
-    square = np.array([rho * math.cos(end), rho * math.sin(end), *bend])
+    square = np.array([*(rho * n), *bend])
     first = np.array([0.0, 0.0, *slow])
     return Step(t, h, first, first + linear + square, _polynomial(linear, square))
 

@@ -85,6 +85,12 @@ class Step:
         return self.first + self.polynomial @ (u ** np.arange(1, STAGES + 1))
 
 
+def shortened(step: Step, u: float) -> Step:
+    """Return the first part of a step, up to its fraction u."""
+    powers = u ** np.arange(1, STAGES + 1)
+    return Step(step.start, u * step.h, step.first, step.at(u), step.polynomial * powers)
+
+
 @dataclass(frozen=True)
 class Problem:
     """What is integrated.

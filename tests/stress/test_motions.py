@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from codim2_core import psi
-from codim2_core.motion.regularised import SimulationStatus, simulate
+from codim2_core.motion.regularised import simulate
+from codim2_core.motion.result import SimulationStatus
 
 from .strata import STRATA, system
 

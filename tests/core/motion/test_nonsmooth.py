@@ -14,12 +14,14 @@ from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
 from codim2_core.motion.field import field
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
-from codim2_core.motion.regularised import SimulationStatus, simulate
+from codim2_core.motion.regularised import simulate
+from codim2_core.motion.result import SimulationStatus
 from codim2_core.motion.slide import Sheet
 from codim2_core.motion.slip import leave
 
 G = 9.81
 CASE_3 = ELinear(172.0, 186.0, -200.0, ("-172*z", "-186*z"), B=((0.5, 0.0),))  # C at e = (z, 0), z' = e_1/2
+ARRIVING = (8.5e-4, 5.2e-4)  # (x, y) from which it comes to Sigma along Q1, and onto C or its cycle
 
 
 def kinds(run):
@@ -185,24 +187,33 @@ def test_slides_and_crosses_by_the_angle_of_approach():
 @pytest.mark.parametrize("general", [False, True])
 def test_sliding_on_a_limit_cycle_has_the_averaged_slow_flow(general):
     system = System(U=("172*c - 186*s - 172*z", "186*c - 200*s - 186*z"), W=("c/2",)) if general else CASE_3
-    run = simulate_nonsmooth(system, (0.0, 0.0, 0.45), (0.0, 0.2), families.hill(3))
-    assert kinds(run) == ["slide"]
-    assert run.phases[0].onto == "cycle 1"
-    assert "averaged" in run.phases[0].reason
-    assert run.states[-1, 2] == pytest.approx(0.45 * math.exp(0.1), abs=1e-5 if general else 1e-9)
+    run = simulate_nonsmooth(system, (*ARRIVING, 0.45), (0.0, 0.2), families.hill(3))
+    assert kinds(run) == ["slip", "slide"]
+    slide = run.phases[1]
+    assert slide.onto == "cycle 1"
+    t = 0.2 - slide.t_start
+    z = run.dense(slide.t_start)[2]
+    assert run.states[-1, 2] == pytest.approx(z * math.exp(0.5 * t), abs=1e-5 if general else 1e-9)
+    # e is the mean over the cycle (prop:LC), and p lies inside it.
+    times = np.linspace(slide.t_start, 0.2, 5)
+    np.testing.assert_allclose(slide.e(times), np.stack([run.dense(times)[:, 2], 0 * times], axis=-1), atol=0.02)
+    assert (np.hypot(*slide.p(times).T) < 1.0).all()
 
 
 def test_through_two_hopf_bifurcations_and_off_the_equator():
-    run = simulate_nonsmooth(CASE_3, (0.0, 0.0, 0.3), (0.0, 2.6), families.hill(3))
+    run = simulate_nonsmooth(CASE_3, (*ARRIVING, 0.3), (0.0, 2.6), families.hill(3))
     assert [(phase.kind, phase.onto) for phase in run.phases] == [
+        ("slip", None),
         ("slide", "C"),
         ("slide", "cycle 1"),
         ("slide", "C"),
         ("slip", None),
     ]
-    # z = 0.3 exp(t/2) all along (prop:LC), to z = 1.
-    np.testing.assert_allclose(run.dense(np.array([0.5, 1.5, 2.2]))[:, 2], 0.3 * np.exp([0.25, 0.75, 1.1]), atol=1e-9)
-    assert run.phases[2].t_end == pytest.approx(2.0 * math.log(1.0 / 0.3), abs=1e-9)
+    # z = z0 exp(t/2) all along (prop:LC), to z = 1.
+    t0 = run.phases[1].t_start
+    z0, t = run.dense(t0)[2], np.array([0.5, 1.5, 2.2])
+    np.testing.assert_allclose(run.dense(t0 + t)[:, 2], z0 * np.exp(0.5 * t), atol=1e-9)
+    assert run.phases[3].t_end - t0 == pytest.approx(2.0 * math.log(1.0 / z0), abs=1e-9)
 
 
 def stopped(system, state0, psi=None):
@@ -216,10 +227,10 @@ def stopped(system, state0, psi=None):
 def test_stops_where_the_limit_is_not_unique():
     # Psi decides whether C attracts, and none was given.
     assert "give psi" in stopped(CASE_3, (0.1, 0.0, 0.5)).reason
-    # On Sigma two critical sets attract.
-    assert (
-        "2 stable critical sets" in stopped(examples.nonunique_sliding(), (0.0, 0.0, 0.1), families.constant()).reason
-    )
+    # On Sigma two critical sets attract, and the middle is the saddle between them.
+    both = examples.nonunique_sliding()
+    assert "2 stable critical sets" in stopped(both, (0.0, 0.0, 0.1)).reason
+    assert "C3, C1" in stopped(both, (0.0, 0.0, 0.1), families.constant()).reason
     # C repels, and every direction leads away.
     assert stopped(ELinear(1.0, 0.0, 1.0), (0.0, 0.0)).times[-1] == 0.0
     # Spirals away from Sigma, at any phase.

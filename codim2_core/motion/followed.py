@@ -1,0 +1,129 @@
+"""Which critical set a state of the regularised motion follows, if any: sec:geneps1, thm:geneps1.
+
+The motion slides where it lies on a slow manifold, and that is O(eps) away from the critical set: in the chart
+kappa_2, where ``eps x2' = U(e_Psi(x2), eps x2, z)`` up to the time, it is ``x2 = X(z) + eps X1(z) + O(eps^2)`` with
+``J X1 = D_z X W - U_x X``. A state within twice that of a critical set, in p, follows it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..psi.function import Psi
+from .field import Field
+
+Array = NDArray[np.float64]
+
+NEWTON = 12
+MARGIN = 2.0  # times the first-order distance of the slow manifold
+FLOOR = 1e-3  # in p: what an orbit that runs into the set is given besides
+MOST = 0.25  # in p: near a fold, and near the equator, the expansion promises nothing
+FAR = 0.6  # in e: no set is looked for if Newton's first step is longer
+
+
+@dataclass(frozen=True)
+class Followed:
+    """The critical set that a state follows.
+
+    Attributes
+    ----------
+    e : ndarray (2,)
+    p : ndarray (2,)
+        Its place in the projected disc.
+    attracts : bool
+        Whether it attracts in the layer problem.
+    rate : float
+        Largest modulus of its eigenvalues, in the fast time of kappa_2.
+    """
+
+    e: Array
+    p: Array
+    attracts: bool
+    rate: float
+
+
+def in_disc(psi: Psi, e: Array) -> Array:
+    """Point (2,) of the projected disc at which e_Psi = e, |e| <= 1."""
+    modulus = math.hypot(e[0], e[1])
+    if modulus == 0.0:
+        return np.zeros(2)
+    if modulus >= 1.0:
+        return e / modulus
+    zeta = float(psi.radius(modulus))
+    return e / modulus * (zeta / math.hypot(1.0, zeta))
+
+
+def place(psi: Psi, eps: float, x: float, y: float) -> tuple[Array, Array]:
+    """Return (e, p) of a state of the regularised system, each of shape (2,): ``p = (x, y)/rho``."""
+    r, rho = math.hypot(x, y), math.hypot(x, y, eps)
+    p = np.array([x, y]) / rho
+    return (p * (float(psi.modulus(r / eps)) * rho / r) if r > 0.0 else np.zeros(2)), p
+
+
+def solved(field: Field, e: Array, z: Array) -> Array | None:
+    """Critical set near e, by Newton's method; None where there is none near."""
+    e, slow, before = np.array(e, float), z.tolist(), math.inf
+    for _ in range(NEWTON):
+        c, s = e.tolist()
+        u, v = field.value(c, s, 0.0, 0.0, *slow)[:2]
+        (j11, j12), (j21, j22) = field.jacobian(c, s, 0.0, 0.0, slow)[:2, :2].tolist()
+        det = j11 * j22 - j12 * j21
+        if det == 0.0 or det != det:
+            return None
+        change = np.array([j22 * u - j12 * v, j11 * v - j21 * u]) / det
+        size = float(np.abs(change).max())
+        if not size < FAR:
+            return None
+        e = e - change
+        if size <= 1e-15 or (size <= 1e-11 and size >= 0.5 * before):
+            return e
+        before = size
+    return None
+
+
+def followed(field: Field, psi: Psi, eps: float, state: Array) -> Followed | None:
+    """Return the critical set within O(eps) of which the state lies, in p; None if there is none.
+
+    Parameters
+    ----------
+    field : Field
+    psi : Psi
+    eps : float
+    state : ndarray (2 + m,)
+    """
+    z = state[2:]
+    own_e, own_p = place(psi, eps, float(state[0]), float(state[1]))
+    e = solved(field, own_e, z)
+    if e is None or not math.hypot(e[0], e[1]) < 1.0:
+        return None
+    p = in_disc(psi, e)
+    distance = float(np.hypot(*(own_p - p)))
+    if not distance <= MOST:
+        return None
+    modulus = math.hypot(e[0], e[1])
+    zeta = float(psi.radius(modulus))
+    n = e / modulus if modulus > 0.0 else np.array([1.0, 0.0])
+    radial, tangential = psi.jacobian_factors(zeta)
+    along = np.outer(n, n)
+    De = tangential * np.eye(2) + (radial - tangential) * along
+    D = field.jacobian(float(e[0]), float(e[1]), 0.0, 0.0, z.tolist())
+    J = D[:2, :2] @ De
+    trace, determinant = float(np.trace(J)), float(np.linalg.det(J))
+    rate = math.sqrt(max(abs(determinant), 0.25 * trace * trace))
+    if distance > FLOOR:
+        with np.errstate(all="ignore"):
+            try:
+                W = np.array(field.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:])
+                moved = np.linalg.solve(D[:2, :2] @ De, -(D[:2, 4:] @ W))  # D_z X W
+                X1 = np.linalg.solve(J, moved - D[:2, 2:4] @ (zeta * n))
+            except np.linalg.LinAlgError:
+                return None
+        height = 1.0 / math.hypot(1.0, zeta)
+        change = height * X1 + (height**3 - height) * (along @ X1)
+        if not distance <= FLOOR + MARGIN * eps * math.hypot(change[0], change[1]):
+            return None
+    return Followed(e, p, determinant > 0.0 and trace < 0.0, rate)

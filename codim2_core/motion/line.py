@@ -1,0 +1,135 @@
+"""Motions in an invariant line through Sigma: they stay in it, whatever rounding does across it.
+
+Where U is parallel to n on the line ``(x, y) = r n, e = q n``, as in dry friction along a line, a motion that starts
+in the line never leaves it, even if the layer problem repels across it; rounding that is amplified there would decide
+what follows. So U is projected onto the line, and on Sigma the layer problem is that of q alone, the same for every
+Psi: ``q' ~ n.U(q n, 0, 0, z)``, from one end of the diameter to the first zero, or through to the other end.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.radau import Problem
+from .field import Field
+
+Array = NDArray[np.float64]
+
+SAMPLES = 16  # points at which invariance is asked
+EXACT = 1e-13  # of both products in n x U: what counts as parallel
+NET = 400  # of q, on which zeros are looked for
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """An invariant line.
+
+    Attributes
+    ----------
+    field : Field
+    n : ndarray (2,)
+        Unit vector.
+    """
+
+    field: Field
+    n: Array
+
+    def projected(self, problem: Problem) -> Problem:
+        """Return the problem with (x, y) kept in the line."""
+
+        def F(state: Array) -> Array:
+            within = state.copy()
+            within[:2] = self.n * float(self.n @ state[:2])
+            rate = problem.F(within)
+            rate[:2] = self.n * float(self.n @ rate[:2])
+            return rate
+
+        return replace(problem, F=F)
+
+    def along(self, q: float, z: Array) -> float:
+        """Return n.U at e = q n on Sigma."""
+        c, s = (q * self.n).tolist()
+        u, v = self.field.value(c, s, 0.0, 0.0, *z.tolist())[:2]
+        return float(self.n[0] * u + self.n[1] * v)
+
+    def slope(self, q: float, z: Array) -> float:
+        """Return its derivative by q."""
+        c, s = (q * self.n).tolist()
+        return float(self.n @ self.field.jacobian(c, s, 0.0, 0.0, z.tolist())[:2, :2] @ self.n)
+
+    def onward(self, q: float, z: Array) -> float | None:
+        """Where the layer problem leads from q: the first zero of n.U that way; +-1, an end; None if it rests at q.
+
+        Parameters
+        ----------
+        q : float
+            -1 <= q <= 1.
+        z : ndarray (m,)
+        """
+        rate = self.along(q, z)
+        if not rate:
+            return None
+        end = math.copysign(1.0, rate)
+        net = q + (end - q) * np.arange(1, NET + 1) / NET
+        before = q
+        for after in net.tolist():
+            if self.along(after, z) * end <= 0.0:
+                from scipy.optimize import brentq  # imported late: it takes longer than all of this package
+
+                root = brentq(lambda at: self.along(at, z), before, after, xtol=1e-16)
+                return float(root)  # pyright: ignore[reportArgumentType] (the root alone, as full_output is False)
+            before = after
+        return end
+
+
+def invariant_line(field: Field, state: Array) -> Line | None:
+    """Return the invariant line that a motion lies in; None if it lies in none.
+
+    z may lie in an invariant subspace: the line is asked for z in the span of z and W there.
+
+    Parameters
+    ----------
+    field : Field
+    state : ndarray (2 + m,)
+    """
+    x, y = state[:2].tolist()
+    r = math.hypot(x, y)
+    if r > 0.0:
+        directions = [np.array([x, y]) / r]
+    else:
+        directions = [np.array([1.0, 0.0]), np.array([0.0, 1.0])]
+        at_rest = np.array(field.value(0.0, 0.0, 0.0, 0.0, *state[2:].tolist())[:2])
+        if np.isfinite(at_rest).all() and at_rest.any():
+            directions.insert(0, at_rest / math.hypot(*at_rest.tolist()))
+    found = [n for n in directions if _invariant(field, n, max(r, 1.0), state[2:])]
+    return Line(field, found[0]) if len(found) == 1 or (found and r > 0.0) else None
+
+
+def _invariant(field: Field, n: Array, r: float, z: Array) -> bool:
+    def at(q: float, r: float, z: Array) -> tuple[Array, Array]:
+        found = np.array(field.value(*(q * n).tolist(), *(r * n).tolist(), *z.tolist()))
+        return found[:2], found[2:]
+
+    span = np.stack([z, *(at(q, 0.0, z)[1] for q in (-1.0, 0.0, 1.0))], axis=-1)
+    if not np.isfinite(span).all():
+        return False
+    basis, sizes, _ = np.linalg.svd(span, full_matrices=False)
+    basis = basis[:, sizes > EXACT * max(1e-300, float(sizes.max(initial=0.0)))]
+    rng = np.random.default_rng(0)
+    across, size, known = 0.0, 0.0, 0
+    for _ in range(SAMPLES):
+        moved = z + basis @ (rng.uniform(-1.0, 1.0, basis.shape[1]) * (1.0 + np.abs(z).max(initial=0.0)))
+        U, W = at(float(rng.uniform(-1.0, 1.0)), float(rng.uniform(-1.0, 1.0)) * r, moved)
+        if not (np.isfinite(U).all() and np.isfinite(W).all()):
+            continue
+        outside = np.abs(W - basis @ (basis.T @ W)).max(initial=0.0)
+        if outside > EXACT * (1.0 + np.abs(W).max(initial=0.0)):
+            return False
+        known += 1
+        left, right = float(n[0] * U[1]), float(n[1] * U[0])
+        across, size = max(across, abs(left - right)), max(size, abs(left) + abs(right))
+    return known > SAMPLES // 4 and across <= EXACT * size

@@ -1,0 +1,197 @@
+"""Where a phase of a motion lies: its e, and its p in the projected disc, at any time; and how it came there.
+
+Regularised, both are those of the state. In the limit eps -> 0 they are those of the set that is followed, and what
+happens in no time, the orbit of the layer problem up the hemisphere (fig:side_of_sphere), is kept as a path.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..layer_problem.equator import equator_equilibria
+from ..orbits.trajectories import continuation, trajectories
+from ..psi.function import Psi
+from ..systems.kinds import AnySystem
+from .dense import Dense
+from .field import field
+from .followed import in_disc, solved
+
+Array = NDArray[np.float64]
+
+FASTEST, LONGEST = 60.0, 4.0  # time T and length for which an orbit up the hemisphere is followed
+BESIDE = 0.9995  # |p| from which an orbit is followed that leaves the closed equator
+NONE = np.zeros((0, 2))
+NONE.flags.writeable = False
+
+
+class Place(Protocol):
+    """Where a phase lies."""
+
+    def at(self, t: Array) -> tuple[Array, Array]:
+        """Return e and p, each (k, 2), at times (k,)."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class OfState:
+    """The place that the state itself says.
+
+    Attributes
+    ----------
+    motion : Dense
+    psi : Psi or None
+        None for the limit eps = 0.
+    eps : float
+    t_start, t_end : float
+        Of the phase.
+    """
+
+    motion: Dense
+    psi: Psi | None
+    eps: float
+    t_start: float
+    t_end: float
+
+    def at(self, t: Array) -> tuple[Array, Array]:
+        """Return e and p."""
+        xy = self.motion(t)[:, :2]
+        if self.psi is not None and self.eps > 0.0:
+            r = np.hypot(*xy.T)
+            p = xy / np.hypot(r, self.eps)[:, None]
+            zeta = r / self.eps
+            modulus = self.psi.modulus(zeta)
+            gain = np.divide(modulus, r, out=np.zeros_like(r), where=r > 0.0)
+            return xy * gain[:, None], p
+        for i in np.flatnonzero(~xy.any(axis=1)):  # at the moment of arrival, or of leaving
+            xy[i] = self.beside(float(t[i]))
+        size = np.hypot(*xy.T)
+        e = np.divide(xy, size[:, None], out=np.zeros_like(xy), where=size[:, None] > 0.0)
+        return e, e
+
+    def beside(self, t: float) -> Array:
+        """Return (x, y) within the phase, a moment after or before a time at which it is 0."""
+        times, states = self.motion.times, self.motion.states
+        low, high = np.searchsorted(times, (self.t_start, self.t_end), side="left").tolist()
+        inside = np.arange(max(low - 1, 0), min(high + 1, len(times) - 1) + 1)
+        off = [i for i in inside if states[i, :2].any() and self.t_start <= times[i] <= self.t_end]
+        if off:
+            return states[min(off, key=lambda i: abs(times[i] - t)), :2].copy()
+        return self.motion(0.5 * (self.t_start + self.t_end))[:2]
+
+
+@dataclass(frozen=True, eq=False)
+class OnSet:
+    """On a critical set that was followed in z.
+
+    Attributes
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    motion : Dense
+    times : ndarray (k,)
+        Increasing; where e is known.
+    e : ndarray (k, 2)
+    """
+
+    system: AnySystem
+    psi: Psi
+    motion: Dense
+    times: Array
+    e: Array
+
+    def at(self, t: Array) -> tuple[Array, Array]:
+        """Return e and p."""
+        formulas, z = field(self.system), self.motion(t)[:, 2:]
+        found = np.stack([np.interp(t, self.times, column) for column in self.e.T], axis=-1)
+        for i, guess in enumerate(found):
+            e = solved(formulas, guess, z[i])
+            if e is not None and math.hypot(e[0], e[1]) <= 1.0:
+                found[i] = e
+        return found, np.array([in_disc(self.psi, e) for e in found]).reshape(-1, 2)
+
+
+@dataclass(frozen=True, eq=False)
+class OnCycle:
+    """On a limit cycle of the layer problem: the means of e and of p over it.
+
+    Attributes
+    ----------
+    times : ndarray (k,)
+    e, p : ndarray (k, 2)
+    """
+
+    times: Array
+    e: Array
+    p: Array
+
+    def at(self, t: Array) -> tuple[Array, Array]:
+        """Return e and p."""
+        means = [np.stack([np.interp(t, self.times, column) for column in of.T], axis=-1) for of in (self.e, self.p)]
+        return means[0], means[1]
+
+
+@dataclass(frozen=True)
+class Leaving:
+    """A crossing, which takes no time: where it leaves Sigma.
+
+    Attributes
+    ----------
+    theta : float
+    """
+
+    theta: float
+
+    def at(self, t: Array) -> tuple[Array, Array]:
+        """Return e and p."""
+        e = np.tile([math.cos(self.theta), math.sin(self.theta)], (len(t), 1))
+        return e, e.copy()
+
+
+@dataclass(frozen=True, eq=False)
+class Ascent:
+    """The orbit of the layer problem that a phase begins with, in no time.
+
+    Attributes
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    z : ndarray (m,)
+    theta : float or None
+        Angle of arrival; None where it begins at `start`.
+    start : ndarray (2,) or None
+        In the projected disc.
+    along : tuple of (2,) arrays or None
+        The ends of a way along an invariant line, which needs no integration.
+    """
+
+    system: AnySystem
+    psi: Psi
+    z: Array
+    theta: float | None = None
+    start: Array | None = None
+    along: tuple[Array, Array] | None = None
+
+    def path(self) -> Array:
+        """Points (k, 2) in the projected disc; none where nothing leaves."""
+        if self.along is not None:
+            return np.stack(self.along)
+        try:
+            if self.start is None:
+                assert self.theta is not None
+                limits = equator_equilibria(self.system, self.z).theta
+                if len(limits):
+                    theta = min(limits, key=lambda limit: abs(math.remainder(limit - self.theta, math.tau)))
+                    up = continuation(self.system, self.psi, [theta], self.z, t_max=FASTEST, length=LONGEST)
+                    return up.points[0]
+                start = BESIDE * np.array([math.cos(self.theta), math.sin(self.theta)])
+            else:
+                start = self.start
+            seeds = start[None]
+            return trajectories(self.system, self.psi, seeds, self.z, t_max=FASTEST, length=LONGEST).points[0]
+        except ValueError:  # a start that nothing leaves
+            return NONE
