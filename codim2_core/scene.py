@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections import Counter, OrderedDict
 from collections.abc import Callable, Hashable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
+from threading import Lock
 from types import MappingProxyType
 from typing import Any
 
@@ -18,23 +19,29 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .bifurcations import BifurcationCurve, Region, critical_boundary, regions, saddle_node
-from .cycles.limit_cycles import LimitCycles, limit_cycles
-from .layer_problem.critical import Location, critical_sets, locate
-from .layer_problem.equator import equator_cycle, equator_equilibria
+from .cycles.limit_cycles import closed_orbits, cycles_of
+from .layer_problem.problem import (
+    LayerProblem,
+    Result,
+    find_critical,
+    find_equator,
+    find_equator_cycle,
+    find_location,
+)
 from .orbits.seeds import checked_seeds, ring, structured_seeds
 from .orbits.trajectories import Trajectories, continuation, trajectories
 from .orbits.whole import Orbits
-from .portrait.classify import Classification, portrait
+from .portrait.classify import portrait
 from .portrait.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
-from .portrait.outcomes import approach_outcomes
-from .portrait.separatrices import Separatrices, separatrices
+from .portrait.outcomes import outcomes_of
+from .portrait.separatrices import Separatrices, separatrices_of
 from .psi import constructors
 from .psi.function import Psi
 from .sliding.flow import sliding_flow
 from .systems.bounds import SMALLEST, slow_values
 from .systems.coefficients import Coefficients
 from .systems.kinds import KINDS, AnySystem
-from .theorems.certificates import Certificate, certificates
+from .theorems.certificates import Certificate, certificates_of
 
 DRAWN_TIME = 40.0  # over the largest coefficient: slow directions, up to 40 times slower than that, are still drawn
 AROUND = 0.05  # radius of the seeds around an unstable critical set
@@ -50,12 +57,26 @@ class Layer:
     compute: Callable[[Scene], Any]
 
 
+class _Problem(LayerProblem):
+    """The layer problem of a scene: what it keeps is kept in the scene's memory, for the scenes to come."""
+
+    def __init__(self, scene: Scene) -> None:
+        super().__init__(scene.coefficients, scene.psi)
+        self._scene = scene
+
+    def keep(self, find: Callable[[LayerProblem], Result]) -> Result:
+        """Return ``find(self)``, computed once for all scenes that agree in what it reads."""
+        name = _NAMES.get(find)
+        return super().keep(find) if name is None else self._scene[name]
+
+
 @dataclass
 class _Memory:
     """What the scenes of one lineage have computed; `runs` counts the work, for tests and benchmarks."""
 
     results: dict[str, OrderedDict[Hashable, Any]] = field(default_factory=dict)
     runs: Counter[str] = field(default_factory=Counter)
+    lock: Lock = field(default_factory=Lock)  # the jobs beside the frames read the same memory
 
 
 class Scene:
@@ -128,6 +149,7 @@ class Scene:
         self.coefficients = system.at(self.z)
         self._memory = _Memory() if _memory is None else _memory
         self._own: dict[str, Any] = {}
+        self.problem: LayerProblem = _Problem(self)
 
     def evolve(self, **changes: Any) -> Scene:
         """Return a scene with some inputs changed, sharing every layer that the change does not reach.
@@ -159,15 +181,20 @@ class Scene:
             raise ValueError(f"{name!r} is no layer; there are {', '.join(layers)}.")
         layer = layers[name]
         key = self.key(*layer.inputs)
-        kept = self._memory.results.setdefault(name, OrderedDict())
-        if key in kept:
-            kept.move_to_end(key)
-        else:
-            kept[key] = layer.compute(self)
-            self._memory.runs[name] += 1
-            if len(kept) > REMEMBERED:
-                kept.popitem(last=False)
-        self._own[name] = kept[key]
+        memory = self._memory
+        with memory.lock:
+            kept = memory.results.setdefault(name, OrderedDict())
+            known = key in kept
+            if known:
+                kept.move_to_end(key)
+                self._own[name] = kept[key]
+        if not known:
+            self._own[name] = result = layer.compute(self)
+            with memory.lock:
+                kept[key] = result
+                memory.runs[name] += 1
+                if len(kept) > REMEMBERED:
+                    kept.popitem(last=False)
         return self._own[name]
 
     def __iter__(self):
@@ -189,16 +216,14 @@ class Scene:
 
 _PARAMETERS = ("system", "psi", "z", "seeds", "count", "t_max", "length", "rtol", "atol", "view", "pixel")
 
-ELINEAR_ONLY = frozenset({"location", "certificates", "atlas_curves", "regions"})
+ELINEAR_ONLY = frozenset({"certificates", "atlas_curves", "regions"})
 
 # The values that layers read, as keys: `plane` is (a, b, d, f1, f2) at z, or the formulas of U and the numbers that
-# they read, and `matrix` is (a, b, d), so z itself reaches nothing. `mean` is what decides the slow flow on a cycle:
-# in an e-linear system that is the layer "slow_flow" (prop:LC).
+# they read, and `matrix` is (a, b, d), so z itself reaches nothing.
 _INPUTS: dict[str, Callable[[Scene], Hashable]] = {
     "plane": lambda s: s.coefficients.key,
     "matrix": lambda s: _matrix(s),
     "slow": lambda s: s.coefficients.slow_key,
-    "mean": lambda s: None if s.coefficients.typed is None else s.coefficients.slow_key,
     "psi": lambda s: s.psi,
     "inner seeds": lambda s: s.count if s.seeds is None else _start(s, outside=False).tobytes(),
     "outer seeds": lambda s: s.count if s.seeds is None else _start(s, outside=True).tobytes(),
@@ -259,15 +284,8 @@ def _continuations(scene: Scene) -> Trajectories:
     return continuation(scene.coefficients, scene.psi, arriving, **_stepping(scene))
 
 
-def _cycles(scene: Scene) -> LimitCycles:
-    """Return the limit cycles; in an e-linear system without their slow flow: by prop:LC that is "slow_flow"."""
-    form = _elinear(scene)
-    at = scene.coefficients if form is None else replace(form, B=np.zeros((0, 2)), g=np.zeros(0))
-    return limit_cycles(at, scene.psi)
-
-
 def _separatrices(scene: Scene) -> Separatrices:
-    return separatrices(scene.coefficients, scene.psi, rtol=scene.rtol, pixel=scene.pixel, cycles=scene["cycles"])
+    return separatrices_of(scene.problem, rtol=scene.rtol, pixel=scene.pixel)
 
 
 def _elinear(scene: Scene) -> Coefficients | None:
@@ -296,17 +314,8 @@ def _regions(scene: Scene) -> tuple[Region, ...] | None:
     return None if matrix is None else regions(*matrix)
 
 
-def _location(scene: Scene) -> Location | None:
-    at = _elinear(scene)
-    return None if at is None else locate(at)
-
-
 def _certificates(scene: Scene) -> tuple[Certificate, ...] | None:
-    at = _elinear(scene)
-    if at is None:
-        return None
-    cycles = [replace(cycle, slow_flow=at.W(cycle.mean_e)) for cycle in scene["cycles"]]
-    return certificates(at, scene.psi, cycles=cycles)
+    return None if _elinear(scene) is None else certificates_of(scene.problem, scene["cycles"])
 
 
 def _inside_nullclines(scene: Scene) -> tuple[NullclineBranch, ...]:
@@ -317,28 +326,36 @@ def _outside_nullclines(scene: Scene) -> tuple[NullclineBranch, ...]:
     return outside_nullclines(scene.coefficients, scene["equator"].theta.tolist(), scene.view)
 
 
-def _classification(scene: Scene) -> Classification:
-    return portrait(scene.coefficients, scene["equator"], scene["equator_cycle"], scene["location"], scene["critical"])
-
-
 layers: Mapping[str, Layer] = MappingProxyType(
     {
-        "equator": Layer(("plane",), lambda s: equator_equilibria(s.coefficients)),
-        "equator_cycle": Layer(("plane",), lambda s: equator_cycle(s.coefficients)),
-        "location": Layer(("plane",), _location),
-        "critical": Layer(("plane", "slow", "psi"), lambda s: critical_sets(s.coefficients, s.psi)),
+        "equator": Layer(("plane",), lambda s: find_equator(s.problem)),
+        "equator_cycle": Layer(("plane",), lambda s: find_equator_cycle(s.problem)),
+        "location": Layer(("plane",), lambda s: find_location(s.problem)),
+        "critical": Layer(("plane", "slow", "psi"), lambda s: find_critical(s.problem)),
         "slow_flow": Layer(("plane", "slow"), lambda s: sliding_flow(s.coefficients)),
-        "classification": Layer(("plane", "slow", "psi"), _classification),
+        "classification": Layer(("plane", "slow", "psi"), lambda s: portrait(s.problem)),
         "nullclines_inside": Layer(("plane", "psi"), _inside_nullclines),
         "nullclines_outside": Layer(("plane", "view"), _outside_nullclines),
         "inside": Layer(("plane", "psi", "inner seeds", *_STEPPED), lambda s: _orbits(s, outside=False)),
         "outside": Layer(("plane", "outer seeds", "view", *_STEPPED), lambda s: _orbits(s, outside=True)),
         "continuations": Layer(("plane", "psi", *_STEPPED), _continuations),
-        "cycles": Layer(("plane", "psi", "mean"), _cycles),
+        "closed_orbits": Layer(("plane", "psi"), lambda s: closed_orbits(s.problem)),
+        "cycles": Layer(("plane", "slow", "psi"), lambda s: cycles_of(s.problem)),
         "separatrices": Layer(("plane", "psi", "tolerance", "pixel"), _separatrices),
-        "outcomes": Layer(("plane", "slow", "psi"), lambda s: approach_outcomes(s.coefficients, s.psi)),
+        "outcomes": Layer(("plane", "slow", "psi"), lambda s: outcomes_of(s.problem)),
         "certificates": Layer(("plane", "slow", "psi"), _certificates),
         "atlas_curves": Layer(("matrix",), _atlas_curves),
         "regions": Layer(("matrix",), _regions),
     }
 )
+
+# The layers that are functions of the layer problem alone: whoever asks the problem for them asks the scene.
+_NAMES: dict[Any, str] = {
+    find_equator: "equator",
+    find_equator_cycle: "equator_cycle",
+    find_location: "location",
+    find_critical: "critical",
+    portrait: "classification",
+    closed_orbits: "closed_orbits",
+    cycles_of: "cycles",
+}

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from codim2_core.portrait.basins import basins
+from codim2_core.portrait.basins import basins_of
 from codim2_core.scene import Scene
 
 from ..frame.draft import Draft
@@ -33,7 +33,7 @@ def columns(scene: Scene) -> tuple[dict[str, Any], NDArray[np.uint16]]:
 
     Rows rise with y. The colours are keys of the themes, "" for none: outside the disc, undecided, each destination.
     """
-    found = basins(scene.coefficients, scene.psi, n=CELLS, cycles=scene["cycles"])
+    found = basins_of(scene.problem, CELLS)
     flat = found.cells.ravel()
     starts = np.concatenate([[0], np.flatnonzero(np.diff(flat)) + 1])
     lengths = np.diff(np.append(starts, len(flat)))

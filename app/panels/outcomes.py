@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from codim2_core.portrait.outcomes import Outcome, Outcomes, approach_outcomes
+from codim2_core.portrait.outcomes import Outcome, Outcomes
 from codim2_core.scene import Scene
 
 from ..draw.glyphs import subscript
@@ -30,8 +30,7 @@ def add(draft: Draft) -> None:
         if not draft.fresh("outcomes", found):
             return
     else:
-        coefficients, psi = scene.coefficients, scene.psi
-        found = draft.slow("outcomes", scene.key("plane", "slow", "psi"), lambda: approach_outcomes(coefficients, psi))
+        found = draft.slow("outcomes", scene.key("plane", "slow", "psi"), lambda: scene["outcomes"])
         if found is None:
             return
     draft.header["outcomes"] = columns(found)

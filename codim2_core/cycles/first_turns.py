@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..layer_problem.critical import critical_sets
+from ..layer_problem.critical import CriticalSet
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from .orbit import Orbit, orbit
@@ -44,13 +44,17 @@ ONLY_SADDLES = (
 )
 
 
-def find(at: AtZ, psi: Psi) -> tuple[list[tuple[Crossing, Orbit, int]], str, tuple[str, ...]]:
+def find(
+    at: AtZ, psi: Psi, critical: tuple[CriticalSet, ...]
+) -> tuple[list[tuple[Crossing, Orbit, int]], str, tuple[str, ...]]:
     """Search for limit cycles.
 
     Parameters
     ----------
     at : Frozen
     psi : Psi
+    critical : tuple of CriticalSet
+        Of the same system.
 
     Returns
     -------
@@ -60,7 +64,6 @@ def find(at: AtZ, psi: Psi) -> tuple[list[tuple[Crossing, Orbit, int]], str, tup
         Why there is none, or how those there are were found.
     notes : tuple of str
     """
-    critical = critical_sets(at, psi)
     if not critical:
         return [], NO_CRITICAL_SET, ()
     feet = [C for C in critical if C.kind != "saddle"]

@@ -13,16 +13,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..layer_problem.critical import CriticalSet, Existence, critical_sets, determinant_sign, locate
+from ..layer_problem.critical import CriticalSet, Existence, Location, critical_sets, determinant_sign, locate
+from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .orbit import Orbit, orbit
 from .search import search
@@ -32,6 +32,7 @@ __all__ = ["LimitCycle", "LimitCycles", "limit_cycles", "reason_for_none"]
 
 Array = NDArray[np.float64]
 
+NO_FLOW = np.zeros(0)
 SEMISTABLE = 1e-5  # |ln multiplier| below which a cycle counts as semistable: a fold of cycles
 SEMISTABLE_NOTE = "A cycle is semistable within resolution: a fold, where two cycles meet."
 HOW = (
@@ -117,7 +118,9 @@ _NO_CRITICAL_SET = (
 )
 
 
-def reason_for_none(coefficients: Coefficients, critical: tuple[CriticalSet, ...]) -> str | None:
+def reason_for_none(
+    coefficients: Coefficients, critical: tuple[CriticalSet, ...], location: Location | None = None
+) -> str | None:
     """Why a theorem forbids limit cycles, or None where none does: then a, d differ in sign and det A > 0.
 
     Parameters
@@ -125,10 +128,12 @@ def reason_for_none(coefficients: Coefficients, critical: tuple[CriticalSet, ...
     coefficients : Coefficients
     critical : tuple of CriticalSet
         Of the same system.
+    location : Location, optional
+        That of `locate`, where it is known already.
     """
     a, b, d, f1, f2 = coefficients.plane
     if not critical:
-        existence = locate(coefficients).existence
+        existence = (locate(coefficients) if location is None else location).existence
         if existence is Existence.NONE:
             return _NO_CRITICAL_SET
         return f"No limit cycle: a closed orbit would have to surround an isolated critical set. {existence.value}"
@@ -170,51 +175,76 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> LimitCycles:
         Empty, with a reason, wherever a theorem forbids cycles: that costs no integration. Elsewhere the `reason` says
         how they were searched for: by samples (`search`, `first_turns`), which prove nothing of what they do not show.
     """
-    at = system.at(z)
+    return LayerProblem(system.at(z), psi).keep(cycles_of)
+
+
+def cycles_of(problem: LayerProblem) -> LimitCycles:
+    """Find the limit cycles of a layer problem, with their slow flows."""
+    found = problem.keep(closed_orbits)
+    W = problem.at.W
+    # the mean of W is W at the mean where W is affine
+    means = [W(c.mean_e) if problem.at.typed is None else c.share @ W(c.e) for c in found.orbits]
+    for mean in means:
+        mean.flags.writeable = False
+    cycles = tuple(replace(cycle, slow_flow=mean) for cycle, mean in zip(found.cycles, means, strict=True))
+    return LimitCycles(cycles, found.reason, found.notes)
+
+
+@dataclass(frozen=True)
+class ClosedOrbits:
+    """Limit cycles without their slow flows, which W alone decides, and the orbits of which each was made."""
+
+    cycles: tuple[LimitCycle, ...]
+    orbits: tuple[Orbit, ...]
+    reason: str
+    notes: tuple[str, ...] = ()
+
+
+def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
+    """Find the limit cycles of a layer problem as closed orbits: whatever W is."""
+    at, psi, critical = problem.at, problem.psi, problem.critical
     coefficients = at.as_given
     if coefficients is None:
-        return _general(at, psi)
-    critical = critical_sets(coefficients, psi)
-    reason = reason_for_none(coefficients, critical)
+        return _general(problem)
+    reason = reason_for_none(coefficients, critical, problem.location)
     if reason is not None:
-        return LimitCycles((), reason)
-    section = Section(coefficients, psi, critical[0])
+        return ClosedOrbits((), (), reason)
+    section = Section(coefficients, psi, critical[0], location=problem.location)
     crossings, notes = search(section)
     orbits = [(crossing, orbit(section, crossing)) for crossing in crossings]
     sense = 1 if coefficients.b > 0.0 else -1
-    cycles = tuple(
-        _cycle(crossing, found, at.W(found.mean_e), sense) for crossing, found in orbits if found is not None
-    )
+    kept = [(crossing, found) for crossing, found in orbits if found is not None]
+    cycles = tuple(_cycle(crossing, found, sense) for crossing, found in kept)
     if len(cycles) < len(orbits):
         notes = (*notes, "A fixed point of the return map was found whose cycle takes too many steps to follow.")
     if any(cycle.kind == "semistable" for cycle in cycles):
         notes = (*notes, SEMISTABLE_NOTE)
     count = f"{len(cycles)} limit cycle{'' if len(cycles) == 1 else 's'}" if cycles else "No limit cycle found"
-    return LimitCycles(cycles, f"{count}, {HOW}", notes)
+    return ClosedOrbits(cycles, tuple(found for _, found in kept), f"{count}, {HOW}", notes)
 
 
-def _general(at: AtZ, psi: Psi) -> LimitCycles:
+def _general(problem: LayerProblem) -> ClosedOrbits:
     from .first_turns import find
 
-    form = at.normal_form
+    form = problem.at.normal_form
     if form is not None:
-        reason = reason_for_none(form, critical_sets(form, psi))
+        reason = reason_for_none(form, critical_sets(form, problem.psi), problem.location)
         if reason is not None:
-            return LimitCycles((), reason)
-    found, reason, notes = find(at, psi)
-    cycles = tuple(_cycle(crossing, closed, closed.share @ at.W(closed.e), sense) for crossing, closed, sense in found)
+            return ClosedOrbits((), (), reason)
+    found, reason, notes = find(problem.at, problem.psi, problem.critical)
+    cycles = tuple(_cycle(crossing, closed, sense) for crossing, closed, sense in found)
     if any(cycle.kind == "semistable" for cycle in cycles):
         notes = (*notes, SEMISTABLE_NOTE)
-    return LimitCycles(cycles, reason, notes)
+    return ClosedOrbits(cycles, tuple(closed for _, closed, _ in found), reason, notes)
 
 
-def _cycle(crossing: Crossing, found: Orbit, slow: Array, sense: int) -> LimitCycle:
+def _cycle(crossing: Crossing, found: Orbit, sense: int) -> LimitCycle:
     exponent = found.divergence
     small = abs(exponent) < SEMISTABLE and not crossing.born
     kind = "semistable" if small or crossing.touching else "stable" if exponent < 0.0 else "unstable"
     if crossing.born:
         kind = "unstable" if crossing.repelling else "stable"
-    for array in (found.points, found.mean_e, slow):
+    for array in (found.points, found.mean_e, NO_FLOW):
         array.flags.writeable = False
     values: dict[str, Any] = {
         "points": found.points,
@@ -225,7 +255,7 @@ def _cycle(crossing: Crossing, found: Orbit, slow: Array, sense: int) -> LimitCy
         "kind": kind,
         "direction": sense,
         "mean_e": found.mean_e,
-        "slow_flow": slow,
+        "slow_flow": NO_FLOW,
         "closure": found.closure,
     }
     return LimitCycle(**values)

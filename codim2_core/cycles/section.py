@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..layer_problem.critical import CriticalSet, locate
+from ..layer_problem.critical import CriticalSet, Location, locate
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 
@@ -77,15 +77,24 @@ class Section:
     critical : CriticalSet
     ray : int, optional
         Which of the four rays; by default the one that is longest in e.
+    location : Location, optional
+        That of `locate`, where it is known already.
     """
 
-    def __init__(self, coefficients: Coefficients, psi: Psi, critical: CriticalSet, ray: int | None = None) -> None:
+    def __init__(
+        self,
+        coefficients: Coefficients,
+        psi: Psi,
+        critical: CriticalSet,
+        ray: int | None = None,
+        location: Location | None = None,
+    ) -> None:
         self.psi, self.critical, self.coefficients = psi, critical, coefficients
         plane = np.array(coefficients.plane)
         size = float(np.abs(plane).max())
         self.rate = size * math.hypot(*(plane / size).tolist())
         self.plane = plane / self.rate
-        location = locate(coefficients)
+        location = locate(coefficients) if location is None else location
         if location.e is None:
             raise ValueError("there is no critical set, so no section starts from it.")
         found = rays(coefficients.a, coefficients.d, location.e, location.complement)

@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..layer_problem.critical import CriticalSet, critical_sets
-from ..layer_problem.equator import EquatorEquilibria, equator_cycle, equator_equilibria
+from ..layer_problem.critical import CriticalSet
+from ..layer_problem.equator import EquatorEquilibria
+from ..layer_problem.problem import LayerProblem
 from ..layer_problem.vary import varied
 from ..psi.function import Psi
 from .equator import linked
@@ -35,25 +35,23 @@ class _State:
 
     def __init__(self, system: Any, psi: Psi, name: str, value: float, z: ArrayLike) -> None:
         self.value = value
-        at, self._psi, z_at = varied(system, psi, z, name, value)
-        self._at = at.at(z_at)
+        at, psi_at, z_at = varied(system, psi, z, name, value)
+        self._problem = LayerProblem(at.at(z_at), psi_at)
 
-    @cached_property
+    @property
     def equator(self) -> EquatorEquilibria:
         """The limit directions."""
-        return equator_equilibria(self._at)
+        return self._problem.equator
 
-    @cached_property
+    @property
     def critical(self) -> tuple[CriticalSet, ...]:
         """The critical sets."""
-        return critical_sets(self._at, self._psi)
+        return self._problem.critical
 
-    @cached_property
+    @property
     def exponent(self) -> float | None:
         """Of a closed equator; None where there is none."""
-        if len(self.equator) or self.equator.all_directions:
-            return None
-        cycle = equator_cycle(self._at)
+        cycle = self._problem.equator_cycle
         return None if cycle is None else cycle.exponent
 
     def part(self, i: int) -> Any:

@@ -201,10 +201,14 @@ def critical_sets(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> tuple[Criti
         these.
     """
     at = system.at(z)
+    return sets_at(at, psi, None if at.as_given is None else locate(at.as_given))
+
+
+def sets_at(at: AtZ, psi: Psi, location: Location | None) -> tuple[CriticalSet, ...]:
+    """All isolated critical sets of a frozen system; `location` is that of `locate`, None if U is not e-linear."""
     form = at.as_given
-    if form is None:
+    if form is None or location is None:
         return _general_sets(at, psi)
-    location = locate(form)
     if location.e is None:
         return ()
     # Time in a unit that makes the largest coefficient about 1, so that no product under- or overflows.

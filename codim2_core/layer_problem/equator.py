@@ -18,7 +18,7 @@ from ..numerics.trigonometric import ROUNDING, THETA_PATTERNS, tangential_zeros
 from ..numerics.trigonometric_exact import quotient, solve_exactly, to_integers
 from ..systems.frozen import AtZ
 from .closed_equator import EquatorCycle, equator_cycle
-from .critical import locate
+from .critical import Location, locate
 from .equator_zeros import equator_zeros
 
 __all__ = ["EquatorCycle", "EquatorEquilibria", "equator_cycle", "equator_equilibria"]
@@ -148,12 +148,16 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
         If z does not fit the system or a coefficient is not finite.
     """
     at = system.at(z)
+    return equilibria_at(at, None if at.as_given is None else locate(at.as_given))
+
+
+def equilibria_at(at: AtZ, location: Location | None) -> EquatorEquilibria:
+    """Equilibria on the equator of a frozen system; `location` is that of `locate`, None if U is not e-linear."""
     q = at.as_given
-    if q is None:
+    if q is None or location is None:
         return _general(at)
     a, b, d, f1, f2 = q.a, q.b, q.d, q.f1, q.f2
     zeros = tangential_zeros(a, b, d, f1, f2)
-    location = locate(q)
     reached, nearest = location.direction, None
     if reached is not None and zeros.theta:
         nearest = min(zeros.theta, key=lambda t: abs(math.remainder(t - reached, 2.0 * math.pi)))

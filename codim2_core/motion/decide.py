@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from ..cycles.limit_cycles import limit_cycles
 from ..layer_problem.critical import CriticalSet, critical_sets
 from ..layer_problem.equator import EquatorEquilibria, equator_equilibria
-from ..portrait.layer_problem import layer_problem
+from ..layer_problem.problem import LayerProblem
 from ..portrait.outcomes import approach_outcomes
+from ..portrait.verdicts import ends, followed, judge
 from ..psi.constructors import compared, constant
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
@@ -79,10 +80,9 @@ def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Ver
         In the projected disc, |p| < 1. Where they end at different places the verdict is "stop".
     """
     at = tuple(z.tolist())
-    frozen = system.at(at)
-    hemisphere = layer_problem(frozen, psi, equator_equilibria(frozen))
-    ends = hemisphere.ends(hemisphere.followed(points))
-    verdict, onto, leaving, _, reason = hemisphere.judge(ends, "Orbits go on from there")
+    hemisphere = LayerProblem(system.at(at), psi)
+    found = ends(hemisphere, followed(hemisphere, points))
+    verdict, onto, leaving, _, reason = judge(hemisphere, found, "Orbits go on from there")
     return _followed(system, psi, at, verdict, onto, leaving, reason)
 
 

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..cycles.limit_cycles import LimitCycles, limit_cycles
-from ..layer_problem.critical import critical_sets
-from ..layer_problem.equator import equator_equilibria
+from ..cycles.limit_cycles import LimitCycles, cycles_of
+from ..layer_problem.problem import LayerProblem
 from ..orbits.trajectories import trajectories
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
@@ -72,12 +71,16 @@ def basins(
     ValueError
         n is not 32 times a power of two.
     """
+    return basins_of(LayerProblem(system.at(z), psi).give(cycles_of, cycles), n)
+
+
+def basins_of(problem: LayerProblem, n: int = 128) -> Basins:
+    """Find the basins of a layer problem, with the parameters of `basins`."""
     times, rest = divmod(n, COARSEST)
     if rest or times < 1 or times & (times - 1):
         raise ValueError(f"n is {n}; give 32 times a power of two: 32, 64, 128, …")
-    at = system.at(z)
-    equator, critical = equator_equilibria(at), critical_sets(at, psi)
-    cycles = limit_cycles(at, psi) if cycles is None else cycles
+    at, psi, equator, critical = problem.at, problem.psi, problem.equator, problem.critical
+    cycles = problem.keep(cycles_of)
     time = drawn_time(at, equator)
     names: list[str] = [critical_label(critical, i) for i, C in enumerate(critical) if C.kind.startswith("stable")]
     evaluations = 0

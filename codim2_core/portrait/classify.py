@@ -9,14 +9,12 @@ from ..layer_problem.critical import (
     CriticalSet,
     Existence,
     Location,
-    critical_sets,
     determinant_sign,
-    locate,
 )
-from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
+from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
 from .classify_typed import general_portrait
@@ -104,24 +102,16 @@ def _consequence(location: Location, critical: tuple[CriticalSet, ...]) -> str:
     return "The critical set C is a centre to first order."
 
 
-def portrait(
-    at: AtZ,
-    equator: EquatorEquilibria,
-    cycle: EquatorCycle | None,
-    location: Location | None,
-    critical: tuple[CriticalSet, ...],
-) -> Classification:
-    """Name a portrait from its parts (all at one z); `location` is that of `locate`, None for a general system.
+def portrait(problem: LayerProblem) -> Classification:
+    """Name the portrait of a layer problem.
 
     A general system that is affine in (c, s) has the name of its normal form, unless the rotation's rounding blurs
     whether there is a critical set.
     """
-    coefficients = at.normal_form
-    if coefficients is None:
-        return general_portrait(at, equator, cycle, critical)
-    location = locate(coefficients) if location is None else location
-    if (location.e is None) == bool(critical):
-        return general_portrait(at, equator, cycle, critical)
+    coefficients, location = problem.at.normal_form, problem.location
+    equator, cycle, critical = problem.equator, problem.equator_cycle, problem.critical
+    if coefficients is None or location is None or (location.e is None) == bool(critical):
+        return general_portrait(problem.at, equator, cycle, critical)
     case, degeneracies = _case(coefficients)
     degeneracies += _equator_degeneracies(equator, cycle) + _critical_degeneracies(location, critical)
     count = "∞" if equator.all_directions else str(len(equator.theta))
@@ -147,5 +137,4 @@ def classify(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> Classification:
     -------
     Classification
     """
-    at = system.at(z)
-    return portrait(at, equator_equilibria(at), equator_cycle(at), None, critical_sets(at, psi))
+    return LayerProblem(system.at(z), psi).keep(portrait)

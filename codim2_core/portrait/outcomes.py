@@ -18,13 +18,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..layer_problem.critical import CriticalSet
-from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
+from ..layer_problem.problem import LayerProblem
 from ..psi.constructors import compared
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .endings import angular_sign, radially_neutral
-from .layer_problem import Array, LayerProblem, layer_problem
+from .verdicts import Array, arriving, spiralling
 
 __all__ = ["Outcome", "Outcomes", "approach_outcomes"]
 
@@ -216,19 +217,21 @@ def approach_outcomes(
     -------
     Outcomes
     """
-    at = system.at(z)
-    equator = equator_equilibria(at)
-    own = layer_problem(at, psi, equator)
+    return outcomes_of(LayerProblem(system.at(z), psi), compare)
+
+
+def outcomes_of(own: LayerProblem, compare: Sequence[Psi] | None = None) -> Outcomes:
+    """Say of every limit direction of a layer problem what becomes of what arrives there."""
+    at, equator, cycle = own.at, own.equator, own.equator_cycle
     others: list[LayerProblem] = []
     sensitive = _sensitive(at, equator, own.critical)
-    arriving = equator.all_directions or (equator.lambda_rho < 0.0).any()
-    cycle = equator_cycle(at)
-    if sensitive and (arriving or (cycle is not None and cycle.exponent < 0.0)):
+    arrive = equator.all_directions or (equator.lambda_rho < 0.0).any()
+    if sensitive and (arrive or (cycle is not None and cycle.exponent < 0.0)):
         if compare is None and len(own.critical) > MOST_COMPARED:
             compare = ()
         if compare is None:
             compare = compared()
-        others = [layer_problem(at, other, equator) for other in compare]
+        others = [own.under(other) for other in compare]
     if equator.all_directions or cycle is not None or not len(equator):
         whole = _whole(own, others, sensitive, cycle)
         found = () if whole.verdict == "misses" else (whole,)
@@ -262,10 +265,10 @@ def _direction(own: LayerProblem, others: list[LayerProblem], sensitive: bool, i
             reason += " Those that come in beside it turn away: crossing, in the words of sec:mateslidecross."
         return Outcome(theta, label, "nothing", "misses", None, None, None, reason)
     arrives = _arrival(equator, i)
-    verdict, onto, leaving, slow, reason = own.arriving(i)
+    verdict, onto, leaving, slow, reason = arriving(own, i)
     reason = f"{_SENTENCE[arrives].format(label)} {reason}"
     outcome = Outcome(theta, label, arrives, verdict, onto, leaving, slow, reason)
-    verdicts = [(other.psi.text, *other.arriving(i)[:2]) for other in others]
+    verdicts = [(other.psi.text, *arriving(other, i)[:2]) for other in others]
     return _compared(outcome, verdicts, sensitive)
 
 
@@ -273,10 +276,10 @@ def _whole(own: LayerProblem, others: list[LayerProblem], sensitive: bool, cycle
     if own.equator.all_directions:
         label, radial = "every direction", _radial(own.at)
         if radial.max() < 0.0:
-            verdict, onto, leaving, slow, reason = own.spiralling("Orbits leave the equator at all angles")
+            verdict, onto, leaving, slow, reason = spiralling(own, "Orbits leave the equator at all angles")
             reason = f"Every direction is a limit direction. {reason}"
             outcome = Outcome(None, label, "open set", verdict, onto, leaving, slow, reason)
-            return _compared(outcome, [(other.psi.text, *other.spiralling()[:2]) for other in others], sensitive)
+            return _compared(outcome, [(other.psi.text, *spiralling(other)[:2]) for other in others], sensitive)
         if radial.min() > 0.0:
             return Outcome(None, label, "nothing", "misses", None, None, None, "Every direction leads away from Σ.")
         reason = "Every direction is a limit direction, and some lead to Σ, others away from it."
@@ -289,7 +292,7 @@ def _whole(own: LayerProblem, others: list[LayerProblem], sensitive: bool, cycle
     if not cycle.stable_outside:
         reason = "The closed equator repels outside: trajectories spiral away and never reach Σ."
         return Outcome(None, "equator", "nothing", "misses", None, None, None, reason)
-    verdict, onto, leaving, slow, reason = own.spiralling()
+    verdict, onto, leaving, slow, reason = spiralling(own)
     reason = f"Trajectories from all angles spiral onto the closed equator (thm:geneps0(c)). {reason}"
     outcome = Outcome(None, "equator", "open set", verdict, onto, leaving, slow, reason)
-    return _compared(outcome, [(other.psi.text, *other.spiralling()[:2]) for other in others], sensitive)
+    return _compared(outcome, [(other.psi.text, *spiralling(other)[:2]) for other in others], sensitive)

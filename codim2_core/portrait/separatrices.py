@@ -17,9 +17,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..cycles.limit_cycles import LimitCycles, limit_cycles
-from ..layer_problem.critical import CriticalSet, critical_sets
-from ..layer_problem.equator import EquatorEquilibria, equator_equilibria
+from ..cycles.limit_cycles import LimitCycles, cycles_of
+from ..layer_problem.critical import CriticalSet
+from ..layer_problem.equator import EquatorEquilibria
+from ..layer_problem.problem import LayerProblem
 from ..orbits.trajectories import Status, continuation, joined, trajectories
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
@@ -151,11 +152,22 @@ def separatrices(
     -------
     Separatrices
     """
-    at = system.at(z)
-    equator = equator_equilibria(at)
-    critical = critical_sets(at, psi)
-    if cycles is None:
-        cycles = limit_cycles(at, psi)
+    problem = LayerProblem(system.at(z), psi).give(cycles_of, cycles)
+    return separatrices_of(problem, t_max=t_max, rtol=rtol, view=view, pixel=pixel, tolerance=tolerance)
+
+
+def separatrices_of(
+    problem: LayerProblem,
+    *,
+    t_max: float | None = None,
+    rtol: float = 1e-9,
+    view: float = 2.0,
+    pixel: float = PIXEL,
+    tolerance: float = 1e-6,
+) -> Separatrices:
+    """Separatrices of a layer problem, with the parameters of `separatrices`."""
+    at, psi, equator, critical = problem.at, problem.psi, problem.equator, problem.critical
+    cycles = problem.keep(cycles_of)
     longest = drawn_time(at, equator) if t_max is None else t_max
 
     def inside(pixel: float) -> list[Separatrix]:

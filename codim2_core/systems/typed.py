@@ -266,7 +266,11 @@ class Frozen:
         rows = self.system.jacobian
         if self.reads_position or any(name in PLANE for row in rows for entry in row for name in entry.names):
             return None
-        return ELinear.from_matrix(self.DU((0.0, 0.0)), self.U((0.0, 0.0)).tolist()).at()
+        (a11, a12), (a21, a22) = self.DU((0.0, 0.0)).tolist()
+        f = self.U((0.0, 0.0)).tolist()
+        if a12 + a21 == 0.0:  # in the normal form already: no rotation
+            return ELinear(a11, a21, a22, f).at()
+        return ELinear.from_matrix([[a11, a12], [a21, a22]], f).at()
 
     @property
     def as_given(self) -> Coefficients | None:

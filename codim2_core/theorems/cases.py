@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..layer_problem.critical import Existence, critical_sets
+from ..layer_problem.critical import Existence
 from ..psi.constructors import compared
 from .facts import RAYS, Certificate, Facts, not_applicable, verdict_of
 
@@ -101,7 +101,7 @@ def case2(facts: Facts) -> tuple[Certificate, ...]:
         return not_applicable("thm:case2(a)", with_set, facts.location.existence.value), second
     equator = facts.equator
     products = (equator.lambda_rho * equator.lambda_theta).tolist()
-    saddles = all(C.kind == "saddle" for psi in (facts.psi, *compared(1)) for C in critical_sets(facts.at, psi))
+    saddles = all(C.kind == "saddle" for psi in (facts.psi, *compared(1)) for C in facts.problem.under(psi).critical)
     holds = saddles and len(products) == 4 and all(v < 0.0 for v in products)
     numbers = (("det J", facts.critical[0].determinant), ("limit directions", float(len(products))),
                *((f"λ_ρ λ_θ at {label}", v) for label, v in zip(equator.labels, products, strict=True)))  # fmt: skip

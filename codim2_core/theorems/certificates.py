@@ -13,9 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..layer_problem.critical import Existence, critical_sets, determinant_sign, locate
-from ..layer_problem.equator import equator_cycle, equator_equilibria
-from ..portrait.classify import portrait
+from ..layer_problem.critical import Existence, determinant_sign
+from ..layer_problem.problem import LayerProblem
 from ..psi.constructors import compared
 from ..psi.function import Psi
 from ..sliding.flow import sliding_flow
@@ -55,14 +54,12 @@ def certificates(
     """
     if not isinstance(psi, Psi):
         raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
-    at = system.at(z)
-    equator, cycle, location, critical = (
-        equator_equilibria(at),
-        equator_cycle(at),
-        locate(at),
-        critical_sets(at, psi),
-    )
-    facts = Facts(at, psi, equator, cycle, location, critical, portrait(at, equator, cycle, location, critical))
+    return certificates_of(LayerProblem(system.at(z), psi), cycles)
+
+
+def certificates_of(problem: LayerProblem, cycles: Iterable[Any] | None = None) -> tuple[Certificate, ...]:
+    """Evaluate the claims on a layer problem, with the parameters of `certificates`."""
+    facts = Facts(problem)
     return (
         _equilibria(facts),
         _up_the_sphere(facts),
@@ -189,7 +186,7 @@ def _slow_flow(facts: Facts) -> Certificate:
     slow = facts.critical[0].slow_flow
     numbers, holds = [], True
     for other in dict.fromkeys((facts.psi, *compared(1))):
-        found = critical_sets(facts.at, other)
+        found = facts.problem.under(other).critical
         x2 = found[0].x2
         zeta = float(np.hypot(*x2))
         e = other.modulus(zeta) * x2 / zeta if zeta else x2  # back from the scaling chart

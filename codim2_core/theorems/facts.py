@@ -11,7 +11,8 @@ import numpy as np
 from ..layer_problem.closed_equator import EquatorCycle
 from ..layer_problem.critical import CriticalSet, Existence, Location
 from ..layer_problem.equator import EquatorEquilibria
-from ..portrait.classify import Classification
+from ..layer_problem.problem import LayerProblem
+from ..portrait.classify import Classification, portrait
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 
@@ -53,15 +54,47 @@ class Certificate:
 
 @dataclass(frozen=True)
 class Facts:
-    """Everything the theorems speak of, computed once."""
+    """Everything the theorems speak of, of one e-linear layer problem."""
 
-    at: Coefficients
-    psi: Psi
-    equator: EquatorEquilibria
-    cycle: EquatorCycle | None
-    location: Location
-    critical: tuple[CriticalSet, ...]
-    portrait: Classification
+    problem: LayerProblem
+
+    @property
+    def at(self) -> Coefficients:
+        """The coefficients."""
+        form = self.problem.at.as_given
+        assert form is not None
+        return form
+
+    @property
+    def psi(self) -> Psi:
+        """The regularisation."""
+        return self.problem.psi
+
+    @property
+    def equator(self) -> EquatorEquilibria:
+        """The limit directions."""
+        return self.problem.equator
+
+    @property
+    def cycle(self) -> EquatorCycle | None:
+        """The closed equator."""
+        return self.problem.equator_cycle
+
+    @property
+    def location(self) -> Location:
+        """Where A e + f = 0."""
+        assert self.problem.location is not None
+        return self.problem.location
+
+    @property
+    def critical(self) -> tuple[CriticalSet, ...]:
+        """The critical sets."""
+        return self.problem.critical
+
+    @property
+    def portrait(self) -> Classification:
+        """The portrait's name."""
+        return self.problem.keep(portrait)
 
     @property
     def size(self) -> float:

@@ -38,11 +38,11 @@ def ran(scene, **changes):
 
 
 EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "outside"}
-HEMISPHERE = {"cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations", "classification",
-              "certificates", "outcomes"}  # fmt: skip
+HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations",
+              "classification", "certificates", "outcomes"}  # fmt: skip
 
 ATLAS = {"atlas_curves", "regions"}  # of the plane (f1, f2): neither f nor Psi is in them
-SLOW = {"critical", "classification", "certificates", "slow_flow", "outcomes"}
+SLOW = {"critical", "classification", "certificates", "slow_flow", "outcomes", "cycles"}
 
 REACHES = {
     "a": ({"a": -1.7}, EQUATOR | HEMISPHERE | ATLAS | {"slow_flow"}),
@@ -97,7 +97,7 @@ def test_nothing_is_computed_that_is_not_asked_for():
     scene = c2.Scene(typed(), z=0.5)
     assert dict(scene.runs) == {}
     scene["equator"]
-    assert dict(scene.runs) == {"equator": 1}
+    assert dict(scene.runs) == {"location": 1, "equator": 1}  # which asks where the critical set is
 
 
 def test_going_back_is_free():

@@ -40,8 +40,8 @@ def ran(first, **changes):
 
 EQUATOR = {"equator", "equator_cycle", "nullclines_outside", "outside"}
 SLOW = {"critical", "classification", "certificates", "slow_flow", "cycles", "outcomes"}
-HEMISPHERE = {"cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations", "classification",
-              "certificates", "outcomes"}  # fmt: skip
+HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations",
+              "classification", "certificates", "outcomes"}  # fmt: skip
 PLANE = EQUATOR | HEMISPHERE | {"slow_flow", "location"}
 STEPPED = {"inside", "outside", "continuations"}
 
@@ -82,7 +82,7 @@ def test_layers_of_the_e_linear_theory_are_named():
     for name in layers:
         assert there.has(name)
         assert here.has(name) == (name not in ELINEAR_ONLY)
-        assert (here[name] is None) == (name in ELINEAR_ONLY | {"equator_cycle"})
+        assert (here[name] is None) == (name in ELINEAR_ONLY | {"equator_cycle", "location"})
     assert not here.has("sky")
 
 
@@ -154,7 +154,7 @@ DEGENERATE = [
 def test_degenerate_systems_have_every_layer(U):
     shown = c2.Scene(c2.System(U=U), c2.psi.tanh(), count=12)
     for name in layers:
-        assert (shown[name] is None) == (name in ELINEAR_ONLY) or name in ("equator_cycle", "slow_flow")
+        assert (shown[name] is None) == (name in ELINEAR_ONLY) or name in ("location", "equator_cycle", "slow_flow")
     for orbits in (shown["inside"], shown["outside"]):
         assert np.isfinite(orbits.buffer).all()
     assert shown["classification"].sentence

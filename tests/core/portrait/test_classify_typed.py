@@ -45,8 +45,10 @@ def test_affine_systems_have_the_name_of_the_normal_form(system, regularisation)
 def test_affine_form():
     system = System(U=("p*c - s + z", "c - 2*s"), W=("-z",), parameters={"p": -1.0})
     form = system.at(0.25).normal_form
-    expected = ELinear.from_matrix([[-1.0, -1.0], [1.0, -2.0]], (0.25, 0.0)).at()
-    assert form.plane == pytest.approx(expected.plane)
+    assert (form.plane, form.rotation) == ((-1.0, 1.0, -2.0, 0.25, 0.0), 0.0)  # as it stands
+    system = System(U=("p*c - s + z", "2*c - 2*s"), W=("-z",), parameters={"p": -1.0})
+    expected = ELinear.from_matrix([[-1.0, -1.0], [2.0, -2.0]], (0.25, 0.0)).at()
+    assert system.at(0.25).normal_form.plane == pytest.approx(expected.plane)
     assert System(U=("c**2", "s")).at().normal_form is None
     assert System(U=("c + x", "s")).at().normal_form is None
 

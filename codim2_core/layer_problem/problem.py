@@ -1,0 +1,105 @@
+"""The layer problem at one z under one Psi: what stands still in it, each found once, when it is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from typing import Any, TypeVar
+
+from ..psi.function import Psi
+from ..systems.frozen import AtZ
+from .closed_equator import EquatorCycle, equator_cycle
+from .critical import CriticalSet, Location, locate, sets_at
+from .equator import EquatorEquilibria, equilibria_at
+
+Result = TypeVar("Result")
+
+
+def find_location(problem: LayerProblem) -> Location | None:
+    """Decide where A e + f = 0, thm:lineps1(a), in the axes of the normal form; None if U is not e-linear."""
+    form = problem.at.normal_form
+    return None if form is None else locate(form)
+
+
+def find_equator(problem: LayerProblem) -> EquatorEquilibria:
+    """Find the limit directions, eq:equator_equilibria."""
+    return equilibria_at(problem.at, problem.location)
+
+
+def find_equator_cycle(problem: LayerProblem) -> EquatorCycle | None:
+    """Describe the equator as a closed orbit, thm:geneps0(c); None where it has equilibria."""
+    on = problem.equator
+    return None if len(on) or on.all_directions else equator_cycle(problem.at)
+
+
+def find_critical(problem: LayerProblem) -> tuple[CriticalSet, ...]:
+    """Find the critical sets, eq:critical_set."""
+    return sets_at(problem.at, problem.psi, problem.location)
+
+
+FREE = frozenset({find_location, find_equator, find_equator_cycle})  # of Psi
+
+
+class LayerProblem:
+    """The layer problem eq:LP of a system frozen at z, under Psi.
+
+    What a module above this one finds in it is kept here too, `keep`: whoever is given the problem finds nothing twice.
+
+    Parameters
+    ----------
+    at : AtZ
+    psi : Psi
+
+    Examples
+    --------
+    >>> from codim2_core import ELinear, psi
+    >>> problem = LayerProblem(ELinear(-2, 0, -1, (-0.5, 0)).at(), psi.constant())
+    >>> len(problem.equator), problem.equator_cycle, problem.critical[0].kind
+    (4, None, 'stable node')
+    """
+
+    def __init__(self, at: AtZ, psi: Psi) -> None:
+        self.at, self.psi = at, psi
+        self._kept: dict[Hashable, Any] = {}
+        self._base = self
+
+    def keep(self, find: Callable[[LayerProblem], Result]) -> Result:
+        """Return ``find(self)``, computed once; `find` is a function of a module, not made anew for each call."""
+        if find in FREE and self._base is not self:
+            return self._base.keep(find)
+        if find not in self._kept:
+            self._kept[find] = find(self)
+        return self._kept[find]
+
+    def give(self, find: Callable[[LayerProblem], Result], result: Result | None) -> LayerProblem:
+        """Keep what is known already as the result of `find`, unless it is None; return this problem."""
+        if result is not None:
+            self._kept[find] = result
+        return self
+
+    def under(self, psi: Psi) -> LayerProblem:
+        """Return the layer problem of the same system under another Psi; what Psi has no say in is shared."""
+        if psi == self.psi:
+            return self
+        other = LayerProblem(self.at, psi)
+        other._base = self._base
+        return other
+
+    @property
+    def location(self) -> Location | None:
+        """Where A e + f = 0, thm:lineps1(a), in the axes of the normal form; None if U is not e-linear."""
+        return self.keep(find_location)
+
+    @property
+    def equator(self) -> EquatorEquilibria:
+        """The limit directions, eq:equator_equilibria."""
+        return self.keep(find_equator)
+
+    @property
+    def equator_cycle(self) -> EquatorCycle | None:
+        """The equator as a closed orbit, thm:geneps0(c); None where it has equilibria."""
+        return self.keep(find_equator_cycle)
+
+    @property
+    def critical(self) -> tuple[CriticalSet, ...]:
+        """The critical sets, eq:critical_set."""
+        return self.keep(find_critical)

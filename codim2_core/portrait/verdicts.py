@@ -1,0 +1,93 @@
+"""What becomes of orbits of the layer problem: they slide, cross, or are undecided, by where they end."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..cycles.limit_cycles import cycles_of
+from ..layer_problem.problem import LayerProblem
+from ..orbits.trajectories import Trajectories, continuation, trajectories
+from .endings import CAPTURE, CONNECTION, Ending, critical_label, drawn_time, endings
+
+Array = NDArray[np.float64]
+Judged = tuple[str, str | None, float | None, Array | None, str]  # verdict, onto, leaving, slow flow, reason
+
+RTOL = 1e-8
+FAN = 0.02  # radius, in (theta, ebar), of the half circle of starts around a Q that many orbits leave
+
+
+def ends(problem: LayerProblem, lines: Trajectories) -> list[Ending]:
+    """Say where trajectories end."""
+    return endings(
+        problem.at, problem.psi, lines, problem.equator, problem.critical, problem.keep(cycles_of), rtol=RTOL
+    )
+
+
+def followed(problem: LayerProblem, points: Array) -> Trajectories:
+    """Follow points of the picture (k, 2) until they have ended somewhere."""
+    time = drawn_time(problem.at, problem.equator)
+    return trajectories(
+        problem.at, problem.psi, points, t_max=time, rtol=RTOL, atol=0.1 * RTOL, capture=CAPTURE, samples="ends"
+    )
+
+
+def from_equator(problem: LayerProblem, i: int) -> Trajectories:
+    """Follow the orbit that leaves the limit direction i (from 0) up the hemisphere."""
+    time = drawn_time(problem.at, problem.equator)
+    return continuation(
+        problem.at,
+        problem.psi,
+        problem.equator.theta[i : i + 1],
+        t_max=time,
+        rtol=RTOL,
+        atol=0.1 * RTOL,
+        capture=CAPTURE,
+        samples="ends",
+    )
+
+
+def judge(problem: LayerProblem, found: Sequence[Ending], many: str) -> Judged:
+    """Judge trajectories that end so."""
+    labels = list(dict.fromkeys(end.label for end in found))
+    if len(labels) > 1:
+        return "undecided", None, None, None, f"{many}, and they end at different places: {', '.join(labels)}."
+    end = found[0]
+    label = end.label
+    if end.sentence == CONNECTION:
+        return "undecided", None, None, None, f"They run into the saddle {label}: which side is left to ε."
+    for i, C in enumerate(problem.critical):
+        if label == critical_label(problem.critical, i):
+            return "slide", label, None, C.slow_flow, f"They reach the critical set {label}, a {C.kind}: sliding."
+    if label.startswith("cycle"):
+        cycle = problem.keep(cycles_of)[int(label.split()[1]) - 1]
+        reason = "They wind onto a limit cycle around C: sliding, with the slow flow of C on average (prop:LC)."
+        if problem.at.normal_form is None:
+            reason = "They wind onto a limit cycle: sliding, with the mean slow flow over the cycle."
+        return "cycle", label, None, cycle.slow_flow, reason
+    if label.startswith("Q"):
+        return "cross", label, end.angle, None, f"They leave along θ = {end.angle:.4g} ({label}): crossing."
+    if label == "equator":
+        return "cross", label, None, None, "They come down to the closed equator and spiral away: crossing."
+    return "undecided", None, None, None, f"They were not followed to an end: {end.sentence}"
+
+
+def arriving(problem: LayerProblem, i: int) -> Judged:
+    """Judge what arrives at Q_{i+1}, where lambda_rho < 0."""
+    main = ends(problem, from_equator(problem, i))
+    if problem.equator.multiplicity[i] == 1 and problem.equator.lambda_theta[i] < 0.0:
+        return judge(problem, main, "")
+    angle = np.radians([15.0, 45.0, 75.0, 105.0, 135.0, 165.0])
+    theta, height = float(problem.equator.theta[i]) + FAN * np.cos(angle), FAN * np.sin(angle)
+    around = np.sqrt(1.0 - height**2)[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+    return judge(problem, [*main, *ends(problem, followed(problem, around))], "A whole family of orbits leaves Q")
+
+
+def spiralling(problem: LayerProblem, many: str = "Orbits leave the closed equator at all angles") -> Judged:
+    """Judge what leaves the equator at all angles."""
+    angle = 2.0 * math.pi * np.arange(8) / 8.0
+    ring = 0.9995 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return judge(problem, ends(problem, followed(problem, ring)), many)

@@ -1,0 +1,97 @@
+"""What stands still in a layer problem is found once, however many ask."""
+
+from collections import Counter
+
+import pytest
+
+import codim2_core as c2
+from codim2_core import psi
+from codim2_core.cycles.limit_cycles import cycles_of
+from codim2_core.layer_problem import closed_equator, critical, disc_zeros, equator, problem
+from codim2_core.layer_problem.problem import LayerProblem
+from codim2_core.portrait.classify import portrait
+
+CASE_III = c2.presets["case3-n3"]
+TYPED = c2.examples.nonunique_sliding()
+
+
+@pytest.fixture
+def calls(monkeypatch):
+    """Count what is computed anew of the things that every part of a picture asks for."""
+    from codim2_core.cycles import limit_cycles, section
+
+    counted: Counter = Counter()
+    modules = (problem, critical, equator, closed_equator, disc_zeros, limit_cycles, section)
+    for name in ("locate", "sets_at", "equilibria_at", "equator_cycle", "search", "find"):
+        for module in modules:
+            if hasattr(module, name):
+                original = getattr(module, name)
+
+                def count(*arguments, _name=name, _original=original, **options):
+                    what = getattr(arguments[0], "plane", None)  # of which system, and under which Psi
+                    what = what if isinstance(what, tuple) else None
+                    under = arguments[1] if _name == "sets_at" else None
+                    counted[_name, what, under] += 1
+                    return _original(*arguments, **options)
+
+                monkeypatch.setattr(module, name, count)
+    return counted
+
+
+@pytest.mark.parametrize("key", ["case1-cm4", "case2-ncm4", "case3-n3"])
+def test_everything_in_a_frame_is_computed_once(calls, key):
+    preset = c2.presets[key]
+    scene = c2.Scene(preset.system, preset.psi, preset.z)
+    for name in scene:
+        scene[name]
+    own = {key: count for key, count in calls.items() if key[1] in (preset.system.at(preset.z).plane, None)}
+    assert {key[0] for key in own} >= {"locate", "sets_at", "equilibria_at"}
+    searches = [count for key, count in own.items() if key[0] == "search"]
+    assert sum(searches) <= 9  # a theorem answers, or once for each Psi that outcomes compare
+    assert {count for key, count in own.items() if key[0] != "search"} == {1}
+    before = dict(scene.runs)
+    for name in scene:
+        scene[name]
+    assert dict(scene.runs) == before
+
+
+def test_a_general_system_likewise(calls):
+    scene = c2.Scene(TYPED, psi.tanh(), 0.25)
+    for name in scene:
+        scene[name]
+    assert {key[0]: count for key, count in calls.items() if key[0] != "sets_at"} == {"equilibria_at": 1}
+    assert calls["sets_at", None, psi.tanh()] == 1
+    assert set(calls.values()) == {1}
+
+
+def test_another_psi_shares_what_does_not_depend_on_it():
+    first = LayerProblem(CASE_III.system.at(CASE_III.z), psi.hill(3))
+    other = first.under(psi.hill(1))
+    assert other.equator is first.equator
+    assert other.location is first.location
+    assert other.equator_cycle is first.equator_cycle
+    assert other.critical[0].trace != first.critical[0].trace
+    assert first.under(psi.hill(3)) is first
+    assert other.under(psi.constant()).equator is first.equator
+
+
+def test_results_from_above_are_kept_in_it():
+    own = LayerProblem(CASE_III.system.at(CASE_III.z), CASE_III.psi)
+    assert own.keep(cycles_of) is own.keep(cycles_of)
+    assert own.keep(portrait) is own.keep(portrait)
+    assert own.keep(portrait) == c2.classify(CASE_III.system, CASE_III.psi, CASE_III.z)
+    known = LayerProblem(own.at, own.psi).give(cycles_of, own.keep(cycles_of))
+    assert known.keep(cycles_of) is own.keep(cycles_of)
+
+
+def test_the_slow_flow_of_a_typed_law_on_a_cycle_is_the_mean_of_w():
+    """U is e-linear and W is not: W at the mean of e_Psi is not the mean of W."""
+    ours = CASE_III.system.at(CASE_III.z)
+    a, b, d, f1, f2 = ours.plane
+    U = (f"{a!r}*c - {b!r}*s + {f1!r}", f"{b!r}*c + {d!r}*s + {f2!r}")
+    typed = c2.System(U=U, W=("c**2 + s**2",))
+    regularisation = psi.hill(4)
+    same = c2.limit_cycles(ours, regularisation)[0]
+    found = c2.limit_cycles(typed, regularisation, 0.0)[0]
+    assert found.period == pytest.approx(same.period, rel=1e-12)
+    assert found.slow_flow[0] > float(same.mean_e @ same.mean_e) + 1e-4
