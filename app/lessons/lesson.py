@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from .condition import Condition
 from .words import fields
+
+SHOWN = re.compile(r'data-fact="(\w+)"')
 
 
 @dataclass(frozen=True)
@@ -105,6 +108,11 @@ class Lesson:
     summary: str
     values: Mapping[str, Any]
     parts: tuple[Prose | Question, ...]
+
+    @property
+    def live(self) -> frozenset[str]:
+        """Names of the facts of the present scene that its text shows."""
+        return frozenset(name for part in self.parts if isinstance(part, Prose) for name in SHOWN.findall(part.html))
 
     @property
     def questions(self) -> tuple[Question, ...]:

@@ -13,7 +13,7 @@ from markdown_it.token import Token
 from ..draw.layers import LAYERS
 from ..state.controls import NAMES, InputError, clean, preset_values
 from .condition import Condition, condition
-from .facts import KNOWN
+from .facts import COMPILED, KNOWN
 from .lesson import Lesson, Option, Prose, Question, Vary
 from .markdown import LinkError, button, draggable, inline, live, parser, rendered
 from .words import fields
@@ -209,10 +209,10 @@ def _resolver(path: Path, line: int):
                 return button(_values(path, line, pairs), words)
             case "drag" if target in NAMES:
                 return draggable(target, words or target)
-            case "fact" if target in KNOWN:
+            case "fact" if target in KNOWN - COMPILED:  # shown in every frame of a drag
                 return live(target)
             case "lesson":
-                return button({"panel": "lessons", "lesson": target}, words)
+                return button({"lesson": target, "quiz": ""}, words)
         raise LinkError(
             f"a link to {scheme}:{target} leads nowhere; give portrait:KEY, set:NAME=VALUE, drag:NAME, "
             "fact:NAME or lesson:KEY."

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ..frame.draft import Draft
 from ..state.controls import offer
-from . import along, atlas, basins, diagram, numbers, outcomes, planes, psi, stack, theorems, time
+from . import along, atlas, basins, diagram, lessons, numbers, outcomes, planes, psi, stack, theorems, time
 from .panel import Panel
 
 #: By key, in the order of the tabs.
@@ -40,5 +40,5 @@ def add(draft: Draft) -> None:
         each(draft)
 
 
-for module in (atlas, numbers, planes, diagram, theorems, along, stack, time, psi):
+for module in (atlas, numbers, planes, diagram, theorems, along, stack, time, psi, lessons):
     register(module.PANEL)

@@ -8,6 +8,7 @@ import socket
 import sys
 from collections.abc import Sequence
 from importlib.metadata import version
+from pathlib import Path
 
 from .commands import add_census, add_classify, add_presets
 
@@ -36,6 +37,9 @@ def parser() -> argparse.ArgumentParser:
         default=_at_a_screen(),
         help="open a browser window (default: when started from a terminal on a screen)",
     )
+    serve.add_argument(
+        "--lessons", type=Path, metavar="DIR", help="a folder with lessons of your own, offered after the course"
+    )
     commands.add_parser("warm", help="compile the integrator into the disk cache, so that servers start warm")
     for add in (add_classify, add_presets, add_census):
         add(commands)
@@ -58,6 +62,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         warm_all()
         print("codim2: the integrator is compiled for all built-in regularisation functions")
         return 0
+    if chosen.lessons is not None and not _offer_lessons(chosen.lessons):
+        return 1
     origins = [*chosen.allow_origin, *filter(None, os.environ.get("CODIM2_ORIGINS", "").split(","))]
     try:
         _try_to_listen(chosen.address, chosen.port)
@@ -77,6 +83,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("codim2: stopped")
     return 0
+
+
+def _offer_lessons(folder: Path) -> bool:
+    """Offer the lessons of a folder; say what is wrong with those that cannot be read."""
+    from ..lessons.library import from_folder, offer
+
+    try:
+        found, errors = from_folder(folder)
+    except ValueError as error:
+        print(f"codim2: {error}")
+        return False
+    for error in errors:
+        print(f"codim2: left out: {error}")
+    offer(found)
+    print(f"codim2: {len(found)} lessons from {folder}")
+    return True
 
 
 def _try_to_listen(address: str, port: int) -> None:

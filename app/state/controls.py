@@ -96,6 +96,8 @@ class ExplorerState(param.Parameterized):
     drift = param.Selector(default="z", objects=list(SLOW_CONTROLS), label="Along", doc="Slow variable of “Along z”.")
     log_eps = _number(-2.0, -10, 0, "log₁₀ ε", "Size of the regularised region, eq:ePsi.")
     launch = param.String("0.6, 0.8, 0", label="Start", doc="State (x, y, z₁, …) from which a motion starts.")
+    lesson = param.String("", label="Lesson", doc="The lesson that is open.")
+    quiz = param.String("", label="Question", doc="QUESTION.SEED or QUESTION.SEED.ANSWER of the open lesson.")
     t_end = _number(8.0, 0, 40, "until t", "How long a motion is followed.")
 
     def values(self) -> dict[str, Any]:

@@ -39,12 +39,15 @@ function wire({model, view, root, plot}) {
   const showPanels = () => panels.show(values.panel, values)
   const choose = (name, value) => { change(name, value); showPanels() }
   const setters = {}
+  let hidden = [] // layers that a question hides until it is answered
   const panels = new Panels(root, config.panels, {
     root, values, move, choose, symbols: config.symbols, ranges: config.ranges, docs: config.docs,
     slowSymbols: () => config.slowSymbols ?? [],
     valueOf: (name) => name.startsWith("own:") ? systems.value(name.slice(4)) : values[name],
     follow: (name, set) => { setters[name] = set },
     trace: (paths, place) => picture.trace(paths, place),
+    open: (wanted) => { setAll(wanted); tell() },
+    hide: (layers) => { hidden = layers; showLayers() },
   }, (name) => choose("panel", name))
 
   for (const box of root.querySelectorAll("[data-control]")) {
@@ -72,7 +75,7 @@ function wire({model, view, root, plot}) {
   controls.psi_text.set = (value) => { text.value = value }
 
   const boxes = [...root.querySelectorAll(".layer input[type=checkbox]")]
-  const showLayers = () => { for (const box of boxes) box.checked = values.layers.includes(box.value); picture.show(values.layers); find(".outcome-key").hidden = !values.layers.includes("outcomes") }
+  const showLayers = () => { for (const box of boxes) box.checked = values.layers.includes(box.value); picture.show(values.layers.filter((layer) => !hidden.includes(layer))); find(".outcome-key").hidden = !values.layers.includes("outcomes") }
   for (const box of boxes) box.addEventListener("change", () => { change("layers", boxes.filter((b) => b.checked).map((b) => b.value)); showLayers() })
 
   // Set many controls at once: a portrait of the paper, or the first setting again.

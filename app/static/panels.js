@@ -15,6 +15,8 @@
  * @property {(name: string, value: any) => void} choose a value that concerns the panels only, and draw them
  * @property {(name: string, set: (value: any) => void) => void} follow a control of the panel that the state may move
  * @property {(paths: any, place?: number[]) => void} trace a motion in the picture, or clear it with null
+ * @property {(wanted: Record<string, any>) => void} open many values at once, as choosing a portrait does
+ * @property {(layers: string[]) => void} hide layers of the picture while a question is open; none shows all again
  */
 
 /**

@@ -26,3 +26,20 @@ def test_a_taken_port_is_said_with_the_remedy(capsys):
 def test_a_command_is_needed():
     with pytest.raises(SystemExit):
         main([])
+
+
+def test_lessons_of_a_lecturer_and_what_is_wrong_with_one(tmp_path, capsys):
+    import socket
+
+    (tmp_path / "good.md").write_text("---\ntitle: T\nsummary: S.\n---\nText.\n", encoding="utf-8")
+    (tmp_path / "bad.md").write_text("---\ntitle: T\n---\n", encoding="utf-8")
+    with socket.socket() as taken:  # so that nothing is served
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        address = ["--address", "127.0.0.1", "--port", str(taken.getsockname()[1])]
+        assert main(["serve", *address, "--lessons", str(tmp_path)]) == 1
+        said = capsys.readouterr().out
+        assert "left out: bad.md, line 1: 'summary' is missing." in said
+        assert "1 lessons from" in said
+        assert main(["serve", *address, "--lessons", str(tmp_path / "none")]) == 1
+        assert "is no folder" in capsys.readouterr().out

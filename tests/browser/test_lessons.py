@@ -1,0 +1,59 @@
+"""A student's way through a lesson: open it, drag a number, predict, see the answer, reach the goal, come back later."""
+
+import json
+
+import pytest
+
+pytestmark = pytest.mark.browser
+
+
+def test_a_lesson_from_the_list_to_its_goal(open_page):
+    explorer = open_page().open("?panel=lessons")
+    explorer.find("[data-open='03-limit-directions']").click()
+    explorer.settle()
+    assert explorer.find(".lesson-text math").count() > 5
+    assert explorer.find("[data-fact=limit_directions]").first.text_content() == "4"
+    explorer.find(".begin").click()
+    explorer.page.wait_for_function("document.querySelector('.options') && !document.querySelector('.options').hidden")
+    explorer.settle()
+    count = int(explorer.find("[data-fact=limit_directions]").first.text_content())
+    explorer.find(f"[data-choice='{count // 2}']").click()
+    explorer.find(".verdict b").wait_for()
+    assert explorer.find(".verdict b").text_content() == "Right."
+    for name, value in {"a": -0.3, "b": 0, "d": -1, "f1": 0.5, "f2": 0}.items():
+        explorer.type(name, str(value))
+    assert explorer.name() == "NCM4"
+    assert explorer.find(".goal").text_content() == "Done ✓"
+    kept = json.loads(explorer.page.evaluate("localStorage.getItem('codim2-lessons')"))
+    assert kept == {"03-limit-directions": {"0": ["answer", "goal"]}}
+    explorer.find("[data-open='']").click()
+    explorer.settle()
+    assert explorer.find("[data-open='03-limit-directions'] .lesson-done").text_content() == "✓"
+    assert explorer.complaints == []
+
+
+def test_a_number_in_the_text_is_dragged_and_moves_the_slider(open_page):
+    explorer = open_page().open("?panel=lessons&lesson=01-friction&preset=case1-cm0")
+    number = explorer.find("[data-drag=f1]").first
+    number.scroll_into_view_if_needed()
+    box = number.bounding_box()
+    explorer.page.mouse.move(box["x"] + 5, box["y"] + 5)
+    explorer.page.mouse.down()
+    explorer.page.mouse.move(box["x"] + 85, box["y"] + 5, steps=4)
+    explorer.page.mouse.up()
+    explorer.settle()
+    assert float(explorer.find("[data-control=f1] .number").input_value()) == pytest.approx(1.2, abs=0.02)
+    assert explorer.find("[data-fact=limit_directions]").first.text_content() == "2"
+    number.focus()
+    explorer.page.keyboard.press("ArrowLeft")
+    explorer.settle()
+    assert float(explorer.find("[data-control=f1] .number").input_value()) < 1.2
+    assert explorer.complaints == []
+
+
+def test_a_question_is_in_the_link(open_page):
+    explorer = open_page().open("?panel=lessons&lesson=03-limit-directions&preset=case1-cm4&quiz=0.17")
+    shown = explorer.find("[data-control=a] .number").input_value()
+    again = open_page().open("?panel=lessons&lesson=03-limit-directions&preset=case1-cm4&quiz=0.17")
+    assert again.find("[data-control=a] .number").input_value() == shown
+    assert not again.find(".options").first.is_hidden()
