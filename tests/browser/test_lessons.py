@@ -1,4 +1,4 @@
-"""A student's way through a lesson: open it, drag a number, predict, see the answer, reach the goal, come back later."""
+"""A student's way through a lesson: open it, drag a number, predict, see the answer, reach the goal."""
 
 import json
 
@@ -14,7 +14,7 @@ def test_a_lesson_from_the_list_to_its_goal(open_page):
     assert explorer.find(".lesson-text math").count() > 5
     assert explorer.find("[data-fact=limit_directions]").first.text_content() == "4"
     explorer.find(".begin").click()
-    explorer.page.wait_for_function("document.querySelector('.options') && !document.querySelector('.options').hidden")
+    explorer.find(".options").wait_for()
     explorer.settle()
     count = int(explorer.find("[data-fact=limit_directions]").first.text_content())
     explorer.find(f"[data-choice='{count // 2}']").click()
