@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import outcomes
+from ..slow_layers import outcomes
 from .panel import Panel
 
 PANEL = Panel(

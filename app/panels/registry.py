@@ -7,8 +7,9 @@ rest; until the browser has it, its name is in ``header["late"]``, and the panel
 from __future__ import annotations
 
 from ..frame.draft import Draft
+from ..slow_layers import basins, outcomes
 from ..state.controls import offer
-from . import along, atlas, basins, diagram, lessons, numbers, outcomes, planes, psi, stack, theorems, time
+from . import along, atlas, diagram, lessons, numbers, planes, psi, stack, theorems, time
 from .panel import Panel
 
 #: By key, in the order of the tabs.

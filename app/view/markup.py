@@ -14,8 +14,8 @@ from codim2_core.psi import FAMILIES
 
 from ..draw.layers import LAYERS, TRACES, looks, swatches, table
 from ..draw.theme import DISCS, HATCHES, RING, VIEW, custom_properties, themes
-from ..panels.outcomes import WORDS as OUTCOMES
 from ..panels.registry import PANELS
+from ..slow_layers.outcomes import WORDS as OUTCOMES
 from ..state.choices import MAX_TRAJECTORIES, SLOW_CONTROLS
 from ..state.chosen import BOXES, titles
 from ..state.controls import NUMBERS, ExplorerState, slider_range
