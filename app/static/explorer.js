@@ -1,11 +1,12 @@
-// The explorer: markup from the server, one Bokeh figure, one request in flight.
+// The explorer: markup from the server, one Bokeh figure, frames asked for as fast as the line carries them.
 
 import {Connection} from "./connection.js"
 import {NumberControl, sayAt} from "./controls.js"
-import {readFrame, Requests} from "./frames.js"
+import {readFrame} from "./frames.js"
 import {Inspector} from "./inspector.js"
 import {Panels} from "./panels.js"
 import {Picture} from "./picture.js"
+import {Requests} from "./requests.js"
 import {SystemChooser} from "./system.js"
 
 function wire({model, view, root, plot}) {
@@ -167,7 +168,7 @@ function wire({model, view, root, plot}) {
     inspector.apply(header)
     for (const [name, symbol, low, high] of header.axes ?? []) { config.symbols[name] = symbol; config.ranges[name] = [low, high] }
     panels.apply(frame, late)
-    requests.arrived(header.id, errors)
+    requests.arrived(header.id, errors, header.load)
     if ("id" in header) root.dataset.frame = header.id
     root.dataset.settled = requests.idle && header.ready !== false && !late.length
     if ("ready" in header) {

@@ -1,4 +1,4 @@
-// Frames: reading one packed buffer, and asking for the next so that nothing ever queues.
+// Frames: reading one packed buffer.
 
 export const STEP = 4 / 32767 // a unit of the packed coordinates
 
@@ -35,69 +35,4 @@ export function readFrame(buffer) {
 export function polygons(counts, points, size) {
   let at = 0
   return Array.from(counts, (count) => Array.from({length: count}, () => { at += 2; return [points[at - 2] * STEP * size, points[at - 1] * STEP * size] }))
-}
-
-// Latest wins: one request is out at a time; while it is, only the newest value of each control is kept.
-// A rejected value goes along with the next request, since another control may have made it valid.
-export class Requests {
-  constructor(send, onAsk) {
-    this.send = send
-    this.onAsk = onAsk
-    this.waiting = {}
-    this.rejected = {}
-    this.asked = null
-    this.number = Math.floor(Math.random() * 1e12) // another browser that shows this view gets the replies too
-    this.scheduled = false
-    this.again = this.resting = false
-    this.timer = null
-    this.held = false // the connection is lost: values are kept, nothing is asked
-  }
-
-  holds(name) { return name in this.waiting || (this.asked !== null && name in this.asked) }
-
-  set(name, value) {
-    this.waiting[name] = value
-    delete this.rejected[name]
-    this.onAsk()
-    this.schedule()
-  }
-
-  refresh() { this.again = true; this.schedule() }
-
-  // Nothing moves: ask for what is left out of the frames of a drag.
-  rest() { this.resting = true; this.refresh() }
-
-  get idle() { return this.asked === null && Object.keys(this.waiting).length === 0 }
-
-  schedule() {
-    if (this.held || this.scheduled || this.asked !== null) return
-    this.scheduled = true
-    const go = () => { clearTimeout(fallback); cancelAnimationFrame(frame); this.scheduled = false; this.leave() }
-    const frame = requestAnimationFrame(go)
-    const fallback = setTimeout(go, 100) // a page in the background gets no animation frames
-  }
-
-  leave() {
-    if (this.held || this.asked !== null || (!this.again && Object.keys(this.waiting).length === 0)) return
-    this.asked = {...this.rejected, ...this.waiting}
-    this.waiting = {}
-    this.number += 1
-    this.send({id: this.number, set: this.asked, rest: this.resting})
-    this.again = this.resting = false
-    // a lost reply must not stop the explorer for ever
-    this.timer = setTimeout(() => { this.waiting = {...this.asked, ...this.waiting}; this.asked = null; this.schedule() }, 20000)
-  }
-
-  // Called when a reply has been applied; `errors` maps controls to sentences.
-  arrived(id, errors) {
-    if (id !== this.number || this.asked === null) return
-    clearTimeout(this.timer)
-    this.rejected = {}
-    for (const [name, value] of Object.entries(this.asked)) {
-      const family = name === "psi" && ("psi_text" in errors || "n" in errors)
-      if ((name in errors || family) && !(name in this.waiting)) this.rejected[name] = value
-    }
-    this.asked = null
-    if (this.again || Object.keys(this.waiting).length) this.schedule()
-  }
 }

@@ -28,6 +28,7 @@ from ..panels import registry
 from ..state.choices import AXES
 from ..state.chosen import GIVEN, System_, describe
 from ..state.controls import ExplorerState, InputError, clean, preset_values
+from .load import load
 
 #: Controls that are axes of the picture's parameters.
 MOVED = frozenset(AXES)
@@ -87,9 +88,9 @@ class Frames:
             # the browser still lacks what was left out while the last good picture was moving
             drawn = self._accept({}, sent, errors, rest)
         if drawn is None:
-            return pack({"id": identity, "errors": errors}, {})
+            return pack({"id": identity, "errors": errors, "load": load.measured()}, {})
         header, blocks = drawn
-        return pack({"id": identity, "errors": errors, **header}, blocks)
+        return pack({"id": identity, "errors": errors, "load": load.measured(), **header}, blocks)
 
     def _accept(
         self, good: Mapping[str, Any], sent: Mapping[str, Any], errors: dict[str, str], rest: bool

@@ -14,6 +14,7 @@ import platform
 import sys
 import time
 from dataclasses import dataclass
+from inspect import signature
 from pathlib import Path
 
 from .page import page
@@ -33,7 +34,7 @@ DRAWN = {
 }
 TABLES = {
     "scene": "A cold scene", "general": "Typed systems", "simulate": "Simulated motions against eps",
-    "app": "The server", "equator": "Counts of limit directions",
+    "app": "The server", "browser": "Painted frames", "equator": "Counts of limit directions",
 }  # fmt: skip
 IN_README = ("trajectories", "scene", "general", "app", "equator")
 # Titles of the plots of the second picture, by their beginnings.
@@ -74,7 +75,7 @@ def measured(name: str, quick: bool) -> Section:
     """Run one benchmark."""
     module = importlib.import_module(f"{__package__}.bench_{name}")
     if name in TABLES:
-        text = module.report()
+        text = module.report(quick) if signature(module.report).parameters else module.report()
         return Section(name, text, text, [])
     found = module.measure(quick)
     text = module.text(found)

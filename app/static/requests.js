@@ -1,0 +1,141 @@
+// Asking for frames: the newest values win, nothing queues, and as many requests are out as the line needs.
+
+const INTERVAL = 1000 / 60 // ms between two frames of a screen
+const SLACK = 12 // ms by which a round trip may exceed the shortest one before that means a queue, …
+const SPREAD = 3 // … and so many times what round trips differ by on this line
+const REMEMBERED = 5000 // ms for which the shortest round trip counts
+const BUSY = 0.6 // share of the server's time beyond which a second request out would only wait there
+const MOST = 12
+const LOST = 20000 // ms after which a reply is given up
+
+// How many requests may be out. One frame in flight is one frame a round trip; over a long line the number grows until
+// one is out for each frame of the screen that passes meanwhile. Where replies take longer than the line does, or the
+// server says that it is busy, requests queue, and the number shrinks: to one, where the line is short.
+export class Window {
+  constructor() {
+    this.size = 1
+    this.best = [] // [when, round trip] in order of both: the first is the shortest one of late
+    this.mean = this.spread = 0 // of the round trips, smoothed
+    this.calm = 0 // when to look again after a step
+  }
+
+  // A reply has come `trip` ms after its request; `load` is the share of the server's time that is taken, 0 to 1.
+  measured(now, trip, load = 0) {
+    while (this.best.length && this.best.at(-1)[1] >= trip) this.best.pop()
+    this.best.push([now, trip])
+    while (this.best.length > 1 && now - this.best[0][0] > REMEMBERED) this.best.shift()
+    if (!this.mean) this.mean = trip
+    this.spread += (Math.abs(trip - this.mean) - this.spread) / 8
+    this.mean += (trip - this.mean) / 8
+    const shortest = this.best[0][1]
+    const queued = trip > shortest + SLACK + SPREAD * this.spread
+    const goal = load > BUSY ? 1 : Math.min(MOST, Math.max(1, Math.ceil((shortest - 1) / INTERVAL)))
+    if (this.size > goal) this.size = goal
+    else if (now >= this.calm && queued && this.size > 1) { this.size -= 1; this.calm = now + trip }
+    else if (now >= this.calm && this.size < goal && !queued) { this.size += 1; this.calm = now + INTERVAL }
+  }
+}
+
+// What leaves once a frame of the screen: at once where nothing has left in this frame, else in the next.
+function screenClock() {
+  let free = true
+  const nextFrame = (go) => {
+    const once = () => { clearTimeout(fallback); cancelAnimationFrame(frame); go() }
+    const frame = requestAnimationFrame(once)
+    const fallback = setTimeout(once, 100) // a page in the background gets no animation frames
+  }
+  const take = () => { free = false; nextFrame(() => { free = true }) }
+  return {
+    now: () => performance.now(),
+    soon(go) { // what changes within one task still leaves together
+      if (free) { take(); queueMicrotask(go) } else nextFrame(() => { take(); go() })
+    },
+    after: (ms, go) => setTimeout(go, ms),
+    cancel: (timer) => clearTimeout(timer),
+  }
+}
+
+// While the window is full only the newest value of each control is kept. A rejected value goes along with the next
+// request, since another control may have made it valid.
+export class Requests {
+  /** @param {any} time  a clock of the same kind, for tests */
+  constructor(send, onAsk, time = screenClock()) {
+    this.send = send
+    this.onAsk = onAsk
+    this.time = time
+    this.window = new Window()
+    this.waiting = {}
+    this.rejected = {}
+    this.out = new Map() // number -> {set, at}, oldest first
+    this.number = Math.floor(Math.random() * 1e12) // another browser that shows this view gets the replies too
+    this.scheduled = false
+    this.again = this.resting = false
+    this.held = false // the connection is lost: values are kept, nothing is asked
+  }
+
+  holds(name) { return name in this.waiting || [...this.out.values()].some(({set}) => name in set) }
+
+  set(name, value) {
+    this.waiting[name] = value
+    delete this.rejected[name]
+    this.onAsk()
+    this.schedule()
+  }
+
+  refresh() { this.again = true; this.schedule() }
+
+  // Nothing moves: ask for what is left out of the frames of a drag.
+  rest() { this.resting = true; this.refresh() }
+
+  get idle() { return !this.out.size && !this.wanted }
+
+  get wanted() { return this.again || Object.keys(this.waiting).length > 0 }
+
+  get full() { return this.held || this.out.size >= this.window.size }
+
+  // At most one request leaves in an animation frame, with all that has changed by then.
+  schedule() {
+    if (this.scheduled || this.full) return
+    this.scheduled = true
+    this.time.soon(() => { this.scheduled = false; this.leave() })
+  }
+
+  leave() {
+    if (this.full || !this.wanted) return
+    const set = {...this.rejected, ...this.waiting}
+    this.waiting = {}
+    this.number += 1
+    const id = this.number
+    this.out.set(id, {set, at: this.time.now(), timer: this.time.after(LOST, () => this.lost(id))})
+    this.send({id, set, rest: this.resting})
+    this.again = this.resting = false
+  }
+
+  // A lost reply must not stop the explorer for ever.
+  lost(id) {
+    const {set} = this.out.get(id)
+    this.out.delete(id)
+    const newer = Object.assign({}, ...[...this.out.values()].map((later) => later.set))
+    for (const [name, value] of Object.entries(set)) if (!(name in newer) && !(name in this.waiting)) this.waiting[name] = value
+    this.schedule()
+  }
+
+  // Called when a reply has been applied; `errors` maps controls to sentences, `load` is the server's.
+  arrived(id, errors, load) {
+    const asked = this.out.get(id)
+    if (!asked) return
+    const now = this.time.now()
+    for (const earlier of [...this.out.keys()]) { // replies come in order: one that was left out is not to come
+      if (earlier > id) break
+      this.time.cancel(this.out.get(earlier).timer)
+      this.out.delete(earlier)
+    }
+    this.window.measured(now, now - asked.at, load)
+    this.rejected = {}
+    for (const [name, value] of Object.entries(asked.set)) {
+      const family = name === "psi" && ("psi_text" in errors || "n" in errors)
+      if ((name in errors || family) && !this.holds(name)) this.rejected[name] = value
+    }
+    if (this.wanted) this.schedule()
+  }
+}

@@ -1,0 +1,177 @@
+"""A drag in a browser: painted frames, the browser's time for each, and from the event to the painted frame.
+
+``python -m tests.benchmarks browser [--quick]``. With ``CODIM2_BEFORE=FOLDER``, a clone of another revision, each case
+is measured on both in turn; on a loaded machine only such pairs, and the processor time of a frame, can be trusted.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import statistics
+import tempfile
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import Browser, sync_playwright
+
+from ..app.serving import serving
+from .slow_line import slow_line
+
+#: A slider that moves once in each frame of the screen, and what is painted meanwhile. The picture is the canvas that
+#: is cleared most often; where the page offers its own code, the value that a painted frame shows is known too.
+DRAG = """async (root, seconds) => {
+    const slider = root.querySelector("#c2-f1"), cleared = new Map(), asked = new Map(), delays = []
+    const clear = CanvasRenderingContext2D.prototype.clearRect
+    const known = root.explorer, list = []
+    CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+        cleared.set(this.canvas, (cleared.get(this.canvas) ?? 0) + 1)
+        return clear.apply(this, box)
+    }
+    let shown = null, most = 0
+    if (known) {
+        const {picture, requests} = known, view = picture.drawn.view
+        const apply = picture.apply.bind(picture), paint = view._paint.bind(view), send = requests.send
+        picture.apply = (frame) => { shown = frame.header.set?.f1 ?? shown; apply(frame) }
+        view._paint = (ctx) => {
+            paint(ctx)
+            if (asked.has(shown)) { delays.push(performance.now() - asked.get(shown)); asked.delete(shown) }
+        }
+        requests.send = (request) => { most = Math.max(most, requests.out.size); send(request) }
+        list.push(() => { picture.apply = apply; view._paint = paint; requests.send = send })
+    }
+    let long = 0
+    const observer = new PerformanceObserver((entries) => { long += entries.getEntries().length })
+    observer.observe({entryTypes: ["longtask"]})
+    const start = performance.now()
+    let frames = 0
+    while (performance.now() - start < 1000 * seconds) {
+        await new Promise(requestAnimationFrame)
+        slider.value = -0.5 + 0.4 * Math.sin((performance.now() - start) / 700) + 1e-6 * frames++
+        asked.set(Number(slider.value), performance.now())
+        slider.dispatchEvent(new Event("input", {bubbles: true}))
+    }
+    const painted = Math.max(...cleared.values(), 0), passed = (performance.now() - start) / 1000
+    CanvasRenderingContext2D.prototype.clearRect = clear
+    observer.disconnect()
+    list.forEach((undo) => undo())
+    return {painted: painted / passed, frames: frames / passed, passed, delays, long, most}
+}"""
+
+
+@dataclass(frozen=True)
+class Case:
+    """Where and on what it is dragged."""
+
+    name: str
+    round_trip: float = 0.0
+    throttle: int = 1
+    query: str = ""
+    width: int = 1440
+    height: int = 900
+    ratio: int = 1
+
+
+CASES = (
+    Case("default portrait"),
+    Case("30 ms away", 0.03),
+    Case("80 ms away", 0.08),
+    Case("4 times slower", throttle=4),
+    Case("all layers", query="?layers=outside,inside,continuations,separatrices,cycles,rho,theta,lines,equator,"
+                             "critical,outcomes,basins"),
+    Case("Case III", query="?preset=case3-n3"),
+    Case("phone, ratio 3", width=390, height=844, ratio=3),
+)  # fmt: skip
+QUICK = CASES[:1] + CASES[2:4]
+
+
+def _processor(browser: Browser) -> float:
+    """Return the seconds that the renderer processes have taken so far."""
+    session = browser.new_browser_cdp_session()
+    processes = session.send("SystemInfo.getProcessInfo")["processInfo"]
+    session.detach()
+    return sum(process["cpuTime"] for process in processes if process["type"] == "renderer")
+
+
+def drag(browser: Browser, address: str, case: Case, seconds: float) -> dict[str, Any]:
+    """Drag f1 of one page and return what was painted; "cpu" is the renderer's time for a painted frame, in ms."""
+    viewport = {"width": case.width, "height": case.height}
+    context = browser.new_context(viewport=viewport, device_scale_factor=case.ratio)  # type: ignore[arg-type]
+    try:
+        page = context.new_page()
+        page.goto(f"{address}/{case.query}")
+        page.wait_for_selector(".codim2[data-settled=true]", timeout=60_000)
+        page.wait_for_timeout(1000)
+        root = page.locator(".codim2")
+        if case.throttle > 1:
+            context.new_cdp_session(page).send("Emulation.setCPUThrottlingRate", {"rate": case.throttle})
+        root.evaluate(DRAG, 1.5)  # the window of requests finds its size
+        before = _processor(browser)
+        found = root.evaluate(DRAG, seconds)
+        found["cpu"] = 1000 * (_processor(browser) - before) / max(1.0, found["painted"] * found["passed"])
+        return found
+    finally:
+        context.close()
+
+
+@contextmanager
+def _of(folder: str) -> Iterator[str]:
+    """Serve the package of another clone."""
+    with tempfile.TemporaryDirectory() as path:
+        for package, source in (("codim2_app", "app"), ("codim2_core", "codim2_core")):
+            Path(path, package).symlink_to(Path(folder, source).resolve(), target_is_directory=True)
+        kept = os.environ.get("PYTHONPATH")
+        os.environ["PYTHONPATH"] = path
+        try:
+            with serving() as address:
+                yield address
+        finally:
+            os.environ.pop("PYTHONPATH")
+            if kept is not None:
+                os.environ["PYTHONPATH"] = kept
+
+
+def report(quick: bool = False) -> str:
+    """Return the table of all cases."""
+    rows = [
+        "| drag of f1 | page | painted /s | animation frames /s | renderer's CPU a frame, ms | event to painted, ms: "
+        "median, p95 | tasks > 50 ms | most requests out |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    seconds, times = (2.0, 1) if quick else (3.0, 3)
+    chromium = os.environ.get("CODIM2_CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
+    with ExitStack() as stack:
+        pages = {"now": stack.enter_context(serving())}
+        if before := os.environ.get("CODIM2_BEFORE"):
+            pages["before"] = stack.enter_context(_of(before))
+        playwright = stack.enter_context(sync_playwright())
+        browser = playwright.chromium.launch(
+            executable_path=chromium, args=["--headless=new", "--no-sandbox", "--disable-gpu"]
+        )
+        for case in QUICK if quick else CASES:
+            found: dict[str, list[dict[str, Any]]] = {name: [] for name in pages}
+            for _ in range(times):
+                for name, address in pages.items():
+                    with slow_line(address, case.round_trip) as line:
+                        found[name].append(drag(browser, line if case.round_trip else address, case, seconds))
+            rows += [_row(case, name, runs) for name, runs in found.items()]
+        browser.close()
+    return "\n".join(rows)
+
+
+def _row(case: Case, name: str, runs: list[dict[str, Any]]) -> str:
+    def middle(key: str) -> float:
+        return statistics.median(run[key] for run in runs)
+
+    delays = sorted(delay for run in runs for delay in run["delays"])
+    waits = f"{statistics.median(delays):.0f}, {delays[int(0.95 * len(delays))]:.0f}" if delays else "–"
+    most = max(run["most"] for run in runs) or "–"
+    counts = f"{middle('painted'):.1f} | {middle('frames'):.1f} | {middle('cpu'):.1f}"
+    return f"| {case.name} | {name} | {counts} | {waits} | {sum(run['long'] for run in runs)} | {most} |"
+
+
+if __name__ == "__main__":
+    print(report())
