@@ -3,25 +3,38 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 
 #: Seconds over which the load is measured.
 SPAN = 0.25
 
+_STATISTICS = Path("/proc/thread-self/schedstat")
+
+
+def taken() -> float:
+    """Return the seconds that this thread has run or, where the system tells it, has waited for a processor to run."""
+    try:
+        running, waiting, _ = _STATISTICS.read_text().split()
+    except (OSError, ValueError):
+        return time.thread_time()
+    return 1e-9 * (int(running) + int(waiting))
+
 
 class Load:
-    """The share of its time that the thread which answers is at work, over the last quarter of a second or more."""
+    """The share of its time that the thread which answers has work, over the last quarter of a second or more."""
 
     def __init__(self) -> None:
         self.share = 0.0
-        self._since = time.perf_counter(), time.thread_time()
+        self._since = time.perf_counter(), taken()
 
     def measured(self) -> float:
         """Return the share, 0 to 1; called with every frame, by the thread that makes it."""
-        now = time.perf_counter(), time.thread_time()
-        passed = now[0] - self._since[0]
+        now = time.perf_counter()
+        passed = now - self._since[0]
         if passed >= SPAN:
-            self.share = round(min(1.0, max(0.0, (now[1] - self._since[1]) / passed)), 2)
-            self._since = now
+            work = taken()
+            self.share = round(min(1.0, max(0.0, (work - self._since[1]) / passed)), 2)
+            self._since = now, work
         return self.share
 
 

@@ -28,7 +28,7 @@ async def _carry(reader: asyncio.StreamReader, writer: asyncio.StreamWriter, del
     while piece:
         try:
             piece = await reader.read(1 << 16)
-        except ConnectionError:
+        except (ConnectionError, asyncio.CancelledError):
             piece = b""
         pieces.put_nowait((time.perf_counter() + delay, piece))
     await asyncio.gather(delivering, return_exceptions=True)
