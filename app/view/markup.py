@@ -36,8 +36,8 @@ def _template(name: str) -> Template:
 
 def stylesheet() -> str:
     """Return all rules, those of the panels last; they are scoped to `.codim2`, and their colours are the table's."""
-    own = (STATIC / "explorer.css").read_text(encoding="utf-8")
-    return "\n".join((custom_properties(), own, swatches(), *(panel.style for panel in PANELS.values())))
+    own = [(STATIC / name).read_text(encoding="utf-8") for name in ("explorer.css", "chart/chart.css")]
+    return "\n".join((custom_properties(), *own, swatches(), *(panel.style for panel in PANELS.values())))
 
 
 @cache

@@ -1,9 +1,10 @@
 // The panel "Along z": where Sigma slides, the slow flow on each critical set, and play, which lets z drift with it.
 
+import {Chart} from "../chart/chart.js"
+import {spanOf} from "../chart/scale.js"
 import {shape} from "../marks.js"
 import {register} from "../panels.js"
-import {fixed, polyline} from "../svg.js"
-import {digits, escape, plain, slowName} from "../words.js"
+import {digits, escape, slowName} from "../words.js"
 
 const DRIFT_SECONDS = 10 // in which play would cross the whole range at the largest slow flow shown
 
@@ -11,8 +12,8 @@ const MARKUP = `<div class="along-body">
     <div class="row"><button type="button" class="play" aria-pressed="false">▶ Play</button>
       <label class="which" hidden>along <select class="drift" aria-label="slow variable"></select></label>
       <label class="rate">speed <input class="speed" type="range" min="0.1" max="4" step="0.1" value="1" aria-label="speed"></label></div>
-    <svg class="along" viewBox="-106 -60 206 134" role="slider" tabindex="0" aria-label="Slow flow along z: drag to move z, or use the arrow keys"></svg>
-    <div class="plane-box" hidden><h2>Slow flow in the plane of z₁ and z₂</h2><svg class="slow-plane" viewBox="-100 -100 200 200" role="img" aria-label="Where it slides, and the slow flow there"></svg></div>
+    <svg class="along" role="slider" tabindex="0" aria-label="Slow flow along z: drag to move z, or use the arrow keys"></svg>
+    <div class="plane-box" hidden><h2>Slow flow in the plane of z₁ and z₂</h2><svg class="slow-plane" role="img" aria-label="Where it slides, and the slow flow there"></svg></div>
     <ul class="special-list along-points"></ul>
   </div>
   <p class="note along-note" aria-live="polite"></p>`
@@ -25,37 +26,30 @@ class Along {
     this.setControls = tools.move
     this.find = (name) => box.querySelector(name)
     this.svg = this.find(".along")
+    this.chart = new Chart(this.svg, {
+      aspect: (width) => Math.min(0.66 * width, 460),
+      onMove: (value) => { if (this.data) this.setControls({[this.data.control]: Number(value.toPrecision(6))}) },
+      onKey: (way, far) => this.step(way, far),
+      onMark: (/** @type {any[]} */ [mark]) => this.setControls({[this.data.control]: mark.go}),
+    })
     this.plane = this.find(".slow-plane")
+    this.planeChart = new Chart(this.plane, {
+      aspect: (width) => width,
+      onRedraw: () => this.showPlace(),
+      onMove: (z, z2) => { if (this.planeData) this.setControls({z: Number(z.toPrecision(6)), z2: Number(z2.toPrecision(6))}) },
+    })
     this.playing = false
     this.data = null
-    for (const svg of [this.svg, this.plane]) {
-      svg.addEventListener("pointerdown", (event) => { svg.setPointerCapture(event.pointerId); this.dragging = true; this.drag(event, svg) })
-      svg.addEventListener("pointermove", (event) => { if (this.dragging) this.drag(event, svg) })
-      for (const end of ["pointerup", "pointercancel"]) svg.addEventListener(end, () => { this.dragging = false })
-    }
-    this.svg.addEventListener("keydown", (event) => {
-      const way = {ArrowLeft: -1, ArrowRight: 1, ArrowDown: -1, ArrowUp: 1}[event.key]
-      if (!way || !this.data) return
-      event.preventDefault()
-      const [low, high] = this.data.span
-      this.setControls({[this.data.control]: this.values[this.data.control] + way * (high - low) / (event.shiftKey ? 20 : 200)})
-    })
     this.which = this.find(".drift")
     this.which.addEventListener("change", () => tools.choose("drift", this.which.value))
     this.find(".play").addEventListener("click", () => this.toggle())
   }
 
-  drag(event, svg) {
-    const box = svg.getBoundingClientRect()
-    const share = (at, size) => Math.max(0, Math.min(1, at / size))
-    if (svg === this.plane) {
-      if (!this.planeData) return
-      const [[l1, h1], [l2, h2]] = this.planeData.spans
-      this.setControls({z: l1 + (h1 - l1) * share(event.clientX - box.left, box.width), z2: h2 - (h2 - l2) * share(event.clientY - box.top, box.height)})
-    } else if (this.data) {
-      const [low, high] = this.data.span
-      this.setControls({[this.data.control]: Number((low + (high - low) * share((event.clientX - box.left) / box.width * 206 - 20, 182)).toPrecision(6))})
-    }
+  /** @param {number[]} way @param {boolean} far */
+  step([across, up], far) {
+    if (!this.data) return
+    const {span: [low, high], control} = this.data
+    this.setControls({[control]: this.values[control] + (across + up) * (high - low) / (far ? 20 : 200)})
   }
 
   apply({header}, late) {
@@ -121,45 +115,32 @@ class Along {
     this.values = values
     if (!this.data) return
     const value = values[this.data.control]
-    const x = this.x(value)
-    this.svg.querySelector(".value")?.setAttribute("d", x >= -86.1 && x <= 96.1 ? `M${fixed(x)} -48V62` : "")
+    this.chart.at(value)
     this.svg.setAttribute("aria-valuenow", value)
-    const dot = this.plane.querySelector(".here")
-    if (dot && this.planeData) {
-      const [px, py] = this.place(values.z, values.z2)
-      dot.setAttribute("cx", fixed(px)); dot.setAttribute("cy", fixed(py))
-    }
+    if (this.planeData) this.showPlace()
   }
 
-  x(z) { const [low, high] = this.data.span; return -86 + 182 * (z - low) / (high - low) }
-
-  place(z1, z2) {
-    const [[l1, h1], [l2, h2]] = this.planeData.spans
-    return [-100 + 200 * (z1 - l1) / (h1 - l1), 100 - 200 * (z2 - l2) / (h2 - l2)]
-  }
+  showPlace() { if (this.values) this.planeChart.over([{name: "here", x: this.values.z, y: this.values.z2, r: 6}]) }
 
   drawAll() {
     this.find(".along-body").hidden = !this.data
     this.find(".along-note").textContent = this.why ?? ""
     if (!this.data) { this.toggle(false); return }
     const {intervals, branches, points, span, control} = this.data
-    const most = Math.max(1e-12, ...branches.flatMap((b) => b.flow.map(Math.abs)), ...points.map((p) => Math.abs(p.flow)))
-    const y = (flow) => 10 - 46 * flow / most
-    const words = this.words = this.tools.symbols[control]
-    const bands = intervals.map((i) => `<rect class="band ${i.kind}" x="${fixed(this.x(i.low))}" y="-48" width="${fixed(Math.max(0, this.x(i.high) - this.x(i.low)))}" height="110"><title>${escape(i.sentence)}</title></rect>`)
-    const lines = branches.map((b) => `<path class="branch critical ${b.stable ? "stable" : b.kind === "saddle" ? "saddle" : "unstable"}" d="${polyline(b.z.map((z, i) => [this.x(z), y(b.flow[i])]))}"/>`)
-    const arrows = branches.filter((b) => b.z.length > 2).flatMap((b) => [0.25, 0.5, 0.75].map((share) => {
-      const i = Math.round(share * (b.z.length - 1))
-      const ahead = Math.sign(b.flow[i])
-      return ahead && this.x(b.z.at(-1)) - this.x(b.z[0]) > 24 ? `<path class="drift" d="M${fixed(this.x(b.z[i]) - 3 * ahead)} ${fixed(y(b.flow[i]) - 3)}l${5 * ahead} 3l${-5 * ahead} 3"/>` : ""
-    }))
-    const marks = points.map((p) => `<g class="special ${p.kind}" transform="translate(${fixed(this.x(p.z))} ${fixed(p.kind === "equilibrium" ? y(0) : y(p.flow))})"><title>${escape(p.sentence)} ${escape(words)} = ${digits(p.z, 6)}</title><circle class="catch" r="6"/>${p.kind === "equilibrium" ? `<circle class="${p.stable ? "solid" : "hollow"}" r="3.2"/>` : shape(p.kind === "equator" ? "transcritical" : p.kind)}</g>`)
-    const named = intervals.filter((i) => this.x(i.high) - this.x(i.low) > 30).map((i) => `<text class="band-name" text-anchor="middle" x="${fixed(0.5 * (this.x(i.low) + this.x(i.high)))}" y="59">${i.kind}</text>`)
+    const words = this.tools.symbols[control]
+    const wide = (b) => b.z.length > 2 && b.z.at(-1) - b.z[0] > 0.13 * (span[1] - span[0])
+    const kind = (p) => p.kind !== "equilibrium" ? p.kind === "equator" ? "transcritical" : p.kind : p.stable ? "attracting rest" : "rest"
+    this.chart.draw([{
+      title: `slow flow ${escape(words)}′`, zeros: true, x: {span, word: words},
+      y: {span: spanOf([...branches.flatMap((b) => b.flow), ...points.map((p) => p.flow)], 0.1, [0])},
+      bands: intervals.map((i) => ({name: i.kind, from: i.low, to: i.high, title: i.sentence, word: i.kind})),
+      lines: branches.map((b) => ({name: `branch critical ${b.stable ? "stable" : b.kind === "saddle" ? "saddle" : "unstable"}`, title: `${words}′`, x: b.z, y: b.flow})),
+      arrows: branches.filter(wide).flatMap((b) => [0.25, 0.5, 0.75].map((share) => Math.round(share * (b.z.length - 1))).filter((i) => b.flow[i] !== 0)
+        .map((i) => ({name: "drift", x: b.z[i], y: b.flow[i], u: Math.sign(b.flow[i]), v: 0, length: 10}))),
+      marks: points.map((p) => ({kind: kind(p), name: p.kind, x: p.z, y: p.kind === "equilibrium" ? 0 : p.flow, go: p.z, title: `${p.sentence} ${words} = ${digits(p.z, 6)}`})),
+    }])
     this.svg.setAttribute("aria-valuemin", span[0]); this.svg.setAttribute("aria-valuemax", span[1])
-    this.svg.innerHTML = `${bands.join("")}<path class="axis" d="M-86 10H96"/><text x="-88" y="12.4" text-anchor="end">0</text>
-      <text class="title" x="-86" y="-51">slow flow ${escape(words)}′</text>${lines.join("")}${arrows.join("")}${marks.join("")}${named.join("")}
-      <text x="-86" y="70">${plain(span[0])}</text><text x="96" y="70" text-anchor="end">${plain(span[1])}</text><text class="title" x="5" y="70" text-anchor="middle">${escape(words)}</text><path class="value"/>`
-    this.find(".along-points").innerHTML = points.filter((p) => p.kind !== "node-focus").slice(0, 12).map((p) => `<li><button type="button" data-z="${p.z}"><svg viewBox="-5 -5 10 10">${p.kind === "equilibrium" ? `<circle r="3" style="fill:${p.stable ? "currentColor" : "none"}"/>` : shape(p.kind === "equator" ? "transcritical" : p.kind)}</svg><span>${escape(words)} = ${digits(p.z, 6)}</span><span class="note">${escape(p.sentence)}</span></button></li>`).join("")
+    this.find(".along-points").innerHTML = points.filter((p) => p.kind !== "node-focus").slice(0, 12).map((p) => `<li><button type="button" data-z="${p.z}"><svg viewBox="-5 -5 10 10">${shape(kind(p))}</svg><span>${escape(words)} = ${digits(p.z, 6)}</span><span class="note">${escape(p.sentence)}</span></button></li>`).join("")
     for (const button of this.find(".along-points").querySelectorAll("button")) button.onclick = () => this.setControls({[control]: Number(button.dataset.z)})
     const symbols = this.tools.slowSymbols()
     this.find(".which").hidden = symbols.length < 2
@@ -172,12 +153,13 @@ class Along {
     if (!this.planeData) return
     const {arrows} = this.planeData
     this.find(".plane-box h2").textContent = `Slow flow in the plane of ${(this.tools.slowSymbols()).slice(0, 2).join(" and ")}`
+    const [first, second] = this.tools.slowSymbols()
     const most = Math.max(1e-12, ...arrows.map(([, , u, v]) => Math.hypot(u, v)))
-    const parts = arrows.map(([z1, z2, u, v, stable]) => {
-      const [px, py] = this.place(z1, z2), size = 11 * Math.sqrt(Math.hypot(u, v) / most), turn = Math.atan2(-v, u) * 180 / Math.PI
-      return `<g class="${stable ? "stable" : "unstable"}" transform="translate(${fixed(px)} ${fixed(py)})"><circle r="5.6"/>${size > 1 ? `<path transform="rotate(${fixed(turn)})" d="M${fixed(-size / 2)} 0H${fixed(size / 2)}m-2.6-2.2l2.6 2.2l-2.6 2.2"/>` : '<circle class="rest" r="1.3"/>'}</g>`
-    })
-    this.plane.innerHTML = `${parts.join("")}<circle class="here" r="4.4"/>`
+    this.planeChart.draw([{
+      x: {span: this.planeData.spans[0], word: first}, y: {span: this.planeData.spans[1]}, title: escape(second), zeros: true,
+      dots: arrows.map(([x, y, , , stable]) => ({name: stable ? "stable" : "unstable", x, y, r: 8})),
+      arrows: arrows.map(([x, y, u, v]) => ({name: "drift", x, y, u, v, length: 16 * Math.sqrt(Math.hypot(u, v) / most)})).filter((one) => one.length > 1.5),
+    }])
   }
 }
 

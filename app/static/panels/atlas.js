@@ -15,7 +15,7 @@ const CURVE_OF = {
 }
 
 const MARKUP = `${axesMarkup({across: "across", up: "up"}, "atlas_zoom")}
-  <svg class="pad" viewBox="-100 -100 200 200" role="application" tabindex="0" aria-label="The atlas: two parameters with the regions of one portrait each. Drag the handle, or use the arrow keys"></svg>
+  <svg class="pad" role="application" tabindex="0" aria-label="The atlas: two parameters with the regions of one portrait each. Drag the handle, or use the arrow keys"></svg>
   <p class="pad-key pad-names"></p>
   <p class="pad-key pad-curves"></p>
   <p class="pad-key cycle-curves" data-control="cycle_curves" hidden><label><input type="checkbox">bifurcations of limit cycles (some seconds)</label></p>
@@ -47,7 +47,7 @@ class Atlas {
     for (const [type, on] of [["pointerover", true], ["pointerout", false], ["focusin", true], ["focusout", false]]) {
       this.find(".thumbnails").addEventListener(type, (event) => {
         const tile = event.target.closest("button")
-        if (tile) this.pad.layer("regions").children[this.tiles[tile.dataset.tile].region]?.classList.toggle("pointed", on)
+        if (tile) this.pad.regions[this.tiles[tile.dataset.tile].region]?.classList.toggle("pointed", on)
       })
     }
   }

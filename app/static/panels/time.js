@@ -1,9 +1,10 @@
 // The panel "Time": one motion, for the chosen ε and in the limit ε → 0, as curves over time and in the picture.
 
 import {Ball} from "../ball.js"
+import {Chart} from "../chart/chart.js"
+import {spanOf} from "../chart/scale.js"
 import {slider} from "../controls.js"
 import {register} from "../panels.js"
-import {fixed, polyline} from "../svg.js"
 import {digits, escape, plain, slowName} from "../words.js"
 
 const PHASE = {slip: "slips", slide: "slides", cross: "crosses"}
@@ -13,7 +14,7 @@ const MARKUP = `<div class="control typed" data-control="launch"><label for="c2-
   <div class="time-body">
     <div class="row"><button type="button" class="play" aria-pressed="false">▶ Play</button><button type="button" class="here" title="Start from the z of the sliders">start at this z</button></div>
     <p class="note phase-now" aria-live="off"></p>
-    <svg class="series" viewBox="-100 -72 200 160" role="slider" tabindex="0" aria-label="The motion over time: drag to move along it"></svg>
+    <svg class="series" role="slider" tabindex="0" aria-label="The motion over time: drag to move along it"></svg>
     <p class="pad-key time-key"></p>
     <canvas class="ball" hidden role="img" aria-label="The ball, seen from above"></canvas>
     <ul class="phases"></ul>
@@ -33,15 +34,13 @@ class Motion {
     launch.addEventListener("change", () => tools.choose("launch", launch.value))
     tools.follow("launch", (value) => { launch.value = value })
     this.svg = this.find(".series")
+    this.chart = new Chart(this.svg, {
+      aspect: (width) => Math.min(0.75 * width, 520),
+      onMove: (t) => { if (this.motion) { this.toggle(false); this.go(t) } },
+      onKey: ([way]) => { if (way && this.motion) this.go(this.at + way * this.end / 100) },
+    })
     this.ball = new Ball(tools.root, this.find(".ball"))
     this.at = 0
-    this.svg.addEventListener("pointerdown", (event) => { this.svg.setPointerCapture(event.pointerId); this.dragging = true; this.toggle(false); this.drag(event) })
-    this.svg.addEventListener("pointermove", (event) => { if (this.dragging) this.drag(event) })
-    for (const end of ["pointerup", "pointercancel"]) this.svg.addEventListener(end, () => { this.dragging = false })
-    this.svg.addEventListener("keydown", (event) => {
-      const way = {ArrowLeft: -1, ArrowRight: 1}[event.key]
-      if (way && this.motion) { event.preventDefault(); this.go(this.at + way * this.end / 100) }
-    })
     this.find(".play").addEventListener("click", () => this.toggle())
     this.find(".here").addEventListener("click", () => {
       if (!this.motion) return
@@ -49,12 +48,6 @@ class Motion {
       const [x, y] = this.motion.start
       this.setControls({launch: [x, y, ...Array.from({length: m}, (_, i) => this.values[slowName(i)] ?? 0)].map(plain).join(", ")})
     })
-  }
-
-  drag(event) {
-    if (!this.motion) return
-    const box = this.svg.getBoundingClientRect()
-    this.go(this.end * ((event.clientX - box.left) / box.width * 206 - 20) / 182)
   }
 
   apply({header}, late) {
@@ -110,8 +103,7 @@ class Motion {
 
   show(moved = false) {
     if (!this.open || !this.motion) return
-    const x = -86 + 182 * this.at / this.end
-    this.svg.querySelector(".value")?.setAttribute("d", `M${fixed(x)} ${this.top}V${this.bottom}`)
+    this.chart.at(this.at)
     this.svg.setAttribute("aria-valuenow", this.at)
     const state = this.sample(this.motion, this.motion.states)
     this.trace([this.motion.picture, this.limit?.picture], this.sample(this.motion, this.motion.picture))
@@ -131,30 +123,18 @@ class Motion {
     this.at = Math.min(this.at, this.end)
     const m = motion.states.length - 2
     const rows = [[0, 1], Array.from({length: Math.min(m, 4)}, (_, i) => 2 + i)].filter((columns) => columns.length)
-    const X = (t) => -86 + 182 * t / this.end
-    const parts = []
-    let top = -62
-    this.top = top
-    const height = rows.length > 1 ? 54 : 70
-    for (const columns of rows) {
+    this.chart.draw(rows.map((columns, k) => {
       const values = columns.flatMap((c) => [...motion.states[c], ...(limit?.states[c] ?? [])])
-      const low = Math.min(0, ...values), high = Math.max(0, ...values), pad = 0.06 * (high - low || 1)
-      const Y = (v) => top + height * (high + pad - v) / (high - low + 2 * pad)
-      parts.push(...motion.phases.map(([kind, from, to, why]) => `<rect class="band ${kind}" x="${fixed(X(from))}" y="${fixed(top)}" width="${fixed(Math.max(0, X(Math.min(to, this.end)) - X(from)))}" height="${height}"><title>${escape(why)}</title></rect>`))
-      parts.push(`<rect class="frame" x="-86" y="${fixed(top)}" width="182" height="${height}"/><path class="axis" d="M-86 ${fixed(Y(0))}H96"/>`)
-      for (const [i, c] of columns.entries()) {
-        const curve = (run, name) => `<path class="series-line s${i} ${name}" d="${polyline(run.t.map((t, j) => [X(t), Y(run.states[c][j])]))}"/>`
-        if (limit) parts.push(curve(limit, "limit"))
-        parts.push(curve(motion, ""))
+      const word = (c) => c < 2 ? "xy"[c] : this.slowSymbol(c - 2)
+      const curve = (run, c, i, name) => ({name: `series-line s${i} ${name}`, title: word(c), x: run.t, y: run.states[c]})
+      return {
+        title: columns.map((c, i) => `<tspan class="s${i}">${escape(word(c))}</tspan>`).join(" "), zeros: true,
+        x: {span: [0, this.end], word: "t", hidden: k < rows.length - 1}, y: {span: spanOf(values, 0.06, [0])},
+        bands: motion.phases.map(([kind, from, to, why]) => ({name: kind, from, to: Math.min(to, this.end), title: why})),
+        lines: columns.flatMap((c, i) => [...(limit ? [curve(limit, c, i, "limit")] : []), curve(motion, c, i, "")]),
       }
-      const names = columns.map((c, i) => `<tspan class="s${i}">${escape(c < 2 ? "xy"[c] : this.slowSymbol(c - 2))}</tspan>`).join(" ")
-      parts.push(`<text class="title" x="-84" y="${fixed(top - 2.5)}">${names}</text><text x="-88" y="${fixed(Y(high) + 3)}" text-anchor="end">${digits(high, 2)}</text>${low < 0 ? `<text x="-88" y="${fixed(Y(low) + 1)}" text-anchor="end">${digits(low, 2)}</text>` : ""}`)
-      top += height + 14
-    }
-    this.bottom = top - 14
-    this.svg.setAttribute("viewBox", `-106 -72 206 ${fixed(this.bottom + 86)}`)
+    }))
     this.svg.setAttribute("aria-valuemin", 0); this.svg.setAttribute("aria-valuemax", this.end)
-    this.svg.innerHTML = `${parts.join("")}<text x="-86" y="${fixed(this.bottom + 8)}">0</text><text x="96" y="${fixed(this.bottom + 8)}" text-anchor="end">${digits(this.end, 3)}</text><text class="title" x="5" y="${fixed(this.bottom + 8)}" text-anchor="middle">t</text><path class="value"/>`
     this.find(".time-key").innerHTML = `<span>full line: ε = ${plain(motion.eps)}</span><span>broken line: ε → 0</span>`
     this.find(".phases").innerHTML = (limit ?? motion).phases.map(([kind, from, , why]) => `<li><i class="band ${kind}"></i><span>${digits(from, 4)}</span><span class="note">${PHASE[kind]}: ${escape(why)}</span></li>`).join("")
     this.ball.canvas.hidden = !motion.ball
