@@ -135,7 +135,7 @@ export class Chart {
       return `<circle class="dot ${dot.name}" cx="${fixed(u)}" cy="${fixed(v)}" r="${dot.r}">${dot.title ? `<title>${escape(dot.title)}</title>` : ""}</circle>`
     })
     const marks = (plot.marks ?? []).map((mark) => ({...mark, px: x.at(mark.x), py: y.at(mark.y)})).filter((mark) => mark.px >= left - 1 && mark.px <= right + 1)
-    return `${within}<rect class="frame" x="${fixed(left)}" y="${fixed(top)}" width="${fixed(right - left)}" height="${fixed(bottom - top)}"/>${this.ticks(frame)}${dots.join("")}${grouped(marks, GROUP).map((group) => this.mark(group)).join("")}`
+    return `<g class="chart-plot">${within}<rect class="frame" x="${fixed(left)}" y="${fixed(top)}" width="${fixed(right - left)}" height="${fixed(bottom - top)}"/>${this.ticks(frame)}${dots.join("")}${grouped(marks, GROUP).map((group) => this.mark(group)).join("")}</g>`
   }
 
   ticks({plot, left, right, top, bottom, x, y, ticksX, ticksY}) {

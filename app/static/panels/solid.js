@@ -1,6 +1,7 @@
 // The panel "3-D": the hemisphere of the blowup, or hemispheres stacked along z. Turned here, without asking the server.
 
 import {register} from "../panels.js"
+import {seen} from "../projection.js"
 import {digits, plain} from "../words.js"
 
 class Stack {
@@ -53,12 +54,10 @@ class Stack {
 
   draw(values) { this.values = values; this.view = values.solid; this.paint() }
 
-  // From space to the canvas: x to the right, y away, z up; returns [x, y, depth], larger depth farther away.
-  /** @param {number[]} point */
-  project([x, y, z]) {
-    const c = Math.cos(this.azimuth), s = Math.sin(this.azimuth), ce = Math.cos(this.elevation), se = Math.sin(this.elevation)
-    const right = c * x - s * y, away = s * x + c * y
-    return [this.cx + this.scale * right, this.cy - this.scale * (ce * z + se * away), ce * away - se * z]
+  // From space to the canvas, in px, with the depth.
+  project(point) {
+    const [right, up, depth] = seen(point, this.azimuth, this.elevation)
+    return [this.cx + this.scale * right, this.cy - this.scale * up, depth]
   }
 
   paint() {

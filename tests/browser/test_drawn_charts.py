@@ -1,0 +1,350 @@
+"""What each panel's chart draws, against the core's numbers, at two settings without any symmetry.
+
+A chart that is upside down, or has its axes, colours, branches or columns swapped, is told apart from the right one.
+"""
+
+import numpy as np
+import pytest
+
+import codim2_core as c2
+from codim2_core.diagrams.diagram import diagram
+
+from .drawn import SCRIPTS, colour, numbers, plots, table
+
+pytestmark = pytest.mark.browser
+
+PSI = c2.psi.rational()
+
+NAMES = ("a", "b", "d", "f1", "f2", "k1", "k2", "B1", "B2", "g0")
+SETTINGS = {
+    "case1": dict(zip(NAMES, (-2.1, 0.3, -1.3, -0.25, 0.2, 0.6, -0.25, 1.2, -0.4, 0.3), strict=True)),
+    "case2": dict(zip(NAMES, (1.5, 0.5, -1.2, 0.4, -0.3, 0.4, 0.3, -0.8, 0.5, 0.2), strict=True)),
+}
+
+
+def system(values, **changed):
+    """The system of some values of the controls, along z."""
+    v = {**values, **changed}
+    f = f"{v['f1']} + {v['k1']}*z", f"{v['f2']} + {v['k2']}*z"
+    return c2.ELinear(v["a"], v["b"], v["d"], f, B=[[v["B1"], v["B2"]]], g=[v["g0"]])
+
+
+def at(values, z=0.0, **changed):
+    """The critical sets of some values of the controls, at z."""
+    return c2.critical_sets(system(values, **changed), PSI, (z,))
+
+
+def equator(values, z=0.0, **changed):
+    return c2.equator_equilibria(system(values, **changed), (z,))
+
+
+def size(C):
+    """|p|: how far from the middle of the projected disc a critical set is."""
+    return np.hypot(*C.x2) / np.hypot(1.0, np.hypot(*C.x2))
+
+
+@pytest.fixture(params=SETTINGS)
+def setting(request):
+    return SETTINGS[request.param]
+
+
+@pytest.fixture
+def opened(open_page, setting):
+    def make(panel, **more):
+        query = "&".join(
+            f"{name}={value}" for name, value in {**setting, "psi": "rational", "panel": panel, **more}.items()
+        )
+        page = open_page(viewport={"width": 1440, "height": 900}).open(f"?{query}")
+        page.page.wait_for_timeout(300)
+        return page.settle()
+
+    return make
+
+
+def test_planes(opened, setting):
+    page = opened("planes")
+    sets = at(setting)
+    assert sets
+    (plane,) = plots(page, ".trace-plane")
+    dots = plane.dots("now")
+    assert len(dots) == len(sets)
+    for (place, drawn), C in zip(dots, sets, strict=True):
+        np.testing.assert_allclose(place, [C.trace, C.determinant], atol=max(plane.near))
+        assert drawn["stroke"] == colour(page, "crit")
+        assert (drawn["fill"] == colour(page, "crit")) == C.kind.startswith("stable")
+    ((parabola, _),) = plane.lines("parabola")
+    np.testing.assert_allclose(parabola[:, 1], parabola[:, 0] ** 2 / 4, atol=3 * max(plane.near))
+    (area,) = [plane.line(it) for it in plane.raw["areas"]]
+    assert area[:, 0].max() == pytest.approx(0, abs=plane.near[0])
+    assert area[:, 1].min() == pytest.approx(0, abs=plane.near[1])
+    (values,) = plots(page, ".eigen-plane")
+    drawn = np.array([place for place, _ in values.dots("now")])
+    wanted = np.array([[v.real, v.imag] for C in sets for v in C.eigenvalues])
+    order = lambda v: v[np.lexsort(v.round(3).T)]  # noqa: E731
+    np.testing.assert_allclose(order(drawn), order(wanted), atol=max(values.near))
+
+
+def test_names_of_the_trace_plane_stand_in_their_regions(opened):
+    page = opened("planes")
+    (plane,) = plots(page, ".trace-plane")
+    names = [word for word in page.find(".trace-plane").evaluate(SCRIPTS["words"]) if word[1] == "region-name"]
+    assert len(names) >= 3
+    for text, _, x, y in names:
+        trace, determinant = plane.data([x, y - 4])[0]
+        focus = trace**2 < 4 * determinant
+        kind = (
+            "saddle" if determinant < 0 else f"{'stable' if trace < 0 else 'unstable'} {'focus' if focus else 'node'}"
+        )
+        assert text == kind
+
+
+def test_table_of_the_planes(opened, setting):
+    page = opened("planes")
+    psis = {"Ψ = 1": c2.psi.constant(), "exp(−s)": c2.psi.exponential()}
+    rows = {row[0]: row for row in table(page, ".plane-table")[1:]}
+    (plane,) = plots(page, ".trace-plane")
+    assert table(page, ".plane-table")[0] == ["", "tr J", "det J", ""]
+    found = 0
+    for words, psi in psis.items():
+        row = next((row for text, row in rows.items() if words.split(" = ")[-1] in text), None)
+        sets = c2.critical_sets(system(setting), psi, (0.0,))
+        if row is None or not sets:
+            continue
+        found += 1
+        np.testing.assert_allclose(numbers(row[1]) + numbers(row[2]), [sets[0].trace, sets[0].determinant], rtol=1e-3)
+        assert row[3] == sets[0].kind
+        spots = np.array([place for place, _ in plane.dots("over-mark")])
+        away = np.abs(spots - [sets[0].trace, sets[0].determinant]) / plane.near
+        assert away.max(axis=1).min() < 2
+    assert found
+
+
+@pytest.mark.parametrize("along", ["f1", "d"])
+def test_diagram(opened, setting, along):
+    page = opened("diagram", along=along)
+    angles, radii = plots(page, ".diagram")[:2]
+    assert angles.title == "limit directions θ"
+    assert radii.word == {"f1": "f₁", "d": "d"}[along]
+    seen = {"attracting": 0, "repelling": 0}
+    for name in seen:
+        for points, drawn in angles.lines("branch", name):
+            assert drawn["stroke"] == colour(page, "attr" if name == "attracting" else "rep")
+            for value, theta in points[:: max(1, len(points) // 7)][1:-1]:
+                if not 0.1 < theta < 2 * np.pi - 0.1:
+                    continue
+                q = equator(setting, **{along: value})
+                gap = np.abs(np.angle(np.exp(1j * (q.theta - theta))))
+                near = int(gap.argmin())
+                assert gap[near] < 0.06
+                if np.sort(gap)[1:2] > 0.2:  # clear of a saddle-node
+                    assert (q.lambda_rho[near] < 0) == (name == "attracting")
+                    assert (q.lambda_theta[near] > 0) == drawn["dashed"]
+                    seen[name] += 1
+    assert seen["attracting"] + seen["repelling"] >= 4
+    checked = 0
+    for points, drawn in radii.lines("critical"):
+        for value, radius in points[:: max(1, len(points) // 7)][1:-1]:
+            sets = at(setting, **{along: value})
+            if not sets:
+                continue
+            sizes = np.array([size(C) for C in sets])
+            near = int(np.abs(sizes - radius).argmin())
+            assert sizes[near] == pytest.approx(radius, abs=4 * radii.near[1] + 0.01)
+            if abs(sets[near].trace) > 0.2 and abs(sets[near].determinant) > 0.2:
+                assert sets[near].kind.split()[0] in drawn["name"].split()
+            checked += 1
+    assert checked >= 3
+    line = page.find(".diagram .value").get_attribute("d")
+    assert radii.x(numbers(line.split("V")[0])[0]) == pytest.approx(setting[along], abs=radii.near[0])
+
+
+def test_special_points_of_the_diagram(opened, setting):
+    page = opened("diagram", along="f1")
+    drawn = [mark for plot in plots(page, ".diagram") for mark in plot.marks()]
+    flat = c2.ELinear(setting["a"], setting["b"], setting["d"], (setting["f1"], setting["f2"]))
+    found = diagram(flat, PSI, "f1", (-3.0, 3.0), ()).special
+    assert sum(len(mark["words"].splitlines()) for _, mark in drawn) == len(found) > 3
+    near = plots(page, ".diagram")[-1].near[0]
+    for one in found:
+        marks = [
+            place for place, mark in drawn if any(f"{one.kind} at " in line for line in mark["words"].splitlines())
+        ]
+        assert (
+            min(abs(place[0] - one.value) for place in marks) < 30 * near
+        )  # a group stands in the middle of its members
+
+
+def test_along_z(opened, setting):
+    page = opened("along")
+    (plot,) = plots(page, ".along")
+    assert plot.title == "slow flow z′"
+    checked = 0
+    for points, drawn in plot.lines("branch"):
+        for z, flow in points[:: max(1, len(points) // 8)][1:-1]:
+            sets = at(setting, z=z)
+            if not sets:
+                continue
+            flows = np.array([C.slow_flow[0] for C in sets])
+            near = int(np.abs(flows - flow).argmin())
+            assert flows[near] == pytest.approx(flow, abs=4 * plot.near[1] + 0.01)
+            if abs(sets[near].trace) > 0.1 and abs(sets[near].determinant) > 0.1:
+                assert ("stable" in drawn["name"].split()) == sets[near].kind.startswith("stable")
+            checked += 1
+    assert checked >= 3
+    for (z, flow), way in plot.arrows():
+        assert np.sign(way[0]) == np.sign(flow), z
+    kinds = {"sliding", "crossing", "unstable"}
+    for low, high, kind in plot.bands():
+        assert kind in kinds
+        if high - low < 0.1:
+            continue
+        sets = at(setting, z=(low + high) / 2)
+        assert (kind == "crossing") == (not sets)
+        if sets:
+            assert (kind == "sliding") == any(C.kind.startswith("stable") for C in sets)
+    rest = [place for place, mark in plot.marks() if "rest" in mark["kind"]]
+    for z, _ in rest:
+        flows = [C.slow_flow[0] for C in at(setting, z=z)]
+        assert min(map(abs, flows)) < 0.05
+
+
+def test_slow_flow_in_the_plane_of_two_slow_variables(open_page):
+    page = open_page(viewport={"width": 1440, "height": 900}).open("?system=ball_in_pool&panel=along")
+    page.settle()
+    (plot,) = plots(page, ".slow-plane")
+    arrows = plot.arrows()
+    assert len(arrows) > 20
+    ball = c2.examples.ball_in_pool()
+    for place, way in arrows[::5]:
+        (C, *_) = c2.critical_sets(ball, c2.psi.constant(), tuple(place))
+        flow = np.array(C.slow_flow[:2])
+        assert way @ flow / np.hypot(*flow) > 0.99
+
+
+def test_time(opened, setting):
+    page = opened("time", launch="0.6, 0.8, 0.3", t_end=3.0, log_eps=-1.0)
+    motion = c2.simulate(system(setting), PSI, 0.1, (0.6, 0.8, 0.3), (0.0, 3.0))
+    upper, lower = plots(page, ".series.chart:not(.psi-curves)")
+    assert (upper.title, lower.title, lower.word) == ("x y", "z", "t")
+    for plot, column, name, token in [(upper, 0, "s0", "rho"), (upper, 1, "s1", "theta"), (lower, 2, "s0", "rho")]:
+        points, drawn = next((points, it) for points, it in plot.lines(name) if "limit" not in it["name"])
+        assert drawn["stroke"] == colour(page, token)
+        wanted = np.array([motion.dense(t)[column] for t in np.clip(points[:, 0], 0, motion.times[-1])])
+        np.testing.assert_allclose(points[:, 1], wanted, atol=6 * plot.near[1] + 0.01)
+
+
+def test_psi(opened):
+    page = opened("psi", log_eps=-0.5)
+    above, below = plots(page, ".psi-curves")
+    ((curve, drawn),) = above.lines("series-line")
+    np.testing.assert_allclose(curve[:, 1], PSI(np.clip(curve[:, 0], 0, None)), atol=2 * above.near[1])
+    for points, drawn in below.lines("series-line"):
+        eps = {"s3": 1.0, "s1": 0.3, "s0": 0.1, "present": 10**-0.5}[drawn["name"].split()[-1]]
+        x = points[:, 0]
+        np.testing.assert_allclose(points[:, 1], np.sign(x) * PSI.modulus(np.abs(x) / eps), atol=0.03)
+
+
+def test_atlas(opened, setting):
+    page = opened("atlas")
+    page.page.wait_for_selector(".pad:not(.old)")
+    (plot,) = plots(page, ".pad")
+    assert (plot.title, plot.word) == ("f₂", "f₁")
+    pixels = [(x, y) for x in np.linspace(60, 300, 9) for y in np.linspace(50, 270, 8)]
+    agreeing = 0
+    for pixel, names in zip(pixels, page.find(".pad").evaluate(SCRIPTS["regions"], pixels), strict=True):
+        f1, f2 = plot.data(pixel)[0]
+        name = c2.classify(system(setting, f1=f1, f2=f2), PSI, (0.0,)).name
+        if names:
+            agreeing += names[0] == name
+    assert agreeing > 0.93 * len(pixels)
+    matrix = np.array([[setting["a"], -setting["b"]], [setting["b"], setting["d"]]])
+    curve = np.concatenate([points for points, _ in plot.lines("transcritical")])
+    np.testing.assert_allclose(np.hypot(*np.linalg.solve(matrix, curve.T)), 1.0, atol=0.03)
+    handle = page.find(".pad .handle").evaluate("(it) => [it.cx.baseVal.value, it.cy.baseVal.value]")
+    np.testing.assert_allclose(plot.data(handle)[0], [setting["f1"], setting["f2"]], atol=max(plot.near))
+
+
+def test_numbers(opened, setting):
+    page = opened("numbers")
+    q = equator(setting)
+    rows = table(page, ".equator-table")
+    assert rows[0] == ["", "θ", "λρ", "λθ"]
+    for i, row in enumerate(row for row in rows[1:] if row[0]):
+        wanted = [q.theta[i], q.lambda_rho[i], q.lambda_theta[i]]
+        np.testing.assert_allclose([numbers(cell)[0] for cell in row[1:]], wanted, rtol=2e-3)
+    (C, *_) = at(setting)
+    rows = {row[0]: row[1] for row in table(page, ".critical-table")}
+    for name, wanted in [("(c, s)", C.e), ("(x₂, y₂)", C.x2), ("tr J", [C.trace]), ("det J", [C.determinant])]:
+        np.testing.assert_allclose(numbers(rows[name]), wanted, rtol=2e-3, atol=1e-3)
+    rate = C.slow_flow[0]
+    assert numbers(page.find(".slow b").text_content().replace("z′", ""))[0] == pytest.approx(rate, rel=2e-3)
+    assert ("out of" if rate > 0 else "into") in page.find(".slow").text_content()
+    start, tip = (numbers(part)[-1] for part in page.find(".slow .z-arrow").get_attribute("d").split("V"))
+    assert (tip < start) == (rate > 0)  # z points up, pixels run down
+
+
+def seen(points, azimuth, elevation):
+    """Right and up of points in space (z up): a turn about z, then looked at from above by the elevation."""
+    points = np.asarray(points, dtype=float).reshape(-1, 3)
+    turn = np.array([[np.cos(azimuth), -np.sin(azimuth), 0], [np.sin(azimuth), np.cos(azimuth), 0], [0, 0, 1]])
+    right, away, up = turn @ points.T
+    return np.column_stack([right, np.cos(elevation) * up + np.sin(elevation) * away])
+
+
+def test_hemisphere_in_space(opened, setting):
+    page = opened("solid")
+    canvas = page.find("canvas.solid")
+    canvas.evaluate(SCRIPTS["record"])
+    canvas.press("ArrowRight")  # turned by 0.1: painted anew
+    page.page.wait_for_timeout(300)
+    drawn = canvas.evaluate("(it) => it.drawn")
+    q = equator(setting)
+    sets = at(setting)
+    circles = np.array([it["all"][:2] for it in drawn if it["name"] == "arc" and it["all"][2] == 4])
+    boxes = np.array([it["all"] for it in drawn if it["name"] == "rect"])
+    squares = boxes[:, :2] + boxes[:, 2:] / 2
+    x2 = np.array([C.x2 for C in sets])
+    flat = x2 / np.sqrt(1 + np.sum(x2**2, axis=1, keepdims=True))
+    height = np.sqrt(1 - np.sum(flat**2, axis=1))
+    rim = np.column_stack([np.cos(q.theta), np.sin(q.theta), 0 * q.theta])
+    wanted = seen(np.concatenate([rim, np.column_stack([flat, height])]), -0.7, 0.5)
+    places = np.concatenate([circles, squares])
+    assert len(places) == len(wanted)
+    # one size and one middle for all: x to the right, y down
+    scale = np.linalg.norm(places - places.mean(0)) / np.linalg.norm(wanted - wanted.mean(0))
+    flipped = wanted * [1, -1]
+    np.testing.assert_allclose(places - places.mean(0), scale * (flipped - flipped.mean(0)), atol=0.02 * scale)
+    fills = [it["fill"] for it in drawn if it["name"] == "arc" and it["all"][2] == 4]
+    page_colour = canvas.evaluate(SCRIPTS["property"], "page")
+    hollow = [fill.lower() in (page_colour, "#ffffff") for fill in fills]
+    assert hollow == [bool(rho > 0) for rho in q.lambda_rho]
+
+
+def test_limit_directions_along_z_in_space(opened, setting):
+    page = opened("solid", solid="stack")
+    canvas = page.find("canvas.solid")
+    canvas.evaluate(SCRIPTS["record"])
+    canvas.press("ArrowRight")
+    page.page.wait_for_timeout(300)
+    drawn = [it for it in canvas.evaluate("(it) => it.drawn") if it["name"] == "fillRect"]
+    look = {name: canvas.evaluate(SCRIPTS["property"], name) for name in ("attr", "rep")}
+    groups = {
+        name: np.array([it["all"][:2] for it in drawn if it["fill"] == shade]).reshape(-1, 2) + 1.2
+        for name, shade in look.items()
+    }
+    low, high, tall = -4.0, 4.0, 2.6
+    wanted = {"attr": [], "rep": []}
+    for z in np.linspace(low, high, 121):
+        q = equator(setting, z=z)
+        for theta, rho in zip(q.theta, q.lambda_rho, strict=True):
+            wanted["attr" if rho < 0 else "rep"].append([np.cos(theta), np.sin(theta), tall * (z - low) / (high - low)])
+    box = canvas.bounding_box()
+    scale = min(box["width"] / 2.5, box["height"] / (tall * np.cos(0.5) + 2.3 * np.sin(0.5) + 0.5))
+    middle = np.array([box["width"], box["height"] + scale * np.cos(0.5) * tall]) / 2
+    for name, points in wanted.items():
+        assert abs(len(points) - len(groups[name])) <= 2
+        if len(points) < 5:
+            continue
+        places = seen(points, -0.7, 0.5) * [1, -1] * scale + middle
+        gaps = [np.min(np.hypot(*(groups[name] - one).T)) for one in places]
+        assert np.quantile(gaps, 0.97) < 3
