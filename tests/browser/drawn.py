@@ -40,6 +40,14 @@ class Plot:
         points = np.asarray(points, dtype=float).reshape(-1, 2)
         return np.column_stack([self.x(points[:, 0]), self.y(points[:, 1])])
 
+    def pixels(self, x, y):
+        """Where values are drawn, in the pixels of the chart."""
+        places = []
+        for value, scale in ((x, self.x), (y, self.y)):
+            offset, slope = float(scale(0.0)), float(scale(1.0) - scale(0.0))
+            places.append((value - offset) / slope)
+        return places
+
     def line(self, drawn):
         return self.data([float(v) for v in re.findall(r"-?\d+(?:\.\d+)?", drawn["d"])])
 

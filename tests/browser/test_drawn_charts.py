@@ -11,8 +11,6 @@ from codim2_core.diagrams.diagram import diagram
 
 from .drawn import SCRIPTS, colour, numbers, plots, table
 
-pytestmark = pytest.mark.browser
-
 PSI = c2.psi.rational()
 
 NAMES = ("a", "b", "d", "f1", "f2", "k1", "k2", "B1", "B2", "g0")

@@ -162,9 +162,9 @@ def test_region_under_the_handle_is_the_portrait(explorer, preset):
 
 
 def test_regions_follow_once_the_matrix_rests(explorer):
-    before = explorer.find(".pad .regions").inner_html()
+    before = explorer.find(".pad .chart-plot").inner_html()
     explorer.type("a", "-1.2").type("b", "0.4")
-    assert explorer.find(".pad .regions").inner_html() != before
+    assert explorer.find(".pad .chart-plot").inner_html() != before
     assert region_under_the_handle(explorer) == [explorer.name()]
 
 

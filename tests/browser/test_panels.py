@@ -5,6 +5,8 @@ from urllib.parse import parse_qs, urlparse
 
 import pytest
 
+from .drawn import plots
+
 #: Elements of the inspector whose content is wider than they are.
 TOO_WIDE = """() => {
     const all = (root) => [...root.querySelectorAll('*')].flatMap((e) => e.shadowRoot ? [e, ...all(e.shadowRoot)] : [e])
@@ -39,6 +41,13 @@ def drag(explorer, selector, *places):
         yield point
     explorer.page.mouse.up()
     explorer.settle()
+
+
+def part_of(explorer, selector, x, y):
+    """Where values of the axes are in a chart, in parts of its width and height."""
+    box = explorer.find(selector).bounding_box()
+    across, up = plots(explorer, selector)[0].pixels(x, y)
+    return across / box["width"], up / box["height"]
 
 
 @pytest.mark.parametrize("words", OWN)
@@ -119,7 +128,7 @@ def test_other_axes_of_the_atlas(explorer):
     explorer.find(".pad .region").first.wait_for()
     assert "det A = 0" in explorer.find(".pad-curves").text_content()
     assert explorer.find(".pad .tag").text_content() == "CM4, stable node"
-    for _ in drag(explorer, ".pad", (0.25, 0.62), (0.2, 0.2)):
+    for _ in drag(explorer, ".pad", (0.25, 0.62), part_of(explorer, ".pad", -2.4, 2.4)):
         explorer.page.locator(".portrait-case", has_text=re.compile("^Case II$")).wait_for()
     assert value(explorer, "a") == pytest.approx(-2.4, abs=0.05)
     assert value(explorer, "d") == pytest.approx(2.4, abs=0.05)

@@ -7,10 +7,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from urllib.request import urlopen
 
-import pytest
-
-pytestmark = pytest.mark.browser
-
 STATIC = Path(__file__).parents[2] / "app" / "static"
 
 PYTHON = """

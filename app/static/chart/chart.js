@@ -73,7 +73,7 @@ export class Chart {
     const drawn = this.frames.map((frame) => this.plot(frame))
     // words come last, when all that they must not cover is there
     const words = this.frames.map((frame) => this.words(frame))
-    this.svg.innerHTML = `${drawn.join("")}${words.join("")}<path class="value"/><g class="over"></g><g class="read"></g>`
+    this.svg.innerHTML = `${drawn.join("")}${words.join("")}<path class="value"/><g class="moving"></g><g class="read"></g>`
     this.at(this.value)
     this.options.onRedraw?.()
   }
@@ -200,7 +200,7 @@ export class Chart {
    * @param {Label | null} [tag]
    */
   over(dots, path = null, tag = null) {
-    const holder = this.svg.querySelector(".over"), [frame] = this.frames
+    const holder = this.svg.querySelector(".moving"), [frame] = this.frames
     if (!holder || !frame) return
     const place = (/** @type {number[]} */ [u, v]) => [frame.x.at(u), frame.y.at(v)]
     const covered = dots.map((dot) => [...place([dot.x, dot.y]), 2 * dot.r, 2 * dot.r])
