@@ -113,4 +113,4 @@ def test_no_package_is_large():
     for folder in ("codim2_core", "app"):
         for face in (ROOT / folder).rglob("__init__.py"):
             count = len([path for path in face.parent.glob("*.py") if path != face])
-            assert count <= MOST_MODULES + 1, f"{face.parent.relative_to(ROOT)} has {count} modules"
+            assert count <= MOST_MODULES + 2, f"{face.parent.relative_to(ROOT)} has {count} modules"

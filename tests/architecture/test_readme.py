@@ -1,32 +1,74 @@
-"""What the README says works as printed."""
+"""What the README and its pages say works as printed, and names what is there."""
 
 import re
+import shlex
+import tomllib
+from itertools import pairwise
 from pathlib import Path
+
+import pytest
+from codim2_app.server.cli import main
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text()
+CONTRIBUTING = (ROOT / ".github" / "CONTRIBUTING.md").read_text()
+PAGES = ("README.md", ".readme/benchmarks.md", ".github/CONTRIBUTING.md", ".github/CHANGELOG.md")
 
 
 def test_the_core_in_use_runs(capsys):
-    first, second = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
-    exec(compile(first, "README.md", "exec"), {})
-    printed = capsys.readouterr().out
-    assert printed.startswith("Case I, CM4.")
-    assert "stable node" in printed
-    exec(compile(second, "README.md", "exec"), {})
-    printed = capsys.readouterr().out
-    assert printed.startswith("['stable node', 'saddle', 'stable node']")
-    assert "Q2 slide C3" in printed
-    assert "\nslip 0.0" in printed
-    assert "\nslide 0.857" in printed
+    (code,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+    names = {}
+    exec(compile(code, "README.md", "exec"), names)
+    first, *sets = capsys.readouterr().out.splitlines()
+    assert "limit directions" in first
+    assert [line.split(" [")[0] for line in sets] == ["stable node", "saddle", "stable node"]
+    assert len(names["lines"].points) == 2
+    assert len(names["scene"]["critical"]) == 3
+
+
+def test_the_command_line_answers_as_printed(capsys):
+    (shown,) = re.findall(r"```console\n\$ codim2 (.*?)\n(.*?)```", README, re.DOTALL)
+    main(shlex.split(shown[0]))
+    assert capsys.readouterr().out == shown[1]
 
 
 def test_ci_runs_the_test_command_of_the_readme():
-    commands = re.findall(r"```sh\n(.*?)\n```", README, re.DOTALL)
-    assert len(commands) == 2
-    assert commands[1].split(" && ")[1] in (ROOT / ".ci" / "run").read_text()
+    install, test, _ = re.findall(r"```sh\n(.*?)\n```", README, re.DOTALL)
+    assert install == "pip install -e . && codim2 serve"
+    assert test.split(" && ")[1] in (ROOT / ".ci" / "run").read_text()
 
 
-def test_pictures_are_in_the_repository():
-    for path in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", README):
-        assert (ROOT / path).is_file(), path
+def test_the_readme_is_short():
+    assert len(README.splitlines()) <= 100
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_pictures_and_links_are_in_the_repository(page):
+    path = ROOT / page
+    for target in re.findall(r"\]\(([^)#]+)\)", path.read_text()):
+        assert target.startswith("http") or (path.parent / target).is_file(), target
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [(README, r"\|.*`{}`.*\|"), (CONTRIBUTING, r"(core|app|    )\s+(\w+ \| )*{}\b")],
+    ids=["README", "CONTRIBUTING"],
+)
+def test_every_room_is_named_and_on_its_floor(text, line):
+    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"]["contracts"]
+    for one in contracts:
+        if one["type"] != "layers":
+            continue
+        places = []
+        for floor in one["layers"]:
+            rooms = [line.format(room) for room in floor.split(" | ")]
+            lines = [next(i for i, one in enumerate(text.splitlines()) if re.match(room, one)) for room in rooms]
+            places.append(lines)
+        for above, below in pairwise(places):
+            assert max(above) <= min(below), (one["containers"], above, below)
+
+
+def test_files_that_the_house_rules_name_exist():
+    for name in re.findall(r"`((?:app|codim2_core|tests)/[\w./]+)`", CONTRIBUTING):
+        if "NAME" not in name and "ROOM" not in name:
+            assert (ROOT / name).exists(), name

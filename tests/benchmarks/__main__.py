@@ -1,8 +1,8 @@
 """Run the benchmarks: ``python -m tests.benchmarks [--quick] [--html FILE] [name ...]``.
 
 Each is also a command of its own, ``python -m tests.benchmarks.bench_<name>``. A full run (without names and
-``--quick``) rewrites the tables and pictures of the README; every run writes the report with its plots as one HTML
-file (default build/benchmarks.html) that needs no network. Nothing here is asserted: these are measurements.
+``--quick``) rewrites the tables and pictures of .readme/benchmarks.md; every run writes the report with its plots as
+one HTML file (default build/benchmarks.html) that needs no network. Nothing here is asserted: these are measurements.
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ from .pictures import Plot, svg
 from .words import WORDS
 
 ROOT = Path(__file__).parents[2]
-README, PICTURES = ROOT / "README.md", ROOT / ".readme"
+PICTURES = ROOT / ".readme"
+PAGE = PICTURES / "benchmarks.md"
 START, END = "<!-- benchmarks -->", "<!-- /benchmarks -->"
 # bench_<name>: `measure` with `text` and `plots` where there is something to draw, else `report` alone.
 DRAWN = {
@@ -36,7 +37,7 @@ TABLES = {
     "scene": "A cold scene", "general": "Typed systems", "simulate": "Simulated motions against eps",
     "app": "The server", "browser": "Painted frames", "equator": "Counts of limit directions",
 }  # fmt: skip
-IN_README = ("trajectories", "scene", "general", "app", "equator")
+ON_PAGE = ("trajectories", "scene", "general", "app", "equator")
 # Titles of the plots of the second picture, by their beginnings.
 OTHERS = (
     "limit directions: wrong",
@@ -84,7 +85,7 @@ def measured(name: str, quick: bool) -> Section:
 
 
 def pictures(sections: list[Section]) -> dict[str, str]:
-    """The README's pictures, by file name."""
+    """The page's pictures, by file name."""
     from .bench_trajectories import SHOWN
 
     plots = [drawn for section in sections for drawn in section.plots]
@@ -94,15 +95,15 @@ def pictures(sections: list[Section]) -> dict[str, str]:
 
 
 def rewrite(sections: list[Section]) -> None:
-    """Put tables and pictures into the README."""
+    """Put tables and pictures on the page."""
     for name, picture in pictures(sections).items():
         (PICTURES / name).write_text(picture)
     parts = [machine()]
-    parts += [f"![{alt}](.readme/{name})" for name, alt in ALT.items()]
-    parts += [section.short for section in sections if section.name in IN_README]
-    before, rest = README.read_text().split(START)
+    parts += [f"![{alt}]({name})" for name, alt in ALT.items()]
+    parts += [section.short for section in sections if section.name in ON_PAGE]
+    before, rest = PAGE.read_text().split(START)
     after = rest.split(END)[1]
-    README.write_text(f"{before}{START}\n" + "\n\n".join(parts) + f"\n{END}{after}")
+    PAGE.write_text(f"{before}{START}\n" + "\n\n".join(parts) + f"\n{END}{after}")
 
 
 def main() -> None:

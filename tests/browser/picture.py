@@ -1,33 +1,69 @@
-"""Make the README's pictures: ``python -m tests.browser.picture`` (needs Chromium, as the browser tests do)."""
+"""Make the README's pictures: ``python -m tests.browser.picture`` (needs Chromium and JupyterLab, as the tests do)."""
 
 from __future__ import annotations
 
 import os
 import shutil
+import tempfile
 from pathlib import Path
 
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import Browser, sync_playwright
 
 from ..app.serving import serving
+from .jupyterlab import jupyterlab, write_notebook
 
 FOLDER = Path(__file__).parents[2] / ".readme"
-#: Name of the picture, and the address of the page.
-PICTURES = {"explorer": "", "systems": "?preset=nonunique-sliding&panel=solid&solid=stack"}
+CELLS = (
+    "import codim2_core as c2, codim2_app\nmine = c2.examples.nonunique_sliding()\n"
+    "view = codim2_app.explorer(mine, psi='tanh')\nview",
+    "[(C.kind, *C.slow_flow.round(3)) for C in view.frames.scene['critical']]",
+)
+RUN = """async () => {
+    const {shell, commands} = window.jupyterapp
+    await shell.currentWidget.sessionContext.ready
+    await commands.execute("application:toggle-left-area")
+    await commands.execute("notebook:run-all-cells")
+}"""
+SETTLED = """() => {
+    const find = (root) => root.querySelector(".codim2[data-settled=true]")
+        ?? [...root.querySelectorAll("*")].map((e) => e.shadowRoot && find(e.shadowRoot)).find(Boolean)
+    return find(document) }"""
+
+
+def the_page(browser: Browser) -> None:
+    """The explorer as it opens."""
+    with serving() as address:
+        page = browser.new_page(viewport={"width": 1440, "height": 900}, color_scheme="light")
+        page.goto(address)
+        page.wait_for_selector(".codim2[data-settled=true]", timeout=60_000)
+        page.wait_for_timeout(1500)
+        page.screenshot(path=str(FOLDER / "explorer.png"))
+        page.close()
+
+
+def a_notebook(browser: Browser) -> None:
+    """The explorer of a typed system in JupyterLab, and a cell that asks for its numbers."""
+    with tempfile.TemporaryDirectory() as name, jupyterlab(Path(name)) as address:
+        write_notebook(Path(name) / "notebooks" / "system.ipynb", CELLS)
+        page = browser.new_page(viewport={"width": 1300, "height": 1000}, color_scheme="light")
+        page.goto(f"{address}/lab/tree/system.ipynb?reset")
+        page.wait_for_function("window.jupyterapp?.shell.currentWidget?.sessionContext", timeout=120_000)
+        page.evaluate(RUN)
+        page.wait_for_function(SETTLED, timeout=120_000)
+        page.wait_for_timeout(3000)
+        page.evaluate("document.querySelector('.jp-WindowedPanel-outer').scrollTop = 0")
+        page.wait_for_timeout(1000)
+        page.screenshot(path=str(FOLDER / "notebook.png"))
+        page.close()
 
 
 def main() -> None:
-    """Write a screenshot of the explorer as it opens, and one of another system."""
-    FOLDER.mkdir(exist_ok=True)
+    """Write both pictures."""
     path = os.environ.get("CODIM2_CHROMIUM") or shutil.which("chromium")
-    with serving() as address, sync_playwright() as playwright:
+    with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-gpu"])
-        for name, query in PICTURES.items():
-            page = browser.new_page(viewport={"width": 1440, "height": 900}, color_scheme="light")
-            page.goto(f"{address}/{query}")
-            page.wait_for_selector(".codim2[data-settled=true]")
-            page.wait_for_timeout(1500)
-            page.screenshot(path=str(FOLDER / f"{name}.png"))
-            page.close()
+        the_page(browser)
+        a_notebook(browser)
         browser.close()
 
 

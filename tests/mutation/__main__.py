@@ -1,129 +1,149 @@
-"""Does a test notice when a formula is wrong? ``python -m tests.mutation [--module NAME] [--sample N] [--limit S]``.
+"""Do the tests notice a wrong formula? ``python -m tests.mutation [NAME ...] [--sample N]``.
 
-The core and its tests are copied to a temporary folder. There one expression at a time is changed (`mutants`) and the
-tests of that module (`targets`) are run up to the first failure. Mutants that no test notices are printed; the exit
-code is 1 if there are any. What `targets.ALLOWED` explains is not tried. Each run is a fork of one process that has
-NumPy, pytest and the like already loaded.
+NAME is a room or a module: ``layer_problem``, ``core.portrait.classify``, ``app.draw``, ``static``, ``static/ball.js``;
+without one, everything is tried: the core, the app's Python and its JavaScript. One expression at a time is changed
+(`mutants`, `javascript`), and those tests of the room (`targets`) that reach the changed function are run up to the
+first failure: in place where that can be (`live`), else with the module imported anew. Nothing is written to disk.
+Printed are the mutants that live and, for each module, how many were killed of how many; those that
+`targets.ALLOWED` explains are not tried. The exit code is 1 if any lives.
 """
 
 from __future__ import annotations
 
 import argparse
+import multiprocessing
 import os
 import random
-import shutil
-import signal
 import sys
-import tempfile
-import time
-from pathlib import Path
+from dataclasses import dataclass, field
 
+from . import javascript
 from .mutants import Mutant, mutants
-from .targets import TARGETS, explained
-
-ROOT = Path(__file__).parents[2]
-SKIPPED = shutil.ignore_patterns("__pycache__", "browser", "benchmarks", ".hypothesis")
+from .session import Job, preload, run
+from .targets import COMPILED_ONLY, ROOT, explained, guards, modules, room
 
 
-def prepare(folder: Path) -> None:
-    """Copy the core and the tests."""
-    shutil.copytree(ROOT / "codim2_core", folder / "codim2_core", ignore=SKIPPED)
-    shutil.copytree(ROOT / "tests", folder / "tests", ignore=SKIPPED)
-    shutil.copy(ROOT / "pyproject.toml", folder)
+@dataclass
+class Count:
+    """What became of a module's mutants."""
+
+    name: str
+    killed: int = 0
+    tried: int = 0
+    explained: int = 0
+    unreached: int = 0
+    alive: list[str] = field(default_factory=list)
+
+    def __str__(self) -> str:
+        share = f"{100 * self.killed / self.tried:4.0f} %" if self.tried else "     –"
+        extra = f", {self.explained} explained" * bool(self.explained)
+        extra += f", {self.unreached} that no test reaches" * bool(self.unreached)
+        return f"{self.name:44}{self.killed:5} of {self.tried:4} killed {share}{extra}"
 
 
-def preload() -> None:
-    """Import what every run needs and no mutant changes."""
-    for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):
-        os.environ[name] = "1"
-    os.environ["CI"] = "1"  # the same examples in every run
-    import hypothesis
-    import mpmath  # noqa: F401
-    import numpy  # noqa: F401
-    import pytest  # noqa: F401
-
-    # A failure is all that is asked for: no smaller example of it, no memory of it.
-    phases = (hypothesis.Phase.explicit, hypothesis.Phase.generate)
-    hypothesis.settings.register_profile("mutation", deadline=None, derandomize=True, database=None, phases=phases)
+def chosen(found: list[Mutant], sample: int | None, seed: int) -> list[Mutant]:
+    """At most so many, at random."""
+    if sample is None or sample >= len(found):
+        return found
+    return sorted(random.Random(seed).sample(found, sample), key=lambda mutant: mutant.line)
 
 
-def run(folder: Path, tests: tuple[str, ...], limit: float) -> str:
-    """Return "passed", "failed" or "timeout" for these tests in the copy."""
-    child = os.fork()
-    if child == 0:
-        os.setpgid(0, 0)
-        os.chdir(folder)
-        nothing = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nothing, 1)
-        os.dup2(nothing, 2)
-        sys.path[:] = [str(folder), *(p for p in sys.path if p and Path(p).resolve() != ROOT)]
-        for name in [n for n in sys.modules if n.split(".")[0] in ("tests", "codim2_core", "codim2_app")]:
-            del sys.modules[name]
-        sys.dont_write_bytecode = True  # two mutants of one size within a second would share a .pyc
-        code = 3
-        try:
-            import pytest
-
-            options = ["-x", "-q", "-p", "no:cacheprovider", "--hypothesis-profile=mutation", "--rootdir", str(folder)]
-            options += ["-W", "ignore::pytest.PytestAssertRewriteWarning"]  # hypothesis is loaded already
-            code = int(pytest.main([*options, *(str(folder / "tests" / test) for test in tests)]))
-        finally:
-            os._exit(code)
-    end = time.monotonic() + limit
-    while time.monotonic() < end:
-        done, status = os.waitpid(child, os.WNOHANG)
-        if done:
-            return "passed" if os.waitstatus_to_exitcode(status) == 0 else "failed"
-        time.sleep(0.01)
-    os.killpg(child, signal.SIGKILL)
-    os.waitpid(child, 0)
-    return "timeout"
+def tell(job: Job, mutant: Mutant, outcome: str) -> None:
+    """Print a mutant that lives."""
+    if outcome == "passed":
+        line = f"  lives  {job.path.relative_to(ROOT)}:{mutant.text}\n"
+        os.write(TERMINAL, line.encode())
 
 
-def check(folder: Path, module: str, sample: int | None, seed: int, limit: float | None) -> list[Mutant]:
-    """Try mutants of one module; return those that live without an explanation."""
-    path = folder / "codim2_core" / f"{module.replace('.', '/')}.py"
-    source = path.read_text()
-    tests = TARGETS[module]
-    start = time.monotonic()
-    if run(folder, tests, 600.0) != "passed":
-        raise SystemExit(f"{module}: its tests fail as they are ({', '.join(tests)}); mend that first.")
-    own = time.monotonic() - start
-    limit = 20.0 + 4.0 * own if limit is None else limit  # a mutant that loops for ever has been noticed
-    lines = source.splitlines()
-    found = [mutant for mutant in mutants(source) if not explained(module, lines[mutant.line - 1])]
-    total = len(found)
-    if sample is not None and sample < total:
-        found = sorted(random.Random(seed).sample(found, sample), key=lambda mutant: mutant.line)
-    print(f"{module}: {len(found)} of {total} mutants, tests take {own:.1f} s", flush=True)
-    alive = []
-    for mutant in found:
-        path.write_text(mutant.source)
-        if run(folder, tests, limit) == "passed":
-            alive.append(mutant)
-            print(f"  lives  {module}.py:{mutant.text}", flush=True)
-    path.write_text(source)
-    print(f"{module}: {len(found) - len(alive)} of {len(found)} noticed, {time.monotonic() - start:.0f} s", flush=True)
-    return alive
+def try_python(task: tuple[str, bool, list[str], int | None, int]) -> list[Count]:
+    """All mutants of modules of one room."""
+    name, compiled, names, sample, seed = task
+    jobs, counts = [], []
+    for module in names:
+        path = modules()[module]
+        source = path.read_text()
+        lines = source.splitlines()
+        found = list(mutants(source))
+        left = [mutant for mutant in found if not explained(module, lines[mutant.line - 1])]
+        counts.append(Count(module, explained=len(found) - len(left)))
+        jobs.append(Job(path, chosen(left, sample, seed)))
+    for count, job in zip(counts, run(jobs, guards(name), compiled, tell), strict=True):
+        count.tried = len(job.outcomes)
+        for mutant, outcome, tests in zip(job.mutants, job.outcomes, job.tests, strict=True):
+            count.killed += outcome in ("failed", "timeout")
+            count.unreached += not tests
+            if outcome == "passed":
+                count.alive.append(mutant.text)
+        os.write(TERMINAL, f"{count}\n".encode())
+    return counts
+
+
+def try_javascript(task: tuple[str, int | None, int]) -> list[Count]:
+    """All mutants of one file of the front end."""
+    name, sample, seed = task
+    found = [m for m in javascript.mutants(name) if not explained(name, m.context)]
+    kept = chosen(found, sample, seed)  # type: ignore[arg-type]
+    count = Count(name, tried=len(kept))
+    outcomes = javascript.run(name, kept)
+    for mutant, outcome in zip(kept, outcomes, strict=True):
+        count.killed += outcome == "failed"
+        count.unreached += outcome == "unreached"
+        if outcome != "failed":
+            count.alive.append(mutant.text)
+            if outcome == "passed":
+                os.write(TERMINAL, f"  lives  app/{name}:{mutant.text}\n".encode())
+    os.write(TERMINAL, f"{count}\n".encode())
+    return [count]
+
+
+def attempt(task: tuple) -> list[Count]:
+    """One task in a process of its own."""
+    return try_javascript(task) if len(task) == 3 else try_python(task)
+
+
+def meant(names: list[str]) -> list[str]:
+    """Modules and files that the names of the command mean; all of them without any."""
+    known = [*modules(), *javascript.files()]
+    found = []
+    for name in names or ["core", "app", "static"]:
+        fulls = (name, f"core.{name}")
+        these = [one for one in known if any(one == full or one.startswith((f"{full}.", f"{full}/")) for full in fulls)]
+        if not these:
+            raise SystemExit(f"{name} is no room and no module; give a room such as layer_problem, app.draw or static.")
+        found += [one for one in these if one not in found]
+    return found
 
 
 def main(arguments: list[str]) -> int:
     """Run, and return the exit code."""
     parser = argparse.ArgumentParser(prog="python -m tests.mutation", description=__doc__.split("\n")[0])
-    parser.add_argument("--module", action="append", choices=sorted(TARGETS), help="one module (again for more)")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="a room or a module; without one, everything")
     parser.add_argument("--sample", type=int, help="at most so many mutants of each module, chosen at random")
     parser.add_argument("--seed", type=int, default=0, help="of that choice")
-    parser.add_argument("--limit", type=float, help="seconds for the tests of one mutant")
+    parser.add_argument("--processes", type=int, default=len(os.sched_getaffinity(0)), help="side by side")
     options = parser.parse_args(arguments)
+    rooms: dict[tuple[str, bool], list[str]] = {}
+    tasks: list[tuple] = []
+    for name in meant(options.names):
+        if name.startswith("static"):
+            tasks.append((name, options.sample, options.seed))
+        elif room(name) == COMPILED_ONLY:
+            print(f"{name:44}  not tried: machine code (see targets)")
+        else:
+            rooms.setdefault((room(name), "njit" in modules()[name].read_text()), []).append(name)
+    tasks = [(*key, names, options.sample, options.seed) for key, names in rooms.items()] + tasks
     preload()
-    with tempfile.TemporaryDirectory(prefix="mutation-") as name:
-        folder = Path(name).resolve()
-        prepare(folder)
-        alive = 0
-        for module in options.module or TARGETS:
-            alive += len(check(folder, module, options.sample, options.seed, options.limit))
-    return 1 if alive else 0
+    with multiprocessing.get_context("fork").Pool(options.processes, maxtasksperchild=1) as pool:
+        counts = [count for part in pool.imap_unordered(attempt, tasks, chunksize=1) for count in part]
+    print("\nBy module:")
+    for count in sorted(counts, key=lambda count: count.name):
+        print(count)
+    total = Count("all", sum(c.killed for c in counts), sum(c.tried for c in counts), sum(c.explained for c in counts))
+    print(total)
+    return 1 if any(count.alive for count in counts) else 0
 
+
+TERMINAL = os.dup(1)
 
 if __name__ == "__main__":
     raise SystemExit(main(sys.argv[1:]))

@@ -1,7 +1,8 @@
 """One small change of a formula at a time: signs flipped, terms and factors dropped, constants shifted, comparisons
 turned round.
 
-Each mutant is the module's source with one expression replaced; everything else, comments included, stays as it is.
+Each mutant is the module's source with one expression replaced; everything else, comments included, stays as it is,
+and stays on its line.
 """
 
 from __future__ import annotations
@@ -55,7 +56,8 @@ def mutants(source: str) -> Iterator[Mutant]:
             low = starts[node.lineno - 1] + node.col_offset
             high = starts[node.end_lineno - 1] + node.end_col_offset
             new = ast.unparse(ast.fix_missing_locations(changed))
-            text = (data[:low] + f"({new})".encode() + data[high:]).decode()
+            below = "\n" * data[low:high].count(b"\n")  # all other lines keep their numbers
+            text = (data[:low] + f"({new}{below})".encode() + data[high:]).decode()
             yield Mutant(node.lineno, " ".join(data[low:high].decode().split()), new, text)
 
 

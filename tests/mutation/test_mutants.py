@@ -1,11 +1,14 @@
 """The mutants themselves: each is valid code, differs in one place, and they are those that one expects."""
 
 import ast
-import importlib
 from pathlib import Path
 
+import pytest
+
+from .live import functions, put_in
 from .mutants import mutants
-from .targets import TARGETS
+from .session import Reach, reaching
+from .targets import ALLOWED, COMPILED_ONLY, ELSEWHERE, guards, modules, room
 
 SOURCE = '''"""A docstring with 1 + 2."""
 LIMIT: float = 0.5
@@ -47,8 +50,64 @@ def test_every_mutant_is_valid_code_and_differs():
         assert "# a comment" in mutant.source
         assert mutant.source.splitlines()[mutant.line - 1] != SOURCE.splitlines()[mutant.line - 1]
 
+        assert mutant.source.count("\n") == SOURCE.count("\n")  # all lines keep their numbers
 
-def test_targets_exist():
-    for module, tests in TARGETS.items():
-        importlib.import_module(f"codim2_core.{module}")
-        assert all((Path(__file__).parents[1] / test.split("::")[0]).exists() for test in tests), module
+
+def test_tests_of_every_room_exist():
+    for name in {*map(room, modules()), *ELSEWHERE} - {COMPILED_ONLY}:
+        tests = guards(name)
+        assert tests, name
+        assert all((Path(__file__).parents[1] / test).exists() for test in tests), name
+
+
+def test_what_is_explained_is_there():
+    known = modules()
+    for one in ALLOWED:
+        assert one.module in known, one.module
+        assert one.line in known[one.module].read_text(), (one.module, one.line)
+
+
+LIVING = """
+LIMIT = 3
+
+def area(r, factor=2):
+    return factor * r * r
+
+class Disc:
+    size = 4
+
+    def twice(self):
+        return sum(2 * x for x in (1, 2))
+"""
+
+
+def in_place(before, after, tmp_path):
+    path = str(tmp_path / "living.py")
+    assert before in LIVING
+    names = {}
+    exec(compile(LIVING, path, "exec"), names)
+    done = put_in(LIVING, LIVING.replace(before, after), path, functions(frozenset({path})).get(path, {}))
+    return done, names["area"](3), names["Disc"]().twice()
+
+
+def test_functions_are_changed_while_they_live(tmp_path):
+    assert in_place("factor * r * r", "factor * r + r", tmp_path) == (True, 9, 6)
+    assert in_place("2 * x", "2 + x", tmp_path) == (True, 18, 7)
+
+
+@pytest.mark.parametrize(("before", "after"), [("LIMIT = 3", "LIMIT = 4"), ("size = 4", "size = 5"), ("r=2", "r=3")])
+def test_what_runs_on_import_is_not_changed_in_place(before, after, tmp_path):
+    assert in_place(before, after, tmp_path) == (False, 18, 6)
+
+
+def test_the_quickest_tests_that_reach_a_function_come_first():
+    key = ("a.py", "f", 3)
+    reach = {
+        "slow": Reach(9.0, frozenset({key})),
+        "quick": Reach(1.0, frozenset({key, ("a.py", "g", 7)})),
+        "other": Reach(0.1, frozenset({("a.py", "g", 7), ("b.py", "f", 3)})),
+        "very slow": Reach(900.0, frozenset({key})),
+    }
+    assert reaching(reach, {key}, "a.py") == ["quick", "slow"]
+    assert reaching(reach, None, "b.py") == ["other"]
+    assert reaching(reach, {("a.py", "h", 1)}, "a.py") == []

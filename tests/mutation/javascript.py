@@ -1,0 +1,108 @@
+"""Mutants of the front end's modules, tried by the tests that Node runs, in a copy of both."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+import tempfile
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+from .targets import ROOT
+
+STATIC, TESTS = ROOT / "app" / "static", ROOT / "tests" / "app" / "static"
+IMPORTED = re.compile(r"""(?:from|import)\s+["'](\.[^"']+)["']""")
+LIMIT = 60.0  # seconds; a mutant that loops for ever has been noticed
+
+
+class Mutant(NamedTuple):
+    """One change of a module: where, what it was and becomes, the new source, and the line as it was."""
+
+    line: int
+    before: str
+    after: str
+    source: str
+    context: str
+
+    @property
+    def text(self) -> str:
+        """The line, and the change as people write it."""
+        return f"{self.line}: {self.before}  →  {self.after}"
+
+
+def files() -> list[str]:
+    """All modules, as ``static/NAME.js``."""
+    return [path.relative_to(STATIC.parent).as_posix() for path in sorted(STATIC.rglob("*.js"))]
+
+
+def mutants(name: str) -> list[Mutant]:
+    """All mutants of a module.
+
+    Raises
+    ------
+    SystemExit
+        Node or TypeScript is not installed.
+    """
+    if shutil.which("node") is None or not (TESTS / "node_modules" / "typescript").is_dir():
+        raise SystemExit("The front end's mutants need Node and `npm --prefix tests/app/static ci`.")
+    path = STATIC.parent / name
+    command = ["node", str(Path(__file__).with_name("javascript.mjs")), str(path)]
+    found = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    text = path.read_text()
+    units = text.encode("utf-16-le")  # JavaScript counts in these
+    lines = text.splitlines()
+
+    def changed(one: dict) -> str:
+        low, high = units[: 2 * one["start"]], units[2 * one["end"] :]
+        return low.decode("utf-16-le") + one["after"] + high.decode("utf-16-le")
+
+    return [Mutant(m["line"], m["before"], m["after"], changed(m), lines[m["line"] - 1]) for m in found]
+
+
+@cache
+def reached(path: Path) -> frozenset[Path]:
+    """All modules that a module imports, itself included."""
+    found = {path}
+    for target in IMPORTED.findall(path.read_text()):
+        found |= reached((path.parent / target).resolve())
+    return frozenset(found)
+
+
+def tests_of(name: str) -> list[Path]:
+    """The tests that import a module, the smallest first."""
+    path = (STATIC.parent / name).resolve()
+    return sorted((t for t in TESTS.glob("*.test.js") if path in reached(t)), key=lambda t: t.stat().st_size)
+
+
+def run(name: str, tried: list[Mutant]) -> list[str]:
+    """What becomes of each: "failed", "passed", or "unreached" where no test imports the module."""
+    tests = [path.relative_to(ROOT) for path in tests_of(name)]
+    if not tests:
+        return ["unreached"] * len(tried)
+    outcomes = []
+    with tempfile.TemporaryDirectory(prefix="mutation-") as folder:
+        copy = Path(folder)
+        shutil.copytree(STATIC, copy / "app" / "static")
+        shutil.copytree(TESTS, copy / "tests" / "app" / "static", ignore=shutil.ignore_patterns("node_modules"))
+        (copy / "tests" / "app" / "static" / "node_modules").symlink_to(TESTS / "node_modules")
+        path = copy / "app" / name
+        source = path.read_text()
+
+        def passes() -> bool:
+            command = ["node", "--test", *map(str, tests)]
+            try:
+                done = subprocess.run(command, cwd=copy, capture_output=True, timeout=LIMIT, check=False)
+            except subprocess.TimeoutExpired:
+                return False
+            return done.returncode == 0
+
+        if not passes():
+            raise SystemExit(f"{name}: its tests fail as they are; mend that first.")
+        for mutant in tried:
+            path.write_text(mutant.source)
+            outcomes.append("passed" if passes() else "failed")
+        path.write_text(source)
+    return outcomes
