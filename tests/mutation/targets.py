@@ -30,6 +30,7 @@ ELSEWHERE: dict[str, tuple[str, ...]] = {
     "core.figures": ("presets",),
     "app.draw": ("app/view/test_view.py",),
     "app.frame": ("app/panels", "app/view/test_refresh.py"),
+    "app.slow_layers": ("app/panels",),
     "app.state": ("app/view/test_refresh.py",),
     "app.view": ("app/state",),
 }
