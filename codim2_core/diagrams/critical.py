@@ -81,20 +81,22 @@ def _direction(plane: Plane, i: int) -> float:
 
 
 def critical_part(
-    path: Line, grid: Array, exponent: int, cuts: Borders
+    path: Line, grid: Array, exponent: int, cuts: Borders, extra: Array
 ) -> tuple[list[CriticalBranch], list[SpecialValue]]:
-    """Branches of the critical set and all its special values between the ends of the grid."""
+    """Branches of the critical set and its special values between the ends of the grid; `extra`: where else to look."""
     special = _border_points(path, exponent, cuts)
     width = float(grid[-1] - grid[0])
     ends = [float(grid[0]), *cuts.all.tolist(), float(grid[-1])]
     pieces = [(low, high) for low, high in pairwise(ends) if high - low > 1e-13 * width]
-    x = np.array([[low] for low, _ in pieces]) + np.array([[high - low] for low, high in pieces]) * SPREAD
-    found = linearise(path(x.ravel()), exponent)
-    share, focus, stands = (v.reshape(x.shape) for v in (found.share, _focus(found), found.exists))
+    samples = [np.union1d(u + (v - u) * SPREAD, extra[(extra > u) & (extra < v)]) for u, v in pieces]
+    found = linearise(path(np.concatenate(samples)), exponent)
+    at = np.cumsum([len(x) for x in samples])[:-1]
+    share, focus = np.split(found.share, at), np.split(_focus(found), at)
+    stands = np.split(found.exists, at)
     standing = [k for k in range(len(pieces)) if stands[k].mean() > 0.5]
-    grids = [x[k, stands[k]] for k in standing]
-    neutral = roots(lambda v: linearise(path(v), exponent).share, grids, [share[k, stands[k]] for k in standing])
-    turning = roots(lambda v: _focus(linearise(path(v), exponent)), grids, [focus[k, stands[k]] for k in standing])
+    grids = [samples[k][stands[k]] for k in standing]
+    neutral = roots(lambda v: linearise(path(v), exponent).share, grids, [share[k][stands[k]] for k in standing])
+    turning = roots(lambda v: _focus(linearise(path(v), exponent)), grids, [focus[k][stands[k]] for k in standing])
     branches: list[CriticalBranch] = []
     for k, inner, trace, touch, shape in zip(
         standing, grids, neutral.zeros, neutral.touches, turning.zeros, strict=True

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.sign_changes import roots
 from ..psi.function import Psi
+from .audit import samples_beside
 from .critical import borders, critical_part
 from .equator import equator_part
 from .result import ClosedEquator, CriticalBranch, Diagram, EquatorBranch, SpecialValue
@@ -21,6 +22,7 @@ __all__ = ["ClosedEquator", "CriticalBranch", "Diagram", "EquatorBranch", "Speci
 Array = NDArray[np.float64]
 
 _GRID = 512
+_AUDITS = 5  # times that special values are looked for
 # Grid points are moved off the round numbers on which special values like to lie
 _WOBBLE = 0.3 * np.sin(2.0 + np.arange(_GRID + 1) * 1.7)
 _WOBBLE[[0, -1]] = 0.0
@@ -39,7 +41,8 @@ def diagram(
 
     Special values are found on a grid of 512 steps and then to the last digits. Two of one kind between neighbouring
     grid points are found too, if the function behind them is smooth on that scale and exceeds 1e-13 of its largest
-    size between the two.
+    size between the two. Then the portrait's class is compared along every interval between special values, and where
+    it changes they are looked for again (`audit`).
 
     Parameters
     ----------
@@ -56,8 +59,9 @@ def diagram(
     Returns
     -------
     Diagram
-        For a general system special values are found by bisection, on a coarser grid, and take longer; two of them
-        nearer than a step of that grid may be missed.
+        For a general system special values are found by bisection, on a coarser grid that is refined where something
+        comes near zero, and take longer; two that undo each other within a step, with nothing to announce them, are
+        missed.
 
     Raises
     ------
@@ -83,14 +87,37 @@ def diagram(
     critical: list[CriticalBranch] = []
     special: list[SpecialValue] = []
     for run in runs:
-        cuts = borders(path, run, exponent)
-        for held, new in zip((critical, special), critical_part(path, run, exponent, cuts), strict=True):
-            held += new
-        for held, new in zip((equator, closed, special), equator_part(path, run, exponent, cuts), strict=True):
-            held += new
+        directions, orbits, sets, found = _marked(path, run, exponent)
+        equator += directions
+        closed += orbits
+        critical += sets
+        special += found
     special.sort(key=lambda s: s.value)
     parts = tuple(equator), tuple(closed), tuple(critical), tuple(special), tuple(cycles), tuple(gaps)
     return Diagram(name, (low, high), *parts)
+
+
+Parts = tuple[list[EquatorBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
+
+
+def _marked(path: Line, run: Array, exponent: int) -> Parts:
+    """Branches and special values of a run, looked for again where something changes between them."""
+    extra = np.zeros(0)
+    parts: Parts = [], [], [], []
+    for _ in range(_AUDITS):
+        cuts = borders(path, run, exponent)
+        critical, special = critical_part(path, run, exponent, cuts, extra)
+        equator, closed, more = equator_part(path, run, exponent, cuts)
+        special += more
+        parts = equator, closed, critical, special
+        if path(run).rigid:
+            break
+        beside = samples_beside(path, run, np.unique([s.value for s in special]))
+        if not len(beside):
+            break
+        extra = np.union1d(extra, beside)
+        run = np.union1d(run, beside)
+    return parts
 
 
 def _runs(path: Line, grid: Array, whole: Plane) -> tuple[list[Array], list[tuple[float, float]]]:

@@ -22,7 +22,8 @@ class SpecialValue:
     kind : str
         "saddle-node", "pitchfork", "cusp", "exchange of limit directions", "all directions", "transcritical",
         "touching the equator", "Hopf", "tr J = 0", "node-focus", "det A = 0", "line of critical points" or
-        "neutral equator"; for general systems also "fold of critical sets" and "det J = 0".
+        "neutral equator"; for general systems also "fold of critical sets", "det J = 0" and "change of critical sets"
+        (one comes or goes alone).
     value : float
     place : (float, float)
         In the projected disc; on its border for what happens on the equator. (0, 0) where it is nowhere in particular.

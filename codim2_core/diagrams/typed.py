@@ -5,16 +5,19 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from itertools import pairwise
+from functools import cached_property
+from itertools import combinations, pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import linear_sum_assignment
 
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.problem import LayerProblem
 from ..layer_problem.vary import varied
+from ..numerics.sign_changes import lowest, vertex
 from ..psi.function import Psi
 from .equator import linked
 from .result import ClosedEquator, CriticalBranch, EquatorBranch, SpecialValue
@@ -24,10 +27,15 @@ __all__ = ["general_parts"]
 Array = NDArray[np.float64]
 
 _GRID = 48
+_ANGLES = 2.0 * np.pi * np.arange(256) / 256
+_CIRCLE = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=-1)
 _LEAST = 7  # values at least on each piece
 _BESIDE = 1e-7  # of the span: where the two sides of a special value are looked at
+_CLOSER, _APART = 3, 1e-5  # times that values between those of the grid are added; how far apart, of the span
+_MOST_CHANGES = 10  # between two neighbouring values of the grid, nested
 _NARROW = 1e-12  # of the span
-_TOGETHER = 0.05  # radians from a triple zero within which its three zeros lie, beside the special value
+_TOGETHER = 0.05  # radians, or distance in p, within which lies what is one at the special value, beside it
+_NEAR_EQUATOR = 1e-3  # 1 - |e| of a critical set that reaches the equator at the special value, beside it
 
 
 class _State:
@@ -42,6 +50,19 @@ class _State:
     def equator(self) -> EquatorEquilibria:
         """The limit directions."""
         return self._problem.equator
+
+    @cached_property
+    def near_direction(self) -> float:
+        """Smallest |Theta| at which it turns back before zero: where two limit directions are about to appear."""
+        U = self._problem.at.U(_CIRCLE)
+        value = _CIRCLE[:, 0] * U[:, 1] - _CIRCLE[:, 1] * U[:, 0]
+        size, before, after = np.abs(value), np.roll(value, 1), np.roll(value, -1)
+        turns = (size <= np.abs(before)) & (size <= np.abs(after)) & (before * value > 0.0) & (after * value > 0.0)
+        if not turns.any():
+            return float(size.max())
+        # by the parabola through three samples
+        rise, bend = np.abs(after) - np.abs(before), np.abs(before) - 2.0 * size + np.abs(after)
+        return float((size[turns] - rise[turns] ** 2 / (8.0 * np.maximum(bend[turns], 1e-300))).min())
 
     @property
     def critical(self) -> tuple[CriticalSet, ...]:
@@ -82,6 +103,11 @@ def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z
     u = (np.arange(_GRID + 1) + 0.3 * np.sin(2.0 + 1.7 * np.arange(_GRID + 1))) / _GRID
     u[[0, -1]] = 0.0, 1.0
     grid = [state(v) for v in (low + width * np.clip(u, _BESIDE, 1.0 - _BESIDE)).tolist()]
+    for _ in range(_CLOSER):
+        more = _suspected(grid)
+        if not more:
+            break
+        grid = sorted([*grid, *(state(v) for v in more)], key=lambda s: s.value)
     special: list[SpecialValue] = []
     pieces: list[list[_State]] = [[grid[0]]]
     for left, right in pairwise(grid):
@@ -109,8 +135,67 @@ def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z
     return equator, closed, critical, special
 
 
+def _suspected(grid: Sequence[_State]) -> list[float]:
+    """Values at which something that is not zero at its neighbours may be: two changes that undo each other."""
+    lines = [
+        (np.array([s.value for s in run]), np.array([s.near_direction for s in run]))
+        for run in _runs(grid, lambda one, two: len(one.equator) == len(two.equator))
+    ]
+    for run in _runs(grid, lambda one, two: one.difference(two) is None):
+        lines += [(np.array([s.value for s in run]), y) for y in (_functions(run) if len(run) > 2 else [])]
+    found: set[float] = set()
+    for x, y in lines:
+        for i in lowest(x, y):
+            # the extremum of the parabola, and where the lines from either side come to zero
+            found.add(vertex(x, y, i))
+            for one, two in ((i - 2, i - 1), (i - 1, i), (i, i + 1), (i + 1, i + 2)):
+                if one >= 0 and two < len(x) and y[one] != y[two]:
+                    zero = float(x[one] - y[one] * (x[two] - x[one]) / (y[two] - y[one]))
+                    found.update([zero] if x[i - 1] < zero < x[i + 1] else [])
+    known = np.array([s.value for s in grid])
+    least = _APART * (known[-1] - known[0])
+    return [v for v in sorted(found) if abs(known - v).min() > least]
+
+
+def _runs(grid: Sequence[_State], alike: Callable[[_State, _State], bool]) -> list[list[_State]]:
+    """Part the grid into runs of neighbouring states that are alike."""
+    runs: list[list[_State]] = [[grid[0]]]
+    for s in grid[1:]:
+        if alike(runs[-1][-1], s):
+            runs[-1].append(s)
+        else:
+            runs.append([s])
+    return runs
+
+
+def _functions(run: Sequence[_State]) -> Iterator[Array]:
+    """Smooth functions along a run of states whose zeros are special values."""
+    theta = [s.equator.theta for s in run]
+    if len(theta[0]):
+        rows = linked(np.array(theta))
+        for j in range(rows.shape[1]):
+            own = [
+                int(abs(np.exp(1j * s.equator.theta) - np.exp(1j * t)).argmin())
+                for s, t in zip(run, rows[:, j], strict=True)
+            ]
+            yield np.array([s.equator.lambda_rho[i] for s, i in zip(run, own, strict=True)])
+            yield np.array([s.equator.lambda_theta[i] for s, i in zip(run, own, strict=True)])
+    elif run[0].exponent is not None:
+        yield np.array([s.exponent for s in run], float)
+    sets = [list(run[0].critical)]
+    for s in run[1:]:
+        sets.append(_matched([C.p for C in sets[-1]], s.critical))
+    for column in zip(*sets, strict=True):
+        trace, determinant = np.array([C.trace for C in column]), np.array([C.determinant for C in column])
+        size = np.array([np.linalg.norm(C.jacobian) for C in column])
+        yield trace / size
+        yield determinant / size**2
+        yield (trace**2 - 4.0 * determinant) / size**2
+        yield np.array([1.0 - float(C.e @ C.e) for C in column])
+
+
 def _changes(
-    state: Callable[[float], _State], left: _State, right: _State, width: float, deeper: int = 4
+    state: Callable[[float], _State], left: _State, right: _State, width: float, deeper: int = _MOST_CHANGES
 ) -> Iterator[tuple[float, _State, _State]]:
     """All changes between two states, in order: the value, and the states beside it."""
     part = left.difference(right)
@@ -138,43 +223,83 @@ def _bisected(state: Callable[[float], _State], left: _State, right: _State, par
 
 
 def _named(value: float, before: _State, after: _State) -> list[SpecialValue]:
-    """Name what happens between two states beside each other."""
+    """Name all that happens between two states beside each other."""
+    return [*_on_equator(value, before, after), *_of_sets(value, before, after)]
+
+
+def _on_equator(value: float, before: _State, after: _State) -> list[SpecialValue]:
+    """Name what limit directions do, and the closed equator."""
     out = []
-    more, fewer = (before, after) if len(before.equator) >= len(after.equator) else (after, before)
-    if len(more.equator) > len(fewer.equator):
-        out += [_meeting(value, *met) for met in _meetings(more.equator.theta, fewer.equator.theta)]
-    arriving = [int((s.equator.lambda_rho < 0.0).sum()) for s in (before, after)]
-    if arriving[0] != arriving[1] and len(before.equator) == len(after.equator):
-        i = int(abs(more.equator.lambda_rho).argmin())
-        t = float(more.equator.theta[i])
-        sentence = f"A critical set reaches the equator at θ = {t:.4g}, and the limit direction turns its stability."
-        out.append(SpecialValue("transcritical", value, (math.cos(t), math.sin(t)), sentence, "fig:transcrit"))
-    elif abs(len(before.critical) - len(after.critical)) == 2:
-        C = max(before.critical, after.critical, key=len)
-        near = min(
-            ((x, y) for k, x in enumerate(C) for y in C[k + 1 :]), key=lambda pair: math.dist(pair[0].p, pair[1].p)
-        )
-        sentence = "Two critical sets meet: a saddle and a node."
-        out.append(SpecialValue("fold of critical sets", value, _middle(near), sentence, "eq:critical_set"))
-    if len(before.critical) == len(after.critical):
-        left = _matched([C.p for C in before.critical], after.critical)
-        for C, D in zip(before.critical, left, strict=True):
-            if C.kind == D.kind:
-                continue
-            place = (float(D.p[0]), float(D.p[1]))
-            if C.kind.split()[0] == D.kind.split()[0]:
-                sentence = "tr(J)² = 4 det J: the critical set changes between node and focus."
-                out.append(SpecialValue("node-focus", value, place, sentence, "fig:bads"))
-            elif "saddle" in (C.kind, D.kind):
-                sentence = "det J = 0: a critical set turns from a saddle into another kind."
-                out.append(SpecialValue("det J = 0", value, place, sentence, "eq:scjaco"))
-            else:
-                sentence = "Hopf: tr J = 0 < det J."
-                out.append(SpecialValue("Hopf", value, place, sentence, "sec:case3"))
+    one, two = before.equator.theta, after.equator.theta
+    if len(one) != len(two):
+        more, fewer = (one, two) if len(one) > len(two) else (two, one)
+        out += [_meeting(value, *met) for met in _meetings(more, fewer)]
+    elif len(one):
+        # as many on both sides: some may have gone while others came
+        away = abs(np.angle(np.exp(1j * (one[:, None] - two))))
+        gone, come = one[away.min(axis=1) > _TOGETHER], two[away.min(axis=0) > _TOGETHER]
+        out += [_meeting(value, *met) for side in (gone, come) for met in _meetings(side, side[:0])]
     if before.exponent is not None and after.exponent is not None and before.part(2) != after.part(2):
         sentence = "The closed equator is neutral to first order: it turns its stability."
         out.append(SpecialValue("neutral equator", value, (0.0, 0.0), sentence, "thm:geneps0"))
     return out
+
+
+def _of_sets(value: float, before: _State, after: _State) -> list[SpecialValue]:
+    """Name what critical sets do: meet, reach the equator, or change their kind."""
+    out = []
+    pairs, gone, come = _followed(before.critical, after.critical)
+    for side, other in ((gone, after), (come, before)):
+        inner = []
+        for C in side:
+            t = math.atan2(float(C.e[1]), float(C.e[0]))
+            away = abs(np.angle(np.exp(1j * (other.equator.theta - t)))).min(initial=math.inf)
+            if 1.0 - float(np.hypot(*C.e)) < _NEAR_EQUATOR and away < _TOGETHER:
+                t %= 2.0 * math.pi
+                sentence = (
+                    f"A critical set reaches the equator at θ = {t:.4g}, and the limit direction turns its stability."
+                )
+                out.append(SpecialValue("transcritical", value, (math.cos(t), math.sin(t)), sentence, "fig:transcrit"))
+            else:
+                inner.append(C)
+        while len(inner) > 1:
+            near = min(combinations(inner, 2), key=lambda pair: math.dist(pair[0].p, pair[1].p))
+            inner = [C for C in inner if C is not near[0] and C is not near[1]]
+            kinds = sorted("saddle" if C.kind == "saddle" else "node" for C in near)
+            sentence = f"Two critical sets meet: a {kinds[1]} and a {kinds[0]}."
+            out.append(SpecialValue("fold of critical sets", value, _middle(near), sentence, "eq:critical_set"))
+        for C in inner:
+            place = (float(C.p[0]), float(C.p[1]))
+            sentence = "A critical set comes or goes here, alone."
+            out.append(SpecialValue("change of critical sets", value, place, sentence, "eq:critical_set"))
+    for C, D in pairs:
+        if C.kind == D.kind:
+            continue
+        place = (float(D.p[0]), float(D.p[1]))
+        if C.kind.split()[0] == D.kind.split()[0]:
+            sentence = "tr(J)² = 4 det J: the critical set changes between node and focus."
+            out.append(SpecialValue("node-focus", value, place, sentence, "fig:bads"))
+        elif "saddle" in (C.kind, D.kind):
+            sentence = "det J = 0: a critical set turns from a saddle into another kind."
+            out.append(SpecialValue("det J = 0", value, place, sentence, "eq:scjaco"))
+        else:
+            sentence = "Hopf: tr J = 0 < det J."
+            out.append(SpecialValue("Hopf", value, place, sentence, "sec:case3"))
+    return out
+
+
+def _followed(
+    before: Sequence[CriticalSet], after: Sequence[CriticalSet]
+) -> tuple[list[tuple[CriticalSet, CriticalSet]], list[CriticalSet], list[CriticalSet]]:
+    """Critical sets that go on from one state to the other, those that went, and those that came."""
+    if not before or not after:
+        return [], list(before), list(after)
+    away = np.array([[math.dist(C.p, D.p) for D in after] for C in before])
+    rows, columns = linear_sum_assignment(np.minimum(away, 10.0 * _TOGETHER))
+    joined = [(i, j) for i, j in zip(rows.tolist(), columns.tolist(), strict=True) if away[i, j] < _TOGETHER]
+    gone = [C for i, C in enumerate(before) if i not in {i for i, _ in joined}]
+    come = [D for j, D in enumerate(after) if j not in {j for _, j in joined}]
+    return [(before[i], after[j]) for i, j in joined], gone, come
 
 
 def _meetings(more: Array, fewer: Array) -> list[tuple[int, float]]:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Roots", "refined", "roots", "sign_changes"]
+__all__ = ["Roots", "lowest", "refined", "roots", "sign_changes", "vertex"]
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
@@ -110,7 +110,7 @@ def roots(function: Function, grids: Sequence[Array], values: Sequence[Array]) -
         low += grid[changes].tolist()
         high += grid[changes + 1].tolist()
         owner += [k] * len(changes)
-        tips += [(k, i) for i in _tips(grid, y)]
+        tips += [(k, i) for i in lowest(grid, y)]
     hidden, touching = _hidden(function, grids, values, tips)
     for k, u, v in hidden:
         low.append(u)
@@ -126,7 +126,7 @@ def roots(function: Function, grids: Sequence[Array], values: Sequence[Array]) -
     )
 
 
-def _tips(grid: Array, y: Array) -> list[int]:
+def lowest(grid: Array, y: Array) -> list[int]:
     """Grid points at which the size has a minimum that could hide two zeros: the parabola there comes near zero."""
     if len(grid) < 3:
         return []
@@ -143,6 +143,14 @@ def _tips(grid: Array, y: Array) -> list[int]:
         if lowest <= 0.3 * (max(p, r) - q):
             found.append(i)
     return found
+
+
+def vertex(grid: Array, y: Array, i: int) -> float:
+    """Place of the extremum of the parabola through points i - 1, i, i + 1; between these, where it has one."""
+    (u, _, w), (p, q, r) = (grid[i - 1 : i + 2] - grid[i]).tolist(), y[i - 1 : i + 2].tolist()
+    left, right = (p - q) / u, (r - q) / w
+    bend, slope = (right - left) / (w - u), (left * w - right * u) / (w - u)
+    return float(grid[i] + min(max(-0.5 * slope / bend, 0.9 * u), 0.9 * w)) if bend else float(grid[i] + 0.5 * w)
 
 
 def _hidden(

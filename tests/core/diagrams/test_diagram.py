@@ -260,7 +260,7 @@ def test_typed_systems_have_the_special_values_of_their_e_linear_twins(hundredth
     E = diagram(c2.ELinear(a, b, d, (f1, f2)), c2.psi.tanh(), name, span)
     for kind in ("saddle-node", "transcritical", "Hopf", "neutral equator"):
         exact = found(E, kind)
-        assume(min(np.diff(exact), default=1.0) > 0.1)  # two in one step of the grid may be missed
+        assume(min(np.diff(exact), default=1.0) > 1e-4)
         assert_allclose(found(D, kind), exact, atol=1e-9)
 
 
