@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,13 +22,15 @@ from numpy.typing import NDArray
 from ..layer_problem.critical import determinant_sign
 from ..layer_problem.lyapunov import first_lyapunov
 from ..numerics.root_between import root_between
+from ..numerics.sign_changes import roots
 from ..psi.function import Psi
 from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
 
-_GRID = 256  # moduli at which the existence of the curve is looked at
-_POINTS = 160  # points along one piece
+_GRID = 256  # moduli between which zeros are looked for
+_POINTS = 160  # points along one piece, at least
 _MOST = 1.0 - 2.0**-40  # the largest modulus followed; from there to the equator nothing can be seen
 _FLAT = 4 * 2.0**-53
+_STEP, _HALVINGS = 0.04, 60  # the curve moves by at most this between points, unless its moduli agree to all digits
 
 
 def _ratio(psi: Psi, m: Array) -> Array:
@@ -60,32 +63,59 @@ class _Level:
         sigma = _ratio(self.psi, m)
         return self.p * (1.0 + sigma) - 4.0 * self.tau * self.root * np.sqrt(sigma), self.k * (1.0 - sigma)
 
-    def margin(self, m: float, sign: int) -> float:
-        """N - sign D: zero where cos 2t = sign."""
-        N, D = self.sides(np.array([m]))
-        return float(N[0] - sign * D[0])
-
     def angle(self, m: Array) -> Array:
         """t(m) in [0, pi/2]."""
         N, D = self.sides(m)
         return 0.5 * np.arctan2(np.sqrt(np.maximum((D - N) * (D + N), 0.0)), N * np.sign(D))
 
     def pieces(self, m: Array) -> list[_Piece]:
+        """Intervals of moduli on which the curve exists, between the zeros of N - D and N + D.
+
+        Where sigma passes 1, D changes its sign: there the curve stops at one angle and goes on from the other, however
+        narrow the gap. Each of the two functions has but one zero there, so that no grid is too coarse for them.
+        """
         N, D = self.sides(m)
-        inside = abs(N) <= abs(D)
-        changes = np.flatnonzero(inside[1:] != inside[:-1])
-        found: list[_Piece] = []
-        start, kind = (float(m[0]), 0) if inside[0] else (0.0, 0)
-        for i in changes:
-            sign = 1 if N[i] * D[i] + N[i + 1] * D[i + 1] > 0.0 else -1
-            end = root_between(lambda v, sign=sign: self.margin(v, sign), float(m[i]), float(m[i + 1]))
-            if inside[i]:
-                found.append(_Piece(start, end, kind, sign))
-            else:
-                start, kind = end, sign
-        if inside[-1]:
-            found.append(_Piece(start, float(m[-1]), kind, 0))
-        return found
+        zeros: list[tuple[float, int]] = []
+        for sign in (1, -1):
+            found = roots(lambda v, sign=sign: _difference(self.sides(v), sign), [m], [N - sign * D]).zeros[0]
+            zeros += [(v, sign) for v in found.tolist()]
+        stops = [(float(m[0]), 0), *sorted(zeros), (float(m[-1]), 0)]
+        pieces: list[_Piece] = []
+        for (low, at_low), (high, at_high) in pairwise(stops):
+            if high - low <= 4.0 * _FLAT:
+                continue
+            N, D = self.sides(np.array([0.5 * (low + high)]))
+            if abs(N[0]) <= abs(D[0]):
+                pieces.append(_Piece(low, high, at_low, at_high))
+        return pieces
+
+    def sampled(self, piece: _Piece) -> tuple[Array, Array]:
+        """Moduli and angles along a piece, so close together that the curve moves little between them.
+
+        Where |a + d| is much smaller than |a - d|, the angle turns within a very small part of the moduli.
+        """
+        u = 0.5 * (1.0 - np.cos(np.linspace(0.0, math.pi, _POINTS)))
+        m = piece.low + (piece.high - piece.low) * u
+        for _ in range(_HALVINGS):
+            t = self._angles(m, piece)
+            far = np.flatnonzero(np.maximum(m[1:], m[:-1]) * np.abs(np.diff(t)) + np.diff(m) > _STEP)
+            middle = 0.5 * (m[far] + m[far + 1])
+            middle = middle[(middle > m[far]) & (middle < m[far + 1])]
+            if not len(middle):
+                break
+            m = np.sort(np.concatenate([m, middle]))
+        return m, self._angles(m, piece)
+
+    def _angles(self, m: Array, piece: _Piece) -> Array:
+        t = self.angle(m)
+        for end, sign in ((0, piece.at_low), (-1, piece.at_high)):
+            if sign:
+                t[end] = 0.0 if sign > 0 else 0.5 * math.pi
+        return t
+
+
+def _difference(sides: tuple[Array, Array], sign: int) -> Array:
+    return sides[0] - sign * sides[1]
 
 
 def _chains(piece: _Piece, t: Array) -> list[tuple[NDArray[np.intp], Array]]:
@@ -127,33 +157,26 @@ def _branches(level: _Level) -> list[Array]:
     m = np.unique(np.concatenate([[1e-6, 1e-4, 1e-3], m, 1.0 - np.geomspace(1e-4, 1.0 - _MOST, 12), [_MOST]]))
     scale = abs(level.p) + abs(level.k) + level.root
     if abs(level.k) <= _FLAT * scale:
-        return _circles(level, m, lambda v: level.sides(np.array([v]))[0][0])
+        return _circles(level, m, lambda v: level.sides(v)[0])
     found: list[Array] = []
     if abs(level.p - 2.0 * level.tau * level.root) <= _FLAT * scale:
         # N/D loses its meaning where sigma = 1: tr J has the level on the whole circle
-        found += _circles(level, m, lambda v: float(_ratio(level.psi, np.array([v]))[0]) - 1.0)
+        found += _circles(level, m, lambda v: _ratio(level.psi, v) - 1.0)
         if level.p == 0.0 and level.tau == 0.0:
             ends = np.array([0.25, 0.75]) * math.pi
             r = np.linspace(-1.0, 1.0, 2 * _POINTS + 1)[:, None]
             return found + [r * np.array([math.cos(t), math.sin(t)]) for t in ends]
-    u = 0.5 * (1.0 - np.cos(np.linspace(0.0, math.pi, _POINTS)))
     for piece in level.pieces(m):
-        if piece.high - piece.low <= 1e-12:
-            continue
-        along = piece.low + (piece.high - piece.low) * u
-        t = level.angle(along)
-        for end, sign in ((0, piece.at_low), (-1, piece.at_high)):
-            if sign:
-                t[end] = 0.0 if sign > 0 else 0.5 * math.pi
+        along, t = level.sampled(piece)
         for index, angle in _chains(piece, t):
             r = along[index][:, None]
             found.append(r * np.stack([np.cos(angle), np.sin(angle)], axis=-1))
     return found
 
 
-def _circles(level: _Level, m: Array, function: Callable[[float], float]) -> list[Array]:
+def _circles(level: _Level, m: Array, function: Callable[[Array], Array]) -> list[Array]:
     """Circles |e| = m through the zeros of a function of m."""
-    values = np.array([function(float(v)) for v in m])
+    values = function(m)
     size = float(abs(values).max())
     if size <= 64 * _FLAT * (abs(level.p) + abs(level.root) + 1.0):
         return []
@@ -161,9 +184,7 @@ def _circles(level: _Level, m: Array, function: Callable[[float], float]) -> lis
     ring = np.stack([np.cos(t), np.sin(t)], axis=-1)
     ring[-1] = ring[0]
     solid = abs(values) > 1e-9 * size
-    m, values = m[solid], values[solid]
-    where = np.flatnonzero(np.sign(values[1:]) != np.sign(values[:-1]))
-    return [root_between(function, float(m[i]), float(m[i + 1])) * ring for i in where]
+    return [v * ring for v in roots(function, [m[solid]], [values[solid]]).zeros[0].tolist()]
 
 
 def hopf(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
