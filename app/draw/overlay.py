@@ -14,7 +14,6 @@ from .layers import painted
 from .theme import VIEW, themes
 
 AXES = ["x̄", "ȳ"]
-LIGHT = themes()["light"]
 
 
 def elements(scene: Scene) -> dict[str, Any]:
@@ -37,7 +36,7 @@ def elements(scene: Scene) -> dict[str, Any]:
             parts = [part for part in layer.parts if part.colour == colour]
             label = layer.name if len(colours) == 1 else parts[0].name
             pieces = [piece for part in parts for piece in _pieces(*part.pieces(scene[part.scene]))]
-            made[label] = _paths(pieces, label, LIGHT[colour], parts[0].width)
+            made[label] = _paths(pieces, label, _light(colour), parts[0].width)
     made["equator"] = _equator(scene)
     made["critical"] = _critical(scene)
     return made
@@ -74,8 +73,12 @@ def _pieces(offsets: Any, points: Any) -> list[Any]:
     return np.split(points, offsets[1:-1]) if len(points) else []
 
 
+def _light(name: str) -> str:
+    return themes()["light"][name]
+
+
 def _circle() -> Any:
-    return _styled(hv.Ellipse(0, 0, 2, label="hemisphere"), color=LIGHT["ink"], line_width=2)
+    return _styled(hv.Ellipse(0, 0, 2, label="hemisphere"), color=_light("ink"), line_width=2)
 
 
 def _paths(pieces: list[Any], label: str, colour: str, width: float) -> Any:
@@ -107,8 +110,8 @@ def _critical(scene: Scene) -> Any:
 
 def _coloured(columns: Any) -> tuple[list[str], list[str]]:
     """Return the colours of the marks' outlines and of their insides."""
-    colours = [LIGHT[key] for key in columns["colour"]]
-    return colours, [c if filled else LIGHT["page"] for c, filled in zip(colours, columns["filled"], strict=True)]
+    colours = [_light(key) for key in columns["colour"]]
+    return colours, [c if filled else _light("page") for c, filled in zip(colours, columns["filled"], strict=True)]
 
 
 def _styled(element: Any, **bokeh: Any) -> Any:

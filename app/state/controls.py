@@ -77,6 +77,7 @@ class ExplorerState(param.Parameterized):
     layers = param.ListSelector(
         default=shown(),
         objects=list(LAYERS),
+        check_on_set=False,  # `clean` looks at the table, which may have grown
         instantiate=True,
         label="Layers",
         doc="What is drawn.",
