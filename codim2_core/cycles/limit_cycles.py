@@ -19,7 +19,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..layer_problem.critical import CriticalSet, Existence, Location, critical_sets, determinant_sign, locate
+from ..layer_problem.critical import CriticalSet, Existence, Location, locate
+from ..layer_problem.linearisation import matrix_determinant
 from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
@@ -131,13 +132,13 @@ def reason_for_none(
     location : Location, optional
         That of `locate`, where it is known already.
     """
-    a, b, d, f1, f2 = coefficients.plane
+    a, _, d, f1, f2 = coefficients.plane
     if not critical:
         existence = (locate(coefficients) if location is None else location).existence
         if existence is Existence.NONE:
             return _NO_CRITICAL_SET
         return f"No limit cycle: a closed orbit would have to surround an isolated critical set. {existence.value}"
-    if determinant_sign(a, b, d) < 0:
+    if matrix_determinant(*coefficients.affine[:4])[1] < 0:
         return (
             "No limit cycle: the only critical set is a saddle (det A < 0), and the equilibria inside a closed orbit "
             "have indices that add up to 1 (thm:case2)."
@@ -203,9 +204,11 @@ class ClosedOrbits:
 def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
     """Find the limit cycles of a layer problem as closed orbits: whatever W is."""
     at, psi, critical = problem.at, problem.psi, problem.critical
-    coefficients = at.as_given
+    coefficients = at.normal_form
     if coefficients is None:
         return _general(problem)
+    if at.as_given is None:  # found in the axes of the normal form, and turned back
+        return _turned(LayerProblem(coefficients, psi).keep(closed_orbits), -coefficients.rotation)
     reason = reason_for_none(coefficients, critical, problem.location)
     if reason is not None:
         return ClosedOrbits((), (), reason)
@@ -223,14 +226,24 @@ def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
     return ClosedOrbits(cycles, tuple(found for _, found in kept), f"{count}, {HOW}", notes)
 
 
+def _turned(found: ClosedOrbits, angle: float) -> ClosedOrbits:
+    """Rotate closed orbits by an angle."""
+    c, s = math.cos(angle), math.sin(angle)
+    turn = np.array([[c, s], [-s, c]])  # from the right
+
+    def rotated(vectors: Array) -> Array:
+        result = vectors @ turn
+        result.flags.writeable = False
+        return result
+
+    cycles = tuple(replace(C, points=rotated(C.points), mean_e=rotated(C.mean_e)) for C in found.cycles)
+    orbits = tuple(replace(o, points=rotated(o.points), mean_e=rotated(o.mean_e), e=rotated(o.e)) for o in found.orbits)
+    return ClosedOrbits(cycles, orbits, found.reason, found.notes)
+
+
 def _general(problem: LayerProblem) -> ClosedOrbits:
     from .first_turns import find
 
-    form = problem.at.normal_form
-    if form is not None:
-        reason = reason_for_none(form, critical_sets(form, problem.psi), problem.location)
-        if reason is not None:
-            return ClosedOrbits((), (), reason)
     found, reason, notes = find(problem.at, problem.psi, problem.critical)
     cycles = tuple(_cycle(crossing, closed, sense) for crossing, closed, sense in found)
     if any(cycle.kind == "semistable" for cycle in cycles):

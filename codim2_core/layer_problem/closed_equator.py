@@ -81,7 +81,7 @@ def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
         If z does not fit the system or a coefficient is not finite.
     """
     at = system.at(z)
-    q = at.as_given
+    q = at.normal_form
     if q is None:
         found = closed_equator(at.key)
         return None if found is None else EquatorCycle(*found)

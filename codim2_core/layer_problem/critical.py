@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.trigonometric import ROUNDING
 from ..psi.function import Psi
-from ..systems.coefficients import Coefficients
+from ..systems.coefficients import Affine
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .disc_zeros import disc_zeros
@@ -28,6 +28,7 @@ from .linearisation import (
     determinant_sign,
     linearisation,
     linearisation_of,
+    matrix_determinant,
     scaled,
     spectrum,
 )
@@ -113,8 +114,24 @@ class CriticalSet:
     slow_flow: NDArray[np.float64]
 
 
-def locate(coefficients: Coefficients) -> Location:
-    """Decide whether, and where, ``A e + f = 0`` in the disc |e| < 1 (thm:lineps1(a)), without dividing by det A."""
+def locate(at: AtZ) -> Location:
+    """Decide whether, and where, ``A e + f = 0`` in the disc |e| < 1 (thm:lineps1(a)), without dividing by det A.
+
+    Parameters
+    ----------
+    at : Coefficients or Frozen
+        E-linear. What was brought into the normal form by a rotation is decided before it, where nothing is rounded.
+
+    Returns
+    -------
+    Location
+        In the axes of `at`.
+    """
+    coefficients = at.as_given
+    if coefficients is None or coefficients.given is not None:
+        if at.affine is None:
+            raise ValueError("U is not e-linear; give a system whose U is affine in (c, s).")
+        return turned(locate_affine(at.affine), at.turn)
     a, b, d, f1, f2 = scaled(coefficients.plane)
     if determinant_sign(a, b, d) == 0:
         return _locate_singular(a, b, d, f1, f2)
@@ -169,8 +186,45 @@ def _locate_singular(a: float, b: float, d: float, f1: float, f2: float) -> Loca
     solvable = abs(n1) <= rounding * (abs(D * F1) + abs(B * F2)) and abs(n2) <= rounding * (abs(A * F2) + abs(B * F1))
     if not solvable:
         return Location(Existence.SINGULAR_NONE)
-    # The larger row r of A gives the line r.e = -f_r; its distance from the origin is |f_r|/|r|.
-    (r1, r2), f = ((a, -b), f1) if math.hypot(a, b) >= math.hypot(b, d) else ((b, d), f2)
+    return _line((A, -B, B, D, F1, F2))
+
+
+def locate_affine(affine: Affine) -> Location:
+    """Decide as `locate` for any matrix, ``affine = (A11, A12, A21, A22, f1, f2)``, exactly."""
+    M = tuple(map(Fraction, scaled(affine)))
+    m11, m12, m21, m22, f1, f2 = M
+    det, n1, n2 = m11 * m22 - m12 * m21, m22 * f1 - m12 * f2, m11 * f2 - m21 * f1
+    off = 2 * Fraction(ROUNDING)
+    w0 = abs(m11 * m22) + abs(m12 * m21)
+    w1, w2 = abs(m22 * f1) + abs(m12 * f2), abs(m11 * f2) + abs(m21 * f1)
+    if not any(M):
+        return Location(Existence.EVERYTHING)
+    if abs(det) <= off * w0:
+        solvable = any(M[:4]) and abs(n1) <= off * w1 and abs(n2) <= off * w2
+        return _line(M) if solvable else Location(Existence.SINGULAR_NONE)
+    gap = det * det - n1 * n1 - n2 * n2
+    # Half the first-order change of the gap when each entry is off by a relative 1.
+    change = (
+        abs(det * m11 * m22 - n2 * m11 * f2)
+        + abs(n1 * m12 * f2 - det * m12 * m21)
+        + abs(n2 * m21 * f1 - det * m12 * m21)
+        + abs(det * m11 * m22 - n1 * m22 * f1)
+        + abs(n2 * m21 * f1 - n1 * m22 * f1)
+        + abs(n1 * m12 * f2 - n2 * m11 * f2)
+    )
+    # Near det A = 0 first order is not enough: |adj(A) f| and |det A| must be able to meet.
+    least = sum(max(abs(n) - off * w, 0) ** 2 for n, w in ((n1, w1), (n2, w2)))
+    if abs(gap) <= off * change and least <= (abs(det) + off * w0) ** 2:
+        return Location(Existence.EQUATOR, direction=math.atan2(-n2 / det, -n1 / det))
+    if gap < 0:
+        return Location(Existence.NONE)
+    return Location(Existence.INSIDE, (float(-n1 / det), float(-n2 / det)), float(gap / det**2))
+
+
+def _line(M: tuple[Fraction, ...]) -> Location:
+    """Line of solutions of a singular matrix: of its larger row."""
+    m11, m12, m21, m22, f1, f2 = map(float, M)
+    r1, r2, f = (m11, m12, f1) if math.hypot(m11, m12) >= math.hypot(m21, m22) else (m21, m22, f2)
     length = math.hypot(r1, r2)
     u1, u2, k = r1 / length, r2 / length, -f / length
     if abs(k) >= 1.0:
@@ -179,6 +233,23 @@ def _locate_singular(a: float, b: float, d: float, f1: float, f2: float) -> Loca
     return Location(
         Existence.SINGULAR_LINE,
         line=((k * u1 + half * u2, k * u2 - half * u1), (k * u1 - half * u2, k * u2 + half * u1)),
+    )
+
+
+def turned(location: Location, angle: float) -> Location:
+    """Rotate a location by an angle."""
+    if angle == 0.0:
+        return location
+    c, s = math.cos(angle), math.sin(angle)
+
+    def turn(e: tuple[float, float]) -> tuple[float, float]:
+        return c * e[0] - s * e[1], s * e[0] + c * e[1]
+
+    return replace(
+        location,
+        e=None if location.e is None else turn(location.e),
+        direction=None if location.direction is None else location.direction + angle,
+        line=None if location.line is None else (turn(location.line[0]), turn(location.line[1])),
     )
 
 
@@ -201,20 +272,25 @@ def critical_sets(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> tuple[Criti
         these.
     """
     at = system.at(z)
-    return sets_at(at, psi, None if at.as_given is None else locate(at.as_given))
+    return sets_at(at, psi, None if at.affine is None else locate(at))
 
 
 def sets_at(at: AtZ, psi: Psi, location: Location | None) -> tuple[CriticalSet, ...]:
     """All isolated critical sets of a frozen system; `location` is that of `locate`, None if U is not e-linear."""
-    form = at.as_given
-    if form is None or location is None:
+    if at.affine is None or location is None:
         return _general_sets(at, psi)
     if location.e is None:
         return ()
+    form, sign = at.as_given, matrix_determinant(*at.affine[:4])[1]
+    if form is None:
+        shift = math.frexp(max(map(abs, at.affine[:4])))[1]
+        m11, m12, m21, m22 = (math.ldexp(v, -shift) for v in at.affine[:4])
+        parts = linearisation_of((m11, m12, m21, m22), psi, location.e, location.complement, sign)
+        return (_critical_set(location.e, parts, shift, at.W(location.e)),)
     # Time in a unit that makes the largest coefficient about 1, so that no product under- or overflows.
     shift = math.frexp(max(map(abs, form.plane[:3])))[1]
     a, b, d = (math.ldexp(v, -shift) for v in form.plane[:3])
-    parts = linearisation((a, b, d), psi, location.e, location.complement)
+    parts = linearisation((a, b, d), psi, location.e, location.complement, sign)
     return (_critical_set(location.e, parts, shift, at.W(location.e)),)
 
 

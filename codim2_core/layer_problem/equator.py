@@ -7,15 +7,26 @@ dTheta/dtheta along the equator, lambda_rho outwards and -lambda_rho up the hemi
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.trigonometric import ROUNDING, THETA_PATTERNS, tangential_zeros
+from ..numerics.fourier_zeros import turn as turned_angle
+from ..numerics.trigonometric import (
+    GENERAL_PATTERNS,
+    ROUNDING,
+    THETA_PATTERNS,
+    TrigonometricZeros,
+    real_zeros,
+    tangential_zeros,
+)
 from ..numerics.trigonometric_exact import quotient, solve_exactly, to_integers
+from ..systems.coefficients import Affine
 from ..systems.frozen import AtZ
 from .closed_equator import EquatorCycle, equator_cycle
 from .critical import Location, locate
@@ -148,28 +159,66 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
         If z does not fit the system or a coefficient is not finite.
     """
     at = system.at(z)
-    return equilibria_at(at, None if at.as_given is None else locate(at.as_given))
+    return equilibria_at(at, None if at.affine is None else locate(at))
 
 
 def equilibria_at(at: AtZ, location: Location | None) -> EquatorEquilibria:
     """Equilibria on the equator of a frozen system; `location` is that of `locate`, None if U is not e-linear."""
-    q = at.as_given
-    if q is None or location is None:
+    if at.affine is None or location is None:
         return _general(at)
+    q = at.as_given
+    if q is None or q.given is not None:
+        return _of_matrix(at.affine, at.turn, location)
     a, b, d, f1, f2 = q.a, q.b, q.d, q.f1, q.f2
     zeros = tangential_zeros(a, b, d, f1, f2)
+
+    def radial(theta: float) -> float:
+        c, s = math.cos(theta), math.sin(theta)
+        value = a * c * c + d * s * s + f1 * c + f2 * s
+        return _radial_exactly(a, b, d, f1, f2, theta) if abs(value) <= 1e-3 * size else value
+
+    size = abs(a) + abs(d) + abs(f1) + abs(f2)
+    return _gathered(zeros, radial, size, location, b == 0.0 and (f1 == 0.0 or f2 == 0.0))
+
+
+def _of_matrix(affine: Affine, turn: float, location: Location) -> EquatorEquilibria:
+    """Equilibria for any matrix, decided in the axes in which it is given, then turned by an angle."""
+    a11, a12, a21, a22, f1, f2 = affine
+    harmonics = 0.5 * a21 - 0.5 * a12, f2, -f1, 0.5 * a21 + 0.5 * a12, 0.5 * a22 - 0.5 * a11
+
+    def radial(theta: float) -> float:
+        c, s = math.cos(theta - turn), math.sin(theta - turn)
+        value = a11 * c * c + (a12 + a21) * c * s + a22 * s * s + f1 * c + f2 * s
+        return _radial_of_matrix(affine, harmonics, theta - turn) if abs(value) <= 1e-3 * size else value
+
+    size = abs(a11) + abs(a12 + a21) + abs(a22) + abs(f1) + abs(f2)
+    zeros = real_zeros(*harmonics)
+    angles = [turned_angle(theta + turn) for theta in zeros.theta]
+    order = sorted(range(len(angles)), key=angles.__getitem__)
+    zeros = zeros._replace(
+        theta=tuple(angles[i] for i in order),
+        slope=tuple(zeros.slope[i] for i in order),
+        multiplicity=tuple(zeros.multiplicity[i] for i in order),
+    )
+    F11, F12, F21, F22, G1, G2 = map(Fraction, affine)
+    shear = (F12 + F21) / 2
+    along_axis = G1 * (shear * G1 + F22 * G2) == G2 * (F11 * G1 + shear * G2)  # f is an eigenvector
+    return _gathered(zeros, radial, size, location, a12 == a21 and along_axis)
+
+
+def _gathered(
+    zeros: TrigonometricZeros, radial: Callable[[float], float], size: float, location: Location, symmetric: bool
+) -> EquatorEquilibria:
+    """Put the equilibria together: zeros of Theta, lambda_rho there, and where it vanishes within rounding."""
     reached, nearest = location.direction, None
     if reached is not None and zeros.theta:
         nearest = min(zeros.theta, key=lambda t: abs(math.remainder(t - reached, 2.0 * math.pi)))
     rho: list[float] = []
     flat: list[bool] = []
     for theta in zeros.theta:
-        c, s = math.cos(theta), math.sin(theta)
-        value = a * c * c + d * s * s + f1 * c + f2 * s
-        size = abs(a) + abs(d) + abs(f1) + abs(f2)
+        value = radial(theta)
         degenerate = False
         if abs(value) <= 1e-3 * size:
-            value = _radial_exactly(a, b, d, f1, f2, theta)
             if reached is not None:  # U(e) = 0 on the equator, within rounding: at the nearest zero of Theta
                 degenerate = theta == nearest
             elif location.singular:
@@ -185,7 +234,6 @@ def equilibria_at(at: AtZ, location: Location | None) -> EquatorEquilibria:
     )
     for array in arrays:
         array.flags.writeable = False
-    symmetric = b == 0.0 and (f1 == 0.0 or f2 == 0.0)
     return EquatorEquilibria(*arrays, zeros.identically_zero, zeros.exact_count, zeros.distance, symmetric)
 
 
@@ -214,4 +262,15 @@ def _radial_exactly(a: float, b: float, d: float, f1: float, f2: float, theta: f
     x, y, n = min(found, key=lambda q: abs(math.remainder(q.theta - theta, 2.0 * math.pi)))[:3]
     (ia, id_, i1, i2), exponent = to_integers((a, d, f1, f2))
     value = ia * x * x + id_ * y * y + (i1 * x + i2 * y) * n
+    return quotient(value, n * n, exponent)
+
+
+def _radial_of_matrix(affine: Affine, harmonics: tuple[float, ...], theta: float) -> float:
+    """As `_radial_exactly`, for any matrix."""
+    found = solve_exactly(harmonics, GENERAL_PATTERNS).zeros
+    (m11, m12, m21, m22, i1, i2), exponent = to_integers(affine)
+    if not found:
+        return affine[0]
+    x, y, n = min(found, key=lambda q: abs(math.remainder(q.theta - theta, 2.0 * math.pi)))[:3]
+    value = m11 * x * x + (m12 + m21) * x * y + m22 * y * y + (i1 * x + i2 * y) * n
     return quotient(value, n * n, exponent)

@@ -47,6 +47,21 @@ def determinant_sign(a: float, b: float, d: float) -> int:
     return 1 if det > 0 else -1
 
 
+def matrix_determinant(m11: float, m12: float, m21: float, m22: float) -> tuple[float, int]:
+    """``det M`` of the doubles as given, to full relative accuracy, and its sign: 0 within their rounding."""
+    shift = -math.frexp(max(abs(m11), abs(m12), abs(m21), abs(m22)) or 1.0)[1]
+    m11, m12, m21, m22 = (math.ldexp(v, shift) for v in (m11, m12, m21, m22))
+    det, size = m11 * m22 - m12 * m21, abs(m11 * m22) + abs(m12 * m21)
+    if size == 0.0:
+        return 0.0, 0
+    if abs(det) >= CANCELLATION * size and size >= 1e-280:
+        return math.ldexp(det, -2 * shift), 1 if det > 0.0 else -1
+    first, second = Fraction(m11) * Fraction(m22), Fraction(m12) * Fraction(m21)
+    exact = first - second
+    within = abs(exact) <= 2 * Fraction(ROUNDING) * (abs(first) + abs(second))
+    return math.ldexp(float(exact), -2 * shift), 0 if within else 1 if exact > 0 else -1
+
+
 @dataclass(frozen=True, slots=True)
 class Frame:
     """The Jacobian eq:scjaco in the axes along e and across it, where D e_Psi is diagonal.
@@ -79,7 +94,7 @@ Parts = tuple[tuple[float, float], tuple[float, float], tuple[float, float, floa
 
 
 def linearisation(
-    matrix: tuple[float, float, float], psi: Psi, e: tuple[float, float], complement: float
+    matrix: tuple[float, float, float], psi: Psi, e: tuple[float, float], complement: float, sign: int | None = None
 ) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float, float, float], Frame]:
     """Place and Jacobian of the critical set with ``e_Psi = e``.
 
@@ -91,6 +106,8 @@ def linearisation(
     e : (c, s)
     complement : float
         ``1 - |e|^2`` to full relative accuracy.
+    sign : int, optional
+        Of det A, where it is decided by other numbers than these.
 
     Returns
     -------
@@ -115,7 +132,7 @@ def linearisation(
         tangential * (a * s * s + d * c * c),
         radial * tangential * (shear - b) * (shear + b),
         radial * tangential * exact_determinant(a, b, d),
-        determinant_sign(a, b, d),
+        determinant_sign(a, b, d) if sign is None else sign,
         radial * (abs(a) * c * c + abs(d) * s * s) + tangential * (abs(a) * s * s + abs(d) * c * c),
     )
     return (zeta * c, zeta * s), (r * c, r * s), tuple(map(float, jacobian)), frame  # type: ignore[return-value]
@@ -138,7 +155,7 @@ def linearisation_of(
         radial * n11,
         tangential * n22,
         radial * tangential * n12 * n21,
-        radial * tangential * (m11 * m22 - m12 * m21),
+        radial * tangential * matrix_determinant(*M)[0],
         sign,
         radial * (cc * abs(m11) + mixed + ss * abs(m22)) + tangential * (cc * abs(m22) + mixed + ss * abs(m11)),
     )

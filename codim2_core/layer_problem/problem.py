@@ -15,9 +15,8 @@ Result = TypeVar("Result")
 
 
 def find_location(problem: LayerProblem) -> Location | None:
-    """Decide where A e + f = 0, thm:lineps1(a), in the axes of the normal form; None if U is not e-linear."""
-    form = problem.at.normal_form
-    return None if form is None else locate(form)
+    """Decide where A e + f = 0, thm:lineps1(a); None if U is not e-linear."""
+    return None if problem.at.affine is None else locate(problem.at)
 
 
 def find_equator(problem: LayerProblem) -> EquatorEquilibria:
@@ -86,7 +85,7 @@ class LayerProblem:
 
     @property
     def location(self) -> Location | None:
-        """Where A e + f = 0, thm:lineps1(a), in the axes of the normal form; None if U is not e-linear."""
+        """Where A e + f = 0, thm:lineps1(a); None if U is not e-linear."""
         return self.keep(find_location)
 
     @property

@@ -23,6 +23,7 @@ from typing import NamedTuple
 from .trigonometric_exact import ROUNDING, solve_exactly
 
 __all__ = [
+    "GENERAL_PATTERNS",
     "ROUNDING",
     "THETA_PATTERNS",
     "TrigonometricZeros",
@@ -34,7 +35,7 @@ __all__ = [
 
 _TAU = 2.0 * math.pi
 _FILTER = 2.0**-49  # 16 half-ulps: covers the rounding of the discriminant and the inputs' own ROUNDING
-_GENERAL = ((2, 0, 0, 0, 0), (0, 2, 0, 0, 0), (0, 0, 2, 0, 0), (0, 0, 0, 2, 0), (0, 0, 0, 0, 2))
+GENERAL_PATTERNS = ((2, 0, 0, 0, 0), (0, 2, 0, 0, 0), (0, 0, 2, 0, 0), (0, 0, 0, 2, 0), (0, 0, 0, 0, 2))
 # Rows for b, f2, f1, a, d.
 THETA_PATTERNS = ((2, 0, 0, 0, 0), (0, 2, 0, 0, 0), (0, 0, -2, 0, 0), (0, 0, 0, 0, -1), (0, 0, 0, 0, 1))
 _RADIAL = ((0, 2, 0, 0, 0), (0, 0, 2, 0, 0), (1, 0, 0, 1, 0), (1, 0, 0, -1, 0))
@@ -89,7 +90,7 @@ def real_zeros(m0: float, c1: float, s1: float, c2: float, s2: float) -> Trigono
     inputs = _finite((m0, c1, s1, c2, s2), ("m0", "c1", "s1", "c2", "s2"))
     scale, (m0, c1, s1, c2, s2) = _scaled(inputs)
     fast = _fast(m0, c1, s1, c2, s2, abs(m0), abs(c2), abs(s2))
-    return _finish(fast, scale, inputs, _GENERAL)
+    return _finish(fast, scale, inputs, GENERAL_PATTERNS)
 
 
 def tangential_zeros(a: float, b: float, d: float, f1: float, f2: float) -> TrigonometricZeros:

@@ -9,9 +9,9 @@ from ..layer_problem.critical import (
     CriticalSet,
     Existence,
     Location,
-    determinant_sign,
 )
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
+from ..layer_problem.linearisation import matrix_determinant
 from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
@@ -77,13 +77,13 @@ def _critical_degeneracies(location: Location, critical: tuple[CriticalSet, ...]
 
 
 def _case(coefficients: Coefficients) -> tuple[str | None, list[Degeneracy]]:
-    a, b, d = coefficients.a, coefficients.b, coefficients.d
+    a, d = coefficients.a, coefficients.d
     if a == 0.0 or d == 0.0:
         which = "a = d = 0" if a == d == 0.0 else "a = 0" if a == 0.0 else "d = 0"
         return None, [Degeneracy(which, f"{which}: on the border between Case I and Cases II, III (tab:cases).")]
     if (a > 0.0) == (d > 0.0):
         return "I", []
-    sign = determinant_sign(a, b, d)
+    sign = matrix_determinant(*coefficients.affine[:4])[1]
     return (None if sign == 0 else "III" if sign > 0 else "II"), []
 
 

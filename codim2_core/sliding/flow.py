@@ -28,8 +28,8 @@ def sliding_flow(system: AnySystem, z: ArrayLike = ()) -> NDArray[np.float64] | 
         is not unique (sec:nonunique). None where there is no critical set: nothing slides there.
     """
     at = system.at(z)
-    if at.as_given is not None:
-        place = locate(at.as_given).e
+    if at.affine is not None:
+        place = locate(at).e
         points = np.zeros((0, 2)) if place is None else np.array([place])
     else:
         points = disc_zeros(at.key).e

@@ -10,6 +10,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+Affine = tuple[float, float, float, float, float, float]
+
 
 @dataclass(frozen=True, slots=True)
 class Coefficients:
@@ -23,6 +25,8 @@ class Coefficients:
     g : ndarray (m,)
     rotation : float
         The angle phi, in radians, of the rotation into the normal form (lem:normalform); 0 if none was needed.
+    given : tuple of 6 floats or None
+        ``(A11, A12, A21, A22, f1, f2)`` before that rotation, which rounds; None where there was none.
     """
 
     a: float
@@ -33,6 +37,7 @@ class Coefficients:
     B: NDArray[np.float64]
     g: NDArray[np.float64]
     rotation: float = 0.0
+    given: Affine | None = None
 
     frozen: ClassVar[bool] = True
     variable: ClassVar[tuple[str, ...]] = ("a", "b", "d", "f1", "f2")
@@ -87,6 +92,16 @@ class Coefficients:
         return self
 
     @property
+    def affine(self) -> Affine:
+        """``(A11, A12, A21, A22, f1, f2)`` of ``U = A e + f`` with nothing rounded, before any rotation."""
+        return (self.a, -self.b, self.b, self.d, self.f1, self.f2) if self.given is None else self.given
+
+    @property
+    def turn(self) -> float:
+        """Angle from the axes of `affine` to these."""
+        return 0.0 if self.given is None else self.rotation
+
+    @property
     def size(self) -> float:
         """The largest of |a|, |b|, |d|, |f1|, |f2|."""
         return max(map(abs, self.plane))
@@ -99,7 +114,7 @@ class Coefficients:
 
     def varied(self, name: str, value: float) -> Coefficients:
         """Return the same system with one of `variable` changed (not checked)."""
-        return replace(self, **{name: value})
+        return replace(self, rotation=0.0, given=None, **{name: value})
 
     def value_of(self, name: str) -> float:
         """Present value of one of `variable`."""
@@ -108,7 +123,7 @@ class Coefficients:
     @property
     def key(self) -> Hashable:
         """What decides the portrait, as `Frozen.key` for a general system."""
-        return self.plane
+        return self.plane if self.given is None else (self.plane, self.given)
 
     @property
     def slow_key(self) -> Hashable:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -18,7 +19,7 @@ from numpy.typing import ArrayLike
 from ..expressions.expression import Expression, parse
 from ..expressions.names import MOST_SLOW_VARIABLES
 from .bounds import LARGEST, SMALLEST, slow_values
-from .coefficients import Coefficients
+from .coefficients import Affine, Coefficients
 
 Coefficient = float | Expression
 
@@ -271,15 +272,15 @@ class ELinear:
         for i, value in enumerate(self.g or ()):
             g[i] = number(value, f"g{i + 1}")
         if self.given_matrix is None:
-            a, b, d, phi = number(self.a, "a"), number(self.b, "b"), number(self.d, "d"), 0.0
+            a, b, d, phi, given = number(self.a, "a"), number(self.b, "b"), number(self.d, "d"), 0.0, None
         else:
             (a11, a12), (a21, a22) = (
                 tuple(number(v, f"A[{i + 1},{j + 1}]") for j, v in enumerate(row))
                 for i, row in enumerate(self.given_matrix)
             )
-            a, b, d, phi = _rotate(a11, a12, a21, a22)
-            c, s = math.cos(phi), math.sin(phi)
-            f1, f2 = c * f1 - s * f2, s * f1 + c * f2
+            given = (a11, a12, a21, a22, f1, f2)
+            a, b, d, phi, (c, s) = _rotate(a11, a12, a21, a22)
+            f1, f2 = _turned(given, c, s)
             B = B @ np.array([[c, s], [-s, c]])
         size = max(abs(a), abs(b), abs(d), abs(f1), abs(f2))
         if 0.0 < size < SMALLEST:
@@ -288,7 +289,7 @@ class ELinear:
                 "Multiply all coefficients by one common factor: that only rescales time."
             )
         B.flags.writeable = g.flags.writeable = False
-        return Coefficients(a, b, d, f1, f2, B, g, phi)
+        return Coefficients(a, b, d, f1, f2, B, g, phi, given)
 
 
 def _number(value: object, what: str) -> float:
@@ -298,13 +299,36 @@ def _number(value: object, what: str) -> float:
         raise ValueError(f"{what} is {value!r}; give a number.") from error
 
 
-def _rotate(a11: float, a12: float, a21: float, a22: float) -> tuple[float, float, float, float]:
-    """Return (a, b, d, phi) of R(phi) A R(phi)^T = [[a, -b], [b, d]], lem:normalform.
+def _rotate(a11: float, a12: float, a21: float, a22: float) -> tuple[float, float, float, float, tuple[float, float]]:
+    """Return (a, b, d, phi, (cos phi, sin phi)) of R(phi) A R(phi)^T = [[a, -b], [b, d]], lem:normalform.
 
     Rotation leaves the antisymmetric part b = (A21 - A12)/2 and the trace alone and diagonalises the symmetric
-    part, whose eigenvalues are mean -+ half the length of (A12 + A21, A22 - A11).
+    part, whose eigenvalues are mean -+ half the length of (A12 + A21, A22 - A11). Where these nearly cancel, the
+    smaller one is the determinant of the symmetric part, exact, over the larger: its sign is that of the matrix.
     """
     shear, stretch = a12 + a21 + 0.0, a22 - a11
     phi = 0.5 * math.atan2(shear, stretch)
     mean, half = 0.5 * a11 + 0.5 * a22, 0.5 * math.hypot(shear, stretch)
-    return mean - half, 0.5 * a21 - 0.5 * a12, mean + half, phi
+    a, d = mean - half, mean + half
+    if 0.5 * half < abs(mean) < 2.0 * half:
+        F11, F12, F21, F22 = map(Fraction, (a11, a12, a21, a22))
+        determinant = F11 * F22 - (F12 + F21) ** 2 / 4
+        if mean > 0.0:
+            a = float(determinant / Fraction(d))
+        else:
+            d = float(determinant / Fraction(a))
+    if shear == 0.0:  # by no angle, or by a right angle: exactly
+        return a, 0.5 * a21 - 0.5 * a12, d, phi, ((1.0, 0.0) if stretch >= 0.0 else (0.0, 1.0))
+    return a, 0.5 * a21 - 0.5 * a12, d, phi, (math.cos(phi), math.sin(phi))
+
+
+def _turned(given: Affine, c: float, s: float) -> tuple[float, float]:
+    """Rotate f; a component that is zero, as f is an eigenvector of the symmetric part of A, is zero exactly."""
+    f1, f2 = given[4:]
+    u, v = c * f1 - s * f2, s * f1 + c * f2
+    if min(abs(u), abs(v)) <= 1e-12 * max(abs(u), abs(v)):
+        a11, a12, a21, a22, g1, g2 = map(Fraction, given)
+        shear = (a12 + a21) / 2
+        if g1 * (shear * g1 + a22 * g2) == g2 * (a11 * g1 + shear * g2):
+            return (0.0, v) if abs(u) < abs(v) else (u, 0.0)
+    return u, v

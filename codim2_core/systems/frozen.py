@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 if TYPE_CHECKING:
-    from .coefficients import Coefficients
+    from .coefficients import Affine, Coefficients
 
 Array = NDArray[np.float64]
 
@@ -37,6 +37,11 @@ class AtZ(Protocol):
         U in the normal form of the e-linear system (lem:normalform), in axes of its own; None if U is not e-linear.
     as_given : Coefficients or None
         The normal form where it has the same axes.
+    affine : tuple of 6 floats or None
+        ``(A11, A12, A21, A22, f1, f2)`` of ``U = A e + f`` with nothing rounded: what signs are decided by. None if U
+        is not e-linear.
+    turn : float
+        Angle from the axes of `affine` to those of this system, by which a matrix was brought into the normal form.
     size : float
         The largest of |a|, |b|, |d|, |f1|, |f2|, or the largest |U|: what residuals are compared with; 0 if U = 0.
     speed : float
@@ -61,6 +66,10 @@ class AtZ(Protocol):
     def normal_form(self) -> Coefficients | None: ...  # noqa: D102
     @property
     def as_given(self) -> Coefficients | None: ...  # noqa: D102
+    @property
+    def affine(self) -> Affine | None: ...  # noqa: D102
+    @property
+    def turn(self) -> float: ...  # noqa: D102
     @property
     def size(self) -> float: ...  # noqa: D102
     @property

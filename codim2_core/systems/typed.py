@@ -21,7 +21,7 @@ from ..expressions.expression import Expression, ExpressionError, parse
 from ..expressions.names import MOST_SLOW_VARIABLES, PLANE, SLOW, number_names
 from ..expressions.reader import MOST_CHARACTERS
 from .bounds import LARGEST, SMALLEST, slow_values
-from .coefficients import Coefficients
+from .coefficients import Affine, Coefficients
 from .elinear import ELinear
 
 Array = NDArray[np.float64]
@@ -263,14 +263,30 @@ class Frozen:
 
     @cached_property
     def _normal_form(self) -> Coefficients | None:
+        if self.affine is None:
+            return None
+        a11, a12, a21, a22, *f = self.affine
+        if a12 + a21 == 0.0:  # in the normal form already: no rotation
+            return ELinear(a11, a21, a22, f).at()
+        return ELinear.from_matrix([[a11, a12], [a21, a22]], f).at()
+
+    @property
+    def affine(self) -> Affine | None:
+        """``(A11, A12, A21, A22, f1, f2)`` of ``U = A e + f``; None if U is not affine in (c, s)."""
+        return self._affine
+
+    @cached_property
+    def _affine(self) -> Affine | None:
         rows = self.system.jacobian
         if self.reads_position or any(name in PLANE for row in rows for entry in row for name in entry.names):
             return None
         (a11, a12), (a21, a22) = self.DU((0.0, 0.0)).tolist()
-        f = self.U((0.0, 0.0)).tolist()
-        if a12 + a21 == 0.0:  # in the normal form already: no rotation
-            return ELinear(a11, a21, a22, f).at()
-        return ELinear.from_matrix([[a11, a12], [a21, a22]], f).at()
+        return (a11, a12, a21, a22, *self.U((0.0, 0.0)).tolist())
+
+    @property
+    def turn(self) -> float:
+        """0: `affine` has these axes."""
+        return 0.0
 
     @property
     def as_given(self) -> Coefficients | None:

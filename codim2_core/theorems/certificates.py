@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..layer_problem.critical import Existence, determinant_sign
+from ..layer_problem.critical import Existence
+from ..layer_problem.linearisation import matrix_determinant
 from ..layer_problem.problem import LayerProblem
 from ..psi.constructors import compared
 from ..psi.function import Psi
@@ -164,7 +165,7 @@ def _critical_kind(facts: Facts) -> Certificate:
     if not facts.critical:
         return not_applicable(theorem, statement, "There is no isolated critical set.")
     C = facts.critical[0]
-    sign = determinant_sign(facts.at.a, facts.at.b, facts.at.d)
+    sign = matrix_determinant(*facts.at.affine[:4])[1]
     det = facts.at.a * facts.at.d + facts.at.b**2
     factor = C.determinant / det if sign and det else 0.0
     holds = (C.kind == "saddle") == (sign < 0) and sign * C.determinant >= 0.0  # = 0.0: det J has underflown
