@@ -77,7 +77,8 @@ def test_singular_matrices_are_named_so_and_certified_as_nothing():
 
 
 def test_a_singular_matrix_is_certified_as_nothing():
-    found = {c.theorem: c.verdict.value for c in c2.certificates(ELinear.from_matrix([[1, -1], [-2, 2]], (-0.5, 1)), psi.constant())}  # fmt: skip
+    singular = ELinear.from_matrix([[1, -1], [-2, 2]], (-0.5, 1))
+    found = {c.theorem: c.verdict.value for c in c2.certificates(singular, psi.constant())}
     assert found["thm:case2(a)"] == found["thm:case2(b)"] == found["thm:lineps1(a)"] == "does not apply"
     assert "fails" not in found.values()
 
@@ -94,13 +95,8 @@ def test_an_affine_system_at_any_rotation_has_closed_forms(monkeypatch, key, ang
 
     preset = c2.presets[key]
     own = preset.system.at(preset.z)
-    k, n = (
-        (0.0, 1.0)
-        if angle == 0.5 * math.pi
-        else (-1.0, 0.0)
-        if angle == math.pi
-        else (math.cos(angle), math.sin(angle))
-    )
+    exactly = {0.5 * math.pi: (0.0, 1.0), math.pi: (-1.0, 0.0)}
+    k, n = exactly.get(angle, (math.cos(angle), math.sin(angle)))
     R = np.array([[k, -n], [n, k]])
     A, f = R @ own.A @ R.T, R @ own.f
     expected = (c2.equator_equilibria(own), c2.critical_sets(own, preset.psi), c2.limit_cycles(own, preset.psi))
