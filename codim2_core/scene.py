@@ -32,6 +32,7 @@ from .orbits.seeds import checked_seeds, ring, structured_seeds
 from .orbits.trajectories import Trajectories, continuation, trajectories
 from .orbits.whole import Orbits
 from .portrait.classify import portrait
+from .portrait.launched import Launched, launched
 from .portrait.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
 from .portrait.outcomes import outcomes_of
 from .portrait.separatrices import Separatrices, separatrices_of
@@ -93,6 +94,8 @@ class Scene:
         Where trajectories start; default `structured_seeds(count)`.
     count : int
         Number of seeds when they are not given.
+    launch : (k, 2) points of the picture, optional
+        Where orbits of the layer "launched" start: they are told where they go and where they come from.
     t_max : float, optional
         Longest time T (dT = dt/rho) of each half of a trajectory. By default 40 over the largest coefficient, so that
         a portrait does not depend on the unit of time; most halves end earlier, at an equilibrium or at `length`.
@@ -122,6 +125,7 @@ class Scene:
         *,
         seeds: ArrayLike | None = None,
         count: int = 64,
+        launch: ArrayLike = (),
         t_max: float | None = None,
         length: float = 9.0,
         rtol: float = 1e-6,
@@ -143,6 +147,7 @@ class Scene:
         self.system, self.psi = system, psi
         self.z = slow_values(z, system.m, needed=False) if not system.frozen else ()
         self.seeds = None if seeds is None else checked_seeds(seeds)
+        self.launch = checked_seeds(launch)
         self.count, self.rtol, self.atol = count, float(rtol), float(atol)
         self.t_max, self.length = None if t_max is None else float(t_max), float(length)
         self.view, self.pixel = float(view), float(pixel)
@@ -214,7 +219,7 @@ class Scene:
         return MappingProxyType(self._memory.runs)
 
 
-_PARAMETERS = ("system", "psi", "z", "seeds", "count", "t_max", "length", "rtol", "atol", "view", "pixel")
+_PARAMETERS = ("system", "psi", "z", "seeds", "count", "launch", "t_max", "length", "rtol", "atol", "view", "pixel")
 
 ELINEAR_ONLY = frozenset({"certificates", "atlas_curves", "regions"})
 
@@ -227,6 +232,7 @@ _INPUTS: dict[str, Callable[[Scene], Hashable]] = {
     "psi": lambda s: s.psi,
     "inner seeds": lambda s: s.count if s.seeds is None else _start(s, outside=False).tobytes(),
     "outer seeds": lambda s: s.count if s.seeds is None else _start(s, outside=True).tobytes(),
+    "launch": lambda s: s.launch.tobytes(),
     "time": lambda s: (s.t_max, s.length),
     "tolerance": lambda s: (s.rtol, s.atol),
     "view": lambda s: s.view,
@@ -282,6 +288,10 @@ def _continuations(scene: Scene) -> Trajectories:
     equator = scene["equator"]
     arriving = equator.theta[(equator.lambda_rho < 0.0) & (equator.lambda_theta < 0.0)]
     return continuation(scene.coefficients, scene.psi, arriving, **_stepping(scene))
+
+
+def _launched(scene: Scene) -> Launched:
+    return launched(scene.problem, scene.launch, view=scene.view, pixel=scene.pixel)
 
 
 def _separatrices(scene: Scene) -> Separatrices:
@@ -341,6 +351,7 @@ layers: Mapping[str, Layer] = MappingProxyType(
         "continuations": Layer(("plane", "psi", *_STEPPED), _continuations),
         "closed_orbits": Layer(("plane", "psi"), lambda s: closed_orbits(s.problem)),
         "cycles": Layer(("plane", "slow", "psi"), lambda s: cycles_of(s.problem)),
+        "launched": Layer(("plane", "psi", "launch", "view", "pixel"), _launched),
         "separatrices": Layer(("plane", "psi", "tolerance", "pixel"), _separatrices),
         "outcomes": Layer(("plane", "slow", "psi"), lambda s: outcomes_of(s.problem)),
         "certificates": Layer(("plane", "slow", "psi"), _certificates),
@@ -358,4 +369,5 @@ _NAMES: dict[Any, str] = {
     portrait: "classification",
     closed_orbits: "closed_orbits",
     cycles_of: "cycles",
+    outcomes_of: "outcomes",
 }

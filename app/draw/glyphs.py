@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from codim2_core.portrait.launched import Launched
+
 Points = NDArray[np.float64]
 
 #: Smallest angle between two labels around the circle, in radians, so that Q1 and Q2 stay readable.
@@ -190,3 +192,13 @@ def cycle_columns(cycles: Any) -> dict[str, Any]:
 def subscript(number: int) -> str:
     """Return a number as lowered digits."""
     return str(number).translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
+
+
+def launched_columns(seeds: NDArray[np.float64], launched: Launched) -> dict[str, Any]:
+    """Return where each launched orbit starts, and what is said of it, as columns."""
+    return {
+        "x": seeds[:, 0].tolist(),
+        "y": seeds[:, 1].tolist(),
+        "goes": [fate.sentence for fate in launched.goes],
+        "comes": [fate.sentence for fate in launched.comes],
+    }

@@ -102,6 +102,13 @@ def _nullcline(name: str, colours: tuple[str, str], widths: tuple[float, float],
     )
 
 
+def _launched(k: int) -> Callable[[Any], Pieces]:
+    """Return every orbit that has colour k: they take turns."""
+    return lambda result: glyphs.join([line for i, line in enumerate(result.orbits.points) if i % LAUNCH_COLOURS == k])
+
+
+LAUNCH_COLOURS = 6
+
 _ROWS = (
     Layer(
         "outside", "Trajectories outside", 50, compiled=True, colours={"outside": ("#5b6675", "#8d99aa")},
@@ -139,6 +146,16 @@ _ROWS = (
         "lines", "Lines U₁ = 0, U₂ = 0", 20, _nullcline("lines", ("lines-in", "lines-out"), (1.8, 1.4), "U1", "U2"),
         {"lines-in": ("#edb120", "#f2c14e"), "lines-out": ("#7e2f8e", "#c58ad6")},
         swatch="border-image: linear-gradient(90deg, var(--lines-in) 50%, var(--lines-out) 50%) 1",
+    ),
+    Layer(
+        "launched", "Launched orbits", 100, compiled=True,
+        colours={"launch-1": ("#2563eb", "#60a5fa"), "launch-2": ("#c2410c", "#fb923c"),
+                 "launch-3": ("#15803d", "#4ade80"), "launch-4": ("#a21caf", "#e879f9"),
+                 "launch-5": ("#0f766e", "#2dd4bf"), "launch-6": ("#854d0e", "#facc15")},
+        parts=tuple(
+            Part(f"launched_{k + 1}", f"launch-{k + 1}", 2.4, "launched", _launched(k), arrows=True)
+            for k in range(LAUNCH_COLOURS)
+        ),
     ),
     Layer(
         "equator", "Equator equilibria", 110,

@@ -13,6 +13,7 @@ from ..draw.theme import REACH
 from ..state.choices import COEFFICIENTS, SLOW_CONTROLS
 from ..state.chosen import NORMAL, System_, TextError, build
 from ..state.controls import InputError, build_psi, opening
+from ..state.launches import read_launches
 
 #: Text of f(z) = f + z k and of z' = B e + g. It never changes, so that nothing is parsed again on a tick:
 #: the numbers travel as parameters of the system.
@@ -30,7 +31,13 @@ def make_scene(values: Mapping[str, Any], system: System_ | None = None) -> Scen
         A text or a value cannot be used.
     """
     system = chosen_system(values) if system is None else system
-    return Scene(system, build_psi(values), z=position(values, system.m), count=values["trajectories"], view=REACH)
+    psi, launch = build_psi(values), launched(values)
+    return Scene(system, psi, position(values, system.m), count=values["trajectories"], launch=launch, view=REACH)
+
+
+def launched(values: Mapping[str, Any]) -> list[tuple[float, float]]:
+    """Return where the launched orbits that are shown start."""
+    return [(orbit.x, orbit.y) for orbit in read_launches(values["orbits"]) if not orbit.hidden]
 
 
 def chosen_system(values: Mapping[str, Any]) -> System_:
@@ -92,6 +99,8 @@ def evolved(scene: Scene, values: Mapping[str, Any], changed: Collection[str], g
         changes["z"] = position(values, system.m if isinstance(system, (ELinear, System)) else 0)
     if {"psi", "n", "psi_text"} & set(changed):
         changes["psi"] = build_psi(values)
+    if "orbits" in changed:
+        changes["launch"] = launched(values)
     if "trajectories" in changed:
         changes["count"] = values["trajectories"]
     return scene.evolve(**changes) if changes else scene

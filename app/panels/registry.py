@@ -9,7 +9,7 @@ from __future__ import annotations
 from ..frame.draft import Draft
 from ..slow_layers import basins, outcomes
 from ..state.controls import offer
-from . import along, atlas, diagram, lessons, numbers, planes, psi, stack, theorems, time
+from . import along, atlas, diagram, lessons, numbers, orbits, planes, psi, stack, theorems, time
 from .panel import Panel
 
 #: By key, in the order of the tabs.
@@ -41,5 +41,5 @@ def add(draft: Draft) -> None:
         each(draft)
 
 
-for module in (atlas, numbers, planes, diagram, theorems, along, stack, time, psi, lessons):
+for module in (atlas, numbers, planes, diagram, theorems, along, stack, time, psi, orbits, lessons):
     register(module.PANEL)

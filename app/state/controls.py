@@ -21,6 +21,7 @@ from codim2_core.psi.function import Psi
 from ..draw.layers import LAYERS, shown
 from .choices import AXES, MAX_TRAJECTORIES, OWN_AXIS, PANELS, SLOW_CONTROLS, SOLIDS
 from .chosen import NORMAL, starting_launch, starting_z, titles
+from .launches import read_launches
 from .portraits import portraits
 
 MOST_ENTRIES = 16  # of a mapping that a browser sends
@@ -97,6 +98,7 @@ class ExplorerState(param.Parameterized):
     drift = param.Selector(default="z", objects=list(SLOW_CONTROLS), label="Along", doc="Slow variable of “Along z”.")
     log_eps = _number(-2.0, -10, 0, "log₁₀ ε", "Size of the regularised region, eq:ePsi.")
     launch = param.String("0.6, 0.8, 0", label="Start", doc="State (x, y, z₁, …) from which a motion starts.")
+    orbits = param.String("", label="Orbits", doc="Launched orbits: x,y of each, joined by semicolons.")
     lesson = param.String("", label="Lesson", doc="The lesson that is open.")
     quiz = param.String("", label="Question", doc="QUESTION.SEED or QUESTION.SEED.ANSWER of the open lesson.")
     t_end = _number(8.0, 0, 40, "until t", "How long a motion is followed.")
@@ -226,6 +228,12 @@ def clean(name: str, value: Any) -> Any:
         return str(value)
     if name in ("texts", "parameters"):
         return _mapping(name, declared.label, value)
+    if name == "orbits":
+        try:
+            read_launches(str(value))
+        except ValueError as error:
+            raise InputError(name, f"{declared.label}: {error}") from error
+        return str(value)
     if not isinstance(value, str) or len(value) > 200:
         raise InputError(name, f"{declared.label}: give text of at most 200 characters.")
     return value

@@ -30,6 +30,7 @@ export function displayList({table, layers, old, header, blocks, theme, measures
     for (const part of parts) if (blocks[`${part.name}.at`]?.length) list.push(heads(name, part, blocks, theme))
   }
   list.push(...circle(header, theme))
+  if (header.launched && shown.some((layer) => layer.name === "launched")) list.push(...starts(header.launched, theme, table.find(({name}) => name === "launched").parts))
   for (const name of ["equator", "critical"]) {
     if (header[name] && shown.some((layer) => layer.name === name)) list.push(...marks(name, header[name], theme))
   }
@@ -45,6 +46,11 @@ export function traceList(parts, paths, place, theme) {
   }
   if (paths && place) list.push({kind: "mark", layer: "trace", shape: "circle", x: place[0], y: place[1], size: 12, width: 2.4, colour: theme.page, fill: theme.motion})
   return list
+}
+
+// Where each launched orbit starts: what a hand can take hold of.
+function starts({x, y}, theme, parts) {
+  return x.map((_, i) => ({kind: "mark", layer: "launched", shape: "circle", x: x[i], y: y[i], size: 11, width: 2.4, colour: theme.page, fill: theme[parts[i % parts.length].colour]}))
 }
 
 function curves(layer, part, blocks, theme) {

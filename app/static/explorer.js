@@ -3,7 +3,9 @@
 import {Connection} from "./connection.js"
 import {NumberControl, sayAt} from "./controls.js"
 import {readFrame} from "./frames.js"
+import {Hands} from "./hands.js"
 import {Inspector} from "./inspector.js"
+import {readLaunches} from "./launches.js"
 import {Panels} from "./panels.js"
 import {Picture} from "./picture.js"
 import {Requests} from "./requests.js"
@@ -105,6 +107,24 @@ function wire({model, view, root, plot}) {
     const {panel, across, up, along, zoom: _zoom, atlas_zoom, ...first} = config.defaults // what is open stays open
     setAll(first); tell(); picture.home(config.view)
   })
+  // Words on the orbit in hand: where it goes.
+  const spoken = find(".orbit-words")
+  let held = -1, quiet = null
+  const speak = ({goes}) => {
+    const i = readLaunches(values.orbits).slice(0, held + 1).filter((one) => !one.hidden).length - 1
+    spoken.hidden = held < 0 || !goes[i]
+    if (!spoken.hidden) spoken.textContent = goes[i]
+  }
+  new Hands(find(".bokeh"), picture, {
+    get: () => values.orbits,
+    set: (text) => {
+      if (!values.layers.includes("launched")) { change("layers", [...values.layers, "launched"]); showLayers() }
+      change("orbits", text)
+      if (values.panel === "orbits") panels.draw(values)
+    },
+    begin: (i) => { held = i; clearTimeout(quiet) },
+    end: () => { quiet = setTimeout(() => { held = -1; spoken.hidden = true }, 5000) },
+  })
   find(".home").addEventListener("click", () => picture.home(config.view))
 
   // Theme: JupyterLab's or the system's until a choice is made.
@@ -162,6 +182,7 @@ function wire({model, view, root, plot}) {
     if (header.set) follow(header.set)
     systems.apply(frame)
     picture.apply(frame)
+    if (header.launched) speak(header.launched)
     clearTimeout(restTimer)
     const late = header.late ?? []
     if (late.length) restTimer = setTimeout(() => requests.rest(), 150)

@@ -4,7 +4,7 @@ import {displayList, traceList} from "./display.js"
 import {makeRenderer, repaint} from "./painter.js"
 import {digits, eigen, pair} from "./words.js"
 
-const DRAWN = ["equator", "critical", "sense", "all_directions", "outcomes", "basins"] // entries of a frame's header
+const DRAWN = ["launched", "equator", "critical", "sense", "all_directions", "outcomes", "basins"] // entries of a frame's header
 const REST = 150 // ms after the last frame until the tooltips follow
 
 export class Picture {
@@ -75,6 +75,17 @@ export class Picture {
     this.plot.background_fill_color = this.plot.border_fill_color = this.state.theme.page
     this.draw()
     this.drawTrace()
+  }
+
+  // The point of the picture under a point of the window, and the size of a pixel there; null outside the frame.
+  at(clientX, clientY) {
+    const view = this.drawn.view, element = view?.plot_view?.canvas_view?.el
+    if (!element) return null
+    const box = element.getBoundingClientRect(), frame = view.plot_view.frame.bbox
+    const sx = clientX - box.left, sy = clientY - box.top
+    if (sx < frame.x || sx > frame.x + frame.width || sy < frame.y || sy > frame.y + frame.height) return null
+    const {x_scale, y_scale} = view.coordinates
+    return {x: x_scale.invert(sx), y: y_scale.invert(sy), unit: Math.abs(x_scale.invert(sx + 1) - x_scale.invert(sx))}
   }
 
   home(view) {

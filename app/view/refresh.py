@@ -222,6 +222,8 @@ def make_frame(
                 blocks[part.name] = Polylines(*part.pieces(result), part.arrows)
     if "cycles" in blocks:
         header["cycles"] = glyphs.cycle_columns(scene["cycles"])
+    if "launched_1" in blocks:
+        header["launched"] = glyphs.launched_columns(scene.launch, scene["launched"])
     equator, cycle, critical = scene["equator"], scene["equator_cycle"], scene["critical"]
     if fresh("equator", equator):
         header["equator"] = glyphs.equator_columns(equator)

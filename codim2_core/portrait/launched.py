@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cycles.limit_cycles import LimitCycles
+from ..cycles.limit_cycles import cycles_of
 from ..layer_problem.critical import CriticalSet
-from ..layer_problem.equator import EquatorEquilibria
+from ..layer_problem.problem import LayerProblem
 from ..orbits.result import Status, Trajectories
-from ..orbits.trajectories import trajectories
+from ..orbits.trajectories import joined, trajectories
 from ..orbits.whole import Orbits
-from ..psi.function import Psi
-from ..systems.frozen import AtZ
 from .endings import AT_SADDLE, CAPTURE, Ending, critical_label, drawn_time, endings, nearest
-from .outcomes import Outcome, Outcomes
+from .outcomes import Outcome, outcomes_of
 
 Array = NDArray[np.float64]
 
@@ -70,30 +67,17 @@ class Launched:
         return len(self.goes)
 
 
-def launched(
-    at: AtZ,
-    psi: Psi,
-    seeds: Array,
-    equator: EquatorEquilibria,
-    critical: tuple[CriticalSet, ...],
-    cycles: LimitCycles,
-    outcomes: Callable[[], Outcomes],
-    *,
-    view: float = 2.0,
-    pixel: float = 1.0 / 180.0,
-) -> Launched:
+NOTHING = Launched(Orbits(joined([]), joined([])), (), ())
+
+
+def launched(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: float = 1.0 / 180.0) -> Launched:
     """Follow orbits through points of the picture, and say where they go and where they come from.
 
     Parameters
     ----------
-    at, psi
-        The system at one z, and Psi.
+    problem : LayerProblem
     seeds : (k, 2)
         Points of the picture.
-    equator, critical, cycles
-        Of the same system.
-    outcomes : callable
-        Returns what becomes of approaches; called only if an orbit from outside reaches Sigma.
     view, pixel : float
         Of the picture.
 
@@ -101,52 +85,80 @@ def launched(
     -------
     Launched
     """
-    time = drawn_time(at, equator)
+    if not len(seeds):
+        return NOTHING
+    at, psi = problem.at, problem.psi
+    time = drawn_time(at, problem.equator)
     back, ahead = (
         trajectories(
-            at, psi, seeds, t_max=time, rtol=RTOL, atol=0.1 * RTOL, backward=backward, view=view, pixel=pixel,
-            capture=CAPTURE, length=LONG,
+            at,
+            psi,
+            seeds,
+            t_max=time,
+            rtol=RTOL,
+            atol=0.1 * RTOL,
+            backward=backward,
+            view=view,
+            pixel=pixel,
+            capture=CAPTURE,
+            length=LONG,
         )
         for backward in (True, False)
-    )  # fmt: skip
+    )
     inside = np.hypot(seeds[:, 0], seeds[:, 1]) < 1.0
     fates = []
     for line, backward in ((ahead, False), (back, True)):
-        half = _ended(at, psi, line, seeds, PATIENCE * time, view, backward)
+        half = _ended(problem, line, seeds, PATIENCE * time, view, backward)
         found: list[Fate | None] = [None] * len(seeds)
         within = np.flatnonzero(inside).tolist()
-        ends = endings(at, psi, _part(half, within), equator, critical, cycles, rtol=RTOL, backward=backward)
-        for i, end in zip(within, ends, strict=True):
-            found[i] = _on_hemisphere(end, critical, backward)
+        for i, end in zip(within, _endings(problem, half, within, backward), strict=True):
+            found[i] = _on_hemisphere(end, problem.critical, backward)
         for i in np.flatnonzero(~inside).tolist():
             after = None if line.status[i] in CUT else _time(half, i)
-            found[i] = _outside(half, i, after, equator, outcomes, backward)
+            found[i] = _outside(problem, half, i, after, backward)
         fates.append(tuple(fate for fate in found if fate is not None))
     return Launched(Orbits(back, ahead), *fates)
 
 
 def _ended(
-    at: AtZ, psi: Psi, line: Trajectories, seeds: Array, time: float, view: float, backward: bool
+    problem: LayerProblem, line: Trajectories, seeds: Array, time: float, view: float, backward: bool
 ) -> Trajectories:
     """Return the trajectories with the ends that those cut off would come to, were they drawn on."""
     cut = [i for i, status in enumerate(line.status) if status in CUT]
     if not cut:
         return line
     on = trajectories(
-        at, psi, seeds[cut], t_max=time, rtol=RTOL, atol=0.1 * RTOL, backward=backward, view=view, capture=CAPTURE,
+        problem.at,
+        problem.psi,
+        seeds[cut],
+        t_max=time,
+        rtol=RTOL,
+        atol=0.1 * RTOL,
+        backward=backward,
+        view=view,
+        capture=CAPTURE,
         samples="ends",
-    )  # fmt: skip
+    )
     ends, codes = line.ends.copy(), line.codes.copy()
     ends[cut], codes[cut] = on.ends, on.codes
     return Trajectories(line.buffer, line.clock, line.offsets, ends, codes)
 
 
-def _part(lines: Trajectories, which: Sequence[int]) -> Trajectories:
-    """Return some of the trajectories, with their last points only: where they end needs no more."""
-    last = lines.offsets[1:][list(which)] - 1
-    chosen = list(which)
-    return Trajectories(
-        lines.buffer[last], lines.clock[last], np.arange(len(chosen) + 1), lines.ends[chosen], lines.codes[chosen]
+def _endings(problem: LayerProblem, lines: Trajectories, which: list[int], backward: bool) -> list[Ending]:
+    """Return where some of the trajectories end; their last points say enough."""
+    last = lines.offsets[1:][which] - 1
+    ends = Trajectories(
+        lines.buffer[last], lines.clock[last], np.arange(len(which) + 1), lines.ends[which], lines.codes[which]
+    )
+    return endings(
+        problem.at,
+        problem.psi,
+        ends,
+        problem.equator,
+        problem.critical,
+        problem.keep(cycles_of),
+        rtol=RTOL,
+        backward=backward,
     )
 
 
@@ -169,14 +181,8 @@ def _on_hemisphere(end: Ending, critical: tuple[CriticalSet, ...], backward: boo
     return Fate("undecided", None, None, f"Not followed to an end: {end.sentence}")
 
 
-def _outside(
-    half: Trajectories,
-    i: int,
-    after: float | None,
-    equator: EquatorEquilibria,
-    outcomes: Callable[[], Outcomes],
-    backward: bool,
-) -> Fate:
+def _outside(problem: LayerProblem, half: Trajectories, i: int, after: float | None, backward: bool) -> Fate:
+    equator = problem.equator
     status = half.status[i]
     if status is Status.LEFT_VIEW:
         return Fate("away", None, None, "Comes from outside the picture." if backward else "Leaves the picture.")
@@ -192,7 +198,7 @@ def _outside(
         return Fate("undecided", None, None, f"Not followed to an end: {status.value}")
     if backward:
         return Fate(label, None, after, f"Left Σ {along}{'' if after is None else f', t = {after:.3g} ago'}.")
-    found = outcomes()
+    found = problem.keep(outcomes_of)
     outcome = found.whole if k is None or found.whole is not None else found.directions[k]
     then, onto = _then(outcome)
     when = "" if after is None else f", after t = {after:.3g}"

@@ -39,7 +39,7 @@ def ran(scene, **changes):
 
 EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "outside"}
 HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations",
-              "classification", "certificates", "outcomes"}  # fmt: skip
+              "classification", "certificates", "outcomes", "launched"}  # fmt: skip
 
 ATLAS = {"atlas_curves", "regions"}  # of the plane (f1, f2): neither f nor Psi is in them
 SLOW = {"critical", "classification", "certificates", "slow_flow", "outcomes", "cycles"}
@@ -59,10 +59,11 @@ REACHES = {
     "t_max": ({"t_max": 6.0}, {"inside", "outside", "continuations"}),
     "rtol": ({"rtol": 1e-5}, {"inside", "outside", "continuations", "separatrices"}),
     "atol": ({"atol": 1e-6}, {"inside", "outside", "continuations", "separatrices"}),
-    "pixel": ({"pixel": 1 / 90}, {"inside", "outside", "continuations", "separatrices"}),
-    "view": ({"view": 2.5}, {"nullclines_outside", "outside"}),
+    "pixel": ({"pixel": 1 / 90}, {"inside", "outside", "continuations", "separatrices", "launched"}),
+    "view": ({"view": 2.5}, {"nullclines_outside", "outside", "launched"}),
     "count": ({"count": 40}, {"inside", "outside"}),
     "seeds": ({"seeds": [[0.3, 0.2], [1.5, 0.1]]}, {"inside", "outside"}),
+    "launch": ({"launch": [[0.2, 0.1]]}, {"launched"}),
     "nothing": ({"a": -2.0, "psi": c2.psi.constant()}, set()),
 }
 

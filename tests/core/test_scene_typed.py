@@ -41,7 +41,7 @@ def ran(first, **changes):
 EQUATOR = {"equator", "equator_cycle", "nullclines_outside", "outside"}
 SLOW = {"critical", "classification", "certificates", "slow_flow", "cycles", "outcomes"}
 HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations",
-              "classification", "certificates", "outcomes"}  # fmt: skip
+              "classification", "certificates", "outcomes", "launched"}  # fmt: skip
 PLANE = EQUATOR | HEMISPHERE | {"slow_flow", "location"}
 STEPPED = {"inside", "outside", "continuations"}
 
@@ -53,11 +53,12 @@ REACHES = {
     "psi": ({"psi": c2.psi.tanh()}, HEMISPHERE),
     "z that neither reads": ({"z": (0.5, 0.9)}, set()),
     "z that W reads": ({"z": (0.6, 0.2)}, SLOW),
-    "view": ({"view": 2.5}, {"nullclines_outside", "outside"}),
+    "view": ({"view": 2.5}, {"nullclines_outside", "outside", "launched"}),
     "length": ({"length": 5.0}, STEPPED),
     "t_max": ({"t_max": 6.0}, STEPPED),
     "rtol": ({"rtol": 1e-5}, STEPPED | {"separatrices"}),
-    "pixel": ({"pixel": 1 / 90}, STEPPED | {"separatrices"}),
+    "pixel": ({"pixel": 1 / 90}, STEPPED | {"separatrices", "launched"}),
+    "launch": ({"launch": [[0.2, 0.1]]}, {"launched"}),
     "count": ({"count": 20}, {"inside", "outside"}),
     "nothing": ({"q": 0.4, "psi": c2.psi.rational()}, set()),
 }

@@ -8,17 +8,12 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import codim2_core as c2
-from codim2_core.portrait.launched import launched
 
 PSI = c2.psi.constant()
 
 
 def launch(system, psi, seeds, z=()):
-    scene = c2.Scene(system, psi, z)
-    seeds = np.array(seeds, float)
-    return launched(
-        scene.coefficients, psi, seeds, scene["equator"], scene["critical"], scene["cycles"], lambda: scene["outcomes"]
-    )
+    return c2.Scene(system, psi, z, launch=seeds)["launched"]
 
 
 @given(st.floats(-3, -0.2), st.floats(-1, 1), st.floats(0, 6.28), st.floats(0.01, 0.9))

@@ -1,0 +1,60 @@
+"""Orbits that a user launched: points of the picture, as one short text in the link: ``0.3,0.2;1.5,-0.1,-:slow one``.
+
+Each is x,y in the picture (|p| < 1 on the hemisphere, 1 + rho outside), then ``,-`` if it is hidden and ``:name`` if it
+has a name. The same grammar is read by `static/launches.js`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+MOST = 12
+FARTHEST = 4.0  # from the centre: the edge of what can be seen when zoomed out
+LONGEST_NAME = 24
+
+
+@dataclass(frozen=True)
+class Launch:
+    """One launched orbit.
+
+    Attributes
+    ----------
+    x, y : float
+    hidden : bool
+    name : str
+    """
+
+    x: float
+    y: float
+    hidden: bool = False
+    name: str = ""
+
+
+def read_launches(text: str) -> tuple[Launch, ...]:
+    """Read launched orbits.
+
+    Raises
+    ------
+    ValueError
+        The text is none; the sentence says what is allowed.
+    """
+    entries = [entry for entry in text.split(";") if entry.strip()]
+    if len(entries) > MOST:
+        raise ValueError(f"{len(entries)} orbits given; at most {MOST} can be launched.")
+    return tuple(_read(entry) for entry in entries)
+
+
+def _read(entry: str) -> Launch:
+    place, _, name = entry.partition(":")
+    parts = place.split(",")
+    hidden = len(parts) == 3 and parts[2].strip() == "-"
+    try:
+        x, y = (float(part) for part in parts[: 2 if hidden else None])
+    except ValueError:
+        raise ValueError(f"{entry[:40]!r} is no orbit; give x,y such as 0.3,0.2.") from None
+    if not (math.isfinite(x) and math.isfinite(y) and max(abs(x), abs(y)) <= FARTHEST):
+        raise ValueError(f"{entry[:40]!r} lies outside the picture; give x and y from {-FARTHEST:g} to {FARTHEST:g}.")
+    if len(name) > LONGEST_NAME:
+        raise ValueError(f"the name {name[:40]!r} is too long; give at most {LONGEST_NAME} characters.")
+    return Launch(x, y, hidden, name.strip())

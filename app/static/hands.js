@@ -1,0 +1,70 @@
+// Hands on the picture: a click or tap launches the orbit through that point; press and drag, and the orbit follows;
+// a drag that begins at a launched orbit's start moves that one. Shift, a wheel with Ctrl, or two fingers are Bokeh's.
+
+import {changed, launchedAt, nearest, readLaunches, writeLaunches} from "./launches.js"
+
+const REACH = {mouse: 10, pen: 14, touch: 24} // px around a start that count as on it
+const STILL = 8 // px that a finger may move in a tap
+const TAP = 600 // ms
+
+export class Hands {
+  /**
+   * @param {any} element that holds the picture
+   * @param {{at: (x: number, y: number) => {x: number, y: number, unit: number} | null}} picture
+   * @param {{get: () => string, set: (text: string) => void, begin: (i: number) => void, end: () => void}} orbits
+   */
+  constructor(element, picture, orbits) {
+    this.picture = picture
+    this.orbits = orbits
+    this.held = null // {id, i}: the pointer that holds an orbit's start
+    this.tap = null
+    const on = (kind, call) => element.addEventListener(kind, call, {capture: true})
+    on("pointerdown", (event) => this.down(event, element))
+    on("pointermove", (event) => this.move(event))
+    for (const kind of ["pointerup", "pointercancel"]) on(kind, (event) => this.up(event, kind === "pointerup"))
+  }
+
+  down(event, element) {
+    if (event.button !== 0 || event.shiftKey || event.ctrlKey || event.metaKey || !event.isPrimary) { this.tap = null; return }
+    const place = this.picture.at(event.clientX, event.clientY)
+    if (!place) return
+    const launches = readLaunches(this.orbits.get())
+    const i = nearest(launches, place.x, place.y, REACH[event.pointerType] * place.unit)
+    if (event.pointerType === "touch" && i < 0) { // a finger scrolls the page, unless it only taps
+      this.tap = {id: event.pointerId, x: event.clientX, y: event.clientY, since: event.timeStamp}
+      return
+    }
+    event.preventDefault()
+    event.stopPropagation()
+    element.setPointerCapture?.(event.pointerId)
+    this.held = {id: event.pointerId, i: i < 0 ? Math.min(launches.length, launchedAt(launches, 0, 0).length - 1) : i}
+    this.orbits.begin(this.held.i)
+    if (i < 0) this.orbits.set(writeLaunches(launchedAt(launches, place.x, place.y)))
+  }
+
+  move(event) {
+    if (this.held?.id !== event.pointerId) return
+    event.preventDefault()
+    event.stopPropagation()
+    const place = this.picture.at(event.clientX, event.clientY)
+    if (place) this.orbits.set(writeLaunches(changed(readLaunches(this.orbits.get()), this.held.i, {x: place.x, y: place.y})))
+  }
+
+  up(event, done) {
+    if (this.held?.id === event.pointerId) {
+      event.stopPropagation()
+      this.held = null
+      this.orbits.end()
+    }
+    const tap = this.tap
+    if (!tap || tap.id !== event.pointerId) return
+    this.tap = null
+    const still = Math.hypot(event.clientX - tap.x, event.clientY - tap.y) <= STILL && event.timeStamp - tap.since <= TAP
+    const place = done && still ? this.picture.at(event.clientX, event.clientY) : null
+    if (!place) return
+    const launches = launchedAt(readLaunches(this.orbits.get()), place.x, place.y)
+    this.orbits.begin(launches.length - 1)
+    this.orbits.set(writeLaunches(launches))
+    this.orbits.end()
+  }
+}
