@@ -1,0 +1,91 @@
+"""Hands on the picture: a click, a drag, a tap; what is launched stays, is in the link, and is told in words."""
+
+import pytest
+
+pytestmark = pytest.mark.browser
+
+
+def place(explorer, x, y):
+    """The point of the window over a point of the picture, which shows [-VIEW, VIEW] across its shorter side."""
+    from codim2_app.draw.theme import VIEW
+
+    box = explorer.find(".bokeh").bounding_box()
+    unit = min(box["width"], box["height"]) / (2 * VIEW)
+    return box["x"] + box["width"] / 2 + x * unit, box["y"] + box["height"] / 2 - y * unit
+
+
+def starts(explorer):
+    return explorer.page.evaluate("new URLSearchParams(location.search).get('orbits')")
+
+
+def test_a_click_launches_the_orbit_through_that_point(open_page):
+    explorer = open_page().open("?panel=orbits")
+    explorer.page.mouse.click(*place(explorer, -0.4, 0.3))
+    explorer.settle()
+    assert explorer.find(".orbit-goes").all_text_contents() == ["Tends to C, a stable node: sliding."]
+    assert explorer.find(".orbit-words").text_content() == "Tends to C, a stable node: sliding."
+    explorer.page.mouse.click(*place(explorer, 1.2, 0.8))
+    explorer.settle()
+    assert explorer.find(".orbit-goes").nth(1).text_content().startswith("Reaches Σ along Q2, θ = 2.094, after t = ")
+    explorer.page.wait_for_timeout(500)
+    (x, y), (u, v) = [tuple(map(float, entry.split(","))) for entry in starts(explorer).split(";")]
+    assert (x, y, u, v) == pytest.approx((-0.4, 0.3, 1.2, 0.8), abs=0.02)
+    again = open_page().open("?panel=orbits&orbits=" + starts(explorer).replace(";", "%3B"))
+    assert again.find(".orbit-goes").all_text_contents() == explorer.find(".orbit-goes").all_text_contents()
+    assert explorer.complaints == []
+
+
+def test_a_drag_takes_the_orbit_along_and_its_start_can_be_moved_later(open_page):
+    explorer = open_page().open("?panel=orbits&preset=case1-ncm2")
+    page = explorer.page
+    page.mouse.move(*place(explorer, -0.4, 0.3))
+    page.mouse.down()
+    first = explorer.frame()
+    for step in range(1, 9):
+        page.mouse.move(*place(explorer, -0.4 + 0.1 * step, 0.3))
+        page.wait_for_timeout(40)
+    page.mouse.up()
+    explorer.settle()
+    assert explorer.frame() >= first + 3  # it followed
+    assert explorer.find(".orbit-list li").count() == 1
+    assert explorer.find(".orbit-goes").text_content() == "Comes down to Q1 and leaves Σ along θ = 0."
+    page.mouse.move(*place(explorer, 0.4, 0.3))
+    page.mouse.down()
+    page.mouse.move(*place(explorer, 1.3, 0.5), steps=3)
+    page.mouse.up()
+    explorer.settle()
+    assert explorer.find(".orbit-list li").count() == 1
+    assert explorer.find(".orbit-goes").text_content() == "Leaves the picture."
+
+
+def test_an_orbit_is_named_hidden_and_removed(open_page):
+    explorer = open_page().open("?panel=orbits&orbits=-0.4,0.3%3B0.2,-0.5")
+    explorer.find(".orbit-name").first.fill("mine")
+    explorer.find(".orbit-name").first.press("Enter")
+    explorer.find(".orbit-list .hide").nth(1).click()
+    explorer.settle()
+    assert explorer.find(".orbit-goes").all_text_contents()[1] == "hidden"
+    explorer.page.wait_for_timeout(500)
+    assert starts(explorer) == "-0.4,0.3:mine;0.2,-0.5,-"
+    explorer.find(".orbit-list .remove").first.click()
+    explorer.settle()
+    assert explorer.find(".orbit-list li").count() == 1
+    explorer.find(".clear").click()
+    explorer.settle()
+    assert explorer.find(".orbit-list li").count() == 0
+
+
+def test_orbits_stay_through_every_slider_move(open_page):
+    explorer = open_page().open("?panel=orbits&orbits=1.2,0.8")
+    before = explorer.find(".orbit-goes").text_content()
+    explorer.type("f1", "-1.5")
+    assert explorer.find(".orbit-list li").count() == 1
+    assert explorer.find(".orbit-goes").text_content() != before
+
+
+def test_a_finger_that_taps_launches_and_one_that_swipes_does_not(open_page):
+    explorer = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open("?panel=orbits")
+    explorer.page.touchscreen.tap(*place(explorer, -0.4, 0.3))
+    explorer.settle()
+    assert explorer.find(".orbit-list li").count() == 1
+    assert explorer.complaints == []
