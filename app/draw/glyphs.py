@@ -181,9 +181,9 @@ def _out_of_page(flow: list[float]) -> str:
 def cycle_columns(cycles: Any) -> dict[str, Any]:
     """Return the columns of the limit cycles of the layer problem, innermost first, and why there are no others."""
     return {
-        "kind": [cycle.kind for cycle in cycles],
-        "period": [float(cycle.period) for cycle in cycles],
-        "multiplier": [float(cycle.multiplier) for cycle in cycles],
+        "kind": [cycle.kind for cycle in cycles.cycles],
+        "period": [float(cycle.period) for cycle in cycles.cycles],
+        "multiplier": [float(cycle.multiplier) for cycle in cycles.cycles],
         "reason": cycles.reason,
         "notes": list(cycles.notes),
     }

@@ -70,6 +70,8 @@ class Layer:
         Until it is asked for.
     compiled : bool
         Made by the compiled integrator, so that it is left out until that is ready.
+    optional : bool
+        There is nothing of it until somebody asks; a picture that has nothing of it does not name it.
     """
 
     name: str
@@ -80,10 +82,15 @@ class Layer:
     swatch: str = ""
     hidden: bool = False
     compiled: bool = False
+    optional: bool = False
 
 
 def _orbits(result: Any) -> Pieces:
     return result.offsets, result.buffer
+
+
+def _closed(result: Any) -> Pieces:
+    return glyphs.join([cycle.points for cycle in result.cycles])
 
 
 def _kinds(*kinds: str) -> Callable[[Any], Pieces]:
@@ -131,7 +138,7 @@ _ROWS = (
     ),
     Layer(
         "cycles", "Limit cycles", 90, compiled=True, colours={"cycle": ("#e0121f", "#ff3b47")},
-        parts=(Part("cycles", "cycle", 2.8, "cycles", arrows=True),),
+        parts=(Part("cycles", "cycle", 2.8, "closed_orbits", _closed, arrows=True),),
     ),
     # nullclines have the paper's colours (matlab1 to matlab4 of fig:sim_5cases), lighter on dark
     Layer(
@@ -148,7 +155,7 @@ _ROWS = (
         swatch="border-image: linear-gradient(90deg, var(--lines-in) 50%, var(--lines-out) 50%) 1",
     ),
     Layer(
-        "launched", "Launched orbits", 100, compiled=True,
+        "launched", "Launched orbits", 100, compiled=True, optional=True,
         colours={"launch-1": ("#2563eb", "#60a5fa"), "launch-2": ("#c2410c", "#fb923c"),
                  "launch-3": ("#15803d", "#4ade80"), "launch-4": ("#a21caf", "#e879f9"),
                  "launch-5": ("#0f766e", "#2dd4bf"), "launch-6": ("#854d0e", "#facc15")},

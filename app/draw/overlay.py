@@ -32,7 +32,8 @@ def elements(scene: Scene) -> dict[str, Any]:
     made: dict[str, Any] = {"hemisphere": _circle()}
     for layer in painted():
         colours = dict.fromkeys(part.colour for part in layer.parts)
-        for colour in colours if not layer.hidden else ():
+        asked = not layer.hidden and not (layer.optional and not any(len(scene[part.scene]) for part in layer.parts))
+        for colour in colours if asked else ():
             parts = [part for part in layer.parts if part.colour == colour]
             label = layer.name if len(colours) == 1 else parts[0].name
             pieces = [piece for part in parts for piece in _pieces(*part.pieces(scene[part.scene]))]

@@ -218,10 +218,12 @@ def make_frame(
             continue
         for part in layer.parts:
             result = scene[part.scene]
+            if layer.optional and part.name not in now and not len(result):
+                continue
             if fresh(part.name, result):
                 blocks[part.name] = Polylines(*part.pieces(result), part.arrows)
     if "cycles" in blocks:
-        header["cycles"] = glyphs.cycle_columns(scene["cycles"])
+        header["cycles"] = glyphs.cycle_columns(scene["closed_orbits"])
     if "launched_1" in blocks:
         header["launched"] = glyphs.launched_columns(scene.launch, scene["launched"])
     equator, cycle, critical = scene["equator"], scene["equator_cycle"], scene["critical"]

@@ -33,7 +33,7 @@ def test_facts_of_every_portrait_agree_with_the_core(key):
 def test_only_what_is_asked_for_is_computed():
     scene = c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0)))
     facts_of(scene, ["limit_directions"])
-    assert set(scene.runs) == {"equator"}
+    assert set(scene.runs) == {"equator", "location"}
 
 
 def test_every_fact_has_words_for_authors():

@@ -30,7 +30,7 @@ def test_what_is_none_is_refused(text):
 def test_a_frame_brings_the_orbits_and_their_words_once():
     frames = Frames(ExplorerState())
     header, _ = unpack(frames.answer({"all": True}))
-    assert header["launched"] == {"x": [], "y": [], "goes": [], "comes": []}
+    assert "launched" not in header
     header, blocks = unpack(frames.answer({"set": {"orbits": "1.5,0.3;0.2,0.1,-;-0.4,0.2"}}))
     assert header["launched"]["x"] == [1.5, -0.4]
     assert header["launched"]["goes"][0].startswith("Reaches Σ along Q2")
@@ -41,6 +41,9 @@ def test_a_frame_brings_the_orbits_and_their_words_once():
     assert not [name for name in blocks if name.startswith("launched")]
     header, _ = unpack(frames.answer({"set": {"f1": -1.5}}))
     assert header["launched"]["goes"][0].startswith("Reaches Σ along Q")
+    header, blocks = unpack(frames.answer({"set": {"orbits": ""}}))
+    assert header["launched"]["x"] == []
+    assert "launched_1.n" in blocks
 
 
 def test_without_orbits_a_slider_sends_nothing_of_them():
