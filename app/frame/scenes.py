@@ -11,7 +11,7 @@ from codim2_core.systems.typed import System
 
 from ..draw.theme import REACH
 from ..state.choices import COEFFICIENTS, SLOW_CONTROLS
-from ..state.chosen import NORMAL, System_, TextError, build
+from ..state.chosen import NORMAL, System_, TextError, build, parameters_of
 from ..state.controls import InputError, build_psi, opening
 from ..state.launches import read_launches
 
@@ -70,31 +70,42 @@ def position(values: Mapping[str, Any], m: int) -> tuple[float, ...]:
 
 
 def settled(values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the changes with what another choice of system brings: its first place on Sigma, its own parameters."""
+    """Return the changes with what another choice of system brings: its first place on Sigma, its own parameters.
+
+    The panel stays open unless it is the atlas and the new system has none.
+    """
     wanted = dict(changes)
     choice = wanted.get("system")
     if choice is None or choice == values["system"]:
         return wanted
-    return {**opening(choice), **wanted}
+    brought = opening(choice)
+    if values["panel"] != "atlas":
+        del brought["panel"]
+    return {**brought, **wanted}
 
 
-def evolved(scene: Scene, values: Mapping[str, Any], changed: Collection[str], given: bool) -> Scene:
+def evolved(
+    scene: Scene, values: Mapping[str, Any], changed: Collection[str], given: Mapping[str, float] | None = None
+) -> Scene:
     """Return the scene after some values have changed; it shares all that they do not reach.
 
     Parameters
     ----------
-    given : bool
-        The system is the user's own, from Python: no value chooses another.
+    given : mapping, optional
+        The system is the user's own, from Python, and no value chooses another: its parameters as it came.
     """
     changes: dict[str, Any] = {}
     system = scene.system
-    if not given and {"system", "texts"} & set(changed):
+    if given is None and {"system", "texts"} & set(changed):
         system = changes["system"] = chosen_system(values)
-    elif given or values["system"] == NORMAL:
+    elif given is not None or values["system"] == NORMAL:
         changes.update((name, values[name]) for name in changed if name in COEFFICIENTS)
     if "parameters" in changed and isinstance(system, (ELinear, System)):
+        # a parameter without a value is as the system came with it
+        first = parameters_of(values["system"], values["texts"]) if given is None else given
         own = dict(system.parameters)
-        changes.update((name, v) for name, v in values["parameters"].items() if name in own and own[name] != v)
+        wanted = {**first, **values["parameters"]}
+        changes.update((name, v) for name, v in wanted.items() if name in own and own[name] != v)
     if "system" in changes or set(SLOW_CONTROLS) & set(changed):
         changes["z"] = position(values, system.m if isinstance(system, (ELinear, System)) else 0)
     if {"psi", "n", "psi_text"} & set(changed):

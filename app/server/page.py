@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import struct
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -19,7 +19,7 @@ from tornado.locks import Lock
 from tornado.web import RequestHandler
 from tornado.websocket import WebSocketClosedError
 
-from ..state.controls import ExplorerState
+from ..state.controls import ExplorerState, InputError
 from ..view import warmup
 from ..view.explorer import ExplorerView
 from ..view.markup import page_template
@@ -33,13 +33,23 @@ def session() -> ExplorerView:
     assert doc is not None  # Bokeh's server calls this with a document
     arguments = pn.state.session_args or {}
     query = {name: values[-1].decode("utf-8", "replace") for name, values in arguments.items() if values}
-    state, errors = ExplorerState.from_query(query)
-    view = ExplorerView(state, page=True, errors=tuple(errors))
+    view = opened(query)
     # The page says itself when the connection is lost, and loads itself again: see connection.js.
     doc.config.update(reconnect_session=False, notify_connection_status=False, notifications=None)
     doc.template = page_template()  # type: ignore[assignment]
     doc.template_variables["explorer_markup"] = view.page_markup
     return view
+
+
+def opened(query: Mapping[str, str]) -> ExplorerView:
+    """Return the explorer of an address, whatever it asks for."""
+    try:
+        state, errors = ExplorerState.from_query(query)
+        return ExplorerView(state, page=True, errors=tuple(errors))
+    except Exception:  # a visitor sees the explorer and a sentence; the log has the rest
+        logging.getLogger(__name__).exception("an address could not be opened")
+        sentence = "This address could not be opened, a fault of the program: here is the first portrait instead."
+        return ExplorerView(page=True, errors=(InputError("", sentence),))
 
 
 class _Parts:

@@ -17,3 +17,8 @@ SOLIDS = {"sphere": "Hemisphere", "stack": "Along z", "filippov": "Filippov"}
 #: Controls of the slow variables z1, z2, …
 SLOW_CONTROLS = ("z", "z2", "z3", "z4")
 MAX_TRAJECTORIES = 160
+#: What is drawn, as against how it is looked at: a portrait counts as changed once one of these is another.
+SETTING = (
+    "a", "b", "d", "f1", "f2", "system", "texts", "parameters", *SLOW_CONTROLS, "k1", "k2", "B1", "B2", "g0",
+    "psi", "n", "psi_text",
+)  # fmt: skip

@@ -105,10 +105,15 @@ def build(choice: str, texts: Mapping[str, str], parameters: Mapping[str, float]
         With the box and the column.
     """
     if choice in catalogue:
-        example = catalogue[choice]
-        return example.make(**{name: value for name, value in parameters.items() if name in example.ranges})
+        ranges = catalogue[choice].ranges
+        return _example(choice, tuple((name, value) for name, value in parameters.items() if name in ranges))
     made = _typed(choice, tuple(texts_of(choice, texts).items()))
     return made.evolve(**{name: value for name, value in parameters.items() if name in dict(made.parameters)})
+
+
+@lru_cache(maxsize=64)
+def _example(choice: str, parameters: tuple[tuple[str, float], ...]) -> System_:
+    return catalogue[choice].make(**dict(parameters))
 
 
 @lru_cache(maxsize=64)
@@ -184,6 +189,22 @@ def _own(boxes: Mapping[str, str], definitions: dict[str, str], parameters: dict
 def starting_z(choice: str) -> tuple[float, ...]:
     """Return where an example starts along Sigma; () is at 0."""
     return catalogue[choice].z if choice in catalogue else ()
+
+
+def has_atlas(choice: str) -> bool:
+    """Whether the atlas can be drawn of a choice as it opens: an e-linear system with two parameters."""
+    return choice == NORMAL or (choice in catalogue and isinstance(catalogue[choice].make(), ELinear))
+
+
+def parameters_of(choice: str, texts: Mapping[str, str]) -> dict[str, float]:
+    """Return the parameters of a choice as it opens; the normal form has none that go by that name.
+
+    Raises
+    ------
+    TextError
+        With the box and the column.
+    """
+    return {} if choice == NORMAL else dict(build(choice, texts, {}).parameters)
 
 
 def starting_launch(choice: str) -> tuple[tuple[float, ...], float]:

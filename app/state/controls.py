@@ -9,6 +9,8 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping
+from copy import deepcopy
+from functools import lru_cache
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
@@ -20,20 +22,20 @@ from codim2_core.psi.function import Psi
 
 from ..draw.layers import LAYERS, shown
 from .choices import AXES, MAX_TRAJECTORIES, OWN_AXIS, PANELS, SLOW_CONTROLS, SOLIDS
-from .chosen import NORMAL, starting_launch, starting_z, titles
+from .chosen import NORMAL, has_atlas, starting_launch, starting_z, titles
 from .launches import read_launches
-from .portraits import portraits
+from .portraits import portrait_keys, portraits
 
 MOST_ENTRIES = 16  # of a mapping that a browser sends
 LONGEST_TEXT = 2000
 
 
 class InputError(ValueError):
-    """A value that cannot be used, and the name of the control that holds it."""
+    """A value that cannot be used, the name of the control that holds it ("" if none does), and what was given."""
 
-    def __init__(self, control: str, message: str) -> None:
+    def __init__(self, control: str, message: str, given: Any = None) -> None:
         super().__init__(message)
-        self.control = control
+        self.control, self.given = control, given
 
 
 def _number(default: float, low: float, high: float, symbol: str, doc: str) -> Any:
@@ -118,7 +120,7 @@ class ExplorerState(param.Parameterized):
         Returns
         -------
         state, errors
-            Unknown names are ignored; a value that cannot be used keeps its default and is reported.
+            A value that cannot be used keeps its default and is reported; so are names that there are not.
         """
         pairs = parse_qsl(query, keep_blank_values=True) if isinstance(query, str) else list(query.items())
         good: dict[str, Any] = {}
@@ -129,27 +131,36 @@ class ExplorerState(param.Parameterized):
             try:
                 good[name] = clean(name, text)
             except InputError as error:
-                errors.append(error)
+                errors.append(InputError(error.control, str(error), text[:LONGEST_TEXT]))
+        unknown = [name[:20] for name, _ in pairs if name not in NAMES and not name.startswith("bokeh-")]
+        if unknown:
+            shown = ", ".join(map(repr, unknown[:3])) + (f" and {len(unknown) - 3} more" if len(unknown) > 3 else "")
+            errors.append(InputError("", f"The address names {shown}, which the explorer does not have: left out."))
         return cls.of(good), errors
 
     @classmethod
     def of(cls, values: Mapping[str, Any]) -> ExplorerState:
         """Return the state of some clean values: those of their preset, if they name one, and theirs over them."""
-        start = {**preset_values(values.get("preset")), **values}
-        choice = start.get("system", NORMAL)
-        if choice != NORMAL:
-            start = {**opening(choice), **start}
-        return cls(**start)
+        start = preset_values(values.get("preset"))
+        choice = values.get("system", start.get("system", NORMAL))
+        if choice != start.get("system", NORMAL):
+            start |= opening(choice)
+        return cls(**{**start, **values})
 
 
 def opening(choice: str) -> dict[str, Any]:
-    """Return what a choice of system brings: its first place on Sigma, its own parameters, a motion worth seeing."""
+    """Return what a choice of system brings: its first place on Sigma, its own parameters, a motion worth seeing.
+
+    And a panel that has something to show of it.
+    """
     z = (*starting_z(choice), *(0.0,) * len(SLOW_CONTROLS))
     launch, t_end = starting_launch(choice)
     slow = dict(zip(SLOW_CONTROLS, z, strict=False))
     across, up = axes_of(choice)
     motion = {"launch": ", ".join(f"{v:g}" for v in launch), "t_end": t_end}
-    return {"texts": {}, "parameters": {}, **slow, **motion, "drift": "z", "across": across, "up": up, "along": across}
+    axes = {"drift": "z", "across": across, "up": up, "along": across}
+    panel = "atlas" if has_atlas(choice) else "numbers"
+    return {"texts": {}, "parameters": {}, **slow, **motion, **axes, "panel": panel}
 
 
 def axes_of(choice: str) -> tuple[str, str]:
@@ -162,9 +173,23 @@ def axes_of(choice: str) -> tuple[str, str]:
     return "z", next((OWN_AXIS + name for name in example.ranges), "n")
 
 
+@lru_cache(maxsize=256)
+def _complete(key: str) -> dict[str, Any]:
+    own = next(portrait["values"] for portrait in portraits() if portrait["key"] == key)
+    return {**first_values(), **opening(own["system"]), **own, "preset": key}
+
+
 def preset_values(key: str | None) -> dict[str, Any]:
-    """Return the values of a portrait by its key; none if there is no such portrait."""
-    return next((portrait["values"] for portrait in portraits() if portrait["key"] == key), {})
+    """Return the values of a portrait by its key, every one: none is left over from what was open before.
+
+    There are none if there is no such portrait.
+    """
+    return deepcopy(_complete(key)) if key in portrait_keys() else {}
+
+
+def first_values() -> dict[str, Any]:
+    """Return every value as the explorer opens with it."""
+    return ExplorerState().values()
 
 
 def offer(name: str, options: Iterable[str]) -> None:
@@ -178,6 +203,9 @@ NAMES: tuple[str, ...] = tuple(
     if name != "name"  # declaration order; `name` is param's own
 )
 NUMBERS: tuple[str, ...] = tuple(name for name in NAMES if type(ExplorerState.param[name]) is param.Number)
+
+#: Controls that keep what was typed into them, also where it cannot be used.
+TYPED_IN = frozenset({*NUMBERS, "trajectories", "texts", "psi_text", "launch"})
 
 
 def clean(name: str, value: Any) -> Any:
@@ -211,14 +239,20 @@ def clean(name: str, value: Any) -> Any:
         listed = {"psi": psi_families.FAMILIES, "system": titles()}  # what has been registered is among them
         objects = listed.get(name, declared.objects)
         if value not in objects:
-            raise InputError(name, f"{declared.label}: {value!r} given; choose one of {', '.join(objects)}.")
+            allowed = ", ".join(objects)
+            raise InputError(name, f"{declared.label}: {str(value)[:40]!r} given; choose one of {allowed}.")
+        return str(value)
+    if name == "preset":
+        if value != "" and value not in portrait_keys():
+            some = ", ".join(list(portrait_keys())[:3])
+            raise InputError(name, f"Portrait: there is no {str(value)[:40]!r}; choose one such as {some}.")
         return str(value)
     if name == "layers":
         chosen = value.split(",") if isinstance(value, str) else list(value)
         chosen = [layer for layer in chosen if layer]
         unknown = [layer for layer in chosen if layer not in LAYERS]
         if unknown:
-            raise InputError(name, f"Layers: no layer {unknown[0]!r}; they are {', '.join(LAYERS)}.")
+            raise InputError(name, f"Layers: no layer {unknown[0][:40]!r}; they are {', '.join(LAYERS)}.")
         return chosen
     if name in ("along", "across", "up"):
         own = isinstance(value, str) and value.startswith(OWN_AXIS) and value.removeprefix(OWN_AXIS).isidentifier()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import KeysView
 from typing import Any
 
 from codim2_core.examples import catalogue
@@ -27,7 +28,10 @@ VIEWS: dict[str, dict[str, Any]] = {
 
 
 def portraits() -> list[dict[str, Any]]:
-    """Return one entry for each preset: key, group, title, the paper's label, note, and the values it sets."""
+    """Return one entry for each preset: key, group, title, the paper's label, note, and the values that are its own.
+
+    All that it sets is `controls.preset_values`.
+    """
     return [
         {
             "key": preset.name,
@@ -39,6 +43,11 @@ def portraits() -> list[dict[str, Any]]:
         }
         for preset in presets.values()
     ]
+
+
+def portrait_keys() -> KeysView[str]:
+    """Return the keys of all portraits."""
+    return presets.keys()
 
 
 def _values(preset: Preset) -> dict[str, Any]:

@@ -40,6 +40,9 @@ export class NumberControl {
     this.slider.value = value
   }
 
+  // Show a text that is no value.
+  show(text) { this.number.value = text }
+
   set(value) { this.place(value); this.number.value = plain(value) }
 
   say(sentence) { sayAt(this.box, sentence) }

@@ -22,14 +22,15 @@ function wire({model, view, root, plot}) {
 
   const change = (name, value) => {
     if (values[name] === value && !controls[name]?.box.classList.contains("bad")) return
-    // what is no number goes to the server for its sentence; pad and link keep the last good value
+    // what is no number goes to the server for its sentence; pad and address keep the last good value
     if (name in numbers && typeof value !== "number") { requests.set(name, value); return }
     values[name] = value
     requests.set(name, value)
     if (name in numbers) panels.draw(values)
-    if (config.presets[values.preset] && name in config.presets[values.preset].values) markChanged()
+    if (setting[name]) tell()
     keepLink()
   }
+  const setting = Object.fromEntries(config.setting.map((name) => [name, true]))
   const numbers = Object.fromEntries(config.numbers.map((name) => [name, true]))
 
   // A panel moves controls: {name: value}.
@@ -61,7 +62,7 @@ function wire({model, view, root, plot}) {
       if (config.locked.includes(name)) for (const input of box.querySelectorAll("input")) { input.disabled = true; input.title = "given by your system" }
     } else controls[name] = {box, say: (sentence) => sayAt(box, sentence), set: setters[name] ?? (() => {})}
   }
-  const systems = new SystemChooser(root, config, values, {change, place: (name, control) => { controls[name] = control }, normal: controls.z})
+  const systems = new SystemChooser(root, config, values, {change, setAll: (wanted) => setAll(wanted), place: (name, control) => { controls[name] = control }, normal: controls.z})
 
   const family = find("select.psi")
   const showFamily = () => {
@@ -69,8 +70,8 @@ function wire({model, view, root, plot}) {
     find(".for-custom").hidden = !config.families[values.psi].typed
   }
   family.addEventListener("change", () => {
-    if (config.families[family.value].typed) requests.set("psi_text", values.psi_text)
-    change("psi", family.value); showFamily()
+    setAll(config.families[family.value].typed ? {...systems.kept.psi, psi: family.value} : {psi: family.value})
+    tell()
   })
   controls.psi.set = (value) => { family.value = value; showFamily() }
   const text = controls.psi_text.box.querySelector("input")
@@ -81,7 +82,7 @@ function wire({model, view, root, plot}) {
   const showLayers = () => { for (const box of boxes) box.checked = values.layers.includes(box.value); picture.show(values.layers.filter((layer) => !hidden.includes(layer))); find(".outcome-key").hidden = !values.layers.includes("outcomes") }
   for (const box of boxes) box.addEventListener("change", () => { change("layers", boxes.filter((b) => b.checked).map((b) => b.value)); showLayers() })
 
-  // Set many controls at once: a portrait of the paper, or the first setting again.
+  // Set many controls at once.
   const setAll = (wanted) => {
     for (const [name, value] of Object.entries(wanted)) {
       if (config.locked.includes(name)) continue
@@ -89,24 +90,24 @@ function wire({model, view, root, plot}) {
       controls[name]?.set(value)
       requests.set(name, value)
     }
+    systems.set(values)
     showPanels(); showLayers(); keepLink()
   }
-  const portrait = find("select.preset"), note = find(".preset-note")
-  const tell = () => { const p = config.presets[values.preset]; note.textContent = p ? `${p.label}. ${p.note}` : "" }
-  const markChanged = () => {
-    const p = config.presets[values.preset]
-    const same = Object.entries(p.values).every(([name, value]) => values[name] === value)
-    note.textContent = same ? `${p.label}. ${p.note}` : `changed from ${p.label}`
+  // A portrait is every value, as is the first setting: nothing is left over from what was open before.
+  const open = (wanted) => {
+    systems.keep()
+    panels.forget()
+    setAll({...config.defaults, ...wanted}); tell(); picture.home(config.view)
   }
-  portrait.addEventListener("change", () => {
-    const p = config.presets[portrait.value]
-    if (p) setAll({...p.values, preset: portrait.value}); tell()
-  })
-  controls.preset.set = (value) => { portrait.value = value }
-  find(".reset").addEventListener("click", () => {
-    const {panel, across, up, along, zoom: _zoom, atlas_zoom, ...first} = config.defaults // what is open stays open
-    setAll(first); tell(); picture.home(config.view)
-  })
+  const portrait = find("select.preset"), note = find(".preset-note")
+  const tell = () => {
+    const p = config.presets[values.preset], whole = {...config.defaults, ...p?.values}
+    const same = config.setting.every((name) => JSON.stringify(values[name]) === JSON.stringify(whole[name]))
+    note.textContent = !p ? "" : same ? `${p.label}. ${p.note}` : `changed from ${p.label}`
+  }
+  portrait?.addEventListener("change", () => open(config.presets[portrait.value]?.values))
+  controls.preset.set = (value) => { if (portrait) portrait.value = value }
+  find(".reset").addEventListener("click", () => open({}))
   // Words on the orbit in hand: where it goes.
   const spoken = find(".orbit-words")
   let held = -1, quiet = null
@@ -164,7 +165,7 @@ function wire({model, view, root, plot}) {
     const fresh = Object.entries(given).filter(([name, value]) => !requests.holds(name) && JSON.stringify(values[name]) !== JSON.stringify(value))
     for (const [name, value] of fresh) { values[name] = value; controls[name]?.set(value) }
     if (fresh.some(([name]) => name === "parameters" || name === "texts")) systems.set(values)
-    if (fresh.length) { showPanels(); showLayers(); tell(); if (config.presets[values.preset]) markChanged(); keepLink() }
+    if (fresh.length) { showPanels(); showLayers(); tell(); keepLink() }
   }
 
   const busy = find(".busy")
@@ -172,15 +173,9 @@ function wire({model, view, root, plot}) {
   const apply = (buffer) => {
     const frame = readFrame(buffer)
     const {header} = frame
-    const errors = header.errors ?? {}
-    for (const [name, control] of Object.entries(controls)) {
-      if (name in errors) control.say(errors[name])
-      else if (control.box.classList.contains("bad") && !(name in requests.waiting)) control.say(null)
-    }
-    const general = Object.entries(errors).find(([name]) => !(name in controls))
-    banner(general ? general[1] : "")
     if (header.set) follow(header.set)
     systems.apply(frame)
+    sayErrors(header.errors ?? {})
     picture.apply(frame)
     if (header.launched) speak(header.launched)
     clearTimeout(restTimer)
@@ -189,7 +184,7 @@ function wire({model, view, root, plot}) {
     inspector.apply(header)
     for (const [name, symbol, low, high] of header.axes ?? []) { config.symbols[name] = symbol; config.ranges[name] = [low, high] }
     panels.apply(frame, late)
-    requests.arrived(header.id, errors, header.load)
+    requests.arrived(header.id, header.load)
     if ("id" in header) root.dataset.frame = header.id
     root.dataset.settled = requests.idle && header.ready !== false && !late.length
     if ("ready" in header) {
@@ -199,6 +194,14 @@ function wire({model, view, root, plot}) {
       if (!header.ready) warmTimer = setTimeout(() => requests.refresh(), 250)
     }
   }
+  // Each sentence stands beside its control; what has no place there, above the picture.
+  const sayErrors = (errors) => {
+    for (const [name, control] of Object.entries(controls)) {
+      if (name in errors) control.say(errors[name])
+      else if (control.box.classList.contains("bad") && !(name in requests.waiting)) control.say(null)
+    }
+    banner(Object.entries(errors).filter(([name]) => !controls[name]?.box.querySelector(".error")).map(([, sentence]) => sentence).join(" "))
+  }
   const banner = (sentence) => { const bar = find(".banner"); bar.hidden = !sentence; bar.textContent = sentence }
 
   new Connection(view.model.document, {
@@ -206,7 +209,10 @@ function wire({model, view, root, plot}) {
   })
   model.on("msg:custom", (event) => apply((event.data ?? event).frame))
   if (model.first) apply(model.first instanceof ArrayBuffer ? model.first : model.first.buffer ?? model.first)
-  for (const [name, sentence] of Object.entries(config.errors ?? {})) controls[name]?.say(sentence)
+  for (const [name, given] of Object.entries(config.refused)) {
+    if (name in numbers || name === "trajectories") controls[name].show(given)
+    else { values[name] = given; controls[name].set(given); systems.set(values) }
+  }
   paint(); showLayers(); showFamily(); tell(); showPanels()
   root.dataset.ready = "true"
   return {values, requests, picture, apply, plot}

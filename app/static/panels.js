@@ -21,8 +21,8 @@
 
 /**
  * A panel: `apply` is called with every frame, and the names of what in it is old; `draw` while the panel is open,
- * whenever values or frames change; `close` when another one is opened.
- * @typedef {{apply?: (frame: {header: any, blocks: any}, late: string[]) => void, draw?: (values: any) => void, close?: () => void}} Panel
+ * whenever values or frames change; `close` when another one is opened; `forget` when another portrait is.
+ * @typedef {{forget?: () => void, apply?: (frame: {header: any, blocks: any}, late: string[]) => void, draw?: (values: any) => void, close?: () => void}} Panel
  */
 
 /** @type {Record<string, (box: any, tools: Tools) => Panel>} */
@@ -79,6 +79,8 @@ export class Panels {
     for (const box of this.boxes) box.hidden = box.dataset.panel !== name
     this.draw(values)
   }
+
+  forget() { for (const panel of Object.values(this.made)) panel.forget?.() }
 
   draw(values) { this.made[this.open]?.draw?.(values) }
 

@@ -55,8 +55,8 @@ function screenClock() {
   }
 }
 
-// While the window is full only the newest value of each control is kept. A rejected value goes along with the next
-// request, since another control may have made it valid.
+// While the window is full only the newest value of each control is kept. (What the server has refused it keeps, and
+// tries again: another control may have made it valid.)
 export class Requests {
   /** @param {any} time  a clock of the same kind, for tests */
   constructor(send, onAsk, time = screenClock()) {
@@ -65,7 +65,6 @@ export class Requests {
     this.time = time
     this.window = new Window()
     this.waiting = {}
-    this.rejected = {}
     this.out = new Map() // number -> {set, at}, oldest first
     this.number = Math.floor(Math.random() * 1e12) // another browser that shows this view gets the replies too
     this.scheduled = false
@@ -77,7 +76,6 @@ export class Requests {
 
   set(name, value) {
     this.waiting[name] = value
-    delete this.rejected[name]
     this.onAsk()
     this.schedule()
   }
@@ -102,7 +100,7 @@ export class Requests {
 
   leave() {
     if (this.full || !this.wanted) return
-    const set = {...this.rejected, ...this.waiting}
+    const set = this.waiting
     this.waiting = {}
     this.number += 1
     const id = this.number
@@ -120,8 +118,8 @@ export class Requests {
     this.schedule()
   }
 
-  // Called when a reply has been applied; `errors` maps controls to sentences, `load` is the server's.
-  arrived(id, errors, load) {
+  // Called when a reply has been applied; `load` is the server's.
+  arrived(id, load) {
     const asked = this.out.get(id)
     if (!asked) return
     const now = this.time.now()
@@ -131,11 +129,6 @@ export class Requests {
       this.out.delete(earlier)
     }
     this.window.measured(now, now - asked.at, load)
-    this.rejected = {}
-    for (const [name, value] of Object.entries(asked.set)) {
-      const family = name === "psi" && ("psi_text" in errors || "n" in errors)
-      if ((name in errors || family) && !this.holds(name)) this.rejected[name] = value
-    }
     if (this.wanted) this.schedule()
   }
 }

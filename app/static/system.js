@@ -4,14 +4,16 @@ import {NumberControl, sayAt, slider} from "./controls.js"
 import {slowName} from "./words.js"
 
 export class SystemChooser {
-  // `change(name, value)` as everywhere; `place(name, control)` registers a control, by the name that errors use.
+  // `change(name, value)` and `setAll(values)` as everywhere; `place(name, control)` registers a control, by the name
+  // that errors use.
   // `normal` is the control of z of the normal form.
-  constructor(root, config, values, {change, place, normal}) {
+  constructor(root, config, values, {change, setAll, place, normal}) {
     this.box = root.querySelector(".system-box")
     this.root = root
     this.config = config
     this.values = values
     this.change = change
+    this.setAll = setAll
     this.place = place
     this.normal = normal
     this.find = (name) => this.box.querySelector(name)
@@ -19,13 +21,24 @@ export class SystemChooser {
     this.select?.addEventListener("change", () => this.choose(this.select.value))
     this.sliders = {}
     this.told = null
+    this.kept = {}
+    try { this.kept = config.page ? JSON.parse(sessionStorage.getItem("codim2-typed")) ?? {} : {} } catch { /* storage may be forbidden */ }
   }
 
   get choice() { return this.told?.choice ?? this.values.system }
 
+  // What was typed is there again when its system, or a Psi of one's own, is chosen again.
+  keep() {
+    if (this.config.boxes[this.values.system]) {
+      this.kept[this.values.system] = Object.fromEntries(TYPED.map((name) => [name, this.values[name]]))
+    }
+    if (this.config.families[this.values.psi]?.typed) this.kept.psi = {psi_text: this.values.psi_text}
+    try { if (this.config.page) sessionStorage.setItem("codim2-typed", JSON.stringify(this.kept)) } catch { /* as above */ }
+  }
+
   choose(choice) {
-    this.change("texts", {}); this.change("parameters", {})
-    this.change("system", choice)
+    this.keep()
+    this.setAll({texts: {}, parameters: {}, ...this.kept[choice], system: choice})
   }
 
   // What the server says of the system: its equations, parameters and slow variables.
@@ -46,9 +59,9 @@ export class SystemChooser {
 
   set(values) {
     for (const [name, control] of Object.entries(this.sliders)) control.set(values.parameters[name] ?? this.defaults[name])
-    for (const area of this.box.querySelectorAll("textarea")) {
-      const text = values.texts[area.dataset.box]
-      if (text !== undefined && text !== area.value) area.value = text
+    for (const {name, text} of this.config.boxes[this.choice] ?? []) {
+      const area = this.find(`textarea[data-box=${name}]`), wanted = values.texts[name] ?? text
+      if (area && area.value !== wanted) area.value = wanted
     }
   }
 
@@ -98,12 +111,12 @@ export class SystemChooser {
   makeSlow() {
     // z itself has a control among the coefficients
     const slow = this.told.slow.slice(0, 4).map((one, i) => ({...one, name: slowName(i)})).slice(this.told.coefficients ? 1 : 0)
-    const symbols = slow.map((one) => one.symbol).join()
-    if (symbols === this.symbols) return
-    this.symbols = symbols
+    if (this.told.coefficients) { this.place("z", this.normal); this.normal.set(this.values.z) }
+    const key = JSON.stringify(slow)
+    if (key === this.slow) return
+    this.slow = key
     const holder = this.root.querySelector(".slow-controls")
     holder.hidden = !slow.length
-    if (this.told.coefficients) this.place("z", this.normal)
     holder.querySelector(".sliders").innerHTML = slow.map((one) => slider(`slow-${one.name}`, one.symbol)).join("")
     slow.forEach((one) => {
       const box = holder.querySelector(`[data-control="slow-${one.name}"]`)
@@ -113,3 +126,5 @@ export class SystemChooser {
     })
   }
 }
+
+const TYPED = ["texts", "parameters", "z", "z2", "z3", "z4", "launch", "t_end"]

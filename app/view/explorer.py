@@ -57,27 +57,28 @@ class ExplorerView(JSComponent):
     ) -> None:
         self.state = ExplorerState() if state is None else state
         self._opened: dict[str, Any] = {}
-        self.frames = Frames(self.state, system, is_ready)
+        self.frames = Frames(self.state, system, is_ready, errors)
         super().__init__(
             picture=pn.pane.Bokeh(make_figure(), sizing_mode="stretch_both"),
             stylesheets=[] if page else [(STATIC / "notebook.css").read_text(encoding="utf-8")],
             sizing_mode="stretch_width",
-            **self._opening(page, errors),
+            **self._opening(page),
             **params,
         )
         self.state.param.watch(self._follow, list(NAMES))
 
-    def _opening(self, page: bool, errors: tuple[InputError, ...] = ()) -> dict[str, Any]:
+    def _opening(self, page: bool) -> dict[str, Any]:
         """Return what a browser starts from: the values of the controls, the first frame and the markup."""
         first = self.frames.answer({"all": True})
+        self.frames.publish()  # what cannot be drawn is not in the state
         self._opened = self.frames.values
         header, _ = unpack(first)
         settings = config(self.state, self.frames.locked)
         settings["page"] = page
-        settings["errors"] = {error.control: str(error) for error in errors} | header.get("errors", {})
-        self.page_markup = explorer_html(
-            self.state, _words(header, first, self.state.layers), ("system",) if self.frames.given else ()
-        )
+        settings["refused"] = self.frames.refused
+        given = self.frames.given is not None
+        words = _words(header, first, self.state.layers)
+        self.page_markup = explorer_html(self.state, words, ("system",) if given else ())
         return {"config": settings, "first": first, "markup": "" if page else self.page_markup}
 
     def get_root(self, doc: Any = None, comm: Any = None, preprocess: bool = True) -> Any:

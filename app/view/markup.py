@@ -16,9 +16,9 @@ from ..draw.layers import LAYERS, TRACES, looks, swatches, table
 from ..draw.theme import DISCS, HATCHES, RING, VIEW, custom_properties, themes
 from ..panels.registry import PANELS
 from ..slow_layers.outcomes import WORDS as OUTCOMES
-from ..state.choices import MAX_TRAJECTORIES, SLOW_CONTROLS
+from ..state.choices import MAX_TRAJECTORIES, SETTING, SLOW_CONTROLS
 from ..state.chosen import BOXES, titles
-from ..state.controls import NUMBERS, ExplorerState, slider_range
+from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values, slider_range
 from ..state.portraits import portraits
 from .bundle import bundle
 
@@ -47,7 +47,8 @@ def script() -> str:
 
 
 def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]:
-    """Return what the front end must know: controls, presets, defaults, colours."""
+    """Return what the front end must know: controls, presets (by what is other than the defaults), colours."""
+    first = first_values()
     return {
         "numbers": list(NUMBERS),
         "ranges": {name: list(state.param[name].softbounds) for name in NUMBERS},
@@ -55,7 +56,8 @@ def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]
         "docs": {name: state.param[name].doc for name in NUMBERS},
         "panels": {key: dict(panel.settings) for key, panel in PANELS.items()},
         "values": state.values(),
-        "defaults": ExplorerState().values(),
+        "defaults": first,
+        "setting": list(SETTING),
         "layers": table(),
         "traces": looks(TRACES),
         "families": {
@@ -66,12 +68,16 @@ def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]
             choice: [{"name": b.name, "label": b.label, "text": b.text, "lines": b.lines} for b in boxes]
             for choice, boxes in BOXES.items()
         },
-        "presets": {item["key"]: item for item in portraits()},
+        "presets": {item["key"]: {**item, "values": _differences(first, item["key"])} for item in portraits()},
         "themes": themes(),
         "measures": {"discs": DISCS, "ring": RING, "hatches": HATCHES},
         "view": VIEW,
         "locked": list(locked),
     }
+
+
+def _differences(first: Mapping[str, Any], key: str) -> dict[str, Any]:
+    return {name: value for name, value in preset_values(key).items() if value != first[name]}
 
 
 def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, locked: tuple[str, ...] = ()) -> str:

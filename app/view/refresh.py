@@ -6,7 +6,7 @@ nothing ever queues here.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from numpy.typing import NDArray
@@ -15,7 +15,8 @@ from param.parameterized import batch_call_watchers
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.coefficients import Coefficients
-from codim2_core.systems.typed import Frozen
+from codim2_core.systems.elinear import ELinear
+from codim2_core.systems.typed import Frozen, System
 
 from ..draw import glyphs
 from ..draw.layers import LAYERS
@@ -25,9 +26,10 @@ from ..frame.jobs import FAILURES, Jobs
 from ..frame.scenes import evolved, locked_controls, make_scene, settled
 from ..frame.sides import sides
 from ..panels import registry
+from ..panels.time import launch_of
 from ..state.choices import AXES
-from ..state.chosen import GIVEN, System_, describe
-from ..state.controls import ExplorerState, InputError, clean, preset_values
+from ..state.chosen import GIVEN, NORMAL, System_, describe
+from ..state.controls import NAMES, TYPED_IN, ExplorerState, InputError, clean, first_values, preset_values
 from .load import load
 
 #: Controls that are axes of the picture's parameters.
@@ -46,6 +48,8 @@ class Frames:
         Drawn instead of one that the controls choose.
     ready : callable, optional
         Says whether the compiled integrator is ready for this Psi and system; until then trajectories are left out.
+    errors : sequence of InputError
+        What the address asked for in vain, told with the first frames.
     """
 
     def __init__(
@@ -53,70 +57,114 @@ class Frames:
         state: ExplorerState,
         system: System_ | None = None,
         ready: Callable[[Psi, Any], bool] = lambda _psi, _system: True,
+        errors: Sequence[InputError] = (),
     ) -> None:
         self.state = state
-        self.values = state.values()
-        self.given = system is not None
-        self.scene = make_scene(self.values, system)
-        self.locked = locked_controls(self.scene, self.given)
+        self.given = None if system is None else dict(system.parameters)
+        self._system = system
+        #: What was asked for last and could not be drawn, by control, as it was given; asked for again with each frame.
+        self.refused: dict[str, Any] = {e.control: e.given for e in errors if e.control in TYPED_IN}
+        self._notices = [str(error) for error in errors if error.control not in TYPED_IN]
+        self._unpublished: dict[str, Any] = {}
+        self._begin(state.values())
+        self._notices += left_out(self.scene, self.values, self.given is not None)
+        self.locked = locked_controls(self.scene, self.given is not None)
         self.ready = ready
         self.jobs = Jobs()
         self._moved = "f1"  # the control moved last, along which a degenerate setting is looked at from both sides
-        self._unpublished: dict[str, Any] = {}
         self._sent: dict[str, Any] = {}
+
+    def _begin(self, wanted: Mapping[str, Any]) -> None:
+        """Start from these values or, where they have no scene, from those of their portrait or the first ones."""
+        try:
+            self.scene, self.values = make_scene(wanted, self._system), dict(wanted)
+        except FAILURES:
+            self.values = preset_values(wanted["preset"]) or first_values()
+            self.scene = make_scene(self.values, self._system)
+            self.refused |= {name: value for name, value in wanted.items() if value != self.values[name]}
+            self._unpublished |= {name: self.values[name] for name in self.refused}
 
     def answer(self, request: Mapping[str, Any]) -> bytes:
         """Return the frame for ``{"id": number, "set": {control: value}, "all", "rest": bool}``.
 
         ``all`` asks for every layer again, as a browser does that has just connected; ``rest`` says that no control
         is moving, so that there is time for what the open panel shows besides. A value that cannot be used, and a
-        computation that fails, leave the last good picture: the frame then holds only ``errors``, with the name of the
-        control and a sentence.
+        computation that fails, leave the last good picture: ``errors`` then holds the name of the control and a
+        sentence, in this frame and in all that follow until that control is given another value. Under the name ""
+        is what belongs to no control.
         """
-        identity = request.get("id", 0)
+        asked = request.get("set") or {}
         sent = {} if request.get("all") else self._sent
-        errors: dict[str, str] = {}
+        if asked:
+            self._notices = []
+        before = self.values
+        errors: dict[str, str] = {"": " ".join(self._notices)} if self._notices else {}
         good: dict[str, Any] = {}
-        for name, value in (request.get("set") or {}).items():
+        wanted, self.refused = {**self.refused, **asked}, {}
+        for name, value in wanted.items():
             try:
                 good[name] = clean(name, value)
             except InputError as error:
-                errors[error.control] = str(error)
+                self.refused[name], errors[error.control] = value, str(error)
         rest = bool(request.get("rest") or request.get("all"))
-        drawn = self._accept(good, sent, errors, rest)
-        if drawn is None and rest and good:
-            # the browser still lacks what was left out while the last good picture was moving
-            drawn = self._accept({}, sent, errors, rest)
-        if drawn is None:
-            return pack({"id": identity, "errors": errors, "load": load.measured()}, {})
-        header, blocks = drawn
-        return pack({"id": identity, "errors": errors, "load": load.measured(), **header}, blocks)
+        header, blocks = self._accept(good, sent, errors, rest) or ({}, {})
+        changed = {name: value for name, value in self.values.items() if value != before[name]}
+        if changed:
+            header["set"] = changed
+            self._unpublished.update(changed)
+        return pack({"id": request.get("id", 0), "errors": errors, "load": load.measured(), **header}, blocks)
 
     def _accept(
         self, good: Mapping[str, Any], sent: Mapping[str, Any], errors: dict[str, str], rest: bool
     ) -> tuple[dict[str, Any], Blocks] | None:
-        """Draw with all changes or, where that fails, with those that can be had one after the other."""
+        """Draw with all changes or, where that fails, with as many of them as can be had together."""
         try:
             return self._draw(good, sent, rest)
         except FAILURES as error:
-            if len(good) < 2:
-                errors[_culprit(error, next(iter(good), ""))] = str(error)
+            if not good:
+                errors[_culprit(error, "")] = str(error)
                 return None
-        kept: dict[str, Any] = {}
-        drawn = None
-        for name, value in good.items():
-            try:
-                drawn = self._draw({**kept, name: value}, sent, rest)
-                kept[name] = value
-            except FAILURES as error:
-                errors[_culprit(error, name)] = str(error)
+        had, failed = self._together(good, self._reach)
+        try:
+            drawn = self._draw(had, sent, rest)
+        except FAILURES:  # a scene there is, but it cannot be drawn: so each is tried to the end
+            had, failed = self._together(good, lambda changes: self._draw(changes, sent, False))
+            drawn = self._draw({}, sent, rest)
+        self.refused |= {name: good[name] for name in failed}
+        errors |= {_culprit(error, name): str(error) for name, error in failed.items()}
         return drawn
 
-    def _draw(self, changes: Mapping[str, Any], sent: Mapping[str, Any], rest: bool) -> tuple[dict[str, Any], Blocks]:
-        changes = changes if self.given else settled(self.values, changes)
+    def _together(
+        self, good: Mapping[str, Any], attempt: Callable[[Mapping[str, Any]], Any]
+    ) -> tuple[dict[str, Any], dict[str, Exception]]:
+        """Return the changes that can be had together, and why not the others: one may need another to come first."""
+        had: dict[str, Any] = {}
+        failed: dict[str, Exception] = {}
+        left = sorted(good, key=NAMES.index)
+        while left:
+            failed = {}
+            for name in left:
+                try:
+                    attempt({**had, name: good[name]})
+                    had[name] = good[name]
+                except FAILURES as error:
+                    failed[name] = error
+            if len(failed) == len(left):
+                break
+            left = list(failed)
+        return had, failed
+
+    def _reach(self, changes: Mapping[str, Any]) -> tuple[dict[str, Any], list[str], Scene]:
+        """Return the values after some changes, the names of those that are other than before, and their scene."""
+        if self.given is None:
+            changes = settled(self.values, changes)
         values = {**self.values, **changes}
         changed = [name for name in changes if values[name] != self.values[name]]
         scene = evolved(self.scene, values, [name for name in changed if name not in self.locked], self.given)
+        return values, changed, scene
+
+    def _draw(self, changes: Mapping[str, Any], sent: Mapping[str, Any], rest: bool) -> tuple[dict[str, Any], Blocks]:
+        values, changed, scene = self._reach(changes)
         ready = self.ready(scene.psi, scene.system)
         drawable = ready or scene.coefficients.typed is None  # all of a general system needs the compiler
         header: dict[str, Any] = {"ready": False}
@@ -131,16 +179,13 @@ class Frames:
         if drawable:
             registry.add(Draft(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked))
         self.scene, self.values, self._sent = scene, values, now_sent
-        if changed:
-            header["set"] = {name: values[name] for name in changed}
-            self._unpublished.update(header["set"])
         return header, blocks
 
     def _tell_system(
         self, header: dict[str, Any], scene: Scene, values: Mapping[str, Any], now: dict[str, Any]
     ) -> None:
         """Describe the system when its formulas are others than those that the browser has."""
-        choice = GIVEN if self.given else values["system"]
+        choice = values["system"] if self.given is None else GIVEN
         key = (choice, tuple(values["texts"].items()))
         if now.get("system") != key and not isinstance(scene.system, (Coefficients, Frozen)):
             now["system"] = key
@@ -172,18 +217,42 @@ class Frames:
         wanted = {name: value for name, value in changes.items() if value != self.values[name]}
         if not wanted:
             return None
-        wanted = {**preset_values(wanted.get("preset")), **wanted}
-        refused = [name for name in wanted if name in self.locked and name in changes]
+        refused = [name for name in wanted if name in self.locked]
+        before = self.values
         try:
             if refused:
                 raise ValueError(f"{', '.join(refused)}: given by your system, and so not to be set.")
+            clean("preset", wanted.get("preset", ""))
+            wanted = {**preset_values(wanted.get("preset")), **wanted}
             good = {name: clean(name, value) for name, value in wanted.items() if name not in self.locked}
             header, blocks = self._draw(good, self._sent, rest=False)
         except FAILURES as error:
             self._unpublished.update({name: self.values[name] for name in changes})
             self.publish()
             raise ValueError(str(error)) from error
+        self.refused = {name: value for name, value in self.refused.items() if name not in wanted}
+        header["set"] = {name: value for name, value in self.values.items() if value != before[name]}
+        self._unpublished.update(header["set"])
         return pack({"errors": {}, **header}, blocks)
+
+
+def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
+    """Say which parameters were given a value and are none of the system's, and that a motion cannot start."""
+    said = []
+    system = scene.system
+    if not isinstance(system, (ELinear, System)):
+        return said
+    own = () if values["system"] == NORMAL and not given else [name for name, _ in system.parameters]
+    unknown = [name for name in values["parameters"] if name not in own]
+    if unknown:
+        shown = ", ".join(name[:20] for name in unknown[:3])
+        there = f"it has {', '.join(own)}" if own else "it has none"
+        said.append(f"The system has no parameter {shown} ({there}): left out.")
+    try:
+        launch_of(values, system.m)
+    except InputError as error:
+        said.append(str(error))
+    return said
 
 
 def _culprit(error: Exception, name: str) -> str:

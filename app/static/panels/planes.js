@@ -22,7 +22,11 @@ class Planes {
     this.eigenChart = new Chart(this.find(".eigen-plane"), {aspect: (width) => Math.min(0.72 * width, 440)})
   }
 
+  // Another portrait has no past.
+  forget() { this.trail = [] }
+
   apply({header}) {
+    if (header.system) this.forget()
     if (header.critical) {
       const {label, kind, trace, determinant} = header.critical
       this.critical = label.map((words, i) => ({label: words, kind: kind[i], trace: trace[i], determinant: determinant[i]}))

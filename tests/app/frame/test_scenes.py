@@ -14,13 +14,13 @@ def values(**changes):
 
 def test_layers_and_preset_reach_no_computation():
     scene = make_scene(values())
-    assert evolved(scene, values(layers=[], preset="x"), ["layers", "preset"], given=False) is scene
+    assert evolved(scene, values(layers=[], preset="x"), ["layers", "preset"]) is scene
 
 
 def test_a_parameter_of_an_example_makes_no_new_system():
     start = values(system="ball_in_pool", z=4.0)
     scene = make_scene(start)
-    after = evolved(scene, {**start, "parameters": {"mu": 0.4}}, ["parameters"], given=False)
+    after = evolved(scene, {**start, "parameters": {"mu": 0.4}}, ["parameters"])
     assert after.system.a is scene.system.a  # nothing was read again
     assert after["equator"].lambda_rho == pytest.approx(c2.equator_equilibria(
         c2.examples.ball_in_pool(mu=0.4), (4.0, 0.0)).lambda_rho)  # fmt: skip
@@ -30,7 +30,7 @@ def test_coefficients_of_the_normal_form_do_not_reach_another_system():
     """Ball and turntable have parameters of their own, one of which may have the name of a coefficient."""
     start = values(system="unit_vector_control", z=1.0)
     scene = make_scene(start)
-    assert evolved(scene, {**start, "a": 3.0, "k1": 2.0}, ["a", "k1"], given=False) is scene
+    assert evolved(scene, {**start, "a": 3.0, "k1": 2.0}, ["a", "k1"]) is scene
 
 
 def test_another_system_starts_at_its_own_place_and_forgets_the_parameters():

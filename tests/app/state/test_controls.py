@@ -2,11 +2,13 @@ import math
 from urllib.parse import parse_qs
 
 import pytest
-from codim2_app.state.controls import NAMES, NUMBERS, ExplorerState, InputError, build_psi, clean
+from codim2_app.state.chosen import has_atlas, titles
+from codim2_app.state.controls import NAMES, NUMBERS, ExplorerState, InputError, build_psi, clean, preset_values
 from codim2_app.state.portraits import portraits
 from hypothesis import given
 from hypothesis import strategies as st
 
+KEYS = [item["key"] for item in portraits()]
 finite = st.floats(allow_nan=False, allow_infinity=False)
 
 
@@ -38,7 +40,8 @@ def test_query_with_bad_values_keeps_the_rest():
     state, errors = ExplorerState.from_query("a=nan&b=0.25&psi=none&unknown=3&trajectories=1e9&layers=rho,nothing")
     assert state.b == 0.25
     assert state.a == -2
-    assert [error.control for error in errors] == ["a", "psi", "trajectories", "layers"]
+    assert [error.control for error in errors] == ["a", "psi", "trajectories", "layers", ""]
+    assert "unknown" in str(errors[-1])
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf, "", "two", None, [1], "1e999"])
@@ -90,10 +93,34 @@ def test_a_link_may_name_a_system_and_opens_where_that_starts():
     assert state.launch == "9, 3, 9, 0"
 
 
-def test_presets_set_only_known_controls_to_allowed_values():
-    for portrait in portraits():
-        for name, value in portrait["values"].items():
-            assert clean(name, value) == value
+@pytest.mark.parametrize("key", KEYS)
+def test_a_portrait_is_every_value_and_its_link_is_the_same(key):
+    values = preset_values(key)
+    assert set(values) == set(NAMES)
+    assert {name: clean(name, value) for name, value in values.items()} == values
+    state, errors = ExplorerState.from_query(f"preset={key}")
+    assert (state.values(), errors) == (values, [])
+    assert ExplorerState.from_query(state.to_query())[0].values() == values
+
+
+def test_no_portrait_that_there_is_not():
+    with pytest.raises(InputError, match="case1-cm0"):
+        clean("preset", "case1-cm1")
+    state, errors = ExplorerState.from_query("preset=case1-cm1&a=-1")
+    assert (state.preset, state.a, [error.control for error in errors]) == ("", -1.0, ["preset"])
+    assert preset_values("case1-cm1") == preset_values("") == {}
+
+
+def test_what_is_taken_from_a_portrait_is_nobody_elses():
+    preset_values("attracting-repelling")["layers"].append("separatrices")
+    assert "separatrices" not in preset_values("attracting-repelling")["layers"]
+
+
+@pytest.mark.parametrize("choice", titles())
+def test_a_system_opens_on_a_panel_that_can_show_something(choice):
+    state, _ = ExplorerState.from_query(f"system={choice}")
+    assert (state.panel == "atlas") == has_atlas(choice)
+    assert ExplorerState.from_query(f"system={choice}&panel=time")[0].panel == "time"
 
 
 def test_a_link_may_name_a_portrait_and_change_it():

@@ -58,7 +58,7 @@ class World {
     this.arrivedLast = Math.max(this.arrivedLast, this.free + this.line + this.jitter())
     this.at(this.arrivedLast, () => {
       this.applied.push({id: request.id, value: request.set.f1, at: this.now, trip: this.now - sentAt, waited: begin - this.others - sentAt - this.line})
-      this.requests.arrived(request.id, {}, this.load ?? load)
+      this.requests.arrived(request.id, this.load ?? load)
     })
   }
 
@@ -150,23 +150,6 @@ test("values set while the window is full travel together, the newest of each", 
   requests.set("f2", 9)
   world.run(500)
   assert.deepEqual(world.asked.map(({set}) => set), [{f1: 1}, {f1: 4, f2: 9}])
-})
-
-test("a rejected value goes along with the next request, unless a newer one is on its way", () => {
-  const sent = []
-  const soon = []
-  const requests = new Requests((request) => sent.push(request), () => {}, {now: () => 0, soon: (go) => soon.push(go), after: () => 0, cancel: () => {}})
-  const next = () => soon.shift()()
-  requests.set("a", "x")
-  next()
-  requests.arrived(sent[0].id, {a: "no number"}, 0)
-  requests.set("d", 1)
-  next()
-  assert.deepEqual(sent[1].set, {a: "x", d: 1})
-  requests.arrived(sent[1].id, {a: "no number"}, 0)
-  requests.set("a", 2)
-  next()
-  assert.deepEqual(sent[2].set, {a: 2})
 })
 
 test("a lost reply does not stop the explorer, and an older value does not come back over a newer one", () => {

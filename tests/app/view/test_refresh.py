@@ -3,7 +3,8 @@ import math
 import pytest
 from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.packing import unpack
-from codim2_app.state.controls import ExplorerState
+from codim2_app.frame.scenes import evolved, make_scene, settled
+from codim2_app.state.controls import ExplorerState, first_values, preset_values
 from codim2_app.state.portraits import portraits
 from codim2_app.view.refresh import Frames
 
@@ -99,7 +100,7 @@ def test_one_bad_value_does_not_stop_the_others(frames):
 def test_bad_psi_text_is_named_and_recovers(frames):
     header, blocks = ask(frames, psi_text="1/(s", psi="custom")
     assert list(header["errors"]) == ["psi_text"]
-    assert blocks == set()
+    assert (frames.values["psi"], frames.values["psi_text"]) == ("custom", "1/(1+s)**2")  # the last good text
     header, blocks = ask(frames, psi_text="1/(1+s)", psi="custom")
     assert header["errors"] == {}
     assert "inside" in blocks
@@ -135,7 +136,7 @@ def test_values_that_are_drawn_already_are_no_news(frames):
 
 def test_a_portrait_from_python_brings_its_values(frames):
     header, _ = unpack(frames.follow({"preset": "case1-cm0", "f2": 0.1}))
-    values = next(item["values"] for item in portraits() if item["key"] == "case1-cm0")
+    values = preset_values("case1-cm0")
     assert {name: frames.values[name] for name in values} == {**values, "f2": 0.1}
     frames.publish()
     assert frames.state.a == values["a"]
@@ -149,6 +150,7 @@ def test_a_portrait_from_python_brings_its_values(frames):
         ({"a": 1e200}, "1e"),
         ({"psi": "custom", "psi_text": "1/(s"}, "s"),
         ({"n": "x"}, "number"),
+        ({"preset": "case1"}, "no 'case1'"),
     ],
 )
 def test_what_python_cannot_have_leaves_state_and_picture(frames, bad, says):
@@ -198,7 +200,7 @@ def test_a_general_system_that_is_not_compiled_yet_leaves_the_picture_and_shows_
 
 @pytest.mark.parametrize("portrait", portraits(), ids=lambda item: item["key"])
 def test_presets_draw_their_portrait(frames, portrait):
-    frames.answer({"set": portrait["values"]})
+    frames.answer({"set": preset_values(portrait["key"])})
     header, _ = unpack(frames.answer({"all": True}))
     case, name, kind = c2.presets[portrait["key"]].portrait
     assert (header["portrait"]["case"], header["portrait"]["name"]) == (case, name)
@@ -230,3 +232,132 @@ def test_a_new_custom_psi_is_compiled_in_the_background():
     while not is_ready(psi):
         assert time.monotonic() < deadline
         time.sleep(0.02)
+
+
+KEYS = [item["key"] for item in portraits()]
+INPUTS = ("plane", "slow", "psi", "inner seeds", "outer seeds", "time", "view", "pixel")
+
+
+def test_a_portrait_does_not_depend_on_what_was_open_before():
+    fresh = {key: (preset_values(key), make_scene(preset_values(key))) for key in KEYS}
+    fresh[""] = first_values(), make_scene(first_values())
+    for before, (values, scene) in fresh.items():
+        for key, (wanted, as_it_is) in fresh.items():
+            then = {**values, **settled(values, wanted)}
+            changed = [name for name in then if then[name] != values[name]]
+            reached = evolved(scene, then, changed)
+            assert then == wanted, (before, key)
+            assert reached.key(*INPUTS) == as_it_is.key(*INPUTS), (before, key)
+            assert (reached.system, reached.z) == (as_it_is.system, as_it_is.z), (before, key)
+
+
+def test_a_portrait_forgets_moved_parameters_and_whatever_else_was_set(frames):
+    ask(frames, **preset_values("ball-stick"))
+    ask(frames, parameters={"mu": 0.9}, B2=0.5, g0=1.0, atlas_zoom=2, trajectories=7, layers=["rho"], panel="time")
+    ask(frames, **preset_values("ball-slip"))
+    assert frames.values == preset_values("ball-slip")
+    assert frames.scene.system == c2.examples.ball_in_pool()
+
+
+REFUSED = [
+    ('system=own&texts={"U1":"-2*c %2B"}', "text:U1", "texts"),
+    ('system=own&texts={"U1":"-c %2B 1/z"}', "texts", "texts"),
+    ('system=typed&texts={"a":"1/z"}', "texts", "texts"),
+    ('system=own&texts={"U1":"' + "%2B".join(f"k{i}*c" for i in range(13)) + '"}', "text:U1", "texts"),
+    ("psi=custom&psi_text=1/s", "psi_text", "psi_text"),
+    ("psi=hill&n=-3", "n", "n"),
+    ("z=1e300", "z", "z"),
+    ("a=1e200", "a", "a"),
+    ("a=nan", "a", "a"),
+    ("preset=ball-stick&z=1e300", "z", "z"),
+    ('system=ball_in_pool&parameters={"mu":1e200}', "parameters", "parameters"),
+]
+
+
+@pytest.mark.parametrize(("query", "control", "name"), REFUSED, ids=[row[0][:30] for row in REFUSED])
+def test_a_link_that_cannot_be_drawn_draws_the_rest_and_says_what_not(query, control, name):
+    state, errors = ExplorerState.from_query(query)
+    given = next((e.given for e in errors), state.values()[name])
+    frames = Frames(state, errors=errors)
+    header, _ = unpack(frames.answer({"all": True}))
+    assert list(header["errors"]) == [control]
+    assert len(header["errors"][control]) < 600
+    assert "portrait" in header
+    assert frames.refused == {name: given}  # it is kept, for its box
+    for part in query.split("&"):  # and all else is as the link says
+        other, text = part.split("=", 1)
+        if other not in (name, "preset"):
+            assert frames.values[other] == text
+    frames.publish()
+    assert frames.state.values() == frames.values
+    header, _ = unpack(frames.answer({"set": {"B1": 0.5}}))  # it is still wrong
+    assert list(header["errors"]) == [control]
+    header, _ = unpack(frames.answer({"set": preset_values("case1-cm0")}))
+    assert header["errors"] == {}
+    assert frames.refused == {}
+
+
+@pytest.mark.parametrize(
+    ("query", "says"),
+    [
+        ("panel=nothing", "nothing"),
+        ("preset=case9", "case9"),
+        ("layers=rho,nothing", "nothing"),
+        ("unheard=3", "unheard"),
+        ("&".join(f"q{i}=1" for i in range(90)), "87 more"),
+        ('system=own&parameters={"gone":3}', "gone"),
+        ('parameters={"mu":3}', "it has none"),
+        ("launch=1,2", "Start"),
+        ("system=nothing", "nothing"),
+        ("solid=" + "x" * 5000, "xxx"),
+    ],
+)
+def test_what_a_link_asks_for_in_vain_is_said_until_something_is_set(query, says):
+    state, errors = ExplorerState.from_query(query)
+    frames = Frames(state, errors=errors)
+    header, _ = unpack(frames.answer({"all": True}))
+    assert says in header["errors"][""]
+    assert len(header["errors"][""]) < 400
+    header, _ = unpack(frames.answer({"rest": True}))
+    assert "" in header["errors"]
+    header, _ = unpack(frames.answer({"set": {"a": -1.0, "launch": "1, 1, 0"}}))
+    assert header["errors"] == {}
+
+
+def test_a_text_stays_wrong_until_it_is_mended(frames):
+    ask(frames, system="own")
+    header, _ = ask(frames, texts={"W": "foo + "})
+    assert list(header["errors"]) == ["text:W"]
+    for z in (0.1, 0.2, 0.3):
+        header, _ = ask(frames, z=z)
+        assert list(header["errors"]) == ["text:W"]
+        assert frames.values["z"] == z
+    header, _ = ask(frames, texts={"W": "foo"})
+    assert header["errors"] == {}
+    assert frames.scene.system.at((0.0,)).W((1.0, 0.0)).tolist() == [1.0]
+
+
+def test_what_is_refused_may_become_right_by_another_control(frames):
+    ask(frames, system="own")
+    header, _ = ask(frames, texts={"U1": "-c + sqrt(z - 1)"})
+    assert list(header["errors"]) == ["texts"]
+    header, _ = ask(frames, z=2.0)
+    assert header["errors"] == {}
+    assert frames.values["texts"] == {"U1": "-c + sqrt(z - 1)"}
+    header, _ = ask(frames, z=0.5)  # where it has no value
+    assert list(header["errors"]) == ["z"]
+    assert frames.values["z"] == 2.0
+
+
+def test_a_refused_text_does_not_keep_the_picture_from_coming_once_all_is_compiled():
+    ready = [False]
+    state, errors = ExplorerState.from_query('system=own&texts={"W":"foo %2B"}')
+    frames = Frames(state, ready=lambda _psi, _system: ready[0], errors=errors)
+    header, _ = unpack(frames.answer({"all": True}))
+    assert header["ready"] is False
+    header, _ = unpack(frames.answer({"id": 1}))
+    assert (header["ready"], list(header["errors"])) == (False, ["text:W"])
+    ready[0] = True
+    header, _ = unpack(frames.answer({"id": 2}))
+    assert (header["ready"], list(header["errors"])) == (True, ["text:W"])
+    assert "portrait" in header

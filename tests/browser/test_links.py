@@ -1,0 +1,138 @@
+"""What an address asks for: what cannot be had is told, and a portrait is the same however it was reached."""
+
+import json
+from io import BytesIO
+from urllib.parse import parse_qs, urlencode, urlparse
+
+import numpy as np
+import pytest
+from PIL import Image
+
+pytestmark = pytest.mark.browser
+
+WALK = ["ball-dynamic", "conics-4", "case3-n3", "attracting-repelling", "blowup"]
+
+
+@pytest.mark.parametrize(
+    ("values", "box", "kept", "says"),
+    [
+        ({"system": "own", "texts": json.dumps({"U1": "-2*c +"})}, "textarea[data-box=U1]", "-2*c +", "column 7"),
+        ({"psi": "custom", "psi_text": "1/s"}, "#c2-psi-text", "1/s", "s = 0"),
+        ({"psi": "hill", "n": "-3"}, "[data-control=n] .number", "-3", "-3"),
+        ({"z": "1e300"}, "[data-control=z] .number", "1e+300", "1e+300"),
+        ({"a": "two"}, "[data-control=a] .number", "two", "number"),
+    ],
+)
+def test_what_cannot_be_drawn_stays_in_its_box_with_a_sentence(open_page, values, box, kept, says):
+    page = open_page().open("?" + urlencode(values))
+    assert page.name()
+    assert page.find(box).input_value() == kept
+    sentences = page.find(".error:visible")
+    assert sentences.count() == 1
+    assert says in sentences.text_content()
+    # and it stays, whatever else is moved, also after loading once more
+    page.type("trajectories", "32")
+    assert says in page.find(".error:visible").text_content()
+    page.page.wait_for_timeout(400)
+    page.page.reload()
+    page.page.wait_for_selector(".codim2[data-ready]")
+    page.settle()
+    assert page.find("[data-control=trajectories] .number").input_value() == "32"
+    assert page.complaints == []
+
+
+@pytest.mark.parametrize("query", ["?panel=none", "?preset=none", "?layers=none", "?launch=none", "?none=1"])
+def test_what_belongs_to_no_box_is_told_above_the_picture(open_page, query):
+    page = open_page().open(query)
+    assert page.name() == "CM4"
+    assert "none" in page.find(".banner").text_content()
+    page.type("a", "-1.5")
+    assert not page.find(".banner").is_visible()
+
+
+def state(page, preset=""):
+    """The address, and every control as it is seen."""
+    page.page.wait_for_function(f"new URLSearchParams(location.search).get('preset') === '{preset}'")
+    page.page.wait_for_timeout(400)
+    query = parse_qs(urlparse(page.page.url).query)
+    seen = page.page.evaluate("""() => [...document.querySelectorAll(".codim2 input, .codim2 select, .codim2 textarea")]
+        .filter((e) => e.offsetParent).map((e) => e.type === "checkbox" ? e.checked : e.value)""")
+    return query, seen, page.name(), page.find(".preset-note").text_content()
+
+
+def alike(first, second):
+    """Whether two screenshots differ in fewer than one pixel of two hundred: a layout may shift one by half a pixel."""
+    pixels = [np.asarray(Image.open(BytesIO(picture)).convert("RGB"), int)[:600, :600] for picture in (first, second)]
+    return np.mean(np.abs(pixels[0] - pixels[1]).max(axis=2) > 8) < 0.005
+
+
+def test_a_portrait_is_the_same_whatever_was_open_before(open_page):
+    page = open_page().open()
+    page.type("B2", "0.5").type("g0", "0.3")
+    page.find(".layer input[value=inside]").uncheck()
+    for key in WALK:
+        page.find("select.preset").select_option(key)
+        page.settle()
+        walked = state(page, key)
+        fresh = open_page().open(f"?preset={key}")
+        fresh.find("select.preset").select_option("case1-cm0")
+        fresh.settle().find("select.preset").select_option(key)  # so that the address is written
+        fresh.settle()
+        assert state(fresh, key) == walked
+    for key in WALK[-2:]:
+        fresh = open_page().open(f"?preset={key}")
+        page.find("select.preset").select_option(key)
+        page.settle()
+        for one in (page, fresh):
+            one.page.mouse.move(5, 5)
+            one.page.wait_for_timeout(300)
+        assert alike(fresh.picture(), page.picture())
+
+
+def test_one_owner_of_z(explorer):
+    explorer.find("select.preset").select_option("ball-dynamic")
+    explorer.settle()
+    explorer.find("select.preset").select_option("conics-4")
+    explorer.settle()
+    assert explorer.find("[data-control=z] .number").input_value() == "0"
+    explorer.find("#c2-z").press("ArrowRight")
+    explorer.settle()
+    assert explorer.name() == "CM4"
+    assert float(explorer.find("[data-control=z] .number").input_value()) < 0.1
+
+
+def test_reset_is_the_first_setting_whole(explorer):
+    explorer.find("select.preset").select_option("ball-dynamic")
+    explorer.settle()
+    explorer.find(".reset").click()
+    explorer.settle()
+    query, _, name, note = state(explorer)
+    assert (query["panel"], query["z"], query["system"], name, note) == (["atlas"], ["0"], ["normal"], "CM4", "")
+    assert explorer.find(".tabs [aria-selected=true]").text_content() == "Atlas"
+
+
+def test_a_portrait_does_not_destroy_what_was_typed(explorer):
+    choose = explorer.find(".system-box select").select_option
+    choose("own")
+    explorer.settle().find("textarea[data-box=W]").fill("foo + ")
+    explorer.settle().find("textarea[data-box=U1]").fill("-q*c")
+    explorer.settle()
+    explorer.find("[data-control=slow-z] input[type=range]").press("ArrowRight")
+    explorer.settle()
+    assert "column" in explorer.find("[data-box=W] .error").text_content()  # still wrong, and still said
+    explorer.find("select.preset").select_option("case1-cm0")
+    explorer.settle()
+    assert explorer.name() == "CM0"
+    assert explorer.find(".error:visible").count() == 0
+    explorer.page.wait_for_timeout(400)
+    explorer.page.reload()
+    explorer.page.wait_for_selector(".codim2[data-ready]")
+    explorer.settle()
+    choose("own")
+    explorer.settle()
+    assert explorer.find("textarea[data-box=U1]").input_value() == "-q*c"
+    assert explorer.find("textarea[data-box=W]").input_value() == "foo + "
+    assert "column" in explorer.find("[data-box=W] .error").text_content()
+    explorer.find("textarea[data-box=W]").fill("foo")
+    explorer.settle()
+    assert explorer.find(".error:visible").count() == 0
