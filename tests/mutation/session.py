@@ -26,6 +26,7 @@ PACKAGES = ("codim2_core", "codim2_app")
 FIRST = 5.0  # seconds of processor time that a mutant gets at least
 SURVIVORS = 60.0  # seconds of tests at most, the quickest first
 LONGEST = 20.0  # seconds of one test as it is: slower ones are left out (kernels that are not compiled)
+EVENTS = 300_000  # calls and returns of one test that are looked at
 MEMORY = 3 << 30
 UNFIT = 77  # exit code
 
@@ -170,13 +171,18 @@ class Room:
         folders = tuple(str(ROOT / folder) + os.sep for folder in ("codim2_core", "app"))
 
         def enter(frame: Any, event: str, _argument: object) -> None:
+            nonlocal seen
             if event == "call":
                 code = frame.f_code
                 if code.co_filename.startswith(folders):
                     entered.add((code.co_filename, code.co_qualname, code.co_firstlineno))
+            seen += 1
+            if seen > EVENTS:  # what comes later are more examples of the same
+                sys.setprofile(None)
 
         for name in self.items:
             entered: set[tuple[str, str, int]] = set()
+            seen = 0
             before = time.process_time()
             signal.setitimer(signal.ITIMER_PROF, LONGEST)
             sys.setprofile(enter)
