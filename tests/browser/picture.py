@@ -18,6 +18,7 @@ CELLS = (
     "view = codim2_app.explorer(mine, psi='tanh')\nview",
     "[(C.kind, *C.slow_flow.round(3)) for C in view.frames.scene['critical']]",
 )
+IDLE = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
 RUN = """async () => {
     const {shell, commands} = window.jupyterapp
     await shell.currentWidget.sessionContext.ready
@@ -47,7 +48,7 @@ def a_notebook(browser: Browser) -> None:
         write_notebook(Path(name) / "notebooks" / "system.ipynb", CELLS)
         page = browser.new_page(viewport={"width": 1300, "height": 1000}, color_scheme="light")
         page.goto(f"{address}/lab/tree/system.ipynb?reset")
-        page.wait_for_function("window.jupyterapp?.shell.currentWidget?.sessionContext", timeout=120_000)
+        page.wait_for_function(IDLE, timeout=120_000)
         page.evaluate(RUN)
         page.wait_for_function(SETTLED, timeout=120_000)
         page.wait_for_timeout(3000)

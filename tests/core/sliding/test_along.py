@@ -64,3 +64,52 @@ def test_what_cannot_be_varied_is_said(arguments, says):
     system = c2.ELinear(-1, 0, -1, g=("z",))
     with pytest.raises(ValueError, match=says):
         slow_portrait(system, c2.psi.constant(), arguments.get("span", (-1.0, 1.0)), axis=arguments.get("axis", 0))
+
+
+THREE = ("-c*(c - 1/2)*(c + 1/2)", "-s")  # nodes at c = -1/2 and 1/2, a saddle between them
+
+
+def test_each_of_several_critical_sets_has_its_branch_and_its_equilibrium():
+    """z' = c - z: on each set the slow flow has its own zero, where c is that of the set."""
+    found = slow_portrait(c2.System(U=THREE, W=("c - z",)), c2.psi.constant(), (-1.0, 1.0))
+    assert len(found.branches) == 3
+    for branch in found.branches:
+        np.testing.assert_allclose(branch.e, np.broadcast_to(branch.e[0], branch.e.shape), atol=1e-12)
+        np.testing.assert_allclose(branch.flow[:, 0], branch.e[:, 0] - branch.z, atol=1e-12)
+    points = [p for p in found.points if p.kind == "equilibrium"]
+    assert len(points) == len(found.points) == 3
+    np.testing.assert_allclose([p.z for p in points], [-0.5, 0.0, 0.5], atol=1e-12)
+    np.testing.assert_allclose([p.e for p in points], [(-0.5, 0.0), (0.0, 0.0), (0.5, 0.0)], atol=1e-12)
+    assert all(p.stable for p in points)
+
+
+def test_sets_that_cross_in_one_coordinate_keep_their_branches():
+    """The nodes go round each other: each branch stays on its own circle arc."""
+    turned = ("-(c*cos(2*z) + s*sin(2*z))*((c*cos(2*z) + s*sin(2*z))**2 - 1/4)", "c*sin(2*z) - s*cos(2*z)")
+    U = (f"({turned[0]})*cos(2*z) - ({turned[1]})*sin(2*z)", f"({turned[0]})*sin(2*z) + ({turned[1]})*cos(2*z)")
+    found = slow_portrait(c2.System(U=U, W=("1",)), c2.psi.constant(), (-1.5, 1.5))
+    nodes = [b for b in found.branches if b.kind == "stable node"]
+    assert len(nodes) == 2
+    for branch in nodes:
+        side = np.sign(branch.e[0] @ (np.cos(2 * branch.z[0]), np.sin(2 * branch.z[0])))
+        expected = 0.5 * side * np.stack([np.cos(2 * branch.z), np.sin(2 * branch.z)], axis=-1)
+        np.testing.assert_allclose(branch.e, expected, atol=1e-9)
+
+
+def test_the_set_that_changes_its_kind_is_told_from_one_that_does_not():
+    """J at (1/2, 0) is that of [[-1, -z], [z, -1]] with columns times 3/4 and 1: a focus for 3 z^2 > 1/16."""
+    system = c2.System(U=("1/4 - c**2 - z*s", "-s + z*(c - 1/2)"), W=("0",))
+    found = slow_portrait(system, c2.psi.constant(), (-0.3, 0.3))
+    points = [p for p in found.points if p.kind == "node-focus"]
+    assert len(points) == len(found.points) == 2
+    np.testing.assert_allclose([p.z for p in points], [-0.25 / np.sqrt(12) * 2, 0.25 / np.sqrt(12) * 2], atol=1e-7)
+    np.testing.assert_allclose([p.e for p in points], [(0.5, 0.0)] * 2, atol=1e-12)
+    assert ["stable focus" in p.sentence for p in points] == [False, True]
+    assert [b.kind for b in found.branches].count("saddle") == 3
+
+
+@pytest.mark.parametrize(("flow", "stable"), [("-z", [True]), ("z", [False]), ("z**2", []), ("0", [])])
+def test_an_equilibrium_at_a_value_that_is_looked_at(flow, stable):
+    found = slow_portrait(c2.ELinear(-1, 0, -2, g=(flow,)), c2.psi.constant(), (-1.0, 1.0))
+    assert [p.stable for p in found.points if p.kind == "equilibrium"] == stable
+    assert all(p.z == 0.0 for p in found.points)
