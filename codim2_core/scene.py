@@ -28,6 +28,7 @@ from .layer_problem.problem import (
     find_equator_cycle,
     find_location,
 )
+from .orbits.duration import drawn_duration
 from .orbits.seeds import checked_seeds, ring, structured_seeds
 from .orbits.trajectories import Trajectories, continuation, trajectories
 from .orbits.whole import Orbits
@@ -44,7 +45,6 @@ from .systems.coefficients import Coefficients
 from .systems.kinds import KINDS, AnySystem
 from .theorems.certificates import Certificate, certificates_of
 
-DRAWN_TIME = 40.0  # over the largest coefficient: slow directions, up to 40 times slower than that, are still drawn
 AROUND = 0.05  # radius of the seeds around an unstable critical set
 CAPTURE = 0.25  # of a pixel: where a drawn trajectory ends, so near its equilibrium that nobody can see the rest
 REMEMBERED = 8  # results kept for each layer: a few settings back and forth
@@ -97,8 +97,8 @@ class Scene:
     launch : (k, 2) points of the picture, optional
         Where orbits of the layer "launched" start: they are told where they go and where they come from.
     t_max : float, optional
-        Longest time T (dT = dt/rho) of each half of a trajectory. By default 40 over the largest coefficient, so that
-        a portrait does not depend on the unit of time; most halves end earlier, at an equilibrium or at `length`.
+        Longest time T (dT = dt/rho) of each half of a trajectory. By default so long that it ends at the slowest
+        attractor (`orbits.duration`); most halves end earlier, at an equilibrium or at `length`.
     length : float
         Length of each half at which it ends, in picture units.
     rtol, atol : float
@@ -256,11 +256,13 @@ def _structured(count: int, view: float) -> tuple[np.ndarray, np.ndarray]:
     return _sides(structured_seeds(count, view))
 
 
-def _stepping(scene: Scene) -> dict[str, Any]:
-    at = scene.coefficients
-    largest = at.size or 1.0
+def _stepping(scene: Scene, outside: bool = False) -> dict[str, Any]:
+    longest = scene.t_max
+    if longest is None:
+        problem = scene.problem
+        longest = drawn_duration(problem.at, problem.equator, () if outside else problem.critical)
     return {
-        "t_max": DRAWN_TIME / largest if scene.t_max is None else scene.t_max,
+        "t_max": longest,
         "length": scene.length,
         "rtol": scene.rtol,
         "atol": scene.atol,
@@ -271,7 +273,7 @@ def _stepping(scene: Scene) -> dict[str, Any]:
 
 
 def _orbits(scene: Scene, outside: bool) -> Orbits:
-    seeds, options = _start(scene, outside), _stepping(scene)
+    seeds, options = _start(scene, outside), _stepping(scene, outside)
     if not outside and scene.seeds is None and scene.count:
         # What leaves an unstable critical set (to a limit cycle, in Case III) starts nearer to it than any fixed seed.
         rings = [C.p + ring(AROUND, 6) for C in scene["critical"] if C.kind.startswith(("unstable", "centre"))]

@@ -1,0 +1,46 @@
+"""How long trajectories are drawn: until they have ended at the slowest attractor, in T (dT = dt/rho)."""
+
+from __future__ import annotations
+
+import math
+
+from ..layer_problem.critical import CriticalSet
+from ..layer_problem.equator import EquatorEquilibria
+from ..systems.frozen import AtZ
+
+LEAST = 40.0  # over the size of U: what is drawn in any case
+MOST = 10_000.0  # and at most: an orbit that creeps along the slow direction of a stiff node takes a step for about 4
+ARRIVAL = 10.0  # over the slowest rate: e^-10 of the way is left, a hundredth of a pixel
+
+
+def drawn_duration(at: AtZ, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ()) -> float:
+    """Longest time T of each half of a drawn trajectory.
+
+    A trajectory ends at a node or focus in about ten times the reciprocal of its slowest rate, which may be any
+    number of times the unit 1/max |U|: in Case III of the paper (sec:case3) 60 times. Time in which there is nothing to
+    see costs nothing: halves end when they arrive.
+
+    Parameters
+    ----------
+    at : AtZ
+    equator : EquatorEquilibria
+    critical : tuple of CriticalSet, optional
+        Left out for trajectories outside, which end on the equator or beyond.
+
+    Returns
+    -------
+    float
+        Between `LEAST` and `MOST` over the size of U; rates that would take longer are not waited for.
+    """
+    size = at.size or 1.0
+    rates = [
+        min(abs(float(radial)), abs(float(angular)))
+        for radial, angular in zip(equator.lambda_rho, equator.lambda_theta, strict=True)
+    ]
+    for C in critical:
+        if C.kind != "saddle":
+            # J is in the time of kappa_2, and dT = ebar dtau
+            height = 1.0 / math.hypot(1.0, float(C.x2[0]), float(C.x2[1]))
+            rates.append(float(abs(C.eigenvalues.real).min()) / height)
+    needed = max((ARRIVAL / rate for rate in rates if rate > 0.0), default=0.0)
+    return min(max(LEAST / size, needed), MOST / size)
