@@ -6,6 +6,7 @@ are put in, and what then is constant is folded, in about a microsecond: a slide
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -24,11 +25,15 @@ from .opcodes import (
     COSH,
     DIV,
     EXP,
+    HYPOT,
     LOG,
+    MAX,
+    MIN,
     MUL,
     NEG,
     NUM,
     POW,
+    SIGN,
     SIN,
     SINH,
     SLOT,
@@ -45,7 +50,7 @@ Key = tuple[tuple[Expression, ...], tuple[float, ...]]  # `Frozen.key`: rows of 
 _CODES = {
     **{"neg": NEG, "+": ADD, "-": SUB, "*": MUL, "/": DIV, "**": POW, "abs": ABS, "atan": ATAN},
     **{"sin": SIN, "cos": COS, "tan": TAN, "exp": EXP, "log": LOG, "sqrt": SQRT},
-    **{"tanh": TANH, "sinh": SINH, "cosh": COSH},
+    **{"tanh": TANH, "sinh": SINH, "cosh": COSH, "sign": SIGN, "min": MIN, "max": MAX},
 }
 
 
@@ -99,6 +104,26 @@ def _encoded(rows: tuple[Expression, ...]) -> Program:
     where: dict[tuple[Any, ...], int] = {}
     nodes: list[tuple[int, int, int, float]] = []
     roots = []
+
+    def enter(node: tuple[int, int, int, float]) -> int:
+        if node not in where:
+            where[node] = len(nodes)
+            nodes.append(node)
+        return where[node]
+
+    def norm(i: int) -> int | None:
+        """Entry of the root of entry i, if that is a sum of squares: it has a tip at 0, and bounded slopes."""
+        op, j, k, _ = nodes[i]
+        if (op == POW and nodes[k][0] == NUM and nodes[k][3] == 2.0) or (op == MUL and j == k):
+            return j
+        if op == MUL and nodes[j][0] == NUM and nodes[j][3] > 0.0:
+            within = norm(k)
+            return None if within is None else enter((MUL, enter((NUM, 0, 0, math.sqrt(nodes[j][3]))), within, 0.0))
+        if op != ADD:
+            return None
+        first, second = norm(j), norm(k)
+        return None if first is None or second is None else enter((HYPOT, first, second, 0.0))
+
     for row in rows:
         at: list[int] = []
         for op, *args in row._tape:
@@ -108,11 +133,13 @@ def _encoded(rows: tuple[Expression, ...]) -> Program:
                 name = args[0]
                 node = (VAR, PLANE.index(name), 0, 0.0) if name in PLANE else (SLOT, names[name], 0, 0.0)
             else:
+                rooted = op == "sqrt" or (op == "**" and row._tape[args[1]] == ("num", 0.5))
+                root = norm(at[args[0]]) if rooted else None
+                if root is not None:
+                    at.append(root if nodes[root][0] == HYPOT else enter((ABS, root, root, 0.0)))
+                    continue
                 node = (_CODES[op], at[args[0]], at[args[-1]], 0.0)
-            if node not in where:
-                where[node] = len(nodes)
-                nodes.append(node)
-            at.append(where[node])
+            at.append(enter(node))
         roots.append(at[-1])
     op, left, right, number = zip(*nodes, strict=True)
     first, second, third = (np.array(v, np.int64) for v in (op, left, right))

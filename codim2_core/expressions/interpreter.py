@@ -8,18 +8,23 @@ import numpy as np
 from numba import njit
 
 from .opcodes import (
+    ABS,
     ADD,
     ATAN,
     COS,
     COSH,
     DIV,
     EXP,
+    HYPOT,
     LOG,
+    MAX,
+    MIN,
     MUL,
     NEG,
     NUM,
     POW,
     POWI,
+    SIGN,
     SIN,
     SINH,
     SLOT,
@@ -68,6 +73,14 @@ def _value(k, a, b):
         return math.cosh(a)
     if k == ATAN:
         return math.atan(a)
+    if k == SIGN:
+        return 1.0 if a > 0.0 else -1.0 if a < 0.0 else a
+    if k == HYPOT:
+        return math.hypot(a, b)
+    if k == MIN:
+        return b if b < a or b != b else a
+    if k == MAX:
+        return b if b > a or b != b else a
     return abs(a)
 
 
@@ -117,10 +130,10 @@ def gradients(op, left, right, number, roots, seed, work, out):
         elif k == NEG:
             p = -1.0
         elif k == POWI:
-            p = 2.0 * a if b == 2.0 else b * math.pow(a, b - 1.0)
+            p = 2.0 * a if b == 2.0 else b * math.pow(a, b - 1.0) if b != 0.0 else 0.0
         elif k == POW:
-            p = b * math.pow(a, b - 1.0)
-            q = v * math.log(a) if b1 != 0.0 or b2 != 0.0 else 0.0
+            p = b * math.pow(a, b - 1.0) if b != 0.0 else 0.0
+            q = v * math.log(a) if v != 0.0 and (b1 != 0.0 or b2 != 0.0) else 0.0
         elif k == SIN:
             p = math.cos(a)
         elif k == COS:
@@ -141,12 +154,17 @@ def gradients(op, left, right, number, roots, seed, work, out):
             p = math.sinh(a)
         elif k == ATAN:
             p = 1.0 / (1.0 + a * a)
-        else:
-            p = 1.0 if a >= 0.0 else -1.0
+        elif k == HYPOT:  # at its tip the mean over all directions, 0
+            p, q = (a / v, b / v) if v != 0.0 else (0.0, 0.0)
+        elif k in (MIN, MAX):  # where both are equal the mean of the two slopes
+            p = 0.5 if a == b else 1.0 if (a < b) == (k == MIN) else 0.0
+            q = 1.0 - p
+        elif k == ABS:  # at its kink the mean of the two slopes
+            p = 1.0 if a > 0.0 else -1.0 if a < 0.0 else 0.0
         # a factor 0 stays 0 beside an infinite slope: sqrt of a constant 0 has no slope
         work[i, 0] = v
-        work[i, 1] = (p * a1 if a1 != 0.0 else 0.0) + (q * b1 if q != 0.0 else 0.0)
-        work[i, 2] = (p * a2 if a2 != 0.0 else 0.0) + (q * b2 if q != 0.0 else 0.0)
+        work[i, 1] = (p * a1 if a1 != 0.0 else 0.0) + (q * b1 if q != 0.0 and b1 != 0.0 else 0.0)
+        work[i, 2] = (p * a2 if a2 != 0.0 else 0.0) + (q * b2 if q != 0.0 and b2 != 0.0 else 0.0)
     for r in range(len(roots)):
         for j in range(3):
             out[r, j] = work[roots[r], j]

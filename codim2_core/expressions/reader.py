@@ -6,7 +6,7 @@ import difflib
 import keyword
 import re
 
-from .tape import CONSTANTS, FUNCTIONS, Builder, NotFiniteError, Tape, compact
+from .tape import CONSTANTS, FUNCTIONS, FUNCTIONS_OF_TWO, Builder, NotFiniteError, Tape, compact
 
 MOST_CHARACTERS = 1000
 MOST_OPERATIONS = 400
@@ -15,8 +15,12 @@ LARGEST_EXPONENT = 1000
 
 _TOKEN = re.compile(
     r"[ \t\r\n]*(?:(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
-    r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*)|(?P<op>\*\*|[-+*/^()]))"
+    r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*)|(?P<power>[⁰¹²³⁴⁵⁶⁷⁸⁹]+)|(?P<op>\*\*|[-+*/^(),|]))"
 )
+# What a text processor writes for what is meant; one character each, so that columns stay right.
+_MEANT = str.maketrans("−–—×·⋅∗÷", "---****/")
+_DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
+_CALLED = (*FUNCTIONS, *FUNCTIONS_OF_TWO)
 _LEFT_BINDING = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4, "^": 4}
 _UNARY_BINDING = 3  # -s^2 is -(s^2), and 2*-s and s^-2 are read too
 
@@ -53,10 +57,10 @@ def check_names(names: tuple[str, ...]) -> None:
     """Refuse names that the text or the generated source could mistake for something else."""
     for name in names:
         usable = isinstance(name, str) and re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name, re.ASCII) and len(name) <= 40
-        if not usable or name in FUNCTIONS or name == "math" or keyword.iskeyword(name):
+        if not usable or name in _CALLED or name == "math" or keyword.iskeyword(name):
             raise ValueError(
                 f"{name!r} cannot name a variable; use at most 40 ASCII letters, digits and _, beginning with a "
-                f"letter, and none of {', '.join(FUNCTIONS)}, math or a Python keyword."
+                f"letter, and none of {', '.join(_CALLED)}, math or a Python keyword."
             )
 
 
@@ -79,6 +83,8 @@ class _Reader:
         self.tokens: list[tuple[str, str, int]] = []
         self.at = 0
         self.depth = 0
+        self.bars = 0  # that are open
+        self.divided = False  # the operand of a / is being read
 
     def read(self) -> Tape:
         if len(self.text) > MOST_CHARACTERS:
@@ -88,6 +94,8 @@ class _Reader:
         kind, what, column = self.tokens[self.at]
         if what == ")":
             raise self.error(column, "this ) closes nothing", "remove it, or open with ( before")
+        if what == ",":
+            raise self.error(column, "this , separates nothing", "write decimals with a point, such as 0.5")
         if kind != "end":
             raise self.juxtaposed(what, column)
         return compact(self.build.nodes, root)
@@ -97,7 +105,7 @@ class _Reader:
         start = max(0, column - 31)
         shown = ascii(self.text[start : start + 60])
         shown = ("..." if start else "") + shown + ("..." if len(self.text) > start + 60 else "")
-        allowed = f"numbers, {', '.join(words)}, + - * / ** ( ) and {' '.join(FUNCTIONS)}"
+        allowed = f"numbers, {', '.join(words)}, + - * / ** ( ) | | and {' '.join(_CALLED)}"
         return ExpressionError(
             f"cannot read {shown}: at column {column}, {what}. Allowed are {allowed}. Mend: {mend}.",
             self.text,
@@ -105,7 +113,7 @@ class _Reader:
         )
 
     def tokenise(self) -> None:
-        position, text = 0, self.text
+        position, text = 0, self.text.translate(_MEANT)
         while match := _TOKEN.match(text, position):
             kind = match.lastgroup or ""
             self.tokens.append((kind, match[kind], match.start(kind) + 1))
@@ -122,19 +130,17 @@ class _Reader:
             mend = "write decimals such as 0.5; a dot has no other use here"
         elif ch in "[]{}":
             mend = "group with ( and )"
-        elif ch == ",":
-            mend = "functions take one argument; write decimals with a point"
-        elif ch in "−–—":
-            mend = "type - for minus"
-        elif ch in "×·⋅∗":
-            mend = "type * for times"
-        elif ch in "⁰¹²³⁴⁵⁶⁷⁸⁹":
-            mend = "type powers as s**2"
-        elif ch in "=<>!&|~%@?:;":
+        elif ch in "θϑφϕ":
+            mend = self.angle() or "type plain ASCII"
+        elif ch in "=<>!&~%@?:;":
             mend = "write one formula, with arithmetic only"
         elif not " " <= ch <= "~":
             mend = "type plain ASCII"
         return self.error(column, f"the character {ch!a} has no meaning", mend)
+
+    def angle(self) -> str:
+        """Return what to write for an angle, where e = (c, s) is there; else nothing."""
+        return "write c for cos(theta) and s for sin(theta)" if {"c", "s"} <= {*self.names} else ""
 
     def juxtaposed(self, what: str, column: int) -> ExpressionError:
         before = self.tokens[self.at - 1][1]
@@ -156,17 +162,43 @@ class _Reader:
         while True:
             kind, op, column = self.tokens[self.at]
             strength = _LEFT_BINDING.get(op, 0) if kind == "op" else 0
+            if kind == "power":
+                strength = _LEFT_BINDING["**"]
+            elif self.multiplies(kind, op):
+                strength = _LEFT_BINDING["*"]
+                if strength <= binding and self.divided:
+                    raise self.error(column, "a product without * follows a /", "write (1/2)*c, or 1/(2*c)")
             if strength <= binding:
                 break
+            if kind == "power":
+                self.at += 1
+                power = self.build.number(float(op.translate(_DIGITS)))
+                self.check_exponent(power, column)
+                left = self.apply(column, "**", left, power)
+                continue
+            if self.multiplies(kind, op):
+                left = self.apply(column, "*", left, self.expression(strength))
+                continue
             self.at += 1
             if op in ("**", "^"):
                 right = self.expression(_UNARY_BINDING)  # from the right: s^2^3 is s^(2^3)
                 self.check_exponent(right, column)
                 left = self.apply(column, "**", left, right)
             else:
-                left = self.apply(column, op, left, self.expression(strength))
+                outer, self.divided = self.divided, op == "/"
+                right = self.expression(strength)
+                self.divided = outer
+                left = self.apply(column, op, left, right)
         self.depth -= 1
         return left
+
+    def multiplies(self, kind: str, what: str) -> bool:
+        """Whether the next token begins a factor, with no operator before it: 2c, 2(c + s), (c + s)c, 2|c|."""
+        before, last, _ = self.tokens[self.at - 1]
+        opens = kind == "name" or what == "(" or (what == "|" and not self.bars)
+        if before == "number" and what in ("e", "E"):  # 2e is half of 2e5
+            return False
+        return opens and (before == "number" or (last == ")" and kind != "number"))
 
     def operand(self) -> int:
         negative, signed = False, False
@@ -188,6 +220,8 @@ class _Reader:
             return self.word(what, column)
         if what == "(":
             return self.closed(column)
+        if what == "|":
+            return self.modulus(column)
         found = "the text ends" if kind == "end" else f"there is {what!r}"
         raise self.error(column, f"{found} where a number, a name or ( should be", "complete the formula")
 
@@ -197,16 +231,16 @@ class _Reader:
             if opens:
                 raise self.error(column, f"{word} is a variable, not a function", f"write {word}*( for a product")
             return self.leaf(column, word)
-        if word in FUNCTIONS:
+        if word in _CALLED:
             if not opens:
                 raise self.error(column, f"the function {word} has no argument in parentheses", f"write {word}(...)")
-            column_inside = self.tokens[self.at][2]
-            self.at += 1
-            return self.apply(column, word, self.closed(column_inside))
+            return self.called(word, column)
         if word in CONSTANTS:
             return self.build.number(CONSTANTS[word])
-        near = difflib.get_close_matches(word[:30], [*self.names, *FUNCTIONS], 1)
+        near = difflib.get_close_matches(word[:30], [*self.names, *_CALLED], 1)
         mend = f"did you mean {near[0]}?" if near else "use one of the names above"
+        if word.lower() in ("theta", "phi"):
+            mend = self.angle() or mend
         raise self.error(column, f"the name {word[:30]!r} is not known here", mend)
 
     def leaf(self, column: int, name: str) -> int:
@@ -215,16 +249,53 @@ class _Reader:
         except ValueError:
             raise self.too_long(column) from None
 
+    def called(self, word: str, column: int) -> int:
+        """Read the arguments of a function: one, or two and more of min and max."""
+        opened = self.tokens[self.at][2]
+        self.at += 1
+        if word in FUNCTIONS:
+            return self.apply(column, word, self.closed(opened))
+        hidden, self.bars, outer, self.divided = self.bars, 0, self.divided, False
+        found, count = self.expression(0), 1
+        while self.tokens[self.at][1] == ",":
+            self.at += 1
+            found, count = self.apply(column, word, found, self.expression(0)), count + 1
+        self.bars, self.divided = hidden, outer
+        self.end(opened)
+        if count == 1:
+            raise self.error(column, f"{word} has one argument", f"write {word}(u, v)")
+        return found
+
+    def modulus(self, column: int) -> int:
+        """Read up to the bar that closes |u|."""
+        outer, self.divided = self.divided, False
+        self.bars += 1
+        inside = self.expression(0)
+        self.bars -= 1
+        self.divided = outer
+        if self.tokens[self.at][1] != "|":
+            raise self.error(column, "this | is never closed", "add | at its end, or write abs(...)")
+        self.at += 1
+        return self.apply(column, "abs", inside)
+
     def closed(self, column: int) -> int:
         """Read up to the matching parenthesis."""
+        hidden, self.bars, outer, self.divided = self.bars, 0, self.divided, False
         inside = self.expression(0)
+        self.bars, self.divided = hidden, outer
+        self.end(column)
+        return inside
+
+    def end(self, column: int) -> None:
+        """Read the parenthesis that closes the one at a column."""
         kind, what, here = self.tokens[self.at]
         if what != ")":
+            if what == ",":
+                raise self.error(here, "this , separates nothing", "functions take one argument, but for min and max")
             if kind != "end":
                 raise self.juxtaposed(what, here)
             raise self.error(column, "this ( is never closed", "add ) at its end")
         self.at += 1
-        return inside
 
     def too_long(self, column: int) -> ExpressionError:
         return self.error(column, f"there are more than {MOST_OPERATIONS} operations", "write a shorter formula")

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from .expression import Expression
-from .tape import Builder, Node
+from .tape import FUNCTIONS_OF_TWO, Builder, Node
 
 # Smooth wherever their argument is finite, however far a step strays.
 ENTIRE = frozenset({"num", "name", "neg", "+", "-", "*", "sin", "cos", "exp", "tanh", "sinh", "cosh", "atan"})
@@ -91,6 +91,10 @@ def _integer(node: Node) -> int | None:
 def _operation(op: str, args: list[str], exponent: int | None) -> str:
     if op == "neg":
         return f"-{args[0]}"
+    if op == "sign":
+        return f"1.0*({args[0]} > 0.0) - 1.0*({args[0]} < 0.0)"
+    if op in FUNCTIONS_OF_TWO:
+        return f"{op}({args[0]}, {args[1]})"
     if len(args) == 1:
         return f"math.{'fabs' if op == 'abs' else op}({args[0]})"
     if op != "**":

@@ -15,16 +15,36 @@ import numpy as np
 Node = tuple[Any, ...]  # ("num", 2.0), ("name", "s"), ("neg", i), ("sin", i), ("+", i, j), ...
 Tape = tuple[Node, ...]
 
-FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "sqrt", "tanh", "sinh", "cosh", "atan", "abs")
+FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "sqrt", "tanh", "sinh", "cosh", "atan", "abs", "sign")
+FUNCTIONS_OF_TWO = ("min", "max")
 BINARY = ("+", "-", "*", "/", "**")
 CONSTANTS = {"pi": math.pi, "e": math.e}
 MOST_NODES = 20_000
 
+
+def sign(u: float) -> float:
+    """-1, 0 or 1; NaN of NaN."""
+    return math.copysign(1.0, u) if u else abs(u)
+
+
+def least(u: float, v: float) -> float:
+    """Return the smaller one; NaN if either is."""
+    return u + v if u != u or v != v else min(u, v)
+
+
+def most(u: float, v: float) -> float:
+    """Return the larger one; NaN if either is."""
+    return u + v if u != u or v != v else max(u, v)
+
+
 # math.* is some ten times faster than NumPy on one float, but raises where IEEE arithmetic answers inf or nan;
 # a formula then goes through NumPy instead.
 SCALAR: dict[str, Callable[..., Any]] = {
-    **{name: getattr(math, name) for name in FUNCTIONS if name != "abs"},
+    **{name: getattr(math, name) for name in FUNCTIONS if name not in ("abs", "sign")},
     "abs": math.fabs,
+    "sign": sign,
+    "min": least,
+    "max": most,
     "neg": operator.neg,
     "+": operator.add,
     "-": operator.sub,
@@ -36,6 +56,8 @@ VECTOR: dict[str, Callable[..., Any]] = {
     **{name: getattr(np, name) for name in FUNCTIONS if name not in ("atan", "abs")},
     "atan": np.arctan,
     "abs": np.abs,
+    "min": np.minimum,
+    "max": np.maximum,
     "neg": np.negative,
     "+": np.add,
     "-": np.subtract,
@@ -208,8 +230,10 @@ def _outer_rate(build: Builder, op: str, k: int, u: int) -> int:
             return apply("cosh", u)
         case "cosh":
             return apply("sinh", u)
-        case _:  # abs: the sign of u, undefined at u = 0 as it should be
-            return apply("/", u, k)
+        case "sign":  # at the jump too: formulas that jump in e are refused (`systems.typed`)
+            return build.number(0.0)
+        case _:  # abs; at its kink the mean of the two slopes
+            return apply("sign", u)
 
 
 def _binary_rate(build: Builder, op: str, k: int, u: int, v: int, du: int, dv: int, zero: int) -> int:
@@ -219,6 +243,10 @@ def _binary_rate(build: Builder, op: str, k: int, u: int, v: int, du: int, dv: i
             return apply(op, du, dv)
         case "*":
             return apply("+", apply("*", du, v), apply("*", u, dv))
+        case "min" | "max":  # where both are equal the mean of the two slopes
+            less = apply("sign", apply("-", u, v) if op == "max" else apply("-", v, u))
+            mean, half = apply("+", du, dv), apply("-", du, dv)
+            return apply("*", build.number(0.5), apply("+", mean, apply("*", less, half)))
         case "/":
             first = apply("/", du, v)
             if dv == zero:

@@ -15,6 +15,8 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..expressions.kinks import kinks
+from ..expressions.names import PLANE
 from ..numerics.trigonometric import ROUNDING
 from ..psi.function import Psi
 from ..systems.coefficients import Affine
@@ -294,6 +296,10 @@ def sets_at(at: AtZ, psi: Psi, location: Location | None) -> tuple[CriticalSet, 
     return (_critical_set(location.e, parts, shift, at.W(location.e)),)
 
 
+BESIDE = 1e-6  # so far from a kink one of its sides is looked at
+_AROUND = np.stack([np.cos(np.arange(16) * math.pi / 8.0 + 0.1), np.sin(np.arange(16) * math.pi / 8.0 + 0.1)], axis=-1)
+
+
 def _general_sets(at: AtZ, psi: Psi) -> tuple[CriticalSet, ...]:
     found = disc_zeros(at.key)
     sets = []
@@ -308,8 +314,34 @@ def _general_sets(at: AtZ, psi: Psi) -> tuple[CriticalSet, ...]:
         if degenerate:
             # index 0: a saddle and a node have just met; +1 or -1: three critical sets have
             C = replace(C, determinant=0.0, kind="saddle-node" if index == 0 else "degenerate")
+        elif not _sides_agree(at, psi, C):
+            C = replace(C, kind="degenerate")
         sets.append(C)
     return tuple(sets)
+
+
+def _sides_agree(at: AtZ, psi: Psi, C: CriticalSet) -> bool:
+    """Whether C attracts, repels or is a saddle by the linearisation on every side of a kink that it may lie on."""
+    system = at.typed
+    if system is None or not kinks(system.U, PLANE):
+        return True
+    sides = at.DU(C.e + BESIDE * _AROUND)
+    middle = at.DU(C.e)
+    if abs(sides - middle).max() <= 1e-3 * abs(middle).max():
+        return True
+    c, s = C.e.tolist()
+    complement = (1.0 - math.hypot(c, s)) * (1.0 + math.hypot(c, s))
+    for side in sides:
+        index = int(np.sign(side[0, 0] * side[1, 1] - side[0, 1] * side[1, 0]))
+        kind = spectrum(linearisation_of(_rows(side), psi, (c, s), complement, index)[3])[3]
+        if kind.split()[0] != C.kind.split()[0]:
+            return False
+    return True
+
+
+def _rows(M: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    (m11, m12), (m21, m22) = M.tolist()
+    return m11, m12, m21, m22
 
 
 def _critical_set(e: tuple[float, float], parts: Parts, shift: int, slow: NDArray[np.float64]) -> CriticalSet:

@@ -111,6 +111,9 @@ def _searched(run: Program, size: float, degree: int | None, levels: int, most: 
     points = np.where(np.abs(points) < 1e-18, 0.0, points)
     rows = run.at(points)
     DU = rows[:, :, 1:]
+    undefined = np.logical_not(np.isfinite(DU).all(axis=(1, 2)))  # an infinite slope gives no index
+    DU, degenerate = np.where(undefined.reshape(-1, 1, 1), 0.0, DU), degenerate | undefined
+    proven = proven and not bool(undefined.any())
     gap = 1.0 - np.hypot(points[:, 0], points[:, 1])
     border = np.abs(gap) <= _blur(DU, degenerate, max(size, _size(run)))
     on_equator = tuple(sorted(math.atan2(s, c) % (2 * math.pi) for c, s in points[border].tolist()))

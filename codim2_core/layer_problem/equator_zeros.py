@@ -16,14 +16,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..expressions.arrays import Program, polynomial_degree, program
+from ..expressions.kinks import kinks
+from ..expressions.names import number_names
 from ..numerics.fourier_zeros import UNIT, Series, series, turn, zeros
+from ..numerics.sign_changes import refined, roots
 
 Array = NDArray[np.floating[Any]]
 
-MOST_ANGLES = 1024  # a Theta that needs more is not smooth: its zeros are then sign changes
+MOST_ANGLES = 1024  # a Theta that needs more is not smooth: its zeros are then looked for between its kinks,
 NET = 4096  # on a net of that many angles
+BESIDE = 1e-7  # so far from a kink the formula is taken to be smooth
 MOST_OF_A_TURN = 65_536  # for the integrals over a closed equator close to a saddle-node
 NEUTRAL = 2.0**-49
+FLAT = 1e-9  # of |U|: a smaller slope at a sign change of a Theta that is not smooth counts as none
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -110,8 +115,8 @@ def equator_zeros(key: Hashable) -> EquatorZeros:
     if f.vanishes:
         return _result(key, np.zeros((4, 0)), f, math.inf, all_directions=True)
     if not f.resolved:
-        theta = _sign_changes(run, "theta")
-        multiplicity, proven, distance = np.ones(len(theta), np.int64), False, math.inf
+        theta, multiplicity = _pieces(key, "theta", f.size)
+        proven, distance = False, math.inf
     else:
         found = zeros(f)
         theta, multiplicity, proven, distance = found.theta, found.multiplicity, found.proven, found.distance
@@ -124,6 +129,8 @@ def equator_zeros(key: Hashable) -> EquatorZeros:
     order = np.argsort(theta)
     theta, multiplicity = theta[order], multiplicity[order]
     Theta, rate, radial, radial_rate, _ = _components(run, theta)
+    if not f.resolved:  # Theta = t |t| and its like change sign with no slope
+        multiplicity = np.where((multiplicity == 1) & (np.abs(rate) <= FLAT * f.size), 3, multiplicity)
     slope = np.where(multiplicity == 1, rate, 0.0)
     # a zero is known to within the rounding of Theta over its slope, which moves lambda_rho by so much
     blur = np.where(slope != 0.0, np.abs(radial_rate) / np.where(slope == 0.0, 1.0, np.abs(slope)), 4.0)
@@ -157,7 +164,7 @@ def _result(
 def _certificate(f: Series, proven: bool) -> str:
     if not f.resolved:
         return (
-            f"Θ is not smooth: its zeros are its sign changes on a net of {NET} directions. No proof that "
+            f"Θ is not smooth: between its kinks its zeros are looked for on a net of {NET} directions. No proof that "
             "none was missed."
         )
     kind = (
@@ -225,25 +232,53 @@ def component_zeros(key: Hashable, kind: str) -> tuple[Array, NDArray[np.int64]]
     if f.vanishes or f.resolved:
         result = zeros(f)
         return result.theta, result.multiplicity
-    theta = _sign_changes(program(key), kind)
-    return theta, np.ones(len(theta), np.int64)
+    return _pieces(key, kind, f.size)
 
 
-def _sign_changes(run: Program, kind: str) -> Array:
-    """Zeros of a component that is not smooth: sign changes on a net, each bisected."""
+@lru_cache(maxsize=128)
+def _kinks(key: Hashable) -> NDArray[np.float64]:
+    """Angles at which U may have a kink on the equator."""
+    rows, numbers = key  # type: ignore[misc]
+    values = dict(zip(number_names(rows), numbers, strict=True))
+    sources = kinks(rows, ("c", "s"))
+    if not sources:
+        return np.zeros(0)
+    run = program((sources, tuple(values[name] for name in number_names(sources))))
+    net = 1e-3 + np.linspace(0.0, 2.0 * math.pi, NET // 4 + 1)
+    found: list[NDArray[np.float64]] = []
+    for i in range(len(sources)):
 
-    def value(theta: Array) -> Array:
-        return _by_name(_components(run, theta), kind)
+        def value(theta: NDArray[np.float64], i: int = i) -> NDArray[np.float64]:
+            return np.asarray(run.at(directions(theta))[:, i, 0], np.float64)
 
-    net = np.arange(NET + 1) * (2.0 * math.pi / NET) + 1e-3
-    values = value(net)
-    at = np.flatnonzero((values[:-1] > 0.0) != (values[1:] > 0.0))
-    low, high, sign = net[at], net[at + 1], values[at] > 0.0
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        same = (value(middle) > 0.0) == sign
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return 0.5 * (low + high)
+        at = roots(value, [net], [value(net)])
+        found += [*at.zeros, *at.touches]
+    return np.unique(np.concatenate(found) % (2.0 * math.pi))
+
+
+def _pieces(key: Hashable, kind: str, size: float) -> tuple[Array, NDArray[np.int64]]:
+    """Zeros of a component that is not smooth, and multiplicities (2 where it only touches), between its kinks."""
+    run, edges = program(key), _kinks(key)
+
+    def value(theta: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(_by_name(_components(run, theta), kind), np.float64)
+
+    if not len(edges):
+        edges = np.array([1e-3])
+    low, high = edges + BESIDE, np.append(edges[1:], edges[0] + 2.0 * math.pi) - BESIDE
+    grids = [
+        np.linspace(a, b, 33 + int(NET * (b - a) / (2.0 * math.pi))) for a, b in zip(low, high, strict=True) if a < b
+    ]
+    between = roots(value, grids, [value(grid) for grid in grids])
+    left, at, right = value(edges - BESIDE), value(edges), value(edges + BESIDE)
+    through = (left > 0.0) != (right > 0.0)
+    across = refined(value, edges[through] - BESIDE, edges[through] + BESIDE)[0]
+    touches = [*between.touches, edges[~through & (abs(at) <= 1e-13 * size)]]
+    theta = np.concatenate([*between.zeros, across, *touches]) % (2.0 * math.pi)
+    multiplicity = np.ones(len(theta), np.int64)
+    multiplicity[len(theta) - sum(map(len, touches)) :] = 2
+    order = np.argsort(theta)
+    return theta[order], multiplicity[order]
 
 
 @lru_cache(maxsize=128)

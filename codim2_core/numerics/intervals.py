@@ -17,12 +17,16 @@ from ..expressions.opcodes import (
     COSH,
     DIV,
     EXP,
+    HYPOT,
     LOG,
+    MAX,
+    MIN,
     MUL,
     NEG,
     NUM,
     POW,
     POWI,
+    SIGN,
     SIN,
     SINH,
     SQRT,
@@ -153,6 +157,8 @@ def _unary(k, a, b, v, w):
     if k == ATAN:
         lo, hi = power_positive(a, b, 2.0)
         return divide(1.0, 1.0, 1.0 + lo, 1.0 + hi)
+    if k == SIGN:
+        return (0.0, 0.0) if a > 0.0 or b < 0.0 or a == b else (-math.inf, math.inf)
     return (1.0 if a > 0.0 else -1.0), (-1.0 if b < 0.0 else 1.0)  # abs
 
 
@@ -183,9 +189,26 @@ def _range(k, a, b):
         return _hyperbolic_cosine(a, b)
     if k == ATAN:
         return _out(math.atan(a), math.atan(b))
+    if k == SIGN:
+        if a == b == 0.0:
+            return 0.0, 0.0
+        return (1.0 if a > 0.0 else -1.0), (-1.0 if b < 0.0 else 1.0)
+    return _modulus(a, b)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _modulus(a, b):
+    """Return |[a, b]|."""
     if a <= 0.0 <= b:
         return 0.0, max(-a, b)
     return min(abs(a), abs(b)), max(abs(a), abs(b))
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _slope_of_hypot(a, b, lo, hi):
+    """Bounds of u/h for u in [a, b] and h = hypot(u, v) in [lo, hi]: within [-1, 1], at the tip too."""
+    p, q = divide(a, b, lo, hi)
+    return max(p, -1.0), min(q, 1.0)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -245,6 +268,26 @@ def enclose(op, left, right, number, roots, c_lo, c_hi, s_lo, s_hi, work, out):
                 a, b = multiply(w[0], w[1], v[j], v[j + 1])
                 a, b = _out(u[j] - b, u[j + 1] - a)
                 w[j], w[j + 1] = divide(a, b, v[0], v[1])
+        elif k == HYPOT:
+            a, b = _modulus(u[0], u[1])
+            c, d = _modulus(v[0], v[1])
+            w[0], w[1] = _out(math.hypot(a, c), math.hypot(b, d))
+            w[0] = max(w[0], 0.0)
+            p, q = _slope_of_hypot(u[0], u[1], w[0], w[1])
+            lo, hi = _slope_of_hypot(v[0], v[1], w[0], w[1])
+            for j in (2, 4):
+                a, b = multiply(p, q, u[j], u[j + 1])
+                c, d = multiply(lo, hi, v[j], v[j + 1])
+                w[j], w[j + 1] = _out(a + c, b + d)
+        elif k in (MIN, MAX):
+            first, second = (u[1] < v[0], v[1] < u[0]) if k == MIN else (u[0] > v[1], v[0] > u[1])
+            w[0], w[1] = (min(u[0], v[0]), min(u[1], v[1])) if k == MIN else (max(u[0], v[0]), max(u[1], v[1]))
+            for j in (2, 4):
+                w[j], w[j + 1] = min(u[j], v[j]), max(u[j + 1], v[j + 1])
+                if first:
+                    w[j], w[j + 1] = u[j], u[j + 1]
+                elif second:
+                    w[j], w[j + 1] = v[j], v[j + 1]
         elif k == POW:
             w[0], w[1] = _power_general(u[0], u[1], v[0], v[1])
             if v[2] == v[3] == v[4] == v[5] == 0.0:
@@ -263,8 +306,10 @@ def enclose(op, left, right, number, roots, c_lo, c_hi, s_lo, s_hi, work, out):
         else:
             if k == POWI:
                 w[0], w[1] = power(u[0], u[1], number[i])
-                a, b = power(u[0], u[1], number[i] - 1.0)
-                a, b = multiply(a, b, number[i], number[i])
+                a, b = 0.0, 0.0
+                if number[i] != 0.0:
+                    a, b = power(u[0], u[1], number[i] - 1.0)
+                    a, b = multiply(a, b, number[i], number[i])
             else:
                 w[0], w[1] = _range(k, u[0], u[1])
                 a, b = _unary(k, u[0], u[1], w[0], w[1])

@@ -133,16 +133,18 @@ def lowest(grid: Array, y: Array) -> list[int]:
     size, positive = abs(y), y >= 0.0
     low = (size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]) & (size[:-2] > 0.0) & (size[2:] > 0.0)
     low &= (positive[1:-1] == positive[:-2]) & (positive[1:-1] == positive[2:])
-    found = []
-    for i in (1 + np.flatnonzero(low)).tolist():
-        (u, _, w), (p, q, r) = (grid[i - 1 : i + 2] - grid[i]).tolist(), size[i - 1 : i + 2].tolist()
-        left, right = (p - q) / u, (r - q) / w
-        bend, slope = (right - left) / (w - u), (left * w - right * u) / (w - u)
-        lowest = q - slope * slope / (4.0 * bend) if bend > 0.0 else q
-        # the parabola is trusted to within a part of its rise over the interval
-        if lowest <= 0.3 * (max(p, r) - q):
-            found.append(i)
-    return found
+    within = (1 + np.flatnonzero(low)).tolist()
+    return [i for i in within if _near_zero(grid[i - 1 : i + 2] - grid[i], size[i - 1 : i + 2])]
+
+
+def _near_zero(offsets: Array, sizes: Array) -> bool:
+    """Whether the parabola through three points, the middle one at offset 0, comes near zero."""
+    (u, _, w), (p, q, r) = offsets.tolist(), sizes.tolist()
+    left, right = (p - q) / u, (r - q) / w
+    bend, slope = (right - left) / (w - u), (left * w - right * u) / (w - u)
+    lowest = q - slope * slope / (4.0 * bend) if bend > 0.0 else q
+    # the parabola is trusted to within a part of its rise over the interval
+    return lowest <= 0.3 * (max(p, r) - q)
 
 
 def vertex(grid: Array, y: Array, i: int) -> float:
@@ -181,8 +183,12 @@ def _hidden(
                     continue
             if abs(y[j, at[j]]) <= floor[j]:
                 touching.append((owner[j], _lowest(function, float(x[j, at[j]]), grids[owner[j]])))
-            elif 0 < at[j] < len(_UNIT) - 1 and abs(y[j, at[j]]) < 0.5 * best[j]:
-                go_on.append(j)  # a minimum falls by more than half only if it comes near zero
+            elif 0 < at[j] < len(_UNIT) - 1 and (
+                # a minimum falls by more than half only if it comes near zero; or it lay beside a grid point before
+                abs(y[j, at[j]]) < 0.5 * best[j]
+                or _near_zero(x[j, at[j] - 1 : at[j] + 2] - x[j, at[j]], abs(y[j, at[j] - 1 : at[j] + 2]))
+            ):
+                go_on.append(j)
         if not go_on:
             break
         owner = [owner[j] for j in go_on]

@@ -17,6 +17,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..expressions.arrays import program
 from ..expressions.expression import Expression, ExpressionError, parse
 from ..expressions.names import MOST_SLOW_VARIABLES, PLANE, SLOW, number_names
 from ..expressions.reader import MOST_CHARACTERS
@@ -56,6 +57,13 @@ class System:
         Named sub-expressions, such as ``{"chi": "(1 + 2*z**2)/(1 + z**2)"}`` (the key may be ``"chi(z)"``); each may
         use the ones before it. In U, W both ``chi`` and ``chi(z)`` can be written.
 
+    Notes
+    -----
+    Formulas may have kinks in e (abs, min, max, ``sqrt(c**2 + s**2)``): everything is found for them too, but for
+    proofs that need smoothness, and where something lies on a kink, its derivatives are the mean of the two sides. A
+    formula must not jump in e, x or y: sign of these is refused, since a jump is a discontinuity set of codimension 1,
+    with a sliding flow of its own. sign of slow variables and parameters is a number like any other.
+
     Raises
     ------
     ValueError
@@ -94,6 +102,9 @@ class System:
         if len(W) > MOST_SLOW_VARIABLES:
             raise ValueError(f"W has {len(W)} rows; at most {MOST_SLOW_VARIABLES} slow variables are allowed.")
         fix(self, "W", tuple(read(text, f"W{i + 1}") for i, text in enumerate(W)))
+        for what, rows in (("U", self.U), ("W", self.W)):
+            for i, row in enumerate(rows):
+                _continuous(row, f"{what}{i + 1}")
         if len(self.numbers) > MOST_NUMBERS:
             raise ValueError(
                 f"the system reads {len(self.numbers)} parameters and slow variables; at most {MOST_NUMBERS}."
@@ -247,10 +258,12 @@ class Frozen:
         return self._vector(self.system.W, e, xy)
 
     def DU(self, e: ArrayLike) -> Array:
-        """``D_(c,s) U`` on Sigma for e of shape (..., 2); shape (..., 2, 2), exact."""
-        (u_c, u_s), (v_c, v_s) = self.system.jacobian
-        flat = self._vector((u_c, u_s, v_c, v_s), e, None)
-        return flat.reshape((*flat.shape[:-1], 2, 2))
+        """``D_(c,s) U`` on Sigma for e of shape (..., 2); shape (..., 2, 2), exact; on a kink the mean of its sides."""
+        e = np.asarray(e, float)
+        if self._matrix is not None:
+            return np.broadcast_to(self._matrix, (*e.shape[:-1], 2, 2))
+        rows = np.asarray(program(self.key).at(e.reshape(-1, 2)), np.float64)
+        return rows[:, :, 1:].reshape((*e.shape[:-1], 2, 2))
 
     @property
     def normal_form(self) -> Coefficients | None:
@@ -260,6 +273,14 @@ class Frozen:
         brought over, in the rotated axes: the result has m = 0.
         """
         return self._normal_form
+
+    @cached_property
+    def _matrix(self) -> Array | None:
+        """D_(c,s) U where it is the same everywhere: U is affine in c and s."""
+        entries = [entry for row in self.system.jacobian for entry in row]
+        if any(name in PLANE for entry in entries for name in entry.names):
+            return None
+        return self._vector(entries, (0.0, 0.0), None).reshape(2, 2)
 
     @cached_property
     def _normal_form(self) -> Coefficients | None:
@@ -277,10 +298,9 @@ class Frozen:
 
     @cached_property
     def _affine(self) -> Affine | None:
-        rows = self.system.jacobian
-        if self.reads_position or any(name in PLANE for row in rows for entry in row for name in entry.names):
+        if self.reads_position or self._matrix is None:
             return None
-        (a11, a12), (a21, a22) = self.DU((0.0, 0.0)).tolist()
+        (a11, a12), (a21, a22) = self._matrix.tolist()
         return (a11, a12, a21, a22, *self.U((0.0, 0.0)).tolist())
 
     @property
@@ -414,6 +434,37 @@ def _read(text: Text, what: str, parameters: tuple[str, ...], definitions: Seque
     except ExpressionError as error:
         raise ExpressionError(f"{what}: {error}", error.text, error.column) from error
     return _resolved(expression, names, definitions)
+
+
+def _continuous(row: Expression, what: str) -> None:
+    """Refuse a formula that jumps in c, s, x or y, or that writes e by x and y, which is undefined on Sigma."""
+    moves: list[bool] = []
+    tape = row.tape
+
+    def squared(i: int) -> str:
+        op, *args = tape[i]
+        square = (op == "**" and tape[args[1]] == ("num", 2.0)) or (op == "*" and args[0] == args[1])
+        return tape[args[0]][1] if square and tape[args[0]][0] == "name" else ""
+
+    def distance(i: int) -> bool:
+        """Whether entry i is the distance from Sigma, sqrt(x^2 + y^2)."""
+        op, *args = tape[i]
+        if op == "**" and tape[args[1]] == ("num", 0.5):
+            op = "sqrt"
+        return op == "sqrt" and tape[args[0]][0] == "+" and {squared(j) for j in tape[args[0]][1:]} == {"x", "y"}
+
+    for op, *args in tape:
+        moves.append(args[0] in PLANE if op == "name" else op != "num" and any(moves[i] for i in args))
+        if op == "sign" and moves[-1]:
+            raise ValueError(
+                f"{what} has the sign of a formula in c, s, x or y: it jumps there, on a discontinuity set of "
+                "codimension 1. Write abs(u) for u*sign(u), or a steep tanh(u/0.05)."
+            )
+        if op == "/" and distance(args[1]):
+            raise ValueError(
+                f"{what} divides by sqrt(x^2 + y^2), which is 0 on Σ; write c for x/sqrt(x^2 + y^2) and s for "
+                "y/sqrt(x^2 + y^2)."
+            )
 
 
 def _numeral(value: float, what: str) -> str:

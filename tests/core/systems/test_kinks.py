@@ -1,0 +1,142 @@
+"""U with kinks in e, as friction engineers write it: everything is found, and no NaN passes on silently."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import codim2_core as c2
+from codim2_core.expressions.arrays import program
+from codim2_core.expressions.expression import parse
+
+HILL = c2.psi.hill(2)
+CORNERS = c2.System(U=("-c-0.3*abs(s)", "-s"))
+KINKED = (
+    CORNERS,
+    c2.System(U=("-c-0.3|s|+0.2", "-s+0.1|c|")),
+    c2.System(U=("-c+0.5*abs(c-0.3)", "-s+0.2")),
+    c2.System(U=("-c+abs(abs(s)-0.5)", "-0.4s-0.1")),
+    c2.System(U=("-c-0.3*min(s, 0.2)", "-s")),
+    c2.System(U=("-max(c, 2c) - 0.2s", "-max(s, 0.5s) + 0.1")),
+    c2.System(U=("-c*(1 + 0.3*sqrt(c^2 + s^2)) + 0.1", "-s*(1 + 0.3*sqrt(c^2 + s^2))")),
+)
+
+
+def finite(*values):
+    return all(np.isfinite(np.asarray(value, float)).all() for value in values)
+
+
+@pytest.mark.parametrize("system", KINKED, ids=lambda system: ", ".join(u.text for u in system.U))
+def test_a_kinked_law_goes_through_every_public_function(system):
+    on = c2.equator_equilibria(system)
+    assert finite(on.theta, on.lambda_rho, on.lambda_theta)
+    for C in c2.critical_sets(system, HILL):
+        assert finite(C.e, C.p, C.jacobian, C.trace, C.determinant)
+        assert abs(system.at().U(C.e)).max() < 1e-12
+    assert c2.classify(system, HILL).name
+    for branch in c2.nullclines(system, HILL):
+        assert finite(branch.points)
+    c2.separatrices(system, HILL)
+    c2.limit_cycles(system, HILL)
+    c2.approach_outcomes(system, HILL)
+    limit = c2.simulate_nonsmooth(system, (1.0, 0.5), (0.0, 2.0), psi=HILL)
+    assert limit.phases[0].kind == "slip"
+    assert finite(limit.states)
+    near = c2.simulate(system, HILL, 1e-5, (1.0, 0.5), (0.0, 2.0))
+    np.testing.assert_allclose(near.states[-1], limit.states[-1], atol=1e-3)
+    for points in c2.trajectories(system, HILL, [(0.3, 0.4), (1.2, 0.5)]).points:
+        assert finite(points)
+
+
+def test_limit_directions_on_a_kink():
+    on = c2.equator_equilibria(CORNERS)  # Theta = 0.3 s|s|: changes its sign with no slope
+    np.testing.assert_allclose(on.theta, [0.0, math.pi], atol=1e-12)
+    assert on.multiplicity.tolist() == [3, 3]
+    on = c2.equator_equilibria(c2.System(U=("-c-0.3*min(s, 0.2)", "-s")))  # 0.3 s min(s, 0.2): only touches zero
+    np.testing.assert_allclose(on.theta, [0.0, math.pi], atol=1e-6)
+    assert on.multiplicity.tolist() == [2, 2]
+    on = c2.equator_equilibria(c2.System(U=("-c", "-s - |s|")))  # Theta = -c|s|: touches at its kinks, crosses beside
+    np.testing.assert_allclose(on.theta, [0.0, 0.5 * math.pi, math.pi, 1.5 * math.pi], atol=1e-9)
+    assert on.multiplicity.tolist() == [2, 1, 2, 1]
+
+
+@given(st.floats(0.05, 3.1), st.floats(0.05, 3.1))
+@settings(max_examples=30, deadline=None)
+def test_directions_of_a_piecewise_linear_law_are_those_of_its_pieces(k, f):
+    """U = (-c - k|s|, -f): Theta = -f c + s c + k s|s|, on either half circle a smooth law with known zeros."""
+    found = c2.equator_equilibria(c2.System(U=("-c - k*|s|", "-f"), parameters={"k": k, "f": f})).theta
+    expected = []
+    for side, inside in ((1.0, lambda t: math.sin(t) > 0), (-1.0, lambda t: math.sin(t) < 0)):
+        piece = c2.System(U=("-c - k*s", "-f"), parameters={"k": side * k, "f": f})
+        expected += [t for t in c2.equator_equilibria(piece).theta if inside(t)]
+    np.testing.assert_allclose(found, sorted(expected), atol=1e-9)
+
+
+def test_a_critical_set_on_a_kink_has_a_kind_only_where_its_sides_agree():
+    (C,) = c2.critical_sets(CORNERS, HILL)
+    assert C.kind == "stable node"
+    np.testing.assert_allclose(C.jacobian, -np.eye(2), atol=1e-12)
+    (C,) = c2.critical_sets(c2.System(U=("max(-c, 2c) + 0.1s", "-s")), HILL)  # repels to one side only
+    assert C.kind == "saddle-node"  # a stable node and a saddle, one on either side, that have met
+    (C,) = c2.critical_sets(c2.System(U=("0.2*abs(c) - 0.1c - s", "c - 0.1s")), c2.psi.constant())
+    assert C.kind == "degenerate"  # a focus that attracts on one side and repels on the other
+
+
+@pytest.mark.parametrize(
+    ("U", "J"),
+    [
+        (("-c-c**0*s+0.3*s**2", "-s+c"), [[-1.0, -1.0], [1.0, -1.0]]),
+        (("-c-c**k*s+0.3*s**2", "-s+c"), [[-1.0, -1.0], [1.0, -1.0]]),
+        (("-c*(0.2+0.1*exp(-sqrt(c**2+s**2)))-0.5*s", "-s*(0.2+0.1*exp(-sqrt(s*s+c*c)))+0.3*c"),
+         [[-0.3, -0.5], [0.3, -0.3]]),
+        (("-c*(0.2+0.1*exp(-(c**2+s**2)**0.5))-0.5*s", "-s*0.3+0.3*c"), [[-0.3, -0.5], [0.3, -0.3]]),
+        (("-c*(1+sqrt(c**2))", "-s*(1+sqrt(4*s**2))"), [[-1.0, 0.0], [0.0, -1.0]]),
+    ],
+)  # fmt: skip
+def test_derivatives_at_the_centre_are_no_nan(U, J):
+    system = c2.System(U=U, parameters={"k": 0.0})
+    (C,) = c2.critical_sets(system, c2.psi.constant())
+    np.testing.assert_allclose(C.jacobian, J, atol=1e-9)
+    assert C.kind.startswith("stable")
+    found = c2.classify(system, c2.psi.constant())
+    assert not [d.name for d in found.degeneracies if d.name in ("index mismatch", "degenerate critical set")]
+    np.testing.assert_allclose(system.at().DU((0.0, 0.0)), J, atol=1e-9)
+    c2.separatrices(system, c2.psi.constant())
+
+
+def test_an_infinite_slope_is_named_and_no_index():
+    found = c2.critical_sets(c2.System(U=("-s**2 - sqrt(abs(c))*0.5 + 0*c", "-s")), c2.psi.constant())
+    for C in found:
+        assert np.isfinite(C.jacobian).all()
+        assert C.kind in ("degenerate", "saddle-node")
+
+
+@given(
+    st.sampled_from(
+        ["abs(c)", "min(c, s)", "max(c, 0.2, s)", "sqrt(c**2 + s**2)", "abs(c)**1.5", "c**0*s", "sign(k)*c"]
+    ),
+    st.floats(-1, 1),
+    st.floats(-1, 1),
+)
+@settings(max_examples=60, deadline=None)
+def test_compiled_derivatives_are_those_of_the_formulas(text, c, s):
+    expression = parse(text, ("c", "s", "k"))
+    got = program(((expression,), (2.0,) if "k" in expression.names else ())).at(np.array([[c, s]]))[0, 0]
+    assert np.isfinite(got).all()
+    assert got[0] == pytest.approx(expression.evaluate({"c": c, "s": s, "k": 2.0}), rel=1e-12, abs=1e-15)
+
+
+def test_what_jumps_in_e_is_refused_and_what_jumps_in_z_is_not():
+    for U in (("-sign(c)", "-s"), ("-c", "-s + sign(x)"), ("sign(c + z) - c", "-s")):
+        with pytest.raises(ValueError, match="it jumps there, on a discontinuity set of codimension 1"):
+            c2.System(U=U)
+    with pytest.raises(ValueError, match="W1 has the sign"):
+        c2.System(U=("-c", "-s"), W=("sign(s)",))
+    system = c2.System(U=("-c + 0.2*sign(z)", "-s"))
+    assert c2.critical_sets(system, HILL, -3.0)[0].e.tolist() == [-0.2, 0.0]
+    with pytest.raises(ValueError, match="write c for x/sqrt"):
+        c2.System(U=("-x/sqrt(x^2+y^2)", "-s"))
+    with pytest.raises(ValueError, match="write c for x/sqrt"):
+        c2.System(U=("-c", "2*y/(x**2+y**2)**0.5"))
