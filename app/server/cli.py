@@ -11,6 +11,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from .commands import add_census, add_classify, add_presets
+from .stopping import stop_when_asked
 
 
 def parser() -> argparse.ArgumentParser:
@@ -70,6 +71,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         print(f"codim2: cannot listen on {chosen.address}:{chosen.port}: {error.strerror}. Give another --port.")
         return 1
+    stop_when_asked()
+    try:
+        _serve(chosen, origins)
+    except KeyboardInterrupt:
+        print("codim2: stopped", flush=True)
+    return 0
+
+
+def _serve(chosen: argparse.Namespace, origins: Sequence[str]) -> None:
+    """Serve until this process is interrupted."""
     from .page import make_server  # heavy, and not needed for --help
 
     server = make_server(chosen.port, chosen.address, origins, chosen.processes)
@@ -78,11 +89,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     server.start()
     if chosen.show:
         server.io_loop.add_callback(server.show, "/")
-    try:
-        server.io_loop.start()
-    except KeyboardInterrupt:
-        print("codim2: stopped")
-    return 0
+    server.io_loop.start()
 
 
 def _offer_lessons(folder: Path) -> bool:

@@ -15,8 +15,8 @@ from .jupyterlab import jupyterlab, write_notebook
 FOLDER = Path(__file__).parents[2] / ".readme"
 CELLS = (
     "import codim2_core as c2, codim2_app\nmine = c2.examples.nonunique_sliding()\n"
-    "view = codim2_app.explorer(mine, psi='tanh')\nview",
-    "[(C.kind, *C.slow_flow.round(3)) for C in view.frames.scene['critical']]",
+    "view = codim2_app.explorer(mine, psi='tanh', panel='numbers')\nview",
+    "[(C.kind, C.slow_flow.tolist()) for C in view.frames.scene['critical']]",
 )
 IDLE = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
 RUN = """async () => {
