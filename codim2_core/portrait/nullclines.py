@@ -16,6 +16,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -36,6 +37,7 @@ Curve = Callable[[Array], Array]  # a parameter in [0, 1] -> points of the close
 
 POINTS = 65  # most points of a branch
 PASSES = 8  # of redistribution; each resolves tighter bends, smooth branches need none or one
+SPIKE = 0.9  # |e| beyond which a nullcline that turns back is drawn from there on both sides
 SAG = 0.2 / 180.0  # in picture units: a polyline stays within 0.25 px of its curve at 180 px a unit
 # Clustered at both ends, where a nullcline leaves the origin and where Psi bends it into the equator.
 _GRID = 0.5 - 0.5 * np.cos(np.linspace(0.0, math.pi, POINTS))
@@ -160,27 +162,50 @@ def _conic(kind: Kind, U: Affine, ends: list[float]) -> list[Curve]:
         c, s = math.cos(0.5 * (left + right)), math.sin(0.5 * (left + right))
         if right - left < 1e-14 or abs(l1 * c + l2 * s) > abs(q11 * c * c + q12 * s * c + q22 * s * s):
             continue
-        if spans and spans[-1][1] == left:  # the conic only touches the unit circle there
-            spans[-1] = (spans[-1][0], right)
-        else:
-            spans.append((left, right))
-    if len(spans) > 1 and spans[0][0] + math.pi == spans[-1][1]:
-        spans[0] = (spans.pop()[0] - math.pi, spans[0][1])
-    return [_arc(span, (q11, q12, q22), (l1, l2)) for span in spans]
+        spans.append((left, right))  # where the conic touches the unit circle, two spans meet: both end there
+    return [_Arc(span, (q11, q12, q22), (l1, l2), bool(ends)) for span in spans]
 
 
-def _arc(span: tuple[float, float], Q: tuple[float, float, float], L: tuple[float, float]) -> Curve:
-    """Return the conic m = -L/Q over a span of directions."""
+@dataclass(frozen=True, slots=True)
+class _Arc:
+    """The conic m = -L/Q over a span of directions; `cut`: it ends on the unit circle, exactly.
 
-    def arc(t: Array) -> Array:
-        theta = span[0] + t * (span[1] - span[0])
+    A rounding of |e| from 1 to 1 - 1e-15 is 3 pixels of |p| where Psi falls off fast.
+    """
+
+    span: tuple[float, float]
+    Q: tuple[float, float, float]
+    L: tuple[float, float]
+    cut: bool
+
+    def _polar(self, t: Array) -> tuple[Array, Array, Array]:
+        theta = self.span[0] + t * (self.span[1] - self.span[0])
         c, s = np.cos(theta), np.sin(theta)
-        q = Q[0] * c * c + Q[1] * s * c + Q[2] * s * s
-        m = np.divide(-L[0] * c - L[1] * s, q, out=np.zeros_like(q), where=q != 0.0)
+        q = self.Q[0] * c * c + self.Q[1] * s * c + self.Q[2] * s * s
+        m = np.divide(-self.L[0] * c - self.L[1] * s, q, out=np.zeros_like(q), where=q != 0.0)
         m = np.minimum(np.maximum(m, -1.0), 1.0)
+        if self.cut:
+            m = np.where((t == 0.0) | (t == 1.0), np.copysign(1.0, m), m)
+        return m, c, s
+
+    def __call__(self, t: Array) -> Array:
+        m, c, s = self._polar(t)
         return np.stack([m * c, m * s], axis=-1)
 
-    return arc
+    def tips(self) -> list[float]:
+        """Parameters inside at which it comes nearest to the unit circle: Psi draws these out to spikes."""
+        t = np.linspace(0.0, 1.0, 129)
+        m = np.abs(self._polar(t)[0])
+        top = 1 + np.flatnonzero((m[1:-1] > SPIKE) & (m[1:-1] >= m[:-2]) & (m[1:-1] > m[2:]))
+        found = []
+        for i in top.tolist():
+            low, high = float(t[i - 1]), float(t[i + 1])
+            for _ in range(9):  # to a part of 8^-9 of a step: the square of that is lost in |e|
+                fine = np.linspace(low, high, 17)
+                k = min(max(int(np.argmax(np.abs(self._polar(fine)[0]))), 1), 15)
+                low, high = float(fine[k - 1]), float(fine[k + 1])
+            found.append(0.5 * (low + high))
+        return found
 
 
 @lru_cache(maxsize=16)
@@ -209,16 +234,25 @@ def _onto_disc(psi: Psi, e: Array) -> Array:
 def _drawn(curve: Curve, psi: Psi) -> Array:
     """Picture points along a curve of the e-disc, spread so that no segment sags by more than SAG.
 
-    At most POINTS, or for a traced curve so many for each half turn.
+    At most POINTS, or for a traced curve so many for each half turn, and for a conic between its tips.
     """
     if isinstance(curve, _Straight) and (psi.record.identity or curve.is_diameter):
         return _onto_disc(psi, np.stack([curve.start, curve.end]))  # Psi moves points along their radius
+    if isinstance(curve, _Arc) and not psi.record.identity:
+        knots = [0.0, *curve.tips(), 1.0]
+        parts = [_spread(curve, psi, low + (high - low) * _GRID) for low, high in pairwise(knots)]
+        return np.concatenate([parts[0], *(part[1:] for part in parts[1:])])
     count = POINTS
     if isinstance(curve, Traced):
         if curve.straight:
             return _drawn(_Straight(curve.points[0], curve.points[-1]), psi)
         count *= max(1, math.ceil(curve.turning / math.pi))
-    t = _GRID if count == POINTS else np.linspace(0.0, 1.0, count)
+    return _spread(curve, psi, _GRID if count == POINTS else np.linspace(0.0, 1.0, count))
+
+
+def _spread(curve: Curve, psi: Psi, t: Array) -> Array:
+    """Picture points along a curve from t[0] to t[-1], as many as of t, moved to where it bends."""
+    count = len(t)
     points = _onto_disc(psi, curve(t))
     for _ in range(PASSES):
         step = points[1:] - points[:-1]

@@ -21,7 +21,7 @@ from ..cycles.limit_cycles import LimitCycles, cycles_of
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.problem import LayerProblem
-from ..orbits.trajectories import Status, continuation, joined, trajectories
+from ..orbits.trajectories import Status, Trajectories, continuation, joined, trajectories
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
@@ -43,6 +43,9 @@ __all__ = ["Separatrices", "Separatrix", "separatrices"]
 Array = NDArray[np.float64]
 
 PIXEL = 1.0 / 180.0
+EXTENSIONS = 6  # times that a branch is followed on to where it ends, four times longer each
+NEAR_END = 0.02  # distance to the end that is drawn straight: followed further, an orbit would all but stand still
+ARC = 0.05  # radians between points of the equator
 NEAR_SIGMA = 1e-4  # rho at which a bent branch outside starts: its expansion is off by rho^2 there
 
 
@@ -227,15 +230,12 @@ def _inside(
         return []
     lines = joined(parts)
     branches = []
-    places_of = {critical_label(critical, k): C.p for k, C in enumerate(critical)}
     ends = endings(at, psi, lines, equator, critical, cycles, rtol=rtol, backward=backward)
+    places = {critical_label(critical, k): C.p for k, C in enumerate(critical)}
+    places |= {f"Q{k + 1}": np.array([math.cos(t), math.sin(t)]) for k, t in enumerate(equator.theta.tolist())}
+    tails = _tails(at, psi, lines, [places.get(ending.label) for ending in ends], rtol, pixel, backward)
     for i, ending in enumerate(ends):
-        places = [firsts[i][None, :], lines.points[i]]
-        if lines.status[i] is Status.EQUILIBRIUM and ending.label in places_of:
-            places.append(places_of[ending.label][None, :])
-        elif lines.status[i] is Status.ARRIVED and ending.angle is not None:
-            places.append(np.array([[math.cos(ending.angle), math.sin(ending.angle)]]))
-        line = np.concatenate(places)
+        line = np.concatenate([firsts[i][None, :], lines.points[i], *tails[i]])
         direction = "stable" if backward else "unstable"
         points = np.ascontiguousarray(line[::-1] if backward else line)
         connection = ending.sentence == CONNECTION
@@ -254,6 +254,61 @@ def _inside(
             )
         )
     return branches
+
+
+def _tails(
+    at: AtZ, psi: Psi, lines: Trajectories, ends: list[Array | None], rtol: float, pixel: float, backward: bool
+) -> list[list[Array]]:
+    """Points from where each line was left to the point where it ends; none where it ends at no point.
+
+    Lines that their time cut off, or that were captured at a distance, are followed to where they stop, in ever longer
+    times, and end where they come nearest to the point.
+    """
+    tails: list[list[Array]] = [[] for _ in ends]
+    left = np.array([points[-1] if len(points) else [math.nan, math.nan] for points in lines.points])
+    away = [math.inf if end is None else math.dist(end, p) for end, p in zip(ends, left, strict=True)]
+    open_ = [i for i, end in enumerate(ends) if end is not None and away[i] > pixel]
+    time = 100.0 / at.speed
+    for _ in range(EXTENSIONS):
+        # a point of the disc says nothing of an ebar below 1e-7
+        open_ = [i for i in open_ if float(lines.ends[i, 2]) > 1e-7 and np.hypot(*left[i]) < 1.0 - 1e-14]
+        if not open_:
+            break
+        fine: Any = {"rtol": rtol, "atol": 0.1 * rtol, "pixel": pixel, "capture": CAPTURE, "backward": backward}
+        on = trajectories(at, psi, left[open_], t_max=time, **fine)
+        still = []
+        for k, i in enumerate(open_):
+            points, end = on.points[k], ends[i]
+            assert end is not None
+            gaps = np.hypot(*(points - end).T)
+            nearest = int(np.argmin(gaps))
+            tails[i].append(points[1 : nearest + 1])
+            left[i] = points[nearest]
+            cut_off = on.status[k] in (Status.T_MAX, Status.STEP_LIMIT) and nearest == len(points) - 1
+            if cut_off and gaps[nearest] > pixel:
+                still.append(i)
+        open_ = still
+        time *= 4.0
+    for i, end in enumerate(ends):
+        if end is None:
+            continue
+        gap = math.dist(end, left[i])
+        if gap > pixel and min(np.hypot(*end), np.hypot(*left[i])) > 1.0 - 1e-7:
+            tails[i].append(_along_equator(at, left[i], end, backward))
+        elif gap <= NEAR_END:
+            tails[i].append(end[None, :])
+    return tails
+
+
+def _along_equator(at: AtZ, p: Array, end: Array, backward: bool) -> Array:
+    """Points of the equator from beside p to an equilibrium there, in the sense in which orbits move."""
+    first, last = math.atan2(p[1], p[0]), math.atan2(end[1], end[0])
+    U = at.U(p / np.hypot(*p))
+    turn = (last - first) % (2.0 * math.pi)
+    if (float(p[0] * U[1] - p[1] * U[0]) < 0.0) != backward:
+        turn -= 2.0 * math.pi
+    angles = first + turn * np.linspace(0.0, 1.0, math.ceil(abs(turn) / ARC) + 1)[1:]
+    return np.concatenate([np.stack([np.cos(angles), np.sin(angles)], axis=-1)[:-1], end[None, :]])
 
 
 def _outside_half_saddle(equator: EquatorEquilibria, i: int) -> bool:
