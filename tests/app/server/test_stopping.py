@@ -52,7 +52,8 @@ def test_work_under_way_does_not_keep_it():
     code = (
         "import threading, time; from codim2_app.server import stopping; stopping.GRACE = 0.5\n"
         "stopping.stop_when_asked(); threading.Thread(target=time.sleep, args=(300,)).start()\n"
-        "try:\n    print('here', flush=True); time.sleep(300)\nexcept KeyboardInterrupt:\n    print('stopped', flush=True)\n"
+        "try:\n    print('here', flush=True); time.sleep(300)\n"
+        "except KeyboardInterrupt:\n    print('stopped', flush=True)\n"
     )
     process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
     assert process.stdout.readline() == "here\n"
