@@ -7,8 +7,9 @@ It is followed by pseudo-arclength in (chi, A^-1 f), which is of size 1 however 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -37,17 +38,25 @@ X, Y = np.eye(2)
 OUTWARD = np.array([1.0, 0.0, 0.0])
 LINES = 6  # across the disc of critical sets, on which folds are looked for
 TOUCHING = "The fold ends where the critical set reaches the equator in a saddle-node of limit directions."
+CUSP = "Three limit cycles meet in one: two folds of cycles end here in a cusp."
+CUSP_ROUNDS = 24
 RESONANT = "The fold ends where the loop through the equator is neutral."
 
 
 @dataclass(frozen=True)
 class _State:
-    """A fold: place on the section, e = -A^-1 f, its turn, and the Jacobian (2, 3) by (chi, e)."""
+    """A fold, or a cusp: place on the section, e = -A^-1 f, its turn, and the Jacobian (2, 3) by (chi, e)."""
 
     xi: float
     e: Array
     turn: Turn
     jacobian: Array
+    cusp: bool = False
+
+    @property
+    def bend(self) -> float:
+        """Second derivative of the return map, up to a factor: zero at a cusp, where three cycles are one."""
+        return float(self.jacobian[1, 0])
 
 
 class _Folds:
@@ -154,6 +163,34 @@ class _Folds:
             step *= 1.5
         return states, "stuck"
 
+    def with_cusps(self, states: list[_State]) -> list[_State]:
+        """Put in the cusps of a curve: where the second derivative of the return map changes its sign along it."""
+        out = states[:1]
+        for here, there in pairwise(states):
+            found = self._cusp(here, there) if (here.bend < 0.0) != (there.bend < 0.0) else None
+            out += [there] if found is None else [found, there]
+        return out
+
+    def _cusp(self, here: _State, there: _State) -> _State | None:
+        """Find the cusp between two folds: the secant rule along chi, in which the curve is smooth there."""
+        low, high = here, there
+        best: _State | None = None
+        for _ in range(CUSP_ROUNDS):
+            rise = there.turn.chi - here.turn.chi
+            if rise == 0.0 or low.bend == high.bend:
+                return None
+            part = min(max(low.bend / (low.bend - high.bend), 0.02), 0.98)
+            xi, e = low.xi + part * (high.xi - low.xi), low.e + part * (high.e - low.e)
+            found = self.corrected(xi, e, OUTWARD)
+            exact = None if found is None else self.state(found.xi, found.e)
+            if exact is None:
+                return best
+            best = replace(exact, cusp=True)
+            if abs(best.bend) < 1e-7 * (abs(here.bend) + abs(there.bend)) or abs(high.xi - low.xi) < 1e-9:
+                break
+            low, high = (best, high) if (best.bend < 0.0) == (low.bend < 0.0) else (low, best)
+        return best
+
     @staticmethod
     def _near(one: _State, two: _State) -> float:
         return math.hypot(one.turn.chi - two.turn.chi, *(one.e - two.e))
@@ -181,8 +218,9 @@ def cycle_folds(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     -------
     BifurcationCurve
         kind "fold of cycles". `values` holds the cycle's amplitude, the largest distance from C in the projected disc.
-        `special` says how a branch ends other than at a generalised Hopf point: "resonant loop", "touching", "equator"
-        or "undecided". Empty, with the reason in `sentence`, where none was found.
+        `special` names the points where it turns back, "cusp of cycles", and how a branch ends other than at a
+        generalised Hopf point: "resonant loop", "touching", "equator" or "undecided". Empty, with the
+        reason in `sentence`, where none was found.
 
     Raises
     ------
@@ -248,7 +286,8 @@ class _Curves:
             if found is not None:
                 states, how = folds.followed(found, _null(found.jacobian, OUTWARD))
                 tail, special = self._end(states, how)
-                self._add([(f, 0.0), *self._rows(states), *tail], special)
+                states = folds.with_cusps(states)
+                self._add([(f, 0.0), *self._rows(states), *tail], special + self._cusps(states))
                 return
         text = "The fold that begins here was not caught."
         self.special += [SpecialPoint("undecided", place(sign * f), text) for sign in (1.0, -1.0)]
@@ -273,12 +312,16 @@ class _Curves:
                 tangent = _null(ready.jacobian, OUTWARD)
                 states, how = folds.followed(ready, tangent)
                 tail, special = self._end(states, how)
+                states = folds.with_cusps(states)
+                special += self._cusps(states)
                 if how == "closed":
                     self._add([*self._rows(states), self._rows(states)[0]], special)
                     continue
                 back, how = folds.followed(ready, -tangent)
                 head, more = self._end(back, how)
-                self._add([*head[::-1], *self._rows(back)[:0:-1], *self._rows(states), *tail], special + more)
+                back = folds.with_cusps(back)
+                special += more + self._cusps(back)
+                self._add([*head[::-1], *self._rows(back)[:0:-1], *self._rows(states), *tail], special)
 
     def _passed(self, f: Array, amplitude: float) -> bool:
         """Whether a curve passes near, with a cycle of about this size."""
@@ -288,6 +331,9 @@ class _Curves:
             if away[i] < 2.0 * STEP and abs(sizes[i] - amplitude) < 0.2:
                 return True
         return False
+
+    def _cusps(self, states: list[_State]) -> list[SpecialPoint]:
+        return [SpecialPoint("cusp of cycles", place(-self.A @ s.e), CUSP) for s in states if s.cusp]
 
     def _rows(self, states: list[_State]) -> list[tuple[Array, float]]:
         return [(-self.A @ s.e, s.turn.amplitude) for s in states]

@@ -138,3 +138,21 @@ def test_no_folds_where_there_are_none():
     curve = bifurcations.cycle_folds(1.0, 3.0, -2.0, psi.constant())
     assert len(curve) == 0
     assert "lines" in curve.sentence or "Hopf" in curve.sentence
+
+
+def test_cusps_of_cycles_are_named_where_the_folds_turn_back():
+    """Inside the tongue beside a cusp there are three cycles, and one outside it."""
+    abd, p = (0.12726841122583082, -1.18719452785014, -0.5793015965026732), psi.hill(3)
+    curve = bifurcations.cycle_folds(*abd, p)
+    cusps = [np.array(s.place) for s in curve.special if s.type == "cusp of cycles"]
+    assert len(cusps) == 4
+    assert "cusp" in next(s.sentence for s in curve.special if s.type == "cusp of cycles")
+    for cusp in cusps:
+        line = min(curve.branches, key=lambda line: from_nearest(cusp, line))
+        i = int(np.argmin(np.hypot(*(line - cusp).T)))
+        assert np.hypot(*(line[i] - cusp)) < 1e-12
+        # the two arms of the tongue, on one side of the cusp
+        arms = [line[max(i - 3, 0)] - cusp, line[min(i + 3, len(line) - 1)] - cusp]
+        assert arms[0] @ arms[1] > 0.9 * np.hypot(*arms[0]) * np.hypot(*arms[1])
+    tongue = limit_cycles(ELinear(*abd, (-1.0450119219070992, 0.07895443583277581)), p)
+    assert len(tongue) == 3
