@@ -6,15 +6,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from codim2_core.examples import catalogue
-from codim2_core.layer_problem.vary import names, value_of, varied
-from codim2_core.portrait.classify import classify
+from codim2_core.portrait.sides import sides as portraits_beside
 from codim2_core.scene import Scene
 
 from ..draw.mathml import plain_symbol
 from ..state.choices import SLOW_CONTROLS
 from ..state.controls import ExplorerState
-
-STEP = 1e-6  # of the value or of 1: far beyond rounding, far below what can be seen
 
 
 def sides(scene: Scene, values: Mapping[str, Any], control: str) -> dict[str, Any] | None:
@@ -33,22 +30,11 @@ def sides(scene: Scene, values: Mapping[str, Any], control: str) -> dict[str, An
     dict or None
         "symbol", and "below" and "above", names of portraits; None if nothing can be varied.
     """
-    known = names(scene.system, scene.psi, scene.z)
     name = f"z{SLOW_CONTROLS.index(control) + 1}" if control in SLOW_CONTROLS else control.removeprefix("own:")
-    if name not in known:
-        name = next((one for one in known if one != "n"), "")
-    if not name:
+    found = portraits_beside(scene.system, scene.psi, scene.z, name)
+    if found is None:
         return None
-    value = value_of(scene.system, scene.psi, scene.z, name)
-    step = STEP * max(1.0, abs(value))
-    found = []
-    for moved in (value - step, value + step):
-        try:
-            system, psi, z = varied(scene.system, scene.psi, scene.z, name, moved)
-            found.append(classify(system, psi, z).name)
-        except ValueError:  # the end of what is allowed
-            found.append("")
-    return {"symbol": _symbol(name, values), "below": found[0], "above": found[1]}
+    return {"symbol": _symbol(found.name, values), "below": found.below, "above": found.above}
 
 
 def _symbol(name: str, values: Mapping[str, Any]) -> str:

@@ -8,11 +8,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
-from codim2_core.layer_problem.critical import critical_sets
 from codim2_core.psi.function import Psi
 from codim2_core.sliding.along import SlowPortrait, slow_portrait
+from codim2_core.sliding.over import slow_plane
 
 from ..frame.draft import Draft
 from ..state.choices import SLOW_CONTROLS
@@ -77,33 +75,22 @@ def columns(found: SlowPortrait, axis: int) -> dict[str, Any]:
                 "z": p.z if abs(p.z) > 1e-14 * width else 0.0,
                 "stable": p.stable,
                 "sentence": p.sentence,
-                "flow": _flow_at(found, p.z, axis),
+                "flow": p.flow[axis] if p.kind != "equilibrium" else 0.0,
             }
             for p in found.points
         ],
     }
 
 
-def _flow_at(found: SlowPortrait, z: float, axis: int) -> float:
-    """Return the slow flow on the branch that is nearest to z."""
-    if not found.branches:
-        return 0.0
-    branch = min(found.branches, key=lambda b: float(np.abs(b.z - z).min()))
-    return float(np.interp(z, branch.z, branch.flow[:, axis]))
-
-
 def plane_of(
     system: System_, psi: Psi, rest: tuple[float, ...], spans: tuple[tuple[float, float], ...]
 ) -> dict[str, Any]:
     """Return the slow flow over a net in the plane of the first two slow variables, where there is sliding."""
-    (low1, high1), (low2, high2) = spans[:2]
-    arrows = []
-    for z2 in np.linspace(low2, high2, PLANE):
-        for z1 in np.linspace(low1, high1, PLANE):
-            arrows += [
-                [float(z1), float(z2), *_short(C.slow_flow[:2]), int(C.kind.startswith("stable"))]
-                for C in critical_sets(system, psi, (z1, z2, *rest))
-            ]
+    found = slow_plane(system, psi, (spans[0], spans[1]), rest, PLANE)
+    arrows = [
+        [float(z1), float(z2), *_short(flow[:2]), int(stable)]
+        for (z1, z2), flow, stable in zip(found.z, found.flow, found.stable, strict=True)
+    ]
     return {"spans": [list(spans[0]), list(spans[1])], "arrows": arrows}
 
 

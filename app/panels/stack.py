@@ -7,17 +7,17 @@ the critical sets inside (fig:ballpool3d).
 
 from __future__ import annotations
 
-import math
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from codim2_core.layer_problem.equator import equator_equilibria
+from codim2_core.layer_problem.hemisphere import height
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.sliding.along import slow_portrait
+from codim2_core.sliding.over import directions_along
 
 from ..frame.draft import Draft
 from ..state.choices import SLOW_CONTROLS, SOLIDS
@@ -78,39 +78,23 @@ def stacked(
     for value in np.linspace(low, high, SLICES):
         scene = Scene(system, psi, at(value), count=SEEDS)
         discs.append({"z": float(value), "lines": [_flat(line) for line in _lines(scene["inside"])]})
-    directions = []
-    for value in np.linspace(low, high, ANGLES):
-        found = equator_equilibria(system, at(value))
-        height = round((float(value) - low) / (high - low), 4)
-        directions += [
-            [height, round(float(theta), 4), int(rho < 0.0), int(turn < 0.0)]
-            for theta, rho, turn in zip(found.theta, found.lambda_rho, found.lambda_theta, strict=True)
-        ]
+    share = lambda value: round((float(value) - low) / (high - low), 4)  # noqa: E731
+    found = directions_along(system, span, others, axis, ANGLES)
+    columns = (found.z, found.theta, found.lambda_rho, found.lambda_theta)
+    directions = [
+        [share(z), round(float(theta), 4), int(rho < 0.0), int(turn < 0.0)]
+        for z, theta, rho, turn in zip(*columns, strict=True)
+    ]
     portrait = slow_portrait(system, psi, span, others, axis)
     sets = [
         {
-            "points": [
-                [*_short(_on_disc(psi, e)), round((float(z) - low) / (high - low), 4)]
-                for z, e in zip(branch.z, branch.e, strict=True)
-            ],
+            "points": [[*_short(p), share(z)] for z, p in zip(branch.z, branch.p, strict=True)],
             "stable": branch.stable,
             "flow": float(np.sign(branch.flow[len(branch.z) // 2, axis])),
         }
         for branch in portrait.branches
     ]
     return {"span": [low, high], "discs": discs, "directions": directions, "sets": sets}
-
-
-def _on_disc(psi: Psi, e: NDArray[np.float64]) -> tuple[float, float]:
-    """Return the place in the projected disc of the critical set with this e."""
-    modulus = math.hypot(*e)
-    if modulus == 0.0:
-        return 0.0, 0.0
-    if modulus >= 1.0 - 1e-12:
-        return float(e[0]) / modulus, float(e[1]) / modulus
-    zeta = float(psi.radius(modulus))
-    r = zeta / math.hypot(1.0, zeta)
-    return float(e[0]) * r / modulus, float(e[1]) * r / modulus
 
 
 def _lines(orbits: Any) -> list[NDArray[np.float64]]:
@@ -128,8 +112,7 @@ def _thin(line: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _lifted(line: NDArray[np.float64]) -> list[list[float]]:
-    height = np.sqrt(np.maximum(0.0, 1.0 - np.sum(line * line, axis=1)))
-    return [_short((x, y, h)) for (x, y), h in zip(line, height, strict=True)]
+    return [_short((x, y, h)) for (x, y), h in zip(line, height(line), strict=True)]
 
 
 def _flat(line: NDArray[np.float64]) -> list[list[float]]:

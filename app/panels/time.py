@@ -9,12 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from codim2_core.layer_problem.critical import critical_sets
-from codim2_core.layer_problem.equator import equator_equilibria
+from codim2_core.motion.agreement import agreement
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.regularised import simulate
 from codim2_core.motion.result import Simulation
-from codim2_core.orbits.trajectories import continuation
 from codim2_core.psi.function import Psi
 
 from ..frame.draft import Draft
@@ -22,9 +20,6 @@ from ..state.chosen import System_
 from ..state.controls import InputError
 from .panel import Panel
 
-SAMPLES = 240  # even times at which a motion is drawn, besides the ends of its steps
-MOST = 500  # points of a curve that the browser is sent
-PLACES = 24  # of the critical set, along which a slide of the limit is drawn
 RTOL = 1e-7
 #: Systems whose motion is that of a ball, and where its centre is: the integral of z, or z3 and z4.
 BALLS = {"ball_in_pool": "integral", "ball_on_turntable": "position"}
@@ -42,13 +37,11 @@ def add(draft: Draft) -> None:
         draft.header.setdefault("unable", {})["motion"] = str(error)
         return
     eps = 10.0 ** values["log_eps"]
-    motion = draft.slow("motion", (system, psi, eps, start, t_end), lambda: smooth(system, psi, eps, start, t_end))
-    if motion is not None:
+    found = draft.slow("motion", (system, psi, eps, start, t_end), lambda: both(system, psi, eps, start, t_end))
+    if found is not None:
         ball = BALLS.get(values["system"])
-        draft.header["motion"] = {**motion, "eps": eps, "ball": ball, "start": list(start)}
-    limit = draft.slow("limit", (system, psi, start, t_end), lambda: nonsmooth(system, psi, start, t_end))
-    if limit is not None:
-        draft.header["limit"] = limit
+        draft.header["motion"] = {**found["motion"], "eps": eps, "ball": ball, "start": list(start)}
+        draft.header["limit"] = found["limit"]
 
 
 def launch_of(values: Mapping[str, Any], m: int) -> tuple[tuple[float, ...], float]:
@@ -72,104 +65,24 @@ def launch_of(values: Mapping[str, Any], m: int) -> tuple[tuple[float, ...], flo
     return start, t_end
 
 
-def smooth(system: System_, psi: Psi, eps: float, start: tuple[float, ...], t_end: float) -> dict[str, Any]:
-    """Return the regularised motion as the browser draws it."""
+def both(system: System_, psi: Psi, eps: float, start: tuple[float, ...], t_end: float) -> dict[str, Any]:
+    """Return the regularised motion and the limit as the browser draws them, and how they agree."""
     run = simulate(system, psi, eps, start, (0.0, t_end), rtol=RTOL)
-    times, states = _sampled(run)
-    rho = np.hypot(np.hypot(states[:, 0], states[:, 1]), eps)
-    picture = states[:, :2] / rho[:, None] * (1.0 + rho)[:, None]
-    return {**_curves(times, states, picture), **_words(run)}
-
-
-def nonsmooth(system: System_, psi: Psi, start: tuple[float, ...], t_end: float) -> dict[str, Any]:
-    """Return the motion in the limit; while it slides, its place in the picture is that of the critical set."""
-    run = simulate_nonsmooth(system, start, (0.0, t_end), psi=psi, rtol=RTOL)
-    times, states = _sampled(run)
-    rho = np.hypot(states[:, 0], states[:, 1])
-    on = rho == 0.0
-    with np.errstate(invalid="ignore", divide="ignore"):
-        picture = np.where(on[:, None], 0.0, states[:, :2] * ((1.0 + rho) / rho)[:, None])
-    for phase in run.phases:
-        if phase.kind == "slide":
-            during = np.flatnonzero(on & (times >= phase.t_start) & (times <= phase.t_end))
-            _place_slide(system, psi, states, picture, during)
-    for phase in reversed(run.phases):
-        if phase.kind != "slip" and phase.t_start > times[0]:
-            times, states, picture = _with_jump(system, psi, times, states, picture, phase.t_start)
-    return {**_curves(times, states, picture), **_words(run)}
-
-
-def _with_jump(
-    system: System_,
-    psi: Psi,
-    times: NDArray[np.float64],
-    states: NDArray[np.float64],
-    picture: NDArray[np.float64],
-    t: float,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Put in the trajectory up the hemisphere that follows an arrival at Sigma, in no time (fig:side_of_sphere)."""
-    i = int(np.searchsorted(times, t))
-    if not 0 < i < len(times) or not states[i - 1, :2].any():
-        return times, states, picture
-    theta = math.atan2(states[i - 1, 1], states[i - 1, 0])
-    limits = equator_equilibria(system, states[i, 2:]).theta
-    if not len(limits):
-        return times, states, picture
-    theta = float(min(limits, key=lambda limit: abs(math.remainder(limit - theta, math.tau))))
-    try:
-        path = continuation(system, psi, [theta], states[i, 2:], t_max=60.0, length=4.0).points[0][::3]
-    except ValueError:  # nothing arrives along it: the motion only passes near
-        return times, states, picture
-    jump = len(path)
-    return (
-        np.insert(times, i, np.full(jump, times[i])),
-        np.insert(states, i, np.repeat(states[i : i + 1], jump, axis=0), axis=0),
-        np.insert(picture, i, path, axis=0),
-    )
-
-
-def _place_slide(
-    system: System_, psi: Psi, states: NDArray[np.float64], picture: NDArray[np.float64], during: NDArray[np.int64]
-) -> None:
-    """Put the points of a slide onto the critical set that it follows: a few are found, the others interpolated."""
-    if not len(during):
-        return
-    chosen = np.unique(during[np.rint(np.linspace(0, len(during) - 1, PLACES)).astype(int)])
-    places: list[NDArray[np.float64]] = []
-    for i in chosen:
-        sets = critical_sets(system, psi, states[i, 2:])
-        stable = [C for C in sets if C.kind.startswith("stable")] or list(sets)
-        before = places[-1] if places else None
-        if stable:
-            places.append(min(stable, key=lambda C: 0.0 if before is None else float(np.hypot(*(C.p - before)))).p)
-        else:
-            places.append(np.zeros(2) if before is None else before)
-    p = np.array(places)
-    for axis in range(2):
-        picture[during, axis] = np.interp(during, chosen, p[:, axis])
-
-
-def _sampled(run: Simulation) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return times, even ones and those of the steps, and the states there."""
-    if len(run.times) < 2 or run.times[-1] <= run.times[0]:
-        return run.times, run.states
-    times = np.union1d(np.linspace(run.times[0], run.times[-1], SAMPLES), run.times)
-    if len(times) > MOST:
-        times = times[np.unique(np.rint(np.linspace(0, len(times) - 1, MOST)).astype(int))]
-    return times, run.dense(times)
-
-
-def _curves(times: NDArray[np.float64], states: NDArray[np.float64], picture: NDArray[np.float64]) -> dict[str, Any]:
+    limit = simulate_nonsmooth(system, start, (0.0, t_end), psi=psi, rtol=RTOL)
+    together = agreement(system, psi, run, limit)
     return {
-        "t": _short(times),
-        "states": [_short(column) for column in states.T],
-        "picture": [_short(column) for column in picture.T],
+        "motion": {**_curves(run), "agreement": together.sentence, "same": together.same},
+        "limit": _curves(limit),
     }
 
 
-def _words(run: Simulation) -> dict[str, Any]:
+def _curves(run: Simulation) -> dict[str, Any]:
+    drawn = run.drawn()
     return {
-        "phases": [[p.kind, p.t_start, p.t_end, p.reason] for p in run.phases],
+        "t": _short(drawn.times),
+        "states": [_short(column) for column in drawn.states.T],
+        "picture": [_short(column) for column in drawn.points.T],
+        "phases": [[p.kind, p.t_start, p.t_end, p.reason, p.onto] for p in run.phases],
         "reason": run.reason,
         "ended": float(run.times[-1]),
     }

@@ -356,8 +356,10 @@ def simulate_nonsmooth(
     it on the hemisphere decides what follows (thm:geneps0(b), sec:geneps1): sliding on the critical set that it comes
     to, with its slow flow, or crossing. Sliding ends where the critical set does.
 
-    The regularised motion differs from it by O(eps), after an exit through the equator (fig:transcrit) by
-    O(eps^(2 q/(1 + 2 q))) where Psi ~ s^(1 - q/2): 4/5 for Psi = 1, near 1 for one that falls exponentially.
+    The regularised motion differs from it by O(eps), as long as it does not leave Sigma. Leaving along a limit
+    direction, also after a crossing, it differs by O(eps^min(1, |lambda_theta|/lambda_rho)), outside an invariant line;
+    after an exit through the equator (fig:transcrit) by O(eps^(2 q/(1 + 2 q))) where Psi ~ s^(1 - q/2): 4/5 for
+    Psi = 1, near 1 for one that falls exponentially. See `agreement.limit_order`.
 
     Parameters
     ----------

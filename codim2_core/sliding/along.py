@@ -40,7 +40,8 @@ class SlowBranch:
     ----------
     z : ndarray (k,)
         Values of the slow variable that is varied.
-    e : ndarray (k, 2)
+    e, p : ndarray (k, 2)
+        Its place, and that in the projected disc.
     flow : ndarray (k, m)
         z' on it, eq:RPCM.
     kind : str
@@ -49,6 +50,7 @@ class SlowBranch:
 
     z: Array
     e: Array
+    p: Array
     flow: Array
     kind: str
 
@@ -69,6 +71,8 @@ class SlowPoint:
         "equilibrium" of the slow flow.
     z : float
     e : (c, s)
+    flow : tuple of m floats
+        z' there, on the critical set to which it happens.
     stable : bool or None
         Of an equilibrium: whether the slow flow attracts to it.
     sentence : str
@@ -77,6 +81,7 @@ class SlowPoint:
     kind: str
     z: float
     e: tuple[float, float]
+    flow: tuple[float, ...]
     stable: bool | None
     sentence: str
 
@@ -235,24 +240,24 @@ def _change(z: float, before: Sequence[CriticalSet], after: Sequence[CriticalSet
         outermost = max(more, key=lambda C: float(np.hypot(*C.e)))
         if np.hypot(*outermost.e) > 1.0 - AT_EQUATOR:
             sentence = "A critical set passes through the equator (transcritical, fig:transcrit)."
-            return SlowPoint("equator", z, _place(outermost), None, sentence)
+            return SlowPoint("equator", z, *_place(outermost), None, sentence)
         flattest = min(more, key=lambda C: abs(C.determinant))
-        return SlowPoint("fold", z, _place(flattest), None, "Two critical sets meet and vanish: a fold, det J = 0.")
+        return SlowPoint("fold", z, *_place(flattest), None, "Two critical sets meet and vanish: a fold, det J = 0.")
     pairs = _matching(before, after)
     old, new = next(((p, q) for p, q in pairs if _kind(p) != _kind(q)), pairs[0])
     if {_kind(old).split()[0], _kind(new).split()[0]} == {"stable", "unstable"}:
-        return SlowPoint("Hopf", z, _place(new), None, f"tr J = 0: the critical set becomes {_article(_kind(new))}.")
+        return SlowPoint("Hopf", z, *_place(new), None, f"tr J = 0: the critical set becomes {_article(_kind(new))}.")
     if "saddle" in (old.kind, new.kind):
-        return SlowPoint("fold", z, _place(new), None, "det J = 0: critical sets meet and exchange their kinds.")
-    return SlowPoint("node-focus", z, _place(new), None, f"Δ(J) = 0: the critical set becomes {_article(_kind(new))}.")
+        return SlowPoint("fold", z, *_place(new), None, "det J = 0: critical sets meet and exchange their kinds.")
+    return SlowPoint("node-focus", z, *_place(new), None, f"Δ(J) = 0: the critical set becomes {_article(_kind(new))}.")
 
 
 def _article(kind: str) -> str:
     return f"an {kind}" if kind.startswith("unstable") else f"a {kind}"
 
 
-def _place(C: CriticalSet) -> tuple[float, float]:
-    return float(C.e[0]), float(C.e[1])
+def _place(C: CriticalSet) -> tuple[tuple[float, float], tuple[float, ...]]:
+    return (float(C.e[0]), float(C.e[1])), tuple(C.slow_flow.tolist())
 
 
 def _matching(before: Sequence[CriticalSet], after: Sequence[CriticalSet]) -> list[tuple[CriticalSet, CriticalSet]]:
@@ -273,7 +278,9 @@ def _follow(values: list[float], sets: list[tuple[CriticalSet, ...]]) -> list[Sl
             chain.append(then[id(chain[-1])])
     branches = []
     for chain in chains:
-        arrays = (np.array(values), np.array([C.e for C in chain]), np.array([C.slow_flow for C in chain]))
+        columns = ([C.e for C in chain], [C.p for C in chain], [C.slow_flow for C in chain])
+        e, p, flow = (np.array(column) for column in columns)
+        arrays = (np.array(values), e, p, flow)
         for array in arrays:
             array.flags.writeable = False
         branches.append(SlowBranch(*arrays, _kind(chain[len(chain) // 2])))
@@ -304,6 +311,6 @@ def _equilibria(line: _Line, branch: SlowBranch) -> list[SlowPoint]:
         falling = bool(flow[i + 1] < (flow[i] if flow[i] != 0.0 else -flow[i + 1]))
         words = "attracts" if falling else "repels"
         found.append(
-            SlowPoint("equilibrium", z, _place(on_branch(z)), falling, f"z′ = 0: it {words} along the critical set.")
+            SlowPoint("equilibrium", z, *_place(on_branch(z)), falling, f"z′ = 0: it {words} along the critical set.")
         )
     return found

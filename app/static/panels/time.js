@@ -118,7 +118,7 @@ class Motion {
     const {motion, limit} = this
     this.toggle(false)
     this.find(".time-body").hidden = !motion
-    this.find(".time-note").textContent = motion ? [motion.t.at(-1) < this.end * 0.999 ? motion.reason : "", limit && limit.t.at(-1) < this.end * 0.999 ? `The limit: ${limit.reason}` : ""].filter(Boolean).join(" ") : this.why ?? ""
+    this.find(".time-note").textContent = motion ? [motion.agreement, motion.t.at(-1) < this.end * 0.999 ? motion.reason : "", limit && limit.t.at(-1) < this.end * 0.999 ? `The limit: ${limit.reason}` : ""].filter(Boolean).join(" ") : this.why ?? ""
     if (!motion) { this.trace(null); return }
     this.at = Math.min(this.at, this.end)
     const m = motion.states.length - 2
@@ -135,7 +135,7 @@ class Motion {
       }
     }))
     this.svg.setAttribute("aria-valuemin", 0); this.svg.setAttribute("aria-valuemax", this.end)
-    this.find(".time-key").innerHTML = `<span>full line: ε = ${plain(motion.eps)}</span><span>broken line: ε → 0</span>`
+    this.find(".time-key").innerHTML = `<span>full line and bands: ε = ${plain(motion.eps)}</span><span>broken line and list: ε → 0</span>`
     this.find(".phases").innerHTML = (limit ?? motion).phases.map(([kind, from, , why]) => `<li><i class="band ${kind}"></i><span>${digits(from, 4)}</span><span class="note">${PHASE[kind]}: ${escape(why)}</span></li>`).join("")
     this.ball.canvas.hidden = !motion.ball
     if (motion.ball) this.ball.prepare(motion)

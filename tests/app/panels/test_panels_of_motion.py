@@ -99,9 +99,24 @@ def test_the_motion_of_a_ball_slips_then_slides_and_its_limit_lies_over_it():
     assert motion["ball"] == "integral"
 
 
+def test_the_limit_is_drawn_on_the_set_that_the_words_name():
+    header = sent(time, system="nonunique_sliding", launch="0.25, 0.3, 0", t_end=2.0, log_eps=-2.0)
+    motion, limit = header["motion"], header["limit"]
+    assert [(p[0], p[4]) for p in motion["phases"]] == [(p[0], p[4]) for p in limit["phases"]]
+    assert limit["phases"][1][4] == "C3"
+    assert "C3" in limit["phases"][1][3]
+    ends = [np.array(run["picture"])[:, -1] for run in (motion, limit)]
+    np.testing.assert_allclose(*ends, atol=0.02)
+    assert ends[1][0] > 0.9
+    assert motion["same"]
+    coarse = sent(time, system="nonunique_sliding", launch="0.25, 0.3, 0", t_end=2.0, log_eps=-0.5)["motion"]
+    assert not coarse["same"]
+    assert "not those of the limit" in coarse["agreement"]
+
+
 def test_a_jump_up_the_hemisphere_takes_no_time():
     limit = sent(time, system="attracting_repelling", launch="0.3, 0.6, 1", t_end=3.0)["limit"]
-    (_, arrival, _, _) = limit["phases"][1]
+    arrival = limit["phases"][1][1]
     at = np.flatnonzero(np.abs(np.array(limit["t"]) - arrival) < 1e-4)
     radius = np.hypot(*np.array(limit["picture"])[:, at])
     assert len(at) > 3

@@ -1,0 +1,119 @@
+"""How a regularised motion and its limit eps -> 0 agree: in their phases, and to which order in eps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..layer_problem.equator import equator_equilibria
+from ..psi.function import Psi
+from ..systems.kinds import AnySystem
+from .field import field
+from .line import invariant_line
+from .result import Phase, Simulation
+
+NEUTRAL = 1e-6  # lambda_rho in units of |lambda_theta|: an exit through the equator (fig:transcrit)
+FAR_OUT = 1e6  # zeta at which the power with which Psi falls is read off
+_VERB = {"slip": "slips", "slide": "slides", "cross": "crosses Σ"}
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """How a motion for eps > 0 and the limit agree.
+
+    Attributes
+    ----------
+    same : bool
+        Whether they have the same phases, on the same sets, as far as both were followed.
+    order : float
+        They differ by O(eps^order) at a fixed time: see `limit_order`.
+    sentence : str
+    """
+
+    same: bool
+    order: float
+    sentence: str
+
+
+def limit_order(system: AnySystem, psi: Psi, limit: Simulation) -> float:
+    """Order in eps with which the regularised motion tends to its limit.
+
+    It is 1, but lower if the motion leaves Sigma: along a limit direction, the orbits of the hemisphere come to the
+    direction as eps^(|lambda_theta|/lambda_rho), so that the order is at most that ratio; through the equator
+    (fig:transcrit) it is ``2 q/(1 + 2 q)`` where ``Psi ~ s^(1 - q/2)``: 4/5 for Psi = 1, near 1 for one that falls
+    exponentially. In an invariant line there is no direction to come to.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    limit : Simulation
+        Of `simulate_nonsmooth`.
+
+    Returns
+    -------
+    float
+        In (0, 1].
+    """
+    order = 1.0
+    if invariant_line(field(system), limit.states[0]) is not None:
+        return order
+    for phase in limit.phases:
+        if phase.kind != "slip" or limit.dense(phase.t_start)[:2].any():
+            continue
+        e = phase.e(phase.t_start)
+        equator = equator_equilibria(system, limit.dense(phase.t_start)[2:])
+        if not len(equator):
+            continue
+        distance = np.abs(np.exp(1j * equator.theta) - complex(*e.tolist()))
+        i = int(np.argmin(distance))
+        radial, angular = float(equator.lambda_rho[i]), float(equator.lambda_theta[i])
+        if radial > NEUTRAL * abs(angular):
+            if angular < 0.0:
+                order = min(order, -angular / radial)
+        else:
+            power = 2.0 + 2.0 * float(psi.steepness(FAR_OUT))
+            order = min(order, 2.0 * power / (1.0 + 2.0 * power))
+    return order
+
+
+def agreement(system: AnySystem, psi: Psi, run: Simulation, limit: Simulation) -> Agreement:
+    """Compare the phases of a regularised motion with those of its limit.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    run : Simulation
+        Of `simulate`.
+    limit : Simulation
+        Of `simulate_nonsmooth`, from the same state.
+    """
+    order = limit_order(system, psi, limit)
+    end = min(float(run.times[-1]), float(limit.times[-1]))
+    own, other = (_until(phases, end) for phases in (run.phases, limit.phases))
+    for k in range(max(len(own), len(other))):
+        a, b = (phases[k] if k < len(phases) else None for phases in (own, other))
+        if a is None or b is None or (a.kind, a.onto) != (b.kind, b.onto):
+            t = min(phase.t_start for phase in (a, b) if phase is not None)
+            words = [f"{_words(phase)}" for phase in (a, b)]
+            sentence = (
+                f"The phases for ε = {run.eps:.3g} are not those of the limit: from about t = {t:.4g} on the motion "
+                f"{words[0]}, and in the limit it {words[1]}. ε is not yet small against what happens there."
+            )
+            return Agreement(False, order, sentence)
+    q = "" if order == 1.0 else f"^{order:.3g}"
+    why = "" if order == 1.0 else ", a lower order because it leaves Σ"
+    return Agreement(True, order, f"The phases are those of the limit ε → 0, from which it differs by O(ε{q}){why}.")
+
+
+def _until(phases: tuple[Phase, ...], end: float) -> list[Phase]:
+    """Phases that begin before a time, or at it as a crossing does, which takes none."""
+    return [phase for phase in phases if phase.t_start < end or (phase.kind == "cross" and phase.t_start <= end)]
+
+
+def _words(phase: Phase | None) -> str:
+    if phase is None:
+        return "goes on as before"
+    return _VERB[phase.kind] + (f" on {phase.onto}" if phase.onto else "")

@@ -1,0 +1,64 @@
+"""What lies on either side of a degenerate setting, along one thing that can be varied."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from ..layer_problem.vary import names, value_of, varied
+from ..psi.function import Psi
+from .classify import classify
+
+STEP = 1e-6  # of the value or of 1: far beyond rounding, far below what can be seen
+
+
+@dataclass(frozen=True, slots=True)
+class Sides:
+    """The portraits on both sides of a setting.
+
+    Attributes
+    ----------
+    name : str
+        What is varied.
+    below, above : str
+        Names of the portraits where it is a little smaller and larger; "" beyond the end of what is allowed.
+    """
+
+    name: str
+    below: str
+    above: str
+
+
+def sides(system: Any, psi: Psi, z: ArrayLike = (), name: str = "") -> Sides | None:
+    """Return the names of the portraits a little below and a little above the present value of one thing.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    z : (m,) floats
+    name : str
+        As in `vary.names`: a coefficient, a slow variable "z1", the parameter of Psi or of the system. Where the
+        system lacks it, the first that it has is taken.
+
+    Returns
+    -------
+    Sides or None
+        None if nothing can be varied.
+    """
+    known = names(system, psi, z)
+    if name not in known:
+        name = next((one for one in known if one != "n"), "")
+    if not name:
+        return None
+    value = value_of(system, psi, z, name)
+    step = STEP * max(1.0, abs(value))
+    found = []
+    for moved in (value - step, value + step):
+        try:
+            found.append(classify(*varied(system, psi, z, name, moved)).name)
+        except ValueError:  # the end of what is allowed
+            found.append("")
+    return Sides(name, *found)

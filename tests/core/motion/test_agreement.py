@@ -1,0 +1,72 @@
+"""The regularised motion tends to its limit with the order that is said, and the words tell where phases differ."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from codim2_core import ELinear, equator_equilibria, examples, simulate, simulate_nonsmooth
+from codim2_core import psi as families
+from codim2_core.motion.agreement import agreement, limit_order
+
+PSI = families.constant()
+EQUATOR_EXIT = ELinear(-1.0, 0.0, -1.0, ("z", 0.0), g=(1.0,))
+
+
+def measured(system, psi, state0, t, eps):
+    limit = simulate_nonsmooth(system, state0, (0.0, t), psi, rtol=1e-12, atol=1e-14)
+    errors = [
+        np.abs(simulate(system, psi, e, state0, (0.0, t), rtol=1e-12, atol=1e-14).states[-1] - limit.states[-1]).max()
+        for e in eps
+    ]
+    return np.diff(np.log10(errors)) / np.diff(np.log10(eps)), limit
+
+
+@pytest.mark.parametrize(
+    ("system", "ratio"),
+    [
+        (ELinear(1.698, 0.6235, 1.231, f=(-1.2954, -0.99546)), 0.4935),
+        (ELinear(1.0, 0.5, 0.8, f=(-1.6, -0.9)), 0.6708),
+        (ELinear(-0.5, 0.2, -0.3, f=(-1.0, -0.8)), 1.4878),
+    ],
+)
+def test_leaving_along_a_limit_direction_has_the_order_of_its_eigenvalues(system, ratio):
+    slopes, limit = measured(system, PSI, (0.0, 0.0), 2.0, [1e-6, 1e-8, 1e-10])
+    equator = equator_equilibria(system)
+    (i,) = np.flatnonzero((equator.lambda_rho > 0.0) & (equator.lambda_theta < 0.0))
+    assert -equator.lambda_theta[i] / equator.lambda_rho[i] == pytest.approx(ratio, abs=1e-4)
+    order = limit_order(system, PSI, limit)
+    assert order == pytest.approx(min(1.0, ratio), abs=1e-4)
+    np.testing.assert_allclose(slopes, order, atol=0.01)
+
+
+@pytest.mark.parametrize(("psi", "order"), [(families.constant(), 4 / 5), (families.rational(), 8 / 9)])
+def test_an_exit_through_the_equator_has_the_order_of_psi(psi, order):
+    # The motion stays in a line; across it nothing changes, and the order is that of the exit.
+    system = ELinear(-1.0, 0.0, -1.0, ("z", "(z - 1)/5"), g=(1.0,))
+    slopes, limit = measured(system, psi, (0.0, 0.0, 0.8), 0.8, [1e-6, 1e-7, 1e-8])
+    assert [phase.kind for phase in limit.phases] == ["slide", "slip"]
+    assert limit_order(system, psi, limit) == pytest.approx(order, abs=1e-6)
+    np.testing.assert_allclose(slopes, order, atol=0.02)
+
+
+def test_sliding_and_lines_have_order_one():
+    ball = examples.ball_in_pool(K=2.0)
+    for state0 in ((-1.0, 0.3, 10.0, 0.0), (1.0, 0.0, 12.0, 0.0)):
+        limit = simulate_nonsmooth(ball, state0, (0.0, 2.5), PSI)
+        assert limit_order(ball, PSI, limit) == 1.0
+
+
+def test_the_words_tell_whether_phases_agree():
+    system = examples.nonunique_sliding()
+    limit = simulate_nonsmooth(system, (0.25, 0.3, 0.0), (0.0, 2.0), PSI)
+    run = simulate(system, PSI, 1e-2, (0.25, 0.3, 0.0), (0.0, 2.0))
+    found = agreement(system, PSI, run, limit)
+    assert found.same
+    assert found.order == 1.0
+    assert "are those of the limit" in found.sentence
+    coarse = simulate(system, PSI, 0.3, (0.25, 0.3, 0.0), (0.0, 2.0))
+    told = agreement(system, PSI, coarse, limit)
+    assert not told.same
+    assert "not those of the limit" in told.sentence
+    assert "slides on C3" in told.sentence
