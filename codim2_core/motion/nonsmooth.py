@@ -12,16 +12,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..cycles.limit_cycles import limit_cycles
+from ..numerics.dense import Dense, dense
+from ..numerics.growth import BlowUpError
 from ..numerics.radau import Problem, Step, TooManyStepsError
 from ..psi import constructors
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .decide import Verdict, arriving, critical_name, from_hemisphere, starting
-from .dense import Dense, dense
 from .events import Events, Watch, checked_events
 from .field import Field, field
 from .followed import in_disc
-from .growth import BlowUpError
 from .line import Line, invariant_line
 from .places import Ascent, Leaving, OfState, OnCycle, OnSet, Place
 from .problem import plane_problem

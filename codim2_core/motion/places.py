@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..layer_problem.equator import equator_equilibria
+from ..numerics.dense import Dense
 from ..orbits.trajectories import continuation, trajectories
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .dense import Dense
 from .field import field
 from .followed import in_disc, solved
 

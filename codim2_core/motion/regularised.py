@@ -8,13 +8,13 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.dense import dense
+from ..numerics.growth import BlowUpError, bounded
 from ..numerics.radau import Problem, Step, TooManyStepsError, steps
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .dense import dense
 from .events import Events, Watch, checked_events
 from .field import field
-from .growth import BlowUpError, bounded
 from .line import invariant_line
 from .phases import phases_of
 from .problem import plane_problem

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .dense import Dense
+from ..numerics.dense import Dense
 from .places import NONE, Ascent, Place
 
 Array = NDArray[np.float64]

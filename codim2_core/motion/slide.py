@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.growth import bounded
 from ..numerics.radau import STAGES, Problem, Step, StepsTooShortError, TooManyStepsError, steps
 from ..psi.function import Psi
 from .field import Field
-from .growth import bounded
 from .line import Line
 from .problem import growth_bound
 

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.growth import bounded
 from ..numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
 from .field import Field
-from .growth import bounded
 from .line import Line
 
 Array = NDArray[np.float64]

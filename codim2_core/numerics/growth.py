@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..numerics.radau import Problem, Step, StepsTooShortError, TooManyStepsError
+from .radau import Problem, Step, StepsTooShortError, TooManyStepsError
 
 BOUND = 1e200
 GROWN = 8.0  # times its size, within the spacing of doubles in time

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.radau import STAGES, Step
+from .radau import STAGES, Step
 
 Array = NDArray[np.float64]
 
