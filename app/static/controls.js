@@ -1,5 +1,6 @@
 // Controls: a slider with an editable number, whose range widens for a typed value.
 
+import {sidewaysOnly} from "./gestures.js"
 import {roundUp} from "./ranges.js"
 import {escape, plain} from "./words.js"
 
@@ -11,6 +12,7 @@ export class NumberControl {
     this.slider = box.querySelector("input[type=range]")
     this.number = box.querySelector("input.number")
     this.error = box.querySelector(".error")
+    if (this.slider) sidewaysOnly(this.slider)
     this.slider?.addEventListener("input", () => {
       this.number.value = plain(this.slider.valueAsNumber)
       onValue(this.name, this.slider.valueAsNumber)

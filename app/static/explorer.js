@@ -4,11 +4,13 @@ import {Connection} from "./connection.js"
 import {NumberControl, sayAt} from "./controls.js"
 import {readFrame} from "./frames.js"
 import {Hands} from "./hands.js"
+import {letScroll, twoFingers} from "./gestures.js"
 import {Inspector} from "./inspector.js"
 import {readLaunches} from "./launches.js"
 import {Panels} from "./panels.js"
 import {Picture} from "./picture.js"
 import {Requests} from "./requests.js"
+import {Sheets} from "./sheets.js"
 import {SystemChooser} from "./system.js"
 
 function wire({model, view, root, plot}) {
@@ -127,6 +129,8 @@ function wire({model, view, root, plot}) {
     end: () => { quiet = setTimeout(() => { held = -1; spoken.hidden = true }, 5000) },
   })
   find(".home").addEventListener("click", () => picture.home(config.view))
+  twoFingers(find(".bokeh"), plot)
+  new Sheets(root)
 
   // Theme: JupyterLab's or the system's until a choice is made.
   const system = matchMedia("(prefers-color-scheme: dark)")
@@ -241,7 +245,7 @@ export function render({model, view, el}) {
   Object.assign(root, {explorer: wire({model, view, root, plot: view.model.data.picture})}) // for tests, and for whoever looks
   // The server's drawing stays until Bokeh has painted.
   const drawing = root.querySelector(".first")
-  requestAnimationFrame(() => setTimeout(() => drawing.remove(), 150))
+  requestAnimationFrame(() => setTimeout(() => { drawing.remove(); letScroll(root.querySelector(".bokeh")) }, 150))
   el.append(root)
   first?.remove()
 }

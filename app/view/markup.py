@@ -35,9 +35,12 @@ def _template(name: str) -> Template:
 
 
 def stylesheet() -> str:
-    """Return all rules, those of the panels last; they are scoped to `.codim2`, and their colours are the table's."""
-    own = [(STATIC / name).read_text(encoding="utf-8") for name in ("explorer.css", "chart/chart.css")]
-    return "\n".join((custom_properties(), *own, swatches(), *(panel.style for panel in PANELS.values())))
+    """Return all rules; they are scoped to `.codim2`, their colours are the table's, and small screens come last."""
+    own, charts, narrow = (
+        (STATIC / name).read_text(encoding="utf-8") for name in ("explorer.css", "chart/chart.css", "narrow.css")
+    )
+    panels = (panel.style for panel in PANELS.values())
+    return "\n".join((custom_properties(), own, swatches(), charts, *panels, narrow))
 
 
 @cache

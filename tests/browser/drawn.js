@@ -5,7 +5,7 @@ export const chart = (svg) => {
     const {stroke, fill, strokeDasharray} = getComputedStyle(it)
     return {name: it.getAttribute("class"), stroke, fill, dashed: strokeDasharray !== "none"}
   }
-  const move = (it) => it.getAttribute("transform").match(/-?[\d.e-]+/g).map(Number)
+  const move = (it) => it.getAttribute("transform").match(/-?\d+(\.\d+)?/g).map(Number)
   const all = (root, what, read) => [...root.querySelectorAll(what)].map(read)
   const tick = (text) => [text.textContent, text.previousElementSibling.getAttribute("d")]
   const line = (it) => ({d: it.getAttribute("d"), ...style(it)})

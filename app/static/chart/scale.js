@@ -14,8 +14,8 @@ export function scale([from, to], [first, last]) {
 }
 
 /**
- * Round values within a span, 1, 2 or 5 times a power of ten apart: at most `most` of them, and at least two where
- * most >= 3.
+ * Round values within a span, 1, 2 or 5 times a power of ten apart: at most `most` of them, or somewhat more where there
+ * would be fewer than three.
  * @param {number[]} span low, high
  * @param {number} most
  * @returns {{values: number[], step: number}}
@@ -23,14 +23,15 @@ export function scale([from, to], [first, last]) {
 export function ticks([low, high], most) {
   const width = high - low
   if (!(width > 0) || !Number.isFinite(width)) return {values: [], step: 0}
-  const power = 10 ** Math.floor(Math.log10(width / Math.max(1, most)))
-  for (const factor of [1, 2, 5, 10, 20, 50]) {
-    const step = factor * power
-    const [first, last] = [Math.ceil(low / step - 1e-9), Math.floor(high / step + 1e-9)]
-    if (last - first + 1 > most) continue
-    return {values: Array.from({length: last - first + 1}, (_, i) => (first + i === 0 ? 0 : (first + i) * step)), step}
-  }
-  return {values: [], step: 0}
+  const power = 10 ** Math.floor(Math.log10(width / most))
+  const choices = [1, 2, 5, 10, 20].map((factor) => multiples(low, high, factor * power))
+  const coarse = choices.findIndex(({values}) => values.length <= most)
+  return choices[coarse].values.length < 3 && coarse > 0 ? choices[coarse - 1] : choices[coarse]
+}
+
+function multiples(low, high, step) {
+  const [first, last] = [Math.ceil(low / step - 1e-9), Math.floor(high / step + 1e-9)]
+  return {values: Array.from({length: last - first + 1}, (_, i) => (first + i === 0 ? 0 : (first + i) * step)), step}
 }
 
 /**

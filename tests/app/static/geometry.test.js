@@ -2,6 +2,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import {polygons, STEP} from "../../../app/static/frames.js"
+import {pinched} from "../../../app/static/gestures.js"
 import {eigenvalues, kindAt} from "../../../app/static/jacobian.js"
 import {seen} from "../../../app/static/projection.js"
 import {times, turned} from "../../../app/static/quaternions.js"
@@ -72,4 +73,12 @@ test("space is seen right side up, not mirrored, and what is nearer has less dep
   const [a, b, c] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((v) => seen(v, 0.7, 0.4))
   const determinant = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
   assert.ok(Math.abs(determinant + 1) < 1e-12)
+})
+
+test("two fingers keep what is under their middle, and enlarge by their distance", () => {
+  const ranges = [[-2, 2], [-1, 3]]
+  near(pinched(ranges, [[0.2, 0.5], [0.4, 0.5]], [[0.3, 0.4], [0.5, 0.4]]), [[-2.4, 1.6], [-1.4, 2.6]]) // both move right and up
+  const [[left, right], [low, high]] = pinched(ranges, [[0.4, 0.2], [0.6, 0.2]], [[0.3, 0.2], [0.7, 0.2]])
+  near([[right - left, high - low]], [[2, 2]])
+  near([[(left + right) / 2, low + 0.8 * (high - low)]], [[0, -1 + 0.8 * 4]])
 })

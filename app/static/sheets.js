@@ -1,0 +1,15 @@
+// On a narrow or low screen the picture stays; controls and panels are sheets that are drawn up beside it, one at a time.
+
+export class Sheets {
+  constructor(root) {
+    this.root = root
+    this.buttons = [...root.querySelectorAll(".sheets button")]
+    for (const button of this.buttons) button.addEventListener("click", () => this.show(root.dataset.sheet === button.dataset.sheet ? "" : button.dataset.sheet))
+  }
+
+  /** @param {string} name "controls", "inspector", or "" for the picture alone */
+  show(name) {
+    this.root.dataset.sheet = name
+    for (const button of this.buttons) button.setAttribute("aria-pressed", button.dataset.sheet === name)
+  }
+}
