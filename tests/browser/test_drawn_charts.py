@@ -109,7 +109,8 @@ def test_table_of_the_planes(opened, setting):
         if row is None or not sets:
             continue
         found += 1
-        np.testing.assert_allclose(numbers(row[1]) + numbers(row[2]), [sets[0].trace, sets[0].determinant], rtol=1e-3, atol=6e-4)
+        wanted = [sets[0].trace, sets[0].determinant]
+        np.testing.assert_allclose(numbers(row[1]) + numbers(row[2]), wanted, rtol=1e-3, atol=6e-4)
         assert row[3] == sets[0].kind
         spots = np.array([place for place, _ in plane.dots("over-mark")])
         away = np.abs(spots - [sets[0].trace, sets[0].determinant]) / plane.near

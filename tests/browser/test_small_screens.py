@@ -1,0 +1,118 @@
+"""Phones: the portrait stays beside sheets, one finger scrolls, two move the picture, sliders turn sideways only."""
+
+import pytest
+
+PHONES = [(360, 640), (390, 844), (740, 360)]
+
+#: What can be pressed and is lower or narrower than a finger needs.
+SMALL = """() => [...document.querySelectorAll('.codim2 :is(button, select, input:not([type=checkbox]), .layer)')]
+    .filter((it) => it.offsetParent && it.checkVisibility() && !it.closest('details:not([open])'))
+    .map((it) => [it.className || it.id || it.textContent, it.offsetWidth, it.offsetHeight])
+    .filter(([, width, height]) => height < 39.5 || width < 39.5)"""
+
+
+@pytest.fixture(params=PHONES, ids=lambda size: f"{size[0]}x{size[1]}")
+def phone(request, open_page):
+    width, height = request.param
+    page = open_page(viewport={"width": width, "height": height}, has_touch=True, is_mobile=True).open()
+    yield page
+    assert page.complaints == []
+
+
+def sheet(page, name):
+    page.find(f".sheets [data-sheet={name}]").tap()
+    return page.settle()
+
+
+def test_the_portrait_stays_and_each_sheet_is_reached(phone):
+    size = phone.page.viewport_size
+    assert phone.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    assert phone.page.evaluate("document.documentElement.scrollHeight <= innerHeight")
+    for name, last in [("controls", "#c2-g0"), ("inspector", "#c2-tab-psi")]:
+        if phone.find(".codim2").get_attribute("data-sheet") != name:
+            sheet(phone, name)
+        phone.find(last).scroll_into_view_if_needed()
+        for selector in (".picture", last):
+            box = phone.find(selector).bounding_box()
+            assert box["y"] > -1
+            assert box["y"] + box["height"] <= size["height"] + 1
+            assert box["x"] + box["width"] <= size["width"] + 1
+        assert phone.find(".picture").bounding_box()["width"] >= 0.4 * min(size.values())
+        assert phone.page.evaluate(SMALL) == []
+    before = phone.find(".picture").bounding_box()["width"]
+    sheet(phone, "inspector")  # pressed once more: the picture alone
+    assert not phone.find(".inspector").is_visible()
+    if size["height"] > size["width"]:
+        assert phone.find(".picture").bounding_box()["width"] > before
+
+
+def test_every_panel_is_wide_enough_for_its_chart(phone):
+    for tab in phone.find(".tabs [role=tab]").all():
+        tab.tap()
+        phone.settle()
+        panel = phone.find("[role=tabpanel]:visible")
+        assert panel.evaluate("(it) => it.scrollWidth <= it.clientWidth + 1"), tab.text_content()
+        assert phone.page.evaluate(SMALL) == [], tab.text_content()
+
+
+def swipe(page, start, end, other=None):
+    """One finger from start to end in ten steps; or two, the second one by `other`."""
+    session = page.page.context.new_cdp_session(page.page)
+
+    def places(share):
+        both = [(start, end), *([other] if other else [])]
+        return [
+            {"x": a[0] + share * (b[0] - a[0]), "y": a[1] + share * (b[1] - a[1]), "id": i}
+            for i, (a, b) in enumerate(both)
+        ]
+
+    session.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": places(0.0)})
+    for i in range(1, 11):
+        session.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": places(i / 10)})
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    session.detach()
+    page.page.wait_for_timeout(100)
+    page.settle()
+
+
+RANGES = """() => { const plot = Bokeh.documents.flatMap((it) => it.all_models ? [...it.all_models] : [])
+    .find((it) => it.type === 'Plot' || it.type === 'Figure')
+    return [plot.x_range.start, plot.x_range.end, plot.y_range.start, plot.y_range.end] }"""
+
+
+@pytest.fixture
+def touched(open_page):
+    page = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open()
+    page.page.wait_for_timeout(600)
+    yield page
+    assert page.complaints == []
+
+
+def test_a_slider_turns_sideways_only(touched):
+    sheet(touched, "controls")
+    slider = touched.find("#c2-b")
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    x, y = box["x"] + 0.8 * box["width"], box["y"] + box["height"] / 2
+    before = slider.input_value()
+    swipe(touched, (x, y), (x + 4, y - 120))
+    assert slider.input_value() == before
+    assert touched.find("[data-control=b] .number").input_value() == before
+    box = slider.bounding_box()
+    middle, y = box["x"] + 0.5 * box["width"], box["y"] + box["height"] / 2
+    swipe(touched, (middle, y), (middle + 0.3 * box["width"], y + 3))
+    assert float(slider.input_value()) > 1
+    assert touched.find("[data-control=b] .number").input_value() == slider.input_value()
+
+
+def test_one_finger_leaves_the_picture_where_it_is_and_two_move_it(touched):
+    before = touched.page.evaluate(RANGES)
+    box = touched.find(".bokeh").bounding_box()
+    spot = lambda u, v: (box["x"] + u * box["width"], box["y"] + v * box["height"])  # noqa: E731
+    swipe(touched, spot(0.5, 0.7), spot(0.55, 0.3))
+    assert touched.page.evaluate(RANGES) == before
+    swipe(touched, spot(0.4, 0.5), spot(0.2, 0.5), other=(spot(0.6, 0.5), spot(0.8, 0.5)))
+    left, right, low, high = touched.page.evaluate(RANGES)
+    assert right - left == pytest.approx((before[1] - before[0]) / 3, rel=0.1)
+    assert high - low == pytest.approx((before[3] - before[2]) / 3, rel=0.1)
+    assert left + right == pytest.approx(before[0] + before[1], abs=0.1)
