@@ -27,7 +27,16 @@ export function twoFingers(holder, plot) {
     const box = holder.getBoundingClientRect()
     return [...event.touches].slice(0, 2).map((touch) => [(touch.clientX - box.left) / box.width, (touch.clientY - box.top) / box.height])
   }
-  holder.addEventListener("pointermove", (event) => { if (event.pointerType === "touch") event.stopPropagation() }, true)
+  // Bokeh is told of taps by one finger only
+  const held = new Set(), hidden = new Set()
+  const ofFingers = (type, stops) => holder.addEventListener(type, (event) => { if (event.pointerType === "touch" && stops(event.pointerId)) event.stopPropagation() }, true)
+  ofFingers("pointermove", () => true)
+  ofFingers("pointerdown", (id) => {
+    if (held.size) hidden.add(id)
+    held.add(id)
+    return hidden.has(id)
+  })
+  for (const type of ["pointerup", "pointercancel"]) ofFingers(type, (id) => { held.delete(id); return hidden.delete(id) })
   holder.addEventListener("touchstart", (event) => {
     start = event.touches.length === 2 ? {places: places(event), ranges: [plot.x_range, plot.y_range].map(({start: low, end}) => [low, end])} : null
     if (start) event.preventDefault()

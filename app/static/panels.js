@@ -69,12 +69,14 @@ export class Panels {
   }
 
   show(name, values) {
-    if (this.open !== name) this.made[this.open]?.close?.()
+    const other = this.open !== name
+    if (other) this.made[this.open]?.close?.()
     this.open = name
     for (const tab of this.tabs) {
       const open = tab.dataset.panel === name
       tab.setAttribute("aria-selected", open)
       tab.tabIndex = open ? 0 : -1
+      if (open && other) this.strip.scrollLeft = tab.offsetLeft - this.strip.offsetLeft - (this.strip.clientWidth - tab.offsetWidth) / 2
     }
     for (const box of this.boxes) box.hidden = box.dataset.panel !== name
     this.draw(values)

@@ -189,6 +189,7 @@ export class Chart {
     const path = this.svg.querySelector(".value"), [first] = this.frames
     if (!path || !first) return
     const x = value === null ? NaN : first.x.at(value), seen = x >= first.left - 0.1 && x <= first.right + 0.1
+    if (seen) this.cover((box) => Math.abs(box[0] - x) < box[2] / 2 + 2)
     path.setAttribute("d", seen ? this.frames.map(({top, bottom}) => `M${fixed(x)} ${fixed(top)}V${fixed(bottom)}`).join("") : "")
   }
 
@@ -214,10 +215,14 @@ export class Chart {
       parts.push(`<text class="${tag.name}" x="${fixed(at[0])}" y="${fixed(at[1] + 0.35 * TEXT)}" text-anchor="middle">${escape(tag.text)}</text>`)
     }
     holder.innerHTML = `<svg class="plot" x="${fixed(frame.left)}" y="${fixed(frame.top)}" width="${fixed(frame.right - frame.left)}" height="${fixed(frame.bottom - frame.top)}" viewBox="${fixed(frame.left)} ${fixed(frame.top)} ${fixed(frame.right - frame.left)} ${fixed(frame.bottom - frame.top)}">${parts.join("")}</svg>`
+    this.cover((box, text) => (tag && text === tag.text) || covered.some((other) => meet(other, box)))
+  }
+
+  // Hide the words that something that moves would strike through.
+  cover(is) {
     for (const word of this.placed) {
-      const hidden = (tag && word.text === tag.text) || covered.some((box) => meet(box, word.box))
       word.element ??= this.svg.querySelector(`[data-word="${word.index}"]`)
-      word.element?.classList.toggle("covered", hidden)
+      word.element?.classList.toggle("covered", is(word.box, word.text))
     }
   }
 
