@@ -118,18 +118,18 @@ function wire({model, view, root, plot}) {
     spoken.hidden = held < 0 || !goes[i]
     if (!spoken.hidden) spoken.textContent = goes[i]
   }
-  new Hands(find(".bokeh"), picture, {
+  const hands = new Hands(find(".bokeh"), picture, {
     get: () => values.orbits,
-    set: (text) => {
+    set: (launches) => {
       if (!values.layers.includes("launched")) { change("layers", [...values.layers, "launched"]); showLayers() }
-      change("orbits", text)
+      change("orbits", launches)
       if (values.panel === "orbits") panels.draw(values)
     },
     begin: (i) => { held = i; clearTimeout(quiet) },
     end: () => { quiet = setTimeout(() => { held = -1; spoken.hidden = true }, 5000) },
   })
   find(".home").addEventListener("click", () => picture.home(config.view))
-  twoFingers(find(".bokeh"), plot)
+  twoFingers(find(".bokeh"), plot, () => hands.held !== null)
   new Sheets(root)
 
   // Theme: JupyterLab's or the system's until a choice is made.

@@ -20,8 +20,9 @@ export function pinched(ranges, before, after) {
   })
 }
 
-// Let two fingers move the plot in `holder`, and one scroll the page: Bokeh's own pan would take the one.
-export function twoFingers(holder, plot) {
+// Let two fingers move the plot in `holder`, and one scroll the page, unless it is `busy` there: Bokeh's own pan would take
+// the one.
+export function twoFingers(holder, plot, busy) {
   let start = null
   const places = (event) => {
     const box = holder.getBoundingClientRect()
@@ -42,8 +43,8 @@ export function twoFingers(holder, plot) {
     if (start) event.preventDefault()
   }, {capture: true, passive: false})
   holder.addEventListener("touchmove", (event) => {
+    if (start || busy()) event.preventDefault()
     if (!start || event.touches.length !== 2) return
-    event.preventDefault()
     const ranges = pinched(start.ranges, start.places, places(event))
     ;[plot.x_range, plot.y_range].forEach((range, i) => range.setv({start: ranges[i][0], end: ranges[i][1]}))
   }, {capture: true, passive: false})

@@ -41,6 +41,11 @@ export const record = (canvas) => {
     if (last) last.fill ??= this.fillStyle
     own.fill.apply(this, all)
   }
+  pen.stroke = function (...all) {
+    const last = canvas.drawn.at(-1)
+    if (last) last.stroke ??= this.strokeStyle
+    own.stroke.apply(this, all)
+  }
 }
 
 export const property = (it, name) => getComputedStyle(it.closest(".codim2")).getPropertyValue(`--${name}`).trim()

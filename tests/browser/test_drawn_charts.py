@@ -313,10 +313,16 @@ def test_hemisphere_in_space(opened, setting):
     scale = np.linalg.norm(places - places.mean(0)) / np.linalg.norm(wanted - wanted.mean(0))
     flipped = wanted * [1, -1]
     np.testing.assert_allclose(places - places.mean(0), scale * (flipped - flipped.mean(0)), atol=0.02 * scale)
-    fills = [it["fill"] for it in drawn if it["name"] == "arc" and it["all"][2] == 4]
-    page_colour = canvas.evaluate(SCRIPTS["property"], "page")
-    hollow = [fill.lower() in (page_colour, "#ffffff") for fill in fills]
-    assert hollow == [bool(rho > 0) for rho in q.lambda_rho]
+    page_colour, attracting, repelling, critical = (
+        canvas.evaluate(SCRIPTS["property"], name) for name in ("page", "attr", "rep", "crit")
+    )
+    rims = [it for it in drawn if it["name"] == "arc" and it["all"][2] == 4]
+    for it, rho in zip(rims, q.lambda_rho, strict=True):
+        assert it["stroke"] == (attracting if rho < 0 else repelling)
+        assert it["fill"] in ((attracting,) if rho < 0 else (page_colour, "#ffffff"))
+    for it, C in zip([it for it in drawn if it["name"] == "rect"], sets, strict=True):
+        assert it["stroke"] == critical
+        assert (it["fill"] == critical) == C.kind.startswith("stable")
 
 
 def test_limit_directions_along_z_in_space(opened, setting):
