@@ -221,14 +221,15 @@ class Scene:
 
 _PARAMETERS = ("system", "psi", "z", "seeds", "count", "launch", "t_max", "length", "rtol", "atol", "view", "pixel")
 
-ELINEAR_ONLY = frozenset({"certificates", "atlas_curves", "regions"})
+ELINEAR_ONLY = frozenset({"atlas_curves", "regions"})
 
 # The values that layers read, as keys: `plane` is (a, b, d, f1, f2) at z, or the formulas of U and the numbers that
-# they read, and `matrix` is (a, b, d), so z itself reaches nothing.
+# they read, and `matrix` is (a, b, d), so z itself reaches nothing but what looks along z: `place`.
 _INPUTS: dict[str, Callable[[Scene], Hashable]] = {
     "plane": lambda s: s.coefficients.key,
     "matrix": lambda s: _matrix(s),
     "slow": lambda s: s.coefficients.slow_key,
+    "place": lambda s: (s.system, s.z) if s.system.moves_with_z else None,
     "psi": lambda s: s.psi,
     "inner seeds": lambda s: s.count if s.seeds is None else _start(s, outside=False).tobytes(),
     "outer seeds": lambda s: s.count if s.seeds is None else _start(s, outside=True).tobytes(),
@@ -326,8 +327,8 @@ def _regions(scene: Scene) -> tuple[Region, ...] | None:
     return None if matrix is None else regions(*matrix)
 
 
-def _certificates(scene: Scene) -> tuple[Certificate, ...] | None:
-    return None if _elinear(scene) is None else certificates_of(scene.problem, scene["cycles"])
+def _certificates(scene: Scene) -> tuple[Certificate, ...]:
+    return certificates_of(scene.problem, scene["cycles"], None if scene.system.frozen else scene.system, scene.z)
 
 
 def _inside_nullclines(scene: Scene) -> tuple[NullclineBranch, ...]:
@@ -356,7 +357,7 @@ layers: Mapping[str, Layer] = MappingProxyType(
         "launched": Layer(("plane", "psi", "launch", "view", "pixel"), _launched),
         "separatrices": Layer(("plane", "psi", "tolerance", "pixel"), _separatrices),
         "outcomes": Layer(("plane", "slow", "psi"), lambda s: outcomes_of(s.problem)),
-        "certificates": Layer(("plane", "slow", "psi"), _certificates),
+        "certificates": Layer(("plane", "slow", "psi", "place"), _certificates),
         "atlas_curves": Layer(("matrix",), _atlas_curves),
         "regions": Layer(("matrix",), _regions),
     }

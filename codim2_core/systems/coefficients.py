@@ -40,6 +40,7 @@ class Coefficients:
     given: Affine | None = None
 
     frozen: ClassVar[bool] = True
+    moves_with_z: ClassVar[bool] = False
     variable: ClassVar[tuple[str, ...]] = ("a", "b", "d", "f1", "f2")
 
     @property
@@ -51,6 +52,11 @@ class Coefficients:
     def reads_position(self) -> bool:
         """False: on Sigma, x = y = 0."""
         return False
+
+    @property
+    def z(self) -> tuple[float, ...]:
+        """(): numbers do not know where they come from."""
+        return ()
 
     @property
     def m(self) -> int:

@@ -211,6 +211,13 @@ class ELinear:
                 raise ValueError(f"{name!r} is no coefficient of this system; it has {allowed}.")
         return replace(self, **{"f": tuple(f), "parameters": tuple(parameters.items()), **fields})
 
+    @cached_property
+    def moves_with_z(self) -> bool:
+        """Whether A or f, and with them the whole portrait, may depend on z."""
+        known = dict(self.parameters)
+        plane = (e for what, e in self.expressions if what[0] not in "Bg")
+        return any(name not in known for expression in plane for name in expression.names)
+
     @property
     def variable(self) -> tuple[str, ...]:
         """Names of what `varied` changes: those of a, b, d, f1, f2 that are numbers, and the parameters."""

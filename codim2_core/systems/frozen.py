@@ -23,6 +23,10 @@ class AtZ(Protocol):
     ----------
     frozen : bool
         True: z is chosen already.
+    moves_with_z : bool
+        False: it depends on z no more.
+    z : tuple of float
+        Where it is frozen, as far as that is known: () for numbers alone.
     m : int
         The number of slow variables.
     typed : System or None
@@ -51,7 +55,10 @@ class AtZ(Protocol):
     """
 
     frozen: ClassVar[bool]
+    moves_with_z: ClassVar[bool]
 
+    @property
+    def z(self) -> tuple[float, ...]: ...  # noqa: D102
     @property
     def m(self) -> int: ...  # noqa: D102
     @property

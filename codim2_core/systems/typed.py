@@ -187,6 +187,11 @@ class System:
         return frozen
 
     @cached_property
+    def moves_with_z(self) -> bool:
+        """Whether U, and with it the whole portrait, may depend on z."""
+        return any(name in SLOW for u in self.U for name in u.names)
+
+    @cached_property
     def reads_position(self) -> bool:
         """Whether U depends on x or y: then the outside differs from the hemisphere's continuation."""
         return any(name in ("x", "y") for u in self.U for name in u.names)
@@ -206,6 +211,7 @@ class Frozen:
     z: tuple[float, ...]
 
     frozen: ClassVar[bool] = True
+    moves_with_z: ClassVar[bool] = False
     variable: ClassVar[tuple[str, ...]] = ()
 
     @property

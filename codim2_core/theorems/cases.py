@@ -6,7 +6,12 @@ import numpy as np
 
 from ..layer_problem.critical import Existence
 from ..psi.constructors import compared
+from .degenerate import NOT_LINEAR
 from .facts import RAYS, Certificate, Facts, not_applicable, verdict_of
+
+
+def _why(facts: Facts) -> str:
+    return NOT_LINEAR if facts.location is None else facts.location.existence.value
 
 
 def case1(facts: Facts) -> tuple[Certificate, ...]:
@@ -16,7 +21,7 @@ def case1(facts: Facts) -> tuple[Certificate, ...]:
     without = "Case I, |A⁻¹f| > 1: no critical set; 2 or 4 limit directions."
     five = "Case I has five generic portraits: CM0, CM2, CM4, NCM2 and NCM4."
     if facts.portrait.case != "I":
-        why = "This is not Case I: a and d are not of one sign."
+        why = "This is not Case I: a and d are not of one sign." if facts.form is not None else NOT_LINEAR
         parts = ("thm:case1(a)", with_set), ("thm:case1(b)", without), ("thm:case1(c)", five)
         return tuple(not_applicable(*part, why) for part in parts)
     return _case1a(facts, with_set), _without_set("thm:case1(b)", facts, without), _five(facts, five)
@@ -25,8 +30,9 @@ def case1(facts: Facts) -> tuple[Certificate, ...]:
 def _case1a(facts: Facts, statement: str) -> Certificate:
     theorem = "thm:case1(a)"
     if not facts.critical:
-        return not_applicable(theorem, statement, facts.location.existence.value)
-    a, d = facts.at.a, facts.at.d
+        return not_applicable(theorem, statement, _why(facts))
+    assert facts.form is not None
+    a, d = facts.form.a, facts.form.d
     backwards = a > 0.0
     # div = tangential (beta + alpha sigma), alpha and beta between a and d, sigma > 0: it has the sign of a and d.
     # (The paper prints the denominator zeta^2 + Psi; it is (zeta^2 + Psi)^(3/2).)
@@ -60,8 +66,8 @@ def _case1a(facts: Facts, statement: str) -> Certificate:
 
 
 def _without_set(theorem: str, facts: Facts, statement: str) -> Certificate:
-    if facts.location.existence is not Existence.NONE:
-        return not_applicable(theorem, statement, facts.location.existence.value)
+    if facts.location is None or facts.location.existence is not Existence.NONE:
+        return not_applicable(theorem, statement, _why(facts))
     count = len(facts.equator)
     numbers = (("critical sets", float(len(facts.critical))), ("limit directions", float(count)))
     if not facts.generic:
@@ -94,11 +100,13 @@ def case2(facts: Facts) -> tuple[Certificate, ...]:
     with_set += "saddle of the radial and angular flow."
     without = "Case II, |A⁻¹f| > 1: no critical set; 2 or 4 limit directions."
     if facts.portrait.case != "II":
-        why = "This is not Case II: a and d of opposite sign with det A < 0."
+        why = NOT_LINEAR
+        if facts.form is not None:
+            why = "This is not Case II: a and d of opposite sign with det A < 0."
         return not_applicable("thm:case2(a)", with_set, why), not_applicable("thm:case2(b)", without, why)
     second = _without_set("thm:case2(b)", facts, without)
     if not facts.critical:
-        return not_applicable("thm:case2(a)", with_set, facts.location.existence.value), second
+        return not_applicable("thm:case2(a)", with_set, _why(facts)), second
     equator = facts.equator
     products = (equator.lambda_rho * equator.lambda_theta).tolist()
     saddles = all(C.kind == "saddle" for psi in (facts.psi, *compared(1)) for C in facts.problem.under(psi).critical)

@@ -14,15 +14,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..layer_problem.critical import Existence
-from ..layer_problem.linearisation import matrix_determinant
 from ..layer_problem.problem import LayerProblem
-from ..psi.constructors import compared
 from ..psi.function import Psi
 from ..sliding.flow import sliding_flow
-from ..systems.coefficients import Coefficients
-from ..systems.elinear import ELinear
+from ..systems.frozen import AtZ
+from ..systems.kinds import AnySystem
 from .cases import case1, case2
+from .degenerate import NOT_LINEAR, equal_diagonal, normal_form, symmetric
 from .facts import CLOSE, RAYS, Certificate, Facts, Verdict, not_applicable, verdict_of
+from .paper_examples import attracting_and_repelling, ball_in_pool, nonunique
+from .psi_claims import psi_claims
+from .sliding_claims import sliding_claims
 
 __all__ = ["Certificate", "Verdict", "certificates"]
 
@@ -31,13 +33,14 @@ _ILL = "The condition number of A is {:.1e}: a check of A⁻¹f in doubles would
 
 
 def certificates(
-    system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (), cycles: Iterable[Any] | None = None
+    system: AnySystem, psi: Psi, z: ArrayLike = (), cycles: Iterable[Any] | None = None
 ) -> tuple[Certificate, ...]:
-    """Evaluate the claims of thm:geneps0, geneps1, lineps1, case1, case2, prop:LC and the index on a system.
+    """Evaluate all numbered claims of the paper on a system, or say why one does not apply to it.
 
     Parameters
     ----------
-    system : ELinear, or Coefficients
+    system : ELinear or System, or either frozen at a z
+        thm:geneps1(d), the slow manifold, looks along z: it does not apply to a system frozen at one z.
     psi : Psi
     z : (m,) floats
     cycles : iterable, optional
@@ -47,6 +50,7 @@ def certificates(
     Returns
     -------
     tuple of Certificate
+        In the order of the paper.
 
     Raises
     ------
@@ -55,25 +59,35 @@ def certificates(
     """
     if not isinstance(psi, Psi):
         raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
-    return certificates_of(LayerProblem(system.at(z), psi), cycles)
+    at = system.at(z)
+    place = tuple(float(v) for v in np.atleast_1d(np.asarray(z, float)))
+    return certificates_of(LayerProblem(at, psi), cycles, None if system.frozen else system, place)
 
 
-def certificates_of(problem: LayerProblem, cycles: Iterable[Any] | None = None) -> tuple[Certificate, ...]:
+def certificates_of(
+    problem: LayerProblem, cycles: Iterable[Any] | None = None, system: Any = None, z: tuple[float, ...] = ()
+) -> tuple[Certificate, ...]:
     """Evaluate the claims on a layer problem, with the parameters of `certificates`."""
-    facts = Facts(problem)
+    facts = Facts(problem, system, z)
     return (
+        *psi_claims(problem.psi),
         _equilibria(facts),
         _up_the_sphere(facts),
         _closed_equator(facts),
         _slow_on_the_sphere(),
-        _critical_kind(facts),
-        _slow_flow(facts),
+        *sliding_claims(facts),
+        _index(facts),
+        normal_form(facts),
+        equal_diagonal(facts),
+        symmetric(facts),
         _existence(facts),
         _filippov(facts),
+        _limit_cycles(facts, cycles),
         *case1(facts),
         *case2(facts),
-        _index(facts),
-        _limit_cycles(facts, cycles),
+        ball_in_pool(facts),
+        attracting_and_repelling(facts),
+        nonunique(facts),
     )
 
 
@@ -130,12 +144,16 @@ def _closed_equator(facts: Facts) -> Certificate:
     theta = np.linspace(0.0, 2.0 * math.pi, 4096, endpoint=False)
     e = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
     U = facts.at.U(e)
-    a, b, d, f1, f2 = facts.at.plane
-    # Theta itself, not the component of U: a, however much larger than b, stays out of it
-    out, around = (e * U).sum(axis=1), (d - a) * e[:, 1] * e[:, 0] + f2 * e[:, 0] - f1 * e[:, 1] + b
+    out, around = (e * U).sum(axis=1), e[:, 0] * U[:, 1] - e[:, 1] * U[:, 0]
+    size = facts.size
+    if facts.at.as_given is not None:
+        a, b, d, f1, f2 = facts.at.as_given.plane
+        # Theta itself, not the component of U: a, however much larger than b, stays out of it
+        around = (d - a) * e[:, 1] * e[:, 0] + f2 * e[:, 0] - f1 * e[:, 1] + b
+        size = abs(d - a) + abs(f1) + abs(f2) + abs(b)
     integral = float((out / abs(around)).mean() * 2.0 * math.pi)
     weight = float((abs(out) / abs(around)).mean() * 2.0 * math.pi)
-    rounding = 1e-15 * (abs(d - a) + abs(f1) + abs(f2) + abs(b))
+    rounding = 1e-15 * size
     one_sign = bool((around > -rounding).all() or (around < rounding).all())
     sharp = float(abs(around).min()) > 0.02 * float(abs(around).max())  # else 4096 points do not resolve the peak
     holds = one_sign and (not sharp or abs(integral - cycle.exponent) <= 1e-8 * max(weight, 1.0))
@@ -156,58 +174,17 @@ def _slow_on_the_sphere() -> Certificate:
     )  # fmt: skip
 
 
-# thm:geneps1 and thm:lineps1 ---------------------------------------------------------------------------------------
-
-
-def _critical_kind(facts: Facts) -> Certificate:
-    theorem = "thm:geneps1(b)"
-    statement = "The critical set is a saddle, whatever Ψ is, if det A < 0; a node or focus if det A > 0."
-    if not facts.critical:
-        return not_applicable(theorem, statement, "There is no isolated critical set.")
-    C = facts.critical[0]
-    sign = matrix_determinant(*facts.at.affine[:4])[1]
-    det = facts.at.a * facts.at.d + facts.at.b**2
-    factor = C.determinant / det if sign and det else 0.0
-    holds = (C.kind == "saddle") == (sign < 0) and sign * C.determinant >= 0.0  # = 0.0: det J has underflown
-    article = "an" if C.kind.startswith("unstable") else "a"
-    return Certificate(
-        theorem, statement, verdict_of(holds),
-        (("det A", det), ("det J", C.determinant), ("det D e_Ψ", factor), ("tr J", C.trace)),
-        f"det J = det A · det D e_Ψ, and the second factor is positive for every Ψ. C is {article} {C.kind}.",
-    )  # fmt: skip
-
-
-def _slow_flow(facts: Facts) -> Certificate:
-    theorem = "thm:geneps1(c)"
-    statement = "The slow flow on the critical set does not depend on Ψ."
-    if not facts.critical:
-        return not_applicable(theorem, statement, "There is no isolated critical set.")
-    if not len(facts.at.g):
-        return not_applicable(theorem, statement, "There is no slow variable (m = 0).")
-    slow = facts.critical[0].slow_flow
-    numbers, holds = [], True
-    for other in dict.fromkeys((facts.psi, *compared(1))):
-        found = facts.problem.under(other).critical
-        x2 = found[0].x2
-        zeta = float(np.hypot(*x2))
-        e = other.modulus(zeta) * x2 / zeta if zeta else x2  # back from the scaling chart
-        W = facts.at.W(e)
-        difference = float(abs(W - slow).max())
-        numbers.append((f"largest change of z′ with Ψ = {other.text}", difference))
-        size = float(abs(facts.at.B).max(initial=0.0) + abs(facts.at.g).max(initial=0.0)) or 1.0
-        holds &= difference <= CLOSE * size
-    return Certificate(
-        theorem, statement, verdict_of(holds), tuple(numbers),
-        "Each Ψ puts the critical set elsewhere in the chart, and all give one slow flow.",
-    )  # fmt: skip
+# thm:lineps1 ------------------------------------------------------------------------------------------------------
 
 
 def _existence(facts: Facts) -> Certificate:
     theorem = "thm:lineps1(a)"
     statement = "There is a critical set, and only one, just if |A⁻¹f| < 1."
+    if facts.location is None:
+        return not_applicable(theorem, statement, NOT_LINEAR)
     if facts.location.singular:
         return not_applicable(theorem, statement, "det A = 0 within rounding: A has no inverse.")
-    A, f = facts.at.A, facts.at.f
+    A, f = facts.given
     condition = float(np.linalg.cond(A))
     if not condition < MOST_CONDITION:
         return not_applicable(theorem, statement, _ILL.format(condition))
@@ -231,18 +208,29 @@ def _existence(facts: Facts) -> Certificate:
     )  # fmt: skip
 
 
+def _affine(at: AtZ) -> bool:
+    """Whether W is affine in (c, s), as far as a few directions show."""
+    e = np.stack([np.cos(RAYS), np.sin(RAYS)], axis=-1)
+    W, middle = at.W(e), at.W(np.zeros(2))
+    tilt = np.stack([at.W(np.eye(2)[k]) - middle for k in (0, 1)])
+    return bool(np.abs(W - middle - e @ tilt).max(initial=0.0) <= 1e-13 * (np.abs(W).max(initial=0.0) or 1.0))
+
+
 def _filippov(facts: Facts) -> Certificate:
     theorem = "thm:lineps1(b)"
     statement = "The slow flow is −B A⁻¹f + g, as the Filippov convention has it."
+    if facts.location is None or not _affine(facts.at):
+        return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else "W is not e-linear.")
     if not facts.critical:
         return not_applicable(theorem, statement, "There is no isolated critical set.")
-    if not len(facts.at.g):
+    if not facts.at.m:
         return not_applicable(theorem, statement, "There is no slow variable (m = 0).")
     e, slow = facts.critical[0].e, facts.critical[0].slow_flow
     formula = sliding_flow(facts.at)
     if formula is None:
         return not_applicable(theorem, statement, "The sliding flow is not defined.")
-    size = float(abs(facts.at.B).max(initial=0.0) + abs(facts.at.g).max(initial=0.0)) or 1.0
+    formula = formula.reshape(slow.shape)
+    size = facts.slow_size
     worst = float(abs(slow - formula).max())
     spread = 0.0
     for angle in RAYS[:6]:
@@ -266,11 +254,17 @@ def _filippov(facts: Facts) -> Certificate:
 # Index and limit cycles --------------------------------------------------------------------------------------------
 
 
+_INDEX = {"saddle": -1, "saddle-node": 0}
+
+
 def _index(facts: Facts) -> Certificate:
     theorem = "sec:geneps0, index theory"
     statement = "The indices of the critical sets add up to the number of turns of U along the equator."
     equator = facts.equator
-    if equator.all_directions or equator.radially_degenerate.any() or facts.location.singular:
+    if facts.uncertain is not None:
+        return not_applicable(theorem, statement, facts.uncertain)
+    singular = facts.location is not None and facts.location.singular
+    if equator.all_directions or equator.radially_degenerate.any() or singular:
         return not_applicable(theorem, statement, "U vanishes on the equator, or the critical sets are not isolated.")
     # Seen from the turning frame U is (lambda_rho, Theta): it crosses the radial axis where Theta changes sign.
     odd = equator.multiplicity % 2 == 1
@@ -280,7 +274,7 @@ def _index(facts: Facts) -> Certificate:
     degree = 1 + 0.5 * float((slopes * rates).sum())
     theta = np.linspace(0.0, 2.0 * math.pi, 721)
     U = facts.at.U(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
-    index = float(sum(-1 if C.kind == "saddle" else 1 for C in facts.critical))
+    index = float(sum(_INDEX.get(C.kind, 1) for C in facts.critical))
     holds = degree == index
     numbers: list[tuple[str, float]] = [("sum of the indices", index), ("turns, from λ_ρ and Θ", degree)]
     steps = np.diff(np.unwrap(np.arctan2(U[:, 1], U[:, 0])))
@@ -298,15 +292,18 @@ def _limit_cycles(facts: Facts, cycles: Iterable[Any] | None) -> Certificate:
     if not found:
         why = "No limit cycle was given." if cycles is None else "There is no limit cycle."
         return not_applicable(theorem, statement, why)
+    if facts.location is None or not _affine(facts.at):
+        return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else "W is not e-linear.")
     if facts.location.singular:
         return not_applicable(theorem, statement, "det A = 0 within rounding: A has no inverse.")
-    condition = float(np.linalg.cond(facts.at.A))
+    A, f = facts.given
+    condition = float(np.linalg.cond(A))
     if not condition < MOST_CONDITION:
         return not_applicable(theorem, statement, _ILL.format(condition))
-    mean = -np.linalg.solve(facts.at.A, facts.at.f)
+    mean = -np.linalg.solve(A, f)
     slow = facts.at.W(mean)
     numbers, holds = [], True
-    size = float(abs(facts.at.B).max(initial=0.0) + abs(facts.at.g).max(initial=0.0)) or 1.0
+    size = facts.slow_size
     for i, cycle in enumerate(found):
         own = getattr(cycle, "mean_e", None)
         if own is not None:

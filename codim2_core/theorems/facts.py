@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..layer_problem.closed_equator import EquatorCycle
 from ..layer_problem.critical import CriticalSet, Existence, Location
@@ -15,9 +17,23 @@ from ..layer_problem.problem import LayerProblem
 from ..portrait.classify import Classification, portrait
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
+from ..systems.frozen import AtZ
 
+Array = NDArray[np.float64]
 CLOSE = 1e-9  # of the size of what is compared
 RAYS = np.linspace(0.0, 2.0 * math.pi, 48, endpoint=False)
+
+
+UNCERTAIN = frozenset(
+    {
+        "limit directions uncertain",
+        "critical sets uncertain",
+        "index mismatch",
+        "curve of critical points",
+        "everything stands still",
+        "degenerate critical set",
+    }
+)
 
 
 class Verdict(Enum):
@@ -54,16 +70,53 @@ class Certificate:
 
 @dataclass(frozen=True)
 class Facts:
-    """Everything the theorems speak of, of one e-linear layer problem."""
+    """Everything the theorems speak of, of one layer problem.
+
+    Attributes
+    ----------
+    problem : LayerProblem
+    system : ELinear, System or None
+        The system that was frozen, where it is known: thm:geneps1(d) looks along z.
+    z : tuple of float
+    """
 
     problem: LayerProblem
+    system: Any = None
+    z: tuple[float, ...] = ()
 
     @property
-    def at(self) -> Coefficients:
-        """The coefficients."""
-        form = self.problem.at.as_given
-        assert form is not None
-        return form
+    def at(self) -> AtZ:
+        """The frozen system."""
+        return self.problem.at
+
+    @property
+    def form(self) -> Coefficients | None:
+        """The normal form, None where U is not e-linear."""
+        return self.problem.at.normal_form
+
+    @property
+    def given(self) -> tuple[Array, Array]:
+        """A (2, 2) and f (2,) of an e-linear system, in its own axes."""
+        form, affine = self.problem.at.as_given, self.problem.at.affine
+        assert affine is not None
+        if form is not None:
+            return form.A, form.f
+        return np.array(affine[:4]).reshape(2, 2), np.array(affine[4:])
+
+    @property
+    def slow_size(self) -> float:
+        """The largest |W| on the edge and in the middle (1 if W = 0): what slow flows are compared with."""
+        e = np.stack([np.cos(RAYS), np.sin(RAYS)], axis=-1)
+        values = np.abs(self.at.W(np.concatenate([e, np.zeros((1, 2))])))
+        return float(values.max(initial=0.0)) or 1.0
+
+    @property
+    def uncertain(self) -> str | None:
+        """Why a count of this system is not certain, or None: then a claim that fails shows nothing."""
+        for degeneracy in self.portrait.degeneracies:
+            if degeneracy.name in UNCERTAIN:
+                return degeneracy.sentence
+        return None
 
     @property
     def psi(self) -> Psi:
@@ -81,9 +134,8 @@ class Facts:
         return self.problem.equator_cycle
 
     @property
-    def location(self) -> Location:
-        """Where A e + f = 0."""
-        assert self.problem.location is not None
+    def location(self) -> Location | None:
+        """Where A e + f = 0; None where U is not e-linear."""
         return self.problem.location
 
     @property
@@ -106,7 +158,11 @@ class Facts:
         """Whether the equator is not degenerate and the critical set not on it."""
         equator = self.equator
         flat = bool((equator.multiplicity > 1).any() or equator.radially_degenerate.any())
-        return not (equator.all_directions or flat or self.location.existence is Existence.EQUATOR)
+        return not (
+            equator.all_directions
+            or flat
+            or (self.location is not None and self.location.existence is Existence.EQUATOR)
+        )
 
 
 def verdict_of(holds: bool) -> Verdict:

@@ -52,7 +52,7 @@ REACHES = {
     "f2": ({"f2": 0.2}, EQUATOR | HEMISPHERE | {"slow_flow"}),
     "psi": ({"psi": c2.psi.rational()}, HEMISPHERE),
     "hill": ({"psi": c2.psi.hill(3)}, HEMISPHERE),
-    "z": ({"z": 1.0}, set()),
+    "z": ({"z": 1.0}, {"certificates"}),  # the slow manifold is looked for along z
     "B": ({"B": [[2.0, 1.0]]}, SLOW),
     "g": ({"g": [0.5]}, SLOW),
     "length": ({"length": 5.0}, {"inside", "outside", "continuations"}),

@@ -18,7 +18,6 @@ register("theorems", (box) => {
   return {
     apply({header}) {
       if (header.theorems) list.innerHTML = header.theorems.map(row).join("")
-      if (header.unable?.theorems) list.innerHTML = `<li class="idle">${escape(header.unable.theorems)}</li>`
     },
   }
 })

@@ -7,14 +7,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codim2_core import ELinear, presets, psi
+from codim2_core import ELinear, System, examples, presets, psi
 from codim2_core.theorems.certificates import Verdict, certificates
+from tests.core.general_systems import polynomials
 from tests.core.strategies import coefficient, regularisations, systems
 
 LABELS = [
-    "thm:geneps0(a)", "thm:geneps0(b)", "thm:geneps0(c)", "thm:geneps0(d)", "thm:geneps1(b)", "thm:geneps1(c)",
-    "thm:lineps1(a)", "thm:lineps1(b)", "thm:case1(a)", "thm:case1(b)", "thm:case1(c)", "thm:case2(a)", "thm:case2(b)",
-    "sec:geneps0, index theory", "prop:LC",
+    "lem:ePsi(a)", "lem:ePsi(b)", "lem:ePsi(c)", "lem:ePsi(d)", "rem:jaco_properties",
+    "thm:geneps0(a)", "thm:geneps0(b)", "thm:geneps0(c)", "thm:geneps0(d)",
+    "thm:geneps1(a)", "thm:geneps1(b)", "thm:geneps1(c)", "thm:geneps1(d)", "sec:geneps0, index theory",
+    "lem:normalform", "sec:lineps0, D1", "sec:lineps0, D2", "thm:lineps1(a)", "thm:lineps1(b)", "prop:LC",
+    "thm:case1(a)", "thm:case1(b)", "thm:case1(c)", "thm:case2(a)", "thm:case2(b)",
+    "sec:ballpool", "sec:mateslidecross", "sec:nonunique",
 ]  # fmt: skip
 round_systems = st.builds(
     lambda a, b, d, f1, f2: ELinear(a, b, d, (f1, f2)), *(st.integers(-3, 3).map(float) for _ in range(5))
@@ -72,3 +76,85 @@ def test_a_wrong_cycle_fails_and_a_right_one_holds():
 def test_psi_is_checked():
     with pytest.raises(ValueError, match="psi is 1"):
         certificates(ELinear(1, 0, 1), 1)
+
+
+def turned(system, angle):
+    """The same system in axes turned by an angle, typed as text."""
+    at = system.at()
+    c, s = np.cos(angle), np.sin(angle)
+    R = np.array([[c, -s], [s, c]])
+    A, f = (R @ at.A @ R.T).tolist(), (R @ at.f).tolist()
+    return System(U=tuple(f"({row[0]!r})*c + ({row[1]!r})*s + ({value!r})" for row, value in zip(A, f, strict=True)))
+
+
+@settings(max_examples=60)
+@given(st.one_of(systems, round_systems), regularisations, st.sampled_from([0.0, 0.5 * np.pi, 0.3, 2.0]))
+def test_nothing_fails_for_typed_affine_systems(system, regularisation, angle):
+    typed = turned(system, angle)
+    try:
+        typed.at()
+    except ValueError:  # U = 0 but for rounding
+        return
+    for c in certificates(typed, regularisation):
+        assert c.verdict is not Verdict.FAILS, c
+
+
+@settings(max_examples=60)
+@given(polynomials, regularisations)
+def test_nothing_fails_for_general_systems(system, regularisation):
+    for c in certificates(system, regularisation):
+        assert c.verdict is not Verdict.FAILS, c
+        assert c.sentence
+        assert all(np.isfinite(value) for _, value in c.numbers), c
+
+
+def applies(system, regularisation, z=()):
+    return {c.theorem for c in certificates(system, regularisation, z) if c.verdict is Verdict.HOLDS}
+
+
+@pytest.mark.parametrize("regularisation", [psi.constant(), psi.tanh(), psi.hill(3), psi.custom("exp(-s/2)")])
+@pytest.mark.parametrize("z", [-1.3, -0.2, 0.0, 0.4, 1.7])
+def test_the_three_examples(regularisation, z):
+    always = {"lem:ePsi(a)", "lem:ePsi(b)", "lem:ePsi(c)", "lem:ePsi(d)", "rem:jaco_properties", "thm:geneps0(d)"}
+    found = applies(examples.nonunique_sliding(), regularisation, z)
+    assert found >= always | {"sec:nonunique", "thm:geneps1(a)", "thm:geneps1(b)", "thm:geneps1(c)", "thm:geneps1(d)"}
+    assert "sec:ballpool" not in found
+    found = applies(examples.attracting_repelling(), regularisation, z)
+    assert found >= always | {"sec:mateslidecross", "thm:geneps1(a)", "thm:geneps1(d)", "sec:geneps0, index theory"}
+    assert "sec:nonunique" not in found
+    for place in ((4.0 * z, 1.0), (20.0, z)):
+        found = applies(examples.ball_in_pool(), regularisation, place)
+        assert found >= always | {"sec:ballpool", "sec:lineps0, D1", "lem:normalform"}
+        assert "sec:mateslidecross" not in found
+
+
+def test_what_is_beside_an_example_is_none():
+    beside = System(U=("2*c**2 - c - 1/2", "-s + 1e-6*c"), W=("-z",))
+    assert "sec:mateslidecross" not in applies(beside, psi.tanh(), 0.5)
+    assert "sec:ballpool" not in applies(ELinear(-1, 0, -1, (0.1, 0.0), B=[[-1, 0], [0, -1]]), psi.tanh())
+
+
+@pytest.mark.parametrize(("system", "theorem"), [
+    (ELinear(-1, 0.5, -1, (0.3, 0.9)), "sec:lineps0, D1"),
+    (ELinear(-1, 2.0, -1, (0.3, 0.9)), "sec:lineps0, D1"),
+    (ELinear(-1, 0.0, -2, (0.3, 0.0)), "sec:lineps0, D2"),
+    (ELinear(-1, 0.0, -2, (0.0, 0.3)), "sec:lineps0, D2"),
+    (ELinear(-1, 0.0, -2, (0.0, -1.3)), "sec:lineps0, D2"),
+    (ELinear(-1, 0.0, 2, (-1.0, 0.0)), "sec:lineps0, D2"),
+    (ELinear(-1, 0.0, -1.5, (-0.5, 0.0)), "sec:lineps0, D2"),
+])  # fmt: skip
+def test_degenerate_equators_have_the_closed_form(system, theorem):
+    assert theorem in applies(system, psi.constant())
+    assert theorem in applies(turned(system, 0.5 * np.pi), psi.constant()) or theorem.endswith("D2")
+
+
+def test_a_psi_outside_the_class_is_said_to_be_so():
+    found = {c.theorem: c for c in certificates(ELinear(-1, 0, -2, (0.1, 0.2)), psi.rational())}
+    assert found["rem:jaco_properties"].verdict is Verdict.HOLDS
+
+
+def test_a_frozen_system_has_no_slow_manifold_to_speak_of():
+    at = examples.nonunique_sliding().at(0.2)
+    (found,) = (c for c in certificates(at, psi.tanh()) if c.theorem == "thm:geneps1(d)")
+    assert found.verdict is Verdict.DOES_NOT_APPLY
+    assert "frozen" in found.sentence

@@ -1,0 +1,95 @@
+"""Certificates of lem:normalform and of the degenerate equators D1 and D2, which have closed forms."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .facts import Certificate, Facts, not_applicable, verdict_of
+
+NOT_LINEAR = "U is not e-linear."
+
+
+def normal_form(facts: Facts) -> Certificate:
+    """Evaluate lem:normalform."""
+    theorem, statement = "lem:normalform", "A rotation brings A into the form [[a, −b], [b, d]], whatever A is."
+    affine, form = facts.problem.at.affine, facts.form
+    if affine is None or form is None:
+        return not_applicable(theorem, statement, NOT_LINEAR)
+    phi = form.rotation if form.given is not None else 0.0
+    c, s = math.cos(phi), math.sin(phi)
+    R = np.array([[c, -s], [s, c]])
+    A, f = np.array(affine[:4]).reshape(2, 2), np.array(affine[4:])
+    worst = max(float(np.abs(R @ A @ R.T - form.A).max()), float(np.abs(R @ f - form.f).max()))
+    return Certificate(
+        theorem, statement, verdict_of(worst <= 1e-14 * max(facts.size, 1e-300) * 8.0),
+        (("φ", phi), ("a", form.a), ("b", form.b), ("d", form.d), ("largest |R A Rᵀ − [[a, −b], [b, d]]|", worst)),
+        "It is in the form already." if phi == 0.0 else f"The axes are turned by {phi:.6g}.",
+    )  # fmt: skip
+
+
+def _held(facts: Facts, theorem: str, statement: str, expected: list[float], sentence: str) -> Certificate:
+    """Hold angles in the normal form's axes against the limit directions found."""
+    form = facts.form
+    assert form is not None
+    found = facts.equator.theta + (0.0 if facts.problem.at.as_given is not None else form.rotation)
+    worst = 0.0
+    for theta in expected:
+        gaps = [abs(math.remainder(theta - float(other), 2.0 * math.pi)) for other in found]
+        worst = max(worst, min(gaps, default=math.pi))
+    distinct = len(facts.equator)
+    # beside a saddle-node or pitchfork angles are known to the root of the rounding
+    close = 1e-5 if facts.generic else 1e-4
+    holds = worst <= close and (distinct == len(expected) or not facts.generic)
+    numbers = tuple((f"θ* {i + 1}", math.remainder(theta, 2.0 * math.pi)) for i, theta in enumerate(expected))
+    numbers += (("limit directions found", float(distinct)), ("largest difference", worst))
+    return Certificate(theorem, statement, verdict_of(holds), numbers, sentence)
+
+
+def equal_diagonal(facts: Facts) -> Certificate:
+    """Evaluate D1, a = d."""
+    theorem = "sec:lineps0, D1"
+    statement = "For a = d there are 2 limit directions if |b| < |f|, sin(θ − arg f) = b/|f|, and none if |b| > |f|."
+    form = facts.form
+    if form is None:
+        return not_applicable(theorem, statement, NOT_LINEAR)
+    if form.a != form.d:
+        return not_applicable(theorem, statement, "a ≠ d.")
+    length = math.hypot(form.f1, form.f2)
+    if length == abs(form.b) == 0.0:
+        return not_applicable(theorem, statement, "b = 0 and f = 0: every direction is a limit direction.")
+    expected: list[float] = []
+    if abs(form.b) <= length:
+        turn, half = math.atan2(form.f2, form.f1), math.asin(form.b / length)
+        expected = [turn + half] if abs(form.b) == length else [turn + half, turn + math.pi - half]
+    return _held(facts, theorem, statement, expected, f"|b| = {abs(form.b):.6g}, |f| = {length:.6g}.")
+
+
+def symmetric(facts: Facts) -> Certificate:
+    """Evaluate D2, b = 0 and a component of f zero (its printed sign is a slip, see the errata)."""
+    theorem = "sec:lineps0, D2"
+    statement = (
+        "For b = 0 and f₂ = 0 (or f₁ = 0) two limit directions lie on an axis, and two more, "
+        "θ = ±arccos(f₁/(d − a)), exist if |f₁| < |d − a|."
+    )
+    form = facts.form
+    if form is None:
+        return not_applicable(theorem, statement, NOT_LINEAR)
+    if form.b != 0.0 or form.f1 * form.f2 != 0.0 or (form.f1 != 0.0 and form.f2 != 0.0):
+        return not_applicable(theorem, statement, "b ≠ 0, or neither component of f is zero.")
+    if facts.equator.all_directions:
+        return not_applicable(theorem, statement, "a = d, b = 0 and f = 0: every direction is a limit direction.")
+    spread = form.d - form.a
+    if form.f2 == 0.0:
+        expected, force = [0.0, math.pi], form.f1
+        if abs(force) < abs(spread):
+            half = math.acos(force / spread)
+            expected += [half, -half]
+    else:
+        expected, force = [0.5 * math.pi, -0.5 * math.pi], form.f2
+        if abs(force) < abs(spread):
+            half = math.asin(-force / spread)
+            expected += [half, math.pi - half]
+    how = "Pitchfork exactly at |f| = |d − a|." if abs(force) == abs(spread) else "Pitchfork at |f| = |d − a|."
+    return _held(facts, theorem, statement, expected, f"|f| = {abs(force):.6g}, |d − a| = {abs(spread):.6g}. {how}")

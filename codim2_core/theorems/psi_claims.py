@@ -1,0 +1,105 @@
+"""Certificates of lem:ePsi and rem:jaco_properties: claims about the regularisation alone."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..psi.function import Psi
+from .facts import RAYS, Certificate, not_applicable, verdict_of
+
+Array = NDArray[np.float64]
+ZETA = np.geomspace(1e-3, 1e3, 49)
+ROUND = 1e-12
+
+
+def e_psi(psi: Psi, xy: Array, eps: float) -> Array:
+    """eq:ePsi as it is written, ``(x, y)/sqrt(x^2 + y^2 + eps^2 Psi((x^2 + y^2)/eps^2))``; (k, 2)."""
+    s = (xy**2).sum(axis=-1)
+    return xy / np.sqrt(s + eps**2 * psi(s / eps**2))[..., None]
+
+
+def psi_claims(psi: Psi) -> tuple[Certificate, ...]:
+    """Evaluate lem:ePsi and rem:jaco_properties; a Psi outside the class of def:Psi need not meet them."""
+    found = (_equivariant(psi), _homogeneous(psi), _one_to_one(psi), _shorter(psi), _positive(psi))
+    if all(c.verdict.value == "holds" for c in found):
+        return found
+    broken = [name for name, rule in zip(("R1", "R2", "R3", "R4", "R5"), psi.check(), strict=False) if not rule.holds]
+    if not broken:
+        return found
+    why = f"This Ψ does not meet {', '.join(broken)} of def:Psi."
+    return tuple(c if c.verdict.value == "holds" else not_applicable(c.theorem, c.statement, why) for c in found)
+
+
+def _points() -> Array:
+    return ZETA[:, None] * np.stack([np.cos(1.0 + ZETA), np.sin(1.0 + ZETA)], axis=-1)
+
+
+def _equivariant(psi: Psi) -> Certificate:
+    points, worst = _points(), 0.0
+    for phi in RAYS[1::5]:
+        c, s = math.cos(phi), math.sin(phi)
+        R = np.array([[c, -s], [s, c]])
+        worst = max(worst, float(np.abs(e_psi(psi, points @ R.T, 1.0) - e_psi(psi, points, 1.0) @ R.T).max()))
+    return Certificate(
+        "lem:ePsi(a)", "e_Ψ is equivariant under rotations: e_Ψ(R(φ)(x, y)) = R(φ) e_Ψ(x, y).",
+        verdict_of(worst <= ROUND), (("largest difference", worst),), "Ψ enters through x² + y² only.",
+    )  # fmt: skip
+
+
+def _homogeneous(psi: Psi) -> Certificate:
+    points, worst = _points(), 0.0
+    for k in (0.01, 0.3, 7.0, 1000.0):
+        worst = max(worst, float(np.abs(e_psi(psi, k * points, k) - e_psi(psi, points, 1.0)).max()))
+    return Certificate(
+        "lem:ePsi(b)", "e_Ψ(kx, ky; kε) = e_Ψ(x, y; ε) for k > 0: it is homogeneous of degree 0.",
+        verdict_of(worst <= ROUND), (("largest difference", worst),),
+        "So ε only sets the scale: the picture in κ₂ is one for all ε.",
+    )  # fmt: skip
+
+
+def _one_to_one(psi: Psi) -> Certificate:
+    modulus = np.array([float(v) for v in psi.modulus(ZETA)])
+    rises = bool((np.diff(modulus) >= 0.0).all() and (np.diff(modulus[modulus < 1.0 - 1e-12]) > 0.0).all())
+    inner = ZETA[modulus < 0.999]
+    back = np.array([float(psi.radius(float(psi.modulus(float(zeta))))) for zeta in inner])
+    worst = float(np.abs(back / inner - 1.0).max())
+    return Certificate(
+        "lem:ePsi(c)", "e_Ψ(x, y; 1) is one-to-one: |e_Ψ| increases with ζ = |(x₂, y₂)|.",
+        verdict_of(rises and worst <= 1e-9),
+        (("least increase of |e_Ψ| sampled", float(np.diff(modulus).min())), ("largest |ζ(|e_Ψ|)/ζ − 1|", worst)),
+        "Every e in the open disc has one place (x₂, y₂), so a critical set is one point of the chart.",
+    )  # fmt: skip
+
+
+def _shorter(psi: Psi) -> Certificate:
+    s = ZETA**2
+    # 1 - |e|^2 = Psi/(s + Psi), without cancellation
+    complement = psi(s) / (s + psi(s))
+    least = float(complement.min())
+    return Certificate(
+        "lem:ePsi(d)", "|e_Ψ|² < 1.", verdict_of(bool((psi(s) > 0.0)[s < 1e2].all()) and least >= 0.0),
+        (("least 1 − |e_Ψ|² sampled", least),), "1 − |e_Ψ|² = Ψ/(ζ² + Ψ), and Ψ > 0.",
+    )  # fmt: skip
+
+
+def _positive(psi: Psi) -> Certificate:
+    s = ZETA[ZETA < 30.0] ** 2
+    P, slope = psi(s), psi.derivative(s)
+    weight = s + P
+    trace, determinant = (s * (1.0 - slope) + 2.0 * P) / weight**1.5, (P - slope * s) / weight**2
+    least = min(float((trace * np.sqrt(weight)).min()), float((determinant * weight).min()))
+    # against differences of e_Psi itself
+    zeta, h = 0.7, 1e-5
+    e = lambda x, y: e_psi(psi, np.array([[x, y]]), 1.0)[0]  # noqa: E731
+    D = np.stack([(e(zeta + h, 0.0) - e(zeta - h, 0.0)), (e(zeta, h) - e(zeta, -h))], axis=-1) / (2.0 * h)
+    radial, tangential = psi.jacobian_factors(zeta)
+    gap = float(np.abs(D - np.diag([radial, tangential])).max())
+    return Certificate(
+        "rem:jaco_properties", "D e_Ψ is positive definite: its trace and its determinant are positive.",
+        verdict_of(least >= 0.0 and gap <= 1e-7),
+        (("least of tr·|(ζ, √Ψ)| and det·(ζ² + Ψ)", least), ("difference from differences of e_Ψ", gap)),
+        "So a saddle of U stays a saddle for every Ψ, and every orbit turns in the one sense of U.",
+    )  # fmt: skip

@@ -1,0 +1,146 @@
+"""Certificates of thm:geneps1: critical sets, their kind, the slow flow on them, and the slow manifolds nearby."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..layer_problem.critical import CriticalSet, critical_sets
+from ..layer_problem.linearisation import matrix_determinant
+from ..psi.constructors import compared
+from ..psi.function import Psi
+from .facts import Array, Certificate, Facts, not_applicable, verdict_of
+from .psi_claims import e_psi
+
+NO_SET = "There is no isolated critical set."
+FOLDED = ("saddle-node", "degenerate")
+STEPS = (1e-3, 1e-4)  # eps times the way to the slow manifold, of hypot(1, |x2|)
+AHEAD = 1e-5  # step along z, of 1 + |z|
+
+
+def sliding_claims(facts: Facts) -> tuple[Certificate, ...]:
+    """Evaluate thm:geneps1(a) to (d)."""
+    return _stand_still(facts), _kinds(facts), _slow_flow(facts), _slow_manifold(facts)
+
+
+def _labels(facts: Facts) -> list[str]:
+    return ["C"] if len(facts.critical) == 1 else [f"C{i + 1}" for i in range(len(facts.critical))]
+
+
+def _e_of(C: CriticalSet, psi: Psi) -> Array:
+    """e_Psi at the place of C in the scaling chart, by the formula eq:ePsi."""
+    return e_psi(psi, C.x2[None], 1.0)[0]
+
+
+def _stand_still(facts: Facts) -> Certificate:
+    theorem = "thm:geneps1(a)"
+    statement = "Where U((c, s)) = 0 inside the disc, the layer problem stands still in the scaling chart."
+    if not facts.critical:
+        return not_applicable(theorem, statement, NO_SET)
+    numbers, holds = [], True
+    for label, C in zip(_labels(facts), facts.critical, strict=True):
+        residual = float(np.abs(facts.at.U(_e_of(C, facts.psi))).max())
+        numbers.append((f"|U(e_Ψ)| at {label}", residual))
+        holds &= residual <= (1e-6 if C.kind in FOLDED else 1e-8) * facts.size
+    return Certificate(
+        theorem, statement, verdict_of(holds), tuple(numbers), "Put into the equations of the chart, U vanishes there."
+    )
+
+
+def _kinds(facts: Facts) -> Certificate:
+    theorem = "thm:geneps1(b)"
+    statement = "A critical set is a saddle, whatever Ψ is, if det D U < 0; a node or focus if det D U > 0."
+    if not facts.critical:
+        return not_applicable(theorem, statement, NO_SET)
+    numbers: list[tuple[str, float]] = []
+    holds, words = True, []
+    for label, C in zip(_labels(facts), facts.critical, strict=True):
+        (m11, m12), (m21, m22) = facts.at.DU(C.e).tolist()
+        det, sign = matrix_determinant(m11, m12, m21, m22)
+        numbers += [(f"det D U at {label}", det), (f"det J at {label}", C.determinant), (f"tr J at {label}", C.trace)]
+        words.append(f"{label} is {'an' if C.kind.startswith('unstable') else 'a'} {C.kind}")
+        if C.kind not in FOLDED:
+            holds &= (C.kind == "saddle") == (sign < 0) and sign * C.determinant >= 0.0  # = 0.0: it has underflown
+    sentence = f"det J = det D U · det D e_Ψ, and the second factor is positive for every Ψ. {'; '.join(words)}."
+    return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), sentence)
+
+
+def _slow_flow(facts: Facts) -> Certificate:
+    theorem, statement = "thm:geneps1(c)", "The slow flow on a critical set does not depend on Ψ."
+    if not facts.critical:
+        return not_applicable(theorem, statement, NO_SET)
+    if not facts.at.m:
+        return not_applicable(theorem, statement, "There is no slow variable (m = 0).")
+    numbers, holds = [], True
+    for other in dict.fromkeys((facts.psi, *compared(1))):
+        found = facts.problem.under(other).critical
+        worst = 0.0
+        for C, D in zip(facts.critical, found, strict=False):
+            worst = max(worst, float(np.abs(facts.at.W(_e_of(D, other)) - C.slow_flow).max()))
+        numbers.append((f"largest change of z′ with Ψ = {other.text}", worst))
+        folded = any(C.kind in FOLDED for C in facts.critical)
+        holds &= len(found) == len(facts.critical) and worst <= (1e-4 if folded else 1e-7) * facts.slow_size
+    return Certificate(
+        theorem, statement, verdict_of(holds), tuple(numbers),
+        "Each Ψ puts the critical set elsewhere in the chart, and all give one slow flow.",
+    )  # fmt: skip
+
+
+def _slow_manifold(facts: Facts) -> Certificate:
+    theorem = "thm:geneps1(d)"
+    statement = (
+        "Beside a normally hyperbolic C lies a slow manifold C_ε, ε-close to it; to first order its flow is that on C."
+    )
+    if not facts.critical:
+        return not_applicable(theorem, statement, NO_SET)
+    if not facts.at.m:
+        return not_applicable(theorem, statement, "There is no slow variable (m = 0): C is an equilibrium.")
+    if facts.system is None or len(facts.z) != facts.at.m:
+        return not_applicable(theorem, statement, "The system is frozen at one z: nothing is known of C beside it.")
+    numbers: list[tuple[str, float]] = []
+    holds, skipped = True, []
+    for label, C in zip(_labels(facts), facts.critical, strict=True):
+        rate, size = float(np.abs(C.eigenvalues.real).min()), float(np.abs(C.eigenvalues).max())
+        moved = _along(facts, C)
+        if C.kind in FOLDED or rate <= 1e-6 * size or moved is None:
+            skipped.append(label)
+            continue
+        # x2 = x2* + eps s solves eps Dx2* W = U to first order: J s = Dx2* W
+        drift = moved @ C.slow_flow
+        shift = np.linalg.solve(C.jacobian, drift)
+        length = float(np.hypot(*shift))
+        unit = float(np.hypot(1.0, np.hypot(*C.x2))) / length if length else 1.0
+        left = []
+        for eps in (STEPS[0] * unit, STEPS[1] * unit):
+            U = facts.at.U(e_psi(facts.psi, (C.x2 + eps * shift)[None], 1.0)[0])
+            left.append(float(np.abs(U - eps * drift).max()))
+        numbers += [(f"|x₂ − x₂*|/ε at {label}", length), (f"defect at {label}", left[0])]
+        # what is left over is of second order: it falls by 100 where eps falls by 10
+        numbers.append((f"and where ε is a tenth, at {label}", left[1]))
+        holds &= left[1] <= 0.05 * left[0] + 1e-13 * facts.size
+    if not numbers:
+        why = f"{', '.join(skipped)} {'is' if len(skipped) == 1 else 'are'} not normally hyperbolic here."
+        return not_applicable(theorem, statement, why)
+    return Certificate(
+        theorem, statement, verdict_of(holds), tuple(numbers),
+        "x₂* + ε J⁻¹ Dx₂* W meets the equations of the slow manifold up to ε².",
+    )  # fmt: skip
+
+
+def _along(facts: Facts, C: CriticalSet) -> Array | None:
+    """Differentiate x2 of C by z, (2, m), from the critical sets on either side; None where they are not there."""
+    columns = []
+    for k, value in enumerate(facts.z):
+        h = AHEAD * (1.0 + abs(value))
+        ends = []
+        for side in (h, -h):
+            z = (*facts.z[:k], value + side, *facts.z[k + 1 :])
+            try:
+                found = critical_sets(facts.system, facts.psi, z)
+            except ValueError:  # at the edge of where the formulas are defined
+                return None
+            near = [D for D in found if D.kind == C.kind]
+            if not near:
+                return None
+            ends.append(min((D.x2 for D in near), key=lambda x2: float(np.hypot(*(x2 - C.x2)))))
+        columns.append((ends[0] - ends[1]) / (2.0 * h))
+    return np.stack(columns, axis=-1)
