@@ -134,7 +134,7 @@ function wire({model, view, root, plot}) {
 
   // Theme: JupyterLab's or the system's until a choice is made.
   const system = matchMedia("(prefers-color-scheme: dark)")
-  const isDark = () => document.body.dataset.jpThemeLight ? document.body.dataset.jpThemeLight === "false" : system.matches
+  const isDark = () => document.body.dataset.jpThemeLight ? document.body.dataset.jpThemeLight === "false" : config.dark || system.matches
   let chosen = null
   try { chosen = config.page ? localStorage.getItem("codim2-theme") : null } catch { /* storage may be forbidden */ }
   const paint = () => {

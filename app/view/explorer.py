@@ -37,6 +37,8 @@ class ExplorerView(JSComponent):
         True in the explorer's own page, which brings the markup; False in a notebook.
     errors : sequence of InputError
         Values of the page's address that could not be used; shown beside their controls.
+    **params
+        Of any Panel component: sizing_mode, width, height, margin, styles, stylesheets, …
     """
 
     picture = Child()
@@ -57,15 +59,22 @@ class ExplorerView(JSComponent):
     ) -> None:
         self.state = ExplorerState() if state is None else state
         self._opened: dict[str, Any] = {}
+        self._system = system
+        self._given_params = params
         self.frames = Frames(self.state, system, is_ready, errors)
-        super().__init__(
-            picture=pn.pane.Bokeh(make_figure(), sizing_mode="stretch_both"),
-            stylesheets=[] if page else [(STATIC / "notebook.css").read_text(encoding="utf-8")],
-            sizing_mode="stretch_width",
-            **self._opening(page),
-            **params,
-        )
+        self._first_values = self.state.values()
+        own = [] if page else [(STATIC / "notebook.css").read_text(encoding="utf-8")]
+        layout = {**params, "stylesheets": [*own, *params.get("stylesheets", ())]}
+        if not {"sizing_mode", "width"} & params.keys():
+            layout["sizing_mode"] = "stretch_width"
+        picture = pn.pane.Bokeh(make_figure(), sizing_mode="stretch_both")
+        super().__init__(picture=picture, **self._opening(page), **layout)
         self.state.param.watch(self._follow, list(NAMES))
+
+    def clone(self, **params: Any) -> ExplorerView:
+        """Return another explorer of the same system, at the present values, with some parameters changed."""
+        state = ExplorerState(**self.state.values())
+        return ExplorerView(state, self._system, page=self.config["page"], **{**self._given_params, **params})
 
     def _opening(self, page: bool) -> dict[str, Any]:
         """Return what a browser starts from: the values of the controls, the first frame and the markup."""
@@ -73,9 +82,13 @@ class ExplorerView(JSComponent):
         self.frames.publish()  # what cannot be drawn is not in the state
         self._opened = self.frames.values
         header, _ = unpack(first)
+        self.refused = tuple(header.get("errors", {}).values())
         settings = config(self.state, self.frames.locked)
         settings["page"] = page
         settings["refused"] = self.frames.refused
+        settings["dark"] = pn.config.theme == "dark"
+        if not page:  # what a notebook opened with is its first setting
+            settings["defaults"] = self._first_values
         given = self.frames.given is not None
         words = _words(header, first, self.state.layers)
         self.page_markup = explorer_html(self.state, words, ("system",) if given else ())

@@ -2,25 +2,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from numbers import Real
 from typing import Any
 
-from codim2_core.systems.elinear import ELinear
+import numpy as np
 
-from ..state.chosen import System_
+from codim2_core.examples import catalogue
+from codim2_core.figures.presets import presets
+from codim2_core.psi.function import Psi
+from codim2_core.scene import Scene
+from codim2_core.systems.elinear import ELinear
+from codim2_core.systems.typed import System
+
+from ..state.choices import SLOW_CONTROLS
+from ..state.chosen import System_, titles
 from ..state.controls import NAMES, ExplorerState, InputError, clean
 from .explorer import ExplorerView
 
+LAYOUT = frozenset({"sizing_mode", "width", "height", "margin", "styles", "stylesheets"})
 
-def explorer(system: System_ | None = None, **state: Any) -> ExplorerView:
+
+def explorer(
+    system: System_ | Scene | str | Mapping[str, Any] | None = None, psi: Psi | str | None = None, **state: Any
+) -> ExplorerView:
     """Return the live explorer, to be shown by a notebook.
 
     Parameters
     ----------
-    system : ELinear or System, optional
+    system : ELinear, System, Scene, str or mapping, optional
         Your own system. Its parameters, and the numbers of an `ELinear`, have sliders; what is given as text has not.
+        Or a scene: its system, Psi and z. Or the name of a preset or of an example. Or values of controls by name.
+    psi : Psi or str, optional
+        A regularisation function, or the name of its family.
     **state
-        Values of controls: preset, system (an example's name), parameters, a, b, d, f1, f2, z, k1, k2, B1, B2, g0, psi,
-        n, psi_text, trajectories, layers, panel, ...
+        Values of controls: preset, system (an example's name), parameters, a, b, d, f1, f2, z, k1, k2, B1, B2, g0,
+        n, psi_text, trajectories, layers, panel, ... As in the core, f is (f1, f2), B is (B1, B2), g a number, and z
+        may be a sequence. And parameters of a Panel component: sizing_mode, width, height, margin, styles, stylesheets.
 
     Returns
     -------
@@ -34,34 +52,107 @@ def explorer(system: System_ | None = None, **state: Any) -> ExplorerView:
 
     Examples
     --------
-    >>> view = explorer(a=-1, b=1, d=-1, f1=0)
+    >>> view = explorer(a=-1, b=1, d=-1, f=(0, 0))
+    >>> view = explorer("case1-cm0")
     """
-    import panel as pn
-
     from . import warmup
 
+    layout = {name: state.pop(name) for name in LAYOUT & state.keys()}
+    if isinstance(system, Scene):
+        psi, state, system = psi or system.psi, {"z": system.z, **state}, _whole(system)
+    elif isinstance(system, str):
+        name = "preset" if system in presets else "system"
+        if system not in presets and system not in titles():
+            known = ", ".join([*list(presets)[:3], *list(catalogue)[:2]])
+            raise ValueError(f"{system!r} is neither a preset nor an example; give one such as {known}.")
+        system, state = None, {name: system, **state}
+    elif isinstance(system, Mapping):
+        system, state = None, {**system, **state}
+    elif not (system is None or isinstance(system, (ELinear, System))):
+        raise ValueError(
+            f"system is {type(system).__name__} {str(system)[:40]!r}; give an ELinear, a System, a Scene, the name of "
+            "a preset, or values of controls by name."
+        )
+    values = _clean(_as_controls(state, psi))
+    if system is not None:
+        if "system" in values or values.get("preset"):
+            raise ValueError("a system is given already; leave out preset and system, or the system itself.")
+        values = {**_values_of(system, values), **values}
+    _bring_resources()
+    warmup.start()
+    view = ExplorerView(ExplorerState.of(values), system, **layout)
+    refused = view.refused
+    if refused:
+        raise ValueError(" ".join(refused))
+    return view
+
+
+def _whole(scene: Scene) -> System_:
+    if not isinstance(scene.system, (ELinear, System)):
+        raise ValueError("the scene was made of a system frozen at one z; make it of an ELinear or a System.")
+    return scene.system
+
+
+def _as_controls(state: Mapping[str, Any], psi: Psi | str | None) -> dict[str, Any]:
+    """Return values of controls: f, B, g, z and psi as the core spells them are taken apart."""
+    values = dict(state)
+    if psi is None:
+        psi = values.pop("psi", None)
+    if isinstance(psi, Psi):
+        values["psi"] = psi.family
+        if psi.record.typed:
+            values.setdefault("psi_text", psi.text)
+        elif psi.record.parameter:
+            values.setdefault(psi.record.parameter.name, psi.parameter)
+    elif psi is not None:
+        values["psi"] = psi
+    for name, controls in (("f", ("f1", "f2")), ("B", ("B1", "B2")), ("g", ("g0",))):
+        if name in values:
+            values.update(zip(controls, _numbers(name, values.pop(name), len(controls)), strict=True))
+    if "z" in values and np.ndim(values["z"]):
+        z = values.pop("z")
+        if len(z) > len(SLOW_CONTROLS):
+            raise ValueError(f"z has {len(z)} entries; the explorer has sliders for {len(SLOW_CONTROLS)}.")
+        values.update(zip(SLOW_CONTROLS, z, strict=False))
+    return values
+
+
+def _numbers(name: str, given: Any, count: int) -> list[float]:
+    flat = np.ravel(np.asarray(given, dtype=object)).tolist()
+    if len(flat) != count or not all(isinstance(one, Real) for one in flat):
+        form = {"f": "two numbers, (f1, f2)", "B": "two numbers, (B1, B2)", "g": "one number"}[name]
+        raise ValueError(f"{name} is {str(given)[:60]}; give {form}, or an ELinear for anything else.")
+    return flat
+
+
+def _clean(state: Mapping[str, Any]) -> dict[str, Any]:
     values: dict[str, Any] = {}
     for name, value in state.items():
         if name not in NAMES:
-            raise ValueError(f"{name!r} is no control of the explorer; there are {', '.join(NAMES)}.")
+            raise ValueError(f"{name!r} is no control of the explorer; there are f, B, g, {', '.join(NAMES)}.")
         try:
             values[name] = clean(name, value)
         except InputError as error:
             raise ValueError(str(error)) from error
-    if system is not None:
-        values = {**_values_of(system, values.get("z", 0.0)), **values}
-    pn.extension(inline=True)  # BokehJS comes with Panel: a notebook asks no public host for it
-    warmup.start()
-    return ExplorerView(ExplorerState.of(values), system)
+    return values
 
 
-def _values_of(system: System_, z: float) -> dict[str, Any]:
-    """Return the controls that show this system's coefficients at z, and a state from which a motion may start."""
+def _bring_resources() -> None:
+    """Load BokehJS and Panel once for each kernel: it comes with Panel, and a notebook asks no public host for it."""
+    import panel as pn
+
+    if not pn.config.inline or not getattr(pn.extension, "_loaded", False):
+        pn.extension(inline=True)
+
+
+def _values_of(system: System_, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the controls that show this system at z: coefficients, a panel, and where a motion may start."""
     launch = ", ".join(f"{v:g}" for v in (0.6, 0.8, *[0.0] * system.m))
     if not isinstance(system, ELinear):
-        return {"launch": launch}
-    at = system.at((z, *[0.0] * (system.m - 1)) if system.m else ())
-    values = {"a": at.a, "b": at.b, "d": at.d, "f1": at.f1, "f2": at.f2, "k1": 0.0, "k2": 0.0, "launch": launch}
+        return {"launch": launch, "panel": "numbers", "along": "z", "across": "z", "up": "n"}
+    z = [values.get(name, 0.0) for name in SLOW_CONTROLS[: system.m]]
+    at = system.at((*z, *[0.0] * (system.m - len(z))))
+    shown = {"a": at.a, "b": at.b, "d": at.d, "f1": at.f1, "f2": at.f2, "k1": 0.0, "k2": 0.0, "launch": launch}
     if system.m:
-        values |= {"B1": float(at.B[0, 0]), "B2": float(at.B[0, 1]), "g0": float(at.g[0])}
-    return values
+        shown |= {"B1": float(at.B[0, 0]), "B2": float(at.B[0, 1]), "g0": float(at.g[0])}
+    return shown

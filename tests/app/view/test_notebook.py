@@ -112,3 +112,101 @@ def test_a_system_of_any_form_brings_sliders_for_its_parameters():
 def test_the_numbers_of_a_given_elinear_keep_their_sliders():
     header, _ = unpack(explorer(c2.ELinear(-1, "z", -2, g=(0.5,))).first)
     assert header["system"]["coefficients"] is True
+
+
+PSI = c2.psi.hill(3)
+GIVEN = [
+    c2.ELinear(-3, 0, -1, (0.25, "0.1*z1")),
+    c2.ELinear(-3, 0, -1, (0.25, 0.5)),
+    c2.ELinear(-3, 0, -1, (0.25, 0.5), B=((1, 0), (0, 1)), g=(0, 0.5)),
+    c2.System(U=("-k*c + z", "-s"), W=("-z",), parameters={"k": 2.0}),
+    c2.System(U=("-c", "-s")),
+    c2.examples.ball_in_pool(mu=0.4),
+    c2.examples.nonunique_sliding(),
+]
+
+
+@pytest.mark.parametrize("system", GIVEN)
+def test_any_system_is_drawn(system):
+    view = explorer(system, z=0.3) if system.m else explorer(system)
+    assert view.frames.scene["classification"].name
+    assert "controls.system.set = " not in view._esm
+    assert view.frames.scene.system == system
+
+
+@pytest.mark.parametrize("system", GIVEN)
+def test_a_scene_is_drawn_as_it_is(system):
+    scene = c2.Scene(system, PSI, (0.3, *[0.0] * (system.m - 1)) if system.m else ())
+    drawn = explorer(scene).frames.scene
+    assert (drawn.system, drawn.psi, drawn.z) == (scene.system, scene.psi, scene.z)
+
+
+def test_a_portrait_an_example_and_a_mapping_are_named_in_one_word():
+    assert explorer("case3-n3").frames.values["n"] == 3.0
+    assert explorer("case3-n3", z=0.5).frames.values["z"] == 0.5
+    assert explorer("ball_in_pool").frames.scene.z == (4.0, 0.0)
+    assert explorer({"a": -1.5, "preset": "case1-cm0"}).frames.scene.coefficients.a == -1.5
+
+
+def test_values_may_be_spelled_as_in_the_core():
+    view = explorer(a=-1, b=0, d=-2, f=(1, 2), B=((0.5, 0.25),), g=(0.125,), psi=PSI, z=(0,))
+    scene = view.frames.scene
+    assert scene.coefficients.plane == (-1.0, 0.0, -2.0, 1.0, 2.0)
+    assert (scene.coefficients.B.tolist(), scene.coefficients.g.tolist()) == ([[0.5, 0.25]], [0.125])
+    assert scene.psi == PSI
+    assert explorer(psi=c2.psi.custom("1/(1+s)**3")).frames.scene.psi == c2.psi.custom("1/(1+s)**3")
+    assert explorer(GIVEN[0], PSI).frames.scene.psi == PSI
+    assert explorer(c2.examples.ball_in_pool(), z=(9, 0.5)).frames.scene.z == (9.0, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "values", "says"),
+    [
+        (("case1",), {}, "neither a preset nor an example"),
+        ((), {"preset": "case1"}, "no 'case1'"),
+        ((3.5,), {}, "give an ELinear"),
+        ((GIVEN[1],), {"preset": "case1-cm0"}, "already"),
+        ((), {"f": (1, "z")}, "two numbers"),
+        ((), {"B": ((1, 0), (0, 1))}, "two numbers"),
+        ((), {"a": 1e200}, "1e"),
+        ((), {"system": "own", "texts": {"U1": "c +"}}, "column"),
+        ((), {"system": "ball_in_pool", "parameters": {"nu": 1}}, "no parameter nu"),
+        ((c2.System(U=("1/z", "-s"), W=("1",)),), {}, "finite"),
+        ((), {"z": (1,) * 5}, "sliders for 4"),
+        ((), {"nothing": 1}, "no control"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_in_one_sentence(arguments, values, says):
+    with pytest.raises(ValueError, match=says):
+        explorer(*arguments, **values)
+
+
+def test_it_is_laid_out_as_any_panel_component():
+    view = explorer(a=-1.5, width=500, height=400, stylesheets=[":host { border: 0 }"])
+    assert (view.width, view.height, view.sizing_mode) == (500, 400, "fixed")
+    assert len(view.stylesheets) == 2
+    view.state.a = -1.25
+    other = view.clone(sizing_mode="stretch_both")
+    assert (other.state.a, other.sizing_mode, other.height) == (-1.25, "stretch_both", None)
+    other.state.a = -1.0
+    assert view.state.a == -1.25
+    assert explorer().sizing_mode == "stretch_width"
+    assert pn.Row(view, other)[0] is view
+    assert pn.bind(lambda a: 2 * a, view.state.param.a)() == -2.5
+
+
+def test_resources_are_loaded_once_for_all_explorers(monkeypatch):
+    explorer()
+    monkeypatch.setattr(pn, "extension", type("Extension", (), {"_loaded": True})())
+    explorer()  # or it would call
+
+
+def test_reset_in_a_notebook_is_what_it_was_opened_with():
+    view = explorer(a=-1.5)
+    view._handle_msg({"id": 1, "set": {"a": -1.0}})
+    assert view.get_root(Document()).data.config["defaults"]["a"] == -1.5
+
+
+def test_portraits_of_the_paper_are_not_offered_in_place_of_a_given_system():
+    assert 'select class="preset"' in explorer().markup
+    assert 'select class="preset"' not in explorer(GIVEN[0]).markup
