@@ -14,8 +14,11 @@ import argparse
 import multiprocessing
 import os
 import random
+import re
 import sys
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
 from . import javascript
 from .mutants import Mutant, mutants
@@ -41,11 +44,26 @@ class Count:
         return f"{self.name:44}{self.killed:5} of {self.tried:4} killed {share}{extra}"
 
 
-def chosen(found: list[Mutant], sample: int | None, seed: int) -> list[Mutant]:
-    """At most so many, at random."""
-    if sample is None or sample >= len(found):
-        return found
-    return sorted(random.Random(seed).sample(found, sample), key=lambda mutant: mutant.line)
+@dataclass(frozen=True)
+class Choice:
+    """Which mutants are tried: all, some at random, or those that lived before."""
+
+    sample: int | None
+    seed: int
+    again: frozenset[tuple[str, str]] | None  # file, and the change
+
+    def of(self, found: list[Any], file: str) -> list[Any]:
+        """Choose from a module's mutants."""
+        if self.again is not None:
+            found = [mutant for mutant in found if (file, mutant.text.split(": ", 1)[1]) in self.again]
+        if self.sample is None or self.sample >= len(found):
+            return found
+        return sorted(random.Random(self.seed).sample(found, self.sample), key=lambda mutant: mutant.line)
+
+
+def survivors(output: str) -> frozenset[tuple[str, str]]:
+    """Files and changes of the mutants that lived, from what was printed."""
+    return frozenset(re.findall(r"^  lives  (.+?):\d+: (.*)$", output, re.MULTILINE))
 
 
 def tell(job: Job, mutant: Mutant, outcome: str) -> None:
@@ -55,9 +73,9 @@ def tell(job: Job, mutant: Mutant, outcome: str) -> None:
         os.write(TERMINAL, line.encode())
 
 
-def try_python(task: tuple[str, bool, list[str], int | None, int]) -> list[Count]:
-    """All mutants of modules of one room."""
-    name, compiled, names, sample, seed = task
+def try_python(task: tuple[str, bool, list[str], Choice]) -> list[Count]:
+    """Mutants of modules of one room."""
+    name, compiled, names, choice = task
     jobs, counts = [], []
     for module in names:
         path = modules()[module]
@@ -66,7 +84,7 @@ def try_python(task: tuple[str, bool, list[str], int | None, int]) -> list[Count
         found = list(mutants(source))
         left = [mutant for mutant in found if not explained(module, lines[mutant.line - 1])]
         counts.append(Count(module, explained=len(found) - len(left)))
-        jobs.append(Job(path, chosen(left, sample, seed)))
+        jobs.append(Job(path, choice.of(left, path.relative_to(ROOT).as_posix())))
     for count, job in zip(counts, run(jobs, guards(name), compiled, tell), strict=True):
         count.tried = len(job.outcomes)
         for mutant, outcome, tests in zip(job.mutants, job.outcomes, job.tests, strict=True):
@@ -78,11 +96,11 @@ def try_python(task: tuple[str, bool, list[str], int | None, int]) -> list[Count
     return counts
 
 
-def try_javascript(task: tuple[str, int | None, int]) -> list[Count]:
-    """All mutants of one file of the front end."""
-    name, sample, seed = task
+def try_javascript(task: tuple[str, Choice]) -> list[Count]:
+    """Mutants of one file of the front end."""
+    name, choice = task
     found = [m for m in javascript.mutants(name) if not explained(name, m.context)]
-    kept = chosen(found, sample, seed)  # type: ignore[arg-type]
+    kept = choice.of(found, f"app/{name}")
     count = Count(name, tried=len(kept))
     outcomes = javascript.run(name, kept)
     for mutant, outcome in zip(kept, outcomes, strict=True):
@@ -98,7 +116,7 @@ def try_javascript(task: tuple[str, int | None, int]) -> list[Count]:
 
 def attempt(task: tuple) -> list[Count]:
     """One task in a process of its own."""
-    return try_javascript(task) if len(task) == 3 else try_python(task)
+    return try_javascript(task) if len(task) == 2 else try_python(task)
 
 
 def meant(names: list[str]) -> list[str]:
@@ -114,24 +132,34 @@ def meant(names: list[str]) -> list[str]:
     return found
 
 
+def file_of(name: str) -> str:
+    """Return the path of a module in the repository."""
+    return f"app/{name}" if name.startswith("static") else modules()[name].relative_to(ROOT).as_posix()
+
+
 def main(arguments: list[str]) -> int:
     """Run, and return the exit code."""
     parser = argparse.ArgumentParser(prog="python -m tests.mutation", description=__doc__.split("\n")[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help="a room or a module; without one, everything")
     parser.add_argument("--sample", type=int, help="at most so many mutants of each module, chosen at random")
     parser.add_argument("--seed", type=int, default=0, help="of that choice")
+    parser.add_argument("--again", metavar="FILE", help="only those that lived in a run whose output this is")
     parser.add_argument("--processes", type=int, default=len(os.sched_getaffinity(0)), help="side by side")
     options = parser.parse_args(arguments)
+    again = None if options.again is None else survivors(Path(options.again).read_text())
+    choice = Choice(options.sample, options.seed, again)
     rooms: dict[tuple[str, bool], list[str]] = {}
     tasks: list[tuple] = []
     for name in meant(options.names):
+        if again is not None and not any(file == file_of(name) for file, _ in again):
+            continue
         if name.startswith("static"):
-            tasks.append((name, options.sample, options.seed))
+            tasks.append((name, choice))
         elif room(name) == COMPILED_ONLY:
             print(f"{name:44}  not tried: machine code (see targets)")
         else:
             rooms.setdefault((room(name), "njit" in modules()[name].read_text()), []).append(name)
-    tasks = [(*key, names, options.sample, options.seed) for key, names in rooms.items()] + tasks
+    tasks = [(*key, names, choice) for key, names in rooms.items()] + tasks
     preload()
     with multiprocessing.get_context("fork").Pool(options.processes, maxtasksperchild=1) as pool:
         counts = [count for part in pool.imap_unordered(attempt, tasks, chunksize=1) for count in part]

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from .__main__ import Choice, survivors
 from .live import functions, put_in
 from .mutants import mutants
 from .session import Reach, reaching
@@ -111,3 +112,12 @@ def test_the_quickest_tests_that_reach_a_function_come_first():
     assert reaching(reach, {key}, "a.py") == ["quick", "slow"]
     assert reaching(reach, None, "b.py") == ["other"]
     assert reaching(reach, {("a.py", "h", 1)}, "a.py") == []
+
+
+def test_those_that_lived_can_be_tried_again():
+    found = list(mutants(SOURCE))
+    printed = f"some: words\n  lives  a/b.py:{found[3].text}\n  lives  a/c.py:{found[4].text}\nb.c 3 of 5 killed\n"
+    again = Choice(None, 0, survivors(printed))
+    assert again.of(found, "a/b.py") == [found[3]]
+    assert Choice(3, 1, None).of(found, "a/b.py") == Choice(3, 1, None).of(found, "a/b.py")
+    assert len(Choice(3, 1, None).of(found, "a/b.py")) == 3

@@ -103,3 +103,22 @@ def test_a_polygon_of_candidates_for_two_slow_variables():
     nearest = np.abs(turned[:, None] - found.vertices[None]).max(axis=2).min(axis=1)
     assert nearest.max() < 0.15
     assert 0.0 < reach.max() <= 1.0
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.4, math.pi / 2, 2.5])
+@pytest.mark.parametrize("slope", [(0.0, 0.0), (5.0, -3.0)])
+def test_extremes_have_all_digits_and_their_directions(turn, slope):
+    """U = e and W = cos 2(theta - turn) + slope.e: a mean of e that is 0 leaves the slope no say, so the ends are 1
+    and -1, each of one pair of opposite directions with equal weights."""
+    cosine, sine = math.cos(2.0 * turn), math.sin(2.0 * turn)
+    W = f"{cosine!r}*(c**2 - s**2) + {2.0 * sine!r}*c*s + {slope[0]}*c + {slope[1]}*s"
+    found = filippov_sliding(c2.System(U=("c", "s"), W=(W,)), 0.0)
+    assert sorted(found.vertices.ravel()) == pytest.approx([-1.0, 1.0], abs=1e-14)
+    for vertex, directions, weights in zip(found.vertices, found.directions, found.weights, strict=True):
+        first = turn if vertex[0] > 0.0 else turn + math.pi / 2
+        expected = sorted([first % math.pi, first % math.pi + math.pi])
+        away = (np.sort(directions % (2.0 * math.pi)) - expected + 1.0) % math.pi - 1.0  # 0 and pi are neighbours here
+        np.testing.assert_allclose(away, 0.0, atol=1e-10)
+        np.testing.assert_allclose(weights, 0.5, atol=1e-12)
+        combined = weights @ np.stack([np.cos(directions), np.sin(directions)], axis=-1)
+        np.testing.assert_allclose(combined, 0.0, atol=1e-14)

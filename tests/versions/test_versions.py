@@ -1,0 +1,69 @@
+"""The least versions that pyproject.toml declares, and the newest ones, each in an environment of its own."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+RUNNING = ("hypothesis", "mpmath", "pytest", "pytest-xdist")
+
+
+def least(dependency):
+    """``name==version`` of ``name>=version``."""
+    name, version = re.match(r"([\w-]+)>=([\d.]+)", dependency).groups()
+    return f"{name}=={version}"
+
+
+def tracked(*folders):
+    """Return the files that git knows."""
+    command = ["git", "ls-files", *folders]
+    return subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT).stdout.split()
+
+
+def source(folder):
+    """Copy what is tracked: what a build leaves behind here would get into the next wheel."""
+    for name in tracked("app", "codim2_core", "pyproject.toml", "README.md", "LICENSE"):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, folder / name)
+    return folder
+
+
+def pip(folder, *arguments):
+    """Run pip of the environment in a folder, which is made if it is not there; return its Python."""
+    python = folder / "bin" / "python"
+    if not python.exists():
+        subprocess.run([sys.executable, "-m", "venv", str(folder)], check=True)
+    subprocess.run([str(python), "-m", "pip", "--quiet", "--disable-pip-version-check", *arguments], check=True)
+    return python
+
+
+@pytest.mark.parametrize("which", ["least", "newest"])
+def test_the_inner_loop_passes_with(which, tmp_path):
+    dependencies = PROJECT["dependencies"]
+    wanted = map(least, dependencies) if which == "least" else dependencies
+    pip(tmp_path / "env", "install", *wanted, *RUNNING)
+    python = pip(tmp_path / "env", "install", "--no-deps", str(source(tmp_path / "source")))
+    done = subprocess.run(
+        [str(python), "-m", "pytest", "-m", "fast", "-q", "-p", "no:cacheprovider", str(ROOT / "tests")],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "numba")},
+    )
+    assert done.returncode == 0, done.stdout[-5000:] + done.stderr[-2000:]
+
+
+def test_the_wheel_holds_what_is_tracked(tmp_path):
+    pip(tmp_path / "env", "wheel", "--no-deps", "--wheel-dir", str(tmp_path), str(source(tmp_path / "source")))
+    (wheel,) = tmp_path.glob("codim2-*.whl")
+    held = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
+    assert held == {re.sub(r"^app/", "codim2_app/", name) for name in tracked("app", "codim2_core")}
