@@ -29,7 +29,7 @@ from .layer_problem.problem import (
     find_location,
 )
 from .orbits.duration import drawn_duration
-from .orbits.seeds import checked_seeds, ring, structured_seeds
+from .orbits.seeds import checked_seeds, ring, structured_seeds, window_seeds
 from .orbits.trajectories import Trajectories, continuation, trajectories
 from .orbits.whole import Orbits
 from .portrait.classify import portrait
@@ -107,6 +107,8 @@ class Scene:
         Radius of the picture.
     pixel : float
         Size of one pixel in picture units: polylines stay within a quarter of it.
+    window : (left, right, bottom, top), optional
+        A rectangle of the picture that is looked at: half as many trajectories again start in it.
 
     Examples
     --------
@@ -132,6 +134,7 @@ class Scene:
         atol: float = 1e-7,
         view: float = 2.0,
         pixel: float = 1.0 / 180.0,
+        window: tuple[float, float, float, float] | None = None,
         _memory: _Memory | None = None,
     ) -> None:
         if not isinstance(system, KINDS):
@@ -150,7 +153,11 @@ class Scene:
         self.launch = checked_seeds(launch)
         self.count, self.rtol, self.atol = count, float(rtol), float(atol)
         self.t_max, self.length = None if t_max is None else float(t_max), float(length)
-        self.view, self.pixel = float(view), float(pixel)
+        if window is not None and not (
+            len(window) == 4 and np.isfinite(window).all() and window[0] < window[1] and window[2] < window[3]
+        ):
+            raise ValueError(f"window is {window}; give finite left < right and bottom < top.")
+        self.view, self.pixel, self.window = float(view), float(pixel), window
         self.coefficients = system.at(self.z)
         self._memory = _Memory() if _memory is None else _memory
         self._own: dict[str, Any] = {}
@@ -219,7 +226,9 @@ class Scene:
         return MappingProxyType(self._memory.runs)
 
 
-_PARAMETERS = ("system", "psi", "z", "seeds", "count", "launch", "t_max", "length", "rtol", "atol", "view", "pixel")
+_PARAMETERS = (
+    "system", "psi", "z", "seeds", "count", "launch", "t_max", "length", "rtol", "atol", "view", "pixel", "window"
+)  # fmt: skip
 
 ELINEAR_ONLY = frozenset({"atlas_curves", "regions"})
 
@@ -231,8 +240,8 @@ _INPUTS: dict[str, Callable[[Scene], Hashable]] = {
     "slow": lambda s: s.coefficients.slow_key,
     "place": lambda s: (s.system, s.z) if s.system.moves_with_z else None,
     "psi": lambda s: s.psi,
-    "inner seeds": lambda s: s.count if s.seeds is None else _start(s, outside=False).tobytes(),
-    "outer seeds": lambda s: s.count if s.seeds is None else _start(s, outside=True).tobytes(),
+    "inner seeds": lambda s: (s.count, s.window) if s.seeds is None else _start(s, outside=False).tobytes(),
+    "outer seeds": lambda s: (s.count, s.window) if s.seeds is None else _start(s, outside=True).tobytes(),
     "launch": lambda s: s.launch.tobytes(),
     "time": lambda s: (s.t_max, s.length),
     "tolerance": lambda s: (s.rtol, s.atol),
@@ -243,7 +252,12 @@ _STEPPED = ("time", "tolerance", "pixel")
 
 
 def _start(scene: Scene, outside: bool) -> np.ndarray:
-    return _structured(scene.count, scene.view)[outside] if scene.seeds is None else _sides(scene.seeds)[outside]
+    if scene.seeds is not None:
+        return _sides(scene.seeds)[outside]
+    seeds = _structured(scene.count, scene.view)[outside]
+    if scene.window is None:
+        return seeds
+    return np.concatenate([seeds, _sides(window_seeds(scene.count // 2, scene.window))[outside]])
 
 
 def _sides(seeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

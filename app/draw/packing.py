@@ -3,8 +3,9 @@
 Layout, little endian: uint32 length of the header; the header in UTF-8, padded with spaces to a multiple of four;
 then, if ``header["lines"]`` lists polylines as [name, pieces, points, arrowheads], for all of them together uint16
 points of each piece, int16 x, y of each point, int16 x, y of each arrowhead, int16 angle of each arrowhead; then each
-array of ``header["blocks"]``, which lists name, type and number of values. The run of polylines and each array are
-padded with zeros to a multiple of four. `static/frames.js` reads the same layout.
+array of ``header["blocks"]``, which lists name, type and number of values. The numbers of points, the run of polylines
+and each array are padded with zeros to a multiple of four. Where ``header["exact"]`` is true, x and y are float32.
+`static/frames.js` reads the same layout.
 """
 
 from __future__ import annotations
@@ -25,7 +26,10 @@ from .theme import REACH, VIEW
 EXTENT = 4.0
 STEP = EXTENT / 32767
 
-#: Where arrowheads are placed: as it looks in a picture of 700 px.
+#: Left, right, bottom, top.
+Rectangle = tuple[float, float, float, float]
+
+#: Where arrowheads are placed in the whole picture: as it looks at 700 px.
 PIXEL, WINDOW = VIEW / 350, (-REACH, REACH, -REACH, REACH)
 
 #: Angles of arrowheads travel as int16 multiples of this.
@@ -64,8 +68,17 @@ def quantise(points: NDArray[np.float64]) -> NDArray[np.int16]:
 _NAMES = {np.dtype(name).char: name for name in ("int16", "uint16", "float32", "float64")}
 
 
-def pack(header: Mapping[str, Any], blocks: Blocks) -> bytes:
+def pack(header: Mapping[str, Any], blocks: Blocks, window: Rectangle | None = None, pixel: float = PIXEL) -> bytes:
     """Return header and arrays as one buffer.
+
+    Parameters
+    ----------
+    header : mapping
+    blocks : mapping of str to Polylines or ndarray
+    window : (left, right, bottom, top), optional
+        What is seen, and the size of a pixel there. Coordinates are then float32: 65536 steps are not enough for every
+        window.
+    pixel : float
 
     Raises
     ------
@@ -77,7 +90,9 @@ def pack(header: Mapping[str, Any], blocks: Blocks) -> bytes:
     listing: dict[str, Any] = {}
     parts = [b"", b""]
     if lines:
-        listing["lines"], data = _run(lines)
+        listing["lines"], data = _run(lines, window, pixel)
+        if window is not None:
+            listing["exact"] = True
         parts += (data, b"\0" * (-len(data) % 4))
     if arrays:
         listing["blocks"] = [(name, _NAMES[array.dtype.char], array.size) for name, array in arrays.items()]
@@ -90,25 +105,29 @@ def pack(header: Mapping[str, Any], blocks: Blocks) -> bytes:
     return b"".join(parts)
 
 
-def _run(lines: Mapping[str, Polylines]) -> tuple[list[tuple[str, int, int, int | None]], bytes]:
+def _run(
+    lines: Mapping[str, Polylines], window: Rectangle | None, pixel: float
+) -> tuple[list[tuple[str, int, int, int | None]], bytes]:
     """Return [name, pieces, points, arrowheads] of each layer, and the data of all.
 
     Coordinates of all layers are converted at once: a frame has a dozen of them, most with a few points.
     """
     rows, heads = [], []
     for name, (offsets, points, arrows) in lines.items():
-        placed = arrowheads(offsets, points, PIXEL, WINDOW) if arrows else None
+        placed = arrowheads(offsets, points, pixel, window or WINDOW) if arrows else None
         if placed is not None:
             heads.append(placed)
         rows.append((name, len(offsets) - 1, len(points), None if placed is None else len(placed)))
     all_heads = np.concatenate(heads) if heads else np.zeros((0, 3))
     places = np.concatenate([*(layer.points for layer in lines.values()), all_heads[:, :2]])
+    counts = np.concatenate([np.diff(layer.offsets) for layer in lines.values()]).astype(np.uint16).tobytes()
     data = (
-        np.concatenate([np.diff(layer.offsets) for layer in lines.values()]).astype(np.uint16),
-        quantise(places),
-        np.rint(all_heads[:, 2] * (1 / ANGLE_STEP)).astype(np.int16),
+        counts,
+        b"\0" * (-len(counts) % 4),
+        (quantise(places) if window is None else places.astype(np.float32)).tobytes(),
+        np.rint(all_heads[:, 2] * (1 / ANGLE_STEP)).astype(np.int16).tobytes(),
     )
-    return rows, b"".join(part.tobytes() for part in data)
+    return rows, b"".join(data)
 
 
 def unpack(buffer: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
@@ -124,10 +143,13 @@ def unpack(buffer: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
     if rows:
         totals = [sum(row[column] or 0 for row in rows) for column in (1, 2, 3)]
         sizes = (totals[0], 2 * totals[1], 2 * totals[2], totals[2])
+        place = "float32" if header.get("exact") else "int16"
         runs = []
-        for dtype, size in zip(("uint16", "int16", "int16", "int16"), sizes, strict=True):
+        for dtype, size in zip(("uint16", place, place, "int16"), sizes, strict=True):
             runs.append(np.frombuffer(buffer, dtype=dtype, count=size, offset=offset))
-            offset += 2 * size
+            offset += runs[-1].nbytes
+            if dtype == "uint16":
+                offset += -offset % 4
         offset += -offset % 4
         at = [0, 0, 0, 0]
         for name, pieces, points, heads in rows:

@@ -16,10 +16,10 @@ import {SystemChooser} from "./system.js"
 function wire({model, view, root, plot}) {
   const config = model.config
   const values = {...config.values}
-  const picture = new Picture(plot, config)
+  const picture = new Picture(plot, config, () => requests.rest())
   const inspector = new Inspector(root)
   const find = (name) => root.querySelector(name)
-  const requests = new Requests((request) => model.send_msg(request), () => { root.dataset.settled = false })
+  const requests = new Requests((request) => { picture.asked = String(picture.window); model.send_msg({...request, window: picture.window}) }, () => { root.dataset.settled = false })
   const controls = {}
 
   const change = (name, value) => {
@@ -99,7 +99,7 @@ function wire({model, view, root, plot}) {
   const open = (wanted) => {
     systems.keep()
     panels.forget()
-    setAll({...config.defaults, ...wanted}); tell(); picture.home(config.view)
+    setAll({...config.defaults, ...wanted}); tell(); picture.home()
   }
   const portrait = find("select.preset"), note = find(".preset-note")
   const tell = () => {
@@ -128,7 +128,7 @@ function wire({model, view, root, plot}) {
     begin: (i) => { held = i; clearTimeout(quiet) },
     end: () => { quiet = setTimeout(() => { held = -1; spoken.hidden = true }, 5000) },
   })
-  find(".home").addEventListener("click", () => picture.home(config.view))
+  find(".home").addEventListener("click", () => picture.home())
   twoFingers(find(".bokeh"), plot, () => hands.held !== null)
   new Sheets(root)
 

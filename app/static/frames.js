@@ -1,6 +1,9 @@
 // Frames: reading one packed buffer.
 
-export const STEP = 4 / 32767 // a unit of the packed coordinates
+export const STEP = 4 / 32767 // of the coordinates that are packed as integers
+
+// The size in the picture of a unit of packed coordinates: whole steps, or numbers as they are.
+export function unit(points) { return points instanceof Int16Array ? STEP : 1 }
 
 // The layout is described in packing.py.
 export function readFrame(buffer) {
@@ -14,8 +17,10 @@ export function readFrame(buffer) {
   if (header.lines) {
     const total = (column) => header.lines.reduce((sum, row) => sum + row[column], 0)
     const [pieces, points, heads] = [1, 2, 3].map(total)
-    const run = (Type, size) => { const all = new Type(aligned.buffer, at, size); at += 2 * size; return all }
-    const parts = {n: run(Uint16Array, pieces), xy: run(Int16Array, 2 * points), at: run(Int16Array, 2 * heads), angle: run(Int16Array, heads)}
+    const run = (Type, size) => { const all = new Type(aligned.buffer, at, size); at += all.byteLength; return all }
+    const pad = (all) => { at += -all.byteLength & 3; return all }
+    const Place = header.exact ? Float32Array : Int16Array
+    const parts = {n: pad(run(Uint16Array, pieces)), xy: run(Place, 2 * points), at: run(Place, 2 * heads), angle: run(Int16Array, heads)}
     const used = {n: 0, xy: 0, at: 0, angle: 0}
     for (const [name, n, m, k] of header.lines) {
       const sizes = k === null ? {n, xy: 2 * m} : {n, xy: 2 * m, at: 2 * k, angle: k}
@@ -34,5 +39,6 @@ export function readFrame(buffer) {
 // Lists of points from counts and coordinates of a frame, times `size`.
 export function polygons(counts, points, size) {
   let at = 0
-  return Array.from(counts, (count) => Array.from({length: count}, () => { at += 2; return [points[at - 2] * STEP * size, points[at - 1] * STEP * size] }))
+  const scale = unit(points) * size
+  return Array.from(counts, (count) => Array.from({length: count}, () => { at += 2; return [points[at - 2] * scale, points[at - 1] * scale] }))
 }

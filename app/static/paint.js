@@ -1,7 +1,7 @@
 // Draws a display list on a canvas, or on the context that Bokeh exports SVG with, which has no Path2D, no
 // roundRect and no patterns. Lines go straight from the packed integers to `lineTo`: no array is made on the way.
 
-import {STEP} from "./frames.js"
+import {unit} from "./frames.js"
 
 const ANGLE_STEP = Math.PI / 32767 // a unit of the packed angles
 const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif"
@@ -120,7 +120,7 @@ const PAINTERS = {
   },
 
   curves(ctx, {counts, points, colour, width, dash}, {left, across, top, up}) {
-    const kx = across * STEP, ky = up * STEP
+    const kx = across * unit(points), ky = up * unit(points)
     stroke(ctx, colour, width, dash)
     ctx.beginPath()
     let at = 0
@@ -150,9 +150,10 @@ const PAINTERS = {
   },
 
   heads(ctx, {points, angles, colour, size}, {left, across, top, up}) {
+    const kx = across * unit(points), ky = up * unit(points)
     ctx.fillStyle = colour
     ctx.beginPath()
-    for (let i = 0; i < angles.length; i++) arrowhead(ctx, left + across * STEP * points[2 * i], top + up * STEP * points[2 * i + 1], angles[i] * ANGLE_STEP, size)
+    for (let i = 0; i < angles.length; i++) arrowhead(ctx, left + kx * points[2 * i], top + ky * points[2 * i + 1], angles[i] * ANGLE_STEP, size)
     ctx.fill()
   },
 

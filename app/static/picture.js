@@ -8,7 +8,9 @@ const DRAWN = ["launched", "equator", "critical", "sense", "all_directions", "ou
 const REST = 150 // ms after the last frame until the tooltips follow
 
 export class Picture {
-  constructor(plot, {themes, layers, traces, measures}) {
+  // `moved` is called when another part of the picture has come into view, and stays.
+  constructor(plot, {themes, layers, traces, measures, view}, moved) {
+    this.view = view
     this.plot = plot
     this.themes = themes
     this.traces = traces
@@ -20,6 +22,9 @@ export class Picture {
     this.hovered = Object.fromEntries(plot.renderers.map((renderer) => [renderer.name, renderer.data_source]))
     plot.renderers = [this.drawn, ...plot.renderers, this.above]
     this.pending = this.waiting = false
+    const soon = () => { clearTimeout(this.moving); this.moving = setTimeout(() => { if (String(this.window) !== this.asked) moved() }, REST) }
+    for (const range of [plot.x_range, plot.y_range]) range.change.connect(soon)
+    this.asked = ""
   }
 
   apply({header, blocks}) {
@@ -88,8 +93,15 @@ export class Picture {
     return {x: x_scale.invert(sx), y: y_scale.invert(sy), unit: Math.abs(x_scale.invert(sx + 1) - x_scale.invert(sx))}
   }
 
-  home(view) {
-    for (const range of [this.plot.x_range, this.plot.y_range]) { range.start = -view; range.end = view }
+  // What is seen, [left, right, bottom, top], and the size of a pixel; null is the whole picture.
+  get window() {
+    const {x_range: x, y_range: y} = this.plot
+    if ([x, y].every((range) => range.start === -this.view && range.end === this.view)) return null
+    return [x.start, x.end, y.start, y.end, (x.end - x.start) / (this.drawn.view?.plot_view.frame.bbox.width || 700)]
+  }
+
+  home() {
+    for (const range of [this.plot.x_range, this.plot.y_range]) range.setv({start: -this.view, end: this.view})
   }
 
   // Tooltips belong to marks that Bokeh knows and does not draw; nobody reads one while a slider moves.

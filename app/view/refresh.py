@@ -25,6 +25,7 @@ from ..frame.draft import Draft
 from ..frame.jobs import FAILURES, Jobs
 from ..frame.scenes import evolved, locked_controls, make_scene, settled
 from ..frame.sides import sides
+from ..frame.window import Window, inputs
 from ..panels import registry
 from ..panels.time import launch_of
 from ..state.choices import AXES
@@ -71,6 +72,7 @@ class Frames:
         self.locked = locked_controls(self.scene, self.given is not None)
         self.ready = ready
         self.jobs = Jobs()
+        self.window: Window | None = None
         self._moved = "f1"  # the control moved last, along which a degenerate setting is looked at from both sides
         self._sent: dict[str, Any] = {}
 
@@ -94,6 +96,7 @@ class Frames:
         is what belongs to no control.
         """
         asked = request.get("set") or {}
+        self.window = Window.read(request.get("window"))
         sent = {} if request.get("all") else self._sent
         if asked:
             self._notices = []
@@ -112,7 +115,12 @@ class Frames:
         if changed:
             header["set"] = changed
             self._unpublished.update(changed)
-        return pack({"id": request.get("id", 0), "errors": errors, "load": load.measured(), **header}, blocks)
+        return self._packed({"id": request.get("id", 0), "errors": errors, "load": load.measured(), **header}, blocks)
+
+    def _packed(self, header: dict[str, Any], blocks: Blocks) -> bytes:
+        if self.window is None:
+            return pack(header, blocks)
+        return pack(header, blocks, self.window.rectangle, self.window.pixel)
 
     def _accept(
         self, good: Mapping[str, Any], sent: Mapping[str, Any], errors: dict[str, str], rest: bool
@@ -165,17 +173,20 @@ class Frames:
 
     def _draw(self, changes: Mapping[str, Any], sent: Mapping[str, Any], rest: bool) -> tuple[dict[str, Any], Blocks]:
         values, changed, scene = self._reach(changes)
+        scene = seen(scene, self.window, rest)
         ready = self.ready(scene.psi, scene.system)
         drawable = ready or scene.coefficients.typed is None  # all of a general system needs the compiler
         header: dict[str, Any] = {"ready": False}
         blocks: Blocks = {}
         now_sent = dict(sent)
         if drawable:
-            header, blocks, now_sent = make_frame(scene, values, sent, ready)
+            header, blocks, now_sent = make_frame(scene, values, sent, ready, self.window)
         self._tell_system(header, scene, values, now_sent)
         self._moved = next((name for name in changed if name in MOVED), self._moved)
         if header.get("portrait", {}).get("degeneracies"):
             header["portrait"]["sides"] = sides(scene, values, self._moved)
+        if scene.pixel > inputs(self.window, rest=True)["pixel"]:
+            header.setdefault("late", []).append("window")  # at rest it is drawn as finely as it is seen
         if drawable:
             registry.add(Draft(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked))
         self.scene, self.values, self._sent = scene, values, now_sent
@@ -233,7 +244,14 @@ class Frames:
         self.refused = {name: value for name, value in self.refused.items() if name not in wanted}
         header["set"] = {name: value for name, value in self.values.items() if value != before[name]}
         self._unpublished.update(header["set"])
-        return pack({"errors": {}, **header}, blocks)
+        return self._packed({"errors": {}, **header}, blocks)
+
+
+def seen(scene: Scene, window: Window | None, rest: bool) -> Scene:
+    """Return the scene sampled where and as finely as it is seen."""
+    wanted = inputs(window, rest)
+    changes = {name: value for name, value in wanted.items() if getattr(scene, name) != value}
+    return scene.evolve(**changes) if changes else scene
 
 
 def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
@@ -264,6 +282,7 @@ def make_frame(
     values: Mapping[str, Any],
     sent: Mapping[str, Any],
     ready: bool = True,
+    window: Window | None = None,
 ) -> tuple[dict[str, Any], Blocks, dict[str, Any]]:
     """Return header and blocks of one frame, and what the browser then holds.
 
@@ -282,6 +301,9 @@ def make_frame(
         now[key] = result
         return True
 
+    rectangle = None if window is None else window.rectangle
+    moved = now.get("window") != rectangle  # what was cut to another window is not whole
+    now["window"] = rectangle
     for layer in LAYERS.values():
         if layer.name not in visible or (layer.compiled and not ready):
             continue
@@ -289,8 +311,9 @@ def make_frame(
             result = scene[part.scene]
             if layer.optional and part.name not in now and not len(result):
                 continue
-            if fresh(part.name, result):
-                blocks[part.name] = Polylines(*part.pieces(result), part.arrows)
+            if fresh(part.name, result) or moved:
+                pieces = part.pieces(result)
+                blocks[part.name] = Polylines(*(pieces if window is None else window.cut(*pieces)), part.arrows)
     if "cycles" in blocks:
         header["cycles"] = glyphs.cycle_columns(scene["closed_orbits"])
     if "launched_1" in blocks:

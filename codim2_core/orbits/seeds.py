@@ -55,6 +55,27 @@ def structured_seeds(count: int, view: float = 2.0) -> NDArray[np.float64]:
     return seeds
 
 
+@lru_cache(maxsize=32)
+def window_seeds(count: int, window: tuple[float, float, float, float]) -> NDArray[np.float64]:
+    """About `count` starting points spread evenly over a rectangle of the picture, (k, 2); the same ones on each call.
+
+    Parameters
+    ----------
+    count : int
+    window : (left, right, bottom, top)
+    """
+    left, right, bottom, top = window
+    side = math.sqrt((right - left) * (top - bottom) / max(count, 1))
+    columns, rows = max(1, round((right - left) / side)), max(1, round((top - bottom) / side))
+    i, j = np.divmod(np.arange(columns * rows if count else 0), rows)
+    # every other column is shifted by half a cell, so that no line of seeds lies along an orbit for long
+    x = left + (right - left) * (i + 0.5) / columns
+    y = bottom + (top - bottom) * ((j + 0.25 + 0.5 * (i % 2)) / rows)
+    seeds = np.column_stack([x, y])
+    seeds.flags.writeable = False
+    return seeds
+
+
 def checked_seeds(seeds: ArrayLike) -> NDArray[np.float64]:
     """Check seeds: a (k, 2) array of finite picture points; a read-only copy.
 

@@ -62,3 +62,27 @@ def test_a_motion_lies_above_the_picture_and_leaves_it_alone(explorer):
     after = explorer.ask("[picture.drawn.paints, picture.above.paints]")
     assert after[0] == before[0]
     assert after[1] > before[1]
+
+
+def look_at(explorer, left, right, bottom, top):
+    explorer.ask(f"""(() => {{
+        const {{x_range, y_range}} = picture.plot
+        x_range.setv({{start: {left}, end: {right}}})
+        y_range.setv({{start: {bottom}, end: {top}}}) }})()""")
+    explorer.page.wait_for_timeout(400)
+    explorer.settle()
+    return explorer.ask("""picture.list.filter((item) => item.kind === "curves").map(
+        ({part, points}) => [part, Array.from(points, (v) => points instanceof Int16Array ? v * 4 / 32767 : v)])""")
+
+
+def test_what_is_seen_is_sampled(explorer):
+    wide = dict(look_at(explorer, -8, 8, -8, 8))
+    assert max(map(abs, wide["outside"])) > 7.5  # there is something where it was empty
+    near = dict(look_at(explorer, -0.3, -0.2, 0.05, 0.15))
+    points = list(zip(near["inside"][::2], near["inside"][1::2], strict=True))
+    assert sum(-0.3 <= x <= -0.2 and 0.05 <= y <= 0.15 for x, y in points) > 100
+    explorer.find(".home").click()
+    explorer.page.wait_for_timeout(400)
+    explorer.settle()
+    assert explorer.ask("picture.window") is None
+    assert explorer.ask("picture.list.every((item) => item.kind !== 'curves' || item.points instanceof Int16Array)")

@@ -61,6 +61,7 @@ REACHES = {
     "atol": ({"atol": 1e-6}, {"inside", "outside", "continuations", "separatrices"}),
     "pixel": ({"pixel": 1 / 90}, {"inside", "outside", "continuations", "separatrices", "launched"}),
     "view": ({"view": 2.5}, {"nullclines_outside", "outside", "launched"}),
+    "window": ({"window": (0.1, 0.4, 0.2, 0.5)}, {"inside", "outside"}),
     "count": ({"count": 40}, {"inside", "outside"}),
     "seeds": ({"seeds": [[0.3, 0.2], [1.5, 0.1]]}, {"inside", "outside"}),
     "launch": ({"launch": [[0.2, 0.1]]}, {"launched"}),

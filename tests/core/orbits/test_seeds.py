@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from codim2_core.orbits.seeds import checked_seeds, structured_seeds
+from codim2_core.orbits.seeds import checked_seeds, structured_seeds, window_seeds
 
 
 @given(st.integers(0, 400), st.floats(1.1, 5.0))
@@ -53,3 +53,22 @@ def test_checked_seeds_are_a_copy_that_cannot_be_changed():
     assert seeds[0, 0] == 0.1
     assert not seeds.flags.writeable
     assert checked_seeds([]).shape == (0, 2)
+
+
+@given(st.integers(1, 200), st.floats(-2, 2), st.floats(0.05, 3))
+def test_window_seeds_fill_the_window_evenly(count, left, size):
+    window = left, left + size, -1.0, -1.0 + 0.7 * size
+    seeds = window_seeds(count, window)
+    assert 0.6 * count - 2 <= len(seeds) <= 1.6 * count + 2
+    assert ((seeds > (window[0], window[2])) & (seeds < (window[1], window[3]))).all()
+    assert len(np.unique(seeds, axis=0)) == len(seeds)
+
+
+def test_a_scene_with_a_window_has_orbits_in_it():
+    import codim2_core as c2
+
+    scene = c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0)))
+    near = scene.evolve(window=(0.3, 0.4, 0.5, 0.6))
+    assert len(near["inside"]) == len(scene["inside"]) + len(window_seeds(32, (0.3, 0.4, 0.5, 0.6)))
+    with pytest.raises(ValueError, match="left < right"):
+        scene.evolve(window=(1.0, 0.0, 0.0, 1.0))

@@ -1,0 +1,80 @@
+"""What is seen of the picture: the scene is sampled there, and as finely as the screen shows it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..draw.packing import Rectangle
+from ..draw.theme import NEAREST, REACH, VIEW, WIDEST
+
+PIXEL = 1 / 180  # of the whole picture, while something moves
+LENGTH = 9.0  # of each half of an orbit in the whole picture
+MARGIN = 0.25  # of its size, around a window: what a small pan shows at once
+
+
+@dataclass(frozen=True)
+class Window:
+    """A rectangle of the picture, and the size of a pixel in it."""
+
+    rectangle: Rectangle
+    pixel: float
+
+    @classmethod
+    def read(cls, value: Any) -> Window | None:
+        """Return the window of a request, [left, right, bottom, top, pixel]; None where it asks for the whole picture.
+
+        What cannot be used is no window: a browser cannot ask for more than the tools of the plot allow.
+        """
+        if not isinstance(value, (list, tuple)) or len(value) != 5:
+            return None
+        try:
+            left, right, bottom, top, pixel = map(float, value)
+        except (TypeError, ValueError):
+            return None
+        sizes = right - left, top - bottom
+        far = max(map(abs, (left, right, bottom, top)))
+        if not (all(1.9 * NEAREST <= size <= 2.1 * WIDEST for size in sizes) and far <= 3 * WIDEST):
+            return None
+        return cls((left, right, bottom, top), min(max(pixel, sizes[0] / 4000), sizes[0] / 100))
+
+    @property
+    def around(self) -> Rectangle:
+        """The rectangle with its margin."""
+        left, right, bottom, top = self.rectangle
+        x, y = MARGIN * (right - left), MARGIN * (top - bottom)
+        return left - x, right + x, bottom - y, top + y
+
+    def cut(self, offsets: NDArray[np.int64], points: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[Any]]:
+        """Return the parts of curves that may be seen, as offsets and points."""
+        if len(points) < 2:
+            return offsets, points
+        left, right, bottom, top = self.around
+        low, high = np.minimum(points[:-1], points[1:]), np.maximum(points[:-1], points[1:])
+        seen = np.logical_and.reduce((high >= (left, bottom)) & (low <= (right, top)), axis=1)
+        joints = offsets[1:-1] - 1
+        seen[joints[(joints >= 0) & (joints < len(seen))]] = False
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], seen, [False]]).astype(np.int8)))
+        begins, ends = edges[::2], edges[1::2] + 1  # a run of steps has one point more
+        sizes = ends - begins
+        cut = np.concatenate([[0], np.cumsum(sizes)])
+        return cut, points[np.repeat(begins - cut[:-1], sizes) + np.arange(cut[-1])]
+
+
+def inputs(window: Window | None, rest: bool) -> dict[str, Any]:
+    """Return the inputs of the scene for what is seen; what moves is drawn as finely as the whole picture is."""
+    if window is None:
+        return {"view": REACH, "pixel": PIXEL, "window": None, "length": LENGTH}
+    left, right, bottom, top = window.rectangle
+    reach = max(REACH, 1.02 * math.hypot(max(-left, right), max(-bottom, top)))
+    pixel = window.pixel * PIXEL * 350 / VIEW
+    return {
+        "view": reach,
+        "pixel": pixel if rest else max(PIXEL, pixel),
+        "window": window.rectangle,
+        "length": LENGTH * reach / REACH,
+    }
