@@ -3,7 +3,7 @@ FROM python:3.12-slim
 
 RUN useradd --create-home --uid 10001 codim2
 WORKDIR /srv/codim2
-COPY pyproject.toml README.md ./
+COPY pyproject.toml README.md LICENSE ./
 COPY app app
 COPY codim2_core codim2_core
 RUN pip install --no-cache-dir .
