@@ -30,7 +30,7 @@ export const regions = (pad, points) => points.map(([x, y]) => [...pad.querySele
 export const record = (canvas) => {
   canvas.drawn = []
   const pen = canvas.getContext("2d"), own = CanvasRenderingContext2D.prototype
-  for (const name of ["arc", "rect", "fillRect"]) {
+  for (const name of ["arc", "rect", "fillRect", "translate", "rotate"]) {
     pen[name] = function (...all) {
       canvas.drawn.push({name, all, fill: name === "fillRect" ? this.fillStyle : null})
       own[name].apply(this, all)

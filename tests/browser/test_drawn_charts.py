@@ -8,6 +8,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.diagrams.diagram import diagram
+from codim2_core.sliding.along import slow_portrait
 
 from .drawn import SCRIPTS, colour, numbers, plots, table
 
@@ -263,6 +264,20 @@ def test_atlas(opened, setting):
     np.testing.assert_allclose(plot.data(handle)[0], [setting["f1"], setting["f2"]], atol=max(plot.near))
 
 
+def test_atlas_of_other_axes(opened, setting):
+    page = opened("atlas", across="a", up="f2")
+    page.page.wait_for_selector(".pad:not(.old) .region")
+    (plot,) = plots(page, ".pad")
+    assert (plot.title, plot.word) == ("f₂", "a")
+    pixels = [(x, y) for x in np.linspace(60, 300, 9) for y in np.linspace(50, 270, 8)]
+    agreeing = 0
+    for pixel, names in zip(pixels, page.find(".pad").evaluate(SCRIPTS["regions"], pixels), strict=True):
+        a, f2 = plot.data(pixel)[0]
+        name = c2.classify(system(setting, a=a, f2=f2), PSI, (0.0,)).name
+        agreeing += bool(names) and names[0].split(",")[0] == name
+    assert agreeing > 0.93 * len(pixels)
+
+
 def test_numbers(opened, setting):
     page = opened("numbers")
     q = equator(setting)
@@ -353,3 +368,26 @@ def test_limit_directions_along_z_in_space(opened, setting):
         places = seen(points, -0.7, 0.5) * [1, -1] * scale + middle
         gaps = [np.min(np.hypot(*(groups[name] - one).T)) for one in places]
         assert np.quantile(gaps, 0.97) < 3
+
+
+def test_the_slow_flow_along_z_in_space(opened, setting):
+    page = opened("solid", solid="stack")
+    canvas = page.find("canvas.solid")
+    canvas.evaluate(SCRIPTS["record"])
+    canvas.press("ArrowRight")
+    page.page.wait_for_timeout(300)
+    drawn = canvas.evaluate("(it) => it.drawn")
+    turns = [it["all"][0] for it in drawn if it["name"] == "rotate"]
+    found = slow_portrait(system(setting), PSI, (-4.0, 4.0))
+    assert turns
+    assert len(turns) == len([branch for branch in found.branches if len(branch.z) > 4])
+    for turn, branch in zip(turns, found.branches, strict=False):
+        i = len(branch.z) // 2
+        steps = []
+        for k in (i - 1, i + 1):
+            (C, *_) = c2.critical_sets(system(setting), PSI, (float(branch.z[k]),))
+            place = np.array(C.x2) / np.sqrt(1 + np.sum(np.square(C.x2)))
+            steps.append(seen([*place, 2.6 * (branch.z[k] + 4) / 8], -0.7, 0.5)[0])
+        along = (steps[1] - steps[0]) * np.sign(branch.flow[i, 0])
+        way = np.array([np.cos(turn), -np.sin(turn)])  # pixels run down
+        assert way @ along / np.hypot(*along) > 0.9
