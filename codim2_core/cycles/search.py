@@ -16,6 +16,7 @@ from .section import COARSE, FINE, INNER, Array, Crossing, Section
 
 TOUCHING = 1e-9  # noise with which a fold can be told: not so near C that all displacements are small
 CLOSE = 1e-3  # width at which a jump from -inf to +inf is left to the map backward in time
+CLOSER, AGREED = 0.02, 1e-8  # spacing of the samples about a fixed point; how far two interpolants may differ
 NOISE = 1e-8  # displacement that COARSE cannot tell from zero
 NEAR_LOOP = 1e-3
 MEASURED, SMALLEST = 2.0, 1e-8  # where the expansion at C is measured, in INNER; the smallest cycle, in r/R
@@ -39,42 +40,59 @@ def _settled(shift: Array, inner: int, step: int) -> bool:
 
 def _ends(xi: Array, shift: Array) -> list[int]:
     """Intervals at whose one end orbits return and at whose other they do not, where a fixed point may hide."""
-    new = []
     finite = np.isfinite(shift)
-    for i in range(len(xi) - 1):
-        width = xi[i + 1] - xi[i]
-        if width <= 1e-12 * max(1.0, abs(xi[i])):
-            continue
-        if finite[i] != finite[i + 1]:
-            # Before the displacement jumps to +inf; to -inf, on C, it goes continuously.
-            inner, outer, step = (i, i + 1, -1) if finite[i] else (i + 1, i, 1)
-            hidden = shift[outer] > 0.0 or (np.isinf(shift[outer]) and shift[inner] > 0.0)
-            if hidden and not (width < 0.05 and _settled(shift, inner, step)):
-                new.append(i)
-        elif width > CLOSE and np.isinf(shift[i]) and shift[i + 1] == -shift[i]:
+    width = np.diff(xi)
+    candidates = width > 1e-12 * np.maximum(1.0, np.abs(xi[:-1]))
+    jumps = candidates & (width > CLOSE) & np.isinf(shift[:-1]) & (shift[1:] == -shift[:-1])
+    new = []
+    for i in np.flatnonzero(candidates & (finite[1:] != finite[:-1])).tolist():
+        # Before the displacement jumps to +inf; to -inf, on C, it goes continuously.
+        inner, outer, step = (i, i + 1, -1) if finite[i] else (i + 1, i, 1)
+        hidden = shift[outer] > 0.0 or (np.isinf(shift[outer]) and shift[inner] > 0.0)
+        if hidden and not (width[i] < 0.05 and _settled(shift, inner, step)):
             new.append(i)
-    return new
+    return [*new, *np.flatnonzero(jumps).tolist()]
 
 
-def _polished(section: Section, low: float, high: float, backward: bool) -> float:
-    """Find the fixed point between two samples of opposite sign: rounds of samples, then interpolation."""
+def _root(x: Array, y: Array) -> float:
+    """Lagrange's polynomial for the parameter as a function of the displacement, at zero."""
+    return sum(
+        float(x[j]) * math.prod(float(-y[k] / (y[j] - y[k])) for k in range(len(y)) if k != j) for j in range(len(y))
+    )
+
+
+def _polished(section: Section, xi: Array, shift: Array, i: int, j: int, backward: bool) -> float:
+    """Find the fixed point between samples i and j of opposite sign.
+
+    By six samples about the zero of the cubic through those around; if these do not show it, by rounds of samples.
+    """
+    low, high = float(xi[i]), float(xi[j])
+    near = slice(max(i - 1, 0), j + 2)
+    x, y = xi[near], shift[near]
+    if np.isfinite(y).all() and (np.diff(y) * (y[-1] - y[0]) > 0.0).all():
+        guess = _root(x, y)
+        width = min(CLOSER, 0.1 * (high - low))
+        if low < guess < high:
+            x = guess + width * np.array([-2.5, -1.5, -0.5, 0.5, 1.5, 2.5])
+            y = section.displacement(x, FINE, backward)
+            if np.isfinite(y).all() and (np.diff(y) * (y[-1] - y[0]) > 0.0).all() and y[0] * y[-1] < 0.0:
+                found = _root(x, y)
+                if abs(found - _root(x[1:-1], y[1:-1])) < AGREED:
+                    return found
     for _ in range(8):
-        xi = np.concatenate([[low], _between(low, high, 30), [high]])
-        shift = section.displacement(xi, COARSE, backward)
-        changes = np.flatnonzero((shift[1:] < 0.0) != (shift[:-1] < 0.0))
-        i = int(changes[0]) if len(changes) else len(xi) // 2
-        low, high = float(xi[i]), float(xi[i + 1])
-        if high - low < 1e-3 and np.isfinite(shift[max(i - 2, 0) : i + 4]).all():
+        x = np.concatenate([[low], _between(low, high, 30), [high]])
+        y = section.displacement(x, COARSE, backward)
+        changes = np.flatnonzero((y[1:] < 0.0) != (y[:-1] < 0.0))
+        k = int(changes[0]) if len(changes) else len(x) // 2
+        low, high = float(x[k]), float(x[k + 1])
+        if high - low < 1e-3 and np.isfinite(y[max(k - 2, 0) : k + 4]).all():
             break
     width = high - low
     x = low + width * np.array([-2.0, -1.0, 0.0, 1.0, 2.0, 3.0])
     y = section.displacement(x, FINE, backward)
     if not np.isfinite(y).all() or len(np.unique(y)) < len(y):
         return 0.5 * (low + high)
-    # Lagrange's polynomial for the parameter as a function of the displacement, at zero.
-    guess = sum(
-        float(x[j]) * math.prod(float(-y[k] / (y[j] - y[k])) for k in range(len(y)) if k != j) for j in range(len(y))
-    )
+    guess = _root(x, y)
     return guess if low - width <= guess <= high + width else 0.5 * (low + high)
 
 
@@ -121,15 +139,14 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
     if band:
         notes.append("Closed orbits fill a band within resolution.")
     for i, j in changes:
-        low, high = float(xi[i]), float(xi[j])
         repelling = bool(shift[i] < 0.0)  # then it attracts backward, and is found and followed backward
         both = finite[i] and finite[j]
         if not both and repelling:
             # It may be so repelling that forward no sample beside it returns.
-            back = section.displacement(np.array([low, high]), backward=True)
+            back = section.displacement(xi[[i, j]], backward=True)
             both = bool(back[0] > 0.0 > back[1])
         if both:
-            found.append(Crossing(_polished(section, low, high, repelling), repelling))
+            found.append(Crossing(_polished(section, xi, shift, i, j, repelling), repelling))
     found += [Crossing(float(xi[i]), touching=True) for i in touching if noise[i] < TOUCHING]
     last = shift[:-1][finite[:-1] & (shift[1:] == np.inf)]
     notes += [

@@ -90,7 +90,7 @@ def basins_of(problem: LayerProblem, n: int = 128) -> Basins:
         lines = trajectories(at, psi, points, t_max=time, rtol=RTOL, atol=RTOL, capture=CAPTURE, samples="ends")
         evaluations += lines.evaluations
         found = np.full(len(points), UNDECIDED, np.int8)
-        for i, end in enumerate(endings(at, psi, lines, equator, critical, cycles, rtol=RTOL)):
+        for i, end in enumerate(endings(at, psi, lines, equator, critical, lambda: cycles, rtol=RTOL)):
             if end.label == "undecided":
                 continue
             if end.label not in names:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -92,7 +93,7 @@ def endings(
     lines: Trajectories,
     equator: EquatorEquilibria,
     critical: tuple[CriticalSet, ...],
-    cycles: LimitCycles,
+    cycles: Callable[[], LimitCycles],
     *,
     rtol: float = 1e-9,
     backward: bool = False,
@@ -104,8 +105,10 @@ def endings(
     at, psi
         Of the system that `lines` belong to.
     lines : Trajectories
-    equator, critical, cycles
+    equator, critical
         Of the same system.
+    cycles : callable
+        Gives its limit cycles; called only if a trajectory ends at no equilibrium.
     rtol : float
     backward : bool
         Whether `lines` run against time.
@@ -138,7 +141,7 @@ def endings(
                 found[i] = Ending(label, float(equator.theta[near]), statuses[i].value)
             elif statuses[i] is Status.SPIRALLED:
                 found[i] = Ending("equator", None, statuses[i].value)
-            elif (reached := _on_cycle(cycles, p, backward)) is not None:
+            elif (reached := _on_cycle(cycles(), p, backward)) is not None:
                 found[i] = Ending(f"cycle {reached + 1}", None, "Winds onto a limit cycle.")
             elif w < AT_SADDLE and gap < AT_SADDLE and more:
                 found[i] = Ending(label, float(equator.theta[near]), _stopping(equator, near, w))

@@ -156,7 +156,7 @@ def _endings(problem: LayerProblem, lines: Trajectories, which: list[int], backw
         ends,
         problem.equator,
         problem.critical,
-        problem.keep(cycles_of),
+        lambda: problem.keep(cycles_of),
         rtol=RTOL,
         backward=backward,
     )

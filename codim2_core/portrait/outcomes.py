@@ -25,7 +25,7 @@ from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .endings import angular_sign, radially_neutral
-from .verdicts import Array, arriving, spiralling
+from .verdicts import Array, Judged, arriving, spiralling
 
 __all__ = ["Outcome", "Outcomes", "approach_outcomes"]
 
@@ -236,7 +236,11 @@ def outcomes_of(own: LayerProblem, compare: Sequence[Psi] | None = None) -> Outc
         whole = _whole(own, others, sensitive, cycle)
         found = () if whole.verdict == "misses" else (whole,)
         return Outcomes(found, (), equator, whole, at)
-    directions = tuple(_direction(own, others, sensitive, i) for i in range(len(equator)))
+    which = [i for i in range(len(equator)) if not radially_neutral(equator, i) and equator.lambda_rho[i] < 0.0]
+    columns = [arriving(problem, which) for problem in (own, *others)]
+    judged = {i: [column[k] for column in columns] for k, i in enumerate(which)}
+    texts = [other.psi.text for other in others]
+    directions = tuple(_direction(own, judged.get(i, ()), texts, sensitive, i) for i in range(len(equator)))
     order = ("open set", "one side", "single direction")
     found = sorted((o for o in directions if o.arrives in order), key=lambda o: order.index(o.arrives))
     return Outcomes(tuple(found), directions, equator, None, at)
@@ -251,7 +255,8 @@ def _compared(outcome: Outcome, verdicts: list[tuple[str, str, str | None]], sen
     return replace(outcome, depends_on_psi=depends, families=tuple(verdicts))
 
 
-def _direction(own: LayerProblem, others: list[LayerProblem], sensitive: bool, i: int) -> Outcome:
+def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], sensitive: bool, i: int) -> Outcome:
+    """Say what becomes of what arrives at Q_{i+1}, judged under its own Psi and then under those with these texts."""
     equator, label = own.equator, f"Q{i + 1}"
     theta = float(equator.theta[i])
     if radially_neutral(equator, i):
@@ -265,10 +270,10 @@ def _direction(own: LayerProblem, others: list[LayerProblem], sensitive: bool, i
             reason += " Those that come in beside it turn away: crossing, in the words of sec:mateslidecross."
         return Outcome(theta, label, "nothing", "misses", None, None, None, reason)
     arrives = _arrival(equator, i)
-    verdict, onto, leaving, slow, reason = arriving(own, i)
+    (verdict, onto, leaving, slow, reason), *others = judged
     reason = f"{_SENTENCE[arrives].format(label)} {reason}"
     outcome = Outcome(theta, label, arrives, verdict, onto, leaving, slow, reason)
-    verdicts = [(other.psi.text, *arriving(other, i)[:2]) for other in others]
+    verdicts = [(text, *other[:2]) for text, other in zip(texts, others, strict=True)]
     return _compared(outcome, verdicts, sensitive)
 
 

@@ -230,7 +230,7 @@ def _inside(
         return []
     lines = joined(parts)
     branches = []
-    ends = endings(at, psi, lines, equator, critical, cycles, rtol=rtol, backward=backward)
+    ends = endings(at, psi, lines, equator, critical, lambda: cycles, rtol=rtol, backward=backward)
     places = {critical_label(critical, k): C.p for k, C in enumerate(critical)}
     places |= {f"Q{k + 1}": np.array([math.cos(t), math.sin(t)]) for k, t in enumerate(equator.theta.tolist())}
     tails = _tails(at, psi, lines, [places.get(ending.label) for ending in ends], rtol, pixel, backward)

@@ -23,7 +23,13 @@ FAN = 0.02  # radius, in (theta, ebar), of the half circle of starts around a Q 
 def ends(problem: LayerProblem, lines: Trajectories) -> list[Ending]:
     """Say where trajectories end."""
     return endings(
-        problem.at, problem.psi, lines, problem.equator, problem.critical, problem.keep(cycles_of), rtol=RTOL
+        problem.at,
+        problem.psi,
+        lines,
+        problem.equator,
+        problem.critical,
+        lambda: problem.keep(cycles_of),
+        rtol=RTOL,
     )
 
 
@@ -35,13 +41,13 @@ def followed(problem: LayerProblem, points: Array) -> Trajectories:
     )
 
 
-def from_equator(problem: LayerProblem, i: int) -> Trajectories:
-    """Follow the orbit that leaves the limit direction i (from 0) up the hemisphere."""
+def from_equator(problem: LayerProblem, which: Sequence[int]) -> Trajectories:
+    """Follow the orbits that leave some limit directions (from 0) up the hemisphere."""
     time = drawn_time(problem.at, problem.equator)
     return continuation(
         problem.at,
         problem.psi,
-        problem.equator.theta[i : i + 1],
+        problem.equator.theta[list(which)],
         t_max=time,
         rtol=RTOL,
         atol=0.1 * RTOL,
@@ -75,15 +81,24 @@ def judge(problem: LayerProblem, found: Sequence[Ending], many: str) -> Judged:
     return "undecided", None, None, None, f"They were not followed to an end: {end.sentence}"
 
 
-def arriving(problem: LayerProblem, i: int) -> Judged:
-    """Judge what arrives at Q_{i+1}, where lambda_rho < 0."""
-    main = ends(problem, from_equator(problem, i))
-    if problem.equator.multiplicity[i] == 1 and problem.equator.lambda_theta[i] < 0.0:
-        return judge(problem, main, "")
-    angle = np.radians([15.0, 45.0, 75.0, 105.0, 135.0, 165.0])
-    theta, height = float(problem.equator.theta[i]) + FAN * np.cos(angle), FAN * np.sin(angle)
-    around = np.sqrt(1.0 - height**2)[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
-    return judge(problem, [*main, *ends(problem, followed(problem, around))], "A whole family of orbits leaves Q")
+def arriving(problem: LayerProblem, which: Sequence[int]) -> list[Judged]:
+    """Judge what arrives at some limit directions (from 0), where lambda_rho < 0: all orbits side by side."""
+    if not which:
+        return []
+    equator = problem.equator
+    mains = ends(problem, from_equator(problem, which))
+    wide = [i for i in which if not (equator.multiplicity[i] == 1 and equator.lambda_theta[i] < 0.0)]
+    fans: dict[int, list[Ending]] = {}
+    if wide:
+        angle = np.radians([15.0, 45.0, 75.0, 105.0, 135.0, 165.0])
+        theta, height = equator.theta[wide][:, None] + FAN * np.cos(angle), FAN * np.sin(angle)
+        around = np.sqrt(1.0 - height**2)[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+        found = ends(problem, followed(problem, around.reshape(-1, 2)))
+        fans = {i: found[k * len(angle) : (k + 1) * len(angle)] for k, i in enumerate(wide)}
+    return [
+        judge(problem, [main, *fans.get(i, [])], "A whole family of orbits leaves Q" if i in fans else "")
+        for i, main in zip(which, mains, strict=True)
+    ]
 
 
 def spiralling(problem: LayerProblem, many: str = "Orbits leave the closed equator at all angles") -> Judged:
