@@ -36,7 +36,7 @@ DRAWN = {
 TABLES = {
     "scene": "A cold scene", "general": "Typed systems", "simulate": "Simulated motions against eps",
     "app": "The server", "browser": "Painted frames", "equator": "Counts of limit directions",
-    "census": "A census of portraits",
+    "census": "A census of portraits", "cycles": "Case III and its cycles",
 }  # fmt: skip
 ON_PAGE = ("trajectories", "scene", "general", "app", "equator", "census")
 # Titles of the plots of the second picture, by their beginnings.

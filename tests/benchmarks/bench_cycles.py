@@ -1,0 +1,94 @@
+"""Case III: what its scene costs beside its trajectories, limit cycles, their branches and folds; error beside time.
+
+Run ``python -m tests.benchmarks.bench_cycles [--quick]``. Times are of the processor, ratios are paired by run.
+"""
+
+from __future__ import annotations
+
+import statistics
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+import codim2_core as c2
+from codim2_core.continuation.branches import continue_cycles
+from codim2_core.scene import layers
+
+from .bench_scene import PICTURE, TRAJECTORIES
+
+PRESETS = ("case3-n2", "case3-n3", "case3-n4")
+PERIODS = {3: 0.5044751410092433, 4: 0.6066957493683202}  # of Case III's cycle, by extrapolation at 22 digits
+FOLDING = c2.ELinear(1.0, 1.3, -1.2, (0.33, 0.07))  # with Hill 3 a fold of cycles lies near f2 = 0.069
+
+
+def spent(call: Callable[[], Any]) -> tuple[float, Any]:
+    """Milliseconds of the processor, and the result."""
+    start = time.process_time()
+    found = call()
+    return 1e3 * (time.process_time() - start), found
+
+
+def scene_row(preset: str, repeats: int) -> tuple[float, float, float]:
+    """Milliseconds of a cold scene's trajectories, and medians of picture and of all layers over them."""
+    values = c2.presets[preset]
+    alone, picture, whole = [], [], []
+    for k in range(repeats + 1):
+        scene = c2.Scene(values.system, values.psi)
+        times = {name: spent(lambda name=name, scene=scene: scene[name])[0] for name in layers}
+        if k:  # the first loads what is compiled
+            alone.append(sum(times[name] for name in TRAJECTORIES))
+            picture.append(sum(times[name] for name in PICTURE) / alone[-1])
+            whole.append(sum(times.values()) / alone[-1])
+    return statistics.median(alone), statistics.median(picture), statistics.median(whole)
+
+
+def timed(call: Callable[[], Any], repeats: int) -> tuple[float, Any]:
+    """Return the median of the milliseconds after a first run, and the result."""
+    _, found = spent(call)
+    return statistics.median(spent(call)[0] for _ in range(repeats)), found
+
+
+def branch_error(branches: Any, system: c2.ELinear, psi: c2.Psi) -> float:
+    """Largest relative difference of periods along branches from those of `limit_cycles` there."""
+    worst = 0.0
+    for branch in branches:
+        inner = np.flatnonzero((branch.amplitude > 0.05) & np.isfinite(branch.period))[3:-3]
+        for i in inner[:: max(len(inner) // 6, 1)]:
+            here = c2.limit_cycles(system.evolve(f1=float(branch.value[i])), psi)
+            gaps = [abs(cycle.period / branch.period[i] - 1.0) for cycle in here]
+            worst = max(worst, min(gaps, default=np.inf))
+    return worst
+
+
+def report(quick: bool = False) -> str:
+    """Return both tables as Markdown."""
+    repeats = 3 if quick else 15
+    lines = [
+        "| cold scene | its trajectories, ms | picture / trajectories | all layers / trajectories |",
+        "|---|---|---|---|",
+    ]
+    for preset in PRESETS[: 1 if quick else None]:
+        alone, picture, whole = scene_row(preset, repeats)
+        lines.append(f"| {preset} | {alone:.2f} | {picture:.2f} | {whole:.1f} |")
+    lines += ["", "| | ms of the processor | error |", "|---|---|---|"]
+    system = c2.presets["case3-n3"].system
+    for n in (3,) if quick else (3, 4):
+        cost, cycles = timed(lambda n=n: c2.limit_cycles(system, c2.psi.hill(n)), repeats)
+        lines.append(f"| limit cycles, n = {n} | {cost:.2f} | {abs(cycles[0].period / PERIODS[n] - 1.0):.0e} |")
+    cost, _ = timed(lambda: c2.approach_outcomes(system, c2.psi.hill(3)), repeats)
+    lines.append(f"| approach outcomes, n = 3, eight families compared | {cost:.1f} | |")
+    psi = c2.psi.hill(3)
+    cost, branches = timed(lambda: continue_cycles(FOLDING, psi, "f1", (0.2, 0.5)), max(repeats // 3, 1))
+    error = branch_error(branches, FOLDING, psi)
+    lines.append(f"| branches of cycles along f1: {len(branches)} | {cost:.0f} | {error:.0e} |")
+    if not quick:
+        cost, curve = timed(lambda: c2.bifurcations.cycle_folds(1.0, 1.3, -1.2, psi), 1)
+        lines.append(f"| folds of cycles in (f1, f2): {len(curve)} curves | {cost:.0f} | |")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(report("--quick" in sys.argv))
