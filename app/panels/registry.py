@@ -6,13 +6,18 @@ rest; until the browser has it, its name is in ``header["late"]``, and the panel
 
 from __future__ import annotations
 
+from importlib import import_module
+
 from ..frame.draft import Draft
 from ..slow_layers import basins, outcomes
 from ..state.controls import offer
-from . import along, atlas, diagram, lessons, numbers, orbits, planes, psi, stack, theorems, time
 from .panel import Panel
 
-#: By key, in the order of the tabs.
+#: Modules beside this one that end with a `PANEL`, in the order of the tabs: a new panel is one more name here.
+MODULES = (
+    "atlas", "numbers", "planes", "diagram", "theorems", "along", "stack", "time", "psi", "orbits", "lessons",
+)  # fmt: skip
+#: By key.
 PANELS: dict[str, Panel] = {}
 #: Layers of the picture that are computed as panels are, by name.
 LAYERS = {"basins": basins.add, "outcomes": outcomes.add}
@@ -41,5 +46,5 @@ def add(draft: Draft) -> None:
         each(draft)
 
 
-for module in (atlas, numbers, planes, diagram, theorems, along, stack, time, psi, orbits, lessons):
-    register(module.PANEL)
+for module in MODULES:
+    register(import_module(f".{module}", __package__).PANEL)

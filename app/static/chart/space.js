@@ -56,30 +56,40 @@ export class Space {
   /**
    * The first of some middles around which a text covers nothing; it is taken then.
    * @param {string} text
-   * @param {number[][]} middles in order of preference
+   * @param {Iterable<number[]>} middles in order of preference
    * @param {(box: number[]) => boolean} allowed
    * @param {number} size of the letters
    * @returns {number[] | null}
    */
   place(text, middles, allowed = () => true, size = TEXT) {
     const [width, height] = textSize(text, size)
-    const found = middles.find(([x, y]) => this.free([x, y, width, height]) && allowed([x, y, width, height]))
-    if (!found) return null
-    this.box([found[0], found[1], width, height])
-    return found
+    for (const [x, y] of middles) {
+      const box = [x, y, width, height]
+      if (!this.free(box) || !allowed(box)) continue
+      this.box(box)
+      return [x, y]
+    }
+    return null
   }
 
-  /** All middles of a grid, the nearest to a favourite place first. @param {number[]} favourite @param {number} far px */
-  around([x, y], far = Infinity) {
-    const found = []
-    for (let u = CELL; u < this.width; u += 2 * CELL) {
-      for (let v = CELL; v < this.height; v += 2 * CELL) {
-        const distance = Math.hypot(u - x, v - y)
-        if (distance <= far) found.push([u, v, distance])
-      }
+  /** Middles all around a favourite place, the nearest first. @param {number[]} favourite */
+  * around([x, y]) {
+    const [x0, y0] = [Math.max(0, Math.min(this.width, x)), Math.max(0, Math.min(this.height, y))]
+    for (const [u, v] of nearby()) {
+      if (x0 + u > 0 && y0 + v > 0 && x0 + u < this.width && y0 + v < this.height) yield [x0 + u, y0 + v]
     }
-    return found.sort((one, other) => one[2] - other[2])
   }
+}
+
+const FAR = 420 // px
+let offsets = null
+
+// Steps away from a place, the shortest first; sorted once.
+function nearby() {
+  if (offsets) return offsets
+  offsets = []
+  for (let u = -FAR; u <= FAR; u += 2 * CELL) for (let v = -FAR; v <= FAR; v += 2 * CELL) offsets.push([u, v])
+  return offsets.sort((one, other) => Math.hypot(...one) - Math.hypot(...other))
 }
 
 /**
