@@ -11,6 +11,7 @@ import {Panels} from "./panels.js"
 import {Picture} from "./picture.js"
 import {Requests} from "./requests.js"
 import {Sheets} from "./sheets.js"
+import {Browsed, Listed, Steps} from "./steps.js"
 import {SystemChooser} from "./system.js"
 
 function wire({model, view, root, plot}) {
@@ -152,17 +153,38 @@ function wire({model, view, root, plot}) {
     paint()
   })
 
-  // The address always carries the whole state.
-  let linkTimer = null
-  const keepLink = () => {
-    if (!config.page) return
-    clearTimeout(linkTimer)
-    linkTimer = setTimeout(writeLink, 300)
+  // Undo and redo; the address always carries the whole state.
+  const link = (snapshot) => {
+    const written = (value) => Array.isArray(value) ? value.join(",") : typeof value === "object" ? JSON.stringify(value) : String(value)
+    return `?${new URLSearchParams(Object.entries(snapshot.values).map(([name, value]) => [name, written(value)]))}`
   }
-  const writeLink = () => {
-    const query = new URLSearchParams(Object.entries(values).map(([name, value]) => [name, Array.isArray(value) ? value.join(",") : typeof value === "object" ? JSON.stringify(value) : String(value)]))
-    history.replaceState(null, "", `?${query}`)
+  const look = () => structuredClone({values, seen: picture.seen})
+  const restore = (snapshot) => {
+    systems.keep()
+    panels.forget()
+    setAll(structuredClone(snapshot.values)); tell()
+    picture.seen = snapshot.seen
   }
+  const undo = find(".undo"), redo = find(".redo")
+  const kept = config.page ? new Browsed(look(), window.history, link) : new Listed(look())
+  const steps = new Steps(kept, look, restore, () => { undo.disabled = !steps.canUndo; redo.disabled = !steps.canRedo })
+  steps.told()
+  const keepLink = () => steps.changed()
+  undo.addEventListener("click", () => steps.undo())
+  redo.addEventListener("click", () => steps.redo())
+  if (config.page) window.addEventListener("popstate", (event) => steps.arrived(event.state))
+  root.addEventListener("pointerdown", () => { steps.held = true })
+  for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => { steps.held = false })
+  for (const range of [plot.x_range, plot.y_range]) range.properties.start.change.connect(() => steps.changed())
+  const keys = (event) => {
+    const typing = event.composedPath()[0]?.matches?.("input[type=text], textarea") // which undoes its own letters
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || typing) return
+    const back = event.key === "z", again = event.key === "Z" || event.key === "y"
+    if (!back && !again) return
+    event.preventDefault()
+    if (back) steps.undo(); else steps.redo()
+  }
+  ;(config.page ? document : root).addEventListener("keydown", keys)
 
   // What Python, or another browser that shows this view, has set: the controls follow, unless they are being moved.
   const follow = (given) => {
@@ -209,7 +231,7 @@ function wire({model, view, root, plot}) {
   const banner = (sentence) => { const bar = find(".banner"); bar.hidden = !sentence; bar.textContent = sentence }
 
   new Connection(view.model.document, {
-    page: config.page, say: banner, leave: writeLink, lost: () => { requests.held = true },
+    page: config.page, say: banner, leave: () => steps.settle(), lost: () => { requests.held = true },
   })
   model.on("msg:custom", (event) => apply((event.data ?? event).frame))
   if (model.first) apply(model.first instanceof ArrayBuffer ? model.first : model.first.buffer ?? model.first)

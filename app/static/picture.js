@@ -93,6 +93,13 @@ export class Picture {
     return {x: x_scale.invert(sx), y: y_scale.invert(sy), unit: Math.abs(x_scale.invert(sx + 1) - x_scale.invert(sx))}
   }
 
+  // The rectangle that is seen, as [left, right, bottom, top].
+  get seen() { const {x_range: x, y_range: y} = this.plot; return [x.start, x.end, y.start, y.end] }
+  set seen([left, right, bottom, top]) {
+    this.plot.x_range.setv({start: left, end: right})
+    this.plot.y_range.setv({start: bottom, end: top})
+  }
+
   // What is seen, [left, right, bottom, top], and the size of a pixel; null is the whole picture.
   get window() {
     const {x_range: x, y_range: y} = this.plot
