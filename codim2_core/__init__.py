@@ -5,6 +5,7 @@ discontinuity sets"; docstrings give the paper's equation labels.
 """
 
 from . import bifurcations, examples, psi
+from .arguments import guarded
 from .counting.census import census
 from .counting.table import Census
 from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
@@ -85,6 +86,9 @@ __all__ = [
     "slow_portrait",
     "trajectories",
 ]
+
+
+globals().update(guarded(__name__, globals(), __all__))
 
 
 def __dir__() -> list[str]:

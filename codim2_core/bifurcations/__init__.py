@@ -8,6 +8,7 @@ followed by continuation, which takes seconds where the others take milliseconds
 
 from __future__ import annotations
 
+from ..arguments import guarded
 from .borders import critical_boundary, saddle_node
 from .curve import BifurcationCurve, SpecialPoint
 from .cycles import cycle_folds
@@ -32,3 +33,5 @@ __all__ = [
     "regions",
     "saddle_node",
 ]
+
+globals().update(guarded(__name__, globals(), __all__))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Mapping
 from importlib import import_module
 from types import MappingProxyType
@@ -56,6 +57,6 @@ def unregister(key: str) -> None:
     ValueError
         There is no such example, or it is the package's.
     """
-    if key not in _known or _known[key] in LISTED:
-        raise ValueError(f"{key!r} is no example that was registered.")
+    if not isinstance(key, str) or key not in _known or _known[key] in LISTED:
+        raise ValueError(f"the key {reprlib.repr(key)} is of no example that was registered.")
     del _known[key]

@@ -9,8 +9,20 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import guarded
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
+
+__all__ = [
+    "disc_from_entry",
+    "disc_from_scaling",
+    "e_psi",
+    "entry_from_scaling",
+    "flow",
+    "height",
+    "outside_flow",
+    "scaling_from_disc",
+]
 
 Array = NDArray[np.float64]
 
@@ -69,6 +81,8 @@ def disc_from_entry(epsilon_1: ArrayLike, theta: ArrayLike) -> Array:
     The paper prints xi = (1 - epsilon_1)^(1/2) at eq:xi; the square is missing there.
     """
     epsilon_1, theta = np.asarray(epsilon_1, float), np.asarray(theta, float)
+    if not ((epsilon_1 >= 0.0) & (epsilon_1 <= 1.0)).all():
+        raise ValueError("epsilon_1 has a value beyond 0 to 1, where it is on the hemisphere.")
     xi = np.sqrt((1.0 - epsilon_1) * (1.0 + epsilon_1))
     return np.stack([xi * np.cos(theta), xi * np.sin(theta)], axis=-1)
 
@@ -96,6 +110,10 @@ def flow(coefficients: Coefficients, psi: Psi, p: ArrayLike) -> Array:
 
 def outside_flow(coefficients: Coefficients, theta: ArrayLike) -> tuple[Array, Array]:
     """``(rho'/rho, theta')`` outside, eq:polar_gen_odes_desing: lambda_rho(theta) and Theta(theta), each (...,)."""
+    theta = np.asarray(theta, float)
     c, s = np.cos(theta), np.sin(theta)
     U = coefficients.U(np.stack([c, s], axis=-1))
     return U[..., 0] * c + U[..., 1] * s, U[..., 1] * c - U[..., 0] * s
+
+
+globals().update(guarded(__name__, globals(), __all__))

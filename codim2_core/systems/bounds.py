@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import reprlib
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,8 +19,8 @@ def slow_values(z: ArrayLike, m: int, needed: bool = True) -> tuple[float, ...]:
     else:
         try:
             values = tuple(float(v) for v in np.atleast_1d(np.asarray(z, float)))
-        except (TypeError, ValueError) as error:
-            raise ValueError(f"z is {z!r}; give {m} finite number(s).") from error
+        except (TypeError, ValueError, OverflowError) as error:
+            raise ValueError(f"z is {reprlib.repr(z)}; give {m} finite number(s).") from error
     if any(not math.isfinite(v) for v in values):
         raise ValueError(f"z is {values}; give finite numbers.")
     if len(values) == m or (not values and not needed):

@@ -7,6 +7,7 @@ Every coefficient is a number, or text in the slow variables ``z1 … zm`` and i
 from __future__ import annotations
 
 import math
+import reprlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -34,8 +35,8 @@ def _coefficient(value: object, what: str, names: tuple[str, ...]) -> Coefficien
             raise ValueError(f"{what}: {error}") from error
     try:
         number = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{what} is {value!r}; give a number, or text in {', '.join(names)}.") from error
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{what} is {reprlib.repr(value)}; give a number, or text in {', '.join(names)}.") from error
     return _finite(number, what)
 
 
@@ -302,8 +303,8 @@ class ELinear:
 def _number(value: object, what: str) -> float:
     try:
         return float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{what} is {value!r}; give a number.") from error
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{what} is {reprlib.repr(value)}; give a number.") from error
 
 
 def _rotate(a11: float, a12: float, a21: float, a22: float) -> tuple[float, float, float, float, tuple[float, float]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Mapping
 from importlib import import_module
 from types import MappingProxyType
@@ -78,5 +79,5 @@ def listed(name: str) -> Family:
         There is none.
     """
     if not isinstance(name, str) or name not in _known:
-        raise ValueError(f"there is no family {name!r} of Psi; choose one of {', '.join(_known)}.")
+        raise ValueError(f"there is no family {reprlib.repr(name)} of Psi; choose one of {', '.join(_known)}.")
     return _known[name]

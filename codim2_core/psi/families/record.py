@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import reprlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -54,7 +55,9 @@ class Parameter:
         try:
             number = float(value)
         except (TypeError, ValueError, OverflowError):
-            raise ValueError(f"{self.name} is {value!r}; give a number from {self.low:g} to {self.high:g}.") from None
+            raise ValueError(
+                f"{self.name} is {reprlib.repr(value)}; give a number from {self.low:g} to {self.high:g}."
+            ) from None
         if not self.low <= number <= self.high:
             note = f" ({self.note})" if self.note else ""
             allowed = f"{self.low:g} <= {self.name} <= {self.high:g}"

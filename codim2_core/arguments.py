@@ -1,0 +1,236 @@
+"""What a public function may be given: one check for each kind of argument, told by its name or its annotation.
+
+The checks stand at the public door only (`guarded`, for the names of a package): inside, functions call one another
+without them. A function says itself what else it needs, such as how many slow variables its system has.
+"""
+
+from __future__ import annotations
+
+import inspect
+import reprlib
+from collections.abc import Callable, Iterable, Mapping
+from functools import wraps
+from typing import Any
+
+import numpy as np
+
+from .psi.function import Psi
+from .systems.coefficients import Coefficients
+from .systems.elinear import ELinear
+from .systems.kinds import KINDS
+
+LARGEST = 1e100  # of a number: squares and fourth powers of it, as geometry needs them, are finite
+MOST_VALUES = 1_000_000  # in an array
+MOST: Mapping[str, int] = {"count": 1_000_000_000, "n": 4096, "max_steps": 100_000_000, "seed": 2**63 - 1}
+MOST_HERE: Mapping[tuple[str, str], int] = {("slow_portrait", "count"): 20_001}
+POSITIVE = ("eps", "rtol", "atol", "t_max", "pixel", "tolerance", "length", "capture", "view")
+
+_SHORT = reprlib.Repr()
+_SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 60
+
+Check = Callable[[str, Any], Any]
+
+
+def shown(value: object) -> str:
+    """Return repr(value), of bounded length."""
+    return _SHORT.repr(value)
+
+
+def psi(name: str, value: Any) -> Psi:
+    """Check a regularisation function."""
+    if isinstance(value, Psi):
+        return value
+    called = getattr(value, "__name__", "")
+    if callable(value) and called:
+        raise ValueError(f"{name} is the function {called}; give what it makes when it is called.")
+    raise ValueError(f"{name} is {shown(value)}; give a regularisation function such as psi.rational().")
+
+
+def system(name: str, value: Any) -> Any:
+    """Check a system of any kind."""
+    if isinstance(value, KINDS):
+        return value
+    if callable(value):
+        raise ValueError(f"{name} is {shown(value)}, which is to be called; give the system that it makes.")
+    raise ValueError(f"{name} is {shown(value)}; give an ELinear or a System, or one of them frozen by its at(z).")
+
+
+def e_linear(name: str, value: Any) -> Any:
+    """Check a system whose coefficients are known."""
+    if isinstance(system(name, value), ELinear | Coefficients):
+        return value
+    raise ValueError(f"{name} is of type {type(value).__name__}; give an e-linear one (ELinear).")
+
+
+def coefficients(name: str, value: Any) -> Coefficients:
+    """Check an e-linear system at one z."""
+    if isinstance(value, Coefficients):
+        return value
+    raise ValueError(f"{name} is {shown(value)}; give the coefficients of an e-linear system, ELinear(...).at(z).")
+
+
+def number(name: str, value: Any) -> float:
+    """Check a real finite number, positive where the name says so."""
+    found = _real(name, value)
+    if name in POSITIVE and not found > 0.0:
+        raise ValueError(f"{name} is {found!r}; give a number above 0.")
+    return found
+
+
+def _real(name: str, value: Any) -> float:
+    if isinstance(value, str | bytes | complex | np.complexfloating):
+        raise ValueError(f"{name} is {shown(value)}; give a real number.")
+    try:
+        found = float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{name} is {shown(value)}; give a finite number, at most {LARGEST:g} in size.") from None
+    if not abs(found) <= LARGEST:
+        raise ValueError(f"{name} is {found!r}; give a finite number, at most {LARGEST:g} in size.")
+    return found
+
+
+def whole(name: str, value: Any, most: int = 1_000_000) -> int:
+    """Check a whole number from 0 to `most`."""
+    found = _real(name, value)
+    if not found.is_integer() or not 0 <= found <= most:
+        raise ValueError(f"{name} is {shown(value)}; give a whole number from 0 to {most}.")
+    return int(found)
+
+
+def numbers(name: str, value: Any) -> Any:
+    """Check an array, or a list, of finite real numbers; what shape it must have, the function says."""
+    if isinstance(value, str | bytes):
+        raise ValueError(f"{name} is {shown(value)}; give numbers.")
+    try:
+        given = np.asarray(value)
+        if given.dtype.kind == "c":
+            raise TypeError
+        found = np.asarray(given, float)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{name} is {shown(value)}; give real numbers, all rows of one length.") from None
+    if found.size > MOST_VALUES:
+        raise ValueError(f"{name} has {found.size} values; give at most {MOST_VALUES}.")
+    if not (abs(found) <= LARGEST).all():
+        raise ValueError(f"{name} has a value that is not finite or beyond {LARGEST:g}; give finite numbers.")
+    return value
+
+
+def pair(name: str, value: Any) -> tuple[float, float]:
+    """Check two numbers."""
+    found = np.asarray(numbers(name, value), float)
+    if found.shape != (2,):
+        raise ValueError(f"{name} is {shown(value)}; give two numbers.")
+    return float(found[0]), float(found[1])
+
+
+def points(name: str, value: Any) -> Any:
+    """Check points of a plane, (..., 2)."""
+    if np.shape(numbers(name, value))[-1:] != (2,):
+        raise ValueError(f"{name} has shape {np.shape(value)}; give points of two numbers, of shape (..., 2).")
+    return value
+
+
+def text(name: str, value: Any) -> str:
+    """Check text."""
+    if isinstance(value, str):
+        return value
+    raise ValueError(f"{name} is {shown(value)}; give text.")
+
+
+def truth(name: str, value: Any) -> bool:
+    """Check a truth value."""
+    if isinstance(value, bool | np.bool_):
+        return bool(value)
+    raise ValueError(f"{name} is {shown(value)}; give True or False.")
+
+
+def cycles(name: str, value: Any) -> Any:
+    """Check limit cycles that are known already."""
+    if isinstance(value, Iterable) and all(hasattr(one, "multiplier") for one in value):
+        return value
+    raise ValueError(f"{name} is {shown(value)}; give what limit_cycles returned, or leave it out.")
+
+
+def regularisations(name: str, value: Any) -> Any:
+    """Check several regularisation functions."""
+    if isinstance(value, Iterable) and not isinstance(value, str):
+        return tuple(psi(f"{name}[{i}]", one) for i, one in enumerate(value))
+    raise ValueError(f"{name} is {shown(value)}; give several regularisation functions, such as (psi.tanh(),).")
+
+
+def function(name: str, value: Any) -> Any:
+    """Check a function."""
+    if callable(value):
+        return value
+    raise ValueError(f"{name} is {shown(value)}; give a function.")
+
+
+def executor(name: str, value: Any) -> Any:
+    """Check an executor of `concurrent.futures`."""
+    if hasattr(value, "submit"):
+        return value
+    raise ValueError(f"{name} is {shown(value)}; give an executor of concurrent.futures.")
+
+
+def _as_given(_: str, value: Any) -> Any:
+    return value
+
+
+BY_NAME: Mapping[str, Check] = {
+    "psi": psi,
+    "coefficients": coefficients,
+    "cycles": cycles,
+    "compare": regularisations,
+    "draw": function,
+    "progress": function,
+    "executor": executor,
+    "samples": text,
+    "p": points,
+    "x2": points,
+    "events": _as_given,  # `motion.events` checks them, one by one
+    "family": _as_given,  # `psi` says itself what it takes
+    "example": _as_given,
+}
+BY_ANNOTATION: Mapping[str, Check] = {
+    "float": number, "bool": truth, "str": text, "ArrayLike": numbers, "tuple[float, float]": pair,
+    "ELinear | Coefficients": e_linear, "AnySystem": system, "ELinear | System": system, "Any": system,
+}  # fmt: skip
+
+
+def _check(owner: str, parameter: inspect.Parameter) -> Check:
+    """Return the check of one parameter of a public function."""
+    name, annotation = parameter.name, str(parameter.annotation).removesuffix(" | None")
+    if name in BY_NAME:
+        return BY_NAME[name]
+    if annotation == "int":
+        most = MOST_HERE.get((owner, name), MOST.get(name, 1_000_000))
+        return lambda name, value: whole(name, value, most)
+    return BY_ANNOTATION[annotation]
+
+
+def checked(function: Callable[..., Any], module: str) -> Callable[..., Any]:
+    """Return a function that checks what it is given, under the name by which a module offers it."""
+    signature = inspect.signature(function)
+    parameters = signature.parameters
+    checks = {name: _check(function.__name__, parameter) for name, parameter in parameters.items()}
+
+    @wraps(function)
+    def door(*given: Any, **named: Any) -> Any:
+        try:
+            bound = signature.bind(*given, **named)
+        except TypeError as error:
+            wanted = ", ".join(parameters) or "nothing"
+            raise TypeError(f"{function.__name__}: {error}; it takes {wanted}.") from None
+        for name, value in bound.arguments.items():
+            if value is not parameters[name].default:
+                bound.arguments[name] = checks[name](name, value)
+        return function(*bound.args, **bound.kwargs)
+
+    door.__module__ = module  # where it is pickled by name
+    return door
+
+
+def guarded(module: str, names: Mapping[str, Any], public: Iterable[str]) -> dict[str, Any]:
+    """Return the public functions among some names, each with its checks; for ``globals().update(...)``."""
+    found = {name: names[name] for name in public}
+    return {name: checked(one, module) for name, one in found.items() if inspect.isfunction(one)}
