@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import reprlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -41,9 +42,13 @@ class Event:
     def __post_init__(self) -> None:
         """Check what can be checked before a motion."""
         if not callable(self.function):
-            raise ValueError(f"an event's function is {self.function!r}; give a callable (t, state) to a number.")
+            raise ValueError(
+                f"an event's function is {reprlib.repr(self.function)}; give a callable (t, state) to a number."
+            )
         if self.direction not in (-1, 0, 1):
-            raise ValueError(f"an event's direction is {self.direction!r}; give +1 (rising), -1 (falling) or 0 (both).")
+            raise ValueError(
+                f"an event's direction is {reprlib.repr(self.direction)}; give +1 (rising), -1 (falling) or 0 (both)."
+            )
 
 
 Events = Sequence[Event | Callable[[float, Array], float]]
@@ -56,7 +61,9 @@ def checked_events(events: Any) -> tuple[Event, ...]:
     try:
         given = tuple(events)
     except TypeError as error:
-        raise ValueError(f"events is {events!r}; give a sequence of Event, or of callables (t, state).") from error
+        raise ValueError(
+            f"events is {reprlib.repr(events)}; give a sequence of Event, or of callables (t, state)."
+        ) from error
     return tuple(event if isinstance(event, Event) else Event(event) for event in given)
 
 
