@@ -6,7 +6,7 @@ export function digits(value, places = 4) {
   if (value === 0) return "0"
   const size = Math.abs(value)
   const text = size >= 1e5 || size < 1e-3 ? value.toExponential(2) : value.toFixed(Math.max(0, places - 1 - Math.max(0, Math.floor(Math.log10(size)))))
-  return text.replace("-", "−")
+  return minus(text)
 }
 
 export function plain(value) { return String(Number(value.toPrecision(6))) }

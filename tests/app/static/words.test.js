@@ -7,7 +7,7 @@ test("numbers have four places, a real minus, and no exponent where none is need
   assert.equal(digits(0), "0")
   assert.equal(digits(-1.23456), "−1.235")
   assert.equal(digits(123.456), "123.5")
-  assert.equal(digits(-0.00012345), "−1.23e−4".replace("e−", "e-"))
+  assert.equal(digits(-0.00012345), "−1.23e−4")
   assert.equal(plain(0.1 + 0.2), "0.3")
   assert.equal(measured(-0.5), "−0.5")
 })

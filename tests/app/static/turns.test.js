@@ -1,0 +1,62 @@
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import {Ball} from "../../../app/static/ball.js"
+import {times, turned} from "../../../app/static/quaternions.js"
+
+/** @typedef {import("../../../app/static/quaternions.js").Quaternion} Quaternion */
+
+const near = (one, other, most = 1e-12) => one.forEach((v, i) => assert.ok(Math.abs(v - other[i]) <= most, `${one} is not ${other}`))
+
+/** @returns {Quaternion} */
+const about = (axis, angle) => {
+  const size = Math.hypot(...axis), s = Math.sin(angle / 2) / size
+  return [Math.cos(angle / 2), s * axis[0], s * axis[1], s * axis[2]]
+}
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+test("a turn is Rodrigues' formula", () => {
+  for (const [axis, angle, v] of /** @type {[number[], number, number[]][]} */ ([
+    [[1, 2, -3], 0.7, [0.3, -1.1, 2.2]], [[-2, 0.5, 1], 2.9, [1, 2, 3]], [[0.1, -4, 2], -1.3, [-3, 0.2, 0.7]],
+  ])) {
+    const n = axis.map((x) => x / Math.hypot(...axis))
+    const [c, s] = [Math.cos(angle), Math.sin(angle)]
+    const expected = v.map((x, i) => x * c + cross(n, v)[i] * s + n[i] * dot(n, v) * (1 - c))
+    near(turned(about(axis, angle), v), expected)
+  }
+})
+
+test("a product of turns is one after the other, for any two", () => {
+  const first = about([1, -2, 0.5], 1.1), second = about([-0.3, 0.7, 2], -2.3), v = [0.4, -1.7, 0.9]
+  near(turned(times(first, second), v), turned(first, turned(second, v)))
+  near(times([2, 3, 5, 7], [11, 13, 17, 19]), [-235, 35, 123, 101]) // by hand: i j = k, j k = i, k i = j
+})
+
+test("a ball that rolls turns about the axis across its way, by the length of the way over its radius", () => {
+  // rolling: no slip, u = 0; along (3, 4)/5 with speed 5 for 2 s, in unequal steps
+  const t = [0, 0.3, 1.1, 2], n = t.length
+  const same = (value) => Array(n).fill(value)
+  const ball = new Ball(null, null)
+  ball.prepare({t, states: [same(0), same(0), same(3), same(4)], ball: "velocity"})
+  near(ball.path[0], t.map((s) => 3 * s))
+  near(ball.path[1], t.map((s) => 4 * s))
+  near([...ball.span, ...ball.middle, ball.radius], [6, 8, 3, 4, 0.56])
+  t.forEach((s, i) => near(ball.turns[i], about([-4, 3, 0], 5 * s / 0.56), 1e-9))
+})
+
+test("slip that is all of the velocity turns nothing, and a spin on the spot turns without a way", () => {
+  const t = [0, 1, 3]
+  const slides = new Ball(null, null)
+  slides.prepare({t, states: [[2, 1, 0], [1, 3, 5], [2, 1, 0], [1, 3, 5]], ball: "velocity"})
+  slides.turns.forEach((turn) => near(turn, [1, 0, 0, 0]))
+  near(slides.path[0], [0, 1.5, 2.5]) // trapezoids
+  near(slides.path[1], [0, 2, 10])
+  const placed = new Ball(null, null)
+  placed.prepare({t, states: [[0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0], [1, 4, 2], [-1, 0, 9]], ball: "position"})
+  near([...placed.path[0], ...placed.path[1]], [1, 4, 2, -1, 0, 9])
+  near([...placed.span, ...placed.middle, placed.radius], [3, 10, 2.5, 4, 0.7])
+  const still = new Ball(null, null)
+  still.prepare({t: [0, 1], states: [[-1, -1], [0, 0], [0, 0], [0, 0]], ball: "velocity"})
+  near([still.radius], [0.07e-6], 1e-20)
+})
