@@ -16,7 +16,7 @@ EXAMPLE = Example(
     title="Attracting and repelling directions",
     label="sec:mateslidecross",
     source="N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, sec:mateslidecross",
-    sentence="Trajectories that arrive within π/3 of θ = 0 cross, all others slide.",
+    sentence="Trajectories that come in within π/3 of θ = 0 turn away and leave Σ, all others slide.",
     ranges={},
     z=(0.5,),
     slow=(("z", -2.0, 2.0),),

@@ -38,7 +38,7 @@ def example_presets() -> dict[str, Preset]:
         "attracting-repelling", Preset(group="Examples", example="attracting_repelling", z=(0.5,)),
         title="Attracting and repelling directions", label="sec:mateslidecross, fig:ex4p5",
         portrait=(None, "2 critical sets, 6 limit directions", None), view="outcomes",
-        note="What arrives within π/3 of θ = 0 crosses, all else slides.",
+        note="What comes in within π/3 of θ = 0 turns to Q₁, which repels, and leaves: it crosses. All else slides.",
     )  # fmt: skip
     several = Preset(group="Examples", label="sec:nonunique, fig:epsboth_cubic", example="nonunique_sliding")
     add(

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
 from ..numerics.trigonometric import ROUNDING
+from .endings import radially_neutral
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,9 +76,14 @@ def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
             return "No limit directions: the equator is a closed orbit."
         outer, inner = ("attracts", "repels") if cycle.exponent < 0.0 else ("repels", "attracts")
         return f"No limit directions: the equator is a closed orbit that {outer} outside and {inner} on the hemisphere."
-    arriving = int((equator.lambda_rho < 0.0).sum())
-    leaving = int((equator.lambda_rho > 0.0).sum())
+    neutral = np.array([radially_neutral(equator, i) for i in range(count)])
+    arriving = int(((equator.lambda_rho < 0.0) & ~neutral).sum())
+    leaving = int(((equator.lambda_rho > 0.0) & ~neutral).sum())
     noun = "limit direction" if count == 1 else "limit directions"
+    if neutral.any():
+        which = " and ".join(f"Q{i + 1}" for i in np.flatnonzero(neutral))
+        here = f"{which} {'is' if neutral.sum() == 1 else 'are'} radially neutral: trajectories stop short of Σ there."
+        return f"{count} {noun}: trajectories reach Σ along {arriving} and leave it along {leaving}. {here}"
     if leaving == 0:
         return f"{count} {noun}: trajectories reach Σ along {'it' if count == 1 else 'them'}."
     if arriving == 0:

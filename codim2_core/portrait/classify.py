@@ -18,6 +18,7 @@ from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
 from .classify_typed import general_portrait
+from .endings import radially_neutral
 
 _MULTIPLE = {
     2: undecided(
@@ -67,8 +68,8 @@ def _critical_degeneracies(location: Location, critical: tuple[CriticalSet, ...]
         found.append(
             undecided(
                 "tr J = 0",
-                "tr J = 0 within rounding: a Hopf bifurcation of the layer problem. The linearisation is a centre; "
-                "whether C is stable is decided by nonlinear terms.",
+                "tr J = 0 within rounding: to first order C is a centre of the layer problem. Nonlinear terms decide "
+                "whether it is one, or a focus, as at a Hopf bifurcation.",
                 NEUTRAL_TRACE,
                 "the terms of the trace",
             )
@@ -87,14 +88,25 @@ def _case(coefficients: Coefficients) -> tuple[str | None, list[Degeneracy]]:
     return (None if sign == 0 else "III" if sign > 0 else "II"), []
 
 
-def _consequence(location: Location, critical: tuple[CriticalSet, ...]) -> str:
+def _arrives(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> bool:
+    """Whether some trajectory reaches Sigma, as far as first order tells."""
+    if equator.all_directions or cycle is not None:
+        return cycle is None or cycle.exponent < 0.0
+    return any(equator.lambda_rho[i] < 0.0 and not radially_neutral(equator, i) for i in range(len(equator)))
+
+
+def _consequence(location: Location, critical: tuple[CriticalSet, ...], case: str | None, arrives: bool) -> str:
     if not critical:
         if location.existence is Existence.NONE:
             return "There is no critical set, so nothing slides: what reaches Σ crosses it."
         return location.existence.value
     kind = critical[0].kind
     if kind.startswith("stable"):
-        return f"The critical set C is a {kind}: stable sliding along Σ."
+        if not arrives:
+            return f"The critical set C is a {kind}, but nothing reaches Σ: only what is there slides."
+        if case == "I":  # all that arrives ends on C, thm:case1(a)
+            return f"The critical set C is a {kind}: stable sliding along Σ."
+        return f"The critical set C is a {kind}: sliding along C is stable. What arrives elsewhere may cross."
     if kind == "saddle":
         return "The critical set C is a saddle whatever Ψ is: sliding along Σ is unstable, almost every orbit leaves."
     if kind.startswith("unstable"):
@@ -117,7 +129,8 @@ def portrait(problem: LayerProblem) -> Classification:
     count = "∞" if equator.all_directions else str(len(equator.theta))
     name = ("CM" if critical else "NCM") + count
     prefix = f"Case {case}, {name}. " if case else f"{name}. "
-    sentence = prefix + directions(equator, cycle) + " " + _consequence(location, critical)
+    sentence = prefix + directions(equator, cycle) + " "
+    sentence += _consequence(location, critical, case, _arrives(equator, cycle))
     return Classification(case, name, sentence, tuple(degeneracies))
 
 

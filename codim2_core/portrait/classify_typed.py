@@ -48,7 +48,7 @@ def _consequence(critical: tuple[CriticalSet, ...], found: DiscZeros) -> str:
         return f"Critical sets: {counted}. None is stable: sliding along them is not."
     if stable == 1:
         return f"Critical sets: {counted}. There is one way to slide stably along Σ."
-    return f"Critical sets: {counted}. There are {stable} ways to slide stably along Σ (sec:nonunique)."
+    return f"Critical sets: {counted}. There are {stable} ways to slide stably along Σ: it depends on the approach."
 
 
 _MULTIPLE = {
@@ -91,8 +91,8 @@ def _critical(critical: tuple[CriticalSet, ...], found: DiscZeros) -> list[Degen
     degeneracies = [undecided(name, text, WITHIN, TERMS) for name, text in named]
     if "centre (linear)" in kinds:
         text = (
-            "tr J = 0 within rounding: a Hopf bifurcation of the layer problem. The linearisation is a centre; whether "
-            "the critical set is stable is decided by nonlinear terms."
+            "tr J = 0 within rounding: to first order a critical set is a centre of the layer problem. Nonlinear terms "
+            "decide whether it is one, or a focus, as at a Hopf bifurcation."
         )
         degeneracies.append(undecided("tr J = 0", text, NEUTRAL_TRACE, "the terms of the trace"))
     if not found.proven:

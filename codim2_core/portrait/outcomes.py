@@ -191,7 +191,7 @@ def _arrival(equator: EquatorEquilibria, i: int) -> str:
 _SENTENCE = {
     "open set": "An open set of trajectories arrives at {}.",
     "one side": "Trajectories arrive at {} from one side only (Θ has a double zero).",
-    "single direction": "Only trajectories exactly along {} arrive; others turn away.",
+    "single direction": "Only the trajectories exactly along {} arrive at it: those beside it turn to the next ones.",
 }
 
 
@@ -264,14 +264,20 @@ def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], se
         reason = f"{label} is {why}: to first order nothing arrives or leaves."
         return Outcome(theta, label, "nothing", "undecided", None, None, None, reason)
     if equator.lambda_rho[i] > 0.0:
-        reason = f"{label} repels radially: trajectories that tend to it leave, and never reach Σ."
+        if angular_sign(equator, i) > 0:
+            reason = f"{label} repels radially and angularly: nothing tends to it."
+        else:
+            reason = f"{label} repels radially: what turns towards it leaves Σ."
         beside = equator.lambda_rho[[i - 1, (i + 1) % len(equator)]]
         if angular_sign(equator, i) < 0 and (beside < 0.0).any():
             reason += " Those that come in beside it turn away: crossing, in the words of sec:mateslidecross."
         return Outcome(theta, label, "nothing", "misses", None, None, None, reason)
     arrives = _arrival(equator, i)
     (verdict, onto, leaving, slow, reason), *others = judged
-    reason = f"{_SENTENCE[arrives].format(label)} {reason}"
+    sentence = _SENTENCE[arrives].format(label)
+    if arrives == "one side" and len(equator) == 1:
+        sentence = f"Trajectories turn to {label} from every angle, and arrive from one side (Θ has a double zero)."
+    reason = f"{sentence} {reason}"
     outcome = Outcome(theta, label, arrives, verdict, onto, leaving, slow, reason)
     verdicts = [(text, *other[:2]) for text, other in zip(texts, others, strict=True)]
     return _compared(outcome, verdicts, sensitive)

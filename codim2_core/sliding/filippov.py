@@ -62,7 +62,9 @@ class FilippovSliding:
 
 
 def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
-    """All candidates of the Filippov convention for z' on Sigma, sec:filippov and fig:generic_nonuniqueness_of_sliding.
+    """All candidates of the Filippov convention for z' on Sigma, fig:generic_nonuniqueness_of_sliding.
+
+    The convention is that of sec:nonsmoothdynamics.
 
     Parameters
     ----------

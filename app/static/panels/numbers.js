@@ -73,7 +73,7 @@ class Numbers {
   slow(flow, z) {
     const box = this.find(".slow")
     if (!flow || !flow.length) {
-      box.innerHTML = '<h2>Slow flow on C</h2><p class="note">No critical set, no sliding.</p>'
+      box.innerHTML = "" // the tables above say what there is, and how each critical set slides
       return
     }
     const rate = flow[0]

@@ -1,8 +1,9 @@
 """What the portrait's sentences say of the directions, of the critical set, and of what is degenerate."""
 
+import numpy as np
 import pytest
 
-from codim2_core import ELinear, System, classify, equator_equilibria, psi
+from codim2_core import ELinear, System, approach_outcomes, classify, equator_cycle, equator_equilibria, psi
 
 
 def said(a, b, d, f1, f2, family=None):
@@ -23,6 +24,10 @@ def said(a, b, d, f1, f2, family=None):
         ((-1, 0, -1, 1.5, 0), "2 limit directions: trajectories reach Σ along 1 and leave it along 1."),
         ((1, 0, -2, 0.2, 0.3), "4 limit directions: trajectories reach Σ along 2 and leave it along 2."),
         ((-2, 0, -1, 0.1, 0.1), "The critical set C is a stable node: stable sliding along Σ."),
+        (
+            (-1, 0, -1, 1, 0),
+            "2 limit directions: trajectories reach Σ along 1 and leave it along 0. Q1 is",
+        ),
         ((2, 0, 1, 0.1, 0.1), "The critical set C is an unstable node: sliding along C itself is unstable."),
         ((1, 0, -2, 0.2, 0.3), "The critical set C is a saddle whatever Ψ is"),
         ((0, 1, 0, 0.3, 0), "The critical set C is a centre to first order."),
@@ -89,3 +94,48 @@ def test_a_general_system_that_is_affine_has_the_name_of_its_normal_form():
             assert found.sentence == exact.sentence
     bent = classify(System(U=("2*c**2 - c - 1/2", "-s")), psi.constant())
     assert bent.case is None
+
+
+def test_case_iii_claims_of_sliding_only_what_the_limit_does():
+    """Random portraits of Case III: the sentence against what arrives and where the layer problem leads."""
+    draw = np.random.default_rng(3)
+    seen = set()
+    while len(seen) < 3:
+        a, d = draw.uniform(0.2, 3), -draw.uniform(0.2, 3)
+        system = ELinear(a, draw.choice((-1, 1)) * draw.uniform(1, 2) * np.sqrt(-a * d), d, draw.uniform(-2, 2, 2))
+        found = classify(system, psi.constant())
+        if found.case != "III" or "is a stable" not in found.sentence:
+            continue
+        assert "stable sliding along Σ" not in found.sentence
+        equator, cycle = equator_equilibria(system), equator_cycle(system)
+        arrives = bool((equator.lambda_rho < 0).any()) if len(equator) else cycle is not None and cycle.exponent < 0
+        assert ("nothing reaches Σ" in found.sentence) == (not arrives)
+        outcomes = approach_outcomes(system, psi.constant(), compare=())
+        assert any(o.arrives != "nothing" for o in outcomes) == arrives
+        seen.add((arrives, bool(len(equator))))
+
+
+@pytest.mark.parametrize("plane", [(1, 2, -1, 0, 0), (0, 1, 0, 0, 0), (0, 1, 0, 0.3, 0)])
+def test_a_true_centre_is_called_no_bifurcation(plane):
+    (degeneracy,) = [d for d in said(*plane).degeneracies if d.name == "tr J = 0"]
+    assert "a centre of the layer problem" in degeneracy.sentence
+    assert "stable is decided" not in degeneracy.sentence
+
+
+def test_outcomes_say_only_what_happens_at_their_direction():
+    for system in (ELinear(-1, 0, -1, (1.2, 0.0)), ELinear(1, 0.3, -1, (0.2, 0.1)), ELinear(-0.3, 0, -1, (0.5, 0))):
+        outcomes = approach_outcomes(system, psi.constant())
+        equator = outcomes.equator
+        for i, outcome in enumerate(outcomes.directions):
+            if equator.lambda_rho[i] > 0 and equator.lambda_theta[i] > 0:
+                assert "nothing tends to it" in outcome.reason
+            elif equator.lambda_rho[i] > 0:
+                assert "what turns towards it leaves" in outcome.reason
+            elif equator.lambda_theta[i] > 0:
+                assert "turn to the next" in outcome.reason
+
+
+def test_at_the_saddle_node_every_angle_arrives():
+    (outcome,) = approach_outcomes(ELinear(-1, 1, -1, (1, 0)), psi.constant())
+    assert outcome.arrives == "one side"
+    assert "from every angle" in outcome.reason
