@@ -2,7 +2,7 @@
 // moving slider leaves while the panel is open.
 
 import {Chart} from "../chart/chart.js"
-import {eigenvalues, kindAt} from "../jacobian.js"
+import {eigenvalues, kindAt, withDouble} from "../jacobian.js"
 import {register} from "../panels.js"
 import {digits, eigen, escape} from "../words.js"
 
@@ -35,14 +35,14 @@ class Planes {
     if (header.planes) {
       const {trace, determinant, text, kind, line, sentence} = header.planes
       const points = trace.map((value, i) => ({trace: value, determinant: determinant[i], text: text[i], kind: kind[i]}))
-      this.beside = {line, sentence, points, named: points.filter((one) => one.text)}
+      this.beside = {line, sentence, curve: withDouble(points), named: points.filter((one) => one.text)}
     }
     if ((header.critical || header.planes) && !this.box.hidden) this.draw()
   }
 
   draw() {
     if (!this.critical) return
-    const beside = this.beside ?? {line: false, points: [], named: [], sentence: ""}
+    const beside = this.beside ?? {line: false, curve: [], named: [], sentence: ""}
     // the curve goes on to far away: its named points are in view
     const shown = [...this.trail.flat(), ...this.critical, ...beside.named]
     this.drawTrace(shown, beside)
@@ -89,7 +89,7 @@ class Planes {
         const points = ones.map((one) => places(one)[k])
         lines.push({name, silent: true, opacity, x: points.map(([x]) => x), y: points.map(([, y]) => y)})
       }
-      if (beside.line) curve("over", beside.points)
+      if (beside.line) curve("over", beside.curve)
       for (let i = 1; i < this.trail.length; i++) {
         const [from, to] = [this.trail[i - 1][0], this.trail[i][0]]
         if (from && to) curve("trail", [from, to], 0.8 * i / this.trail.length)

@@ -3,7 +3,7 @@ import test from "node:test"
 
 import {polygons, STEP} from "../../../app/static/frames.js"
 import {pinched} from "../../../app/static/gestures.js"
-import {eigenvalues, kindAt} from "../../../app/static/jacobian.js"
+import {eigenvalues, kindAt, withDouble} from "../../../app/static/jacobian.js"
 import {seen} from "../../../app/static/projection.js"
 import {times, turned} from "../../../app/static/quaternions.js"
 import {rangeFor, reachFor, roundUp} from "../../../app/static/ranges.js"
@@ -81,4 +81,13 @@ test("two fingers keep what is under their middle, and enlarge by their distance
   const [[left, right], [low, high]] = pinched(ranges, [[0.4, 0.2], [0.6, 0.2]], [[0.3, 0.2], [0.7, 0.2]])
   near([[right - left, high - low]], [[2, 2]])
   near([[(left + right) / 2, low + 0.8 * (high - low)]], [[0, -1 + 0.8 * 4]])
+})
+
+test("a curve of eigenvalues goes through the point where two real ones meet", () => {
+  const curve = withDouble([{trace: -6, determinant: 5}, {trace: -2, determinant: 5}, {trace: 6, determinant: 5}])
+  assert.equal(curve.length, 5)
+  for (const [i, trace] of [[1, -Math.sqrt(20)], [3, Math.sqrt(20)]]) {
+    near([[curve[i].trace, curve[i].determinant]], [[trace, 5]], 1e-9)
+    near(eigenvalues(curve[i]), [[trace / 2, 0], [trace / 2, 0]], 1e-6)
+  }
 })
