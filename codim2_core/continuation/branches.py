@@ -72,6 +72,9 @@ def continue_cycles(
     if not (math.isfinite(low) and math.isfinite(high) and low < high):
         raise ValueError(f"span is {span!r}; give finite numbers low < high.")
 
+    if name in ("a", "b", "d", "f1", "f2") and name in system.variable:
+        system, z = system.at(z), ()  # nothing else varies: coefficients are checked and evaluated once
+
     def inside(value: float) -> tuple[Coefficients, Psi]:
         changed, family_psi, place = varied(system, psi, z, name, value)
         found = changed.at(place)

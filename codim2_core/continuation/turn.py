@@ -31,6 +31,7 @@ Array = NDArray[np.float64]
 RTOL = 1e-12  # of one turn
 STEP = 1e-5  # of the differences for derivatives of coefficients: they are smooth, mostly linear
 MOST_EXPONENT = 600.0
+KEPT = 1024  # values whose coefficients are kept: more than those at which a span is looked at for several things
 SMALLEST = 1e-280  # eigenvalue of D e_Psi
 
 At = Callable[[float], tuple[Coefficients, Psi]]
@@ -93,10 +94,11 @@ class Family:
     """
 
     def __init__(self, at: At, scale: float, bounds: tuple[float, float] = (-math.inf, math.inf)) -> None:
-        self.at, self.scale, self.bounds = lru_cache(maxsize=64)(at), scale, bounds
+        self.at, self.scale, self.bounds = lru_cache(maxsize=KEPT)(at), scale, bounds
+        self.allows = lru_cache(maxsize=KEPT)(self._allows)
         self.ray: int | None = None
 
-    def allows(self, value: float) -> bool:
+    def _allows(self, value: float) -> bool:
         """Whether a, d differ in sign and C exists with det A > 0: else no theorem leaves room for cycles."""
         if not self.bounds[0] <= value <= self.bounds[1]:
             return False
