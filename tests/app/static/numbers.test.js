@@ -70,9 +70,12 @@ test("a text takes the first place that is free, and no other text takes it then
   assert.deepEqual(space.place("ab", [[50, 20], [20, 20]]), [20, 20])
   assert.equal(space.place("ab", [[50, 20], [20, 20]]), null)
   assert.equal(space.place("ab", [[80, 20]], () => false), null)
-  const near = space.around([70, 10], 8)
-  assert.ok(near.length > 0 && near.every(([u, v, far]) => far <= 8 && far === Math.hypot(u - 70, v - 10)))
-  assert.deepEqual(near.map((one) => one[2]), near.map((one) => one[2]).sort((a, b) => a - b))
+  const near = [...space.around([70, 10])].map(([u, v]) => [u, v, Math.hypot(u - 70, v - 10)])
+  assert.deepEqual(near[0], [70, 10, 0])
+  assert.ok(near.length === 16 * 6 && near.every(([u, v]) => u > 0 && v > 0 && u < 100 && v < 40))
+  near.slice(1).forEach((one, i) => assert.ok(one[2] >= near[i][2] - 1e-9, `${one} after ${near[i]}`))
+  const [[u, v]] = space.around([-20, 60]) // a place outside is taken to the border
+  assert.ok(Math.hypot(u, v - 40) < 9, `${u}, ${v}`)
 })
 
 test("a name stands close beside its point, to the right and above first", () => {
