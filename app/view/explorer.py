@@ -140,7 +140,7 @@ class ExplorerView(JSComponent):
         """Send to all that show this view, also where an ipywidget holds the model in a document of its own."""
         super()._send_msg(data)
         for ref, (model, _) in self._models.items():
-            known = pn.state._views.get(ref)
+            known = pn.state._views.get(ref)  # noqa: SLF001 (Panel has no public way)
             if model.document is not None and (known is None or known[2] is not model.document):
                 model.document.callbacks.send_event(ESMEvent(model=model, data=data))
 

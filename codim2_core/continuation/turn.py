@@ -125,7 +125,7 @@ class Family:
         section = self.section(value)
         r = section.reach / (1.0 + math.exp(-xi))
         rest = section.reach / (1.0 + math.exp(xi))
-        gap = rest * (r + section._other)
+        gap = rest * (r + section.other)
         e = section.e + r * section.u
         modulus = min(math.hypot(*e.tolist()), 1.0)
         zeta = float(section.psi.radius(modulus, min(max(gap, 1e-300), 1.0)))
@@ -156,7 +156,7 @@ class Family:
         # the start moves along s_0 with mu: xi is fixed there, and so is 1 - |e|^2 but for its factors
         share = derivative.reach / section.reach
         turned = derivative.centre + r * (derivative.u + share * section.u)
-        widened = gap * (share + (r * share + derivative.other) / (r + section._other))
+        widened = gap * (share + (r * share + derivative.other) / (r + section.other))
         s_0 = first.moved(-0.5 * widened / modulus, turned)
         q_0 = (float(section.u @ s_0) + first.still) / first.y
         end = multiplier * _cross(F0, s_0) + melnikov - _cross(F1, last.level())
@@ -258,7 +258,7 @@ def _ray_moves(section: Section, plane: Array) -> tuple[Array, float, float, Arr
     """Differentiate e_C, reach, other and u, given those of (a, b, d, f1, f2)."""
     da, db, dd, d1, d2 = plane.tolist()
     a, _, d = section.plane[:3].tolist()
-    e, u, R, S = section.e, section.u, section.reach, section._other
+    e, u, R, S = section.e, section.u, section.reach, section.other
     centre = -(np.array([[da, -db], [db, dd]]) @ e + (d1, d2)) @ section.inverse
     angle = 0.5 * (da / a - dd / d) * float(u[0] * u[1])
     turned = angle * np.array([-u[1], u[0]])

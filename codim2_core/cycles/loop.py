@@ -101,7 +101,7 @@ def gap(coefficients: Coefficients, psi: Psi, loop: Loop, rtol: float = RTOL) ->
     for angle, backward in ((loop.sink, False), (loop.source, True)):
         start = departures(coefficients, psi, [angle], rtol, backward)
         ends, _, codes, _ = section.turn(start, rtol, backward, elsewhere=True)
-        module, _ = section._kernel
+        module, _ = section.kernel
         values = {module.INWARD: -math.inf, module.OUTWARD: math.inf, module.UNDECIDED: math.nan}
         places.append(values.get(int(codes[0]), float(section.coordinate(ends)[0])))
     leaving, entering = places

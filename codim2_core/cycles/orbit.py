@@ -99,7 +99,7 @@ def path(section: Section | TurnSection, start: Array, rtol: float, backward: bo
         return None
     first, h = np.ascontiguousarray(steps[:, :3]), np.ascontiguousarray(steps[:, 3])
     nodes, weights, _ = gauss()
-    _, function = section._kernel
+    _, function = section.kernel
     inner = reached(
         np.repeat(first, NODES, axis=0), np.outer(h, nodes).ravel(), section.shared(backward), function.address
     )

@@ -99,7 +99,7 @@ class Section:
             raise ValueError("there is no critical set, so no section starts from it.")
         found = rays(coefficients.a, coefficients.d, location.e, location.complement)
         self.ray = max(range(4), key=lambda i: found[i][0]) if ray is None else ray
-        self.reach, self._other, u = found[self.ray]
+        self.reach, self.other, u = found[self.ray]
         self.u = np.array(u)
         self.e = np.array(location.e)
 
@@ -124,7 +124,8 @@ class Section:
         return np.array([[d, -b], [b, a]]) / (a * d + b * b)
 
     @cached_property
-    def _kernel(self) -> Any:
+    def kernel(self) -> Any:
+        """The compiled return map: its module, and the function for this Psi."""
         from ..stepping import fields
         from . import return_map
 
@@ -132,7 +133,7 @@ class Section:
 
     def xi_at_radius(self, zeta: Array) -> Array:
         """Find the parameter, to first order, far out where |x2| = zeta."""
-        gap = np.maximum(self.psi.complement(zeta), 1e-290) / (self.reach + self._other)
+        gap = np.maximum(self.psi.complement(zeta), 1e-290) / (self.reach + self.other)
         return np.log(self.reach) - np.log(np.minimum(gap, self.reach))
 
     def states(self, xi: Array) -> tuple[Array, Array]:
@@ -141,7 +142,7 @@ class Section:
         rest = self.reach / (1.0 + np.exp(xi))  # reach - inner, to all digits
         e = self.e + inner[:, None] * self.u
         modulus = np.minimum(np.hypot(e[:, 0], e[:, 1]), 1.0)
-        zeta = self.psi.radius(modulus, np.clip(rest * (inner + self._other), 1e-300, 1.0))
+        zeta = self.psi.radius(modulus, np.clip(rest * (inner + self.other), 1e-300, 1.0))
         x2 = zeta[:, None] * e / np.maximum(modulus, 1e-300)[:, None]
         height = 1.0 / np.hypot(1.0, zeta)
         states = np.column_stack([x2 * height[:, None], height])
@@ -162,7 +163,7 @@ class Section:
         elsewhere: bool = False,
     ) -> tuple[Array, Array, Any, Any]:
         """Follow one turn: states on return (n, 3), times, codes and recorded steps of `return_map.returns`."""
-        module, function = self._kernel
+        module, function = self.kernel
         away = states[:, :2] / states[:, 2:] - self.critical.x2
         nearest = min(self.inner, float(np.hypot(away[:, 0], away[:, 1]).min()))
         return module.returns(
@@ -199,7 +200,7 @@ class Section:
 
     def displacement(self, xi: Array, rtol: float = COARSE, backward: bool = False) -> Array:
         """Displacement of q over a turn (n,): -inf to C, +inf to the equator, NaN undecided."""
-        module, _ = self._kernel
+        module, _ = self.kernel
         states, q = self.states(xi)
         ends, _, codes, _ = self.turn(states, rtol, backward)
         shift = self.coordinate(ends) - q

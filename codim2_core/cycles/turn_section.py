@@ -58,15 +58,16 @@ class TurnSection:
         return u[int(np.argmax(room))]
 
     @cached_property
-    def _kernel(self) -> Any:
+    def kernel(self) -> Any:
+        """The compiled first turn: its module, and what its compiled field keeps alive."""
         from ..stepping import problem
         from . import turn_map
 
         return turn_map, problem.problem(self.at, self.psi)
 
     def shared(self, backward: bool = False) -> Array:
-        """Parameters of the compiled field that `_kernel` keeps alive."""
-        _, kept = self._kernel
+        """Parameters of the compiled field that `kernel` keeps alive."""
+        _, kept = self.kernel
         return np.array(kept.reversed.shared if backward else kept.shared)
 
     def field(self, e: Array) -> Array:
@@ -92,7 +93,7 @@ class TurnSection:
         self, states: Array, rtol: float, backward: bool = False, record: int = 0, limit: int = STEPS
     ) -> tuple[Array, Array, Any, Any]:
         """Follow one turn: ends (n, 3), times, codes and recorded steps of `turn_map.turns`."""
-        module, function = self._kernel
+        module, function = self.kernel
         return module.turns(
             states,
             self.shared(backward),
@@ -108,7 +109,7 @@ class TurnSection:
 
     def displacement(self, xi: Array, rtol: float = COARSE, backward: bool = False) -> Array:
         """Displacement of q over a turn (n,): -inf to the critical set, +inf elsewhere, NaN undecided."""
-        module, _ = self._kernel
+        module, _ = self.kernel
         states, q = self.states(xi)
         ends, _, codes, _ = self.turn(states, rtol, backward)
         shift = self.coordinate(ends) - q

@@ -126,14 +126,14 @@ def _encoded(rows: tuple[Expression, ...]) -> Program:
 
     for row in rows:
         at: list[int] = []
-        for op, *args in row._tape:
+        for op, *args in row.tape:
             if op == "num":
                 node: tuple[int, int, int, float] = (NUM, 0, 0, float(args[0]))
             elif op == "name":
                 name = args[0]
                 node = (VAR, PLANE.index(name), 0, 0.0) if name in PLANE else (SLOT, names[name], 0, 0.0)
             else:
-                rooted = op == "sqrt" or (op == "**" and row._tape[args[1]] == ("num", 0.5))
+                rooted = op == "sqrt" or (op == "**" and row.tape[args[1]] == ("num", 0.5))
                 root = norm(at[args[0]]) if rooted else None
                 if root is not None:
                     at.append(root if nodes[root][0] == HYPOT else enter((ABS, root, root, 0.0)))
@@ -167,7 +167,7 @@ def polynomial_degree(rows: tuple[Expression, ...]) -> int | None:
 @lru_cache(maxsize=256)
 def _degree(row: Expression) -> int | None:
     found: list[int | None] = []
-    for op, *args in row._tape:
+    for op, *args in row.tape:
         if op in ("num", "name"):
             found.append(1 if op == "name" and args[0] in ("c", "s") else 0)
             continue
@@ -183,8 +183,8 @@ def _degree(row: Expression) -> int | None:
             found.append(first + last)
         elif op == "/" and last == 0:
             found.append(first)
-        elif op == "**" and row._tape[args[1]][0] == "num" and float(row._tape[args[1]][1]) in range(1, 65):
-            found.append(first * int(row._tape[args[1]][1]))
+        elif op == "**" and row.tape[args[1]][0] == "num" and float(row.tape[args[1]][1]) in range(1, 65):
+            found.append(first * int(row.tape[args[1]][1]))
         else:
             found.append(None)
     return found[-1]

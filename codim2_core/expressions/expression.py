@@ -136,7 +136,7 @@ class Expression:
 
     def substitute(self, name: str, replacement: Expression) -> Expression:
         """Replace `name` by another formula."""
-        return Expression(tapes.substitute(self._tape, name, replacement._tape))
+        return Expression(tapes.substitute(self._tape, name, replacement.tape))
 
     @cached_property
     def text(self) -> str:
@@ -192,7 +192,7 @@ def _parse(text: str, names: tuple[str, ...]) -> Expression:
 
 @lru_cache(maxsize=512)
 def _derivative(expression: Expression, name: str) -> Expression:
-    return Expression(tapes.derivative(expression._tape, name))
+    return Expression(tapes.derivative(expression.tape, name))
 
 
 def _run(tape: tapes.Tape, operations: Mapping[str, Any], known: Mapping[str, Any]) -> Any:

@@ -74,7 +74,7 @@ def program(rows: Sequence[Expression], names: Mapping[str, str], inner: Collect
 def _entered(build: Builder, row: Expression) -> int:
     """Entry of a formula among those already there."""
     at: list[int] = []
-    for op, *args in row._tape:
+    for op, *args in row.tape:
         if op == "num":
             at.append(build.number(args[0]))
         elif op == "name":

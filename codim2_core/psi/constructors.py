@@ -130,7 +130,7 @@ def many(psi: Psi, values: NDArray[np.float64]) -> Psi:
     if record.batched and record.kernel is not None:
         kernel = record.kernel(values)
     else:
-        kernel = Each(tuple(with_parameter(psi, value)._kernel for value in values.tolist()))
+        kernel = Each(tuple(with_parameter(psi, value).kernel for value in values.tolist()))
     return Psi(record.name, float("nan"), record.formula, None, kernel, record)
 
 

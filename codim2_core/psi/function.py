@@ -55,7 +55,7 @@ class Psi:
     parameter: float
     text: str
     expression: Expression | None = field(default=None, compare=False, repr=False)
-    _kernel: arithmetic.Kernel = field(default_factory=constant.Constant, compare=False, repr=False)
+    kernel: arithmetic.Kernel = field(default_factory=constant.Constant, compare=False, repr=False)
     record: Family = field(default=constant.FAMILY, compare=False, repr=False)
 
     @property
@@ -66,7 +66,7 @@ class Psi:
     @property
     def limit(self) -> float:
         """``Psi_1(0)``, the limit of Psi(s) as s grows (R5)."""
-        return self._kernel.limit
+        return self.kernel.limit
 
     @overload
     def __call__(self, s: float) -> float: ...
@@ -90,7 +90,7 @@ class Psi:
         ValueError
             s is negative or NaN.
         """
-        return _apply(self._kernel.value, s, "s", math.inf, "s >= 0")
+        return _apply(self.kernel.value, s, "s", math.inf, "s >= 0")
 
     @overload
     def derivative(self, s: float) -> float: ...
@@ -109,7 +109,7 @@ class Psi:
         ValueError
             s is negative, infinite or NaN.
         """
-        return _apply(self._kernel.slope, s, "s", LARGEST, "0 <= s < inf")
+        return _apply(self.kernel.slope, s, "s", LARGEST, "0 <= s < inf")
 
     @overload
     def modulus(self, zeta: float) -> float: ...
@@ -238,7 +238,7 @@ class Psi:
         ValueError
             zeta is negative, infinite or NaN.
         """
-        return _apply(self._kernel.kappa, zeta, "zeta", LARGEST, "0 <= zeta < inf")
+        return _apply(self.kernel.kappa, zeta, "zeta", LARGEST, "0 <= zeta < inf")
 
     def check(self) -> PsiCheck:
         """Whether Psi meets R1 to R5 of def:Psi, and where it does not.
@@ -249,13 +249,13 @@ class Psi:
             Attributes R1, ..., R5 (also by iteration), each with .holds, .where (an s, or None) and .sentence;
             and .holds for all of them. Built-in families are decided by mathematics, custom text by probing.
         """
-        return check(self.record, self.parameter, self.text, self.expression, self._kernel)
+        return check(self.record, self.parameter, self.text, self.expression, self.kernel)
 
     def _modulus(self, lib: Any, zeta: Any) -> Any:
-        return zeta / lib.hypot(zeta, self._kernel.root(lib, zeta))
+        return zeta / lib.hypot(zeta, self.kernel.root(lib, zeta))
 
     def _complement(self, lib: Any, zeta: Any) -> Any:
-        root = self._kernel.root(lib, zeta)
+        root = self.kernel.root(lib, zeta)
         u = root / lib.hypot(zeta, root)
         return u * u
 
@@ -265,14 +265,14 @@ class Psi:
         w = modulus / lib.sqrt(complement)
         if w == 0.0 if lib is arithmetic.SCALAR else not w.size:
             return w
-        zeta = self._kernel.inverse(lib, w)
+        zeta = self.kernel.inverse(lib, w)
         return lib.where(w > 0.0, zeta, 0.0)
 
     def _jacobian_factors(self, lib: Any, zeta: Any) -> Any:
-        root = self._kernel.root(lib, zeta)
+        root = self.kernel.root(lib, zeta)
         tangential = 1.0 / lib.hypot(zeta, root)
         u = root * tangential
-        return u * u * (1.0 + self._kernel.kappa(lib, zeta)) * tangential, tangential
+        return u * u * (1.0 + self.kernel.kappa(lib, zeta)) * tangential, tangential
 
 
 _BELOW_1 = math.nextafter(1.0, 0.0)
