@@ -14,8 +14,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from .section import FINE, Crossing, Section
-from .turn_section import TurnSection
+from .section import FINE, AnySection, Crossing
 
 Array = NDArray[np.float64]
 
@@ -82,7 +81,7 @@ class Path:
     time: float
 
 
-def path(section: Section | TurnSection, start: Array, rtol: float, backward: bool) -> Path | None:
+def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Path | None:
     """Follow one return from a state (3,) of the section; None if MOST_STEPS steps do not bring it round.
 
     Parameters
@@ -106,7 +105,7 @@ def path(section: Section | TurnSection, start: Array, rtol: float, backward: bo
     return Path(first, h, inner, np.outer(h, weights).ravel() / inner[:, 2], ends[0], float(times[0]))
 
 
-def _linearisation(section: Section | TurnSection, states: Array) -> tuple[Array, Array]:
+def _linearisation(section: AnySection, states: Array) -> tuple[Array, Array]:
     """Compute e (n, 2) and ``D_e U D e_Psi`` (n, 2, 2) in kappa_2, for the scaled field."""
     x2 = states[:, :2] / states[:, 2:]
     zeta = np.hypot(x2[:, 0], x2[:, 1])
@@ -137,7 +136,7 @@ def _normal_growth(J: Array, h: Array, across: Array) -> float:
     return float(np.prod(np.sum(np.roll(across, -1, axis=0) * after, axis=1)))
 
 
-def orbit(section: Section | TurnSection, crossing: Crossing) -> Orbit | None:
+def orbit(section: AnySection, crossing: Crossing) -> Orbit | None:
     """Follow the cycle through a fixed point of the return map once round.
 
     Parameters

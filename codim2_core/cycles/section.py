@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,6 +64,59 @@ def rays(
         reach = complement / (root + along) if along > 0.0 else root - along
         found.append((reach, complement / reach, u))
     return found
+
+
+class AnySection(Protocol):
+    """A curve that cycles cross, and the first return to it: what `orbit` needs of it.
+
+    Attributes
+    ----------
+    psi : Psi
+    rate : float
+        The unit of speed in which `field` and `derivative` are given.
+    kernel : (module, function)
+        The compiled return, and what keeps its field alive, with its address.
+    """
+
+    psi: Psi
+    rate: float
+
+    @property
+    def kernel(self) -> Any: ...  # noqa: D102
+
+    def shared(self, backward: bool = False) -> Array:
+        """Parameters of the compiled field."""
+        ...
+
+    def field(self, e: Array) -> Array:
+        """U (n, 2) in units of `rate`."""
+        ...
+
+    def derivative(self, e: Array) -> Array:
+        """D_e U, (n, 2, 2) or the same (2, 2) everywhere, in units of `rate`."""
+        ...
+
+    def states(self, xi: Array) -> tuple[Array, Array]:
+        """States (n, 3) = (p_x, p_y, ebar) and their coordinate q (n,), at parameters (n,)."""
+        ...
+
+    def coordinate(self, states: Array) -> Array:
+        """Coordinate q (n,) of states (n, 3) on the section."""
+        ...
+
+    def turn(
+        self, states: Array, rtol: float, backward: bool = False, record: int = 0, limit: int = 0
+    ) -> tuple[Array, Array, Any, Any]:
+        """Follow one turn: states (n, 3) on return, times, codes and recorded steps."""
+        ...
+
+    def displacement(self, xi: Array, rtol: float = 0.0, backward: bool = False) -> Array:
+        """Displacement of q over a turn, (n,)."""
+        ...
+
+    def grid(self) -> Array:
+        """Parameters at which the map is sampled first."""
+        ...
 
 
 class Section:

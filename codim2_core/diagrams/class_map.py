@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..psi.function import Psi
 from .class_map_grid import THIN, Spans, Tree, happening, tree
-from .class_map_trace import Traced, chains, rings, traced
+from .class_map_trace import Regions, chains, rings, traced
 from .sweep import Plane, class_name, family
 
 __all__ = ["ClassMap", "MapBoundary", "MapRegion", "class_map"]
@@ -174,14 +174,14 @@ def _symmetric(plane: Plane) -> bool:
     return bool(not plane.b.any() and (not plane.f1.any() or not plane.f2.any()))
 
 
-def _codes(found: Traced) -> NDArray[np.int64]:
+def _codes(found: Regions) -> NDArray[np.int64]:
     """Class of each region."""
     out = np.zeros(int(found.region.max()) + 1, np.int64)
     out[found.region] = found.codes
     return out
 
 
-def _regions(leaves: Tree, found: Traced, spans: Spans) -> tuple[MapRegion, ...]:
+def _regions(leaves: Tree, found: Regions, spans: Spans) -> tuple[MapRegion, ...]:
     codes = _codes(found)
     bounds = np.arange(len(codes) + 1)
     inner = found.pieces[found.pieces[:, 3] >= 0]
@@ -230,7 +230,7 @@ def _inside(points: Array, polygons: list[Array], spans: Spans) -> tuple[tuple[f
     return (float(best[0]), float(best[1])), 2.0 * least
 
 
-def _boundaries(found: Traced, symmetric: bool) -> tuple[MapBoundary, ...]:
+def _boundaries(found: Regions, symmetric: bool) -> tuple[MapBoundary, ...]:
     codes = _codes(found)
     inner = found.pieces[found.pieces[:, 3] >= 0]
     low, high = np.sort(codes[inner[:, 2:]], axis=1).T

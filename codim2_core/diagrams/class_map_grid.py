@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .sweep import UNDEFINED, Family, border_functions, classes, discriminant, linearise, scale
+from .sweep import UNDEFINED, Sweep, border_functions, classes, discriminant, linearise, scale
 
 __all__ = ["THIN", "Spans", "Tree", "crossings", "happening", "tree"]
 
@@ -58,7 +58,7 @@ class Tree:
 class _Vertices:
     """Points of a fine lattice with their classes and the functions that decide them, computed when first asked for."""
 
-    def __init__(self, family: Family, spans: Spans, last: int) -> None:
+    def __init__(self, family: Sweep, spans: Spans, last: int) -> None:
         self.family, self.spans, self.last = family, spans, last
         self.table = np.full((last + 1) ** 2, -1, np.int32)
         self.keys = np.zeros(0, np.intp)
@@ -92,7 +92,7 @@ class _Vertices:
         return self.table[keys].astype(np.intp)
 
 
-def _decided(family: Family, values: dict[str, Array]) -> tuple[Codes, Array]:
+def _decided(family: Sweep, values: dict[str, Array]) -> tuple[Codes, Array]:
     """Classes, and the four functions whose signs decide them (nan where one has no meaning)."""
     plane = family(**values)
     exponent = scale(plane)
@@ -106,12 +106,12 @@ def _decided(family: Family, values: dict[str, Array]) -> tuple[Codes, Array]:
     return classes(plane, found, known), np.stack([known, gap, share, focus])
 
 
-def tree(family: Family, spans: Spans, steps: int, thin: int) -> Tree:
+def tree(family: Sweep, spans: Spans, steps: int, thin: int) -> Tree:
     """Quadtree with cells of 1/steps of the spans where the class changes, and smaller ones where these are not enough.
 
     Parameters
     ----------
-    family : Family
+    family : Sweep
         With two names.
     spans : ((low, high), (low, high))
     steps : int
@@ -229,13 +229,13 @@ def _leaves(vertices: _Vertices, exists: list[Flags], refined: list[Flags], unit
 
 
 def crossings(
-    family: Family, start: Array, end: Array, before: Codes, after: Codes, halvings: int
+    family: Sweep, start: Array, end: Array, before: Codes, after: Codes, halvings: int
 ) -> tuple[Array, Codes]:
     """Where the class changes along edges, by bisection of all of them at once.
 
     Parameters
     ----------
-    family : Family
+    family : Sweep
     start, end : ndarray (k, 2)
     before, after : ndarray of int (k,)
         Different classes at the ends.

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .class_map_grid import Spans, Tree, crossings
-from .sweep import Family
+from .sweep import Sweep
 
-__all__ = ["Traced", "chains", "rings", "traced"]
+__all__ = ["Regions", "chains", "rings", "traced"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -22,7 +22,7 @@ Indices = NDArray[np.intp]
 _ROUNDS = 8  # slivers beside slivers vanish one after the other
 
 
-class Traced(NamedTuple):
+class Regions(NamedTuple):
     """Pieces of the boundaries.
 
     Attributes
@@ -96,7 +96,7 @@ def _without_slivers(tree: Tree, edges: Indices) -> tuple[NDArray[np.int64], Ind
     return codes, region, [i for code, i in lost.items() if not (codes == code).any()]
 
 
-def traced(family: Family, tree: Tree, spans: Spans, halvings: int) -> Traced:
+def traced(family: Sweep, tree: Tree, spans: Spans, halvings: int) -> Regions:
     """March through all triangles in which the class changes."""
     sides = _sides(tree)
     spokes = np.stack([tree.centres[sides[:, 0]], sides[:, 1]], axis=1)
@@ -125,7 +125,7 @@ def traced(family: Family, tree: Tree, spans: Spans, halvings: int) -> Traced:
     points = np.concatenate([points, junctions])
     table = dict(zip(unique[crossed].tolist(), range(len(crossed)), strict=True))
     frame, corners = _frame(tree, sides, region, table, spans, len(points))
-    return Traced(np.concatenate([points, corners]), np.concatenate([pieces, frame]), codes, region, seen)
+    return Regions(np.concatenate([points, corners]), np.concatenate([pieces, frame]), codes, region, seen)
 
 
 def _march(region: Indices, on: Indices, points: Array) -> tuple[Indices, Array]:

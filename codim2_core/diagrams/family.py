@@ -66,7 +66,7 @@ _NAMES = ("a", "b", "d", "f1", "f2")
 
 
 @dataclass(frozen=True, eq=False)
-class Family:
+class Sweep:
     """A system in which some names vary, prepared for many evaluations. Made by `family`.
 
     Attributes
@@ -111,7 +111,7 @@ class Family:
         return Plane(a, b, d, f1, f2, self.psi, n, defined)
 
 
-def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[ArrayLike] = ()) -> Family:
+def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[ArrayLike] = ()) -> Sweep:
     """Prepare an e-linear system in which some names vary (see `layer_problem.vary.names`).
 
     Parameters
@@ -126,7 +126,7 @@ def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[A
 
     Returns
     -------
-    Family
+    Sweep
 
     Raises
     ------
@@ -150,14 +150,14 @@ def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[A
     own = dict(getattr(system, "parameters", ()))
     fixed = None if isinstance(system, ELinear) and _needs(system, varying) else system.at(z).plane
     shape = "" if psi.record.parameter is None else psi.record.parameter.name
-    return Family(varying, system, psi, z, fixed, shape if shape in varying and shape not in own else "")
+    return Sweep(varying, system, psi, z, fixed, shape if shape in varying and shape not in own else "")
 
 
 @dataclass(frozen=True, eq=False)
 class Line:
     """A family with one name: a path of systems."""
 
-    family: Family
+    family: Sweep
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -15,15 +15,15 @@ from numpy.typing import NDArray
 from ..layer_problem.critical import locate
 from ..numerics.trigonometric import tangential_zeros
 from ..psi.constructors import many
-from .family import Family, Line, Plane, family
+from .family import Line, Plane, Sweep, family
 
 __all__ = [
     "KINDS",
     "UNDEFINED",
-    "Family",
     "Line",
     "Linearisation",
     "Plane",
+    "Sweep",
     "border_functions",
     "class_name",
     "classes",

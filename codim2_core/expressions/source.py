@@ -13,7 +13,7 @@ ENTIRE = frozenset({"num", "name", "neg", "+", "-", "*", "sin", "cos", "exp", "t
 
 
 @dataclass(frozen=True)
-class Program:
+class Source:
     """Statements that compute formulas.
 
     Attributes
@@ -34,7 +34,7 @@ class Program:
     entire: bool
 
 
-def program(rows: Sequence[Expression], names: Mapping[str, str], inner: Collection[str]) -> Program:
+def program(rows: Sequence[Expression], names: Mapping[str, str], inner: Collection[str]) -> Source:
     """Write formulas as statements ``t7 = t3*t4``, one for each distinct operation.
 
     Parameters
@@ -68,7 +68,7 @@ def program(rows: Sequence[Expression], names: Mapping[str, str], inner: Collect
             if varies[k] and op not in ENTIRE:
                 # A quotient by what does not vary, and a natural power, are entire too.
                 entire = entire and ((op == "/" and not varies[args[1]]) or (exponent is not None and exponent >= 0))
-    return Program(tuple(before), tuple(inside), tuple(shown[i] for i in roots), entire)
+    return Source(tuple(before), tuple(inside), tuple(shown[i] for i in roots), entire)
 
 
 def _entered(build: Builder, row: Expression) -> int:

@@ -16,8 +16,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..psi.function import Psi
 from ..systems.elinear import ELinear
+from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .departures import departures
+from .options import PIXEL, STEP_LIMIT, Stepping
 from .result import Status, Trajectories, joined
 from .seeds import checked_seeds
 
@@ -25,9 +27,7 @@ __all__ = ["Status", "Trajectories", "continuation", "is_warm", "joined", "traje
 
 Array = NDArray[np.float64]
 
-PIXEL = 1.0 / 180.0
 DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
-STEP_LIMIT = 10_000
 
 GENERAL = "general"
 _warm: set[str] = set()  # what has run: families of Psi for e-linear systems, GENERAL for any other
@@ -46,16 +46,6 @@ def _kernels() -> SimpleNamespace:
         is_compiled=stepping_problem.is_compiled,
         states_of=layout.states_of,
     )
-
-
-def _positive(value: float, what: str, remedy: str, low: float = 0.0, high: float = math.inf) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not (math.isfinite(number) and low <= number <= high and number > 0.0):
-        raise ValueError(f"{what} is {value!r}; {remedy}.")
-    return number
 
 
 def trajectories(
@@ -117,84 +107,38 @@ def trajectories(
     ValueError
         An argument is invalid; the message says which, and what is allowed.
     """
+    options = Stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit)
+    at = system.at(z)
     points = seeds if isinstance(seeds, np.ndarray) and seeds.dtype == np.float64 else checked_seeds(seeds)
     if points.ndim != 2 or points.shape[1] != 2:
         points = checked_seeds(seeds)
     states, signs, finite = _kernels().states_of(np.ascontiguousarray(points))
     if not finite:
         checked_seeds(seeds)  # says which
-    return _integrate(
-        system,
-        psi,
-        states,
-        signs,
-        z,
-        t_max=t_max,
-        rtol=rtol,
-        atol=atol,
-        backward=backward,
-        view=view,
-        pixel=pixel,
-        capture=capture,
-        samples=samples,
-        length=length,
-        step_limit=step_limit,
-    )
+    return _integrate(at, psi, states, signs, options)
 
 
-def _integrate(
-    system: AnySystem,
-    psi: Psi,
-    states: Array,
-    signs: Array,
-    z: ArrayLike,
-    *,
-    t_max: float,
-    rtol: float,
-    atol: float,
-    backward: bool,
-    view: float,
-    pixel: float,
-    capture: float | None,
-    samples: Literal["ends"] | None,
-    length: float,
-    step_limit: int,
-) -> Trajectories:
-    t_max = _positive(t_max, "t_max", "give a finite positive time; backward=True follows trajectories backward")
-    rtol = _positive(rtol, "rtol", "give a relative tolerance from 1e-14 to 0.1", 1e-14, 0.1)
-    atol = _positive(atol, "atol", "give an absolute tolerance from 1e-15 to 0.1", 1e-15, 0.1)
-    view = _positive(view, "view", "give the finite half-width of the view, greater than 1 (the equator)", 1.0)
-    pixel = _positive(pixel, "pixel", "give the size of a pixel in picture units, up to 1", high=1.0)
-    if capture is None:
-        capture = min(rtol + atol, 0.1)
-    capture = _positive(capture, "capture", "give a distance from an attractor, up to 0.1; or None", high=0.1)
-    if not length > 0.0:
-        raise ValueError(f"length is {length!r}; give a positive length in picture units, or leave it out.")
-    if samples not in (None, "ends"):
-        raise ValueError(f'samples is {samples!r}; give None for drawn lines or "ends" for the two ends.')
-    if not 1 <= int(step_limit) <= 10**9:
-        raise ValueError(f"step_limit is {step_limit!r}; give a number of steps from 1 to 1e9.")
-    at = system.at(z)
+def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
     if len(states) == 0:
         return joined([])
     kernels = _kernels()
     # Time in units of 1/|U| makes step sizes, speeds and capture independent of the scale of U.
-    problem, unit = kernels.problem(at, psi, backward), at.speed
+    problem, unit = kernels.problem(at, psi, options.backward), at.speed
     buffer, clock, offsets, ends, codes, evaluations = kernels.integrate(
         states,
         signs,
         problem.shared,
         problem.address,
-        min(t_max * unit, 1e300),
-        rtol,
-        atol,
-        int(step_limit),
-        capture,
-        view,
-        0.0 if samples == "ends" else DRAWN * pixel,
-        float(length),
+        min(float(options.t_max) * unit, 1e300),
+        float(options.rtol),
+        float(options.atol),
+        int(options.step_limit),
+        options.reach,
+        float(options.view),
+        0.0 if options.samples == "ends" else DRAWN * float(options.pixel),
+        float(options.length),
     )
-    clock *= (-1.0 if backward else 1.0) / unit
+    clock *= (-1.0 if options.backward else 1.0) / unit
     _warm.add(psi.family if at.typed is None else GENERAL)
     return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
 
@@ -270,21 +214,7 @@ def continuation(
     ValueError
         A direction is not a limit direction, or no trajectory of the nonsmooth system arrives along it.
     """
-    states = departures(system.at(z), psi, theta, rtol, backward)
-    return _integrate(
-        system,
-        psi,
-        states,
-        np.full(len(states), -1.0),
-        z,
-        t_max=t_max,
-        rtol=rtol,
-        atol=atol,
-        backward=backward,
-        view=view,
-        pixel=pixel,
-        capture=capture,
-        samples=samples,
-        length=length,
-        step_limit=step_limit,
-    )
+    options = Stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit)
+    at = system.at(z)
+    states = departures(at, psi, theta, rtol, backward)
+    return _integrate(at, psi, states, np.full(len(states), -1.0), options)

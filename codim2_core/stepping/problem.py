@@ -17,7 +17,7 @@ from .numbers import FACTOR, numbers
 
 
 @dataclass(frozen=True)
-class Problem:
+class Compiled:
     """A right-hand side, scaled so that |U| is about 1.
 
     Attributes
@@ -38,14 +38,14 @@ class Problem:
     factors: slice
 
     @property
-    def reversed(self) -> Problem:
+    def reversed(self) -> Compiled:
         """The same right-hand side against time."""
         shared = self.shared.copy()
         shared[self.factors] *= -1.0
         return replace(self, shared=shared)
 
 
-def problem(at: AtZ, psi: Psi, backward: bool = False) -> Problem:
+def problem(at: AtZ, psi: Psi, backward: bool = False) -> Compiled:
     """Prepare a right-hand side, compiling what is new of it.
 
     Parameters
@@ -57,9 +57,9 @@ def problem(at: AtZ, psi: Psi, backward: bool = False) -> Problem:
     """
     if at.typed is None:
         field = fields.field(psi)
-        return Problem(field.address, numbers(at, psi, backward), (field,), slice(0, 5))
+        return Compiled(field.address, numbers(at, psi, backward), (field,), slice(0, 5))
     function, gain = prepare(at.typed, psi)
-    return Problem(
+    return Compiled(
         function.address, numbers(at, psi, backward, gain.address), (function, gain), slice(FACTOR, FACTOR + 1)
     )
 

@@ -161,13 +161,14 @@ def test_against_an_independent_integrator(p):
 
 def test_tiny_heights_keep_their_relative_accuracy():
     # 1 - |p| is out of reach of |p| itself: continue from a state with ebar = 1e-160.
+    from codim2_core.orbits.options import Stepping
     from codim2_core.orbits.trajectories import _integrate
 
     state = np.array([[1.0, 0.0, 1e-160]])
     options = {"t_max": 300.0, "rtol": 1e-12, "atol": 1e-12, "backward": False, "view": 2.0, "pixel": PIXEL}
     options |= {"capture": 1e-15, "samples": "ends", "length": math.inf, "step_limit": 10**5}
     system = ELinear(-1.0, 0.0, -1.0)  # x2' = -x2/|.| : |x2| = sinh-like, exactly ebar/|p| e^T
-    result = _integrate(system, psi.constant(), state, np.array([-1.0]), (), **options)
+    result = _integrate(system.at(), psi.constant(), state, np.array([-1.0]), Stepping(**options))
     ratio = 1e-160 * math.exp(300.0)
     r, w = result.ends[0, 0], result.ends[0, 2]
     assert abs(w / r / ratio - 1.0) < 1e-9
