@@ -1,5 +1,6 @@
 // What is always in view beside the picture: the portrait's name and sentence, what is degenerate, the slow flow.
 
+import {put, say} from "./dom.js"
 import {digits, escape} from "./words.js"
 
 export class Inspector {
@@ -13,17 +14,17 @@ export class Inspector {
   }
 
   portrait({case: which, name, sentence, degeneracies, sides}) {
-    this.find(".portrait-name").textContent = name
-    this.find(".portrait-case").textContent = which ? `Case ${which}` : ""
-    this.find(".sentence").textContent = sentence.replace(/^(Case \S+, )?\S+\. /, "")
-    this.find(".degeneracies").innerHTML = degeneracies
+    say(this.find(".portrait-name"), name)
+    say(this.find(".portrait-case"), which ? `Case ${which}` : "")
+    say(this.find(".sentence"), sentence.replace(/^(Case \S+, )?\S+\. /, ""))
+    put(this.find(".degeneracies"), degeneracies
       .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${escape(words)}</p>`).join("") + (sides?.below && sides.above
-        ? `<p class="note sides">A little less ${escape(sides.symbol)}: <b>${escape(sides.below)}</b>. A little more: <b>${escape(sides.above)}</b>.</p>` : "")
+        ? `<p class="note sides">A little less ${escape(sides.symbol)}: <b>${escape(sides.below)}</b>. A little more: <b>${escape(sides.above)}</b>.</p>` : ""))
   }
 
   // One line that is always in view.
   slowLine(flow) {
     const sense = !flow || !flow.length || flow[0] === 0 ? "" : flow[0] > 0 ? ", ⊙ out of the page" : ", ⊗ into the page"
-    this.find(".slow-line").textContent = flow?.length ? `z′ = ${flow.map((v) => digits(v)).join(", ")} on C${sense}` : ""
+    say(this.find(".slow-line"), flow?.length ? `z′ = ${flow.map((v) => digits(v)).join(", ")} on C${sense}` : "")
   }
 }

@@ -1,8 +1,8 @@
-(root) => {
+(root, which) => {
     // What the picture paints, as a list of strokes, fills and texts in data space: a context that draws nothing, and the
     // frame's own ranges to take pixels back. It shares nothing with the page's way from data to pixels.
     const {picture} = root.explorer
-    const view = picture.drawn.view, plot = view.plot_view, {x, y, width, height} = plot.frame.bbox
+    const view = picture[which ?? "drawn"].view, plot = view.plot_view, {x, y, width, height} = plot.frame.bbox
     const {x_range, y_range} = plot.model
     const across = (x_range.end - x_range.start) / width, up = (y_range.end - y_range.start) / height
     const data = (px, py) => [x_range.start + (px - x) * across, y_range.end - (py - y) * up]

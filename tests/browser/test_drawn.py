@@ -261,3 +261,12 @@ def test_the_screen_shows_the_marks_the_right_way_up(drawn):
     if C.kind == "stable node":
         assert colour_at(drawn.page, (C.p[0] + 0.02, C.p[1] + 0.02)) == [0xC8, 0x10, 0x2E]
         assert colour_at(drawn.page, (C.p[0] + 0.02, -C.p[1])) != [0xC8, 0x10, 0x2E]
+
+
+def test_a_motion_starts_where_it_is_launched(open_page):
+    page = open_page().open("?panel=time&k1=0&k2=0&launch=-0.3,0.4,0")
+    page.page.wait_for_timeout(500)
+    *paths, dot = [item for item in page.find(".codim2").evaluate(RECORDER, "above") if item["kind"] == "stroke"]
+    assert {tuple(path["dash"]) for path in paths} == {(), (5, 4)}  # the motion, and its limit
+    for item in (*paths, dot):
+        assert item["path"][0]["points"][0] == pytest.approx([-0.9, 1.2], abs=0.02)  # radius 1 + rho, rho = 1/2

@@ -1,5 +1,6 @@
 // The panel "Numbers": tables of equator equilibria, critical sets, outcomes and limit cycles, slow flow along z, marks.
 
+import {put} from "../dom.js"
 import {register} from "../panels.js"
 import {roundUp} from "../ranges.js"
 import {digits, eigen, escape, pair, plain} from "../words.js"
@@ -21,15 +22,28 @@ class Numbers {
   constructor(box, tools) {
     box.innerHTML = `<div class="equator-table"></div><div class="critical-table"></div><div class="outcome-table"></div><div class="cycle-table"></div><div class="slow"></div>${MARKS}`
     this.find = (name) => box.querySelector(name)
+    this.box = box
     this.tools = tools
+    /** @type {any} what frames have brought and is not written yet */
+    this.kept = {}
   }
 
+  // While the panel is closed its tables follow once nothing moves: they cost as much as a third of the picture.
   apply({header}, late) {
+    clearTimeout(this.timer)
+    Object.assign(this.kept, header)
+    if (this.box.hidden) this.timer = setTimeout(() => this.write(late), 100)
+    else this.write(late)
+  }
+
+  write(late) {
+    const header = this.kept
+    this.kept = {}
     if (header.equator) this.equator(header)
     if (header.critical) this.critical(header.critical)
     if (header.cycles) this.cycles(header.cycles)
     if (header.outcomes) this.outcomes(header.outcomes.rows)
-    if (header.unable?.outcomes) this.find(".outcome-table").innerHTML = `<h2>Approach outcomes</h2><p class="note">${escape(header.unable.outcomes)}</p>`
+    if (header.unable?.outcomes) put(this.find(".outcome-table"), `<h2>Approach outcomes</h2><p class="note">${escape(header.unable.outcomes)}</p>`)
     this.find(".outcome-table").classList.toggle("old", late.includes("outcomes"))
     if ("slow_flow" in header) this.slow(header.slow_flow, this.tools.values.z)
   }
@@ -40,8 +54,8 @@ class Numbers {
       <tr><td></td><td class="words" colspan="3">${q.type[i]}${q.multiplicity[i] > 1 ? `, multiplicity ${q.multiplicity[i]}` : ""}</td></tr>`)
     const words = all ? "Every direction is a limit direction." : cycle === null ? "None." :
       `None: the equator is a closed orbit, ${cycle < 0 ? "attracting" : cycle > 0 ? "repelling" : "neutral"} outside (exponent ${digits(cycle)}).`
-    this.find(".equator-table").innerHTML = "<h2>Equator equilibria</h2>" + (rows.length
-      ? `<table><tr><th></th><th>θ</th><th>λ<sub>ρ</sub></th><th>λ<sub>θ</sub></th></tr>${rows.join("")}</table>` : `<p class="note">${words}</p>`)
+    put(this.find(".equator-table"), "<h2>Equator equilibria</h2>" + (rows.length
+      ? `<table><tr><th></th><th>θ</th><th>λ<sub>ρ</sub></th><th>λ<sub>θ</sub></th></tr>${rows.join("")}</table>` : `<p class="note">${words}</p>`))
   }
 
   critical(c) {
@@ -53,20 +67,20 @@ class Numbers {
       <tr><td>Δ(J)</td><td>${digits(c.discriminant[i])}</td></tr>
       <tr><td>eigenvalues</td><td>${eigen(c.eigenvalues[i])}</td></tr>
       ${c.slow_flow[i].length && c.label.length > 1 ? `<tr><td>z′</td><td>${c.slow_flow[i].map((v) => digits(v)).join(", ")}</td></tr>` : ""}</table>`)
-    this.find(".critical-table").innerHTML = `<h2>${c.label.length > 1 ? "Critical sets" : "Critical set"}</h2>` + (rows.join("") || '<p class="note">None in the scaling chart.</p>')
+    put(this.find(".critical-table"), `<h2>${c.label.length > 1 ? "Critical sets" : "Critical set"}</h2>` + (rows.join("") || '<p class="note">None in the scaling chart.</p>'))
   }
 
   cycles(c) {
     const rows = c.kind.map((kind, i) => `<table><tr><td><b>Limit cycle</b></td><td><b>${kind}</b></td></tr>
       <tr><td>period (fast time τ)</td><td>${digits(c.period[i])}</td></tr><tr><td>multiplier</td><td>${digits(c.multiplier[i])}</td></tr></table>`)
     const words = [...(rows.length ? [] : [c.reason]), ...c.notes].map((text) => `<p class="note">${escape(text)}</p>`)
-    this.find(".cycle-table").innerHTML = "<h2>Limit cycles</h2>" + rows.join("") + words.join("")
+    put(this.find(".cycle-table"), "<h2>Limit cycles</h2>" + rows.join("") + words.join(""))
   }
 
   outcomes(rows) {
     const items = rows.map(([label, kind, words, sentence, families]) => `<li><i class="outcome ${kind}"></i><b>${escape(label)}</b> ${escape(words)}
       <p class="note">${escape(sentence)}</p>${families.map(([what, psis]) => `<p class="note"><b>${escape(what)}</b> with Ψ = ${psis.map(escape).join(", ")}</p>`).join("")}</li>`)
-    this.find(".outcome-table").innerHTML = `<h2>Approach outcomes</h2><ul>${items.join("")}</ul>`
+    put(this.find(".outcome-table"), `<h2>Approach outcomes</h2><ul>${items.join("")}</ul>`)
   }
 
   // An arrow along the z axis; z points out of the page, as in the paper's circled dot and cross.
