@@ -1,0 +1,72 @@
+"""Every picture as a function from its name to its text: what the SVG says, or the columns that are drawn, as JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from codim2_app.draw.overlay import elements
+from codim2_app.draw.svg import draw, small
+from codim2_app.state.controls import ExplorerState
+from codim2_app.view.refresh import Frames
+
+from codim2_core.figures.presets import presets
+from codim2_core.scene import Scene
+
+#: Portraits that are kept in full, besides the small ones of all presets.
+WHOLE = ("case1-cm4", "case3-n3", "nonunique-sliding")
+LAYERS = [
+    "inside",
+    "outside",
+    "continuations",
+    "separatrices",
+    "cycles",
+    "rho",
+    "theta",
+    "lines",
+    "equator",
+    "critical",
+]
+
+
+def thumbnail(key: str) -> str:
+    """Return the small portrait of a preset."""
+    preset = presets[key]
+    scene = Scene(preset.system, preset.psi, preset.z, count=16, view=2.1, pixel=1 / 28)
+    return small(scene, 1.5).replace("><", ">\n<") + "\n"
+
+
+def portrait(key: str) -> str:
+    """Return the first picture of a page that opens with a preset; few starting points keep it readable."""
+    state, _ = ExplorerState.from_query({"preset": key, "trajectories": "12", "layers": ",".join(LAYERS)})
+    return draw(Frames(state).answer({"all": True}), LAYERS).replace("><", ">\n<") + "\n"
+
+
+def overlay(key: str) -> str:
+    """Return what HoloViews draws of a preset: elements from bottom to top, with their columns."""
+    preset = presets[key]
+    made = elements(Scene(preset.system, preset.psi, preset.z, count=12, pixel=1 / 28))
+    return json.dumps({name: _columns(element) for name, element in made.items()}, indent=1, ensure_ascii=False) + "\n"
+
+
+def _columns(element: Any) -> Any:
+    if element.vdims:
+        return {str(d): [_plain(v) for v in element.dimension_values(d)] for d in element.dimensions()}
+    return [[[_plain(v) for v in point] for point in np.asarray(piece)] for piece in element.split(datatype="array")]
+
+
+def _plain(value: Any) -> Any:
+    return round(float(value), 3) + 0.0 if isinstance(value, float) else str(value)
+
+
+def pictures() -> Mapping[str, Callable[[], str]]:
+    """Return the function of each picture by the name of its file."""
+    found: dict[str, Callable[[], str]] = {}
+    for key in presets:
+        found[f"small-{key}.svg"] = lambda key=key: thumbnail(key)
+    for key in WHOLE:
+        found[f"portrait-{key}.svg"] = lambda key=key: portrait(key)
+    found["overlay-case1-cm4.json"] = lambda: overlay("case1-cm4")
+    return found

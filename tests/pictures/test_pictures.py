@@ -1,0 +1,41 @@
+"""Pictures are compared with those kept beside the tests, as text; changed ones are written to build/pictures."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from .pictures import pictures
+
+KEPT = Path(__file__).parent / "kept"
+CHANGED = Path(__file__).parents[2] / "build" / "pictures"
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
+
+
+def same(one: str, other: str) -> bool:
+    """Say whether two texts differ by no more than a step in the last digits of numbers, as between machines."""
+    if NUMBER.sub("#", one) != NUMBER.sub("#", other):
+        return False
+    pairs = zip(NUMBER.findall(one), NUMBER.findall(other), strict=True)
+    return all(a == b or abs(float(a) - float(b)) <= (0.0021 if "." in a + b else 1) for a, b in pairs)
+
+
+@pytest.mark.parametrize("name", pictures())
+def test_a_picture_is_the_one_that_is_kept(name):
+    made = pictures()[name]()
+    kept = KEPT / name
+    if not kept.is_file() or not same(made, kept.read_text()):
+        CHANGED.mkdir(parents=True, exist_ok=True)
+        (CHANGED / name).write_text(made)
+        pytest.fail(f"{name} has changed: see it with `python -m tests.pictures`, keep it with `--accept`.")
+
+
+def test_nothing_is_kept_that_is_not_made():
+    assert {path.name for path in KEPT.iterdir()} == pictures().keys()
+
+
+def test_a_flip_is_no_rounding():
+    assert same("M1 2L3 -4", "M1 2L3 -5")
+    assert not same("M1 2L3 -4", "M1 2L3 4")
+    assert not same('stroke="var(--attr)" 1', 'stroke="var(--rep)" 1')
+    assert not same("M1 2L3 4", "M1 2")
