@@ -21,6 +21,7 @@ from ..state.chosen import BOXES, titles
 from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values, slider_range
 from ..state.portraits import portraits
 from .bundle import bundle
+from .glossary import GLOSSARY, OPENING, PAPER
 
 STATIC = Path(__file__).parents[1] / "static"
 
@@ -61,6 +62,7 @@ def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]
         "values": state.values(),
         "defaults": first,
         "setting": list(SETTING),
+        "opening": OPENING,
         "layers": table(),
         "traces": looks(TRACES),
         "families": {
@@ -116,6 +118,8 @@ def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, 
         slow_controls=SLOW_CONTROLS,
         values=values,
         locked=locked,
+        paper=PAPER,
+        glossary=GLOSSARY,
         most=MAX_TRAJECTORIES,
         first=first or {},
     )

@@ -117,3 +117,19 @@ def test_holoviews_overlay_can_be_added_to():
     assert len(overlay.Points.values()) == 2
     assert len(overlay) == 11
     assert isinstance(overlay * hv.Curve([(0, 0), (1, 1)]), hv.Overlay)
+
+
+def test_the_page_says_which_paper_it_shows_and_what_its_words_mean():
+    from codim2_app.view.glossary import GLOSSARY, PAPER
+    from codim2_app.view.markup import config, explorer_html
+
+    page = explorer_html(ExplorerState())
+    assert PAPER[1] in page
+    for term, meaning in GLOSSARY:
+        assert f"<dt>{term}</dt>" in page
+        assert len(meaning) < 140
+    found = config(ExplorerState())
+    scene = c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0)))  # what the opening sentence says, of what is drawn
+    assert "four limit directions, all radially attracting" in found["opening"]
+    assert (len(scene["equator"]), bool((scene["equator"].lambda_rho < 0).all())) == (4, True)
+    assert scene["critical"][0].kind.startswith("stable")

@@ -1,0 +1,33 @@
+"""What the page says of itself: which paper it shows, the equations, and the words, each in a sentence."""
+
+from __future__ import annotations
+
+#: Authors and title.
+PAPER = (
+    "N. Cheesman, K. Uldall Kristiansen and S. J. Hogan",
+    "Regularisation of isolated codimension-2 discontinuity sets",
+)
+#: Term and meaning, in the paper's words, in the order in which a reader of the picture meets them.
+GLOSSARY: tuple[tuple[str, str], ...] = (
+    ("Σ", "the discontinuity set x = y = 0, on which e = (x, y)/|(x, y)| has no value; z runs along it"),
+    ("The circle", "the equator of the hemisphere that each point of Σ is blown up to: directions e = (cos θ, sin θ)"),
+    ("Inside", "the layer problem on that hemisphere, from above: the regularised system at |(x, y)| of order ε"),
+    ("Outside", "the system without regularisation: (x, y) in direction θ at the radius 1 + |(x, y)|"),
+    ("ε, Ψ", "the regularisation: e becomes (x, y)/√(x² + y² + ε²Ψ((x² + y²)/ε²)), smooth for ε > 0"),
+    ("Limit direction Q", "a direction in which trajectories reach or leave Σ: an equilibrium on the equator"),
+    (
+        "λ with index ρ, θ",
+        "the eigenvalues of a limit direction: negative attracts radially (filled), angularly (circle)",
+    ),
+    ("Critical set C", "an equilibrium inside: there the motion slides along Σ, with the slow flow z′ at C"),
+    ("⊙, ⊗", "the slow flow of the first slow variable: out of the page (growing), into the page"),
+    ("Slide, cross", "stay on Σ near a critical set or limit cycle; or pass through Σ and leave it"),
+    ("Case I, II, III", "a and d of one sign; det A < 0; a and d of opposite sign with det A > 0, where Ψ matters"),
+    ("CM, NCM", "names of this explorer: critical set, no critical set; the number counts limit directions"),
+    ("τ, T", "fast times: dT = dt/|(x, y, ε)| in the picture, dt = ε dτ for the periods of limit cycles"),
+)
+#: Below the list of portraits while none is chosen.
+OPENING = (
+    "The paper’s e-linear system with four limit directions, all radially attracting, and a stable critical set C: "
+    "whatever comes near Σ slides. Move a slider, or choose a figure."
+)
