@@ -17,7 +17,7 @@ GLOSSARY: tuple[tuple[str, str], ...] = (
     ("Limit direction Q", "a direction in which trajectories reach or leave Σ: an equilibrium on the equator"),
     (
         "λ with index ρ, θ",
-        "the eigenvalues of a limit direction: negative attracts radially (filled), angularly (circle)",
+        "eigenvalues of a limit direction: negative attracts radially (filled), angularly (circle)",
     ),
     ("Critical set C", "an equilibrium inside: there the motion slides along Σ, with the slow flow z′ at C"),
     ("⊙, ⊗", "the slow flow of the first slow variable: out of the page (growing), into the page"),
