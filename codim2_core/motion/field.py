@@ -35,6 +35,8 @@ class Field:
     ----------
     m : int
         The number of slow variables.
+    rows : tuple of Expression
+        The formulas of U and W.
     value : callable
         ``value(c, s, x, y, *z)`` is the tuple (U1, U2, W1, ..., Wm); NaNs where a formula has a pole.
     slope : callable
@@ -42,6 +44,7 @@ class Field:
     """
 
     m: int
+    rows: tuple[Expression, ...]
     value: Callable[..., tuple[float, ...]]
     slope: Callable[..., tuple[float, ...]]
 
@@ -162,7 +165,7 @@ def _filled(template: str, **values: Any) -> Expression:
 def _field(rows: Sequence[Expression], m: int) -> Field:
     names = (*PLANE, *SLOW[:m])
     slopes = [row.derivative(name) for row in rows for name in names]
-    return Field(m, _function(rows, names), _function(slopes, names))
+    return Field(m, tuple(rows), _function(rows, names), _function(slopes, names))
 
 
 def _function(rows: Sequence[Expression], names: Sequence[str]) -> Callable[..., tuple[float, ...]]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..cycles.limit_cycles import limit_cycles
-from ..numerics.dense import Dense, dense
+from ..numerics.dense import Dense, dense, gathered
 from ..numerics.growth import BlowUpError
 from ..numerics.radau import Problem, Step, TooManyStepsError
 from ..psi import constructors
@@ -408,7 +408,7 @@ def simulate_nonsmooth(
         count[0] += 1
         return value(*arguments)
 
-    formulas = Field(formulas.m, counted, formulas.slope)
+    formulas = Field(formulas.m, formulas.rows, counted, formulas.slope)
     line = invariant_line(formulas, first)
     problem = plane_problem(formulas, None, 0.0, rtol, atol)
     problem = problem if line is None else line.projected(problem)
@@ -425,6 +425,6 @@ def simulate_nonsmooth(
         status, detail = SimulationStatus.BLOW_UP, str(error)
     except TooManyStepsError as error:
         status, detail = SimulationStatus.STEP_LIMIT, str(error)
-    motion = dense(t_start, first, course.taken)
+    motion = dense(t_start, first, [gathered(course.taken, len(first))])
     phases = partial(tuple, [part.placed(course, motion) for part in course.parts])
     return simulation(motion, phases, status, detail=detail, evaluations=count[0], events=watch.times)

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import math
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.dense import dense
+from ..numerics.dense import Steps, dense, gathered
 from ..numerics.growth import BlowUpError, bounded
 from ..numerics.radau import Problem, Step, TooManyStepsError, steps
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from .compiled import Compiled, is_compiled
 from .events import Events, Watch, checked_events
-from .field import field
+from .field import Field, field
 from .line import invariant_line
 from .phases import phases_of
 from .problem import plane_problem
@@ -27,6 +32,8 @@ Array = NDArray[np.float64]
 SMALLEST_EPS, LARGEST_EPS = 1e-14, 1e6
 FIRST = 1e-2  # of rho/|U|: the first step tried
 MAX_STEPS = 20_000
+PATIENCE = 400  # steps in Python, which take about as long as compiling a system's formulas
+MANY = 8  # motions at once for which that is not waited for
 
 
 def checked_span(t_span: ArrayLike) -> tuple[float, float]:
@@ -53,6 +60,22 @@ def checked_state(state0: ArrayLike, m: int) -> Array:
     return state
 
 
+def checked_states(state0: ArrayLike, m: int) -> Array:
+    """Check one state or several: (k, 2 + m)."""
+    if np.ndim(np.asarray(state0, object)) < 2:
+        return checked_state(state0, m)[None]
+    try:
+        states = np.array(state0, float)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"state0 is {state0!r}; give rows of numbers (x, y, z1, ..., zm) with m = {m}.") from error
+    if states.ndim != 2 or states.shape[1] != 2 + m:
+        raise ValueError(f"state0 has shape {states.shape}; this system has m = {m}: give (2 + m,) or (k, 2 + m).")
+    if not np.isfinite(states).all():
+        wrong = int(np.flatnonzero(~np.isfinite(states).all(axis=1))[0])
+        raise ValueError(f"state0[{wrong}] is {states[wrong].tolist()}; give finite numbers.")
+    return states
+
+
 def checked_tolerances(rtol: float, atol: float, max_steps: int) -> None:
     """Check tolerances and the step limit."""
     if not 1e-13 <= rtol <= 1e-2:
@@ -61,6 +84,36 @@ def checked_tolerances(rtol: float, atol: float, max_steps: int) -> None:
         raise ValueError(f"atol is {atol!r}; give a positive absolute tolerance for z.")
     if not 1 <= max_steps <= 10**9:
         raise ValueError(f"max_steps is {max_steps!r}; give a number of steps from 1 to 1e9.")
+
+
+@overload
+def simulate(  # pyright: ignore[reportOverlappingOverload] (rows are told from a row by their own entries)
+    system: AnySystem,
+    psi: Psi,
+    eps: float,
+    state0: Sequence[Sequence[float]],
+    t_span: ArrayLike,
+    *,
+    rtol: float = ...,
+    atol: float = ...,
+    events: Events = ...,
+    max_steps: int = ...,
+) -> tuple[Simulation, ...]: ...
+
+
+@overload
+def simulate(
+    system: AnySystem,
+    psi: Psi,
+    eps: float,
+    state0: ArrayLike,
+    t_span: ArrayLike,
+    *,
+    rtol: float = ...,
+    atol: float = ...,
+    events: Events = ...,
+    max_steps: int = ...,
+) -> Simulation: ...
 
 
 def simulate(
@@ -74,7 +127,7 @@ def simulate(
     atol: float = 1e-10,
     events: Events = (),
     max_steps: int = MAX_STEPS,
-) -> Simulation:
+) -> Simulation | tuple[Simulation, ...]:
     """Follow one motion of the regularised system: eq:vf with e replaced by e_Psi, eq:ePsi.
 
     Parameters
@@ -83,8 +136,8 @@ def simulate(
     psi : Psi
     eps : float
         1e-14 <= eps <= 1e6.
-    state0 : (2 + m,)
-        (x, y, z1, ..., zm); x = y = 0 is allowed.
+    state0 : (2 + m,), or (k, 2 + m)
+        (x, y, z1, ..., zm); x = y = 0 is allowed. Rows are as many motions, followed compiled on all cores.
     t_span : (t_start, t_end)
         In the time t of eq:vf, increasing.
     rtol, atol : float
@@ -97,7 +150,7 @@ def simulate(
 
     Returns
     -------
-    Simulation
+    Simulation, or tuple of k Simulation
         Its phases are read off the motion when they are first asked for: "slide" where it follows a critical set or a
         limit cycle of the layer problem within O(eps). If it grows beyond bounds, or the step limit is reached, it
         holds what was followed till then.
@@ -119,19 +172,25 @@ def simulate(
     t_start, t_end = checked_span(t_span)
     checked_tolerances(rtol, atol, max_steps)
     formulas = field(system)
-    first = checked_state(state0, formulas.m)
-    count = [0]
-    line = invariant_line(formulas, first)
-    problem = plane_problem(formulas, psi, float(eps), rtol, atol)
-    problem = problem if line is None else line.projected(problem)
-    rate = problem.F(first)
-    if not np.isfinite(rate).all():
-        raise ValueError(f"(U, W) is {rate.tolist()} at state0 = {first.tolist()}; it must be finite there.")
-    watch = Watch(checked_events(events), t_start, first)
-    taken, status, detail = _followed(_counting(problem, count), first, rate, (t_start, t_end), rtol, max_steps, watch)
-    motion = dense(t_start, first, taken)
-    phases = partial(phases_of, system, psi, float(eps), motion)
-    return simulation(motion, phases, status, detail=detail, eps=float(eps), evaluations=count[0], events=watch.times)
+    watched = checked_events(events)
+    states = checked_states(state0, formulas.m)
+    span, eps = (t_start, t_end), float(eps)
+
+    def one(first: Array) -> Simulation:
+        watch = Watch(watched, t_start, first)
+        at_once = len(states) >= MANY
+        parts, status, detail, count = _followed(formulas, psi, eps, first, span, rtol, atol, max_steps, watch, at_once)
+        motion = dense(t_start, first, parts)
+        phases = partial(phases_of, system, psi, eps, motion)
+        return simulation(motion, phases, status, detail=detail, eps=eps, evaluations=count, events=watch.times)
+
+    if np.ndim(state0) < 2:
+        return one(states[0])
+    if len(states) < MANY or watched:
+        return tuple(one(first) for first in states)
+    found = [one(states[0])]  # which compiles
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return (*found, *pool.map(one, states[1:], chunksize=1))
 
 
 def _counting(problem: Problem, count: list[int]) -> Problem:
@@ -149,18 +208,59 @@ def first_step(problem: Problem, state: Array, rate: Array) -> float:
 
 
 def _followed(
-    problem: Problem, first: Array, rate: Array, span: tuple[float, float], rtol: float, max_steps: int, watch: Watch
-) -> tuple[list[Step], SimulationStatus, str]:
+    formulas: Field,
+    psi: Psi,
+    eps: float,
+    first: Array,
+    span: tuple[float, float],
+    rtol: float,
+    atol: float,
+    max_steps: int,
+    watch: Watch,
+    compile_at_once: bool,
+) -> tuple[list[Steps], SimulationStatus, str, int]:
+    """Follow a motion: its steps, why it ended, and the evaluations it took."""
+    line = invariant_line(formulas, first)
+    problem = plane_problem(formulas, psi, eps, rtol, atol)
+    count = [0]
+    problem = _counting(problem if line is None else line.projected(problem), count)
+    rate = problem.F(first)
+    if not np.isfinite(rate).all():
+        raise ValueError(f"(U, W) is {rate.tolist()} at state0 = {first.tolist()}; it must be finite there.")
     taken: list[Step] = []
-    stepping = steps(problem, *span, first, rtol, first_step(problem, first, rate), max_steps)
+    parts: list[Steps] = []
+    t, state, h = span[0], first, first_step(problem, first, rate)
+    motion: Compiled | None = None
+    status, detail = SimulationStatus.T_END, ""
     try:
-        for step in bounded(problem, stepping):
-            last = watch.step(step)
-            taken.append(step if last is None else last)
-            if last is not None:
-                return taken, SimulationStatus.EVENT, ""
+        if not (compile_at_once or is_compiled(formulas)):
+            for step in bounded(problem, steps(problem, *span, first, rtol, h, max_steps)):
+                last = watch.step(step)
+                taken.append(step if last is None else last)
+                if last is not None:
+                    return [gathered(taken, len(first))], SimulationStatus.EVENT, "", count[0]
+                if len(taken) == PATIENCE:
+                    t, state, h = step.end, step.last, step.h
+                    break
+        if t < span[1] and len(taken) in (0, PATIENCE):
+            motion = Compiled(
+                problem, formulas, psi, eps, line, t, span[1], state, rtol, atol / rtol, h, max_steps - len(taken)
+            )
+            for part in motion.chunks():
+                watched = list[Step]()
+                for step in part if watch.events else ():
+                    last = watch.step(step)
+                    watched.append(step if last is None else last)
+                    if last is not None:
+                        parts.append(gathered(watched, len(first)))
+                        status = SimulationStatus.EVENT
+                        break
+                if status is SimulationStatus.EVENT:
+                    break
+                parts.append(part)
     except BlowUpError as error:
-        return taken, SimulationStatus.BLOW_UP, str(error)
+        status, detail = SimulationStatus.BLOW_UP, str(error)
     except TooManyStepsError as error:
-        return taken, SimulationStatus.STEP_LIMIT, str(error)
-    return taken, SimulationStatus.T_END, ""
+        status, detail = SimulationStatus.STEP_LIMIT, str(error)
+    evaluations = count[0] + (0 if motion is None else motion.evaluations)
+    return [gathered(taken, len(first)), *parts], status, detail, evaluations

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,12 +56,43 @@ class Dense:
         return self.states[i] + self.polynomials[i] @ (u ** np.arange(1, STAGES + 1))
 
 
-def dense(t_start: float, first: Array, taken: Sequence[Step]) -> Dense:
-    """Gather steps, each of which begins where the one before it ended."""
-    times = np.maximum.accumulate(np.array([t_start, *(step.end for step in taken)]))
-    states = np.concatenate([first[None], *(step.last[None] for step in taken)])
-    lengths = np.array([step.h for step in taken])
-    polynomials = np.array([step.polynomial for step in taken]).reshape(len(taken), len(first), STAGES)
+@dataclass(frozen=True, eq=False)
+class Steps:
+    """Consecutive steps as arrays: from the state `first` (n,), each with its start, length, end and polynomial."""
+
+    first: Array
+    starts: Array
+    lengths: Array
+    ends: Array
+    polynomials: Array
+
+    def __iter__(self) -> Iterator[Step]:
+        """One `Step` each."""
+        before = self.first
+        for start, h, end, polynomial in zip(
+            self.starts.tolist(), self.lengths.tolist(), self.ends, self.polynomials, strict=True
+        ):
+            yield Step(start, h, before, end, polynomial)
+            before = end
+
+
+def gathered(taken: Sequence[Step], n: int) -> Steps:
+    """Gather steps of n numbers."""
+    return Steps(
+        taken[0].first if taken else np.zeros(n),
+        np.array([step.start for step in taken]),
+        np.array([step.h for step in taken]),
+        np.array([step.last for step in taken]).reshape(len(taken), n),
+        np.array([step.polynomial for step in taken]).reshape(len(taken), n, STAGES),
+    )
+
+
+def dense(t_start: float, first: Array, parts: Sequence[Steps]) -> Dense:
+    """Join steps, each of which begins where the one before it ended."""
+    times = np.maximum.accumulate(np.concatenate([[t_start], *(part.starts + part.lengths for part in parts)]))
+    states = np.concatenate([first[None], *(part.ends for part in parts)])
+    lengths = np.concatenate([np.zeros(0), *(part.lengths for part in parts)])
+    polynomials = np.concatenate([np.zeros((0, len(first), STAGES)), *(part.polynomials for part in parts)])
     for array in (times, states, lengths, polynomials):
         array.flags.writeable = False
     return Dense(times, states, lengths, polynomials)

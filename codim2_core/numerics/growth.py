@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .radau import Problem, Step, StepsTooShortError, TooManyStepsError
+
+Array = NDArray[np.float64]
 
 BOUND = 1e200
 GROWN = 8.0  # times its size, within the spacing of doubles in time
@@ -43,8 +46,13 @@ def bounded(problem: Problem, steps: Iterator[Step], shortest: float = 0.0) -> I
             yield step
     except StepsTooShortError as error:
         if last is not None:
-            size, rate = np.abs(last.last), np.abs(problem.F(last.last))
-            if (rate * max(RATE * abs(last.end), STEPS * shortest) > 1.0 + size).any():
-                raise BlowUpError(f"It blows up near t = {last.end:.10g}.") from error
-            raise StepsTooShortError(f"Its formulas are undefined from t = {last.end:.10g} on.") from error
+            raise too_short(problem, last.end, last.last, shortest) from error
         raise
+
+
+def too_short(problem: Problem, t: float, state: Array, shortest: float = 0.0) -> TooManyStepsError:
+    """Say why steps became too short at a state: it blows up, or its formulas end."""
+    size, rate = np.abs(state), np.abs(problem.F(state))
+    if (rate * max(RATE * abs(t), STEPS * shortest) > 1.0 + size).any():
+        return BlowUpError(f"It blows up near t = {t:.10g}.")
+    return StepsTooShortError(f"Its formulas are undefined from t = {t:.10g} on.")

@@ -219,3 +219,16 @@ def gains(psi: Psi, smooth: bool) -> Any:
 def has_gains(psi: Psi) -> bool:
     """Whether `gains` answers without compiling (a built-in family may still be loaded from the disk cache)."""
     return variant(psi, False) in _compiled
+
+
+def _one_gain(state, out, parameters):
+    S, D, P = carray(state, (2,)), carray(out, (1,)), carray(parameters, (PARAMETERS,))
+    D[0] = gain(S[0], S[1], kind(P[PSI]))
+
+
+_compiled_one = Compiled(_one_gain)
+
+
+def one_gain(psi: Psi) -> Any:
+    """Return the compiled gain at one place: by its `address`, from (|p|^2, w)."""
+    return _compiled_one.get(variant(psi, False))

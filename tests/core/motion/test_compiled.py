@@ -1,0 +1,97 @@
+"""The compiled motion is the one in Python: the same steps, for every Psi, in a line too; and many motions at once."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from codim2_core import ELinear, Event, System, examples, simulate
+from codim2_core import psi as families
+from codim2_core.motion import regularised
+from codim2_core.motion.compiled import is_compiled
+from codim2_core.motion.field import field
+from codim2_core.motion.result import SimulationStatus
+
+PSI = (
+    families.constant(),
+    families.rational(),
+    families.exponential(),
+    families.tanh(),
+    families.hill(3),
+    families.hill(2.5),
+    families.custom("1/(1+s)**2"),
+)
+BALL = examples.ball_in_pool(K=2.0)
+FORCED = System(U=("1.5*cos(z) - c", "-s"), W=("1",))
+
+
+@pytest.mark.parametrize("psi", PSI, ids=lambda psi: psi.text)
+@pytest.mark.parametrize("eps", [1e-1, 1e-5, 1e-11])
+def test_it_is_the_motion_in_python(monkeypatch, psi, eps):
+    state0, span = (-1.0, 0.3, 10.0, 0.0), (0.0, 3.0)
+    monkeypatch.setattr(regularised, "PATIENCE", 10**9)
+    monkeypatch.setattr(regularised, "is_compiled", lambda formulas: False)
+    own = simulate(BALL, psi, eps, state0, span, rtol=1e-9)
+    monkeypatch.setattr(regularised, "is_compiled", lambda formulas: True)
+    compiled = simulate(BALL, psi, eps, state0, span, rtol=1e-9)
+    # Newton's method takes a slope by differences, so that a step may be taken or not.
+    assert len(compiled.times) == pytest.approx(len(own.times), abs=6)
+    assert compiled.evaluations == pytest.approx(own.evaluations, rel=0.1)
+    np.testing.assert_allclose(compiled.states[-1], own.states[-1], rtol=1e-7, atol=1e-8)
+    np.testing.assert_allclose(compiled.dense(1.234), own.dense(1.234), rtol=1e-6, atol=1e-8)
+    assert compiled.invariant < 1e-12
+    assert [phase.kind for phase in compiled.phases] == [phase.kind for phase in own.phases]
+
+
+def test_a_long_motion_goes_on_compiled(monkeypatch):
+    system = System(U=("1.4*cos(z) - c", "-s/2"), W=("1",))
+    monkeypatch.setattr(regularised, "PATIENCE", 30)
+    run = simulate(system, families.tanh(), 1e-4, (0.5, 0.0, 0.0), (0.0, 20.0))
+    assert is_compiled(field(system))
+    assert run.status is SimulationStatus.T_END
+    assert run.times[-1] == 20.0
+    assert (np.diff(run.times) >= 0.0).all()
+    assert not run.states[:, 1].any()  # an invariant line
+    again = simulate(system, families.tanh(), 1e-4, (0.5, 0.0, 0.0), (0.0, 20.0))
+    np.testing.assert_allclose(again.states[-1], run.states[-1], atol=1e-6)
+
+
+def test_compiled_motions_end_as_others_do(monkeypatch):
+    monkeypatch.setattr(regularised, "is_compiled", lambda formulas: True)
+    grows = System(U=("x**2 - c", "-s"))
+    run = simulate(grows, families.constant(), 1e-4, (2.0, 0.0), (0.0, 20.0))
+    assert run.status is SimulationStatus.BLOW_UP
+    assert run.times[-1] == pytest.approx(0.5 * np.log(3.0), rel=1e-6)
+    undefined = System(U=("-c", "-s"), W=("-1/2 + log(z) - log(z)",))
+    run = simulate(undefined, families.constant(), 1e-3, (1.0, 0.0, 1.0), (0.0, 3.0))
+    assert run.status is SimulationStatus.STEP_LIMIT
+    assert run.times[-1] == pytest.approx(2.0, abs=1e-6)
+    run = simulate(FORCED, families.constant(), 1e-4, (0.5, 0.0, 0.0), (0.0, 200.0), max_steps=300)
+    assert run.status is SimulationStatus.STEP_LIMIT
+    assert 1.0 < run.times[-1] < 200.0
+    stop = Event(lambda t, q: t - 2.5, terminal=True)
+    run = simulate(FORCED, families.constant(), 1e-4, (0.5, 0.0, 0.0), (0.0, 200.0), events=stop)
+    assert run.status is SimulationStatus.EVENT
+    assert run.times[-1] == pytest.approx(2.5, abs=1e-12)
+
+
+@pytest.mark.parametrize("count", [1, 3, 20])
+def test_as_many_motions_as_states(count):
+    states = np.random.default_rng(0).uniform(-1.0, 1.0, (count, 4))
+    runs = simulate(BALL, families.constant(), 1e-4, states, (0.0, 1.0))
+    assert isinstance(runs, tuple)
+    assert len(runs) == count
+    for state, run in list(zip(states, runs, strict=True))[:5]:
+        np.testing.assert_array_equal(run.states[0], state)
+        alone = simulate(BALL, families.constant(), 1e-4, state, (0.0, 1.0))
+        np.testing.assert_allclose(run.states[-1], alone.states[-1], atol=1e-8)
+
+
+def test_states_that_are_none_say_so():
+    with pytest.raises(ValueError, match="shape"):
+        simulate(BALL, families.constant(), 1e-4, np.zeros((3, 5)), (0.0, 1.0))
+    with pytest.raises(ValueError, match=r"state0\[1\]"):
+        simulate(BALL, families.constant(), 1e-4, [[0.0] * 4, [np.nan] * 4], (0.0, 1.0))
+    with pytest.raises(ValueError, match="rows of numbers"):
+        simulate(BALL, families.constant(), 1e-4, [[0.0] * 4, ["a"] * 4], (0.0, 1.0))
+    assert simulate(ELinear(-1.0, 0.0, -1.0), families.constant(), 1e-4, [[1.0, 0.0]], (0.0, 1.0))[0].times[-1] == 1.0
