@@ -90,8 +90,8 @@ def test_as_many_motions_as_states(count):
 def test_states_that_are_none_say_so():
     with pytest.raises(ValueError, match="shape"):
         simulate(BALL, families.constant(), 1e-4, np.zeros((3, 5)), (0.0, 1.0))
-    with pytest.raises(ValueError, match=r"state0\[1\]"):
+    with pytest.raises(ValueError, match="finite"):
         simulate(BALL, families.constant(), 1e-4, [[0.0] * 4, [np.nan] * 4], (0.0, 1.0))
-    with pytest.raises(ValueError, match="rows of numbers"):
+    with pytest.raises(ValueError, match="numbers"):
         simulate(BALL, families.constant(), 1e-4, [[0.0] * 4, ["a"] * 4], (0.0, 1.0))
     assert simulate(ELinear(-1.0, 0.0, -1.0), families.constant(), 1e-4, [[1.0, 0.0]], (0.0, 1.0))[0].times[-1] == 1.0
