@@ -17,7 +17,7 @@ def example_presets() -> dict[str, Preset]:
     def add(name: str, base: Preset, **changes: object) -> None:
         found[name] = replace(base, name=name, **changes)  # type: ignore[arg-type]
 
-    ball = Preset(group="Examples", label="sec:ballpool, fig:ballpool3d", example="ball_in_pool")
+    ball = Preset(group="Examples", label="sec:ballpool, fig:ballpool3d", example="ball_in_pool", view="stack")
     add(
         "ball-stick", ball, title="Ball: it sticks and rolls", z=(4.0, 0.0), portrait=("I", "CM2", "stable node"),
         note="|z| < z_crit = 7μmg/(2K): all trajectories end up on the critical set.",
