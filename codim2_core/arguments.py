@@ -62,11 +62,11 @@ def e_linear(name: str, value: Any) -> Any:
     raise ValueError(f"{name} is of type {type(value).__name__}; give an e-linear one (ELinear).")
 
 
-def coefficients(name: str, value: Any) -> Coefficients:
-    """Check an e-linear system at one z."""
-    if isinstance(value, Coefficients):
+def at_z(name: str, value: Any) -> Any:
+    """Check a system at one z."""
+    if isinstance(value, KINDS) and value.frozen:
         return value
-    raise ValueError(f"{name} is {shown(value)}; give the coefficients of an e-linear system, ELinear(...).at(z).")
+    raise ValueError(f"{name} is {shown(value)}; give a system frozen at one z, such as ELinear(...).at(z).")
 
 
 def number(name: str, value: Any) -> float:
@@ -178,7 +178,7 @@ def _as_given(_: str, value: Any) -> Any:
 
 BY_NAME: Mapping[str, Check] = {
     "psi": psi,
-    "coefficients": coefficients,
+    "coefficients": at_z,
     "cycles": cycles,
     "compare": regularisations,
     "draw": function,

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..arguments import guarded
 from ..psi.function import Psi
-from ..systems.coefficients import Coefficients
+from ..systems.frozen import AtZ
 
 __all__ = [
     "disc_from_entry",
@@ -98,7 +98,7 @@ def e_psi(psi: Psi, p: ArrayLike) -> Array:
     return p / np.sqrt(q + shape)[..., None]
 
 
-def flow(coefficients: Coefficients, psi: Psi, p: ArrayLike) -> Array:
+def flow(coefficients: AtZ, psi: Psi, p: ArrayLike) -> Array:
     """``p' = U - p (p.U)``, U at e_Psi(p): the layer problem eq:LP on the disc, in the time T (dT = dt/rho).
 
     One smooth field on the closed disc: charts kappa_1 and kappa_2 together. Shapes (..., 2).
@@ -108,7 +108,7 @@ def flow(coefficients: Coefficients, psi: Psi, p: ArrayLike) -> Array:
     return U - p * np.sum(p * U, axis=-1, keepdims=True)
 
 
-def outside_flow(coefficients: Coefficients, theta: ArrayLike) -> tuple[Array, Array]:
+def outside_flow(coefficients: AtZ, theta: ArrayLike) -> tuple[Array, Array]:
     """``(rho'/rho, theta')`` outside, eq:polar_gen_odes_desing: lambda_rho(theta) and Theta(theta), each (...,)."""
     theta = np.asarray(theta, float)
     c, s = np.cos(theta), np.sin(theta)
