@@ -23,7 +23,6 @@ ELSEWHERE: dict[str, tuple[str, ...]] = {
     "core.numerics": ("core/layer_problem", "precision/test_equator.py"),
     "core.psi": ("precision/test_steepness.py",),
     "core.portrait": ("precision/test_separatrices.py",),
-    "core.scene": ("core/test_scene.py", "core/test_scene_typed.py"),
     "core.sliding": ("core/layer_problem/test_critical.py",),
     "core.stepping": ("core/orbits",),
     "core.systems": ("core/layer_problem/test_critical.py",),
@@ -59,7 +58,10 @@ def room(module: str) -> str:
 def guards(name: str) -> tuple[str, ...]:
     """Files and folders of the tests that guard a room."""
     own = name.replace(".", "/")
-    there = [own] if (ROOT / "tests" / own).is_dir() else []
+    folder = ROOT / "tests" / own
+    # a module beside the rooms has files of tests beside their folders
+    beside = (path.relative_to(ROOT / "tests").as_posix() for path in folder.parent.glob(f"test_{folder.name}*.py"))
+    there = [own] if folder.is_dir() else sorted(beside)
     return (*there, *ELSEWHERE.get(name, ()))
 
 
