@@ -12,6 +12,7 @@ from typing import Any
 from numpy.typing import NDArray
 from param.parameterized import batch_call_watchers
 
+from codim2_core.portrait.classification import Classification
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.coefficients import Coefficients
@@ -254,6 +255,14 @@ def seen(scene: Scene, window: Window | None, rest: bool) -> Scene:
     return scene.evolve(**changes) if changes else scene
 
 
+def told_once(name: Classification) -> str:
+    """Return the sentence of a portrait without what its degeneracies, shown below it, say again."""
+    sentence = name.sentence
+    for degeneracy in name.degeneracies:
+        sentence = sentence.replace(degeneracy.sentence.partition(" Undecided within")[0], "").strip()
+    return sentence
+
+
 def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
     """Say which parameters were given a value and are none of the system's, and that a motion cannot start."""
     said = []
@@ -331,7 +340,7 @@ def make_frame(
         header["portrait"] = {
             "case": name.case,
             "name": name.name,
-            "sentence": name.sentence,
+            "sentence": told_once(name),
             "degeneracies": [[item.name, item.sentence] for item in name.degeneracies],
         }
     flow = scene["slow_flow"]

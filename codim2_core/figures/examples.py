@@ -20,15 +20,15 @@ def example_presets() -> dict[str, Preset]:
     ball = Preset(group="Examples", label="sec:ballpool, fig:ballpool3d", example="ball_in_pool", view="stack")
     add(
         "ball-stick", ball, title="Ball: it sticks and rolls", z=(4.0, 0.0), portrait=("I", "CM2", "stable node"),
-        note="|z| < z_crit = 7μmg/(2K): all trajectories end up on the critical set.",
+        note="|z| < 7μmg/(2K): all trajectories end up on the critical set.",
     )  # fmt: skip
     add(
         "ball-critical", ball, title="Ball: on the point of slipping", z=(Z_CRIT, 0.0), portrait=("I", "NCM2", None),
-        degeneracy="transcritical", note="|z| = z_crit: the critical set reaches the equator (fig:transcrit).",
+        degeneracy="transcritical", note="|z| = 7μmg/(2K): the critical set reaches the equator (fig:transcrit).",
     )  # fmt: skip
     add(
         "ball-slip", ball, title="Ball: it slips", z=(9.0, 0.0), portrait=("I", "NCM2", None),
-        note="|z| > z_crit: all trajectories but one slip.",
+        note="|z| > 7μmg/(2K): all trajectories but one slip.",
     )  # fmt: skip
     add(
         "ball-dynamic", ball, title="Ball: slipping, then rolling", z=(9.0, 0.0), portrait=("I", "NCM2", None),

@@ -361,3 +361,14 @@ def test_a_refused_text_does_not_keep_the_picture_from_coming_once_all_is_compil
     header, _ = unpack(frames.answer({"id": 2}))
     assert (header["ready"], list(header["errors"])) == (True, ["text:W"])
     assert "portrait" in header
+
+
+@pytest.mark.parametrize("plane", [(-1, 0, -1, 1, 0), (-1, 0, -1, 0, 0), (1, 1, -1, 0.5, 0.25), (-1, 1, -1, 1, 0)])
+def test_no_sentence_is_said_twice(plane):
+    frames = Frames(ExplorerState(**dict(zip(("a", "b", "d", "f1", "f2"), plane, strict=True))))
+    header, _ = unpack(frames.answer({"all": True}))
+    portrait = header["portrait"]
+    assert portrait["degeneracies"]
+    for _, sentence in portrait["degeneracies"]:
+        assert sentence.partition(" Undecided within")[0] not in portrait["sentence"]
+    assert portrait["sentence"].split(". ", 1)[-1]
