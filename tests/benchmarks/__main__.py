@@ -37,6 +37,7 @@ TABLES = {
     "scene": "A cold scene", "general": "Typed systems", "simulate": "Simulated motions against eps",
     "app": "The server", "browser": "Painted frames", "equator": "Counts of limit directions",
     "census": "A census of portraits", "cycles": "Case III and its cycles",
+    "compiled": "Motions against SciPy with a compiled right-hand side",
 }  # fmt: skip
 ON_PAGE = ("trajectories", "scene", "general", "app", "equator", "census")
 # Titles of the plots of the second picture, by their beginnings.
