@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..layer_problem.border import CANCELS, to_all_digits
 from ..layer_problem.critical import locate
 from ..numerics.trigonometric import tangential_zeros
 from ..psi.constructors import many
@@ -162,7 +163,13 @@ def linearise(plane: Plane, exponent: int | None = None) -> Linearisation:
     if len(inside):
         a, b, d, f1, f2 = (np.ldexp(v[inside], exponent) for v in plane.arrays)
         det, gap = det[inside], gap[inside]
-        e1, e2 = -(d * f1 + b * f2) / det, (b * f1 - a * f2) / det
+        n1, n2 = d * f1 + b * f2, a * f2 - b * f1
+        # where a difference has lost digits, which J would show
+        near = (gap < CANCELS * det * det) | (abs(det) < CANCELS * (abs(a * d) + b * b))
+        if near.any():
+            gap, det = gap.copy(), det.copy()
+            gap[near], det[near], n1[near], n2[near] = to_all_digits(*(v[near] for v in (a, b, d, f1, f2)))
+        e1, e2 = -n1 / det, -n2 / det
         modulus = np.hypot(e1, e2)
         complement = np.clip(gap / (det * det), 1e-300, 1.0)
         psi = plane.psi if plane.n is None else many(plane.psi, plane.n[inside])

@@ -22,6 +22,7 @@ from ..psi.function import Psi
 from ..systems.coefficients import Affine
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
+from .border import CANCELS, to_all_digits
 from .disc_zeros import disc_zeros
 from .linearisation import (
     CANCELLATION,
@@ -153,6 +154,8 @@ def locate(at: AtZ) -> Location:
         return _locate_exactly(a, b, d, f1, f2)
     if gap < 0.0:
         return Location(Existence.NONE)
+    if gap < CANCELS * size:
+        gap, det, n1, n2 = to_all_digits(a, b, d, f1, f2)
     return Location(Existence.INSIDE, (-n1 / det + 0.0, -n2 / det + 0.0), gap / (det * det))
 
 

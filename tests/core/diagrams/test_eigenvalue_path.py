@@ -42,9 +42,8 @@ def test_every_point_agrees_with_critical_sets(b: float, d: float, f1: float, f2
             continue
         if found:
             scale = abs(found[0].jacobian).max()
-            # e = -A^-1 f is known to cond(A) roundings, and J reads 1 - |e|^2
-            e, stretch = found[0].e, np.linalg.cond([[value, -b], [b, d]])
-            rounding = 2.0**-52 * (1.0 + stretch / (1.0 - e @ e))
+            # e = -A^-1 f is known to cond(A) roundings; 1 - |e|^2, which J reads, to all digits
+            rounding = 2.0**-52 * (1.0 + np.linalg.cond([[value, -b], [b, d]]))
             assert path.trace[i] == pytest.approx(found[0].trace, rel=0, abs=8 * rounding * scale)
             assert path.determinant[i] == pytest.approx(found[0].determinant, rel=0, abs=16 * rounding * scale**2)
             assert path.discriminant[i] == pytest.approx(found[0].discriminant, rel=0, abs=32 * rounding * scale**2)
@@ -52,6 +51,19 @@ def test_every_point_agrees_with_critical_sets(b: float, d: float, f1: float, f2
             np.testing.assert_allclose(path.eigenvalues[i].prod(), path.determinant[i], atol=1e-12 * scale**2)
             if abs(path.discriminant[i]) > 1e-12 * scale**2 and abs(path.trace[i]) > 1e-12 * scale:
                 assert path.kind[i] == found[0].kind
+
+
+@given(st.floats(-7.0, -1.0), st.floats(0.0, 6.28), st.sampled_from([c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(2)]))
+def test_near_the_equator_no_digits_are_lost(gap: float, theta: float, psi: c2.Psi) -> None:
+    """1 - |e|^2 is a difference of squares: in doubles it would lose all digits but 16 + gap."""
+    A = np.array([[-1.3, -0.4], [0.4, -2.1]])
+    f = -(1.0 - 10.0**gap) * A @ [np.cos(theta), np.sin(theta)]
+    system = c2.ELinear(-1.3, 0.4, -2.1, f=tuple(f))
+    (C,) = c2.critical_sets(system, psi)
+    path = linearisation_path(system, psi, "a", [-1.3, -1.0])
+    size = abs(C.jacobian).max()
+    assert path.trace[0] == pytest.approx(C.trace, rel=0, abs=2e-14 * size)
+    assert path.determinant[0] == pytest.approx(C.determinant, rel=1e-13)
 
 
 def test_no_critical_set_is_masked_and_nothing_is_nan() -> None:
