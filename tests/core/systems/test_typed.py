@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from codim2_core import ELinear
 from codim2_core.expressions.expression import ExpressionError, parse
-from codim2_core.systems.typed import LONGEST_KEY, MOST_NAMES, MOST_NUMBERS, System
+from codim2_core.systems.formulas import LONGEST_KEY
+from codim2_core.systems.typed import MOST_NAMES, MOST_NUMBERS, System
 from tests.work import calls
 
 CUBIC = ("-c*(c - chi(z)/2)*(c + chi(z)/2)", "-s/2")

@@ -1,0 +1,156 @@
+"""Reading what a typed system is made of: formulas, parameters and definitions, checked against a whitelist."""
+
+from __future__ import annotations
+
+import math
+import re
+import reprlib
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ..expressions.expression import Expression, ExpressionError, parse
+from ..expressions.names import MOST_SLOW_VARIABLES, PLANE, SLOW
+from ..expressions.reader import MOST_CHARACTERS
+from .bounds import LARGEST
+
+Text = str | float | int | Expression
+
+LONGEST_KEY = 200  # characters of a definition's name with its arguments
+
+_SHORT = reprlib.Repr()
+_SHORT.maxstring = _SHORT.maxother = 60
+
+
+def shortened(value: object) -> str:
+    """Return repr(value) for a message, of bounded length and made in bounded time."""
+    return _SHORT.repr(value)
+
+
+def mapping(values: Any, what: str) -> dict[str, Any]:
+    """Check names with values."""
+    try:
+        return dict(values)
+    except (TypeError, ValueError):
+        raise ValueError(f"{what} is {shortened(values)}; give names with values, such as {{'mu': 0.2}}.") from None
+
+
+def parameter(name: object, value: object) -> float:
+    """Check the name and the value of a parameter."""
+    if not isinstance(name, str) or len(name) > 40:
+        raise ValueError(f"{shortened(name)} cannot name a parameter; use at most 40 ASCII letters, digits and _.")
+    if name in PLANE or name == "z" or name in SLOW:
+        raise ValueError(f"{name!r} cannot name a parameter: c, s, x, y, z, z1 … z{MOST_SLOW_VARIABLES} are variables.")
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if not abs(number) <= LARGEST:
+        raise ValueError(
+            f"parameter {shortened(name)} is {shortened(value)}; give a finite number, at most {LARGEST:g} in size."
+        )
+    return number
+
+
+def texts(rows: Any, what: str) -> tuple[Text, ...]:
+    """Check formulas given as text, one or several."""
+    if rows is None:
+        return ()
+    if isinstance(rows, (str, Expression, float, int)) or not hasattr(rows, "__iter__"):
+        rows = (rows,)
+    rows = tuple(rows)
+    for row in rows:
+        if not isinstance(row, (str, Expression, float, int)):
+            raise ValueError(f"{what} has the entry {shortened(row)}; give formulas as text, such as '-c + z'.")
+    return rows
+
+
+Definition = tuple[str, str, re.Pattern[str], Expression]  # key, text, what a call looks like, meaning
+
+
+def definitions(given: Mapping[str, Any], parameters: tuple[str, ...]) -> tuple[Definition, ...]:
+    """Read named sub-expressions, each of which may use the ones before it."""
+    found: list[Definition] = []
+    for key, text in given.items():
+        short = isinstance(key, str) and len(key) <= LONGEST_KEY
+        match = re.fullmatch(r"\s*([A-Za-z]\w*)\s*(?:\(([\w\s,]*)\))?\s*", key, re.ASCII) if short else None
+        if match is None:
+            raise ValueError(f"{shortened(key)} cannot name a definition; write a name such as 'chi' or 'chi(z)'.")
+        name, arguments = match[1], match[2] or ""
+        if name in PLANE or name in SLOW or name == "z" or name in parameters or name in [d[0] for d in found]:
+            raise ValueError(f"the definition {shortened(name)} has the name of something else; choose another name.")
+        inside = r"\s*,\s*".join(re.escape(word.strip()) for word in arguments.split(","))
+        call = re.compile(rf"(?<!\w){name}\s*\(\s*{inside or r'z'}\s*\)", re.ASCII)
+        meaning = read(text, f"definition {name}", parameters, tuple(found))
+        found.append((name, text.text if isinstance(text, Expression) else str(text), call, meaning))
+    return tuple(found)
+
+
+def read(text: Text, what: str, parameters: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
+    """Parse one formula; `z` becomes `z1` and definitions are put in."""
+    names = (*PLANE, "z", *SLOW, *parameters, *(definition[0] for definition in definitions))
+    if isinstance(text, Expression):
+        foreign = [name for name in text.names if name not in names]
+        if foreign:
+            raise ValueError(f"{what} reads {shortened(foreign[0])}, which is no variable, parameter or definition.")
+        return _resolved(text, names, definitions)
+    if not isinstance(text, (str, float, int)):
+        raise ValueError(f"{what} is {shortened(text)}; give a formula as text, such as '1 + z**2'.")
+    source = text if isinstance(text, str) else _numeral(text, what)
+    for name, _, call, _ in definitions if len(source) <= MOST_CHARACTERS else ():
+        # chi(z) is written as chi, padded to the same length so that columns in messages stay right
+        source = call.sub(lambda match, name=name: name.ljust(len(match[0])), source)
+    try:
+        expression = parse(source, names)
+    except ExpressionError as error:
+        raise ExpressionError(f"{what}: {error}", error.text, error.column) from error
+    return _resolved(expression, names, definitions)
+
+
+def continuous(row: Expression, what: str) -> None:
+    """Refuse a formula that jumps in c, s, x or y, or that writes e by x and y, which is undefined on Sigma."""
+    moves: list[bool] = []
+    tape = row.tape
+
+    def squared(i: int) -> str:
+        op, *args = tape[i]
+        square = (op == "**" and tape[args[1]] == ("num", 2.0)) or (op == "*" and args[0] == args[1])
+        return tape[args[0]][1] if square and tape[args[0]][0] == "name" else ""
+
+    def distance(i: int) -> bool:
+        """Whether entry i is the distance from Sigma, sqrt(x^2 + y^2)."""
+        op, *args = tape[i]
+        if op == "**" and tape[args[1]] == ("num", 0.5):
+            op = "sqrt"
+        return op == "sqrt" and tape[args[0]][0] == "+" and {squared(j) for j in tape[args[0]][1:]} == {"x", "y"}
+
+    for op, *args in tape:
+        moves.append(args[0] in PLANE if op == "name" else op != "num" and any(moves[i] for i in args))
+        if op == "sign" and moves[-1]:
+            raise ValueError(
+                f"{what} has the sign of a formula in c, s, x or y: it jumps there, on a discontinuity set of "
+                "codimension 1. Write abs(u) for u*sign(u), or a steep tanh(u/0.05)."
+            )
+        if op == "/" and distance(args[1]):
+            raise ValueError(
+                f"{what} divides by sqrt(x^2 + y^2), which is 0 on Σ; write c for x/sqrt(x^2 + y^2) and s for "
+                "y/sqrt(x^2 + y^2)."
+            )
+
+
+def _numeral(value: float, what: str) -> str:
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not abs(number) <= LARGEST:
+        raise ValueError(f"{what} is {shortened(value)}; give a finite number, at most {LARGEST:g} in size, or text.")
+    return repr(number)
+
+
+def _resolved(expression: Expression, names: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
+    """Put z1 for z, and the definitions' meanings for their names."""
+    expression = expression.substitute("z", parse("z1", names)) if "z" in expression.names else expression
+    for name, _, _, meaning in reversed(definitions):
+        if name in expression.names:
+            expression = expression.substitute(name, meaning)
+    return expression
