@@ -13,7 +13,6 @@ from ..portrait.classify import classify
 from ..psi import constructors
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .names import NAMES, names
 from .table import Census, Tally, tabulated
 
 #: Draws systems: (random generator, how many) to coefficients (n, 5), or to a sequence of systems.
@@ -152,6 +151,8 @@ def tally(draw: Draw, psi: Psi, seed: int, i: int, size: int) -> Tally:
 
 
 def _of_coefficients(plane: NDArray[np.float64]) -> Tally:
+    from .names import NAMES, names  # on first use: it loads the compiler
+
     codes, margins, others = names(plane)
     found: dict[str, tuple[int, float, Any, float, Any]] = {}
     for code in np.unique(codes[codes > 0]):
