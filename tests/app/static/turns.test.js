@@ -60,3 +60,36 @@ test("slip that is all of the velocity turns nothing, and a spin on the spot tur
   still.prepare({t: [0, 1], states: [[-1, -1], [0, 0], [0, 0], [0, 0]], ball: "velocity"})
   near([still.radius], [0.07e-6], 1e-20)
 })
+
+test("the ball is drawn where the motion has brought it, y upwards, its way so far over the whole way", () => {
+  const drawn = []
+  const note = (name) => (...values) => { drawn.push([name, ...values]) }
+  const g = {setTransform() {}, stroke() {}, fill() {}, createRadialGradient: (...v) => { drawn.push(["light", ...v]); return {addColorStop() {}} },
+    beginPath: note("begin"), moveTo: note("move"), lineTo: note("line"), arc: note("arc")}
+  const global = /** @type {any} */ (globalThis)
+  global.devicePixelRatio = 1
+  global.getComputedStyle = () => ({getPropertyValue: (name) => name})
+  const ball = new Ball({}, {clientWidth: 200, clientHeight: 100, getContext: () => g})
+  const none = [0, 0, 0]
+  ball.prepare({t: [0, 1, 3], states: [none, none, none, none, [1, 4, 2], [-1, 0, 9]], ball: "position"})
+  ball.show(null, 1.5)
+  const scale = 0.92 * Math.min(200 / 4.4, 100 / 11.4)
+  const places = [[1, -1], [4, 0], [2, 9]].map(([x, y]) => [100 + scale * (x - 2.5), 50 - scale * (y - 4)])
+  const strokes = drawn.join(";").split("begin;").slice(1).map((part) => part.split(";").filter(Boolean).map((one) => one.split(",")))
+  const points = (stroke) => stroke.filter(([name]) => name === "move" || name === "line").flatMap(([, x, y]) => [Number(x), Number(y)])
+  near(points(strokes[0]), places.flat(), 1e-9)
+  assert.deepEqual(strokes[0].map(([name]) => name), ["move", "line", "line"])
+  near(points(strokes[1]), places.slice(0, 2).flat(), 1e-9) // at 1.5 the second of three is the last one reached
+  assert.equal(points(strokes[1]).length, 4)
+  const r = 0.7 * scale, [cx, cy] = places[1]
+  near(drawn.find(([name]) => name === "light").slice(1), [cx - r / 3, cy - r / 3, r / 8, cx, cy, r], 1e-9)
+  for (const stroke of strokes.slice(3, 6)) { // great circles, on the half that faces us
+    const xy = points(stroke)
+    assert.ok(xy.length >= 40)
+    for (let k = 0; k < xy.length; k += 2) assert.ok(Math.hypot(xy[k] - cx, xy[k + 1] - cy) <= r * (1 + 1e-9))
+  }
+  // nothing has turned: the circle around the x axis is seen edge on, that around z whole
+  assert.ok(points(strokes[3]).every((v, k) => k % 2 || Math.abs(v - cx) < 1e-9))
+  near([Math.max(...points(strokes[5]).filter((_, k) => k % 2 === 0))], [cx + r], 1e-9)
+  assert.ok(points(strokes[3]).length < points(strokes[5]).length)
+})
