@@ -62,12 +62,13 @@ def holoviews(scene: Scene) -> Any:
     >>> len(picture)
     10
     """
-    overlay = hv.Overlay(list(elements(scene).values()))
-    if "bokeh" not in hv.Store.renderers:
-        return overlay
-    return overlay.opts(
-        xlim=(-VIEW, VIEW), ylim=(-VIEW, VIEW), data_aspect=1, frame_width=500, show_legend=False, backend="bokeh"
-    )
+    overlay: Any = hv.Overlay(list(elements(scene).values()))
+    x, y = (str(hv.Dimension(axis).label) for axis in AXES)
+    common = {"xlim": (-VIEW, VIEW), "ylim": (-VIEW, VIEW), "show_legend": False, "xlabel": x, "ylabel": y}
+    sized = {"bokeh": {"data_aspect": 1, "frame_width": 500}, "matplotlib": {"aspect": "equal", "fig_inches": 6}}
+    for backend in sized.keys() & hv.Store.renderers.keys():
+        overlay = overlay.opts(**common, **sized[backend], backend=backend)
+    return overlay
 
 
 def _pieces(offsets: Any, points: Any) -> list[Any]:

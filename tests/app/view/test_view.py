@@ -133,3 +133,20 @@ def test_the_page_says_which_paper_it_shows_and_what_its_words_mean():
     assert "four limit directions, all radially attracting" in found["opening"]
     assert (len(scene["equator"]), bool((scene["equator"].lambda_rho < 0).all())) == (4, True)
     assert scene["critical"][0].kind.startswith("stable")
+
+
+def test_both_backends_of_holoviews_draw_equal_axes_with_the_papers_names():
+    pytest.importorskip("matplotlib")
+    code = """
+import holoviews as hv
+hv.extension("bokeh", "matplotlib")
+import codim2_app, codim2_core as c2
+overlay = codim2_app.holoviews(c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0)), count=12))
+(axes,) = hv.render(overlay, backend="matplotlib").axes
+assert axes.get_aspect() == 1.0, axes.get_aspect()
+assert (axes.get_xlabel(), axes.get_ylabel()) == ("x\u0304", "\u0233"), axes.get_xlabel()
+figure = hv.render(overlay, backend="bokeh")
+assert figure.match_aspect
+assert figure.xaxis[0].axis_label == axes.get_xlabel()
+"""
+    subprocess.run([sys.executable, "-c", code], check=True)
