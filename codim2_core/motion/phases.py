@@ -27,6 +27,7 @@ from .result import Phase
 Array = NDArray[np.float64]
 
 NEAR = 20.0  # r in units of eps within which a motion is in contact with Sigma
+CLOSE = 3.0  # and from which on what it follows then is said to begin: |p| < 0.95
 HALVINGS = 45
 PASSING = (
     35.0  # e-foldings: what does not attract, and is followed no longer than rounding takes to leave it, is passed
@@ -205,7 +206,7 @@ class _Reader:
         for first, last in self.stays():
             initial, final = first == 0, last + 1 == len(self.times)
             runs = self.runs(first, last)
-            begins = t if initial else self.contact(first - 1, runs)
+            begins = t if initial else self.contact(first, last, runs)
             ends = t_end if final else max(self.boundary(last, self.near), runs[-1].t_end if runs else t)
             onto = self.ahead(self.states[-1]) if final and (not runs or runs[-1].t_end < t_end) else None
             if onto is not None:
@@ -232,11 +233,15 @@ class _Reader:
         if t < t_end or t == float(self.times[0]) == t_end:
             yield Phase("slip", t, t_end, reason)
 
-    def contact(self, i: int, runs: list[_Run]) -> float:
-        """Time, in the step from end i on, at which a contact begins."""
-        if self.near(self.states[i + 1]) and not self.near(self.states[i]):
-            return self.boundary(i, self.near)
-        return runs[0].t_start if runs else float(self.times[i + 1])
+    def contact(self, first: int, last: int, runs: list[_Run]) -> float:
+        """Return the time at which a contact, from one step end to another, begins."""
+        close = lambda state: math.hypot(state[0], state[1]) <= CLOSE * self.eps  # noqa: E731
+        for i in range(first, (runs[0].first if runs else last) + 1):
+            if close(self.states[i]):
+                return self.boundary(i - 1, close)
+        if runs:
+            return runs[0].t_start
+        return self.boundary(first - 1, self.near)
 
 
 def phases_of(system: AnySystem, psi: Psi, eps: float, motion: Dense) -> tuple[Phase, ...]:
