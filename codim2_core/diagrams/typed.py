@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import linear_sum_assignment
 
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
@@ -292,11 +291,12 @@ def _followed(
     before: Sequence[CriticalSet], after: Sequence[CriticalSet]
 ) -> tuple[list[tuple[CriticalSet, CriticalSet]], list[CriticalSet], list[CriticalSet]]:
     """Critical sets that go on from one state to the other, those that went, and those that came."""
-    if not before or not after:
-        return [], list(before), list(after)
-    away = np.array([[math.dist(C.p, D.p) for D in after] for C in before])
-    rows, columns = linear_sum_assignment(np.minimum(away, 10.0 * _TOGETHER))
-    joined = [(i, j) for i, j in zip(rows.tolist(), columns.tolist(), strict=True) if away[i, j] < _TOGETHER]
+    # the nearest first: at two values so close together what goes on has hardly moved
+    near = sorted((math.dist(C.p, D.p), i, j) for i, C in enumerate(before) for j, D in enumerate(after))
+    joined: list[tuple[int, int]] = []
+    for gap, i, j in near:
+        if gap < _TOGETHER and not any(i == k or j == m for k, m in joined):
+            joined.append((i, j))
     gone = [C for i, C in enumerate(before) if i not in {i for i, _ in joined}]
     come = [D for j, D in enumerate(after) if j not in {j for _, j in joined}]
     return [(before[i], after[j]) for i, j in joined], gone, come
