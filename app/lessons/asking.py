@@ -9,10 +9,9 @@ from typing import Any
 from codim2_core.scene import Scene
 
 from ..frame.scenes import make_scene
-from ..state.controls import preset_values
 from .condition import Condition
 from .facts import Fact, facts_of
-from .lesson import Question
+from .lesson import Question, portrait_of
 from .words import filled
 
 MOST_DRAWN = 60  # tries to fulfil what a question requires
@@ -42,7 +41,7 @@ def pose(question: Question, values: Mapping[str, Any], seed: int) -> dict[str, 
     admitted: dict[str, Any] | None = None
     for _ in range(MOST_DRAWN):
         drawn = {name: _drawn(chance, value) for name, value in question.draw.items()}
-        scene = make_scene({**values, **preset_values(drawn.get("preset")), **drawn})
+        scene = make_scene({**values, **portrait_of(drawn.get("preset")), **drawn})
         if _holds(question.require, scene, default=True) and not reached(question, scene):
             admitted = drawn
             if not _varies(question) or _holds(question.options[wanted].when, scene):

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from ..state.controls import preset_values
 from .condition import Condition
 from .words import fields
 
@@ -84,6 +85,15 @@ class Question:
         if self.vary is not None:
             needed |= self.vary.goal.names
         return frozenset(needed)
+
+
+#: Values that say where in the course somebody is: no portrait that a lesson shows may move them.
+PLACE = frozenset({"panel", "lesson", "quiz"})
+
+
+def portrait_of(key: str | None) -> dict[str, Any]:
+    """Return the values of a portrait as a lesson shows it; none if there is no such portrait."""
+    return {name: value for name, value in preset_values(key).items() if name not in PLACE}
 
 
 @dataclass(frozen=True)

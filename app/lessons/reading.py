@@ -11,10 +11,10 @@ import yaml
 from markdown_it.token import Token
 
 from ..draw.layers import LAYERS
-from ..state.controls import NAMES, InputError, clean, preset_values
+from ..state.controls import NAMES, InputError, clean
 from .condition import Condition, condition
 from .facts import COMPILED, KNOWN
-from .lesson import Lesson, Option, Prose, Question, Vary
+from .lesson import Lesson, Option, Prose, Question, Vary, portrait_of
 from .markdown import LinkError, button, draggable, inline, live, parser, rendered
 from .words import fields
 
@@ -84,7 +84,7 @@ def _start(path: Path, head: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _portrait(path: Path, line: int, key: str) -> dict[str, Any]:
-    found = preset_values(key)
+    found = portrait_of(key)
     if not found:
         raise LessonError(path, line, f"there is no portrait {key!r}; `codim2 presets` lists them.")
     return {**found, "preset": key}

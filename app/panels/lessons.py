@@ -9,10 +9,10 @@ from codim2_core.scene import Scene
 from ..frame.draft import Draft
 from ..lessons.asking import judge, pose, reached
 from ..lessons.facts import COMPILED, facts_of
-from ..lessons.lesson import Lesson, Prose, Question
+from ..lessons.lesson import Lesson, Prose, Question, portrait_of
 from ..lessons.library import lessons
 from ..lessons.words import filled
-from ..state.controls import ExplorerState, preset_values
+from ..state.controls import ExplorerState
 from .panel import Panel
 
 
@@ -112,7 +112,7 @@ def _posed(lesson: Lesson, question: Question, seed: int) -> dict[str, Any]:
     """Return the values about which a question is asked: those of the lesson, and what is drawn over them."""
     start = ExplorerState.of(lesson.values).values()
     drawn = pose(question, start, seed)
-    return {**lesson.values, **preset_values(drawn.get("preset")), **drawn, "panel": "lessons"}
+    return {**lesson.values, **portrait_of(drawn.get("preset")), **drawn}
 
 
 def _anew(scene: Scene) -> Scene:

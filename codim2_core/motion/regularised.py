@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 import os
+import sys
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from typing import overload
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,13 +18,15 @@ from ..numerics.growth import BlowUpError, bounded
 from ..numerics.radau import Problem, Step, TooManyStepsError, steps
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .compiled import Compiled, is_compiled
 from .events import Events, Watch, checked_events
 from .field import Field, field
 from .line import invariant_line
 from .phases import phases_of
 from .problem import plane_problem
 from .result import Simulation, SimulationStatus, simulation
+
+if TYPE_CHECKING:
+    from .compiled import Compiled
 
 __all__ = ["simulate"]
 
@@ -231,9 +234,10 @@ def _followed(
     parts: list[Steps] = []
     t, state, h = span[0], first, first_step(problem, first, rate)
     motion: Compiled | None = None
+    compile_at_once = compile_at_once or _is_compiled(formulas)
     status, detail = SimulationStatus.T_END, ""
     try:
-        if not (compile_at_once or is_compiled(formulas)):
+        if not compile_at_once:
             for step in bounded(problem, steps(problem, *span, first, rtol, h, max_steps)):
                 last = watch.step(step)
                 taken.append(step if last is None else last)
@@ -243,6 +247,8 @@ def _followed(
                     t, state, h = step.end, step.last, step.h
                     break
         if t < span[1] and len(taken) in (0, PATIENCE):
+            from .compiled import Compiled  # loads the compiler, which most motions do without
+
             motion = Compiled(
                 problem, formulas, psi, eps, line, t, span[1], state, rtol, atol / rtol, h, max_steps - len(taken)
             )
@@ -264,3 +270,9 @@ def _followed(
         status, detail = SimulationStatus.STEP_LIMIT, str(error)
     evaluations = count[0] + (0 if motion is None else motion.evaluations)
     return [gathered(taken, len(first)), *parts], status, detail, evaluations
+
+
+def _is_compiled(formulas: Field) -> bool:
+    """Whether the formulas are compiled already; none are before the compiler has been loaded."""
+    module = sys.modules.get(f"{__package__}.compiled")
+    return module is not None and module.is_compiled(formulas)

@@ -256,7 +256,7 @@ def test_theorems_are_evaluated_with_their_numbers():
     assert rows["thm:case1(c)"][2:4] == ["holds", "This one is CM4."]
     assert ["limit directions", 4.0] in rows["thm:case1(c)"][4]
     assert rows["thm:case2(a)"][2] == "does not apply"
-    assert "theorems" not in ask(frames, k2=0.5)
+    assert "theorems" not in ask(frames, trajectories=32)
     assert {row[0]: row for row in ask(frames, f1=3.0)["theorems"]}["thm:case1(c)"][3] == "This one is NCM2."
     ask(frames, panel="numbers")
     runs = frames.scene.runs["certificates"]

@@ -58,7 +58,7 @@ def test_what_cannot_be_registered(tmp_path):
         examples.register("ball")
     with pytest.raises(ValueError, match="there is an example 'ball_in_pool' already"):
         examples.register(examples.catalogue["ball_in_pool"])
-    with pytest.raises(ValueError, match="is no example that was registered"):
+    with pytest.raises(ValueError, match="no example that was registered"):
         examples.unregister("ball_in_pool")
     with added_example(tmp_path) as example:
         from dataclasses import replace
@@ -78,7 +78,7 @@ def test_what_cannot_be_registered(tmp_path):
     ):
         with pytest.raises(ValueError, match=words):
             register(wrong)
-    with pytest.raises(ValueError, match="is no preset that was registered"):
+    with pytest.raises(ValueError, match="no preset that was registered"):
         unregister("case1-cm0")
 
 
