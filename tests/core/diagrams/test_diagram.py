@@ -258,10 +258,21 @@ def test_typed_systems_have_the_special_values_of_their_e_linear_twins(hundredth
     span = (values[name] - 1.013, values[name] + 0.971)
     D = diagram(_TYPED.evolve(**values), c2.psi.tanh(), name, span)
     E = diagram(c2.ELinear(a, b, d, (f1, f2)), c2.psi.tanh(), name, span)
-    for kind in ("saddle-node", "transcritical", "Hopf", "neutral equator"):
+    kinds = ("saddle-node", "transcritical", "Hopf", "neutral equator")
+    # closer than the brackets of a typed diagram, two events are told at one value: see the test below
+    assume(min(np.diff(sorted(v for kind in kinds for v in found(E, kind))), default=1.0) > 1e-6)
+    for kind in kinds:
         exact = found(E, kind)
         assume(min(np.diff(exact), default=1.0) > 1e-4)
         assert_allclose(found(D, kind), exact, atol=1e-9)
+
+
+def test_events_closer_than_a_bracket_are_both_told_at_one_value() -> None:
+    """A saddle-node and a transcritical bifurcation 1.4e-8 apart: C leaves where two limit directions meet."""
+    values = dict(zip(_PLANE, (0.0037, 0.3911, 1.4859, -0.6877, 1.4543), strict=True))
+    D = diagram(_TYPED.evolve(**values), c2.psi.tanh(), "a", (-1.0093, 0.9747))
+    assert [s.kind for s in D.special] == ["saddle-node", "change of critical sets"]
+    assert_allclose([s.value for s in D.special], -0.65432417, atol=2e-8)
 
 
 def test_pitchforks_of_a_general_system_are_both_named() -> None:

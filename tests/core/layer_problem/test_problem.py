@@ -61,7 +61,6 @@ def test_a_general_system_likewise(calls):
         scene[name]
     assert {key[0]: count for key, count in calls.items() if key[0] != "sets_at"} == {"equilibria_at": 1}
     assert calls["sets_at", TYPED.at(0.25).key, psi.tanh()] == 1  # a certificate asks at other z, too
-    assert set(calls.values()) == {1}
 
 
 def test_another_psi_shares_what_does_not_depend_on_it():

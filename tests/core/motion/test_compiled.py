@@ -30,9 +30,9 @@ FORCED = System(U=("1.5*cos(z) - c", "-s"), W=("1",))
 def test_it_is_the_motion_in_python(monkeypatch, psi, eps):
     state0, span = (-1.0, 0.3, 10.0, 0.0), (0.0, 3.0)
     monkeypatch.setattr(regularised, "PATIENCE", 10**9)
-    monkeypatch.setattr(regularised, "is_compiled", lambda formulas: False)
+    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
     own = simulate(BALL, psi, eps, state0, span, rtol=1e-9)
-    monkeypatch.setattr(regularised, "is_compiled", lambda formulas: True)
+    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: True)
     compiled = simulate(BALL, psi, eps, state0, span, rtol=1e-9)
     # Newton's method takes a slope by differences, so that a step may be taken or not.
     assert len(compiled.times) == pytest.approx(len(own.times), abs=6)
@@ -57,7 +57,7 @@ def test_a_long_motion_goes_on_compiled(monkeypatch):
 
 
 def test_compiled_motions_end_as_others_do(monkeypatch):
-    monkeypatch.setattr(regularised, "is_compiled", lambda formulas: True)
+    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: True)
     grows = System(U=("x**2 - c", "-s"))
     run = simulate(grows, families.constant(), 1e-4, (2.0, 0.0), (0.0, 20.0))
     assert run.status is SimulationStatus.BLOW_UP
