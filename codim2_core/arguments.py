@@ -19,7 +19,7 @@ from .systems.coefficients import Coefficients
 from .systems.elinear import ELinear
 from .systems.kinds import KINDS
 
-LARGEST = 1e100  # of a number: squares and fourth powers of it, as geometry needs them, are finite
+LARGEST = 1e150  # of a number: its square is finite
 MOST_VALUES = 1_000_000  # in an array
 MOST: Mapping[str, int] = {"count": 1_000_000_000, "n": 4096, "max_steps": 100_000_000, "seed": 2**63 - 1}
 MOST_HERE: Mapping[tuple[str, str], int] = {("slow_portrait", "count"): 20_001}

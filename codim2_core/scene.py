@@ -46,6 +46,7 @@ from .systems.kinds import KINDS, AnySystem
 from .theorems.certificates import Certificate, certificates_of
 
 AROUND = 0.05  # radius of the seeds around an unstable critical set
+STEPS = 780  # of half a drawn orbit: one that creeps along a slow direction, 1/300 as fast, is not waited for
 CAPTURE = 0.25  # of a pixel: where a drawn trajectory ends, so near its equilibrium that nobody can see the rest
 REMEMBERED = 8  # results kept for each layer: a few settings back and forth
 
@@ -284,6 +285,7 @@ def _stepping(scene: Scene, outside: bool = False) -> dict[str, Any]:
         "view": scene.view,
         "pixel": scene.pixel,
         "capture": CAPTURE * scene.pixel,
+        "step_limit": STEPS,
     }
 
 

@@ -172,8 +172,11 @@ def orbit(section: AnySection, crossing: Crossing) -> Orbit | None:
     if backward:
         multiplier = 1.0 / max(multiplier, LEAST)
     line = np.concatenate([first[:, None, :], inner.reshape(-1, NODES, 3)], axis=1).reshape(-1, 3)[:, :2]
+    closed, share = np.concatenate([line, line[:1]])[:: int(sign)].copy(), weight / period
+    for array in (closed, mean_e, e, share):
+        array.flags.writeable = False
     return Orbit(
-        np.concatenate([line, line[:1]])[:: int(sign)].copy(),
+        closed,
         period / section.rate,
         way.time / section.rate,
         multiplier,
@@ -181,5 +184,5 @@ def orbit(section: AnySection, crossing: Crossing) -> Orbit | None:
         mean_e,
         math.dist(way.end, begin),
         e,
-        weight / period,
+        share,
     )

@@ -16,7 +16,7 @@ from .section import COARSE, FINE, INNER, Array, Crossing, Section
 
 TOUCHING = 1e-9  # noise with which a fold can be told: not so near C that all displacements are small
 CLOSE = 1e-3  # width at which a jump from -inf to +inf is left to the map backward in time
-CLOSER, AGREED = 0.02, 1e-8  # spacing of the samples about a fixed point; how far two interpolants may differ
+CLOSER, AGREED = 0.02, 1e-10  # spacing of the samples about a fixed point; how far two interpolants may differ
 NOISE = 1e-8  # displacement that COARSE cannot tell from zero
 NEAR_LOOP = 1e-3
 MEASURED, SMALLEST = 2.0, 1e-8  # where the expansion at C is measured, in INNER; the smallest cycle, in r/R

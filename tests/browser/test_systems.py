@@ -101,9 +101,8 @@ def test_a_motion_plays_in_step_in_all_views(explorer):
     explorer.settle()
     assert "t =" in explorer.find(".phase-now").text_content()
     assert value(explorer, "slow-z") != start
-    drawn = explorer.page.evaluate("""() => Bokeh.documents[0].get_model_by_name('picture')
-        .renderers.find((r) => r.name === 'motion_at').data_source.data.x.length""")
-    assert drawn == 1
+    drawn = explorer.find(".codim2").evaluate("(root) => root.explorer.picture.above.list.map((item) => item.kind)")
+    assert drawn == ["path", "path", "mark"]
 
 
 def test_the_solid_view_turns_without_asking_the_server(explorer):

@@ -23,7 +23,7 @@ def test_trajectories_of_case_three_reach_the_stable_focus():
     assert (np.hypot(*(ends(scene) - C.p).T) < 1.5e-3).sum() >= 16
 
 
-@pytest.mark.parametrize("ratio", [1.0, 30.0, 200.0, 900.0])
+@pytest.mark.parametrize("ratio", [1.0, 30.0, 120.0])
 @pytest.mark.parametrize("unit", [1e-3, 1.0, 1e4])
 def test_all_orbits_end_at_the_node_of_case_one(ratio, unit):
     scene = c2.Scene(c2.ELinear(-unit, 0.3 * unit, -ratio * unit, (-0.5 * unit, 0.1 * unit)), psi.tanh(), count=24)
