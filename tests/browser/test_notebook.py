@@ -80,7 +80,7 @@ def notebook(lab, chromium, request):
     address, folder = lab
     write_notebook(folder / f"{request.param}.ipynb", [START.format(request.param), SECOND, TELL, SET])
     context = chromium.new_context(viewport={"width": 1280, "height": 1000})
-    context.set_default_timeout(60_000)  # the kernel may have to compile the integrator
+    context.set_default_timeout(180_000)  # the kernel may have to compile the integrator
     yield Notebook(context.new_page(), address).open(f"{request.param}.ipynb")
     context.close()
 
