@@ -11,17 +11,17 @@ from .counting.table import Census
 from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
 from .figures.preset import Preset
 from .figures.presets import presets
+from .initial_value.events import Event
 from .layer_problem import hemisphere
 from .layer_problem.critical import CriticalSet, critical_sets
 from .layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
-from .motion.events import Event
 from .motion.nonsmooth import simulate_nonsmooth
 from .motion.regularised import simulate
 from .motion.result import Phase, Simulation, SimulationStatus
+from .nullcline.nullclines import NullclineBranch, nullclines
 from .orbits.trajectories import Trajectories, trajectories
 from .portrait.basins import Basins, basins
 from .portrait.classify import Classification, Degeneracy, classify
-from .portrait.nullclines import NullclineBranch, nullclines
 from .portrait.outcomes import approach_outcomes
 from .portrait.separatrices import Separatrices, Separatrix, separatrices
 from .psi.function import Psi

@@ -187,7 +187,7 @@ BY_NAME: Mapping[str, Check] = {
     "samples": text,
     "p": points,
     "x2": points,
-    "events": _as_given,  # `motion.events` checks them, one by one
+    "events": _as_given,  # `initial_value.events` checks them, one by one
     "family": _as_given,  # `psi` says itself what it takes
     "example": _as_given,
 }

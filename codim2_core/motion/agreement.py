@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..initial_value.field import field
+from ..initial_value.line import invariant_line
 from ..layer_problem.equator import equator_equilibria
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .field import field
-from .line import invariant_line
 from .result import Phase, Simulation
 
 NEUTRAL = 1e-6  # lambda_rho in units of |lambda_theta|: an exit through the equator (fig:transcrit)

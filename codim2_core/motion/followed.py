@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..initial_value.field import Field
 from ..psi.function import Psi
-from .field import Field
 
 Array = NDArray[np.float64]
 

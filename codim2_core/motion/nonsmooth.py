@@ -12,6 +12,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..cycles.limit_cycles import limit_cycles
+from ..initial_value.events import Events, Watch, checked_events
+from ..initial_value.field import Field, field
+from ..initial_value.line import Line, invariant_line
+from ..initial_value.problem import plane_problem
 from ..numerics.dense import Dense, dense, gathered
 from ..numerics.growth import BlowUpError
 from ..numerics.radau import Problem, Step, TooManyStepsError
@@ -19,12 +23,8 @@ from ..psi import constructors
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .decide import Verdict, arriving, critical_name, from_hemisphere, starting
-from .events import Events, Watch, checked_events
-from .field import Field, field
 from .followed import in_disc
-from .line import Line, invariant_line
 from .places import Ascent, Leaving, OfState, OnCycle, OnSet, Place
-from .problem import plane_problem
 from .regularised import MAX_STEPS, checked_span, checked_state, checked_tolerances
 from .result import Phase, Simulation, SimulationStatus, simulation
 from .slide import slide

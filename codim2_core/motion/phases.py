@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..cycles.limit_cycles import limit_cycles
+from ..initial_value.field import Field, field
 from ..numerics.dense import Dense
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .decide import critical_name, from_hemisphere
-from .field import Field, field
 from .followed import Followed, followed, place
 from .places import OfState
 from .result import Phase

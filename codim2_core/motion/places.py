@@ -13,12 +13,12 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..initial_value.field import field
 from ..layer_problem.equator import equator_equilibria
 from ..numerics.dense import Dense
 from ..orbits.trajectories import continuation, trajectories
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .field import field
 from .followed import in_disc, solved
 
 Array = NDArray[np.float64]

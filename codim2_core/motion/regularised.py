@@ -13,20 +13,20 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..initial_value.events import Events, Watch, checked_events
+from ..initial_value.field import Field, field
+from ..initial_value.line import invariant_line
+from ..initial_value.problem import plane_problem
 from ..numerics.dense import Steps, dense, gathered
 from ..numerics.growth import BlowUpError, bounded
 from ..numerics.radau import Problem, Step, TooManyStepsError, steps
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .events import Events, Watch, checked_events
-from .field import Field, field
-from .line import invariant_line
 from .phases import phases_of
-from .problem import plane_problem
 from .result import Simulation, SimulationStatus, simulation
 
 if TYPE_CHECKING:
-    from .compiled import Compiled
+    from ..initial_value.compiled import Compiled
 
 __all__ = ["simulate"]
 
@@ -247,7 +247,7 @@ def _followed(
                     t, state, h = step.end, step.last, step.h
                     break
         if t < span[1] and len(taken) in (0, PATIENCE):
-            from .compiled import Compiled  # loads the compiler, which most motions do without
+            from ..initial_value.compiled import Compiled  # loads the compiler, which most motions do without
 
             motion = Compiled(
                 problem, formulas, psi, eps, line, t, span[1], state, rtol, atol / rtol, h, max_steps - len(taken)

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..initial_value.field import Field
+from ..initial_value.line import Line
+from ..initial_value.problem import growth_bound
 from ..numerics.growth import bounded
 from ..numerics.radau import STAGES, Problem, Step, StepsTooShortError, TooManyStepsError, steps
 from ..psi.function import Psi
-from .field import Field
-from .line import Line
-from .problem import growth_bound
 
 Array = NDArray[np.float64]
 

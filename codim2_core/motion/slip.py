@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..initial_value.field import Field
+from ..initial_value.line import Line
 from ..numerics.growth import bounded
 from ..numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
-from .field import Field
-from .line import Line
 
 Array = NDArray[np.float64]
 

@@ -101,7 +101,7 @@ def test_a_room_on_no_floor_and_a_circle_in_a_room_are_refused(copy):
 
 
 def test_the_core_may_not_import_the_app_nor_what_draws(copy):
-    for name, line in (("scene.py", "import codim2_app"), ("psi/function.py", "import panel")):
+    for name, line in (("scene/scene.py", "import codim2_app"), ("psi/function.py", "import panel")):
         path = copy / "codim2_core" / name
         path.write_text(f"{path.read_text()}\n{line}\n")
     said = refused(copy)

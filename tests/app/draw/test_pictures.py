@@ -14,7 +14,7 @@ from codim2_app.state.controls import ExplorerState
 from codim2_app.view.markup import config, stylesheet
 from codim2_app.view.refresh import Frames
 
-from codim2_core import scene as core_scene
+from codim2_core.scene import scene as core_scene
 
 NODE = {"a": -2.0, "b": 0.35, "d": -1.0, "f1": -0.4, "f2": 0.25, "psi": "rational"}
 SADDLE = {"a": 1.0, "b": 0.3, "d": -1.2, "f1": 0.2, "f2": 0.45, "psi": "rational"}

@@ -12,7 +12,7 @@ from scipy.integrate import quad
 
 from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
-from codim2_core.motion.field import field
+from codim2_core.initial_value.field import field
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.regularised import simulate
 from codim2_core.motion.result import SimulationStatus

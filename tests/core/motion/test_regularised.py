@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
-from codim2_core.motion.events import Event
-from codim2_core.motion.field import field
+from codim2_core.initial_value.events import Event
+from codim2_core.initial_value.field import field
 from codim2_core.motion.regularised import simulate
 from codim2_core.motion.result import SimulationStatus
 from codim2_core.numerics.radau import tableau

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from codim2_core import ELinear, critical_sets, equator_equilibria, hemisphere, nullclines, psi
 from tests.core.strategies import regularisations, systems
 
-module = sys.modules["codim2_core.portrait.nullclines"]
+module = sys.modules["codim2_core.nullcline.nullclines"]
 QUARTER_PIXEL = 0.25 / 180
 
 

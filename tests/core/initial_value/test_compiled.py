@@ -7,9 +7,9 @@ import pytest
 
 from codim2_core import ELinear, Event, System, examples, simulate
 from codim2_core import psi as families
+from codim2_core.initial_value.compiled import is_compiled
+from codim2_core.initial_value.field import field
 from codim2_core.motion import regularised
-from codim2_core.motion.compiled import is_compiled
-from codim2_core.motion.field import field
 from codim2_core.motion.result import SimulationStatus
 
 PSI = (

@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .bifurcations import BifurcationCurve, Region, critical_boundary, regions, saddle_node
-from .cycles.limit_cycles import closed_orbits, cycles_of
-from .layer_problem.problem import (
+from ..bifurcations import BifurcationCurve, Region, critical_boundary, regions, saddle_node
+from ..cycles.limit_cycles import closed_orbits, cycles_of
+from ..layer_problem.problem import (
     LayerProblem,
     Result,
     find_critical,
@@ -28,22 +28,22 @@ from .layer_problem.problem import (
     find_equator_cycle,
     find_location,
 )
-from .orbits.duration import drawn_duration
-from .orbits.seeds import checked_seeds, ring, structured_seeds, window_seeds
-from .orbits.trajectories import Trajectories, continuation, trajectories
-from .orbits.whole import Orbits
-from .portrait.classify import portrait
-from .portrait.launched import Launched, launched
-from .portrait.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
-from .portrait.outcomes import outcomes_of
-from .portrait.separatrices import Separatrices, separatrices_of
-from .psi import constructors
-from .psi.function import Psi
-from .sliding.flow import sliding_flow
-from .systems.bounds import SMALLEST, slow_values
-from .systems.coefficients import Coefficients
-from .systems.kinds import KINDS, AnySystem
-from .theorems.certificates import Certificate, certificates_of
+from ..nullcline.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
+from ..orbits.duration import drawn_duration
+from ..orbits.seeds import checked_seeds, ring, structured_seeds, window_seeds
+from ..orbits.trajectories import Trajectories, continuation, trajectories
+from ..orbits.whole import Orbits
+from ..portrait.classify import portrait
+from ..portrait.launched import Launched, launched
+from ..portrait.outcomes import outcomes_of
+from ..portrait.separatrices import Separatrices, separatrices_of
+from ..psi import constructors
+from ..psi.function import Psi
+from ..sliding.flow import sliding_flow
+from ..systems.bounds import SMALLEST, slow_values
+from ..systems.coefficients import Coefficients
+from ..systems.kinds import KINDS, AnySystem
+from ..theorems.certificates import Certificate, certificates_of
 
 AROUND = 0.05  # radius of the seeds around an unstable critical set
 STEPS = 780  # of half a drawn orbit: one that creeps along a slow direction, 1/300 as fast, is not waited for

@@ -67,7 +67,7 @@ def crossings(
     ----------
     run : Program
     kind : int
-        As in `nullcline_trace`.
+        As in `trace`.
     outside : bool
     reach : float
         Radius to which the outside is followed.
@@ -78,7 +78,7 @@ def crossings(
     size : float
         Of U.
     """
-    from .nullcline_trace import flat_cells, stationary  # on first use: it loads the compiler
+    from .trace import flat_cells, stationary  # on first use: it loads the compiler
 
     width = float(np.abs(nodes[1:, 1:] - nodes[:-1, :-1]).max())
     i, j = np.nonzero(flat_cells(parts, width))
@@ -114,7 +114,7 @@ def _around(
     run: Program, kind: int, outside: bool, X: float, Y: float, value: float, size: float, r: float
 ) -> Crossing | None:
     """Return the crossing at a point where the gradient vanishes, or None if it is none."""
-    from .nullcline_trace import sample
+    from .trace import sample
 
     while r >= SMALLEST:
         ring = sample(*run.arrays, outside, np.array([X, Y]) + r * _UNIT)[kind, 0]

@@ -1,7 +1,7 @@
 """Nullclines of a general system as branches: rho' = 0, theta' = 0, U1 = 0 and U2 = 0.
 
 Branches begin at e = 0, at the zeros on the equator, which are known with proof, and at crossings
-(`nullcline_crossings`); they are followed (`nullcline_trace`) to where they end. What a net of the disc still shows as
+(`crossings`); they are followed (`trace`) to where they end. What a net of the disc still shows as
 sign changes belongs to closed loops. Where branches cross, each goes straight on. A loop smaller than a cell of the
 net, and a curve that a component touches without a change of sign, are not found.
 """
@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 from ..expressions.arrays import Program, program
 from ..layer_problem.equator_zeros import component_zeros, directions
 from ..systems.frozen import AtZ
-from .nullcline_crossings import Crossing, crossings
+from .crossings import Crossing, crossings
 
 Array = NDArray[np.floating[Any]]
 Kind = Literal["rho", "theta", "U1", "U2"]
-KINDS: tuple[Kind, ...] = ("rho", "theta", "U1", "U2")  # in the order of the numbers in `nullcline_trace`
+KINDS: tuple[Kind, ...] = ("rho", "theta", "U1", "U2")  # in the order of the numbers in `trace`
 
 CELLS = 48  # of the net along a side
 MOST_POINTS = 4000  # of a branch
@@ -106,7 +106,7 @@ def _curves(
     at: AtZ, points: Array, usable: NDArray[np.bool_], first: Array, second: Array, reach: float
 ) -> list[tuple[Kind, Traced]]:
     """Branches of all kinds, on a net of the inside (reach 0) or of the outside."""
-    from .nullcline_trace import sample  # on first use: it loads the compiler
+    from .trace import sample  # on first use: it loads the compiler
 
     run = program(at.key)
     parts = sample(*run.arrays, reach > 0.0, points.reshape(-1, 2)).reshape(4, 3, *points.shape[:2])
@@ -225,7 +225,7 @@ class _Tracer:
 
     def _settled(self, point: Array, reach: float) -> Array | None:
         """Return the point of the curve nearest to another, with its tangent."""
-        from .nullcline_trace import settle
+        from .trace import settle
 
         ok, X, Y, tx, ty = settle(*self.run.arrays, self.kind, self.outside, point[0], point[1], reach, self.size)
         return np.array([X, Y, tx, ty]) if ok else None
@@ -269,7 +269,7 @@ class _Tracer:
 
         origin : the crossing and its half-branch at which it starts.
         """
-        from .nullcline_trace import BORDER, CLOSED, CROSSING, follow
+        from .trace import BORDER, CLOSED, CROSSING, follow
 
         pieces: list[Array] = []
         here, total = start, 0

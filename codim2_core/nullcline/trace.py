@@ -2,7 +2,7 @@
 
 The curve lives in the closed e-disc, or outside it in the picture, where U may read x and y. Its gradient is exact.
 Steps are short where it bends and where its gradient changes much: there a neighbour is close. A curve is followed to
-the border, to where it began, or to a small circle around a crossing (`nullcline_crossings`).
+the border, to where it began, or to a small circle around a crossing (`crossings`).
 """
 
 from __future__ import annotations

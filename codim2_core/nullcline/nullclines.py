@@ -29,7 +29,7 @@ from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
-from .nullclines_typed import Kind, Traced, inside_curves, outside_curves
+from .typed import Kind, Traced, inside_curves, outside_curves
 
 Array = NDArray[np.floating[Any]]
 

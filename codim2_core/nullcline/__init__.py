@@ -1,0 +1,1 @@
+"""Nullclines on the hemisphere and outside it: closed conics, or traced curves."""
