@@ -1,5 +1,6 @@
 """A scene: all that is drawn at one setting, each layer computed when it is asked for."""
 
-from .scene import ELINEAR_ONLY, Layer, Scene, layers
+from .layer_table import ELINEAR_ONLY, Layer, layers
+from .scene import Scene
 
 __all__ = ["ELINEAR_ONLY", "Layer", "Scene", "layers"]

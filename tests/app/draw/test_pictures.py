@@ -14,7 +14,8 @@ from codim2_app.state.controls import ExplorerState
 from codim2_app.view.markup import config, stylesheet
 from codim2_app.view.refresh import Frames
 
-from codim2_core.scene import scene as core_scene
+from codim2_core import scene as core_scene
+from codim2_core.scene import scene as scene_module
 
 NODE = {"a": -2.0, "b": 0.35, "d": -1.0, "f1": -0.4, "f2": 0.25, "psi": "rational"}
 SADDLE = {"a": 1.0, "b": 0.3, "d": -1.2, "f1": 0.2, "f2": 0.45, "psi": "rational"}
@@ -177,7 +178,7 @@ def test_a_new_layer_is_one_row(monkeypatch):
     angle = np.linspace(0, 6, 40)
     curve = type("Curve", (), {"points": np.column_stack([angle / 9 * np.cos(angle), angle / 9 * np.sin(angle)])})()
     rows = {**core_scene.layers, "spiral": core_scene.Layer(("plane",), lambda _scene: (curve,))}
-    monkeypatch.setattr(core_scene, "layers", rows)
+    monkeypatch.setattr(scene_module, "layers", rows)
     part = Part("spiral", "spiral", 2.0, "spiral", arrows=True)
     row = Layer("spiral", "A spiral", 65, (part,), {"spiral": ("#123456", "#abcdef")})
     monkeypatch.setitem(layers.LAYERS, "spiral", row)

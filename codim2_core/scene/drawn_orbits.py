@@ -1,0 +1,79 @@
+"""The trajectories of a picture: where they start, how far they are followed, and how accurately."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ..orbits.duration import drawn_duration
+from ..orbits.seeds import ring, structured_seeds, window_seeds
+from ..orbits.trajectories import Trajectories, continuation, trajectories
+from ..orbits.whole import Orbits
+from ..psi import constructors
+from .setting import Setting
+
+AROUND = 0.05  # radius of the seeds around an unstable critical set
+STEPS = 780  # of half a drawn orbit: one that creeps along a slow direction, 1/300 as fast, is not waited for
+CAPTURE = 0.25  # of a pixel: where a drawn trajectory ends, so near its equilibrium that nobody can see the rest
+
+
+def seeds_of(setting: Setting, outside: bool) -> np.ndarray:
+    """Seeds on the hemisphere, or outside: those that are given, or the usual ones and more in the window."""
+    if setting.seeds is not None:
+        return _sides(setting.seeds)[outside]
+    seeds = _structured(setting.count, setting.view)[outside]
+    if setting.window is None:
+        return seeds
+    return np.concatenate([seeds, _sides(window_seeds(setting.count // 2, setting.window))[outside]])
+
+
+def _sides(seeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the seeds on the hemisphere, and those outside or on the equator."""
+    outside = np.hypot(seeds[:, 0], seeds[:, 1]) >= 1.0
+    return seeds[~outside], seeds[outside]
+
+
+@lru_cache(maxsize=32)
+def _structured(count: int, view: float) -> tuple[np.ndarray, np.ndarray]:
+    return _sides(structured_seeds(count, view))
+
+
+def _stepping(setting: Setting, outside: bool = False) -> dict[str, Any]:
+    longest = setting.t_max
+    if longest is None:
+        problem = setting.problem
+        longest = drawn_duration(problem.at, problem.equator, () if outside else problem.critical)
+    return {
+        "t_max": longest,
+        "length": setting.length,
+        "rtol": setting.rtol,
+        "atol": setting.atol,
+        "view": setting.view,
+        "pixel": setting.pixel,
+        "capture": CAPTURE * setting.pixel,
+        "step_limit": STEPS,
+    }
+
+
+def orbits(setting: Setting, outside: bool) -> Orbits:
+    """Whole orbits through the seeds, on the hemisphere or outside."""
+    seeds, options = seeds_of(setting, outside), _stepping(setting, outside)
+    if not outside and setting.seeds is None and setting.count:
+        # What leaves an unstable critical set (to a limit cycle, in Case III) starts nearer to it than any fixed seed.
+        unstable = [C for C in setting.problem.critical if C.kind.startswith(("unstable", "centre"))]
+        rings = [C.p + ring(AROUND, 6) for C in unstable]
+        seeds = np.concatenate([seeds, *(r for r in rings if np.hypot(r[:, 0], r[:, 1]).max() < 1.0)])
+    # Outside, e is the direction itself: Psi has no say. E-linear systems have a field that is cheapest for Psi = 1.
+    cheapest = outside and setting.coefficients.typed is None
+    psi = constructors.constant() if cheapest else setting.psi
+    halves = (trajectories(setting.coefficients, psi, seeds, backward=back, **options) for back in (True, False))
+    return Orbits(*halves)
+
+
+def continuations(setting: Setting) -> Trajectories:
+    """From each limit direction along which an open set of trajectories arrives, up the hemisphere."""
+    equator = setting.problem.equator
+    arriving = equator.theta[(equator.lambda_rho < 0.0) & (equator.lambda_theta < 0.0)]
+    return continuation(setting.coefficients, setting.psi, arriving, **_stepping(setting))

@@ -1,0 +1,132 @@
+"""The layers of a picture: which inputs each reads, and how it is made from a setting."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
+
+from ..bifurcations import BifurcationCurve, Region, critical_boundary, regions, saddle_node
+from ..cycles.limit_cycles import closed_orbits, cycles_of
+from ..layer_problem.problem import find_critical, find_equator, find_equator_cycle, find_location
+from ..nullcline.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
+from ..portrait.classify import portrait
+from ..portrait.launched import Launched, launched
+from ..portrait.outcomes import outcomes_of
+from ..portrait.separatrices import Separatrices, separatrices_of
+from ..sliding.flow import sliding_flow
+from ..systems.bounds import SMALLEST
+from ..theorems.certificates import Certificate, certificates_of
+from .drawn_orbits import continuations, orbits, seeds_of
+from .setting import Setting
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """One layer: the names of the inputs it reads, and how it is made.
+
+    What a layer finds in ``setting.problem`` is kept for the others: it is computed once.
+    """
+
+    inputs: tuple[str, ...]
+    compute: Callable[[Setting], Any]
+
+
+# The values that layers read, as keys: `plane` is (a, b, d, f1, f2) at z, or the formulas of U and the numbers that
+# they read, and `matrix` is (a, b, d), so z itself reaches nothing but what looks along z: `place`.
+INPUTS: Mapping[str, Callable[[Setting], Hashable]] = {
+    "plane": lambda s: s.coefficients.key,
+    "matrix": lambda s: _matrix(s),
+    "slow": lambda s: s.coefficients.slow_key,
+    "place": lambda s: (s.system, s.z) if s.system.moves_with_z else None,
+    "psi": lambda s: s.psi,
+    "inner seeds": lambda s: (s.count, s.window) if s.seeds is None else seeds_of(s, outside=False).tobytes(),
+    "outer seeds": lambda s: (s.count, s.window) if s.seeds is None else seeds_of(s, outside=True).tobytes(),
+    "launch": lambda s: s.launch.tobytes(),
+    "time": lambda s: (s.t_max, s.length),
+    "tolerance": lambda s: (s.rtol, s.atol),
+    "view": lambda s: s.view,
+    "pixel": lambda s: s.pixel,
+}
+_STEPPED = ("time", "tolerance", "pixel")
+
+
+def _matrix(setting: Setting) -> tuple[float, float, float] | None:
+    """Return a, b, d: zeros where they are so small beside f that they alone are refused, None for a typed system."""
+    at = setting.coefficients
+    if at.typed is not None or at.as_given is None:
+        return None
+    a, b, d = at.as_given.plane[:3]
+    return (a, b, d) if max(abs(a), abs(b), abs(d)) >= SMALLEST else (0.0, 0.0, 0.0)
+
+
+def _atlas_curves(setting: Setting) -> tuple[BifurcationCurve, BifurcationCurve] | None:
+    """Return the saddle-node curve and the ellipse |A^-1 f| = 1 of the plane (f1, f2)."""
+    matrix = _matrix(setting)
+    return None if matrix is None else (saddle_node(*matrix), critical_boundary(*matrix))
+
+
+def _regions(setting: Setting) -> tuple[Region, ...] | None:
+    matrix = _matrix(setting)
+    return None if matrix is None else regions(*matrix)
+
+
+def _launched(setting: Setting) -> Launched:
+    return launched(setting.problem, setting.launch, view=setting.view, pixel=setting.pixel)
+
+
+def _separatrices(setting: Setting) -> Separatrices:
+    return separatrices_of(setting.problem, rtol=setting.rtol, pixel=setting.pixel)
+
+
+def _certificates(setting: Setting) -> tuple[Certificate, ...]:
+    system = None if setting.system.frozen else setting.system
+    return certificates_of(setting.problem, setting.problem.keep(cycles_of), system, setting.z)
+
+
+def _inside_nullclines(setting: Setting) -> tuple[NullclineBranch, ...]:
+    return inside_nullclines(setting.coefficients, setting.psi, setting.problem.equator.theta.tolist())
+
+
+def _outside_nullclines(setting: Setting) -> tuple[NullclineBranch, ...]:
+    return outside_nullclines(setting.coefficients, setting.problem.equator.theta.tolist(), setting.view)
+
+
+layers: Mapping[str, Layer] = MappingProxyType(
+    {
+        "equator": Layer(("plane",), lambda s: find_equator(s.problem)),
+        "equator_cycle": Layer(("plane",), lambda s: find_equator_cycle(s.problem)),
+        "location": Layer(("plane",), lambda s: find_location(s.problem)),
+        "critical": Layer(("plane", "slow", "psi"), lambda s: find_critical(s.problem)),
+        "slow_flow": Layer(("plane", "slow"), lambda s: sliding_flow(s.coefficients)),
+        "classification": Layer(("plane", "slow", "psi"), lambda s: portrait(s.problem)),
+        "nullclines_inside": Layer(("plane", "psi"), _inside_nullclines),
+        "nullclines_outside": Layer(("plane", "view"), _outside_nullclines),
+        "inside": Layer(("plane", "psi", "inner seeds", *_STEPPED), lambda s: orbits(s, outside=False)),
+        "outside": Layer(("plane", "outer seeds", "view", *_STEPPED), lambda s: orbits(s, outside=True)),
+        "continuations": Layer(("plane", "psi", *_STEPPED), continuations),
+        "closed_orbits": Layer(("plane", "psi"), lambda s: closed_orbits(s.problem)),
+        "cycles": Layer(("plane", "slow", "psi"), lambda s: cycles_of(s.problem)),
+        "launched": Layer(("plane", "psi", "launch", "view", "pixel"), _launched),
+        "separatrices": Layer(("plane", "psi", "tolerance", "pixel"), _separatrices),
+        "outcomes": Layer(("plane", "slow", "psi"), lambda s: outcomes_of(s.problem)),
+        "certificates": Layer(("plane", "slow", "psi", "place"), _certificates),
+        "atlas_curves": Layer(("matrix",), _atlas_curves),
+        "regions": Layer(("matrix",), _regions),
+    }
+)
+
+ELINEAR_ONLY = frozenset({"atlas_curves", "regions"})
+
+# The layers that are functions of the layer problem alone: whoever asks the problem for them asks the scene.
+FOUND_BY: Mapping[Callable[..., Any], str] = {
+    find_equator: "equator",
+    find_equator_cycle: "equator_cycle",
+    find_location: "location",
+    find_critical: "critical",
+    portrait: "classification",
+    closed_orbits: "closed_orbits",
+    cycles_of: "cycles",
+    outcomes_of: "outcomes",
+}

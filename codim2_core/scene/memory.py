@@ -1,0 +1,43 @@
+"""What the scenes of one lineage have computed, kept under the values of the inputs that each layer reads."""
+
+from __future__ import annotations
+
+from collections import Counter, OrderedDict
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field
+from threading import Lock
+from typing import Any
+
+REMEMBERED = 8  # results kept for each layer: a few settings back and forth
+
+
+@dataclass
+class Memory:
+    """Results by layer and by the values that they were computed from.
+
+    Attributes
+    ----------
+    results : dict of str to OrderedDict
+        Of each layer the last `REMEMBERED`.
+    runs : Counter of str
+        How often each layer has been computed, for tests and benchmarks.
+    """
+
+    results: dict[str, OrderedDict[Hashable, Any]] = field(default_factory=dict)
+    runs: Counter[str] = field(default_factory=Counter)
+    lock: Lock = field(default_factory=Lock)  # the jobs beside the frames read the same memory
+
+    def result(self, layer: str, key: Hashable, compute: Callable[[], Any]) -> Any:
+        """Return what is kept for these values, or compute it and keep it."""
+        with self.lock:
+            kept = self.results.setdefault(layer, OrderedDict())
+            if key in kept:
+                kept.move_to_end(key)
+                return kept[key]
+        result = compute()
+        with self.lock:
+            kept[key] = result
+            self.runs[layer] += 1
+            if len(kept) > REMEMBERED:
+                kept.popitem(last=False)
+        return result

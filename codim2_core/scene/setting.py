@@ -1,0 +1,41 @@
+"""What a layer may read of a scene: its inputs, and the layer problem that they pose."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..layer_problem.problem import LayerProblem
+from ..psi.function import Psi
+from ..systems.frozen import AtZ
+from ..systems.kinds import AnySystem
+
+
+class Setting(Protocol):
+    """The checked parameters of a `Scene`, of which each layer reads some.
+
+    Attributes
+    ----------
+    coefficients : AtZ
+        The system frozen at z.
+    problem : LayerProblem
+        Its layer problem under Psi; what one layer finds in it is kept for the others.
+    """
+
+    system: AnySystem
+    psi: Psi
+    z: tuple[float, ...]
+    seeds: NDArray[np.float64] | None
+    count: int
+    launch: NDArray[np.float64]
+    t_max: float | None
+    length: float
+    rtol: float
+    atol: float
+    view: float
+    pixel: float
+    window: tuple[float, float, float, float] | None
+    coefficients: AtZ
+    problem: LayerProblem
