@@ -10,6 +10,7 @@ import {readLaunches} from "./launches.js"
 import {Panels} from "./panels.js"
 import {Picture} from "./picture.js"
 import {Requests} from "./requests.js"
+import {Rest} from "./rest.js"
 import {Sheets} from "./sheets.js"
 import {Browsed, Listed, Steps} from "./steps.js"
 import {SystemChooser} from "./system.js"
@@ -17,10 +18,11 @@ import {SystemChooser} from "./system.js"
 function wire({model, view, root, plot}) {
   const config = model.config
   const values = {...config.values}
-  const picture = new Picture(plot, config, () => requests.rest())
+  const rest = new Rest(root)
+  const picture = new Picture(plot, config, rest, () => requests.rest())
   const inspector = new Inspector(root)
   const find = (name) => root.querySelector(name)
-  const requests = new Requests((request) => { picture.asked = String(picture.window); model.send_msg({...request, window: picture.window}) }, () => { root.dataset.settled = false })
+  const requests = new Requests((request) => { picture.asked = String(picture.window); model.send_msg({...request, window: picture.window}) }, () => rest.note("asked", true))
   const controls = {}
 
   const change = (name, value) => {
@@ -48,7 +50,7 @@ function wire({model, view, root, plot}) {
   const setters = {}
   let hidden = [] // layers that a question hides until it is answered
   const panels = new Panels(root, config.panels, {
-    root, values, move, choose, symbols: config.symbols, ranges: config.ranges, docs: config.docs,
+    root, values, rest, move, choose, symbols: config.symbols, ranges: config.ranges, docs: config.docs,
     slowSymbols: () => config.slowSymbols ?? [],
     valueOf: (name) => name.startsWith("own:") ? systems.value(name.slice(4)) : values[name],
     follow: (name, set) => { setters[name] = set },
@@ -166,13 +168,20 @@ function wire({model, view, root, plot}) {
     picture.seen = snapshot.seen
   }
   const undo = find(".undo"), redo = find(".redo")
-  const kept = config.page ? new Browsed(look(), window.history, link) : new Listed(look())
-  const steps = new Steps(kept, look, restore, () => { undo.disabled = !steps.canUndo; redo.disabled = !steps.canRedo })
+  // the browser goes to another entry later, and says so
+  const entries = {get state() { return window.history.state }, go: (by) => { rest.note("history", true); window.history.go(by) },
+    pushState: (state, title, url) => window.history.pushState(state, title, url), replaceState: (state, title, url) => window.history.replaceState(state, title, url)}
+  const kept = config.page ? new Browsed(look(), entries, link) : new Listed(look())
+  const steps = new Steps(kept, look, restore, () => {
+    undo.disabled = !steps.canUndo
+    redo.disabled = !steps.canRedo
+    root.dataset.kept = !steps.pending
+  })
   steps.told()
   const keepLink = () => steps.changed()
   undo.addEventListener("click", () => steps.undo())
   redo.addEventListener("click", () => steps.redo())
-  if (config.page) window.addEventListener("popstate", (event) => steps.arrived(event.state))
+  if (config.page) window.addEventListener("popstate", (event) => { steps.arrived(event.state); rest.note("history", false) })
   root.addEventListener("pointerdown", () => { steps.held = true })
   for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => { steps.held = false })
   for (const range of [plot.x_range, plot.y_range]) range.properties.start.change.connect(() => steps.changed())
@@ -195,7 +204,7 @@ function wire({model, view, root, plot}) {
   }
 
   const busy = find(".busy")
-  let warmTimer = null, restTimer = null
+  let warmTimer = null
   const apply = (buffer) => {
     const frame = readFrame(buffer)
     const {header} = frame
@@ -204,15 +213,16 @@ function wire({model, view, root, plot}) {
     sayErrors(header.errors ?? {})
     picture.apply(frame)
     if (header.launched) speak(header.launched)
-    clearTimeout(restTimer)
     const late = header.late ?? []
-    if (late.length) restTimer = setTimeout(() => requests.rest(), 150)
+    requests.restLater(late.length > 0)
     inspector.apply(header)
     for (const [name, symbol, low, high] of header.axes ?? []) { config.symbols[name] = symbol; config.ranges[name] = [low, high] }
     panels.apply(frame, late)
     requests.arrived(header.id, header.load)
     if ("id" in header) root.dataset.frame = header.id
-    root.dataset.settled = requests.idle && header.ready !== false && !late.length
+    rest.note("asked", !requests.idle)
+    rest.note("late", late.length > 0)
+    rest.note("compiling", header.ready === false)
     if ("ready" in header) {
       busy.hidden = header.ready
       busy.textContent = "Compiling the integrator, once; trajectories follow …"

@@ -8,8 +8,8 @@ const DRAWN = ["launched", "equator", "critical", "sense", "all_directions", "ou
 const REST = 150 // ms after the last frame until the tooltips follow
 
 export class Picture {
-  // `moved` is called when another part of the picture has come into view, and stays.
-  constructor(plot, {themes, layers, traces, measures, view}, moved) {
+  // `moved` is called when another part of the picture has come into view, and stays; `rest` is told until then.
+  constructor(plot, {themes, layers, traces, measures, view}, rest, moved) {
     this.view = view
     this.plot = plot
     this.themes = themes
@@ -22,7 +22,14 @@ export class Picture {
     this.hovered = Object.fromEntries(plot.renderers.map((renderer) => [renderer.name, renderer.data_source]))
     plot.renderers = [this.drawn, ...plot.renderers, this.above]
     this.pending = this.waiting = false
-    const soon = () => { clearTimeout(this.moving); this.moving = setTimeout(() => { if (String(this.window) !== this.asked) moved() }, REST) }
+    const soon = () => {
+      clearTimeout(this.moving)
+      rest.note("view", true)
+      this.moving = setTimeout(() => {
+        if (String(this.window) !== this.asked) moved()
+        rest.note("view", false)
+      }, REST)
+    }
     for (const range of [plot.x_range, plot.y_range]) range.change.connect(soon)
     this.asked = ""
   }

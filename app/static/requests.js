@@ -7,6 +7,8 @@ const REMEMBERED = 5000 // ms for which the shortest round trip counts
 const BUSY = 0.6 // share of the server's time beyond which a second request out would only wait there
 const MOST = 12
 const LOST = 20000 // ms after which a reply is given up
+const REST = 150 // ms without a change until what is late is asked for, …
+const AGAIN = 50, SELDOM = 400 // … and again, each time twice as long after, until it is there
 
 // How many requests may be out. One frame in flight is one frame a round trip; over a long line the number grows until
 // one is out for each frame of the screen that passes meanwhile. Where replies take longer than the line does, or the
@@ -69,6 +71,8 @@ export class Requests {
     this.number = Math.floor(Math.random() * 1e12) // another browser that shows this view gets the replies too
     this.scheduled = false
     this.again = this.resting = false
+    this.timer = null // until what is late is asked for
+    this.polls = 0
     this.held = false // the connection is lost: values are kept, nothing is asked
   }
 
@@ -76,14 +80,24 @@ export class Requests {
 
   set(name, value) {
     this.waiting[name] = value
+    this.polls = 0
     this.onAsk()
     this.schedule()
   }
 
-  refresh() { this.again = true; this.schedule() }
+  refresh() { this.again = true; this.onAsk(); this.schedule() }
 
   // Nothing moves: ask for what is left out of the frames of a drag.
   rest() { this.resting = true; this.refresh() }
+
+  // A frame has come in which something is late, or nothing is.
+  restLater(late) {
+    if (this.timer !== null) this.time.cancel(this.timer)
+    this.timer = null
+    if (!late) return
+    const wait = this.polls ? Math.min(SELDOM, AGAIN * 2 ** (this.polls - 1)) : REST
+    this.timer = this.time.after(wait, () => { this.timer = null; this.polls += 1; this.rest() })
+  }
 
   get idle() { return !this.out.size && !this.wanted }
 

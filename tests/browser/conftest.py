@@ -57,12 +57,26 @@ class Explorer:
         self.page.wait_for_selector(".codim2[data-ready]")
         return self.settle()
 
-    def settle(self):
-        self.page.wait_for_timeout(150)
-        self.page.wait_for_function("""() => {
+    def until(self, condition):
+        """Wait until a condition on `root`, the explorer's element, holds."""
+        self.page.wait_for_function(f"""() => {{
             const find = (root) => root.querySelector('.codim2') ?? [...root.querySelectorAll('*')].map(
                 (e) => e.shadowRoot && find(e.shadowRoot)).find(Boolean)
-            return find(document)?.dataset.settled === 'true' }""")
+            const root = find(document)
+            return Boolean(root) && ({condition}) }}""")
+        return self
+
+    def settle(self):
+        """Wait until nothing is under way: what a person did is answered, drawn and written."""
+        return self.until("root.dataset.settled === 'true'")
+
+    def kept(self):
+        """Wait until what was done is a step of the history, and in the address."""
+        return self.settle().until("root.dataset.kept === 'true'")
+
+    def painted(self):
+        """Wait for two frames of the screen: what waits for the next one is drawn."""
+        self.page.evaluate("new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))")
         return self
 
     def find(self, selector):

@@ -25,7 +25,8 @@ def test_a_lost_connection_is_said_and_the_page_returns_as_it_was(open_page, por
     box = page.find("[data-control=d] .number")  # what is set meanwhile is kept
     box.fill("-1.25")
     box.press("Enter")
-    page.page.wait_for_timeout(1500)  # several attempts
+    for _ in range(2):  # attempts
+        page.page.wait_for_event("requestfailed")
     assert banner.is_visible()
     with serving("--port", port):
         banner.wait_for(state="hidden")

@@ -265,7 +265,7 @@ def test_the_screen_shows_the_marks_the_right_way_up(drawn):
 
 def test_a_motion_starts_where_it_is_launched(open_page):
     page = open_page().open("?panel=time&k1=0&k2=0&launch=-0.3,0.4,0")
-    page.page.wait_for_timeout(500)
+    page.settle()
     *paths, dot = [item for item in page.find(".codim2").evaluate(RECORDER, "above") if item["kind"] == "stroke"]
     assert {tuple(path["dash"]) for path in paths} == {(), (5, 4)}  # the motion, and its limit
     for item in paths:

@@ -54,8 +54,7 @@ def opened(open_page, setting):
             f"{name}={value}" for name, value in {**setting, "psi": "rational", "panel": panel, **more}.items()
         )
         page = open_page(viewport={"width": 1440, "height": 900}).open(f"?{query}")
-        page.page.wait_for_timeout(300)
-        return page.settle()
+        return page.painted().settle()
 
     return make
 
@@ -310,7 +309,7 @@ def test_hemisphere_in_space(opened, setting):
     canvas = page.find("canvas.solid")
     canvas.evaluate(SCRIPTS["record"])
     canvas.press("ArrowRight")  # turned by 0.1: painted anew
-    page.page.wait_for_timeout(300)
+    page.painted()
     drawn = canvas.evaluate("(it) => it.drawn")
     q = equator(setting)
     sets = at(setting)
@@ -345,7 +344,7 @@ def test_limit_directions_along_z_in_space(opened, setting):
     canvas = page.find("canvas.solid")
     canvas.evaluate(SCRIPTS["record"])
     canvas.press("ArrowRight")
-    page.page.wait_for_timeout(300)
+    page.painted()
     drawn = [it for it in canvas.evaluate("(it) => it.drawn") if it["name"] == "fillRect"]
     look = {name: canvas.evaluate(SCRIPTS["property"], name) for name in ("attr", "rep")}
     groups = {
@@ -375,7 +374,7 @@ def test_the_slow_flow_along_z_in_space(opened, setting):
     canvas = page.find("canvas.solid")
     canvas.evaluate(SCRIPTS["record"])
     canvas.press("ArrowRight")
-    page.page.wait_for_timeout(300)
+    page.painted()
     drawn = canvas.evaluate("(it) => it.drawn")
     turns = [it["all"][0] for it in drawn if it["name"] == "rotate"]
     found = slow_portrait(system(setting), PSI, (-4.0, 4.0))

@@ -78,7 +78,7 @@ def test_fast_drag_ends_on_the_last_value_and_queues_nothing(explorer):
     explorer.settle()
     last = explorer.find("[data-control=f1] .number").input_value()
     assert float(last) == pytest.approx(1.9, abs=0.3)
-    explorer.page.wait_for_timeout(500)
+    explorer.kept()
     assert parse_qs(urlparse(explorer.page.url).query)["f1"] == [last]
     name, numbers = explorer.name(), explorer.find(".critical-table").text_content()
     fresh = explorer.open(f"?f1={last}")
@@ -113,7 +113,6 @@ def test_custom_psi_is_checked_and_drawn(explorer):
     explorer.settle()
     assert explorer.find("[data-control=psi_text] .error").is_visible()
     text.fill("1/(1+s)**3")
-    explorer.page.wait_for_timeout(500)
     explorer.settle()
     assert not explorer.find("[data-control=psi_text] .error").is_visible()
 

@@ -27,7 +27,7 @@ def test_a_click_launches_the_orbit_through_that_point(open_page):
     explorer.page.mouse.click(*place(explorer, 1.2, 0.8))
     explorer.settle()
     assert explorer.find(".orbit-goes").nth(1).text_content().startswith("Reaches Σ along Q2, θ = 2.094, after t = ")
-    explorer.page.wait_for_timeout(500)
+    explorer.kept()
     (x, y), (u, v) = [tuple(map(float, entry.split(","))) for entry in starts(explorer).split(";")]
     assert (x, y, u, v) == pytest.approx((-0.4, 0.3, 1.2, 0.8), abs=0.02)
     again = open_page().open("?panel=orbits&orbits=" + starts(explorer).replace(";", "%3B"))
@@ -43,7 +43,7 @@ def test_a_drag_takes_the_orbit_along_and_its_start_can_be_moved_later(open_page
     first = explorer.frame()
     for step in range(1, 9):
         page.mouse.move(*place(explorer, -0.4 + 0.1 * step, 0.3))
-        page.wait_for_timeout(40)
+        explorer.painted()
     page.mouse.up()
     explorer.settle()
     assert explorer.frame() >= first + 3  # it followed
@@ -65,7 +65,7 @@ def test_an_orbit_is_named_hidden_and_removed(open_page):
     explorer.find(".orbit-list .hide").nth(1).click()
     explorer.settle()
     assert explorer.find(".orbit-goes").all_text_contents()[1] == "hidden"
-    explorer.page.wait_for_timeout(500)
+    explorer.kept()
     assert starts(explorer) == "-0.4,0.3:mine;0.2,-0.5,-"
     explorer.find(".orbit-list .remove").first.click()
     explorer.settle()

@@ -33,8 +33,7 @@ def test_what_cannot_be_drawn_stays_in_its_box_with_a_sentence(open_page, values
     # and it stays, whatever else is moved, also after loading once more
     page.type("trajectories", "32")
     assert says in page.find(".error:visible").text_content()
-    page.page.wait_for_timeout(400)
-    page.page.reload()
+    page.kept().page.reload()
     page.page.wait_for_selector(".codim2[data-ready]")
     page.settle()
     assert page.find("[data-control=trajectories] .number").input_value() == "32"
@@ -53,7 +52,7 @@ def test_what_belongs_to_no_box_is_told_above_the_picture(open_page, query):
 def state(page, preset=""):
     """The address, and every control as it is seen."""
     page.page.wait_for_function(f"new URLSearchParams(location.search).get('preset') === '{preset}'")
-    page.page.wait_for_timeout(400)
+    page.kept()
     query = parse_qs(urlparse(page.page.url).query)
     seen = page.page.evaluate("""() => [...document.querySelectorAll(".codim2 input, .codim2 select, .codim2 textarea")]
         .filter((e) => e.offsetParent).map((e) => e.type === "checkbox" ? e.checked : e.value)""")
@@ -85,7 +84,7 @@ def test_a_portrait_is_the_same_whatever_was_open_before(open_page):
         page.settle()
         for one in (page, fresh):
             one.page.mouse.move(5, 5)
-            one.page.wait_for_timeout(300)
+            one.painted()
         assert alike(fresh.picture(), page.picture())
 
 
@@ -125,8 +124,7 @@ def test_a_portrait_does_not_destroy_what_was_typed(explorer):
     explorer.settle()
     assert explorer.name() == "CM0"
     assert explorer.find(".error:visible").count() == 0
-    explorer.page.wait_for_timeout(400)
-    explorer.page.reload()
+    explorer.kept().page.reload()
     explorer.page.wait_for_selector(".codim2[data-ready]")
     explorer.settle()
     choose("own")

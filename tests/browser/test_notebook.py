@@ -106,7 +106,6 @@ def test_sliders_draw_in_jupyterlab_and_python_follows(notebook):
     other = notebook.page.locator("#c2-a").nth(1)
     other.focus()
     other.press("ArrowRight")
-    notebook.page.wait_for_timeout(300)
     notebook.settle()
     d = float(notebook.find("#c2-d").input_value())
     notebook.run(2)

@@ -58,7 +58,7 @@ def test_a_tab_opens_its_panel_and_the_address_keeps_it(explorer, words):
     assert tab.text_content() == words
     assert explorer.find("[role=tabpanel]:visible").count() == 1
     assert explorer.find(f"#{tab.get_attribute('aria-controls')}").is_visible()
-    explorer.page.wait_for_timeout(400)
+    explorer.kept()
     name = tab.get_attribute("data-panel")
     if words != "Atlas":  # that one is open from the start
         assert parse_qs(urlparse(explorer.page.url).query)["panel"] == [name]
@@ -159,13 +159,11 @@ def test_a_special_point_is_gone_to_exactly(open_page):
     page = open_page().open("?preset=case3-n3&panel=diagram&along=n")
     page.find(".diagram .cycle").first.wait_for()
     page.find(".special-list button").filter(has_text="Hopf").click()
-    page.settle()
-    page.page.wait_for_timeout(400)
+    page.kept()
     assert float(parse_qs(urlparse(page.page.url).query)["n"][0]) == pytest.approx(284 / 129, abs=1e-12)
     assert "here" in page.find(".special-list button").filter(has_text="Hopf").get_attribute("class")
     page.find(".diagram .special").first.click()
-    page.settle()
-    page.page.wait_for_timeout(400)
+    page.kept()
     assert float(parse_qs(urlparse(page.page.url).query)["n"][0]) == pytest.approx(4 / 3, abs=1e-9)
     assert page.complaints == []
 

@@ -38,7 +38,7 @@ def test_the_document_is_small(explorer):
 
 def test_a_mark_tells_its_numbers(explorer):
     explorer.type("f2", "0.3")
-    explorer.page.wait_for_timeout(400)
+    explorer.until("root.explorer.picture.hovered.critical.data.e_text?.[0] === '(−0.250, 0.300)'")
     x, y = explorer.ask("""(() => {
         const c = picture.list.find((item) => item.kind === "mark" && item.layer === "critical")
         const box = view.canvas_view.primary.canvas.getBoundingClientRect()
@@ -54,11 +54,10 @@ def test_a_mark_tells_its_numbers(explorer):
 
 def test_a_motion_lies_above_the_picture_and_leaves_it_alone(explorer):
     explorer.open("?k1=0&k2=0&panel=time")  # z follows the motion, and the portrait does not depend on z
-    explorer.page.wait_for_timeout(500)
     assert [item["kind"] for item in explorer.ask("picture.above.list")] == ["path", "path", "mark"]
     before = explorer.ask("[picture.drawn.paints, picture.above.paints]")
     explorer.find(".panel-time .series").press("ArrowRight")
-    explorer.page.wait_for_timeout(300)
+    explorer.settle().painted()
     after = explorer.ask("[picture.drawn.paints, picture.above.paints]")
     assert after[0] == before[0]
     assert after[1] > before[1]
@@ -69,7 +68,6 @@ def look_at(explorer, left, right, bottom, top):
         const {{x_range, y_range}} = picture.plot
         x_range.setv({{start: {left}, end: {right}}})
         y_range.setv({{start: {bottom}, end: {top}}}) }})()""")
-    explorer.page.wait_for_timeout(400)
     explorer.settle()
     return explorer.ask("""picture.list.filter((item) => item.kind === "curves").map(
         ({part, points}) => [part, Array.from(points, (v) => points instanceof Int16Array ? v * 4 / 32767 : v)])""")
@@ -82,7 +80,6 @@ def test_what_is_seen_is_sampled(explorer):
     points = list(zip(near["inside"][::2], near["inside"][1::2], strict=True))
     assert sum(-0.3 <= x <= -0.2 and 0.05 <= y <= 0.15 for x, y in points) > 100
     explorer.find(".home").click()
-    explorer.page.wait_for_timeout(400)
     explorer.settle()
     assert explorer.ask("picture.window") is None
     assert explorer.ask("picture.list.every((item) => item.kind !== 'curves' || item.points instanceof Int16Array)")

@@ -71,8 +71,7 @@ def swipe(page, start, end, other=None):
         session.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": places(i / 10)})
     session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
     session.detach()
-    page.page.wait_for_timeout(100)
-    page.settle()
+    page.painted().settle()
 
 
 RANGES = """() => { const plot = Bokeh.documents.flatMap((it) => it.all_models ? [...it.all_models] : [])
@@ -83,7 +82,7 @@ RANGES = """() => { const plot = Bokeh.documents.flatMap((it) => it.all_models ?
 @pytest.fixture
 def touched(open_page):
     page = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open()
-    page.page.wait_for_timeout(600)
+    page.until("root.querySelector('.first') === null")  # Bokeh has painted, and scrolls
     yield page
     assert page.complaints == []
 

@@ -28,7 +28,7 @@ def test_an_example_brings_its_equations_sliders_and_place(explorer):
     assert explorer.name() == "NCM2"  # beyond z_crit = 6.867 it slips
     explorer.type("parameter-mu", "0.5")
     assert explorer.name() == "CM2"  # more friction: z_crit = 17.2
-    explorer.page.wait_for_timeout(400)
+    explorer.kept()
     query = parse_qs(urlparse(explorer.page.url).query)
     assert query["parameters"] == ['{"mu":0.5}']
     explorer.page.reload()
@@ -84,8 +84,8 @@ def test_play_drifts_along_the_slow_flow_to_its_equilibrium(explorer):
     open_panel(explorer, "Along z")
     explorer.find(".panel-along .speed").evaluate("(e) => { e.value = 4 }")
     explorer.find(".panel-along .play").click()
-    explorer.page.wait_for_timeout(1500)
-    assert 0 < value(explorer, "slow-z") < 3.5
+    z = "Number(root.querySelector('[data-control=slow-z] .number').value)"
+    explorer.until(f"0 < {z} && {z} < 3.5")
     explorer.page.locator(".along-note", has_text="rest").wait_for(timeout=30_000)
     assert abs(value(explorer, "slow-z")) < 0.1
 
@@ -96,7 +96,7 @@ def test_a_motion_plays_in_step_in_all_views(explorer):
     explorer.page.wait_for_selector(".phases li:nth-child(2)")
     start = value(explorer, "slow-z")
     explorer.find(".panel-time .play").click()
-    explorer.page.wait_for_timeout(1500)
+    explorer.until(f"Number(root.querySelector('[data-control=slow-z] .number').value) !== {start}")
     explorer.find(".panel-time .play").click()
     explorer.settle()
     assert "t =" in explorer.find(".phase-now").text_content()
@@ -114,13 +114,12 @@ def test_the_solid_view_turns_without_asking_the_server(explorer):
     explorer.page.mouse.down()
     explorer.page.mouse.move(box["x"] + 160, box["y"] + 110, steps=6)
     explorer.page.mouse.up()
-    explorer.page.wait_for_timeout(150)
+    explorer.painted()
     assert canvas.screenshot() != before
     assert explorer.frame() == frame
     for words in ("Along z", "Filippov"):
         explorer.find(".panel-solid").get_by_role("button", name=words).click()
         explorer.settle()
-        explorer.page.wait_for_timeout(200)
         assert explorer.find(".solid-note").text_content() != "…"
 
 

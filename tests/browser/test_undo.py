@@ -3,7 +3,7 @@
 import pytest
 
 pytestmark = pytest.mark.browser
-SETTLED = 500  # ms after which an action is a step
+QUIET = 300  # ms after which an action is a step: of steps.js
 
 
 def value(explorer, name):
@@ -11,8 +11,7 @@ def value(explorer, name):
 
 
 def done(explorer):
-    explorer.page.wait_for_timeout(SETTLED)
-    return explorer.settle()
+    return explorer.kept()
 
 
 def test_values_portraits_and_layers_by_button_and_key(open_page):
@@ -73,8 +72,8 @@ def test_a_drag_is_one_step(open_page):
     page.mouse.down()
     for step in range(10):
         page.mouse.move(box["x"] + box["width"] * (0.4167 + 0.05 * step), y)
-        page.wait_for_timeout(60)
-    page.wait_for_timeout(2 * SETTLED)  # held still for long
+        explorer.painted()
+    page.wait_for_timeout(QUIET + 100)  # held still for longer than an action takes to settle
     page.mouse.move(box["x"] + box["width"] * 0.95, y)
     page.mouse.up()
     done(explorer)

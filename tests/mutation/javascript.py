@@ -9,6 +9,7 @@ import subprocess
 import tempfile
 from functools import cache
 from pathlib import Path
+from threading import Timer
 from typing import NamedTuple
 
 from .targets import ROOT
@@ -77,9 +78,26 @@ def tests_of(name: str) -> list[Path]:
     return sorted((t for t in TESTS.glob("*.test.js") if path in reached(t)), key=lambda t: t.stat().st_size)
 
 
+def passes(test: str, folder: Path) -> bool:
+    """Run a file of tests up to the first that fails."""
+    command = ["node", "--test-reporter=tap", test]
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    assert process.stdout is not None
+    timer = Timer(LIMIT, process.kill)
+    timer.start()
+    try:
+        if any(line.startswith("not ok") for line in process.stdout):
+            process.kill()
+    finally:
+        process.stdout.close()
+        code = process.wait()
+        timer.cancel()
+    return code == 0
+
+
 def run(name: str, tried: list[Mutant]) -> list[str]:
     """What becomes of each: "failed", "passed", or "unreached" where no test imports the module."""
-    tests = [path.relative_to(ROOT) for path in tests_of(name)]
+    tests = [str(path.relative_to(ROOT)) for path in tests_of(name)]
     if not tests:
         return ["unreached"] * len(tried)
     outcomes = []
@@ -88,21 +106,14 @@ def run(name: str, tried: list[Mutant]) -> list[str]:
         shutil.copytree(STATIC, copy / "app" / "static")
         shutil.copytree(TESTS, copy / "tests" / "app" / "static", ignore=shutil.ignore_patterns("node_modules"))
         (copy / "tests" / "app" / "static" / "node_modules").symlink_to(TESTS / "node_modules")
+        (copy / "tests" / "pictures").symlink_to(ROOT / "tests" / "pictures")
         path = copy / "app" / name
         source = path.read_text()
 
-        def passes() -> bool:
-            command = ["node", "--test", *map(str, tests)]
-            try:
-                done = subprocess.run(command, cwd=copy, capture_output=True, timeout=LIMIT, check=False)
-            except subprocess.TimeoutExpired:
-                return False
-            return done.returncode == 0
-
-        if not passes():
+        if not all(passes(test, copy) for test in tests):
             raise SystemExit(f"{name}: its tests fail as they are; mend that first.")
         for mutant in tried:
             path.write_text(mutant.source)
-            outcomes.append("passed" if passes() else "failed")
+            outcomes.append("passed" if all(passes(test, copy) for test in tests) else "failed")
         path.write_text(source)
     return outcomes

@@ -15,6 +15,8 @@ from codim2_app.view.refresh import Frames
 from codim2_core.figures.presets import presets
 from codim2_core.scene import Scene
 
+from .panels import DRAWN, columns
+
 #: Portraits that are kept in full, besides the small ones of all presets.
 WHOLE = ("case1-cm4", "case3-n3", "nonunique-sliding")
 LAYERS = [
@@ -69,4 +71,6 @@ def pictures() -> Mapping[str, Callable[[], str]]:
     for key in WHOLE:
         found[f"portrait-{key}.svg"] = lambda key=key: portrait(key)
     found["overlay-case1-cm4.json"] = lambda: overlay("case1-cm4")
+    for name in DRAWN:
+        found[f"panel-{name}.json"] = lambda name=name: columns(name)
     return found

@@ -5,6 +5,8 @@ import {register} from "../panels.js"
 import {roundUp} from "../ranges.js"
 import {digits, eigen, escape, pair, plain} from "../words.js"
 
+const QUIET = 60 // ms: longer than three frames of a drag
+
 const MARKS = `<details class="key">
     <summary>Marks</summary>
     <table>
@@ -32,11 +34,14 @@ class Numbers {
   apply({header}, late) {
     clearTimeout(this.timer)
     Object.assign(this.kept, header)
-    if (this.box.hidden) this.timer = setTimeout(() => this.write(late), 100)
-    else this.write(late)
+    if (this.box.hidden) {
+      this.tools.rest.note("tables", true)
+      this.timer = setTimeout(() => this.write(late), QUIET)
+    } else this.write(late)
   }
 
   write(late) {
+    this.tools.rest.note("tables", false)
     const header = this.kept
     this.kept = {}
     if (header.equator) this.equator(header)

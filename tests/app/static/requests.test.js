@@ -171,3 +171,39 @@ test("while the connection is lost nothing leaves", () => {
   assert.equal(world.asked.length, 0)
   assert.ok(world.requests.holds("f1"))
 })
+
+test("what is late is asked for when nothing has moved, then again, less and less often", () => {
+  const world = new World({line: 1})
+  const {requests} = world
+  const late = requests.arrived.bind(requests)
+  requests.arrived = (id, load) => { late(id, load); requests.restLater(world.asked.length < 7) }
+  requests.set("f1", 1)
+  world.run(4000)
+  const asked = world.applied.map(({at}) => at)
+  assert.deepEqual(world.asked.map(({rest}) => rest), [false, true, true, true, true, true, true])
+  const gaps = asked.slice(1).map((at, i) => at - asked[i])
+  ;[150, 50, 100, 200, 400, 400].forEach((wait, i) => assert.ok(gaps[i] >= wait && gaps[i] < wait + 30, `${gaps}`))
+})
+
+test("a change puts off what is late, and asks with patience again", () => {
+  const world = new World({line: 1})
+  const {requests} = world
+  requests.restLater(true)
+  world.run(140)
+  requests.restLater(true)
+  world.run(280)
+  assert.equal(world.asked.length, 0)
+  world.run(320)
+  assert.equal(world.asked.length, 1)
+  requests.restLater(true) // 50 ms now, …
+  requests.restLater(false) // … or not at all
+  world.run(600)
+  assert.equal(world.asked.length, 1)
+  requests.set("f1", 1)
+  world.run(700)
+  requests.restLater(true)
+  world.run(840)
+  assert.equal(world.asked.length, 2)
+  world.run(900)
+  assert.equal(world.asked.length, 3)
+})

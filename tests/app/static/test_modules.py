@@ -30,11 +30,14 @@ def write(folder, **modules):
 
 
 def test_node_tests(node):
-    done = subprocess.run(
-        [node, "--test", "--test-reporter=tap"], cwd=HERE, capture_output=True, text=True, check=False
-    )
+    """Those of what is drawn in a document need `npm --prefix tests/app/static ci`, which the linters run in CI."""
+    files = sorted(path.name for path in HERE.glob("*.test.js"))
+    if not os.environ.get("CI") and not (HERE / "node_modules" / "linkedom").is_dir():
+        files = [name for name in files if not re.search(r'"\./(page|drawing)\.js"', (HERE / name).read_text())]
+    command = [node, "--test", "--test-reporter=tap", *files]
+    done = subprocess.run(command, cwd=HERE, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert int(re.search(r"^# pass (\d+)$", done.stdout, re.M)[1]) >= len(list(HERE.glob("*.test.js")))
+    assert int(re.search(r"^# pass (\d+)$", done.stdout, re.M)[1]) >= len(files) > 10
 
 
 def test_the_joined_modules_are_one_module_that_node_reads(node, tmp_path):
