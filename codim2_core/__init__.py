@@ -31,7 +31,8 @@ from .sliding.filippov import FilippovSliding, filippov_sliding
 from .sliding.flow import sliding_flow
 from .systems.coefficients import Coefficients
 from .systems.elinear import ELinear
-from .systems.typed import Frozen, System
+from .systems.typed import System
+from .systems.typed_at_z import Frozen
 from .theorems.certificates import certificates
 
 __version__ = "0.1.0"

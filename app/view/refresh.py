@@ -17,7 +17,7 @@ from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.elinear import ELinear
-from codim2_core.systems.typed import Frozen, System
+from codim2_core.systems.typed import System
 
 from ..draw import glyphs
 from ..draw.layers import LAYERS
@@ -199,7 +199,7 @@ class Frames:
         """Describe the system when its formulas are others than those that the browser has."""
         choice = values["system"] if self.given is None else GIVEN
         key = (choice, tuple(values["texts"].items()))
-        if now.get("system") != key and not isinstance(scene.system, (Coefficients, Frozen)):
+        if now.get("system") != key and isinstance(scene.system, ELinear | System):
             now["system"] = key
             header["system"] = describe(choice, scene.system)
 

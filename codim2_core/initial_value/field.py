@@ -21,7 +21,9 @@ from ..expressions.source import program
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
 from ..systems.kinds import AnySystem
-from ..systems.typed import Frozen, System
+from ..systems.typed import System
+from ..systems.typed_at_z import Frozen
+from ..systems.typed_formulas import Formulas
 
 Array = NDArray[np.float64]
 BESIDE = 1e-9
@@ -99,7 +101,7 @@ def _number(value: float) -> Expression:
     return parse(repr(float(value)), ())
 
 
-def _system_rows(system: System) -> list[Expression]:
+def _system_rows(system: Formulas) -> list[Expression]:
     rows = [*system.U, *(system.W or [_number(0.0)] * system.m)]
     return _with_parameters(rows, system.parameters)
 

@@ -25,7 +25,7 @@ AROUND, BESIDE = 8, 1e-3  # orbits from around such a set that does not attract,
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Decision:
     """What follows.
 
     Attributes
@@ -47,7 +47,7 @@ class Verdict:
     onto: str | None = None
 
 
-def arriving(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Verdict:
+def arriving(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Decision:
     """Decide what becomes of a trajectory that arrives at Sigma at angle theta.
 
     Parameters
@@ -63,13 +63,13 @@ def arriving(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Verd
     outcomes = approach_outcomes(system, own, at, compare=None if psi is None else ())
     outcome = outcomes.outcome(theta)
     if psi is None and outcome.depends_on_psi:
-        return Verdict("stop", f"Arrives at Σ at θ = {theta:.4g}; what follows depends on Ψ: give psi.")
+        return Decision("stop", f"Arrives at Σ at θ = {theta:.4g}; what follows depends on Ψ: give psi.")
     if outcome.verdict == "misses":
-        return Verdict("away", outcome.reason)
+        return Decision("away", outcome.reason)
     return _followed(system, own, at, outcome.verdict, outcome.onto, outcome.leaving, outcome.reason)
 
 
-def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Verdict:
+def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Decision:
     """Decide what becomes of orbits of the layer problem at z that are now at points of the hemisphere.
 
     Parameters
@@ -77,7 +77,7 @@ def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Ver
     system, psi, z
         As in `arriving`.
     points : ndarray (k, 2)
-        In the projected disc, |p| < 1. Where they end at different places the verdict is "stop".
+        In the projected disc, |p| < 1. Where they end at different places the decision is "stop".
     """
     at = tuple(z.tolist())
     hemisphere = LayerProblem(system.at(at), psi)
@@ -102,20 +102,20 @@ def _followed(
     onto: str | None,
     leaving: float | None,
     reason: str,
-) -> Verdict:
+) -> Decision:
     """Turn what approach outcomes say into what the course does next."""
     if verdict == "slide":
         chosen = critical_sets(system, psi, at)[_index(onto)]
         if not _stable(chosen):
-            return Verdict("stop", f"{reason} But {onto} is a {chosen.kind}: which side is left to ε.")
-        return Verdict("slide", reason, chosen.e, onto=onto)
+            return Decision("stop", f"{reason} But {onto} is a {chosen.kind}: which side is left to ε.")
+        return Decision("slide", reason, chosen.e, onto=onto)
     if verdict == "cycle":
-        return Verdict("cycle", reason, critical_sets(system, psi, at)[0].e, onto=onto)
+        return Decision("cycle", reason, critical_sets(system, psi, at)[0].e, onto=onto)
     if verdict == "cross" and leaving is not None:
-        return Verdict("leave", reason, theta=leaving)
+        return Decision("leave", reason, theta=leaving)
     if verdict == "cross":
-        return Verdict("stop", f"{reason} At which phase of the spiral it leaves is left to ε.")
-    return Verdict("stop", reason)
+        return Decision("stop", f"{reason} At which phase of the spiral it leaves is left to ε.")
+    return Decision("stop", reason)
 
 
 def _index(label: str | None) -> int:
@@ -123,7 +123,7 @@ def _index(label: str | None) -> int:
     return int(digits) - 1 if digits else 0
 
 
-def from_middle(system: AnySystem, psi: Psi, z: Array) -> Verdict:
+def from_middle(system: AnySystem, psi: Psi, z: Array) -> Decision:
     """Decide what follows from a state on Sigma: x = y = 0 is p = 0 for every eps, so its orbit of the layer problem.
 
     Parameters
@@ -139,20 +139,20 @@ def from_middle(system: AnySystem, psi: Psi, z: Array) -> Verdict:
         i = middle[0]
         onto = "C" if len(sets) == 1 else f"C{i + 1}"
         if _stable(sets[i]):
-            return Verdict("slide", f"On Σ, x = y = 0 is the {sets[i].kind} {onto}: sliding.", sets[i].e, onto=onto)
+            return Decision("slide", f"On Σ, x = y = 0 is the {sets[i].kind} {onto}: sliding.", sets[i].e, onto=onto)
         angle = math.tau * np.arange(AROUND) / AROUND
         ring = BESIDE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-        verdict = from_hemisphere(system, psi, z, ring)
-        return replace(verdict, reason=f"On Σ, x = y = 0 is {onto} itself, which does not attract. {verdict.reason}")
+        decision = from_hemisphere(system, psi, z, ring)
+        return replace(decision, reason=f"On Σ, x = y = 0 is {onto} itself, which does not attract. {decision.reason}")
     border = np.flatnonzero(equator.radially_degenerate)
     if len(border) == 1 and not any(_stable(C) for C in sets):
         theta = float(equator.theta[border[0]])
-        return Verdict("border", "The critical set lies on the equator.", _unit(theta), theta, "C")
-    verdict = from_hemisphere(system, psi, z, np.zeros((1, 2)))
-    return replace(verdict, reason=f"On Σ, x = y = 0 is the middle of the hemisphere. {verdict.reason}")
+        return Decision("border", "The critical set lies on the equator.", _unit(theta), theta, "C")
+    decision = from_hemisphere(system, psi, z, np.zeros((1, 2)))
+    return replace(decision, reason=f"On Σ, x = y = 0 is the middle of the hemisphere. {decision.reason}")
 
 
-def starting(system: AnySystem, psi: Psi | None, z: Array) -> Verdict:
+def starting(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
     """Decide what follows from a state on Sigma, when nothing is known of how it came there.
 
     Parameters
@@ -162,7 +162,7 @@ def starting(system: AnySystem, psi: Psi | None, z: Array) -> Verdict:
 
     Returns
     -------
-    Verdict
+    Decision
         If psi is given, by the orbit of the layer problem through p = 0. Otherwise sliding if there is one attractor on
         the open hemisphere; with none, the one way out; else stop.
     """
@@ -172,32 +172,32 @@ def starting(system: AnySystem, psi: Psi | None, z: Array) -> Verdict:
     asked = compared()
     stable = [tuple(i for i, C in enumerate(critical_sets(system, own, at)) if _stable(C)) for own in asked]
     if any(choice != stable[0] for choice in stable):
-        return Verdict("stop", "Whether the critical set is stable depends on Ψ: give psi.")
+        return Decision("stop", "Whether the critical set is stable depends on Ψ: give psi.")
     own = asked[0]
     sets = critical_sets(system, own, at)
     if len(stable[0]) > 1:
-        return Verdict("stop", f"There are {len(stable[0])} stable critical sets: sliding is not unique on Σ.")
+        return Decision("stop", f"There are {len(stable[0])} stable critical sets: sliding is not unique on Σ.")
     if len(stable[0]) == 1:
         i = stable[0][0]
         onto = "C" if len(sets) == 1 else f"C{i + 1}"
         reason = f"On Σ there is one stable critical set, {onto}: sliding.{_also(system, at)}"
-        return Verdict("slide", reason, sets[i].e, onto=onto)
+        return Decision("slide", reason, sets[i].e, onto=onto)
     cycles = [(i, cycle) for i, cycle in enumerate(limit_cycles(system, own, at)) if cycle.stable]
     if cycles:
-        return Verdict("stop", "There are limit cycles, and psi was not given: sliding is not unique on Σ.")
+        return Decision("stop", "There are limit cycles, and psi was not given: sliding is not unique on Σ.")
     equator = equator_equilibria(system, at)
     border = np.flatnonzero(equator.radially_degenerate)
     if len(border) == 1:
         theta = float(equator.theta[border[0]])
-        return Verdict("border", "The critical set lies on the equator.", _unit(theta), theta, "C")
+        return Decision("border", "The critical set lies on the equator.", _unit(theta), theta, "C")
     ways = _ways_out(equator)
     if len(ways) == 1:
         theta = float(equator.theta[ways[0]])
-        return Verdict(
+        return Decision(
             "leave", f"On Σ nothing attracts; the one way out is θ = {theta:.4g} (Q{ways[0] + 1}).", theta=theta
         )
     many = "no direction leads" if not len(ways) else f"{len(ways)} directions lead"
-    return Verdict("stop", f"On Σ nothing attracts, and {many} away from it: what follows is not unique.")
+    return Decision("stop", f"On Σ nothing attracts, and {many} away from it: what follows is not unique.")
 
 
 def _ways_out(equator: EquatorEquilibria) -> list[int]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..systems.frozen import AtZ
-from ..systems.typed import MOST_NUMBERS
+from ..systems.typed_formulas import MOST_NUMBERS
 
 if TYPE_CHECKING:
     from ..psi.function import Psi

@@ -5,7 +5,8 @@ from __future__ import annotations
 from .coefficients import Coefficients
 from .elinear import ELinear
 from .frozen import AtZ
-from .typed import Frozen, System
+from .typed import System
+from .typed_at_z import Frozen
 
 AnySystem = ELinear | System | AtZ
 KINDS = (ELinear, System, Coefficients, Frozen)  # for `isinstance`, at the door

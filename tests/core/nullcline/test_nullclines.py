@@ -1,7 +1,6 @@
 """Nullclines: the field component vanishes on every point, no branch is missing, none is falsely joined."""
 
 import math
-import sys
 
 import numpy as np
 import pytest
@@ -9,9 +8,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, critical_sets, equator_equilibria, hemisphere, nullclines, psi
+from codim2_core.nullcline import drawing
 from tests.core.strategies import regularisations, systems
 
-module = sys.modules["codim2_core.nullcline.nullclines"]
 QUARTER_PIXEL = 0.25 / 180
 
 
@@ -94,9 +93,9 @@ def worst_gap(system, regularisation, monkeypatch):
     drawn = [b for b in nullclines(system, regularisation) if b.inside]
     with monkeypatch.context() as fine:
         # The exact radius instead of the table, and thirty times the points.
-        fine.setattr(module, "_onto_disc", exactly_onto_disc)
-        fine.setattr(module, "POINTS", 2049)
-        fine.setattr(module, "_GRID", 0.5 - 0.5 * np.cos(np.linspace(0.0, math.pi, 2049)))
+        fine.setattr(drawing, "_onto_disc", exactly_onto_disc)
+        fine.setattr(drawing, "POINTS", 2049)
+        fine.setattr(drawing, "_GRID", 0.5 - 0.5 * np.cos(np.linspace(0.0, math.pi, 2049)))
         exact = [b for b in nullclines(system, regularisation) if b.inside]
     assert [b.kind for b in drawn] == [b.kind for b in exact]
     gaps = [distance_to_polyline(p, a.points) for a, b in zip(drawn, exact, strict=True) for p in b.points[::3]]

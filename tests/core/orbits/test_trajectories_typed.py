@@ -15,7 +15,8 @@ from codim2_core.orbits.trajectories import Status, continuation, is_warm, traje
 from codim2_core.stepping.layout import K0, LANES, PARAMETERS, SIGN, STATE, WIDTH, WORKSPACE, call_field
 from codim2_core.stepping.problem import problem
 from codim2_core.systems.elinear import ELinear
-from codim2_core.systems.typed import MOST_NUMBERS, System
+from codim2_core.systems.typed import System
+from codim2_core.systems.typed_formulas import MOST_NUMBERS
 
 FAMILIES = [
     psi.constant(),

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 
 from codim2_core import ELinear
 from codim2_core.expressions.expression import ExpressionError, parse
-from codim2_core.systems.formulas import LONGEST_KEY
-from codim2_core.systems.typed import MOST_NAMES, MOST_NUMBERS, System
+from codim2_core.systems.reading import LONGEST_KEY
+from codim2_core.systems.typed import System
+from codim2_core.systems.typed_formulas import MOST_NAMES, MOST_NUMBERS
 from tests.work import calls
 
 CUBIC = ("-c*(c - chi(z)/2)*(c + chi(z)/2)", "-s/2")

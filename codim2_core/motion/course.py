@@ -1,0 +1,317 @@
+"""The course of a nonsmooth motion: it slips, arrives at Sigma, slides or crosses, and leaves, phase after phase."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from dataclasses import field as made_with
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..cycles.limit_cycles import limit_cycles
+from ..initial_value.events import Watch
+from ..initial_value.field import Field
+from ..initial_value.line import Line
+from ..numerics.radau import Problem, Step, TooManyStepsError
+from ..psi import constructors
+from ..psi.function import Psi
+from ..systems.kinds import AnySystem
+from .decide import Decision, arriving, critical_name, from_hemisphere, starting
+from .followed import in_disc
+from .part import Part
+from .places import Ascent
+from .result import Phase
+from .slide import slide
+from .slide_on_cycle import slide_on_cycle
+from .slip import leave, slip
+
+Array = NDArray[np.float64]
+
+CLOSER = 1e-4  # a trajectory that turns before Sigma is followed this much closer, and asked again
+AROUND = 16  # points of a cycle that has ended, from which orbits are followed
+PAST = 1e-6  # of the time ahead: how far past a Hopf bifurcation its cycle is looked for
+
+
+class StopError(Exception):
+    """The limit is not unique, or not known; the message says why."""
+
+
+class AtEventError(Exception):
+    """A terminal event."""
+
+
+@dataclass
+class Course:
+    """A motion under way."""
+
+    system: AnySystem
+    psi: Psi | None
+    formulas: Field
+    problem: Problem
+    line: Line | None
+    watch: Watch
+    t: float
+    state: Array
+    t_end: float
+    rtol: float
+    atol: float
+    most: int
+    taken: list[Step] = made_with(default_factory=list)
+    parts: list[Part] = made_with(default_factory=list)
+    ascent: Ascent | None = None  # of the phase to come
+
+    @property
+    def own(self) -> Psi:
+        """Psi, or Psi = 1 where none is given."""
+        return constructors.constant() if self.psi is None else self.psi
+
+    @property
+    def left(self) -> int:
+        """Steps and phases that may still be taken."""
+        return self.most - len(self.taken) - len(self.parts)
+
+    def add(
+        self,
+        kind: str,
+        taken: list[Step],
+        reason: str,
+        onto: str | None = None,
+        e: Sequence[Array] = (),
+        p: Sequence[Array] = (),
+    ) -> None:
+        """Add a phase, as far as no terminal event stops it."""
+        start, kept, stopped = self.t, list[Step](), False
+        for step in taken:
+            last = self.watch.step(step)
+            kept.append(step if last is None else last)
+            if last is not None:
+                stopped = True
+                break
+        times = [start, *(step.end for step in kept)]
+        if kept:
+            self.taken += kept
+            self.t, self.state = max(kept[-1].end, start), kept[-1].last
+        self.parts.append(Part(Phase(kind, start, self.t, reason, onto), times, self.ascent, e, p))
+        self.ascent = None
+        if stopped:
+            raise AtEventError
+
+    def run(self) -> None:
+        """Follow the motion to the end of its time.
+
+        Raises
+        ------
+        AtEventError, StopError, BlowUpError, TooManyStepsError
+            It ends before; what has been followed is kept.
+        """
+        on = not self.state[:2].any()
+        decision = self.first() if on else self.slip([], "The motion starts outside Σ.")
+        while decision is not None and self.t < self.t_end:
+            if self.left <= 0:
+                raise TooManyStepsError
+            if decision.kind == "stop":
+                raise StopError(decision.reason)
+            decision = self.leave(decision) if decision.kind == "leave" else self.slide(decision)
+
+    def first(self) -> Decision:
+        """Decide what follows from a start on Sigma."""
+        if self.line is not None:
+            return self.in_line(0.0, "The motion starts at Σ, in an invariant line.")
+        decision = starting(self.system, self.psi, self.state[2:])
+        if self.psi is not None:
+            self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=np.zeros(2))
+        return self.at_border(decision) if decision.kind == "border" else decision
+
+    def in_line(self, q: float, reason: str) -> Decision:
+        """Decide what follows on Sigma in an invariant line, where the layer problem is that of one variable."""
+        assert self.line is not None
+        z, n = self.state[2:], self.line.n
+        onward = self.line.onward(q, z)
+        if onward is None:
+            if self.line.slope(q, z) >= 0.0:
+                return Decision("stop", f"{reason} It rests on a critical set that repels along the line.")
+            onward = q
+        self.ascent = Ascent(self.system, self.own, z, along=(in_disc(self.own, q * n), in_disc(self.own, onward * n)))
+        if abs(onward) < 1.0:
+            e = onward * n
+            onto = critical_name(self.system, self.own, z, e)
+            return Decision("slide", f"{reason} Along it comes the critical set {onto}: sliding.", e, onto=onto)
+        theta = math.atan2(*(onward * n)[::-1].tolist())
+        reason = f"{reason} Along it there is no critical set: crossing, it leaves along θ = {theta:.4g}."
+        return Decision("leave", reason, theta=theta)
+
+    def slip(self, begun: list[Step], reason: str) -> Decision | None:
+        """Slip, and decide what follows at Sigma."""
+        taken, t, state = list(begun), self.t, self.state
+        if begun:
+            t, state = begun[-1].end, begun[-1].last
+        largest = 0.0
+        while True:
+            part = slip(self.problem, t, state, self.t_end, self.rtol, self.left, largest)
+            if part.theta is None:
+                self.add("slip", taken + part.taken, reason)
+                if part.stopped is not None:
+                    raise part.stopped
+                return None
+            if self.line is not None:
+                self.add("slip", taken + part.taken, reason)
+                q = float(self.line.n @ [math.cos(part.theta), math.sin(part.theta)])
+                return self.crossed(self.in_line(math.copysign(1.0, q), "Arrives at Σ in an invariant line."))
+            z = part.taken[-1].last[2:]
+            decision = arriving(self.system, self.psi, z, part.theta)
+            if decision.kind != "away":
+                self.add("slip", taken + part.taken, reason)
+                self.ascent = Ascent(self.system, self.own, z, part.theta)
+                return self.crossed(decision)
+            # It will turn away from Sigma: go on from where it was close, and look again from closer.
+            taken += part.taken[:-1]
+            t, state = taken[-1].end, taken[-1].last
+            largest = math.hypot(state[0], state[1]) * CLOSER
+
+    def crossed(self, decision: Decision) -> Decision:
+        """Name the crossing, where what follows an arrival is to leave."""
+        if decision.kind == "leave":
+            phase = Phase("cross", self.t, self.t, decision.reason)
+            self.parts.append(Part(phase, [self.t], self.ascent, theta=decision.theta))
+            self.ascent = None
+        return decision
+
+    def leave(self, decision: Decision) -> Decision | None:
+        """Leave Sigma, and slip."""
+        assert decision.theta is not None
+        first = leave(self.formulas, decision.theta, self.t, self.state[2:], self.t_end, self.line)
+        if isinstance(first, str):
+            raise StopError(f"{decision.reason} But {first}")
+        crossed = bool(self.parts) and self.parts[-1].phase.kind == "cross"
+        reason = f"Leaves Σ along θ = {decision.theta:.4g}." if crossed else decision.reason
+        return self.slip([first], reason)
+
+    def slide(self, decision: Decision) -> Decision | None:
+        """Slide, and decide what follows where that ends."""
+        assert decision.e is not None
+        on_cycle = decision.kind == "cycle"
+        if on_cycle and self.system.typed is not None:
+            return self.slide_on_cycle(decision)
+        lives = self.has_cycle if on_cycle else None
+        part = slide(
+            self.formulas,
+            self.own,
+            decision.e,
+            self.t,
+            self.state[2:],
+            self.t_end,
+            rtol=self.rtol,
+            atol=self.atol,
+            most=self.left,
+            lives=lives,
+            line=self.line,
+        )
+        self.add("slide", part.taken, decision.reason, decision.onto, part.places)
+        if part.stopped is not None:
+            raise part.stopped
+        C = "C" if on_cycle else decision.onto
+        if part.end == "time":
+            return None
+        if part.end == "equator":
+            theta = math.atan2(part.e[1], part.e[0])
+            reason = f"{C} reaches the equator (fig:transcrit) and sliding ends: slips away along θ = {theta:.4g}."
+            return Decision("leave", reason, theta=theta)
+        if part.end == "fold" and self.line is not None:
+            return self.past_fold_in_line(self.line, part.e, C)
+        if part.end == "fold":
+            return self.past_fold(part.e, C)
+        if part.end == "cycle":
+            return self.past_cycle(self.ahead(part.e, PAST))
+        if on_cycle:
+            return Decision("slide", f"The limit cycle shrinks onto {C} (Hopf): sliding on {C}.", part.e, onto=C)
+        return self.past_hopf(part.e, C)
+
+    def slide_on_cycle(self, decision: Decision) -> Decision | None:
+        """Slide on a limit cycle of a general system."""
+        assert decision.onto is not None
+        index, z = int(decision.onto.split()[1]) - 1, self.state[2:]
+        if not len(z):
+            raise StopError(f"{decision.reason} There is no z to follow (m = 0).")
+        part = slide_on_cycle(self.system, self.own, index, self.t, z, self.t_end, self.left)
+        self.add("slide", part.taken, decision.reason, decision.onto, part.e, part.p)
+        if part.lives:
+            return None
+        if not part.taken:
+            return Decision("stop", "The limit cycle ends at once: where orbits go from it is not known.")
+        return self.past_cycle(self.state[2:] + 10.0 * (self.state[2:] - part.taken[-1].first[2:]))
+
+    def ahead(self, e: Array, part: float) -> Array:
+        """Return z a small part of the time ahead, along the slow flow at e."""
+        z = self.state[2:]
+        flow = self.formulas.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:]
+        return z + part * (self.t_end - self.t) * np.array(flow)
+
+    def past_fold_in_line(self, line: Line, e: Array, C: str | None) -> Decision:
+        """C has met another critical set in the line: the layer problem leads on from there, just past the fold."""
+        here, q = self.state.copy(), float(line.n @ e)
+        self.state[2:] = self.ahead(e, PAST)
+        decision = self.in_line(q, f"{C} ends in a fold.")
+        self.state = here
+        return decision
+
+    def past_fold(self, e: Array, C: str | None) -> Decision:
+        """C has met another critical set and both are gone: follow the orbit that leaves the place."""
+        reason = f"{C} ends in a fold (det J = 0)."
+        point = in_disc(self.own, e)[None]
+        self.ascent = Ascent(self.system, self.own, self.ahead(e, PAST), start=point[0])
+        # Just past the fold orbits take long to leave the place; a little further they are followed to their end.
+        for further in (1.0, 1e2, 3e3):
+            decision = self.onward(reason, self.ahead(e, further * PAST), point)
+            if decision.kind != "stop":
+                break
+        return decision
+
+    def past_cycle(self, ahead: Array) -> Decision:
+        """Follow orbits from all around a cycle that has ended."""
+        reason = "The limit cycle ends."
+        last = [cycle for cycle in limit_cycles(self.system, self.own, tuple(self.state[2:].tolist())) if cycle.stable]
+        if len(last) != 1:
+            return Decision("stop", f"{reason} Where orbits go from it was not found.")
+        points = last[0].points
+        decision = self.onward(reason, ahead, points[:: max(1, len(points) // AROUND)])
+        if decision.kind == "cycle":  # it comes and goes within the resolution of the search
+            return Decision("stop", f"{reason} Where orbits go from it is not decided within resolution.")
+        return decision
+
+    def onward(self, reason: str, z: Array, points: Array) -> Decision:
+        """Follow orbits of the layer problem from where an attractor was."""
+        try:
+            decision = from_hemisphere(self.system, self.own, z, points)
+        except ValueError as error:  # at the edge of where the formulas are defined
+            return Decision("stop", f"{reason} {error}")
+        if self.psi is None and decision.kind != "stop":
+            return Decision("stop", f"{reason} Where orbits go from there may depend on Ψ: give psi.")
+        return replace(decision, reason=f"{reason} {decision.reason}")
+
+    def has_cycle(self, z: Array) -> bool:
+        """Whether the layer problem at z has a stable limit cycle."""
+        return any(cycle.stable for cycle in limit_cycles(self.system, self.own, tuple(z.tolist())))
+
+    def past_hopf(self, e: Array, C: str | None) -> Decision:
+        """C has lost its stability to the fast flow: slide on the cycle born there, if it is stable."""
+        if any(self.has_cycle(self.ahead(e, part)) for part in (PAST, 100.0 * PAST)):
+            if self.system.typed is not None:
+                reason = f"{C} loses its stability (Hopf) to a stable limit cycle: after what delay is left to ε."
+                return Decision("stop", reason)
+            reason = (
+                f"{C} loses its stability (Hopf) to a stable limit cycle: sliding, with z' averaged over the cycle, "
+                "which is that on C (prop:LC)."
+            )
+            return Decision("cycle", reason, e, onto="cycle 1")
+        given = "" if self.psi is not None else " (for Ψ = 1; none was given)"
+        return Decision("stop", f"{C} loses its stability (Hopf){given}, and no stable limit cycle takes over.")
+
+    def at_border(self, decision: Decision) -> Decision:
+        """Start where the critical set lies on the equator: it moves in, or lambda_rho becomes positive."""
+        assert decision.theta is not None
+        first = leave(self.formulas, decision.theta, self.t, self.state[2:], self.t_end)
+        if isinstance(first, str):
+            return Decision("slide", f"{decision.reason} It moves inwards: sliding.", decision.e, onto="C")
+        return Decision("leave", f"{decision.reason} It moves out: slips.", theta=decision.theta)

@@ -1,0 +1,191 @@
+"""Branches of invariant manifolds, each followed from its saddle to where it ends.
+
+On the hemisphere an equilibrium Q of the equator has the eigenvalues lambda_theta along the equator and -lambda_rho
+up it (thm:geneps0(b)), outside it lambda_theta and lambda_rho: it is a half-saddle on the hemisphere where
+``lambda_theta lambda_rho > 0`` and outside where ``lambda_theta lambda_rho < 0``. Outside, the branch is exactly
+the ray theta = theta_i, unless U depends on x or y. Where Theta has a multiple zero, its branch bounds the sectors
+there and is followed too.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..cycles.limit_cycles import cycles_of
+from ..layer_problem.equator import EquatorEquilibria
+from ..layer_problem.problem import LayerProblem
+from ..orbits.trajectories import Status, Trajectories, continuation, joined, trajectories
+from ..psi.function import Psi
+from ..systems.frozen import AtZ
+from .endings import (
+    CAPTURE,
+    CONNECTION,
+    SLOW,
+    SPEEDS,
+    critical_label,
+    endings,
+    half_saddle,
+    radially_neutral,
+)
+from .saddle_manifold import starts
+from .separatrix import Separatrix
+
+Array = NDArray[np.float64]
+
+EXTENSIONS = 6  # times that a branch is followed on to where it ends, four times longer each
+NEAR_END = 0.02  # distance to the end that is drawn straight: followed further, an orbit would all but stand still
+ARC = 0.05  # radians between points of the equator
+NEAR_SIGMA = 1e-4  # rho at which a bent branch outside starts: its expansion is off by rho^2 there
+
+
+def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: float, backward: bool) -> list[Separatrix]:
+    """All branches on the hemisphere that leave their saddle forward, or backward, in time."""
+    at, psi, equator, critical = problem.at, problem.psi, problem.equator, problem.critical
+    fine: Any = {"rtol": rtol, "atol": 0.1 * rtol, "pixel": pixel, "capture": CAPTURE, "backward": backward}
+    owners = [i for i in range(len(equator)) if half_saddle(equator, i) and (equator.lambda_rho[i] > 0.0) == backward]
+    origins = [f"Q{i + 1}" for i in owners]
+    angles = equator.theta[owners].tolist()
+    firsts = [np.array([math.cos(angle), math.sin(angle)]) for angle in angles]
+    # A slow branch needs more time than another should be drawn for.
+    unit = at.speed
+    parts = []
+    for i in owners:
+        own = min(t_max, SPEEDS / unit + SLOW / abs(float(equator.lambda_rho[i])))
+        parts.append(continuation(at, psi, equator.theta[i : i + 1], t_max=own, **fine))
+    for k, C in enumerate(critical):
+        if C.kind == "saddle":
+            value = float(C.eigenvalues.real[1 if backward else 0])
+            points, tangents = starts(at, psi, C, value, 0.1 * rtol)
+            parts.append(trajectories(at, psi, points, t_max=t_max, **fine))
+            origins += [critical_label(critical, k)] * 2
+            angles += np.arctan2(tangents[:, 1], tangents[:, 0]).tolist()
+            firsts += [C.p, C.p]
+    if not parts:
+        return []
+    lines = joined(parts)
+    branches = []
+    ends = endings(at, psi, lines, equator, critical, lambda: problem.keep(cycles_of), rtol=rtol, backward=backward)
+    places = {critical_label(critical, k): C.p for k, C in enumerate(critical)}
+    places |= {f"Q{k + 1}": np.array([math.cos(t), math.sin(t)]) for k, t in enumerate(equator.theta.tolist())}
+    tails = _tails(at, psi, lines, [places.get(ending.label) for ending in ends], rtol, pixel, backward)
+    for i, ending in enumerate(ends):
+        line = np.concatenate([firsts[i][None, :], lines.points[i], *tails[i]])
+        direction = "stable" if backward else "unstable"
+        points = np.ascontiguousarray(line[::-1] if backward else line)
+        connection = ending.sentence == CONNECTION
+        branches.append(
+            Separatrix(
+                origins[i],
+                direction,
+                ending.label,
+                points,
+                angles[i],
+                ending.angle,
+                True,
+                connection,
+                None,
+                ending.sentence,
+            )
+        )
+    return branches
+
+
+def _tails(
+    at: AtZ, psi: Psi, lines: Trajectories, ends: list[Array | None], rtol: float, pixel: float, backward: bool
+) -> list[list[Array]]:
+    """Points from where each line was left to the point where it ends; none where it ends at no point.
+
+    Lines that their time cut off, or that were captured at a distance, are followed to where they stop, in ever longer
+    times, and end where they come nearest to the point.
+    """
+    tails: list[list[Array]] = [[] for _ in ends]
+    left = np.array([points[-1] if len(points) else [math.nan, math.nan] for points in lines.points])
+    away = [math.inf if end is None else math.dist(end, p) for end, p in zip(ends, left, strict=True)]
+    open_ = [i for i, end in enumerate(ends) if end is not None and away[i] > pixel]
+    time = 100.0 / at.speed
+    for _ in range(EXTENSIONS):
+        # a point of the disc says nothing of an ebar below 1e-7
+        open_ = [i for i in open_ if float(lines.ends[i, 2]) > 1e-7 and np.hypot(*left[i]) < 1.0 - 1e-14]
+        if not open_:
+            break
+        fine: Any = {"rtol": rtol, "atol": 0.1 * rtol, "pixel": pixel, "capture": CAPTURE, "backward": backward}
+        on = trajectories(at, psi, left[open_], t_max=time, **fine)
+        still = []
+        for k, i in enumerate(open_):
+            points, end = on.points[k], ends[i]
+            assert end is not None
+            gaps = np.hypot(*(points - end).T)
+            nearest = int(np.argmin(gaps))
+            tails[i].append(points[1 : nearest + 1])
+            left[i] = points[nearest]
+            cut_off = on.status[k] in (Status.T_MAX, Status.STEP_LIMIT) and nearest == len(points) - 1
+            if cut_off and gaps[nearest] > pixel:
+                still.append(i)
+        open_ = still
+        time *= 4.0
+    for i, end in enumerate(ends):
+        if end is None:
+            continue
+        gap = math.dist(end, left[i])
+        if gap > pixel and min(np.hypot(*end), np.hypot(*left[i])) > 1.0 - 1e-7:
+            tails[i].append(_along_equator(at, left[i], end, backward))
+        elif gap <= NEAR_END:
+            tails[i].append(end[None, :])
+    return tails
+
+
+def _along_equator(at: AtZ, p: Array, end: Array, backward: bool) -> Array:
+    """Points of the equator from beside p to an equilibrium there, in the sense in which orbits move."""
+    first, last = math.atan2(p[1], p[0]), math.atan2(end[1], end[0])
+    U = at.U(p / np.hypot(*p))
+    turn = (last - first) % (2.0 * math.pi)
+    if (float(p[0] * U[1] - p[1] * U[0]) < 0.0) != backward:
+        turn -= 2.0 * math.pi
+    angles = first + turn * np.linspace(0.0, 1.0, math.ceil(abs(turn) / ARC) + 1)[1:]
+    return np.concatenate([np.stack([np.cos(angles), np.sin(angles)], axis=-1)[:-1], end[None, :]])
+
+
+def outside_half_saddle(equator: EquatorEquilibria, i: int) -> bool:
+    """As `half_saddle`, for the side rho > 0, where the radial eigenvalue is lambda_rho."""
+    if radially_neutral(equator, i):
+        return False
+    return int(equator.multiplicity[i]) % 2 == 0 or not half_saddle(equator, i)
+
+
+def ray(equator: EquatorEquilibria, i: int, view: float) -> Separatrix:
+    """Return the branch outside where U does not depend on x or y: the ray itself."""
+    angle = float(equator.theta[i])
+    u = np.array([math.cos(angle), math.sin(angle)])
+    far = view / max(abs(u[0]), abs(u[1]))
+    stable = equator.lambda_rho[i] < 0.0
+    points = np.array([far * u, u] if stable else [u, far * u])
+    sentence = f"The ray θ = θ_{i + 1} itself, as f is constant: " + ("it arrives." if stable else "it leaves.")
+    direction = "stable" if stable else "unstable"
+    return Separatrix(f"Q{i + 1}", direction, "outside", points, angle, angle, False, False, None, sentence)
+
+
+def bent(problem: LayerProblem, i: int, t_max: float, rtol: float, view: float, pixel: float) -> Separatrix:
+    """Follow the branch outside where U depends on x or y: ``theta = theta_i + k rho + ...``, rho' = rho lambda_rho."""
+    at, psi, equator = problem.at, problem.psi, problem.equator
+    angle, growth = float(equator.theta[i]), float(equator.lambda_rho[i])
+    u, across = np.array([math.cos(angle), math.sin(angle)]), np.array([-math.sin(angle), math.cos(angle)])
+    change = float(across @ (at.U(u, NEAR_SIGMA * u) - at.U(u, -NEAR_SIGMA * u))) / (2.0 * NEAR_SIGMA)
+    lean = change / (growth - float(equator.lambda_theta[i]))  # of opposite signs at a half-saddle
+    start = angle + NEAR_SIGMA * lean
+    first = (1.0 + NEAR_SIGMA) * np.array([[math.cos(start), math.sin(start)]])
+    stable = growth < 0.0
+    time = t_max + 2.0 * abs(math.log(NEAR_SIGMA) / growth)
+    options: dict[str, Any] = {"rtol": rtol, "atol": 0.1 * rtol, "view": view, "pixel": pixel, "backward": stable}
+    line = trajectories(at, psi, first, t_max=time, **options)
+    points = np.concatenate([u[None, :], line.points[0]])
+    far = math.atan2(points[-1, 1], points[-1, 0])
+    direction = "stable" if stable else "unstable"
+    sentence = f"Outside, from Q{i + 1}: " + ("it arrives." if stable else "it leaves.")
+    if line.status[0] is not Status.LEFT_VIEW:
+        sentence += f" {line.status[0].value}"
+    ordered = np.ascontiguousarray(points[::-1] if stable else points)
+    return Separatrix(f"Q{i + 1}", direction, "outside", ordered, angle, far, False, False, None, sentence)

@@ -1,0 +1,191 @@
+"""A typed system at one z: all that the hemisphere there depends on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..expressions.arrays import program
+from ..expressions.expression import Expression
+from ..expressions.names import PLANE, SLOW, number_names
+from .bounds import LARGEST, SMALLEST
+from .coefficients import Affine, Coefficients
+from .elinear import ELinear
+from .typed_formulas import Formulas
+
+Array = NDArray[np.float64]
+
+# Where U must be finite: rings of directions, the equator among them.
+_SIZES = (0.0, 0.35, 0.7, 1.0)
+_ANGLES = np.linspace(0.0, 2.0 * math.pi, 24, endpoint=False)
+_PROBES = np.concatenate([r * np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=-1) for r in _SIZES])
+
+
+@dataclass(frozen=True)
+class Frozen:
+    """A general system at one z: all that the hemisphere there depends on. Made by `System.at`.
+
+    Attributes
+    ----------
+    system : System
+    z : tuple of float
+    """
+
+    system: Formulas
+    z: tuple[float, ...]
+
+    frozen: ClassVar[bool] = True
+    moves_with_z: ClassVar[bool] = False
+    variable: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    def typed(self) -> Formulas:
+        """The system that this was frozen from."""
+        return self.system
+
+    @property
+    def reads_position(self) -> bool:
+        """Whether U depends on x or y: then the outside differs from the hemisphere's continuation."""
+        return self.system.reads_position
+
+    @property
+    def m(self) -> int:
+        """The number of slow variables."""
+        return self.system.m
+
+    @cached_property
+    def values(self) -> dict[str, float]:
+        """Parameters and slow variables by name."""
+        return {**dict(self.system.parameters), **dict(zip(SLOW, self.z, strict=False))}
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """Values of ``system.numbers``: the arguments of the compiled field."""
+        return tuple(self.values[name] for name in self.system.numbers)
+
+    @cached_property
+    def key(self) -> Hashable:
+        """What decides the portrait: the formulas of U and the numbers that they read."""
+        return self.system.U, self.numbers
+
+    @cached_property
+    def slow_key(self) -> Hashable:
+        """What decides the slow flow on a given critical set: the formulas of W and the numbers that they read."""
+        return self.system.W, tuple(self.values[name] for name in number_names(self.system.W))
+
+    def at(self, z: ArrayLike = ()) -> Frozen:  # noqa: ARG002 (z is already chosen)
+        """Return itself: a system frozen at one z, accepted wherever a system is."""
+        return self
+
+    def U(self, e: ArrayLike, xy: ArrayLike | None = None) -> Array:
+        """``U(e, x, y, z)`` for e of shape (..., 2) and xy of that shape (default x = y = 0, on Sigma)."""
+        return self._vector(self.system.U, e, xy)
+
+    def W(self, e: ArrayLike, xy: ArrayLike | None = None) -> Array:
+        """``W(e, x, y, z)`` likewise, of shape (..., m)."""
+        if not self.system.W:
+            return np.zeros((*np.shape(e)[:-1], self.m))
+        return self._vector(self.system.W, e, xy)
+
+    def DU(self, e: ArrayLike) -> Array:
+        """``D_(c,s) U`` on Sigma for e of shape (..., 2); shape (..., 2, 2), exact; on a kink the mean of its sides."""
+        e = np.asarray(e, float)
+        if self._matrix is not None:
+            return np.broadcast_to(self._matrix, (*e.shape[:-1], 2, 2))
+        rows = np.asarray(program(self.key).at(e.reshape(-1, 2)), np.float64)
+        return rows[:, :, 1:].reshape((*e.shape[:-1], 2, 2))
+
+    @property
+    def normal_form(self) -> Coefficients | None:
+        """U in the normal form of the e-linear system (lem:normalform), or None if it is not affine in (c, s).
+
+        U must not read x or y, and its derivatives by c and s must be free of them. Only the portrait's plane is
+        brought over, in the rotated axes: the result has m = 0.
+        """
+        return self._normal_form
+
+    @cached_property
+    def _matrix(self) -> Array | None:
+        """D_(c,s) U where it is the same everywhere: U is affine in c and s."""
+        entries = [entry for row in self.system.jacobian for entry in row]
+        if any(name in PLANE for entry in entries for name in entry.names):
+            return None
+        return self._vector(entries, (0.0, 0.0), None).reshape(2, 2)
+
+    @cached_property
+    def _normal_form(self) -> Coefficients | None:
+        if self.affine is None:
+            return None
+        a11, a12, a21, a22, *f = self.affine
+        if a12 + a21 == 0.0:  # in the normal form already: no rotation
+            return ELinear(a11, a21, a22, f).at()
+        return ELinear.from_matrix([[a11, a12], [a21, a22]], f).at()
+
+    @property
+    def affine(self) -> Affine | None:
+        """``(A11, A12, A21, A22, f1, f2)`` of ``U = A e + f``; None if U is not affine in (c, s)."""
+        return self._affine
+
+    @cached_property
+    def _affine(self) -> Affine | None:
+        if self.reads_position or self._matrix is None:
+            return None
+        (a11, a12), (a21, a22) = self._matrix.tolist()
+        return (a11, a12, a21, a22, *self.U((0.0, 0.0)).tolist())
+
+    @property
+    def turn(self) -> float:
+        """0: `affine` has these axes."""
+        return 0.0
+
+    @property
+    def as_given(self) -> Coefficients | None:
+        """The normal form where U is in it already: the same axes, and nothing rounded on the way."""
+        normal = self.normal_form
+        return normal if normal is not None and normal.rotation == 0.0 else None
+
+    @property
+    def size(self) -> float:
+        """The largest |U| on a coarse net over the closed disc: the unit of speed.
+
+        Raises
+        ------
+        ValueError
+            U is not finite there, or beyond 1e150, or not zero and below 1e-150.
+        """
+        return self._size
+
+    @cached_property
+    def _size(self) -> float:
+        speeds = np.hypot(*np.moveaxis(self.U(_PROBES), -1, 0))
+        largest = float(speeds.max())
+        if not largest <= LARGEST:  # also NaN
+            c, s = _PROBES[int(np.argmax(~(speeds <= LARGEST)))]
+            raise ValueError(
+                f"U is {self.U((c, s)).tolist()} at e = ({c:.3g}, {s:.3g}), z = {self.z}; it must be finite, and at "
+                f"most {LARGEST:g}, on the whole disc |e| <= 1."
+            )
+        if 0.0 < largest < SMALLEST:
+            raise ValueError(f"U is at most {largest:.3g}; multiply it by a factor: that only rescales time.")
+        return largest
+
+    @property
+    def speed(self) -> float:
+        """The largest |U|, or 1 where U = 0: the unit of speed of the compiled field."""
+        return self.size or 1.0
+
+    def _vector(self, rows: Sequence[Expression], e: ArrayLike, xy: ArrayLike | None) -> Array:
+        e = np.asarray(e, float)
+        values: dict[str, Any] = {**self.values, "c": e[..., 0], "s": e[..., 1], "x": 0.0, "y": 0.0}
+        if xy is not None:
+            xy = np.asarray(xy, float)
+            values["x"], values["y"] = xy[..., 0], xy[..., 1]
+        if e.ndim == 1 and (xy is None or xy.ndim == 1):
+            values.update((name, float(values[name])) for name in PLANE)
+        return np.stack([np.asarray(row.evaluate(values), float) for row in rows], axis=-1)

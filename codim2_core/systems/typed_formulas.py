@@ -1,0 +1,84 @@
+"""The formulas of a typed system, read and checked: U, W, parameters and definitions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from ..expressions.expression import Expression
+from ..expressions.names import MOST_SLOW_VARIABLES, SLOW, number_names
+from .reading import continuous, mapping, parameter, read, shortened, texts
+from .reading import definitions as read_definitions
+
+MOST_NUMBERS = 32  # parameters and slow variables that one system may read
+MOST_NAMES = 64  # parameters and definitions of one system
+
+
+@dataclass(frozen=True)
+class Formulas:
+    """U and W of eq:vf as formulas with numbers for their parameters, the parameters of `System`."""
+
+    U: Any
+    W: Any = ()
+    parameters: Any = ()
+    definitions: Any = ()
+
+    def __post_init__(self) -> None:
+        fix = object.__setattr__
+        given, meanings = mapping(self.parameters, "parameters"), mapping(self.definitions, "definitions")
+        if len(given) + len(meanings) > MOST_NAMES:
+            raise ValueError(
+                f"there are {len(given)} parameters and {len(meanings)} definitions; at most {MOST_NAMES} are allowed."
+            )
+        parameters = {name: parameter(name, value) for name, value in given.items()}
+        definitions = read_definitions(meanings, tuple(parameters))
+        fix(self, "parameters", tuple(parameters.items()))
+        fix(self, "definitions", tuple((name, text) for name, text, _, _ in definitions))
+        U = texts(self.U, "U")
+        if len(U) != 2:
+            raise ValueError(f"U is {shortened(self.U)}; give two formulas (U1, U2).")
+        formula = lambda text, what: read(text, what, tuple(parameters), definitions)  # noqa: E731
+        fix(self, "U", tuple(formula(text, f"U{i + 1}") for i, text in enumerate(U)))
+        W = texts(self.W, "W")
+        if len(W) > MOST_SLOW_VARIABLES:
+            raise ValueError(f"W has {len(W)} rows; at most {MOST_SLOW_VARIABLES} slow variables are allowed.")
+        fix(self, "W", tuple(formula(text, f"W{i + 1}") for i, text in enumerate(W)))
+        for what, rows in (("U", self.U), ("W", self.W)):
+            for i, row in enumerate(rows):
+                continuous(row, f"{what}{i + 1}")
+        if len(self.numbers) > MOST_NUMBERS:
+            raise ValueError(
+                f"the system reads {len(self.numbers)} parameters and slow variables; at most {MOST_NUMBERS}."
+            )
+        self.m  # noqa: B018 (raises where W has too few rows)
+
+    @cached_property
+    def m(self) -> int:
+        """The number of slow variables."""
+        used = {name for row in (*self.U, *self.W) for name in row.names}
+        named = max((i + 1 for i, name in enumerate(SLOW) if name in used), default=0)
+        if self.W and named > len(self.W):
+            raise ValueError(f"a formula names z{named}, but W has only {len(self.W)} row(s); give m rows.")
+        return len(self.W) or named
+
+    @cached_property
+    def numbers(self) -> tuple[str, ...]:
+        """Names of the slow variables and parameters that U reads: the arguments of its compiled field, in order."""
+        return number_names(self.U)
+
+    @cached_property
+    def jacobian(self) -> tuple[tuple[Expression, Expression], tuple[Expression, Expression]]:
+        """``D_(c,s) U`` as formulas, rows first; exact derivatives, not differences."""
+        first, second = ((u.derivative("c"), u.derivative("s")) for u in self.U)
+        return first, second
+
+    @cached_property
+    def moves_with_z(self) -> bool:
+        """Whether U, and with it the whole portrait, may depend on z."""
+        return any(name in SLOW for u in self.U for name in u.names)
+
+    @cached_property
+    def reads_position(self) -> bool:
+        """Whether U depends on x or y: then the outside differs from the hemisphere's continuation."""
+        return any(name in ("x", "y") for u in self.U for name in u.names)
