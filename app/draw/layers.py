@@ -155,6 +155,10 @@ _ROWS = (
         swatch="border-image: linear-gradient(90deg, var(--lines-in) 50%, var(--lines-out) 50%) 1",
     ),
     Layer(
+        "conics", "Hyperbola of the limit directions", 45, hidden=True, colours={"conic": ("#0f766e", "#5eead4")},
+        parts=(Part("conics", "conic", 2.4, "conics", lambda result: glyphs.join(result.pieces), (9, 3)),),
+    ),
+    Layer(
         "launched", "Launched orbits", 100, compiled=True, optional=True,
         colours={"launch-1": ("#2563eb", "#60a5fa"), "launch-2": ("#c2410c", "#fb923c"),
                  "launch-3": ("#15803d", "#4ade80"), "launch-4": ("#a21caf", "#e879f9"),

@@ -6,11 +6,16 @@ from collections.abc import Mapping
 from typing import Any
 
 from codim2_core.examples import catalogue
+from codim2_core.layer_problem.vary import names
+from codim2_core.portrait.sides import Sides
 from codim2_core.portrait.sides import sides as portraits_beside
 from codim2_core.scene import Scene
+from codim2_core.systems.elinear import ELinear
+from codim2_core.systems.typed import System
 
 from ..draw.mathml import plain_symbol
 from ..state.choices import SLOW_CONTROLS
+from ..state.chosen import NORMAL
 from ..state.controls import ExplorerState
 
 
@@ -23,18 +28,35 @@ def sides(scene: Scene, values: Mapping[str, Any], control: str) -> dict[str, An
     values : mapping
         Of the controls.
     control : str
-        A coefficient, a slow variable, n, or "own:" and a parameter; another that the system has if it lacks this one.
+        A coefficient, a slow variable, n, or "own:" and a parameter. If the system lacks this one, that of its own
+        whose two sides differ.
 
     Returns
     -------
     dict or None
         "symbol", and "below" and "above", names of portraits; None if nothing can be varied.
     """
-    name = f"z{SLOW_CONTROLS.index(control) + 1}" if control in SLOW_CONTROLS else control.removeprefix("own:")
-    found = portraits_beside(scene.system, scene.psi, scene.z, name)
+    moved = f"z{SLOW_CONTROLS.index(control) + 1}" if control in SLOW_CONTROLS else control.removeprefix("own:")
+    had = _controls(scene, values)
+    found: Sides | None = None
+    for name in [moved] if moved in had else had:
+        beside = portraits_beside(scene.system, scene.psi, scene.z, name)
+        found = found or beside
+        if beside is not None and beside.below != beside.above:
+            found = beside
+            break
     if found is None:
         return None
     return {"symbol": _symbol(found.name, values), "below": found.below, "above": found.above}
+
+
+def _controls(scene: Scene, values: Mapping[str, Any]) -> list[str]:
+    """Name what the page has a control for, slow variables first: a system by formulas shows no a, b, d and f."""
+    found = names(scene.system, scene.psi, scene.z)
+    if values["system"] != NORMAL and isinstance(scene.system, (ELinear, System)):
+        shown = dict(scene.system.parameters)
+        found = tuple(name for name in found if name in shown or name not in scene.system.variable)
+    return sorted(found, key=lambda name: not name.startswith("z"))
 
 
 def _symbol(name: str, values: Mapping[str, Any]) -> str:

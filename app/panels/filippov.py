@@ -1,7 +1,8 @@
 """The Filippov convention in three dimensions: limit vectors, their combinations on Sigma, and what the blowup selects.
 
 The view of fig:generic_nonuniqueness_of_sliding and fig:whylinear, within the panel "3-D": the curve of limit vectors
-F*(theta) = (U1, U2, W1), eq:lin_limit_vector, the axis Sigma (U = 0), and on it the candidates.
+F*(theta) = (U1, U2, W1), eq:lin_limit_vector, the axis Sigma (U = 0), and on it the candidates; for the e-linear system
+the plane of affine combinations, and its one point on Sigma.
 """
 
 from __future__ import annotations
@@ -12,12 +13,14 @@ import numpy as np
 
 from codim2_core.layer_problem.critical import critical_sets
 from codim2_core.psi.function import Psi
+from codim2_core.sliding.affine import AffinePlane, affine_plane
 from codim2_core.sliding.filippov import filippov_sliding
 
 from ..frame.draft import Draft
 from ..state.chosen import System_
 
 POINTS = 97  # of the curve
+WIDEST = 6.0  # half the side of the plane's square, in (lambda1, lambda2): a cross farther out is beside the view
 
 
 def add(draft: Draft, system: System_) -> None:
@@ -30,7 +33,7 @@ def add(draft: Draft, system: System_) -> None:
 
 
 def vectors(system: System_, psi: Psi, z: tuple[float, ...]) -> dict[str, Any]:
-    """Return the curve, the candidates with the limit vectors that they combine, and the selected slow flows."""
+    """Return the curve, the plane, the candidates with what they combine, and the selected slow flows."""
     at = system.at(z)
     theta = np.linspace(0.0, 2.0 * np.pi, POINTS)
 
@@ -38,14 +41,23 @@ def vectors(system: System_, psi: Psi, z: tuple[float, ...]) -> dict[str, Any]:
         e = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
         return [_short((*u, w[0])) for u, w in zip(at.U(e), at.W(e), strict=True)]
 
-    found = filippov_sliding(system, z)
+    found, plane = filippov_sliding(system, z), affine_plane(system, z)
+    corners = [] if plane is None else [_square(plane, vertex) for vertex in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
     return {
+        "plane": corners,
+        "cross": None if plane is None or plane.point is None else _short(plane.point[:1])[0],
         "curve": limit(theta),
         "candidates": [float(vertex[0]) for vertex in found.vertices],
         "combined": [limit(directions) for directions in found.directions],
         "selected": [[float(C.slow_flow[0]), C.kind] for C in critical_sets(system, psi, z)],
-        "sentence": found.sentence,
+        "sentence": found.sentence if plane is None else f"{plane.sentence} {found.sentence}",
     }
+
+
+def _square(plane: AffinePlane, vertex: tuple[int, int]) -> list[float]:
+    """Return the combination at a corner of a square in (lambda1, lambda2) that holds the unit disc and the cross."""
+    reach = 1.15 if plane.place is None else min(WIDEST, max(1.15, 1.15 * float(np.abs(plane.place).max())))
+    return _short((plane.matrix @ (reach * np.array(vertex)) + plane.offset)[:3])
 
 
 def _short(values: Any) -> list[float]:

@@ -1,4 +1,4 @@
-"""The panel "Planes": trace and determinant, and the eigenvalues, of the critical set (fig:bads).
+"""The panel "Planes": trace and determinant, the eigenvalues of the critical set, and the Psi compared (fig:bads).
 
 The browser has the present point from the picture, and draws its trail; the server adds the curve over the parameter
 of Psi, if it has one, or the points of other families.
@@ -22,6 +22,7 @@ from ..frame.draft import Draft
 from .panel import Panel
 
 POINTS = 120  # along the curve over the parameter
+S = np.linspace(0.0, 1.0, 51)  # as in fig:bads(c)
 
 
 def add(draft: Draft) -> None:
@@ -57,23 +58,29 @@ def over_parameter(at: AtZ, psi: Psi) -> dict[str, Any]:
         for i in np.flatnonzero(path.exists)
     ]
     sentence = f"Dashed: over {shape.name} of Ψ = {family.title}, from {low:g} to {high:g}."
-    return _columns(rows, line=True, sentence=sentence)
+    members = [(f"{shape.name} = {value:g}", make(family.name, value)) for value in family.compared]
+    return _columns(rows, members, line=True, sentence=sentence)
 
 
 def over_families(at: AtZ, psi: Psi) -> dict[str, Any]:
     """Return the points of a member of each other family, as `over_parameter` does."""
     members = [make(family.name) for family in FAMILIES.values() if family.compared]
+    named = [(f"Ψ = {other.words}" if other.record.identity else other.words, other) for other in members]
     rows = [
-        (C.trace, C.determinant, f"Ψ = {other.text}" if other.record.identity else other.words, C.kind)
-        for other in members
+        (C.trace, C.determinant, text, C.kind)
+        for text, other in named
         if other != psi
         for C in critical_sets(at, other)
     ]
-    return _columns(rows, line=False, sentence="Small dots: the same system with other Ψ.")
+    return _columns(rows, named, line=False, sentence="Small dots: the same system with other Ψ.")
 
 
-def _columns(rows: Sequence[tuple[float, float, str, str]], *, line: bool, sentence: str) -> dict[str, Any]:
+def _columns(
+    rows: Sequence[tuple[float, float, str, str]], members: Sequence[tuple[str, Psi]], *, line: bool, sentence: str
+) -> dict[str, Any]:
     return {
+        "s": [float(f"{value:.4g}") for value in S],
+        "psis": [[text, [float(f"{value:.5g}") for value in member(S)]] for text, member in members],
         "line": line,
         "sentence": sentence if rows else "",
         "trace": [float(f"{row[0]:.8g}") for row in rows],

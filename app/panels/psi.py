@@ -22,7 +22,7 @@ def add(draft: Draft) -> None:
             "psi": _short(psi(S)),
             "zeta": _short(ZETA),
             "modulus": _short(psi.modulus(ZETA)),
-            "text": psi.text,
+            "text": psi.words,
         }
 
 

@@ -9,17 +9,23 @@ from codim2_core.examples import catalogue
 from codim2_core.figures.preset import Preset
 from codim2_core.figures.presets import presets
 
+from ..draw.layers import shown
+
 #: Layers of a figure that shows where approaches lead.
 WITH_OUTCOMES = [
     "outside", "inside", "continuations", "cycles", "rho", "theta", "lines", "equator", "critical",
     "outcomes", "basins",
 ]  # fmt: skip
+#: Layers of fig:intersections: the two conics and where they meet.
+CONICS = ["conics", "equator", "critical"]
 #: What opens the view of a preset.
 VIEWS: dict[str, dict[str, Any]] = {
     "sphere": {"panel": "solid", "solid": "sphere"},
     "stack": {"panel": "solid", "solid": "stack"},
     "filippov": {"panel": "solid", "solid": "filippov"},
     "outcomes": {"panel": "numbers", "layers": WITH_OUTCOMES},
+    "connections": {"layers": [*shown(), "separatrices"]},
+    "conics": {"panel": "numbers", "layers": CONICS},
     "psi": {"panel": "psi"},
     "planes": {"panel": "planes"},
     "along": {"panel": "along"},

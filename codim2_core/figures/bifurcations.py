@@ -45,7 +45,13 @@ def bifurcation_presets() -> dict[str, Preset]:
     )  # fmt: skip
 
     saddle_node = Preset(
-        group=_BIFURCATIONS, label="fig:SNBIF, D1", a=-1.0, b=1.0, d=-1.0, portrait=("I", "CM0", "stable focus")
+        group=_BIFURCATIONS,
+        label="fig:SNBIF, D1",
+        a=-1.0,
+        b=1.0,
+        d=-1.0,
+        portrait=("I", "CM0", "stable focus"),
+        view="connections",
     )
     add(
         "saddle-node-before", saddle_node, title="Saddle-node: before, no limit directions", f1=0.7,
@@ -79,7 +85,7 @@ def bifurcation_presets() -> dict[str, Preset]:
         note="No critical set: θ = 0 is now radially repelling, and what reaches Σ leaves along it.",
     )  # fmt: skip
 
-    conics = Preset(group=_CONICS, label="fig:intersections", a=-1.0, d=-2.0)
+    conics = Preset(group=_CONICS, label="fig:intersections", a=-1.0, d=-2.0, view="conics")
     add(
         "conics-0", conics, title="Hyperbola and circle: no meeting point", b=1.2, f1=0.2, f2=0.1,
         portrait=("I", "CM0", "stable focus"),

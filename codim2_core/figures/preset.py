@@ -37,7 +37,7 @@ class Preset:
     parameter : float or None
         That of the family; None for its default.
     view : str
-        What shows it: "" the picture, "outcomes", "sphere", "stack", "filippov", "psi",
+        What shows it: "" the picture, "connections", "conics", "outcomes", "sphere", "stack", "filippov", "psi",
         "planes", "along" or "time".
     portrait : (case, name, kind or None)
         What must be true.

@@ -89,6 +89,7 @@ def _all() -> dict[str, Preset]:
         f1=0.2,
         f2=0.1,
         portrait=("II", "CM4", "saddle"),
+        view="connections",
         note="A saddle whatever Ψ is, and exactly four limit directions: one for each of its separatrices.",
     )
     add(
@@ -96,6 +97,7 @@ def _all() -> dict[str, Preset]:
         saddle,
         title="NCM2: crossing",
         label="fig:NCM2_saddle",
+        view="",
         f1=1.2,
         f2=0.8,
         portrait=("II", "NCM2", None),
@@ -106,6 +108,7 @@ def _all() -> dict[str, Preset]:
         saddle,
         title="NCM4: crossing",
         label="fig:NCM4_saddle",
+        view="",
         b=0.1,
         f1=1.3,
         f2=0.2,

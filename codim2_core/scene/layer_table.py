@@ -10,6 +10,7 @@ from typing import Any
 from ..bifurcations import BifurcationCurve, Region, critical_boundary, regions, saddle_node
 from ..cycles.limit_cycles import closed_orbits, cycles_of
 from ..layer_problem.problem import find_critical, find_equator, find_equator_cycle, find_location
+from ..nullcline.meeting import conics_of
 from ..nullcline.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
 from ..portrait.classify import portrait
 from ..portrait.launched import Launched, launched
@@ -103,6 +104,7 @@ layers: Mapping[str, Layer] = MappingProxyType(
         "classification": Layer(("plane", "slow", "psi"), lambda s: portrait(s.problem)),
         "nullclines_inside": Layer(("plane", "psi"), _inside_nullclines),
         "nullclines_outside": Layer(("plane", "view"), _outside_nullclines),
+        "conics": Layer(("plane", "view"), lambda s: conics_of(s.problem, s.view)),
         "inside": Layer(("plane", "psi", "inner seeds", *_STEPPED), lambda s: orbits(s, outside=False)),
         "outside": Layer(("plane", "outer seeds", "view", *_STEPPED), lambda s: orbits(s, outside=True)),
         "continuations": Layer(("plane", "psi", *_STEPPED), continuations),

@@ -16,9 +16,11 @@ class Planes {
     this.critical = null
     this.beside = null // the curve over n, or the points of the families
     box.innerHTML = `<svg class="plane trace-plane" role="img"></svg><svg class="plane eigen-plane" role="img"></svg>
+      <svg class="plane psi-plane" role="img" aria-label="The regularisation functions compared"></svg>
       <p class="note plane-note"></p><div class="plane-table"></div>`
     this.find = (name) => box.querySelector(name)
     this.traceChart = new Chart(this.find(".trace-plane"), {aspect: (width) => Math.min(0.78 * width, 480)})
+    this.psiChart = new Chart(this.find(".psi-plane"), {aspect: (width) => Math.min(0.6 * width, 360)})
     this.eigenChart = new Chart(this.find(".eigen-plane"), {aspect: (width) => Math.min(0.72 * width, 440)})
   }
 
@@ -28,25 +30,26 @@ class Planes {
   apply({header}) {
     if (header.system) this.forget()
     if (header.critical) {
-      const {label, kind, trace, determinant} = header.critical
-      this.critical = label.map((words, i) => ({label: words, kind: kind[i], trace: trace[i], determinant: determinant[i]}))
+      const {label, kind, trace, determinant, x2} = header.critical
+      this.critical = label.map((words, i) => ({label: words, kind: kind[i], trace: trace[i], determinant: determinant[i], square: x2[i][0] ** 2 + x2[i][1] ** 2}))
       if (!this.box.hidden) this.trail = [...this.trail.slice(1 - TRAIL), this.critical]
     }
     if (header.planes) {
-      const {trace, determinant, text, kind, line, sentence} = header.planes
+      const {trace, determinant, text, kind, line, sentence, s, psis} = header.planes
       const points = trace.map((value, i) => ({trace: value, determinant: determinant[i], text: text[i], kind: kind[i]}))
-      this.beside = {line, sentence, curve: withDouble(points), named: points.filter((one) => one.text)}
+      this.beside = {line, sentence, s, psis, curve: withDouble(points), named: points.filter((one) => one.text)}
     }
     if ((header.critical || header.planes) && !this.box.hidden) this.draw()
   }
 
   draw() {
     if (!this.critical) return
-    const beside = this.beside ?? {line: false, curve: [], named: [], sentence: ""}
+    const beside = this.beside ?? {line: false, curve: [], named: [], sentence: "", s: [], psis: []}
     // the curve goes on to far away: its named points are in view
     const shown = [...this.trail.flat(), ...this.critical, ...beside.named]
     this.drawTrace(shown, beside)
     this.drawEigenvalues(shown, beside)
+    if (beside.psis.length) this.drawPsis(beside)
     this.find(".plane-note").textContent = this.critical.length ? beside.sentence : "No critical set in the scaling chart."
     this.find(".plane-table").innerHTML = beside.named.length ? `<table><tr><th></th><th>tr J</th><th>det J</th><th></th></tr>${beside.named.map((one) =>
       `<tr><td>${escape(one.text)}</td><td>${digits(one.trace)}</td><td>${digits(one.determinant)}</td><td>${one.kind}</td></tr>`).join("")}</table>` : ""
@@ -78,6 +81,19 @@ class Planes {
       labels: [...this.names(beside, eigenvalues), {text: "Im λ", name: "label", near: [0, up]}, {text: "stable", name: "region-name", near: [-across, up], allowed: (x) => x < 0}],
     }])
     this.find(".eigen-plane").setAttribute("aria-label", this.critical.map((C) => `eigenvalues of ${C.label}: ${eigen(eigenvalues(C))}`).join("; "))
+  }
+
+  // The functions Ψ compared, and where on the axis each critical set is: there their slopes decide.
+  drawPsis({s, psis}) {
+    const inside = this.critical.filter(({square}) => square <= s.at(-1))
+    this.psiChart.draw([{
+      title: "Ψ(r²)", x: {span: [0, s.at(-1)], word: "r²"}, y: {span: [0, 1.05 * Math.max(...psis.flatMap(([, values]) => values))]},
+      lines: [
+        ...psis.map(([text, values], i) => ({name: `series-line s${i % 4}`, title: text, x: s, y: values})),
+        ...inside.map(({label, square}) => ({name: "over", silent: true, title: label, x: [square, square], y: [0, 1]})),
+      ],
+      labels: [...psis.map(([text, values], i) => { const k = Math.round((0.35 + 0.15 * i) * (s.length - 1)); return {text, at: [s[k], values[k]]} }), ...inside.map(({label, square}) => ({text: label, at: [square, 0.03]}))],
+    }])
   }
 
   // Lines and dots of both planes; `places` gives the one or two points of a critical set. The trail is that of the first

@@ -34,10 +34,10 @@ class PsiCurves {
       },
       {
         title: "L(l; ε), a smooth step", zeros: true, x: {span: [-1, 1], word: "l"}, y: {span: [-1.06, 1.06]},
-        lines: [...SHOWN.map(([value, name]) => step(value, name)), step(eps, "present")],
+        lines: [...SHOWN.map(([value, name]) => step(value, name)), step(eps, "present"), {name: "series-line limit", title: "ε → 0, sign", x: [-1, 0, 0, 1], y: [-1, -1, 1, 1]}],
       },
     ])
-    this.box.querySelector(".psi-key").innerHTML = [...SHOWN, [eps, "present"]].map(([value, name]) => key(value, name)).join("")
+    this.box.querySelector(".psi-key").innerHTML = [...SHOWN, [eps, "present"]].map(([value, name]) => key(value, name)).join("") + '<span><svg viewBox="0 0 16 6"><path class="series-line limit" d="M0 3H16"/></svg> ε → 0: sign l</span>'
   }
 
   // |e_Ψ| at a distance in the scaling chart, read from the table.

@@ -2,7 +2,7 @@
 
 import {register} from "../panels.js"
 import {seen} from "../projection.js"
-import {digits, plain} from "../words.js"
+import {digits, minus, plain} from "../words.js"
 
 class Stack {
   constructor(box, tools) {
@@ -147,7 +147,34 @@ class Stack {
     for (const line of data.inside) this.line(line, (_, [, , depth]) => (depth < 0.02 ? front : back))
     const ring = [this.colour("ink"), 2, 0.9], hidden = [this.colour("ink"), 1.4, 0.3]
     this.circle(0, (_, [, , depth]) => (depth < 0.02 ? ring : hidden))
+    this.chart()
     this.marks(0, true)
+  }
+
+  // The axes, the equator and the plane of the scaling chart κ₂, as in the paper's sketch of the blowup.
+  chart() {
+    const g = this.g, faint = [this.colour("accent"), 1.1, 0.75], thin = [this.colour("soft"), 1, 0.8], half = 0.62
+    const corners = [[-half, -half, 1], [half, -half, 1], [half, half, 1], [-half, half, 1]]
+    g.beginPath()
+    corners.forEach((corner, i) => { const [x, y] = this.project(corner); if (i) g.lineTo(x, y); else g.moveTo(x, y) })
+    g.globalAlpha = 0.1; g.fillStyle = this.colour("accent"); g.fill(); g.globalAlpha = 1
+    this.line([...corners, corners[0]], () => faint)
+    for (const end of [[1.34, 0, 0], [0, 1.34, 0], [0, 0, 1.3]]) {
+      const from = end.map((v) => v / (end[2] ? 1.3 : 1.34)) // from the hemisphere outward
+      this.line([from, end], () => thin)
+    }
+    g.font = "12px system-ui, sans-serif"; g.textAlign = "center"
+    const say = (words, point, dx, dy, colour = "ink") => {
+      const [x, y] = this.project(point)
+      g.lineWidth = 3; g.strokeStyle = this.colour("page"); g.strokeText(words, x + dx, y + dy)
+      g.fillStyle = this.colour(colour); g.fillText(words, x + dx, y + dy)
+    }
+    say("x̄", [1.34, 0, 0], 6, 10); say("ȳ", [0, 1.34, 0], 6, -4); say("ε̄", [0, 0, 1.3], 9, 4)
+    const near = corners.map((corner) => this.project(corner)).map(([x, y], i) => [x, y, i]).sort((one, other) => other[0] - one[0])[0][2]
+    say("κ₂: (x₂, y₂), ε̄ = 1", corners[near], -20, -8, "accent")
+    const front = [-Math.sin(this.azimuth), -Math.cos(this.azimuth), 0] // the point of the equator that is nearest to the eye
+    say("equator, ε̄ = 0", front, 0, 17)
+    g.textAlign = "left"
   }
 
   // Limit directions and critical sets of the present picture, on the circle at height z or lifted onto the sphere.
@@ -212,16 +239,17 @@ class Stack {
     g.font = "12px system-ui, sans-serif"; g.fillStyle = this.colour("soft"); g.textAlign = "center"
     for (const value of [low, high]) { // below the lowest disc, above the highest
       const [x, y] = this.project([0, 0, up(share(value))]), away = this.scale * Math.sin(this.elevation)
-      g.fillText(`${this.tools.symbols[data.control]} = ${plain(value)}`, x, value === low ? y + away + 16 : y - away - 7)
+      g.fillText(`${this.tools.symbols[data.control]} = ${minus(plain(value))}`, x, value === low ? y + away + 16 : y - away - 7)
     }
     g.textAlign = "left"
   }
 
   // Limit vectors (U₁, U₂, W): their curve, Σ as the upright axis, and what of Σ their combinations reach.
-  paintFilippov({curve, candidates, combined, selected}, w, h) {
-    const most = (i) => Math.max(1e-9, ...curve.map((v) => Math.abs(v[i])))
+  // Of an e-linear system also the plane of affine combinations, and the cross where it meets Σ.
+  paintFilippov({plane, cross, curve, candidates, combined, selected}, w, h) {
+    const all = [...plane, ...curve], most = (i) => Math.max(1e-9, ...all.map((v) => Math.abs(v[i])))
     const size = Math.max(most(0), most(1))
-    const low = Math.min(0, ...curve.map((v) => v[2])), high = Math.max(0, ...curve.map((v) => v[2])), tall = high - low || 1
+    const low = Math.min(0, ...all.map((v) => v[2])), high = Math.max(0, ...all.map((v) => v[2])), tall = high - low || 1
     const lift = (value) => 1.5 * ((value - low) / tall - 0.5)
     const at = ([u, v, value]) => [u / size, v / size, lift(value)]
     this.scale = Math.min(w / 2.3, h / (1.9 * Math.cos(this.elevation) + 2 * Math.sin(this.elevation)))
@@ -229,18 +257,41 @@ class Stack {
     const g = this.g, thin = [this.colour("soft"), 1, 0.6]
     const flat = [-1, 1].flatMap((x) => [[[x, -1, lift(0)], [x, 1, lift(0)]], [[-1, x, lift(0)], [1, x, lift(0)]]])
     for (const edge of flat) this.line(edge, () => [this.colour("line"), 1, 1])
+    const sheet = (points, colour, alpha) => {
+      g.beginPath()
+      points.forEach((v, i) => { const [x, y] = this.project(at(v)); if (i) g.lineTo(x, y); else g.moveTo(x, y) })
+      g.globalAlpha = alpha; g.fillStyle = this.colour(colour); g.fill(); g.globalAlpha = 1
+    }
+    if (plane.length) {
+      sheet(plane, "crit", 0.1)
+      this.line([...plane, plane[0]].map(at), () => [this.colour("crit"), 1, 0.45])
+    }
     this.line([[0, 0, -0.95], [0, 0, 0.95]], () => [this.colour("ink"), 1.6, 0.8])
-    g.beginPath()
-    curve.forEach((v, i) => { const [x, y] = this.project(at(v)); if (i) g.lineTo(x, y); else g.moveTo(x, y) })
-    g.globalAlpha = 0.13; g.fillStyle = this.colour("accent"); g.fill(); g.globalAlpha = 1
+    sheet(curve, "accent", 0.13)
     this.line(curve.map(at), () => [this.colour("attr"), 2.2, 1])
     combined.forEach((ends, i) => { for (const end of ends) this.line([at(end), [0, 0, lift(candidates[i])]], () => thin) })
     if (candidates.length > 1) this.line([[0, 0, lift(Math.min(...candidates))], [0, 0, lift(Math.max(...candidates))]], () => [this.colour("accent"), 5, 0.7])
     for (const value of candidates) this.dot([0, 0, lift(value)], {fill: this.colour("page"), stroke: this.colour("accent"), size: 3.5})
     for (const [value, kind] of selected) this.dot([0, 0, lift(value)], {shape: "square", fill: kind.startsWith("stable") ? this.colour("crit") : this.colour("page"), stroke: this.colour("crit"), text: `z′ = ${digits(value, 3)}`})
+    if (cross !== null) this.cross([0, 0, lift(cross)])
     g.font = "12px system-ui, sans-serif"; g.fillStyle = this.colour("soft")
+    // names stand beyond what they name: the plane's at its highest corner, the curve's below its lowest point
+    const ends = (points) => points.map((v) => this.project(at(v))).sort((one, other) => one[1] - other[1])
+    if (plane.length) {
+      const [x, y] = ends(plane)[0]
+      g.fillText("F", x, y - 9); g.font = "9px system-ui, sans-serif"; g.fillText("C", x + 7, y - 6)
+      g.font = "12px system-ui, sans-serif"; g.fillText("(λ₁, λ₂)", x + 14, y - 9)
+    }
     const [sx, sy] = this.project([0, 0, 0.95]); g.fillText("Σ", sx + 5, sy + 4)
-    const [fx, fy] = this.project(at(curve[Math.floor(curve.length / 8)])); g.fillText("F*(θ)", fx + 6, fy)
+    const [fx, fy] = ends(curve).at(-1)
+    g.fillStyle = this.colour("attr"); g.fillText("F*(θ)", fx - 12, fy + 16)
+  }
+
+  cross(point) {
+    const g = this.g, [x, y] = this.project(point)
+    g.beginPath()
+    for (const way of [1, -1]) { g.moveTo(x - 7, y - 7 * way); g.lineTo(x + 7, y + 7 * way) }
+    g.strokeStyle = this.colour("ink"); g.lineWidth = 2.6; g.stroke()
   }
 
   arrow(line, flow) {

@@ -5,6 +5,8 @@ from codim2_app.draw.packing import unpack
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
+import codim2_core as c2
+
 
 def told(control, start, value):
     frames = Frames(ExplorerState(**start))
@@ -35,3 +37,15 @@ def test_the_ball_on_the_point_of_slipping():
 @pytest.mark.parametrize("f1", [-0.4, -0.6])
 def test_a_portrait_that_is_not_degenerate_has_none(f1):
     assert "sides" not in told("f1", {"a": -1.0, "b": 0.0, "d": -1.5, "f1": -0.2}, f1)
+
+
+@pytest.mark.parametrize("key", [key for key, preset in c2.presets.items() if preset.degeneracy])
+def test_a_portrait_names_a_control_that_the_page_has(key):
+    # the ball's coefficient b is 0 and no control; below and above it nothing changes
+    frames = Frames(ExplorerState.of({"preset": key}))
+    header, _ = unpack(frames.answer({"all": True}))
+    beside, preset = header["portrait"]["sides"], c2.presets[key]
+    assert (beside["below"], beside["above"]) != (header["portrait"]["name"],) * 2
+    if preset.example:
+        assert beside["symbol"] in {"v₁", "v₂", "μ", "m", "K", "g"}
+    assert beside["below"] != beside["above"]

@@ -1,0 +1,121 @@
+"""Limit directions as meeting points of a hyperbola with the unit circle (fig:intersections)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..layer_problem.problem import LayerProblem
+from ..numerics.trigonometric import ROUNDING
+
+Array = NDArray[np.float64]
+FAR = 1e6  # of the view: a hyperbola whose centre is farther away is a straight line in it, to 1e-5 of the view
+WITHIN = 5e-4  # of the view: farther than this from the hyperbola no chord may be
+LONGEST = 0.5  # step of t on the hyperbola (e^t, e^-t)
+
+
+@dataclass(frozen=True, eq=False)
+class Conics:
+    """The conic Theta = 0, eq:conic11, and where it meets the unit circle, eq:conic12.
+
+    Attributes
+    ----------
+    kind : str
+        "hyperbola", "two lines" (it falls apart), "line" (a = d, degenerate case D1), "none" (a = d, f = 0), "plane"
+        (b = 0 as well: every direction is a limit direction), or "" for a system that is not e-linear.
+    pieces : tuple of ndarray (k, 2)
+        The conic within the square |x|, |y| <= view, in the axes of the system; branches are never joined.
+    meeting : ndarray (j, 2)
+        The limit directions as points of the circle.
+    """
+
+    kind: str
+    pieces: tuple[Array, ...]
+    meeting: Array
+
+
+def conics_of(problem: LayerProblem, view: float = 2.0) -> Conics:
+    """Return the conic (d - a) x y + f2 x - f1 y + b = 0 of the normal form, and the limit directions on it.
+
+    Parameters
+    ----------
+    problem : LayerProblem
+    view : float
+        Half the side of the square that is drawn.
+
+    Returns
+    -------
+    Conics
+        A system in other axes has the conic of its normal form, turned back (lem:normalform).
+    """
+    form, theta = problem.at.normal_form, problem.equator.theta
+    meeting = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+    if form is None:
+        return Conics("", (), meeting)
+    turned = problem.at.as_given is None
+    reach = view * math.sqrt(2.0) if turned else view
+    kind, pieces = _conic(form.d - form.a, form.f2, -form.f1, form.b, reach)
+    if turned:
+        c, s = math.cos(form.rotation), math.sin(form.rotation)
+        pieces = [piece @ np.array([[c, -s], [s, c]]) for piece in pieces]
+    return Conics(kind, tuple(pieces), meeting)
+
+
+def _conic(q: float, p1: float, p2: float, b: float, reach: float) -> tuple[str, list[Array]]:
+    """Return the kind of q x y + p1 x + p2 y + b = 0, and its pieces with |x|, |y| <= reach."""
+    if q == p1 == p2 == 0.0:
+        return ("plane" if b == 0.0 else "none"), []
+    if q == 0.0:
+        return "line", _line(p1, p2, b, reach)
+    h, k = -p2 / q, -p1 / q  # the centre: (x - h)(y - k) = product
+    if not max(abs(h), abs(k)) <= FAR * reach:
+        return "hyperbola", _line(p1, p2, b, reach)
+    product = h * k - b / q
+    if abs(product) <= ROUNDING * (abs(h * k) + abs(b / q)):
+        return "two lines", [*_line(1.0, 0.0, -h, reach), *_line(0.0, 1.0, -k, reach)]
+    return "hyperbola", _branches(h, k, product, reach)
+
+
+def _line(p1: float, p2: float, b: float, reach: float) -> list[Array]:
+    """Return p1 x + p2 y + b = 0 within the square, from border to border; [] where it misses it."""
+    size = max(abs(p1), abs(p2))
+    p1, p2, b = p1 / size, p2 / size, b / size
+    if abs(p1) > abs(p2):
+        return [line[:, ::-1] for line in _line(p2, p1, b, reach)]
+    slope, offset = -p1 / p2, -b / p2  # |slope| <= 1
+    x = np.array([-reach, reach])
+    if slope:
+        at = sorted(((-reach - offset) / slope, (reach - offset) / slope))
+        x = np.array([max(-reach, at[0]), min(reach, at[1])])
+    elif abs(offset) > reach:
+        return []
+    return [np.stack([x, slope * x + offset], axis=-1)] if x[0] < x[1] else []
+
+
+def _branches(h: float, k: float, product: float, reach: float) -> list[Array]:
+    """Return the pieces of (x - h)(y - k) = product, x - h = ±size e^t and y - k = ±size e^-t on each branch."""
+    size = math.sqrt(abs(product))
+    # a chord over a step s of t is within size s^2/(4 sqrt 2) of its arc
+    step = min(LONGEST, math.sqrt(4.0 * math.sqrt(2.0) * WITHIN * reach / size))
+    pieces = []
+    for sign in (1.0, -1.0):
+        up = math.copysign(sign, sign * product)
+        low_x, high_x = _exponents(h, sign, size, reach)
+        low_y, high_y = _exponents(k, up, size, reach)
+        low, high = max(low_x, -high_y), min(high_x, -low_y)
+        if not low < high:
+            continue
+        t = np.linspace(low, high, 2 + math.ceil((high - low) / step))
+        pieces.append(np.stack([h + sign * size * np.exp(t), k + up * size * np.exp(-t)], axis=-1))
+    return pieces
+
+
+def _exponents(middle: float, sign: float, size: float, reach: float) -> tuple[float, float]:
+    """Return between which t the coordinate middle + sign size e^t is within the reach; low > high if nowhere."""
+    near, far = sorted((sign * (-reach - middle), sign * (reach - middle)))
+    if far <= 0.0:
+        return 1.0, -1.0
+    return (math.log(near / size) if near > 0.0 else -math.inf), math.log(far / size)

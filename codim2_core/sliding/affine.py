@@ -1,0 +1,84 @@
+"""Affine combinations of limit vectors in the e-linear system: a plane, and its point on Sigma (fig:whylinear)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..layer_problem.critical import Existence, locate
+from ..systems.coefficients import Coefficients
+from ..systems.kinds import AnySystem
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class AffinePlane:
+    """The plane of affine combinations of limit vectors, eq:lin_limit_plane, and its point on Sigma, eq:Fsigma.
+
+    Attributes
+    ----------
+    matrix : ndarray (2 + m, 2)
+        A over B: the combination with (l1, l2) is ``matrix @ (l1, l2) + offset``; it is convex for |(l1, l2)| <= 1.
+    offset : ndarray (2 + m,)
+        f over g.
+    place : ndarray (2,) or None
+        The (l1, l2) of the point on Sigma, -A^-1 f; None where det A = 0, and so no or many points.
+    point : ndarray (m,) or None
+        What the plane has on Sigma: -B A^-1 f + g.
+    convex : bool
+        Whether it is a convex combination, |A^-1 f| <= 1: then there is sliding, else crossing.
+    sentence : str
+    """
+
+    matrix: Array
+    offset: Array
+    place: Array | None
+    point: Array | None
+    convex: bool
+    sentence: str
+
+
+_ONE = "The plane of affine combinations of limit vectors meets Σ in one point (×), "
+_SENTENCES = {
+    Existence.INSIDE: _ONE + "a convex combination: there is sliding.",
+    Existence.NONE: _ONE + "which is no convex combination: there is crossing.",
+    Existence.EQUATOR: _ONE + "which is itself a limit vector, within rounding: between sliding and crossing.",
+}
+_SINGULAR = "det A = 0 within rounding: no single affine combination of limit vectors is tangent to Σ."
+
+
+def affine_plane(system: AnySystem, z: ArrayLike = ()) -> AffinePlane | None:
+    """Return the plane F_C of the e-linear system at z and its meeting point with Sigma.
+
+    Parameters
+    ----------
+    system : ELinear, System, or either frozen at a z
+    z : (m,) floats
+
+    Returns
+    -------
+    AffinePlane or None
+        None for a system that is given by formulas: its W need not be linear in e.
+    """
+    at = system.at(z)
+    if not isinstance(at, Coefficients):
+        return None
+    matrix, offset = _frozen(np.concatenate([at.A, at.B])), _frozen(np.concatenate([at.f, at.g]))
+    location = locate(at)
+    if location.singular:
+        return AffinePlane(matrix, offset, None, None, False, _SINGULAR)
+    size = at.size
+    place = np.linalg.solve(at.A / size, -at.f / size).astype(float)
+    sentence = _SENTENCES[location.existence]
+    point = at.B @ place + at.g
+    return AffinePlane(
+        matrix, offset, _frozen(place), _frozen(point), location.existence is not Existence.NONE, sentence
+    )
+
+
+def _frozen(array: Array) -> Array:
+    array.flags.writeable = False
+    return array
