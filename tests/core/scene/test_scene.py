@@ -37,7 +37,7 @@ def ran(scene, **changes):
     return computed, changed
 
 
-EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "outside"}
+EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "conics", "outside"}
 HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations",
               "classification", "certificates", "outcomes", "launched"}  # fmt: skip
 
@@ -60,7 +60,7 @@ REACHES = {
     "rtol": ({"rtol": 1e-5}, {"inside", "outside", "continuations", "separatrices"}),
     "atol": ({"atol": 1e-6}, {"inside", "outside", "continuations", "separatrices"}),
     "pixel": ({"pixel": 1 / 90}, {"inside", "outside", "continuations", "separatrices", "launched"}),
-    "view": ({"view": 2.5}, {"nullclines_outside", "outside", "launched"}),
+    "view": ({"view": 2.5}, {"nullclines_outside", "conics", "outside", "launched"}),
     "window": ({"window": (0.1, 0.4, 0.2, 0.5)}, {"inside", "outside"}),
     "count": ({"count": 40}, {"inside", "outside"}),
     "seeds": ({"seeds": [[0.3, 0.2], [1.5, 0.1]]}, {"inside", "outside"}),

@@ -38,7 +38,7 @@ def ran(first, **changes):
     return computed, changed
 
 
-EQUATOR = {"equator", "equator_cycle", "nullclines_outside", "outside"}
+EQUATOR = {"equator", "equator_cycle", "nullclines_outside", "conics", "outside"}
 SLOW = {"critical", "classification", "certificates", "slow_flow", "cycles", "outcomes"}
 HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations",
               "classification", "certificates", "outcomes", "launched"}  # fmt: skip
@@ -53,7 +53,7 @@ REACHES = {
     "psi": ({"psi": c2.psi.tanh()}, HEMISPHERE),
     "z that neither reads": ({"z": (0.5, 0.9)}, set()),
     "z that W reads": ({"z": (0.6, 0.2)}, SLOW),
-    "view": ({"view": 2.5}, {"nullclines_outside", "outside", "launched"}),
+    "view": ({"view": 2.5}, {"nullclines_outside", "conics", "outside", "launched"}),
     "length": ({"length": 5.0}, STEPPED),
     "t_max": ({"t_max": 6.0}, STEPPED),
     "rtol": ({"rtol": 1e-5}, STEPPED | {"separatrices"}),
