@@ -75,9 +75,10 @@ def _focus(found: Linearisation) -> Array:
 
 def _direction(plane: Plane, i: int) -> float:
     """Angle of -A^-1 f at value i."""
-    a, b, d, f1, f2 = (float(v[i]) for v in plane.arrays)
-    sign = -math.copysign(1.0, a * d + b * b)
-    return math.atan2(sign * (a * f2 - b * f1), sign * (d * f1 + b * f2))
+    m11, m12, m21, m22, f1, f2 = (float(v[i]) for v in plane.affine)
+    sign = -math.copysign(1.0, m11 * m22 - m12 * m21)
+    turn = 0.0 if plane.turn is None else float(plane.turn[i])
+    return math.atan2(sign * (m11 * f2 - m21 * f1), sign * (m22 * f1 - m12 * f2)) + turn
 
 
 def critical_part(
@@ -151,8 +152,8 @@ def _placed(path: Line, values: Array) -> tuple[Linearisation, Array, Array]:
     for i in (0, -1):
         if found.exists[i] and 1.0 - np.hypot(*e[i]) >= 1e-12:
             continue
-        a, b, d = (float(v[i]) for v in plane.arrays[:3])
-        if abs(a * d + b * b) <= 1e-12 * (abs(a * d) + b * b):
+        m11, m12, m21, m22 = (float(v[i]) for v in plane.affine[:4])
+        if abs(m11 * m22 - m12 * m21) <= 1e-12 * (abs(m11 * m22) + abs(m12 * m21)):
             # a whole line of critical points: where the branch arrives shows a little before
             inner = values[i] + 1e-6 * (values[i + 1 if i == 0 else i - 1] - values[i])
             there = linearise(path(np.array([inner])))

@@ -32,6 +32,10 @@ class Plane:
         The parameter of Psi, where it varies; of `psi` only the family then counts.
     defined : ndarray of bool (k,)
         Every coefficient is finite there.
+    given : tuple of 6 ndarrays (k,), or None
+        ``(A11, A12, A21, A22, f1, f2)`` before the rotation into the normal form, which rounds; None without one.
+    turn : ndarray (k,) or None
+        The angle of that rotation.
     """
 
     a: Array
@@ -42,6 +46,8 @@ class Plane:
     psi: Psi
     n: Array | None
     defined: NDArray[np.bool_]
+    given: tuple[Array, ...] | None = None
+    turn: Array | None = None
 
     def __len__(self) -> int:
         return len(self.a)
@@ -52,6 +58,11 @@ class Plane:
         return self.a, self.b, self.d, self.f1, self.f2
 
     @property
+    def affine(self) -> tuple[Array, ...]:
+        """``(A11, A12, A21, A22, f1, f2)`` with nothing rounded: what signs are decided by."""
+        return (self.a, -self.b, self.b, self.d, self.f1, self.f2) if self.given is None else self.given
+
+    @property
     def rigid(self) -> bool:
         """Whether a, b, d, f1, f2 are the same everywhere."""
         return bool(self.defined.all()) and all(bool((v == v[:1]).all()) for v in self.arrays)
@@ -59,7 +70,11 @@ class Plane:
     def coefficients(self, i: int) -> Coefficients:
         """Return the system at value i, without its slow part."""
         a, b, d, f1, f2 = (float(v[i]) for v in self.arrays)
-        return Coefficients(a, b, d, f1, f2, np.zeros((0, 2)), np.zeros(0))
+        empty = np.zeros((0, 2)), np.zeros(0)
+        if self.given is None or self.turn is None:
+            return Coefficients(a, b, d, f1, f2, *empty)
+        g11, g12, g21, g22, g1, g2 = (float(v[i]) for v in self.given)
+        return Coefficients(a, b, d, f1, f2, *empty, float(self.turn[i]), (g11, g12, g21, g22, g1, g2))
 
 
 _NAMES = ("a", "b", "d", "f1", "f2")
@@ -98,17 +113,19 @@ class Sweep:
             )
             return Plane(a, b, d, f1, f2, self.psi, n, np.ones(k, bool))
         assert isinstance(self.system, ELinear)
-        a, b, d, f1, f2 = (
-            v if isinstance(v, np.ndarray) and v.shape == (k,) else np.full(k, v)
-            for v in _rows(self.system, self.z, values)
-        )
+        rows = _rows(self.system, self.z, values)
+        full = [v if isinstance(v, np.ndarray) and v.shape == (k,) else np.full(k, v) for v in rows]
         defined = np.ones(k, bool)
         with np.errstate(invalid="ignore"):
-            for v in (a, b, d, f1, f2):
+            for v in full:
                 defined &= abs(v) <= LARGEST
         if not defined.all():
-            a, b, d, f1, f2 = (np.where(defined, v, 0.0) for v in (a, b, d, f1, f2))
-        return Plane(a, b, d, f1, f2, self.psi, n, defined)
+            full = [np.where(defined, v, 0.0) for v in full]
+        if self.system.given_matrix is None:
+            a, b, d, f1, f2 = full
+            return Plane(a, b, d, f1, f2, self.psi, n, defined)
+        a, b, d, f1, f2, turn = _rotated(*full)
+        return Plane(a, b, d, f1, f2, self.psi, n, defined, tuple(full), turn)
 
 
 def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[ArrayLike] = ()) -> Sweep:
@@ -183,6 +200,7 @@ def _needs(system: ELinear, varying: tuple[str, ...]) -> bool:
 
 
 def _rows(system: ELinear, z: ArrayLike, values: Mapping[str, Array]) -> list[Any]:
+    """Return a, b, d, f1, f2, or the matrix as given (rows first), f1, f2."""
     held: dict[str, Any] = dict(system.parameters)
     for i, value in enumerate(np.atleast_1d(np.asarray(z, float))):
         held[f"z{i + 1}"] = float(value)
@@ -200,9 +218,13 @@ def _rows(system: ELinear, z: ArrayLike, values: Mapping[str, Array]) -> list[An
     f1, f2 = number("f1", system.f[0]), number("f2", system.f[1])
     if system.given_matrix is None:
         return [number(name, getattr(system, name)) for name in "abd"] + [f1, f2]
-    (a11, a12), (a21, a22) = (tuple(np.asarray(number("", v), float) for v in row) for row in system.given_matrix)
-    shear, stretch = a12 + a21 + 0.0, a22 - a11  # lem:normalform, as in `ELinear.from_matrix`
+    return [number("", v) for row in system.given_matrix for v in row] + [f1, f2]
+
+
+def _rotated(a11: Array, a12: Array, a21: Array, a22: Array, f1: Array, f2: Array) -> tuple[Array, ...]:
+    """Return a, b, d, f1, f2 in the normal form (lem:normalform), as `ELinear.from_matrix` makes it, and the angle."""
+    shear, stretch = a12 + a21 + 0.0, a22 - a11 + 0.0
     phi = 0.5 * np.arctan2(shear, stretch)
     mean, half = 0.5 * a11 + 0.5 * a22, 0.5 * np.hypot(shear, stretch)
     c, s = np.cos(phi), np.sin(phi)
-    return [mean - half, 0.5 * a21 - 0.5 * a12, mean + half, c * f1 - s * f2, s * f1 + c * f2]
+    return mean - half, 0.5 * a21 - 0.5 * a12, mean + half, c * f1 - s * f2, s * f1 + c * f2, phi

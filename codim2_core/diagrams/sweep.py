@@ -133,9 +133,9 @@ def border_functions(plane: Plane, exponent: int = 0) -> tuple[Array, Array]:
     -------
     gap, det_A : ndarray (k,)
     """
-    a, b, d, f1, f2 = (np.ldexp(v, exponent) for v in plane.arrays) if exponent else plane.arrays
-    det = a * d + b * b
-    n1, n2 = d * f1 + b * f2, a * f2 - b * f1
+    m11, m12, m21, m22, f1, f2 = (np.ldexp(v, exponent) for v in plane.affine) if exponent else plane.affine
+    det = m11 * m22 - m12 * m21
+    n1, n2 = m22 * f1 - m12 * f2, m11 * f2 - m21 * f1
     return det * det - n1 * n1 - n2 * n2, det
 
 
@@ -161,14 +161,15 @@ def linearise(plane: Plane, exponent: int | None = None) -> Linearisation:
     pair = np.zeros((3, len(plane), 2))
     numbers = np.zeros((4, len(plane)))
     if len(inside):
-        a, b, d, f1, f2 = (np.ldexp(v[inside], exponent) for v in plane.arrays)
+        affine = tuple(np.ldexp(v[inside], exponent) for v in plane.affine)
+        m11, m12, m21, m22, f1, f2 = affine
         det, gap = det[inside], gap[inside]
-        n1, n2 = d * f1 + b * f2, a * f2 - b * f1
+        n1, n2 = m22 * f1 - m12 * f2, m11 * f2 - m21 * f1
         # where a difference has lost digits, which J would show
-        near = (gap < CANCELS * det * det) | (abs(det) < CANCELS * (abs(a * d) + b * b))
+        near = (gap < CANCELS * det * det) | (abs(det) < CANCELS * (abs(m11 * m22) + abs(m12 * m21)))
         if near.any():
             gap, det = gap.copy(), det.copy()
-            gap[near], det[near], n1[near], n2[near] = to_all_digits(*(v[near] for v in (a, b, d, f1, f2)))
+            gap[near], det[near], n1[near], n2[near] = to_all_digits(*(v[near] for v in affine))
         e1, e2 = -n1 / det, -n2 / det
         modulus = np.hypot(e1, e2)
         complement = np.clip(gap / (det * det), 1e-300, 1.0)
@@ -179,12 +180,20 @@ def linearise(plane: Plane, exponent: int | None = None) -> Linearisation:
         size = np.where(away, modulus, 1.0)
         c, s = np.where(away, e1 / size, 1.0), e2 / size
         r = zeta / np.hypot(1.0, zeta)
-        pair[:, inside] = np.stack([[e1, e2], [zeta * c, zeta * s], [r * c, r * s]]).transpose(0, 2, 1)
-        # in the axes along e and across it: J = [[alpha radial, (g - b) tangential], [(g + b) radial, beta tangential]]
+        places = np.stack([[e1, e2], [zeta * c, zeta * s], [r * c, r * s]])
+        if plane.turn is not None:
+            turn = np.exp(1j * plane.turn[inside])
+            turned = (places[:, 0] + 1j * places[:, 1]) * turn
+            places = np.stack([turned.real, turned.imag], axis=1)
+        pair[:, inside] = places.transpose(0, 2, 1)
+        # in the axes along e and across it J = [[alpha radial, (g - b) tangential], [(g + b) radial, beta tangential]],
+        # b and sigma the antisymmetric and the symmetric half of what stands beside the diagonal of A
         unit = 2.0**-exponent
-        along = unit * radial * (a * c * c + d * s * s)
-        across = unit * tangential * (a * s * s + d * c * c)
-        shear = (d - a) * c * s
+        b, sigma = 0.5 * m21 - 0.5 * m12, 0.5 * m21 + 0.5 * m12
+        mixed = 2.0 * sigma * (c * s)
+        along = unit * radial * (m11 * c * c + m22 * s * s + mixed)
+        across = unit * tangential * (m11 * s * s + m22 * c * c - mixed)
+        shear = (m22 - m11) * c * s + sigma * (c - s) * (c + s)
         half = 0.5 * (along - across)
         quarter = half * half + unit * unit * radial * tangential * (shear * shear - b * b)
         total = abs(along) + abs(across)

@@ -261,6 +261,11 @@ def _operation(op: str, pieces: list[_Piece], nodes: list[tapes.Node], python: b
         return f"{op}({pieces[0][0]}, {pieces[1][0]})", _ATOM, max(pieces[0][2], pieces[1][2]) + 1
     if op == "**":
         return _power(pieces, nodes[1], python)
+    if op == tapes.BESIDE_ZERO:
+        if python:
+            (left, depth_left), (right, depth_right) = _wrap(pieces[0], _ATOM), _wrap(pieces[1], _ATOM)
+            return tapes.BESIDE_ZERO_SOURCE.format(left, right), _ATOM, max(depth_left, depth_right) + 2
+        op = "*"
     binding = _SUM if op in "+-" else _PRODUCT
     (left, depth_left), (right, depth_right) = _wrap(pieces[0], binding), _wrap(pieces[1], binding + 1)
     space = " " if binding == _SUM else ""

@@ -123,8 +123,12 @@ def gradients(op, left, right, number, roots, seed, work, out):
             p, q = 1.0, 1.0
         elif k == SUB:
             p, q = 1.0, -1.0
-        elif k == MUL:
+        elif k == MUL:  # a factor 0 stays 0 beside an infinite slope of the other: (u v)' = u' v where u' is finite
             p, q = b, a
+            if a == 0.0 and (math.isinf(b1) or math.isinf(b2)) and math.isfinite(a1) and math.isfinite(a2):
+                b1, b2 = 0.0, 0.0
+            elif b == 0.0 and (math.isinf(a1) or math.isinf(a2)) and math.isfinite(b1) and math.isfinite(b2):
+                a1, a2 = 0.0, 0.0
         elif k == DIV:
             p, q = 1.0 / b, -v / b
         elif k == NEG:
@@ -159,12 +163,16 @@ def gradients(op, left, right, number, roots, seed, work, out):
         elif k in (MIN, MAX):  # where both are equal the mean of the two slopes
             p = 0.5 if a == b else 1.0 if (a < b) == (k == MIN) else 0.0
             q = 1.0 - p
+            if p == 0.0:
+                a1, a2 = 0.0, 0.0
+            if q == 0.0:
+                b1, b2 = 0.0, 0.0
         elif k == ABS:  # at its kink the mean of the two slopes
             p = 1.0 if a > 0.0 else -1.0 if a < 0.0 else 0.0
-        # a factor 0 stays 0 beside an infinite slope: sqrt of a constant 0 has no slope
+        # an inner slope 0 stays 0 beside an infinite outer one: sqrt of a constant 0 has no slope
         work[i, 0] = v
-        work[i, 1] = (p * a1 if a1 != 0.0 else 0.0) + (q * b1 if q != 0.0 and b1 != 0.0 else 0.0)
-        work[i, 2] = (p * a2 if a2 != 0.0 else 0.0) + (q * b2 if q != 0.0 and b2 != 0.0 else 0.0)
+        work[i, 1] = (p * a1 if a1 != 0.0 else 0.0) + (q * b1 if b1 != 0.0 else 0.0)
+        work[i, 2] = (p * a2 if a2 != 0.0 else 0.0) + (q * b2 if b2 != 0.0 else 0.0)
     for r in range(len(roots)):
         for j in range(3):
             out[r, j] = work[roots[r], j]

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from .expression import Expression
-from .tape import FUNCTIONS_OF_TWO, Builder, Node
+from .tape import BESIDE_ZERO, BESIDE_ZERO_SOURCE, FUNCTIONS_OF_TWO, Builder, Node
 
 # Smooth wherever their argument is finite, however far a step strays.
 ENTIRE = frozenset({"num", "name", "neg", "+", "-", "*", "sin", "cos", "exp", "tanh", "sinh", "cosh", "atan"})
@@ -95,6 +95,8 @@ def _operation(op: str, args: list[str], exponent: int | None) -> str:
         return f"1.0*({args[0]} > 0.0) - 1.0*({args[0]} < 0.0)"
     if op in FUNCTIONS_OF_TWO:
         return f"{op}({args[0]}, {args[1]})"
+    if op == BESIDE_ZERO:
+        return BESIDE_ZERO_SOURCE.format(*args)
     if len(args) == 1:
         return f"math.{'fabs' if op == 'abs' else op}({args[0]})"
     if op != "**":

@@ -18,6 +18,8 @@ Tape = tuple[Node, ...]
 FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "sqrt", "tanh", "sinh", "cosh", "atan", "abs", "sign")
 FUNCTIONS_OF_TWO = ("min", "max")
 BINARY = ("+", "-", "*", "/", "**")
+BESIDE_ZERO = "*0"  # of derivatives alone: u v, and 0 where one is 0 and the other infinite
+BESIDE_ZERO_SOURCE = "(0.0 if ({0} == 0.0 and math.isinf({1})) or ({1} == 0.0 and math.isinf({0})) else {0}*{1})"
 CONSTANTS = {"pi": math.pi, "e": math.e}
 MOST_NODES = 20_000
 
@@ -37,6 +39,15 @@ def most(u: float, v: float) -> float:
     return u + v if u != u or v != v else max(u, v)
 
 
+def beside_zero(u: float, v: float) -> float:
+    """Return u v, and 0 where one is 0 and the other infinite."""
+    return 0.0 if (u == 0.0 and math.isinf(v)) or (v == 0.0 and math.isinf(u)) else u * v
+
+
+def _beside_zeros(u: Any, v: Any) -> Any:
+    return np.where(((u == 0.0) & np.isinf(v)) | ((v == 0.0) & np.isinf(u)), 0.0, np.multiply(u, v))
+
+
 # math.* is some ten times faster than NumPy on one float, but raises where IEEE arithmetic answers inf or nan;
 # a formula then goes through NumPy instead.
 SCALAR: dict[str, Callable[..., Any]] = {
@@ -51,6 +62,7 @@ SCALAR: dict[str, Callable[..., Any]] = {
     "*": operator.mul,
     "/": operator.truediv,
     "**": math.pow,  # never complex, unlike the operator
+    BESIDE_ZERO: beside_zero,
 }
 VECTOR: dict[str, Callable[..., Any]] = {
     **{name: getattr(np, name) for name in FUNCTIONS if name not in ("atan", "abs")},
@@ -64,6 +76,7 @@ VECTOR: dict[str, Callable[..., Any]] = {
     "*": np.multiply,
     "/": np.divide,
     "**": np.power,
+    BESIDE_ZERO: _beside_zeros,
 }
 
 
@@ -126,6 +139,8 @@ class Builder:
                 raise NotFiniteError("this part is infinite or undefined")
         if op == "neg" and self.nodes[args[0]][0] == "neg":
             return self.nodes[args[0]][1]
+        if op == BESIDE_ZERO and values != [None, None]:
+            op = "*"  # by a number, which is finite: 0 is simplified away
         if self._simplify and len(args) == 2:
             i = self._simpler(op, *args, *values)
             if i is not None:
@@ -181,6 +196,10 @@ def compact(nodes: list[Node], root: int) -> Tape:
 def derivative(tape: Tape, name: str) -> Tape:
     """Tape of the partial derivative: one pass of the chain rule, forwards.
 
+    The root of what is 0 has an infinite slope. Beside it a factor 0 stays 0: an inner slope 0 (the root of a square
+    has a kink there, and the mean of its two slopes is 0), and a factor u = 0 of a product u v with a finite slope,
+    since (u v)' = u' v there whatever the slope of v.
+
     Raises
     ------
     ValueError
@@ -188,6 +207,7 @@ def derivative(tape: Tape, name: str) -> Tape:
     """
     build = Builder(tape, simplify=True)
     apply, zero = build.apply, build.number(0.0)
+    steep = _steep(tape)
     rates: list[int] = []
     for k, (op, *args) in enumerate(tape):
         if op == "num" or op == "name":
@@ -195,13 +215,17 @@ def derivative(tape: Tape, name: str) -> Tape:
             continue
         du = rates[args[0]]
         if len(args) == 2:
-            rates.append(_binary_rate(build, op, k, args[0], args[1], du, rates[args[1]], zero))
+            rates.append(_binary_rate(build, op, k, args[0], args[1], du, rates[args[1]], zero, steep))
         elif du == zero:
             rates.append(zero)
         elif op == "neg":
             rates.append(apply("neg", du))
         elif op == "sqrt":
-            rates.append(apply("/", du, apply("*", build.number(2.0), k)))
+            twice = apply("*", build.number(2.0), k)
+            if steep[k]:
+                rates.append(apply(BESIDE_ZERO, du, apply("/", build.number(1.0), twice)))
+            else:
+                rates.append(apply("/", du, twice))
         elif op == "log":
             rates.append(apply("/", du, args[0]))
         elif op == "atan":
@@ -210,6 +234,36 @@ def derivative(tape: Tape, name: str) -> Tape:
         else:
             rates.append(apply("*", _outer_rate(build, op, k, args[0]), du))
     return compact(build.nodes, rates[-1])
+
+
+def _steep(tape: Tape) -> list[bool]:
+    """Whether entries may have infinite slopes where they are finite: roots, and powers, of what may be 0."""
+    least: list[int] = []  # 1: positive, 0: not negative, -1: anything
+    steep: list[bool] = []
+    for op, *args in tape:
+        if op in ("num", "name"):
+            value = args[0] if op == "num" else -1.0
+            least.append(1 if value > 0.0 else 0 if value == 0.0 else -1)
+            steep.append(False)
+            continue
+        signs = [least[i] for i in args]
+        natural = op == "**" and tape[args[1]][0] == "num" and tape[args[1]][1] in range(1, 1001)
+        square = (natural and tape[args[1]][1] % 2 == 0) or (op == "*" and args[0] == args[1])
+        if op in ("exp", "cosh"):
+            sign = 1
+        elif op == "+":
+            sign = min(max(signs), 1) if min(signs) >= 0 else -1
+        elif op in ("*", "/", "min", "max"):
+            sign = 0 if square and signs[0] < 1 else max(signs) if op == "max" else min(signs)
+        elif op == "abs":
+            sign = max(signs[0], 0)
+        else:
+            sign = signs[0] if op in ("sqrt", "tanh", "sinh", "atan", "**") else -1
+            sign = max(sign, 0) if square or op == "sqrt" else sign
+        least.append(sign)
+        own = op == "sqrt" or (op == "**" and not natural)
+        steep.append((own and signs[0] < 1) or any(steep[i] for i in args))
+    return steep
 
 
 def _outer_rate(build: Builder, op: str, k: int, u: int) -> int:
@@ -236,31 +290,40 @@ def _outer_rate(build: Builder, op: str, k: int, u: int) -> int:
             return apply("sign", u)
 
 
-def _binary_rate(build: Builder, op: str, k: int, u: int, v: int, du: int, dv: int, zero: int) -> int:
+def _binary_rate(
+    build: Builder, op: str, k: int, u: int, v: int, du: int, dv: int, zero: int, steep: list[bool]
+) -> int:
     apply = build.apply
     match op:
         case "+" | "-":
             return apply(op, du, dv)
-        case "*":
-            return apply("+", apply("*", du, v), apply("*", u, dv))
+        case "*" | "*0":  # BESIDE_ZERO
+            # 0 times an infinite slope is 0 where the other slope is finite
+            first = apply(BESIDE_ZERO if steep[u] and not steep[v] else "*", du, v)
+            return apply("+", first, apply(BESIDE_ZERO if steep[v] and not steep[u] else "*", u, dv))
         case "min" | "max":  # where both are equal the mean of the two slopes
             less = apply("sign", apply("-", u, v) if op == "max" else apply("-", v, u))
-            mean, half = apply("+", du, dv), apply("-", du, dv)
-            return apply("*", build.number(0.5), apply("+", mean, apply("*", less, half)))
+            if not (steep[u] or steep[v]):
+                mean, half = apply("+", du, dv), apply("-", du, dv)
+                return apply("*", build.number(0.5), apply("+", mean, apply("*", less, half)))
+            one, half = build.number(1.0), build.number(0.5)
+            first = apply(BESIDE_ZERO, apply("*", half, apply("+", one, less)), du)
+            return apply("+", first, apply(BESIDE_ZERO, apply("*", half, apply("-", one, less)), dv))
         case "/":
             first = apply("/", du, v)
             if dv == zero:
                 return first
             # u dv/v/v rather than u dv/v^2, which overflows sooner
             return apply("-", first, apply("/", apply("*", k, dv), v))
-    if du == zero and dv == zero:
-        return zero
-    if dv == zero:
+    by_base = zero
+    if du != zero:
         power = apply("**", u, apply("-", v, build.number(1.0)))
-        return apply("*", apply("*", v, power), du)
-    by_exponent = apply("*", dv, apply("log", u))
-    by_base = zero if du == zero else apply("/", apply("*", v, du), u)
-    return apply("*", k, apply("+", by_exponent, by_base))
+        times = BESIDE_ZERO if steep[k] else "*"
+        by_base = apply(times, apply(times, v, power), du)  # v = 0: u^0 has no slope, at u = 0 neither
+    if dv == zero:
+        return by_base
+    by_exponent = apply(BESIDE_ZERO, dv, apply(BESIDE_ZERO, k, apply("log", u)))
+    return apply("+", by_exponent, by_base)
 
 
 def substitute(tape: Tape, name: str, replacement: Tape) -> Tape:

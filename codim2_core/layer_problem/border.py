@@ -9,16 +9,16 @@ from ..numerics.double_double import add, negative, product, square
 CANCELS = 0.05  # of the terms of a difference: below it, it is computed in twice the precision
 
 
-def to_all_digits(a: Any, b: Any, d: Any, f1: Any, f2: Any) -> tuple[Any, Any, Any, Any]:
+def to_all_digits(m11: Any, m12: Any, m21: Any, m22: Any, f1: Any, f2: Any) -> tuple[Any, Any, Any, Any]:
     """Return the gap ``det(A)^2 - |n|^2``, det A and n = adj(A) f, in twice the precision before they are rounded.
 
     Parameters
     ----------
-    a, b, d, f1, f2 : float, or ndarray (k,)
-        Scaled, so that nothing over- or underflows.
+    m11, m12, m21, m22, f1, f2 : float, or ndarray (k,)
+        A, rows first, and f. Scaled, so that nothing over- or underflows.
     """
-    det = add(product(a, d), product(b, b))
-    n1 = add(product(d, f1), product(b, f2))
-    n2 = add(product(a, f2), negative(product(b, f1)))
+    det = add(product(m11, m22), negative(product(m12, m21)))
+    n1 = add(product(m22, f1), negative(product(m12, f2)))
+    n2 = add(product(m11, f2), negative(product(m21, f1)))
     gap = add(square(det), negative(add(square(n1), square(n2))))
     return gap[0], det[0], n1[0], n2[0]

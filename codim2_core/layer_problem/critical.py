@@ -15,6 +15,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..expressions.arrays import AROUND, BESIDE
 from ..expressions.kinks import kinks
 from ..expressions.names import PLANE
 from ..numerics.trigonometric import ROUNDING
@@ -155,7 +156,7 @@ def locate(at: AtZ) -> Location:
     if gap < 0.0:
         return Location(Existence.NONE)
     if gap < CANCELS * size:
-        gap, det, n1, n2 = to_all_digits(a, b, d, f1, f2)
+        gap, det, n1, n2 = to_all_digits(a, -b, b, d, f1, f2)
     return Location(Existence.INSIDE, (-n1 / det + 0.0, -n2 / det + 0.0), gap / (det * det))
 
 
@@ -287,11 +288,12 @@ def sets_at(at: AtZ, psi: Psi, location: Location | None) -> tuple[CriticalSet, 
     if location.e is None:
         return ()
     form, sign = at.as_given, matrix_determinant(*at.affine[:4])[1]
-    if form is None:
+    if form is None or form.given is not None:  # by the matrix as given, whatever the rotation has rounded
         shift = math.frexp(max(map(abs, at.affine[:4])))[1]
         m11, m12, m21, m22 = (math.ldexp(v, -shift) for v in at.affine[:4])
-        parts = linearisation_of((m11, m12, m21, m22), psi, location.e, location.complement, sign)
-        return (_critical_set(location.e, parts, shift, at.W(location.e)),)
+        e = turned(location, -at.turn).e or location.e
+        parts = linearisation_of((m11, m12, m21, m22), psi, e, location.complement, sign)
+        return (_critical_set(location.e, _turned_parts(parts, at.turn), shift, at.W(location.e)),)
     # Time in a unit that makes the largest coefficient about 1, so that no product under- or overflows.
     shift = math.frexp(max(map(abs, form.plane[:3])))[1]
     a, b, d = (math.ldexp(v, -shift) for v in form.plane[:3])
@@ -299,14 +301,24 @@ def sets_at(at: AtZ, psi: Psi, location: Location | None) -> tuple[CriticalSet, 
     return (_critical_set(location.e, parts, shift, at.W(location.e)),)
 
 
-BESIDE = 1e-6  # so far from a kink one of its sides is looked at
-_AROUND = np.stack([np.cos(np.arange(16) * math.pi / 8.0 + 0.1), np.sin(np.arange(16) * math.pi / 8.0 + 0.1)], axis=-1)
+def _turned_parts(parts: Parts, angle: float) -> Parts:
+    """Rotate the place and the Jacobian by an angle; what they decide stays."""
+    if angle == 0.0:
+        return parts
+    x2, p, (j11, j12, j21, j22), frame = parts
+    c, s = math.cos(angle), math.sin(angle)
+    R = np.array([[c, -s], [s, c]])
+    (k11, k12), (k21, k22) = (R @ np.array([[j11, j12], [j21, j22]]) @ R.T).tolist()
+    x, y = R @ x2
+    px, py = R @ p
+    return (float(x), float(y)), (float(px), float(py)), (k11, k12, k21, k22), frame
 
 
 def _general_sets(at: AtZ, psi: Psi) -> tuple[CriticalSet, ...]:
     found = disc_zeros(at.key)
     sets = []
-    for e, DU, degenerate, index in zip(found.e, found.DU, found.degenerate, found.index, strict=True):
+    columns = (found.e, found.DU, found.degenerate, found.rough, found.index)
+    for e, DU, degenerate, rough, index in zip(*columns, strict=True):
         c, s = float(e[0]), float(e[1])
         modulus = math.hypot(c, s)
         m11, m12, m21, m22 = DU.ravel().tolist()
@@ -314,10 +326,10 @@ def _general_sets(at: AtZ, psi: Psi) -> tuple[CriticalSet, ...]:
         M = (math.ldexp(m11, -shift), math.ldexp(m12, -shift), math.ldexp(m21, -shift), math.ldexp(m22, -shift))
         parts = linearisation_of(M, psi, (c, s), (1.0 - modulus) * (1.0 + modulus), int(index))
         C = _critical_set((c, s), parts, shift, at.W((c, s)))
-        if degenerate:
+        if degenerate and not rough:
             # index 0: a saddle and a node have just met; +1 or -1: three critical sets have
             C = replace(C, determinant=0.0, kind="saddle-node" if index == 0 else "degenerate")
-        elif not _sides_agree(at, psi, C):
+        elif rough or not _sides_agree(at, psi, C):
             C = replace(C, kind="degenerate")
         sets.append(C)
     return tuple(sets)
@@ -328,7 +340,7 @@ def _sides_agree(at: AtZ, psi: Psi, C: CriticalSet) -> bool:
     system = at.typed
     if system is None or not kinks(system.U, PLANE):
         return True
-    sides = at.DU(C.e + BESIDE * _AROUND)
+    sides = at.DU(C.e + BESIDE * AROUND)
     middle = at.DU(C.e)
     if abs(sides - middle).max() <= 1e-3 * abs(middle).max():
         return True

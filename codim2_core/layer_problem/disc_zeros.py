@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..expressions.arrays import Program, program
+from ..expressions.arrays import AROUND, BESIDE, Program, program
 from ..numerics.fourier_zeros import UNIT
 from .equator_zeros import component_series, equator_zeros
 
@@ -26,6 +26,8 @@ EFFORTS = ((25, 1500, 1_000_000), (32, 6_000, 3_000_000))
 TOGETHER = 1e-6  # critical sets closer than this, and not told apart by the search, count as one
 CURVE = 200  # undecided boxes that are no mere neighbours of a point,
 LONG = 0.02  # if they extend this far
+REGULAR = 1e-4  # det D_e U, in units of |D_e U|^2, of a zero that is not multiple
+ROUGH = 1e-2  # change of D_e U over `BESIDE`, in units of itself, of a U that is not differentiable
 CROWDED = 100  # zeros: more effort would only find more of them
 
 
@@ -40,7 +42,9 @@ class DiscZeros:
     DU : ndarray (k, 2, 2)
         D_e U there, exact.
     degenerate : ndarray of bool (k,)
-        D_e U is singular within rounding: critical sets that have just met (a fold, or a higher degeneracy).
+        D_e U is singular within rounding: critical sets that have just met (a fold, or a higher degeneracy); or rough.
+    rough : ndarray of bool (k,)
+        U is not differentiable there, and its slopes on the sides (infinite, or of either orientation) give no index.
     index : ndarray of int (k,)
         Sign of det D_e U; for one degenerate zero what the degree leaves for it, 0 for a fold.
     on_equator : tuple of float
@@ -58,6 +62,7 @@ class DiscZeros:
     e: Array
     DU: Array
     degenerate: NDArray[np.bool_]
+    rough: NDArray[np.bool_]
     index: NDArray[np.int64]
     on_equator: tuple[float, ...]
     curve: bool
@@ -80,8 +85,9 @@ def disc_zeros(key: Hashable) -> DiscZeros:
     if size == 0.0 and np.all(program(key).at(_NET)[:, :, 0] == 0.0):
         nothing = np.zeros((0, 2))
         return DiscZeros(
-            nothing, np.zeros((0, 2, 2)), np.zeros(0, bool), np.zeros(0, np.int64), (), False, True, None, True
-        )
+            nothing, np.zeros((0, 2, 2)), np.zeros(0, bool), np.zeros(0, bool), np.zeros(0, np.int64), (), False, True,
+            None, True,
+        )  # fmt: skip
     degree = equator_zeros(key).degree
     first = _searched(program(key), size, degree, *EFFORTS[0])
     if (first.consistent is not False and first.proven) or len(first.e) >= CROWDED:
@@ -109,27 +115,48 @@ def _searched(run: Program, size: float, degree: int | None, levels: int, most: 
         points = np.concatenate([points, np.array(places).reshape(-1, 2)])
         degenerate = np.concatenate([degenerate, np.ones(len(places), bool)])
     points = np.where(np.abs(points) < 1e-18, 0.0, points)
-    rows = run.at(points)
-    DU = rows[:, :, 1:]
-    undefined = np.logical_not(np.isfinite(DU).all(axis=(1, 2)))  # an infinite slope gives no index
-    DU, degenerate = np.where(undefined.reshape(-1, 1, 1), 0.0, DU), degenerate | undefined
-    proven = proven and not bool(undefined.any())
+    DU, degenerate, rough = _slopes(run, points, degenerate)
+    proven = proven and not bool(rough.any())
     gap = 1.0 - np.hypot(points[:, 0], points[:, 1])
     border = np.abs(gap) <= _blur(DU, degenerate, max(size, _size(run)))
     on_equator = tuple(sorted(math.atan2(s, c) % (2 * math.pi) for c, s in points[border].tolist()))
     inside = (gap > 0.0) & ~border
-    points, DU, degenerate = points[inside], DU[inside], degenerate[inside]
+    points, DU, degenerate, rough = points[inside], DU[inside], degenerate[inside], rough[inside]
     order = np.lexsort((points[:, 1], np.round(points[:, 0], 9)))
-    points, DU, degenerate = points[order], DU[order], degenerate[order]
+    points, DU, degenerate, rough = points[order], DU[order], degenerate[order], rough[order]
     index = np.sign(DU[:, 0, 0] * DU[:, 1, 1] - DU[:, 0, 1] * DU[:, 1, 0]).astype(np.int64)
     index[degenerate] = 0
     if degree is not None and degenerate.sum() == 1:
         index[degenerate] = degree - index.sum()
         if abs(int(index[degenerate][0])) > 8:
             proven = False
-    for array in (points, DU, degenerate, index):
+    for array in (points, DU, degenerate, rough, index):
         array.flags.writeable = False
-    return DiscZeros(points, DU, degenerate, index, on_equator, curve, False, None if on_equator else degree, proven)
+    found_degree = None if on_equator else degree
+    return DiscZeros(points, DU, degenerate, rough, index, on_equator, curve, False, found_degree, proven)
+
+
+def _slopes(run: Program, points: Array, doubtful: NDArray[np.bool_]) -> tuple[Array, NDArray[Any], NDArray[Any]]:
+    """D_e U at zeros, which of those that are `doubtful` are degenerate, and which of these because U is rough there.
+
+    Boxes stay undecided at multiple zeros, and where U has corners or unbounded second derivatives. Of a rough zero
+    the sides say whether it is an ordinary one: if they all have one orientation.
+    """
+    DU = run.at(points)[:, :, 1:]
+    degenerate, rough = doubtful.copy(), np.zeros(len(points), bool)
+    for i in np.flatnonzero(doubtful | ~np.isfinite(DU).all(axis=(1, 2))):
+        sides = run.at(points[i] + BESIDE * AROUND)[:, :, 1:]
+        every = np.concatenate([DU[i : i + 1], sides])
+        if not np.isfinite(every).all():
+            DU[i], degenerate[i], rough[i] = 0.0, True, True
+            continue
+        spread = np.abs(sides - DU[i]).max()
+        determinants = every[:, 0, 0] * every[:, 1, 1] - every[:, 0, 1] * every[:, 1, 0]
+        regular = np.abs(determinants) > REGULAR * np.square(every).sum(axis=(1, 2))
+        degenerate[i] = not (regular.all() and np.ptp(np.sign(determinants)) == 0.0)
+        # a smooth U changes its slopes by about BESIDE times its size
+        rough[i] = degenerate[i] and spread > max(ROUGH * np.abs(every).max(), 100.0 * BESIDE * _size(run))
+    return DU, degenerate, rough
 
 
 def _size(run: Program) -> float:

@@ -86,9 +86,16 @@ def _critical(critical: tuple[CriticalSet, ...], found: DiscZeros) -> list[Degen
         named.append(("transcritical", "U = 0 on the equator: a critical set is just reaching it (fig:transcrit)."))
     if "saddle-node" in kinds:
         named.append(("fold", "det J = 0: two critical sets have just met. Counted once here."))
-    if "degenerate" in kinds:
+    met = int((found.degenerate & ~found.rough & (found.index != 0)).sum())
+    if met:
         named.append(("degenerate critical set", "det J = 0: three or more critical sets have met. Counted once here."))
     degeneracies = [undecided(name, text, WITHIN, TERMS) for name, text in named]
+    if kinds.count("degenerate") > met:
+        text = (
+            "U is not differentiable at a critical set, and its sides do not agree: whether it attracts, repels or is "
+            "a saddle is not decided by a linearisation."
+        )
+        degeneracies.append(Degeneracy("corner at a critical set", text))
     if "centre (linear)" in kinds:
         text = (
             "tr J = 0 within rounding: to first order a critical set is a centre of the layer problem. Nonlinear terms "

@@ -314,7 +314,7 @@ def _rotate(a11: float, a12: float, a21: float, a22: float) -> tuple[float, floa
     part, whose eigenvalues are mean -+ half the length of (A12 + A21, A22 - A11). Where these nearly cancel, the
     smaller one is the determinant of the symmetric part, exact, over the larger: its sign is that of the matrix.
     """
-    shear, stretch = a12 + a21 + 0.0, a22 - a11
+    shear, stretch = a12 + a21 + 0.0, a22 - a11 + 0.0  # no -0: atan2 would turn by a right angle
     phi = 0.5 * math.atan2(shear, stretch)
     mean, half = 0.5 * a11 + 0.5 * a22, 0.5 * math.hypot(shear, stretch)
     a, d = mean - half, mean + half

@@ -3,7 +3,7 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from codim2_core import ELinear
@@ -40,6 +40,8 @@ def test_number_of_slow_variables(m, system):
 
 
 @given(st.lists(number, min_size=4, max_size=4), number, number, st.floats(-4, 4))
+@example([0.0, 0.0, 0.0, -0.0], 0.0, 1.0, 0.0)
+@example([0.0, 1.0, -1.0, -0.0], 0.5, 0.0, 1.0)
 def test_from_matrix_is_the_same_system_seen_in_rotated_axes(entries, f1, f2, theta):
     A = np.array(entries).reshape(2, 2)
     at = ELinear.from_matrix(A, (f1, f2), B=[[1.0, -2.0]], g=[0.5]).at()
