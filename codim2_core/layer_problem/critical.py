@@ -317,6 +317,7 @@ def _turned_parts(parts: Parts, angle: float) -> Parts:
 def _general_sets(at: AtZ, psi: Psi) -> tuple[CriticalSet, ...]:
     found = disc_zeros(at.key)
     sets = []
+    counted = found.degree is not None and found.degenerate.sum() == 1  # then the degree gives it its index
     columns = (found.e, found.DU, found.degenerate, found.rough, found.index)
     for e, DU, degenerate, rough, index in zip(*columns, strict=True):
         c, s = float(e[0]), float(e[1])
@@ -326,7 +327,7 @@ def _general_sets(at: AtZ, psi: Psi) -> tuple[CriticalSet, ...]:
         M = (math.ldexp(m11, -shift), math.ldexp(m12, -shift), math.ldexp(m21, -shift), math.ldexp(m22, -shift))
         parts = linearisation_of(M, psi, (c, s), (1.0 - modulus) * (1.0 + modulus), int(index))
         C = _critical_set((c, s), parts, shift, at.W((c, s)))
-        if degenerate and not rough:
+        if degenerate and (not rough or (counted and index == 0)):
             # index 0: a saddle and a node have just met; +1 or -1: three critical sets have
             C = replace(C, determinant=0.0, kind="saddle-node" if index == 0 else "degenerate")
         elif rough or not _sides_agree(at, psi, C):
