@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from codim2_core.scene import Scene
@@ -11,7 +11,8 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
 from ..state.chosen import System_
-from .jobs import Failed, Jobs
+from .jobs import Jobs
+from .turns import Failed
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,8 @@ class Draft:
         The compiled integrator is ready.
     locked : tuple of str
         Controls that the system does not have.
+    missing : list of str
+        Layers of the scene that are to be computed beside the frames, as they have been asked for in vain.
     """
 
     scene: Scene
@@ -45,6 +48,7 @@ class Draft:
     rest: bool
     ready: bool
     locked: tuple[str, ...]
+    missing: list[str] = field(default_factory=list)
 
     @property
     def system(self) -> System_ | None:
@@ -66,14 +70,15 @@ class Draft:
         """Tell the browser why there is nothing of this name."""
         self.header.setdefault("unable", {})[name] = sentence
 
-    def slow(self, name: str, key: Hashable, make: Callable[[], Any]) -> Any:
-        """Return a slow result if the browser lacks it and it is there; ask for it once nothing moves.
+    def slow(self, name: str, key: Hashable, make: Callable[..., Any], *arguments: Any) -> Any:
+        """Return a slow result, ``make(*arguments)``, if the browser lacks it and it is there.
 
-        A computation that fails is told in ``header["unable"]``, by name, and None is returned.
+        It is asked for once nothing moves; see `Jobs.ask` for what may be asked for. A computation that fails is told
+        in ``header["unable"]``, by name, and None is returned.
         """
         if self.now.get(name) == key:
             return None
-        result = self.jobs.ask(name, key, make) if self.rest else None
+        result = self.jobs.ask(name, key, make, *arguments) if self.rest else None
         if result is None:
             self.late(name)
             return None

@@ -1,65 +1,25 @@
-"""Slow results of panels, computed beside the frames so that no slider ever waits for one.
+"""What one browser waits for: slow results, computed beside the frames so that no slider ever waits for one.
 
-One thread a process works through what is asked, and what is found is shared: forty students who look at the same
-figure cost one computation. A browser has at most one wish for each thing it shows; a newer one replaces it.
+A browser has at most one wish for each thing it shows; a newer one replaces it, and what nobody wants any more ends.
+What is found is shared: forty students who look at the same figure cost one computation.
 """
 
 from __future__ import annotations
 
-import logging
-from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
-from dataclasses import dataclass
-from functools import cache
-from threading import Lock
+from concurrent.futures import Executor, Future
 from typing import Any
+from weakref import WeakKeyDictionary
 
-import numpy as np
+from .turns import Turns, in_a_thread
 
-#: What the core raises for input that it cannot use.
-FAILURES = (ValueError, ArithmeticError, np.linalg.LinAlgError)
-
-#: Results kept for all browsers of a process.
-KEPT = 128
+_served: list[Turns] = []
+_given: WeakKeyDictionary[Executor, Turns] = WeakKeyDictionary()
 
 
-@dataclass(frozen=True, slots=True)
-class Failed:
-    """In place of a result that cannot be had: the sentence that says why."""
-
-    sentence: str
-
-
-class _Shared:
-    """Results by key, the most recently used last; read and written by several threads."""
-
-    def __init__(self) -> None:
-        self._results: OrderedDict[Hashable, Any] = OrderedDict()
-        self._lock = Lock()
-
-    def get(self, key: Hashable) -> Any:
-        with self._lock:
-            if key in self._results:
-                self._results.move_to_end(key)
-            return self._results.get(key)
-
-    def put(self, key: Hashable, result: Any) -> None:
-        with self._lock:
-            self._results[key] = result
-            while len(self._results) > KEPT:
-                self._results.popitem(last=False)
-
-
-@cache
-def _shared() -> _Shared:
-    return _Shared()
-
-
-@cache
-def _thread() -> ThreadPoolExecutor:
-    """Return the one worker of this process, made when first needed: a fork has no threads of its parent's."""
-    return ThreadPoolExecutor(1, thread_name_prefix="codim2-panels")
+def serve_with(turns: Turns) -> None:
+    """From now on the jobs of this process take these turns: a server has processes for them."""
+    _served[:] = [turns]
 
 
 class Jobs:
@@ -68,52 +28,62 @@ class Jobs:
     Parameters
     ----------
     executor : Executor, optional
-        What computes; default one thread for the whole process.
+        What computes; default what the server has for all (`serve_with`), else one thread for the whole process.
     """
 
     def __init__(self, executor: Executor | None = None) -> None:
-        self._executor = executor
+        self._given = None if executor is None else _turns_of(executor)
         self._wishes: dict[str, tuple[Hashable, Future[Any]]] = {}
 
-    def ask(self, name: str, key: Hashable, make: Callable[[], Any]) -> Any:
+    @property
+    def turns(self) -> Turns:
+        """Whose turn it is, among all browsers."""
+        if self._given is not None:
+            return self._given
+        return _served[0] if _served else in_a_thread()
+
+    def ask(self, name: str, key: Hashable, make: Callable[..., Any], *arguments: Any) -> Any:
         """Return the result for this key, or None while it is being computed.
 
         Parameters
         ----------
         name : str
-            What it is for; a wish of the same name with another key is dropped.
+            What it is for; a wish of the same name with another key is dropped, and its work stopped.
         key : hashable
             Everything that the result depends on.
         make : callable
-            Computes it; must not be None. Input that the core refuses gives `Failed`.
+            ``make(*arguments)`` computes it; must not be None. Input that the core refuses gives `Failed`. On a server
+            both travel to another process: functions of modules, and values that can be pickled.
         """
         whole = (name, key)
-        result = _shared().get(whole)
+        turns = self.turns
+        wish = self._wishes.get(name)
+        if wish is not None and wish[0] != key:
+            turns.drop(id(self), (name, wish[0]))
+            del self._wishes[name]
+            wish = None
+        result = turns.result(whole)
         if result is not None:
             self._wishes.pop(name, None)
             return result
-        wish = self._wishes.get(name)
-        if wish is not None and wish[0] == key:
-            if wish[1].done():
-                self._wishes.pop(name)
-                return wish[1].result()
-            return None
-        if wish is not None:
-            wish[1].cancel()
-        executor = _thread() if self._executor is None else self._executor
-        self._wishes[name] = (key, executor.submit(_compute, whole, make))
+        if wish is None:
+            self._wishes[name] = key, turns.want(id(self), whole, make, *arguments)
+        elif wish[1].done():
+            self._wishes.pop(name)
+            return wish[1].result()
         return None
 
+    def future(self, name: str) -> Future[Any] | None:
+        """Return what is being waited for under a name, if anything is."""
+        wish = self._wishes.get(name)
+        return None if wish is None else wish[1]
 
-def _compute(whole: Hashable, make: Callable[[], Any]) -> Any:
-    kept = _shared().get(whole)  # another browser may have asked for it meanwhile
-    if kept is None:
-        try:
-            kept = make()
-        except FAILURES as error:
-            kept = Failed(str(error))
-        except Exception:  # a panel must not take the picture with it
-            logging.getLogger(__name__).exception("a panel could not be computed")
-            kept = Failed("This could not be computed: a fault of the program, which its log describes.")
-        _shared().put(whole, kept)
-    return kept
+    def leave(self) -> None:
+        """End what this browser alone wanted: it has gone."""
+        self._wishes.clear()
+        self.turns.leave(id(self))
+
+
+def _turns_of(executor: Executor) -> Turns:
+    """Return the turns of an executor, the same ones for all that name it."""
+    return _given.setdefault(executor, Turns(executor))

@@ -34,12 +34,12 @@ def add(draft: Draft) -> None:
     axis = min(SLOW_CONTROLS.index(values["drift"]), m - 1, len(SLOW_CONTROLS) - 1)
     spans = spans_of(system, values)
     others = tuple(0.0 if i == axis else v for i, v in enumerate(z))
-    found = draft.slow("along", (system, psi, others, axis, spans), lambda: line(system, psi, others, axis, spans))
+    found = draft.slow("along", (system, psi, others, axis, spans), line, system, psi, others, axis, spans)
     if found is not None:
         draft.header["along"] = found
     if m > 1:
         rest = z[2:]
-        plane = draft.slow("slow_plane", (system, psi, rest, spans), lambda: plane_of(system, psi, rest, spans))
+        plane = draft.slow("slow_plane", (system, psi, rest, spans), plane_of, system, psi, rest, spans)
         if plane is not None:
             draft.header["slow_plane"] = plane
 

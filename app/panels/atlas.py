@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from codim2_core import bifurcations
 from codim2_core.bifurcations import BifurcationCurve
 from codim2_core.diagrams.class_map import ClassMap, class_map
+from codim2_core.psi.function import Psi
 from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.elinear import ELinear
 
@@ -89,8 +90,7 @@ def _curves_of_psi(draft: Draft, size: float) -> None:
     assert isinstance(at, Coefficients)  # the system has a, b, d
     a, b, d = at.plane[:3]
     psi = scene.psi
-    found = draft.slow("curves of psi", scene.key("matrix", "psi"),
-                       lambda: (bifurcations.hopf(a, b, d, psi), bifurcations.node_focus(a, b, d, psi)))  # fmt: skip
+    found = draft.slow("curves of psi", scene.key("matrix", "psi"), _hopf_and_node_focus, a, b, d, psi)
     if found is None:
         return
     draft.header["curves_of_psi"] = {"size": size, "points": special_points(found)}
@@ -111,20 +111,24 @@ def _curves_of_cycles(draft: Draft, size: float) -> None:
         draft.header["cycles_possible"] = possible
     if not possible or draft.values["cycle_curves"] == "hide" or not draft.ready:
         return
-
-    def make() -> tuple[BifurcationCurve, ...]:
-        return (
-            bifurcations.cycle_folds(a, b, d, psi),
-            bifurcations.heteroclinic(a, b, d, psi),
-            bifurcations.closed_equator(a, b, d),
-        )
-
-    found = draft.slow("curves of cycles", draft.scene.key("matrix", "psi"), make)
+    found = draft.slow("curves of cycles", draft.scene.key("matrix", "psi"), _cycle_curves, a, b, d, psi)
     if found is None:
         return
     draft.header["curves_of_cycles"] = {"size": size, "points": special_points(found)}
     for name, curve in zip(("cycle_folds", "heteroclinic", "closed_equator"), found, strict=True):
         draft.blocks[name] = Polylines(*plane_curves.curve_lines(curve, size))
+
+
+def _hopf_and_node_focus(a: float, b: float, d: float, psi: Psi) -> tuple[BifurcationCurve, ...]:
+    return bifurcations.hopf(a, b, d, psi), bifurcations.node_focus(a, b, d, psi)
+
+
+def _cycle_curves(a: float, b: float, d: float, psi: Psi) -> tuple[BifurcationCurve, ...]:
+    return (
+        bifurcations.cycle_folds(a, b, d, psi),
+        bifurcations.heteroclinic(a, b, d, psi),
+        bifurcations.closed_equator(a, b, d),
+    )
 
 
 def special_points(curves: Sequence[BifurcationCurve]) -> list[list[Any]]:
@@ -136,8 +140,7 @@ def _portraits_of_plane(draft: Draft) -> None:
     scene = draft.scene
     places = [(i, region.name, region.inside) for i, region in enumerate(scene["regions"])] if draft.rest else []
     system, psi, z = scene.coefficients, scene.psi, ()
-    found = draft.slow("thumbnails", scene.key("matrix", "psi"),
-                       lambda: thumbnails(system, psi, z, ("f1", "f2"), places))  # fmt: skip
+    found = draft.slow("thumbnails", scene.key("matrix", "psi"), thumbnails, system, psi, z, ("f1", "f2"), places)
     if found is not None:
         draft.header["thumbnails"] = found
 
@@ -150,7 +153,7 @@ def _map(draft: Draft, axes: tuple[Axis, Axis]) -> None:
     spans = spans_of(draft, "map", axes, draft.values["atlas_zoom"])
     names = axes[0].core, axes[1].core
     key = (system, psi, z, names, spans)
-    found: ClassMap | None = draft.slow("map", key, lambda: class_map(system, psi, names, spans, z))
+    found: ClassMap | None = draft.slow("map", key, class_map, system, psi, names, spans, z)
     if found is not None:
         draft.header["map"], lines = map_columns(found)
         draft.blocks.update(lines)
@@ -158,7 +161,7 @@ def _map(draft: Draft, axes: tuple[Axis, Axis]) -> None:
         draft.now["places"] = (key, wide)
     of, places = draft.now.get("places", (None, ()))
     if draft.ready and of == key:
-        tiles = draft.slow("thumbnails", key, lambda: thumbnails(system, psi, z, names, places))
+        tiles = draft.slow("thumbnails", key, thumbnails, system, psi, z, names, places)
         if tiles is not None:
             draft.header["thumbnails"] = tiles
 

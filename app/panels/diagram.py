@@ -39,14 +39,21 @@ def add(draft: Draft) -> None:
     (span,) = spans_of(draft, "diagram", (axis,), draft.values["zoom"])
     system, psi, z = without(draft.scene, axis)
     key = (system, psi, z, name, span)
-    found = draft.slow("diagram", key, lambda: columns(diagram(system, psi, axis.core, span, z)))
+    found = draft.slow("diagram", key, _standing, system, psi, axis.core, span, z)
     if found is not None:
         draft.header["diagram"] = {**found, "control": name}
     if draft.ready and draft.now.get("diagram") == key and isinstance(system, E_LINEAR):
-        cycles = draft.slow("cycles along", key,
-                            lambda: cycle_columns(continue_cycles(system, psi, axis.core, span, z)))  # fmt: skip
+        cycles = draft.slow("cycles along", key, _cycles, system, psi, axis.core, span, z)
         if cycles is not None:
             draft.header["cycles_along"] = cycles
+
+
+def _standing(*of: Any) -> dict[str, Any]:
+    return columns(diagram(*of))
+
+
+def _cycles(*of: Any) -> dict[str, Any]:
+    return cycle_columns(continue_cycles(*of))
 
 
 def columns(found: Diagram) -> dict[str, Any]:

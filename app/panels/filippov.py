@@ -27,7 +27,7 @@ def add(draft: Draft, system: System_) -> None:
     """Add the limit vectors and the candidates at the present z, once nothing moves."""
     scene = draft.scene
     z, psi = scene.z, scene.psi
-    found = draft.slow("filippov", (system, psi, z), lambda: vectors(system, psi, z))
+    found = draft.slow("filippov", (system, psi, z), vectors, system, psi, z)
     if found is not None:
         draft.header["filippov"] = found
 

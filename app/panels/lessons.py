@@ -93,14 +93,14 @@ def _add_quiz(draft: Draft, lesson: Lesson, quiz: Quiz) -> None:
     question = lesson.questions[quiz.question]
     key = (lesson.key, *quiz)
     if quiz.choice is None:
-        drawn = draft.slow("pose", key, lambda: _posed(lesson, question, quiz.seed))
+        drawn = draft.slow("pose", key, _posed, lesson, question, quiz.seed)
         if drawn is not None:
             draft.header["pose"] = {"question": quiz.question, "values": drawn}
         return
     if draft.now.get("judged") != key:  # an answer is judged once; what moves after it is another system
         scene, choice = draft.scene, quiz.choice
         there = (*key, *scene.key("plane", "slow", "psi"))
-        said = draft.slow("judgement", there, lambda: judge(question, _anew(scene), choice))
+        said = draft.slow("judgement", there, _judged, question, scene, choice)
         if said is not None:
             draft.now["judged"] = key
             draft.header["judged"] = {"question": quiz.question, **said}
@@ -115,9 +115,9 @@ def _posed(lesson: Lesson, question: Question, seed: int) -> dict[str, Any]:
     return {**lesson.values, **portrait_of(drawn.get("preset")), **drawn}
 
 
-def _anew(scene: Scene) -> Scene:
-    """Return the scene without what others compute in it meanwhile: jobs run beside the frames."""
-    return Scene(scene.system, scene.psi, scene.z)
+def _judged(question: Question, scene: Scene, choice: int) -> dict[str, Any]:
+    """Judge an answer in a scene of its own, without what others compute meanwhile: jobs run beside the frames."""
+    return judge(question, Scene(scene.system, scene.psi, scene.z), choice)
 
 
 PANEL = Panel("lessons", "Lessons", add, "A course through the paper, with questions that the present system answers.")

@@ -36,7 +36,7 @@ def add(draft: Draft) -> None:
             draft.now["planes"] = key
             draft.header["planes"] = make(at, psi)
         return
-    found = draft.slow("planes", key, lambda: make(at, psi))
+    found = draft.slow("planes", key, make, at, psi)
     if found is not None:
         draft.header["planes"] = found
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
+from ..frame.budget import LeftOut, NotYet
 from ..frame.draft import Draft
 from ..slow_layers import basins, outcomes
 from ..state.controls import offer
@@ -43,7 +44,13 @@ def add(draft: Draft) -> None:
     """Add what the open panel and the visible layers show to a frame."""
     wanted = [PANELS[draft.values["panel"]].add, *(LAYERS[name] for name in LAYERS if name in draft.values["layers"])]
     for each in dict.fromkeys(wanted):
-        each(draft)
+        try:
+            each(draft)
+        except NotYet as name:
+            draft.missing.append(str(name))
+            draft.late(draft.values["panel"])
+        except LeftOut as why:
+            draft.unable(draft.values["panel"], LeftOut.sentence([why]))
 
 
 for module in MODULES:

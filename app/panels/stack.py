@@ -36,7 +36,7 @@ def add(draft: Draft) -> None:
     """Add the hemisphere, and the stack along the slow variable, once nothing moves."""
     scene = draft.scene
     if draft.ready:
-        sphere = draft.slow("sphere", scene.key("plane", "psi"), lambda: hemisphere(scene))
+        sphere = draft.slow("sphere", scene.key("plane", "psi"), hemisphere, scene)
         if sphere is not None:
             draft.header["sphere"] = sphere
     system = draft.system
@@ -51,7 +51,7 @@ def add(draft: Draft) -> None:
     others = tuple(0.0 if i == axis else v for i, v in enumerate(scene.z))
     if draft.ready:
         key = (system, scene.psi, others, axis, span)
-        stack = draft.slow("stack", key, lambda: stacked(system, scene.psi, others, axis, span))
+        stack = draft.slow("stack", key, stacked, system, scene.psi, others, axis, span)
         if stack is not None:
             draft.header["stack"] = {**stack, "control": SLOW_CONTROLS[axis]}
 

@@ -37,7 +37,7 @@ def add(draft: Draft) -> None:
         draft.header.setdefault("unable", {})["motion"] = str(error)
         return
     eps = 10.0 ** values["log_eps"]
-    found = draft.slow("motion", (system, psi, eps, start, t_end), lambda: both(system, psi, eps, start, t_end))
+    found = draft.slow("motion", (system, psi, eps, start, t_end), both, system, psi, eps, start, t_end)
     if found is not None:
         ball = BALLS.get(values["system"])
         draft.header["motion"] = {**found["motion"], "eps": eps, "ball": ball, "start": list(start)}

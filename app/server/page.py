@@ -8,8 +8,10 @@ import struct
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import panel as pn
+from bokeh.document import Document
 from bokeh.protocol.message import Message
 from bokeh.server.urls import per_app_patterns
 from panel.io.server import WSHandler
@@ -19,10 +21,19 @@ from tornado.locks import Lock
 from tornado.web import RequestHandler
 from tornado.websocket import WebSocketClosedError
 
+from ..frame.jobs import serve_with
+from ..frame.turns import Turns
+from ..frame.workers import Workers, processors
 from ..state.controls import ExplorerState, InputError
 from ..view import warmup
 from ..view.explorer import ExplorerView
 from ..view.markup import page_template
+
+#: What each open page shows; a page that is closed is told so at once, long before Bokeh forgets its session.
+_views: WeakKeyDictionary[Document, ExplorerView] = WeakKeyDictionary()
+
+#: What the workers find imported.
+PRELOAD = ("codim2_app.panels.registry",)
 
 TITLE = "Isolated codimension-2 discontinuity: explorer"
 
@@ -36,6 +47,8 @@ def session() -> ExplorerView:
     view = opened(query)
     # The page says itself when the connection is lost, and loads itself again: see connection.js.
     doc.config.update(reconnect_session=False, notify_connection_status=False, notifications=None)
+    doc.on_session_destroyed(lambda _: view.leave())
+    _views[doc] = view
     doc.template = page_template()  # type: ignore[assignment]
     doc.template_variables["explorer_markup"] = view.page_markup
     return view
@@ -85,6 +98,13 @@ class PromptSocket(WSHandler):
         super().open(*arguments, **named)
         self.set_nodelay(True)
 
+    def on_close(self) -> None:
+        """End what was computed for this page alone."""
+        session = None if self.connection is None else self.connection.session
+        super().on_close()
+        if session is not None and not session.connection_count and (view := _views.get(session.document)):
+            view.leave()
+
     async def send_message(self, message: Message[Any]) -> None:
         """Send one message of Bokeh's protocol."""
         parts = _Parts(self.write_lock)
@@ -125,6 +145,7 @@ def make_server(
     address: str = "localhost",
     allow_origin: Sequence[str] = (),
     processes: int = 1,
+    workers: int = 0,
     **options: Any,
 ) -> Any:
     """Return a server of the explorer, not yet started (``.start()``, ``.io_loop.start()``).
@@ -139,7 +160,11 @@ def make_server(
         Host names (with port) whose pages may open the websocket, besides this address.
     processes : int
         Number of server processes that share the port.
+    workers : int
+        Number of processes, of each of these, that compute what takes longer than a frame; 0 shares the processors.
     """
+    count = workers or max(1, processors() // processes)
+    serve_with(Turns(Workers(count, preload=PRELOAD, first=warmup.wait), count))
     warmup_now = processes == 1
     if warmup_now:
         warmup.start()

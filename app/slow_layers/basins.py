@@ -21,7 +21,7 @@ def add(draft: Draft) -> None:
     if not draft.ready:
         return
     scene = draft.scene
-    found = draft.slow("basins", scene.key("plane", "slow", "psi"), lambda: columns(scene))
+    found = draft.slow("basins", scene.key("plane", "slow", "psi"), columns, scene)
     if found is not None:
         header, runs = found
         draft.header["basins"] = header

@@ -8,6 +8,7 @@ from codim2_core.portrait.outcomes import Outcome, Outcomes
 from codim2_core.scene import Scene
 
 from ..draw.glyphs import subscript
+from ..frame.budget import wild
 from ..frame.draft import Draft
 
 #: The kinds that the ring tells apart, and what the table says of each.
@@ -30,10 +31,16 @@ def add(draft: Draft) -> None:
         if not draft.fresh("outcomes", found):
             return
     else:
-        found = draft.slow("outcomes", scene.key("plane", "slow", "psi"), lambda: scene["outcomes"])
+        found = draft.slow("outcomes", scene.key("plane", "slow", "psi"), _found, scene)
         if found is None:
             return
     draft.header["outcomes"] = columns(found)
+
+
+def _found(scene: Scene) -> Outcomes:
+    if why := wild(scene):
+        raise ValueError(f"{why}.")
+    return scene["outcomes"]
 
 
 def answered_by_theorem(scene: Scene) -> bool:

@@ -210,7 +210,7 @@ function wire({model, view, root, plot}) {
     const {header} = frame
     if (header.set) follow(header.set)
     systems.apply(frame)
-    sayErrors(header.errors ?? {})
+    sayErrors({...header.left_out && {"": header.left_out}, ...header.errors})
     picture.apply(frame)
     if (header.launched) speak(header.launched)
     const late = header.late ?? []
@@ -224,8 +224,9 @@ function wire({model, view, root, plot}) {
     rest.note("late", late.length > 0)
     rest.note("compiling", header.ready === false)
     if ("ready" in header) {
-      busy.hidden = header.ready
-      busy.textContent = "Compiling the integrator, once; trajectories follow …"
+      const slow = late.includes("picture")
+      busy.hidden = header.ready && !slow
+      busy.textContent = slow ? "This system takes longer than a frame; its picture follows …" : "Compiling the integrator, once; trajectories follow …"
       clearTimeout(warmTimer)
       if (!header.ready) warmTimer = setTimeout(() => requests.refresh(), 250)
     }

@@ -7,6 +7,7 @@ request and its frame are two small events past all property syncing, so that a 
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Future
 from typing import Any
 
 import panel as pn
@@ -18,11 +19,15 @@ from panel.viewable import Child
 from ..draw.figure import make_figure
 from ..draw.packing import unpack
 from ..draw.svg import draw
+from ..frame.budget import Budget
 from ..state.chosen import System_
 from ..state.controls import NAMES, ExplorerState, InputError
 from .markup import STATIC, config, explorer_html, script
 from .refresh import Frames
 from .warmup import is_ready
+
+#: Seconds for which an answer waits for a picture that is computed beside the frames.
+PATIENCE = 0.25
 
 
 class ExplorerView(JSComponent):
@@ -61,7 +66,9 @@ class ExplorerView(JSComponent):
         self._opened: dict[str, Any] = {}
         self._system = system
         self._given_params = params
-        self.frames = Frames(self.state, system, is_ready, errors)
+        # a page is answered by the thread that answers all pages; a notebook is one person's
+        self.frames = Frames(self.state, system, is_ready, errors, Budget() if page else None)
+        self._held: object = None
         self._first_values = self.state.values()
         own = [] if page else [(STATIC / "notebook.css").read_text(encoding="utf-8")]
         layout = {**params, "stylesheets": [*own, *params.get("stylesheets", ())]}
@@ -127,9 +134,40 @@ class ExplorerView(JSComponent):
         if len(self._models) > 1 or model is None or model.document is None:
             self._handle_msg(event.data)
             return
-        reply = ESMEvent(model=model, data={"frame": self.frames.answer(event.data or {})})
-        model.document.callbacks.send_event(reply)
+        request = event.data or {}
+        frame = self.frames.answer(request)
+        pending = self.frames.pending
+        if pending is None:
+            self._reply(model, frame)
+        else:
+            self._hold(model, pending, {key: request.get(key) for key in ("id", "rest", "window")})
         self.frames.publish()
+
+    def _reply(self, model: Any, frame: bytes) -> None:
+        self._held = None
+        if model.document is not None:
+            model.document.callbacks.send_event(ESMEvent(model=model, data={"frame": frame}))
+
+    def _hold(self, model: Any, pending: Future[Any], request: dict[str, Any]) -> None:
+        """Answer once the picture is there, or soon without it: the browser then asks again, with its newest values."""
+        doc = model.document
+        held = self._held = object()
+
+        def answer(_: object = None) -> None:
+            if self._held is held and doc.session_context is not None:
+                self._reply(model, self.frames.answer(request))
+                self.frames.publish()
+
+        def there(_: Future[Any]) -> None:
+            doc.add_next_tick_callback(answer)  # the one thing that any thread may ask of a document
+
+        doc.add_timeout_callback(answer, int(1000 * PATIENCE))
+        pending.add_done_callback(there)
+
+    def leave(self) -> None:
+        """Stop what is computed for this view alone: its browser has gone."""
+        self._held = None
+        self.frames.jobs.leave()
 
     def _handle_msg(self, data: Any) -> None:
         """Answer a request of one browser with one frame to all that show this view."""

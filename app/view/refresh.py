@@ -7,11 +7,14 @@ nothing ever queues here.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from functools import cache
 from typing import Any
 
 from numpy.typing import NDArray
 from param.parameterized import batch_call_watchers
 
+from codim2_core.layer_problem.equator import EquatorEquilibria, equator_equilibria
 from codim2_core.portrait.classification import Classification
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
@@ -22,10 +25,12 @@ from codim2_core.systems.typed import System
 from ..draw import glyphs
 from ..draw.layers import LAYERS
 from ..draw.packing import Polylines, pack
+from ..frame.budget import Budget, Layers, LeftOut, NotYet, layers_of
 from ..frame.draft import Draft
-from ..frame.jobs import FAILURES, Jobs
+from ..frame.jobs import Jobs
 from ..frame.scenes import evolved, locked_controls, make_scene, settled
 from ..frame.sides import sides
+from ..frame.turns import FAILURES, Failed
 from ..frame.window import Window, inputs
 from ..panels import registry
 from ..panels.time import launch_of
@@ -38,6 +43,13 @@ from .load import load
 MOVED = frozenset(AXES)
 
 Blocks = dict[str, NDArray[Any] | Polylines]
+
+#: In place of a layer: it is computed beside the frames; it is left out.
+LATER, NOTHING = object(), object()
+#: Layers that others start from, and that are small: whoever computes those is given these.
+STANDING = frozenset({"equator", "equator_cycle", "location", "critical", "classification", "slow_flow"})
+#: How often a frame is begun anew because what it lacked is there.
+MOST_ROUNDS = 4
 
 
 class Frames:
@@ -52,6 +64,8 @@ class Frames:
         Says whether the compiled integrator is ready for this Psi and system; until then trajectories are left out.
     errors : sequence of InputError
         What the address asked for in vain, told with the first frames.
+    budget : Budget, optional
+        What may be computed here and now, where others wait meanwhile; by default everything.
     """
 
     def __init__(
@@ -60,8 +74,10 @@ class Frames:
         system: System_ | None = None,
         ready: Callable[[Psi, Any], bool] = lambda _psi, _system: True,
         errors: Sequence[InputError] = (),
+        budget: Budget | None = None,
     ) -> None:
         self.state = state
+        self.budget = budget
         self.given = None if system is None else dict(system.parameters)
         self._system = system
         #: What was asked for last and could not be drawn, by control, as it was given; asked for again with each frame.
@@ -69,6 +85,8 @@ class Frames:
         self._notices = [str(error) for error in errors if error.control not in TYPED_IN]
         self._unpublished: dict[str, Any] = {}
         self._begin(state.values())
+        if budget is not None:
+            self.scene.ask_before(budget.before)
         self._notices += left_out(self.scene, self.values, self.given is not None)
         self.locked = locked_controls(self.scene, self.given is not None)
         self.ready = ready
@@ -177,21 +195,59 @@ class Frames:
         scene = seen(scene, self.window, rest)
         ready = self.ready(scene.psi, scene.system)
         drawable = ready or scene.coefficients.typed is None  # all of a general system needs the compiler
+        self._moved = next((name for name in changed if name in MOVED), self._moved)
         header: dict[str, Any] = {"ready": False}
         blocks: Blocks = {}
         now_sent = dict(sent)
-        if drawable:
-            header, blocks, now_sent = make_frame(scene, values, sent, ready, self.window)
+        for _ in range(MOST_ROUNDS if drawable else 0):
+            asked = Asked(scene)
+            if self.budget is not None:
+                self.budget.begin()
+            header, blocks, now_sent = make_frame(scene, values, sent, ready, self.window, asked)
+            if header.get("portrait", {}).get("degeneracies"):
+                self._add_sides(header, scene, values)
+            draft = Draft(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked, asked.missing)
+            registry.add(draft)
+            if asked.left_out:
+                header["left_out"] = LeftOut.sentence(asked.left_out)
+            if not asked.missing or not self._beside(scene, asked.missing, header):
+                break
         self._tell_system(header, scene, values, now_sent)
-        self._moved = next((name for name in changed if name in MOVED), self._moved)
-        if header.get("portrait", {}).get("degeneracies"):
-            header["portrait"]["sides"] = sides(scene, values, self._moved)
         if scene.pixel > inputs(self.window, rest=True)["pixel"]:
             header.setdefault("late", []).append("window")  # at rest it is drawn as finely as it is seen
-        if drawable:
-            registry.add(Draft(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked))
         self.scene, self.values, self._sent = scene, values, now_sent
         return header, blocks
+
+    def _add_sides(self, header: dict[str, Any], scene: Scene, values: Mapping[str, Any]) -> None:
+        """Add what lies on both sides of a degenerate setting; of typed formulas it is computed beside the frames."""
+        if self.budget is None or self.budget.bounded(scene):
+            header["portrait"]["sides"] = sides(scene, values, self._moved)
+            return
+        key = (scene.key("plane", "slow", "psi", "place"), self._moved)
+        found = self.jobs.ask("sides", key, _sides_of, scene, dict(values), self._moved)
+        if found is None:
+            header.setdefault("late", []).append("sides")
+        elif not isinstance(found, Failed):
+            (header["portrait"]["sides"],) = found
+
+    def _beside(self, scene: Scene, missing: Sequence[str], header: dict[str, Any]) -> bool:
+        """Have layers computed beside the frames; say whether they are there."""
+        assert self.budget is not None  # it says what is missing
+        names = tuple(dict.fromkeys(missing))
+        known = {name: result for name, result in scene.results().items() if name in names or name in STANDING}
+        found = self.jobs.ask("picture", (Budget.key(scene), names), layers_of, scene, names, known)
+        if found is None:
+            header.setdefault("late", []).append("picture")
+            return False
+        if isinstance(found, Failed):
+            found = Layers({}, {}, dict.fromkeys(names, found.sentence.rstrip(".")))
+        self.budget.told(scene, found)
+        return True
+
+    @property
+    def pending(self) -> Future[Any] | None:
+        """What the picture waits for, if it does: layers that are computed beside the frames."""
+        return self.jobs.future("picture")
 
     def _tell_system(
         self, header: dict[str, Any], scene: Scene, values: Mapping[str, Any], now: dict[str, Any]
@@ -286,19 +342,52 @@ def _culprit(error: Exception, name: str) -> str:
     return error.control if isinstance(error, InputError) else name
 
 
+class Asked:
+    """The layers of a scene as a frame asks for them: which are to be computed beside it, and which are left out."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.missing: list[str] = []
+        self.left_out: list[LeftOut] = []
+
+    def get(self, name: str) -> Any:
+        """Return a layer, `LATER` if it is not to be had now, or `NOTHING` if it is left out."""
+        try:
+            return self.scene[name]
+        except NotYet:
+            self.missing.append(name)
+            return LATER
+        except LeftOut as why:
+            self.left_out.append(why)
+            return NOTHING
+
+
+@cache
+def no_directions() -> EquatorEquilibria:
+    """Return the limit directions of a turning flow, which has none: what is drawn where they are left out."""
+    return equator_equilibria(ELinear(0.0, 1.0, 0.0))
+
+
+def _sides_of(scene: Scene, values: Mapping[str, Any], control: str) -> tuple[dict[str, Any] | None]:
+    return (sides(scene, values, control),)
+
+
 def make_frame(
     scene: Scene,
     values: Mapping[str, Any],
     sent: Mapping[str, Any],
     ready: bool = True,
     window: Window | None = None,
+    asked: Asked | None = None,
 ) -> tuple[dict[str, Any], Blocks, dict[str, Any]]:
     """Return header and blocks of one frame, and what the browser then holds.
 
     Only visible layers are computed, and only those whose result is another object than the one in `sent` are
     packed. `scene` shares results that a change does not reach, so that identity is the whole test. The panel beside
-    the picture is added by `panels.registry.add`.
+    the picture is added by `panels.registry.add`. Layers that are not to be had now stay as they are in the browser,
+    and are noted in `asked`; of those that are left out nothing is drawn.
     """
+    asked = Asked(scene) if asked is None else asked
     visible = set(values["layers"])
     now = dict(sent)
     header: dict[str, Any] = {"ready": ready}
@@ -317,33 +406,46 @@ def make_frame(
         if layer.name not in visible or (layer.compiled and not ready):
             continue
         for part in layer.parts:
-            result = scene[part.scene]
+            result = asked.get(part.scene)
+            if result is LATER:
+                continue
+            if result is NOTHING:
+                if now.get(part.name) is not NOTHING:
+                    now[part.name] = NOTHING
+                    blocks[part.name] = Polylines(*glyphs.join([]), part.arrows)
+                continue
             if layer.optional and part.name not in now and not len(result):
                 continue
             if fresh(part.name, result) or moved:
                 pieces = part.pieces(result)
                 blocks[part.name] = Polylines(*(pieces if window is None else window.cut(*pieces)), part.arrows)
-    if "cycles" in blocks:
+    if "cycles" in blocks and now["cycles"] is not NOTHING:
         header["cycles"] = glyphs.cycle_columns(scene["closed_orbits"])
-    if "launched_1" in blocks:
+    if "launched_1" in blocks and now["launched_1"] is not NOTHING:
         header["launched"] = glyphs.launched_columns(scene.launch, scene["launched"])
-    equator, cycle, critical = scene["equator"], scene["equator_cycle"], scene["critical"]
-    if fresh("equator", equator):
+    equator, cycle, critical = (asked.get(name) for name in ("equator", "equator_cycle", "critical"))
+    name, flow = asked.get("classification"), asked.get("slow_flow")
+    if equator is NOTHING:
+        equator, cycle = no_directions(), None
+    if equator is not LATER and cycle is not LATER and fresh("equator", equator):
+        cycle = None if cycle is NOTHING else cycle
         header["equator"] = glyphs.equator_columns(equator)
         header["sense"] = glyphs.equator_arrows(equator, 0 if cycle is None else int(cycle.direction))
         header["all_directions"] = bool(equator.all_directions)
         header["cycle"] = None if cycle is None else float(cycle.exponent)
-    if fresh("critical", critical):
+    critical = () if critical is NOTHING else critical
+    if critical is not LATER and fresh("critical", critical):
         header["critical"] = glyphs.critical_columns(critical)
-    name = scene["classification"]
-    if fresh("classification", name):
+    if name is NOTHING and fresh("classification", name):
+        header["portrait"] = {"case": None, "name": "", "sentence": "", "degeneracies": []}
+    elif isinstance(name, Classification) and fresh("classification", name):
         header["portrait"] = {
             "case": name.case,
             "name": name.name,
             "sentence": told_once(name),
             "degeneracies": [[item.name, item.sentence] for item in name.degeneracies],
         }
-    flow = scene["slow_flow"]
+    flow = None if flow is LATER or flow is NOTHING else flow
     if flow is not None and flow.ndim > 1:  # a general system has a slow flow for each critical set
         flow = flow[0] if len(flow) == 1 else None
     header["slow_flow"] = None if flow is None else [float(v) for v in flow]

@@ -48,6 +48,14 @@ def start() -> None:
             _begin(constant(), warm_all)
 
 
+def wait() -> None:
+    """Wait until the kernels of the built-in families are there: whoever loads them then finds them in the cache."""
+    with _lock:
+        thread = _threads.get(constant())
+    if thread is not None:
+        thread.join()
+
+
 def _begin(key: Hashable, target: Callable[..., None], *arguments: Any) -> None:
     _threads[key] = threading.Thread(target=target, args=arguments, name="codim2-compile", daemon=True)
     _threads[key].start()

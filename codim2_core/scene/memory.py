@@ -21,10 +21,13 @@ class Memory:
         Of each layer the last `REMEMBERED`.
     runs : Counter of str
         How often each layer has been computed, for tests and benchmarks.
+    before : callable, optional
+        ``before(scene, layer)`` is called before a layer is computed; it may raise.
     """
 
     results: dict[str, OrderedDict[Hashable, Any]] = field(default_factory=dict)
     runs: Counter[str] = field(default_factory=Counter)
+    before: Callable[[Any, str], None] | None = None
     lock: Lock = field(default_factory=Lock)  # the jobs beside the frames read the same memory
 
     def result(self, layer: str, key: Hashable, compute: Callable[[], Any]) -> Any:
@@ -35,9 +38,14 @@ class Memory:
                 kept.move_to_end(key)
                 return kept[key]
         result = compute()
+        self.keep(layer, key, result)
+        self.runs[layer] += 1
+        return result
+
+    def keep(self, layer: str, key: Hashable, result: Any) -> None:
+        """Keep a result, and forget the oldest of more than `REMEMBERED`."""
         with self.lock:
+            kept = self.results.setdefault(layer, OrderedDict())
             kept[key] = result
-            self.runs[layer] += 1
             if len(kept) > REMEMBERED:
                 kept.popitem(last=False)
-        return result

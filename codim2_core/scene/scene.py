@@ -29,6 +29,10 @@ _PARAMETERS = (
 )  # fmt: skip
 
 
+def _again(inputs: dict[str, Any]) -> Scene:
+    return Scene(inputs.pop("system"), inputs.pop("psi"), inputs.pop("z"), **inputs)
+
+
 class _Problem(LayerProblem):
     """The layer problem of a scene: what it keeps is kept in the scene's memory, for the scenes to come."""
 
@@ -155,11 +159,39 @@ class Scene:
         if name not in layers:
             raise ValueError(f"{name!r} is no layer; there are {', '.join(layers)}.")
         layer = layers[name]
-        self._own[name] = self._memory.result(name, self.key(*layer.inputs), lambda: layer.compute(self))
+
+        def compute() -> Any:
+            if self._memory.before is not None:
+                self._memory.before(self, name)
+            return layer.compute(self)
+
+        self._own[name] = self._memory.result(name, self.key(*layer.inputs), compute)
         return self._own[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(layers)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Be pickled, and copied, by the inputs: what has been computed stays here."""
+        return _again, ({name: getattr(self, name) for name in _PARAMETERS},)
+
+    def ask_before(self, before: Callable[[Scene, str], None]) -> None:
+        """Let ``before(scene, name)`` be called before a layer of this lineage is computed; it may raise."""
+        self._memory.before = before
+
+    def results(self) -> dict[str, Any]:
+        """Return the layers that are known for these inputs, by name."""
+        found = dict(self._own)
+        for name, kept in tuple(self._memory.results.items()):
+            result = kept.get(self.key(*layers[name].inputs))
+            if result is not None:
+                found[name] = result
+        return found
+
+    def give(self, results: Mapping[str, Any]) -> None:
+        """Keep layers that were computed for these inputs elsewhere."""
+        for name, result in results.items():
+            self._memory.keep(name, self.key(*layers[name].inputs), result)
 
     def has(self, name: str) -> bool:
         """Whether a layer exists for this system; one that does not is None."""

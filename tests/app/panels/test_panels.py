@@ -9,7 +9,8 @@ import pytest
 from codim2_app.draw.packing import unpack
 from codim2_app.draw.svg import draw
 from codim2_app.draw.thumbnails import thumbnails
-from codim2_app.frame.jobs import Failed, Jobs
+from codim2_app.frame.jobs import Jobs
+from codim2_app.frame.turns import Failed
 from codim2_app.panels import axes, theorems
 from codim2_app.slow_layers import outcomes
 from codim2_app.state.choices import AXES

@@ -1,0 +1,223 @@
+"""What the thread that answers all visitors may compute itself, and what is computed beside it.
+
+Layers of an e-linear system are bounded: their frames take milliseconds, whatever the sliders say. Of typed formulas
+nobody knows beforehand. So the first picture of a formula is computed beside the frames, where its layers are timed;
+the frames that follow compute those that turned out to be quick, unless the formula has become wilder meanwhile.
+"""
+
+from __future__ import annotations
+
+import signal
+import threading
+import time
+from collections import OrderedDict
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from codim2_core.scene import Scene
+
+from .turns import FAILURES
+
+#: Seconds of processor time that one layer, and all layers of one frame, may take of the thread that answers.
+LAYER, FRAME = 0.008, 0.02
+#: Seconds for one layer computed beside the frames: a wilder one is left out, and said to be.
+LONGEST = 6.0
+#: Limit directions and critical sets together, beyond which the layers that follow each of them are not drawn.
+MOST_STANDING = 100
+#: Layers that start at each limit direction or critical set, or look for what is between them.
+FOLLOWING = frozenset(
+    {"nullclines_inside", "nullclines_outside", "continuations", "closed_orbits", "cycles", "separatrices", "outcomes",
+     "certificates"}
+)  # fmt: skip
+#: Layers of e-linear systems that search for cycles: quick unless there may be some, in Case III.
+SEARCHING = frozenset({"outcomes", "certificates"})
+#: Directions on which a formula is looked at to see how wild it is.
+NET = 512
+#: Formulas whose layers have been timed, of one browser.
+REMEMBERED = 4
+
+WORDS = {
+    "nullclines_inside": "nullclines",
+    "nullclines_outside": "nullclines outside",
+    "inside": "trajectories",
+    "outside": "trajectories outside",
+    "continuations": "continuations",
+    "closed_orbits": "limit cycles",
+    "cycles": "limit cycles",
+    "separatrices": "separatrices",
+    "launched": "launched orbits",
+    "equator": "limit directions",
+    "equator_cycle": "the closed equator",
+    "critical": "critical sets",
+    "classification": "the name of the portrait",
+    "slow_flow": "the slow flow",
+    "outcomes": "outcomes",
+    "certificates": "theorems",
+}
+
+_theta = np.arange(NET) * (2.0 * np.pi / NET)
+_DIRECTIONS = np.stack([np.cos(_theta), np.sin(_theta)], axis=-1)
+
+
+class NotYet(Exception):
+    """A layer is to be computed beside the frames."""
+
+
+class LeftOut(Exception):
+    """A layer is not drawn of this system: what it is called, and why."""
+
+    @staticmethod
+    def sentence(left_out: Iterable[LeftOut]) -> str:
+        """Say in one sentence for each reason what is left out."""
+        reasons: dict[str, list[str]] = {}
+        for each in left_out:
+            words, why = each.args
+            if words not in reasons.setdefault(why, []):
+                reasons[why].append(words)
+        return " ".join(f"Left out: {', '.join(words)}; {why}." for why, words in reasons.items())
+
+
+@dataclass(frozen=True)
+class Layers:
+    """Layers computed beside the frames.
+
+    Attributes
+    ----------
+    results : mapping of str to layer
+    seconds : mapping of str to float
+        Processor time of each.
+    left_out : mapping of str to str
+        Why others are not there.
+    """
+
+    results: Mapping[str, Any]
+    seconds: Mapping[str, float]
+    left_out: Mapping[str, str]
+
+
+@contextmanager
+def at_most(seconds: float) -> Iterator[None]:
+    """Raise TimeoutError after so many seconds of processor time, between kernels, in the main thread of a process."""
+    if threading.current_thread() is not threading.main_thread() or not hasattr(signal, "setitimer"):
+        yield
+        return
+
+    def stop(*_: object) -> None:
+        raise TimeoutError
+
+    before = signal.signal(signal.SIGPROF, stop)  # processor time: a busy machine is not the formula's fault
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
+
+
+def layers_of(scene: Scene, names: Iterable[str], known: Mapping[str, Any], seconds: float = LONGEST) -> Layers:
+    """Compute layers, one after the other, each for at most so long; what stands still comes first."""
+    scene.give(known)
+    took: dict[str, float] = {}
+    left_out: dict[str, str] = {}
+    first = ("equator", "critical")
+    for name in dict.fromkeys([*first, *names]):
+        if name in FOLLOWING and (why := wild(scene)):
+            left_out[name] = why
+            continue
+        began = time.thread_time()
+        try:
+            with at_most(seconds):
+                scene[name]
+        except TimeoutError:
+            left_out[name] = f"computing this takes longer than {seconds:g} s"
+            if name in first:
+                others = dict.fromkeys((one for one in (*first, *names) if one not in took), left_out[name])
+                return Layers(scene.results(), took, {**others, **left_out})
+        except FAILURES as error:
+            left_out[name] = str(error)
+        took[name] = time.thread_time() - began
+    return Layers(scene.results(), took, left_out)
+
+
+def wild(scene: Scene) -> str:
+    """Say why the layers that follow each limit direction and critical set are not drawn; "" if they are."""
+    directions, sets = len(scene["equator"]), len(scene["critical"])
+    if directions + sets <= MOST_STANDING:
+        return ""
+    return (
+        f"U is too wild: it has {directions} limit directions and {sets} critical sets, and at most {MOST_STANDING} "
+        "together can be followed"
+    )
+
+
+def wildness(scene: Scene) -> int:
+    """Count how often U1 and U2 turn along a net of directions: what computing a layer costs grows with it."""
+    U = scene.coefficients.U(_DIRECTIONS)
+    steps = np.diff(U, axis=0, append=U[:1])
+    return int(np.count_nonzero(np.diff(np.sign(steps), axis=0)) + np.count_nonzero(np.diff(np.sign(U), axis=0)))
+
+
+class Budget:
+    """What of one browser's scenes may be computed by the thread that answers."""
+
+    def __init__(self) -> None:
+        self._timed: OrderedDict[Hashable, tuple[int, dict[str, float]]] = OrderedDict()
+        self._left_out: OrderedDict[Hashable, Mapping[str, str]] = OrderedDict()
+        self._spent = 0.0
+
+    def begin(self) -> None:
+        """Begin a frame."""
+        self._spent = 0.0
+
+    def before(self, scene: Scene, name: str) -> None:
+        """Let a layer be computed here and now, or raise.
+
+        Raises
+        ------
+        NotYet
+            It is to be computed beside the frames.
+        LeftOut
+            It is not drawn of this system.
+        """
+        why = self._left_out.get(self.key(scene), {}).get(name)
+        if why is not None:
+            raise LeftOut(WORDS.get(name, name), why)
+        if self.bounded(scene):
+            if name in SEARCHING and scene["classification"].case == "III":
+                raise NotYet(name)
+            return
+        wildest, took = self._timed.get(self._formula(scene), (0, {}))
+        cost = took.get(name)
+        if cost is None or cost > LAYER or self._spent + cost > FRAME or wildness(scene) > wildest:
+            raise NotYet(name)
+        self._spent += cost
+
+    @staticmethod
+    def bounded(scene: Scene) -> bool:
+        """Whether nothing in this scene was typed, so that all sizes are known beforehand."""
+        return scene.coefficients.typed is None and scene.psi.expression is None
+
+    def told(self, scene: Scene, found: Layers) -> None:
+        """Remember what layers of a scene took beside the frames, and keep them."""
+        scene.give(found.results)
+        formula = self._formula(scene)
+        _, before = self._timed.get(formula, (0, {}))
+        self._timed[formula] = (3 * wildness(scene) // 2 + 8, {**before, **found.seconds})
+        self._left_out[self.key(scene)] = found.left_out
+        for kept in (self._timed, self._left_out):
+            while len(kept) > REMEMBERED:
+                kept.popitem(last=False)
+
+    @staticmethod
+    def key(scene: Scene) -> Hashable:
+        """Return what all layers depend on."""
+        return scene.key("plane", "slow", "psi", "inner seeds", "outer seeds", "launch", "view", "pixel", "place")
+
+    @staticmethod
+    def _formula(scene: Scene) -> Hashable:
+        typed = scene.coefficients.typed
+        return (None if typed is None else typed.U), scene.psi

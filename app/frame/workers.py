@@ -1,0 +1,212 @@
+"""Processes that work beside the frames: none holds up another by its interpreter lock, and each can be stopped."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import pickle
+import signal
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
+from multiprocessing.connection import Connection, wait
+from queue import SimpleQueue
+from typing import Any
+
+#: Seconds after which a worker is stopped, whatever it is doing.
+SECONDS = 60.0
+NICE = 10  # processes that answer visitors go first
+
+
+class Stopped(BrokenExecutor):
+    """A worker ended before its work was done, though nobody had asked for it."""
+
+
+class Stoppable(Future[Any]):
+    """A future whose `cancel` also stops work that has begun: its process is ended, within a kernel or not."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._guard = threading.Lock()
+        self._process: Any = None
+        self.stopped = False
+
+    def cancel(self) -> bool:
+        """Stop the work; False if it was done."""
+        if super().cancel():
+            return True
+        with self._guard:
+            if self.done():
+                return False
+            self.stopped = True
+            if self._process is not None:
+                self._process.kill()
+        return True
+
+    def in_process(self, process: Any) -> bool:
+        """Note which process works on this, None when it no longer does; say whether the work is still wanted."""
+        with self._guard:
+            self._process = process
+            return not self.stopped
+
+
+class Workers(Executor):
+    """An executor of processes; what it runs must be picklable.
+
+    Parameters
+    ----------
+    count : int
+        At most so many processes.
+    seconds : float
+        After this time a work is stopped: its future has TimeoutError.
+    preload : sequence of str
+        Modules that a worker finds imported. They are imported once, in a process of its own from which the workers
+        are forked (where there is no fork, by none).
+    first : callable, optional
+        Called before the first process is started, by a thread that may wait.
+    """
+
+    def __init__(
+        self,
+        count: int,
+        seconds: float = SECONDS,
+        preload: Sequence[str] = (),
+        first: Callable[[], None] = lambda: None,
+    ) -> None:
+        known = multiprocessing.get_all_start_methods()
+        self._context: Any = multiprocessing.get_context("forkserver" if "forkserver" in known else "spawn")
+        if "forkserver" in known:
+            self._context.set_forkserver_preload(list(preload))
+        self.seconds, self._first = seconds, first
+        self._once, self._opened = threading.Lock(), False
+        self._tasks: SimpleQueue[tuple[Stoppable, bytes] | None] = SimpleQueue()
+        self._count = count
+        self._threads: list[threading.Thread] = []
+        self._closed = False
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Stoppable:
+        """Let a worker compute ``fn(*args, **kwargs)``."""
+        future = Stoppable()
+        try:
+            call = pickle.dumps((fn, args, kwargs))
+        except Exception as error:  # as an executor of processes does: the future has it
+            future.set_exception(error)
+            return future
+        with self._once:
+            if self._closed:
+                raise RuntimeError("the workers have been shut down; nothing can be submitted.")
+            self._tasks.put((future, call))
+            if len(self._threads) < self._count:
+                thread = threading.Thread(target=self._serve, name=f"codim2-worker-{len(self._threads)}", daemon=True)
+                self._threads.append(thread)
+                thread.start()
+        return future
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """End the processes; what is under way is finished first, unless it is cancelled."""
+        with self._once:
+            self._closed = True
+            if cancel_futures:
+                while not self._tasks.empty():
+                    task = self._tasks.get()
+                    if task is not None:
+                        task[0].cancel()
+            for _ in self._threads:
+                self._tasks.put(None)
+        if wait:
+            for thread in self._threads:
+                thread.join()
+
+    def _serve(self) -> None:
+        """Hand one work after the other to a process of this thread's own."""
+        pipe: Connection | None = None
+        process: Any = None
+        while (task := self._tasks.get()) is not None:
+            future, call = task
+            if not future.set_running_or_notify_cancel():
+                continue
+            try:
+                if process is None or not process.is_alive():
+                    pipe, process = self._start()
+                assert pipe is not None
+                result = self._run(future, call, pipe, process)
+            except BaseException as error:
+                future.set_exception(error)
+            else:
+                future.set_result(result)
+        if process is not None:
+            assert pipe is not None
+            pipe.close()  # an idle worker ends when nobody can speak to it
+            process.join(1.0)
+
+    def _start(self) -> tuple[Connection, Any]:
+        with self._once:
+            if not self._opened:
+                self._first()
+                self._opened = True
+        ours, theirs = self._context.Pipe()
+        process = self._context.Process(target=_work, args=(theirs,), daemon=True, name="codim2-worker")
+        process.start()
+        theirs.close()
+        return ours, process
+
+    def _run(self, future: Stoppable, call: bytes, pipe: Connection, process: Any) -> Any:
+        if not future.in_process(process):
+            raise CancelledError
+        try:
+            pipe.send_bytes(call)
+            there = wait([pipe, process.sentinel], self.seconds)
+            answer = pipe.recv_bytes() if pipe in there else None
+        except (OSError, EOFError):  # it died in mid-sentence
+            there, answer = [process.sentinel], None
+        wanted = future.in_process(None)
+        if not wanted or answer is None:
+            process.kill()
+            process.join()
+            pipe.close()
+            if not wanted:
+                raise CancelledError
+            if there:
+                raise Stopped(f"a worker ended with status {process.exitcode} before its work was done.")
+            raise TimeoutError(f"This takes longer than {self.seconds:g} s, and was stopped.")
+        good, result = pickle.loads(answer)
+        if not good:
+            raise result
+        return result
+
+
+def _work(pipe: Connection) -> None:
+    """Do one work after the other, as a worker, until nobody can speak to it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C in a terminal reaches all; the server ends its workers
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if hasattr(os, "nice"):
+        os.nice(max(0, NICE - os.nice(0)))
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    while True:
+        try:
+            function, args, named = pickle.loads(pipe.recv_bytes())
+        except (EOFError, OSError):
+            return
+        try:
+            answer = True, function(*args, **named)
+        except Exception as error:
+            answer = False, error
+        try:
+            data = pickle.dumps(answer)
+        except Exception as error:
+            data = pickle.dumps((False, RuntimeError(f"the result cannot be sent: {error}")))
+        pipe.send_bytes(data)
+
+
+def _end_with_parent() -> None:
+    """End in mid-work if the server has ended: nobody would have the result."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        wait([parent.sentinel])
+        os._exit(0)
+
+
+def processors() -> int:
+    """Return how many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1

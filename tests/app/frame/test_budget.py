@@ -1,0 +1,136 @@
+"""The thread that answers all visitors computes no layer of a typed system that is not known to be quick."""
+
+import pickle
+
+import pytest
+from codim2_app.draw.packing import unpack
+from codim2_app.frame.budget import LAYER, MOST_STANDING, Budget, layers_of, wildness
+from codim2_app.frame.jobs import Jobs
+from codim2_app.frame.scenes import make_scene
+from codim2_app.frame.turns import Turns
+from codim2_app.state.controls import ExplorerState, preset_values
+from codim2_app.view.refresh import Frames
+
+from .test_turns import Held
+
+MILD = {"U1": "c - 1/2", "U2": "s"}
+WILD = {"U1": "sin(k*c) - c", "U2": "s"}
+
+
+def typed(texts=MILD, **more):
+    return {**ExplorerState.of({"system": "own"}).values(), "texts": {**texts, "W": "0", "where": ""}, **more}
+
+
+def budgeted(values):
+    """Frames with a budget, and the executor that holds what they ask for."""
+    executor = Held()
+    frames = Frames(ExplorerState(**values), budget=Budget())
+    frames.jobs = Jobs()
+    frames.jobs._given = Turns(executor)
+    return frames, executor
+
+
+def header(frames, **request):
+    return unpack(frames.answer(request))[0]
+
+
+def test_the_first_picture_of_a_formula_is_computed_beside_the_frames():
+    frames, executor = budgeted(typed(layers=["rho", "critical", "equator"]))
+    first = header(frames, all=True)
+    assert "picture" in first["late"]
+    assert "portrait" not in first
+    assert not frames.scene.runs  # nothing at all was computed here
+    assert frames.pending is not None
+    then = []
+    while executor.given:
+        executor.run()
+        then.append(header(frames, rest=True))
+    assert frames.pending is None
+    assert "picture" not in then[-1].get("late", [])
+    assert any(one.get("portrait", {}).get("name") for one in then)
+    assert "left_out" not in then[-1]
+    assert not frames.scene.runs
+
+
+def test_what_was_quick_is_computed_with_the_frame_until_the_formula_is_wilder():
+    values = typed(WILD, parameters={"k": 1.0}, layers=["critical", "equator"], panel="psi")
+    scene, budget = make_scene(values), Budget()
+    scene.ask_before(budget.before)
+    quick = dict.fromkeys(("equator", "equator_cycle", "critical", "location", "classification", "slow_flow"), 0.001)
+    found = layers_of(pickle.loads(pickle.dumps(scene)), quick, {})
+    budget.told(scene, type(found)(found.results, quick, {}))
+    assert len(scene.evolve(k=1.1)["equator"]) > 0  # computed here
+    assert scene.runs["equator"] == 1
+    from codim2_app.frame.budget import NotYet
+
+    with pytest.raises(NotYet):
+        scene.evolve(k=1000.0)["equator"]
+    budget.told(scene, type(found)({}, dict.fromkeys(quick, 2 * LAYER), {}))
+    with pytest.raises(NotYet):
+        scene.evolve(k=1.2)["equator"]
+
+
+def test_a_formula_too_wild_to_draw_is_named_so():
+    values = typed(WILD, parameters={"k": 400.0}, layers=["rho", "theta", "separatrices", "critical", "equator"])
+    frames, executor = budgeted(values)
+    header(frames, all=True)
+    while executor.given:
+        executor.run()
+        last = header(frames, rest=True)
+    assert "too wild" in last["left_out"]
+    assert f"at most {MOST_STANDING}" in last["left_out"]
+    assert "separatrices" in last["left_out"]
+    assert last["left_out"].count("limit directions") == 1  # one reason, one sentence
+
+
+def test_the_wildness_of_a_formula_grows_with_it():
+    assert [wildness(make_scene(typed(WILD, parameters={"k": k}))) for k in (1.0, 10.0, 100.0)] == sorted(
+        {wildness(make_scene(typed(WILD, parameters={"k": k}))) for k in (1.0, 10.0, 100.0)}
+    )
+
+
+@pytest.mark.parametrize("preset", ["case1-cm4", "case3-n3", "ball-slice"])
+def test_frames_of_e_linear_systems_are_computed_at_once(preset):
+    values = preset_values(preset) or preset_values("case1-cm4")
+    frames, _ = budgeted({**values, "panel": "psi"})
+    assert "picture" not in header(frames, all=True).get("late", [])
+
+
+def test_a_scene_travels_by_its_inputs():
+    scene = make_scene(typed())
+    again = pickle.loads(pickle.dumps(scene))
+    assert Budget.key(again) == Budget.key(scene)
+    assert not again.results()
+    again.give({"equator": "there"})
+    assert again["equator"] == "there"
+
+
+def test_all_that_panels_ask_of_other_processes_can_travel():
+    """Each panel in turn, of a typed and of an e-linear system: calls and results are pickled and read again."""
+    from codim2_app.panels.registry import PANELS
+
+    class Travels(Held):
+        def submit(self, fn, /, *args, **kwargs):
+            return super().submit(pickle.loads, pickle.dumps((fn, args)))
+
+        def run(self):
+            future, _, (data,) = self.given.pop(0)
+            fn, args = pickle.loads(data)
+            future.set_result(pickle.loads(pickle.dumps(fn(*args))))
+
+    for start in (
+        {"a": 172.0, "b": 186.0, "d": -200.0, "f1": -86.0, "f2": -93.0, "trajectories": 4},
+        {"system": "own"},
+    ):
+        values = {**ExplorerState.of(start).values(), "layers": ["critical", "equator", "outcomes"]}
+        frames, _ = budgeted(values)
+        executor = Travels()
+        frames.jobs._given = Turns(executor)
+        for key in PANELS:
+            said = header(frames, set={"panel": key}, rest=True)
+            for _ in range(12):
+                if not executor.given:
+                    break
+                executor.run()
+                said = header(frames, rest=True)
+            assert not any("fault" in str(why) for why in said.get("unable", {}).values())

@@ -1,0 +1,121 @@
+"""Who is served next, what is shared, and what ends when nobody wants it any more."""
+
+from concurrent.futures import BrokenExecutor, Executor, Future
+
+import pytest
+from codim2_app.frame.turns import KEPT, Failed, Results, Turns
+
+
+class Held(Executor):
+    """Runs nothing until told to; a future that is cancelled while it runs is noted."""
+
+    def __init__(self):
+        self.given, self.stopped = [], []
+
+    def submit(self, fn, /, *args, **kwargs):
+        assert not kwargs
+
+        class Noted(Future):
+            def cancel(inner):
+                self.stopped.append(args)
+                return super().cancel()
+
+        future = Noted()
+        future.set_running_or_notify_cancel()
+        self.given.append((future, fn, args))
+        return future
+
+    def run(self):
+        future, fn, args = self.given.pop(0)
+        future.set_result(fn(*args))
+        return args[1:]
+
+
+def names(executor):
+    done = []
+    while executor.given:
+        done.append(executor.run()[0])
+    return done
+
+
+def test_browsers_take_turns():
+    executor = Held()
+    turns = Turns(executor, 1)
+    for i in range(3):
+        turns.want("greedy", ("g", i), str, f"greedy {i}")
+    turns.want("modest", "m", str, "modest")
+    assert names(executor) == ["greedy 0", "modest", "greedy 1", "greedy 2"]
+    assert turns.pending == 0
+
+
+def test_nobody_has_two_at_a_time():
+    executor = Held()
+    turns = Turns(executor, 2)
+    for i in range(3):
+        turns.want("greedy", ("g", i), str, f"greedy {i}")
+    assert len(executor.given) == 1
+    turns.want("modest", "m", str, "modest")
+    assert [args[1] for _, _, args in executor.given] == ["greedy 0", "modest"]
+
+
+def test_what_several_want_is_computed_once_and_ends_with_the_last_of_them():
+    executor = Held()
+    turns = Turns(executor, 1)
+    first, second = turns.want("a", "key", str, "once"), turns.want("b", "key", str, "once")
+    assert first is second
+    assert len(executor.given) == 1
+    turns.drop("a", "key")
+    assert not executor.stopped
+    turns.leave("b")
+    assert len(executor.stopped) == 1
+    assert turns.pending == 0
+
+
+def test_what_waits_is_never_begun_for_those_who_left():
+    executor = Held()
+    turns = Turns(executor, 1)
+    turns.want("a", 1, str, "first")
+    turns.want("b", 2, str, "second")
+    turns.leave("b")
+    assert names(executor) == ["first"]
+
+
+class Fails(Executor):
+    def __init__(self, *errors):
+        self.errors = list(errors)
+
+    def submit(self, fn, /, *args, **kwargs):
+        future = Future()
+        if self.errors:
+            future.set_exception(self.errors.pop(0))
+        else:
+            future.set_result(fn(*args, **kwargs))
+        return future
+
+
+def test_a_lost_worker_is_tried_once_more():
+    assert Turns(Fails(BrokenExecutor()), 1).want("a", 1, str, "done").result(0) == "done"
+    twice = Turns(Fails(BrokenExecutor(), BrokenExecutor()), 1).want("a", 1, str, "done").result(0)
+    assert isinstance(twice, Failed)
+    assert "ended" in twice.sentence
+
+
+@pytest.mark.parametrize("error", [TimeoutError("This takes longer than 60 s, and was stopped."), RuntimeError("?")])
+def test_what_fails_is_a_sentence(error):
+    found = Turns(Fails(error), 1).want("a", 1, str, "done").result(0)
+    assert isinstance(found, Failed)
+    assert found.sentence.endswith(".")
+
+
+def test_results_are_bounded_in_number_and_in_size():
+    kept = Results(most_bytes=10_000)
+    for i in range(3 * KEPT):
+        kept.put(i, "x")
+    assert len(kept) == KEPT
+    for i in range(20):
+        kept.put(("big", i), b"x" * 3_000)
+    assert len(kept) == 3
+    assert 9_000 < kept.size <= 10_000
+    kept.put("too big", b"x" * 20_000)
+    assert kept.get("too big") is None
+    assert kept.get(("big", 19)) is not None

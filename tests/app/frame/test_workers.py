@@ -1,0 +1,102 @@
+"""Processes beside the frames: what they compute, and that they stop."""
+
+import os
+import signal
+import time
+from concurrent.futures import CancelledError, wait
+
+import pytest
+from codim2_app.frame.budget import at_most
+from codim2_app.frame.workers import Stopped, Workers
+
+
+@pytest.fixture(scope="module")
+def workers():
+    with Workers(1, seconds=20.0) as made:
+        yield made
+
+
+def endless(folder):
+    (folder / "begun").write_text(str(os.getpid()))
+    while True:
+        (folder / "alive").write_text(str(time.monotonic()))
+
+
+def begun(folder):
+    for _ in range(600):
+        if (folder / "alive").exists() and (folder / "begun").exists():
+            return int((folder / "begun").read_text())
+        time.sleep(0.05)
+    raise AssertionError("the worker does not begin")
+
+
+def gone(pid):
+    for _ in range(200):
+        try:
+            os.kill(pid, 0)
+        except ProcessLookupError:
+            return True
+        time.sleep(0.05)
+    return False
+
+
+def test_work_is_done_elsewhere(workers):
+    assert workers.submit(pow, 2, 10).result() == 1024
+    assert workers.submit(os.getpid).result() != os.getpid()
+
+
+def test_errors_come_back(workers):
+    with pytest.raises(ZeroDivisionError):
+        workers.submit(divmod, 1, 0).result()
+    with pytest.raises(Exception, match="pickle"):
+        workers.submit(lambda: 1).result()
+    with pytest.raises(RuntimeError, match="cannot be sent"):
+        workers.submit(open, os.devnull).result()
+
+
+def test_cancelling_ends_what_is_under_way(workers, tmp_path):
+    future = workers.submit(endless, tmp_path)
+    pid = begun(tmp_path)
+    assert future.cancel()
+    with pytest.raises(CancelledError):
+        future.result(20)
+    assert gone(pid)
+    assert workers.submit(pow, 2, 3).result() == 8  # another process
+
+
+def test_what_is_queued_is_cancelled_without_a_process(workers, tmp_path):
+    busy, later = workers.submit(endless, tmp_path), workers.submit(pow, 2, 3)
+    begun(tmp_path)
+    assert later.cancel()
+    assert later.cancelled()
+    busy.cancel()
+    wait([busy], 20)
+
+
+def test_a_worker_that_is_killed_is_replaced(workers, tmp_path):
+    future = workers.submit(endless, tmp_path)
+    os.kill(begun(tmp_path), signal.SIGKILL)
+    with pytest.raises(Stopped):
+        future.result(20)
+    assert workers.submit(pow, 2, 3).result() == 8
+
+
+def test_nothing_runs_for_ever(tmp_path):
+    with Workers(1, seconds=0.2) as workers:
+        future = workers.submit(endless, tmp_path)
+        with pytest.raises(TimeoutError, match=r"longer than 0\.2 s"):
+            future.result(20)
+
+
+def spin():
+    with at_most(0.05):
+        while True:
+            pass
+
+
+def test_a_budget_of_processor_time_ends_between_kernels():
+    with pytest.raises(TimeoutError):
+        spin()
+    with at_most(5.0):
+        pass
+    assert signal.getitimer(signal.ITIMER_PROF)[0] == 0.0
