@@ -34,11 +34,13 @@ class Window:
             return None
         try:
             left, right, bottom, top, pixel = map(float, value)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             return None
         sizes = right - left, top - bottom
         far = max(map(abs, (left, right, bottom, top)))
-        if not (all(1.9 * NEAREST <= size <= 2.1 * WIDEST for size in sizes) and far <= 3 * WIDEST):
+        if not (
+            math.isfinite(pixel) and all(1.9 * NEAREST <= size <= 2.1 * WIDEST for size in sizes) and far <= 3 * WIDEST
+        ):
             return None
         return cls((left, right, bottom, top), min(max(pixel, sizes[0] / 4000), sizes[0] / 100))
 

@@ -235,6 +235,8 @@ def clean(name: str, value: Any) -> Any:
         if count != int(count) or not low <= count <= high:
             raise InputError(name, f"{declared.label}: {value} given; give a whole number from {low} to {high}.")
         return int(count)
+    if type(declared) is param.Selector and not isinstance(value, str):
+        raise InputError(name, f"{declared.label}: {str(value)[:40]} given; give its name.")
     if type(declared) is param.Selector:
         listed = {"psi": psi_families.FAMILIES, "system": titles()}  # what has been registered is among them
         objects = listed.get(name, declared.objects)
@@ -243,19 +245,23 @@ def clean(name: str, value: Any) -> Any:
             raise InputError(name, f"{declared.label}: {str(value)[:40]!r} given; choose one of {allowed}.")
         return str(value)
     if name == "preset":
+        value = value if isinstance(value, str) else str(value)[:40]
         if value != "" and value not in portrait_keys():
             some = ", ".join(list(portrait_keys())[:3])
             raise InputError(name, f"Portrait: there is no {str(value)[:40]!r}; choose one such as {some}.")
         return str(value)
     if name == "layers":
-        chosen = value.split(",") if isinstance(value, str) else list(value)
+        chosen = value.split(",") if isinstance(value, str) else value
+        if not isinstance(chosen, (list, tuple)) or not all(isinstance(layer, str) for layer in chosen):
+            raise InputError(name, f"Layers: {str(value)[:40]} given; give names among {', '.join(LAYERS)}.")
         chosen = [layer for layer in chosen if layer]
         unknown = [layer for layer in chosen if layer not in LAYERS]
         if unknown:
             raise InputError(name, f"Layers: no layer {unknown[0][:40]!r}; they are {', '.join(LAYERS)}.")
-        return chosen
+        return list(dict.fromkeys(chosen))
     if name in ("along", "across", "up"):
-        own = isinstance(value, str) and value.startswith(OWN_AXIS) and value.removeprefix(OWN_AXIS).isidentifier()
+        value = value if isinstance(value, str) else str(value)[:40]
+        own = value.startswith(OWN_AXIS) and value.removeprefix(OWN_AXIS).isidentifier()
         if not own and value not in AXES:
             known = ", ".join([*AXES, f"{OWN_AXIS}mu"])
             raise InputError(name, f"{declared.label}: {str(value)[:40]!r} given; choose one such as {known}.")
@@ -263,8 +269,10 @@ def clean(name: str, value: Any) -> Any:
     if name in ("texts", "parameters"):
         return _mapping(name, declared.label, value)
     if name == "orbits":
+        if not isinstance(value, str) or len(value) > LONGEST_TEXT:
+            raise InputError(name, f"{declared.label}: give text of at most {LONGEST_TEXT} characters.")
         try:
-            read_launches(str(value))
+            read_launches(value)
         except ValueError as error:
             raise InputError(name, f"{declared.label}: {error}") from error
         return str(value)
@@ -293,6 +301,8 @@ def _finite(name: str, label: str | None, value: Any) -> float:
     """Return a finite float, or say what to type."""
     try:
         number = float(value)
+    except OverflowError:
+        raise InputError(name, f"{label}: the number is too large; give one below 1e308.") from None
     except (TypeError, ValueError):
         raise InputError(name, f"{label}: {str(value)[:40]!r} is not a number; type one such as −0.5.") from None
     if not math.isfinite(number):

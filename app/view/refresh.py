@@ -34,6 +34,7 @@ from ..frame.turns import FAILURES, Failed
 from ..frame.window import Window, inputs
 from ..panels import registry
 from ..panels.time import launch_of
+from ..state.asked import read_request
 from ..state.choices import AXES
 from ..state.chosen import GIVEN, NORMAL, System_, describe
 from ..state.controls import NAMES, TYPED_IN, ExplorerState, InputError, clean, first_values, preset_values
@@ -114,13 +115,14 @@ class Frames:
         sentence, in this frame and in all that follow until that control is given another value. Under the name ""
         is what belongs to no control.
         """
-        asked = request.get("set") or {}
+        request, asked, left = read_request(request)
         self.window = Window.read(request.get("window"))
         sent = {} if request.get("all") else self._sent
         if asked:
             self._notices = []
         before = self.values
-        errors: dict[str, str] = {"": " ".join(self._notices)} if self._notices else {}
+        notices = " ".join(filter(None, (*self._notices, left)))
+        errors: dict[str, str] = {"": notices} if notices else {}
         good: dict[str, Any] = {}
         wanted, self.refused = {**self.refused, **asked}, {}
         for name, value in wanted.items():
@@ -128,7 +130,7 @@ class Frames:
                 good[name] = clean(name, value)
             except InputError as error:
                 self.refused[name], errors[error.control] = value, str(error)
-        rest = bool(request.get("rest") or request.get("all"))
+        rest = request.get("rest", False) or request.get("all", False)
         header, blocks = self._accept(good, sent, errors, rest) or ({}, {})
         changed = {name: value for name, value in self.values.items() if value != before[name]}
         if changed:
