@@ -46,11 +46,12 @@ def test_an_odd_number_of_a_request_is_not_sent_back(frames, number):
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("value", [None, True, [], [[]], [{}], {}, {"a": []}, 1e400, 10**400, "1e400", "x" * LONGEST])
 def test_every_control_takes_a_value_or_says_why_not(name, value):
+    refused = None
     try:
         json.dumps(clean(name, value), allow_nan=False)
     except InputError as error:
-        assert error.control == name
-        assert len(str(error)) < 600
+        refused = error
+    assert refused is None or (refused.control == name and len(str(refused)) < 600)
 
 
 @given(ANYTHING)
