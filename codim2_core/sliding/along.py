@@ -23,6 +23,7 @@ from ..systems.typed import System
 Array = NDArray[np.float64]
 
 BISECTIONS = 44  # of one step of the net: to the rounding of z
+NARROW = 1e-7  # of the span: two changes this near, as where a double zero is lost in rounding, are one
 AT_EQUATOR = 1e-4  # 1 - |e| of a critical set that is about to reach the equator, one bisected step before it does
 STABLE, UNSTABLE, CROSSING = "sliding", "unstable", "crossing"
 _SENTENCES = {
@@ -138,7 +139,7 @@ def slow_portrait(
         Decides stability where that depends on it; the slow flow itself does not.
     span : (low, high)
     z : (m,) floats
-        The other slow variables; entry `axis` is not used. May be left out if m = 1.
+        The other slow variables; entry `axis` is not used. Left out, they are 0.
     axis : int
         Which slow variable is varied, from 0.
     count : int
@@ -230,7 +231,35 @@ def _pieces(
             pieces[-1][0].append(end)
             pieces[-1][1].append(there)
         start, here = end, there
-    return pieces, points
+    return _without_narrow(pieces, points, NARROW * float(net[-1] - net[0]))
+
+
+def _without_narrow(pieces: list[Piece], points: list[SlowPoint], width: float) -> tuple[list[Piece], list[SlowPoint]]:
+    """Join the changes on both sides of a piece that is no wider than `width`; leave it out at the ends of the net."""
+    kept, changes = pieces[:1], []
+    for point, piece in zip(points, pieces[1:], strict=True):
+        narrow = kept[-1]
+        if narrow[0][-1] - narrow[0][0] > width:
+            changes.append(point)
+        else:
+            kept.pop()
+            if kept:
+                changes[-1] = _through(changes[-1], kept[-1][1][-1], narrow, piece[1][0])
+        kept.append(piece)
+    if len(kept) > 1 and kept[-1][0][-1] - kept[-1][0][0] <= width:
+        return kept[:-1], changes[:-1]
+    return kept, changes
+
+
+def _through(into: SlowPoint, before: Sequence[CriticalSet], narrow: Piece, after: Sequence[CriticalSet]) -> SlowPoint:
+    """Name what happens where the critical sets are those of `narrow` at one z only; `into` is how they become so."""
+    z, at = 0.5 * (narrow[0][0] + narrow[0][-1]), narrow[1][0]
+    if _kinds(before) != _kinds(after):
+        return _change(z, before, after)
+    if len(before) > len(at) > 0:
+        flattest = min(at, key=lambda C: abs(C.determinant))
+        return SlowPoint("fold", z, *_place(flattest), None, "det J = 0: critical sets meet and exchange their kinds.")
+    return into
 
 
 def _change(z: float, before: Sequence[CriticalSet], after: Sequence[CriticalSet]) -> SlowPoint:
@@ -247,8 +276,6 @@ def _change(z: float, before: Sequence[CriticalSet], after: Sequence[CriticalSet
     old, new = next(((p, q) for p, q in pairs if _kind(p) != _kind(q)), pairs[0])
     if {_kind(old).split()[0], _kind(new).split()[0]} == {"stable", "unstable"}:
         return SlowPoint("Hopf", z, *_place(new), None, f"tr J = 0: the critical set becomes {_article(_kind(new))}.")
-    if "saddle" in (old.kind, new.kind):
-        return SlowPoint("fold", z, *_place(new), None, "det J = 0: critical sets meet and exchange their kinds.")
     return SlowPoint("node-focus", z, *_place(new), None, f"Δ(J) = 0: the critical set becomes {_article(_kind(new))}.")
 
 

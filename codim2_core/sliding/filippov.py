@@ -243,7 +243,7 @@ def _merged(theta: Array, weights: Array) -> tuple[Array, Array]:
     theta, weights = theta[order], weights[order]
     new = np.append(True, np.diff(theta) > CLOSE)
     group = np.cumsum(new) - 1
-    if len(theta) > 1 and theta[0] + 2.0 * math.pi - theta[-1] <= CLOSE and group[-1] > 0:
+    if theta[0] + 2.0 * math.pi - theta[-1] <= CLOSE:
         theta, group = (
             np.where(group == group[-1], theta - 2.0 * math.pi, theta),
             np.where(group == group[-1], 0, group),

@@ -28,13 +28,9 @@ def sliding_flow(system: AnySystem, z: ArrayLike = ()) -> NDArray[np.float64] | 
         is not unique (sec:nonunique). None where there is no critical set: nothing slides there.
     """
     at = system.at(z)
-    if at.affine is not None:
-        place = locate(at).e
-        points = np.zeros((0, 2)) if place is None else np.array([place])
-    else:
-        points = disc_zeros(at.key).e
-    if not len(points):
+    points = locate(at).e if at.affine is not None else disc_zeros(at.key).e
+    if points is None or not len(points):
         return None
-    flow = at.W(points if at.typed is not None else points[0])
+    flow = at.W(np.asarray(points) if at.typed is None else np.atleast_2d(points))
     flow.flags.writeable = False
     return flow

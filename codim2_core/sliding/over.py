@@ -99,7 +99,7 @@ def directions_along(
     system : ELinear or System
     span : (low, high)
     z : (m,) floats
-        The other slow variables; entry `axis` is not used. May be left out if m = 1.
+        The other slow variables; entry `axis` is not used. Left out, they are 0.
     axis : int
     count : int
     """

@@ -1,11 +1,12 @@
-"""Do the tests notice a wrong formula? ``python -m tests.mutation [NAME ...] [--sample N]``.
+"""Do the tests notice a wrong formula? ``python -m tests.mutation [NAME ...] [--sample N] [--record]``.
 
 NAME is a room or a module: ``layer_problem``, ``core.portrait.classify``, ``app.draw``, ``static``, ``static/ball.js``;
 without one, everything is tried: the core, the app's Python and its JavaScript. One expression at a time is changed
 (`mutants`, `javascript`), and those tests of the room (`targets`) that reach the changed function are run up to the
-first failure: in place where that can be (`live`), else with the module imported anew. Nothing is written to disk.
+first failure: in place where that can be (`live`), else with the module imported anew; what Numba compiles is run as
+Python (`interpreted`). Nothing is written in the repository.
 Printed are the mutants that live and, for each module, how many were killed of how many; those that
-`targets.ALLOWED` explains are not tried. The exit code is 1 if any lives.
+`targets.ALLOWED` explains are not tried. ``--record`` keeps all that in `results.md`. The exit code is 1 if any lives.
 """
 
 from __future__ import annotations
@@ -20,10 +21,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from . import javascript
+from . import javascript, record
 from .mutants import Mutant, mutants
 from .session import Job, preload, run
-from .targets import COMPILED_ONLY, ROOT, explained, guards, modules, room
+from .targets import ROOT, explained, guards, is_kernel, modules, room
 
 
 @dataclass
@@ -33,13 +34,15 @@ class Count:
     name: str
     killed: int = 0
     tried: int = 0
+    all: int = 0  # of which a sample may have been tried
     explained: int = 0
     unreached: int = 0
     alive: list[str] = field(default_factory=list)
 
     def __str__(self) -> str:
         share = f"{100 * self.killed / self.tried:4.0f} %" if self.tried else "     –"
-        extra = f", {self.explained} explained" * bool(self.explained)
+        extra = f" ({self.all} in all)" * (self.all > self.tried)
+        extra += f", {self.explained} explained" * bool(self.explained)
         extra += f", {self.unreached} that no test reaches" * bool(self.unreached)
         return f"{self.name:44}{self.killed:5} of {self.tried:4} killed {share}{extra}"
 
@@ -75,7 +78,7 @@ def tell(job: Job, mutant: Mutant, outcome: str) -> None:
 
 def try_python(task: tuple[str, bool, list[str], Choice]) -> list[Count]:
     """Mutants of modules of one room."""
-    name, compiled, names, choice = task
+    name, kernels, names, choice = task
     jobs, counts = [], []
     for module in names:
         path = modules()[module]
@@ -83,9 +86,9 @@ def try_python(task: tuple[str, bool, list[str], Choice]) -> list[Count]:
         lines = source.splitlines()
         found = list(mutants(source))
         left = [mutant for mutant in found if not explained(module, lines[mutant.line - 1])]
-        counts.append(Count(module, explained=len(found) - len(left)))
+        counts.append(Count(module, all=len(left), explained=len(found) - len(left)))
         jobs.append(Job(path, choice.of(left, path.relative_to(ROOT).as_posix())))
-    for count, job in zip(counts, run(jobs, guards(name), compiled, tell), strict=True):
+    for count, job in zip(counts, run(jobs, guards(name), kernels, tell), strict=True):
         count.tried = len(job.outcomes)
         for mutant, outcome, tests in zip(job.mutants, job.outcomes, job.tests, strict=True):
             count.killed += outcome in ("failed", "timeout")
@@ -101,7 +104,7 @@ def try_javascript(task: tuple[str, Choice]) -> list[Count]:
     name, choice = task
     found = [m for m in javascript.mutants(name) if not explained(name, m.context)]
     kept = choice.of(found, f"app/{name}")
-    count = Count(name, tried=len(kept))
+    count = Count(name, tried=len(kept), all=len(found))
     outcomes = javascript.run(name, kept)
     for mutant, outcome in zip(kept, outcomes, strict=True):
         count.killed += outcome == "failed"
@@ -144,6 +147,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--sample", type=int, help="at most so many mutants of each module, chosen at random")
     parser.add_argument("--seed", type=int, default=0, help="of that choice")
     parser.add_argument("--again", metavar="FILE", help="only those that lived in a run whose output this is")
+    parser.add_argument("--record", action="store_true", help="keep what was found in results.md")
     parser.add_argument("--processes", type=int, default=len(os.sched_getaffinity(0)), help="side by side")
     options = parser.parse_args(arguments)
     again = None if options.again is None else survivors(Path(options.again).read_text())
@@ -155,10 +159,8 @@ def main(arguments: list[str]) -> int:
             continue
         if name.startswith("static"):
             tasks.append((name, choice))
-        elif room(name) == COMPILED_ONLY:
-            print(f"{name:44}  not tried: machine code (see targets)")
         else:
-            rooms.setdefault((room(name), "njit" in modules()[name].read_text()), []).append(name)
+            rooms.setdefault((room(name), is_kernel(name)), []).append(name)
     tasks = [(*key, names, choice) for key, names in rooms.items()] + tasks
     preload()
     with multiprocessing.get_context("fork").Pool(options.processes, maxtasksperchild=1) as pool:
@@ -166,8 +168,9 @@ def main(arguments: list[str]) -> int:
     print("\nBy module:")
     for count in sorted(counts, key=lambda count: count.name):
         print(count)
-    total = Count("all", sum(c.killed for c in counts), sum(c.tried for c in counts), sum(c.explained for c in counts))
-    print(total)
+    print(Count("all", sum(c.killed for c in counts), sum(c.tried for c in counts), sum(c.all for c in counts)))
+    if options.record:
+        record.write([record.Found(c.name, c.killed, c.tried, c.all, options.seed, tuple(c.alive)) for c in counts])
     return 1 if any(count.alive for count in counts) else 0
 
 

@@ -62,11 +62,8 @@ def _bare(code: types.CodeType) -> tuple:
     return code.co_code, plain, code.co_names
 
 
-def put_in(source: str, mutated: str, path: str, living: dict[Where, list[types.FunctionType]]) -> bool:
+def put_in(new: list[types.CodeType], living: dict[Where, list[types.FunctionType]]) -> bool:
     """Exchange the code of the functions that a mutant changes; whether that was possible."""
-    new = changes(compile(source, path, "exec"), compile(mutated, path, "exec"))
-    if new is None:
-        return False
     try:
         for code in new:
             for function in living[code.co_qualname, code.co_firstlineno]:

@@ -21,6 +21,8 @@ RENAMED = {"sin": "cos", "cos": "sin", "min": "max", "max": "min", "minimum": "m
 # What is no formula: text for people, annotations, memory sizes, and what is refused with a ValueError.
 SILENT = (ast.Raise, ast.JoinedStr, ast.Import, ast.ImportFrom, ast.Assert)
 
+CHECKS = ("strict",)  # arguments that only refuse what is a mistake of ours
+
 
 class Mutant(NamedTuple):
     """One change: where it is, what it was, what it becomes, and the whole new source."""
@@ -67,6 +69,8 @@ def _formulas(node: ast.AST) -> Iterator[ast.expr]:
             continue
         for item in child if isinstance(child, list) else [child]:
             if not isinstance(item, ast.AST) or isinstance(item, SILENT):
+                continue
+            if isinstance(item, ast.keyword) and item.arg in CHECKS:
                 continue
             if isinstance(item, (ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp, ast.Call, ast.Constant)):
                 yield item  # type: ignore[misc]

@@ -4,6 +4,9 @@ reach the changed function, the quickest first, up to the first failure.
 
 from __future__ import annotations
 
+import gc
+import getpass
+import importlib
 import os
 import pickle
 import resource
@@ -11,24 +14,32 @@ import signal
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from hashlib import blake2b
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from pathlib import Path
 from typing import Any
 
-from . import live
+import pytest
+
+from . import interpreted, live
 from .mutants import Mutant
+from .targets import FOLDERS
 
 TESTS = Path(__file__).parents[1]
 ROOT = TESTS.parent
-PACKAGES = ("codim2_core", "codim2_app")
-FIRST = 5.0  # seconds of processor time that a mutant gets at least
-SURVIVORS = 60.0  # seconds of tests at most, the quickest first
-LONGEST = 20.0  # seconds of one test as it is: slower ones are left out (kernels that are not compiled)
+PACKAGES = {short: f"codim2_{short}" for short in FOLDERS}
+# Seconds of processor time. A test that takes longer than FIRST and three times what it takes as it is has noticed
+# a mutant that loops.
+FIRST = 3.0
+SURVIVORS = 6.0  # of all tests of a mutant, the quickest first
+LONGEST = 5.0  # of one test as it is: slower ones are left out (and kernels that are not compiled)
 EVENTS = 300_000  # calls and returns of one test that are looked at
 MEMORY = 3 << 30
 UNFIT = 77  # exit code
+KEPT = Path(tempfile.gettempdir()) / f"codim2-mutation-{getpass.getuser()}"  # what tests reach, by what they read
+Function = tuple[str, str, int]  # file, name, line
 
 
 def preload() -> None:
@@ -40,12 +51,25 @@ def preload() -> None:
     import mpmath  # noqa: F401
     import numba  # noqa: F401
     import numpy  # noqa: F401
-    import pytest  # noqa: F401
-    import scipy.integrate  # noqa: F401
+    import scipy.integrate
+    import scipy.optimize  # noqa: F401
 
     # A failure is all that is asked for: no smaller example of it, no memory of it.
     phases = (hypothesis.Phase.explicit, hypothesis.Phase.generate)
     hypothesis.settings.register_profile("mutation", deadline=None, derandomize=True, database=None, phases=phases)
+
+
+def load_kernels() -> None:
+    """Load what is compiled, once for all forks."""
+    import codim2_core as c2
+    from codim2_core.orbits.trajectories import warm
+
+    for psi in (c2.psi.constant(), c2.psi.rational(), c2.psi.tanh(), c2.psi.hill(3.0)):
+        warm(psi)
+    c2.limit_cycles(c2.ELinear(172.0, 186.0, -200.0, (-86.0, -93.0)), c2.psi.hill(3.0))
+    system = c2.System(U=("1/4 - c**2 - s/8", "s*c - s/2"))
+    for layer in ("critical", "nullclines_inside", "nullclines_outside", "cycles", "separatrices"):
+        c2.Scene(system, c2.psi.constant())[layer]
 
 
 def forked(do: Callable[[], int], seconds: float) -> str:
@@ -70,7 +94,7 @@ def forked(do: Callable[[], int], seconds: float) -> str:
         done, status = os.waitpid(child, os.WNOHANG)
         if done:
             code = os.waitstatus_to_exitcode(status)
-            late = {-signal.SIGXCPU: "timeout", -signal.SIGKILL: "timeout"}
+            late = {-signal.SIGXCPU: "timeout", -signal.SIGPROF: "timeout", -signal.SIGKILL: "timeout"}
             return {0: "passed", UNFIT: "afresh", **late}.get(code, "failed")
         time.sleep(0.002)
     os.killpg(child, signal.SIGKILL)
@@ -80,14 +104,19 @@ def forked(do: Callable[[], int], seconds: float) -> str:
 
 def pytest_main(tests: tuple[str, ...], plugins: list[Any]) -> int:
     """Run pytest quietly in this process."""
-    import pytest
-
     nothing = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nothing, 1)
     os.dup2(nothing, 2)
     options = ["-x", "-q", "-n0", "-p", "no:cacheprovider", "--hypothesis-profile=mutation", "--rootdir", str(ROOT)]
-    options += ["-W", "ignore::pytest.PytestAssertRewriteWarning"]  # hypothesis is loaded already
+    options += ["--tb=native", "-W", "ignore::pytest.PytestAssertRewriteWarning"]  # hypothesis is loaded already
     return int(pytest.main([*options, *(str(TESTS / test) for test in tests)], plugins=plugins))
+
+
+def imported_as(path: Path) -> str:
+    """Return the name by which a file of the packages is imported."""
+    folder, *parts = path.relative_to(ROOT).with_suffix("").parts
+    short = next(short for short, one in FOLDERS.items() if one == folder)
+    return ".".join([PACKAGES[short], *parts]).removesuffix(".__init__")
 
 
 @dataclass
@@ -112,49 +141,70 @@ class Job:
 class Room:
     """A pytest plugin that tries mutants where pytest would run the tests."""
 
-    def __init__(self, jobs: list[Job], target: Path, told: Callable[[Job, Mutant, str], None]) -> None:
-        self.jobs, self.target, self.told = jobs, target, told
+    def __init__(self, jobs: list[Job], target: Path, kernels: bool, told: Callable[[Job, Mutant, str], None]) -> None:
+        self.jobs, self.target, self.kernels, self.told = jobs, target, kernels, told
+        self.early: set[Function] = set()  # entered while tests are collected: what they gave may be kept
 
-    def pytest_runtestloop(self, session: Any) -> bool:
+    @pytest.hookimpl(wrapper=True)
+    def pytest_collection(self) -> Any:
+        """Note what runs while tests are collected; what would be imported late is imported now."""
+        sys.setprofile(_entering(self.early))
+        try:
+            for job in self.jobs:
+                if job.path.stem != "__main__":
+                    importlib.import_module(imported_as(job.path))
+            return (yield)
+        finally:
+            sys.setprofile(None)
+
+    def pytest_runtestloop(self, session: pytest.Session) -> bool:
         """Find what the tests reach, then try all mutants."""
         self.items = {item.nodeid: item for item in session.items}
         note = self.target.with_suffix(".reach")
         if forked(lambda: self._baseline(note), 3000.0) != "passed":
             raise RuntimeError("the tests could not be run as they are")
-        reach = pickle.loads(note.read_bytes())
+        self.reach: dict[str, Reach] = pickle.loads(note.read_bytes())
         note.unlink()
+        entered = frozenset(file for one in self.reach.values() for file, _, _ in one.entered)
+        if not self.kernels and any(f"{os.sep}stepping{os.sep}" in file for file in entered):
+            load_kernels()
+        gc.collect()
+        gc.freeze()
         paths = frozenset(str(job.path) for job in self.jobs)
-        living, held = live.functions(paths), live.caches(PACKAGES)
+        living, held = live.functions(paths), live.caches(tuple(PACKAGES.values()))
         for job in self.jobs:
-            job.reach = reach
+            job.reach = self.reach
             source, path = job.path.read_text(), str(job.path)
             before = compile(source, path, "exec")
             for mutant in job.mutants:
                 new = live.changes(before, compile(mutant.source, path, "exec"))
                 keys = None if new is None else {(path, code.co_qualname, code.co_firstlineno) for code in new}
-                tests = reaching(reach, keys, path)
+                tests = reaching(self.reach, keys, path)
                 outcome = "afresh"
                 if new is not None:
-                    outcome = self._tried(source, mutant, path, living.get(path, {}), held, tests, reach)
+                    outcome = self._tried(new, living.get(path, {}), held, tests)
+                    if outcome == "passed" and keys and keys & self.early:
+                        outcome = "afresh"
                 job.outcomes.append(outcome)
                 job.tests.append(tests)
                 self.told(job, mutant, outcome)
         self.target.write_bytes(pickle.dumps(self.jobs))
         return True
 
-    def _tried(
-        self, source: str, mutant: Mutant, path: str, living: Any, held: Any, tests: list[str], reach: dict[str, Reach]
-    ) -> str:
+    def _tried(self, new: list[Any], living: Any, held: Any, tests: list[str]) -> str:
         def do() -> int:
-            if not live.put_in(source, mutant.source, path, living):
+            if not live.put_in(new, living):
                 return UNFIT
             for cache in held:
                 cache.cache_clear()
-            return 0 if all(self._passes(name) for name in tests) else 1
+            signal.signal(signal.SIGPROF, signal.SIG_DFL)
+            for name in tests:
+                signal.setitimer(signal.ITIMER_PROF, FIRST + 3.0 * self.reach[name].cost)
+                if not self._passes(name):
+                    return 1
+            return 0
 
-        cost = sum(reach[name].cost for name in tests)
-        outcome = forked(do, FIRST + 3.0 * cost)
-        return "afresh" if outcome == "passed" else outcome
+        return forked(do, FIRST * (1 + len(tests)) + 3.0 * sum(self.reach[name].cost for name in tests))
 
     def _passes(self, name: str) -> bool:
         from _pytest.runner import runtestprotocol
@@ -168,31 +218,54 @@ class Room:
 
         signal.signal(signal.SIGPROF, late)
         found: dict[str, Reach] = {}
-        folders = tuple(str(ROOT / folder) + os.sep for folder in ("codim2_core", "app"))
-
-        def enter(frame: Any, event: str, _argument: object) -> None:
-            nonlocal seen
-            if event == "call":
-                code = frame.f_code
-                if code.co_filename.startswith(folders):
-                    entered.add((code.co_filename, code.co_qualname, code.co_firstlineno))
-            seen += 1
-            if seen > EVENTS:  # what comes later are more examples of the same
-                sys.setprofile(None)
-
-        for name in self.items:
-            entered: set[tuple[str, str, int]] = set()
-            seen = 0
-            before = time.process_time()
-            signal.setitimer(signal.ITIMER_PROF, LONGEST)
-            sys.setprofile(enter)
-            passed = self._passes(name)
-            sys.setprofile(None)
-            signal.setitimer(signal.ITIMER_PROF, 0.0)
-            if passed and entered:
-                found[name] = Reach(time.process_time() - before, frozenset(entered))
+        common = _digest(path for path in TESTS.rglob("*.py") if not path.name.startswith("test_"))
+        common += _digest(path for folder in FOLDERS.values() for path in (ROOT / folder).rglob("*.py"))
+        for file in dict.fromkeys(item.path for item in self.items.values()):
+            kept = KEPT / f"{_digest([file])}-{common}-{self.kernels}"
+            if not kept.exists():
+                here = [name for name, item in self.items.items() if item.path == file]
+                reach = {name: one for name in here if (one := self._measured(name))}
+                KEPT.mkdir(exist_ok=True)
+                kept.write_bytes(pickle.dumps(reach))
+            found |= pickle.loads(kept.read_bytes())
         note.write_bytes(pickle.dumps(found))
         return 0
+
+    def _measured(self, name: str) -> Reach | None:
+        entered: set[Function] = set()
+        before = time.process_time()
+        signal.setitimer(signal.ITIMER_PROF, LONGEST)
+        sys.setprofile(_entering(entered, EVENTS))
+        passed = self._passes(name)
+        sys.setprofile(None)
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        return Reach(time.process_time() - before, frozenset(entered)) if passed and entered else None
+
+
+def _digest(paths: Iterable[Path]) -> str:
+    """Digest of some files."""
+    found = blake2b(digest_size=12)
+    for path in sorted(paths):
+        found.update(path.read_bytes())
+    return found.hexdigest()
+
+
+def _entering(found: set[Function], most: int = sys.maxsize) -> Callable[[Any, str, object], None]:
+    """Note the functions of the packages that are entered; what comes after `most` events is more of the same."""
+    folders = tuple(str(ROOT / folder) + os.sep for folder in FOLDERS.values())
+    seen = 0
+
+    def enter(frame: Any, event: str, _argument: object) -> None:
+        nonlocal seen
+        if event == "call":
+            code = frame.f_code
+            if code.co_filename.startswith(folders):
+                found.add((code.co_filename, code.co_qualname, code.co_firstlineno))
+        seen += 1
+        if seen > most:
+            sys.setprofile(None)
+
+    return enter
 
 
 def reaching(reach: dict[str, Reach], keys: set[tuple[str, str, int]] | None, path: str) -> list[str]:
@@ -231,7 +304,7 @@ class Finder:
 
     def find_spec(self, name: str, path: Any = None, target: Any = None) -> ModuleSpec | None:
         """Return the module's spec with the changed text, or None for any other."""
-        if name.split(".")[0] not in PACKAGES:
+        if name.split(".")[0] not in PACKAGES.values():
             return None
         spec = PathFinder.find_spec(name, path)
         if spec is None or spec.origin != self.path:
@@ -256,7 +329,7 @@ def afresh(path: Path, text: str, names: list[str], cost: float) -> str:
 
     def do() -> int:
         sys.dont_write_bytecode = True
-        for name in [name for name in sys.modules if name.split(".")[0] in (*PACKAGES, "tests")]:
+        for name in [name for name in sys.modules if name.split(".")[0] in (*PACKAGES.values(), "tests")]:
             if name != "tests" and not name.startswith("tests.mutation"):
                 del sys.modules[name]
         sys.meta_path.insert(0, Finder(path, text))  # type: ignore[arg-type]
@@ -266,20 +339,21 @@ def afresh(path: Path, text: str, names: list[str], cost: float) -> str:
     return forked(do, 20.0 + FIRST + 3.0 * cost) if names else "passed"
 
 
-def run(jobs: list[Job], tests: tuple[str, ...], compiled: bool, told: Callable[[Job, Mutant, str], None]) -> list[Job]:
-    """Try all mutants of some modules of a room, in place where that can be, then afresh those that live.
+def run(jobs: list[Job], tests: tuple[str, ...], kernels: bool, told: Callable[[Job, Mutant, str], None]) -> list[Job]:
+    """Try all mutants of some modules of a room, in place where that can be, then afresh where that may show more.
 
-    compiled : the modules are Numba's; nothing is compiled then, so that they can be changed in place as well.
+    kernels : the modules are Numba's: all that it compiles is run as Python then.
     """
-    if compiled:
-        import numba
-
-        numba.config.DISABLE_JIT = True
+    if kernels:
+        interpreted.interpret()
+        file, there, read = interpreted.FEWER
+        sys.dont_write_bytecode = True
+        sys.meta_path.insert(0, Finder(ROOT / file, (ROOT / file).read_text().replace(there, read)))  # type: ignore[arg-type]
     with tempfile.TemporaryDirectory(prefix="mutation-") as folder:
         target = Path(folder) / "jobs"
 
         def warm() -> int:
-            room = Room(jobs, target, told)
+            room = Room(jobs, target, kernels, told)
             code = pytest_main(tests, [room])
             return 0 if target.exists() else code or 1
 

@@ -5,11 +5,13 @@ from pathlib import Path
 
 import pytest
 
+from . import interpreted
 from .__main__ import Choice, survivors
-from .live import functions, put_in
+from .live import changes, functions, put_in
 from .mutants import mutants
+from .record import Found, read, written
 from .session import Reach, reaching
-from .targets import ALLOWED, COMPILED_ONLY, ELSEWHERE, guards, modules, room
+from .targets import ALLOWED, ELSEWHERE, ROOT, guards, is_kernel, modules, room
 
 SOURCE = '''"""A docstring with 1 + 2."""
 LIMIT: float = 0.5
@@ -19,6 +21,9 @@ def f(x, y=None):
     if x < 1e-9 and not y:
         raise ValueError(f"{x + 1}")
     return -x * sin(y) - 3  # a comment
+
+def g(x):
+    return zip(x, x, strict=True)
 '''
 
 
@@ -55,7 +60,7 @@ def test_every_mutant_is_valid_code_and_differs():
 
 
 def test_tests_of_every_room_exist():
-    for name in {*map(room, modules()), *ELSEWHERE} - {COMPILED_ONLY}:
+    for name in {*map(room, modules()), *ELSEWHERE}:
         tests = guards(name)
         assert tests, name
         assert all((Path(__file__).parents[1] / test).exists() for test in tests), name
@@ -87,7 +92,9 @@ def in_place(before, after, tmp_path):
     assert before in LIVING
     names = {}
     exec(compile(LIVING, path, "exec"), names)
-    done = put_in(LIVING, LIVING.replace(before, after), path, functions(frozenset({path})).get(path, {}))
+    old, new = (compile(text, path, "exec") for text in (LIVING, LIVING.replace(before, after)))
+    changed = changes(old, new)
+    done = changed is not None and put_in(changed, functions(frozenset({path})).get(path, {}))
     return done, names["area"](3), names["Disc"]().twice()
 
 
@@ -104,7 +111,7 @@ def test_what_runs_on_import_is_not_changed_in_place(before, after, tmp_path):
 def test_the_quickest_tests_that_reach_a_function_come_first():
     key = ("a.py", "f", 3)
     reach = {
-        "slow": Reach(9.0, frozenset({key})),
+        "slow": Reach(4.0, frozenset({key})),
         "quick": Reach(1.0, frozenset({key, ("a.py", "g", 7)})),
         "other": Reach(0.1, frozenset({("a.py", "g", 7), ("b.py", "f", 3)})),
         "very slow": Reach(900.0, frozenset({key})),
@@ -121,3 +128,27 @@ def test_those_that_lived_can_be_tried_again():
     assert again.of(found, "a/b.py") == [found[3]]
     assert Choice(3, 1, None).of(found, "a/b.py") == Choice(3, 1, None).of(found, "a/b.py")
     assert len(Choice(3, 1, None).of(found, "a/b.py")) == 3
+
+
+def test_what_was_found_is_read_as_it_was_written():
+    some = Found("core.sliding.over", 3, 5, 40, 7, ("12: a | b  →  a", "13: f(`x`)  →  0"))
+    other = Found("static/ball.js", 2, 2, 2, 0, ())
+    text = written([some, other])
+    assert read(text) == {one.name: one for one in (some, other)}
+    assert "| core.sliding | 3 of 5 | 60 % |" in text
+    assert all(one.why in text for one in ALLOWED)
+
+
+def test_kernels_run_as_python_with_fewer_lanes():
+    file, there, fewer = interpreted.FEWER
+    assert (ROOT / file).read_text().count(f"\n{there}\n") == 1
+    assert fewer != there
+    stand_ins = interpreted.STAND_INS
+    assert stand_ins["_double_of_bits"](stand_ins["_bits_of_double"](-0.3)) == -0.3
+    assert stand_ins["_bits_of_double"](1.0) == 1023 << 52
+
+
+def test_kernels_are_told_from_other_modules():
+    assert is_kernel("core.stepping.lanes")
+    assert is_kernel("core.cycles.return_map")
+    assert not is_kernel("core.cycles.orbit")

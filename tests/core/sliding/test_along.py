@@ -59,7 +59,15 @@ def test_an_equilibrium_of_the_slow_flow_is_found_with_its_stability(place, attr
     assert equilibrium.stable is attracts
 
 
-@pytest.mark.parametrize(("arguments", "says"), [({"axis": 1}, "m = 1"), ({"span": (1.0, 1.0)}, "low < high")])
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({"axis": 1}, "m = 1"),
+        ({"axis": -1}, "m = 1"),
+        ({"span": (1.0, 1.0)}, "low < high"),
+        ({"span": (0.0, np.inf)}, "low < high"),
+    ],
+)
 def test_what_cannot_be_varied_is_said(arguments, says):
     system = c2.ELinear(-1, 0, -1, g=("z",))
     with pytest.raises(ValueError, match=says):
@@ -131,3 +139,88 @@ def test_points_carry_the_flow_of_the_set_they_lie_on():
         np.testing.assert_allclose(branch.flow[:, 0], -branch.e[:, 0] - branch.z, atol=1e-9)
         sets = c2.critical_sets(system, c2.psi.constant(), (branch.z[1],))
         assert min(np.abs(C.p - branch.p[1]).max() for C in sets) < 1e-12
+
+
+def test_two_sets_are_born_in_a_fold_and_one_leaves_through_the_equator():
+    """c = -1/4 -+ sqrt(1/16 + z/2) exist from z = -1/8; the first reaches c = -1 at z = 1. Both within one step."""
+    system = c2.System(U=("c**2 + c/2 - z/2", "-s"), W=("c + 2",))
+    for count in (2, 81):
+        found = slow_portrait(system, c2.psi.constant(), (-1.0, 2.0), count=count)
+        assert [p.kind for p in found.points] == ["fold", "equator"]
+        fold, equator = found.points
+        assert (fold.z, equator.z) == pytest.approx((-0.125, 1.0), abs=1e-9)
+        assert (fold.e, equator.e) == (pytest.approx((-0.25, 0.0), abs=1e-4), pytest.approx((-1.0, 0.0), abs=1e-9))
+        assert (fold.flow, equator.flow) == (pytest.approx((1.75,), abs=1e-4), pytest.approx((1.0,), abs=1e-9))
+        assert fold.stable is equator.stable is None
+        assert [(i.kind, i.low, i.high) for i in found.intervals] == [
+            ("crossing", -1.0, pytest.approx(-0.125, abs=1e-9)),
+            ("sliding", pytest.approx(-0.125, abs=1e-9), pytest.approx(1.0, abs=1e-9)),
+            ("unstable", pytest.approx(1.0, abs=1e-9), 2.0),
+        ]
+        for branch in found.branches:
+            side = -1.0 if branch.kind == "stable node" else 1.0
+            expected = -0.25 + side * np.sqrt(np.maximum(0.0625 + 0.5 * branch.z, 0.0))
+            np.testing.assert_allclose(branch.e[:, 0], expected, atol=1e-7)
+            assert branch.stable == (branch.kind == "stable node")
+
+
+def test_sets_that_meet_and_pass_exchange_their_kinds():
+    """c = 0 and c = z: at z = 0 the node becomes the saddle."""
+    found = slow_portrait(c2.System(U=("c*(c - z)", "-s"), W=("1",)), c2.psi.constant(), (-0.5, 0.5))
+    (point,) = found.points
+    assert point.kind == "fold"
+    assert "exchange" in point.sentence
+    assert point.z == pytest.approx(0.0, abs=1e-7)
+    assert sorted(b.kind for b in found.branches) == ["saddle", "saddle", "stable node", "stable node"]
+
+
+@pytest.mark.parametrize(
+    ("square", "kinds"),
+    [("c**2 - z/2", ["crossing", "sliding"]), ("c**3 - z*c", ["unstable", "sliding"]), ("z*c - c**3", ["sliding"])],
+)
+@pytest.mark.parametrize("high", [0.5, 0.6])
+def test_a_fold_at_a_value_that_is_looked_at_is_one_point(square, kinds, high):
+    """At z = 0, where sets are born, there is one of determinant 0: no interval of its own, and no second point."""
+    found = slow_portrait(c2.System(U=(square, "-s"), W=("c + 1",)), c2.psi.constant(), (-0.5, high))
+    (point,) = found.points
+    assert point.kind == "fold"
+    assert (point.z, *point.e, *point.flow) == pytest.approx((0.0, 0.0, 0.0, 1.0), abs=1e-6)
+    assert [i.kind for i in found.intervals] == kinds
+    assert [found.intervals[0].low, found.intervals[-1].high] == [-0.5, high]
+    assert {b.kind for b in found.branches} <= {"stable node", "saddle"}
+    assert all(b.z[-1] - b.z[0] > 0.4 for b in found.branches)
+
+
+@pytest.mark.parametrize(("trace", "becomes"), [("z", "an unstable focus"), ("-z", "a stable focus")])
+def test_a_hopf_point_at_a_value_that_is_looked_at(trace, becomes):
+    found = slow_portrait(c2.ELinear(trace, 1, trace, B=((2.0, 0.0),), g=(3.0,)), c2.psi.constant(), (-1.0, 1.0))
+    (point,) = found.points
+    assert (point.kind, point.flow, point.e) == ("Hopf", (3.0,), (0.0, 0.0))
+    assert point.z == pytest.approx(0.0, abs=1e-12)
+    assert becomes in point.sentence
+    kinds = ["unstable", "sliding"] if trace == "-z" else ["sliding", "unstable"]
+    assert [i.kind for i in found.intervals] == kinds
+    assert [b.kind for b in found.branches] == [f"{'' if k == 'sliding' else 'un'}stable focus" for k in kinds]
+
+
+def test_any_slow_variable_is_varied_and_the_others_stay():
+    crit = 3.5 * 0.2 * c2.examples.GRAVITY
+    found = slow_portrait(c2.examples.ball_in_pool(), c2.psi.constant(), (-10.0, 10.0), z=(0.6 * crit, 99.0), axis=1)
+    np.testing.assert_allclose([p.z for p in found.points], [-0.8 * crit, 0.0, 0.8 * crit], rtol=1e-12, atol=1e-12)
+    assert found.points[1].flow == pytest.approx((-3.0 / 7.0 * crit, 0.0), abs=1e-12)
+    assert slow_portrait(c2.examples.ball_in_pool(), c2.psi.constant(), (-10.0, 10.0), count=5).points[
+        -1
+    ].z == pytest.approx(crit)
+
+
+def test_sets_that_move_far_between_two_values_are_not_mistaken():
+    """c = z/2 -+ 1/10: within a step of z the lower comes nearer to where the upper was than the upper is."""
+    upper, lower = "(c - z/2 - 1/10)", "(c - z/2 + 1/10)"
+    for k, z in ((0.24, 0.28), (0.39, 0.58)):
+        found = slow_portrait(
+            c2.System(U=(f"{upper}*{lower}", "-s"), W=(f"c - {k}",)), c2.psi.constant(), (-0.9, 0.9), count=7
+        )
+        points = {branch.e[-1, 0]: p.z for branch in found.branches for p in found.points if p.kind == "equilibrium"}
+        assert len(points) == 2
+        places = {round(p.z, 9): round(p.e[0], 9) for p in found.points if p.kind == "equilibrium"}
+        assert places[z] == pytest.approx(k)

@@ -92,19 +92,6 @@ def test_a_set_that_only_touches_the_hull_is_a_result_and_no_error(square):
         assert "touches" in found.sentence or "No convex combination" in found.sentence
 
 
-def test_a_polygon_of_candidates_for_two_slow_variables():
-    """U = (cos 3 theta, sin 3 theta) vanishes in the mean over many measures; W = e then fills a hexagon-like set."""
-    system = c2.System(U=("4*c^3 - 3*c", "3*s - 4*s^3"), W=("c", "s"))
-    found = filippov_sliding(system, (0.0, 0.0))
-    assert not found.unique
-    reach = np.hypot(*found.vertices.T)
-    # theta = 0 with weight 1/2 and the pair pi -+ something: by symmetry under thirds of a turn and reflection
-    turned = found.vertices @ np.array([[-0.5, math.sqrt(0.75)], [-math.sqrt(0.75), -0.5]])
-    nearest = np.abs(turned[:, None] - found.vertices[None]).max(axis=2).min(axis=1)
-    assert nearest.max() < 0.15
-    assert 0.0 < reach.max() <= 1.0
-
-
 @pytest.mark.parametrize("turn", [0.0, 0.4, math.pi / 2, 2.5])
 @pytest.mark.parametrize("slope", [(0.0, 0.0), (5.0, -3.0)])
 def test_extremes_have_all_digits_and_their_directions(turn, slope):
@@ -122,3 +109,47 @@ def test_extremes_have_all_digits_and_their_directions(turn, slope):
         np.testing.assert_allclose(weights, 0.5, atol=1e-12)
         combined = weights @ np.stack([np.cos(directions), np.sin(directions)], axis=-1)
         np.testing.assert_allclose(combined, 0.0, atol=1e-14)
+
+
+def test_the_polygon_of_a_disc_touches_it_in_all_its_normals():
+    """U = e and W = (cos 2 theta, sin 2 theta): opposite pairs give all of the unit circle, so W fills the disc."""
+    found = filippov_sliding(c2.System(U=("c", "s"), W=("c**2 - s**2", "2*c*s")), (0.0, 0.0))
+    angles = np.arctan2(*found.vertices.T[::-1])
+    expected = sorted(
+        [*(-math.pi + 2.0 * math.pi * (np.arange(32) + 0.5) / 32), -math.pi / 2, 0.0, math.pi / 2, math.pi]
+    )
+    np.testing.assert_allclose(np.hypot(*found.vertices.T), 1.0, atol=1e-12)
+    np.testing.assert_allclose(np.sort(angles % (2.0 * math.pi)), np.sort(np.mod(expected, 2.0 * math.pi)), atol=1e-6)
+    steps = np.diff(np.unwrap(np.append(angles, angles[0])))
+    assert (steps > 0.0).all()  # counter-clockwise, once round
+    assert steps.sum() == pytest.approx(2.0 * math.pi)
+    assert not found.unique
+    assert "not unique" in found.sentence
+    for vertex, theta, weight in zip(found.vertices, found.directions, found.weights, strict=True):
+        np.testing.assert_allclose(
+            weight @ np.stack([np.cos(2 * theta), np.sin(2 * theta)], axis=-1), vertex, atol=1e-12
+        )
+        assert ((theta >= 0.0) & (theta < 2.0 * math.pi)).all()
+
+
+def test_three_slow_variables_have_the_extremes_along_their_axes():
+    system = c2.System(U=("c", "s"), W=("c**2 - s**2 + z3", "2*c*s", "c - 1/4"))
+    found = filippov_sliding(system, (0.0, 0.0, 0.5))
+    ends = {tuple(float(v) for v in vertex.round(9) + 0.0) for vertex in found.vertices}
+    assert {(1.5, 0.0, -0.25), (-0.5, 0.0, -0.25), (0.5, 1.0, -0.25), (0.5, -1.0, -0.25)} <= ends
+    np.testing.assert_allclose(found.vertices[:, 2], -0.25, atol=1e-12)
+
+
+def test_a_point_is_one_candidate_in_any_number_of_slow_variables():
+    for m in range(4):
+        system = c2.System(U=("c - 1/5", "s/100"), W=("2*c + s/7",) * m)
+        found = filippov_sliding(system, (0.0,) * m)
+        assert found.unique
+        assert "is unique" in found.sentence
+        np.testing.assert_allclose(found.vertices, np.full((1, m), 0.4), atol=1e-12)
+        (theta,), (weight,) = found.directions, found.weights
+        assert weight.sum() == pytest.approx(1.0, abs=1e-12)
+        np.testing.assert_allclose(weight @ np.stack([np.cos(theta), np.sin(theta)], -1), [0.2, 0.0], atol=1e-12)
+        none = filippov_sliding(c2.System(U=("c - 6/5", "s/100"), W=("2*c",) * m), (0.0,) * m)
+        assert (len(none), none.vertices.shape, none.unique) == (0, (0, m), False)
+        assert "crossing" in none.sentence

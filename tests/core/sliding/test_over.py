@@ -31,3 +31,31 @@ def test_limit_directions_along_z_are_those_at_each_z():
         np.testing.assert_array_equal(found.lambda_theta[at], limits.lambda_theta)
     # Eight while chi^2 < 2, that is |z| < 2^(-1/4), and four beyond.
     assert [int((found.z == z).sum()) for z in np.linspace(-1.0, 1.5, 6)] == [4, 8, 8, 8, 4, 4]
+
+
+def test_the_other_slow_variables_keep_their_values():
+    system = c2.ELinear(
+        -1.0, 0.5, "-1 - z3**2", ("z1/2", "z2/4"), B=((1.0, 0.0), (0.0, 1.0), (2.0, 0.0)), g=(0.0, "z3", 1.0)
+    )
+    found = slow_plane(system, c2.psi.constant(), ((-3.0, 3.0), (-2.0, 2.0)), rest=(0.7,), count=4)
+    net = [(z1, z2, 0.7) for z2 in np.linspace(-2.0, 2.0, 4) for z1 in np.linspace(-3.0, 3.0, 4)]
+    flows = {z: c2.sliding_flow(system, z) for z in net}
+    slides = [z for z, flow in flows.items() if flow is not None]
+    assert 0 < len(slides) < len(net)
+    np.testing.assert_array_equal(found.z, [z[:2] for z in slides])
+    np.testing.assert_allclose(found.flow, [flows[z] for z in slides], atol=1e-14)
+    saddle = slow_plane(
+        c2.ELinear(1.0, 0.0, -1.0, g=("z2", "z1")), c2.psi.constant(), ((0.0, 1.0), (0.0, 1.0)), count=2
+    )
+    assert saddle.stable.tolist() == [False] * 4
+
+
+def test_limit_directions_along_the_second_slow_variable():
+    system = c2.ELinear("z1", "z2", -1.0, (0.5, 0.2), g=(0.0, 0.0))
+    found = directions_along(system, (-1.0, 1.0), (0.3, 99.0), axis=1, count=3)
+    for z2 in (-1.0, 0.0, 1.0):
+        np.testing.assert_array_equal(found.theta[found.z == z2], c2.equator_equilibria(system, (0.3, z2)).theta)
+    (first,) = {tuple(directions_along(system, (-1.0, 1.0), axis=0, count=2).theta[:2])}
+    assert first == tuple(c2.equator_equilibria(system, (-1.0, 0.0)).theta[:2])
+    alone = directions_along(c2.ELinear("z", 0.2, -1.0, g=(0.0,)), (0.0, 1.0))
+    assert len(set(alone.z)) > 50

@@ -1,0 +1,55 @@
+"""Numba's kernels as plain Python, entered by their addresses as ever: a changed kernel costs no compilation then.
+
+The lanes that step side by side are fewer, as nothing is gained by many: that is a constant of one module.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+FEWER = ("codim2_core/stepping/layout.py", "LANES = 32", "LANES = 4")  # file, what stands there, what is read
+
+
+class Entry:
+    """What `numba.cfunc` makes of a function: something with an address."""
+
+    known: dict[int, Callable[..., None]] = {}  # noqa: RUF012
+
+    def __init__(self, function: Callable[..., None]) -> None:
+        self.address = id(function)
+        self.known[self.address] = function
+
+
+def _call_field(address: int, S: Any, source: int, target: int, P: Any) -> None:
+    Entry.known[address](S[source:], S[target:], P)
+
+
+def _call_at(address: int, state: Any, out: Any, parameters: Any) -> None:
+    Entry.known[address](state, out, parameters)
+
+
+def _double_of_bits(bits: int) -> float:
+    return struct.unpack("<d", struct.pack("<q", bits))[0]
+
+
+def _bits_of_double(value: float) -> int:
+    return struct.unpack("<q", struct.pack("<d", value))[0]
+
+
+STAND_INS = {one.__name__: one for one in (_call_field, _call_at, _double_of_bits, _bits_of_double)}
+
+
+def interpret() -> None:
+    """See to it that modules imported from now on compile nothing."""
+    import numba
+    import numba.extending
+
+    np.seterr(all="ignore")  # as in machine code
+    numba.config.DISABLE_JIT = True
+    numba.cfunc = lambda *_signature, **_options: Entry
+    numba.carray = lambda pointer, shape: pointer[: shape[0]]
+    numba.extending.intrinsic = lambda function: STAND_INS[function.__name__]
