@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from codim2_core.motion.agreement import agreement
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
-from codim2_core.motion.regularised import simulate
+from codim2_core.motion.regularised import LARGEST_EPS, SMALLEST_EPS, simulate
 from codim2_core.motion.result import Simulation
 from codim2_core.psi.function import Psi
 
@@ -21,6 +21,7 @@ from ..state.controls import InputError
 from .panel import Panel
 
 RTOL = 1e-7
+EPS = round(math.log10(SMALLEST_EPS)), round(math.log10(LARGEST_EPS))
 #: Systems whose motion is that of a ball, and where its centre is: the integral of z, or z3 and z4.
 BALLS = {"ball_in_pool": "integral", "ball_on_turntable": "position"}
 
@@ -55,6 +56,10 @@ def launch_of(values: Mapping[str, Any], m: int) -> tuple[tuple[float, ...], flo
     text, t_end = values["launch"], values["t_end"]
     if t_end <= 0.0:
         raise InputError("t_end", f"until t: {t_end:g} given; give a positive time.")
+    low, high = EPS
+    if not low <= values["log_eps"] <= high:
+        given = values["log_eps"]
+        raise InputError("log_eps", f"log₁₀ ε: {given:g} given; give a number from {low} to {high}.")
     try:
         start = tuple(float(word) for word in text.replace("−", "-").split(","))
     except ValueError:

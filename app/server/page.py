@@ -24,10 +24,12 @@ from tornado.websocket import WebSocketClosedError
 from ..frame.jobs import serve_with
 from ..frame.turns import Turns
 from ..frame.workers import Workers, processors
-from ..state.controls import ExplorerState, InputError
+from ..state.controls import InputError
+from ..state.links import read_link
 from ..view import warmup
 from ..view.explorer import ExplorerView
 from ..view.markup import page_template
+from .qr import QrCode
 
 #: What each open page shows; a page that is closed is told so at once, long before Bokeh forgets its session.
 _views: WeakKeyDictionary[Document, ExplorerView] = WeakKeyDictionary()
@@ -57,8 +59,8 @@ def session() -> ExplorerView:
 def opened(query: Mapping[str, str]) -> ExplorerView:
     """Return the explorer of an address, whatever it asks for."""
     try:
-        state, errors = ExplorerState.from_query(query)
-        return ExplorerView(state, page=True, errors=tuple(errors))
+        link = read_link(query)
+        return ExplorerView(link.state, page=True, errors=link.errors, look=link.look)
     except Exception:  # a visitor sees the explorer and a sentence; the log has the rest
         logging.getLogger(__name__).exception("an address could not be opened")
         sentence = "This address could not be opened, a fault of the program: here is the first portrait instead."
@@ -197,7 +199,7 @@ def _server(port: int, address: str, allow_origin: Sequence[str], processes: int
         title={"/": TITLE},
         location=False,
         num_procs=processes,
-        extra_patterns=[(r"/health", Health)],
+        extra_patterns=[(r"/health", Health), (r"/qr.svg", QrCode)],
         compress_response=True,
         start=False,
         **options,

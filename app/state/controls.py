@@ -1,7 +1,7 @@
 """Every value a user can set: its symbol, slider range and meaning, declared in one place.
 
-The state holds plain values. It knows how to read them from a URL or a request, how to write them into a
-URL, and how to hand them to the core. It knows nothing of Bokeh, and it computes nothing.
+The state holds plain values. It knows how to check what a person or an address gives for them, and how to hand them
+to the core. It knows nothing of Bokeh, and it computes nothing.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from functools import lru_cache
 from typing import Any
-from urllib.parse import parse_qsl, urlencode
 
 import param
 
@@ -109,39 +108,13 @@ class ExplorerState(param.Parameterized):
         """Return every value by name, in the order of declaration."""
         return {name: getattr(self, name) for name in NAMES}
 
-    def to_query(self) -> str:
-        """Return a URL query that carries every value, changed or not."""
-        return urlencode({name: _to_text(value) for name, value in self.values().items()})
-
     @classmethod
-    def from_query(cls, query: str | Mapping[str, str]) -> tuple[ExplorerState, list[InputError]]:
-        """Read a state from a URL query: a preset's values, then those of the other names over them.
+    def of(cls, values: Mapping[str, Any], first: Mapping[str, Any] | None = None) -> ExplorerState:
+        """Return the state of some clean values: those of their preset, if they name one, and theirs over them.
 
-        Returns
-        -------
-        state, errors
-            A value that cannot be used keeps its default and is reported; so are names that there are not.
+        Without a preset they stand over `first`, by default the first setting.
         """
-        pairs = parse_qsl(query, keep_blank_values=True) if isinstance(query, str) else list(query.items())
-        good: dict[str, Any] = {}
-        errors: list[InputError] = []
-        for name, text in pairs:
-            if name not in NAMES:
-                continue
-            try:
-                good[name] = clean(name, text)
-            except InputError as error:
-                errors.append(InputError(error.control, str(error), text[:LONGEST_TEXT]))
-        unknown = [name[:20] for name, _ in pairs if name not in NAMES and not name.startswith("bokeh-")]
-        if unknown:
-            shown = ", ".join(map(repr, unknown[:3])) + (f" and {len(unknown) - 3} more" if len(unknown) > 3 else "")
-            errors.append(InputError("", f"The address names {shown}, which the explorer does not have: left out."))
-        return cls.of(good), errors
-
-    @classmethod
-    def of(cls, values: Mapping[str, Any]) -> ExplorerState:
-        """Return the state of some clean values: those of their preset, if they name one, and theirs over them."""
-        start = preset_values(values.get("preset"))
+        start = preset_values(values.get("preset")) or deepcopy(dict(first or {}))
         choice = values.get("system", start.get("system", NORMAL))
         if choice != start.get("system", NORMAL):
             start |= opening(choice)
@@ -308,15 +281,6 @@ def _finite(name: str, label: str | None, value: Any) -> float:
     if not math.isfinite(number):
         raise InputError(name, f"{label}: {number} given; give a finite number.")
     return number
-
-
-def _to_text(value: Any) -> str:
-    """Write a value so that `clean` reads the same value back."""
-    if isinstance(value, dict):
-        return json.dumps(value, separators=(",", ":"))
-    if isinstance(value, list):
-        return ",".join(value)
-    return repr(value) if isinstance(value, float) else str(value)
 
 
 def slider_range(low: float, high: float, value: float) -> tuple[float, float, float]:

@@ -7,10 +7,12 @@ import {Hands} from "./hands.js"
 import {letScroll, twoFingers} from "./gestures.js"
 import {Inspector} from "./inspector.js"
 import {readLaunches} from "./launches.js"
+import {writeLink} from "./links.js"
 import {Panels} from "./panels.js"
 import {Picture} from "./picture.js"
 import {Requests} from "./requests.js"
 import {Rest} from "./rest.js"
+import {Share} from "./share.js"
 import {Sheets} from "./sheets.js"
 import {Browsed, Listed, Steps} from "./steps.js"
 import {SystemChooser} from "./system.js"
@@ -156,16 +158,21 @@ function wire({model, view, root, plot}) {
   })
 
   // Undo and redo; the address always carries the whole state.
-  const link = (snapshot) => {
-    const written = (value) => Array.isArray(value) ? value.join(",") : typeof value === "object" ? JSON.stringify(value) : String(value)
-    return `?${new URLSearchParams(Object.entries(snapshot.values).map(([name, value]) => [name, written(value)]))}`
-  }
+  const link = ({values: wanted, seen}) => `?${writeLink(wanted, seen.every((edge) => Math.abs(edge) === config.view) ? null : seen, config)}`
+  if (config.look.seen.length) picture.seen = config.look.seen
   const look = () => structuredClone({values, seen: picture.seen})
   const restore = (snapshot) => {
     systems.keep()
     panels.forget()
     setAll(structuredClone(snapshot.values)); tell()
     picture.seen = snapshot.seen
+  }
+  if (config.page) {
+    const whole = {...config, look: {embed: false, controls: []}}
+    const query = () => writeLink(values, picture.window && picture.seen, whole)
+    const share = new Share(find("dialog.sharing"), query, config.link.version)
+    find(".share").addEventListener("click", () => share.open())
+    find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
   }
   const undo = find(".undo"), redo = find(".redo")
   // the browser goes to another entry later, and says so

@@ -22,6 +22,7 @@ from ..draw.svg import draw
 from ..frame.budget import Budget
 from ..state.chosen import System_
 from ..state.controls import NAMES, ExplorerState, InputError
+from ..state.links import Look
 from .markup import STATIC, config, explorer_html, script
 from .refresh import Frames
 from .warmup import is_ready
@@ -42,6 +43,8 @@ class ExplorerView(JSComponent):
         True in the explorer's own page, which brings the markup; False in a notebook.
     errors : sequence of InputError
         Values of the page's address that could not be used; shown beside their controls.
+    look : Look, optional
+        What of the picture is seen, and what an embedded page shows.
     **params
         Of any Panel component: sizing_mode, width, height, margin, styles, stylesheets, …
     """
@@ -60,8 +63,10 @@ class ExplorerView(JSComponent):
         *,
         page: bool = False,
         errors: tuple[InputError, ...] = (),
+        look: Look | None = None,
         **params: Any,
     ) -> None:
+        self._look = look or Look()
         self.state = ExplorerState() if state is None else state
         self._opened: dict[str, Any] = {}
         self._system = system
@@ -90,7 +95,7 @@ class ExplorerView(JSComponent):
         self._opened = self.frames.values
         header, _ = unpack(first)
         self.refused = tuple(header.get("errors", {}).values())
-        settings = config(self.state, self.frames.locked)
+        settings = config(self.state, self.frames.locked, self._look)
         settings["page"] = page
         settings["refused"] = self.frames.refused
         settings["dark"] = pn.config.theme == "dark"
@@ -98,7 +103,7 @@ class ExplorerView(JSComponent):
             settings["defaults"] = self._first_values
         given = self.frames.given is not None
         words = _words(header, first, self.state.layers)
-        self.page_markup = explorer_html(self.state, words, ("system",) if given else ())
+        self.page_markup = explorer_html(self.state, words, ("system",) if given else (), self._look)
         return {"config": settings, "first": first, "markup": "" if page else self.page_markup}
 
     def get_root(self, doc: Any = None, comm: Any = None, preprocess: bool = True) -> Any:

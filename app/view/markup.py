@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import asdict
 from functools import cache
 from itertools import groupby
 from pathlib import Path
@@ -19,6 +20,7 @@ from ..slow_layers.outcomes import WORDS as OUTCOMES
 from ..state.choices import MAX_TRAJECTORIES, SETTING, SLOW_CONTROLS
 from ..state.chosen import BOXES, titles
 from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values, slider_range
+from ..state.links import BROUGHT, VERSION, Look
 from ..state.portraits import portraits
 from .bundle import bundle
 from .glossary import GLOSSARY, OPENING, PAPER
@@ -37,11 +39,22 @@ def _template(name: str) -> Template:
 
 def stylesheet() -> str:
     """Return all rules; they are scoped to `.codim2`, their colours are the table's, and small screens come last."""
-    own, charts, narrow = (
-        (STATIC / name).read_text(encoding="utf-8") for name in ("explorer.css", "chart/chart.css", "narrow.css")
+    own, sharing, charts, narrow = (
+        (STATIC / name).read_text(encoding="utf-8")
+        for name in ("explorer.css", "sharing.css", "chart/chart.css", "narrow.css")
     )
     panels = (panel.style for panel in PANELS.values())
-    return "\n".join((custom_properties(), own, swatches(), charts, *panels, narrow))
+    return "\n".join((custom_properties(), own, sharing, swatches(), charts, *panels, narrow))
+
+
+def _embedded(look: Look) -> str:
+    """Return the rules of a page in a frame, which shows the controls that its link names."""
+    rules = (STATIC / "embed.css").read_text(encoding="utf-8")
+    for name in look.controls:
+        boxes = ", ".join(f'[data-control="{box}"]' for box in (name, f"slow-{name}", f"parameter-{name}"))
+        chosen = f".codim2.embed.embed.embed:not(.notebook) .controls :is({boxes}):not(.row, .parameters)"
+        rules += f"\n{chosen} {{ display: grid; }}"
+    return rules
 
 
 @cache
@@ -50,7 +63,7 @@ def script() -> str:
     return bundle(*(panel.script for panel in PANELS.values()), STATIC / "explorer.js")
 
 
-def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]:
+def config(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None = None) -> dict[str, Any]:
     """Return what the front end must know: controls, presets (by what is other than the defaults), colours."""
     first = first_values()
     return {
@@ -78,6 +91,8 @@ def config(state: ExplorerState, locked: tuple[str, ...] = ()) -> dict[str, Any]
         "measures": {"discs": DISCS, "ring": RING, "hatches": HATCHES},
         "view": VIEW,
         "locked": list(locked),
+        "link": {"version": VERSION, "brought": list(BROUGHT)},
+        "look": asdict(look or Look()),
     }
 
 
@@ -85,7 +100,12 @@ def _differences(first: Mapping[str, Any], key: str) -> dict[str, Any]:
     return {name: value for name, value in preset_values(key).items() if value != first[name]}
 
 
-def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, locked: tuple[str, ...] = ()) -> str:
+def explorer_html(
+    state: ExplorerState,
+    first: Mapping[str, Any] | None = None,
+    locked: tuple[str, ...] = (),
+    look: Look | None = None,
+) -> str:
     """Return the explorer's markup: controls with their values, legend, and the first picture as SVG.
 
     Parameters
@@ -95,6 +115,8 @@ def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, 
         "svg", and the words of the portrait: "name", "case", "sentence".
     locked : tuple of str
         Controls that the user's own system does not have.
+    look : Look, optional
+        An embedded page has but the picture and the controls that it names.
     """
     values = state.values()
 
@@ -106,7 +128,7 @@ def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, 
 
     groups = groupby(portraits(), key=lambda item: item["group"])
     return _template("explorer.html").render(
-        css=stylesheet(),
+        css=stylesheet() + (_embedded(look) if look and look.embed else ""),
         groups={group: [control(name) for name in names] for group, names in GROUPS.items()},
         exponent=control("n"),
         portraits=[(group, list(items)) for group, items in groups],
@@ -122,6 +144,7 @@ def explorer_html(state: ExplorerState, first: Mapping[str, Any] | None = None, 
         glossary=GLOSSARY,
         most=MAX_TRAJECTORIES,
         first=first or {},
+        look=look or Look(),
     )
 
 

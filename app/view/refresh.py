@@ -32,6 +32,7 @@ from ..frame.scenes import evolved, locked_controls, make_scene, settled
 from ..frame.sides import sides
 from ..frame.turns import FAILURES, Failed
 from ..frame.window import Window, inputs
+from ..lessons.library import lessons
 from ..panels import registry
 from ..panels.time import launch_of
 from ..state.asked import read_request
@@ -322,7 +323,7 @@ def told_once(name: Classification) -> str:
 
 
 def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
-    """Say which parameters were given a value and are none of the system's, and that a motion cannot start."""
+    """Say what was asked for in vain: parameters that are none of the system's, a lesson, a motion's start."""
     said = []
     system = scene.system
     if not isinstance(system, (ELinear, System)):
@@ -333,6 +334,9 @@ def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
         shown = ", ".join(name[:20] for name in unknown[:3])
         there = f"it has {', '.join(own)}" if own else "it has none"
         said.append(f"The system has no parameter {shown} ({there}): left out.")
+    if values["lesson"] and values["lesson"] not in lessons():
+        named, some = values["lesson"][:40], ", ".join(list(lessons())[:3])
+        said.append(f"Lessons: there is no {named!r}; choose one such as {some}.")
     try:
         launch_of(values, system.m)
     except InputError as error:

@@ -5,7 +5,7 @@ import pytest
 PHONES = [(360, 640), (390, 844), (740, 360)]
 
 #: What can be pressed and is lower or narrower than a finger needs.
-SMALL = """() => [...document.querySelectorAll('.codim2 :is(button, select, input:not([type=checkbox]), .layer)')]
+SMALL = """(root) => [...root.querySelectorAll(':is(button, select, input:not([type=checkbox]), .layer)')]
     .filter((it) => it.offsetParent && it.checkVisibility() && !it.closest('details:not([open])'))
     .map((it) => [it.className || it.id || it.textContent, it.offsetWidth, it.offsetHeight])
     .filter(([, width, height]) => height < 39.5 || width < 39.5)"""
@@ -38,7 +38,7 @@ def test_the_portrait_stays_and_each_sheet_is_reached(phone):
             assert box["y"] + box["height"] <= size["height"] + 1
             assert box["x"] + box["width"] <= size["width"] + 1
         assert phone.find(".picture").bounding_box()["width"] >= 0.4 * min(size.values())
-        assert phone.page.evaluate(SMALL) == []
+        assert phone.find(".codim2").evaluate(SMALL) == []
     before = phone.find(".picture").bounding_box()["width"]
     sheet(phone, "inspector")  # pressed once more: the picture alone
     assert not phone.find(".inspector").is_visible()
@@ -52,7 +52,7 @@ def test_every_panel_is_wide_enough_for_its_chart(phone):
         phone.settle()
         panel = phone.find("[role=tabpanel]:visible")
         assert panel.evaluate("(it) => it.scrollWidth <= it.clientWidth + 1"), tab.text_content()
-        assert phone.page.evaluate(SMALL) == [], tab.text_content()
+        assert phone.find(".codim2").evaluate(SMALL) == [], tab.text_content()
 
 
 def swipe(page, start, end, other=None):

@@ -11,8 +11,9 @@ from typing import Any
 from urllib.parse import parse_qsl
 
 from codim2_app.draw.packing import unpack
+from codim2_app.frame.jobs import Jobs
 from codim2_app.panels.registry import PANELS
-from codim2_app.state.controls import ExplorerState
+from codim2_app.state.links import read_link
 from codim2_app.view.markup import config
 from codim2_app.view.refresh import Frames
 
@@ -60,10 +61,10 @@ class AtOnce(Executor):
 def columns(name: str) -> str:
     """Return what the script of a panel needs to draw one of `DRAWN`, as JSON."""
     key = name.partition("-")[0]
-    state, errors = ExplorerState.from_query({**dict(parse_qsl(DRAWN[name])), "panel": key})
-    assert not errors, (name, errors)
-    frames = Frames(state)
-    frames.jobs._executor = AtOnce()
+    link = read_link({**dict(parse_qsl(DRAWN[name])), "panel": key})
+    assert not link.errors, (name, link.errors)
+    frames = Frames(link.state)
+    frames.jobs = Jobs(AtOnce())
     header: dict[str, Any] = {}
     blocks: dict[str, list[int]] = {}
     for _ in range(6):
@@ -74,16 +75,16 @@ def columns(name: str) -> str:
             break
     else:
         raise AssertionError(f"{name}: never comes to rest: {made['late']}")
-    settings = config(state)
+    settings = config(link.state)
     shown = {
         "panel": key,
-        "values": state.values(),
+        "values": link.state.values(),
         "tools": {it: settings[it] for it in ("symbols", "ranges", "docs")} | {"settings": PANELS[key].settings},
         "slow": [one["symbol"] for one in header["system"]["slow"]],
         "header": {it: value for it, value in header.items() if it not in LEFT_OUT},
         "blocks": blocks,
     }
-    for other in {"sphere", "stack", "filippov"} - {state.solid}:  # what is not looked at
+    for other in {"sphere", "stack", "filippov"} - {link.state.solid}:  # what is not looked at
         shown["header"].pop(other, None)
     shown["header"]["thumbnails"] = header.get("thumbnails", [])[:2]
     return _lines(_plain(shown)) + "\n"

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from codim2_app.draw.overlay import elements
 from codim2_app.draw.svg import draw, small
-from codim2_app.state.controls import ExplorerState
+from codim2_app.state.links import read_link
 from codim2_app.view.refresh import Frames
 
 from codim2_core.figures.presets import presets
@@ -42,8 +42,8 @@ def thumbnail(key: str) -> str:
 
 def portrait(key: str) -> str:
     """Return the first picture of a page that opens with a preset; few starting points keep it readable."""
-    state, _ = ExplorerState.from_query({"preset": key, "trajectories": "12", "layers": ",".join(LAYERS)})
-    return draw(Frames(state).answer({"all": True}), LAYERS).replace("><", ">\n<") + "\n"
+    link = read_link({"preset": key, "trajectories": "12", "layers": ",".join(LAYERS)})
+    return draw(Frames(link.state).answer({"all": True}), LAYERS).replace("><", ">\n<") + "\n"
 
 
 def overlay(key: str) -> str:

@@ -62,7 +62,7 @@ const HANDS = {
   ],
   numbers: [["values", {z: -7.3}], ["frame", {slow_flow: [-0.4, 2]}], ["frame", {slow_flow: [0]}], ["frame", {slow_flow: []}], ["frame", {unable: {outcomes: "Not here."}}], ["late", ["outcomes"]]],
   orbits: [[".hide", "click"], [".hide@2", "click"], [".remove@1", "click"], [".orbit-name", "change"], [".clear", "click"]],
-  planes: [["frame", {critical: {label: ["C"], kind: ["saddle"], trace: [0.4], determinant: [-1.5]}}], ["frame", {critical: {label: ["C"], kind: ["stable focus"], trace: [-0.5], determinant: [2]}}], ["frame", {critical: {label: [], kind: [], trace: [], determinant: []}}], ["frame", {system: {}, critical: {label: ["C"], kind: ["unstable node"], trace: [3], determinant: [2]}}]],
+  planes: [["frame", {critical: {label: ["C"], kind: ["saddle"], x2: [[0.5, -0.25]], trace: [0.4], determinant: [-1.5]}}], ["frame", {critical: {label: ["C"], kind: ["stable focus"], x2: [[0.5, -0.25]], trace: [-0.5], determinant: [2]}}], ["frame", {critical: {label: [], kind: [], x2: [], trace: [], determinant: []}}], ["frame", {system: {}, critical: {label: ["C"], kind: ["unstable node"], x2: [[0.5, -0.25]], trace: [3], determinant: [2]}}]],
   psi: [["values", {log_eps: -1.2}], [".psi-curves", "pointermove", {clientX: 100, clientY: 60}]],
   solid: [
     [".solid", "keydown", {key: "ArrowRight"}], [20], [".solid", "keydown", {key: "ArrowUp"}], [20], [".solid", "pointerdown", {clientX: 10, clientY: 20}], [".solid", "pointermove", {clientX: 40, clientY: -12}], [".solid", "pointerup"],

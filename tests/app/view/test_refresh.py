@@ -5,6 +5,7 @@ from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.packing import unpack
 from codim2_app.frame.scenes import evolved, make_scene, settled
 from codim2_app.state.controls import ExplorerState, first_values, preset_values
+from codim2_app.state.links import read_link
 from codim2_app.state.portraits import portraits
 from codim2_app.view.refresh import Frames
 
@@ -276,9 +277,9 @@ REFUSED = [
 
 @pytest.mark.parametrize(("query", "control", "name"), REFUSED, ids=[row[0][:30] for row in REFUSED])
 def test_a_link_that_cannot_be_drawn_draws_the_rest_and_says_what_not(query, control, name):
-    state, errors = ExplorerState.from_query(query)
-    given = next((e.given for e in errors), state.values()[name])
-    frames = Frames(state, errors=errors)
+    link = read_link(query)
+    given = next((e.given for e in link.errors), link.state.values()[name])
+    frames = Frames(link.state, errors=link.errors)
     header, _ = unpack(frames.answer({"all": True}))
     assert list(header["errors"]) == [control]
     assert len(header["errors"][control]) < 600
@@ -308,19 +309,25 @@ def test_a_link_that_cannot_be_drawn_draws_the_rest_and_says_what_not(query, con
         ('system=own&parameters={"gone":3}', "gone"),
         ('parameters={"mu":3}', "it has none"),
         ("launch=1,2", "Start"),
+        ("log_eps=100", "log₁₀ ε"),
+        ("lesson=nope", "nope"),
+        ("seen=1,1,1,1", "seen"),
+        ("controls=<b>", "controls"),
+        ("v=99", "version"),
+        ("s=notthewhole", "copy the whole link"),
         ("system=nothing", "nothing"),
         ("solid=" + "x" * 5000, "xxx"),
     ],
 )
 def test_what_a_link_asks_for_in_vain_is_said_until_something_is_set(query, says):
-    state, errors = ExplorerState.from_query(query)
-    frames = Frames(state, errors=errors)
+    link = read_link(query)
+    frames = Frames(link.state, errors=link.errors)
     header, _ = unpack(frames.answer({"all": True}))
     assert says in header["errors"][""]
     assert len(header["errors"][""]) < 400
     header, _ = unpack(frames.answer({"rest": True}))
     assert "" in header["errors"]
-    header, _ = unpack(frames.answer({"set": {"a": -1.0, "launch": "1, 1, 0"}}))
+    header, _ = unpack(frames.answer({"set": {"a": -1.0, "launch": "1, 1, 0", "log_eps": -2.0}}))
     assert header["errors"] == {}
 
 
@@ -351,8 +358,8 @@ def test_what_is_refused_may_become_right_by_another_control(frames):
 
 def test_a_refused_text_does_not_keep_the_picture_from_coming_once_all_is_compiled():
     ready = [False]
-    state, errors = ExplorerState.from_query('system=own&texts={"W":"foo %2B"}')
-    frames = Frames(state, ready=lambda _psi, _system: ready[0], errors=errors)
+    link = read_link('system=own&texts={"W":"foo %2B"}')
+    frames = Frames(link.state, ready=lambda _psi, _system: ready[0], errors=link.errors)
     header, _ = unpack(frames.answer({"all": True}))
     assert header["ready"] is False
     header, _ = unpack(frames.answer({"id": 1}))

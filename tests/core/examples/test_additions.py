@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from codim2_app.state.chosen import describe, titles
-from codim2_app.state.controls import ExplorerState, clean, preset_values
+from codim2_app.state.controls import clean, preset_values
+from codim2_app.state.links import read_link
 
 import codim2_core as c2
 from codim2_core import examples
@@ -35,8 +36,9 @@ def test_an_added_example_in_the_explorers_state(tmp_path):
     with added_example(tmp_path) as example:
         assert titles()["film_on_disc"] == "Film on a disc"
         assert clean("system", "film_on_disc") == "film_on_disc"
-        state, errors = ExplorerState.from_query("system=film_on_disc")
-        assert not errors
+        link = read_link("system=film_on_disc")
+        assert not link.errors
+        state = link.state
         assert (state.system, state.z, state.across, state.up) == ("film_on_disc", 0.4, "z", "own:mu")
         assert describe("film_on_disc", example.make())
 
@@ -47,8 +49,9 @@ def test_an_added_preset_and_family_in_the_explorers_state(tmp_path):
         assert c2.presets["p"].group == "Your own"
         assert c2.classify(PRESET.system, PRESET.psi).name == "CM0"
         assert preset_values("added-cm0")["psi"] == "hill"
-        state, errors = ExplorerState.from_query("preset=p")
-        assert not errors
+        link = read_link("preset=p")
+        assert not link.errors
+        state = link.state
         assert (state.psi, state.n, state.f1) == ("power", 2.0, 0.5)
     assert "p" not in presets
 

@@ -1,0 +1,200 @@
+"""Links: an address carries what is other than in its portrait or in the first setting, and a version.
+
+The version says what the first setting was when the link was made, so that a link shows in later releases what it
+showed then. The browser writes links by the same rule: static/links.js.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import zlib
+from base64 import urlsafe_b64decode, urlsafe_b64encode
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any
+from urllib.parse import parse_qsl, urlencode
+
+from .chosen import BOXES, NORMAL
+from .controls import LONGEST_TEXT, NAMES, ExplorerState, InputError, clean, opening, preset_values
+
+VERSION = 1
+#: What a link of each version leaves out. A release that opens otherwise gets a new version beside these.
+FIRST: Mapping[int, Mapping[str, Any]] = MappingProxyType(
+    {
+        1: {
+            "a": -2.0, "b": 0.0, "d": -1.0, "f1": -0.5, "f2": 0.0, "system": "normal", "texts": {}, "parameters": {},
+            "z": 0.0, "z2": 0.0, "z3": 0.0, "z4": 0.0, "k1": 0.5, "k2": 0.0, "B1": 1.0, "B2": 0.0, "g0": 0.0,
+            "psi": "constant", "n": 2.0, "psi_text": "1/(1+s)**2", "trajectories": 64,
+            "layers": [
+                "outside", "inside", "continuations", "cycles", "rho", "theta", "lines", "launched", "equator",
+                "critical",
+            ],
+            "preset": "", "panel": "atlas", "along": "f1", "zoom": 0, "across": "f1", "cycle_curves": "hide",
+            "atlas_zoom": 0, "up": "f2", "solid": "sphere", "drift": "z", "log_eps": -2.0, "launch": "0.6, 0.8, 0",
+            "orbits": "", "lesson": "", "quiz": "", "t_end": 8.0,
+        },
+    }
+)  # fmt: skip
+#: What another choice of system brings: always written where the system is not that of the portrait.
+BROUGHT = tuple(opening(NORMAL))
+
+LONGEST_SQUEEZED, LONGEST_QUERY = 20_000, 60_000  # characters
+MOST_CONTROLS = 12
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,39}")
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """How a page looks at its state: the part of the picture that is seen, and what an embedded page shows.
+
+    Attributes
+    ----------
+    seen : tuple of float
+        (left, right, bottom, top); () is the whole picture.
+    embed : bool
+        Only the picture and the chosen controls, for a frame in another page.
+    controls : tuple of str
+        Names of controls, slow variables and parameters that an embedded page shows.
+    """
+
+    seen: tuple[float, ...] = ()
+    embed: bool = False
+    controls: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """What an address asks for; a value that cannot be used keeps what it was, and is one of the errors."""
+
+    state: ExplorerState
+    errors: tuple[InputError, ...] = ()
+    look: Look = field(default_factory=Look)
+
+
+def read_link(query: str | Mapping[str, str]) -> Link:
+    """Read the query of an address: a portrait's values, then those of the other names over them.
+
+    Parameters
+    ----------
+    query : str or mapping
+        ``v`` is the version; ``s`` holds a whole query squeezed (deflate, base64), over which the others stand;
+        ``seen``, ``embed`` and ``controls`` are of the page; all else are values of controls.
+
+    Returns
+    -------
+    Link
+        Names that there are not, and a link that is cut short or of a later release, are told among the errors.
+    """
+    given = dict(parse_qsl(query, keep_blank_values=True) if isinstance(query, str) else query.items())
+    errors: list[InputError] = []
+    if "s" in given:
+        try:
+            given = {**dict(parse_qsl(unsqueezed(given.pop("s")), keep_blank_values=True)), **given}
+        except ValueError as error:
+            errors.append(InputError("", str(error)))
+    first = _first(given.pop("v", ""), errors)
+    look = _look(given, errors)
+    good: dict[str, Any] = {}
+    for name, text in given.items():
+        if name in NAMES:
+            try:
+                good[name] = clean(name, text)
+            except InputError as error:
+                errors.append(InputError(error.control, str(error), text[:LONGEST_TEXT]))
+    unknown = [name[:20] for name in given if name not in NAMES and not name.startswith("bokeh-")]
+    if unknown:
+        shown = ", ".join(map(repr, unknown[:3])) + (f" and {len(unknown) - 3} more" if len(unknown) > 3 else "")
+        errors.append(InputError("", f"The address names {shown}, which the explorer does not have: left out."))
+    return Link(ExplorerState.of(good, first), tuple(errors), look)
+
+
+def write_link(values: Mapping[str, Any], look: Look | None = None) -> str:
+    """Return the query of an address that shows these values (all of them, as `ExplorerState.values`)."""
+    base = {**FIRST[VERSION], **preset_values(values["preset"]), "preset": ""}
+    brought = BROUGHT if values["system"] != base["system"] else ()
+    wanted = {name: value for name, value in values.items() if value != base[name] or name in brought}
+    if values["system"] in BOXES:  # texts that one sees are part of a link, whatever a later release begins with
+        wanted["texts"] = {**{box.name: box.text for box in BOXES[values["system"]]}, **values["texts"]}
+    query = {"v": str(VERSION), **{name: _to_text(value) for name, value in wanted.items()}}
+    if look is not None:
+        if look.seen:
+            query["seen"] = ",".join(f"{v:.6g}" for v in look.seen)
+        if look.embed:
+            query["embed"] = "1"
+        if look.controls:
+            query["controls"] = ",".join(look.controls)
+    return urlencode(query)
+
+
+def squeezed(query: str) -> str:
+    """Return a query as one that carries it compressed, where that is shorter."""
+    packer = zlib.compressobj(9, zlib.DEFLATED, -15)
+    packed = packer.compress(query.encode()) + packer.flush()
+    short = f"v={VERSION}&s={urlsafe_b64encode(packed).decode().rstrip('=')}"
+    return min(query, short, key=len)
+
+
+def unsqueezed(text: str) -> str:
+    """Return the query that a squeezed one carries.
+
+    Raises
+    ------
+    ValueError
+        It is cut short, changed, or too long.
+    """
+    sentence = "The address is cut short or was changed on its way: copy the whole link."
+    if len(text) > LONGEST_SQUEEZED:
+        raise ValueError(f"The address is too long: its s may have {LONGEST_SQUEEZED} characters.")
+    try:
+        packed = urlsafe_b64decode(text + "=" * (-len(text) % 4))
+        reader = zlib.decompressobj(-15)
+        query = reader.decompress(packed, LONGEST_QUERY)
+        if not reader.eof:
+            raise ValueError(sentence)
+        return query.decode()
+    except (ValueError, zlib.error) as error:
+        raise ValueError(sentence) from error
+
+
+def _first(version: str, errors: list[InputError]) -> Mapping[str, Any]:
+    """Return what a link of this version leaves out; one without a version, typed or old, leaves out nothing."""
+    if version == "":
+        return {}
+    if version.isdecimal() and int(version[:9]) in FIRST:
+        return FIRST[int(version[:9])]
+    errors.append(InputError("", f"The address is of version {version[:9]!r}; this release reads up to {VERSION}."))
+    return FIRST[VERSION]
+
+
+def _look(given: dict[str, str], errors: list[InputError]) -> Look:
+    """Take what is of the page out of the given texts."""
+    seen, embed, controls = given.pop("seen", ""), given.pop("embed", ""), given.pop("controls", "")
+    names = [name for name in controls.split(",") if name]
+    good = [name for name in names if _NAME.fullmatch(name)][:MOST_CONTROLS]
+    if len(good) < len(names):
+        errors.append(InputError("", f"controls: give at most {MOST_CONTROLS} names of controls, such as f1,n."))
+    return Look(_rectangle(seen, errors), embed not in ("", "0"), tuple(good))
+
+
+def _rectangle(text: str, errors: list[InputError]) -> tuple[float, ...]:
+    if not text:
+        return ()
+    try:
+        left, right, bottom, top = (float(word) for word in text[:200].split(","))
+    except ValueError:
+        left = right = bottom = top = 0.0
+    if all(abs(v) <= 100 for v in (left, right, bottom, top)) and right - left > 1e-9 and top - bottom > 1e-9:
+        return left, right, bottom, top
+    errors.append(InputError("", f"seen: {text[:40]!r} given; give left,right,bottom,top within 100 of the centre."))
+    return ()
+
+
+def _to_text(value: Any) -> str:
+    """Write a value so that `clean` reads the same value back."""
+    if isinstance(value, Mapping):
+        return json.dumps(value, separators=(",", ":"))
+    if isinstance(value, Iterable) and not isinstance(value, str):
+        return ",".join(value)
+    return repr(value) if isinstance(value, float) else str(value)

@@ -1,0 +1,66 @@
+// The dialog "Share": the link of the present view, its QR code for the phones in the room, and a frame for another page.
+
+import {squeezed} from "./links.js"
+import {escape} from "./words.js"
+
+const MARKUP = `
+  <form method="dialog"><button class="close" title="Close" aria-label="Close">✕</button></form>
+  <h2>This view as a link</h2>
+  <p class="note">It carries every value, what was typed, launched orbits, the lesson and the zoom.</p>
+  <div class="row"><input type="text" class="address" readonly aria-label="Link of this view"><button type="button" data-copies="address">Copy</button></div>
+  <img class="qr" alt="QR code of the link" hidden>
+  <h2>In another page</h2>
+  <p class="note">A frame with the picture and the controls that you name: <label>controls <input type="text" class="names" value="f1,f2" spellcheck="false" autocomplete="off"></label></p>
+  <div class="row"><input type="text" class="html" readonly aria-label="HTML of the frame"><button type="button" data-copies="html">Copy</button></div>
+  <p class="note told" role="status"></p>`
+
+export class Share {
+  /**
+   * @param {HTMLDialogElement} dialog
+   * @param {() => string} query of the present view
+   * @param {number} version of links
+   */
+  constructor(dialog, query, version) {
+    this.dialog = dialog
+    this.query = query
+    this.version = version
+  }
+  find(name) { return this.dialog.querySelector(name) }
+
+  async open() {
+    if (!this.dialog.firstElementChild) this.make()
+    this.find(".told").textContent = ""
+    const query = this.query()
+    const short = await squeezed(query, this.version)
+    const page = location.origin + location.pathname
+    const address = `${page}?${short}`
+    this.find(".address").value = address
+    const code = this.find(".qr")
+    code.src = `${new URL("qr.svg", location.href)}?${new URLSearchParams({text: address})}`
+    code.hidden = false
+    code.onerror = () => { code.hidden = true }
+    this.frame = () => {
+      const names = this.find(".names").value.replace(/[^\w,]/g, "")
+      const inner = `${page}?${short}&embed=1${names ? `&controls=${encodeURIComponent(names)}` : ""}`
+      this.find(".html").value = `<iframe src="${escape(inner)}" width="640" height="620" style="border:0" title="codim2 explorer"></iframe>`
+    }
+    this.frame()
+    if (!this.dialog.open) this.dialog.showModal()
+    this.find(".address").select()
+  }
+
+  make() {
+    this.dialog.innerHTML = MARKUP
+    this.find(".names").addEventListener("input", () => this.frame())
+    this.dialog.addEventListener("click", (event) => { if (event.target === this.dialog) this.dialog.close() })
+    for (const button of /** @type {NodeListOf<HTMLElement>} */ (this.dialog.querySelectorAll("[data-copies]"))) {
+      button.addEventListener("click", async () => {
+        const box = this.find(`.${button.dataset.copies}`)
+        box.select()
+        // the clipboard is there on https and localhost only; the older way works on a lecturer's plain LAN address
+        try { await navigator.clipboard.writeText(box.value) } catch { document.execCommand("copy") }
+        this.find(".told").textContent = "Copied."
+      })
+    }
+  }
+}
