@@ -163,14 +163,16 @@ def main(arguments: list[str]) -> int:
             rooms.setdefault((room(name), is_kernel(name)), []).append(name)
     tasks = [(*key, names, choice) for key, names in rooms.items()] + tasks
     preload()
+    counts: list[Count] = []
     with multiprocessing.get_context("fork").Pool(options.processes, maxtasksperchild=1) as pool:
-        counts = [count for part in pool.imap_unordered(attempt, tasks, chunksize=1) for count in part]
+        for part in pool.imap_unordered(attempt, tasks, chunksize=1):
+            counts += part
+            if options.record:
+                record.write(record.Found(c.name, c.killed, c.tried, c.all, options.seed, tuple(c.alive)) for c in part)
     print("\nBy module:")
     for count in sorted(counts, key=lambda count: count.name):
         print(count)
     print(Count("all", sum(c.killed for c in counts), sum(c.tried for c in counts), sum(c.all for c in counts)))
-    if options.record:
-        record.write([record.Found(c.name, c.killed, c.tried, c.all, options.seed, tuple(c.alive)) for c in counts])
     return 1 if any(count.alive for count in counts) else 0
 
 

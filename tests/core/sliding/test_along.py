@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import codim2_core as c2
@@ -49,6 +49,7 @@ def test_case_iii_changes_from_unstable_to_stable_where_the_trace_vanishes():
         assert interval.high == pytest.approx(after.low, abs=1e-12)
 
 
+@settings(max_examples=25)  # each is a whole portrait
 @given(st.floats(-0.9, 0.9), st.booleans())
 def test_an_equilibrium_of_the_slow_flow_is_found_with_its_stability(place, attracts):
     sign = -1.0 if attracts else 1.0

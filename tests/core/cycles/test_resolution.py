@@ -1,0 +1,287 @@
+"""Samples of a displacement, on sections made up so that every answer is known."""
+
+import math
+
+import numpy as np
+import pytest
+
+from codim2_core.cycles import first_turns, search
+from codim2_core.cycles.orbit import Orbit, gauss
+from codim2_core.cycles.resolution import Samples, _doubtful, cubics, differences, unresolved, zeros
+
+UNEVEN = np.array([0.0, 0.3, 0.5, 1.1, 1.2, 2.0, 2.3, 3.1])
+
+
+class Line:
+    """A section with a displacement that is a function of xi; q is 2 xi."""
+
+    def __init__(self, displacement):
+        self.given, self.asked = displacement, []
+
+    def states(self, xi):
+        return np.zeros((len(xi), 3)), 2.0 * xi
+
+    def displacement(self, xi, rtol=1e-9, backward=False):
+        self.asked.append((len(xi), rtol, backward))
+        with np.errstate(all="ignore"):
+            return self.given(np.asarray(xi, float)) * (-1.0 if backward else 1.0)
+
+
+def test_fourth_differences_are_the_leading_coefficient():
+    for degree, expected in ((3, 0.0), (4, 2.5)):
+        np.testing.assert_allclose(differences(UNEVEN, 2.5 * UNEVEN**degree - UNEVEN**2), expected, atol=1e-9)
+    assert len(differences(UNEVEN, UNEVEN)) == len(UNEVEN) - 4
+
+
+def test_a_cubic_is_itself_and_of_a_quartic_the_remainder_is_known():
+    places = UNEVEN[:-1, None] + np.diff(UNEVEN)[:, None] * np.linspace(0.0, 1.0, 17)
+    for f, far in ((lambda x: x**3 - 2.0 * x + 1.0, False), (lambda x: 3.0 * x**4 - x, True)):
+        values, error = cubics(UNEVEN, f(UNEVEN))
+        assert values.shape == error.shape == places.shape
+        np.testing.assert_allclose(np.abs(f(places) - values), error, atol=1e-11)
+        assert (error.max() > 0.1) == far
+    # in the middle of the samples the four about an interval are used: the product of distances is smaller there
+    assert error[3].max() < error[0].max()
+
+
+def test_the_largest_of_the_differences_near_an_interval_counts():
+    """Only the last sample is off: the error is large where it enters, and nothing far from it."""
+    q = np.arange(12.0)
+    shift = np.zeros(12)
+    shift[-1] = 1.0
+    _, error = cubics(q, shift)
+    fourth = 1.0 / 24.0
+    assert (error.max(axis=1) > 0.0).tolist() == [False] * 7 + [True] * 4
+    assert error[9].max() == pytest.approx(
+        fourth * max(abs(x * (x - 1) * (x - 2) * (x - 3)) for x in 1 + np.arange(17) / 16)
+    )
+
+
+@pytest.mark.parametrize(
+    ("values", "doubtful"),
+    [
+        ([1.0, 1.0, 1.0], False),
+        ([1.0, 0.05, 1.0], True),
+        ([1.0, -0.5, 1.0], True),
+        ([1.0, 0.2, -1.0], False),
+        ([1.0, -0.5, 0.05, -1.0], True),
+        ([1.0, 0.05, 0.05, -1.0], True),
+        ([1.0, 0.5, 0.05, -1.0], False),
+    ],
+)
+def test_other_zeros_than_the_signs_ask_for(values, doubtful):
+    row = np.array([values])
+    for sign in (1.0, -1.0):
+        assert _doubtful(sign * row, np.full_like(row, 0.1)).tolist() == [doubtful]
+
+
+def test_what_samples_do_and_do_not_show():
+    q = np.linspace(-3.0, 3.0, 26)
+    none = np.zeros(26)
+    assert unresolved(q, np.sin(q), none) == []
+    assert unresolved(q, np.sin(q), none + 0.3) != []  # zero cannot be told apart any more
+    assert unresolved(q, q**2 + 1.0, none) == []
+    hidden = unresolved(
+        q, (q - 0.12) ** 2 - 1e-4, none
+    )  # two zeros between two samples, on none of which it is negative
+    assert 12 in hidden
+    assert set(hidden) <= {11, 12, 13}
+    assert unresolved(q[:4], np.ones(4), none[:4]) == [0, 1, 2]  # too few to know
+    gap = np.where(np.abs(q) < 0.3, np.inf, np.where(q > 0, 1.0, -1.0))
+    assert unresolved(q, gap, none) == []
+    few = np.where((q > -0.3) & (q < 0.4), 1.0, np.nan)
+    assert unresolved(q, few, none) == [12, 13]
+
+
+def test_a_dip_of_few_samples_is_looked_into_on_both_sides():
+    q = np.arange(12.0)
+    shift = np.ones(12)
+    shift[6] = 0.4
+    found = unresolved(q, shift, np.zeros(12))
+    assert {5, 6} <= set(found)
+    shift[6] = 0.999
+    assert unresolved(q, shift, np.zeros(12)) == []
+
+
+@pytest.mark.parametrize(
+    ("shift", "expected"),
+    [
+        ([1, 2, -1, -2], ([(1, 2)], [], False)),
+        ([-1, 1, -np.inf, np.inf], ([(0, 1), (1, 2), (2, 3)], [], False)),
+        ([1, 0, -1], ([(0, 2)], [], False)),
+        ([1, 0, 1], ([], [1], False)),
+        ([1, 0.05, 0.01, 0.08, 2], ([], [2], True)),
+        ([1, 0, np.nan, 1], ([], [], False)),
+        ([-1, -2, -3], ([], [], False)),
+    ],
+)
+def test_signs_folds_and_bands(shift, expected):
+    shift = np.array(shift, float)
+    noise = np.full(len(shift), 0.1)
+    near = 0.001 * np.arange(len(shift))
+    changes, touching, band = zeros(near, shift, noise)
+    if expected[2]:
+        assert (changes, touching, band) == ([], expected[1], False)
+        assert zeros(np.arange(len(shift)), shift, noise) == ([], [], True)
+    else:
+        assert (changes, touching, band) == expected
+
+
+def test_samples_stay_in_order_and_know_which_are_fine():
+    section = Line(lambda xi: xi**2)
+    samples = Samples(section, np.array([-1.0, 0.0, 1.0, 2.0]))
+    coarse = samples.noise
+    np.testing.assert_allclose(coarse, 1e-8 * (1.0 + np.exp(-samples.q)))
+    samples.refine(np.array([1.5, -0.5]), np.array([False, True, False, False]))
+    assert samples.xi.tolist() == [-1.0, -0.5, 0.0, 1.0, 1.5, 2.0]
+    assert samples.q.tolist() == (2.0 * samples.xi).tolist()
+    assert samples.shift.tolist() == (samples.xi**2).tolist()
+    assert samples.fine.tolist() == [False, True, True, False, True, False]
+    assert [count for count, *_ in section.asked] == [4, 3]
+    assert section.asked[0][1] > section.asked[1][1]
+    np.testing.assert_allclose(samples.noise[[1, 2]], 1e-11 * (1.0 + np.exp(-samples.q[[1, 2]])))
+    samples.refine(np.array([0.1]), np.ones(6, bool))
+    assert section.asked[-1][0] == 4  # what is fine already is not asked for again
+
+
+@pytest.mark.parametrize("apart", [1e-1, 1e-2, 1e-3])
+@pytest.mark.parametrize("backward", [False, True])
+def test_two_zeros_close_together_are_separated(apart, backward):
+    at = (0.3123, 0.3123 + apart, -1.1)
+    f = lambda xi: (xi - at[0]) * (xi - at[1]) * (xi - at[2])  # noqa: E731
+    samples = Samples(Line(f), np.linspace(-3.0, 3.0, 24), backward)
+    assert samples.resolve(lambda xi, shift: [])
+    changes, touching, band = zeros(samples.q, samples.shift, samples.noise)
+    assert (len(changes), touching, band) == (3, [], False)
+    for (i, j), root in zip(changes, sorted(at), strict=True):
+        assert samples.xi[i] <= root <= samples.xi[j]
+    assert len(samples.xi) < 200
+    assert np.sign(samples.shift[0]) == (1.0 if backward else -1.0)
+
+
+def test_a_fold_is_touched_and_a_map_too_wild_is_said_to_be():
+    samples = Samples(Line(lambda xi: (xi - 0.4) ** 2), np.linspace(-3.0, 3.0, 24))
+    assert samples.resolve(lambda xi, shift: [])
+    changes, touching, _ = zeros(samples.q, samples.shift, samples.noise)
+    assert changes == []
+    assert [samples.xi[i] for i in touching] == [pytest.approx(0.4, abs=1e-4)]
+    assert np.diff(samples.xi).min() > 2e-6 / 33  # narrower than `NARROWEST` nothing is divided
+    wild = Samples(Line(lambda xi: np.sin(3e4 * xi) + 0.5), np.linspace(-3.0, 3.0, 24))
+    assert not wild.resolve(lambda xi, shift: [])
+    assert 900 < len(wild.xi) <= 4 * 900
+    lost = Samples(Line(lambda xi: np.where(xi < 1.0, np.nan, 1.0)), np.linspace(-3.0, 3.0, 24))
+    assert not lost.resolve(lambda xi, shift: [0])
+    assert len(lost.xi) == 24
+    looked = Samples(Line(lambda xi: 1.0 + 0.0 * xi), np.linspace(-3.0, 3.0, 24))
+    assert looked.resolve(lambda xi, shift: [i for i in (3, 9) if xi[i + 1] - xi[i] > 0.1])
+    assert len(looked.xi) == 24 + 2 * 16
+
+
+def test_a_jump_is_told_from_a_steep_slope_down_to_rounding():
+    samples = Samples(Line(lambda xi: np.where(xi < 0.4321, -1.0, 1.0) + 0.0 * xi), np.linspace(-3.0, 3.0, 24))
+    assert samples.resolve(lambda xi, shift: [], 1e-5)
+    ((i, j),), touching, _ = zeros(samples.q, samples.shift, samples.noise)
+    assert touching == []
+    assert 0.0 < samples.xi[j] - samples.xi[i] < 1e-4
+
+
+def test_inverse_interpolation_finds_zeros_of_inverse_polynomials():
+    """xi is a polynomial of degree 3 of the displacement: four samples are enough."""
+    y = np.array([-1.0, -0.2, 0.5, 2.0])
+    assert search._root(0.7 + y - 0.3 * y**2 + 0.1 * y**3, y) == pytest.approx(0.7, abs=1e-15)
+
+
+@pytest.mark.parametrize("backward", [False, True])
+@pytest.mark.parametrize(
+    "f",
+    [
+        lambda xi: np.exp(xi) - 1.5,
+        lambda xi: np.tanh(40.0 * (np.exp(xi) - 1.5)),
+        lambda xi: np.where(xi < 0.2, -np.inf, np.exp(xi) - 1.5),
+    ],
+)
+def test_a_fixed_point_is_polished_to_all_digits(f, backward):
+    section = Line(f)
+    xi = np.linspace(-1.0, 1.0, 8)
+    shift = section.displacement(xi, backward=backward)
+    i = int(np.flatnonzero(np.sign(shift[1:]) != np.sign(shift[:-1]))[0])
+    assert search._polished(section, xi, shift, i, i + 1, backward) == pytest.approx(math.log(1.5), abs=1e-9)
+
+
+def test_between_and_settled_and_where_a_displacement_ends():
+    assert search._between(1.0, 2.0, 3).tolist() == [1.25, 1.5, 1.75]
+    levels = np.array([1.0, 1.0, 1.05, 1.06, 1.07, np.inf])
+    assert search._settled(levels, 4, -1)
+    assert not search._settled(levels - 1.0, 4, -1)
+    assert not search._settled(levels, 2, -1)  # too few before it
+    assert search._settled(levels[::-1], 1, 1)
+    xi = np.linspace(0.0, 5.0, 6)
+    inf, nan = np.inf, np.nan
+    for shift, expected in (
+        ([1, 1, 1, inf, inf, inf], [2]),
+        ([-1, -1, -1, -inf, -inf, -inf], []),  # onto C continuously: nothing is hidden
+        ([1, 1, 1, -inf, -inf, -inf], [2]),
+        ([inf, inf, -1, -1, -1, -1], [1]),
+        ([-inf, -inf, 1, 1, 1, 1], [1]),
+        ([-inf, -inf, inf, inf, inf, inf], [1]),
+        ([1, 1, 1, nan, nan, nan], []),
+        ([1, 2, 3, 4, 5, 6], []),
+    ):
+        assert search._ends(xi, np.array(shift, float)) == expected, shift
+
+
+def test_fixed_points_of_a_first_turn_are_told_from_jumps():
+    section = Line(lambda xi: -(xi - 0.3) * (1.0 + xi**2))
+    assert first_turns._narrowed(section, 0.1, 0.6, False) == [pytest.approx(0.3, abs=1e-13)]
+    jump = Line(lambda xi: np.where(xi < 0.3, 1.0, -1.0))
+    assert first_turns._narrowed(jump, 0.1, 0.6, False) == []
+    beyond = Line(lambda xi: 0.65 - xi)  # the samples were of another tolerance
+    assert first_turns._narrowed(beyond, 0.1, 0.6, False) == [pytest.approx(0.65, abs=1e-13)]
+    repelling = Line(lambda xi: xi - 0.3)
+    assert first_turns._narrowed(repelling, 0.1, 0.6, False) == []
+    assert first_turns._narrowed(repelling, 0.1, 0.6, True) == [pytest.approx(0.3, abs=1e-13)]
+    assert first_turns._brackets(np.array([1.0, 2.0, 0.0, -1.0, 3.0, -np.inf, 2.0, -2.0])) == [1, 6]
+    shift = np.array([1.0, np.inf, np.inf, 2.0, np.nan])
+    assert first_turns._ends(np.arange(5.0), shift) == [0, 2, 3]
+    assert first_turns._ends(1e-13 * np.arange(5.0), shift) == []
+
+
+def circle(radius=1.0, sense=1, period=2.0, divergence=-1.0, n=50):
+    angle = sense * 2.0 * math.pi * np.arange(n + 1) / n
+    points = radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return Orbit(points, period, period, 0.5, divergence, np.zeros(2), 0.0, points[:1], np.ones(1))
+
+
+def test_orbits_are_told_apart_and_have_a_sense():
+    assert first_turns._sense(circle().points) == 1
+    assert first_turns._sense(circle(sense=-1).points) == -1
+    one = circle()
+    assert first_turns._same(one, circle(n=37))
+    assert not first_turns._same(one, circle(period=2.1))
+    assert not first_turns._same(one, circle(divergence=1.0))
+    assert not first_turns._same(one, circle(radius=0.5))
+
+    class Ray:
+        def states(self, xi):
+            return np.stack([xi, 0.0 * xi, 0.0 * xi], axis=-1), xi
+
+    def crossing(x):
+        return first_turns.Crossing(x)
+
+    assert first_turns._on(Ray(), crossing(1.0), circle())
+    between = math.cos(math.pi / 50)  # of two of its points, on the chord
+    turned = circle()
+    rotate = np.array(
+        [[math.cos(math.pi / 50), -math.sin(math.pi / 50)], [math.sin(math.pi / 50), math.cos(math.pi / 50)]]
+    )
+    object.__setattr__(turned, "points", turned.points @ rotate.T)
+    assert first_turns._on(Ray(), crossing(between), turned)
+    assert not first_turns._on(Ray(), crossing(between - 0.01), turned)
+
+
+def test_nodes_of_the_collocation_integrate_polynomials():
+    c, w, a = gauss()
+    for degree in range(12):
+        assert w @ c**degree == pytest.approx(1.0 / (degree + 1), abs=1e-15)
+    for degree in range(6):
+        np.testing.assert_allclose(a @ c**degree, c ** (degree + 1) / (degree + 1), atol=1e-14)
