@@ -1,0 +1,144 @@
+"""The small questions about ends: nearest direction, half-saddles, signs at multiple zeros, tangents at C."""
+
+import itertools
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import codim2_core as c2
+from codim2_core.portrait import endings
+from codim2_core.portrait.saddle_manifold import starts, to_disc
+
+
+def equator(theta, multiplicity, sign=1.0, lambda_rho=None):
+    """Limit directions of Theta = sign * product of sin((t - theta_i)/2)^m_i, which changes sign at the odd ones."""
+    theta, multiplicity = np.array(theta, float), np.array(multiplicity)
+
+    def Theta(t):
+        return sign * np.prod(np.sin(0.5 * (t - theta)) ** multiplicity)
+
+    step = 1e-6
+    slopes = [
+        (Theta(t + step) - Theta(t - step)) / (2.0 * step) if m == 1 else 0.0
+        for t, m in zip(theta, multiplicity, strict=True)
+    ]
+    beyond = [int(np.sign(Theta(t + 1e-3))) if m % 2 else 0 for t, m in zip(theta, multiplicity, strict=True)]
+    rho = np.ones(len(theta)) if lambda_rho is None else np.array(lambda_rho, float)
+
+    class Equator(SimpleNamespace):
+        def __len__(self):
+            return len(self.theta)
+
+    return Equator(
+        theta=theta,
+        multiplicity=multiplicity,
+        lambda_theta=np.array(slopes),
+        lambda_rho=rho,
+        radially_degenerate=rho == 0.0,
+    ), beyond
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize(
+    "multiplicity", [m for m in itertools.product((1, 2, 3), repeat=4) if sum(m) % 2 == 0 and 1 in m]
+)
+def test_the_sign_beyond_a_multiple_zero(multiplicity, sign):
+    found, beyond = equator([0.3, 1.4, 2.9, 4.4], multiplicity, sign)
+    assert [endings.angular_sign(found, i) for i in range(4)] == beyond
+
+
+def test_without_a_simple_zero_no_sign_is_known():
+    found, _ = equator([0.3, 2.0], [3, 3])
+    assert [endings.angular_sign(found, i) for i in range(2)] == [0, 0]
+
+
+@pytest.mark.parametrize("radial", [1.0, -1.0])
+def test_half_saddles(radial):
+    """Where orbits along the equator and across it go opposite ways; at an even zero on one side of it."""
+    found, beyond = equator([0.3, 1.4, 2.9, 4.4], [1, 3, 2, 2], lambda_rho=[radial] * 4)
+    expected = [radial * beyond[0] > 0.0, radial * beyond[1] > 0.0, True, True]
+    assert [endings.half_saddle(found, i) for i in range(4)] == expected
+    assert set(expected[:2]) == {True, False}
+    neutral, _ = equator([0.3, 1.4], [1, 1], lambda_rho=[0.0, radial])
+    assert not endings.half_saddle(neutral, 0)
+    assert endings.radially_neutral(neutral, 0)
+    assert not endings.radially_neutral(neutral, 1)
+    small, _ = equator([0.3, 1.4], [1, 1], lambda_rho=[radial * 1e-16, radial])
+    assert endings.radially_neutral(small, 0)
+
+
+def test_the_nearest_direction_is_found_across_the_cut():
+    found, _ = equator([0.2, 3.0, 6.2], [1, 1, 2])
+    for angle, i, gap in (
+        (0.25, 0, 0.05),
+        (-0.1, 2, 0.1 - (2.0 * math.pi - 6.2)),
+        (6.5, 0, 0.2 - (6.5 - 2.0 * math.pi)),
+        (-3.1, 1, 2.0 * math.pi - 6.1),
+        (9.3, 1, 9.3 - 3.0 - 2.0 * math.pi),
+    ):
+        assert endings.nearest(found, angle) == (i, pytest.approx(abs(gap)))
+
+
+def test_why_an_orbit_stops_on_the_equator():
+    found, beyond = equator([0.3, 1.4, 2.9], [1, 1, 2], lambda_rho=[1.0, 1.0, 1.0])
+    words = {(i, w): endings._stopping(found, i, w) for i in range(3) for w in (0.0, 0.1)}
+    saddle = beyond.index(1)
+    assert words[saddle, 0.1] == endings.CONNECTION
+    assert words[saddle, 0.0] != endings.CONNECTION
+    assert words[1 - saddle, 0.1] != endings.CONNECTION
+    assert "degenerate" in words[2, 0.0]
+
+
+@pytest.mark.parametrize("x2", [(0.0, 0.0), (0.3, -1.2), (4.0, 0.1)])
+def test_tangents_are_carried_to_the_disc(x2):
+    """p = x2/sqrt(1 + |x2|^2): its difference quotient along the vector, made a unit."""
+    x2, step = np.array(x2), 1e-6
+    for angle in (0.0, 0.8, 2.0, 4.5):
+        v = 3.0 * np.array([math.cos(angle), math.sin(angle)])
+        p = [y / math.sqrt(1.0 + y @ y) for y in (x2 - step * v, x2 + step * v)]
+        expected = (p[1] - p[0]) / np.linalg.norm(p[1] - p[0])
+        np.testing.assert_allclose(to_disc(x2, v), expected, atol=1e-8)
+
+
+@pytest.mark.parametrize("f", [(0.0, 0.0), (0.3, -0.6)])
+def test_an_orbit_comes_to_a_node_along_the_direction_it_is_on(f):
+    """Of the two eigendirections, each with two sides, the one along which the orbit lies."""
+    (C,) = c2.critical_sets(c2.ELinear(-1.0, 0.0, -3.0, f), c2.psi.constant())
+    first, second = (to_disc(C.x2, v) for v in np.linalg.eig(C.jacobian)[1].T)
+    for side in (1.0, -1.0):
+        for ahead, other in ((first, second), (second, first)):
+            found = endings._tangent_at(C, C.p + 0.1 * side * ahead + 0.01 * other)
+            np.testing.assert_allclose((math.cos(found), math.sin(found)), side * ahead, atol=1e-12)
+    (star,) = c2.critical_sets(c2.ELinear(-1.0, 0.0, -1.0), c2.psi.constant())
+    assert endings._tangent_at(star, np.array([0.1, -0.1])) == pytest.approx(-math.pi / 4)
+    (focus,) = c2.critical_sets(c2.ELinear(-1.0, 2.0, -1.0), c2.psi.constant())
+    assert endings._tangent_at(focus, np.array([0.1, 0.0])) is None
+
+
+def test_critical_sets_are_numbered_where_there_are_several():
+    sets = c2.critical_sets(c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s")), c2.psi.constant())
+    assert [endings.critical_label(sets, i) for i in range(3)] == ["C1", "C2", "C3"]
+    assert endings.critical_label(sets[:1], 0) == "C"
+
+
+def test_manifolds_start_as_far_out_as_the_tolerance_allows():
+    """Against time an orbit from the start comes back to C, the nearer the smaller the tolerance."""
+    at, p = c2.ELinear(1.2, 0.4, -0.7, (0.3, 0.2)).at(), c2.psi.rational()
+    (C,) = c2.critical_sets(at, p)
+    for value in C.eigenvalues.real.tolist():
+        far, near = [], []
+        for tolerance in (1e-4, 1e-8, 1e-12):
+            points, tangents = starts(at, p, C, value, tolerance)
+            np.testing.assert_allclose(tangents[0], -tangents[1], atol=1e-15)
+            np.testing.assert_allclose(np.linalg.norm(tangents, axis=1), 1.0, atol=1e-14)
+            assert (np.einsum("ij,ij->i", points - C.p, tangents) > 0.0).all()
+            far.append(np.hypot(*(points - C.p).T).max())
+            orbits = c2.trajectories(
+                at, p, points, t_max=50.0 / abs(value), rtol=1e-12, atol=1e-14, backward=value > 0.0
+            )
+            near.append(max(np.hypot(*(line - C.p).T).min() for line in orbits.points))
+        assert far[0] > far[1] > far[2] > 1e-3
+        assert near[0] > near[2]
+        assert near[2] < 1e-4
