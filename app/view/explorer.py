@@ -6,29 +6,36 @@ request and its frame are two small events past all property syncing, so that a 
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any
 
 import panel as pn
 import param
+from bokeh.document import Document
 from panel.custom import JSComponent
 from panel.models.esm import DataEvent, ESMEvent
 from panel.viewable import Child
 
 from ..draw.figure import make_figure
-from ..draw.packing import unpack
+from ..draw.packing import pack, unpack
+from ..draw.still import still
 from ..draw.svg import draw
 from ..frame.budget import Budget
 from ..state.chosen import System_
 from ..state.controls import NAMES, ExplorerState, InputError
 from ..state.links import Look
+from .cell import Cell, kernel
 from .markup import STATIC, config, explorer_html, script
-from .refresh import Frames
+from .refresh import Frames, make_frame
 from .warmup import is_ready
 
 #: Seconds for which an answer waits for a picture that is computed beside the frames.
 PATIENCE = 0.25
+
+
+COMPILING = "The integrator is being compiled, once; trajectories follow."
 
 
 class ExplorerView(JSComponent):
@@ -74,6 +81,7 @@ class ExplorerView(JSComponent):
         # a page is answered by the thread that answers all pages; a notebook is one person's
         self.frames = Frames(self.state, system, is_ready, errors, Budget() if page else None)
         self._held: object = None
+        self._cell: Cell | None = None
         self._first_values = self.state.values()
         own = [] if page else [(STATIC / "notebook.css").read_text(encoding="utf-8")]
         layout = {**params, "stylesheets": [*own, *params.get("stylesheets", ())]}
@@ -121,6 +129,42 @@ class ExplorerView(JSComponent):
             if sheets:
                 model.update(stylesheets=[sheet for sheet in sheets if isinstance(sheet, str)])
         return root
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
+        """Return what a notebook's cell shows."""
+        if kernel() is None or pn.config.comms != "default":
+            return super()._repr_mimebundle_(include, exclude)
+        if self._cell is None:
+            self._cell = Cell(self)
+        return self._cell.outputs()
+
+    def still(self, patient: bool = True) -> tuple[str, str, bool]:
+        """Return the picture of the present state as an SVG file, its sentence, and whether nothing is left out.
+
+        Patient: waits for the compiler, so that nothing is.
+        """
+        scene, values = self.frames.scene, self.frames.values
+        ready = is_ready(scene.psi, scene.system)
+        while patient and not ready:
+            time.sleep(0.05)
+            ready = is_ready(scene.psi, scene.system)
+        if not ready and scene.coefficients.typed is not None:
+            return still(pack({}, {}), values["layers"]), COMPILING, False
+        header, blocks, _ = make_frame(scene, values, {}, ready)
+        sentence = header["portrait"]["sentence"]
+        return still(pack(header, blocks), values["layers"]), sentence if ready else f"{sentence} {COMPILING}", ready
+
+    def show(self) -> tuple[Any, str]:
+        """Return a new Bokeh model that is joined to a page by a comm, and HTML that shows it."""
+        doc, comm = Document(), pn.state._comm_manager.get_server_comm()  # noqa: SLF001 (as Panel's own views do)
+        model = self._render_model(doc, comm)
+        shown, _ = self._render_mimebundle(model, doc, comm)
+        return model, shown["text/html"]
+
+    def hide(self, model: Any) -> None:
+        """Forget a model that no page shows any more."""
+        pn.state._views.pop(model.ref["id"], None)  # noqa: SLF001 (as Panel's own views do)
+        self._cleanup(model)
 
     def _register_events(self, *event_names: str, model: Any, doc: Any, comm: Any) -> None:
         """Listen to the browser.
@@ -178,6 +222,7 @@ class ExplorerView(JSComponent):
         """Answer a request of one browser with one frame to all that show this view."""
         self._send_msg({"frame": self.frames.answer(data or {})})
         self.frames.publish()
+        self._settle()
 
     def _send_msg(self, data: Any) -> None:
         """Send to all that show this view, also where an ipywidget holds the model in a document of its own."""
@@ -193,6 +238,11 @@ class ExplorerView(JSComponent):
         if frame is not None:
             self._send_msg({"frame": frame})
             self.frames.publish()
+            self._settle()
+
+    def _settle(self) -> None:
+        if self._cell is not None:
+            self._cell.changed()
 
     def watch(self, callback: Callable[..., None], *names: str) -> None:
         """Call `callback` when one of the named values of the state has changed."""

@@ -18,6 +18,7 @@ from codim2_core.systems.typed import System
 from ..state.choices import SLOW_CONTROLS
 from ..state.chosen import System_, titles
 from ..state.controls import NAMES, ExplorerState, InputError, clean
+from .cell import kernel
 from .explorer import ExplorerView
 
 LAYOUT = frozenset({"sizing_mode", "width", "height", "margin", "styles", "stylesheets"})
@@ -138,10 +139,10 @@ def _clean(state: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _bring_resources() -> None:
-    """Load BokehJS and Panel once for each kernel: it comes with Panel, and a notebook asks no public host for it."""
+    """Publish BokehJS and Panel for a front end of ipywidgets, once a kernel; other pages ask for them themselves."""
     import panel as pn
 
-    if not pn.config.inline or not getattr(pn.extension, "_loaded", False):
+    if kernel() is not None and pn.config.comms != "default" and not getattr(pn.extension, "_loaded", False):
         pn.extension(inline=True)
 
 

@@ -10,18 +10,6 @@ from codim2_app.view.explorer import ExplorerView
 import codim2_core as c2
 
 
-@pytest.fixture(autouse=True)
-def _panel_as_it_was():
-    kept = pn.config.inline
-    yield
-    pn.config.inline = kept
-
-
-def test_notebook_brings_its_resources():
-    explorer()
-    assert pn.config.inline
-
-
 def test_model_names_no_other_host():
     root = explorer().get_root(Document())
     assert not [model for model in root.references() if isinstance(model, ImportedStyleSheet)]

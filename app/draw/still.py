@@ -1,0 +1,35 @@
+"""The picture as a file of its own: an SVG with its colours in it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+
+from .svg import SIDE, draw
+from .theme import themes
+
+_VARIABLE = re.compile(r"var\(--([\w-]+)\)")
+
+
+def still(buffer: bytes, layers: Collection[str], theme: str = "light", width: int = 560) -> str:
+    """Return the picture of one packed frame as an SVG file, some 30 kB.
+
+    Parameters
+    ----------
+    buffer : bytes
+        A frame that holds everything.
+    layers : collection of str
+        Those that are shown.
+    theme : {"light", "dark"}
+    width : int
+        In pixels, as is its height.
+    """
+    colours = themes()[theme]
+    inner = draw(buffer, layers).replace(
+        "<svg ",
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{width}" font-family="sans-serif" ',
+        1,
+    )
+    ground = f'<rect width="{SIDE}" height="{SIDE}" fill="var(--page)"/>'
+    whole = inner.replace(">", f">{ground}", 1)
+    return _VARIABLE.sub(lambda name: colours[name[1]], whole)
