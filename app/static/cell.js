@@ -79,7 +79,7 @@ export async function live({cell, view, target}) {
     inert.replaceWith(script)
   }
   const hiding = document.createElement("style")
-  hiding.textContent = `.codim2-still-${view} { display: none }`
+  hiding.textContent = `.explorer-still-${view} { display: none }`
   document.head.append(hiding)
   // The kernel has ended, or the output is gone: nothing answers any more, and the still picture is seen again.
   await until(() => !page.PyViz.kernels[cell], Infinity, 500)

@@ -21,7 +21,7 @@ from uuid import uuid4
 import bokeh
 import panel as pn
 from bokeh.settings import settings
-from panel.io.notebook import EXEC_MIME, PYVIZ_PROXY, JupyterCommManagerBinary
+from panel.io.notebook import EXEC_MIME, JupyterCommManagerBinary
 from panel.io.resources import DIST_DIR
 from tornado.ioloop import IOLoop
 
@@ -46,11 +46,11 @@ class View(Protocol):
         """
         ...
 
-    def show(self) -> tuple[Any, str]:
+    def live(self) -> tuple[Any, str]:
         """Return a new Bokeh model that is joined to a page by a comm, and HTML that shows it."""
         ...
 
-    def hide(self, model: Any) -> None:
+    def forget(self, model: Any) -> None:
         """Forget a model."""
         ...
 
@@ -105,12 +105,11 @@ class Cell:
         self._publish(update=True)
 
     def _publish(self, update: bool) -> None:
-        from IPython.display import publish_display_data
-
         # a page that can be live tells which cell it runs; nobody waits where a notebook is run without one
         patient = not update and "cellId" not in kernel().get_parent("shell").get("metadata", {})
         svg, sentence, finished = self.view.still(patient)
-        publish_display_data(still(svg, sentence, self.name), transient={"display_id": self.name}, update=update)
+        publish = kernel().shell.display_pub.publish
+        publish(still(svg, sentence, self.name), transient={"display_id": self.name}, update=update)
         if not finished:
             self.changed()
 
@@ -121,11 +120,11 @@ class Cell:
         if about == "libraries":
             sizes = [{"path": path, "size": file.stat().st_size} for path, file in libraries().items()]
             return {"version": bokeh.__version__, "libraries": sizes}, []
-        model, shown = self.view.show()
+        model, shown = self.view.live()
         self._pages.append(model)
         while len(self._pages) > MOST_PAGES:
-            self.view.hide(self._pages.pop(0))
-        manager = PYVIZ_PROXY + JupyterCommManagerBinary.js_manager
+            self.view.forget(self._pages.pop(0))
+        manager = JupyterCommManagerBinary.js_manager
         return {"html": shown, "plot": model.ref["id"], "manager": manager}, []
 
 
@@ -133,10 +132,10 @@ _cells: dict[str, Cell] = {}
 
 
 def still(svg: str, sentence: str, name: str) -> dict[str, str]:
-    """Return the still picture as an output, which the class ``codim2-still-NAME`` lets a page hide."""
+    """Return the still picture as an output, which the class ``explorer-still-NAME`` lets a page hide."""
     encoded = base64.b64encode(svg.encode()).decode()
     shown = (
-        f'<div class="codim2-still-{name}"><img style="max-width:100%" alt="{escape(sentence)}" '
+        f'<div class="explorer-still-{name}"><img style="max-width:100%" alt="{escape(sentence)}" '
         f'src="data:image/svg+xml;base64,{encoded}"><p>{escape(sentence)} <em>Run the cell to move it.</em></p></div>'
     )
     return {"text/plain": sentence, "image/svg+xml": svg, "text/html": shown}

@@ -7,9 +7,9 @@ request and its frame are two small events past all property syncing, so that a 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from typing import Any
+from typing import Any, ClassVar
 
 import panel as pn
 import param
@@ -17,6 +17,10 @@ from bokeh.document import Document
 from panel.custom import JSComponent
 from panel.models.esm import DataEvent, ESMEvent
 from panel.viewable import Child
+from param.parameterized import resolve_value
+
+from codim2_core.portrait.launched import Launched
+from codim2_core.scene import Scene
 
 from ..draw.figure import make_figure
 from ..draw.packing import pack, unpack
@@ -29,11 +33,11 @@ from ..state.links import Look
 from .cell import Cell, kernel
 from .markup import STATIC, config, explorer_html, script
 from .refresh import Frames, make_frame
+from .shared import SHARED, declare, join
 from .warmup import is_ready
 
 #: Seconds for which an answer waits for a picture that is computed beside the frames.
 PATIENCE = 0.25
-
 
 COMPILING = "The integrator is being compiled, once; trajectories follow."
 
@@ -53,8 +57,14 @@ class ExplorerView(JSComponent):
     look : Look, optional
         What of the picture is seen, and what an embedded page shows.
     **params
-        Of any Panel component: sizing_mode, width, height, margin, styles, stylesheets, …
+        Of any Panel component: sizing_mode, width, height, margin, styles, stylesheets, …; and values of the state.
+
+    All values of the state but `orbits` are parameters of the view too: ``view.a = -1``, ``view.param.watch``,
+    ``pn.bind(f, view.param.a)``, ``view.link(slider, a="value", bidirectional=True)``.
     """
+
+    #: They are the state's, and go to the browser as frames.
+    _rename: ClassVar[Mapping[str, str | None]] = dict.fromkeys(SHARED)
 
     picture = Child()
     config = param.Dict({})
@@ -74,7 +84,11 @@ class ExplorerView(JSComponent):
         **params: Any,
     ) -> None:
         self._look = look or Look()
-        self.state = ExplorerState() if state is None else state
+        given = {name: params.pop(name) for name in SHARED if name in params}
+        values = {name: resolve_value(value) for name, value in given.items()}
+        self.state = ExplorerState.of(values) if state is None else state
+        if state is not None:
+            state.param.update(**values)
         self._opened: dict[str, Any] = {}
         self._system = system
         self._given_params = params
@@ -88,8 +102,23 @@ class ExplorerView(JSComponent):
         if not {"sizing_mode", "width"} & params.keys():
             layout["sizing_mode"] = "stretch_width"
         picture = pn.pane.Bokeh(make_figure(), sizing_mode="stretch_both")
-        super().__init__(picture=picture, **self._opening(page), **layout)
+        opening = self._opening(page)
+        drawn = {name: value for name, value in self.state.values().items() if name in SHARED}
+        linked = {name: value for name, value in given.items() if value is not values[name]}
+        super().__init__(picture=picture, **opening, **layout, **{**drawn, **linked})
         self.state.param.watch(self._follow, list(NAMES))
+        if not page:  # nobody holds the view of a page
+            join(self, self.state)
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that is drawn."""
+        return self.frames.scene
+
+    @property
+    def orbits(self) -> Launched:
+        """The launched orbits: their lines, and where each goes to and comes from."""
+        return self.frames.scene["launched"]
 
     def clone(self, **params: Any) -> ExplorerView:
         """Return another explorer of the same system, at the present values, with some parameters changed."""
@@ -154,14 +183,14 @@ class ExplorerView(JSComponent):
         sentence = header["portrait"]["sentence"]
         return still(pack(header, blocks), values["layers"]), sentence if ready else f"{sentence} {COMPILING}", ready
 
-    def show(self) -> tuple[Any, str]:
+    def live(self) -> tuple[Any, str]:
         """Return a new Bokeh model that is joined to a page by a comm, and HTML that shows it."""
         doc, comm = Document(), pn.state._comm_manager.get_server_comm()  # noqa: SLF001 (as Panel's own views do)
         model = self._render_model(doc, comm)
         shown, _ = self._render_mimebundle(model, doc, comm)
         return model, shown["text/html"]
 
-    def hide(self, model: Any) -> None:
+    def forget(self, model: Any) -> None:
         """Forget a model that no page shows any more."""
         pn.state._views.pop(model.ref["id"], None)  # noqa: SLF001 (as Panel's own views do)
         self._cleanup(model)
@@ -247,6 +276,9 @@ class ExplorerView(JSComponent):
     def watch(self, callback: Callable[..., None], *names: str) -> None:
         """Call `callback` when one of the named values of the state has changed."""
         self.state.param.watch(callback, list(names))
+
+
+declare(ExplorerView)
 
 
 def _words(header: dict[str, Any], first: bytes, layers: list[str]) -> dict[str, str]:

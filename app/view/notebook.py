@@ -7,6 +7,7 @@ from numbers import Real
 from typing import Any
 
 import numpy as np
+from param.parameterized import resolve_ref, resolve_value
 
 from codim2_core.examples import catalogue
 from codim2_core.figures.presets import presets
@@ -20,6 +21,7 @@ from ..state.chosen import System_, titles
 from ..state.controls import NAMES, ExplorerState, InputError, clean
 from .cell import kernel
 from .explorer import ExplorerView
+from .shared import SHARED
 
 LAYOUT = frozenset({"sizing_mode", "width", "height", "margin", "styles", "stylesheets"})
 
@@ -59,6 +61,8 @@ def explorer(
     from . import warmup
 
     layout = {name: state.pop(name) for name in LAYOUT & state.keys()}
+    linked = {name: value for name, value in state.items() if name in SHARED and resolve_ref(value)}
+    state = {name: resolve_value(value) if name in linked else value for name, value in state.items()}
     if isinstance(system, Scene):
         psi, state, system = psi or system.psi, {"z": system.z, **state}, _whole(system)
     elif isinstance(system, str):
@@ -85,6 +89,7 @@ def explorer(
     refused = view.refused
     if refused:
         raise ValueError(" ".join(refused))
+    view.param.update(**linked)
     return view
 
 

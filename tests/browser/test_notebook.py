@@ -1,3 +1,4 @@
+import json
 import time
 from importlib.util import find_spec
 from urllib.parse import urlparse
@@ -26,7 +27,20 @@ RUN = """cell => {
 class Notebook(Explorer):
     """A notebook in JupyterLab; `Explorer` finds the first explorer that is shown in it."""
 
-    def until(self, holds, patience=20.0):
+    def __init__(self, page, address, file):
+        super().__init__(page, address)
+        self.file = file
+
+    def outputs(self, cell):
+        """Return the outputs of a cell as the saved file has them."""
+        self.page.evaluate("window.jupyterapp.commands.execute('docmanager:save')")
+        return json.loads(self.file.read_text())["cells"][cell]["outputs"]
+
+    def restart(self):
+        self.page.evaluate("window.jupyterapp.shell.currentWidget.sessionContext.restartKernel()")
+        self.page.wait_for_function(KERNEL)
+
+    def wait(self, holds, patience=20.0):
         """Wait until something holds; what follows says what did not."""
         end = time.monotonic() + patience
         while not holds() and time.monotonic() < end:
@@ -80,8 +94,8 @@ def notebook(lab, chromium, request):
     address, folder = lab
     write_notebook(folder / f"{request.param}.ipynb", [START.format(request.param), SECOND, TELL, SET])
     context = chromium.new_context(viewport={"width": 1280, "height": 1000})
-    context.set_default_timeout(180_000)  # the kernel may have to compile the integrator
-    yield Notebook(context.new_page(), address).open(f"{request.param}.ipynb")
+    context.set_default_timeout(60_000)
+    yield Notebook(context.new_page(), address, folder / f"{request.param}.ipynb").open(f"{request.param}.ipynb")
     context.close()
 
 
@@ -115,7 +129,7 @@ def test_sliders_draw_in_jupyterlab_and_python_follows(notebook):
 
     picture, words = notebook.picture(), notebook.find(".inspector").inner_text()
     notebook.run(3)
-    notebook.until(lambda: slider.input_value() == "-1.25")  # the kernel draws in its own time
+    notebook.wait(lambda: slider.input_value() == "-1.25")  # the kernel draws in its own time
     notebook.settle()
     assert (slider.input_value(), notebook.find("#c2-f1").input_value()) == ("-1.25", "0.5")
     assert notebook.find("[data-control=a] .number").input_value() == "-1.25"
@@ -143,3 +157,65 @@ def test_widget_takes_the_theme_and_leaves_the_notebook_alone(notebook):
     assert notebook.name() != name
     assert (after["width"], after["height"]) == (before["width"], before["height"])  # cells below stay where they are
     assert after["height"] < 1300
+
+
+STILL = "[class^=explorer-still]"
+
+
+@pytest.mark.parametrize("notebook", ["default"], indirect=True)
+def test_a_page_that_is_loaded_again_is_live_without_running_a_cell(notebook):
+    notebook.show(0, 0)
+    notebook.type("d", "-0.5")
+    notebook.wait(lambda: len(notebook.outputs(0)) == 2)
+    notebook.page.reload()
+    notebook.page.wait_for_function(KERNEL)
+    notebook.page.wait_for_selector(".codim2[data-settled=true]")
+    assert notebook.find("#c2-d").input_value() == "-0.5"
+    assert not notebook.find(STILL).is_visible()
+    slider, frame = notebook.find("#c2-a"), notebook.frame()
+    slider.focus()
+    slider.press("ArrowRight")
+    notebook.settle()
+    assert notebook.frame() > frame
+    notebook.run(0)  # and the cell can be run in the new page
+    notebook.wait(lambda: notebook.find("#c2-d").count() and notebook.find("#c2-d").input_value() == "-1")
+    assert notebook.find("#c2-d").input_value() == "-1"
+    assert notebook.complaints == []
+
+
+@pytest.mark.parametrize("notebook", ["default"], indirect=True)
+def test_the_file_keeps_one_picture_and_it_follows(notebook):
+    notebook.show(0, 0)
+    first = notebook.outputs(0)[0]["data"]["image/svg+xml"]
+    notebook.type("b", "3")
+    notebook.wait(lambda: notebook.outputs(0)[0]["data"]["image/svg+xml"] != first)
+    still, live = notebook.outputs(0)
+    assert len(json.dumps([still, live])) < 300_000
+    assert f"{notebook.name()}." in "".join(still["data"]["text/plain"])
+    assert "<svg" not in live["data"]["text/html"]
+
+
+@pytest.mark.parametrize("notebook", ["default"], indirect=True)
+def test_when_the_kernel_has_ended_the_picture_is_seen_until_the_cell_is_run(notebook):
+    notebook.show(0, 0)
+    assert not notebook.find(STILL).is_visible()
+    notebook.restart()
+    notebook.page.wait_for_selector(STILL)
+    assert notebook.find(".codim2").count() == 0
+    assert len(notebook.outputs(0)) == 2
+    notebook.page.reload()
+    notebook.page.wait_for_selector(STILL)
+    notebook.page.wait_for_function(KERNEL)
+    notebook.show(0, 0)
+    assert not notebook.find(STILL).is_visible()
+
+
+@pytest.mark.parametrize("notebook", ["default"], indirect=True)
+def test_a_server_without_panel_gets_the_libraries_from_the_kernel(notebook):
+    notebook.page.route("**/panel-preview/static/**", lambda route: route.fulfill(status=404))
+    notebook.show(0, 0)
+    slider, frame = notebook.find("#c2-a"), notebook.frame()
+    slider.focus()
+    slider.press("ArrowRight")
+    notebook.settle()
+    assert notebook.frame() > frame

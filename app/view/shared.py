@@ -1,0 +1,41 @@
+"""The values of the state as parameters of the view: it is watched, bound and linked like any Panel component."""
+
+from __future__ import annotations
+
+from copy import copy
+from typing import Any
+
+import param
+
+from ..state.controls import NAMES, ExplorerState
+
+#: All values but the text of the launched orbits, as ``view.orbits`` are the orbits themselves.
+SHARED = tuple(name for name in NAMES if name != "orbits")
+
+
+def declare(view: type[param.Parameterized]) -> None:
+    """Give a class of views a parameter for each shared value; a widget or another reference may be its value."""
+    for name in SHARED:
+        parameter = copy(ExplorerState.param[name])
+        parameter.allow_refs = True
+        view.param.add_parameter(name, parameter)
+
+
+def join(view: Any, state: ExplorerState) -> None:
+    """Let the parameters of a view and the state that it shows follow each other.
+
+    What the state refuses is refused with the same error, and both are then what they were.
+    """
+
+    def follow(*_: Any) -> None:
+        new = {name: getattr(state, name) for name in SHARED}
+        view.param.update(**{name: value for name, value in new.items() if value != getattr(view, name)})
+
+    def hand_on(*changes: param.parameterized.Event) -> None:
+        try:
+            state.param.update(**{change.name: change.new for change in changes})
+        finally:
+            follow()
+
+    state.param.watch(follow, list(SHARED))
+    view.param.watch(hand_on, list(SHARED))

@@ -1,0 +1,100 @@
+"""The explorer as a Panel component: its values are parameters, its layout is Panel's."""
+
+import panel as pn
+import pytest
+from bokeh.document import Document
+from codim2_app import explorer
+from codim2_app.state.controls import ExplorerState
+from codim2_app.view.explorer import ExplorerView
+from codim2_app.view.shared import SHARED
+
+
+def test_a_value_is_watched_and_set_as_any_parameter():
+    view, seen = explorer(a=-1.5), []
+    view.param.watch(lambda *events: seen.extend((event.name, event.new) for event in events), ["a", "d"])
+    view._handle_msg({"id": 1, "set": {"a": -1.25}})
+    assert (view.a, seen) == (-1.25, [("a", -1.25)])
+    view.param.update(a=-1.0, d=-0.5)
+    assert view.scene.coefficients.plane[:3] == (-1.0, 0.0, -0.5)
+    assert (view.state.a, view.state.d) == (-1.0, -0.5)
+    assert seen[1:] == [("a", -1.0), ("d", -0.5)]
+
+
+def test_every_value_of_the_state_is_there_and_none_is_sent_twice():
+    view = explorer("case1-cm0")
+    assert {name: getattr(view, name) for name in SHARED} == {name: view.state.values()[name] for name in SHARED}
+    sent = view.get_root(Document()).data.properties()
+    assert not set(SHARED) & sent
+
+
+def test_what_is_refused_leaves_view_and_state_as_they_were():
+    view = explorer(a=-1.5)
+    with pytest.raises(ValueError, match="finite"):
+        view.a = float("nan")
+    assert (view.a, view.state.a, view.scene.coefficients.a) == (-1.5, -1.5, -1.5)
+    with pytest.raises(ValueError, match="no 'nothing'"):
+        view.preset = "nothing"
+    assert (view.preset, view.state.preset) == ("", "")
+
+
+def test_a_portrait_brings_its_values():
+    view = explorer()
+    view.preset = "case3-n3"
+    assert (view.psi, view.n) == (view.state.psi, view.state.n) == ("hill", 3.0)
+
+
+def test_bind_link_and_references():
+    view, slider = explorer(a=-1.5), pn.widgets.FloatSlider(start=-4, end=4, value=0.5)
+    assert pn.bind(lambda a: 2 * a, view.param.a)() == -3.0
+    view.link(slider, a="value", bidirectional=True)
+    view.a = -0.75
+    assert slider.value == -0.75
+    slider.value = 0.25
+    assert (view.a, view.scene.coefficients.a) == (0.25, 0.25)
+    follower = explorer(a=slider)
+    assert follower.scene.coefficients.a == 0.25
+    slider.value = 1.0
+    assert follower.scene.coefficients.a == 1.0
+
+
+def test_two_views_of_one_state_agree():
+    state = ExplorerState()
+    one, other = ExplorerView(state), ExplorerView(state)
+    one.a = -1.25
+    assert (other.a, other.scene.coefficients.a) == (-1.25, -1.25)
+
+
+def test_a_clone_has_the_values_of_its_own():
+    view = explorer(a=-1.5, width=300)
+    other = view.clone(b=0.5, height=200)
+    assert (other.a, other.b, other.width, other.height) == (-1.5, 0.5, 300, 200)
+    other.a = 1.0
+    assert view.a == -1.5
+
+
+@pytest.mark.parametrize(
+    "layout", [{"width": 420}, {"height": 300}, {"sizing_mode": "fixed", "width": 300, "height": 200}, {"margin": 7}]
+)
+def test_its_layout_is_that_of_a_component(layout):
+    root = explorer(**layout).get_root(Document())
+    for name, value in layout.items():
+        assert getattr(root, name) == value
+    assert (root.sizing_mode == "stretch_width") is (not {"width", "sizing_mode"} & layout.keys())
+
+
+def test_its_style_sheets_come_after_its_own():
+    view = explorer(stylesheets=[":host { opacity: 0.5 }"])
+    assert view.get_root(Document()).stylesheets[-1] == ":host { opacity: 0.5 }"
+    view.stylesheets = [":host { opacity: 0.9 }"]
+    assert view.get_root(Document()).stylesheets[-1] == ":host { opacity: 0.9 }"
+
+
+def test_a_template_s_dark_theme_is_its_first(monkeypatch):
+    monkeypatch.setattr(type(pn.config), "theme", "dark")
+    assert explorer().config["dark"] is True
+
+
+def test_the_orbits_are_the_launched_ones():
+    view = explorer(orbits="0.3,0.4;1.5,0.2")
+    assert len(view.orbits) == 2
+    assert view.orbits is view.scene["launched"]
