@@ -127,8 +127,15 @@ def test_a_jump_up_the_hemisphere_takes_no_time():
 @pytest.mark.parametrize("launch", ["", "1,2", "1,2,3,4", "a,b,c", "1,2,nan"])
 def test_a_start_that_is_no_state_is_told(launch):
     with pytest.raises(InputError, match="give 3 numbers: x, y, z1"):
-        time.launch_of({"launch": launch, "t_end": 1.0}, 1)
+        time.launch_of({"launch": launch, "t_end": 1.0, "log_eps": -2.0}, 1)
     assert "give 3 numbers" in sent(time, launch=launch)["unable"]["motion"]
+
+
+@pytest.mark.parametrize("log_eps", [-14.5, 7.0, 100.0])
+def test_an_eps_that_no_motion_takes_is_told(log_eps):
+    with pytest.raises(InputError, match="from -14 to 6") as caught:
+        time.launch_of({"launch": "1,2,3", "t_end": 1.0, "log_eps": log_eps}, 1)
+    assert caught.value.control == "log_eps"
 
 
 def test_the_filippov_view_has_the_whole_interval_and_what_is_selected():
