@@ -11,7 +11,7 @@ EVERYWHERE = {"core": ("core/test_read_only.py",)}
 # Beside the tests in the room itself.
 ELSEWHERE: dict[str, tuple[str, ...]] = {
     "core.bifurcations": ("precision/test_bifurcations.py",),
-    "core.cycles": ("precision/test_cycles.py",),
+    "core.cycles": ("core/layer_problem/test_given_matrix.py", "precision/test_cycles.py"),
     "core.expressions": ("core/systems",),
     "core.layer_problem": (
         "core/portrait/test_classify.py",
