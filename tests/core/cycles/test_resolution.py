@@ -40,6 +40,7 @@ def test_a_cubic_is_itself_and_of_a_quartic_the_remainder_is_known():
         assert values.shape == error.shape == places.shape
         np.testing.assert_allclose(np.abs(f(places) - values), error, atol=1e-11)
         assert (error.max() > 0.1) == far
+        assert not error[:, [0, -1]].any()  # both ends of an interval are among its samples
     # in the middle of the samples the four about an interval are used: the product of distances is smaller there
     assert error[3].max() < error[0].max()
 

@@ -1,0 +1,193 @@
+"""Where a motion lies, and which critical set it follows, against the formulas of the regularisation."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import codim2_core as c2
+from codim2_core.initial_value.field import field
+from codim2_core.motion import agreement, decide, phases, places
+from codim2_core.motion.followed import followed, in_disc, place, solved
+from codim2_core.motion.result import Phase
+
+PSIS = [c2.psi.constant(), c2.psi.rational(), c2.psi.exponential(), c2.psi.tanh(), c2.psi.hill(3)]
+EVERY = pytest.mark.parametrize("psi", PSIS, ids=lambda p: p.text)
+BENT = c2.System(U=("c**2 - z/2", "-2*s + x"), W=("1",))  # at c = -+sqrt(z/2): attracting, and a saddle
+
+
+@EVERY
+def test_a_point_of_the_disc_has_its_e(psi):
+    for e in ((0.3, -0.4), (-0.05, 0.01), (0.0, 0.9)):
+        p = in_disc(psi, np.array(e))
+        assert c2.hemisphere.e_psi(psi, p) == pytest.approx(e, abs=1e-12)
+    assert in_disc(psi, np.zeros(2)).tolist() == [0.0, 0.0]
+    for e in ((0.6, 0.8), (3.0, -4.0)):
+        assert in_disc(psi, np.array(e)) == pytest.approx(np.array(e) / math.hypot(*e), abs=1e-15)
+
+
+@EVERY
+@pytest.mark.parametrize("eps", [1e-3, 0.5])
+def test_the_place_of_a_state(psi, eps):
+    """e_Psi = (x, y)/sqrt(r^2 + eps^2 Psi(r^2/eps^2)) and p = (x, y)/sqrt(r^2 + eps^2)."""
+    states = np.array([(0.3, -0.2), (1e-3, 2e-3), (-2.0, 0.1), (0.0, 0.0)])
+    r2 = (states**2).sum(axis=1)
+    e = states / np.sqrt(r2 + eps**2 * np.array([float(psi(r / eps**2)) for r in r2]))[:, None]
+    p = states / np.sqrt(r2 + eps**2)[:, None]
+    of_state = places.OfState(lambda t: states, psi, eps, 0.0, 1.0).at(np.arange(4.0))
+    np.testing.assert_allclose(of_state[0], e, atol=1e-12)
+    np.testing.assert_allclose(of_state[1], p, atol=1e-14)
+    for (x, y), own_e, own_p in zip(states.tolist(), e, p, strict=True):
+        found = place(psi, eps, x, y)
+        np.testing.assert_allclose(found[0], own_e, atol=1e-12)
+        np.testing.assert_allclose(found[1], own_p, atol=1e-14)
+
+
+def test_the_zero_near_a_guess():
+    formulas = field(BENT)
+    for z, root in ((0.5, 0.5), (0.02, 0.1)):
+        for side in (1.0, -1.0):
+            e = solved(formulas, np.array([side * (root + 0.05), 0.1]), np.array([z]))
+            assert e == pytest.approx([side * root, 0.0], abs=1e-14)
+    assert solved(formulas, np.array([0.3, 0.0]), np.array([-0.5])) is None  # no zero
+    assert solved(formulas, np.array([0.0, 0.0]), np.array([0.5])) is None  # a singular slope
+    assert solved(formulas, np.array([0.05, 0.0]), np.array([0.5])) is None  # a first step too long
+
+
+@EVERY
+def test_a_state_on_a_critical_set_follows_it(psi):
+    formulas, eps, z = field(BENT), 1e-6, 0.18
+    for C in c2.critical_sets(BENT, psi, (z,)):
+        for far, follows in ((0.0, True), (5e-4, True), (0.2, False), (0.4, False)):
+            p = C.p + far * np.array([0.6, 0.8])
+            x2 = p / math.sqrt(1.0 - p @ p)
+            one = followed(formulas, psi, eps, np.array([*(eps * x2), z]))
+            assert (one is not None) == follows
+            if one is not None:
+                assert one.e == pytest.approx(C.e, abs=1e-12)
+                assert one.p == pytest.approx(C.p, abs=1e-12)
+                assert one.attracts == C.kind.startswith("stable")
+    nothing = c2.System(U=("c - 2", "s"), W=("1",))
+    assert followed(field(nothing), psi, eps, np.array([0.0, 0.0, z])) is None
+
+
+@pytest.mark.parametrize("psi", PSIS[:2], ids=lambda p: p.text)
+def test_the_slow_manifold_lies_within_its_margin(psi):
+    """x2 = X + eps X1: J X1 = D_z X W - U_x X; up to twice that far is followed, and no further."""
+    formulas, z = field(BENT), 0.18
+    C = next(C for C in c2.critical_sets(BENT, psi, (z,)) if C.kind.startswith("stable"))
+    step = 1e-5
+    X = [next(D.x2 for D in c2.critical_sets(BENT, psi, (z + h,)) if D.kind == C.kind) for h in (-step, step)]
+    moved = (X[1] - X[0]) / (2.0 * step)
+    X1 = np.linalg.solve(C.jacobian, moved - np.array([[0.0, 0.0], [1.0, 0.0]]) @ C.x2)
+    eps = 0.01
+    for times, follows in ((1.0, True), (1.9, True), (3.0, False), (-1.0, True), (-3.0, False)):
+        x2 = C.x2 + times * eps * X1
+        assert (followed(formulas, psi, eps, np.array([*(eps * x2), z])) is not None) == follows, times
+
+
+class Motion:
+    """Straight from (1, -1) through 0 at t = 1, then at rest there until 2, then out along y."""
+
+    times = np.array([0.0, 0.5, 1.0, 2.0, 2.5])
+    states = np.array([(1.0, -1.0, 0.1), (0.5, -0.5, 0.1), (0.0, 0.0, 0.1), (0.0, 0.0, 0.1), (0.0, 0.5, 0.1)])
+
+    def __call__(self, t):
+        return np.stack([np.interp(t, self.times, column) for column in self.states.T], axis=-1)
+
+
+def test_in_the_limit_a_place_on_the_equator_is_a_direction_also_at_sigma():
+    slip, out = places.OfState(Motion(), None, 0.0, 0.0, 1.0), places.OfState(Motion(), None, 0.0, 2.0, 2.5)
+    e, p = slip.at(np.array([0.0, 0.8, 1.0]))
+    np.testing.assert_allclose(e, [(math.sqrt(0.5), -math.sqrt(0.5))] * 3)
+    np.testing.assert_array_equal(p, e)
+    np.testing.assert_allclose(out.at(np.array([2.0, 2.2]))[0], [(0.0, 1.0)] * 2)
+    between = places.OfState(Motion(), None, 0.0, 2.0, 2.2)
+    np.testing.assert_allclose(between.at(np.array([2.0]))[0], [(0.0, 1.0)])
+
+
+def test_places_on_sets_cycles_and_where_it_leaves():
+    t = np.array([0.0, 0.5, 1.0])
+    motion = lambda t: np.stack([0.0 * t, 0.0 * t, 0.1 + 0.2 * t], axis=-1)  # noqa: E731
+    rough = np.array([(0.2, 0.01), (0.4, -0.01)])
+    e, p = places.OnSet(BENT, PSIS[1], motion, np.array([0.0, 1.0]), rough).at(t)
+    np.testing.assert_allclose(e, np.stack([np.sqrt(0.05 + 0.1 * t), 0.0 * t], axis=-1), atol=1e-12)
+    np.testing.assert_allclose(p, [in_disc(PSIS[1], one) for one in e], atol=1e-14)
+    e, p = places.OnCycle(
+        np.array([0.0, 2.0]), np.array([(0.0, 1.0), (1.0, 3.0)]), np.array([(0.5, 0.0), (0.1, 0.2)])
+    ).at(t)
+    np.testing.assert_allclose(e, np.stack([0.5 * t, 1.0 + t], axis=-1))
+    np.testing.assert_allclose(p, np.stack([0.5 - 0.2 * t, 0.1 * t], axis=-1))
+    e, p = places.Leaving(2.0).at(t)
+    np.testing.assert_allclose(e, [(math.cos(2.0), math.sin(2.0))] * 3)
+    np.testing.assert_array_equal(p, e)
+
+
+def test_an_ascent_is_the_orbit_up_the_hemisphere():
+    system = c2.ELinear(-1.0, 0.0, -2.0, (0.3, 0.0))
+    ascent = places.Ascent(system, PSIS[0], np.zeros(0), theta=0.1)  # theta = 0 is a limit direction
+    path = ascent.path()
+    assert path[0] == pytest.approx((1.0, 0.0), abs=1e-6)
+    assert path[-1] == pytest.approx((0.3, 0.0), abs=1e-3)
+    inside = places.Ascent(system, PSIS[0], np.zeros(0), start=np.array([0.5, 0.5])).path()
+    assert inside[0] == pytest.approx((0.5, 0.5))
+    assert inside[-1] == pytest.approx((0.3, 0.0), abs=1e-3)
+    turning = places.Ascent(c2.ELinear(-0.1, 3.0, -0.1), PSIS[0], np.zeros(0), theta=1.0).path()
+    assert np.hypot(*turning[0]) == pytest.approx(places.BESIDE)
+    assert math.atan2(turning[0, 1], turning[0, 0]) == pytest.approx(1.0)
+    line = places.Ascent(system, PSIS[0], np.zeros(0), along=(np.zeros(2), np.ones(2)))
+    assert line.path().tolist() == [[0.0, 0.0], [1.0, 1.0]]
+
+
+def test_phases_up_to_a_time_and_their_words():
+    slip, slide = Phase("slip", 0.0, 1.0, "", None), Phase("slide", 1.0, 2.0, "", "C2")
+    cross = Phase("cross", 2.0, 2.0, "")
+    assert agreement._until((slip, slide, cross), 2.0) == [slip, slide, cross]
+    assert agreement._until((slip, slide, cross), 1.0) == [slip]
+    assert [agreement._words(one) for one in (slip, slide, cross, None)] == [
+        "slips",
+        "slides on C2",
+        "crosses Σ",
+        "goes on as before",
+    ]
+
+
+def test_the_distance_to_a_closed_line():
+    square = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
+    for p, expected in (((0.0, 0.2), 0.8), ((1.5, 0.3), 0.5), ((4.0, 5.0), 5.0), ((0.7, -0.1), 0.3)):
+        assert phases._distance(np.array(p), square) == pytest.approx(expected)
+
+
+def test_runs_on_one_set_are_joined_over_an_excursion():
+    def run(first, last, onto="C", e=(0.0, 0.0), end=(0.1, 0.0)):
+        return phases._Run(first, last, float(first), float(last), onto, (np.array(e), np.array(end)))
+
+    joined = phases._joined([run(0, 3), run(5, 8, e=(0.12, 0.0), end=(0.3, 0.0))])
+    assert [(one.first, one.last, one.t_start, one.t_end) for one in joined] == [(0, 8, 0.0, 8.0)]
+    assert joined[0].e[1].tolist() == [0.3, 0.0]
+    assert len(phases._joined([run(0, 3), run(5, 8, e=(0.25, 0.0))])) == 2  # elsewhere
+    assert len(phases._joined([run(0, 3), run(4, 8, e=(0.25, 0.0))])) == 1  # the next step end
+    assert len(phases._joined([run(0, 3), run(5, 8, onto="C2")])) == 2
+
+
+def test_the_angle_through_which_a_motion_turns():
+    reader = phases._Reader(BENT, PSIS[0], 1e-3, Motion(), None)
+    angle = np.linspace(0.0, 7.0, 60)
+    for sign in (1.0, -1.0):
+        circle = np.stack([3.0 + np.cos(sign * angle), np.sin(sign * angle) - 5.0], axis=-1)
+        assert reader.turned(circle) == pytest.approx(sign * 7.0, rel=1e-3)
+
+
+@pytest.mark.parametrize("onto", [None, "C", "C1", "C3"])
+def test_the_number_in_a_label(onto):
+    assert decide._index(onto) == (2 if onto == "C3" else 0)
+
+
+def test_ways_out_and_names():
+    limits = SimpleNamespace(lambda_rho=np.array([1.0, 1.0, -1.0, -1.0]), lambda_theta=np.array([-1.0, 1.0, -1.0, 1.0]))
+    assert decide._ways_out(limits) == [0]
+    assert decide.critical_name(BENT, PSIS[0], np.array([0.5]), np.array([0.4, 0.0])) in ("C1", "C2")
+    sets = c2.critical_sets(BENT, PSIS[0], (0.5,))
+    for i, C in enumerate(sets):
+        assert decide.critical_name(BENT, PSIS[0], np.array([0.5]), C.e + 0.1) == f"C{i + 1}"
