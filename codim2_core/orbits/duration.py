@@ -9,8 +9,22 @@ from ..layer_problem.equator import EquatorEquilibria
 from ..systems.frozen import AtZ
 
 LEAST = 40.0  # over the size of U: what is drawn in any case
-MOST = 10_000.0  # and at most: an orbit that creeps along the slow direction of a stiff node takes a step for about 4
+MOST = 1e9  # and at most: rates 1e-8 of the largest cannot be told from 0 by differences (`stepping.events`)
 ARRIVAL = 10.0  # over the slowest rate: e^-10 of the way is left, a hundredth of a pixel
+STIFF = 60.0  # ratio of the rates at one equilibrium from which an explicit method is bound to the fast one for long
+
+
+def is_stiff(equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ()) -> bool:
+    """Whether trajectories creep along a slow direction, at any equilibrium, beside one that is `STIFF` times as fast.
+
+    Parameters
+    ----------
+    equator : EquatorEquilibria
+    critical : tuple of CriticalSet, optional
+    """
+    pairs = [*zip(equator.lambda_rho.tolist(), equator.lambda_theta.tolist(), strict=True)]
+    pairs += [tuple(C.eigenvalues.real.tolist()) for C in critical if C.discriminant >= 0.0]
+    return any(max(map(abs, pair)) > STIFF * min(map(abs, pair)) for pair in pairs)
 
 
 def drawn_duration(at: AtZ, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ()) -> float:

@@ -1,4 +1,4 @@
-"""How trajectories are followed: their ten options, checked once."""
+"""How trajectories are followed: their eleven options, checked once."""
 
 from __future__ import annotations
 
@@ -30,6 +30,7 @@ class Stepping:
     samples: Literal["ends"] | None = None
     length: float = math.inf
     step_limit: int = STEP_LIMIT
+    stiff: bool = False
 
     def __post_init__(self) -> None:
         _positive(self.t_max, "t_max", "give a finite positive time; backward=True follows trajectories backward")

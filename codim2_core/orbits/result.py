@@ -101,3 +101,16 @@ def joined(parts: Sequence[Trajectories]) -> Trajectories:
         np.concatenate([part.codes for part in parts]),
         sum(part.evaluations for part in parts),
     )
+
+
+def continued(first: Trajectories, which: NDArray[np.int64], rest: Trajectories) -> Trajectories:
+    """Return trajectories of which some, `which` of `first`, go on as `rest`, from where they ended there."""
+    points, times = list(first.points), list(first.times)
+    for i, more, later in zip(which.tolist(), rest.points, rest.times, strict=True):
+        points[i] = np.concatenate([points[i], more[1:]])
+        times[i] = np.concatenate([times[i], times[i][-1] + later[1:]])
+    ends, codes = first.ends.copy(), first.codes.copy()
+    ends[which], codes[which] = rest.ends, rest.codes
+    offsets = np.concatenate([[0], np.cumsum([len(line) for line in points])])
+    evaluations = first.evaluations + rest.evaluations
+    return Trajectories(np.concatenate(points), np.concatenate(times), offsets, ends, codes, evaluations)

@@ -7,6 +7,7 @@ as a factor, so that it keeps its relative accuracy however small it is. Time is
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import lru_cache
 from types import SimpleNamespace
 from typing import Literal
@@ -20,7 +21,7 @@ from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .departures import departures
 from .options import PIXEL, STEP_LIMIT, Stepping
-from .result import Status, Trajectories, joined
+from .result import STATUSES, Status, Trajectories, continued, joined
 from .seeds import checked_seeds
 
 __all__ = ["Status", "Trajectories", "continuation", "is_warm", "joined", "trajectories", "warm"]
@@ -28,6 +29,10 @@ __all__ = ["Status", "Trajectories", "continuation", "is_warm", "joined", "traje
 Array = NDArray[np.float64]
 
 DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
+# Steps of a stiff problem before those of its trajectories that are still under way are followed implicitly, and then.
+# A step of either costs about as much; one implicit step does for any number that stability would ask for. What is
+# longer than the disc is wide by then goes round and round, and does not creep.
+EXPLICIT, IMPLICIT, ROUND = 300, 250, 2.5
 
 GENERAL = "general"
 _warm: set[str] = set()  # what has run: families of Psi for e-linear systems, GENERAL for any other
@@ -36,11 +41,12 @@ _warm: set[str] = set()  # what has run: families of Psi for e-linear systems, G
 @lru_cache(maxsize=1)
 def _kernels() -> SimpleNamespace:
     """Load the compiled parts on first use: compiling, or loading from the disk cache, starts with their first call."""
-    from ..stepping import lanes, layout
+    from ..stepping import lanes, layout, rosenbrock
     from ..stepping import problem as stepping_problem
 
     return SimpleNamespace(
         integrate=lanes.integrate,
+        creep=rosenbrock.creep,
         problem=stepping_problem.problem,
         prepare=stepping_problem.prepare,
         is_compiled=stepping_problem.is_compiled,
@@ -64,6 +70,7 @@ def trajectories(
     samples: Literal["ends"] | None = None,
     length: float = math.inf,
     step_limit: int = STEP_LIMIT,
+    stiff: bool = False,
 ) -> Trajectories:
     """Follow trajectories from points of the picture: eq:LP on the hemisphere, eq:polar_gen_odes_desing outside.
 
@@ -97,6 +104,9 @@ def trajectories(
         and not for ever.
     step_limit : int
         Steps tried before a trajectory is given up, with a status that says so.
+    stiff : bool
+        Trajectories that are still under way after some steps are followed by an implicit method, which is not bound
+        to the fastest rate where they creep along a slow direction.
 
     Returns
     -------
@@ -107,7 +117,7 @@ def trajectories(
     ValueError
         An argument is invalid; the message says which, and what is allowed.
     """
-    options = Stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit)
+    options = Stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff)
     at = system.at(z)
     points = seeds if isinstance(seeds, np.ndarray) and seeds.dtype == np.float64 else checked_seeds(seeds)
     if points.ndim != 2 or points.shape[1] != 2:
@@ -121,6 +131,37 @@ def trajectories(
 def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
     if len(states) == 0:
         return joined([])
+    if not options.stiff:
+        return _stepped(at, psi, states, signs, options)
+    found = _stepped(at, psi, states, signs, replace(options, step_limit=min(EXPLICIT, options.step_limit)))
+    which, spent, drawn = _under_way(found)
+    creeping = drawn < ROUND
+    if options.step_limit > EXPLICIT and creeping.any():
+        which, spent, drawn = which[creeping], spent[creeping], drawn[creeping]
+        rest = _crept(at, psi, found.ends[which], signs[which], spent, drawn, options)
+        found = continued(found, which, rest)
+        which, spent, drawn = _under_way(found)
+    more = options.step_limit - EXPLICIT - (IMPLICIT if creeping.any() else 0)
+    if not len(which) or more <= 0:
+        return found
+    last = replace(
+        options, t_max=max(options.t_max - spent.min(), 1e-300), length=max(options.length - drawn.max(), 1e-9),
+        step_limit=more,
+    )  # fmt: skip
+    return continued(found, which, _stepped(at, psi, found.ends[which], signs[which], last))
+
+
+def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array]:
+    """Which trajectories have come to the step limit, in what time each, and over what length."""
+    which = np.flatnonzero(found.codes == STATUSES.index(Status.STEP_LIMIT))
+    lines, times = found.points, found.times
+    spent = np.array([abs(times[i][-1]) for i in which])
+    drawn = np.array([np.hypot(*np.diff(lines[i], axis=0).T).sum() for i in which])
+    return which, spent, drawn
+
+
+def _stepped(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
+    """Follow trajectories explicitly."""
     kernels = _kernels()
     # Time in units of 1/|U| makes step sizes, speeds and capture independent of the scale of U.
     problem, unit = kernels.problem(at, psi, options.backward), at.speed
@@ -143,6 +184,30 @@ def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping
     return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
 
 
+def _crept(
+    at: AtZ, psi: Psi, states: Array, signs: Array, spent: Array, drawn: Array, options: Stepping
+) -> Trajectories:
+    """Follow trajectories implicitly, after a time that each has `spent` and a length that is `drawn`."""
+    kernels = _kernels()
+    problem, unit = kernels.problem(at, psi, options.backward), at.speed
+    buffer, clock, offsets, ends, codes, evaluations = kernels.creep(
+        states,
+        signs,
+        np.clip((options.t_max - spent) * unit, 1e-12, 1e300),
+        np.maximum(options.length - drawn, 0.0),
+        problem.shared,
+        problem.address,
+        float(options.rtol),
+        float(options.atol),
+        min(IMPLICIT, int(options.step_limit) - EXPLICIT),
+        options.reach,
+        float(options.view),
+        0.0 if options.samples == "ends" else DRAWN * float(options.pixel),
+    )
+    clock *= (-1.0 if options.backward else 1.0) / unit
+    return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
+
+
 def warm(psi: Psi | None = None, system: AnySystem | None = None) -> None:
     """Compile, or load from the disk cache, all that trajectories with this Psi need.
 
@@ -160,6 +225,7 @@ def warm(psi: Psi | None = None, system: AnySystem | None = None) -> None:
         _kernels().prepare(system.typed, psi)
     elinear, seeds = ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), np.array([(0.5, 0.0), (1.5, 0.0)])
     trajectories(elinear, psi, seeds)
+    trajectories(ELinear(-1.0, 0.5, -1e4, (0.1, 0.0)), psi, seeds, t_max=1e6, stiff=True)
     trajectories(elinear, psi, checked_seeds(seeds))  # read-only arrays are another type to Numba
 
 
@@ -190,6 +256,7 @@ def continuation(
     samples: Literal["ends"] | None = None,
     length: float = math.inf,
     step_limit: int = STEP_LIMIT,
+    stiff: bool = False,
 ) -> Trajectories:
     """Continue trajectories that arrive at limit directions up the hemisphere, fig:side_of_sphere, thm:geneps0(b).
 
@@ -201,7 +268,7 @@ def continuation(
     ----------
     theta : (k,)
         Limit directions, radians: zeros of Theta with lambda_rho < 0 (backward: > 0).
-    system, psi, z, t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit
+    system, psi, z, t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff
         As in `trajectories`; the time 0 is where the expansion hands over.
 
     Returns
@@ -214,7 +281,7 @@ def continuation(
     ValueError
         A direction is not a limit direction, or no trajectory of the nonsmooth system arrives along it.
     """
-    options = Stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit)
+    options = Stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff)
     at = system.at(z)
     states = departures(at, psi, theta, rtol, backward)
     return _integrate(at, psi, states, np.full(len(states), -1.0), options)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..orbits.duration import drawn_duration
+from ..orbits.duration import drawn_duration, is_stiff
 from ..orbits.seeds import ring, structured_seeds, window_seeds
 from ..orbits.trajectories import Trajectories, continuation, trajectories
 from ..orbits.whole import Orbits
@@ -15,7 +15,7 @@ from ..psi import constructors
 from .setting import Setting
 
 AROUND = 0.05  # radius of the seeds around an unstable critical set
-STEPS = 780  # of half a drawn orbit: one that creeps along a slow direction, 1/300 as fast, is not waited for
+STEPS = 780  # of half a drawn orbit: one that goes round a weak focus for longer is not waited for
 CAPTURE = 0.25  # of a pixel: where a drawn trajectory ends, so near its equilibrium that nobody can see the rest
 
 
@@ -41,10 +41,10 @@ def _structured(count: int, view: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _stepping(setting: Setting, outside: bool = False) -> dict[str, Any]:
-    longest = setting.t_max
+    longest, problem = setting.t_max, setting.problem
+    critical = () if outside else problem.critical
     if longest is None:
-        problem = setting.problem
-        longest = drawn_duration(problem.at, problem.equator, () if outside else problem.critical)
+        longest = drawn_duration(problem.at, problem.equator, critical)
     return {
         "t_max": longest,
         "length": setting.length,
@@ -54,6 +54,7 @@ def _stepping(setting: Setting, outside: bool = False) -> dict[str, Any]:
         "pixel": setting.pixel,
         "capture": CAPTURE * setting.pixel,
         "step_limit": STEPS,
+        "stiff": is_stiff(problem.equator, critical),
     }
 
 

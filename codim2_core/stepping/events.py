@@ -23,9 +23,19 @@ def attracted(S, P, field, lane, capture, scratch):
     """Whether the state NEW of a lane is within `capture` (arc on the sphere) of an attracting equilibrium.
 
     A Newton step in the tangent plane measures the distance, and the Jacobian's trace and determinant say whether it
-    attracts: a slow passage, a saddle or a centre ends nothing.
+    attracts: a slow passage, a saddle or a centre ends nothing. Where that step leads it is measured again: while a
+    fast direction is still decaying, the slow rate there may be anything.
     """
     x, y, w = S[NEW + lane], S[NEW + LANES + lane], S[NEW + 2 * LANES + lane]
+    kind, x, y, w = _measured(x, y, w, P, field, lane, capture, scratch)
+    if kind == NOTHING or w < 0.0:
+        return kind
+    return _measured(x, y, w, P, field, lane, capture, scratch)[0]
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def _measured(x, y, w, P, field, lane, capture, scratch):
+    """Return what is within `capture` by a Newton step, and where that leads: w is -1 where the answer is final."""
     sign = P[SIGN + lane]
     r = math.sqrt(x * x + y * y)
     # Tangent frame: along the parallel, and along the meridian (outside: along rho).
@@ -55,12 +65,12 @@ def attracted(S, P, field, lane, capture, scratch):
     place = EQUATOR if w < 1e-6 else INTERIOR
     # Near the equator only a rest of ebar itself, not its smallness, is rest.
     if speed <= STILL and abs(F[2 * LANES + 4]) <= STILL * w:
-        return place
+        return place, x, y, -1.0
     f = F[4] * ax + F[LANES + 4] * ay
     g = F[4] * bx + F[LANES + 4] * by + F[2 * LANES + 4] * bw
     j11 = ((F[0] - F[1]) * ax + (F[LANES] - F[LANES + 1]) * ay) / (2.0 * DIFFERENCE)
     if w == 0.0:
-        return EQUATOR if j11 < 0.0 and abs(f) <= -j11 * capture else NOTHING
+        return (EQUATOR if j11 < 0.0 and abs(f) <= -j11 * capture else NOTHING), x, y, -1.0
     j12 = ((F[2] - F[3]) * ax + (F[LANES + 2] - F[LANES + 3]) * ay) / (2.0 * DIFFERENCE)
     dx, dy, dw = F[0] - F[1], F[LANES] - F[LANES + 1], F[2 * LANES] - F[2 * LANES + 1]
     j21 = (dx * bx + dy * by + dw * bw) / (2.0 * DIFFERENCE)
@@ -68,15 +78,19 @@ def attracted(S, P, field, lane, capture, scratch):
     j22 = (dx * bx + dy * by + dw * bw) / (2.0 * DIFFERENCE)
     trace, det = j11 + j22, j11 * j22 - j12 * j21
     if not (trace < 0.0 and det >= -NEUTRAL * trace * trace):  # also NaN
-        return NOTHING
+        return NOTHING, x, y, w
     if det <= NEUTRAL * trace * trace:  # a line of equilibria: only what is far closer counts
-        return place if speed <= 1e-3 * capture * -trace else NOTHING
+        return (place if speed <= 1e-3 * capture * -trace else NOTHING), x, y, -1.0
     # On a weak focus the Jacobian must still beat its own rounding.
     u, v = (-f * j22 + g * j12) / det, (-g * j11 + f * j21) / det
     if trace > -1e-9 or math.sqrt(u * u + v * v) > capture:
-        return NOTHING
+        return NOTHING, x, y, w
     ahead = w + v * bw
-    return EQUATOR if ahead <= 0.05 * capture else INTERIOR
+    x, y = x + u * ax + v * bx, y + u * ay + v * by
+    height = ahead if sign < 0.0 else 0.0
+    length = 1.0 / math.sqrt(x * x + y * y + height * height)
+    kind = EQUATOR if ahead <= 0.05 * capture else INTERIOR
+    return kind, x * length, y * length, max(ahead * (length if sign < 0.0 else 1.0), 0.0)
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import codim2_core as c2
 from codim2_core import psi
@@ -23,7 +24,7 @@ def test_trajectories_of_case_three_reach_the_stable_focus():
     assert (np.hypot(*(ends(scene) - C.p).T) < 1.5e-3).sum() >= 16
 
 
-@pytest.mark.parametrize("ratio", [1.0, 30.0, 120.0])
+@pytest.mark.parametrize("ratio", [1.0, 30.0, 120.0, 900.0, 1e4, 1e6])
 @pytest.mark.parametrize("unit", [1e-3, 1.0, 1e4])
 def test_all_orbits_end_at_the_node_of_case_one(ratio, unit):
     scene = c2.Scene(c2.ELinear(-unit, 0.3 * unit, -ratio * unit, (-0.5 * unit, 0.1 * unit)), psi.tanh(), count=24)
@@ -46,3 +47,55 @@ def test_the_time_is_bounded_where_something_never_ends():
         at = system.at()
         longest = drawn_duration(at, c2.equator_equilibria(at), c2.critical_sets(at, psi.constant()))
         assert LEAST <= longest * (at.size or 1.0) <= MOST * (1.0 + 1e-15)
+
+
+STIFF = [
+    (c2.ELinear(-1, 0.3, -1e3, (-0.5, 0.1)), psi.tanh()),
+    (c2.ELinear(-1e4, 20.0, -1, (300.0, -0.2)), psi.hill(3)),
+    (c2.ELinear(-1, 0.0, -1e6, (-0.5, 1e5)), psi.constant()),
+    (c2.ELinear(-1, 10.0, -1e4, (-0.9, 8e3)), psi.exponential()),  # entered from the side
+    (c2.ELinear(-1, 0.2, -1e4, (-1.5, 30.0)), psi.rational()),  # no critical set: all leave
+    (c2.ELinear(1, 0.2, -1e4, (0.3, 30.0)), psi.rational()),  # a saddle
+    (c2.System(U=("-c + 0.2*s**2", "-3e4*(s - 0.3*c)")), psi.tanh()),
+]
+
+
+@pytest.mark.parametrize(("system", "family"), STIFF)
+@pytest.mark.parametrize("backward", [False, True])
+def test_every_orbit_of_a_stiff_portrait_ends_where_it_ends(system, family, backward):
+    """And no half asks for more than 12 000 evaluations, whatever the ratio of the rates."""
+    if backward:
+        minus = lambda v: f"-({v})" if isinstance(v, str) else -v  # noqa: E731
+        if isinstance(system, c2.System):
+            system = c2.System(U=tuple(minus(u.text) for u in system.U))
+        else:
+            system = c2.ELinear(minus(system.a), minus(system.b), minus(system.d), tuple(map(minus, system.f)))
+    scene = c2.Scene(system, family, count=32)
+    places = [C.p for C in scene["critical"]]
+    for orbits in (scene["inside"], scene["outside"]):
+        for half in (orbits.forward, orbits.backward):
+            assert not {Status.STEP_LIMIT, Status.T_MAX} & set(half.status)
+            assert half.evaluations <= 12_000 * max(len(half), 1)
+            for end, status in zip(half.ends, half.status, strict=True):
+                if status is Status.EQUILIBRIUM:
+                    assert min(np.hypot(*(end[:2] - p)) for p in places) < 1.0 / 180.0
+                if status is Status.ARRIVED:
+                    assert end[2] < 0.02
+
+
+def test_the_implicit_half_is_the_same_orbit():
+    """Against a stiff solver of SciPy: a line that bends over the disc, at 1e-4 of the fast rate."""
+    system = c2.System(U=("-0.2 - 0.3*c", "-2e3*(s - 0.5 + 1.2*c**2)"))
+    seeds = np.array([[0.9, 0.1], [-0.7, -0.5], [0.3, 0.8]])
+    found = c2.trajectories(system, psi.constant(), seeds, t_max=2.0, rtol=1e-7, atol=1e-8, stiff=True, step_limit=780)
+    assert found.evaluations < 3 * 9000
+    at = system.at()
+
+    def rate(_, p):
+        U = at.U(p)
+        return U - p * (p @ U)
+
+    for line, times in zip(found.points, found.times, strict=True):
+        true = solve_ivp(rate, (0.0, times[-1]), line[0], method="Radau", rtol=1e-9, atol=1e-11, t_eval=times)
+        assert np.hypot(*(line - true.y.T).T).max() < 0.1 / 180.0
+        assert abs(times[-1]) == pytest.approx(2.0)
