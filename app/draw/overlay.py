@@ -60,7 +60,7 @@ def holoviews(scene: Scene) -> Any:
     >>> import codim2_core as c2
     >>> picture = holoviews(c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0))))
     >>> len(picture)
-    10
+    11
     """
     overlay: Any = hv.Overlay(list(elements(scene).values()))
     x, y = (str(hv.Dimension(axis).label) for axis in AXES)

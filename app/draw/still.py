@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
+from html import escape
 
 from .svg import SIDE, draw
 from .theme import themes
@@ -33,3 +34,13 @@ def still(buffer: bytes, layers: Collection[str], theme: str = "light", width: i
     ground = f'<rect width="{SIDE}" height="{SIDE}" fill="var(--page)"/>'
     whole = inner.replace(">", f">{ground}", 1)
     return _VARIABLE.sub(lambda name: colours[name[1]], whole)
+
+
+def page_of(svg: str, sentence: str, title: str) -> str:
+    """Return a page that shows a picture and its sentence."""
+    return (
+        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        "<style>body{margin:2em auto;max-width:40em;font:16px/1.5 sans-serif}svg{max-width:100%;height:auto}</style>"
+        f"</head>\n<body>{svg}<p>{escape(sentence)}</p></body></html>\n"
+    )

@@ -9,6 +9,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
+from os import PathLike
+from pathlib import Path
 from typing import Any, ClassVar
 
 import panel as pn
@@ -24,7 +26,7 @@ from codim2_core.scene import Scene
 
 from ..draw.figure import make_figure
 from ..draw.packing import pack, unpack
-from ..draw.still import still
+from ..draw.still import page_of, still
 from ..draw.svg import draw
 from ..frame.budget import Budget
 from ..state.chosen import System_
@@ -131,6 +133,7 @@ class ExplorerView(JSComponent):
         self.frames.publish()  # what cannot be drawn is not in the state
         self._opened = self.frames.values
         header, _ = unpack(first)
+        self._whole = bool(header.get("ready"))
         self.refused = tuple(header.get("errors", {}).values())
         settings = config(self.state, self.frames.locked, self._look)
         settings["page"] = page
@@ -149,7 +152,11 @@ class ExplorerView(JSComponent):
         (A page that one server process wrote and another one answers; reused sessions; notebooks.) The explorer's
         own style sheet is in its markup.
         """
-        if not self.config["page"] and (self._models or self._opened is not self.frames.values):
+        static = comm is None and getattr(doc, "session_context", None) is None  # a file that is saved, or a widget
+        if static:
+            self._wait()
+        changed = self._models or self._opened is not self.frames.values
+        if not self.config["page"] and (changed or (static and not self._whole)):
             # a notebook shows it once more, or after its state was changed: as it is now
             self.param.update(**self._opening(page=False))
         root = super().get_root(doc, comm, preprocess)
@@ -173,15 +180,37 @@ class ExplorerView(JSComponent):
         Patient: waits for the compiler, so that nothing is.
         """
         scene, values = self.frames.scene, self.frames.values
-        ready = is_ready(scene.psi, scene.system)
-        while patient and not ready:
-            time.sleep(0.05)
-            ready = is_ready(scene.psi, scene.system)
+        ready = self._wait() if patient else is_ready(scene.psi, scene.system)
         if not ready and scene.coefficients.typed is not None:
             return still(pack({}, {}), values["layers"]), COMPILING, False
         header, blocks, _ = make_frame(scene, values, {}, ready)
         sentence = header["portrait"]["sentence"]
         return still(pack(header, blocks), values["layers"]), sentence if ready else f"{sentence} {COMPILING}", ready
+
+    def _wait(self) -> bool:
+        """Wait until the integrator is compiled for what is drawn."""
+        scene = self.frames.scene
+        while not is_ready(scene.psi, scene.system):
+            time.sleep(0.05)
+        return True
+
+    def save(self, filename: Any, title: str | None = None, *arguments: Any, **options: Any) -> None:
+        """Save the picture of the present state, which needs neither Python nor scripts: as a page or as SVG.
+
+        Parameters
+        ----------
+        filename : str or path
+            Ends in ``.html`` or ``.svg``; what else Panel saves, and all of its options, are as in any component.
+        title : str, optional
+            Of the page.
+        """
+        kind = Path(filename).suffix if isinstance(filename, (str, PathLike)) else ""
+        if arguments or options or kind not in (".html", ".svg"):
+            super().save(filename, title, *arguments, **options)
+            return
+        svg, sentence, _ = self.still()
+        text = svg if kind == ".svg" else page_of(svg, sentence, title or sentence.partition(". ")[0])
+        Path(filename).write_text(text, encoding="utf-8")
 
     def live(self) -> tuple[Any, str]:
         """Return a new Bokeh model that is joined to a page by a comm, and HTML that shows it."""

@@ -78,6 +78,7 @@ class Scene:
 
     Examples
     --------
+    >>> from codim2_core import ELinear
     >>> scene = Scene(ELinear(-2, 0, -1, (-0.5, 0)))
     >>> scene["classification"].name
     'CM4'

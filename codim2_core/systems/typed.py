@@ -47,8 +47,8 @@ class System(Formulas):
 
     Examples
     --------
-    >>> System(U=("2*c**2 - c - 1/2", "-s"), W=("-z",)).at(0.5).U((1.0, 0.0)).tolist()
-    [0.5, 0.0]
+    >>> System(U=("2*c**2 - c - 1/2", "-s"), W=("-z",)).at(0.5).U((1.0, 0.5)).tolist()
+    [0.5, -0.5]
     """
 
     frozen: ClassVar[bool] = False

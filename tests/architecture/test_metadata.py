@@ -16,7 +16,16 @@ ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 OWN = {"codim2_core", "codim2_app", "tests"}
 # Run as programs, or needed by a library that is imported.
-COMMANDS = {"pyright", "pytest-xdist", "ruff", "pre-commit", "import-linter", "ipywidgets", "jupyter-bokeh"}
+COMMANDS = {
+    "matplotlib",
+    "pyright",
+    "pytest-xdist",
+    "ruff",
+    "pre-commit",
+    "import-linter",
+    "ipywidgets",
+    "jupyter-bokeh",
+}
 # Left out of the extras: the notebook tests are skipped where they are missing, CI installs them.
 OPTIONAL = {"jupyterlab", "jupyter-bokeh"}
 

@@ -136,7 +136,6 @@ def test_the_page_says_which_paper_it_shows_and_what_its_words_mean():
 
 
 def test_both_backends_of_holoviews_draw_equal_axes_with_the_papers_names():
-    pytest.importorskip("matplotlib")
     code = """
 import holoviews as hv
 hv.extension("bokeh", "matplotlib")
