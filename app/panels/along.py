@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from codim2_core.portrait.attracting import attracting
 from codim2_core.psi.function import Psi
 from codim2_core.sliding.along import SlowPortrait, slow_portrait
 from codim2_core.sliding.over import slow_plane
@@ -30,6 +31,7 @@ def add(draft: Draft) -> None:
             draft.header.setdefault("unable", {})["along"] = NONE
         return
     z, psi = draft.scene.z, draft.scene.psi
+    _add_drift(draft)
     m = system.m
     axis = min(SLOW_CONTROLS.index(values["drift"]), m - 1, len(SLOW_CONTROLS) - 1)
     spans = spans_of(system, values)
@@ -42,6 +44,18 @@ def add(draft: Draft) -> None:
         plane = draft.slow("slow_plane", (system, psi, rest, spans), plane_of, system, psi, rest, spans)
         if plane is not None:
             draft.header["slow_plane"] = plane
+
+
+def _add_drift(draft: Draft) -> None:
+    """Add the slow flow that play follows: that of the attracting set which the frame before was on."""
+    scene = draft.scene
+    if not draft.ready:
+        return  # limit cycles need the integrator
+    found = attracting(scene["critical"], lambda: scene["cycles"], draft.now.get("drifts on"))
+    draft.now["drifts on"] = None if found is None else found.e
+    told = None if found is None else {"on": found.name, "flow": [float(v) for v in found.slow_flow]}
+    if draft.now.get("drift", ()) != told:
+        draft.now["drift"] = draft.header["drift"] = told
 
 
 def spans_of(system: System_, values: Mapping[str, Any]) -> tuple[tuple[float, float], ...]:

@@ -16,7 +16,8 @@ from .panel import Panel
 
 #: Modules beside this one that end with a `PANEL`, in the order of the tabs: a new panel is one more name here.
 MODULES = (
-    "atlas", "numbers", "planes", "diagram", "theorems", "along", "stack", "time", "psi", "orbits", "lessons",
+    "parameters.atlas", "numbers", "parameters.planes", "parameters.diagram", "theorems", "along", "stack", "time",
+    "psi", "orbits", "lessons",
 )  # fmt: skip
 #: By key.
 PANELS: dict[str, Panel] = {}

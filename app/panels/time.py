@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from codim2_core.examples import Ball, catalogue
 from codim2_core.motion.agreement import agreement
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.regularised import LARGEST_EPS, SMALLEST_EPS, simulate
 from codim2_core.motion.result import Simulation
+from codim2_core.motion.rolling import rolling
 from codim2_core.psi.function import Psi
 
 from ..frame.draft import Draft
@@ -22,8 +24,6 @@ from .panel import Panel
 
 RTOL = 1e-7
 EPS = round(math.log10(SMALLEST_EPS)), round(math.log10(LARGEST_EPS))
-#: Systems whose motion is that of a ball, and where its centre is: the integral of z, or z3 and z4.
-BALLS = {"ball_in_pool": "integral", "ball_on_turntable": "position"}
 
 
 def add(draft: Draft) -> None:
@@ -38,10 +38,11 @@ def add(draft: Draft) -> None:
         draft.header.setdefault("unable", {})["motion"] = str(error)
         return
     eps = 10.0 ** values["log_eps"]
-    found = draft.slow("motion", (system, psi, eps, start, t_end), both, system, psi, eps, start, t_end)
+    example = catalogue.get(values["system"])
+    asked = (system, psi, eps, start, t_end, None if example is None else example.ball)
+    found = draft.slow("motion", asked, both, *asked)
     if found is not None:
-        ball = BALLS.get(values["system"])
-        draft.header["motion"] = {**found["motion"], "eps": eps, "ball": ball, "start": list(start)}
+        draft.header["motion"] = {**found["motion"], "eps": eps, "start": list(start)}
         draft.header["limit"] = found["limit"]
 
 
@@ -70,13 +71,20 @@ def launch_of(values: Mapping[str, Any], m: int) -> tuple[tuple[float, ...], flo
     return start, t_end
 
 
-def both(system: System_, psi: Psi, eps: float, start: tuple[float, ...], t_end: float) -> dict[str, Any]:
-    """Return the regularised motion and the limit as the browser draws them, and how they agree."""
+def both(
+    system: System_, psi: Psi, eps: float, start: tuple[float, ...], t_end: float, ball: Ball | None = None
+) -> dict[str, Any]:
+    """Return the regularised motion and the limit as the browser draws them, how they agree, and how a ball rolls."""
     run = simulate(system, psi, eps, start, (0.0, t_end), rtol=RTOL)
     limit = simulate_nonsmooth(system, start, (0.0, t_end), psi=psi, rtol=RTOL)
     together = agreement(system, psi, run, limit)
     return {
-        "motion": {**_curves(run), "agreement": together.sentence, "same": together.same},
+        "motion": {
+            **_curves(run),
+            "agreement": together.sentence,
+            "same": together.same,
+            "ball": None if ball is None else _rolling(ball, run, dict(system.parameters)),
+        },
         "limit": _curves(limit),
     }
 
@@ -90,6 +98,18 @@ def _curves(run: Simulation) -> dict[str, Any]:
         "phases": [[p.kind, p.t_start, p.t_end, p.reason, p.onto] for p in run.phases],
         "reason": run.reason,
         "ended": float(run.times[-1]),
+    }
+
+
+def _rolling(ball: Ball, run: Simulation, parameters: Mapping[str, float]) -> dict[str, Any]:
+    """Return where a ball is and how it is turned, at the times of its curves."""
+    drawn = run.drawn()
+    rate = 0.0 if ball.turning is None else float(parameters[ball.turning])
+    found = rolling(ball, drawn.times, drawn.states, rate)
+    return {
+        "centre": [_short(column) for column in found.centre.T],
+        "turns": [[round(float(v), 4) for v in turn] for turn in found.turns],
+        "radius": found.radius,
     }
 
 

@@ -1,33 +1,17 @@
-// A ball seen from above and to the side: it translates with z and turns as its contact velocity says.
+// A ball seen from above: where it is, how it is turned, and its way so far.
 
-import {times, turned} from "./quaternions.js"
-
-/** @typedef {import("./quaternions.js").Quaternion} Quaternion */
+import {turned} from "./quaternions.js"
 
 export class Ball {
   constructor(root, canvas) { this.root = root; this.canvas = canvas }
 
-  // Positions and orientations along the motion. With contact slip u = v + ω × (−R k), ω × k = (v − u)/R.
-  prepare({t, states, ball}) {
-    const [u1, u2, v1, v2] = states
-    const n = t.length
-    const x = new Float64Array(n), y = new Float64Array(n), turns = /** @type {Quaternion[]} */ ([[1, 0, 0, 0]])
-    for (let i = 1; i < n; i++) {
-      const dt = t[i] - t[i - 1]
-      x[i] = x[i - 1] + 0.5 * dt * (v1[i] + v1[i - 1]); y[i] = y[i - 1] + 0.5 * dt * (v2[i] + v2[i - 1])
-    }
-    this.path = ball === "position" ? [states[4], states[5]] : [x, y]
+  prepare({t, ball: {centre, turns, radius}}) {
     const reach = (c) => [Math.min(...c), Math.max(...c)]
-    const [[a, b], [c, d]] = this.path.map(reach)
+    const [[a, b], [c, d]] = centre.map(reach)
+    this.path = centre
     this.span = [b - a, d - c]
     this.middle = [(a + b) / 2, (c + d) / 2]
-    this.radius = 0.07 * Math.max(b - a, d - c, 1e-6)
-    for (let i = 1; i < n; i++) {
-      const dt = t[i] - t[i - 1]
-      const wy = 0.5 * (v1[i] + v1[i - 1] - u1[i] - u1[i - 1]) / this.radius, wx = -0.5 * (v2[i] + v2[i - 1] - u2[i] - u2[i - 1]) / this.radius
-      const size = Math.hypot(wx, wy), half = 0.5 * size * dt, s = size ? Math.sin(half) / size : 0
-      turns.push(times([Math.cos(half), wx * s, wy * s, 0], turns[i - 1]))
-    }
+    this.radius = radius
     this.turns = turns
     this.t = t
   }

@@ -3,16 +3,6 @@
 /** @typedef {[number, number, number, number]} Quaternion */
 
 /**
- * The turn that does the second one first, then the first one.
- * @param {Quaternion} first
- * @param {Quaternion} second
- * @returns {Quaternion}
- */
-export function times([a, b, c, d], [e, f, g, h]) {
-  return [a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e]
-}
-
-/**
  * A vector turned.
  * @param {Quaternion} turn
  * @param {number[]} vector

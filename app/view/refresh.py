@@ -18,7 +18,6 @@ from codim2_core.layer_problem.equator import EquatorEquilibria, equator_equilib
 from codim2_core.portrait.classification import Classification
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
-from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
@@ -455,6 +454,4 @@ def make_frame(
     if flow is not None and flow.ndim > 1:  # a general system has a slow flow for each critical set
         flow = flow[0] if len(flow) == 1 else None
     header["slow_flow"] = None if flow is None else [float(v) for v in flow]
-    if isinstance(scene.coefficients, Coefficients):
-        header["f"] = [float(scene.coefficients.f1), float(scene.coefficients.f2)]
     return header, blocks, now

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from ..systems.elinear import ELinear
 from ..systems.typed import System
 from .attracting_repelling import attracting_repelling
+from .ball import Ball
 from .ball_in_pool import ball_in_pool
 from .ball_on_turntable import ball_on_turntable
 from .example import GRAVITY, Example
@@ -20,6 +21,7 @@ from .unit_vector_control import unit_vector_control
 
 __all__ = [
     "GRAVITY",
+    "Ball",
     "Example",
     "attracting_repelling",
     "ball_in_pool",

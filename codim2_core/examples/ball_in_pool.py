@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..systems.elinear import ELinear
+from .ball import Ball
 from .example import GRAVITY, Example
 
 
@@ -47,4 +48,5 @@ EXAMPLE = Example(
     slow=(("v₁", -12.0, 12.0), ("v₂", -12.0, 12.0)),
     launch=(9.0, 3.0, 9.0, 0.0),
     t_end=5.0,
+    ball=Ball(),
 )

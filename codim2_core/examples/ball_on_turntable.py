@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..systems.elinear import ELinear
+from .ball import Ball
 from .example import GRAVITY, Example
 
 
@@ -48,4 +49,5 @@ EXAMPLE = Example(
     slow=(("v₁", -4.0, 4.0), ("v₂", -4.0, 4.0), ("r₁", -2.0, 2.0), ("r₂", -2.0, 2.0)),
     launch=(1.0, 2.5, 1.0, 0.0, 0.5, 0.0),
     t_end=8.0,
+    ball=Ball(placed=True, turning="Omega"),
 )

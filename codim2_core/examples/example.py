@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from ..systems.elinear import ELinear
 from ..systems.typed import System
+from .ball import Ball
 
 GRAVITY = 9.81  # m/s²
 
@@ -35,6 +36,8 @@ class Example:
         A state (x, y, z1, …, zm) from which a motion is worth following.
     t_end : float
         For how long.
+    ball : Ball or None
+        What its states say if it is a ball: then it is seen to roll.
     """
 
     make: Callable[..., ELinear | System]
@@ -47,6 +50,7 @@ class Example:
     slow: tuple[tuple[str, float, float], ...]
     launch: tuple[float, ...]
     t_end: float
+    ball: Ball | None = None
 
     @property
     def key(self) -> str:

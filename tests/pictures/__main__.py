@@ -40,9 +40,9 @@ AGAIN = """for (const note of document.querySelectorAll(".panel pre")) {
 
 
 def panels() -> dict[str, str]:
-    """Return what Node draws of each panel, by the name of the file."""
+    """Return what Node draws of each panel, and of a whole explorer, by the name of the file."""
     done = subprocess.run(["node", str(SCRIPT)], capture_output=True, text=True, check=True)
-    return {f"panel-{name}.html": text for name, text in json.loads(done.stdout).items()}
+    return {f"{name}.html": text for name, text in json.loads(done.stdout).items()}
 
 
 def shown(name: str, text: str) -> str:

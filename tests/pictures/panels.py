@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+import re
 from concurrent.futures import Executor, Future
 from typing import Any
 from urllib.parse import parse_qsl
@@ -45,7 +46,7 @@ DRAWN = {
     "lessons-first": "lesson=01-friction",
 }
 #: Entries of a header that belong to a session, or are no panel's.
-LEFT_OUT = ("id", "load", "errors", "late", "ready", "lines", "blocks", "set", "portrait", "launched words")
+LEFT_OUT = ("id", "load", "errors", "late", "ready", "lines", "blocks", "set", "portrait")
 
 
 class AtOnce(Executor):
@@ -76,17 +77,21 @@ def columns(name: str) -> str:
     else:
         raise AssertionError(f"{name}: never comes to rest: {made['late']}")
     settings = config(link.state)
+    script = PANELS[key].script.read_text(encoding="utf-8")  # what it never names, it does not read
     shown = {
         "panel": key,
         "values": link.state.values(),
         "tools": {it: settings[it] for it in ("symbols", "ranges", "docs")} | {"settings": PANELS[key].settings},
         "slow": [one["symbol"] for one in header["system"]["slow"]],
-        "header": {it: value for it, value in header.items() if it not in LEFT_OUT},
+        "header": {it: value for it, value in header.items() if it not in LEFT_OUT and re.search(rf"\b{it}\b", script)},
         "blocks": blocks,
     }
     for other in {"sphere", "stack", "filippov"} - {link.state.solid}:  # what is not looked at
         shown["header"].pop(other, None)
-    shown["header"]["thumbnails"] = header.get("thumbnails", [])[:2]
+    for lesson in shown["header"].get("lesson", {}).get("list", ()):
+        lesson["values"] = {"lesson": lesson["key"]}
+    if "thumbnails" in shown["header"]:
+        shown["header"]["thumbnails"] = header["thumbnails"][:2]
     return _lines(_plain(shown)) + "\n"
 
 

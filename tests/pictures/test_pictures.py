@@ -32,7 +32,7 @@ def test_a_picture_is_the_one_that_is_kept(name):
 
 
 def test_nothing_is_kept_that_is_not_made():
-    drawn = {f"panel-{name}.html" for name in DRAWN}  # by tests/app/static/panels.test.js
+    drawn = {"explorer.html", *(f"panel-{name}.html" for name in DRAWN)}  # by Node: tests/app/static/drawing.js
     assert {path.name for path in KEPT.iterdir()} == pictures().keys() | drawn
 
 

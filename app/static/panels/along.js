@@ -53,8 +53,7 @@ class Along {
   }
 
   apply({header}, late) {
-    if (header.critical) this.critical = header.critical
-    if ("slow_flow" in header) this.mean = header.slow_flow
+    if ("drift" in header) this.drift = header.drift
     if (header.along) { this.data = header.along; this.why = "" }
     if (header.slow_plane) this.planeData = header.slow_plane
     if (header.unable?.along) { this.data = null; this.why = header.unable.along }
@@ -65,14 +64,13 @@ class Along {
     this.arrived?.()
   }
 
-  // Play: z follows the slow flow of the critical set that it is on, or the mean over a limit cycle (prop:LC).
+  // Play: z follows the slow flow of the attracting set that it is on, a critical set or a limit cycle.
   toggle(on = !this.playing) {
     this.playing = on && Boolean(this.data)
     this.find(".play").textContent = this.playing ? "❚❚ Pause" : "▶ Play"
     this.find(".play").setAttribute("aria-pressed", this.playing)
     if (!this.playing) return
     this.find(".along-note").textContent = ""
-    this.on = null
     const most = Math.max(1e-9, ...this.data.branches.flatMap((b) => b.flow.map(Math.abs)))
     const [low, high] = this.data.span
     this.rate = (high - low) / most / DRIFT_SECONDS
@@ -81,8 +79,8 @@ class Along {
       if (!this.playing) return
       const dt = Math.min(now - before, 60) / 1000 * this.rate * Number(this.find(".speed").value)
       before = now
-      const flow = this.flow()
-      if (!flow) { this.stop("Sliding ends here: there is no critical set that attracts."); return }
+      if (!this.drift) { this.stop("Sliding ends here: no critical set and no limit cycle attracts."); return }
+      const {flow} = this.drift
       const wanted = {}
       flow.slice(0, 4).forEach((rate, i) => { wanted[slowName(i)] = this.values[slowName(i)] + rate * dt })
       const at = wanted[this.data.control]
@@ -96,18 +94,6 @@ class Along {
   }
 
   stop(sentence) { this.toggle(false); this.find(".along-note").textContent = sentence }
-
-  flow() {
-    const {kind = [], slow_flow: flows = [], e = []} = this.critical ?? {}
-    let best = -1
-    kind.forEach((words, i) => {
-      if (!words.startsWith("stable")) return
-      const near = this.on ? Math.hypot(e[i][0] - this.on[0], e[i][1] - this.on[1]) : 0
-      if (best < 0 || near < this.near) { best = i; this.near = near }
-    })
-    if (best >= 0) { this.on = e[best]; return flows[best] }
-    return this.mean && kind.length ? this.mean : null
-  }
 
   close() { this.toggle(false) }
 

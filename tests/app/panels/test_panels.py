@@ -11,7 +11,8 @@ from codim2_app.draw.svg import draw
 from codim2_app.draw.thumbnails import thumbnails
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.turns import Failed
-from codim2_app.panels import axes, theorems
+from codim2_app.panels import theorems
+from codim2_app.panels.parameters import axes
 from codim2_app.slow_layers import outcomes
 from codim2_app.state.choices import AXES
 from codim2_app.state.controls import ExplorerState

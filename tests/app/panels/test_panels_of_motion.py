@@ -39,7 +39,7 @@ def sent(panel, *, rest=True, **changes):
 @pytest.mark.parametrize("panel", [panel_along, panel_stack, time])
 def test_while_controls_move_nothing_is_computed(panel):
     header = sent(panel, rest=False, system="ball_in_pool")
-    assert set(header) == {"late"}
+    assert set(header) - {"drift"} == {"late"}  # what play follows is known at once
 
 
 def test_along_z_the_ball_slides_between_minus_and_plus_z_crit():
@@ -50,6 +50,31 @@ def test_along_z_the_ball_slides_between_minus_and_plus_z_crit():
     assert along["points"][1]["z"] == 0.0
     (branch,) = along["branches"]
     np.testing.assert_allclose(branch["flow"], -5 / 7 * np.array(branch["z"]), rtol=1e-4, atol=1e-4)
+
+
+def test_play_follows_the_attracting_set_that_it_was_on():
+    """The two stable critical sets of sec:nonunique lie at opposite e; z drifts to either side."""
+    now, header = {}, {}
+    shown = {**ExplorerState().values(), **opening("nonunique_sliding"), "system": "nonunique_sliding"}
+
+    def drifts(**changes):
+        values = {**shown, **changes}
+        header.clear()
+        panel_along.add(Draft(make_scene(values), values, header, {}, now, Jobs(Now()), False, True, ()))
+        return header.get("drift", "as before")
+
+    first = drifts(z=0.3)
+    assert first["on"].startswith("C")
+    assert drifts(z=0.3) == "as before"
+    critical = make_scene({**shown, "z": 0.3})["critical"]
+    stable = [C for C in critical if C.kind.startswith("stable")]
+    [other] = [C for C in stable if not np.allclose(C.e, now["drifts on"])]
+    now["drifts on"] = other.e
+    second = drifts(z=0.31)
+    assert second["on"] != first["on"]
+    np.testing.assert_allclose(second["flow"], other.slow_flow, atol=0.05)
+    assert drifts(system="normal", a=1.0, b=0.3, d=-1.2, f1=0.2, f2=0.45) is None  # a saddle attracts nothing
+    assert now["drifts on"] is None
 
 
 def test_the_plane_of_two_slow_variables_has_arrows_where_it_slides_only():
@@ -96,7 +121,12 @@ def test_the_motion_of_a_ball_slips_then_slides_and_its_limit_lies_over_it():
         np.testing.assert_allclose(np.interp(limit["t"], motion["t"], smooth), sharp, atol=5e-3)
     ends = [np.array(run["picture"])[:, -1] for run in (motion, limit)]
     np.testing.assert_allclose(*ends, atol=2e-3)
-    assert motion["ball"] == "integral"
+    ball = motion["ball"]
+    assert len(ball["turns"]) == len(ball["centre"][0]) == len(motion["t"])
+    v1 = np.array(motion["states"][2])
+    way = np.concatenate([[0.0], np.cumsum(np.diff(motion["t"]) * (v1[1:] + v1[:-1]) / 2)])
+    np.testing.assert_allclose(ball["centre"][0], way, atol=2e-3)
+    assert ball["radius"] == pytest.approx(0.07 * way[-1], rel=1e-3)
 
 
 def test_the_limit_is_drawn_on_the_set_that_the_words_name():

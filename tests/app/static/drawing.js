@@ -1,13 +1,15 @@
 // Panels drawn without a browser, from columns that are kept (tests/pictures/panels.py makes them): the markup that a panel
 // writes, what it draws on its canvas, and what becomes of it under a person's hands, as one text.
 //
-// node drawing.js writes all of them as JSON, {name: text}.
+// node drawing.js writes all of them, and the story of a whole explorer, as JSON, {name: text}.
 
 import {createHash} from "node:crypto"
 import {readdirSync, readFileSync} from "node:fs"
 import {fileURLToPath} from "node:url"
 
+import {KEPT} from "./kept.js"
 import {page} from "./page.js"
+import {story} from "./wiring.js"
 import {Panels} from "../../../app/static/panels.js"
 import {Rest} from "../../../app/static/rest.js"
 import "../../../app/static/panels/along.js"
@@ -21,8 +23,6 @@ import "../../../app/static/panels/psi.js"
 import "../../../app/static/panels/solid.js"
 import "../../../app/static/panels/theorems.js"
 import "../../../app/static/panels/time.js"
-
-export const KEPT = new URL("../../pictures/kept/", import.meta.url)
 
 /** Names of what is kept: "along-node", … */
 export const names = () => readdirSync(KEPT).filter((file) => /^panel-.*\.json$/.test(file)).map((file) => file.slice(6, -5)).sort()
@@ -62,7 +62,7 @@ const HANDS = {
   ],
   numbers: [["values", {z: -7.3}], ["frame", {slow_flow: [-0.4, 2]}], ["frame", {slow_flow: [0]}], ["frame", {slow_flow: []}], ["frame", {unable: {outcomes: "Not here."}}], ["late", ["outcomes"]]],
   orbits: [[".hide", "click"], [".hide@2", "click"], [".remove@1", "click"], [".orbit-name", "change"], [".clear", "click"]],
-  planes: [["frame", {critical: {label: ["C"], kind: ["saddle"], x2: [[0.5, -0.25]], trace: [0.4], determinant: [-1.5]}}], ["frame", {critical: {label: ["C"], kind: ["stable focus"], x2: [[0.5, -0.25]], trace: [-0.5], determinant: [2]}}], ["frame", {critical: {label: [], kind: [], x2: [], trace: [], determinant: []}}], ["frame", {system: {}, critical: {label: ["C"], kind: ["unstable node"], x2: [[0.5, -0.25]], trace: [3], determinant: [2]}}]],
+  planes: [["frame", {critical: {label: ["C"], kind: ["saddle"], trace: [0.4], determinant: [-1.5], x2: [[0.5, 0.2]]}}], ["frame", {critical: {label: ["C"], kind: ["stable focus"], trace: [-0.5], determinant: [2], x2: [[-1.5, 0.4]]}}], ["frame", {critical: {label: [], kind: [], trace: [], determinant: [], x2: []}}], ["frame", {system: {}, critical: {label: ["C"], kind: ["unstable node"], trace: [3], determinant: [2], x2: [[0, 3]]}}]],
   psi: [["values", {log_eps: -1.2}], [".psi-curves", "pointermove", {clientX: 100, clientY: 60}]],
   solid: [
     [".solid", "keydown", {key: "ArrowRight"}], [20], [".solid", "keydown", {key: "ArrowUp"}], [20], [".solid", "pointerdown", {clientX: 10, clientY: 20}], [".solid", "pointermove", {clientX: 40, clientY: -12}], [".solid", "pointerup"],
@@ -132,5 +132,5 @@ export function drawn(name) {
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-  process.stdout.write(JSON.stringify(Object.fromEntries(names().map((name) => [name, drawn(name)]))))
+  process.stdout.write(JSON.stringify(Object.fromEntries([...names().map((name) => [`panel-${name}`, drawn(name)]), ["explorer", story()]])))
 }

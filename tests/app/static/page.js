@@ -29,12 +29,12 @@ export function page(body = "") {
   const waiting = new Map()
   const after = (go, ms) => { waiting.set(++number, {at: now + ms, go}); return number }
   const cancel = (id) => { waiting.delete(id) }
-  const heard = {} // listeners of the window, and of other things that are no elements
+  const heard = {} // listeners of the window
   const listens = {addEventListener: (type, go) => { (heard[type] ??= []).push(go) }, removeEventListener: (type, go) => { heard[type] = (heard[type] ?? []).filter((it) => it !== go) }}
   dress(window, document)
   const given = {
-    document, window: {...listens, document, history: null}, devicePixelRatio: 1,
-    requestAnimationFrame: (go) => after(go, 16), cancelAnimationFrame: cancel, setTimeout: after, clearTimeout: cancel,
+    document, window: {...listens, document, history: browsed()}, devicePixelRatio: 1,
+    queueMicrotask: (go) => after(go, 0), requestAnimationFrame: (go) => after(go, 16), cancelAnimationFrame: cancel, setTimeout: after, clearTimeout: cancel,
     performance: {now: () => now}, ResizeObserver: class { observe() {} }, MutationObserver: class { observe() {} },
     getComputedStyle: () => ({getPropertyValue: (name) => `${name.slice(2)} `}), matchMedia: () => ({matches: false, ...listens}),
     localStorage: storage(), sessionStorage: storage(), structuredClone: (value) => JSON.parse(JSON.stringify(value)),
@@ -60,6 +60,19 @@ export function page(body = "") {
       target.dispatchEvent(event)
       return event
     },
+  }
+}
+
+// The browser's history; it answers \`go\` with \`popstate\`, by hand of who calls \`arrive\`.
+function browsed() {
+  const entries = [{state: null, url: ""}]
+  let at = 0
+  return {
+    get state() { return entries[at].state },
+    get url() { return entries[at].url },
+    pushState(state, _title, url) { entries.splice(++at); entries.push({state: JSON.parse(JSON.stringify(state)), url}) },
+    replaceState(state, _title, url) { entries[at] = {state: JSON.parse(JSON.stringify(state)), url} },
+    go(by) { at += by },
   }
 }
 
@@ -99,6 +112,9 @@ function dress(window, document) {
     configurable: true,
   })
   const input = Object.getPrototypeOf(document.createElement("input"))
+  for (const name of ["min", "max", "step"]) {
+    Object.defineProperty(input, name, {get() { return this.getAttribute(name) }, set(value) { this.setAttribute(name, value) }, configurable: true})
+  }
   get(input, {valueAsNumber: function () { return Number(this.value) }}) // eslint-disable-line object-shorthand
   Object.defineProperty(input, "checked", {
     get() { return this.hasAttribute("checked") }, set(value) { this.toggleAttribute("checked", Boolean(value)) }, configurable: true,

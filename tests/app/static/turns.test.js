@@ -2,7 +2,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import {Ball} from "../../../app/static/ball.js"
-import {times, turned} from "../../../app/static/quaternions.js"
+import {turned} from "../../../app/static/quaternions.js"
 
 /** @typedef {import("../../../app/static/quaternions.js").Quaternion} Quaternion */
 
@@ -27,40 +27,6 @@ test("a turn is Rodrigues' formula", () => {
   }
 })
 
-test("a product of turns is one after the other, for any two", () => {
-  const first = about([1, -2, 0.5], 1.1), second = about([-0.3, 0.7, 2], -2.3), v = [0.4, -1.7, 0.9]
-  near(turned(times(first, second), v), turned(first, turned(second, v)))
-  near(times([2, 3, 5, 7], [11, 13, 17, 19]), [-235, 35, 123, 101]) // by hand: i j = k, j k = i, k i = j
-})
-
-test("a ball that rolls turns about the axis across its way, by the length of the way over its radius", () => {
-  // rolling: no slip, u = 0; along (3, 4)/5 with speed 5 for 2 s, in unequal steps
-  const t = [0, 0.3, 1.1, 2], n = t.length
-  const same = (value) => Array(n).fill(value)
-  const ball = new Ball(null, null)
-  ball.prepare({t, states: [same(0), same(0), same(3), same(4)], ball: "velocity"})
-  near(ball.path[0], t.map((s) => 3 * s))
-  near(ball.path[1], t.map((s) => 4 * s))
-  near([...ball.span, ...ball.middle, ball.radius], [6, 8, 3, 4, 0.56])
-  t.forEach((s, i) => near(ball.turns[i], about([-4, 3, 0], 5 * s / 0.56), 1e-9))
-})
-
-test("slip that is all of the velocity turns nothing, and a spin on the spot turns without a way", () => {
-  const t = [0, 1, 3]
-  const slides = new Ball(null, null)
-  slides.prepare({t, states: [[2, 1, 0], [1, 3, 5], [2, 1, 0], [1, 3, 5]], ball: "velocity"})
-  slides.turns.forEach((turn) => near(turn, [1, 0, 0, 0]))
-  near(slides.path[0], [0, 1.5, 2.5]) // trapezoids
-  near(slides.path[1], [0, 2, 10])
-  const placed = new Ball(null, null)
-  placed.prepare({t, states: [[0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0], [1, 4, 2], [-1, 0, 9]], ball: "position"})
-  near([...placed.path[0], ...placed.path[1]], [1, 4, 2, -1, 0, 9])
-  near([...placed.span, ...placed.middle, placed.radius], [3, 10, 2.5, 4, 0.7])
-  const still = new Ball(null, null)
-  still.prepare({t: [0, 1], states: [[-1, -1], [0, 0], [0, 0], [0, 0]], ball: "velocity"})
-  near([still.radius], [0.07e-6], 1e-20)
-})
-
 test("the ball is drawn where the motion has brought it, y upwards, its way so far over the whole way", () => {
   const drawn = []
   const note = (name) => (...values) => { drawn.push([name, ...values]) }
@@ -70,8 +36,8 @@ test("the ball is drawn where the motion has brought it, y upwards, its way so f
   global.devicePixelRatio = 1
   global.getComputedStyle = () => ({getPropertyValue: (name) => name})
   const ball = new Ball({}, {clientWidth: 200, clientHeight: 100, getContext: () => g})
-  const none = [0, 0, 0]
-  ball.prepare({t: [0, 1, 3], states: [none, none, none, none, [1, 4, 2], [-1, 0, 9]], ball: "position"})
+  ball.prepare({t: [0, 1, 3], ball: {centre: [[1, 4, 2], [-1, 0, 9]], turns: [[1, 0, 0, 0], [1, 0, 0, 0], [0, 1, 0, 0]], radius: 0.7}})
+  near([...ball.span, ...ball.middle], [3, 10, 2.5, 4])
   ball.show(null, 1.5)
   const scale = 0.92 * Math.min(200 / 4.4, 100 / 11.4)
   const places = [[1, -1], [4, 0], [2, 9]].map(([x, y]) => [100 + scale * (x - 2.5), 50 - scale * (y - 4)])

@@ -56,7 +56,7 @@ def test_only_changed_layers_are_sent(frames, change, sent):
 
 def test_z_is_alive_and_moves_f(frames):
     header, blocks = ask(frames, z=1.0)
-    assert header["f"] == [0.0, 0.0]
+    assert header["critical"]["e"] == [[0.0, 0.0]]
     assert blocks == HEAVY
 
 

@@ -46,7 +46,7 @@ def test_address_is_the_state(port):
         await wire.close()
         return header
 
-    assert alone(talk())["f"] == [0.0, 0.0]
+    assert alone(talk())["slow_flow"] == [0.0]
 
 
 def test_page_asks_nobody_else(port):

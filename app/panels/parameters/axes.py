@@ -11,11 +11,11 @@ from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 
-from ..draw.mathml import plain_symbol
-from ..frame.draft import Draft
-from ..state.choices import AXES, COEFFICIENTS, OWN_AXIS, SLOW_CONTROLS
-from ..state.chosen import NORMAL, PARAMETER_RANGE, slow_ranges
-from ..state.controls import ExplorerState, slider_range
+from ...draw.mathml import plain_symbol
+from ...frame.draft import Draft
+from ...state.choices import AXES, COEFFICIENTS, OWN_AXIS, SLOW_CONTROLS
+from ...state.chosen import NORMAL, PARAMETER_RANGE, slow_ranges
+from ...state.controls import ExplorerState, slider_range
 
 #: Coefficients of the slow flow: nothing in a diagram or a map depends on them.
 SLOW = ("B1", "B2", "g0")

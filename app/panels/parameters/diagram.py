@@ -13,9 +13,9 @@ from codim2_core.diagrams.diagram import Diagram, diagram
 from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.elinear import ELinear
 
-from ..frame.draft import Draft
+from ...frame.draft import Draft
+from ..panel import Panel
 from .axes import available, missing, spans_of, without
-from .panel import Panel
 
 #: Most points that the browser is sent of a branch: it is drawn some 320 px wide.
 MOST = 160

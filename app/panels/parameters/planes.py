@@ -18,8 +18,8 @@ from codim2_core.psi.function import Psi
 from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.frozen import AtZ
 
-from ..frame.draft import Draft
-from .panel import Panel
+from ...frame.draft import Draft
+from ..panel import Panel
 
 POINTS = 120  # along the curve over the parameter
 S = np.linspace(0.0, 1.0, 51)  # as in fig:bads(c)

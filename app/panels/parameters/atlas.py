@@ -19,12 +19,12 @@ from codim2_core.psi.function import Psi
 from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.elinear import ELinear
 
-from ..draw import plane_curves
-from ..draw.packing import Polylines
-from ..draw.thumbnails import thumbnails
-from ..frame.draft import Draft
+from ...draw import plane_curves
+from ...draw.packing import Polylines
+from ...draw.thumbnails import thumbnails
+from ...frame.draft import Draft
+from ..panel import Panel
 from .axes import Axis, available, missing, spans_of, without
-from .panel import Panel
 
 #: Controls of the plane of f: a system that lacks one of them has none.
 PLANE = ("a", "b", "d", "f1", "f2")
