@@ -12,9 +12,10 @@ import numpy as np
 from numba import njit
 
 from .dop853 import ARITHMETIC, advance, dense, interpolate
-from .events import EQUATOR, INTERIOR, MIRROR, attracted, left_view, winding
+from .events import INTERIOR, MIRROR, NOTHING, attracted, left_view, winding
 from .layout import ERROR_3, ERROR_5, K0, K12, LANES, NEW, PARAMETERS, SIGN, STATE, STEP, WORKSPACE, call_field
-from .polyline import CURSOR, X, Y, follow, start
+from .lines import BEGUN, begin_lines, end_line, in_order, keep_line, length_of, longer
+from .polyline import CURSOR, follow
 
 # Outcomes; `orbits.trajectories.Status` lists their sentences in this order.
 T_MAX, EQUILIBRIUM, LEFT_VIEW, ARRIVED, SPIRALLED, ON_EQUATOR, STEP_LIMIT, LENGTH = range(8)
@@ -29,13 +30,16 @@ NEAR = 1e-6  # ebar and rho below which (or below `capture`) a trajectory has sp
 EXTREME = 1e-300
 LEAVING, SLOW, OTHER = 1, 2, 4  # marks of lanes to look at
 IDLE = -(1 << 60)  # steps spent by a lane without a trajectory
+# For loops over all lanes: put into their caller before compilation, where it is known that no two arrays overlap.
+# (What returns an array is slower so, by the count of references to it.)
+within = njit(inline="always")
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _load(S, P, lane, state, sign):
+def _load(S, P, lane, states, signs, i):
     for c in range(3):
-        S[STATE + c * LANES + lane] = state[c]
-    P[SIGN + lane] = sign
+        S[STATE + c * LANES + lane] = states[i, c]
+    P[SIGN + lane] = signs[i]
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -88,12 +92,79 @@ def _flag(S, P, times, accepted, spent, flags, t_max, slow, near, view, limit):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _longer(array):
-    """Twice the room along the second axis (of lines) or the first (of a table)."""
-    k, n, m = array.shape
-    larger = np.empty((k, 2 * n, m))
-    larger[:, :n] = array
-    return larger
+def _begin(S, P, states, signs, following, first, who, times, steps, spent, counts, travelled, accepted):
+    """Give each free lane the next trajectory, at the start of its time; returns which one comes after those."""
+    for k in range(LANES):
+        if who[k] < 0 and following < states.shape[0]:
+            _load(S, P, k, states, signs, following)
+            who[k], times[k], steps[k], spent[k], counts[k] = following, 0.0, first, 0, 1
+            travelled[k] = 0.0
+            accepted[k] = BEGUN
+            following += 1
+    return following
+
+
+@within
+def _try(S, who, times, steps, tried, t_max):
+    """Choose the step that each lane tries: its own, or what is left of the time; 0 in a lane without a trajectory."""
+    for k in range(LANES):
+        h = min(steps[k], t_max - times[k]) if who[k] >= 0 else 0.0
+        tried[k] = h
+        S[STEP + k] = h
+        S[STEP + LANES + k] = h
+        S[STEP + 2 * LANES + k] = h
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def _event(S, P, field, k, flag, times, tried, t_max, capture, view, near, turn, scratch):
+    """Whether an accepted step ends its trajectory: the outcome or RUNNING, the time, and the fraction of the step.
+
+    turn : (2,)
+        What `winding` found for the equator, and 1; zeros before it is asked.
+    """
+    if flag & LEAVING != 0:
+        fraction = left_view(S, k, view)
+        return LEFT_VIEW, times[k] + fraction * tried[k], fraction
+    t = times[LANES + k]
+    if flag & SLOW != 0:
+        kind = attracted(S, P, field, k, capture, scratch)
+        if kind != NOTHING:
+            return EQUILIBRIUM if kind == INTERIOR else ARRIVED, t, 1.0
+    if 0.0 < S[NEW + 2 * LANES + k] < near and S[K12 + 2 * LANES + k] < 0.0:
+        if turn[1] == 0.0:
+            turn[0], turn[1] = winding(P, field, scratch), 1.0
+        if turn[0] * P[SIGN + k] < 0.0:
+            return SPIRALLED, t, 1.0
+    return T_MAX if t >= t_max else RUNNING, t, 1.0
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def _end(S, k, fraction, ends, i):
+    """Write the state of a lane at a fraction of its step as the end of trajectory i."""
+    if fraction == 0.0:
+        for c in range(3):
+            ends[i, c] = S[STATE + c * LANES + k]
+    elif fraction < 1.0:  # left the view, so p is on the circle
+        x, _u = dense(S, k, fraction)
+        y, _u = dense(S, LANES + k, fraction)
+        w, _u = dense(S, 2 * LANES + k, fraction)
+        r = math.sqrt(x * x + y * y)
+        ends[i, 0], ends[i, 1], ends[i, 2] = x / r, y / r, w
+    else:
+        for c in range(3):
+            ends[i, c] = S[NEW + c * LANES + k]
+
+
+@within
+def _go_on(S, times, accepted):
+    """Let each lane stand where its step has led, if that was accepted. Vectorised."""
+    for k in range(LANES):
+        good = accepted[k] > 0.0
+        times[k] = times[LANES + k] if good else times[k]
+        for c in range(3):
+            m = c * LANES + k
+            S[STATE + m] = S[NEW + m] if good else S[STATE + m]
+            S[K0 + m] = S[K12 + m] if good else S[K0 + m]
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -139,78 +210,43 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
     store, stored = np.empty((1, 64 * n if draw else 2 * n, 3)), 0
     where, length = np.zeros(n, np.int64), np.zeros(n, np.int64)
     ends, codes = np.empty((n, 3)), np.full(n, RUNNING)
-    turn, turn_known = 0.0, False
+    turn = np.zeros(2)
     first = FIRST_STEP * rtol**0.125
     slow, near = (4.0 * capture) ** 2, max(NEAR, capture)
-    evaluations, following, done = 0, 0, 0
     for k in range(LANES):
-        _load(S, P, k, states[0], signs[0])  # an idle lane repeats a harmless state with steps of length 0
-    free = True
-    while True:
+        _load(S, P, k, states, signs, 0)  # an idle lane repeats a harmless state with steps of length 0
+    evaluations, following, done, free = n, 0, 0, True
+    while done < n:
         if free:
-            for k in range(LANES):
-                if who[k] < 0 and following < n:
-                    _load(S, P, k, states[following], signs[following])
-                    who[k], times[k], steps[k], spent[k], counts[k] = following, 0.0, first, 0, 1
-                    travelled[k] = 0.0
-                    following += 1
-                    evaluations += 1
-                    accepted[k] = -1.0
+            following = _begin(
+                S, P, states, signs, following, first, who, times, steps, spent, counts, travelled, accepted
+            )
             call_field(field, S, STATE, K0, P)
-            for k in range(LANES):
-                if accepted[k] == -1.0:
-                    start(S, P, k, cursor)
-                    lines[k, 0, 0], lines[k, 0, 1], lines[k, 0, 2] = cursor[X, k], cursor[Y, k], 0.0
+            begin_lines(S, P, cursor, lines, accepted)
             free = False
-        if done == n:
-            break
-        for k in range(LANES):
-            h = min(steps[k], t_max - times[k]) if who[k] >= 0 else 0.0
-            tried[k] = h
-            S[STEP + k] = h
-            S[STEP + LANES + k] = h
-            S[STEP + 2 * LANES + k] = h
+        _try(S, who, times, steps, tried, t_max)
         advance(S, P, field)
         _judge(S, P, times, steps, tried, accepted, t_max, rtol, atol)
         call_field(field, S, NEW, K12, P)
         events = _flag(S, P, times, accepted, spent, flags, t_max, slow, near, view, limit)
-        wanted = events & LEAVING != 0
-        if draw or wanted:
+        interpolated = draw or events & LEAVING != 0
+        if interpolated:
             interpolate(S, P, field)
-        stages = 15 if draw or wanted else 12
         for k in range(LANES if draw or events != 0 else 0):
             if who[k] < 0 or (not draw and flags[k] == 0):
                 continue
-            x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
             code, stop, fraction = RUNNING, times[LANES + k], 1.0
             if accepted[k] > 0.0:
-                if flags[k] & LEAVING != 0:
-                    code = LEFT_VIEW
-                    fraction = left_view(S, k, view)
-                    stop = times[k] + fraction * tried[k]
-                else:
-                    if flags[k] & SLOW != 0:
-                        kind = attracted(S, P, field, k, capture, scratch)
-                        if kind == INTERIOR:
-                            code = EQUILIBRIUM
-                        elif kind == EQUATOR:
-                            code = ARRIVED
-                    if code == RUNNING and 0.0 < w < near and S[K12 + 2 * LANES + k] < 0.0:
-                        if not turn_known:
-                            turn, turn_known = winding(P, field, scratch), True
-                        if turn * P[SIGN + k] < 0.0:
-                            code = SPIRALLED
-                    if code == RUNNING and stop >= t_max:
-                        code = T_MAX
+                if flags[k] != 0:
+                    code, stop, fraction = _event(
+                        S, P, field, k, flags[k], times, tried, t_max, capture, view, near, turn, scratch
+                    )
                 if draw:
                     count = follow(S, P, k, cursor, lines, counts[k], times[k], tried[k], stop, distance)
                     while count < 0:
-                        lines = _longer(lines)
+                        lines = longer(lines)
                         count = follow(S, P, k, cursor, lines, -1 - count, times[k], tried[k], stop, distance)
-                    for j in range(counts[k], count):
-                        travelled[k] += math.hypot(
-                            lines[k, j, 0] - lines[k, j - 1, 0], lines[k, j, 1] - lines[k, j - 1, 1]
-                        )
+                    travelled[k] += length_of(lines, k, counts[k] - 1, count - 1)
                     counts[k] = count
                     if code == RUNNING and travelled[k] >= longest:
                         code = LENGTH
@@ -221,47 +257,19 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
             if code == RUNNING:
                 continue
             i = who[k]
-            if fraction == 0.0:
-                for c in range(3):
-                    ends[i, c] = S[STATE + c * LANES + k]
-            elif fraction < 1.0:  # left the view, so p is on the circle
-                x, _u = dense(S, k, fraction)
-                y, _u = dense(S, LANES + k, fraction)
-                w, _u = dense(S, 2 * LANES + k, fraction)
-                r = math.sqrt(x * x + y * y)
-                ends[i, 0], ends[i, 1], ends[i, 2] = x / r, y / r, w
-            else:
-                ends[i, 0], ends[i, 1], ends[i, 2] = x, y, w
-            evaluations += spent[k] * stages
+            _end(S, k, fraction, ends, i)
             codes[i] = ON_EQUATOR if ends[i, 2] == 0.0 and states[i, 2] == 0.0 else code
             if counts[k] == lines.shape[1]:
-                lines = _longer(lines)
-            scale = 1.0 + ends[i, 2] if P[SIGN + k] > 0.0 else 1.0
-            if stop > lines[k, counts[k] - 1, 2] or counts[k] == 1:
-                lines[k, counts[k], 0] = scale * ends[i, 0]
-                lines[k, counts[k], 1] = scale * ends[i, 1]
-                lines[k, counts[k], 2] = stop
-                counts[k] += 1
+                lines = longer(lines)
+            end_line(lines, counts, k, P[SIGN + k], ends, i, stop)
             while stored + counts[k] > store.shape[1]:
-                store = _longer(store)
-            store[0, stored : stored + counts[k]] = lines[k, : counts[k]]
+                store = longer(store)
             where[i], length[i] = stored, counts[k]
-            stored += counts[k]
+            stored = keep_line(store, stored, lines, counts, k)
+            evaluations += spent[k] * (15 if interpolated else 12)
             who[k], spent[k] = -1, IDLE
             done += 1
             free = True
-        for k in range(LANES):
-            good = accepted[k] > 0.0
-            times[k] = times[LANES + k] if good else times[k]
-            for c in range(3):
-                m = c * LANES + k
-                S[STATE + m] = S[NEW + m] if good else S[STATE + m]
-                S[K0 + m] = S[K12 + m] if good else S[K0 + m]
-    points, clock, offsets = np.empty((stored, 2)), np.empty(stored), np.zeros(n + 1, np.int64)
-    for i in range(n):
-        offsets[i + 1] = offsets[i] + length[i]
-        for j in range(length[i]):
-            points[offsets[i] + j, 0] = store[0, where[i] + j, 0]
-            points[offsets[i] + j, 1] = store[0, where[i] + j, 1]
-            clock[offsets[i] + j] = store[0, where[i] + j, 2]
+        _go_on(S, times, accepted)
+    points, clock, offsets = in_order(store, stored, where, length)
     return points, clock, offsets, ends, codes, evaluations
