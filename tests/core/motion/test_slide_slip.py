@@ -1,0 +1,165 @@
+"""Slides on followed sets and slips to Sigma, where both are known in closed form."""
+
+import math
+
+import numpy as np
+import pytest
+
+import codim2_core as c2
+from codim2_core.initial_value.field import field
+from codim2_core.initial_value.problem import plane_problem
+from codim2_core.motion.slide import Sheet, _last_alive, _whole, _zero, complement, determinant, slide, trace
+from codim2_core.motion.slide_on_cycle import _means
+from codim2_core.motion.slip import _polished, leave, slip
+from codim2_core.numerics.radau import Step
+
+PSIS = [c2.psi.constant(), c2.psi.rational(), c2.psi.tanh(), c2.psi.hill(3)]
+EVERY = pytest.mark.parametrize("psi", PSIS, ids=lambda p: p.text)
+OPTIONS = {"rtol": 1e-10, "atol": 1e-12, "most": 2000}
+BENT = c2.System(U=("c**2 + s/5 - z/2", "-2*s + c/3"), W=("c + 1/4",))
+SLIDING = c2.ELinear(-1.0, 0.5, -2.0, ("z1", "z2/2"), B=((0.5, 0.0), (1.0, -1.0)), g=("1 - z2", "z1"))
+
+
+@EVERY
+def test_slopes_trace_and_determinant_of_a_sheet(psi):
+    for z in (0.2, 0.6):
+        for C in c2.critical_sets(BENT, psi, (z,)):
+            sheet = Sheet(field(BENT), C.e, np.array([z]))
+            radial, tangential = psi.jacobian_factors(float(np.hypot(*C.x2)))
+            assert trace(sheet, psi, C.e, np.array([z])) * tangential == pytest.approx(C.trace, rel=1e-9)
+            assert determinant(sheet, C.e, np.array([z])) * radial * tangential == pytest.approx(
+                C.determinant, rel=1e-9
+            )
+            step = 1e-5
+            both = [c2.critical_sets(BENT, psi, (z + h,)) for h in (-step, step)]
+            nearby = [min(sets, key=lambda D: np.hypot(*(D.e - C.e))).e for sets in both]
+            np.testing.assert_allclose(sheet.slope[:, 0], (nearby[1] - nearby[0]) / (2.0 * step), atol=1e-6)
+            np.testing.assert_allclose(sheet.at(np.array([z + step])), nearby[1], atol=1e-13)
+    at = SLIDING.at((0.0, 0.0))
+    sheet = Sheet(field(SLIDING), np.zeros(2), np.zeros(2))
+    assert trace(sheet, psi, np.zeros(2), np.zeros(2)) == pytest.approx(at.a + at.d)
+    edge = np.array([1.0, 0.0])  # the radial eigenvalue of D e_Psi is lost there: only the angular one is left
+    assert trace(sheet, psi, edge, np.zeros(2)) == pytest.approx(at.d)
+    assert complement(np.array([0.6, 0.3])) == pytest.approx(1.0 - 0.45)
+
+
+def test_the_slow_flow_as_a_problem():
+    """-A^-1 f is linear in z, so z' = M z + k: the rate, and its slope M."""
+    z = np.array([0.2, -0.3])
+    A, F, B = np.array([[-1.0, -0.5], [0.5, -2.0]]), np.diag([1.0, 0.5]), np.array([[0.5, 0.0], [1.0, -1.0]])
+    problem = Sheet(field(SLIDING), -np.linalg.solve(A, F @ z), z).problem(0.01)
+    M = -B @ np.linalg.solve(A, F) + np.array([[0.0, -1.0], [1.0, 0.0]])
+    for at in (z, z + 0.05):
+        np.testing.assert_allclose(problem.F(at), M @ at + (1.0, 0.0), atol=1e-13)
+        np.testing.assert_allclose(problem.J(at), M, atol=1e-12)
+        np.testing.assert_allclose(problem.scale(at), np.abs(at) + 0.01)
+
+
+def test_a_slide_ends_at_the_time_the_equator_a_fold_or_a_hopf_point():
+    """U = (z - c, -s), z' = 1: c = z reaches 1. U1 = z - c^2, z' = -1: a fold at 0. a + d = z: tr J = 0 at 0."""
+    psi = PSIS[1]
+    cases = [
+        (c2.System(U=("z - c", "-s"), W=("1",)), 1.0, (0.2, 0.0), 0.2, 0.5, "time", 0.7),
+        (c2.System(U=("z - c", "-s"), W=("1",)), 1.0, (0.2, 0.0), 0.2, 5.0, "equator", 1.0),
+        (c2.System(U=("z - c**2", "-s"), W=("-1",)), -1.0, (0.5, 0.0), 0.25, 5.0, "fold", 0.0),
+        (c2.System(U=("z*c - s", "c + z*s"), W=("2",)), 2.0, (0.0, 0.0), -0.5, 5.0, "hopf", 0.0),
+    ]
+    for system, speed, e, z, t_end, end, last in cases:
+        found = slide(field(system), psi, np.array(e), 1.0, np.array([z]), 1.0 + t_end, **OPTIONS)
+        assert found.end == end
+        assert found.taken[-1].last == pytest.approx([0.0, 0.0, last], abs=1e-4)
+        assert found.taken[-1].end == pytest.approx(1.0 + (last - z) / speed, abs=1e-4)
+        assert found.taken[0].start == 1.0
+        assert len(found.places) == len(found.taken) + 1
+        assert found.places[0] == pytest.approx(np.array(e), abs=1e-12)
+        if end in ("time", "equator"):
+            assert found.places[-1] == pytest.approx([last, 0.0], abs=1e-4)
+    still = slide(field(c2.ELinear(-1.0, 0.0, -1.0)), psi, np.zeros(2), 1.0, np.zeros(0), 3.0, **OPTIONS)
+    assert (still.end, still.taken[0].end, len(still.places)) == ("time", 3.0, 2)
+    few = slide(field(BENT), psi, np.array([0.2, 0.0]), 0.0, np.array([0.2]), 0.5, rtol=1e-10, atol=1e-12, most=1)
+    assert few.end == "given up"
+    assert few.stopped is not None
+
+
+def test_an_unstable_set_is_followed_around_a_cycle_until_that_is_gone():
+    system = c2.System(U=("-z*c - s", "c - z*s"), W=("2",))  # tr J > 0 for z < 0
+    start = (field(system), PSIS[1], np.zeros(2), 0.0, np.array([-0.5]))
+    assert slide(*start, 5.0, **OPTIONS).end == "hopf"  # alone, it is unstable at once
+    around = slide(*start, 5.0, **OPTIONS, lives=lambda z: True)
+    assert (around.end, around.taken[-1].last[2]) == ("hopf", pytest.approx(0.0, abs=1e-9))
+    gone = slide(*start, 5.0, **OPTIONS, lives=lambda z: bool(z[0] < -0.3))
+    assert (gone.end, gone.taken[-1].last[2]) == ("cycle", pytest.approx(-0.3, abs=1e-4))
+
+
+def test_parts_of_a_step():
+    polynomial = np.array([[1.0, -2.0, 0.5, 0.0, 0.0]])
+    step = Step(2.0, 4.0, np.array([3.0]), np.array([2.5]), polynomial)
+    whole, part = _whole(step, 1.0), _whole(step, 0.3)
+    assert (whole.start, whole.h, part.start, part.h) == (2.0, 4.0, 2.0, pytest.approx(1.2))
+    assert whole.last.tolist() == [0.0, 0.0, 2.5]
+    for u in (0.0, 0.4, 1.0):
+        assert part.at(u) == pytest.approx([0.0, 0.0, step.at(0.3 * u)[0]])
+    assert part.last == pytest.approx(part.at(1.0))
+    rising = Step(0.0, 1.0, np.array([0.0]), np.array([1.0]), np.array([[1.0, 0.0, 0.0, 0.0, 0.0]]))
+    assert _last_alive(lambda z: bool(z[0] < 0.37), rising) == pytest.approx(0.37, abs=2e-6)
+    sheet = Sheet(field(c2.System(U=("z - c", "-s"), W=("1",))), np.zeros(2), np.zeros(1))
+    assert _zero(sheet, lambda e, z: 0.37 - float(e[0]), rising) == pytest.approx(0.37, abs=1e-12)
+    assert _zero(sheet, lambda e, z: -1.0, rising) == 0.0
+
+
+@pytest.mark.parametrize("rho", [0.3, 2.0])
+def test_a_slip_along_a_limit_direction_arrives_when_it_must(rho):
+    """theta = 0 of a = -1, f1 = -1/2: rho' = -3/2, and z' = 2 c."""
+    system = c2.System(U=("-c - 1/2", "-3*s"), W=("2*c",))
+    problem, state = plane_problem(field(system), PSIS[0], 0.0, 1e-10, 1e-12), np.array([rho, 0.0, 0.1])
+    found = slip(problem, 1.0, state, 9.0, 1e-10, 500, 0.0)
+    assert found.theta == pytest.approx(0.0, abs=1e-12)
+    assert found.taken[-1].end == pytest.approx(1.0 + rho / 1.5, rel=1e-9)
+    assert found.taken[-1].last == pytest.approx([0.0, 0.0, 0.1 + 2.0 * rho / 1.5], abs=1e-9)
+    short = slip(problem, 1.0, state, 1.0 + 0.5 * rho, 1e-10, 500, 0.0)
+    assert short.theta is None
+    assert short.taken[-1].last == pytest.approx([0.25 * rho, 0.0, 0.1 + rho], abs=1e-9)
+
+
+def test_limit_directions_are_polished():
+    system = c2.ELinear(-1.0, 0.3, 1.5, (0.4, 0.2))
+    for theta in c2.equator_equilibria(system).theta:
+        assert _polished(field(system), float(theta) + 0.01, []) == pytest.approx(theta, abs=1e-14)
+    assert _polished(field(c2.ELinear(0.0, 1.0, 0.0)), 0.7, []) == 0.7  # Theta has no zero
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3])
+def test_the_first_step_away_along_a_limit_direction(turn):
+    """U = (2 + z, -s + k z), z' = 3: near theta = 0: rho' = 2, lambda_theta = -3, and z turns the direction."""
+    system = c2.System(U=("2 + z", f"-s + {turn}*z"), W=("3",))
+    step = leave(field(system), 0.02, 5.0, np.array([0.0]), 6.0)
+    assert isinstance(step, Step)
+    assert step.start == 5.0
+    x, y, z = step.last
+    assert math.hypot(x, y) == pytest.approx(2.0 * step.h, rel=1e-5)
+    assert z == pytest.approx(3.0 * step.h, rel=1e-12)
+    # theta = kappa t on the way out: kappa rho = rho' theta' ... (lambda_rho - lambda_theta) kappa = forced
+    assert y / x == pytest.approx(turn * 3.0 * step.h / (2.0 + 3.0), rel=1e-4, abs=1e-18)
+    assert step.first.tolist() == [0.0, 0.0, 0.0]
+    assert step.at(1.0) == pytest.approx(step.last)
+
+
+def test_where_lambda_rho_only_begins_to_grow_the_way_out_is_quadratic():
+    """U = (c - 1 + z, -s), z' = 2, from theta = 0: rho' = 2 t, so rho = t^2."""
+    system = c2.System(U=("c - 1 + z", "-s"), W=("2",))
+    step = leave(field(system), 0.0, 0.0, np.array([0.0]), 1.0)
+    assert isinstance(step, Step)
+    assert step.last == pytest.approx([step.h**2, 0.0, 2.0 * step.h], rel=1e-6)
+    assert "λρ" in leave(field(c2.System(U=("c - 1 - z", "-s"), W=("2",))), 0.0, 0.0, np.array([0.0]), 1.0)
+    assert "repels angularly" in leave(field(c2.System(U=("1", "3*s"), W=("2",))), 0.0, 0.0, np.array([0.0]), 1.0)
+
+
+@EVERY
+def test_means_over_a_round_cycle(psi):
+    """A circle about 0 at constant speed: both means vanish; moved to uneven points they still do."""
+    angle = math.tau * np.linspace(0.0, 1.0, 201)[:-1]
+    angle = angle + 0.3 * np.sin(angle)  # uneven
+    cycle = type("Cycle", (), {"points": 0.6 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)})
+    e, p = _means(c2.System(U=("-s", "c"), W=("1",)), psi, np.array([0.0]), cycle)
+    np.testing.assert_allclose(e, 0.0, atol=1e-3)
+    np.testing.assert_allclose(p, 0.0, atol=1e-3)
