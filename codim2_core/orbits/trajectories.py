@@ -32,7 +32,7 @@ DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
 # Steps of a stiff problem before those of its trajectories that are still under way are followed implicitly, and then.
 # A step of either costs about as much; one implicit step does for any number that stability would ask for. What is
 # longer than the disc is wide by then goes round and round, and does not creep.
-EXPLICIT, IMPLICIT, ROUND = 300, 250, 2.5
+EXPLICIT, IMPLICIT, ROUND = 300, 1.0 / 3.0, 2.5  # IMPLICIT: of the step limit
 
 GENERAL = "general"
 _warm: set[str] = set()  # what has run: families of Psi for e-linear systems, GENERAL for any other
@@ -141,7 +141,7 @@ def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping
         rest = _crept(at, psi, found.ends[which], signs[which], spent, drawn, options)
         found = continued(found, which, rest)
         which, spent, drawn = _under_way(found)
-    more = options.step_limit - EXPLICIT - (IMPLICIT if creeping.any() else 0)
+    more = options.step_limit - EXPLICIT - (int(IMPLICIT * options.step_limit) if creeping.any() else 0)
     if not len(which) or more <= 0:
         return found
     last = replace(
@@ -199,7 +199,7 @@ def _crept(
         problem.address,
         float(options.rtol),
         float(options.atol),
-        min(IMPLICIT, int(options.step_limit) - EXPLICIT),
+        max(1, int(IMPLICIT * options.step_limit)),
         options.reach,
         float(options.view),
         0.0 if options.samples == "ends" else DRAWN * float(options.pixel),

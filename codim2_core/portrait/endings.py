@@ -168,6 +168,7 @@ def _followed(at: AtZ, psi: Psi, places: Array, time: float, rtol: float, backwa
         backward=backward,
         capture=CAPTURE,
         samples="ends",
+        stiff=True,
     )
 
 

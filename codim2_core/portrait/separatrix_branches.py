@@ -36,7 +36,7 @@ from .separatrix import Separatrix
 
 Array = NDArray[np.float64]
 
-EXTENSIONS = 6  # times that a branch is followed on to where it ends, four times longer each
+EXTENSIONS = 6  # times that a branch is followed on to where it ends, sixteen times longer each
 NEAR_END = 0.02  # distance to the end that is drawn straight: followed further, an orbit would all but stand still
 ARC = 0.05  # radians between points of the equator
 NEAR_SIGMA = 1e-4  # rho at which a bent branch outside starts: its expansion is off by rho^2 there
@@ -45,7 +45,9 @@ NEAR_SIGMA = 1e-4  # rho at which a bent branch outside starts: its expansion is
 def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: float, backward: bool) -> list[Separatrix]:
     """All branches on the hemisphere that leave their saddle forward, or backward, in time."""
     at, psi, equator, critical = problem.at, problem.psi, problem.equator, problem.critical
-    fine: Any = {"rtol": rtol, "atol": 0.1 * rtol, "pixel": pixel, "capture": CAPTURE, "backward": backward}
+    fine: Any = {
+        "rtol": rtol, "atol": 0.1 * rtol, "pixel": pixel, "capture": CAPTURE, "backward": backward, "stiff": True
+    }  # fmt: skip
     owners = [i for i in range(len(equator)) if half_saddle(equator, i) and (equator.lambda_rho[i] > 0.0) == backward]
     origins = [f"Q{i + 1}" for i in owners]
     angles = equator.theta[owners].tolist()
@@ -113,7 +115,7 @@ def _tails(
         if not open_:
             break
         fine: Any = {"rtol": rtol, "atol": 0.1 * rtol, "pixel": pixel, "capture": CAPTURE, "backward": backward}
-        on = trajectories(at, psi, left[open_], t_max=time, **fine)
+        on = trajectories(at, psi, left[open_], t_max=time, stiff=True, **fine)
         still = []
         for k, i in enumerate(open_):
             points, end = on.points[k], ends[i]
@@ -126,7 +128,7 @@ def _tails(
             if cut_off and gaps[nearest] > pixel:
                 still.append(i)
         open_ = still
-        time *= 4.0
+        time *= 16.0
     for i, end in enumerate(ends):
         if end is None:
             continue

@@ -67,6 +67,23 @@ def test_separatrices_reach_what_they_name(system, p):
     check_separatrices(system, p)
 
 
+@pytest.mark.parametrize(
+    ("system", "p"),
+    [
+        (
+            c2.ELinear(-0.365019598, 0.000902350815, 4.93641860e-06, (0.00183846656, 3.9658171e-06)),
+            c2.psi.exponential(),
+        ),
+        (c2.ELinear(0.000106897708, -5.468574921e-05, 0.84374474, (9.5371979e-05, -4.64028769e-05)), c2.psi.hill(3)),
+        (c2.ELinear(1.7120009925e-05, 0.00025003451, 0.8279174254, (-2.49114978e-05, -0.020749560921)), c2.psi.tanh()),
+    ],
+)
+def test_separatrices_that_creep_reach_what_they_name(system, p):
+    """Along directions 1e-5 as fast as others: an explicit method gave up, and left them undecided."""
+    assert not [branch for branch in c2.separatrices(system, p) if branch.end == "undecided"]
+    check_separatrices(system, p)
+
+
 @settings(max_examples=15)
 @given(polynomials, st.sampled_from([c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3)]))
 def test_separatrices_of_general_systems_reach_what_they_name(system, p):
