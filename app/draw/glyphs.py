@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codim2_core.portrait.launched import Launched
+from codim2_core.words import subscript
 
 Points = NDArray[np.float64]
 
@@ -187,11 +188,6 @@ def cycle_columns(cycles: Any) -> dict[str, Any]:
         "reason": cycles.reason,
         "notes": list(cycles.notes),
     }
-
-
-def subscript(number: int) -> str:
-    """Return a number as lowered digits."""
-    return str(number).translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
 
 
 def launched_columns(seeds: NDArray[np.float64], launched: Launched) -> dict[str, Any]:

@@ -20,7 +20,7 @@ import numpy as np
 
 from codim2_core.scene import Scene
 
-from .turns import FAILURES
+from .faults import FAILURES
 
 #: Seconds of processor time that one layer, and all layers of one frame, may take of the thread that answers.
 LAYER, FRAME = 0.008, 0.02

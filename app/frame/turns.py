@@ -18,18 +18,13 @@ from functools import cache
 from threading import RLock
 from typing import Any
 
-import numpy as np
-
 from codim2_core.scene import Scene
 
-#: What the core raises for input that it cannot use.
-FAILURES = (ValueError, ArithmeticError, np.linalg.LinAlgError)
+from .faults import FAULT, sentence_of
 
 #: Results kept for all browsers of a process, and what they may hold together, in bytes.
 KEPT = 128
 KEPT_BYTES = 64_000_000
-
-FAULT = "This could not be computed: a fault of the program, which its log describes."
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,13 +216,10 @@ def compute(function: Callable[..., Any], *args: Any) -> Any:
     own = [copy(each) if isinstance(each, Scene) else each for each in args]
     try:
         return function(*own)
-    except FAILURES as error:
-        return Failed(str(error))
     except MemoryError:
         return Failed("This needs more memory than the server gives it.")
-    except Exception:
-        logging.getLogger(__name__).exception("a panel could not be computed")
-        return Failed(FAULT)
+    except Exception as error:  # a panel must not take the picture with it
+        return Failed(sentence_of(error, "a panel"))
 
 
 @cache

@@ -10,6 +10,7 @@ from importlib import import_module
 
 from ..frame.budget import LeftOut, NotYet
 from ..frame.draft import Draft
+from ..frame.faults import FAILURES, sentence_of
 from ..slow_layers import basins, outcomes
 from ..state.controls import offer
 from .panel import Panel
@@ -52,6 +53,10 @@ def add(draft: Draft) -> None:
             draft.late(draft.values["panel"])
         except LeftOut as why:
             draft.unable(draft.values["panel"], LeftOut.sentence([why]))
+        except FAILURES:
+            raise
+        except Exception as error:  # the picture is drawn without it
+            draft.header["fault"] = sentence_of(error, f"the panel {draft.values['panel']}")
 
 
 for module in MODULES:

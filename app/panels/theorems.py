@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from codim2_core.paper import cite
 from codim2_core.theorems.certificates import Certificate
 
 from ..frame.draft import Draft
@@ -23,7 +24,7 @@ def add(draft: Draft) -> None:
 def rows(certificates: Sequence[Certificate]) -> list[Row]:
     """Return theorem, statement, verdict, sentence and numbers (name, value) of each."""
     return [
-        (c.theorem, c.statement, c.verdict.value, c.sentence, [(name, float(value)) for name, value in c.numbers])
+        (cite(c.theorem), c.statement, c.verdict.value, c.sentence, [(name, float(value)) for name, value in c.numbers])
         for c in certificates
     ]
 

@@ -9,6 +9,7 @@ from concurrent.futures import ProcessPoolExecutor
 from typing import Any
 
 import codim2_core as c2
+from codim2_core.paper import cite
 from codim2_core.psi import FAMILIES, make
 
 
@@ -123,7 +124,7 @@ def presets(chosen: argparse.Namespace) -> int:
         return 0
     wide = max(map(len, c2.presets))
     for key, preset in c2.presets.items():
-        print(f"{key:{wide}}  {preset.title}  ({preset.label})")
+        print(f"{key:{wide}}  {preset.title}  ({cite(preset.label)})")
     return 0
 
 

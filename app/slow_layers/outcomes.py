@@ -6,8 +6,8 @@ from typing import Any
 
 from codim2_core.portrait.outcomes import Outcome, Outcomes
 from codim2_core.scene import Scene
+from codim2_core.words import named
 
-from ..draw.glyphs import subscript
 from ..frame.budget import wild
 from ..frame.draft import Draft
 
@@ -18,6 +18,12 @@ WORDS = {
     "depends": "depends on Ψ",
     "undecided": "undecided",
     "misses": "never reach Σ",
+}
+#: The three ways to be undecided, each by its name in `Outcome.why`.
+UNDECIDED = {
+    "several": "more than one ending",
+    "neutral": "neutral to first order",
+    "unfollowed": "not followed to an end",
 }
 
 
@@ -50,7 +56,7 @@ def answered_by_theorem(scene: Scene) -> bool:
 
 def kind(outcome: Outcome) -> str:
     """Return the kind of an outcome: a key of `WORDS`."""
-    if outcome.depends_on_psi and outcome.verdict != "misses":
+    if outcome.depends_on_psi and outcome.verdict != "misses" and not outcome.slides_alike:
         return "depends"
     return "slide" if outcome.verdict == "cycle" else outcome.verdict
 
@@ -75,15 +81,20 @@ def columns(outcomes: Outcomes) -> dict[str, Any]:
 
 
 def _row(outcome: Outcome) -> list[Any]:
-    label = outcome.label
-    if label.startswith("Q"):
-        label = f"Q{subscript(int(label[1:]))}"
+    label = named(outcome.label)
     by_verdict: dict[str, list[str]] = {}
     for text, verdict, onto in outcome.families if outcome.depends_on_psi else ():
         by_verdict.setdefault(_verdict(verdict, onto), []).append(text.replace("**", "^").replace("*", ""))
-    return [label, kind(outcome), WORDS[kind(outcome)], outcome.reason, [list(item) for item in by_verdict.items()]]
+    words = UNDECIDED.get(outcome.why) if kind(outcome) == "undecided" else None
+    return [
+        label,
+        kind(outcome),
+        words or WORDS[kind(outcome)],
+        outcome.reason,
+        [list(item) for item in by_verdict.items()],
+    ]
 
 
 def _verdict(verdict: str, onto: str | None) -> str:
     words = {"slide": "slides on", "cycle": "slides around", "cross": "crosses to"}.get(verdict)
-    return verdict if words is None or onto is None else f"{words} {onto}"
+    return verdict if words is None or onto is None else f"{words} {named(onto)}"

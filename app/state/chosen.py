@@ -17,6 +17,7 @@ from codim2_core.examples import catalogue
 from codim2_core.expressions.expression import ExpressionError, parse
 from codim2_core.expressions.names import PLANE
 from codim2_core.expressions.tape import CONSTANTS, FUNCTIONS
+from codim2_core.paper import cite
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
@@ -247,7 +248,7 @@ def describe(choice: str, system: System_) -> dict[str, Any]:
         "choice": choice,
         "equations": equations_mathml(system),
         "sentence": example.sentence if example else "",
-        "label": example.label if example else "",
+        "label": cite(example.label, titled=True) if example else "",
         "parameters": parameters,
         "slow": slow,
         "coefficients": choice == GIVEN and isinstance(system, ELinear),

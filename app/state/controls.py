@@ -97,7 +97,7 @@ class ExplorerState(param.Parameterized):
 
     solid = param.Selector(default="sphere", objects=list(SOLIDS), label="3-D", doc="What the panel “3-D” shows.")
     drift = param.Selector(default="z", objects=list(SLOW_CONTROLS), label="Along", doc="Slow variable of “Along z”.")
-    log_eps = _number(-2.0, -10, 0, "log₁₀ ε", "Size of the regularised region, eq:ePsi.")
+    log_eps = _number(-2.0, -10, 0, "log₁₀ ε", "Size of the regularised region.")
     launch = param.String("0.6, 0.8, 0", label="Start", doc="State (x, y, z₁, …) from which a motion starts.")
     orbits = param.String("", label="Orbits", doc="Launched orbits: x,y of each, joined by semicolons.")
     lesson = param.String("", label="Lesson", doc="The lesson that is open.")

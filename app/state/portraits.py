@@ -8,6 +8,7 @@ from typing import Any
 from codim2_core.examples import catalogue
 from codim2_core.figures.preset import Preset
 from codim2_core.figures.presets import presets
+from codim2_core.paper import cite
 
 from ..draw.layers import shown
 
@@ -34,7 +35,7 @@ VIEWS: dict[str, dict[str, Any]] = {
 
 
 def portraits() -> list[dict[str, Any]]:
-    """Return one entry for each preset: key, group, title, the paper's label, note, and the values that are its own.
+    """Return one entry for each preset: key, group, title, the paper's figure, note, and its own values.
 
     All that it sets is `controls.preset_values`.
     """
@@ -43,7 +44,7 @@ def portraits() -> list[dict[str, Any]]:
             "key": preset.name,
             "group": preset.group,
             "title": preset.title,
-            "label": preset.label,
+            "label": cite(preset.label, titled=True),
             "note": preset.note,
             "values": _values(preset),
         }

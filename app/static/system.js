@@ -51,7 +51,7 @@ export class SystemChooser {
     this.config.slowSymbols = this.told.slow.map((one) => one.symbol)
     for (let i = 0; i < 4; i++) this.config.symbols[slowName(i)] = this.config.slowSymbols[i] ?? (i ? `z${"₁₂₃₄"[i]}` : "z")
     this.find(".equations").innerHTML = this.told.equations
-    this.find(".system-note").textContent = [this.told.label && `(${this.told.label})`, this.told.sentence].filter(Boolean).join(" ")
+    this.find(".system-note").textContent = [this.told.label && `${this.told.label}.`, this.told.sentence].filter(Boolean).join(" ")
     if (!same) this.makeBoxes()
     this.makeParameters()
     this.makeSlow()

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from param.parameterized import batch_call_watchers
 
 from codim2_core.layer_problem.equator import EquatorEquilibria, equator_equilibria
-from codim2_core.portrait.classification import Classification
+from codim2_core.portrait.classification import NEARER, Classification
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
@@ -26,10 +26,11 @@ from ..draw.layers import LAYERS
 from ..draw.packing import Polylines, pack
 from ..frame.budget import Budget, Layers, LeftOut, NotYet, layers_of
 from ..frame.draft import Draft
+from ..frame.faults import sentence_of
 from ..frame.jobs import Jobs
 from ..frame.scenes import evolved, locked_controls, make_scene, settled
 from ..frame.sides import sides
-from ..frame.turns import FAILURES, Failed
+from ..frame.turns import Failed
 from ..frame.window import Window, inputs
 from ..lessons.library import lessons
 from ..panels import registry
@@ -100,7 +101,8 @@ class Frames:
         """Start from these values or, where they have no scene, from those of their portrait or the first ones."""
         try:
             self.scene, self.values = make_scene(wanted, self._system), dict(wanted)
-        except FAILURES:
+        except Exception as error:
+            sentence_of(error, "a first picture")
             self.values = preset_values(wanted["preset"]) or first_values()
             self.scene = make_scene(self.values, self._system)
             self.refused |= {name: value for name, value in wanted.items() if value != self.values[name]}
@@ -132,6 +134,8 @@ class Frames:
                 self.refused[name], errors[error.control] = value, str(error)
         rest = request.get("rest", False) or request.get("all", False)
         header, blocks = self._accept(good, sent, errors, rest) or ({}, {})
+        if "fault" in header:  # of a panel
+            errors.setdefault("", header.pop("fault"))
         changed = {name: value for name, value in self.values.items() if value != before[name]}
         if changed:
             header["set"] = changed
@@ -149,18 +153,23 @@ class Frames:
         """Draw with all changes or, where that fails, with as many of them as can be had together."""
         try:
             return self._draw(good, sent, rest)
-        except FAILURES as error:
+        except Exception as error:
+            said = sentence_of(error, "a frame")
             if not good:
-                errors[_culprit(error, "")] = str(error)
+                errors[_culprit(error, "")] = said
                 return None
         had, failed = self._together(good, self._reach)
         try:
             drawn = self._draw(had, sent, rest)
-        except FAILURES:  # a scene there is, but it cannot be drawn: so each is tried to the end
+        except Exception:  # a scene there is, but it cannot be drawn: so each is tried to the end
             had, failed = self._together(good, lambda changes: self._draw(changes, sent, False))
-            drawn = self._draw({}, sent, rest)
+            try:
+                drawn = self._draw({}, sent, rest)
+            except Exception as error:  # what was drawn before cannot be drawn again: the browser keeps what it has
+                errors[""] = sentence_of(error, "a frame")
+                return None
         self.refused |= {name: good[name] for name in failed}
-        errors |= {_culprit(error, name): str(error) for name, error in failed.items()}
+        errors |= {_culprit(error, name): sentence_of(error, f"the control {name}") for name, error in failed.items()}
         return drawn
 
     def _together(
@@ -176,7 +185,7 @@ class Frames:
                 try:
                     attempt({**had, name: good[name]})
                     had[name] = good[name]
-                except FAILURES as error:
+                except Exception as error:
                     failed[name] = error
             if len(failed) == len(left):
                 break
@@ -296,10 +305,10 @@ class Frames:
             wanted = {**preset_values(wanted.get("preset")), **wanted}
             good = {name: clean(name, value) for name, value in wanted.items() if name not in self.locked}
             header, blocks = self._draw(good, self._sent, rest=False)
-        except FAILURES as error:
+        except Exception as error:
             self._unpublished.update({name: self.values[name] for name in changes})
             self.publish()
-            raise ValueError(str(error)) from error
+            raise ValueError(sentence_of(error, "a frame")) from error
         self.refused = {name: value for name, value in self.refused.items() if name not in wanted}
         header["set"] = {name: value for name, value in self.values.items() if value != before[name]}
         self._unpublished.update(header["set"])
@@ -317,7 +326,7 @@ def told_once(name: Classification) -> str:
     """Return the sentence of a portrait without what its degeneracies, shown below it, say again."""
     sentence = name.sentence
     for degeneracy in name.degeneracies:
-        sentence = sentence.replace(degeneracy.sentence.partition(" Undecided within")[0], "").strip()
+        sentence = sentence.replace(degeneracy.sentence.partition(f" {NEARER}")[0], "").strip()
     return sentence
 
 

@@ -141,7 +141,7 @@ def reason_for_none(
     if matrix_determinant(*coefficients.affine[:4])[1] < 0:
         return (
             "No limit cycle: the only critical set is a saddle (det A < 0), and the equilibria inside a closed orbit "
-            "have indices that add up to 1 (thm:case2)."
+            "have indices that add up to 1 (Theorem 4.4)."
         )
     if a == d == 0.0:
         return (
@@ -150,7 +150,7 @@ def reason_for_none(
         )
     if a * d >= 0.0:
         sign = "negative" if a + d < 0.0 else "positive"
-        return f"No limit cycle: the divergence is {sign} on all of κ₂ (Bendixson, thm:case1)."
+        return f"No limit cycle: the divergence is {sign} on all of κ₂ (Bendixson, Theorem 4.3)."
     if f1 == f2 == 0.0:
         return "No limit cycle: for f = 0 the orbits are those of the linear system x2' = A x2, whatever Ψ is."
     if a == -d and abs(f1) == abs(f2):

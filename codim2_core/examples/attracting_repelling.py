@@ -15,7 +15,7 @@ EXAMPLE = Example(
     make=attracting_repelling,
     title="Attracting and repelling directions",
     label="sec:mateslidecross",
-    source="N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, sec:mateslidecross",
+    source="N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, Section 5.2",
     sentence="Trajectories that come in within π/3 of θ = 0 turn away and leave Σ, all others slide.",
     ranges={},
     z=(0.5,),

@@ -89,7 +89,7 @@ def bifurcation_presets() -> dict[str, Preset]:
     add(
         "conics-0", conics, title="Hyperbola and circle: no meeting point", b=1.2, f1=0.2, f2=0.1,
         portrait=("I", "CM0", "stable focus"),
-        note="The hyperbola Θ = 0 (eq:conic11) misses the unit circle: no limit directions.",
+        note="The hyperbola misses the unit circle: no limit directions.",
     )  # fmt: skip
     add(
         "conics-2", conics, title="Hyperbola and circle: two meeting points", b=0.6, f1=1.0, f2=0.5,
@@ -105,7 +105,7 @@ def bifurcation_presets() -> dict[str, Preset]:
     ellipse = Preset(group=_CONICS, label="fig:ellipse", a=-2.0, b=0.5, d=-1.0)
     add(
         "ellipse-in", ellipse, title="f inside the ellipse |A⁻¹h| = 1", f1=0.8, f2=0.4,
-        portrait=("I", "CM2", "stable node"), note="|A⁻¹f| < 1: there is a critical set (thm:lineps1).",
+        portrait=("I", "CM2", "stable node"), note="|A⁻¹f| < 1: there is a critical set (Theorem 4.1).",
     )  # fmt: skip
     add(
         "ellipse-out", ellipse, title="f outside the ellipse |A⁻¹h| = 1", f1=2.0, f2=1.2,

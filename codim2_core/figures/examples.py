@@ -24,7 +24,7 @@ def example_presets() -> dict[str, Preset]:
     )  # fmt: skip
     add(
         "ball-critical", ball, title="Ball: on the point of slipping", z=(Z_CRIT, 0.0), portrait=("I", "NCM2", None),
-        degeneracy="transcritical", note="|z| = 7μmg/(2K): the critical set reaches the equator (fig:transcrit).",
+        degeneracy="transcritical", note="|z| = 7μmg/(2K): the critical set reaches the equator (Figure 19).",
     )  # fmt: skip
     add(
         "ball-slip", ball, title="Ball: it slips", z=(9.0, 0.0), portrait=("I", "NCM2", None),

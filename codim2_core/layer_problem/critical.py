@@ -43,9 +43,9 @@ __all__ = ["NEUTRAL_TRACE", "CriticalSet", "Existence", "Location", "critical_se
 class Existence(Enum):
     """How many critical sets there are, and why; the value is the sentence shown."""
 
-    INSIDE = "One critical set: |A⁻¹f| < 1 (thm:lineps1)."
-    NONE = "No critical set: |A⁻¹f| > 1 (thm:lineps1)."
-    EQUATOR = "|A⁻¹f| = 1 within rounding: the critical set lies on the equator (transcritical, fig:transcrit)."
+    INSIDE = "One critical set: |A⁻¹f| < 1 (Theorem 4.1)."
+    NONE = "No critical set: |A⁻¹f| > 1 (Theorem 4.1)."
+    EQUATOR = "|A⁻¹f| = 1 within rounding: the critical set lies on the equator (transcritical, Figure 19)."
     SINGULAR_NONE = "det A = 0 within rounding, and f is not in the range of A: no critical set."
     SINGULAR_LINE = "det A = 0 within rounding, and f is in the range of A: a whole line A e = −f of critical points."
     SINGULAR_OUTSIDE = "det A = 0 within rounding; the line A e = −f misses the hemisphere: no critical set."

@@ -216,7 +216,7 @@ class Course:
             return None
         if part.end == "equator":
             theta = math.atan2(part.e[1], part.e[0])
-            reason = f"{C} reaches the equator (fig:transcrit) and sliding ends: slips away along θ = {theta:.4g}."
+            reason = f"{C} reaches the equator (Figure 19) and sliding ends: slips away along θ = {theta:.4g}."
             return Decision("leave", reason, theta=theta)
         if part.end == "fold" and self.line is not None:
             return self.past_fold_in_line(self.line, part.e, C)
@@ -302,7 +302,7 @@ class Course:
                 return Decision("stop", reason)
             reason = (
                 f"{C} loses its stability (Hopf) to a stable limit cycle: sliding, with z' averaged over the cycle, "
-                "which is that on C (prop:LC)."
+                "which is that on C (Proposition 4.2)."
             )
             return Decision("cycle", reason, e, onto="cycle 1")
         given = "" if self.psi is not None else " (for Ψ = 1; none was given)"

@@ -82,7 +82,7 @@ def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Dec
     at = tuple(z.tolist())
     hemisphere = LayerProblem(system.at(at), psi)
     found = ends(hemisphere, followed(hemisphere, points))
-    verdict, onto, leaving, _, reason = judge(hemisphere, found, "Orbits go on from there")
+    verdict, onto, leaving, _, reason, _ = judge(hemisphere, found, "Orbits go on from there")
     return _followed(system, psi, at, verdict, onto, leaving, reason)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
 from ..numerics.trigonometric import ROUNDING
+from ..words import power, say, subscript
 from .endings import radially_neutral
 
 
@@ -31,9 +32,12 @@ class Degeneracy:
     within: float = 0.0
 
 
+NEARER = "Doubles cannot tell it from a setting nearer than"
+
+
 def undecided(name: str, sentence: str, within: float = ROUNDING, of: str = "each coefficient") -> Degeneracy:
     """Make a degeneracy whose sentence says within what it cannot be told from its neighbours."""
-    return Degeneracy(name, f"{sentence} Undecided within {within:.1e} of {of}.", within)
+    return Degeneracy(name, f"{sentence} {NEARER} {power(within)} of {of}.", within)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,23 +73,26 @@ NEUTRAL_CLOSED_EQUATOR = undecided(
 def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
     """Describe the limit directions in a sentence or two."""
     if equator.all_directions:
-        return "Every direction is a limit direction."
+        return say("all directions")
     count = len(equator.theta)
     if count == 0:
         if cycle is None or cycle.exponent == 0.0:
-            return "No limit directions: the equator is a closed orbit."
-        outer, inner = ("attracts", "repels") if cycle.exponent < 0.0 else ("repels", "attracts")
-        return f"No limit directions: the equator is a closed orbit that {outer} outside and {inner} on the hemisphere."
+            return say("closed equator")
+        return say("closed equator, stable" if cycle.exponent < 0.0 else "closed equator, unstable")
     neutral = np.array([radially_neutral(equator, i) for i in range(count)])
     arriving = int(((equator.lambda_rho < 0.0) & ~neutral).sum())
     leaving = int(((equator.lambda_rho > 0.0) & ~neutral).sum())
-    noun = "limit direction" if count == 1 else "limit directions"
-    if neutral.any():
-        which = " and ".join(f"Q{i + 1}" for i in np.flatnonzero(neutral))
-        here = f"{which} {'is' if neutral.sum() == 1 else 'are'} radially neutral: trajectories stop short of Σ there."
-        return f"{count} {noun}: trajectories reach Σ along {arriving} and leave it along {leaving}. {here}"
-    if leaving == 0:
-        return f"{count} {noun}: trajectories reach Σ along {'it' if count == 1 else 'them'}."
-    if arriving == 0:
-        return f"{count} {noun}: trajectories leave Σ along {'it' if count == 1 else 'them'}."
-    return f"{count} {noun}: trajectories reach Σ along {arriving} and leave it along {leaving}."
+    if arriving == leaving == 0:
+        first = say("none moves", count=count)
+    elif arriving and leaving:
+        first = say("both", count=count, arriving=arriving, leaving=leaving)
+    elif count == 1:
+        first = say("one arrives" if arriving else "one leaves")
+    elif neutral.any():
+        first = say("some arrive" if arriving else "some leave", count=count, moving=arriving or leaving)
+    else:
+        first = say("all arrive" if arriving else "all leave", count=count)
+    if not neutral.any():
+        return first
+    which = " and ".join(f"Q{subscript(i + 1)}" for i in range(count) if neutral[i])
+    return f"{first} {say('neutral directions', which=f'{which} ' + ('is' if neutral.sum() == 1 else 'are'))}"

@@ -16,6 +16,7 @@ from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
+from ..words import say
 from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
 from .classify_typed import general_portrait
 from .endings import radially_neutral
@@ -23,7 +24,7 @@ from .endings import radially_neutral
 _MULTIPLE = {
     2: undecided(
         "saddle-node",
-        "Θ has a double zero: two limit directions have just met (fig:SNBIF, eq:tangencies). Counted once here.",
+        "Θ has a double zero: two limit directions have just met (Figure 20). Counted once here.",
     ),
     3: undecided(
         "pitchfork",
@@ -81,7 +82,7 @@ def _case(coefficients: Coefficients) -> tuple[str | None, list[Degeneracy]]:
     a, d = coefficients.a, coefficients.d
     if a == 0.0 or d == 0.0:
         which = "a = d = 0" if a == d == 0.0 else "a = 0" if a == 0.0 else "d = 0"
-        return None, [Degeneracy(which, f"{which}: on the border between Case I and Cases II, III (tab:cases).")]
+        return None, [Degeneracy(which, f"{which}: on the border between Case I and Cases II, III (Table 1).")]
     if (a > 0.0) == (d > 0.0):
         return "I", []
     sign = matrix_determinant(*coefficients.affine[:4])[1]
@@ -98,20 +99,20 @@ def _arrives(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> bool:
 def _consequence(location: Location, critical: tuple[CriticalSet, ...], case: str | None, arrives: bool) -> str:
     if not critical:
         if location.existence is Existence.NONE:
-            return "There is no critical set, so nothing slides: what reaches Σ crosses it."
+            return say("crossing" if arrives else "repelled")
         return location.existence.value
     kind = critical[0].kind
     if kind.startswith("stable"):
         if not arrives:
-            return f"The critical set C is a {kind}, but nothing reaches Σ: only what is there slides."
+            return say("stable, unreached", kind=kind)
         if case == "I":  # all that arrives ends on C, thm:case1(a)
-            return f"The critical set C is a {kind}: stable sliding along Σ."
-        return f"The critical set C is a {kind}: sliding along C is stable. What arrives elsewhere may cross."
+            return say("stable sliding", kind=kind)
+        return say("stable in part", kind=kind)
     if kind == "saddle":
-        return "The critical set C is a saddle whatever Ψ is: sliding along Σ is unstable, almost every orbit leaves."
+        return say("saddle")
     if kind.startswith("unstable"):
-        return f"The critical set C is an {kind}: sliding along C itself is unstable."
-    return "The critical set C is a centre to first order."
+        return say("unstable", kind=kind)
+    return say("centre")
 
 
 def portrait(problem: LayerProblem) -> Classification:

@@ -7,6 +7,7 @@ from ..layer_problem.disc_zeros import DiscZeros, disc_zeros
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
 from ..numerics.fourier_zeros import ROUNDINGS, UNIT
 from ..systems.frozen import AtZ
+from ..words import say
 from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
 
 WITHIN = ROUNDINGS * UNIT
@@ -39,20 +40,20 @@ def _counted(k: int, kind: str) -> str:
 def _consequence(critical: tuple[CriticalSet, ...], found: DiscZeros) -> str:
     if not critical:
         if found.everything or found.curve or found.on_equator or not found.proven:
-            return "No isolated critical set inside."
-        return "There is no critical set."
+            return say("no isolated set")
+        return say("no critical set")
     kinds = [C.kind for C in critical]
     counted = ", ".join(_counted(kinds.count(kind), kind) for kind in sorted(set(kinds)))
     stable = sum(kind.startswith("stable") for kind in kinds)
     if stable == 0:
-        return f"Critical sets: {counted}. None is stable: sliding along them is not."
+        return say("none stable", kinds=counted)
     if stable == 1:
-        return f"Critical sets: {counted}. There is one way to slide stably along Σ."
-    return f"Critical sets: {counted}. There are {stable} ways to slide stably along Σ: it depends on the approach."
+        return say("one stable", kinds=counted)
+    return say("several stable", kinds=counted, count=stable)
 
 
 _MULTIPLE = {
-    2: ("saddle-node", "Θ has a double zero: two limit directions have just met (fig:SNBIF). Counted once here."),
+    2: ("saddle-node", "Θ has a double zero: two limit directions have just met (Figure 20). Counted once here."),
     3: ("pitchfork", "Θ has a triple zero: one limit direction is splitting into three. Counted once here."),
     4: ("quadruple zero", "Θ has a fourfold zero: four limit directions have met. Counted once here."),
 }
@@ -83,7 +84,7 @@ def _critical(critical: tuple[CriticalSet, ...], found: DiscZeros) -> list[Degen
     if found.curve:
         named.append(("curve of critical points", "U = 0 along a whole curve of the hemisphere."))
     if found.on_equator:
-        named.append(("transcritical", "U = 0 on the equator: a critical set is just reaching it (fig:transcrit)."))
+        named.append(("transcritical", "U = 0 on the equator: a critical set is just reaching it (Figure 19)."))
     if "saddle-node" in kinds:
         named.append(("fold", "det J = 0: two critical sets have just met. Counted once here."))
     met = int((found.degenerate & ~found.rough & (found.index != 0)).sum())

@@ -27,7 +27,9 @@ ON_CYCLE = 1e-4  # distance to a limit cycle at which a branch has reached it
 AT_CRITICAL = 1e-2  # distance beyond which an equilibrium that captures is none of the critical sets known
 AT_SADDLE = 1e-4  # distance at which a branch that stopped nowhere else is at a saddle
 NEUTRAL = 1e-13  # of the largest eigenvalue on the equator
+AT_NEUTRAL = 1e-2  # distance to a radially neutral Q, which is come to like 1/T, at which a branch is at it
 CONNECTION = "Runs into a saddle: a saddle connection."
+AT_NEUTRAL_Q = "Comes to a limit direction that is radially neutral."
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,6 +147,8 @@ def endings(
                 found[i] = Ending(f"cycle {reached + 1}", None, "Winds onto a limit cycle.")
             elif w < AT_SADDLE and gap < AT_SADDLE and more:
                 found[i] = Ending(label, float(equator.theta[near]), _stopping(equator, near, w))
+            elif more and max(w, gap) < AT_NEUTRAL and radially_neutral(equator, near):
+                found[i] = Ending(label, float(equator.theta[near]), AT_NEUTRAL_Q)
             elif k is not None and critical[k].kind == "saddle" and more:
                 found[i] = Ending(critical_label(critical, k), _tangent_at(critical[k], p), CONNECTION)
     return [e if e is not None else Ending("undecided", None, s.value) for e, s in zip(found, statuses, strict=True)]

@@ -24,6 +24,7 @@ from ..psi.constructors import compared
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
+from ..words import named, say
 from .endings import angular_sign, radially_neutral
 from .verdicts import Array, Judged, arriving, spiralling
 
@@ -60,6 +61,11 @@ class Outcome:
         Whether other regularisations give another outcome; None where they were not asked.
     families : tuple of (text of Psi, verdict, onto)
         What they give; empty where a theorem makes asking needless.
+    slides_alike : bool
+        It depends on Psi what it slides on, C or a cycle around it, but not how: the slow flow is the same.
+    why : str
+        Of "undecided": "several" (the orbits have more than one ending, or run into a saddle), "neutral" (to first
+        order nothing arrives or leaves), or "unfollowed" (the computation gave up); "" else.
     """
 
     theta: float | None
@@ -72,6 +78,8 @@ class Outcome:
     reason: str
     depends_on_psi: bool | None = False
     families: tuple[tuple[str, str, str | None], ...] = ()
+    slides_alike: bool = False
+    why: str = ""
 
     @property
     def slides(self) -> bool | None:
@@ -188,13 +196,6 @@ def _arrival(equator: EquatorEquilibria, i: int) -> str:
     return "open set" if angular_sign(equator, i) < 0 else "single direction"
 
 
-_SENTENCE = {
-    "open set": "An open set of trajectories arrives at {}.",
-    "one side": "Trajectories arrive at {} from one side only (Θ has a double zero).",
-    "single direction": "Only the trajectories exactly along {} arrive at it: those beside it turn to the next ones.",
-}
-
-
 def approach_outcomes(
     system: AnySystem,
     psi: Psi,
@@ -246,13 +247,16 @@ def outcomes_of(own: LayerProblem, compare: Sequence[Psi] | None = None) -> Outc
     return Outcomes(tuple(found), directions, equator, None, at)
 
 
-def _compared(outcome: Outcome, verdicts: list[tuple[str, str, str | None]], sensitive: bool) -> Outcome:
+def _compared(outcome: Outcome, verdicts: list[tuple[str, str, str | None]], sensitive: bool, elinear: bool) -> Outcome:
     if not sensitive:
         return outcome
     if not verdicts:
         return replace(outcome, depends_on_psi=None)
     depends = any((verdict, onto) != (outcome.verdict, outcome.onto) for _, verdict, onto in verdicts)
-    return replace(outcome, depends_on_psi=depends, families=tuple(verdicts))
+    # in the e-linear system C is where it is for every Ψ, and prop:LC gives its slow flow to every cycle around it
+    alike = depends and elinear and {outcome.verdict, *(verdict for _, verdict, _ in verdicts)} <= {"slide", "cycle"}
+    reason = f"{outcome.reason} {say('alike')}" if alike else outcome.reason
+    return replace(outcome, depends_on_psi=depends, families=tuple(verdicts), slides_alike=alike, reason=reason)
 
 
 def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], sensitive: bool, i: int) -> Outcome:
@@ -260,50 +264,45 @@ def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], se
     equator, label = own.equator, f"Q{i + 1}"
     theta = float(equator.theta[i])
     if radially_neutral(equator, i):
-        why = "radially non-hyperbolic (a critical set comes to the equator)"
-        reason = f"{label} is {why}: to first order nothing arrives or leaves."
-        return Outcome(theta, label, "nothing", "undecided", None, None, None, reason)
+        reason = say("neutral approach", Q=named(label))
+        return Outcome(theta, label, "nothing", "undecided", None, None, None, reason, why="neutral")
     if equator.lambda_rho[i] > 0.0:
-        if angular_sign(equator, i) > 0:
-            reason = f"{label} repels radially and angularly: nothing tends to it."
-        else:
-            reason = f"{label} repels radially: what turns towards it leaves Σ."
+        reason = say("repels" if angular_sign(equator, i) > 0 else "leads away", Q=named(label))
         beside = equator.lambda_rho[[i - 1, (i + 1) % len(equator)]]
         if angular_sign(equator, i) < 0 and (beside < 0.0).any():
-            reason += " Those that come in beside it turn away: crossing, in the words of sec:mateslidecross."
+            reason = f"{reason} {say('turns away')}"
         return Outcome(theta, label, "nothing", "misses", None, None, None, reason)
     arrives = _arrival(equator, i)
-    (verdict, onto, leaving, slow, reason), *others = judged
-    sentence = _SENTENCE[arrives].format(label)
-    if arrives == "one side" and len(equator) == 1:
-        sentence = f"Trajectories turn to {label} from every angle, and arrive from one side (Θ has a double zero)."
-    reason = f"{sentence} {reason}"
-    outcome = Outcome(theta, label, arrives, verdict, onto, leaving, slow, reason)
+    (verdict, onto, leaving, slow, reason, why), *others = judged
+    alone = arrives == "one side" and len(equator) == 1
+    reason = f"{say('one side, all angles' if alone else arrives, Q=named(label))} {reason}"
+    outcome = Outcome(theta, label, arrives, verdict, onto, leaving, slow, reason, why=why)
     verdicts = [(text, *other[:2]) for text, other in zip(texts, others, strict=True)]
-    return _compared(outcome, verdicts, sensitive)
+    return _compared(outcome, verdicts, sensitive, own.at.normal_form is not None)
 
 
 def _whole(own: LayerProblem, others: list[LayerProblem], sensitive: bool, cycle: EquatorCycle | None) -> Outcome:
+    elinear = own.at.normal_form is not None
     if own.equator.all_directions:
         label, radial = "every direction", _radial(own.at)
         if radial.max() < 0.0:
-            verdict, onto, leaving, slow, reason = spiralling(own, "Orbits leave the equator at all angles")
-            reason = f"Every direction is a limit direction. {reason}"
-            outcome = Outcome(None, label, "open set", verdict, onto, leaving, slow, reason)
-            return _compared(outcome, [(other.psi.text, *spiralling(other)[:2]) for other in others], sensitive)
+            verdict, onto, leaving, slow, reason, why = spiralling(own, "Orbits leave the equator at all angles")
+            reason = f"{say('all directions')} {reason}"
+            outcome = Outcome(None, label, "open set", verdict, onto, leaving, slow, reason, why=why)
+            return _compared(
+                outcome, [(other.psi.text, *spiralling(other)[:2]) for other in others], sensitive, elinear
+            )
         if radial.min() > 0.0:
-            return Outcome(None, label, "nothing", "misses", None, None, None, "Every direction leads away from Σ.")
-        reason = "Every direction is a limit direction, and some lead to Σ, others away from it."
-        if not radial.any():
-            reason = "U vanishes on the equator: to first order nothing arrives or leaves."
-        return Outcome(None, label, "nothing", "undecided", None, None, None, reason)
+            return Outcome(None, label, "nothing", "misses", None, None, None, say("all lead away"))
+        rest = not radial.any()
+        reason, why = (say("at rest"), "neutral") if rest else (say("some lead"), "several")
+        return Outcome(None, label, "nothing", "undecided", None, None, None, reason, why=why)
     if cycle is None or cycle.neutral:
-        reason = "The closed equator is neutral: to first order trajectories neither approach Σ nor leave it."
-        return Outcome(None, "equator", "nothing", "undecided", None, None, None, reason)
+        reason = say("neutral equator")
+        return Outcome(None, "equator", "nothing", "undecided", None, None, None, reason, why="neutral")
     if not cycle.stable_outside:
-        reason = "The closed equator repels outside: trajectories spiral away and never reach Σ."
+        reason = say("equator repels")
         return Outcome(None, "equator", "nothing", "misses", None, None, None, reason)
-    verdict, onto, leaving, slow, reason = spiralling(own)
-    reason = f"Trajectories from all angles spiral onto the closed equator (thm:geneps0(c)). {reason}"
-    outcome = Outcome(None, "equator", "open set", verdict, onto, leaving, slow, reason)
-    return _compared(outcome, [(other.psi.text, *spiralling(other)[:2]) for other in others], sensitive)
+    verdict, onto, leaving, slow, reason, why = spiralling(own)
+    outcome = Outcome(None, "equator", "open set", verdict, onto, leaving, slow, f"{say('spiral')} {reason}", why=why)
+    return _compared(outcome, [(other.psi.text, *spiralling(other)[:2]) for other in others], sensitive, elinear)

@@ -4,17 +4,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..cycles.limit_cycles import cycles_of
 from ..layer_problem.problem import LayerProblem
+from ..orbits.result import Status
 from ..orbits.trajectories import Trajectories, continuation, trajectories
-from .endings import CAPTURE, CONNECTION, Ending, critical_label, drawn_time, endings
+from ..words import named, number, say
+from .endings import CAPTURE, CONNECTION, Ending, critical_label, drawn_time, endings, radially_neutral
 
 Array = NDArray[np.float64]
-Judged = tuple[str, str | None, float | None, Array | None, str]  # verdict, onto, leaving, slow flow, reason
+
+
+class Judged(NamedTuple):
+    """What becomes of some orbits, as `outcomes.Outcome` has it."""
+
+    verdict: str
+    onto: str | None = None
+    leaving: float | None = None
+    slow_flow: Array | None = None
+    reason: str = ""
+    why: str = ""
+
 
 RTOL = 1e-8
 FAN = 0.02  # radius, in (theta, ebar), of the half circle of starts around a Q that many orbits leave
@@ -60,25 +74,29 @@ def judge(problem: LayerProblem, found: Sequence[Ending], many: str) -> Judged:
     """Judge trajectories that end so."""
     labels = list(dict.fromkeys(end.label for end in found))
     if len(labels) > 1:
-        return "undecided", None, None, None, f"{many}, and they end at different places: {', '.join(labels)}."
+        where = ", ".join(named(label) for label in labels)
+        return Judged("undecided", reason=say("several ends", many=many, labels=where), why="several")
     end = found[0]
     label = end.label
     if end.sentence == CONNECTION:
-        return "undecided", None, None, None, f"They run into the saddle {label}: which side is left to ε."
+        return Judged("undecided", reason=say("saddle ahead", label=named(label)), why="several")
+    if label.startswith("Q") and radially_neutral(problem.equator, int(label[1:]) - 1):
+        return Judged("undecided", reason=say("neutral ahead", label=named(label)), why="neutral")
     for i, C in enumerate(problem.critical):
         if label == critical_label(problem.critical, i):
-            return "slide", label, None, C.slow_flow, f"They reach the critical set {label}, a {C.kind}: sliding."
+            return Judged("slide", label, None, C.slow_flow, say("slides", label=named(label), kind=C.kind))
     if label.startswith("cycle"):
         cycle = problem.keep(cycles_of)[int(label.split()[1]) - 1]
-        reason = "They wind onto a limit cycle around C: sliding, with the slow flow of C on average (prop:LC)."
-        if problem.at.normal_form is None:
-            reason = "They wind onto a limit cycle: sliding, with the mean slow flow over the cycle."
-        return "cycle", label, None, cycle.slow_flow, reason
+        reason = say("slides on a cycle" if problem.at.normal_form is None else "slides around")
+        return Judged("cycle", label, None, cycle.slow_flow, reason)
     if label.startswith("Q"):
-        return "cross", label, end.angle, None, f"They leave along θ = {end.angle:.4g} ({label}): crossing."
+        theta = number(end.angle) if end.angle is not None else "?"
+        return Judged("cross", label, end.angle, None, say("crosses", theta=theta, label=named(label)))
     if label == "equator":
-        return "cross", label, None, None, "They come down to the closed equator and spiral away: crossing."
-    return "undecided", None, None, None, f"They were not followed to an end: {end.sentence}"
+        return Judged("cross", label, reason=say("crosses spiralling"))
+    if end.sentence == Status.EQUILIBRIUM.value:
+        return Judged("undecided", reason=say("rest ahead"), why="neutral")
+    return Judged("undecided", reason=say("unfollowed"), why="unfollowed")
 
 
 def arriving(problem: LayerProblem, which: Sequence[int]) -> list[Judged]:

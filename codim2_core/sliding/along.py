@@ -268,7 +268,7 @@ def _change(z: float, before: Sequence[CriticalSet], after: Sequence[CriticalSet
     if len(before) != len(after):
         outermost = max(more, key=lambda C: float(np.hypot(*C.e)))
         if np.hypot(*outermost.e) > 1.0 - AT_EQUATOR:
-            sentence = "A critical set passes through the equator (transcritical, fig:transcrit)."
+            sentence = "A critical set passes through the equator (transcritical, Figure 19)."
             return SlowPoint("equator", z, *_place(outermost), None, sentence)
         flattest = min(more, key=lambda C: abs(C.determinant))
         return SlowPoint("fold", z, *_place(flattest), None, "Two critical sets meet and vanish: a fold, det J = 0.")

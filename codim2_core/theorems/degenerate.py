@@ -49,7 +49,7 @@ def _held(facts: Facts, theorem: str, statement: str, expected: list[float], sen
 
 def equal_diagonal(facts: Facts) -> Certificate:
     """Evaluate D1, a = d."""
-    theorem = "sec:lineps0, D1"
+    theorem = "sec:lin, D1"
     statement = "For a = d there are 2 limit directions if |b| < |f|, sin(θ − arg f) = b/|f|, and none if |b| > |f|."
     form = facts.form
     if form is None:
@@ -68,7 +68,7 @@ def equal_diagonal(facts: Facts) -> Certificate:
 
 def symmetric(facts: Facts) -> Certificate:
     """Evaluate D2, b = 0 and a component of f zero (its printed sign is a slip, see the errata)."""
-    theorem = "sec:lineps0, D2"
+    theorem = "sec:lin, D2"
     statement = (
         "For b = 0 and f₂ = 0 (or f₁ = 0) two limit directions lie on an axis, and two more, "
         "θ = ±arccos(f₁/(d − a)), exist if |f₁| < |d − a|."

@@ -29,7 +29,7 @@ def psi_claims(psi: Psi) -> tuple[Certificate, ...]:
     broken = [name for name, rule in zip(("R1", "R2", "R3", "R4", "R5"), psi.check(), strict=False) if not rule.holds]
     if not broken:
         return found
-    why = f"This Ψ does not meet {', '.join(broken)} of def:Psi."
+    why = f"This Ψ does not meet {', '.join(broken)} of Definition 2.3."
     return tuple(c if c.verdict.value == "holds" else not_applicable(c.theorem, c.statement, why) for c in found)
 
 

@@ -8,6 +8,8 @@ import pytest
 
 from codim2_core import ELinear, classify, psi
 from codim2_core.layer_problem.critical import Existence, locate
+from codim2_core.portrait.classification import NEARER
+from codim2_core.words import power
 
 SIGNS = [*itertools.product((-1.0, 1.0), repeat=5), (1.0, 0.0, -1.0, 0.0, 1.0), (0.0,) * 5]
 UNIT = 2.0**-53
@@ -131,4 +133,4 @@ def test_neutral_trace_and_equator_reach_as_far_as_they_say():
         assert ("tr J = 0" in names) == named
         assert ("neutral equator" in names) == named
         for d in names.values():
-            assert f"Undecided within {d.within:.1e} of " in d.sentence
+            assert f"{NEARER} {power(d.within)} of " in d.sentence

@@ -90,4 +90,4 @@ def _columns(
     }
 
 
-PANEL = Panel("planes", "Planes", add, "Trace and determinant, and eigenvalues, of each critical set (fig:bads).")
+PANEL = Panel("planes", "Planes", add, "Trace and determinant, and eigenvalues, of each critical set; the Ψ compared.")

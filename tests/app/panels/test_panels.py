@@ -224,9 +224,10 @@ def test_outcomes_are_live_where_a_theorem_answers_and_at_rest_otherwise():
     header = ask(frames, **CASE3)
     assert header["late"] == ["outcomes"]
     header = settled(frames, rest=True)
-    assert header["outcomes"]["kind"] == ["depends", "misses", "misses", "depends"]
-    label, kind, _, _, families = header["outcomes"]["rows"][0]
-    assert (label, kind) == ("Q₁", "depends")
+    assert header["outcomes"]["kind"] == ["slide", "misses", "misses", "slide"]
+    label, kind, _, sentence, families = header["outcomes"]["rows"][0]
+    assert (label, kind) == ("Q₁", "slide")
+    assert sentence.endswith("the slow flow is the same.")
     assert [words for words, _ in families] == ["slides on C", "slides around cycle 1"]
 
 
@@ -255,11 +256,11 @@ def test_the_first_picture_has_the_ring():
 def test_theorems_are_evaluated_with_their_numbers():
     frames, header = opened("theorems")
     rows = {row[0]: row for row in header["theorems"]}
-    assert rows["thm:case1(c)"][2:4] == ["holds", "This one is CM4."]
-    assert ["limit directions", 4.0] in rows["thm:case1(c)"][4]
-    assert rows["thm:case2(a)"][2] == "does not apply"
+    assert rows["Theorem 4.3(c)"][2:4] == ["holds", "This one is CM4."]
+    assert ["limit directions", 4.0] in rows["Theorem 4.3(c)"][4]
+    assert rows["Theorem 4.4(a)"][2] == "does not apply"
     assert "theorems" not in ask(frames, trajectories=32)
-    assert {row[0]: row for row in ask(frames, f1=3.0)["theorems"]}["thm:case1(c)"][3] == "This one is NCM2."
+    assert {row[0]: row for row in ask(frames, f1=3.0)["theorems"]}["Theorem 4.3(c)"][3] == "This one is NCM2."
     ask(frames, panel="numbers")
     runs = frames.scene.runs["certificates"]
     ask(frames, a=-1.5)

@@ -10,6 +10,7 @@ from codim2_app.state.portraits import portraits
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
+from codim2_core.portrait.classification import NEARER
 
 HEAVY = {"cycles", "inside", "outside", "continuations", "rho_inside", "rho_outside", "theta_inside", "theta_outside",
          "lines_inside", "lines_outside"}  # fmt: skip
@@ -378,5 +379,5 @@ def test_no_sentence_is_said_twice(plane):
     portrait = header["portrait"]
     assert portrait["degeneracies"]
     for _, sentence in portrait["degeneracies"]:
-        assert sentence.partition(" Undecided within")[0] not in portrait["sentence"]
+        assert sentence.partition(f" {NEARER}")[0] not in portrait["sentence"]
     assert portrait["sentence"].split(". ", 1)[-1]

@@ -83,7 +83,28 @@ def test_closed_equator():
 
 def test_critical_set_on_the_equator_is_named():
     found = approach_outcomes(ELinear(-1, 0, -1, (1.0, 0.0)), psi.constant())
-    assert any("non-hyperbolic" in outcome.reason for outcome in found.directions)
+    assert any("radially neutral" in outcome.reason for outcome in found.directions)
+    # what arrives at the other direction comes to it like 1/T: neutral, and no computation that gave up
+    assert {outcome.why for outcome in found.directions if outcome.verdict == "undecided"} == {"neutral"}
+
+
+def test_three_ways_to_be_undecided_have_three_names():
+    families = approach_outcomes(ELinear(-1, 0, -1), psi.constant())
+    assert (families.whole.verdict, families.whole.why) == ("slide", "")
+    several = approach_outcomes(ELinear(-1, 0, 1), psi.constant())
+    assert {o.why for o in several.directions} <= {"", "several", "neutral"}
+    neutral = approach_outcomes(ELinear(0, 2, 0), psi.constant())
+    assert (neutral.whole.verdict, neutral.whole.why) == ("undecided", "neutral")
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 4])
+def test_in_case_three_psi_changes_what_it_slides_on_and_not_how(n):
+    found = of(f"case3-n{n}")
+    (first, *_) = [o for o in found if o.arrives == "open set"]
+    assert first.depends_on_psi
+    assert first.slides_alike
+    C = critical_sets(presets[f"case3-n{n}"].system, psi.hill(n))[0]
+    assert first.slow_flow == pytest.approx(C.slow_flow)
 
 
 def test_angle_must_be_finite():

@@ -1,0 +1,213 @@
+"""What is said of a portrait: every sentence once, with when it is said.
+
+The portrait's modules say them by `say`; `recognise` finds them again in a text, so that the tests can hold each
+against what motions do: a sentence without a check of its own is a failing test.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from string import Formatter
+
+
+@dataclass(frozen=True, slots=True)
+class Sentence:
+    """One sentence.
+
+    Attributes
+    ----------
+    says : str
+        With {fields}.
+    when : str
+        When it is said.
+    """
+
+    says: str
+    when: str
+
+
+SENTENCES: dict[str, Sentence] = {
+    # limit directions
+    "all directions": Sentence("Every direction is a limit direction.", "Θ vanishes identically"),
+    "closed equator": Sentence("No limit directions: the equator is a closed orbit.", "Θ has no zero, exponent 0"),
+    "closed equator, stable": Sentence(
+        "No limit directions: the equator is a closed orbit that attracts outside and repels on the hemisphere.",
+        "Θ has no zero, exponent < 0",
+    ),
+    "closed equator, unstable": Sentence(
+        "No limit directions: the equator is a closed orbit that repels outside and attracts on the hemisphere.",
+        "Θ has no zero, exponent > 0",
+    ),
+    "one arrives": Sentence("1 limit direction: trajectories reach Σ along it.", "one zero, λ with index ρ < 0"),
+    "one leaves": Sentence("1 limit direction: trajectories leave Σ along it.", "one zero, λ with index ρ > 0"),
+    "all arrive": Sentence("{count} limit directions: trajectories reach Σ along them.", "all radially attracting"),
+    "all leave": Sentence("{count} limit directions: trajectories leave Σ along them.", "all radially repelling"),
+    "both": Sentence(
+        "{count} limit directions: trajectories reach Σ along {arriving} and leave it along {leaving}.", "both kinds"
+    ),
+    "some arrive": Sentence(
+        "{count} limit directions: trajectories reach Σ along {moving} of them.", "the others are neutral"
+    ),
+    "some leave": Sentence(
+        "{count} limit directions: trajectories leave Σ along {moving} of them.", "the others are neutral"
+    ),
+    "none moves": Sentence("Limit directions: {count}.", "every λ with index ρ is 0"),
+    "neutral directions": Sentence(
+        "{which} radially neutral: to first order trajectories neither reach Σ nor leave it there.",
+        "λ with index ρ is 0 within rounding",
+    ),
+    # critical sets of the e-linear system
+    "crossing": Sentence("There is no critical set, so nothing slides: what reaches Σ crosses it.", "|A⁻¹f| > 1"),
+    "repelled": Sentence("There is no critical set, and nothing reaches Σ.", "|A⁻¹f| > 1, no direction attracts"),
+    "stable sliding": Sentence("The critical set C is a {kind}: stable sliding along Σ.", "Case I, stable"),
+    "stable, unreached": Sentence(
+        "The critical set C is a {kind}, but nothing reaches Σ: only what is there slides.", "stable, none attracts"
+    ),
+    "stable in part": Sentence(
+        "The critical set C is a {kind}: sliding along C is stable. What arrives elsewhere may cross.",
+        "stable, outside Case I",
+    ),
+    "saddle": Sentence(
+        "The critical set C is a saddle whatever Ψ is: sliding along Σ is unstable, almost every orbit leaves.",
+        "det A < 0",
+    ),
+    "unstable": Sentence("The critical set C is an {kind}: sliding along C itself is unstable.", "unstable"),
+    "centre": Sentence("The critical set C is a centre to first order.", "tr J = 0 within rounding"),
+    # critical sets of other systems
+    "no isolated set": Sentence("No isolated critical set inside.", "a curve of zeros, or the search gave up"),
+    "no critical set": Sentence("There is no critical set.", "U has no zero in the disc, proven"),
+    "none stable": Sentence("Critical sets: {kinds}. None is stable: sliding along them is not.", "none stable"),
+    "one stable": Sentence("Critical sets: {kinds}. There is one way to slide stably along Σ.", "one stable"),
+    "several stable": Sentence(
+        "Critical sets: {kinds}. There are {count} ways to slide stably along Σ: it depends on the approach.",
+        "several stable",
+    ),
+    # what becomes of an approach: who arrives
+    "open set": Sentence("An open set of trajectories arrives at {Q}.", "radially and angularly attracting"),
+    "one side": Sentence(
+        "Trajectories arrive at {Q} from one side only (Θ has a double zero).", "Θ has a double zero, others exist"
+    ),
+    "one side, all angles": Sentence(
+        "Trajectories turn to {Q} from every angle, and arrive from one side (Θ has a double zero).",
+        "the only zero of Θ is double",
+    ),
+    "single direction": Sentence(
+        "Only the trajectories exactly along {Q} arrive at it: those beside it turn to the next ones.",
+        "radially attracting, angularly repelling",
+    ),
+    "spiral": Sentence(
+        "Trajectories from all angles spiral onto the closed equator (Theorem 3.1(c)).",
+        "closed, stable outside",
+    ),
+    "neutral approach": Sentence(
+        "{Q} is radially neutral (a critical set comes to the equator): to first order nothing arrives or leaves.",
+        "λ with index ρ is 0",
+    ),
+    "repels": Sentence("{Q} repels radially and angularly: nothing tends to it.", "both eigenvalues > 0"),
+    "leads away": Sentence("{Q} repels radially: what turns towards it leaves Σ.", "repels radially, not angularly"),
+    "turns away": Sentence(
+        "Those that come in beside it turn away: crossing, in the words of Section 5.2.",
+        "radially repelling, angularly attracting, beside one that attracts radially",
+    ),
+    "all lead away": Sentence("Every direction leads away from Σ.", "Θ ≡ 0, U.e > 0"),
+    "some lead": Sentence(
+        "Every direction is a limit direction, and some lead to Σ, others away from it.", "Θ ≡ 0, U.e of both signs"
+    ),
+    "at rest": Sentence("U vanishes on the equator: to first order nothing arrives or leaves.", "U ≡ 0"),
+    "neutral equator": Sentence(
+        "The closed equator is neutral: to first order trajectories neither approach Σ nor leave it.", "exponent 0"
+    ),
+    "equator repels": Sentence(
+        "The closed equator repels outside: trajectories spiral away and never reach Σ.", "exponent > 0"
+    ),
+    # and where they go
+    "slides": Sentence("They reach the critical set {label}, a {kind}: sliding.", "they end at a critical set"),
+    "slides around": Sentence(
+        "They wind onto a limit cycle around C: sliding, with the slow flow of C on average (Proposition 4.2).",
+        "they end on a limit cycle, e-linear",
+    ),
+    "slides on a cycle": Sentence(
+        "They wind onto a limit cycle: sliding, with the mean slow flow over the cycle.", "they end on a limit cycle"
+    ),
+    "crosses": Sentence("They leave along θ = {theta} ({label}): crossing.", "they end at a limit direction"),
+    "crosses spiralling": Sentence(
+        "They come down to the closed equator and spiral away: crossing.", "they end on the closed equator"
+    ),
+    "several ends": Sentence(
+        "{many}, and they end at different places: {labels}.", "a family of orbits with more than one ending"
+    ),
+    "saddle ahead": Sentence("They run into the saddle {label}: which side is left to ε.", "a saddle connection"),
+    "neutral ahead": Sentence(
+        "They come to {label}, which is radially neutral: terms of higher order decide whether they leave Σ there.",
+        "they end at a limit direction with λ with index ρ = 0",
+    ),
+    "rest ahead": Sentence(
+        "They come to rest at an equilibrium that is not isolated: terms of higher order decide what they do there.",
+        "they end on a curve of critical points",
+    ),
+    "unfollowed": Sentence("They were followed for long and came to no end.", "the computation gave up"),
+    "alike": Sentence(
+        "With other Ψ some slide on C and others around it: the slow flow is the same.",
+        "e-linear: all families slide, not all on the same set",
+    ),
+}
+
+
+def say(key: str, **fields: object) -> str:
+    """Return a sentence with its fields filled in."""
+    return SENTENCES[key].says.format(**fields)
+
+
+def _pattern(template: str) -> re.Pattern[str]:
+    parts = [re.escape(text) + (f"(?P<{name}>.+?)" if name else "") for text, name, _, _ in Formatter().parse(template)]
+    return re.compile("".join(parts) + r"(?= |$)")
+
+
+_PATTERNS = {key: _pattern(sentence.says) for key, sentence in SENTENCES.items()}
+
+
+def recognise(text: str) -> list[tuple[str, dict[str, str]]]:
+    """Return the key and the fields of each sentence of a text, in its order.
+
+    Raises
+    ------
+    ValueError
+        Part of the text is no sentence that is listed here.
+    """
+    found, rest = [], text.strip()
+    while rest:
+        matches = [(m, key) for key, pattern in _PATTERNS.items() if (m := pattern.match(rest))]
+        if not matches:
+            raise ValueError(f"{rest!r} begins with no sentence that is listed.")
+        match, key = max(matches, key=lambda pair: len(SENTENCES[pair[1]].says))
+        found.append((key, match.groupdict()))
+        rest = rest[match.end() :].strip()
+    return found
+
+
+_LOWERED, _RAISED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def subscript(number: int) -> str:
+    """Return a number as lowered digits."""
+    return str(number).translate(_LOWERED)
+
+
+def named(label: str) -> str:
+    """Return a label as it is written in a sentence: "Q1" as Q₁, "C2" as C₂; "cycle 1" as it is."""
+    return re.sub(r"(?<=[QC])\d+", lambda digits: digits[0].translate(_LOWERED), label)
+
+
+def number(value: float, digits: int = 4) -> str:
+    """Return a number as it is written in a sentence: 0 within rounding as 0, with a minus sign and raised powers."""
+    text = f"{0.0 if abs(value) < 1e-12 else value:.{digits}g}"
+    mantissa, _, exponent = text.partition("e")
+    text = mantissa.replace("-", "−")
+    return f"{text} · 10{str(int(exponent)).translate(_RAISED)}" if exponent else text
+
+
+def power(value: float) -> str:
+    """Return a small positive number such as 1.6e-16 as 1.6 · 10⁻¹⁶."""
+    mantissa, _, exponent = f"{value:.1e}".partition("e")
+    return f"{mantissa} · 10{str(int(exponent)).translate(_RAISED)}"
