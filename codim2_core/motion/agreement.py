@@ -42,7 +42,7 @@ def limit_order(system: AnySystem, psi: Psi, limit: Simulation) -> float:
     It is 1, but lower if the motion leaves Sigma: along a limit direction, the orbits of the hemisphere come to the
     direction as eps^(|lambda_theta|/lambda_rho), so that the order is at most that ratio; through the equator
     (fig:transcrit) it is ``2 q/(1 + 2 q)`` where ``Psi ~ s^(1 - q/2)``: 4/5 for Psi = 1, near 1 for one that falls
-    exponentially. In an invariant line there is no direction to come to.
+    exponentially. In an invariant line there is no direction to come to, and only the exit through the equator counts.
 
     Parameters
     ----------
@@ -57,8 +57,7 @@ def limit_order(system: AnySystem, psi: Psi, limit: Simulation) -> float:
         In (0, 1].
     """
     order = 1.0
-    if invariant_line(field(system), limit.states[0]) is not None:
-        return order
+    in_line = invariant_line(field(system), limit.states[0]) is not None
     for phase in limit.phases:
         if phase.kind != "slip" or limit.dense(phase.t_start)[:2].any():
             continue
@@ -70,7 +69,7 @@ def limit_order(system: AnySystem, psi: Psi, limit: Simulation) -> float:
         i = int(np.argmin(distance))
         radial, angular = float(equator.lambda_rho[i]), float(equator.lambda_theta[i])
         if radial > NEUTRAL * abs(angular):
-            if angular < 0.0:
+            if angular < 0.0 and not in_line:
                 order = min(order, -angular / radial)
         else:
             power = 2.0 + 2.0 * float(psi.steepness(FAR_OUT))
