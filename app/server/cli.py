@@ -11,6 +11,8 @@ from importlib.metadata import version
 from pathlib import Path
 
 from .commands import add_census, add_classify, add_presets
+from .logs import log_to_stderr
+from .settings import add_settings
 from .stopping import stop_when_asked
 
 
@@ -22,25 +24,9 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=f"codim2 {version('codim2')}")
     commands = top.add_subparsers(dest="command", required=True)
     serve = commands.add_parser("serve", help="serve the explorer")
-    serve.add_argument("--port", type=int, default=5006, help="default 5006; 0 takes any free port")
-    serve.add_argument("--address", default="localhost", help="default localhost; 0.0.0.0 for all interfaces")
-    serve.add_argument(
-        "--allow-origin",
-        action="append",
-        default=[],
-        metavar="HOST[:PORT]",
-        help="a host under which browsers reach this server; may be repeated (also CODIM2_ORIGINS, with commas)",
-    )
-    serve.add_argument("--processes", type=int, default=1, help="server processes that share the port")
-    serve.add_argument(
-        "--show",
-        action=argparse.BooleanOptionalAction,
-        default=_at_a_screen(),
-        help="open a browser window (default: when started from a terminal on a screen)",
-    )
-    serve.add_argument(
-        "--lessons", type=Path, metavar="DIR", help="a folder with lessons of your own, offered after the course"
-    )
+    add_settings(serve)
+    if serve.get_default("show") is None:
+        serve.set_defaults(show=_at_a_screen())
     commands.add_parser("warm", help="compile the integrator into the disk cache, so that servers start warm")
     for add in (add_classify, add_presets, add_census):
         add(commands)
@@ -58,14 +44,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if "run" in chosen:
         return chosen.run(chosen)
     if chosen.command == "warm":
-        from ..view.warmup import warm_all
-
-        warm_all()
-        print("codim2: the integrator is compiled for all built-in regularisation functions")
-        return 0
+        return _warm()
     if chosen.lessons is not None and not _offer_lessons(chosen.lessons):
         return 1
-    origins = [*chosen.allow_origin, *filter(None, os.environ.get("CODIM2_ORIGINS", "").split(","))]
+    log_to_stderr(chosen.log_json, chosen.log_level)
     try:
         _try_to_listen(chosen.address, chosen.port)
     except OSError as error:
@@ -73,19 +55,51 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     stop_when_asked()
     try:
-        _serve(chosen, origins)
+        _serve(chosen)
     except KeyboardInterrupt:
         print("codim2: stopped", flush=True)
     return 0
 
 
-def _serve(chosen: argparse.Namespace, origins: Sequence[str]) -> None:
-    """Serve until this process is interrupted."""
-    from .page import make_server  # heavy, and not needed for --help
+def _warm() -> int:
+    """Compile all kernels into the disk cache; print what takes how long."""
+    from .kernel_cache import prepare
 
-    server = make_server(chosen.port, chosen.address, origins, chosen.processes)
-    host = "localhost" if chosen.address in ("0.0.0.0", "::") else chosen.address
-    print(f"codim2: the explorer is at http://{host}:{server.port}/  (stop with Ctrl+C)", flush=True)
+    uncached = prepare()
+    from ..view.warmup import warm_all
+
+    warm_all(lambda what, seconds: print(f"codim2: {what}: {seconds:.1f} s", flush=True))
+    if uncached:
+        print(f"codim2: {uncached}", file=sys.stderr)
+        return 1
+    print("codim2: the integrator is compiled for all built-in regularisation functions")
+    return 0
+
+
+def _serve(chosen: argparse.Namespace) -> None:
+    """Serve until this process is interrupted."""
+    from .kernel_cache import prepare  # heavy, and not needed for --help
+
+    if uncached := prepare():
+        print(f"codim2: {uncached}", file=sys.stderr, flush=True)
+    from .page import make_server
+
+    server = make_server(
+        chosen.port,
+        chosen.address,
+        chosen.allow_origin,
+        chosen.processes,
+        workers=chosen.workers,
+        prefix=chosen.prefix,
+        frame_ancestors=chosen.frame_ancestors,
+        sessions=chosen.sessions,
+    )
+    everybody = chosen.address in ("0.0.0.0", "::")
+    host = "localhost" if everybody else chosen.address
+    whom = "everybody who reaches this machine" if everybody else "this machine only" if host == "localhost" else host
+    print(f"codim2: the explorer is at http://{host}:{server.port}{server.prefix}/  (stop with Ctrl+C)", flush=True)
+    names = ", ".join(chosen.allow_origin) or f"{host}:{server.port} only (--allow-origin names more)"
+    print(f"codim2: version {version('codim2')}; listens for {whom}; pages work under {names}.", flush=True)
     server.start()
     if chosen.show:
         server.io_loop.add_callback(server.show, "/")

@@ -7,6 +7,7 @@ import os
 import struct
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from importlib.metadata import version
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -25,17 +26,22 @@ from ..frame.jobs import serve_with
 from ..frame.turns import Turns
 from ..frame.workers import Workers, processors
 from ..state.controls import InputError
-from ..state.links import read_link
+from ..state.links import Link
 from ..view import warmup
 from ..view.explorer import ExplorerView
 from ..view.markup import page_template
+from .first_page import Page, markup_of, opening
+from .headers import transform
 from .qr import QrCode
 
 #: What each open page shows; a page that is closed is told so at once, long before Bokeh forgets its session.
 _views: WeakKeyDictionary[Document, ExplorerView] = WeakKeyDictionary()
 
+#: Bytes of one message from a browser: a request is a few hundred.
+MOST_SENT = 200_000
+
 #: What the workers find imported.
-PRELOAD = ("codim2_app.panels.registry",)
+PRELOAD = ("codim2_app.server.worker",)
 
 TITLE = "Isolated codimension-2 discontinuity: explorer"
 
@@ -46,25 +52,34 @@ def session() -> ExplorerView:
     assert doc is not None  # Bokeh's server calls this with a document
     arguments = pn.state.session_args or {}
     query = {name: values[-1].decode("utf-8", "replace") for name, values in arguments.items() if values}
-    view = opened(query)
+    view = opened(opening(query))
     # The page says itself when the connection is lost, and loads itself again: see connection.js.
     doc.config.update(reconnect_session=False, notify_connection_status=False, notifications=None)
     doc.on_session_destroyed(lambda _: view.leave())
     _views[doc] = view
     doc.template = page_template()  # type: ignore[assignment]
-    doc.template_variables["explorer_markup"] = view.page_markup
+    doc.template_variables["explorer_markup"] = _Markup(query)  # for Bokeh's own handler, which makes a session first
     return view
 
 
-def opened(query: Mapping[str, str]) -> ExplorerView:
-    """Return the explorer of an address, whatever it asks for."""
+def opened(link: Link) -> ExplorerView:
+    """Return the explorer of an address, or the first one and a sentence."""
     try:
-        link = read_link(query)
         return ExplorerView(link.state, page=True, errors=link.errors, look=link.look)
     except Exception:  # a visitor sees the explorer and a sentence; the log has the rest
         logging.getLogger(__name__).exception("an address could not be opened")
         sentence = "This address could not be opened, a fault of the program: here is the first portrait instead."
         return ExplorerView(page=True, errors=(InputError("", sentence),))
+
+
+class _Markup:
+    """The markup of an address, made when a template writes it."""
+
+    def __init__(self, query: Mapping[str, str]) -> None:
+        self.query = query
+
+    def __str__(self) -> str:
+        return markup_of(self.query)
 
 
 class _Parts:
@@ -120,11 +135,15 @@ class PromptSocket(WSHandler):
             logging.getLogger(__name__).info("the browser left before its frame")  # `on_close` tidies up
 
 
+#: Routes of Bokeh that are answered here.
+OURS = {"/ws": ("/ws", PromptSocket), "/?": ("/?", Page)}
+
+
 @contextmanager
 def _prompt_websockets() -> Iterator[None]:
-    """Let a server that is made meanwhile use `PromptSocket`; Bokeh has no option for it."""
+    """Let a server that is made meanwhile use `PromptSocket` and `Page`; Bokeh has no option for it."""
     kept = list(per_app_patterns)
-    per_app_patterns[:] = [("/ws", PromptSocket) if route[0] == "/ws" else route for route in kept]
+    per_app_patterns[:] = [OURS.get(route[0], route) for route in kept]
     try:
         yield
     finally:
@@ -132,12 +151,26 @@ def _prompt_websockets() -> Iterator[None]:
 
 
 class Health(RequestHandler):
-    """Answers 200 while the process serves, for container health checks."""
+    """Answers 200 while the process serves: a container that does not is started again."""
 
     def get(self) -> None:
-        """Say whether the integrator is ready."""
+        """Say that it is there, and which version it is."""
         self.set_header("Cache-Control", "no-store")
-        self.write({"status": "ok", "integrator": "ready" if warmup.is_ready() else "compiling"})
+        self.write({"status": "ok", "version": version("codim2")})
+
+    head = get
+
+
+class Ready(RequestHandler):
+    """Answers 200 once a scene has been computed, 503 before and where it cannot be: a proxy sends visitors then."""
+
+    def get(self) -> None:
+        """Say how far it is."""
+        self.set_header("Cache-Control", "no-store")
+        status = warmup.outcome or "compiling"
+        if status != "ready":
+            self.set_status(503)
+        self.write({"status": status})
 
     head = get
 
@@ -148,6 +181,9 @@ def make_server(
     allow_origin: Sequence[str] = (),
     processes: int = 1,
     workers: int = 0,
+    prefix: str = "",
+    frame_ancestors: str = "'self'",
+    sessions: int = 400,
     **options: Any,
 ) -> Any:
     """Return a server of the explorer, not yet started (``.start()``, ``.io_loop.start()``).
@@ -164,6 +200,12 @@ def make_server(
         Number of server processes that share the port.
     workers : int
         Number of processes, of each of these, that compute what takes longer than a frame; 0 shares the processors.
+    prefix : str
+        The path below which a proxy shows this server.
+    frame_ancestors : str
+        Who may embed the pages, as Content-Security-Policy says it.
+    sessions : int
+        Open pages of a process, beyond which a new one is asked to wait.
     """
     count = workers or max(1, processors() // processes)
     serve_with(Turns(Workers(count, preload=PRELOAD, first=warmup.wait), count))
@@ -172,7 +214,10 @@ def make_server(
         warmup.start()
     parent = os.getpid()
     with _prompt_websockets():
-        server = _server(port, address, allow_origin, processes, options)
+        server = _server(port, address, allow_origin, processes, prefix, options)
+    application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
+    application.transforms.insert(0, transform(frame_ancestors))  # before they are compressed
+    application.settings["most_sessions"] = sessions
     if not warmup_now:
         server.io_loop.add_callback(warmup.start)
     if os.getpid() != parent:
@@ -190,7 +235,9 @@ def _stop_with(parent: int, loop: IOLoop) -> None:
     loop.add_callback(PeriodicCallback(check, 1000).start)
 
 
-def _server(port: int, address: str, allow_origin: Sequence[str], processes: int, options: dict[str, Any]) -> Any:
+def _server(
+    port: int, address: str, allow_origin: Sequence[str], processes: int, prefix: str, options: dict[str, Any]
+) -> Any:
     return pn.io.server.get_server(
         {"/": session},
         port=port,
@@ -199,7 +246,9 @@ def _server(port: int, address: str, allow_origin: Sequence[str], processes: int
         title={"/": TITLE},
         location=False,
         num_procs=processes,
-        extra_patterns=[(r"/health", Health), (r"/qr.svg", QrCode)],
+        extra_patterns=[(r"/health", Health), (r"/ready", Ready), (r"/qr.svg", QrCode)],
+        websocket_max_message_size=MOST_SENT,
+        prefix=prefix,
         compress_response=True,
         start=False,
         **options,

@@ -17,6 +17,8 @@ import {Sheets} from "./sheets.js"
 import {Browsed, Listed, Steps} from "./steps.js"
 import {SystemChooser} from "./system.js"
 
+const PATIENCE = 1200 // ms without an answer before the page says so
+
 function wire({model, view, root, plot}) {
   const config = model.config
   const values = {...config.values}
@@ -114,6 +116,7 @@ function wire({model, view, root, plot}) {
   }
   portrait?.addEventListener("change", () => open(config.presets[portrait.value]?.values))
   controls.preset.set = (value) => { if (portrait) portrait.value = value }
+  find(".controls").addEventListener("submit", (event) => event.preventDefault())
   find(".reset").addEventListener("click", () => open({}))
   // Words on the orbit in hand: where it goes.
   const spoken = find(".orbit-words")
@@ -211,6 +214,13 @@ function wire({model, view, root, plot}) {
   }
 
   const busy = find(".busy")
+  // A server that does not answer is said to be waited for; the newest values leave when it does.
+  let waits = false
+  setInterval(() => {
+    const [oldest] = requests.out.values()
+    const now = oldest !== undefined && performance.now() - oldest.at > PATIENCE
+    if (now !== waits) { waits = now; busy.hidden = !now; busy.textContent = "Waiting for the server …" }
+  }, 500)
   let warmTimer = null
   const apply = (buffer) => {
     const frame = readFrame(buffer)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from concurrent.futures import Future
+from concurrent.futures import Executor, Future
 from os import PathLike
 from pathlib import Path
 from typing import Any, ClassVar
@@ -29,9 +29,10 @@ from ..draw.packing import pack, unpack
 from ..draw.still import page_of, still
 from ..draw.svg import draw
 from ..frame.budget import Budget
+from ..frame.jobs import Jobs
 from ..state.chosen import System_
 from ..state.controls import NAMES, ExplorerState, InputError
-from ..state.links import Look
+from ..state.links import Link, Look
 from .cell import Cell, kernel
 from .markup import STATIC, config, explorer_html, script
 from .refresh import Frames, make_frame
@@ -141,10 +142,12 @@ class ExplorerView(JSComponent):
         settings["dark"] = pn.config.theme == "dark"
         if not page:  # what a notebook opened with is its first setting
             settings["defaults"] = self._first_values
+        if page:  # its markup is there already, see `page_markup`
+            return {"config": settings, "first": first, "markup": ""}
         given = self.frames.given is not None
         words = _words(header, first, self.state.layers)
-        self.page_markup = explorer_html(self.state, words, ("system",) if given else (), self._look)
-        return {"config": settings, "first": first, "markup": "" if page else self.page_markup}
+        markup = explorer_html(self.state, words, ("system",) if given else (), self._look)
+        return {"config": settings, "first": first, "markup": markup}
 
     def get_root(self, doc: Any = None, comm: Any = None, preprocess: bool = True) -> Any:
         """Return the Bokeh model, without Panel's style sheets, which come from a public host in some set-ups.
@@ -308,6 +311,26 @@ class ExplorerView(JSComponent):
 
 
 declare(ExplorerView)
+
+
+def page_markup(link: Link) -> tuple[str, bool]:
+    """Return the markup of the page of an address, with its first picture, and whether all of the picture is in it."""
+    frames = Frames(link.state, None, is_ready, link.errors, Budget())
+    frames.jobs = Jobs(Never())
+    first = frames.answer({"all": True})
+    frames.publish()
+    header, _ = unpack(first)
+    complete = bool(header.get("ready")) and "picture" not in header.get("late", ())
+    words = _words(header, first, link.state.layers)
+    return explorer_html(link.state, words, (), link.look), complete
+
+
+class Never(Executor):
+    """Computes nothing: what takes long is no part of a page."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:  # noqa: ARG002
+        """Return a future that is never done."""
+        return Future()
 
 
 def _words(header: dict[str, Any], first: bytes, layers: list[str]) -> dict[str, str]:

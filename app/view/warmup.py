@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import logging
 import threading
+import time
 from collections.abc import Callable, Hashable
+from functools import partial
 from typing import Any
 
 from codim2_core.cycles.limit_cycles import limit_cycles
@@ -14,6 +17,9 @@ from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.kinds import AnySystem
 
+from ..frame.scenes import make_scene
+from ..state.controls import first_values
+
 MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
 
 MOST_REMEMBERED = 256  # texts that have been compiled, or could not be
@@ -23,14 +29,45 @@ _lock = threading.Lock()
 _threads: dict[Hashable, threading.Thread] = {}
 
 
-def warm_all() -> None:
-    """Compile, or load from the disk cache, what all built-in families and the kernels of general systems need."""
+def warm_all(told: Callable[[str, float], None] = lambda _what, _seconds: None) -> None:
+    """Compile, or load from the disk cache, what all built-in families and the kernels of general systems need.
+
+    Parameters
+    ----------
+    told : callable
+        Called with what has been compiled, and the seconds that it took.
+    """
+
+    def timed(what: str, make_: Callable[[], object]) -> None:
+        began = time.perf_counter()
+        make_()
+        told(what, time.perf_counter() - began)
+
     for family in FAMILIES.values():
         if not family.typed:
-            warm(make(family.name))
+            timed(f"trajectories for Ψ = {family.title}", partial(warm, make(family.name)))
     three = presets["case3-n3"]
-    limit_cycles(three.system, three.psi)
-    warm_general()
+    timed("limit cycles", partial(limit_cycles, three.system, three.psi))
+    timed(GENERAL, warm_general)
+
+
+#: What the warm thread came to: "" while it is at work, "ready", or why the first scene could not be computed.
+outcome = ""
+
+
+def _first_scene() -> None:
+    """Compile what is needed, and compute the scene that the explorer opens with."""
+    global outcome
+    try:
+        warm_all()
+        scene = make_scene(first_values())
+        for layer in ("equator", "critical", "inside", "outside", "nullclines_inside"):
+            scene[layer]
+    except Exception as error:
+        logging.getLogger(__name__).exception("the first scene cannot be computed")
+        outcome = f"the first scene cannot be computed: {error}"
+    else:
+        outcome = "ready"
 
 
 def warm_general() -> None:
@@ -45,7 +82,7 @@ def start() -> None:
     """Begin compiling (or loading from the cache) in a background thread; further calls do nothing."""
     with _lock:
         if constant() not in _threads:
-            _begin(constant(), warm_all)
+            _begin(constant(), _first_scene)
 
 
 def wait() -> None:

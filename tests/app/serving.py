@@ -5,26 +5,29 @@ import subprocess
 import sys
 import time
 from contextlib import contextmanager
-from urllib.error import URLError
 from urllib.request import urlopen
 
 
 @contextmanager
-def serving(*options):
+def serving(*options, command=("-m", "codim2_app.server.cli"), environment=os.environ, user=None):
     """Yield the address of a warm server on a free port."""
-    command = [sys.executable, "-m", "codim2_app.server.cli", "serve", "--port", "0", *options]
-    environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
+    whole = [sys.executable, *command, "serve", "--port", "0", *options]
+    with_output = {**environment, "PYTHONUNBUFFERED": "1"}
+    process = subprocess.Popen(
+        whole, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=with_output, user=user
+    )
     try:
         said = process.stdout.readline()
+        while said and "http://" not in said:  # what it says before
+            said = process.stdout.readline()
         assert "http://" in said, said + process.stdout.read()
         address = "http://" + said.split("http://")[1].split("/")[0]
         for _ in range(600):
             try:
-                with urlopen(address + "/health", timeout=5) as answer:
+                with urlopen(address + "/ready", timeout=5) as answer:
                     if b'"ready"' in answer.read():
                         break
-            except URLError:
+            except OSError:  # not yet, or 503: not ready
                 pass
             time.sleep(0.2)
         yield address

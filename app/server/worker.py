@@ -1,0 +1,6 @@
+"""What the processes beside the frames are forked from: everything that they may be asked for, imported once."""
+
+from ..panels import registry  # noqa: F401 (its panels' functions are what is asked for)
+from .kernel_cache import prepare
+
+prepare()

@@ -1,0 +1,58 @@
+"""Every setting of the server is a flag, a variable and a default, in one table."""
+
+import argparse
+import json
+import logging
+import sys
+
+import pytest
+from codim2_app.server.logs import JsonLines
+from codim2_app.server.settings import SETTINGS, add_settings, table
+
+
+def read(arguments=(), **environment):
+    made = argparse.ArgumentParser()
+    add_settings(made, environment)
+    return made.parse_args(list(arguments))
+
+
+def test_variables_are_defaults_and_flags_come_first():
+    assert read().port == 5006
+    assert read(CODIM2_PORT="80").port == 80
+    assert read(["--port", "81"], CODIM2_PORT="80").port == 81
+    assert read(CODIM2_ORIGINS="a.org, b.org:80").allow_origin == ["a.org", "b.org:80"]
+    assert read(["--allow-origin", "c.org"], CODIM2_ORIGINS="a.org").allow_origin == ["a.org", "c.org"]
+    assert read(CODIM2_LOG_JSON="1").log_json is True
+    assert read(["--no-log-json"], CODIM2_LOG_JSON="1").log_json is False
+    assert read(CODIM2_LOG_JSON="off").log_json is False
+
+
+@pytest.mark.parametrize("wrong", [{"CODIM2_PORT": "many"}, {"CODIM2_LOG_LEVEL": "loud"}])
+def test_a_wrong_variable_is_said_in_words(wrong, capsys):
+    if "CODIM2_PORT" in wrong:
+        with pytest.raises(SystemExit):
+            read(**wrong)
+        assert "many" in capsys.readouterr().err
+    else:
+        with pytest.raises(SystemExit):
+            read(["--log-level", wrong["CODIM2_LOG_LEVEL"]])
+
+
+def test_the_table_and_the_help_have_them_all(capsys):
+    with pytest.raises(SystemExit):
+        read(["--help"])
+    said = capsys.readouterr().out
+    for setting in SETTINGS:
+        assert f"--{setting.name}" in said
+        assert f"[{setting.env}]" in " ".join(said.split())
+        assert f"`{setting.env}`" in table()
+
+
+def test_log_lines_are_json():
+    try:
+        raise ValueError("wrong")
+    except ValueError:
+        record = logging.LogRecord("codim2", logging.ERROR, __file__, 1, "what %s", ("happened",), sys.exc_info())
+    line = json.loads(JsonLines().format(record))
+    assert (line["level"], line["logger"], line["message"]) == ("error", "codim2", "what happened")
+    assert "ValueError: wrong" in line["error"]
