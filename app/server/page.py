@@ -218,11 +218,21 @@ def make_server(
     application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
     application.transforms.insert(0, transform(frame_ancestors))  # before they are compressed
     application.settings["most_sessions"] = sessions
+    application.settings["log_function"] = _log
     if not warmup_now:
         server.io_loop.add_callback(warmup.start)
     if os.getpid() != parent:
         _stop_with(parent, server.io_loop)
     return server
+
+
+def _log(handler: RequestHandler) -> None:
+    """Log a request that failed; probes that are told to wait have not."""
+    status = handler.get_status()
+    if status >= 400 and not isinstance(handler, (Health, Ready)):
+        level = logging.ERROR if status >= 500 and status != 503 else logging.WARNING
+        request = handler.request
+        logging.getLogger("codim2.access").log(level, "%d %s %s", status, request.method, request.path[:200])
 
 
 def _stop_with(parent: int, loop: IOLoop) -> None:
