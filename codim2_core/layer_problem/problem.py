@@ -60,6 +60,7 @@ class LayerProblem:
         self.at, self.psi = at, psi
         self._kept: dict[Hashable, Any] = {}
         self._base = self
+        self._under: dict[Psi, LayerProblem] = {psi: self}
 
     def keep(self, find: Callable[[LayerProblem], Result]) -> Result:
         """Return ``find(self)``, computed once; `find` is a function of a module, not made anew for each call."""
@@ -77,11 +78,11 @@ class LayerProblem:
 
     def under(self, psi: Psi) -> LayerProblem:
         """Return the layer problem of the same system under another Psi; what Psi has no say in is shared."""
-        if psi == self.psi:
-            return self
-        other = LayerProblem(self.at, psi)
-        other._base = self._base
-        return other
+        known = self._under
+        if psi not in known:
+            known[psi] = other = LayerProblem(self.at, psi)
+            other._base, other._under = self._base, known
+        return known[psi]
 
     @property
     def location(self) -> Location | None:

@@ -13,6 +13,7 @@ from .facts import RAYS, Certificate, not_applicable, verdict_of
 Array = NDArray[np.float64]
 ZETA = np.geomspace(1e-3, 1e3, 49)
 ROUND = 1e-12
+UNDERFLOW = 1e-280
 
 
 def e_psi(psi: Psi, xy: Array, eps: float) -> Array:
@@ -79,12 +80,28 @@ def _shorter(psi: Psi) -> Certificate:
     # 1 - |e|^2 = Psi/(s + Psi), without cancellation
     values = psi(s)
     least = float((values / (s + values)).min())
-    # far out a steep Psi is below the smallest double
-    positive = bool((values >= 0.0).all() and (values[s <= 0.25] > 0.0).all())
+    positive = _stays_positive(psi, s, values)
     return Certificate(
         "lem:ePsi(d)", "|e_Ψ|² < 1.", verdict_of(positive and least >= 0.0),
         (("least 1 − |e_Ψ|² sampled", least),), "1 − |e_Ψ|² = Ψ/(ζ² + Ψ), and Ψ > 0.",
     )  # fmt: skip
+
+
+def _stays_positive(psi: Psi, s: Array, values: Array) -> bool:
+    """Whether samples of Psi are positive until they underflow: then the last ones above 0 are as small as doubles are.
+
+    A Psi that is 0 from some s on, max(0, 1 - s) say, ends at its own rounding instead.
+    """
+    zero = np.flatnonzero(~(values > 0.0))
+    if not len(zero):
+        return True
+    first = int(zero[0])
+    if first == 0 or not (values[first:] == 0.0).all():
+        return False
+    low, high = float(s[first - 1]), float(s[first])
+    while low < (middle := 0.5 * (low + high)) < high:
+        low, high = (middle, high) if psi(middle) > 0.0 else (low, middle)
+    return float(psi(low)) < UNDERFLOW
 
 
 def _positive(psi: Psi) -> Certificate:

@@ -98,9 +98,10 @@ def _slow_manifold(facts: Facts) -> Certificate:
         return not_applicable(theorem, statement, "The system is frozen at one z: nothing is known of C beside it.")
     numbers: list[tuple[str, float]] = []
     holds, skipped = True, []
+    beside = _beside(facts)
     for label, C in zip(_labels(facts), facts.critical, strict=True):
         rate, size = float(np.abs(C.eigenvalues.real).min()), float(np.abs(C.eigenvalues).max())
-        moved = _along(facts, C)
+        moved = _along(beside, C)
         if C.kind in FOLDED or rate <= 1e-6 * size or moved is None:
             skipped.append(label)
             continue
@@ -126,21 +127,29 @@ def _slow_manifold(facts: Facts) -> Certificate:
     )  # fmt: skip
 
 
-def _along(facts: Facts, C: CriticalSet) -> Array | None:
-    """Differentiate x2 of C by z, (2, m), from the critical sets on either side; None where they are not there."""
-    columns = []
+Beside = list[tuple[float, list[tuple[CriticalSet, ...]]]]
+
+
+def _beside(facts: Facts) -> Beside | None:
+    """Critical sets at z +- h in each slow variable, and h; None at the edge of where the formulas are defined."""
+    found: Beside = []
     for k, value in enumerate(facts.z):
         h = AHEAD * (1.0 + abs(value))
-        ends = []
-        for side in (h, -h):
-            z = (*facts.z[:k], value + side, *facts.z[k + 1 :])
-            try:
-                found = critical_sets(facts.system, facts.psi, z)
-            except ValueError:  # at the edge of where the formulas are defined
-                return None
-            near = [D for D in found if D.kind == C.kind]
-            if not near:
-                return None
-            ends.append(min((D.x2 for D in near), key=lambda x2: float(np.hypot(*(x2 - C.x2)))))
+        places = [(*facts.z[:k], value + side, *facts.z[k + 1 :]) for side in (h, -h)]
+        try:
+            found.append((h, [critical_sets(facts.system, facts.psi, z) for z in places]))
+        except ValueError:
+            return None
+    return found
+
+
+def _along(beside: Beside | None, C: CriticalSet) -> Array | None:
+    """Differentiate x2 of C by z, (2, m), from the critical sets on either side; None where they are not there."""
+    columns = []
+    for h, sides in beside or []:
+        near = [[D.x2 for D in found if D.kind == C.kind] for found in sides]
+        if not all(near):
+            return None
+        ends = [min(places, key=lambda x2: float(np.hypot(*(x2 - C.x2)))) for places in near]
         columns.append((ends[0] - ends[1]) / (2.0 * h))
-    return np.stack(columns, axis=-1)
+    return np.stack(columns, axis=-1) if columns else None

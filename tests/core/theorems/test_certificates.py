@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, examples, presets, psi
 from codim2_core.theorems.certificates import Verdict, certificates
+from codim2_core.theorems.psi_claims import ZETA, _stays_positive, psi_claims
 from tests.core.general_systems import polynomials
 from tests.core.strategies import coefficient, regularisations, systems
 
@@ -158,3 +159,22 @@ def test_a_frozen_system_has_no_slow_manifold_to_speak_of():
     (found,) = (c for c in certificates(at, psi.tanh()) if c.theorem == "thm:geneps1(d)")
     assert found.verdict is Verdict.DOES_NOT_APPLY
     assert "frozen" in found.sentence
+
+
+def shorter(p):
+    (found,) = [c for c in psi_claims(p) if c.theorem == "lem:ePsi(d)"]
+    return found.verdict.value
+
+
+@pytest.mark.parametrize(
+    "p", [psi.exponential(), psi.tanh(), psi.hill(1), psi.hill(40.5), psi.hill(200), psi.rational()]
+)
+def test_a_psi_that_underflows_is_positive_all_the_same(p):
+    assert shorter(p) == "holds"
+
+
+@pytest.mark.parametrize("zero", [lambda s: np.maximum(0.0, 1.0 - s), lambda s: np.where(s < 2.0, 1e-5, 0.0)])
+def test_a_psi_that_is_zero_from_somewhere_on_is_not(zero):
+    s = ZETA**2
+    assert not _stays_positive(zero, s, zero(s))
+    assert _stays_positive(lambda s: np.exp(-s), s, np.exp(-s))
