@@ -191,3 +191,53 @@ def test_ways_out_and_names():
     sets = c2.critical_sets(BENT, PSIS[0], (0.5,))
     for i, C in enumerate(sets):
         assert decide.critical_name(BENT, PSIS[0], np.array([0.5]), C.e + 0.1) == f"C{i + 1}"
+
+
+def test_the_zero_of_a_field_whose_components_are_coupled():
+    system = c2.System(U=("c**2 + s/5 - z/2", "-2*s + c/3"), W=("1",))
+    for C in c2.critical_sets(system, PSIS[0], (0.4,)):
+        e = solved(field(system), C.e + np.array([0.06, -0.05]), np.array([0.4]))
+        assert e == pytest.approx(C.e, abs=1e-14)
+
+
+@EVERY
+def test_what_repels_is_followed_but_does_not_attract(psi):
+    system = c2.System(U=("z/2 - c**2", "2*s"), W=("1",))  # at c = -sqrt(z/2) an unstable node, at +sqrt(z/2) a saddle
+    for C in c2.critical_sets(system, psi, (0.18,)):
+        x2 = 1e-6 * C.x2
+        one = followed(field(system), psi, 1e-6, np.array([*x2, 0.18]))
+        assert one is not None
+        assert not one.attracts
+
+
+def test_from_the_middle_of_the_hemisphere():
+    """x = y = 0 on a saddle: orbits around it go to both nodes; on an unstable focus: all to the cycle."""
+    none = np.zeros(0)
+    two = c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s"))
+    found = decide.from_middle(two, PSIS[0], none)
+    assert (found.kind, "different places" in found.reason) == ("stop", True)
+    nodes = [f"C{i + 1}" for i, C in enumerate(c2.critical_sets(two, PSIS[0])) if C.kind == "stable node"]
+    plain = found.reason.translate(str.maketrans("₁₂₃", "123"))
+    assert all(name in plain for name in nodes)
+    cycle = c2.System(U=("c - s - 2*c*(c**2 + s**2)", "c + s - 2*s*(c**2 + s**2)"))
+    assert decide.from_middle(cycle, PSIS[0], none).kind == "cycle"
+    assert decide.from_middle(c2.ELinear(-1.0, 0.0, -2.0), PSIS[0], none).kind == "slide"
+    aside = decide.from_middle(c2.ELinear(-1.0, 0.0, -2.0, (0.3, 0.2)), PSIS[0], none)
+    assert (aside.kind, aside.onto) == ("slide", "C")
+    assert aside.e == pytest.approx([0.3, 0.1])
+    out = decide.from_middle(c2.ELinear(-1.0, 0.0, -2.0, (3.0, 0.0)), PSIS[0], none)
+    assert (out.kind, out.theta) == ("leave", pytest.approx(0.0, abs=1e-9))
+
+
+def test_a_start_on_sigma_without_psi():
+    none = np.zeros(0)
+    one = decide.starting(c2.ELinear(-1.0, 0.0, -2.0, (0.3, 0.2)), None, none)
+    assert (one.kind, one.onto, "leads away" in one.reason) == ("slide", "C", False)
+    two = decide.starting(c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s")), None, none)
+    assert (two.kind, "2 stable" in two.reason) == ("stop", True)
+    out = decide.starting(c2.ELinear(-1.0, 0.0, -2.0, (3.0, 0.0)), None, none)
+    assert (out.kind, out.theta, "Q1" in out.reason) == ("leave", pytest.approx(0.0, abs=1e-9), True)
+    many = decide.starting(c2.ELinear(1.0, 0.0, -1.0), None, none)
+    assert (many.kind, "2 directions lead" in many.reason) == ("stop", True)
+    beside = decide.starting(c2.System(U=("c**2 - 1/8", "-2*s")), None, none)  # a node, and the way out at theta = 0
+    assert (beside.kind, "Q1 leads away" in beside.reason) == ("slide", True)
