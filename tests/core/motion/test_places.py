@@ -136,6 +136,8 @@ def test_an_ascent_is_the_orbit_up_the_hemisphere():
     turning = places.Ascent(c2.ELinear(-0.1, 3.0, -0.1), PSIS[0], np.zeros(0), theta=1.0).path()
     assert np.hypot(*turning[0]) == pytest.approx(places.BESIDE)
     assert math.atan2(turning[0, 1], turning[0, 0]) == pytest.approx(1.0)
+    none = places.Ascent(c2.ELinear(-1.0, 0.0, -2.0, (3.0, 0.0)), PSIS[0], np.zeros(0), theta=0.0).path()
+    assert none.shape == (0, 2)  # orbits only come down there
     line = places.Ascent(system, PSIS[0], np.zeros(0), along=(np.zeros(2), np.ones(2)))
     assert line.path().tolist() == [[0.0, 0.0], [1.0, 1.0]]
 
@@ -177,6 +179,20 @@ def test_the_angle_through_which_a_motion_turns():
     for sign in (1.0, -1.0):
         circle = np.stack([3.0 + np.cos(sign * angle), np.sin(sign * angle) - 5.0], axis=-1)
         assert reader.turned(circle) == pytest.approx(sign * 7.0, rel=1e-3)
+
+
+def test_the_time_within_a_step_at_which_something_changes():
+    class Step:
+        times, lengths = np.array([1.0, 3.0, 3.5]), np.array([2.0, 0.5])
+        states = np.array([(4.0, 0.0), (0.0, 0.0), (2.0, 0.0)])
+
+        def within(self, i, u):
+            return (1.0 - u) * self.states[i] + u * self.states[i + 1]
+
+    reader = phases._Reader(BENT, PSIS[0], 0.05, Step(), None)
+    assert reader.boundary(0, reader.near) == pytest.approx(1.0 + 2.0 * 0.75)  # r = 20 eps = 1
+    assert reader.boundary(1, reader.near) == pytest.approx(3.25)
+    assert reader.boundary(0, lambda state: state[0] > 0.8) == pytest.approx(1.0 + 2.0 * 0.8)
 
 
 @pytest.mark.parametrize("onto", [None, "C", "C1", "C3"])
