@@ -32,7 +32,8 @@ def still(buffer: bytes, layers: Collection[str], theme: str = "light", width: i
         1,
     )
     ground = f'<rect width="{SIDE}" height="{SIDE}" fill="var(--page)"/>'
-    whole = inner.replace(">", f">{ground}", 1)
+    clear = '<text paint-order="stroke" stroke="var(--page)" stroke-width="6" '  # of the lines behind it
+    whole = inner.replace(">", f">{ground}", 1).replace("<text ", clear)
     return _VARIABLE.sub(lambda name: colours[name[1]], whole)
 
 

@@ -8,6 +8,7 @@ arithmetic of the given doubles; within the rounding of the inputs the border it
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
@@ -23,6 +24,7 @@ from ..psi.function import Psi
 from ..systems.coefficients import Affine
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
+from ..tables import number, point, table
 from .border import CANCELS, to_all_digits
 from .disc_zeros import disc_zeros
 from .linearisation import (
@@ -116,6 +118,27 @@ class CriticalSet:
     eigenvalues: NDArray[np.complex128]
     kind: str
     slow_flow: NDArray[np.float64]
+
+    def _repr_html_(self) -> str:
+        return shown([self])
+
+
+def shown(sets: Sequence[CriticalSet]) -> str:
+    """Return critical sets as an HTML table."""
+    head = ("critical set", "e", "kind", "tr J", "det J", "slow flow z′")
+    names = ["C"] if len(sets) == 1 else [f"C{i + 1}" for i in range(len(sets))]
+    rows = [
+        (
+            name,
+            point(C.e),
+            C.kind,
+            number(C.trace),
+            number(C.determinant),
+            point(C.slow_flow) if len(C.slow_flow) else "–",
+        )
+        for name, C in zip(names, sets, strict=True)
+    ]
+    return table(head, rows)
 
 
 def locate(at: AtZ) -> Location:

@@ -28,6 +28,7 @@ from ..numerics.trigonometric import (
 from ..numerics.trigonometric_exact import quotient, solve_exactly, to_integers
 from ..systems.coefficients import Affine
 from ..systems.frozen import AtZ
+from ..tables import number, paragraphs, table
 from .closed_equator import EquatorCycle, equator_cycle
 from .critical import Location, locate
 from .equator_zeros import equator_zeros
@@ -88,6 +89,12 @@ class EquatorEquilibria:
 
     def __len__(self) -> int:
         return len(self.theta)
+
+    def _repr_html_(self) -> str:
+        head = ("limit direction", "θ", "λ_ρ", "λ_θ", "kind")
+        values = zip(self.theta.tolist(), self.lambda_rho.tolist(), self.lambda_theta.tolist(), strict=True)
+        rows = [(self.labels[i], *map(number, row), self.kind(i)) for i, row in enumerate(values)]
+        return paragraphs([self.summary]) + table(head, rows)
 
     @property
     def labels(self) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.dense import Dense
+from ..tables import number, paragraphs, table
 from .places import NONE, Ascent, Place
 
 Array = NDArray[np.float64]
@@ -160,6 +161,11 @@ class Simulation:
     evaluations: int
     events: tuple[Array, ...]
     _phases: Callable[[], tuple[Phase, ...]]
+
+    def _repr_html_(self) -> str:
+        head = ("phase", "from t", "to t", "on", "why it began")
+        rows = [(p.kind, number(p.t_start), number(p.t_end), p.onto or "", p.reason) for p in self.phases]
+        return table(head, rows) + paragraphs([self.reason])
 
     @property
     def times(self) -> Array:

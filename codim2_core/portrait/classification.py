@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from html import escape
 
 import numpy as np
 
 from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
 from ..numerics.trigonometric import ROUNDING
+from ..tables import paragraphs, table
 from ..words import power, say, subscript
 from .endings import radially_neutral
 
@@ -60,6 +62,11 @@ class Classification:
     name: str
     sentence: str
     degeneracies: tuple[Degeneracy, ...]
+
+    def _repr_html_(self) -> str:
+        case = f"Case {self.case}" if self.case else ""
+        said = table(("degenerate", "why"), [(item.name, item.sentence) for item in self.degeneracies])
+        return f"<p><strong>{escape(self.name)}</strong> {case}</p>{paragraphs([self.sentence])}{said}"
 
 
 NEUTRAL_CLOSED_EQUATOR = undecided(

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..layer_problem.critical import shown
 from ..layer_problem.problem import LayerProblem, Result
 from ..orbits.seeds import checked_seeds
 from ..psi import constructors
@@ -168,6 +169,10 @@ class Scene:
 
         self._own[name] = self._memory.result(name, self.key(*layer.inputs), compute)
         return self._own[name]
+
+    def _repr_html_(self) -> str:
+        results = (self["classification"], self["equator"])
+        return "".join(result._repr_html_() for result in results) + shown(self["critical"])
 
     def __iter__(self) -> Iterator[str]:
         return iter(layers)

@@ -1,0 +1,50 @@
+"""Results as small HTML tables, which a notebook shows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from html import escape
+
+MOST = 40  # rows that are shown
+
+
+def number(value: float) -> str:
+    """Return a number to six digits, with a minus sign."""
+    return f"{value:.6g}".replace("-", "−")
+
+
+def point(values: Iterable[float]) -> str:
+    """Return the coordinates of a point; a dash if there are none."""
+    shown = ", ".join(map(number, values))
+    return f"({shown})" if shown else "–"
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Return a table, or nothing if it has no rows; of many rows the first are shown, and how many there are.
+
+    Parameters
+    ----------
+    head : sequence of str
+        The names of the columns.
+    rows : sequence of sequences of str
+
+    Returns
+    -------
+    str
+    """
+    if not rows:
+        return ""
+    left = f"<p>and {len(rows) - MOST} more</p>" if len(rows) > MOST else ""
+    return (
+        f"<table><thead>{_row('th', head)}</thead>"
+        f"<tbody>{''.join(_row('td', row) for row in rows[:MOST])}</tbody></table>{left}"
+    )
+
+
+def paragraphs(sentences: Iterable[str]) -> str:
+    """Return sentences, a paragraph each."""
+    return "".join(f"<p>{escape(sentence)}</p>" for sentence in sentences if sentence)
+
+
+def _row(kind: str, cells: Sequence[str]) -> str:
+    return f"<tr>{''.join(f'<{kind}>{escape(cell)}</{kind}>' for cell in cells)}</tr>"

@@ -1,0 +1,66 @@
+"""Results show themselves in a notebook as small tables."""
+
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+import codim2_core as c2
+from codim2_core.tables import MOST, number, table
+
+FOUR = c2.ELinear(-2, 0, -1, (-0.5, 0), B=((1, 0),), g=(0.25,))
+PSI = c2.psi.constant()
+
+
+def cells(shown):
+    """Texts of the cells of all tables, a row each; the HTML is well-formed."""
+    root = ElementTree.fromstring(f"<div>{shown}</div>")
+    return [["".join(cell.itertext()) for cell in row] for row in root.iter("tr")]
+
+
+def test_limit_directions_are_a_row_each():
+    found = c2.equator_equilibria(FOUR)
+    _, *rows = cells(found._repr_html_())
+    assert [row[0] for row in rows] == ["Q1", "Q2", "Q3", "Q4"]
+    assert [row[2] for row in rows] == [number(v) for v in found.lambda_rho]
+    assert rows[0][4] == found.kind(0)
+
+
+def test_a_critical_set_shows_where_it_is_and_its_slow_flow():
+    (C,) = c2.critical_sets(FOUR, PSI)
+    _, row = cells(C._repr_html_())
+    assert row == ["C", "(−0.25, 0)", C.kind, number(C.trace), number(C.determinant), "(0)"]
+
+
+def test_a_portrait_shows_its_name_and_what_is_degenerate():
+    assert "<strong>CM4</strong> Case I" in c2.classify(FOUR, PSI)._repr_html_()
+    degenerate = c2.classify(c2.ELinear(-1, 0, -1, (0, 0)), PSI)
+    assert [row[0] for row in cells(degenerate._repr_html_())[1:]] == [item.name for item in degenerate.degeneracies]
+    assert degenerate.degeneracies
+
+
+@pytest.mark.parametrize("key", ["case1-cm0", "case3-n3", "nonunique-sliding"])
+def test_a_scene_shows_all_of_them_in_little(key):
+    preset = c2.presets[key]
+    scene = c2.Scene(preset.system, preset.psi, preset.z)
+    shown = scene._repr_html_()
+    assert len(shown) < 50_000
+    rows = cells(shown)
+    assert sum(bool(re.fullmatch(r"Q\d+", row[0])) for row in rows) == len(scene["equator"])
+    assert sum(bool(re.fullmatch(r"C\d*", row[0])) for row in rows) == len(scene["critical"])
+
+
+def test_a_motion_shows_its_phases():
+    run = c2.simulate_nonsmooth(c2.examples.ball_in_pool(K=0.0, mu=0.25, g=8.0), (1.0, 0.0, 1.0, 0.0), (0.0, 1.0))
+    _, *rows = cells(run._repr_html_())
+    assert [row[0] for row in rows] == [phase.kind for phase in run.phases]
+    assert run.reason in run._repr_html_()
+
+
+def test_text_is_escaped_and_long_tables_are_cut():
+    shown = table(("a<b",), [(f"{i} & more",) for i in range(MOST + 3)])
+    assert "a&lt;b" in shown
+    assert "and 3 more" in shown
+    assert len(cells(shown)) == 1 + MOST
+    assert table(("a",), []) == ""
+    assert number(-0.5) == "−0.5"
