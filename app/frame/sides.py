@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from codim2_core.diagrams.sides import Sides
+from codim2_core.diagrams.sides import sides as portraits_beside
 from codim2_core.examples import catalogue
 from codim2_core.layer_problem.vary import names
-from codim2_core.portrait.sides import Sides
-from codim2_core.portrait.sides import sides as portraits_beside
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System

@@ -1,8 +1,8 @@
 """Portraits on both sides of a setting."""
 
 import codim2_core as c2
+from codim2_core.diagrams.sides import sides
 from codim2_core.layer_problem.vary import names
-from codim2_core.portrait.sides import sides
 
 
 def test_the_pitchfork_has_two_on_one_side_and_four_on_the_other():

@@ -8,8 +8,8 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from ..layer_problem.vary import names, value_of, varied
+from ..portrait.classify import classify
 from ..psi.function import Psi
-from .classify import classify
 
 STEP = 1e-6  # of the value or of 1: far beyond rounding, far below what can be seen
 
