@@ -70,6 +70,8 @@ class Layer:
         Until it is asked for.
     compiled : bool
         Made by the compiled integrator, so that it is left out until that is ready.
+    tip : str
+        What it is, for its tooltip.
     optional : bool
         There is nothing of it until somebody asks; a picture that has nothing of it does not name it.
     """
@@ -83,6 +85,7 @@ class Layer:
     hidden: bool = False
     compiled: bool = False
     optional: bool = False
+    tip: str = ""
 
 
 def _orbits(result: Any) -> Pieces:
@@ -120,14 +123,17 @@ _ROWS = (
     Layer(
         "outside", "Trajectories outside", 50, compiled=True, colours={"outside": ("#5b6675", "#8d99aa")},
         parts=(Part("outside", "outside", 0.9, "outside", _orbits, arrows=True),),
+        tip="The system without regularisation, at radius 1 + |(x, y)|; arrows tell the sense of time.",
     ),
     Layer(
         "inside", "Trajectories on the hemisphere", 60, compiled=True, colours={"orbit": ("#1c2430", "#d6dce5")},
         parts=(Part("inside", "orbit", 0.9, "inside", _orbits, arrows=True),),
+        tip="Orbits of the layer problem, projected from the hemisphere.",
     ),
     Layer(
         "continuations", "Up the hemisphere", 70, compiled=True, colours={"continuation": ("#b3123f", "#ff6b8f")},
         parts=(Part("continuations", "continuation", 1.6, "continuations", _orbits, arrows=True),),
+        tip="From each direction along which an open set of trajectories arrives: where they go on the hemisphere.",
     ),
     Layer(
         "separatrices", "Separatrices", 80, compiled=True, hidden=True, colours={"separatrix": ("#6d28d9", "#b794ff")},
@@ -135,28 +141,34 @@ _ROWS = (
             Part("separatrices_stable", "separatrix", 2.0, "separatrices", _direction("stable"), (7, 4), arrows=True),
             Part("separatrices_unstable", "separatrix", 2.0, "separatrices", _direction("unstable"), arrows=True),
         ),
+        tip="Stable (dashed) and unstable (full) branches of saddles and half-saddles.",
     ),
     Layer(
         "cycles", "Limit cycles", 90, compiled=True, colours={"cycle": ("#e0121f", "#ff3b47")},
         parts=(Part("cycles", "cycle", 2.8, "closed_orbits", _closed, arrows=True),),
+        tip="Isolated closed orbits of the layer problem.",
     ),
     # nullclines have the paper's colours (matlab1 to matlab4 of fig:sim_5cases), lighter on dark
     Layer(
         "rho", "ρ-nullclines", 30, _nullcline("rho", ("rho", "rho"), (1.8, 1.8), "rho"),
         {"rho": ("#0072bd", "#4aa8e8")},
+        tip="Where the distance from Σ is at rest: U·e = 0.",
     ),
     Layer(
         "theta", "θ-nullclines", 40, _nullcline("theta", ("theta", "theta"), (1.8, 1.8), "theta"),
         {"theta": ("#d95319", "#ff8552")},
+        tip="Where the angle is at rest: Θ = 0.",
     ),
     Layer(
         "lines", "Lines U₁ = 0, U₂ = 0", 20, _nullcline("lines", ("lines-in", "lines-out"), (1.8, 1.4), "U1", "U2"),
         {"lines-in": ("#edb120", "#f2c14e"), "lines-out": ("#7e2f8e", "#c58ad6")},
         swatch="border-image: linear-gradient(90deg, var(--lines-in) 50%, var(--lines-out) 50%) 1",
+        tip="Where x or y is at rest: U₁ = 0 and U₂ = 0, in one colour inside and another outside.",
     ),
     Layer(
         "conics", "Hyperbola of the limit directions", 45, hidden=True, colours={"conic": ("#0f766e", "#5eead4")},
         parts=(Part("conics", "conic", 2.4, "conics", lambda result: glyphs.join(result.pieces), (9, 3)),),
+        tip="The conic Θ = 0 whose meeting points with the circle are the limit directions; e-linear systems.",
     ),
     Layer(
         "launched", "Launched orbits", 100, compiled=True, optional=True,
@@ -167,21 +179,25 @@ _ROWS = (
             Part(f"launched_{k + 1}", f"launch-{k + 1}", 2.4, "launched", _launched(k), arrows=True)
             for k in range(LAUNCH_COLOURS)
         ),
+        tip="Orbits through points that you have clicked.",
     ),
     Layer(
         "equator", "Equator equilibria", 110,
         colours={"attr": ("#15803d", "#4ade80"), "rep": ("#be185d", "#f472b6"), "degenerate": ("#6b7280", "#aab2bf")},
         swatch="width: 10px; height: 10px; border: 0; border-radius: 50%; background: var(--attr)",
+        tip="Limit directions Q: filled attract radially, hollow repel; circles attract along θ, diamonds repel.",
     ),
     Layer(
         "critical", "Critical sets", 120, colours={"crit": ("#c8102e", "#ff5468")},
         swatch="width: 10px; height: 10px; border: 0; background: var(--crit)",
+        tip="Critical sets C: equilibria of the layer problem, along which motions slide.",
     ),
     Layer(
         "outcomes", "Approach outcomes", 10, hidden=True,
         colours={"slide": ("#0d9488", "#2dd4bf"), "cross": ("#e8751a", "#fb923c"), "depends": ("#7c3aed", "#a78bfa"),
                  "undecided": ("#64748b", "#94a3b8"), "misses": ("#dfe4ea", "#2c3440")},
         swatch="height: 9px; border: 0; background: linear-gradient(90deg, var(--slide) 50%, var(--cross) 50%)",
+        tip="The ring tells, for each angle of approach, whether what comes from there slides or crosses.",
     ),
     Layer(
         "basins", "Basins", 0, hidden=True,
@@ -189,6 +205,7 @@ _ROWS = (
                  "basin-3": ("#0284c7", "#38bdf8"), "basin-4": ("#a16207", "#facc15")},
         swatch="width: 16px; height: 10px; border: 0; opacity: .45; "
                "background: linear-gradient(90deg, var(--basin-1) 50%, var(--basin-2) 50%)",
+        tip="Where orbits of the layer problem end, by colour.",
     ),
 )  # fmt: skip
 

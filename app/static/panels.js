@@ -58,6 +58,12 @@ export class Panels {
     const hold = (height) => { portrait.style.height = height; portrait.style.overflow = height && "hidden" }
     for (const box of this.boxes) box.addEventListener("pointerdown", () => hold(`${portrait.offsetHeight}px`))
     for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => hold(""))
+    // the strip is one row: what does not fit is drawn or rolled into view
+    this.strip.addEventListener("wheel", (event) => {
+      if (event.deltaX || this.strip.scrollWidth <= this.strip.clientWidth) return
+      event.preventDefault()
+      this.strip.scrollLeft += event.deltaY
+    }, {passive: false})
     this.strip.addEventListener("keydown", (event) => {
       const at = this.tabs.findIndex((tab) => tab.tabIndex === 0)
       const to = {ArrowLeft: at - 1, ArrowRight: at + 1, Home: 0, End: -1}[event.key]

@@ -26,6 +26,21 @@ GLOSSARY: tuple[tuple[str, str], ...] = (
     ("CM, NCM", "names of this explorer: critical set, no critical set; the number counts limit directions"),
     ("τ, T", "fast times: dT = dt/|(x, y, ε)| in the picture, dt = ε dτ for the periods of limit cycles"),
 )
+#: How the picture is read, beside it: a mark (a path in a square of 14, its classes, or text) and what it means.
+MARKS: tuple[tuple[str, str, str], ...] = (
+    ("M7 1A6 6 0 1 0 7 13A6 6 0 1 0 7 1Z", "m ink", "equator: inside the layer problem, outside radius 1 + ρ"),
+    ("M1 7H9M5 3L10 7L5 11Z", "m ink fill", "time"),
+    ("M7 2.4A4.6 4.6 0 1 0 7 11.6A4.6 4.6 0 1 0 7 2.4Z", "m attr fill", "Q filled: attracts radially,"),
+    ("M7 2.4A4.6 4.6 0 1 0 7 11.6A4.6 4.6 0 1 0 7 2.4Z", "m rep", "hollow: repels;"),
+    ("M7 2.4A4.6 4.6 0 1 0 7 11.6A4.6 4.6 0 1 0 7 2.4Z", "m ink", "circle: attracts along θ,"),
+    ("M7 1.5L12 7L7 12.5L2 7Z", "m ink", "repels,"),
+    ("M7 2L12.5 12H1.5Z", "m ink", "degenerate"),
+    ("M2.5 2.5H11.5V11.5H2.5Z", "m crit fill", "C: square node, circle focus, cross saddle; filled: stable"),
+    ("⊙ ⊗", "", "z grows (out of the page), falls (into it)"),
+    ("M0 7H4M7 7H11", "m separatrix", "dashed separatrices arrive, full ones leave"),
+    ("M0 7H14", "m lines-in", "U₁ = 0, U₂ = 0 inside,"),
+    ("M0 7H14", "m lines-out", "outside"),
+)
 #: Below the list of portraits while none is chosen.
 OPENING = (
     "The paper’s e-linear system with four limit directions, all radially attracting, and a stable critical set C: "

@@ -23,7 +23,7 @@ from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values
 from ..state.links import BROUGHT, VERSION, Look
 from ..state.portraits import portraits
 from .bundle import bundle
-from .glossary import GLOSSARY, OPENING, PAPER
+from .glossary import GLOSSARY, MARKS, OPENING, PAPER
 
 STATIC = Path(__file__).parents[1] / "static"
 
@@ -133,7 +133,7 @@ def explorer_html(
         exponent=control("n"),
         portraits=[(group, list(items)) for group, items in groups],
         families=FAMILIES,
-        layers={layer.name: layer.words for layer in LAYERS.values()},
+        layers=LAYERS,
         panels=PANELS,
         outcomes=OUTCOMES,
         systems=titles(),
@@ -142,6 +142,7 @@ def explorer_html(
         locked=locked,
         paper=PAPER,
         glossary=GLOSSARY,
+        marks=MARKS,
         most=MAX_TRAJECTORIES,
         first=first or {},
         look=look or Look(),

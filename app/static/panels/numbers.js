@@ -7,22 +7,9 @@ import {digits, eigen, escape, pair, plain} from "../words.js"
 
 const QUIET = 60 // ms: longer than three frames of a drag
 
-const MARKS = `<details class="key">
-    <summary>Marks</summary>
-    <table>
-      <tr><td><svg viewBox="0 0 14 14"><circle cx="7" cy="7" r="4.6" class="m attr fill"/></svg></td><td>filled: radially attracting (λ_ρ &lt; 0), trajectories arrive</td></tr>
-      <tr><td><svg viewBox="0 0 14 14"><circle cx="7" cy="7" r="4.6" class="m rep"/></svg></td><td>hollow: radially repelling (λ_ρ &gt; 0)</td></tr>
-      <tr><td><svg viewBox="0 0 14 14"><circle cx="7" cy="7" r="4.6" class="m ink"/></svg></td><td>circle: angularly attracting (λ_θ &lt; 0)</td></tr>
-      <tr><td><svg viewBox="0 0 14 14"><path d="M7 1.5L12 7L7 12.5L2 7Z" class="m ink"/></svg></td><td>diamond: angularly repelling (λ_θ &gt; 0)</td></tr>
-      <tr><td><svg viewBox="0 0 14 14"><path d="M7 2L12.5 12H1.5Z" class="m ink"/></svg></td><td>triangle: degenerate</td></tr>
-      <tr><td><svg viewBox="0 0 14 14"><rect x="2.5" y="2.5" width="9" height="9" class="m crit fill"/></svg></td><td>C: square a node, circle a focus, cross a saddle; filled stable, hollow unstable; dotted circle a linear centre</td></tr>
-      <tr><td>⊙ ⊗</td><td>slow flow out of the page, into the page</td></tr>
-    </table>
-  </details>`
-
 class Numbers {
   constructor(box, tools) {
-    box.innerHTML = `<div class="equator-table"></div><div class="critical-table"></div><div class="outcome-table"></div><div class="cycle-table"></div><div class="slow"></div>${MARKS}`
+    box.innerHTML = '<div class="equator-table"></div><div class="critical-table"></div><div class="outcome-table"></div><div class="cycle-table"></div><div class="slow"></div>'
     this.find = (name) => box.querySelector(name)
     this.box = box
     this.tools = tools

@@ -4,9 +4,12 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.packing import unpack
 from codim2_app.server.cli import main, parser
 from codim2_app.state.controls import ExplorerState
+from codim2_app.view.markup import explorer_html
+from markupsafe import escape
 
 import codim2_core as c2
 from tests.app.serving import serving
@@ -149,3 +152,14 @@ assert figure.match_aspect
 assert figure.xaxis[0].axis_label == axes.get_xlabel()
 """
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_marks_and_layers_are_explained_beside_the_picture():
+    markup = explorer_html(ExplorerState())
+    hero = markup[markup.index('<main class="hero">') : markup.index("</main>")]
+    for words in ("layer problem", "1 + ρ", "time", "filled", "hollow", "repels", "node", "saddle", "out of the page",
+                  "into it", "dashed", "U₁ = 0, U₂ = 0 inside", "outside"):  # fmt: skip
+        assert words in hero, words
+    for layer in LAYERS.values():
+        assert layer.tip.endswith(".")
+        assert f'title="{escape(layer.tip)}"' in hero
