@@ -150,6 +150,8 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--record", action="store_true", help="keep what was found in results.md")
     parser.add_argument("--processes", type=int, default=len(os.sched_getaffinity(0)), help="side by side")
     options = parser.parse_args(arguments)
+    if options.record and options.again is not None:
+        parser.error("--again tries only those that lived: no share of all can be recorded.")
     again = None if options.again is None else survivors(Path(options.again).read_text())
     choice = Choice(options.sample, options.seed, again)
     rooms: dict[tuple[str, bool], list[str]] = {}

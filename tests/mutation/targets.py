@@ -187,7 +187,15 @@ class Lives(NamedTuple):
     why: str
 
 
-LIVES: tuple[Lives, ...] = ()
+LIVES: tuple[Lives, ...] = (
+    Lives("core.layer_problem.border", "0.05  →  0.0625", _EXACT),
+    Lives("core.layer_problem.closed_equator", "abs(a) + abs(d)  →  abs(d)", "A tolerance of a few roundings."),
+    Lives("core.layer_problem.closed_equator", "0.1  →  0.125", "Either way is right there."),
+    Lives("core.cycles.first_turns", "8  →  9", "How many samples show that all orbits are closed, at least."),
+    Lives("core.cycles.first_turns", "left - right  →  left", "The interval is 1e-13 wide by then."),
+    Lives("core.cycles.orbit", "way is not None and math.dist", "Once more round than needed: the same orbit."),
+    Lives("core.sliding.filippov", "np.minimum(weighed, 0.0)", "Newton's method fails, and the weights are balanced."),
+)
 
 
 def reason(module: str, change: str) -> str:
