@@ -53,20 +53,24 @@ class Choice:
 
     sample: int | None
     seed: int
-    again: frozenset[tuple[str, str]] | None  # file, and the change
+    again: frozenset[tuple[str, int, str]] | None  # file, line and change
 
     def of(self, found: list[Any], file: str) -> list[Any]:
         """Choose from a module's mutants."""
         if self.again is not None:
-            found = [mutant for mutant in found if (file, mutant.text.split(": ", 1)[1]) in self.again]
+            lived = [(line, change) for name, line, change in self.again if name == file]
+            same = [(line, [m for m in found if m.text.split(": ", 1)[1] == change]) for line, change in lived]
+            near = {min(these, key=lambda m: abs(m.line - line)) for line, these in same if these}
+            found = [mutant for mutant in found if mutant in near]
         if self.sample is None or self.sample >= len(found):
             return found
         return sorted(random.Random(self.seed).sample(found, self.sample), key=lambda mutant: mutant.line)
 
 
-def survivors(output: str) -> frozenset[tuple[str, str]]:
-    """Files and changes of the mutants that lived, from what was printed."""
-    return frozenset(re.findall(r"^  lives  (.+?):\d+: (.*)$", output, re.MULTILINE))
+def survivors(output: str) -> frozenset[tuple[str, int, str]]:
+    """Files, lines and changes of the mutants that lived, from what was printed."""
+    found = re.findall(r"^  lives  (.+?):(\d+): (.*)$", output, re.MULTILINE)
+    return frozenset((file, int(line), change) for file, line, change in found)
 
 
 def tell(job: Job, mutant: Mutant, outcome: str) -> None:
@@ -157,7 +161,7 @@ def main(arguments: list[str]) -> int:
     rooms: dict[tuple[str, bool], list[str]] = {}
     tasks: list[tuple] = []
     for name in meant(options.names):
-        if again is not None and not any(file == file_of(name) for file, _ in again):
+        if again is not None and not any(file == file_of(name) for file, *_ in again):
             continue
         if name.startswith("static"):
             tasks.append((name, choice))

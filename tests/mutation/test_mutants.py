@@ -127,6 +127,10 @@ def test_those_that_lived_can_be_tried_again():
     printed = f"some: words\n  lives  a/b.py:{found[3].text}\n  lives  a/c.py:{found[4].text}\nb.c 3 of 5 killed\n"
     again = Choice(None, 0, survivors(printed))
     assert again.of(found, "a/b.py") == [found[3]]
+    twice = list(mutants("def f(x):\n    return x + 1\n\ndef g(x):\n    return x * 1\n"))
+    ones = [mutant for mutant in twice if (mutant.before, mutant.after) == ("1", "2")]
+    moved = survivors(f"  lives  a/b.py:{ones[1].line + 1}: 1  →  2\n")  # a line has gone since
+    assert Choice(None, 0, moved).of(twice, "a/b.py") == [ones[1]]
     assert Choice(3, 1, None).of(found, "a/b.py") == Choice(3, 1, None).of(found, "a/b.py")
     assert len(Choice(3, 1, None).of(found, "a/b.py")) == 3
 
