@@ -58,6 +58,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _serve(chosen)
     except KeyboardInterrupt:
         print("codim2: stopped", flush=True)
+        os._exit(0)  # workers end with their server, and there is nothing to save: an orderly exit waits for both
     return 0
 
 

@@ -4,6 +4,7 @@ import argparse
 import json
 import logging
 import sys
+from pathlib import Path
 
 import pytest
 from codim2_app.server.logs import JsonLines
@@ -56,3 +57,8 @@ def test_log_lines_are_json():
     line = json.loads(JsonLines().format(record))
     assert (line["level"], line["logger"], line["message"]) == ("error", "codim2", "what happened")
     assert "ValueError: wrong" in line["error"]
+
+
+def test_the_hosting_page_has_the_table():
+    page = (Path(__file__).parents[3] / ".github" / "HOSTING.md").read_text(encoding="utf-8")
+    assert table() in page
