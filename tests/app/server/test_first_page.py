@@ -134,7 +134,7 @@ def test_without_a_skeleton_pages_come_with_a_session():
             return header
 
         with ThreadPoolExecutor(1) as pool:
-            assert pool.submit(asyncio.run, talk()).result()["f"] == [0.0]
+            assert pool.submit(asyncio.run, talk()).result()["slow_flow"] == [0.0]
         assert "data-root-id" in opened(address)[0]
         assert "portrait-name" in opened(address)[0]
 
