@@ -34,6 +34,10 @@ DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
 # longer than the disc is wide by then goes round and round, and does not creep.
 EXPLICIT, IMPLICIT, ROUND = 300, 1.0 / 3.0, 2.5  # IMPLICIT: of the step limit
 
+FARTHEST = (
+    1e6  # from Sigma, of a seed whose line is drawn: to a quarter of a pixel an arc has points without end beyond
+)
+
 GENERAL = "general"
 _warm: set[str] = set()  # what has run: families of Psi for e-linear systems, GENERAL for any other
 
@@ -125,6 +129,12 @@ def trajectories(
     states, signs, finite = _kernels().states_of(np.ascontiguousarray(points))
     if not finite:
         checked_seeds(seeds)  # says which
+    far = np.flatnonzero(np.abs(points).max(axis=1, initial=0.0) > FARTHEST)
+    if len(far) and options.samples is None:
+        raise ValueError(
+            f"seed {far[0]} is {tuple(points[far[0]].tolist())}; give points at most {FARTHEST:g} away, "
+            'or samples="ends".'
+        )
     return _integrate(at, psi, states, signs, options)
 
 

@@ -449,3 +449,12 @@ def test_a_cycle_is_drawn_to_its_length_and_not_for_ever():
     assert 10.0 <= drawn < 12.0
     with pytest.raises(ValueError, match="positive length"):
         trajectories(around, psi.constant(), [(0.5, 0.0)], length=0.0)
+
+
+def test_a_seed_too_far_to_draw_from_is_refused_and_its_end_is_not():
+    """To a quarter of a pixel the arc had 1e50 points: the call did not come back."""
+    for far in (1e7, 1e99):
+        with pytest.raises(ValueError, match="at most 1e\\+06 away"):
+            trajectories(CASE_I, psi.constant(), [[0.1, 0.2], [far, 0.5 * far]], t_max=1.0)
+    assert len(trajectories(CASE_I, psi.constant(), [[1e7, 5e6]], t_max=1.0, samples="ends")) == 1
+    assert len(trajectories(CASE_I, psi.constant(), [[9e5, 5e5]], t_max=1.0).buffer) < 300_000
