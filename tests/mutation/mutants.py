@@ -77,9 +77,14 @@ def _formulas(node: ast.AST) -> Iterator[ast.expr]:
             yield from _formulas(item)
 
 
+def _is_text(node: ast.expr) -> bool:
+    """Whether it is words for people."""
+    return isinstance(node, ast.JoinedStr) or (isinstance(node, ast.Constant) and isinstance(node.value, str))
+
+
 def _changes(node: ast.expr) -> Iterator[ast.expr]:
     match node:
-        case ast.BinOp(left, op, right) if type(op) in SWAPPED:
+        case ast.BinOp(left, op, right) if type(op) in SWAPPED and not (_is_text(left) or _is_text(right)):
             swapped = copy.deepcopy(node)
             swapped.op = SWAPPED[type(op)]()
             yield swapped

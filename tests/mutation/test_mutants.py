@@ -23,7 +23,7 @@ def f(x, y=None):
     return -x * sin(y) - 3  # a comment
 
 def g(x):
-    return zip(x, x, strict=True)
+    return zip(x, x, strict=True), "a" + x
 '''
 
 
