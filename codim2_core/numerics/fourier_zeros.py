@@ -111,7 +111,7 @@ def series(values: Array, size: float, degree: int | None = None) -> Series:
         Of the function, if it is known to be a trigonometric polynomial; N > 2 degree.
     """
     n = len(values)
-    c = np.fft.rfft(values) * (2.0 / n)
+    c = np.asarray(np.fft.rfft(values) * (2.0 / n), np.complex128)
     c[0] *= 0.5
     small = np.abs(c) <= 4.0 * UNIT * size
     if degree is None:

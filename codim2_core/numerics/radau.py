@@ -56,7 +56,7 @@ def tableau() -> Tableau:
     powers = nodes[:, None] ** k
     A = np.asarray(np.linalg.solve(powers.T, (nodes[:, None] ** (k + 1) / (k + 1)).T).T, float)
     inverse = np.linalg.inv(A)
-    values = np.linalg.eigvals(inverse)
+    values = np.asarray(np.linalg.eigvals(inverse), np.complex128)
     gamma = 1.0 / float(values[np.argmin(np.abs(values.imag))].real)
     target = 1.0 / (k + 1.0)
     target[0] -= gamma
