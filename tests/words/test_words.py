@@ -9,7 +9,6 @@ import math
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import codim2_core as c2
 from codim2_core import ELinear, psi
@@ -17,7 +16,7 @@ from codim2_core.words import SENTENCES, number, power, recognise
 from tests.core.strategies import regularisations, systems
 
 EPS = 1e-5
-FEW = 6  # random systems: each is followed by dozens of motions
+FEW = 3  # random systems: each is followed by dozens of motions
 NEAR = 0.05  # where motions towards Sigma start
 
 
@@ -330,16 +329,6 @@ def test_of_every_portrait(name):
 @given(systems, regularisations)
 def test_of_random_systems(system, family):
     held(system, family)
-
-
-@settings(max_examples=FEW)
-@given(st.data(), regularisations)
-def test_of_random_systems_of_case_three(data, family):
-    a, d = data.draw(st.floats(0.5, 4.0)), -data.draw(st.floats(0.5, 4.0))
-    b = math.sqrt(-a * d) * data.draw(st.floats(1.05, 1.6))
-    modulus, angle = data.draw(st.floats(0.0, 0.8)), data.draw(st.floats(0.0, 6.28))
-    e = modulus * np.array([math.cos(angle), math.sin(angle)])
-    held(ELinear(a, b, d, tuple(-np.array([[a, -b], [b, d]]) @ e)), family)
 
 
 DEGENERATE = {
