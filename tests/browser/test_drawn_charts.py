@@ -238,9 +238,10 @@ def test_psi(opened):
     ((curve, drawn),) = above.lines("series-line")
     np.testing.assert_allclose(curve[:, 1], PSI(np.clip(curve[:, 0], 0, None)), atol=2 * above.near[1])
     for points, drawn in below.lines("series-line"):
-        eps = {"s3": 1.0, "s1": 0.3, "s0": 0.1, "present": 10**-0.5}[drawn["name"].split()[-1]]
-        x = points[:, 0]
-        np.testing.assert_allclose(points[:, 1], np.sign(x) * PSI.modulus(np.abs(x) / eps), atol=0.03)
+        eps = {"s3": 1.0, "s1": 0.3, "s0": 0.1, "present": 10**-0.5, "limit": 1e-9}[drawn["name"].split()[-1]]
+        x = np.where(np.abs(points[:, 0]) < 2 * below.near[0], 0, points[:, 0])
+        there = (x != 0) | (eps > 1e-3)  # the limit jumps at 0
+        np.testing.assert_allclose(points[there, 1], np.sign(x[there]) * PSI.modulus(np.abs(x[there]) / eps), atol=0.03)
 
 
 def test_atlas(opened, setting):

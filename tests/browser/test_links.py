@@ -51,7 +51,7 @@ def test_what_belongs_to_no_box_is_told_above_the_picture(open_page, query):
 
 def state(page, preset=""):
     """The address, and every control as it is seen."""
-    page.page.wait_for_function(f"(new URLSearchParams(location.search).get('preset') ?? '') === '{preset}'")
+    page.page.wait_for_function(f"() => (new URLSearchParams(location.search).get('preset') ?? '') === '{preset}'")
     page.kept()
     query = parse_qs(urlparse(page.page.url).query)
     seen = page.find(".codim2 :is(input, select, textarea):visible").evaluate_all(

@@ -64,7 +64,7 @@ def test_an_embedded_page_is_the_picture_and_the_controls_that_it_names(open_pag
     name = page.name()
     page.type("f1", "0")
     assert (name, page.name()) == ("CM2", "CM4")
-    page.page.wait_for_function("location.search.includes('embed=1') && location.search.includes('f1=0')")
+    page.page.wait_for_function("() => location.search.includes('embed=1') && location.search.includes('f1=0')")
     with page.page.context.expect_page() as opened:
         page.find(".whole").click()
     whole = opened.value
