@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import multiprocessing
 import os
 import socket
 import sys
@@ -45,6 +46,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return chosen.run(chosen)
     if chosen.command == "warm":
         return _warm()
+    if multiprocessing.parent_process() is not None:
+        raise RuntimeError('a worker imports the script that serves; put the call under if __name__ == "__main__":')
     if chosen.lessons is not None and not _offer_lessons(chosen.lessons):
         return 1
     log_to_stderr(chosen.log_json, chosen.log_level)

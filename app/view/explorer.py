@@ -250,6 +250,7 @@ class ExplorerView(JSComponent):
         if pending is None:
             self._reply(model, frame)
         else:
+            self.frames.keep()
             self._hold(model, pending, {key: request.get(key) for key in ("id", "rest", "window")})
         self.frames.publish()
 

@@ -96,6 +96,8 @@ class Frames:
         self.window: Window | None = None
         self._moved = "f1"  # the control moved last, along which a degenerate setting is looked at from both sides
         self._sent: dict[str, Any] = {}
+        self._last: tuple[Mapping[str, Any], dict[str, Any], str] = ({}, {}, "")  # see `keep`
+        self._untold: dict[str, Any] = {}
 
     def _begin(self, wanted: Mapping[str, Any]) -> None:
         """Start from these values or, where they have no scene, from those of their portrait or the first ones."""
@@ -137,10 +139,18 @@ class Frames:
         if "fault" in header:  # of a panel
             errors.setdefault("", header.pop("fault"))
         changed = {name: value for name, value in self.values.items() if value != before[name]}
-        if changed:
-            header["set"] = changed
-            self._unpublished.update(changed)
+        self._unpublished.update(changed)
+        told = {name: self.values[name] for name in {**self._untold, **changed}}
+        self._last, self._untold = (sent, told, left), {}
+        if told:
+            header["set"] = told
         return self._packed({"id": request.get("id", 0), "errors": errors, "load": load.measured(), **header}, blocks)
+
+    def keep(self) -> None:
+        """Note that the last frame was not sent: what it told is told by the next one."""
+        self._sent, self._untold, left = dict(self._last[0]), self._last[1], self._last[2]
+        if left:
+            self._notices.append(left)
 
     def _packed(self, header: dict[str, Any], blocks: Blocks) -> bytes:
         if self.window is None:

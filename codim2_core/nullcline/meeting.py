@@ -52,7 +52,7 @@ def conics_of(problem: LayerProblem, view: float = 2.0) -> Conics:
         A system in other axes has the conic of its normal form, turned back (lem:normalform).
     """
     form, theta = problem.at.normal_form, problem.equator.theta
-    meeting = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+    meeting = _fixed(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
     if form is None:
         return Conics("", (), meeting)
     turned = problem.at.as_given is None
@@ -61,7 +61,13 @@ def conics_of(problem: LayerProblem, view: float = 2.0) -> Conics:
     if turned:
         c, s = math.cos(form.rotation), math.sin(form.rotation)
         pieces = [piece @ np.array([[c, -s], [s, c]]) for piece in pieces]
-    return Conics(kind, tuple(pieces), meeting)
+    return Conics(kind, tuple(_fixed(piece) for piece in pieces), meeting)
+
+
+def _fixed(points: Array) -> Array:
+    """Return the points, read-only."""
+    points.setflags(write=False)
+    return points
 
 
 def _conic(q: float, p1: float, p2: float, b: float, reach: float) -> tuple[str, list[Array]]:

@@ -25,7 +25,8 @@ registry.register(Panel("twice", "Twice", add, "Twice the entry a.", {"unit": "o
 
 from codim2_app.server.cli import main
 
-main(["serve", "--port", "0"])
+if __name__ == "__main__":  # the server's workers import this script
+    main(["serve", "--port", "0"])
 """
 
 SCRIPT = """

@@ -134,7 +134,7 @@ def test_the_limit_is_drawn_on_the_set_that_the_words_name():
     motion, limit = header["motion"], header["limit"]
     assert [(p[0], p[4]) for p in motion["phases"]] == [(p[0], p[4]) for p in limit["phases"]]
     assert limit["phases"][1][4] == "C3"
-    assert "C3" in limit["phases"][1][3]
+    assert "C₃" in limit["phases"][1][3]
     ends = [np.array(run["picture"])[:, -1] for run in (motion, limit)]
     np.testing.assert_allclose(*ends, atol=0.02)
     assert ends[1][0] > 0.9

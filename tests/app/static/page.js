@@ -34,7 +34,7 @@ export function page(body = "") {
   dress(window, document)
   const given = {
     document, window: {...listens, document, history: browsed()}, devicePixelRatio: 1,
-    queueMicrotask: (go) => after(go, 0), requestAnimationFrame: (go) => after(go, 16), cancelAnimationFrame: cancel, setTimeout: after, clearTimeout: cancel,
+    queueMicrotask: (go) => after(go, 0), requestAnimationFrame: (go) => after(go, 16), cancelAnimationFrame: cancel, setTimeout: after, clearTimeout: cancel, setInterval: () => 0,
     performance: {now: () => now}, ResizeObserver: class { observe() {} }, MutationObserver: class { observe() {} },
     getComputedStyle: () => ({getPropertyValue: (name) => `${name.slice(2)} `}), matchMedia: () => ({matches: false, ...listens}),
     localStorage: storage(), sessionStorage: storage(), structuredClone: (value) => JSON.parse(JSON.stringify(value)),

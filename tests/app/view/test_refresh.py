@@ -381,3 +381,16 @@ def test_no_sentence_is_said_twice(plane):
     for _, sentence in portrait["degeneracies"]:
         assert sentence.partition(f" {NEARER}")[0] not in portrait["sentence"]
     assert portrait["sentence"].split(". ", 1)[-1]
+
+
+def test_a_frame_that_is_not_sent_is_told_by_the_next_one(frames):
+    ask(frames, a=-1.25)
+    whole, blocks = unpack(frames.answer({"set": {"system": "own", "z": 0.5}}))
+    assert {"system", "portrait", "critical"} <= whole.keys()
+    assert whole["set"]["panel"] == "numbers"
+    frames.keep()
+    again, sent = unpack(frames.answer({"rest": True}))
+    assert whole.keys() - {"load", "id"} <= again.keys()
+    assert again["set"] == whole["set"]
+    assert blocks.keys() <= sent.keys()
+    assert "set" not in unpack(frames.answer({"rest": True}))[0]

@@ -114,7 +114,7 @@ def test_arrival_time_where_the_direction_turns():
     rho, theta = 0.8, 1.2
     run = simulate_nonsmooth(system, (rho * math.cos(theta), rho * math.sin(theta)), (0.0, 5.0), rtol=1e-12)
     assert run.phases[0].t_end == pytest.approx(arrival_by_quadrature(system, rho, theta, 0.0), abs=1e-10)
-    assert "Q1" in run.phases[1].reason
+    assert "Q₁" in run.phases[1].reason
     assert not run.states[-1].any()
 
 
@@ -230,7 +230,7 @@ def test_stops_where_the_limit_is_not_unique():
     # On Sigma two critical sets attract, and the middle is the saddle between them.
     both = examples.nonunique_sliding()
     assert "2 stable critical sets" in stopped(both, (0.0, 0.0, 0.1)).reason
-    assert "C3, C1" in stopped(both, (0.0, 0.0, 0.1), families.constant()).reason
+    assert "C₃, C₁" in stopped(both, (0.0, 0.0, 0.1), families.constant()).reason
     # C repels, and every direction leads away.
     assert stopped(ELinear(1.0, 0.0, 1.0), (0.0, 0.0)).times[-1] == 0.0
     # Spirals away from Sigma, at any phase.

@@ -26,7 +26,7 @@ def said(a, b, d, f1, f2, family=None):
         ((-2, 0, -1, 0.1, 0.1), "The critical set C is a stable node: stable sliding along Σ."),
         (
             (-1, 0, -1, 1, 0),
-            "2 limit directions: trajectories reach Σ along 1 and leave it along 0. Q1 is",
+            "2 limit directions: trajectories reach Σ along 1 of them. Q₁ is radially neutral",
         ),
         ((2, 0, 1, 0.1, 0.1), "The critical set C is an unstable node: sliding along C itself is unstable."),
         ((1, 0, -2, 0.2, 0.3), "The critical set C is a saddle whatever Ψ is"),
