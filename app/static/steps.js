@@ -69,6 +69,7 @@ export class Browsed {
     this.at = entry.at
     this.last = Math.max(this.last, entry.at)
     this.present = entry.snapshot
+    this.write("replaceState") // so that a page that is loaded again here knows how far it can go on
     restore(this.present)
   }
 }

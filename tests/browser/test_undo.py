@@ -51,6 +51,9 @@ def test_back_and_forward_walk_the_same_steps_and_reload_keeps_them(open_page):
     explorer.page.go_back()
     done(explorer)
     assert (value(explorer, "f1"), value(explorer, "b")) == (-1.5, 0)
+    explorer.page.reload()
+    explorer.page.wait_for_selector(".codim2[data-ready]")
+    assert explorer.settle().find(".redo").is_enabled()
     explorer.page.go_forward()
     done(explorer)
     assert value(explorer, "b") == 2
