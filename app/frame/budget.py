@@ -7,12 +7,9 @@ the frames that follow compute those that turned out to be quick, unless the for
 
 from __future__ import annotations
 
-import signal
-import threading
 import time
 from collections import OrderedDict
-from collections.abc import Hashable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,6 +17,7 @@ import numpy as np
 
 from codim2_core.scene import Scene
 
+from .alarm import at_most
 from .faults import FAILURES
 
 #: Seconds of processor time that one layer, and all layers of one frame, may take of the thread that answers.
@@ -97,25 +95,6 @@ class Layers:
     results: Mapping[str, Any]
     seconds: Mapping[str, float]
     left_out: Mapping[str, str]
-
-
-@contextmanager
-def at_most(seconds: float) -> Iterator[None]:
-    """Raise TimeoutError after so many seconds of processor time, between kernels, in the main thread of a process."""
-    if threading.current_thread() is not threading.main_thread() or not hasattr(signal, "setitimer"):
-        yield
-        return
-
-    def stop(*_: object) -> None:
-        raise TimeoutError
-
-    before = signal.signal(signal.SIGPROF, stop)  # processor time: a busy machine is not the formula's fault
-    signal.setitimer(signal.ITIMER_PROF, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0.0)
-        signal.signal(signal.SIGPROF, before)
 
 
 def layers_of(scene: Scene, names: Iterable[str], known: Mapping[str, Any], seconds: float = LONGEST) -> Layers:

@@ -6,7 +6,6 @@ import time
 from concurrent.futures import CancelledError, wait
 
 import pytest
-from codim2_app.frame.budget import at_most
 from codim2_app.frame.workers import Stopped, Workers
 
 
@@ -86,17 +85,3 @@ def test_nothing_runs_for_ever(tmp_path):
         future = workers.submit(endless, tmp_path)
         with pytest.raises(TimeoutError, match=r"longer than 0\.2 s"):
             future.result(20)
-
-
-def spin():
-    with at_most(0.05):
-        while True:
-            pass
-
-
-def test_a_budget_of_processor_time_ends_between_kernels():
-    with pytest.raises(TimeoutError):
-        spin()
-    with at_most(5.0):
-        pass
-    assert signal.getitimer(signal.ITIMER_PROF)[0] == 0.0

@@ -1,0 +1,73 @@
+"""A limit of processor time for what one process computes, kept between two instructions of the interpreter."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from numba.core import event
+
+#: Seconds of processor time after which an alarm that was not heard comes again.
+AGAIN = 0.05
+
+
+class Compiling(event.Listener):
+    """How long kernels have been compiled: that is the installation's matter, and is not counted against a formula."""
+
+    def __init__(self) -> None:
+        self._depth = 0  # one kernel compiles those that it calls
+        self._since = self._seconds = 0.0
+
+    def on_start(self, event: event.Event) -> None:  # noqa: ARG002
+        """Begin to count."""
+        if self._depth == 0:
+            self._since = time.process_time()
+        self._depth += 1
+
+    def on_end(self, event: event.Event) -> None:  # noqa: ARG002
+        """Stop counting."""
+        self._depth -= 1
+        if self._depth == 0:
+            self._seconds += time.process_time() - self._since
+
+    @property
+    def seconds(self) -> float:
+        """Seconds of processor time, that of a compilation under way included."""
+        return self._seconds + (time.process_time() - self._since if self._depth else 0.0)
+
+
+@contextmanager
+def at_most(seconds: float) -> Iterator[None]:
+    """Raise TimeoutError after so many seconds of processor time, between kernels, in the main thread of a process."""
+    if threading.current_thread() is not threading.main_thread() or not hasattr(signal, "setitimer"):
+        yield
+        return
+    compiling, began = Compiling(), time.process_time()
+
+    def stop(*_: object) -> None:
+        if time.process_time() - began - compiling.seconds >= seconds:
+            raise TimeoutError
+
+    def unraised(found: Any) -> None:
+        # The interpreter drops what is raised in a callback of its garbage collector. That alarm is not a fault.
+        if found.exc_type is not TimeoutError:
+            told(found)
+
+    told, sys.unraisablehook = sys.unraisablehook, unraised
+    before = signal.signal(signal.SIGPROF, stop)  # processor time: a busy machine is not the formula's fault
+    try:
+        try:
+            with event.install_listener("numba:compile", compiling):
+                signal.setitimer(signal.ITIMER_PROF, seconds, AGAIN)
+                yield
+        finally:
+            signal.setitimer(signal.ITIMER_PROF, 0.0)
+    finally:  # also if the alarm came on the line before
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
+        sys.unraisablehook = told

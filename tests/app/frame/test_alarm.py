@@ -1,0 +1,77 @@
+"""A budget of processor time is kept, whatever the interpreter is doing when the alarm comes."""
+
+import signal
+import sys
+import time
+import weakref
+
+import numba
+import pytest
+from codim2_app.frame.alarm import at_most
+
+
+def spin(first=bool):
+    with at_most(0.05):
+        first()
+        until = time.process_time() + 5.0
+        while time.process_time() < until:
+            pass
+
+
+def test_a_budget_of_processor_time_ends_between_kernels():
+    hook, handler = sys.unraisablehook, signal.getsignal(signal.SIGPROF)
+    with pytest.raises(TimeoutError):
+        spin()
+    with at_most(5.0):
+        pass
+    assert signal.getitimer(signal.ITIMER_PROF)[0] == 0.0
+    assert (sys.unraisablehook, signal.getsignal(signal.SIGPROF)) == (hook, handler)
+
+
+class Held:
+    """What dies while others look."""
+
+
+def busy(_):
+    until = time.process_time() + 0.15
+    while time.process_time() < until:
+        pass
+
+
+def die(then=busy):
+    held = Held()
+    reference = weakref.ref(held, then)  # while it is referred to, it is called
+    del held
+    return reference
+
+
+def test_an_alarm_that_falls_into_a_callback_of_the_garbage_collector_comes_again():
+    """The interpreter drops what is raised there: the limit was lost, and the formula ran on."""
+    with pytest.raises(TimeoutError):
+        spin(die)
+
+
+def test_what_else_is_dropped_there_is_told():
+    heard = []
+    before, sys.unraisablehook = sys.unraisablehook, heard.append
+    try:
+        with at_most(5.0):
+            die(lambda _: 1 / 0)
+    finally:
+        sys.unraisablehook = before
+    assert [type(one.exc_value) for one in heard] == [ZeroDivisionError]
+
+
+def test_compiling_is_not_counted():
+    @numba.njit(cache=False)
+    def kernel(x):
+        for one in range(10):
+            x = x * one + one**x
+        return x
+
+    began = time.process_time()
+    with at_most(0.02):
+        kernel(2.0)
+    assert time.process_time() - began > 0.02  # it did take longer
+    with pytest.raises(TimeoutError):
+        spin(lambda: kernel(3))
