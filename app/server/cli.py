@@ -122,7 +122,7 @@ def _offer_lessons(folder: Path) -> bool:
     for error in errors:
         print(f"codim2: left out: {error}")
     offer(found)
-    print(f"codim2: {len(found)} lessons from {folder}")
+    print(f"codim2: {len(found)} lesson{'s' * (len(found) != 1)} from {folder}")
     return True
 
 

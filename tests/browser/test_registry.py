@@ -1,18 +1,27 @@
-"""A panel is one file in Python, one in JavaScript, and one registration: shown by adding one from a folder."""
+"""One of each is added from a folder, by one registration or one row, and used in the live page.
+
+A panel, a system, a preset, a family of Psi, a layer and a lesson.
+"""
 
 import os
-import subprocess
-import sys
-from contextlib import contextmanager
 from pathlib import Path
-from urllib.request import urlopen
 
-STATIC = Path(__file__).parents[2] / "app" / "static"
+import numpy as np
+import pytest
+
+import codim2_core as c2
+from tests.app.serving import serving
+
+ROOT = Path(__file__).parents[2]
+STATIC = ROOT / "app" / "static"
+PSI = c2.psi.constant()
+RECORDER = (Path(__file__).parent / "recorder.js").read_text()
 
 PYTHON = """
 import sys
 from pathlib import Path
 
+import numpy as np
 from codim2_app.panels import registry
 from codim2_app.panels.panel import Panel
 
@@ -21,12 +30,41 @@ def add(draft):
     draft.header["twice"] = 2.0 * draft.values["a"]
 
 
-registry.register(Panel("twice", "Twice", add, "Twice the entry a.", {"unit": "of A"}, Path(sys.argv[1])))
+FOLDER = Path(sys.argv[1])
+registry.register(Panel("twice", "Twice", add, "Twice the entry a.", {"unit": "of A"}, FOLDER))
+
+from codim2_core import examples, psi
+from codim2_core.figures.presets import register
+from codim2_core.scene import Layer as Row, scene
+from codim2_app.draw.layers import LAYERS, Layer, Part
+from tests.core.additions import EXAMPLE, FROM_FORMULA, PRESET, module
+
+psi.register(module(FOLDER, "added_family", FROM_FORMULA).FAMILY)
+examples.register(module(FOLDER, "added_example", EXAMPLE).EXAMPLE)
+register(PRESET)
+
+
+class Ray:
+    def __init__(self, setting):
+        C = setting.problem.critical[0].p
+        self.points = np.array([[0.0, 0.0], C, 2.0 * C])
+
+
+scene.layers = {**scene.layers, "ray": Row(("plane", "slow", "psi"), lambda setting: (Ray(setting),))}
+LAYERS["ray"] = Layer("ray", "A ray through C", 65, (Part("ray", "ray", 2.5, "ray"),), {"ray": ("#123456", "#abcdef")})
 
 from codim2_app.server.cli import main
 
-if __name__ == "__main__":  # the server's workers import this script
-    main(["serve", "--port", "0"])
+if __name__ == "__main__":  # the server's workers import this script, and have its registrations by that
+    main(sys.argv[2:])
+"""
+
+LESSON = """---
+title: A lesson of my own
+summary: One sentence.
+portrait: added-cm0
+---
+All orbits reach **C**.
 """
 
 SCRIPT = """
@@ -41,38 +79,99 @@ register("twice", (box, {settings, move}) => {
 """
 
 
-@contextmanager
-def served(folder):
+@pytest.fixture(scope="module")
+def address(tmp_path_factory):
+    """The address of a server whose script registers one of each."""
+    folder = tmp_path_factory.mktemp("added")
     (folder / "serve.py").write_text(PYTHON)
     (folder / "twice.js").write_text(SCRIPT % os.path.relpath(STATIC, folder))
     (folder / "twice.css").write_text(".codim2 .panel-twice button { color: rgb(1, 2, 3); }")
-    command = [sys.executable, str(folder / "serve.py"), str(folder)]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    try:
-        said = process.stdout.readline()
-        assert "http://" in said, said + process.stdout.read()
-        yield "http://" + said.split("http://")[1].split("/")[0]
-    finally:
-        process.terminate()
-        process.wait(10)
-        process.stdout.close()
+    (folder / "course").mkdir()
+    (folder / "course" / "01-own.md").write_text(LESSON)
+    script = (str(folder / "serve.py"), str(folder))
+    path = {**os.environ, "PYTHONPATH": str(ROOT)}
+    with serving("--lessons", str(folder / "course"), command=script, environment=path) as found:
+        yield found
 
 
-def test_a_panel_from_a_folder_is_one_registration(open_page, tmp_path):
-    with served(tmp_path) as address:
-        with urlopen(address + "/health", timeout=20):
-            pass
-        page = open_page()
-        page.address = address
-        page.open("?panel=twice")
-        assert page.find(".tabs [role=tab]").all_text_contents()[-1] == "Twice"
-        button = page.find(".panel-twice button")
-        assert button.text_content() == "2a = -4 of A"
-        assert button.evaluate("(it) => getComputedStyle(it).color") == "rgb(1, 2, 3)"
-        button.click()
-        page.settle()
-        assert button.text_content() == "2a = 3 of A"
-        page.find("#c2-tab-atlas").click()
-        page.settle()
-        assert not button.is_visible()
-        assert page.complaints == []
+@pytest.fixture
+def page(open_page, address):
+    made = open_page()
+    made.address = address
+    yield made
+    assert made.complaints == []
+
+
+def test_a_panel_from_a_folder_is_one_registration(page):
+    page.open("?panel=twice")
+    assert page.find(".tabs [role=tab]").all_text_contents()[-1] == "Twice"
+    button = page.find(".panel-twice button")
+    assert button.text_content() == "2a = -4 of A"
+    assert button.evaluate("(it) => getComputedStyle(it).color") == "rgb(1, 2, 3)"
+    button.click()
+    page.settle()
+    assert button.text_content() == "2a = 3 of A"
+    page.find("#c2-tab-atlas").click()
+    page.settle()
+    assert not button.is_visible()
+
+
+def test_a_system_is_chosen_and_its_parameters_have_sliders(page):
+    page.open()
+    page.find("[data-control=system] select").select_option("film_on_disc")
+    page.settle()
+    assert page.find("#c2-parameter-mu").is_visible()
+    page.type("parameter-mu", "0.6")
+    [C] = c2.critical_sets(c2.System(U=("-0.6*c - 0.3*s", "-0.6*s + 0.3*c + z/4"), W=("c - z/2",)), PSI, (0.4,))
+    assert f"({C.e[0]:.3f}, {C.e[1]:.3f})".replace("-", "−") in page.find(".critical-table").text_content()
+
+
+def test_a_preset_is_in_the_list_and_shows_its_portrait(page):
+    page.open()
+    page.find("select.preset").select_option("added-cm0")
+    page.settle()
+    assert page.name() == "CM0"
+    assert page.find("select.preset option:checked").text_content() == "CM0, once more"
+    assert "All orbits reach C." in page.find(".preset-note").text_content()
+    assert page.find("select.psi").input_value() == "hill"
+
+
+def test_a_family_of_psi_is_chosen_and_moves_the_critical_set(page):
+    page.open("?f2=0.3")
+    page.find("select.psi").select_option("power")
+    page.settle()
+    power = c2.psi.custom("(1+s/2)**(-2)")
+    [C] = c2.critical_sets(c2.ELinear(-2, 0, -1, (-0.5, 0.3)), power)
+    words = page.find(".critical-table").text_content()
+    assert f"({C.x2[0]:.3f}, {C.x2[1]:.3f})".replace("-", "−") in words
+    again = page.open(page.kept().page.url.split("/", 3)[3])
+    assert again.find("select.psi").input_value() == "power"
+
+
+def test_the_servers_workers_have_what_the_script_registers(page):
+    page.open("?panel=atlas&psi=power")
+    page.find(".panel-atlas .pad .region").first.wait_for()  # computed in a process of its own
+    assert page.find(".panel-atlas .atlas-note").text_content() == ""
+
+
+def test_a_layer_is_seen_painted(page):
+    page.open("?a=-2.1&b=0.3&d=-1.3&f1=-0.6&f2=0.4&layers=critical,ray")
+    marks = "picture.list.filter((it) => it.layer === 'critical' && it.kind === 'mark').map((it) => [it.x, it.y])"
+    C = np.array(page.ask(marks)[0])
+    [stroke] = [it for it in page.find(".codim2").evaluate(RECORDER) if it.get("colour") == "#123456"]
+    assert (stroke["kind"], stroke["width"]) == ("stroke", 2.5)
+    [piece] = stroke["path"]
+    np.testing.assert_allclose(piece["points"], [[0, 0], C, 2 * C], atol=1e-3)
+    assert abs(C[0] * C[1]) > 0.01  # no flip and no swap is the same
+    assert page.find("label:has(input[value=ray])").text_content().strip() == "A ray through C"
+    page.find(".layer input[value=ray]").uncheck()
+    page.settle()
+    assert not [it for it in page.find(".codim2").evaluate(RECORDER) if it.get("colour") == "#123456"]
+
+
+def test_a_lesson_of_a_folder_is_read(page):
+    page.open("?panel=lessons")
+    page.find(".lesson-list button").filter(has_text="A lesson of my own").click()
+    page.settle()
+    assert page.find(".lesson-text strong").text_content() == "C"
+    assert page.name() == "CM0"

@@ -40,6 +40,6 @@ def test_lessons_of_a_lecturer_and_what_is_wrong_with_one(tmp_path, capsys):
         assert main(["serve", *address, "--lessons", str(tmp_path)]) == 1
         said = capsys.readouterr().out
         assert "left out: bad.md, line 1: 'summary' is missing." in said
-        assert "1 lessons from" in said
+        assert "1 lesson from" in said
         assert main(["serve", *address, "--lessons", str(tmp_path / "none")]) == 1
         assert "is no folder" in capsys.readouterr().out
