@@ -335,7 +335,7 @@ def _equilibria(line: _Line, branch: SlowBranch) -> list[SlowPoint]:
                 lambda z: float(on_branch(z).slow_flow[line.axis]), z, float(branch.z[i + 1]), xtol=1e-15
             )
             z = float(root)
-        falling = bool(flow[i + 1] < (flow[i] if flow[i] != 0.0 else -flow[i + 1]))
+        falling = bool(flow[i + 1] < 0.0)
         words = "attracts" if falling else "repels"
         found.append(
             SlowPoint("equilibrium", z, *_place(on_branch(z)), falling, f"z′ = 0: it {words} along the critical set.")

@@ -106,7 +106,7 @@ def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
         else "The convex combinations of the limit vectors that are tangent to Σ form a whole set: the Filippov "
         "sliding vector is not unique."
     )
-    if m == 2 and not unique:  # corners in order around the polygon
+    if m == 2:  # corners in order around the polygon
         centre = np.mean(vertices, axis=0)
         order = sorted(range(len(vertices)), key=lambda i: math.atan2(*(vertices[i] - centre)[::-1]))
         vertices, combinations = [vertices[i] for i in order], [combinations[i] for i in order]
@@ -149,8 +149,8 @@ class _Field:
         self.size = float(max(np.abs(self.U).max(), np.abs(self.W).max(initial=0.0))) or 1.0
 
         both = np.concatenate([self.U, self.W], axis=1) / self.size
-        self._spectrum = np.fft.rfft(both, axis=0) * (2.0 / DENSE)
-        self._spectrum[0] *= 0.5
+        self._spectrum = np.fft.rfft(both, axis=0, norm="forward")
+        self._spectrum[1:] *= 2.0
         self._waves = np.arange(len(self._spectrum))
 
     def series(self, theta: Array, order: int) -> tuple[Array, Array]:
@@ -291,6 +291,6 @@ def _maxima(height: Callable[[Array], Array], theta: Array) -> Array:
     low, high = theta[peaks] - step, theta[peaks] + step
     for _ in range(40):  # to a relative 1e-8, where maxima are flat
         a, b = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-        right = height(a) < height(b)
-        low, high = np.where(right, a, low), np.where(right, high, b)
+        left, right = height(np.concatenate([a, b])).reshape(2, -1)
+        low, high = np.where(left < right, a, low), np.where(left < right, high, b)
     return 0.5 * (low + high)

@@ -72,9 +72,16 @@ def _formulas(node: ast.AST) -> Iterator[ast.expr]:
                 continue
             if isinstance(item, ast.keyword) and item.arg in CHECKS:
                 continue
+            if isinstance(item, ast.UnaryOp) and isinstance(node, ast.Call) and _called(node) == "reshape":
+                continue  # NumPy takes any negative length for -1
             if isinstance(item, (ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp, ast.Call, ast.Constant)):
                 yield item  # type: ignore[misc]
             yield from _formulas(item)
+
+
+def _called(node: ast.Call) -> str:
+    """Return the last name of what is called."""
+    return getattr(node.func, "attr", getattr(node.func, "id", ""))
 
 
 def _is_text(node: ast.expr) -> bool:

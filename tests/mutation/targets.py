@@ -132,6 +132,7 @@ ALLOWED: tuple[Allowed, ...] = (
     Allowed("core.sliding.filippov", "bounds=[(-1.0, 1.0)", "Any box does: only the sign of the least s is asked for."),
     Allowed("core.sliding.filippov", "s + 0.5 * abs(s)", "How early a round may end; the next would find the same."),
     Allowed("core.sliding.filippov", "np.abs(residual).max() < 1e-12", "Newton's method has converged, or it has not."),
+    Allowed("core.sliding.filippov", "for _ in range(40)", "One golden section more, beyond what can be told."),
     Allowed("core.sliding.along", "xtol=1e-15", "A tolerance of a few roundings."),
     Allowed("core.nullcline.drawing", "POINTS", _LOOKS),
     Allowed("core.nullcline.drawing", "PASSES", _LOOKS),

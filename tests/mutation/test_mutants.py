@@ -23,7 +23,7 @@ def f(x, y=None):
     return -x * sin(y) - 3  # a comment
 
 def g(x):
-    return zip(x, x, strict=True), "a" + x
+    return zip(x, x.reshape(-1, 2), strict=True), "a" + x
 '''
 
 
@@ -46,6 +46,7 @@ def test_expected_mutants_of_a_snippet():
         ("-x", "x"),
         ("sin(y)", "cos(y)"),
         ("3", "4"),
+        ("2", "3"),
     }
 
 

@@ -43,9 +43,11 @@ def test_the_figures(name, convex, words):
 def test_where_it_touches_the_circle_and_where_det_a_vanishes():
     on = affine_plane(c2.ELinear(-1.0, 0.0, -1.0, (1.0, 0.0), B=((1.0, 0.0),), g=(0.0,)), (0.0,))
     assert on.convex
+    assert not any(array.flags.writeable for array in (on.matrix, on.offset, on.place, on.point))
     assert "between sliding and crossing" in on.sentence
     none = affine_plane(c2.ELinear(-1.0, 0.0, 0.0, (0.3, 0.2), B=((1.0, 0.0),), g=(0.0,)), (0.0,))
     assert none.point is None
+    assert not none.convex
     assert none.sentence.startswith("det A = 0")
 
 

@@ -80,7 +80,7 @@ THREE = ("-c*(c - 1/2)*(c + 1/2)", "-s")  # nodes at c = -1/2 and 1/2, a saddle 
 
 def test_each_of_several_critical_sets_has_its_branch_and_its_equilibrium():
     """z' = c - z: on each set the slow flow has its own zero, where c is that of the set."""
-    found = slow_portrait(c2.System(U=THREE, W=("c - z",)), c2.psi.constant(), (-1.0, 1.0))
+    found = slow_portrait(c2.System(U=THREE, W=("c - z",)), c2.psi.constant(), (-1.0, 1.0), count=21)
     assert len(found.branches) == 3
     for branch in found.branches:
         np.testing.assert_allclose(branch.e, np.broadcast_to(branch.e[0], branch.e.shape), atol=1e-12)
@@ -117,9 +117,10 @@ def test_the_set_that_changes_its_kind_is_told_from_one_that_does_not():
     assert [b.kind for b in found.branches].count("saddle") == 3
 
 
+@pytest.mark.parametrize("count", [3, 5])
 @pytest.mark.parametrize(("flow", "stable"), [("-z", [True]), ("z", [False]), ("z**2", []), ("0", [])])
-def test_an_equilibrium_at_a_value_that_is_looked_at(flow, stable):
-    found = slow_portrait(c2.ELinear(-1, 0, -2, g=(flow,)), c2.psi.constant(), (-1.0, 1.0))
+def test_an_equilibrium_at_a_value_that_is_looked_at(flow, stable, count):
+    found = slow_portrait(c2.ELinear(-1, 0, -2, g=(flow,)), c2.psi.constant(), (-1.0, 1.0), count=count)
     assert [p.stable for p in found.points if p.kind == "equilibrium"] == stable
     assert all(p.z == 0.0 for p in found.points)
 
@@ -225,3 +226,24 @@ def test_sets_that_move_far_between_two_values_are_not_mistaken():
         assert len(points) == 2
         places = {round(p.z, 9): round(p.e[0], 9) for p in found.points if p.kind == "equilibrium"}
         assert places[z] == pytest.approx(k)
+
+
+def test_the_unit_of_the_slow_variable_changes_nothing_but_the_values():
+    """A fold at z = -1/8 and a set that leaves at z = 1, with z measured in a thousand millionths."""
+    system = c2.System(U=("c**2 + c/2 - z*1e9/2", "-s"), W=("c + 2",))
+    found = slow_portrait(system, c2.psi.constant(), (-1e-9, 2e-9), count=11)
+    assert [(p.kind, pytest.approx(p.z, rel=1e-9)) for p in found.points] == [("fold", -0.125e-9), ("equator", 1e-9)]
+    assert [i.kind for i in found.intervals] == ["crossing", "sliding", "unstable"]
+
+
+def test_an_equilibrium_is_looked_for_on_its_own_branch_between_two_values():
+    """Sets at c = 3/10 and 7/10 for all z: z' vanishes on the first at z = 0.9, on the other far away."""
+    system = c2.System(U=("(c - 3/10)*(c - 7/10)", "-s"), W=("z - 9/10 + 5*(c - 3/10)",))
+    found = slow_portrait(system, c2.psi.constant(), (0.0, 1.0), count=2)
+    (point,) = found.points
+    assert (point.kind, point.z, point.e, point.stable) == (
+        "equilibrium",
+        pytest.approx(0.9),
+        pytest.approx((0.3, 0.0)),
+        False,
+    )
