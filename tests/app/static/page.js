@@ -20,8 +20,11 @@ export function recorder() {
 
 const short = (value) => typeof value === "number" ? Number(value.toFixed(2)) + 0 : Array.isArray(value) ? value.map(short) : typeof value === "object" && value ? "…" : value
 
-/** A new page; what modules find in the global scope belongs to it from then on. @param {string} body its markup */
-export function page(body = "") {
+/**
+ * A new page; what modules find in the global scope belongs to it from then on.
+ * @param {string} body its markup @param {Record<string, any>} more of the global scope
+ */
+export function page(body = "", more = {}) {
   const {window, document} = parseHTML(`<!doctype html><html><body>${body}</body></html>`)
   let now = 0, number = 0
   Math.random = () => 0.25 // every time the same
@@ -29,15 +32,16 @@ export function page(body = "") {
   const waiting = new Map()
   const after = (go, ms) => { waiting.set(++number, {at: now + ms, go}); return number }
   const cancel = (id) => { waiting.delete(id) }
+  const every = (go, ms) => after(() => { go(); every(go, ms) }, ms)
   const heard = {} // listeners of the window
   const listens = {addEventListener: (type, go) => { (heard[type] ??= []).push(go) }, removeEventListener: (type, go) => { heard[type] = (heard[type] ?? []).filter((it) => it !== go) }}
   dress(window, document)
   const given = {
     document, window: {...listens, document, history: browsed()}, devicePixelRatio: 1,
-    queueMicrotask: (go) => after(go, 0), requestAnimationFrame: (go) => after(go, 16), cancelAnimationFrame: cancel, setTimeout: after, clearTimeout: cancel, setInterval: () => 0,
+    queueMicrotask: (go) => after(go, 0), requestAnimationFrame: (go) => after(go, 16), cancelAnimationFrame: cancel, setTimeout: after, clearTimeout: cancel, setInterval: every,
     performance: {now: () => now}, ResizeObserver: class { observe() {} }, MutationObserver: class { observe() {} },
     getComputedStyle: () => ({getPropertyValue: (name) => `${name.slice(2)} `}), matchMedia: () => ({matches: false, ...listens}),
-    localStorage: storage(), sessionStorage: storage(), structuredClone: (value) => JSON.parse(JSON.stringify(value)),
+    localStorage: storage(), sessionStorage: storage(), structuredClone: (value) => JSON.parse(JSON.stringify(value)), ...more,
   }
   for (const [name, value] of Object.entries(given)) Object.defineProperty(global, name, {value, writable: true, configurable: true})
   return {
@@ -53,9 +57,9 @@ export function page(body = "") {
         next[1].go(now)
       }
     },
-    /** What a person does. @param {any} target @param {string} type @param {Record<string, any>} more of the event */
-    fire(target, type, more = {}) {
-      const event = Object.assign(new window.Event(type, {bubbles: type !== "pointerleave", cancelable: true}), {clientX: 0, clientY: 0, pointerId: 1, pointerType: "mouse", button: 0, isPrimary: true, timeStamp: now, ...more})
+    /** What a person does. @param {any} target @param {string} type @param {Record<string, any>} of the event */
+    fire(target, type, of = {}) {
+      const event = Object.assign(new window.Event(type, {bubbles: type !== "pointerleave", cancelable: true}), {clientX: 0, clientY: 0, pointerId: 1, pointerType: "mouse", button: 0, isPrimary: true, timeStamp: now, ...of})
       if (type === "click") target.closest("button")?.onclick?.(event)
       target.dispatchEvent(event)
       return event

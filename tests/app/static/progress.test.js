@@ -12,8 +12,8 @@ test("a step is kept once, and nothing else changes", () => {
 })
 
 test("a lesson is complete when every question was answered rightly; goals do not count as answers", () => {
-  const progress = {one: {0: ["answer"], 1: ["goal"]}, two: {0: ["goal", "answer"]}}
-  assert.deepEqual(progressOf(progress, "one", 2), {answered: 1, complete: false})
+  const progress = {one: {0: ["answer"], 1: ["goal"], 2: ["goal"]}, two: {0: ["goal", "answer"]}}
+  assert.deepEqual(progressOf(progress, "one", 3), {answered: 1, complete: false})
   assert.deepEqual(progressOf(progress, "two", 1), {answered: 1, complete: true})
   assert.deepEqual(progressOf(progress, "three", 1), {answered: 0, complete: false})
   assert.deepEqual(progressOf(progress, "three", 0), {answered: 0, complete: false})

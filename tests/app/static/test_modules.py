@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+import signal
 import subprocess
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from codim2_app.view.markup import script
 
 HERE = Path(__file__).parent
 STATIC = Path(__file__).parents[3] / "app" / "static"
+LONGEST = 180.0  # seconds for all of Node's tests, which take five: also where other work has most of the machine
 
 
 @pytest.fixture(scope="module")
@@ -21,6 +23,20 @@ def node():
     if path is None:
         (pytest.fail if os.environ.get("CI") else pytest.skip)("no Node: install nodejs")
     return path
+
+
+def ended(command, folder, seconds):
+    """Run a command in a group of processes that ends after some seconds; return its code and what it wrote."""
+    with subprocess.Popen(
+        command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True
+    ) as process:
+        try:
+            output, _ = process.communicate(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            output, _ = process.communicate()
+            output = f"{output}\n{command}: no end after {seconds:g} s."
+    return process.returncode, output
 
 
 def write(folder, **modules):
@@ -33,11 +49,18 @@ def test_node_tests(node):
     """Those of what is drawn in a document need `npm --prefix tests/app/static ci`, which the linters run in CI."""
     files = sorted(path.name for path in HERE.glob("*.test.js"))
     if not os.environ.get("CI") and not (HERE / "node_modules" / "linkedom").is_dir():
-        files = [name for name in files if not re.search(r'"\./(drawing|wiring)\.js"', (HERE / name).read_text())]
-    command = [node, "--test", "--test-reporter=tap", *files]
-    done = subprocess.run(command, cwd=HERE, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert int(re.search(r"^# pass (\d+)$", done.stdout, re.M)[1]) >= len(files) > 10
+        files = [name for name in files if not re.search(r'"\./(drawing|page|wiring)\.js"', (HERE / name).read_text())]
+    code, output = ended([node, "--test", "--test-reporter=tap", *files], HERE, LONGEST)
+    assert code == 0, output
+    assert int(re.search(r"^# pass (\d+)$", output, re.M)[1]) >= len(files) > 10
+
+
+def test_a_test_that_loops_ends(node, tmp_path):
+    """Node's own limit does not reach a loop, and came after 18; its children go with it."""
+    (tmp_path / "loops.test.mjs").write_text("for (;;);\n")
+    code, output = ended([node, "--test", "loops.test.mjs"], tmp_path, 1.0)
+    assert code != 0
+    assert "no end after 1 s" in output
 
 
 def test_the_joined_modules_are_one_module_that_node_reads(node, tmp_path):

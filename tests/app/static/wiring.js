@@ -16,7 +16,7 @@ ${["a", "f1", "n", "z", "trajectories"].map(slider).join("\n")}
 <div data-control="psi"><select class="psi"><option value="constant">1</option><option value="hill">H</option><option value="custom">C</option></select><p class="error" hidden></p></div><div class="for-parameter"></div>
 <div class="for-custom" data-control="psi_text"><input type="text" class="text"><p class="error" hidden></p></div>
 <div data-control="layers"><label class="layer"><input type="checkbox" value="inside"></label><label class="layer"><input type="checkbox" value="outcomes"></label><label class="layer"><input type="checkbox" value="launched"></label></div><div class="outcome-key"></div></form>
-<div class="picture"><div class="first">drawing</div><div class="bokeh"></div><p class="orbit-words" hidden></p><button class="home"></button><button class="undo"></button><button class="redo"></button><button class="theme"></button><button class="share"></button><dialog class="sharing"></dialog><p class="busy" hidden></p></div>
+<div class="picture"><div class="first">drawing</div><div class="bokeh"></div><p class="orbit-words" hidden></p><button class="home"></button><button class="undo"></button><button class="redo"></button><button class="theme"></button><button class="share"></button><a class="whole"></a><dialog class="sharing"></dialog><p class="busy" hidden></p></div>
 <div class="portrait"><b class="portrait-name"></b><i class="portrait-case"></i><p class="sentence"></p><div class="degeneracies"></div><p class="slow-line"></p></div>
 <div class="sheets"><button data-sheet="controls"></button><button data-sheet="inspector"></button></div>
 <div class="tabs"><button role="tab" data-panel="orbits">Orbits</button><button role="tab" data-panel="numbers">Numbers</button></div><section role="tabpanel" data-panel="orbits"></section><section role="tabpanel" data-panel="numbers" hidden></section></div></div>`
@@ -66,25 +66,28 @@ export function packed(header, lines = {}, arrays = {}, exact = false) {
   return new Uint8Array([...size, ...text, ...parts.flatMap((part) => [...part])])
 }
 
-const EQUATOR = {label: ["Q₁", "Q₂"], x: [0.6, -0.8], y: [0.8, 0.6], label_x: [0.7, -0.9], label_y: [0.95, 0.7], shape: ["circle", "diamond"], filled: [1, 0], colour: ["attr", "rep"], size: [11, 13], theta: [0.9273, 2.4981], lambda_rho: [-1.5, 0.25], lambda_theta: [-0.3, 2], type: ["node", "saddle"], multiplicity: [1, 2]}
-const CRITICAL = {label: ["C"], x: [0.2], y: [-0.35], shape: ["square"], filled: [1], colour: ["crit"], size: [12], sense: ["⊙"], kind: ["stable node"], e: [[0.2, -0.3]], x2: [[0.21, -0.33]], trace: [-3], determinant: [2], discriminant: [1], eigenvalues: [[[-1, 0], [-2, 0]]], slow_flow: [[0.4]]}
-const SYSTEM = {choice: "normal", label: "thm:x", sentence: "Normal form.", coefficients: true, equations: "<b>eq</b>", parameters: [], slow: [{symbol: "z", range: [-4, 4]}]}
-const OWN = {choice: "own", sentence: "Yours.", coefficients: false, equations: "<i>own</i>", parameters: [{name: "mu", symbol: "μ", value: 0.3, range: [0, 1]}], slow: [{symbol: "v", range: [-9, 9]}, {symbol: "w", range: [-1, 1]}]}
+export const EQUATOR = {label: ["Q₁", "Q₂"], x: [0.6, -0.8], y: [0.8, 0.6], label_x: [0.7, -0.9], label_y: [0.95, 0.7], shape: ["circle", "diamond"], filled: [1, 0], colour: ["attr", "rep"], size: [11, 13], theta: [0.9273, 2.4981], lambda_rho: [-1.5, 0.25], lambda_theta: [-0.3, 2], type: ["node", "saddle"], multiplicity: [1, 2]}
+export const CRITICAL = {label: ["C"], x: [0.2], y: [-0.35], shape: ["square"], filled: [1], colour: ["crit"], size: [12], sense: ["⊙"], kind: ["stable node"], e: [[0.2, -0.3]], x2: [[0.21, -0.33]], trace: [-3], determinant: [2], discriminant: [1], eigenvalues: [[[-1, 0], [-2, 0]]], slow_flow: [[0.4]]}
+export const SYSTEM = {choice: "normal", label: "thm:x", sentence: "Normal form.", coefficients: true, equations: "<b>eq</b>", parameters: [], slow: [{symbol: "z", range: [-4, 4]}]}
+export const OWN = {choice: "own", sentence: "Yours.", coefficients: false, equations: "<i>own</i>", parameters: [{name: "mu", symbol: "μ", value: 0.3, range: [0, 1]}], slow: [{symbol: "v", range: [-9, 9]}, {symbol: "w", range: [-1, 1]}]}
 const LINES = {
   inside: {counts: [3, 2], points: [0, 0, 8191, 4096, 16384, 0, -8191, -8191, -4096, 100], heads: [[8191, 4096, 10000], [-4096, 100, -20000]]},
   stable: {counts: [2], points: [0, 16384, 2000, 3000]},
   "launched-1": {counts: [2], points: [100, 200, 300, 400], heads: [[200, 300, 0]]},
 }
-const FIRST = {
+export const FIRST = {
   ready: true, late: [], errors: {}, portrait: {case: "I", name: "CM4", sentence: "Case I, CM4. Four limit directions.", degeneracies: [["Saddle-node", "Two <meet>."]], sides: {symbol: "f₁", below: "CM2", above: "CM4"}},
   equator: EQUATOR, critical: CRITICAL, sense: [[0, 1, 3.1416], [1, 0, 1.5708]], all_directions: false, slow_flow: [0.4], system: SYSTEM, cycle: null,
   outcomes: {start: [0, 1], end: [1, 2.5], kind: ["slide", "cross"], rows: [["0 to 1", "slide", "slides", "All slide.", [["n > 2", ["1"]]]]]},
   basins: {cells: 4, colours: ["", "basin-1"]}, launched: {x: [], y: [], goes: [], comes: []}, cycles: {kind: [], period: [], multiplier: [], reason: "None.", notes: []},
 }
 
-/** An explorer in a page of its own. @param {any} more of its settings @param {any} first header of its first frame */
-export function wired(more = {}, first = FIRST) {
-  const there = page(MARKUP), {document} = there
+/**
+ * An explorer in a page of its own.
+ * @param {any} more of its settings @param {any} first header of its first frame @param {any} scope more of the global one
+ */
+export function wired(more = {}, first = FIRST, scope = {}) {
+  const there = page(MARKUP, scope), {document} = there
   const settings = {...structuredClone(CONFIG), ...structuredClone(more)}
   const painted = /** @type {Record<string, {pen: any, drawn: any[]}>} */ ({primary: recorder(), overlays: recorder()})
   const sent = [], connections = {}, heard = {}
@@ -110,7 +113,7 @@ export function wired(more = {}, first = FIRST) {
     },
   }
   Object.assign(globalThis, {Bokeh: {require: () => ({Renderer: class { constructor(given) { Object.assign(this, given) } }, RendererView: class { initialize() {} }})}})
-  document.body.dataset.jpThemeLight = ""
+  document.body.dataset.jpThemeLight = scope.light ?? ""
   const model = {
     config: settings, markup: MARKUP, first: packed(first, LINES, {basins: [3, 0, 13, 1]}), get_child: () => document.createElement("figure"),
     send_msg: (request) => sent.push({...request, id: "number"}), on: (name, call) => { heard[name] = call }, data: {picture: plot},
@@ -130,12 +133,12 @@ export function wired(more = {}, first = FIRST) {
   }
 }
 
-const click = (one, selector) => one.fire(one.find(selector), "click")
-const type = (one, selector, value) => { const box = one.find(selector); box.value = value; one.fire(box, "change") }
-const pull = (one, selector, value) => { const box = one.find(selector); box.value = value; one.fire(box, "input") }
-const hand = (one, kind, x, y, more) => one.fire(one.find(".bokeh"), kind, {clientX: x, clientY: y, ...more})
-const press = (one, key, more = {}) => one.fire(one.document, "keydown", {key, ctrlKey: true, composedPath: () => [one.root], ...more})
-const setBox = (one, name, on) => { const box = one.find(`.layer input[value=${name}]`); box.checked = on; one.fire(box, "change") }
+export const click = (one, selector) => one.fire(one.find(selector), "click")
+export const type = (one, selector, value) => { const box = one.find(selector); box.value = value; one.fire(box, "change") }
+export const pull = (one, selector, value) => { const box = one.find(selector); box.value = value; one.fire(box, "input") }
+export const hand = (one, kind, x, y, more) => one.fire(one.find(".bokeh"), kind, {clientX: x, clientY: y, ...more})
+export const press = (one, key, more = {}) => one.fire(one.document, "keydown", {key, ctrlKey: true, composedPath: () => [one.root], ...more})
+export const setBox = (one, name, on) => { const box = one.find(`.layer input[value=${name}]`); box.checked = on; one.fire(box, "change") }
 
 /** @type {[string, (one: any) => void][]} */
 const STORY = [
