@@ -26,9 +26,10 @@ from .portrait.outcomes import approach_outcomes
 from .portrait.separatrices import Separatrices, Separatrix, separatrices
 from .psi.function import Psi
 from .scene import Scene
-from .sliding.along import SlowPortrait, slow_portrait
+from .sliding.along import slow_portrait
 from .sliding.filippov import FilippovSliding, filippov_sliding
 from .sliding.flow import sliding_flow
+from .sliding.slow_portrait_result import SlowPortrait
 from .systems.coefficients import Coefficients
 from .systems.elinear import ELinear
 from .systems.typed import System

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from codim2_core.scene import Scene
+
 from ..draw.packing import Rectangle
 from ..draw.theme import NEAREST, REACH, VIEW, WIDEST
 
@@ -80,3 +82,10 @@ def inputs(window: Window | None, rest: bool) -> dict[str, Any]:
         "window": window.rectangle,
         "length": LENGTH * reach / REACH,
     }
+
+
+def seen(scene: Scene, window: Window | None, rest: bool) -> Scene:
+    """Return the scene sampled where and as finely as it is seen."""
+    wanted = inputs(window, rest)
+    changes = {name: value for name, value in wanted.items() if getattr(scene, name) != value}
+    return scene.evolve(**changes) if changes else scene

@@ -10,8 +10,9 @@ from typing import Any
 
 from codim2_core.portrait.attracting import attracting
 from codim2_core.psi.function import Psi
-from codim2_core.sliding.along import SlowPortrait, slow_portrait
+from codim2_core.sliding.along import slow_portrait
 from codim2_core.sliding.over import slow_plane
+from codim2_core.sliding.slow_portrait_result import SlowPortrait
 
 from ..frame.draft import Draft
 from ..state.choices import SLOW_CONTROLS

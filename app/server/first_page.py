@@ -22,7 +22,7 @@ from panel.io.state import set_curdoc
 
 from ..state.controls import ExplorerState, InputError
 from ..state.links import Link, read_link
-from ..view.explorer import page_markup
+from ..view.first_markup import page_markup
 
 TOKEN, MARKUP = "codim2-token", "<!-- codim2 markup -->"
 #: Where a page gets its session from, written by Bokeh.

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from concurrent.futures import Executor, Future
+from concurrent.futures import Future
 from os import PathLike
 from pathlib import Path
 from typing import Any, ClassVar
@@ -27,15 +27,15 @@ from codim2_core.scene import Scene
 from ..draw.figure import make_figure
 from ..draw.packing import pack, unpack
 from ..draw.still import page_of, still
-from ..draw.svg import draw
 from ..frame.budget import Budget
-from ..frame.jobs import Jobs
 from ..state.chosen import System_
 from ..state.controls import NAMES, ExplorerState, InputError
-from ..state.links import Link, Look
+from ..state.links import Look
 from .cell import Cell, kernel
+from .first_markup import first_words
 from .markup import STATIC, config, explorer_html, script
-from .refresh import Frames, make_frame
+from .picture import make_frame
+from .refresh import Frames
 from .shared import SHARED, declare, join
 from .warmup import is_ready
 
@@ -145,7 +145,7 @@ class ExplorerView(JSComponent):
         if page:  # its markup is there already, see `page_markup`
             return {"config": settings, "first": first, "markup": ""}
         given = self.frames.given is not None
-        words = _words(header, first, self.state.layers)
+        words = first_words(header, first, self.state.layers)
         markup = explorer_html(self.state, words, ("system",) if given else (), self._look)
         return {"config": settings, "first": first, "markup": markup}
 
@@ -312,33 +312,3 @@ class ExplorerView(JSComponent):
 
 
 declare(ExplorerView)
-
-
-def page_markup(link: Link) -> tuple[str, bool]:
-    """Return the markup of the page of an address, with its first picture, and whether all of the picture is in it."""
-    frames = Frames(link.state, None, is_ready, link.errors, Budget())
-    frames.jobs = Jobs(Never())
-    first = frames.answer({"all": True})
-    frames.publish()
-    header, _ = unpack(first)
-    complete = bool(header.get("ready")) and "picture" not in header.get("late", ())
-    words = _words(header, first, link.state.layers)
-    return explorer_html(link.state, words, (), link.look), complete
-
-
-class Never(Executor):
-    """Computes nothing: what takes long is no part of a page."""
-
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:  # noqa: ARG002
-        """Return a future that is never done."""
-        return Future()
-
-
-def _words(header: dict[str, Any], first: bytes, layers: list[str]) -> dict[str, str]:
-    """Return what the page says and shows before any script runs."""
-    portrait = header.get("portrait")
-    if portrait is None:
-        return {}
-    sentence = portrait["sentence"].split(". ", 1)[-1]
-    case = f"Case {portrait['case']}" if portrait["case"] else ""
-    return {"name": portrait["name"], "case": case, "sentence": sentence, "svg": draw(first, layers)}

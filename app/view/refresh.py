@@ -8,46 +8,35 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
-from functools import cache
 from typing import Any
 
-from numpy.typing import NDArray
 from param.parameterized import batch_call_watchers
 
-from codim2_core.layer_problem.equator import EquatorEquilibria, equator_equilibria
-from codim2_core.portrait.classification import NEARER, Classification
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
-from ..draw import glyphs
-from ..draw.layers import LAYERS
-from ..draw.packing import Polylines, pack
-from ..frame.budget import Budget, Layers, LeftOut, NotYet, layers_of
+from ..draw.packing import pack
+from ..frame.budget import Budget, Layers, LeftOut, layers_of
 from ..frame.draft import Draft
 from ..frame.faults import sentence_of
 from ..frame.jobs import Jobs
 from ..frame.scenes import evolved, locked_controls, make_scene, settled
 from ..frame.sides import sides
 from ..frame.turns import Failed
-from ..frame.window import Window, inputs
-from ..lessons.library import lessons
+from ..frame.window import Window, inputs, seen
 from ..panels import registry
-from ..panels.time import launch_of
 from ..state.asked import read_request
 from ..state.choices import AXES
-from ..state.chosen import GIVEN, NORMAL, System_, describe
+from ..state.chosen import GIVEN, System_, describe
 from ..state.controls import NAMES, TYPED_IN, ExplorerState, InputError, clean, first_values, preset_values
 from .load import load
+from .notices import left_out
+from .picture import Asked, Blocks, make_frame
 
 #: Controls that are axes of the picture's parameters.
 MOVED = frozenset(AXES)
-
-Blocks = dict[str, NDArray[Any] | Polylines]
-
-#: In place of a layer: it is computed beside the frames; it is left out.
-LATER, NOTHING = object(), object()
 #: Layers that others start from, and that are small: whoever computes those is given these.
 STANDING = frozenset({"equator", "equator_cycle", "location", "critical", "classification", "slow_flow"})
 #: How often a frame is begun anew because what it lacked is there.
@@ -325,152 +314,9 @@ class Frames:
         return self._packed({"errors": {}, **header}, blocks)
 
 
-def seen(scene: Scene, window: Window | None, rest: bool) -> Scene:
-    """Return the scene sampled where and as finely as it is seen."""
-    wanted = inputs(window, rest)
-    changes = {name: value for name, value in wanted.items() if getattr(scene, name) != value}
-    return scene.evolve(**changes) if changes else scene
-
-
-def told_once(name: Classification) -> str:
-    """Return the sentence of a portrait without what its degeneracies, shown below it, say again."""
-    sentence = name.sentence
-    for degeneracy in name.degeneracies:
-        sentence = sentence.replace(degeneracy.sentence.partition(f" {NEARER}")[0], "").strip()
-    return sentence
-
-
-def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
-    """Say what was asked for in vain: parameters that are none of the system's, a lesson, a motion's start."""
-    said = []
-    system = scene.system
-    if not isinstance(system, (ELinear, System)):
-        return said
-    own = () if values["system"] == NORMAL and not given else [name for name, _ in system.parameters]
-    unknown = [name for name in values["parameters"] if name not in own]
-    if unknown:
-        shown = ", ".join(name[:20] for name in unknown[:3])
-        there = f"it has {', '.join(own)}" if own else "it has none"
-        said.append(f"The system has no parameter {shown} ({there}): left out.")
-    if values["lesson"] and values["lesson"] not in lessons():
-        named, some = values["lesson"][:40], ", ".join(list(lessons())[:3])
-        said.append(f"Lessons: there is no {named!r}; choose one such as {some}.")
-    try:
-        launch_of(values, system.m)
-    except InputError as error:
-        said.append(str(error))
-    return said
-
-
 def _culprit(error: Exception, name: str) -> str:
     return error.control if isinstance(error, InputError) else name
 
 
-class Asked:
-    """The layers of a scene as a frame asks for them: which are to be computed beside it, and which are left out."""
-
-    def __init__(self, scene: Scene) -> None:
-        self.scene = scene
-        self.missing: list[str] = []
-        self.left_out: list[LeftOut] = []
-
-    def get(self, name: str) -> Any:
-        """Return a layer, `LATER` if it is not to be had now, or `NOTHING` if it is left out."""
-        try:
-            return self.scene[name]
-        except NotYet:
-            self.missing.append(name)
-            return LATER
-        except LeftOut as why:
-            self.left_out.append(why)
-            return NOTHING
-
-
-@cache
-def no_directions() -> EquatorEquilibria:
-    """Return the limit directions of a turning flow, which has none: what is drawn where they are left out."""
-    return equator_equilibria(ELinear(0.0, 1.0, 0.0))
-
-
 def _sides_of(scene: Scene, values: Mapping[str, Any], control: str) -> tuple[dict[str, Any] | None]:
     return (sides(scene, values, control),)
-
-
-def make_frame(
-    scene: Scene,
-    values: Mapping[str, Any],
-    sent: Mapping[str, Any],
-    ready: bool = True,
-    window: Window | None = None,
-    asked: Asked | None = None,
-) -> tuple[dict[str, Any], Blocks, dict[str, Any]]:
-    """Return header and blocks of one frame, and what the browser then holds.
-
-    Only visible layers are computed, and only those whose result is another object than the one in `sent` are
-    packed. `scene` shares results that a change does not reach, so that identity is the whole test. The panel beside
-    the picture is added by `panels.registry.add`. Layers that are not to be had now stay as they are in the browser,
-    and are noted in `asked`; of those that are left out nothing is drawn.
-    """
-    asked = Asked(scene) if asked is None else asked
-    visible = set(values["layers"])
-    now = dict(sent)
-    header: dict[str, Any] = {"ready": ready}
-    blocks: Blocks = {}
-
-    def fresh(key: str, result: Any) -> bool:
-        if key in now and now[key] is result:
-            return False
-        now[key] = result
-        return True
-
-    rectangle = None if window is None else window.rectangle
-    moved = now.get("window") != rectangle  # what was cut to another window is not whole
-    now["window"] = rectangle
-    for layer in LAYERS.values():
-        if layer.name not in visible or (layer.compiled and not ready):
-            continue
-        for part in layer.parts:
-            result = asked.get(part.scene)
-            if result is LATER:
-                continue
-            if result is NOTHING:
-                if now.get(part.name) is not NOTHING:
-                    now[part.name] = NOTHING
-                    blocks[part.name] = Polylines(*glyphs.join([]), part.arrows)
-                continue
-            if layer.optional and part.name not in now and not len(result):
-                continue
-            if fresh(part.name, result) or moved:
-                pieces = part.pieces(result)
-                blocks[part.name] = Polylines(*(pieces if window is None else window.cut(*pieces)), part.arrows)
-    if "cycles" in blocks and now["cycles"] is not NOTHING:
-        header["cycles"] = glyphs.cycle_columns(scene["closed_orbits"])
-    if "launched_1" in blocks and now["launched_1"] is not NOTHING:
-        header["launched"] = glyphs.launched_columns(scene.launch, scene["launched"])
-    equator, cycle, critical = (asked.get(name) for name in ("equator", "equator_cycle", "critical"))
-    name, flow = asked.get("classification"), asked.get("slow_flow")
-    if equator is NOTHING:
-        equator, cycle = no_directions(), None
-    if equator is not LATER and cycle is not LATER and fresh("equator", equator):
-        cycle = None if cycle is NOTHING else cycle
-        header["equator"] = glyphs.equator_columns(equator)
-        header["sense"] = glyphs.equator_arrows(equator, 0 if cycle is None else int(cycle.direction))
-        header["all_directions"] = bool(equator.all_directions)
-        header["cycle"] = None if cycle is None else float(cycle.exponent)
-    critical = () if critical is NOTHING else critical
-    if critical is not LATER and fresh("critical", critical):
-        header["critical"] = glyphs.critical_columns(critical)
-    if name is NOTHING and fresh("classification", name):
-        header["portrait"] = {"case": None, "name": "", "sentence": "", "degeneracies": []}
-    elif isinstance(name, Classification) and fresh("classification", name):
-        header["portrait"] = {
-            "case": name.case,
-            "name": name.name,
-            "sentence": told_once(name),
-            "degeneracies": [[item.name, item.sentence] for item in name.degeneracies],
-        }
-    flow = None if flow is LATER or flow is NOTHING else flow
-    if flow is not None and flow.ndim > 1:  # a general system has a slow flow for each critical set
-        flow = flow[0] if len(flow) == 1 else None
-    header["slow_flow"] = None if flow is None else [float(v) for v in flow]
-    return header, blocks, now

@@ -13,8 +13,8 @@ from collections.abc import Callable
 import numpy as np
 
 from ..cycles.loop import gap, loops
-from ..layer_problem.critical import determinant_sign
 from ..layer_problem.equator import equator_cycle
+from ..layer_problem.linearisation import determinant_sign
 from ..numerics.root_between import root_between
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients

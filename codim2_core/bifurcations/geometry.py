@@ -18,7 +18,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..layer_problem.critical import determinant_sign
+from ..layer_problem.linearisation import determinant_sign
 from .curve import Array, angles_of_cosine
 
 # Two of these points nearer to each other than this (relative, in the squares compared) count as one.

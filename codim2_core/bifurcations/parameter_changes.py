@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..layer_problem.critical import determinant_sign, locate
+from ..layer_problem.linearisation import determinant_sign
+from ..layer_problem.location import locate
 from ..numerics.root_between import root_between
 from ..psi.constructors import hill, with_parameter
 from ..psi.function import Psi

@@ -19,7 +19,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ..layer_problem.critical import determinant_sign
+from ..layer_problem.linearisation import determinant_sign
 from ..layer_problem.lyapunov import first_lyapunov
 from ..numerics.root_between import root_between
 from ..numerics.sign_changes import roots

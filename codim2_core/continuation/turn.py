@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 
 from ..cycles.orbit import NODES, gauss, path
 from ..cycles.section import Section
-from ..layer_problem.critical import Existence, critical_sets, locate
+from ..layer_problem.critical import critical_sets
+from ..layer_problem.location import Existence, locate
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 

@@ -19,8 +19,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..layer_problem.critical import CriticalSet, Existence, Location, locate
+from ..layer_problem.critical import CriticalSet
 from ..layer_problem.linearisation import matrix_determinant
+from ..layer_problem.location import Existence, Location, locate
 from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients

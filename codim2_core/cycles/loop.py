@@ -18,8 +18,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..layer_problem.critical import critical_sets, locate
+from ..layer_problem.critical import critical_sets
 from ..layer_problem.equator import equator_equilibria
+from ..layer_problem.location import locate
 from ..orbits.departures import departures
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients

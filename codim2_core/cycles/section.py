@@ -10,7 +10,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..layer_problem.critical import CriticalSet, Location, locate
+from ..layer_problem.critical import CriticalSet
+from ..layer_problem.location import Location, locate
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 

@@ -15,7 +15,7 @@ from .critical import borders, critical_part
 from .equator import equator_part
 from .result import ClosedEquator, CriticalBranch, Diagram, EquatorBranch, SpecialValue
 from .sweep import Line, Plane, family, scale
-from .typed import general_parts
+from .typed.parts import general_parts
 
 __all__ = ["ClosedEquator", "CriticalBranch", "Diagram", "EquatorBranch", "SpecialValue", "diagram"]
 

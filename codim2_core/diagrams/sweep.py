@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..layer_problem.border import CANCELS, to_all_digits
-from ..layer_problem.critical import locate
+from ..layer_problem.location import locate
 from ..numerics.trigonometric import tangential_zeros
 from ..psi.constructors import many
 from .family import Line, Plane, Sweep, family

@@ -30,8 +30,8 @@ from ..systems.coefficients import Affine
 from ..systems.frozen import AtZ
 from ..tables import number, paragraphs, table
 from .closed_equator import EquatorCycle, equator_cycle
-from .critical import Location, locate
 from .equator_zeros import equator_zeros
+from .location import Location, locate
 
 __all__ = ["EquatorCycle", "EquatorEquilibria", "equator_cycle", "equator_equilibria"]
 

@@ -8,8 +8,9 @@ from typing import Any, TypeVar
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from .closed_equator import EquatorCycle, equator_cycle
-from .critical import CriticalSet, Location, locate, sets_at
+from .critical import CriticalSet, sets_at
 from .equator import EquatorEquilibria, equilibria_at
+from .location import Location, locate
 
 Result = TypeVar("Result")
 

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
+from importlib.util import resolve_name
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
@@ -274,5 +275,5 @@ def _followed(
 
 def _is_compiled(formulas: Field) -> bool:
     """Whether the formulas are compiled already; none are before the compiler has been loaded."""
-    module = sys.modules.get(f"{__package__}.compiled")
+    module = sys.modules.get(resolve_name("..initial_value.compiled", __package__))
     return module is not None and module.is_compiled(formulas)

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from ..layer_problem.critical import (
-    NEUTRAL_TRACE,
-    CriticalSet,
-    Existence,
-    Location,
-)
+from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
-from ..layer_problem.linearisation import matrix_determinant
+from ..layer_problem.linearisation import NEUTRAL_TRACE, matrix_determinant
+from ..layer_problem.location import Existence, Location
 from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from ..layer_problem.critical import NEUTRAL_TRACE, CriticalSet
+from ..layer_problem.critical import CriticalSet
 from ..layer_problem.disc_zeros import DiscZeros, disc_zeros
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
+from ..layer_problem.linearisation import NEUTRAL_TRACE
 from ..numerics.fourier_zeros import ROUNDINGS, UNIT
 from ..systems.frozen import AtZ
 from ..words import say

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..layer_problem.critical import Existence, locate
+from ..layer_problem.location import Existence, locate
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..layer_problem.critical import locate
 from ..layer_problem.disc_zeros import disc_zeros
+from ..layer_problem.location import locate
 from ..systems.kinds import AnySystem
 
 

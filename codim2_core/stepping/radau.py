@@ -25,6 +25,10 @@ RADIUS, GAIN, ARGUMENTS, VALUE, SLOPES = 0, 4, 8, 8 + 32, 8 + 64
 
 FINISHED, LIMIT, SHORT, FULL, BLOWN_UP = 0, 1, 2, 3, 4
 LARGEST, GROWN = 1e200, 8.0  # as in `numerics.growth`
+FARTHEST = 4.0  # times the last step: how far its polynomial is continued
+
+# What `control` holds.
+NEXT, REFINED, WARY, LEFT, TRIED, EXTENT = range(6)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -155,6 +159,131 @@ def _sizes(y, n, eps, floor, size):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _guess(before, first, ratio, nodes, y, n, Z):
+    """Continue the last step's polynomial into a step `ratio` times as long, if that is not too far; say whether."""
+    guessed = ratio <= FARTHEST
+    for a in range(STAGES):
+        for i in range(n):
+            Z[a, i] = 0.0
+            if guessed:
+                u = 1.0 + ratio * nodes[a]
+                total = 0.0
+                for k in range(STAGES - 1, -1, -1):
+                    total = (total + before[i, k]) * u
+                Z[a, i] = total + (first[i] - y[i])
+    return guessed
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _matrices(A, gamma, h, J, size, n, big, small):
+    """Write I - h A x J in units of size, and the small matrix of the error estimate."""
+    for i in range(n):
+        for j in range(n):
+            scaled = h * J[i, j] * size[j] / size[i]
+            small[i, j] = -gamma * scaled
+            for a in range(STAGES):
+                for b in range(STAGES):
+                    big[a * n + i, b * n + j] = -A[a, b] * scaled
+    for a in range(STAGES * n):
+        big[a, a] += 1.0
+    for i in range(n):
+        small[i, i] += 1.0
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _converged(change, last, iteration, enough):
+    """After one iteration of Newton's method: 1 if it is enough, -1 if it will not do, 0 if it goes on."""
+    if iteration > 0:
+        theta = change / last if last > 0.0 else 0.0
+        if change <= 100.0 * enough and theta > 0.3 and iteration > 3:
+            return 1
+        hopeless = theta ** (ITERATIONS - 1 - iteration) * change > enough * (1.0 - theta)
+        if change > enough and (theta >= 1.0 or (iteration > 2 and hopeless)):
+            return -1
+        if theta < 1.0 and theta / (1.0 - theta) * change <= enough:
+            return 1
+    return 1 if change <= 1e-3 * enough else 0
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _stages(fields, P, S, y, clock, n, eps, line, A, h, size, enough, big, pivots, Z, rates, residual, trial):
+    """Solve for the stages Z by simplified Newton iterations; say whether they have converged."""
+    last = math.inf
+    for iteration in range(ITERATIONS):
+        for a in range(STAGES):
+            for i in range(n):
+                trial[i] = y[i] + Z[a, i]
+            _rate(trial, n, eps, line, fields, S, P, rates[a])
+        clock[3] += STAGES
+        for a in range(STAGES):
+            for i in range(n):
+                total = 0.0
+                for b in range(STAGES):
+                    total += A[a, b] * rates[b, i]
+                residual[a * n + i] = (h * total - Z[a, i]) / size[i]
+        _solve(big, pivots, residual, STAGES * n)
+        change = 0.0
+        for a in range(STAGES * n):
+            change = max(change, abs(residual[a])) if residual[a] == residual[a] else math.inf
+        if not change < math.inf:
+            return False
+        for a in range(STAGES):
+            for i in range(n):
+                Z[a, i] += residual[a * n + i] * size[i]
+        told = _converged(change, last, iteration, enough)
+        if told != 0:
+            return told > 0
+        last = change
+    return False
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _error(rate, h, gamma, weights, Z, n, size, end_size, rtol, small, pivots, error):
+    """Write the estimated error in units of size, from a rate where the step begins; return its norm, 1 for rtol."""
+    for i in range(n):
+        total = gamma * h * rate[i]
+        for a in range(STAGES):
+            total += weights[a] * Z[a, i]
+        error[i] = total / size[i]
+    _solve(small, pivots, error, n)
+    norm = 0.0
+    for i in range(n):
+        norm = max(norm, abs(error[i]) * size[i] / min(size[i], end_size[i]) / rtol)
+        norm = norm if error[i] == error[i] else math.inf
+    return norm
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _keep(fit, Z, y, n, first, before, polynomial, end):
+    """Move the state over a step that is accepted, and keep its polynomial."""
+    for i in range(n):
+        first[i] = y[i]
+        for k in range(STAGES):
+            total = 0.0
+            for a in range(STAGES):
+                total += fit[k, a] * Z[a, i]
+            before[i, k] = total
+            polynomial[i, k] = total
+        y[i] += Z[STAGES - 1, i]
+        end[i] = y[i]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _go_on(clock, control, h, y, n):
+    """Let the time go on, with what its rounding loses; say whether the state has blown up."""
+    total = h + clock[1]
+    ahead = clock[0] + total
+    clock[1] = total - (ahead - clock[0])
+    extent = 0.0
+    for i in range(n):
+        extent = max(extent, abs(y[i]))
+    if ahead > clock[0]:
+        control[EXTENT] = max(control[EXTENT], extent)
+    clock[0] = ahead
+    return extent > LARGEST or extent > GROWN * control[EXTENT]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def follow(
     fields,
     P,
@@ -189,8 +318,8 @@ def follow(
     clock : (4,)
         Time, what its rounding lost, the end of the time, evaluations so far.
     control : (6,)
-        The next step, whether it may be refined, careful steps left, steps left to try, how many were tried, and the
-        largest size of the state so far.
+        NEXT: the next step. REFINED: 1 where its error may be estimated anew. WARY: careful steps left. LEFT: steps
+        left to try. TRIED: how many were. EXTENT: the largest size of the state so far.
     n, eps, rtol, floor
         As in `numerics.radau`, floor = atol/rtol.
     line : (3,)
@@ -212,8 +341,7 @@ def follow(
     big_pivots, small_pivots = np.zeros(N, np.int64), np.zeros(n, np.int64)
     Z, rates, residual = np.zeros((STAGES, n)), np.zeros((STAGES, n)), np.zeros(N)
     trial, error, filtered = np.zeros(n), np.zeros(n), np.zeros(n)
-    before, before_h = np.zeros((n, STAGES)), 0.0
-    before_first = np.zeros(n)
+    before, first, before_h = np.zeros((n, STAGES)), np.zeros(n), 0.0  # the last step
     enough = max(1e-2 * rtol, 1e-14)
     filled = 0
     fresh = True
@@ -224,116 +352,42 @@ def follow(
             _jacobian(y, n, eps, fields, S, P, J)
             clock[3] += 1.0
             _sizes(y, n, eps, floor, size)
-            bound = _bound(y, rate, n, eps, J, control[0])
+            bound = _bound(y, rate, n, eps, J, control[NEXT])
             fresh = False
         if filled == len(starts):
             return FULL, filled
         remaining = clock[2] - clock[0] - clock[1]
-        h = min(control[0], bound)
+        h = min(control[NEXT], bound)
         if h >= 0.99 * remaining:
             h = remaining
         elif h > 0.5 * remaining:
             h = 0.5 * remaining
-        control[3] -= 1.0
-        control[4] += 1.0
-        if control[3] < 0.0:
+        control[LEFT] -= 1.0
+        control[TRIED] += 1.0
+        if control[LEFT] < 0.0:
             return LIMIT, filled
         if not h > 1e-290:
             return SHORT, filled
-        # The matrix I - h A x J in units of size, and the small one of the error estimate.
-        for a in range(STAGES):
-            for b in range(STAGES):
-                for i in range(n):
-                    for j in range(n):
-                        big[a * n + i, b * n + j] = -A[a, b] * h * J[i, j] * size[j] / size[i]
-        for a in range(N):
-            big[a, a] += 1.0
-        for i in range(n):
-            for j in range(n):
-                small[i, j] = -gamma * h * J[i, j] * size[j] / size[i]
-            small[i, i] += 1.0
-        ratio = h / before_h if before_h > 0.0 else math.inf
-        guessed = ratio <= 4.0
-        for a in range(STAGES):
-            for i in range(n):
-                Z[a, i] = 0.0
-                if guessed:
-                    u = 1.0 + ratio * nodes[a]
-                    total = 0.0
-                    for k in range(STAGES - 1, -1, -1):
-                        total = (total + before[i, k]) * u
-                    Z[a, i] = total + (before_first[i] - y[i])
-        solved = _factor(big, big_pivots, N) and _factor(small, small_pivots, n)
+        _matrices(A, gamma, h, J, size, n, big, small)
+        guessed = _guess(before, first, h / before_h if before_h > 0.0 else math.inf, nodes, y, n, Z)
         factor = FAILED
         accepted = False
-        if solved:
-            last, theta, solved = math.inf, 1.0, False
-            for iteration in range(ITERATIONS):
-                for a in range(STAGES):
-                    for i in range(n):
-                        trial[i] = y[i] + Z[a, i]
-                    _rate(trial, n, eps, line, fields, S, P, rates[a])
-                clock[3] += STAGES
-                for a in range(STAGES):
-                    for i in range(n):
-                        total = 0.0
-                        for b in range(STAGES):
-                            total += A[a, b] * rates[b, i]
-                        residual[a * n + i] = (h * total - Z[a, i]) / size[i]
-                _solve(big, big_pivots, residual, N)
-                change = 0.0
-                for a in range(N):
-                    change = max(change, abs(residual[a])) if residual[a] == residual[a] else math.inf
-                if not change < math.inf:
-                    break
-                for a in range(STAGES):
-                    for i in range(n):
-                        Z[a, i] += residual[a * n + i] * size[i]
-                if iteration > 0:
-                    theta = change / last if last > 0.0 else 0.0
-                    if change <= 100.0 * enough and theta > 0.3 and iteration > 3:
-                        solved = True
-                        break
-                    hopeless = theta ** (ITERATIONS - 1 - iteration) * change > enough * (1.0 - theta)
-                    if change > enough and (theta >= 1.0 or (iteration > 2 and hopeless)):
-                        break
-                    if theta < 1.0 and theta / (1.0 - theta) * change <= enough:
-                        solved = True
-                        break
-                if change <= 1e-3 * enough:
-                    solved = True
-                    break
-                last = change
+        if _factor(big, big_pivots, N) and _factor(small, small_pivots, n):
+            solved = _stages(
+                fields, P, S, y, clock, n, eps, line, A, h, size, enough, big, big_pivots, Z, rates, residual, trial
+            )
             factor = 1.0 if guessed else FAILED
             if solved:
                 for i in range(n):
                     trial[i] = y[i] + Z[STAGES - 1, i]
                 _sizes(trial, n, eps, floor, end_size)
-                for i in range(n):
-                    total = gamma * h * rate[i]
-                    for a in range(STAGES):
-                        total += weights[a] * Z[a, i]
-                    error[i] = total / size[i]
-                _solve(small, small_pivots, error, n)
-                norm = 0.0
-                for i in range(n):
-                    norm = max(norm, abs(error[i]) * size[i] / min(size[i], end_size[i]) / rtol)
-                    norm = norm if error[i] == error[i] else math.inf
-                if norm > 1.0 and control[1] > 0.0:
+                norm = _error(rate, h, gamma, weights, Z, n, size, end_size, rtol, small, small_pivots, error)
+                if norm > 1.0 and control[REFINED] > 0.0:
                     for i in range(n):
                         trial[i] = y[i] + size[i] * error[i]
                     _rate(trial, n, eps, line, fields, S, P, filtered)
                     clock[3] += 1.0
-                    for i in range(n):
-                        total = gamma * h * filtered[i]
-                        for a in range(STAGES):
-                            total += weights[a] * Z[a, i]
-                        error[i] = total / size[i]
-                    _solve(small, small_pivots, error, n)
-                    again = 0.0
-                    for i in range(n):
-                        again = max(again, abs(error[i]) * size[i] / min(size[i], end_size[i]) / rtol)
-                        again = again if error[i] == error[i] else math.inf
+                    again = _error(filtered, h, gamma, weights, Z, n, size, end_size, rtol, small, small_pivots, error)
                     norm = min(norm, again)
                 if not norm < math.inf:
                     factor = SHRINK
@@ -344,40 +398,22 @@ def follow(
                         factor = min(factor, 0.8)
         if not accepted:
             before_h = 0.0
-            control[0] = h * factor
+            control[NEXT] = h * factor
             if factor == FAILED:
-                control[2] = CAREFUL
-            control[1] = 1.0
+                control[WARY] = CAREFUL
+            control[REFINED] = 1.0
             continue
         starts[filled], lengths[filled] = clock[0], h
-        for i in range(n):
-            before_first[i] = y[i]
-            for k in range(STAGES):
-                total = 0.0
-                for a in range(STAGES):
-                    total += fit[k, a] * Z[a, i]
-                before[i, k] = total
-                polynomials[filled, i, k] = total
-            y[i] += Z[STAGES - 1, i]
-            ends[filled, i] = y[i]
+        _keep(fit, Z, y, n, first, before, polynomials[filled], ends[filled])
         before_h = h
         filled += 1
-        total = h + clock[1]
-        ahead = clock[0] + total
-        clock[1] = total - (ahead - clock[0])
-        extent = 0.0
-        for i in range(n):
-            extent = max(extent, abs(y[i]))
-        if ahead > clock[0]:
-            control[5] = max(control[5], extent)
-        clock[0] = ahead
-        if extent > LARGEST or extent > GROWN * control[5]:
+        if _go_on(clock, control, h, y, n):
             return BLOWN_UP, filled - 1
         most = GROW
-        if control[1] > 0.0 and control[4] > 1.0:
+        if control[REFINED] > 0.0 and control[TRIED] > 1.0:
             most = 1.0
-        elif control[2] > 0.0:
+        elif control[WARY] > 0.0:
             most = GROWTH_AFTER_FAILURE
-        control[0], control[1], control[2] = h * min(factor, most), 0.0, max(control[2] - 1.0, 0.0)
+        control[NEXT], control[REFINED], control[WARY] = h * min(factor, most), 0.0, max(control[WARY] - 1.0, 0.0)
         fresh = True
     return FINISHED, filled

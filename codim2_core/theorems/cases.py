@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..layer_problem.critical import Existence
+from ..layer_problem.location import Existence
 from ..psi.constructors import compared
 from .degenerate import NOT_LINEAR
 from .facts import RAYS, Certificate, Facts, not_applicable, verdict_of

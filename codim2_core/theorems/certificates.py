@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..layer_problem.critical import Existence
+from ..layer_problem.location import Existence
 from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..sliding.flow import sliding_flow

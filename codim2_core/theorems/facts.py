@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..layer_problem.closed_equator import EquatorCycle
-from ..layer_problem.critical import CriticalSet, Existence, Location
+from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
+from ..layer_problem.location import Existence, Location
 from ..layer_problem.problem import LayerProblem
 from ..portrait.classify import Classification, portrait
 from ..psi.function import Psi

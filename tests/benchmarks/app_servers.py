@@ -41,8 +41,8 @@ def forgetful(port: int) -> None:
 
 def mathematics(port: int) -> None:
     """Serve what `bare` does, and compute the explorer's scene before each swap."""
+    from codim2_app.frame.scenes import make_scene
     from codim2_app.state.controls import ExplorerState
-    from codim2_app.view.refresh import make_scene
 
     from .app_load import value
     from .bench_app import PICTURE

@@ -80,8 +80,8 @@ def holoviews() -> Row:
     """
     import holoviews as hv
     from codim2_app.draw.overlay import elements
+    from codim2_app.frame.scenes import make_scene
     from codim2_app.state.controls import ExplorerState
-    from codim2_app.view.refresh import make_scene
 
     hv.extension("bokeh")
     scenes = [make_scene(ExplorerState().values())]

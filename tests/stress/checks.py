@@ -12,7 +12,7 @@ import numpy as np
 
 from codim2_core import ELinear, Psi, Scene, classify, critical_sets, equator_cycle, equator_equilibria
 from codim2_core import trajectories as integrate
-from codim2_core.layer_problem.critical import Existence, locate
+from codim2_core.layer_problem.location import Existence, locate
 from codim2_core.orbits.trajectories import Trajectories
 from codim2_core.portrait.classification import NEARER
 from codim2_core.scene import layers

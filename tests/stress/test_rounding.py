@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from codim2_core import ELinear, classify, psi
-from codim2_core.layer_problem.critical import Existence, locate
+from codim2_core.layer_problem.location import Existence, locate
 from codim2_core.portrait.classification import NEARER
 from codim2_core.words import power
 

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, bifurcations, classify, critical_sets, equator_equilibria, psi
 from codim2_core.bifurcations.geometry import Geometry
-from codim2_core.layer_problem.critical import determinant_sign
+from codim2_core.layer_problem.linearisation import determinant_sign
 from codim2_core.layer_problem.lyapunov import first_lyapunov, psi_derivatives
 from tests.core.strategies import coefficient
 

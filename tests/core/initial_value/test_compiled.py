@@ -56,6 +56,15 @@ def test_a_long_motion_goes_on_compiled(monkeypatch):
     np.testing.assert_allclose(again.states[-1], run.states[-1], atol=1e-6)
 
 
+def test_a_system_that_comes_again_is_followed_compiled_from_the_start(monkeypatch):
+    system = System(U=("-c + 0.31*s", "-s - 0.31*c"), W=("c + 2.5",))
+    assert not regularised._is_compiled(field(system))
+    simulate(system, families.tanh(), 0.01, [(1.0, 0.5, 0.0)] * regularised.MANY, (0.0, 0.1))
+    assert regularised._is_compiled(field(system))
+    monkeypatch.setattr(regularised, "steps", None)  # the method in Python
+    assert simulate(system, families.tanh(), 0.01, (1.0, 0.5, 0.0), (0.0, 1.0)).times[-1] == 1.0
+
+
 def test_compiled_motions_end_as_others_do(monkeypatch):
     monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: True)
     grows = System(U=("x**2 - c", "-s"))

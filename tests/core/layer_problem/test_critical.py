@@ -9,7 +9,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, critical_sets, hemisphere, psi, sliding_flow
-from codim2_core.layer_problem.critical import Existence, determinant_sign, locate
+from codim2_core.layer_problem.linearisation import determinant_sign
+from codim2_core.layer_problem.location import Existence, locate
 from tests.core.strategies import regularisations, systems
 
 

@@ -1,0 +1,37 @@
+"""What an address asked for in vain, said with the first frame."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from codim2_core.scene import Scene
+from codim2_core.systems.elinear import ELinear
+from codim2_core.systems.typed import System
+
+from ..lessons.library import lessons
+from ..panels.time import launch_of
+from ..state.chosen import NORMAL
+from ..state.controls import InputError
+
+
+def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
+    """Say what was asked for in vain: parameters that are none of the system's, a lesson, a motion's start."""
+    said = []
+    system = scene.system
+    if not isinstance(system, (ELinear, System)):
+        return said
+    own = () if values["system"] == NORMAL and not given else [name for name, _ in system.parameters]
+    unknown = [name for name in values["parameters"] if name not in own]
+    if unknown:
+        shown = ", ".join(name[:20] for name in unknown[:3])
+        there = f"it has {', '.join(own)}" if own else "it has none"
+        said.append(f"The system has no parameter {shown} ({there}): left out.")
+    if values["lesson"] and values["lesson"] not in lessons():
+        named, some = values["lesson"][:40], ", ".join(list(lessons())[:3])
+        said.append(f"Lessons: there is no {named!r}; choose one such as {some}.")
+    try:
+        launch_of(values, system.m)
+    except InputError as error:
+        said.append(str(error))
+    return said

@@ -1,0 +1,149 @@
+"""What a frame holds of a scene: the layers that are seen and have changed, as bytes, and what is said beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cache
+from typing import Any
+
+from numpy.typing import NDArray
+
+from codim2_core.layer_problem.equator import EquatorEquilibria, equator_equilibria
+from codim2_core.portrait.classification import NEARER, Classification
+from codim2_core.scene import Scene
+from codim2_core.systems.elinear import ELinear
+
+from ..draw import glyphs
+from ..draw.layers import LAYERS
+from ..draw.packing import Polylines
+from ..frame.budget import LeftOut, NotYet
+from ..frame.window import Window
+
+Blocks = dict[str, NDArray[Any] | Polylines]
+
+#: In place of a layer: it is computed beside the frames; it is left out.
+LATER, NOTHING = object(), object()
+
+
+def told_once(name: Classification) -> str:
+    """Return the sentence of a portrait without what its degeneracies, shown below it, say again."""
+    sentence = name.sentence
+    for degeneracy in name.degeneracies:
+        sentence = sentence.replace(degeneracy.sentence.partition(f" {NEARER}")[0], "").strip()
+    return sentence
+
+
+class Asked:
+    """The layers of a scene as a frame asks for them: which are to be computed beside it, and which are left out."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.missing: list[str] = []
+        self.left_out: list[LeftOut] = []
+
+    def get(self, name: str) -> Any:
+        """Return a layer, `LATER` if it is not to be had now, or `NOTHING` if it is left out."""
+        try:
+            return self.scene[name]
+        except NotYet:
+            self.missing.append(name)
+            return LATER
+        except LeftOut as why:
+            self.left_out.append(why)
+            return NOTHING
+
+
+@cache
+def no_directions() -> EquatorEquilibria:
+    """Return the limit directions of a turning flow, which has none: what is drawn where they are left out."""
+    return equator_equilibria(ELinear(0.0, 1.0, 0.0))
+
+
+def make_frame(
+    scene: Scene,
+    values: Mapping[str, Any],
+    sent: Mapping[str, Any],
+    ready: bool = True,
+    window: Window | None = None,
+    asked: Asked | None = None,
+) -> tuple[dict[str, Any], Blocks, dict[str, Any]]:
+    """Return header and blocks of one frame, and what the browser then holds.
+
+    Only visible layers are computed, and only those whose result is another object than the one in `sent` are
+    packed. `scene` shares results that a change does not reach, so that identity is the whole test. The panel beside
+    the picture is added by `panels.registry.add`. Layers that are not to be had now stay as they are in the browser,
+    and are noted in `asked`; of those that are left out nothing is drawn.
+    """
+    asked = Asked(scene) if asked is None else asked
+    now = dict(sent)
+    blocks = _drawn(values["layers"], now, ready, window, asked)
+    header: dict[str, Any] = {"ready": ready}
+    if "cycles" in blocks and now["cycles"] is not NOTHING:
+        header["cycles"] = glyphs.cycle_columns(scene["closed_orbits"])
+    if "launched_1" in blocks and now["launched_1"] is not NOTHING:
+        header["launched"] = glyphs.launched_columns(scene.launch, scene["launched"])
+    _tell_facts(header, now, asked)
+    return header, blocks, now
+
+
+def _fresh(now: dict[str, Any], key: str, result: Any) -> bool:
+    """Say whether a result is another than the one that the browser holds, and note that it will hold it."""
+    if key in now and now[key] is result:
+        return False
+    now[key] = result
+    return True
+
+
+def _drawn(layers: Sequence[str], now: dict[str, Any], ready: bool, window: Window | None, asked: Asked) -> Blocks:
+    """Return the layers that are seen and are others than those that the browser holds, as blocks."""
+    blocks: Blocks = {}
+    rectangle = None if window is None else window.rectangle
+    moved = now.get("window") != rectangle  # what was cut to another window is not whole
+    now["window"] = rectangle
+    for layer in LAYERS.values():
+        if layer.name not in layers or (layer.compiled and not ready):
+            continue
+        for part in layer.parts:
+            result = asked.get(part.scene)
+            if result is LATER:
+                continue
+            if result is NOTHING:
+                if _fresh(now, part.name, NOTHING):
+                    blocks[part.name] = Polylines(*glyphs.join([]), part.arrows)
+                continue
+            if layer.optional and part.name not in now and not len(result):
+                continue
+            if _fresh(now, part.name, result) or moved:
+                pieces = part.pieces(result)
+                blocks[part.name] = Polylines(*(pieces if window is None else window.cut(*pieces)), part.arrows)
+    return blocks
+
+
+def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked) -> None:
+    """Add what is said of the setting: limit directions, critical sets, the portrait's name, the slow flow."""
+    equator, cycle, critical = (asked.get(name) for name in ("equator", "equator_cycle", "critical"))
+    name, flow = asked.get("classification"), asked.get("slow_flow")
+    if equator is NOTHING:
+        equator, cycle = no_directions(), None
+    if equator is not LATER and cycle is not LATER and _fresh(now, "equator", equator):
+        cycle = None if cycle is NOTHING else cycle
+        header["equator"] = glyphs.equator_columns(equator)
+        header["sense"] = glyphs.equator_arrows(equator, 0 if cycle is None else int(cycle.direction))
+        header["all_directions"] = bool(equator.all_directions)
+        header["cycle"] = None if cycle is None else float(cycle.exponent)
+    critical = () if critical is NOTHING else critical
+    if critical is not LATER and _fresh(now, "critical", critical):
+        header["critical"] = glyphs.critical_columns(critical)
+    if name is NOTHING and _fresh(now, "classification", name):
+        header["portrait"] = {"case": None, "name": "", "sentence": "", "degeneracies": []}
+    elif isinstance(name, Classification) and _fresh(now, "classification", name):
+        header["portrait"] = {
+            "case": name.case,
+            "name": name.name,
+            "sentence": told_once(name),
+            "degeneracies": [[item.name, item.sentence] for item in name.degeneracies],
+        }
+    flow = None if flow is LATER or flow is NOTHING else flow
+    if flow is not None and flow.ndim > 1:  # a general system has a slow flow for each critical set
+        flow = flow[0] if len(flow) == 1 else None
+    header["slow_flow"] = None if flow is None else [float(v) for v in flow]

@@ -1,0 +1,126 @@
+"""The names of what happens between two states beside each other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import combinations
+
+import numpy as np
+
+from ...layer_problem.critical import CriticalSet
+from ..result import SpecialValue
+from .state import Array, State
+
+_TOGETHER = 0.05  # radians, or distance in p, within which lies what is one at the special value, beside it
+_NEAR_EQUATOR = 1e-3  # 1 - |e| of a critical set that reaches the equator at the special value, beside it
+
+
+def named(value: float, before: State, after: State) -> list[SpecialValue]:
+    """Name all that happens between two states beside each other."""
+    return [*_on_equator(value, before, after), *_of_sets(value, before, after)]
+
+
+def _on_equator(value: float, before: State, after: State) -> list[SpecialValue]:
+    """Name what limit directions do, and the closed equator."""
+    out = []
+    one, two = before.equator.theta, after.equator.theta
+    if len(one) != len(two):
+        more, fewer = (one, two) if len(one) > len(two) else (two, one)
+        out += [_meeting(value, *met) for met in _meetings(more, fewer)]
+    elif len(one):
+        # as many on both sides: some may have gone while others came
+        away = abs(np.angle(np.exp(1j * (one[:, None] - two))))
+        gone, come = one[away.min(axis=1) > _TOGETHER], two[away.min(axis=0) > _TOGETHER]
+        out += [_meeting(value, *met) for side in (gone, come) for met in _meetings(side, side[:0])]
+    if before.exponent is not None and after.exponent is not None and before.part(2) != after.part(2):
+        sentence = "The closed equator is neutral to first order: it turns its stability."
+        out.append(SpecialValue("neutral equator", value, (0.0, 0.0), sentence, "thm:geneps0"))
+    return out
+
+
+def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
+    """Name what critical sets do: meet, reach the equator, or change their kind."""
+    out = []
+    pairs, gone, come = _followed(before.critical, after.critical)
+    for side, other in ((gone, after), (come, before)):
+        inner = []
+        for C in side:
+            t = math.atan2(float(C.e[1]), float(C.e[0]))
+            away = abs(np.angle(np.exp(1j * (other.equator.theta - t)))).min(initial=math.inf)
+            if 1.0 - float(np.hypot(*C.e)) < _NEAR_EQUATOR and away < _TOGETHER:
+                t %= 2.0 * math.pi
+                sentence = (
+                    f"A critical set reaches the equator at θ = {t:.4g}, and the limit direction turns its stability."
+                )
+                out.append(SpecialValue("transcritical", value, (math.cos(t), math.sin(t)), sentence, "fig:transcrit"))
+            else:
+                inner.append(C)
+        while len(inner) > 1:
+            near = min(combinations(inner, 2), key=lambda pair: math.dist(pair[0].p, pair[1].p))
+            inner = [C for C in inner if C is not near[0] and C is not near[1]]
+            kinds = sorted("saddle" if C.kind == "saddle" else "node" for C in near)
+            sentence = f"Two critical sets meet: a {kinds[1]} and a {kinds[0]}."
+            out.append(SpecialValue("fold of critical sets", value, _middle(near), sentence, "eq:critical_set"))
+        for C in inner:
+            place = (float(C.p[0]), float(C.p[1]))
+            sentence = "A critical set comes or goes here, alone."
+            out.append(SpecialValue("change of critical sets", value, place, sentence, "eq:critical_set"))
+    for C, D in pairs:
+        if C.kind == D.kind:
+            continue
+        place = (float(D.p[0]), float(D.p[1]))
+        if C.kind.split()[0] == D.kind.split()[0]:
+            sentence = "tr(J)² = 4 det J: the critical set changes between node and focus."
+            out.append(SpecialValue("node-focus", value, place, sentence, "fig:bads"))
+        elif "saddle" in (C.kind, D.kind):
+            sentence = "det J = 0: a critical set turns from a saddle into another kind."
+            out.append(SpecialValue("det J = 0", value, place, sentence, "eq:scjaco"))
+        else:
+            sentence = "Hopf: tr J = 0 < det J."
+            out.append(SpecialValue("Hopf", value, place, sentence, "sec:case3"))
+    return out
+
+
+def _followed(
+    before: Sequence[CriticalSet], after: Sequence[CriticalSet]
+) -> tuple[list[tuple[CriticalSet, CriticalSet]], list[CriticalSet], list[CriticalSet]]:
+    """Critical sets that go on from one state to the other, those that went, and those that came."""
+    # the nearest first: at two values so close together what goes on has hardly moved
+    near = sorted((math.dist(C.p, D.p), i, j) for i, C in enumerate(before) for j, D in enumerate(after))
+    joined: list[tuple[int, int]] = []
+    for gap, i, j in near:
+        if gap < _TOGETHER and not any(i == k or j == m for k, m in joined):
+            joined.append((i, j))
+    gone = [C for i, C in enumerate(before) if i not in {i for i, _ in joined}]
+    come = [D for j, D in enumerate(after) if j not in {j for _, j in joined}]
+    return [(before[i], after[j]) for i, j in joined], gone, come
+
+
+def _meetings(more: Array, fewer: Array) -> list[tuple[int, float]]:
+    """How many limit directions meet and where, from what lies on the two sides."""
+    away = np.abs(np.remainder(more[:, None] - fewer + math.pi, 2.0 * math.pi) - math.pi)
+    own = away.argmin(axis=1) if len(fewer) else np.zeros(len(more), int)
+    close = away.min(axis=1, initial=math.inf) < _TOGETHER
+    met = [(3, float(fewer[j])) for j in range(len(fewer)) if (close & (own == j)).sum() == 3]
+    alone = more[~close]
+    if len(alone):
+        gaps = np.remainder(np.roll(alone, -1) - alone, 2.0 * math.pi)
+        first = int(gaps.argmin())  # of a pair: from there on every second gap is one
+        pairs = range(first, first + len(alone) - 1, 2)
+        met += [(2, float((alone[i % len(alone)] + 0.5 * gaps[i % len(alone)]) % (2.0 * math.pi))) for i in pairs]
+    return sorted(met, key=lambda m: m[1])
+
+
+def _meeting(value: float, count: int, theta: float) -> SpecialValue:
+    place, at = (math.cos(theta), math.sin(theta)), f"θ = {theta:.4g}"
+    if count == 2:
+        sentence = f"Two limit directions meet at {at}: Θ has a double zero."
+        return SpecialValue("saddle-node", value, place, sentence, "fig:SNBIF")
+    sentence = f"One limit direction splits into three at {at}: Θ has a triple zero."
+    return SpecialValue("pitchfork", value, place, sentence, "fig:SNBIF")
+
+
+def _middle(pair: tuple[CriticalSet, CriticalSet]) -> tuple[float, float]:
+    p = 0.5 * (pair[0].p + pair[1].p)
+    return float(p[0]), float(p[1])

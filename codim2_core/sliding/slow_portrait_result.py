@@ -1,0 +1,83 @@
+"""Along Sigma, as a result: branches of critical sets, special points, and the intervals between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class SlowBranch:
+    """One critical set followed along z.
+
+    Attributes
+    ----------
+    z : ndarray (k,)
+        Values of the slow variable that is varied.
+    e, p : ndarray (k, 2)
+        Its place, and that in the projected disc.
+    flow : ndarray (k, m)
+        z' on it, eq:RPCM.
+    kind : str
+        As `CriticalSet.kind`; it is the same along the branch.
+    """
+
+    z: Array
+    e: Array
+    p: Array
+    flow: Array
+    kind: str
+
+    @property
+    def stable(self) -> bool:
+        """Whether the layer problem attracts to it."""
+        return self.kind.startswith("stable")
+
+
+@dataclass(frozen=True, slots=True)
+class SlowPoint:
+    """A value of z at which something happens.
+
+    Attributes
+    ----------
+    kind : str
+        "equator" (a critical set passes through the equator, fig:transcrit), "fold", "Hopf", "node-focus", or
+        "equilibrium" of the slow flow.
+    z : float
+    e : (c, s)
+    flow : tuple of m floats
+        z' there, on the critical set to which it happens.
+    stable : bool or None
+        Of an equilibrium: whether the slow flow attracts to it.
+    sentence : str
+    """
+
+    kind: str
+    z: float
+    e: tuple[float, float]
+    flow: tuple[float, ...]
+    stable: bool | None
+    sentence: str
+
+
+@dataclass(frozen=True, slots=True)
+class SlowInterval:
+    """An interval of z: kind "sliding", "unstable" or "crossing"."""
+
+    low: float
+    high: float
+    kind: str
+    sentence: str
+
+
+@dataclass(frozen=True, slots=True)
+class SlowPortrait:
+    """What happens on Sigma along one slow variable; made by `slow_portrait`."""
+
+    branches: tuple[SlowBranch, ...]
+    points: tuple[SlowPoint, ...]
+    intervals: tuple[SlowInterval, ...]
