@@ -1,0 +1,466 @@
+// What the charts of the panels show, read by their ticks, for data without any symmetry; and what a hand on them does.
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import {STEP} from "../../../app/static/frames.js"
+import "../../../app/static/panels/along.js"
+import "../../../app/static/panels/atlas.js"
+import "../../../app/static/panels/diagram.js"
+import "../../../app/static/panels/planes.js"
+import "../../../app/static/panels/psi.js"
+import "../../../app/static/panels/time.js"
+import {close, opened, plots} from "./reading.js"
+
+const near = (found, expected, most) => assert.ok(close(found, expected, most), `${JSON.stringify(found)} is not ${JSON.stringify(expected)}`)
+const named = (all, ...names) => all.filter(({name}) => names.every((one) => name.split(" ").includes(one)))
+
+// --- atlas
+const lines = (name, ...pieces) => ({
+  [`${name}.n`]: Uint16Array.from(pieces.map((piece) => piece.length)),
+  [`${name}.xy`]: Int16Array.from(pieces.flat(2).map((v) => Math.round(v / STEP))),
+})
+const PLANE = {
+  atlas_of: ["f1", "f2", true], atlas_size: 2, cycles_possible: true,
+  regions: {name: ["CM4", "CM2 x"], inside: [[0.25, 0.1], [-0.8, 0.9]], bounded: [true, false], loops: [1, 1], size: 2},
+  curves_of_psi: {size: 2, points: [["cusp", 1.2, -0.4, "A cusp."]]},
+  curves_of_cycles: {size: 2, points: [["fold", -0.6, -1.4, "They meet."]]},
+  thumbnails: [[1, "CM2 x", [-1.6, 1.8], "<svg></svg>"], [0, "CM4", [0.5, 0.2], "<svg></svg>"]],
+}
+const SQUARE = [[-0.25, -0.5], [0.75, -0.5], [0.75, 0.25], [-0.25, 0.25]]
+const BLOCKS = {
+  ...lines("transcritical", [[0.1, 0.2], [0.5, -0.3]]), ...lines("saddle_node", [[-0.4, 0.6], [-0.2, 0.9]], [[0.3, 0.3]]),
+  ...lines("regions", SQUARE, SQUARE), ...lines("hopf", [[0.1, -0.7], [0.2, -0.8]]), ...lines("node_focus", [[-0.6, -0.1], [-0.7, 0.1]]),
+  ...lines("cycle_folds", [[0.8, 0.1], [0.9, 0.3]]), ...lines("heteroclinic", [[0.8, -0.1], [0.9, -0.2]]), ...lines("closed_equator", [[-0.9, -0.9], [-0.8, -0.7]]),
+}
+const atlas = (more = {}) => opened("atlas", {across: "f1", up: "f2", f1: 0.6, f2: -0.3, k1: 0.5, k2: -0.25, z: 1.2, atlas_zoom: 0, cycle_curves: "hide", ...more})
+const twice = (points) => points.map((p) => p.map((v) => 2 * v))
+
+test("the panel atlas: the plane of f, its curves, f where z is 0, and f(z) on the line of k", () => {
+  const one = atlas()
+  one.frame(PLANE, BLOCKS)
+  const [plot] = plots(one.find(".pad"))
+  assert.deepEqual([plot.word, plot.title], ["f₁", "f₂"])
+  for (const [name, points] of /** @type {[string, number[][]][]} */ ([["transcritical", [[0.1, 0.2], [0.5, -0.3]]], ["saddle_node", [[-0.4, 0.6], [-0.2, 0.9]]], ["hopf", [[0.1, -0.7], [0.2, -0.8]]], ["node_focus", [[-0.6, -0.1], [-0.7, 0.1]]]])) {
+    near(named(plot.lines, name).map((line) => line.points), [twice(points)])
+  }
+  assert.equal(named(plot.lines, "cycle_folds").length, 0)
+  near(named(plot.dots, "point", "saddle_node").map((dot) => dot.at), [[0.6, 0.6]]) // a branch that is a point
+  near(plot.marks.map((mark) => mark.at), [[1.2, -0.4]])
+  assert.equal(plot.marks[0].title, "cusp. A cusp.")
+  near(plot.areas.map((area) => area.points), [twice(SQUARE), twice(SQUARE)])
+  assert.deepEqual(plot.areas.map((area) => [area.region, area.name.split(" ")[1]]), [["CM4", "CM4"], ["CM2 x", "CM2"]])
+  near(named(plot.moving, "handle").map((dot) => dot.at), [[0.6, -0.3]])
+  near(named(plot.moving, "here").map((dot) => dot.at), [[0.6 + 0.5 * 1.2, -0.3 - 0.25 * 1.2]])
+  const [[x0, y0], [x1, y1]] = plot.path
+  near([(y1 - y0) / (x1 - x0), y0 + (0.6 - x0) * (y1 - y0) / (x1 - x0)], [-0.5, -0.3])
+  assert.ok(x0 < -2 && x1 > 2)
+  assert.deepEqual([...one.find(".pad").querySelectorAll(".region")].map((region) => region.classList.contains("here")), [true, false])
+  assert.deepEqual(one.texts(".pad-names span"), ["CM2 x", "CM4"])
+  assert.deepEqual(one.texts(".pad-curves span"), ["|A⁻¹f| = 1", "saddle-node", "Hopf", "node–focus"])
+  assert.deepEqual(one.all(".pad-curves i").map((it) => it.className), ["transcritical", "saddle_node", "hopf", "node_focus"])
+  one.set({k1: 0, k2: 0})
+  assert.equal(plots(one.find(".pad"))[0].path, undefined)
+  assert.equal(named(plots(one.find(".pad"))[0].moving, "here").length, 0)
+  one.set({k2: 0.25})
+  near(plots(one.find(".pad"))[0].path.map(([x]) => x), [0.6, 0.6])
+})
+
+test("the panel atlas: curves of cycles are shown where they were asked for, those of another Ψ are not", () => {
+  const one = atlas({cycle_curves: "show"})
+  const shown = () => plots(one.find(".pad"))[0].lines.map(({name}) => name)
+  one.frame(PLANE, BLOCKS)
+  assert.deepEqual(shown(), ["transcritical", "saddle_node", "hopf", "node_focus", "cycle_folds", "heteroclinic", "closed_equator"])
+  assert.equal(one.find(".cycle-curves").hidden, false)
+  assert.equal(one.find(".cycle-curves input").checked, true)
+  near(plots(one.find(".pad"))[0].marks.map((mark) => mark.at), [[-0.6, -1.4], [1.2, -0.4]]) // in the order of x
+  one.frame({}, {}, ["curves of cycles"])
+  assert.deepEqual(shown(), ["transcritical", "saddle_node", "hopf", "node_focus"])
+  one.frame({}, {}, ["curves of psi"])
+  assert.deepEqual(shown(), ["transcritical", "saddle_node", "cycle_folds", "heteroclinic", "closed_equator"])
+  one.frame({cycles_possible: false})
+  assert.deepEqual(shown(), ["transcritical", "saddle_node", "hopf", "node_focus"])
+  assert.equal(one.find(".cycle-curves").hidden, true)
+  one.setters.cycle_curves("hide")
+  assert.equal(one.find(".cycle-curves input").checked, false)
+  one.setters.cycle_curves("show")
+  assert.equal(one.find(".cycle-curves input").checked, true)
+})
+
+test("the panel atlas: a hand moves f, a small portrait brings f(z) to its place", () => {
+  const one = atlas()
+  one.frame(PLANE, BLOCKS)
+  const pad = one.find(".pad"), [plot] = plots(pad)
+  one.fire(pad, "pointerdown", {clientX: plot.x.back(-1.4), clientY: plot.y.back(0.9)})
+  let [[, moved]] = one.said()
+  near([moved.f1, moved.f2], [-1.4, 0.9])
+  one.fire(pad, "pointerup")
+  one.fire(one.find(".thumbnails button"), "click")
+  ;[[, moved]] = one.said()
+  near([moved.f1, moved.f2], [-1.6 - 0.5 * 1.2, 1.8 + 0.25 * 1.2], 1e-6)
+  const before = {...one.values}
+  one.fire(pad, "keydown", {key: "ArrowUp"})
+  ;[[, moved]] = one.said()
+  assert.ok(moved.f1 === before.f1 && moved.f2 > before.f2 && moved.f2 < before.f2 + 0.1)
+  const tiles = () => one.all(".thumbnails button").map((tile) => tile.className)
+  one.fire(pad, "pointermove", {clientX: plot.x.back(0.5), clientY: plot.y.back(0.2)})
+  assert.deepEqual(tiles().map((name) => name.includes("pointed")), [false, true])
+  one.fire(pad, "pointermove", {clientX: plot.x.back(-1), clientY: plot.y.back(0.2)})
+  assert.deepEqual(tiles().map((name) => name.includes("pointed")), [true, false])
+  one.fire(pad, "pointerleave")
+  assert.deepEqual(tiles().map((name) => name.includes("pointed")), [false, false])
+  const pointed = () => [...pad.querySelectorAll(".region")].map((region) => region.classList.contains("pointed"))
+  for (const [on, off] of [["pointerover", "pointerout"], ["focusin", "focusout"]]) {
+    one.fire(one.find(".thumbnails button"), on)
+    assert.deepEqual(pointed(), [false, true])
+    one.fire(one.find(".thumbnails button"), off)
+    assert.deepEqual(pointed(), [false, false])
+  }
+})
+
+const MAP = {atlas_of: ["a", "f2", false], map: {spans: [[-2, 6], [1, 3]], name: ["CM2", "CM0"], inside: [[0, 2.5], [5, 1.5]], loops: [1, 1], curve: ["Hopf", "odd"], pieces: [2, 1]}}
+const OF_MAP = {...lines("map", [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.75]], [[0.6, -0.9], [0.9, -0.9], [0.9, 0.9]]), ...lines("map_curves", [[0, 0.5], [0.5, 0.25]], [[-0.5, -0.25], [-0.25, -0.75]], [[0.75, 0.5], [0.75, -0.5]])}
+
+test("the panel atlas: a map of two other parameters lies in their spans", () => {
+  const one = atlas({across: "a", a: 3, f2: 2.2})
+  one.frame(MAP, OF_MAP)
+  const read = () => plots(one.find(".pad"))[0], plot = read()
+  assert.deepEqual([plot.word, plot.title], ["a", "f₂"])
+  near(named(plot.lines, "hopf").map((line) => line.points), [[[2, 2.5], [4, 2.25]], [[0, 1.75], [1, 1.25]]])
+  near(named(plot.lines, "undefined").map((line) => line.points), [[[5, 2.5], [5, 1.5]]])
+  near(plot.areas.map((area) => area.points), [[[0, 1.5], [4, 1.5], [4, 2.75]], [[4.4, 1.1], [5.6, 1.1], [5.6, 2.9]]])
+  near(named(plot.moving, "handle").map((dot) => dot.at), [[3, 2.2]])
+  assert.equal(named(plot.moving, "here").length, 0)
+  one.frame({thumbnails: [[0, "CM2", [0.5, 2.75], "<svg></svg>"]]})
+  one.fire(one.find(".thumbnails button"), "click")
+  assert.deepEqual(one.said(), [["move", {a: 0.5, f2: 2.75}]])
+  assert.equal(one.find(".cycle-curves").hidden, true)
+  one.frame({unable: {map: "Choose two."}})
+  assert.deepEqual([one.find(".atlas-note").textContent, one.find(".thumbnails").hidden, read().lines.length], ["Choose two.", true, 0])
+  near([read().x.of(read().x.back(-4)), read().areas.length], [-4, 0])
+  one.frame({late: []})
+  assert.equal(one.find(".atlas-note").textContent, "Choose two.")
+  one.frame(MAP, OF_MAP)
+  assert.deepEqual([one.find(".atlas-note").textContent, read().lines.length], ["", 3])
+  one.frame({unable: {map: "Choose two."}})
+  one.frame({atlas_of: ["a", "f1", false]}) // other axes: what there is belongs to those before
+  assert.deepEqual([one.find(".atlas-note").textContent, read().lines.length], ["", 0])
+  one.frame({map: MAP.map}, OF_MAP, ["map"])
+  assert.ok(one.find(".thumbnails").classList.contains("old") && one.find(".pad").classList.contains("old"))
+  one.frame({}, {}, ["thumbnails"])
+  assert.ok(one.find(".thumbnails").classList.contains("old") && !one.find(".pad").classList.contains("old"))
+})
+
+// --- diagram
+const DIAGRAM = {
+  control: "f1", span: [-2, 6], closed: [[4.5, 5.5]],
+  equator: [{x: [-2, 1, 6], y: [0.5, 1.25, 2], attracting: true, turning: false}, {x: [-1, 3], y: [5.5, 6.75], attracting: false, turning: true}],
+  critical: [{x: [-2, 2], y: [0.25, 0.75], kind: "stable node"}, {x: [2, 4], y: [0.5, 1], kind: "saddle"}],
+  special: [{kind: "saddle-node", value: 1, place: [-0.6, 0.8], sentence: "Two meet."}, {kind: "Hopf", value: 3, place: [0.3, -0.4], sentence: "A pair crosses."}],
+}
+const CYCLES = {pieces: [{x: [2, 3, 4], y: [0.1, 0.2, 0.45], period: [7, 9, 14], stable: true}, {x: [4, 5], y: [0.45, 0.3], period: [14, 8], stable: false}], special: [{kind: "fold", value: 4, amplitude: 0.45, sentence: "They meet."}], sentence: "Two branches."}
+const AXES = {axes: [["f1", "f₁", -3, 3], ["n", "n", 0.5, 6]]}
+
+test("the panel diagram: branches, bands and special points are where the data say", () => {
+  const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 0})
+  one.frame({diagram: DIAGRAM, ...AXES})
+  const all = plots(one.find(".diagram"))
+  assert.deepEqual(all.map(({title}) => title), ["limit directions θ", "critical set |p|"])
+  assert.equal(all[1].word, "f₁")
+  const turn = 2 * Math.PI
+  near(named(all[0].lines, "attracting", "turning-away").map((line) => line.points), [[[-2, 0.5], [1, 1.25], [6, 2]]], 0.03)
+  const repelling = named(all[0].lines, "repelling")
+  near(repelling.map((line) => line.points), [[[-1, 5.5 - turn], [3, 6.75 - turn]], [[-1, 5.5], [3, 6.75]]], 0.03)
+  assert.ok(repelling.every(({name}) => !name.includes("turning-away")))
+  near(all[0].bands.map(({from, to}) => [from, to]), [[4.5, 5.5]], 0.03)
+  near(all[0].marks.map(({at}) => at), [[1, Math.atan2(0.8, -0.6)]], 0.03)
+  near(named(all[1].lines, "critical", "stable").map((line) => line.points), [[[-2, 0.25], [2, 0.75]]], 0.03)
+  near(named(all[1].lines, "critical", "saddle").map((line) => line.points), [[[2, 0.5], [4, 1]]], 0.03)
+  near(all[1].marks.map(({at}) => at), [[3, 0.5]], 0.03)
+  assert.equal(all[1].marks[0].title, "Hopf at 3. A pair crosses.")
+  assert.equal(one.find(".diagram").style.height, "310px")
+  assert.deepEqual(one.texts(".special-list span:nth-of-type(2)"), ["f₁ = 1", "f₁ = 3"])
+  const value = one.find(".diagram .value").getAttribute("d")
+  near([all[0].x.of(Number(value.match(/M([\d.]+)/)[1]))], [2.5], 0.03)
+  assert.equal(one.find(".diagram").getAttribute("aria-valuetext"), "f₁ = 2.5")
+  one.set({f1: 3})
+  assert.deepEqual(one.all(".special-list button").map((item) => item.classList.contains("here")), [false, true])
+})
+
+test("the panel diagram: limit cycles by amplitude and period, stable ones full", () => {
+  const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 0})
+  one.frame({diagram: DIAGRAM}, {}, ["cycles along"])
+  assert.equal(one.find(".diagram-note").textContent, "Looking for limit cycles …")
+  one.frame({cycles_along: CYCLES})
+  assert.equal(one.find(".diagram-note").textContent, "Two branches.")
+  const all = plots(one.find(".diagram"))
+  assert.deepEqual(all.map(({title}) => title), ["limit directions θ", "critical set |p|", "limit cycles, amplitude |p − C|", "limit cycles, period (fast time τ)"])
+  assert.equal(one.find(".diagram").style.height, "468px")
+  near(all[2].lines.map(({points}) => points), [[[2, 0.1], [3, 0.2], [4, 0.45]], [[4, 0.45], [5, 0.3]]], 0.03)
+  near(all[3].lines.map(({points}) => points), [[[2, 7], [3, 9], [4, 14]], [[4, 14], [5, 8]]], 0.2)
+  assert.deepEqual(all[2].lines.map(({name}) => name), ["branch cycle", "branch cycle unstable"])
+  near(all[2].marks.map(({at}) => at), [[4, 0.45]], 0.03)
+  assert.deepEqual(one.texts(".special-list span:nth-of-type(1)"), ["saddle-node", "Hopf", "fold"]) // in the order of the parameter
+  one.fire(one.all(".special-list button")[2], "click")
+  assert.deepEqual(one.said(), [["move", {f1: 4}]])
+  one.frame({unable: {"cycles along": "Not of these."}})
+  assert.equal(one.find(".diagram-note").textContent, "Not of these.")
+  one.frame({unable: {diagram: "Choose another."}})
+  assert.deepEqual([one.find(".diagram-note").textContent, one.find(".diagram").hasAttribute("hidden"), one.find(".special-list").innerHTML], ["Choose another.", true, ""])
+  one.frame({diagram: DIAGRAM})
+  assert.deepEqual([one.find(".diagram-note").textContent, one.find(".diagram").hasAttribute("hidden")], ["", false])
+})
+
+test("the panel diagram: a hand sets the parameter, a mark goes exactly there, several come apart", () => {
+  const special = [...DIAGRAM.special, {kind: "cusp", value: 1.25, place: [-0.65, 0.76], sentence: "Near by."}]
+  const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 1})
+  one.frame({diagram: {...DIAGRAM, special}})
+  const svg = one.find(".diagram"), [plot] = plots(svg)
+  one.fire(svg, "pointerdown", {clientX: plot.x.back(4.2), clientY: 60})
+  const [[, {f1}]] = one.said()
+  assert.ok(Math.abs(f1 - 4.2) < 0.02 && Number((f1 * 1000).toFixed(6)) % 1 === 0) // a thousandth of a span of 8
+  one.fire(svg, "pointerup")
+  one.set({f1: 2})
+  one.fire(svg, "keydown", {key: "ArrowLeft"}); one.fire(svg, "keydown", {key: "ArrowUp", shiftKey: true})
+  near(one.said().map(([, moved]) => moved.f1), [1.96, 2.36], 1e-9)
+  const group = svg.querySelector(".special.group")
+  one.fire(group.querySelector("circle"), "pointerdown")
+  assert.deepEqual(one.said(), [["move", {f1: 1.125}], ["choose", "zoom", 3]]) // 0.6 * 8 / 0.25 is 4^2.1
+  one.fire(svg.querySelectorAll(".special:not(.group)")[0], "pointerdown")
+  assert.deepEqual(one.said(), [["move", {f1: 3}]])
+  one.set({zoom: 5})
+  one.fire(group.querySelector("circle"), "pointerdown")
+  assert.deepEqual(one.said()[1], ["choose", "zoom", 6])
+  one.frame({diagram: {...DIAGRAM, special: [{...special[0], value: -1.99}, {...special[0], value: -1.99, place: [-0.61, Math.sqrt(1 - 0.61 ** 2)]}]}})
+  one.fire(svg.querySelector(".special.group circle"), "pointerdown")
+  assert.deepEqual(one.said(), [["move", {f1: -1.99}]]) // at one value nothing comes apart
+})
+
+test("the panel diagram: what is late is old, unless it is along the chosen parameter still", () => {
+  const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 0})
+  one.frame({diagram: DIAGRAM, ...AXES})
+  one.frame({}, {}, ["diagram", "cycles along"])
+  assert.deepEqual([one.find(".diagram").classList.contains("old"), one.find(".diagram-note").textContent], [false, ""])
+  one.values.along = "n"
+  const before = one.find(".value").getAttribute("d")
+  one.frame({}, {}, ["diagram"])
+  assert.equal(one.find(".diagram").classList.contains("old"), true)
+  assert.equal(one.find(".value").getAttribute("d"), before)
+  assert.equal(one.find("select.along").querySelectorAll("option").length, 2)
+})
+
+// --- along
+const ALONG = {
+  control: "z", m: 1, span: [-3, 5],
+  intervals: [{low: -3, high: 1, kind: "sliding", sentence: "It slides."}, {low: 1, high: 5, kind: "crossing", sentence: "It crosses."}],
+  branches: [{z: [-3, -2, -1, 0, 1], flow: [0.5, 0.75, 1, 1.5, 2], kind: "stable node", stable: true}, {z: [2, 3, 4, 4.5, 5], flow: [-1, -0.5, -0.25, -0.5, -2], kind: "saddle", stable: false}, {z: [3, 3.5, 4], flow: [0, 1, 0], kind: "unstable focus", stable: false}],
+  points: [{kind: "equilibrium", z: -0.5, stable: true, sentence: "At rest.", flow: 0}, {kind: "equator", z: 1, stable: false, sentence: "It leaves.", flow: 2}, {kind: "equilibrium", z: 4.5, stable: false, sentence: "At rest too.", flow: 0}, {kind: "node-focus", z: 0.5, stable: true, sentence: "Turns.", flow: 1.75}],
+}
+
+test("the panel along: slow flow, its sense and its rests, and where it slides", () => {
+  const one = opened("along", {z: -1.5, z2: 0, drift: "z"})
+  one.frame({along: ALONG})
+  const [plot] = plots(one.find(".along"))
+  assert.deepEqual([plot.word, plot.title], ["z", "slow flow z′"])
+  near(named(plot.lines, "stable").map(({points}) => points), [ALONG.branches[0].z.map((z, i) => [z, ALONG.branches[0].flow[i]])], 0.03)
+  near(named(plot.lines, "saddle").map(({points}) => points), [ALONG.branches[1].z.map((z, i) => [z, ALONG.branches[1].flow[i]])], 0.03)
+  assert.equal(named(plot.lines, "unstable").length, 1)
+  near(plot.bands.map(({from, to}) => [from, to]), [[-3, 1], [1, 5]], 0.03)
+  assert.deepEqual(plot.bands.map(({name, title}) => [name, title]), [["sliding", "It slides."], ["crossing", "It crosses."]])
+  near(plot.arrows.map(({at}) => at[0]), [-2, -1, 0, 3, 4, 4.5], 0.03) // at quarters of the wide branches, and not where z' = 0
+  assert.deepEqual(plot.arrows.map(({turn}) => Math.abs(turn)), [0, 0, 0, 180, 180, 180])
+  near(plot.marks.map(({at}) => at), [[-0.5, 0], [0.5, 1.75], [1, 2], [4.5, 0]], 0.03)
+  assert.deepEqual(plot.marks.map(({kind}) => kind), ["attracting rest", "node-focus", "transcritical", "rest"])
+  assert.equal(one.find(".along").getAttribute("aria-valuenow"), "-1.5")
+  near([plot.x.of(Number(one.find(".along .value").getAttribute("d").match(/M([\d.]+)/)[1]))], [-1.5], 0.03)
+  assert.deepEqual(one.texts(".along-points button span:first-of-type"), ["z = −0.50000", "z = 1.00000", "z = 4.50000"])
+  one.fire(one.all(".along-points button")[2], "click")
+  assert.deepEqual(one.said()[0], ["move", {z: 4.5}])
+  one.fire(one.find(".along"), "pointerdown", {clientX: plot.x.back(2.25), clientY: 50})
+  const [[, {z}]] = one.said()
+  near([z], [2.25], 0.03)
+  one.frame({unable: {along: "No z."}})
+  assert.deepEqual([one.find(".along-body").hidden, one.find(".along-note").textContent], [true, "No z."])
+})
+
+test("the panel along: play goes with the slow flow, to where it rests or the range ends", () => {
+  const one = opened("along", {z: -1.5, z2: 0, drift: "z"}), go = (ms, flow) => { one.tick(ms); one.frame({drift: {on: "C", flow: [flow]}}) }
+  one.frame({along: ALONG, drift: {on: "C", flow: [2]}})
+  one.find(".speed").value = "1"
+  one.fire(one.find(".play"), "click")
+  assert.deepEqual([one.find(".play").textContent, one.find(".play").getAttribute("aria-pressed")], ["❚❚ Pause", "true"])
+  one.tick(16) // the range is 8 wide, at the largest |z'| = 2 crossed in 10 s
+  near([one.values.z], [-1.5 + 0.016 * 0.8], 1e-9)
+  go(16, 2)
+  one.tick(16)
+  near([one.values.z], [-1.5 + 3 * 0.016 * 0.8], 1e-9) // all of the time that has passed
+  one.find(".speed").value = "2"
+  go(16, -1)
+  one.tick(16)
+  near([one.values.z], [-1.5 + 3 * 0.016 * 0.8 - 0.032 * 1.6 / 2], 1e-9) // half as fast back, at twice the speed
+  one.fire(one.find(".play"), "click")
+  assert.equal(one.find(".play").textContent, "▶ Play")
+  const still = one.values.z
+  go(100, 2)
+  one.tick(100)
+  assert.equal(one.values.z, still)
+  for (const [z, drift, words] of /** @type {[number, any, string][]} */ ([[4.9999, {on: "C", flow: [2]}, "The end of the range."], [-2.9999, {on: "C", flow: [-2]}, "The end of the range."], [0, {on: "C", flow: [1e-4]}, "The slow flow has come to rest: z′ = 0."], [0, null, "Sliding ends here: no critical set and no limit cycle attracts."]])) {
+    one.set({z})
+    one.frame({drift})
+    one.fire(one.find(".play"), "click")
+    one.tick(16)
+    assert.deepEqual([one.find(".along-note").textContent, one.find(".play").textContent, one.values.z], [words, "▶ Play", z])
+  }
+})
+
+test("the panel along: the plane of two slow variables", () => {
+  const arrows = [[-1, 2, 0.5, 0, 1], [0.5, 3, 0, 2, 0], [1, 2.5, -0.5, -0.5, 1], [1.5, 2.5, 1e-6, 0, 1]]
+  const one = opened("along", {z: 0.25, z2: 2.75, drift: "z2"}, {slowSymbols: () => ["v", "w"]})
+  one.frame({along: {...ALONG, control: "z2", m: 2}, slow_plane: {spans: [[-2, 2], [1, 4]], arrows}})
+  const [plot] = plots(one.find(".slow-plane"))
+  assert.deepEqual([plot.word, plot.title, one.find(".plane-box h2").textContent], ["v", "w", "Slow flow in the plane of v and w"])
+  near(named(plot.dots, "stable").map(({at}) => at), [[-1, 2], [1, 2.5], [1.5, 2.5]])
+  near(named(plot.dots, "unstable").map(({at}) => at), [[0.5, 3]])
+  near(plot.arrows.map(({at}) => at), [[-1, 2], [0.5, 3], [1, 2.5]])
+  const [first, second, third] = plot.arrows.map(({turn}) => turn)
+  assert.deepEqual([first, second], [0, -90]) // y of the page falls
+  assert.ok(third > 90 && third < 180)
+  near(named(plot.moving, "here").map(({at}) => at), [[0.25, 2.75]])
+  one.fire(one.find(".slow-plane"), "pointerdown", {clientX: plot.x.back(-1.5), clientY: plot.y.back(3.5)})
+  const [[, {z, z2}]] = one.said()
+  near([z, z2], [-1.5, 3.5])
+  assert.deepEqual([one.find(".which").hidden, one.texts(".drift option"), one.find(".drift").value], [false, ["v", "w"], "z2"])
+})
+
+// --- planes
+test("the panel planes: trace to the right, determinant upward, eigenvalues beside, each with its kind", () => {
+  const one = opened("planes", {})
+  const critical = {label: ["C₁", "C₂"], kind: ["stable focus", "saddle"], trace: [-1, 0.5], determinant: [1.25, -2], x2: [[0.6, 0.3], [-0.8, 1]]}
+  const s = [0, 0.25, 0.5, 0.75, 1]
+  one.frame({critical, planes: {line: true, sentence: "Over n.", text: ["n = 1", "", "n = 3"], kind: ["stable node", "stable node", "unstable focus"], trace: [-2, -1.5, 1], determinant: [0.5, 0.5, 1.5], s, psis: [["n = 1", [1, 0.9, 0.8, 0.7, 0.6]], ["n = 3", [1, 0.5, 0.25, 0.125, 0.1]]]}})
+  const [trace] = plots(one.find(".trace-plane")), [eigen] = plots(one.find(".eigen-plane")), [psi] = plots(one.find(".psi-plane"))
+  assert.deepEqual([trace.word, eigen.word, psi.word, psi.title], ["tr J", "Re λ", "r²", "Ψ(r²)"])
+  const now = named(trace.dots, "now")
+  near(now.map(({at}) => at), [[-1, 1.25], [0.5, -2]])
+  assert.deepEqual(now.map(({name, title}) => [name, title]), [["now filled", "C₁: stable focus"], ["now", "C₂: saddle"]])
+  near(named(trace.dots, "over-mark").map(({at}) => at), [[-2, 0.5], [1, 1.5]])
+  for (const [t, d] of named(trace.lines, "parabola")[0].points) near([d], [t * t / 4], 0.03)
+  near(named(eigen.dots, "now").map(({at}) => at), [[-0.5, 1], [-0.5, -1], [0.25 + Math.sqrt(0.0625 + 2), 0], [0.25 - Math.sqrt(0.0625 + 2), 0]], 0.03)
+  near(named(psi.lines, "s0").map(({points}) => points), [[[0, 1], [0.25, 0.9], [0.5, 0.8], [0.75, 0.7], [1, 0.6]]])
+  near(named(psi.lines, "s1").map(({points}) => points[4]), [[1, 0.1]])
+  near(named(psi.lines, "over").map(({points}) => points), [[[0.45, 0], [0.45, 1]]]) // the other is beyond
+  assert.deepEqual(one.texts(".plane-table tr:nth-of-type(3) td"), ["n = 3", "1.000", "1.500", "unstable focus"])
+  assert.equal(one.find(".plane-note").textContent, "Over n.")
+  const stable = trace.areas[0].points
+  assert.ok(stable.every(([x, y]) => x <= 0.02 && y >= -0.02) && stable.some(([x]) => x < -1) && stable.some(([, y]) => y > 1))
+  assert.ok(eigen.areas[0].points.every(([x]) => x <= 0.02) && eigen.areas[0].points.some(([, y]) => y < -1))
+  one.frame({critical: {label: [], kind: [], trace: [], determinant: [], x2: []}})
+  assert.equal(one.find(".plane-note").textContent, "No critical set in the scaling chart.")
+})
+
+test("the panel planes: the trail goes from the oldest, faintest place to the newest, with a gap where nothing was", () => {
+  const one = opened("planes", {}), at = (trace, determinant, there = true) => one.frame({critical: there ? {label: ["C"], kind: ["stable node"], trace: [trace], determinant: [determinant], x2: [[0.1, 0]]} : {label: [], kind: [], trace: [], determinant: [], x2: []}})
+  at(-3, 1); at(-2, 0.5); at(-2, 0.25, false); at(-1.5, 0.25); at(-1, 0.125)
+  const trail = () => named(plots(one.find(".trace-plane"))[0].lines, "trail")
+  near(trail().map(({points}) => points), [[[-3, 1], [-2, 0.5]], [[-1.5, 0.25], [-1, 0.125]]])
+  assert.deepEqual(one.all(".trace-plane .trail").map((it) => it.getAttribute("stroke-opacity")), ["0.16", "0.64"])
+  for (let i = 0; i < 100; i++) at(-1, 0.125)
+  assert.equal(trail().length, 89)
+  one.panels.forget()
+  at(-1, 0.25)
+  assert.equal(trail().length, 0)
+  at(-2, 0.25)
+  assert.equal(trail().length, 1)
+  one.frame({system: {}, critical: {label: ["C"], kind: ["stable node"], trace: [-1], determinant: [0.25], x2: [[0, 0]]}})
+  assert.equal(trail().length, 0)
+})
+
+// --- Psi
+test("the panel psi: Ψ itself, and the step of each ε at its scale", () => {
+  const one = opened("psi", {log_eps: -0.5})
+  one.frame({psi_curves: {s: [0, 1, 4], psi: [1, 0.25, 0.0625], zeta: [0, 1, 2, 4], modulus: [0, 0.5, 0.75, 0.9], text: "1/(1 + s)²"}})
+  const [upper, lower] = plots(one.find(".psi-curves"))
+  assert.deepEqual([upper.title, upper.word, lower.word], ["Ψ(s) = 1/(1 + s)²", "s", "l"])
+  near(upper.lines[0].points, [[0, 1], [1, 0.25], [4, 0.0625]])
+  const modulus = (zeta) => zeta >= 4 ? 1 - 0.1 * 16 / zeta ** 2 : zeta <= 1 ? 0.5 * zeta : zeta <= 2 ? 0.5 + 0.25 * (zeta - 1) : 0.75 + 0.075 * (zeta - 2)
+  for (const [name, eps] of /** @type {[string, number][]} */ ([["s3", 1], ["s1", 0.3], ["s0", 0.1], ["present", 10 ** -0.5]])) {
+    const [{points}] = named(lower.lines, name)
+    near(points, Array.from({length: 121}, (_, i) => { const l = (i - 60) / 60; return [l, Math.sign(l) * modulus(Math.abs(l) / eps)] }))
+  }
+  near(named(lower.lines, "limit")[0].points, [[-1, -1], [0, -1], [0, 1], [1, 1]])
+  assert.deepEqual(one.texts(".psi-key span"), [" ε = 1", " ε = 0.3", " ε = 0.1", " ε = 0.316228", " ε → 0: sign l"])
+  assert.deepEqual(one.all(".psi-key path").map((it) => it.getAttribute("class")), ["series-line s3", "series-line s1", "series-line s0", "series-line present", "series-line limit"])
+})
+
+// --- time
+const MOTION = {t: [0, 1, 3], states: [[1, 2, 0], [-1, -2, -1.5], [0.5, 1, 3]], picture: [[0.2, 0.4, 0.9], [-0.1, 0.3, 0.5]], phases: [["slip", 0, 1, "Free.", ""], ["slide", 1, 3, "Along C.", ""]], agreement: "They agree.", reason: "It left.", eps: 0.01, start: [1, -1, 0.5], ball: null}
+const LIMIT = {t: [0, 2, 4], states: [[1, 1.5, 0.5], [-1, -0.5, 0], [0.5, 0.75, 2]], picture: [[0.2, 0.3, 0.8], [-0.1, 0, 0.1]], phases: [["cross", 0.5, 4, "Through.", ""]], reason: "To its end."}
+const VALUES = {launch: "1, -1, 0.5", t_end: 4, log_eps: -2, z: 0.5}
+
+test("the panel time: each coordinate over time, for ε in full, for the limit broken", () => {
+  const one = opened("time", {...VALUES})
+  one.frame({motion: MOTION, limit: LIMIT})
+  const [plane, slow] = plots(one.find(".series"))
+  assert.deepEqual([plane.title, slow.title, slow.word], ["x y", "z", "t"])
+  const of = (run, c) => run.t.map((t, i) => [t, run.states[c][i]])
+  near(plane.lines.map(({points}) => points), [of(LIMIT, 0), of(MOTION, 0), of(LIMIT, 1), of(MOTION, 1)], 0.03)
+  assert.deepEqual(plane.lines.map(({name}) => name.trim()), ["series-line s0 limit", "series-line s0", "series-line s1 limit", "series-line s1"])
+  near(slow.lines.map(({points}) => points), [of(LIMIT, 2), of(MOTION, 2)], 0.03)
+  near(plane.bands.map(({from, to}) => [from, to]), [[0, 1], [1, 3]], 0.03)
+  assert.deepEqual(plane.bands.map(({name}) => name), ["slip", "slide"])
+  assert.equal(one.find(".time-note").textContent, "They agree. It left.")
+  assert.deepEqual(one.texts(".phases li"), ["0.500crosses: Through."])
+  one.frame({limit: {...LIMIT, t: [0, 1, 2]}})
+  assert.equal(one.find(".time-note").textContent, "They agree. The limit: To its end.")
+})
+
+test("the panel time: the moving point, the phase and z are those of the chosen time", () => {
+  const one = opened("time", {...VALUES})
+  one.frame({motion: MOTION, limit: LIMIT})
+  one.said()
+  const svg = one.find(".series"), [plot] = plots(svg)
+  const at = (t) => { one.fire(svg, "pointerdown", {clientX: plot.x.back(t), clientY: 40}); one.fire(svg, "pointerup"); return Object.fromEntries(one.said().map(([what, ...all]) => [what, all])) }
+  let did = at(2)
+  near(did.trace[1], [0.65, 0.4])
+  assert.deepEqual(did.trace[0], [MOTION.picture, LIMIT.picture])
+  near([did.move[0].z], [2])
+  assert.match(one.find(".phase-now").textContent, /^t = 2\.\d\d: slides\. Along C\.$/)
+  did = at(0.5)
+  near(did.trace[1], [0.3, 0.1])
+  near([did.move[0].z], [0.75])
+  assert.match(one.find(".phase-now").textContent, /: slips\. Free\.$/)
+  near(at(4).trace[1], [0.9, 0.5]) // after its end it stays there
+  near([Number(svg.getAttribute("aria-valuenow"))], [4])
+  at(1)
+  one.fire(svg, "keydown", {key: "ArrowRight"})
+  near([Number(svg.getAttribute("aria-valuenow"))], [1.04])
+  one.fire(svg, "keydown", {key: "ArrowLeft"}); one.fire(svg, "keydown", {key: "ArrowLeft"}); one.fire(svg, "keydown", {key: "ArrowUp"})
+  near([Number(svg.getAttribute("aria-valuenow"))], [0.96])
+  one.said()
+  one.set({z: -0.375})
+  one.fire(one.find(".here"), "click")
+  assert.deepEqual(one.said().filter(([what]) => what === "move"), [["move", {launch: "1, -1, -0.375"}]])
+})
+
+test("the panel time: play takes nine seconds for the whole motion, and begins again at its end", () => {
+  const one = opened("time", {...VALUES})
+  one.frame({motion: MOTION, limit: LIMIT})
+  const now = () => Number(one.find(".series").getAttribute("aria-valuenow"))
+  one.fire(one.find(".play"), "click")
+  for (let i = 0; i < 100; i++) one.tick(16)
+  near([now()], [1.6 * 4 / 9], 1e-6)
+  assert.equal(one.find(".play").textContent, "❚❚ Pause")
+  for (let i = 0; i < 500; i++) one.tick(16)
+  near([now()], [4], 1e-6)
+  assert.equal(one.find(".play").textContent, "▶ Play")
+  one.fire(one.find(".play"), "click")
+  one.tick(16)
+  near([now()], [0.016 * 4 / 9], 1e-6)
+  one.fire(one.find(".play"), "click")
+  one.tick(200)
+  near([now()], [0.016 * 4 / 9], 1e-6)
+  one.frame({unable: {motion: "It cannot."}})
+  assert.deepEqual([one.find(".time-body").hidden, one.find(".time-note").textContent], [true, "It cannot."])
+  one.said()
+  one.panels.show("", one.values)
+  assert.deepEqual(one.said(), [["trace", null]])
+})
