@@ -122,8 +122,17 @@ def try_javascript(task: tuple[str, Choice]) -> list[Count]:
 
 
 def attempt(task: tuple) -> list[Count]:
-    """One task in a process of its own."""
-    return try_javascript(task) if len(task) == 2 else try_python(task)
+    """One task in a process of its own.
+
+    Raises
+    ------
+    RuntimeError
+        The tests fail as they are: a pool waits for ever for a process that has left.
+    """
+    try:
+        return try_javascript(task) if len(task) == 2 else try_python(task)
+    except SystemExit as why:
+        raise RuntimeError(str(why)) from None
 
 
 def meant(names: list[str]) -> list[str]:

@@ -1,0 +1,365 @@
+// Panels of words, tables and space: what they say and draw, and what a hand on them does.
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import "../../../app/static/panels/lessons.js"
+import "../../../app/static/panels/numbers.js"
+import "../../../app/static/panels/orbits.js"
+import "../../../app/static/panels/solid.js"
+import {seen} from "../../../app/static/projection.js"
+import {opened} from "./reading.js"
+
+const cells = (one, selector) => one.all(`${selector} tr`).map((row) => [...row.children].map((cell) => cell.textContent))
+const Q = {label: ["Q₁", "Q₂"], theta: [0.5, 2.25], lambda_rho: [-1.5, 0.75], lambda_theta: [0.25, -3], type: ["attracting", "repelling"], multiplicity: [1, 2]}
+const C = {label: ["C₁", "C₂"], kind: ["saddle", "stable node"], e: [[0.1, -0.2], [0.3, 0.4]], x2: [[0.11, -0.22], [0.33, 0.44]], trace: [1, -3], determinant: [-2, 2], discriminant: [9, 1], eigenvalues: [[[2, 0], [-1, 0]], [[-1, 0.5], [-1, -0.5]]], slow_flow: [[0.5], []]}
+
+test("the panel numbers: each number under its head", () => {
+  const one = opened("numbers", {z: 0.5})
+  one.frame({equator: Q, cycle: null, critical: C, all_directions: false})
+  assert.deepEqual(cells(one, ".equator-table"), [["", "θ", "λρ", "λθ"], ["Q₁", "0.500", "−1.500", "0.250"], ["", "attracting"], ["Q₂", "2.250", "0.750", "−3.000"], ["", "repelling, multiplicity 2"]])
+  assert.deepEqual(cells(one, ".critical-table"), [
+    ["C₁", "saddle"], ["(c, s)", "(0.100, −0.200)"], ["(x₂, y₂)", "(0.110, −0.220)"], ["tr J", "1.000"], ["det J", "−2.000"], ["Δ(J)", "9.000"], ["eigenvalues", "2.000, −1.000"], ["z′", "0.500"],
+    ["C₂", "stable node"], ["(c, s)", "(0.300, 0.400)"], ["(x₂, y₂)", "(0.330, 0.440)"], ["tr J", "−3.000"], ["det J", "2.000"], ["Δ(J)", "1.000"], ["eigenvalues", "−1.000 ± 0.500 i"],
+  ])
+  assert.equal(one.find(".critical-table h2").textContent, "Critical sets")
+  const alone = Object.fromEntries(Object.entries(C).map(([name, all]) => [name, all.slice(0, 1)]))
+  one.frame({critical: alone})
+  assert.equal(one.find(".critical-table h2").textContent, "Critical set")
+  assert.ok(!cells(one, ".critical-table").some(([name]) => name === "z′")) // it stands below
+  one.frame({critical: Object.fromEntries(Object.keys(C).map((name) => [name, []]))})
+  assert.equal(one.find(".critical-table .note").textContent, "None in the scaling chart.")
+})
+
+test("the panel numbers: an equator without directions says how it is run through", () => {
+  const one = opened("numbers", {z: 0.5}), none = {...Q, theta: [], label: []}
+  const words = (header) => { one.frame({equator: none, all_directions: false, ...header}); return one.find(".equator-table .note").textContent }
+  assert.equal(words({cycle: null}), "None.")
+  assert.equal(words({cycle: -0.5}), "None: the equator is a closed orbit, attracting outside (exponent −0.500).")
+  assert.equal(words({cycle: 0.5}), "None: the equator is a closed orbit, repelling outside (exponent 0.500).")
+  assert.equal(words({cycle: 0}), "None: the equator is a closed orbit, neutral outside (exponent 0).")
+  assert.equal(words({cycle: null, all_directions: true}), "Every direction is a limit direction.")
+})
+
+test("the panel numbers: cycles and outcomes", () => {
+  const one = opened("numbers", {z: 0.5})
+  one.frame({cycles: {kind: ["stable", "unstable"], period: [7.5, 12], multiplier: [0.25, 3], reason: "", notes: ["More <may> be."]}, outcomes: {rows: [["Q₁", "slide", "slide", "All slide.", [["slides on C", ["1", "3/(3+s)"]]]]]}})
+  assert.deepEqual(cells(one, ".cycle-table"), [["Limit cycle", "stable"], ["period (fast time τ)", "7.500"], ["multiplier", "0.250"], ["Limit cycle", "unstable"], ["period (fast time τ)", "12.00"], ["multiplier", "3.000"]])
+  assert.deepEqual(one.texts(".cycle-table .note"), ["More <may> be."])
+  assert.deepEqual([one.find(".outcome-table i").className, ...one.texts(".outcome-table .note")], ["outcome slide", "All slide.", "slides on C with Ψ = 1, 3/(3+s)"])
+  one.frame({cycles: {kind: [], period: [], multiplier: [], reason: "Case I has none.", notes: []}}, {}, ["outcomes"])
+  assert.deepEqual(one.texts(".cycle-table .note"), ["Case I has none."])
+  assert.ok(one.find(".outcome-table").classList.contains("old"))
+  one.frame({unable: {outcomes: "Too <wild>."}})
+  assert.equal(one.find(".outcome-table .note").textContent, "Too <wild>.")
+})
+
+test("the panel numbers: the arrow along z starts at z and points as z′ does", () => {
+  const one = opened("numbers", {z: 2})
+  const read = (flow, z = 2) => {
+    one.values.z = z
+    one.frame({slow_flow: flow})
+    const numbers = (selector, name) => (one.find(selector)?.getAttribute(name).match(/-?[\d.]+/g) ?? []).map(Number)
+    const [, from, to] = numbers(".z-arrow", "d"), [, tip] = numbers(".z-head", "d")
+    return {from, to, tip, dot: Number(one.find(".z-dot")?.getAttribute("cy")), words: one.find(".slow").textContent.replaceAll(/\s+/g, " ")}
+  }
+  const at = (v) => 75 - 58 * v / 5 // the axis shows −5 to 5, z upward
+  let now = read([0.5, -1])
+  assert.deepEqual([now.from, now.dot], [at(2), at(2)])
+  assert.ok(Math.abs(now.tip - (at(2) - 14 - 44 / 3)) < 1e-9 && now.tip < now.to && now.to < now.from)
+  assert.match(now.words, /z′ = 0\.500, −1\.000⊙ out of the page/)
+  now = read([-1, 1])
+  assert.ok(Math.abs(now.tip - (at(2) + 36)) < 1e-9 && now.tip > now.to && now.to > now.from)
+  assert.match(now.words, /⊗ into the page/)
+  now = read([9], 4)
+  assert.equal(now.tip, 8) // it stays within the drawing
+  assert.equal(read([-9], -4).tip, 142)
+  now = read([0])
+  assert.deepEqual([now.from, now.words.includes("at rest")], [undefined, true])
+  assert.match(read([1], 7.3).words, /10.*0.*−10/)
+  assert.equal(read([]).words, "")
+  assert.equal(read(null).words, "")
+})
+
+test("the panel numbers: while it is closed its tables wait until nothing moves", () => {
+  const one = opened("numbers", {z: 0})
+  one.panels.show("", one.values)
+  one.panels.apply({header: {equator: Q, cycle: null}, blocks: {}}, [])
+  assert.equal(one.root.dataset.settled, "false")
+  one.tick(40)
+  one.panels.apply({header: {slow_flow: [1]}, blocks: {}}, [])
+  one.tick(59)
+  assert.equal(one.find(".equator-table").innerHTML, "")
+  one.tick(1)
+  assert.equal(cells(one, ".equator-table").length, 5)
+  assert.ok(one.find(".slow").textContent.includes("1.000"))
+  assert.equal(one.root.dataset.settled, "true")
+})
+
+test("the panel orbits: each orbit has its colour and its words, hidden ones none", () => {
+  const one = opened("orbits", {orbits: "0.1,0.2:slow;0.3,0.4,-;0.5,-0.6;1,1;2,1;2,2;3,1;3,2;3,3"})
+  one.frame({launched: {goes: ["To C.", "To Q₁.", "Away."], comes: ["From Q₂.", "", "From far."]}})
+  assert.deepEqual(one.all(".orbit-colour").map((it) => it.getAttribute("style").replace("background: ", "")),
+    [1, 0, 2, 3, 4, 5, 6, 1, 2].map((k) => k ? `var(--launch-${k})` : "transparent"))
+  assert.deepEqual(one.texts(".orbit-goes").slice(0, 5), ["To C.", "hidden", "To Q₁.", "Away.", ""])
+  assert.deepEqual(one.texts("li .note").slice(0, 5), ["From Q₂.", "", "", "From far.", ""])
+  assert.deepEqual(one.all(".orbit-name").slice(0, 3).map((it) => [it.getAttribute("value"), it.getAttribute("placeholder")]), [["slow", "(0.100, 0.200)"], ["", "(0.300, 0.400)"], ["", "(0.500, −0.600)"]])
+  assert.deepEqual(one.texts(".hide").slice(0, 3), ["●", "○", "●"])
+  assert.equal(one.find(".clear").hidden, false)
+  one.set({orbits: "0.1,0.2;0.3,0.4"})
+  one.fire(one.all(".hide")[1], "click")
+  assert.deepEqual(one.said(), [["choose", "orbits", "0.1,0.2;0.3,0.4,-"]])
+  one.fire(one.all(".hide")[1], "click")
+  one.fire(one.all(".remove")[0], "click")
+  assert.deepEqual(one.said(), [["choose", "orbits", "0.1,0.2;0.3,0.4"], ["choose", "orbits", "0.3,0.4"]])
+  const name = one.find(".orbit-name")
+  name.value = "a;b"
+  one.fire(name, "change")
+  assert.deepEqual(one.said(), [["choose", "orbits", "0.3,0.4:a b"]])
+  one.fire(one.find(".orbit-list"), "click")
+  assert.deepEqual(one.said(), [])
+  one.fire(one.find(".clear"), "click")
+  assert.deepEqual([one.said(), one.find(".clear").hidden], [[["choose", "orbits", ""]], true])
+})
+
+test("the panel orbits: a name that is being typed is not written over, a button that was pressed is", () => {
+  const one = opened("orbits", {orbits: "0.1,0.2"}), root = one.find(".orbit-list").getRootNode()
+  const active = (element) => Object.defineProperty(root, "activeElement", {value: element, configurable: true})
+  one.frame({launched: {goes: ["To C."], comes: [""]}})
+  const name = one.find(".orbit-name")
+  active(name)
+  one.frame({launched: {goes: ["Away."], comes: [""]}})
+  assert.deepEqual(one.texts(".orbit-goes"), ["To C."])
+  active(one.find(".hide"))
+  one.frame({launched: {goes: ["Away."], comes: [""]}})
+  assert.deepEqual(one.texts(".orbit-goes"), ["Away."])
+  const elsewhere = one.document.createElement("input")
+  one.box.append(elsewhere)
+  active(elsewhere)
+  one.frame({launched: {goes: ["To Q₁."], comes: [""]}})
+  assert.deepEqual(one.texts(".orbit-goes"), ["To Q₁."])
+  const row = one.find("li")
+  one.frame({})
+  one.frame({launched: {goes: ["To Q₁."], comes: [""]}})
+  assert.equal(one.find("li"), row) // nothing has changed: nothing is written
+})
+
+const LESSON = {key: "03-x", title: "Three", parts: [{html: '<button data-drag="f1" role="slider">f₁ = <b></b></button> <i data-fact="name"></i>'}, {ask: "What?", options: ["a", "b", "c"], hide: ["critical"], vary: {html: "Make it <i>b</i>."}}, {ask: "And?", options: ["d", "e"], hide: []}]}
+
+test("the panel lessons: a number is dragged by the range of its slider over 400 px, or stepped by keys", () => {
+  const one = opened("lessons", {quiz: "", lesson: "03-x", f1: 0.123})
+  one.frame({lesson: LESSON, facts: {name: "CM2"}})
+  assert.deepEqual([one.find("[data-drag] b").textContent, one.find("[data-fact]").textContent], ["0.123", "CM2"])
+  one.said()
+  const place = one.find("[data-drag]"), keys = (key) => { one.fire(place, "keydown", {key}); return one.said() }
+  for (const [key, value] of /** @type {[string, number][]} */ ([["ArrowRight", 0.15], ["ArrowUp", 0.18], ["ArrowLeft", 0.15], ["ArrowDown", 0.12]])) assert.deepEqual(keys(key), [["move", {f1: value}]])
+  assert.deepEqual(keys("x"), [])
+  one.fire(place, "pointerdown", {clientX: 50})
+  one.fire(place, "pointermove", {clientX: 70})
+  one.fire(place, "pointermove", {clientX: 30})
+  assert.deepEqual(one.said(), [["move", {f1: 0.42}], ["move", {f1: -0.18}]])
+  one.fire(place, "pointerup")
+  one.fire(place, "pointermove", {clientX: 90})
+  assert.deepEqual(one.said(), [])
+  assert.equal(place.getAttribute("aria-valuenow"), "-0.18")
+})
+
+test("the panel lessons: a question hides, asks, judges and remembers", () => {
+  const kept = {}
+  const one = opened("lessons", {quiz: "", lesson: "03-x", f1: 0})
+  Object.assign(globalThis.localStorage, {getItem: (name) => kept[name] ?? null, setItem: (name, value) => { kept[name] = value }})
+  one.frame({lesson: LESSON})
+  one.said()
+  const section = (i) => one.find(`[data-question="${i}"]`)
+  one.fire(section(1).querySelector(".begin"), "click")
+  assert.deepEqual(one.said(), [["choose", "quiz", "1.250000"], ["hide", []]])
+  one.fire(section(0).querySelector(".begin"), "click")
+  assert.deepEqual(one.said(), [["choose", "quiz", "0.250000"], ["hide", ["critical"]]])
+  assert.deepEqual([section(0).querySelector(".options").hidden, section(0).querySelector(".vary").hidden, section(0).querySelector(".begin").textContent], [false, true, "Another one"])
+  one.frame({pose: {values: {a: 1}}})
+  assert.deepEqual(one.said(), [["open", {a: 1}]])
+  one.fire(section(1).querySelector("[data-choice]"), "click") // of another question than the one that was asked
+  assert.deepEqual(one.said(), [])
+  one.fire(section(0).querySelectorAll("[data-choice]")[2], "click")
+  assert.deepEqual(one.said(), [["choose", "quiz", "0.250000.2"]])
+  one.frame({judged: {question: 0, right: false, truth: 1, explain: "Because."}})
+  assert.deepEqual(one.said(), [["hide", []]])
+  const marked = () => [...section(0).querySelectorAll("[data-choice]")].map((it) => it.className)
+  assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent, section(0).querySelector(".vary").hidden, kept], [["", "right", "wrong"], "Not so. Because.", false, {}])
+  one.set({quiz: "0.250000.1"})
+  one.frame({judged: {question: 0, right: true, truth: 1, explain: "Yes."}})
+  assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent], [["", "right", ""], "Right. Yes."])
+  assert.deepEqual(JSON.parse(kept["codim2-lessons"]), {"03-x": {0: ["answer"]}})
+  one.frame({goal: {question: 0, reached: false}})
+  assert.equal(section(0).querySelector(".goal").textContent, "")
+  one.frame({goal: {question: 0, reached: true}})
+  assert.equal(section(0).querySelector(".goal").textContent, "Done ✓")
+  assert.deepEqual(JSON.parse(kept["codim2-lessons"]), {"03-x": {0: ["answer", "goal"]}})
+  one.frame({unable: {pose: "Not found."}})
+  assert.equal(section(0).querySelector(".verdict").textContent, "Not found.")
+  one.said()
+  one.frame({lesson: LESSON}) // loaded again: what was answered hides nothing
+  assert.deepEqual(one.said(), [["hide", []]])
+  assert.equal(section(0).querySelector(".options").hidden, false)
+  one.fire(one.find(".lesson-head button"), "click")
+  assert.deepEqual(one.said(), [["choose", "quiz", ""], ["choose", "lesson", ""]])
+  one.frame({lesson: {key: "", list: [{key: "03-x", title: "Three", summary: "S.", questions: 2, values: {lesson: "03-x"}}, {key: "04-y", title: "Four", summary: "T.", questions: 1, values: {}}]}})
+  assert.deepEqual(one.texts(".lesson-done"), ["1/2", ""])
+  kept["codim2-lessons"] = '{"04-y": {"0": ["answer"]}}'
+  one.frame({lesson: {key: "", list: [{key: "04-y", title: "Four", summary: "T.", questions: 1, values: {lesson: "04-y", f1: 1}}]}})
+  assert.deepEqual(one.texts(".lesson-done"), ["✓"])
+  one.said()
+  one.fire(one.find("[data-open]"), "click")
+  assert.deepEqual(one.said(), [["open", {lesson: "04-y", f1: 1}]])
+})
+
+// --- space: what was drawn, in the space's own coordinates
+const WIDTH = 360, HEIGHT = 240
+const solid = (header, values = {}) => {
+  const one = opened("solid", {solid: "sphere", z: 1.5, ...values}, {settings: {views: {sphere: "Sphere", stack: "Stack", filippov: "Filippov"}}})
+  one.frame(header)
+  const [canvas] = one.all("canvas")
+  return {...one, canvas, drawn: () => { canvas.recorder.drawn.splice(0); one.panels.draw(one.values); return canvas.recorder.drawn }}
+}
+// Paths with the style in which they were stroked or filled.
+function paths(drawn) {
+  const found = [], style = {}
+  let points = []
+  for (const [name, ...all] of drawn) {
+    if (name === "=") style[all[0]] = all[1]
+    else if (name === "beginPath") points = []
+    else if (name === "moveTo" || name === "lineTo") points.push(all)
+    else if (name === "rect" || name === "arc" || name === "ellipse") points.push([name, ...all])
+    else if (name === "stroke") found.push({how: "stroke", colour: style.strokeStyle, width: style.lineWidth, alpha: style.globalAlpha, points})
+    else if (name === "fill" || name === "fillRect") found.push({how: name, colour: style.fillStyle, alpha: style.globalAlpha, points: name === "fill" ? points : [all]})
+    else if (name === "fillText") found.push({how: "text", colour: style.fillStyle, points: [all]})
+  }
+  return found
+}
+const near = (one, other, most = 0.02) => assert.ok(one.length === other.length && one.every((v, i) => Math.abs(v - other[i]) <= most), `${one} is not ${other}`)
+const MARKS = {equator: {x: [0.6, -0.8], y: [0.8, 0.6], filled: [1, 0], label: ["Q₁", "Q₂"]}, critical: {x: [0.3, -0.1], y: [0.4, 0.2], kind: ["stable focus", "saddle"], label: ["C₁", "C₂"]}}
+
+test("the panel solid: the hemisphere, marks lifted onto it, in front strong and behind faint", () => {
+  const one = solid({sphere: {inside: [[[0.1, -0.9, 0.42], [0.1, -0.8, 0.59]], [[0, 0.99, 0.1], [0.1, 0.99, 0.1]]], outside: [[[1.2, 0.2], [1.3, 0.1], [2, 2], [1.1, -0.5], [1.2, -0.6]]]}, ...MARKS})
+  const all = paths(one.drawn()), elevation = 0.5
+  const scale = Math.min(WIDTH / 2.84, HEIGHT / (Math.cos(elevation) + 2.84 * Math.sin(elevation))), cy = HEIGHT / 2 + scale * Math.cos(elevation) * 0.3
+  const at = (point) => { const [right, up] = seen(point, -0.6, elevation); return [WIDTH / 2 + scale * right, cy - scale * up] }
+  const [front, back] = all.filter(({how, colour}) => how === "stroke" && colour === "orbit")
+  near(front.points.flat(), [...at([0.1, -0.9, 0.42]), ...at([0.1, -0.8, 0.59])])
+  assert.deepEqual([front.alpha, back.alpha], [0.9, 0.22]) // what faces the eye, and what does not
+  const outside = all.filter(({how, colour}) => how === "stroke" && colour === "outside")
+  near(outside[0].points.flat(), [...at([1.2, 0.2, 0]), ...at([1.3, 0.1, 0])]) // only what is near
+  assert.equal(outside.length, 2)
+  const dots = all.filter(({how, points}) => how === "fill" && points.length === 1 && (points[0][0] === "arc" || points[0][0] === "rect"))
+  assert.deepEqual(dots.map(({colour, points}) => [colour, points[0][0]]), [["attr", "arc"], ["page", "arc"], ["crit", "rect"], ["page", "rect"]])
+  near(dots[0].points[0].slice(1, 3), at([0.6, 0.8, 0]))
+  near(dots[1].points[0].slice(1, 3), at([-0.8, 0.6, 0]))
+  near(dots[2].points[0].slice(1, 3).map((v) => v + 4), at([0.3, 0.4, Math.sqrt(0.75)]))
+  near(dots[3].points[0].slice(1, 3).map((v) => v + 4), at([-0.1, 0.2, Math.sqrt(0.95)]))
+  const words = Object.fromEntries(all.filter(({how}) => how === "text").map(({points: [[text, ...place]]}) => [text, place]))
+  near(words["x̄"], [at([1.34, 0, 0])[0] + 6, at([1.34, 0, 0])[1] + 10])
+  near(words["ȳ"], [at([0, 1.34, 0])[0] + 6, at([0, 1.34, 0])[1] - 4])
+  near(words["ε̄"], [at([0, 0, 1.3])[0] + 9, at([0, 0, 1.3])[1] + 4])
+  assert.ok(words["Q₁"] && words["C₂"])
+})
+
+test("the panel solid: a hand turns it, and so do keys, never from below", () => {
+  const one = solid({sphere: {inside: [], outside: []}, equator: {x: [1], y: [0], filled: [1], label: ["Q"]}, critical: {}})
+  const place = (drawn) => { const [[, x, y]] = paths(drawn).filter(({how, points}) => how === "fill" && points.length === 1 && points[0][0] === "arc").map(({points}) => points[0]); return [x, y] }
+  const turned = (act) => { one.canvas.recorder.drawn.splice(0); act(); one.tick(20); return place(one.canvas.recorder.drawn) }
+  const at = (azimuth, elevation) => {
+    const scale = Math.min(WIDTH / 2.84, HEIGHT / (Math.cos(elevation) + 2.84 * Math.sin(elevation))), [right, up] = seen([1, 0, 0], azimuth, elevation)
+    return [WIDTH / 2 + scale * right, HEIGHT / 2 + scale * Math.cos(elevation) * 0.3 - scale * up]
+  }
+  near(place(one.drawn()), at(-0.6, 0.5))
+  near(turned(() => one.fire(one.canvas, "keydown", {key: "ArrowRight"})), at(-0.7, 0.5))
+  near(turned(() => one.fire(one.canvas, "keydown", {key: "ArrowLeft"})), at(-0.6, 0.5))
+  near(turned(() => one.fire(one.canvas, "keydown", {key: "ArrowUp"})), at(-0.6, 0.58))
+  near(turned(() => one.fire(one.canvas, "keydown", {key: "ArrowDown"})), at(-0.6, 0.5))
+  near(turned(() => { one.fire(one.canvas, "pointerdown", {clientX: 10, clientY: 10}); one.fire(one.canvas, "pointermove", {clientX: 22, clientY: 26}) }), at(-0.7, 0.6))
+  near(turned(() => { one.fire(one.canvas, "pointermove", {clientX: 22, clientY: -900}) }), at(-0.7, 0.02))
+  near(turned(() => { one.fire(one.canvas, "pointermove", {clientX: 22, clientY: 900}) }), at(-0.7, 1.56))
+  one.fire(one.canvas, "pointerup")
+  one.canvas.recorder.drawn.splice(0)
+  one.fire(one.canvas, "pointermove", {clientX: 90, clientY: 0})
+  one.tick(20)
+  assert.deepEqual(one.canvas.recorder.drawn, [])
+})
+
+test("the panel solid: discs stacked upward along z, directions on the cylinder, the present z in its place", () => {
+  const one = solid({stack: {control: "z", span: [-1, 3], discs: [{z: -1, lines: [[[0.1, 0.2], [0.3, 0.1]]]}, {z: 3, lines: []}], directions: [[0.25, 0.5, 1, 0], [0.75, 2, 0, 1], [0.5, -1.2, 0, 1]], sets: [{points: [[0.1, 0, 0], [0.2, 0.1, 0.25], [0.3, 0, 0.5], [0.4, 0, 0.75], [0.5, 0, 1]], stable: true, flow: 1}, {points: [[-0.5, 0.1, 0.2], [-0.4, 0.2, 0.6]], stable: false, flow: -1}]}, ...MARKS}, {solid: "stack"})
+  const all = paths(one.drawn()), e = 0.5, tall = 2.6
+  const scale = Math.min(WIDTH / 2.5, HEIGHT / (tall * Math.cos(e) + 2.3 * Math.sin(e) + 0.5)), cy = HEIGHT / 2 + scale * Math.cos(e) * tall / 2
+  const at = (x, y, share) => { const [right, up] = seen([x, y, tall * share], -0.6, e); return [WIDTH / 2 + scale * right, cy - scale * up] }
+  const discs = all.filter(({how, colour}) => how === "fill" && colour === "panel").map(({points}) => points[0].slice(1, 3))
+  near(discs.flat(), [...at(0, 0, 0), ...at(0, 0, 1)])
+  const orbit = all.find(({how, colour}) => how === "stroke" && colour === "orbit")
+  near(orbit.points.flat(), [...at(0.1, 0.2, 0), ...at(0.3, 0.1, 0)])
+  const dots = all.filter(({how}) => how === "fillRect")
+  const place = (theta, share) => at(Math.cos(theta), Math.sin(theta), share)
+  // behind the discs first, then in front of them; where they arrive in the colour of attracting
+  assert.deepEqual(dots.map(({colour, alpha}) => [colour, alpha]), [["rep", 0.4], ["attr", 1], ["rep", 1]])
+  near(dots.flatMap(({points: [[x, y]]}) => [x + 1.2, y + 1.2]), [...place(2, 0.75), ...place(0.5, 0.25), ...place(-1.2, 0.5)])
+  const sets = all.filter(({how, colour}) => how === "stroke" && colour === "crit" && how === "stroke").filter(({points}) => points.length === 5 || points.length === 2)
+  assert.deepEqual(sets.map(({width, alpha}) => [width, alpha]), [[2.6, 1], [1.6, 0.5]])
+  near(sets[0].points.flat(), [at(0.1, 0, 0), at(0.2, 0.1, 0.25), at(0.3, 0, 0.5), at(0.4, 0, 0.75), at(0.5, 0, 1)].flat())
+  const here = all.find(({how, colour, width}) => how === "stroke" && colour === "accent" && width === 2.4)
+  near(here.points[0], at(1, 0, 0.625)) // z = 1.5 of −1 to 3
+  const moved = one.canvas.recorder.drawn.filter(([name]) => name === "translate" || name === "rotate").map(([, ...v]) => v)
+  near(moved[0], at(0.4, 0, 0.75)) // the arrow of the first set, upward
+  const [p, q] = [at(0.3, 0, 0.5), at(0.4, 0, 0.75)]
+  near(moved[1], [Math.atan2(q[1] - p[1], q[0] - p[0])])
+  const words = Object.fromEntries(all.filter(({how}) => how === "text").map(({points: [[text, ...where]]}) => [text, where]))
+  assert.ok(words["z = −1"][1] > words["z = 3"][1]) // low is below
+  one.values.z = 5
+  assert.ok(!paths(one.drawn()).some(({colour, width}) => colour === "accent" && width === 2.4))
+})
+
+const FILIPPOV = {
+  plane: [[2, 1, 1.5], [-2, 1, 0.5], [-2, -1, -0.5], [2, -1, 0.25]], cross: 0.75, curve: [[1, 0.5, 2], [-0.5, 1, 1], [-1, -0.75, -1], [1, 0.5, 2]],
+  candidates: [-0.25, 1.25], combined: [[[1, 0.5, 2], [-1, -0.75, -1]], [[-0.5, 1, 1]]], selected: [[0.5, "stable node"], [1, "saddle"]], sentence: "Between.",
+}
+
+test("the panel solid: limit vectors, Σ upright with z′ growing upward, what the blowup selects filled if it is stable", () => {
+  const one = solid({filippov: FILIPPOV}, {solid: "filippov"}), all = paths(one.drawn()), e = 0.5
+  const scale = Math.min(WIDTH / 2.3, HEIGHT / (1.9 * Math.cos(e) + 2 * Math.sin(e)))
+  const at = ([u, v, w]) => { const [right, up] = seen([u / 2, v / 2, 1.5 * ((w + 1) / 3 - 0.5)], -0.6, e); return [WIDTH / 2 + scale * right, HEIGHT / 2 - scale * up] }
+  const strokes = (colour, width) => all.filter((path) => path.how === "stroke" && path.colour === colour && path.width === width).map(({points}) => points.flat())
+  const ends = (points) => points.slice(1).flatMap((to, i) => [...at(points[i]), ...at(to)]) // a stroke for each step
+  near(strokes("attr", 2.2).flat(), ends(FILIPPOV.curve))
+  near(strokes("crit", 1).flat(), ends([...FILIPPOV.plane, FILIPPOV.plane[0]]))
+  near(strokes("accent", 5)[0], [...at([0, 0, -0.25]), ...at([0, 0, 1.25])])
+  near(strokes("soft", 1).flat(), /** @type {any[]} */ ([[[1, 0.5, 2], -0.25], [[-1, -0.75, -1], -0.25], [[-0.5, 1, 1], 1.25]]).flatMap(([from, to]) => [...at(from), ...at([0, 0, to])]))
+  const dots = all.filter(({how, points}) => how === "fill" && points.length === 1)
+  assert.deepEqual(dots.map(({colour, points}) => [points[0][0], colour]), [["arc", "page"], ["arc", "page"], ["rect", "crit"], ["rect", "page"]])
+  near(dots.flatMap(({points: [[shape, x, y, wide]]}) => shape === "rect" ? [x + wide / 2, y + wide / 2] : [x, y]), [-0.25, 1.25, 0.5, 1].flatMap((w) => at([0, 0, w])))
+  const [cx, cy] = at([0, 0, 0.75])
+  near(strokes("ink", 2.6)[0], [cx - 7, cy - 7, cx + 7, cy + 7, cx - 7, cy + 7, cx + 7, cy - 7])
+  const words = Object.fromEntries(all.filter(({how}) => how === "text").map(({points: [[text, ...place]]}) => [text, place]))
+  near(words["z′ = 0.50"], [at([0, 0, 0.5])[0] + 7, at([0, 0, 0.5])[1] - 4])
+  assert.ok(words["z′ = 1.00"] && words["Σ"] && words["F"] && words["F*(θ)"])
+  const bare = solid({filippov: {...FILIPPOV, plane: [], cross: null, candidates: [0.5]}}, {solid: "filippov"})
+  const left = paths(bare.drawn())
+  assert.ok(!left.some(({points}) => points[0][0] === "F") && !left.some(({colour, width}) => colour === "ink" && width === 2.6) && !left.some(({width}) => width === 5))
+})
+
+test("the panel solid: a fine screen has a finer canvas, a closed panel none, and what is not known is said", () => {
+  const one = solid({sphere: {inside: [], outside: [], sentence: "A ball."}, ...MARKS})
+  assert.deepEqual([one.canvas.width, one.canvas.height, one.find(".solid-note").textContent], [360, 240, "A ball."])
+  globalThis.devicePixelRatio = 2
+  one.panels.draw(one.values)
+  assert.deepEqual([one.canvas.width, one.canvas.height], [720, 480])
+  assert.ok(one.canvas.recorder.drawn.some(([name, ...all]) => name === "setTransform" && String(all) === "2,0,0,2,0,0"))
+  const paints = (header) => { one.canvas.recorder.drawn.splice(0); one.panels.apply({header, blocks: {}}, []); return one.canvas.recorder.drawn.length > 0 }
+  assert.deepEqual([{}, {sphere: {inside: [], outside: []}}, {stack: {}}, {filippov: FILIPPOV}, {critical: MARKS.critical}, {equator: MARKS.equator}, {unable: {}}].map(paints), [false, true, true, true, true, true, true])
+  one.box.hidden = true
+  assert.equal(paints({equator: MARKS.equator}), false)
+  one.box.hidden = false
+  one.frame({unable: {stack: "No z."}})
+  one.set({solid: "stack"})
+  assert.equal(one.find(".solid-note").textContent, "No z.")
+  assert.deepEqual(one.all("[data-view]").map((button) => button.getAttribute("aria-pressed")), ["false", "true", "false"])
+  one.fire(one.all("[data-view]")[2], "click")
+  assert.deepEqual(one.said(), [["choose", "solid", "filippov"]])
+  one.frame({}, {}, ["filippov"])
+  assert.ok(one.canvas.classList.contains("old"))
+})
