@@ -6,14 +6,15 @@ import math
 
 import numpy as np
 
+from ..words import say
 from .curve import BifurcationCurve, SpecialPoint, frozen, matrix, place
 from .geometry import Geometry
 
 _TAU = 2.0 * math.pi
 _TURN = _TAU / 360  # the tangent turns by at most this from point to point
 _CUSP = {
-    True: "Θ has a triple zero, and b = 0 makes the system symmetric: a pitchfork of limit directions (D2).",
-    False: "Θ has a triple zero: two saddle-nodes of limit directions meet in a cusp.",
+    True: say("pitchfork in the plane"),
+    False: say("cusp in the plane"),
 }
 
 
@@ -41,24 +42,22 @@ def saddle_node(a: float, b: float, d: float) -> BifurcationCurve:
     a, b, d = matrix(a, b, d)
     plane = Geometry(a, b, d)
     label = "fig:SNBIF, eq:tangencies"
-    sentence = "Two limit directions meet: Θ has a double zero."
+    sentence = say("directions meet")
     if a == d and b == 0.0:
-        point = SpecialPoint(
-            "all directions", (0.0, 0.0), "a = d, b = 0 and f = 0: Θ ≡ 0, every direction is a limit direction."
-        )
+        point = SpecialPoint("all directions", (0.0, 0.0), say("nothing turns at f = 0"))
         return BifurcationCurve(
             "saddle-node", "saddle-node: the point f = 0", label, frozen([np.zeros((1, 2))]), (point,), (),
-            "a = d and b = 0: there are two limit directions for every f except f = 0.",
+            say("two for every f"),
         )  # fmt: skip
     special: list[SpecialPoint] = []
     for theta in plane.cusps:
         where = place(plane.saddle_node_at(theta))
         if plane.swallowtail:
-            special.append(SpecialPoint("quadruple zero", where, "Θ has a fourfold zero: two cusps have met."))
+            special.append(SpecialPoint("quadruple zero", where, say("two cusps have met")))
         else:
             special.append(SpecialPoint("pitchfork" if b == 0.0 else "cusp", where, _CUSP[b == 0.0]))
     special += [
-        SpecialPoint("double saddle-node", place(plane.saddle_node_at(theta)), "Θ has two double zeros at the same f.")
+        SpecialPoint("double saddle-node", place(plane.saddle_node_at(theta)), say("two double zeros"))
         for theta, _ in plane.double
     ]
     starts = [] if plane.swallowtail else plane.cusps
@@ -72,7 +71,7 @@ def saddle_node(a: float, b: float, d: float) -> BifurcationCurve:
     if a == d:
         return BifurcationCurve(
             "saddle-node", "saddle-node: the circle |f| = |b|", label, frozen(branches), tuple(special), (),
-            sentence + " a = d: that is on the circle |f| = |b| (D1).",
+            f"{sentence} {say('on the circle')}",
         )  # fmt: skip
     return BifurcationCurve("saddle-node", "saddle-node", label, frozen(branches), tuple(special), (), sentence)
 
@@ -107,21 +106,17 @@ def critical_boundary(a: float, b: float, d: float) -> BifurcationCurve:
         degenerate = sizes[0] == 0.0
         branch = np.zeros((1, 2)) if degenerate else np.stack([-reach, reach])
         name = "transcritical: the point f = 0" if degenerate else "transcritical: a segment (det A = 0)"
-        sentence = (
-            "A = 0: everything stands still at f = 0, and there is no critical set elsewhere."
-            if degenerate
-            else "det A = 0: no critical set, except on this segment, where there is a whole line of them."
-        )
+        sentence = say("still at f = 0") if degenerate else say("line on a segment")
         return BifurcationCurve("transcritical", name, label, frozen([branch]), (), (), sentence)
     phi = np.linspace(0.0, _TAU, 361)
     branch = plane.ellipse(phi)
     branch[-1] = branch[0]
-    touching = "The critical set reaches the equator just where two limit directions meet: λ_ρ = λ_θ = 0."
-    crossing = "The critical set reaches the equator, and elsewhere on it two limit directions meet."
+    touching = say("reaches where they meet")
+    crossing = say("reaches, and elsewhere they meet")
     special = [
         *(SpecialPoint("saddle-node on the equator", place(plane.saddle_node_at(t)), touching) for t in plane.touching),
         *(SpecialPoint("saddle-node elsewhere", place(plane.saddle_node_at(t)), crossing) for t in plane.crossing),
     ]
     name = "transcritical: the circle |f| = |b|, also the saddle-node curve" if plane.coincide else "transcritical"
-    sentence = "|A⁻¹f| = 1: the critical set reaches the equator, and one limit direction turns its radial stability."
+    sentence = say("reaches the equator")
     return BifurcationCurve("transcritical", name, label, frozen([branch]), tuple(special), (), sentence)

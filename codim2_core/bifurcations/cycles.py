@@ -10,6 +10,7 @@ import numpy as np
 from ..continuation.branches import folds_along
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
+from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
 from .equator import coefficients_at, heteroclinic
 from .fold_of_cycles import OUTWARD, STEP, Fold, Folds, null_vector
@@ -20,9 +21,9 @@ SMALLER = 0.05  # amplitude below which a branch that breaks off beside a genera
 FIRST = 0.02  # chi of the first point beside a generalised Hopf point
 NEAR = 0.03  # in A^-1 f: a branch that breaks off this close to a corner ends there
 LINES = 6  # across the disc of critical sets, on which folds are looked for
-TOUCHING = "The fold ends where the critical set reaches the equator in a saddle-node of limit directions."
-CUSP = "Three limit cycles meet in one: two folds of cycles end here in a cusp."
-RESONANT = "The fold ends where the loop through the equator is neutral."
+TOUCHING = say("fold ends, saddle-node")
+CUSP = say("cusp of cycles")
+RESONANT = say("fold ends, neutral loop")
 
 
 def cycle_folds(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
@@ -60,11 +61,7 @@ def cycle_folds(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
         found.from_hopf(f)
     found.from_lines()
     name = "folds of cycles" if found.branches else "folds of cycles: none"
-    sentence = (
-        "Two limit cycles, one stable and one unstable, meet and vanish."
-        if found.branches
-        else f"No fold of cycles begins on the Hopf curve, and none was found on {LINES} lines across the disc of C."
-    )
+    sentence = say("two cycles meet") if found.branches else say("no fold of cycles", lines=LINES)
     return BifurcationCurve(
         "fold of cycles", name, label, frozen(found.branches), tuple(found.special), frozen(found.sizes), sentence
     )
@@ -111,7 +108,7 @@ class _Curves:
                 states = folds.with_cusps(states)
                 self._add([(f, 0.0), *self._rows(states), *tail], special + self._cusps(states))
                 return
-        text = "The fold that begins here was not caught."
+        text = say("fold not caught")
         self.special += [SpecialPoint("undecided", place(sign * f), text) for sign in (1.0, -1.0)]
 
     def from_lines(self) -> None:
@@ -185,6 +182,6 @@ class _Curves:
             if self.near(g, f) < reach:
                 return [(g, size)], [SpecialPoint(kind, place(g), text)]
         if how == "equator":
-            return [], [SpecialPoint("equator", place(f), "The fold of cycles reaches the equator here.")]
-        text = "The fold of cycles was followed to here and no further."
+            return [], [SpecialPoint("equator", place(f), say("fold reaches the equator"))]
+        text = say("fold followed no further")
         return [], [SpecialPoint("undecided", place(f), text)]

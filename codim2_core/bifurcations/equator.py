@@ -18,6 +18,7 @@ from ..layer_problem.linearisation import determinant_sign
 from ..numerics.root_between import root_between
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
+from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
 from .geometry import Geometry
 
@@ -27,7 +28,7 @@ STEP, SHORTEST = 0.03, 1e-3  # of a curve in that disc
 MOST = 400
 NEAR = 0.03  # a curve that breaks off this close to a corner ends there
 
-_NONE = "a and d do not differ in sign, or det A ≤ 0: the layer problem has no limit cycles (Case III has)."
+_NONE = say("no cycles at all")
 
 
 def coefficients_at(a: float, b: float, d: float, f: Array) -> Coefficients:
@@ -66,7 +67,7 @@ def closed_equator(a: float, b: float, d: float) -> BifurcationCurve:
         lines = [f for f in lines if equator_cycle(coefficients_at(a, b, d, f[100])) is not None]
         return BifurcationCurve(
             "equator", "closed equator: reversible", label, frozen(lines),
-            sentence="a = −d: on these lines the layer problem is reversible and closed orbits fill bands.",
+            sentence=say("reversible, equator"),
         )  # fmt: skip
 
     A = np.array([[a, -b], [b, d]])
@@ -77,12 +78,7 @@ def closed_equator(a: float, b: float, d: float) -> BifurcationCurve:
         return math.nan if found is None else math.atan(found.exponent)
 
     branches = _curves(exponent, exponent, A, corners)
-    sentence = (
-        "The closed equator changes its stability, and a limit cycle is born from it or vanishes in it; it does not "
-        "depend on Ψ."
-        if branches
-        else "The closed equator keeps its stability wherever it has no equilibria."
-    )
+    sentence = say("equator turns") if branches else say("equator keeps")
     name = "closed equator" if branches else "closed equator: none"
     return BifurcationCurve("equator", name, label, frozen(branches), (), (), sentence)
 
@@ -140,13 +136,9 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
         values.append(row)
         for i in np.flatnonzero((row[1:] > 1.0) != (row[:-1] > 1.0)):
             at = -A @ _between(missing(FINE), lambda v: _ratio(a, b, d, -A @ v) - 1.0, e[i], e[i + 1])
-            text = "The loop is neutral (product of the saddles' ratios 1): a fold of cycles ends here."
+            text = say("neutral loop")
             special.append(SpecialPoint("resonant loop", place(at), text))
-    sentence = (
-        "A limit cycle becomes a loop: an orbit between two half-saddles of the equator, and the equator between them."
-        if branches
-        else "No loop of half-saddles of the equator was found: limit cycles do not end in one."
-    )
+    sentence = say("loop through the equator") if branches else say("no loop")
     name = "heteroclinic cycle through the equator" if branches else "heteroclinic: none"
     return BifurcationCurve("heteroclinic", name, label, frozen(branches), tuple(special), frozen(values), sentence)
 

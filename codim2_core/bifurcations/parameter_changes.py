@@ -15,6 +15,7 @@ from ..psi.constructors import hill, with_parameter
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
+from ..words import say
 
 STEPS = 241
 
@@ -127,7 +128,9 @@ def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (
         high = 0.5 * (n + (found[i + 1][0] if i + 1 < len(found) else shape.high))
         before, after = (_kind(alpha, beta, root, sigma(v)) for v in (low, high))
         changes.append(
-            ParameterChange(kind, n, before, after, f"{shape.name} = {n:.6g}: C turns from {before} into {after}.")
+            ParameterChange(
+                kind, n, before, after, say("changes over Ψ", name=shape.name, value=n, before=before, after=after)
+            )
         )
     return tuple(changes)
 

@@ -24,6 +24,7 @@ from ..layer_problem.lyapunov import first_lyapunov
 from ..numerics.root_between import root_between
 from ..numerics.sign_changes import roots
 from ..psi.function import Psi
+from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
 
 _GRID = 256  # moduli between which zeros are looked for
@@ -213,12 +214,12 @@ def hopf(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     if a == d == 0.0 and b != 0.0:
         return BifurcationCurve(
             "hopf", "Hopf: everywhere", label, (),
-            sentence="a = d = 0: tr J = 0 wherever there is a critical set, so none of them is a Hopf bifurcation.",
+            sentence=say("trace vanishes"),
         )  # fmt: skip
     if determinant_sign(a, b, d) <= 0 or a * d >= 0.0:
         return BifurcationCurve(
             "hopf", "Hopf: none", label, (),
-            sentence="tr J = 0 < det J needs a and d of opposite sign and det A > 0 (Case III): no Hopf bifurcation.",
+            sentence=say("no Hopf outside Case III"),
         )  # fmt: skip
     level = _Level(a, b, d, psi, 0.0)
     branches, values, special = [], [], []
@@ -231,17 +232,11 @@ def hopf(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
         values.append(_lyapunov(level, e))
         special += _bautin(level, e, values[-1])
     if not branches:
-        sentence = "tr J keeps one sign wherever there is a critical set: no Hopf bifurcation with this Ψ."
+        sentence = say("no Hopf with this Ψ")
     elif level.p == 0.0:
-        sentence = (
-            "a = −d: on the two straight lines the layer problem is reversible and C is a centre; its first Lyapunov "
-            "coefficient is zero there."
-        )
+        sentence = say("reversible lines")
     else:
-        sentence = (
-            "C turns from a focus that attracts into one that repels; a cycle of the layer problem is born or dies: "
-            "stable where the first Lyapunov coefficient is negative, unstable where it is positive."
-        )
+        sentence = say("Hopf curve")
     name = "Hopf" if branches else "Hopf: none"
     return BifurcationCurve("hopf", name, label, frozen(branches), tuple(special), frozen(values), sentence)
 
@@ -282,7 +277,7 @@ def _bautin(level: _Level, e: Array, values: Array) -> list[SpecialPoint]:
         found.append(
             SpecialPoint(
                 "generalised Hopf", place(-(level.A @ e0)),
-                "The first Lyapunov coefficient is zero (Bautin): a fold of cycles ends here.",
+                say("Bautin"),
             )
         )  # fmt: skip
     return found
@@ -314,21 +309,17 @@ def node_focus(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     if determinant_sign(a, b, d) <= 0:
         return BifurcationCurve(
             "node-focus", "node-focus: none", label, (),
-            sentence="det A ≤ 0: the critical set is a saddle or there is none.",
+            sentence=say("saddle or none"),
         )  # fmt: skip
     branches = []
     special: tuple[SpecialPoint, ...] = ()
     if a == d and b == 0.0:
-        special = (SpecialPoint("star node", (0.0, 0.0), "J is a multiple of the identity: both eigenvalues agree."),)
+        special = (SpecialPoint("star node", (0.0, 0.0), say("both eigenvalues agree")),)
     else:
         for tau in (-1.0, 1.0):
             level = _Level(a, b, d, psi, tau)
             branches += [-e @ level.A.T for e in _branches(level)]
-    sentence = (
-        "The discriminant tr(J)² − 4 det J is zero: C changes between node and focus."
-        if branches or special
-        else "C is of one kind, node or focus, wherever it exists."
-    )
+    sentence = say("node-focus curve") if branches or special else say("one kind")
     name = "node-focus" if branches or special else "node-focus: none"
     return BifurcationCurve("node-focus", name, label, frozen(branches), special, (), sentence)
 

@@ -24,6 +24,7 @@ from ..layer_problem.vary import limits, varied
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
+from ..words import say
 from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, reversible, values
 from .result import CycleBranch, CycleBranches, CyclePoint
 from .trace import LEVEL, Trace, Tracer, reversed_trace
@@ -97,8 +98,8 @@ def continue_cycles(
     if all(reversible(at(v)[0]) for v in allowed):
         settings = (at(float(v)) for v in values(low, high))
         reasons = dict.fromkeys(reason_for_none(q, critical_sets(q, member)) for q, member in settings)
-        sentence = " Elsewhere on the span: ".join(r for r in reasons if r)
-        return CycleBranches(name, (low, high), (), sentence or "No limit cycle anywhere on the span.")
+        sentence = f" {say('elsewhere')} ".join(r for r in reasons if r)
+        return CycleBranches(name, (low, high), (), sentence or say("no cycle on the span"))
     middle = allowed[len(allowed) // 2]
     family.ray = family.section(middle).ray
     return _Search(family, name, low, high).run()
@@ -139,10 +140,7 @@ class _Search:
         self.used: set[int] = set()
         self.found: list[tuple[Trace, CyclePoint, CyclePoint, End | None, End | None]] = []
         centres = {end.value for end in self.hopf if reversible(family.at(end.value)[0])}
-        self.notes = [
-            f"{name} = {v:.6g}: the layer problem is reversible; closed orbits fill a band, and none is a limit cycle."
-            for v in sorted(centres)
-        ]
+        self.notes = [say("band at one value", name=name, value=v) for v in sorted(centres)]
         self.hopf = [end for end in self.hopf if end.value not in centres]
         self.closed = [end for end in self.closed if not reversible(family.at(end.value)[0])]
 
@@ -160,12 +158,10 @@ class _Search:
         self._columns()
         branches = tuple(self._branch(*entry) for entry in self.found)
         missed = [e for e in self.loops if id(e) not in self.used]
-        self.notes += [f"A loop closes at {self.name} = {e.value:.6g} with no cycle seen beside it." for e in missed]
-        count = f"{len(branches)} branch{'' if len(branches) == 1 else 'es'} of limit cycles"
-        reason = f"{count}, from the return map on a section from C to the equator." if branches else (
-            f"No limit cycle for {self.name} from {self.low:.6g} to {self.high:.6g}: no Hopf point, no end on the "
-            f"equator, and none at the {COLUMNS} values where all were looked for."
-        )  # fmt: skip
+        self.notes += [say("loop without a cycle", name=self.name, value=e.value) for e in missed]
+        kind = "no branch" if not branches else "one branch" if len(branches) == 1 else "branches"
+        span = {"name": self.name, "low": self.low, "high": self.high}
+        reason = say(kind, **span, count=len(branches) or COLUMNS)
         return CycleBranches(self.name, (self.low, self.high), branches, reason, tuple(self.notes))
 
     def _nu(self, value: float) -> float:
@@ -179,7 +175,7 @@ class _Search:
             first = first or self.tracer.corrected(start, self._nu(end.value), (1.0, 0.0), False)
         if first is None or not -1e-12 <= first[1] <= 1.0 + 1e-12:
             if first is None:
-                self.notes.append(f"The cycle born at {end.kind} {self.name} = {end.value:.6g} was not caught.")
+                self.notes.append(say("birth not caught", kind=end.kind, name=self.name, value=end.value))
             return
         trace = self.tracer.trace(self.tracer.point(*first, (towards, 0.0)))
         self._keep(trace, self._special(end), end)
@@ -201,7 +197,7 @@ class _Search:
                 trace = self.tracer.trace(point)
                 if trace.reason == "closed":
                     special = CyclePoint(
-                        "closed", point.turn.value, point.turn.period, point.turn.amplitude, "The branch is closed."
+                        "closed", point.turn.value, point.turn.period, point.turn.amplitude, say("branch closed")
                     )
                     self.found.append((trace, special, special, None, None))
                     continue
@@ -257,30 +253,26 @@ class _Search:
                 end = replace(end, amplitude=turn.amplitude)  # that of the last cycle: the limit's is not known
             return self._special(end), end
         kind = "span" if trace.reason == "span" else "undecided"
-        sentence = f"{self.name} = {turn.value:.6g}: the end of the span." if kind == "span" else (
-            f"The branch was followed to {self.name} = {turn.value:.6g} and no further."
+        sentence = say("end of the branch span", name=self.name, value=turn.value) if kind == "span" else (
+            say("followed no further", name=self.name, value=turn.value)
         )  # fmt: skip
         if kind == "undecided":
             self.notes.append(sentence)
         return CyclePoint(kind, turn.value, turn.period, turn.amplitude, sentence), None
 
     def _special(self, end: End) -> CyclePoint:
-        at = f"{self.name} = {end.value:.6g}: "
+        at: dict[str, object] = {"name": self.name, "value": end.value}
         if end.kind == "Hopf":
-            how = "supercritical" if end.measure < 0.0 else "subcritical"
-            text = f"Hopf bifurcation of C, {how} (first Lyapunov coefficient {end.measure:.3g})."
+            text = say("born, supercritical" if end.measure < 0.0 else "born, subcritical", number=end.measure, **at)
         elif end.kind == "equator":
-            text = "the cycle becomes the equator, which is a closed orbit and changes its stability."
+            text = say("becomes the equator", **at)
         elif end.kind == "det A = 0":
-            text = (
-                "the cycle meets a whole line of critical points, where motion stops: its period grows beyond bounds."
-            )
+            text = say("meets a line", **at)
         elif end.kind == "saddle-node on the equator":
-            text = "the cycle reaches the equator in a loop through a saddle-node of limit directions."
+            text = say("meets a saddle-node", **at)
         else:
-            how = "attracting" if end.measure > 1.0 else "repelling"
-            text = f"the cycle becomes a loop of two limit directions and the equator between them, {how} from inside."
-        return CyclePoint(end.kind, end.value, end.period, end.amplitude, at + text)
+            text = say("becomes a loop", how="attracting" if end.measure > 1.0 else "repelling", **at)
+        return CyclePoint(end.kind, end.value, end.period, end.amplitude, text)
 
     def _branch(
         self, trace: Trace, start: CyclePoint, end: CyclePoint, first: End | None, last: End | None
@@ -297,7 +289,7 @@ class _Search:
         folds = []
         for i in trace.folds:
             t = trace.points[i].turn
-            text = f"{self.name} = {t.value:.6g}: two cycles, one stable and one unstable, meet and vanish."
+            text = say("branch folds", name=self.name, value=t.value)
             folds.append(CyclePoint("fold of cycles", t.value, t.period, t.amplitude, text))
         exponent = np.ascontiguousarray(table[:, 3])
         columns: dict[str, Any] = {

@@ -16,8 +16,9 @@ import numpy as np
 from ..layer_problem.critical import CriticalSet
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
+from ..words import say
 from .orbit import Orbit, orbit
-from .resolution import UNRESOLVED, Samples, zeros
+from .resolution import UNRESOLVED, Samples, counted, zeros
 from .section import FINE, Crossing
 from .turn_section import Array, TurnSection
 
@@ -30,18 +31,9 @@ MOST_ROUNDS = 40  # of narrowing one place
 SMOOTH = 1e-6  # displacement left at a fixed point that is none but a jump
 MOST_FEET = 12
 
-BAND_NOTE = "Closed orbits fill a band (a centre): those are not counted as limit cycles."
-HOW = (
-    "from the first turn of orbits about {}, sampled on a ray to the equator until its samples resolve it. "
-    "That there are no more is not proved."
-)
-NO_CRITICAL_SET = (
-    "No limit cycle: no critical set lies on the hemisphere, and a closed orbit would have to surround one (index)."
-)
-ONLY_SADDLES = (
-    "No limit cycle: all critical sets are saddles, and the equilibria inside a closed orbit have indices that add up "
-    "to 1."
-)
+BAND_NOTE = say("band counted")
+NO_CRITICAL_SET = say("no set to surround")
+ONLY_SADDLES = say("only saddles")
 
 
 def find(
@@ -72,9 +64,7 @@ def find(
     found: list[tuple[Crossing, Orbit, int]] = []
     notes: list[str] = []
     if len(feet) > MOST_FEET:
-        notes.append(
-            f"Searched about {MOST_FEET} of {len(feet)} critical sets only: cycles around others may be missing."
-        )
+        notes.append(say("searched about some", searched=MOST_FEET, count=len(feet)))
         feet = sorted(feet, key=lambda C: C.discriminant)[:MOST_FEET]  # where orbits turn fastest
     for C in feet:
         section = TurnSection(at, psi, C, critical)
@@ -85,14 +75,13 @@ def find(
                 continue
             closed = orbit(section, crossing)
             if closed is None or closed.closure > CLOSED:
-                notes.append("A fixed point of the first turn was found whose orbit could not be closed.")
+                notes.append(say("turn not closed"))
             elif abs(closed.divergence) < BAND and not crossing.touching:
                 notes.append(BAND_NOTE)
             elif not any(_same(closed, other) for _, other, _ in found):
                 found.append((crossing, closed, _sense(closed.points)))
-    count = f"{len(found)} limit cycle{'' if len(found) == 1 else 's'}" if found else "No limit cycle found"
     names = "the critical set" if len(critical) == 1 else "the critical sets that are no saddles"
-    return found, f"{count}, {HOW.format(names)}", tuple(dict.fromkeys(notes))
+    return found, counted(len(found), "turn", about=names), tuple(dict.fromkeys(notes))
 
 
 def _searched(section: TurnSection) -> tuple[list[Crossing], list[str]]:
@@ -109,12 +98,10 @@ def _searched(section: TurnSection) -> tuple[list[Crossing], list[str]]:
         xi, shift = samples.xi, samples.shift
         if not backward:
             if np.isnan(shift).any():
-                notes.append("Some orbits were not followed to a decision: they pass an equilibrium too slowly.")
+                notes.append(say("not all followed"))
             C = section.critical
             if np.isfinite(shift[0]) and C.discriminant < 0.0 and shift[0] * C.trace < 0.0:
-                notes.append(
-                    "A cycle too small to resolve surrounds a critical set: it was just born in a Hopf bifurcation."
-                )
+                notes.append(say("too small, about a set"))
         changes, touching, band = zeros(samples.q, shift, samples.noise)
         if band:
             notes.append(BAND_NOTE)

@@ -26,7 +26,9 @@ from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
+from ..words import say
 from .orbit import Orbit, orbit
+from .resolution import counted
 from .search import search
 from .section import Crossing, Section
 
@@ -36,11 +38,7 @@ Array = NDArray[np.float64]
 
 NO_FLOW = np.zeros(0)
 SEMISTABLE = 1e-5  # |ln multiplier| below which a cycle counts as semistable: a fold of cycles
-SEMISTABLE_NOTE = "A cycle is semistable within resolution: a fold, where two cycles meet."
-HOW = (
-    "from the return map on a section from C to the equator, which every cycle crosses, sampled until its samples "
-    "resolve it. That there are no more is not proved."
-)
+SEMISTABLE_NOTE = say("semistable")
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,11 +113,6 @@ class LimitCycles:
         return self.cycles[i]
 
 
-_NO_CRITICAL_SET = (
-    "No limit cycle: no critical set lies on the hemisphere, and a closed orbit would have to surround one (index)."
-)
-
-
 def reason_for_none(
     coefficients: Coefficients, critical: tuple[CriticalSet, ...], location: Location | None = None
 ) -> str | None:
@@ -137,28 +130,19 @@ def reason_for_none(
     if not critical:
         existence = (locate(coefficients) if location is None else location).existence
         if existence is Existence.NONE:
-            return _NO_CRITICAL_SET
-        return f"No limit cycle: a closed orbit would have to surround an isolated critical set. {existence.value}"
+            return say("no set to surround")
+        return f"{say('no isolated set to surround')} {existence.value}"
     if matrix_determinant(*coefficients.affine[:4])[1] < 0:
-        return (
-            "No limit cycle: the only critical set is a saddle (det A < 0), and the equilibria inside a closed orbit "
-            "have indices that add up to 1 (Theorem 4.4)."
-        )
+        return say("only a saddle")
     if a == d == 0.0:
-        return (
-            "No limit cycle: for a = d = 0 the layer problem preserves area (no divergence in κ₂); "
-            "closed orbits fill bands."
-        )
+        return say("preserves area")
     if a * d >= 0.0:
         sign = "negative" if a + d < 0.0 else "positive"
-        return f"No limit cycle: the divergence is {sign} on all of κ₂ (Bendixson, Theorem 4.3)."
+        return say("Bendixson", sign=sign)
     if f1 == f2 == 0.0:
-        return "No limit cycle: for f = 0 the orbits are those of the linear system x2' = A x2, whatever Ψ is."
+        return say("linear orbits")
     if a == -d and abs(f1) == abs(f2):
-        return (
-            "No limit cycle: for a = −d, |f₁| = |f₂| the layer problem is reversible about a diagonal through C; "
-            "closed orbits fill bands."
-        )
+        return say("reversible")
     return None
 
 
@@ -220,11 +204,10 @@ def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
     kept = [(crossing, found) for crossing, found in orbits if found is not None]
     cycles = tuple(_cycle(crossing, found, sense) for crossing, found in kept)
     if len(cycles) < len(orbits):
-        notes = (*notes, "A fixed point of the return map was found whose cycle takes too many steps to follow.")
+        notes = (*notes, say("too many steps to close"))
     if any(cycle.kind == "semistable" for cycle in cycles):
         notes = (*notes, SEMISTABLE_NOTE)
-    count = f"{len(cycles)} limit cycle{'' if len(cycles) == 1 else 's'}" if cycles else "No limit cycle found"
-    return ClosedOrbits(cycles, tuple(found for _, found in kept), f"{count}, {HOW}", notes)
+    return ClosedOrbits(cycles, tuple(found for _, found in kept), counted(len(cycles), "section"), notes)
 
 
 def _turned(found: ClosedOrbits, angle: float) -> ClosedOrbits:

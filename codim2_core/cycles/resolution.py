@@ -18,6 +18,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..words import say
 from .section import COARSE, FINE
 
 Array = NDArray[np.float64]
@@ -27,7 +28,7 @@ SAFETY = 8.0  # times the estimated error of the cubic
 PARTS = 16  # of an interval, where its cubic is evaluated
 BATCH, FEWEST = 32, 3  # samples in a round, at least in one interval: lanes step side by side
 NARROWEST, ROUNDING = 2e-6, 1e-12  # widths in xi below which an interval is left as it is: flat, and steep
-UNRESOLVED = "The return map is so steep in places that its samples do not resolve it: cycles may hide there."
+UNRESOLVED = say("too steep")
 BAND = 0.05  # width in q of an interval of fixed points that is no fold
 STEEP = 1e-3  # change of the displacement
 MOST, ROUNDS = 900, 24  # samples in all; rounds
@@ -228,3 +229,9 @@ class Samples:
         steep = abs(self.shift[i + 1] - self.shift[i]) > STEEP
         width = self.xi[i + 1] - self.xi[i]
         return bool(width < (NARROWEST if not steep else steepest * max(1.0, abs(self.xi[i]))))
+
+
+def counted(count: int, way: str, about: str = "") -> str:
+    """Say how many limit cycles were found, and by which way: "section" or "turn"."""
+    found = "no cycle" if not count else "one cycle" if count == 1 else "cycles"
+    return say(f"{found}, {way}", count=count, about=about)

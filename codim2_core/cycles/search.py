@@ -11,6 +11,7 @@ import math
 
 import numpy as np
 
+from ..words import say
 from .resolution import UNRESOLVED, Samples, zeros
 from .section import COARSE, FINE, INNER, Array, Crossing, Section
 
@@ -127,17 +128,17 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
     samples = Samples(section, section.grid())
     finite = np.isfinite(samples.shift)
     if finite.sum() >= 8 and np.abs(samples.shift[finite]).max() < NOISE:
-        return (), ("The return map is the identity within resolution: closed orbits fill a band (a centre).",)
+        return (), (say("identity"),)
     if not samples.resolve(_ends):
         notes.append(UNRESOLVED)
     known = ~np.isnan(samples.shift)
     if not known.all():
-        notes.append("Some orbits were not followed to a decision: they pass an equilibrium too slowly.")
+        notes.append(say("not all followed"))
     xi, q, shift, noise = (v[known] for v in (samples.xi, samples.q, samples.shift, samples.noise))
     finite = np.isfinite(shift)
     changes, touching, band = zeros(q, shift, noise)
     if band:
-        notes.append("Closed orbits fill a band within resolution.")
+        notes.append(say("band"))
     for i, j in changes:
         repelling = bool(shift[i] < 0.0)  # then it attracts backward, and is found and followed backward
         both = finite[i] and finite[j]
@@ -149,17 +150,12 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
             found.append(Crossing(_polished(section, xi, shift, i, j, repelling), repelling))
     found += [Crossing(float(xi[i]), touching=True) for i in touching if noise[i] < TOUCHING]
     last = shift[:-1][finite[:-1] & (shift[1:] == np.inf)]
-    notes += [
-        f"Near a loop through the equator: the last orbit that returns misses its start by {y:.1e} in ln|x₂ − C|; "
-        "beyond it orbits go to the equator."
-        for y in last.tolist()
-        if abs(y) < NEAR_LOOP
-    ]
+    notes += [say("near a loop", gap=y) for y in last.tolist() if abs(y) < NEAR_LOOP]
     trace = section.critical.trace
     if finite.any() and finite[0] and section.critical.discriminant < 0.0 and shift[0] * trace < 0.0:
         newborn = _newborn(section)
         if newborn is not None:
             found.append(newborn)
         else:
-            notes.append("A cycle too small to resolve surrounds C: it was just born in a Hopf bifurcation.")
+            notes.append(say("too small, about C"))
     return tuple(sorted(found, key=lambda crossing: crossing.xi)), tuple(notes)

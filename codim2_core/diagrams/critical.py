@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..layer_problem.lyapunov import first_lyapunov
 from ..numerics.sign_changes import roots
 from ..psi.constructors import with_parameter
+from ..words import say
 from .result import CriticalBranch, SpecialValue
 from .sweep import KINDS, Line, Linearisation, Plane, border_functions, linearise
 
@@ -167,22 +168,22 @@ def _placed(path: Line, values: Array) -> tuple[Linearisation, Array, Array]:
 def _border_points(path: Line, exponent: int, cuts: Borders) -> list[SpecialValue]:
     special = []
     for values, kind, what in (
-        (cuts.equator, "transcritical", "and the limit direction there turns its radial stability."),
-        (cuts.touching, "touching the equator", "but turns back: nothing else changes there."),
+        (cuts.equator, "transcritical", "border, turns"),
+        (cuts.touching, "touching the equator", "border, turns back"),
     ):
         plane = path(values)
         for i, value in enumerate(values.tolist()):
             t = _direction(plane, i)
-            sentence = f"|A⁻¹f| = 1: the critical set reaches the equator at θ = {t % (2.0 * math.pi):.4g}, {what}"
+            sentence = say(what, theta=t % math.tau)
             special.append(SpecialValue(kind, value, (math.cos(t), math.sin(t)), sentence, "fig:transcrit"))
     for value, line in zip(cuts.singular.tolist(), cuts.line.tolist(), strict=True):
         if line:
             at = linearise(path(np.array([value + 1e-7 * max(1.0, abs(value))])), exponent)
             place = (float(at.p[0, 0]), float(at.p[0, 1]))
-            sentence = "det A = 0 with f in the range of A: a whole line A e = −f of critical points."
+            sentence = say("line at one value")
             special.append(SpecialValue("line of critical points", value, place, sentence, "thm:lineps1"))
         else:
-            sentence = "det A = 0: A e = −f has no solution; −A⁻¹f goes through infinity and comes back opposite."
+            sentence = say("through infinity")
             special.append(SpecialValue("det A = 0", value, (0.0, 0.0), sentence, "tab:cases"))
     return special
 
@@ -202,22 +203,18 @@ def _hopf_point(path: Line, value: float) -> SpecialValue:
         number = float(first_lyapunov(plane.coefficients(0).A, psi, x2)[0])
     if not math.isfinite(number):
         number = 0.0
-    born = (
-        "supercritical: a stable cycle is born" if number < 0.0
-        else "subcritical: an unstable cycle is born" if number > 0.0
-        else "degenerate: the first Lyapunov coefficient is zero"
-    )  # fmt: skip
-    sentence = f"Hopf: tr J = 0 < det J. First Lyapunov coefficient {number:.4g}, {born}."
+    born = "supercritical" if number < 0.0 else "subcritical" if number > 0.0 else "degenerate"
+    sentence = say(f"Hopf, {born}", number=number)
     return SpecialValue("Hopf", value, place, sentence, "sec:case3", number)
 
 
 def _neutral_point(path: Line, value: float) -> SpecialValue:
     place = _point(path, value)[2]
-    sentence = "tr J = 0 at this value only, without a change of sign: C is a centre to first order."
+    sentence = say("trace touches zero")
     return SpecialValue("tr J = 0", value, place, sentence, "sec:case3")
 
 
 def _focus_point(path: Line, value: float) -> SpecialValue:
     place = _point(path, value)[2]
-    sentence = "tr(J)² = 4 det J: the critical set changes between node and focus."
+    sentence = say("between node and focus")
     return SpecialValue("node-focus", value, place, sentence, "fig:bads")

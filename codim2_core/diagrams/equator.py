@@ -12,6 +12,7 @@ from ..layer_problem.closed_equator import equator_cycle
 from ..numerics.root_between import root_between
 from ..numerics.sign_changes import refined, sign_changes
 from ..numerics.trigonometric import real_zeros, tangential_zeros
+from ..words import say
 from .critical import OFF_CENTRE, SPREAD, Borders
 from .result import ClosedEquator, EquatorBranch, SpecialValue
 from .sweep import Line, Plane, discriminant, equator_counts
@@ -124,20 +125,20 @@ def _special(path: Line, m: Meeting) -> SpecialValue:
     place = (math.cos(m.theta), math.sin(m.theta))
     at = f"θ = {m.theta:.4g}"
     if m.kind == "saddle-node":
-        text = f"Two limit directions meet at {at}: Θ has a double zero."
+        text = say("meet at", at=at)
         return SpecialValue("saddle-node", m.value, place, text, "fig:SNBIF, eq:tangencies")
     if m.kind == "exchange":
-        text = f"Two limit directions pass through each other at {at} and exchange their angular stability."
+        text = say("pass through", at=at)
         return SpecialValue("exchange of limit directions", m.value, place, text, "eq:equator_zeros")
     if m.kind == "touch":
-        text = f"Two limit directions exist at this value only, both at {at}: Θ has a double zero and no sign change."
+        text = say("touch", at=at)
         return SpecialValue("saddle-node", m.value, place, text, "fig:SNBIF, eq:tangencies")
     q = path(np.array([m.value])).coefficients(0)
     size = 1e-10 * max(map(abs, q.plane))
     if abs(q.b) <= size and min(abs(q.f1), abs(q.f2)) <= size:
-        text = f"One limit direction splits into three at {at}: Θ has a triple zero, and b = 0 makes it symmetric (D2)."
+        text = say("splits, D2", at=at)
         return SpecialValue("pitchfork", m.value, place, text, "fig:SNBIF")
-    text = f"Θ has a triple zero at {at}: the parameter passes through a cusp of the saddle-node curve."
+    text = say("passes a cusp", at=at)
     return SpecialValue("cusp", m.value, place, text, "fig:SNBIF, eq:tangencies")
 
 
@@ -245,7 +246,7 @@ def _closed(path: Line, low: float, high: float) -> tuple[list[ClosedEquator], l
     if not y.any():
         return [_closed_branch(x, y)], []
     stops = [root_between(exponent, float(x[i]), float(x[i + 1])) for i in sign_changes(y)]
-    sentence = "The closed equator is neutral to first order: it turns its stability, and a cycle may leave it."
+    sentence = say("equator neutral, a cycle may leave")
     special = [SpecialValue("neutral equator", v, (0.0, 0.0), sentence, "thm:geneps0") for v in stops]
     edges = [-math.inf, *stops, math.inf]
     out = []
@@ -290,5 +291,5 @@ def _unchanging(
 
 
 def _directions(value: float) -> SpecialValue:
-    sentence = "a = d, b = 0 and f = 0: Θ ≡ 0, every direction is a limit direction."
+    sentence = say("nothing turns at f = 0")
     return SpecialValue("all directions", value, (0.0, 0.0), sentence, "eq:equator_zeros")

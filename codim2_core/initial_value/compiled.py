@@ -29,6 +29,7 @@ from ..stepping.gains import one_gain
 from ..stepping.layout import FIELD, PARAMETERS
 from ..stepping.numbers import PSI
 from ..stepping.radau import BLOWN_UP, FULL, LIMIT, SHORT, follow
+from ..words import say
 from .field import Field
 from .line import Line
 
@@ -138,6 +139,6 @@ class Compiled:
         if code == LIMIT:
             raise TooManyStepsError
         if code == BLOWN_UP:
-            raise BlowUpError(f"It blows up near t = {t:.10g}.")
+            raise BlowUpError(say("blow-up time", t=t))
         if code == SHORT:
             raise too_short(self.problem, t, self.y)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..numerics.trigonometric import line_pair, tangential_zeros
 from ..numerics.trigonometric_exact import to_integers
+from ..words import say
 from .equator_zeros import closed_equator
 
 __all__ = ["NEUTRAL_EQUATOR", "EquatorCycle", "equator_cycle"]
@@ -49,11 +50,10 @@ class EquatorCycle:
     def sentence(self) -> str:
         """One sentence for people."""
         turn = "anticlockwise" if self.direction > 0 else "clockwise"
-        start = f"The equator is a closed orbit ({turn}), "
         if self.neutral:
-            return start + "neutral: orbits beside it neither approach nor leave."
+            return say("closed orbit, neutral", turn=turn)
         outside, inside = ("attracting", "repelling") if self.stable_outside else ("repelling", "attracting")
-        return start + f"{outside} from outside and {inside} from the hemisphere."
+        return say("closed orbit", turn=turn, outside=outside, inside=inside)
 
 
 def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:

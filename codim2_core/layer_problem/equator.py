@@ -29,6 +29,7 @@ from ..numerics.trigonometric_exact import quotient, solve_exactly, to_integers
 from ..systems.coefficients import Affine
 from ..systems.frozen import AtZ
 from ..tables import number, paragraphs, table
+from ..words import say
 from .closed_equator import EquatorCycle, equator_cycle
 from .equator_zeros import equator_zeros
 from .location import Location, locate
@@ -82,10 +83,7 @@ class EquatorEquilibria:
     distance: float
     symmetric: bool
     proven: bool = True
-    certificate: str = (
-        "Θ has at most 4 zeros, a closed form. Their number is decided by its discriminant, where rounding could blur "
-        "that in exact arithmetic: none is missing."
-    )
+    certificate: str = say("at most four")
 
     def __len__(self) -> int:
         return len(self.theta)
@@ -133,18 +131,20 @@ class EquatorEquilibria:
 
     def sentence(self, i: int) -> str:
         """One sentence for people on equilibrium i (from 0)."""
-        return f"Q{i + 1} at θ = {self.theta[i]:.4g}: {self.kind(i)}."
+        return say("Q at", Q=f"Q{i + 1}", theta=float(self.theta[i]), kind=self.kind(i))
 
     @cached_property
     def summary(self) -> str:
         """One sentence for people on the whole equator."""
         if self.all_directions:
-            return "Every direction is a limit direction: Θ vanishes identically."
+            return say("every direction of the equator")
         if not len(self):
-            return "No equilibria on the equator: it is a closed orbit."
+            return say("no equilibria")
         noun = "equilibrium" if len(self) == 1 else "equilibria"
         multiple = int((self.multiplicity > 1).sum())
-        return f"{len(self)} {noun} on the equator" + (f", {multiple} of them degenerate." if multiple else ".")
+        return say(
+            "equilibria, some degenerate" if multiple else "equilibria", count=len(self), noun=noun, some=multiple
+        )
 
 
 def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:

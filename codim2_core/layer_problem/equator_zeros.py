@@ -20,6 +20,7 @@ from ..expressions.kinks import kinks
 from ..expressions.names import number_names
 from ..numerics.fourier_zeros import UNIT, Series, series, turn, zeros
 from ..numerics.sign_changes import refined, roots
+from ..words import say
 
 Array = NDArray[np.floating[Any]]
 
@@ -163,22 +164,9 @@ def _result(
 
 def _certificate(f: Series, proven: bool) -> str:
     if not f.resolved:
-        return (
-            f"Θ is not smooth: between its kinks its zeros are looked for on a net of {NET} directions. No proof that "
-            "none was missed."
-        )
-    kind = (
-        "is a trigonometric polynomial"
-        if f.exact
-        else "agrees to machine precision, on a net twice as fine as needed, with a trigonometric polynomial"
-    )
-    start = f"Θ {kind} of degree {f.degree}, Σ c_k exp(ikθ). "
-    if not proven:
-        return start + "Close to a multiple zero the count could not be decided."
-    return start + (
-        "Bounds from its derivatives and Σ k⁴|c_k| show |Θ| > 0 on every arc without a zero, and Θ monotone on every "
-        "arc with one: none is missing."
-    )
+        return say("on a net", net=NET)
+    start = say("exact series" if f.exact else "series", degree=f.degree)
+    return f"{start} {say('bounds' if proven else 'close to a multiple zero')}"
 
 
 def _degree(key: Hashable, rows: Array, f: Series, all_directions: bool) -> int | None:

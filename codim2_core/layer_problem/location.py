@@ -15,6 +15,7 @@ from fractions import Fraction
 from ..numerics.trigonometric import ROUNDING
 from ..systems.coefficients import Affine
 from ..systems.frozen import AtZ
+from ..words import say
 from .border import CANCELS, to_all_digits
 from .linearisation import (
     CANCELLATION,
@@ -26,13 +27,13 @@ from .linearisation import (
 class Existence(Enum):
     """How many critical sets there are, and why; the value is the sentence shown."""
 
-    INSIDE = "One critical set: |A⁻¹f| < 1 (Theorem 4.1)."
-    NONE = "No critical set: |A⁻¹f| > 1 (Theorem 4.1)."
-    EQUATOR = "|A⁻¹f| = 1 within rounding: the critical set lies on the equator (transcritical, Figure 19)."
-    SINGULAR_NONE = "det A = 0 within rounding, and f is not in the range of A: no critical set."
-    SINGULAR_LINE = "det A = 0 within rounding, and f is in the range of A: a whole line A e = −f of critical points."
-    SINGULAR_OUTSIDE = "det A = 0 within rounding; the line A e = −f misses the hemisphere: no critical set."
-    EVERYTHING = "A = 0 and f = 0: every point of the hemisphere is an equilibrium of the layer problem."
+    INSIDE = say("exists once")
+    NONE = say("exists not")
+    EQUATOR = say("exists on the equator")
+    SINGULAR_NONE = say("singular, none")
+    SINGULAR_LINE = say("singular, a line")
+    SINGULAR_OUTSIDE = say("singular, outside")
+    EVERYTHING = say("everything, e-linear")
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ from ..initial_value.line import invariant_line
 from ..layer_problem.equator import equator_equilibria
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from ..words import say
 from .result import Phase, Simulation
 
 NEUTRAL = 1e-6  # lambda_rho in units of |lambda_theta|: an exit through the equator (fig:transcrit)
@@ -97,14 +98,9 @@ def agreement(system: AnySystem, psi: Psi, run: Simulation, limit: Simulation) -
         if a is None or b is None or (a.kind, a.onto) != (b.kind, b.onto):
             t = min(phase.t_start for phase in (a, b) if phase is not None)
             words = [f"{_words(phase)}" for phase in (a, b)]
-            sentence = (
-                f"The phases for ε = {run.eps:.3g} are not those of the limit: from about t = {t:.4g} on the motion "
-                f"{words[0]}, and in the limit it {words[1]}. ε is not yet small against what happens there."
-            )
+            sentence = say("phases differ", eps=run.eps, t=t, here=words[0], there=words[1])
             return Agreement(False, order, sentence)
-    q = "" if order == 1.0 else f"^{order:.3g}"
-    why = "" if order == 1.0 else ", a lower order because it leaves Σ"
-    return Agreement(True, order, f"The phases are those of the limit ε → 0, from which it differs by O(ε{q}){why}.")
+    return Agreement(True, order, say("phases agree") if order == 1.0 else say("phases agree, less", order=order))
 
 
 def _until(phases: tuple[Phase, ...], end: float) -> list[Phase]:

@@ -18,6 +18,7 @@ from ..numerics.radau import Problem, Step, TooManyStepsError
 from ..psi import constructors
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from ..words import say
 from .decide import Decision, arriving, critical_name, from_hemisphere, starting
 from .followed import in_disc
 from .part import Part
@@ -107,7 +108,7 @@ class Course:
             It ends before; what has been followed is kept.
         """
         on = not self.state[:2].any()
-        decision = self.first() if on else self.slip([], "The motion starts outside Σ.")
+        decision = self.first() if on else self.slip([], say("starts outside"))
         while decision is not None and self.t < self.t_end:
             if self.left <= 0:
                 raise TooManyStepsError
@@ -118,7 +119,7 @@ class Course:
     def first(self) -> Decision:
         """Decide what follows from a start on Sigma."""
         if self.line is not None:
-            return self.in_line(0.0, "The motion starts at Σ, in an invariant line.")
+            return self.in_line(0.0, say("starts in a line"))
         decision = starting(self.system, self.psi, self.state[2:])
         if self.psi is not None:
             self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=np.zeros(2))
@@ -131,15 +132,15 @@ class Course:
         onward = self.line.onward(q, z)
         if onward is None:
             if self.line.slope(q, z) >= 0.0:
-                return Decision("stop", f"{reason} It rests on a critical set that repels along the line.")
+                return Decision("stop", f"{reason} {say('rests on a repelling set')}")
             onward = q
         self.ascent = Ascent(self.system, self.own, z, along=(in_disc(self.own, q * n), in_disc(self.own, onward * n)))
         if abs(onward) < 1.0:
             e = onward * n
             onto = critical_name(self.system, self.own, z, e)
-            return Decision("slide", f"{reason} Along it comes the critical set {onto}: sliding.", e, onto=onto)
+            return Decision("slide", f"{reason} {say('slides in a line', onto=onto)}", e, onto=onto)
         theta = math.atan2(*(onward * n)[::-1].tolist())
-        reason = f"{reason} Along it there is no critical set: crossing, it leaves along θ = {theta:.4g}."
+        reason = f"{reason} {say('crosses in a line', theta=theta)}"
         return Decision("leave", reason, theta=theta)
 
     def slip(self, begun: list[Step], reason: str) -> Decision | None:
@@ -158,7 +159,7 @@ class Course:
             if self.line is not None:
                 self.add("slip", taken + part.taken, reason)
                 q = float(self.line.n @ [math.cos(part.theta), math.sin(part.theta)])
-                return self.crossed(self.in_line(math.copysign(1.0, q), "Arrives at Σ in an invariant line."))
+                return self.crossed(self.in_line(math.copysign(1.0, q), say("arrives in a line")))
             z = part.taken[-1].last[2:]
             decision = arriving(self.system, self.psi, z, part.theta)
             if decision.kind != "away":
@@ -183,9 +184,9 @@ class Course:
         assert decision.theta is not None
         first = leave(self.formulas, decision.theta, self.t, self.state[2:], self.t_end, self.line)
         if isinstance(first, str):
-            raise StopError(f"{decision.reason} But {first}")
+            raise StopError(f"{decision.reason} {first}")
         crossed = bool(self.parts) and self.parts[-1].phase.kind == "cross"
-        reason = f"Leaves Σ along θ = {decision.theta:.4g}." if crossed else decision.reason
+        reason = say("leaves", theta=decision.theta) if crossed else decision.reason
         return self.slip([first], reason)
 
     def slide(self, decision: Decision) -> Decision | None:
@@ -216,7 +217,7 @@ class Course:
             return None
         if part.end == "equator":
             theta = math.atan2(part.e[1], part.e[0])
-            reason = f"{C} reaches the equator (Figure 19) and sliding ends: slips away along θ = {theta:.4g}."
+            reason = say("ends at the equator", C=C, theta=theta)
             return Decision("leave", reason, theta=theta)
         if part.end == "fold" and self.line is not None:
             return self.past_fold_in_line(self.line, part.e, C)
@@ -225,7 +226,7 @@ class Course:
         if part.end == "cycle":
             return self.past_cycle(self.ahead(part.e, PAST))
         if on_cycle:
-            return Decision("slide", f"The limit cycle shrinks onto {C} (Hopf): sliding on {C}.", part.e, onto=C)
+            return Decision("slide", say("cycle shrinks", C=C), part.e, onto=C)
         return self.past_hopf(part.e, C)
 
     def slide_on_cycle(self, decision: Decision) -> Decision | None:
@@ -233,13 +234,13 @@ class Course:
         assert decision.onto is not None
         index, z = int(decision.onto.split()[1]) - 1, self.state[2:]
         if not len(z):
-            raise StopError(f"{decision.reason} There is no z to follow (m = 0).")
+            raise StopError(f"{decision.reason} {say('no z to follow')}")
         part = slide_on_cycle(self.system, self.own, index, self.t, z, self.t_end, self.left)
         self.add("slide", part.taken, decision.reason, decision.onto, part.e, part.p)
         if part.lives:
             return None
         if not part.taken:
-            return Decision("stop", "The limit cycle ends at once: where orbits go from it is not known.")
+            return Decision("stop", say("cycle ends at once"))
         return self.past_cycle(self.state[2:] + 10.0 * (self.state[2:] - part.taken[-1].first[2:]))
 
     def ahead(self, e: Array, part: float) -> Array:
@@ -252,13 +253,13 @@ class Course:
         """C has met another critical set in the line: the layer problem leads on from there, just past the fold."""
         here, q = self.state.copy(), float(line.n @ e)
         self.state[2:] = self.ahead(e, PAST)
-        decision = self.in_line(q, f"{C} ends in a fold.")
+        decision = self.in_line(q, say("fold in a line", C=C))
         self.state = here
         return decision
 
     def past_fold(self, e: Array, C: str | None) -> Decision:
         """C has met another critical set and both are gone: follow the orbit that leaves the place."""
-        reason = f"{C} ends in a fold (det J = 0)."
+        reason = say("fold", C=C)
         point = in_disc(self.own, e)[None]
         self.ascent = Ascent(self.system, self.own, self.ahead(e, PAST), start=point[0])
         # Just past the fold orbits take long to leave the place; a little further they are followed to their end.
@@ -270,14 +271,14 @@ class Course:
 
     def past_cycle(self, ahead: Array) -> Decision:
         """Follow orbits from all around a cycle that has ended."""
-        reason = "The limit cycle ends."
+        reason = say("cycle ends")
         last = [cycle for cycle in limit_cycles(self.system, self.own, tuple(self.state[2:].tolist())) if cycle.stable]
         if len(last) != 1:
-            return Decision("stop", f"{reason} Where orbits go from it was not found.")
+            return Decision("stop", f"{reason} {say('cycle ends, not found')}")
         points = last[0].points
         decision = self.onward(reason, ahead, points[:: max(1, len(points) // AROUND)])
         if decision.kind == "cycle":  # it comes and goes within the resolution of the search
-            return Decision("stop", f"{reason} Where orbits go from it is not decided within resolution.")
+            return Decision("stop", f"{reason} {say('cycle ends, not decided')}")
         return decision
 
     def onward(self, reason: str, z: Array, points: Array) -> Decision:
@@ -287,7 +288,7 @@ class Course:
         except ValueError as error:  # at the edge of where the formulas are defined
             return Decision("stop", f"{reason} {error}")
         if self.psi is None and decision.kind != "stop":
-            return Decision("stop", f"{reason} Where orbits go from there may depend on Ψ: give psi.")
+            return Decision("stop", f"{reason} {say('onward depends')}")
         return replace(decision, reason=f"{reason} {decision.reason}")
 
     def has_cycle(self, z: Array) -> bool:
@@ -298,20 +299,17 @@ class Course:
         """C has lost its stability to the fast flow: slide on the cycle born there, if it is stable."""
         if any(self.has_cycle(self.ahead(e, part)) for part in (PAST, 100.0 * PAST)):
             if self.system.typed is not None:
-                reason = f"{C} loses its stability (Hopf) to a stable limit cycle: after what delay is left to ε."
+                reason = say("Hopf, delayed", C=C)
                 return Decision("stop", reason)
-            reason = (
-                f"{C} loses its stability (Hopf) to a stable limit cycle: sliding, with z' averaged over the cycle, "
-                "which is that on C (Proposition 4.2)."
-            )
+            reason = say("Hopf, cycle", C=C)
             return Decision("cycle", reason, e, onto="cycle 1")
-        given = "" if self.psi is not None else " (for Ψ = 1; none was given)"
-        return Decision("stop", f"{C} loses its stability (Hopf){given}, and no stable limit cycle takes over.")
+        reason = say("Hopf, nothing takes over", C=C)
+        return Decision("stop", reason if self.psi is not None else f"{reason} {say('for the constant')}")
 
     def at_border(self, decision: Decision) -> Decision:
         """Start where the critical set lies on the equator: it moves in, or lambda_rho becomes positive."""
         assert decision.theta is not None
         first = leave(self.formulas, decision.theta, self.t, self.state[2:], self.t_end)
         if isinstance(first, str):
-            return Decision("slide", f"{decision.reason} It moves inwards: sliding.", decision.e, onto="C")
-        return Decision("leave", f"{decision.reason} It moves out: slips.", theta=decision.theta)
+            return Decision("slide", f"{decision.reason} {say('border moves in')}", decision.e, onto="C")
+        return Decision("leave", f"{decision.reason} {say('border moves out')}", theta=decision.theta)

@@ -17,6 +17,7 @@ from ..portrait.verdicts import ends, followed, judge
 from ..psi.constructors import compared, constant
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from ..words import say
 
 Array = NDArray[np.float64]
 
@@ -63,7 +64,7 @@ def arriving(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Deci
     outcomes = approach_outcomes(system, own, at, compare=None if psi is None else ())
     outcome = outcomes.outcome(theta)
     if psi is None and outcome.depends_on_psi:
-        return Decision("stop", f"Arrives at Σ at θ = {theta:.4g}; what follows depends on Ψ: give psi.")
+        return Decision("stop", say("arrival depends", theta=theta))
     if outcome.verdict == "misses":
         return Decision("away", outcome.reason)
     return _followed(system, own, at, outcome.verdict, outcome.onto, outcome.leaving, outcome.reason)
@@ -107,14 +108,14 @@ def _followed(
     if verdict == "slide":
         chosen = critical_sets(system, psi, at)[_index(onto)]
         if not _stable(chosen):
-            return Decision("stop", f"{reason} But {onto} is a {chosen.kind}: which side is left to ε.")
+            return Decision("stop", f"{reason} {say('saddle reached', onto=onto, kind=chosen.kind)}")
         return Decision("slide", reason, chosen.e, onto=onto)
     if verdict == "cycle":
         return Decision("cycle", reason, critical_sets(system, psi, at)[0].e, onto=onto)
     if verdict == "cross" and leaving is not None:
         return Decision("leave", reason, theta=leaving)
     if verdict == "cross":
-        return Decision("stop", f"{reason} At which phase of the spiral it leaves is left to ε.")
+        return Decision("stop", f"{reason} {say('spiral phase')}")
     return Decision("stop", reason)
 
 
@@ -139,17 +140,17 @@ def from_middle(system: AnySystem, psi: Psi, z: Array) -> Decision:
         i = middle[0]
         onto = "C" if len(sets) == 1 else f"C{i + 1}"
         if _stable(sets[i]):
-            return Decision("slide", f"On Σ, x = y = 0 is the {sets[i].kind} {onto}: sliding.", sets[i].e, onto=onto)
+            return Decision("slide", say("middle is stable", kind=sets[i].kind, onto=onto), sets[i].e, onto=onto)
         angle = math.tau * np.arange(AROUND) / AROUND
         ring = BESIDE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         decision = from_hemisphere(system, psi, z, ring)
-        return replace(decision, reason=f"On Σ, x = y = 0 is {onto} itself, which does not attract. {decision.reason}")
+        return replace(decision, reason=f"{say('middle is a set', onto=onto)} {decision.reason}")
     border = np.flatnonzero(equator.radially_degenerate)
     if len(border) == 1 and not any(_stable(C) for C in sets):
         theta = float(equator.theta[border[0]])
-        return Decision("border", "The critical set lies on the equator.", _unit(theta), theta, "C")
+        return Decision("border", say("on the equator"), _unit(theta), theta, "C")
     decision = from_hemisphere(system, psi, z, np.zeros((1, 2)))
-    return replace(decision, reason=f"On Σ, x = y = 0 is the middle of the hemisphere. {decision.reason}")
+    return replace(decision, reason=f"{say('middle')} {decision.reason}")
 
 
 def starting(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
@@ -172,32 +173,29 @@ def starting(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
     asked = compared()
     stable = [tuple(i for i, C in enumerate(critical_sets(system, own, at)) if _stable(C)) for own in asked]
     if any(choice != stable[0] for choice in stable):
-        return Decision("stop", "Whether the critical set is stable depends on Ψ: give psi.")
+        return Decision("stop", say("stability depends"))
     own = asked[0]
     sets = critical_sets(system, own, at)
     if len(stable[0]) > 1:
-        return Decision("stop", f"There are {len(stable[0])} stable critical sets: sliding is not unique on Σ.")
+        return Decision("stop", say("several to slide on", count=len(stable[0])))
     if len(stable[0]) == 1:
         i = stable[0][0]
         onto = "C" if len(sets) == 1 else f"C{i + 1}"
-        reason = f"On Σ there is one stable critical set, {onto}: sliding.{_also(system, at)}"
+        reason = f"{say('one to slide on', onto=onto)} {_also(system, at)}".strip()
         return Decision("slide", reason, sets[i].e, onto=onto)
     cycles = [(i, cycle) for i, cycle in enumerate(limit_cycles(system, own, at)) if cycle.stable]
     if cycles:
-        return Decision("stop", "There are limit cycles, and psi was not given: sliding is not unique on Σ.")
+        return Decision("stop", say("cycles to slide on"))
     equator = equator_equilibria(system, at)
     border = np.flatnonzero(equator.radially_degenerate)
     if len(border) == 1:
         theta = float(equator.theta[border[0]])
-        return Decision("border", "The critical set lies on the equator.", _unit(theta), theta, "C")
+        return Decision("border", say("on the equator"), _unit(theta), theta, "C")
     ways = _ways_out(equator)
     if len(ways) == 1:
         theta = float(equator.theta[ways[0]])
-        return Decision(
-            "leave", f"On Σ nothing attracts; the one way out is θ = {theta:.4g} (Q{ways[0] + 1}).", theta=theta
-        )
-    many = "no direction leads" if not len(ways) else f"{len(ways)} directions lead"
-    return Decision("stop", f"On Σ nothing attracts, and {many} away from it: what follows is not unique.")
+        return Decision("leave", say("one way out", theta=theta, Q=f"Q{ways[0] + 1}"), theta=theta)
+    return Decision("stop", say("several ways out", count=len(ways)) if len(ways) else say("no way out"))
 
 
 def _ways_out(equator: EquatorEquilibria) -> list[int]:
@@ -208,7 +206,7 @@ def _also(system: AnySystem, at: tuple[float, ...]) -> str:
     ways = _ways_out(equator_equilibria(system, at))
     if not len(ways):
         return ""
-    return f" Not all of the hemisphere leads there: {', '.join(f'Q{i + 1}' for i in ways)} leads away from Σ."
+    return say("other ways", which=", ".join(f"Q{i + 1}" for i in ways))
 
 
 def _unit(theta: float) -> Array:

@@ -19,6 +19,7 @@ from ..initial_value.field import Field, field
 from ..numerics.dense import Dense
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from ..words import say
 from .decide import critical_name, from_hemisphere
 from .followed import Followed, followed, place
 from .places import OfState
@@ -202,7 +203,7 @@ class _Reader:
     def phases(self) -> Iterator[Phase]:
         """All of them: between contacts the motion slips."""
         t, t_end = float(self.times[0]), float(self.times[-1])
-        reason = "The motion starts outside Σ."
+        reason = say("starts outside")
         for first, last in self.stays():
             initial, final = first == 0, last + 1 == len(self.times)
             runs = self.runs(first, last)
@@ -216,20 +217,24 @@ class _Reader:
                     runs.append(_Run(last, last, runs[-1].t_end if runs else begins, t_end, onto, None))
             if not runs:
                 if initial:  # it leaves, whatever follows: as in the limit, where that takes no time
-                    reason = "The motion starts at Σ, and follows nothing there."
+                    reason = say("starts, follows nothing")
                     continue
                 yield Phase("slip", t, begins, reason)
-                yield Phase("cross", begins, ends, f"Passes Σ within {NEAR:g} ε, and follows nothing there: crossing.")
-                t, reason = ends, f"Leaves Σ: further than {NEAR:g} ε away."
+                yield Phase("cross", begins, ends, say("passes", near=NEAR))
+                t, reason = ends, say("has left", near=NEAR)
                 continue
             if not initial:
                 yield Phase("slip", t, begins, reason)
             starts = [begins, *(run.t_end for run in runs[:-1])]
             for k, (run, start) in enumerate(zip(runs, starts, strict=True)):
                 yield Phase(
-                    "slide", start, run.t_end, _why(run, "" if k else "starts" if initial else "comes"), run.onto
+                    "slide",
+                    start,
+                    run.t_end,
+                    _why(run, "goes on" if k else "starts, follows" if initial else "comes, follows"),
+                    run.onto,
                 )
-            t, reason = runs[-1].t_end, f"No longer follows {runs[-1].onto}, and slips away."
+            t, reason = runs[-1].t_end, say("no longer follows", onto=runs[-1].onto)
         if t < t_end or t == float(self.times[0]) == t_end:
             yield Phase("slip", t, t_end, reason)
 
@@ -265,9 +270,8 @@ def phases_of(system: AnySystem, psi: Psi, eps: float, motion: Dense) -> tuple[P
 
 
 def _why(run: _Run, how: str) -> str:
-    begun = {"starts": "The motion starts at Σ, and follows", "comes": "Comes to Σ, and follows"}.get(how, "Goes on to")
-    what = "the limit cycle" if run.onto.startswith("cycle") else "the critical set"
-    return f"{begun} {what} {run.onto} within O(ε): sliding."
+    onto = f"limit {run.onto}" if run.onto.startswith("cycle") else f"the critical set {run.onto}"
+    return say(how, onto=onto)
 
 
 def _joined(runs: list[_Run]) -> list[_Run]:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.dense import Dense
 from ..tables import number, paragraphs, table
+from ..words import say
 from .places import NONE, Ascent, Place
 
 Array = NDArray[np.float64]
@@ -23,15 +24,11 @@ ASCENT = 3  # every so many points of an orbit up the hemisphere are drawn
 class SimulationStatus(Enum):
     """Why a simulation ended; the value is the sentence shown."""
 
-    T_END = "Reached the end of the time span."
-    EVENT = "Stopped at a terminal event."
-    NOT_UNIQUE = "Stopped: in the limit ε → 0 what follows is not unique, or not known."
-    BLOW_UP = "Stopped: the motion grows beyond all bounds in finite time."
-    STEP_LIMIT = (
-        "Stopped at the step limit: the motion varies too fast for the time span (around a limit cycle once in a time "
-        "of order ε), or comes to where its formulas are undefined; shorten the span, raise max_steps, or use "
-        "simulate_nonsmooth."
-    )
+    T_END = say("end of span")
+    EVENT = say("at an event")
+    NOT_UNIQUE = say("not unique")
+    BLOW_UP = say("blows up")
+    STEP_LIMIT = say("step limit")
 
 
 @dataclass(frozen=True)

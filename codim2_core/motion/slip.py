@@ -17,6 +17,7 @@ from ..initial_value.field import Field
 from ..initial_value.line import Line
 from ..numerics.growth import bounded
 from ..numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
+from ..words import say
 
 Array = NDArray[np.float64]
 
@@ -134,7 +135,7 @@ def leave(field: Field, theta: float, t: float, z: Array, t_end: float, line: Li
     lambda_theta = float(angular @ across) - lambda_rho
     size = float(np.abs(D[:2, :2]).max()) + math.hypot(u, v)
     if lambda_theta >= 0.0 and line is None:
-        return f"θ = {theta:.4g} repels angularly too: orbits leave in a whole sector around it."
+        return say("repels angularly", theta=theta)
     drift = D[:2, 4:] @ W
     ahead = t_end - t
     if lambda_rho > NEUTRAL * size:
@@ -151,7 +152,7 @@ def leave(field: Field, theta: float, t: float, z: Array, t_end: float, line: Li
     turning = 0.0 if line is not None else -float(angular @ drift) / lambda_theta
     beta = float(radial @ drift) + float(radial @ across) * turning
     if lambda_rho < -NEUTRAL * size or not beta > 0.0:
-        return f"nothing leaves Σ along θ = {theta:.4g} there: λρ is not positive, and does not become so."
+        return say("nothing leaves", theta=theta)
     h = SLOW_START * min(ahead, abs(lambda_theta or size) / beta)
     h = min(h, 1e-2 * math.sqrt(TILT) / abs(turning)) if turning else h
     end, rho = theta + turning * h, 0.5 * beta * h * h

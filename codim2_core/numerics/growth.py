@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ..words import say
 from .radau import Problem, Step, StepsTooShortError, TooManyStepsError
 
 Array = NDArray[np.float64]
@@ -42,7 +43,7 @@ def bounded(problem: Problem, steps: Iterator[Step], shortest: float = 0.0) -> I
                 largest = max(largest, size)
             last = step
             if size > BOUND or size > GROWN * largest:
-                raise BlowUpError(f"It blows up near t = {step.end:.10g}.")
+                raise BlowUpError(say("blow-up time", t=step.end))
             yield step
     except StepsTooShortError as error:
         if last is not None:
@@ -54,5 +55,5 @@ def too_short(problem: Problem, t: float, state: Array, shortest: float = 0.0) -
     """Say why steps became too short at a state: it blows up, or its formulas end."""
     size, rate = np.abs(state), np.abs(problem.F(state))
     if (rate * max(RATE * abs(t), STEPS * shortest) > 1.0 + size).any():
-        return BlowUpError(f"It blows up near t = {t:.10g}.")
-    return StepsTooShortError(f"Its formulas are undefined from t = {t:.10g} on.")
+        return BlowUpError(say("blow-up time", t=t))
+    return StepsTooShortError(say("undefined from", t=t))

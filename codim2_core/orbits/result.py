@@ -11,23 +11,22 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..words import say
+
 Array = NDArray[np.float64]
 
 
 class Status(Enum):
     """Why a trajectory ended; the value is the sentence shown."""
 
-    T_MAX = "Reached t_max; a larger t_max follows it further."
-    EQUILIBRIUM = "Reached an equilibrium of the layer problem: a critical set (within the capture distance)."
-    LEFT_VIEW = "Left the view; a larger view follows it further."
-    ARRIVED = "Arrives on the equator at a limit direction."
-    SPIRALLED = "Spirals onto the equator, which is a closed orbit."
-    ON_EQUATOR = "Follows the equator, where it started."
-    STEP_LIMIT = (
-        "Stopped at the step limit before t_max: the time is too long for the speed of this system, or the tolerance "
-        "too tight; lower t_max or raise rtol."
-    )
-    LENGTH = "Drawn to the full length; a larger length follows it further."
+    T_MAX = say("reached t_max")
+    EQUILIBRIUM = say("reached an equilibrium")
+    LEFT_VIEW = say("left the view")
+    ARRIVED = say("arrives")
+    SPIRALLED = say("spirals")
+    ON_EQUATOR = say("on the equator, from the start")
+    STEP_LIMIT = say("too many steps")
+    LENGTH = say("full length")
 
 
 STATUSES = tuple(Status)  # in the order of the codes of `stepping`

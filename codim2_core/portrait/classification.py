@@ -11,7 +11,7 @@ from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
 from ..numerics.trigonometric import ROUNDING
 from ..tables import paragraphs, table
-from ..words import power, say, subscript
+from ..words import SENTENCES, power, say, subscript
 from .endings import radially_neutral
 
 
@@ -34,12 +34,12 @@ class Degeneracy:
     within: float = 0.0
 
 
-NEARER = "Doubles cannot tell it from a setting nearer than"
+NEARER = SENTENCES["nearer"].says.partition(" {")[0]
 
 
 def undecided(name: str, sentence: str, within: float = ROUNDING, of: str = "each coefficient") -> Degeneracy:
     """Make a degeneracy whose sentence says within what it cannot be told from its neighbours."""
-    return Degeneracy(name, f"{sentence} {NEARER} {power(within)} of {of}.", within)
+    return Degeneracy(name, f"{sentence} {say('nearer', within=power(within), of=of)}", within)
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ class Classification:
 
 NEUTRAL_CLOSED_EQUATOR = undecided(
     "neutral equator",
-    "The equator is a closed orbit with exponent 0: it neither attracts nor repels to first order.",
+    say("neutral closed equator"),
     NEUTRAL_EQUATOR,
     "the terms of the exponent",
 )

@@ -20,18 +20,15 @@ from .endings import radially_neutral
 _MULTIPLE = {
     2: undecided(
         "saddle-node",
-        "Θ has a double zero: two limit directions have just met (Figure 20). Counted once here.",
+        say("two have met"),
     ),
     3: undecided(
         "pitchfork",
-        "Θ has a triple zero with λ_θ = 0: one limit direction is splitting into three (degenerate case D2). "
-        "Counted once here.",
+        say("one splits, D2"),
     ),
-    4: undecided("quadruple zero", "Θ has a fourfold zero: all four limit directions have met. Counted once here."),
+    4: undecided("quadruple zero", say("four have met")),
 }
-_CUSP = undecided(
-    "cusp", "Θ has a triple zero: two saddle-nodes of limit directions meet in a cusp. Counted once here."
-)
+_CUSP = undecided("cusp", say("cusp"))
 
 
 def _equator_degeneracies(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
@@ -40,7 +37,7 @@ def _equator_degeneracies(equator: EquatorEquilibria, cycle: EquatorCycle | None
         found.append(
             undecided(
                 "all directions",
-                "a = d, b = 0 and f = 0: Θ ≡ 0, every direction is a limit direction (the ball at z = 0).",
+                say("nothing turns"),
             )
         )
     multiple = sorted({int(k) for k in equator.multiplicity if k > 1})
@@ -65,8 +62,7 @@ def _critical_degeneracies(location: Location, critical: tuple[CriticalSet, ...]
         found.append(
             undecided(
                 "tr J = 0",
-                "tr J = 0 within rounding: to first order C is a centre of the layer problem. Nonlinear terms decide "
-                "whether it is one, or a focus, as at a Hopf bifurcation.",
+                say("linear centre"),
                 NEUTRAL_TRACE,
                 "the terms of the trace",
             )
@@ -78,7 +74,7 @@ def _case(coefficients: Coefficients) -> tuple[str | None, list[Degeneracy]]:
     a, d = coefficients.a, coefficients.d
     if a == 0.0 or d == 0.0:
         which = "a = d = 0" if a == d == 0.0 else "a = 0" if a == 0.0 else "d = 0"
-        return None, [Degeneracy(which, f"{which}: on the border between Case I and Cases II, III (Table 1).")]
+        return None, [Degeneracy(which, say("between the cases", which=which))]
     if (a > 0.0) == (d > 0.0):
         return "I", []
     sign = matrix_determinant(*coefficients.affine[:4])[1]

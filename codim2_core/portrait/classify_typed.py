@@ -54,20 +54,20 @@ def _consequence(critical: tuple[CriticalSet, ...], found: DiscZeros) -> str:
 
 
 _MULTIPLE = {
-    2: ("saddle-node", "Θ has a double zero: two limit directions have just met (Figure 20). Counted once here."),
-    3: ("pitchfork", "Θ has a triple zero: one limit direction is splitting into three. Counted once here."),
-    4: ("quadruple zero", "Θ has a fourfold zero: four limit directions have met. Counted once here."),
+    2: ("saddle-node", say("two have met")),
+    3: ("pitchfork", say("one splits")),
+    4: ("quadruple zero", say("four directions have met")),
 }
-_CUSP = ("cusp", "Θ has a triple zero: two saddle-nodes of limit directions meet in a cusp. Counted once here.")
+_CUSP = ("cusp", say("cusp"))
 
 
 def _equator(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
     degeneracies = []
     if equator.all_directions:
-        text = "Θ ≡ 0: every direction is a limit direction."
+        text = say("no turning")
         degeneracies.append(undecided("all directions", text, WITHIN, TERMS))
     for m in sorted({int(m) for m in equator.multiplicity if m > 1}):
-        high = (f"zero of multiplicity {m}", f"{m} limit directions have met. Counted once here.")
+        high = (f"zero of multiplicity {m}", say("many have met", count=m))
         name, text = _CUSP if m == 3 and not equator.symmetric else _MULTIPLE.get(m, high)
         degeneracies.append(undecided(name, text, WITHIN, TERMS))
     if not equator.proven:
@@ -81,42 +81,35 @@ def _critical(critical: tuple[CriticalSet, ...], found: DiscZeros) -> list[Degen
     kinds = [C.kind for C in critical]
     named = []
     if found.everything:
-        named.append(("everything stands still", "U ≡ 0: every point of the hemisphere is an equilibrium."))
+        named.append(("everything stands still", say("everything at rest")))
     if found.curve:
-        named.append(("curve of critical points", "U = 0 along a whole curve of the hemisphere."))
+        named.append(("curve of critical points", say("curve of zeros")))
     if found.on_equator:
-        named.append(("transcritical", "U = 0 on the equator: a critical set is just reaching it (Figure 19)."))
+        named.append(("transcritical", say("zero on the equator")))
     if "saddle-node" in kinds:
-        named.append(("fold", "det J = 0: two critical sets have just met. Counted once here."))
+        named.append(("fold", say("sets have met")))
     met = int((found.degenerate & ~found.rough & (found.index != 0)).sum())
     if met:
-        named.append(("degenerate critical set", "det J = 0: three or more critical sets have met. Counted once here."))
+        named.append(("degenerate critical set", say("more sets have met")))
     degeneracies = [undecided(name, text, WITHIN, TERMS) for name, text in named]
     if kinds.count("degenerate") > met:
-        text = (
-            "U is not differentiable at a critical set, and its sides do not agree: whether it attracts, repels or is "
-            "a saddle is not decided by a linearisation."
-        )
+        text = say("corner")
         degeneracies.append(Degeneracy("corner at a critical set", text))
     if "centre (linear)" in kinds:
-        text = (
-            "tr J = 0 within rounding: to first order a critical set is a centre of the layer problem. Nonlinear terms "
-            "decide whether it is one, or a focus, as at a Hopf bifurcation."
-        )
+        text = say("linear centre, one of them")
         degeneracies.append(undecided("tr J = 0", text, NEUTRAL_TRACE, "the terms of the trace"))
     if not found.proven:
         degeneracies.append(
             Degeneracy(
                 "critical sets uncertain",
-                "Somewhere on the hemisphere it could not be decided whether U = 0: is U smooth and finite there?",
+                say("undecided somewhere"),
             )
         )
     if found.consistent is False:
         degeneracies.append(
             Degeneracy(
                 "index mismatch",
-                f"The indices of the critical sets found add up to {int(found.index.sum())}, but U turns "
-                f"{found.degree} times on the equator: a critical set or a limit direction is missing.",
+                say("index mismatch", indices=int(found.index.sum()), degree=found.degree),
             )
         )
     return degeneracies

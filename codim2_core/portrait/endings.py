@@ -15,6 +15,7 @@ from ..layer_problem.equator import EquatorEquilibria
 from ..orbits.trajectories import Status, Trajectories, trajectories
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
+from ..words import say
 from .saddle_manifold import to_disc
 
 Array = NDArray[np.float64]
@@ -28,8 +29,8 @@ AT_CRITICAL = 1e-2  # distance beyond which an equilibrium that captures is none
 AT_SADDLE = 1e-4  # distance at which a branch that stopped nowhere else is at a saddle
 NEUTRAL = 1e-13  # of the largest eigenvalue on the equator
 AT_NEUTRAL = 1e-2  # distance to a radially neutral Q, which is come to like 1/T, at which a branch is at it
-CONNECTION = "Runs into a saddle: a saddle connection."
-AT_NEUTRAL_Q = "Comes to a limit direction that is radially neutral."
+CONNECTION = say("into a saddle")
+AT_NEUTRAL_Q = say("to a neutral direction")
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,7 +145,7 @@ def endings(
             elif statuses[i] is Status.SPIRALLED:
                 found[i] = Ending("equator", None, statuses[i].value)
             elif (reached := _on_cycle(cycles(), p, backward)) is not None:
-                found[i] = Ending(f"cycle {reached + 1}", None, "Winds onto a limit cycle.")
+                found[i] = Ending(f"cycle {reached + 1}", None, say("onto a cycle"))
             elif w < AT_SADDLE and gap < AT_SADDLE and more:
                 found[i] = Ending(label, float(equator.theta[near]), _stopping(equator, near, w))
             elif more and max(w, gap) < AT_NEUTRAL and radially_neutral(equator, near):
@@ -179,7 +180,7 @@ def _followed(at: AtZ, psi: Psi, places: Array, time: float, rtol: float, backwa
 def _stopping(equator: EquatorEquilibria, i: int, w: float) -> str:
     """Why an orbit that no attractor captured is at Q_{i+1}."""
     if equator.multiplicity[i] > 1 or radially_neutral(equator, i):
-        return "Comes to a degenerate equilibrium on the equator."
+        return say("to a degenerate equilibrium")
     if half_saddle(equator, i) and w > 0.0:
         return CONNECTION
     return Status.ARRIVED.value

@@ -14,6 +14,7 @@ from ..layer_problem.problem import LayerProblem
 from ..orbits.result import Status, Trajectories
 from ..orbits.trajectories import joined, trajectories
 from ..orbits.whole import Orbits
+from ..words import say
 from .endings import AT_SADDLE, CAPTURE, Ending, critical_label, drawn_time, endings, nearest
 from .outcomes import Outcome, outcomes_of
 
@@ -166,52 +167,52 @@ def _on_hemisphere(end: Ending, critical: tuple[CriticalSet, ...], backward: boo
     label = end.label
     for i, C in enumerate(critical):
         if label == critical_label(critical, i):
-            words = f"Comes from {label}, {_a(C.kind)}." if backward else f"Tends to {label}, {_a(C.kind)}: sliding."
+            words = say("comes from a set" if backward else "tends to a set", label=label, kind=_a(C.kind))
             return Fate(label, None, None, words)
     if label.startswith("cycle"):
-        return Fate(label, None, None, f"{'Unwinds from' if backward else 'Winds onto'} limit {label}.")
+        return Fate(label, None, None, say("unwinds" if backward else "winds", label=label))
     if label.startswith("Q"):
-        words = f"Comes up from {label}, θ = {end.angle:.4g}." if backward else (
-            f"Comes down to {label} and leaves Σ along θ = {end.angle:.4g}."
-        )  # fmt: skip
+        words = say("comes up" if backward else "comes down", label=label, theta=end.angle)
         return Fate(label, None, None, words)
     if label == "equator":
-        words = "Spirals up from the closed equator." if backward else "Spirals down to the equator and leaves Σ."
+        words = say("spirals up" if backward else "spirals down")
         return Fate(label, None, None, words)
-    return Fate("undecided", None, None, f"Not followed to an end: {end.sentence}")
+    return Fate("undecided", None, None, say("not followed", why=end.sentence))
 
 
 def _outside(problem: LayerProblem, half: Trajectories, i: int, after: float | None, backward: bool) -> Fate:
     equator = problem.equator
     status = half.status[i]
     if status is Status.LEFT_VIEW:
-        return Fate("away", None, None, "Comes from outside the picture." if backward else "Leaves the picture.")
+        return Fate("away", None, None, say("comes from outside" if backward else "leaves the picture"))
     if status is Status.ON_EQUATOR:
-        return Fate("equator", None, None, "Stays on the equator, where it starts.")
+        return Fate("equator", None, None, say("stays on the equator"))
     k, gap = nearest(equator, math.atan2(half.ends[i, 1], half.ends[i, 0])) if len(equator) else (0, math.inf)
     at_saddle = status in CUT and half.ends[i, 2] < AT_SADDLE and gap < AT_SADDLE  # saddles capture nothing
     if (status is Status.ARRIVED and len(equator)) or at_saddle:
-        label, along = f"Q{k + 1}", f"along Q{k + 1}, θ = {equator.theta[k]:.4g}"
+        label, theta = f"Q{k + 1}", float(equator.theta[k])
     elif status is Status.SPIRALLED:
-        k, label, along = None, "equator", "in a spiral"
+        k, label, theta = None, "equator", None
     else:
-        return Fate("undecided", None, None, f"Not followed to an end: {status.value}")
+        return Fate("undecided", None, None, say("not followed", why=status.value))
+    known: dict[str, object] = {"label": label, "theta": theta, "t": after}
+    way = ("" if k is not None else ", in a spiral") + ("" if after is None else ", timed")
     if backward:
-        return Fate(label, None, after, f"Left Σ {along}{'' if after is None else f', t = {after:.3g} ago'}.")
+        return Fate(label, None, after, say("left" + way, **known))
     found = problem.keep(outcomes_of)
-    outcome = found.whole if k is None or found.whole is not None else found.directions[k]
-    then, onto = _then(outcome)
-    when = "" if after is None else f", after t = {after:.3g}"
-    return Fate(label, onto, after, f"Reaches Σ {along}{when}{then}")
+    then, onto = _then(found.whole if k is None or found.whole is not None else found.directions[k])
+    return Fate(label, onto, after, f"{say('reached' + way, **known)} {then}")
 
 
 def _then(outcome: Outcome | None) -> tuple[str, str | None]:
     if outcome is None or outcome.verdict in ("undecided", "misses"):
-        return "; what follows is not decided.", None
+        return say("then undecided"), None
+    if outcome.verdict == "cross" and outcome.leaving is None:
+        return say("then crosses, in a spiral"), outcome.onto
     if outcome.verdict == "cross":
-        way = f"θ = {outcome.leaving:.4g}" if outcome.leaving is not None else "the closed equator"
-        return f", and crosses: leaves along {way}.", outcome.onto
-    return f", and slides on {'limit ' if outcome.verdict == 'cycle' else ''}{outcome.onto}.", outcome.onto
+        return say("then crosses", theta=outcome.leaving), outcome.onto
+    onto = f"limit {outcome.onto}" if outcome.verdict == "cycle" else outcome.onto
+    return say("then slides", onto=onto), outcome.onto
 
 
 def _a(kind: str) -> str:

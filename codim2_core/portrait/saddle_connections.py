@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..words import say
 from .separatrix import Separatrix
 
 Array = NDArray[np.float64]
@@ -38,7 +39,7 @@ def connected(branches: list[Separatrix], gaps: dict[tuple[int, int], float], to
     for (i, j), gap in gaps.items():
         if gap <= tolerance:
             leaving, entering = branches[i].origin, branches[j].origin
-            sentence = f"Saddle connection from {leaving} to {entering}, within {gap:.1e}."
+            sentence = say("saddle connection", leaving=leaving, entering=entering, gap=gap)
             out[i] = replace(out[i], end=entering, connection=True, gap=gap, status=sentence)
             out[j] = replace(out[j], end=leaving, connection=True, gap=gap, status=sentence)
             continue

@@ -9,6 +9,7 @@ from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from ..words import say
 from .endings import drawn_time, radially_neutral
 from .saddle_connections import connected, gaps_between
 from .separatrix import Separatrices, Separatrix
@@ -95,12 +96,8 @@ def separatrices_of(
 
 def _notes(equator: EquatorEquilibria, branches: list[Separatrix]) -> tuple[str, ...]:
     notes = [b.status for b in branches if b.connection and b.direction == "unstable"]
-    notes += [
-        f"Q{i + 1} is radially non-hyperbolic (a critical set comes to the equator): its branches are not followed."
-        for i in range(len(equator))
-        if radially_neutral(equator, i)
-    ]
-    notes += [f"A branch of {b.origin} is undecided: {b.status}" for b in branches if b.end == "undecided"]
+    notes += [say("branches not followed", Q=f"Q{i + 1}") for i in range(len(equator)) if radially_neutral(equator, i)]
+    notes += [say("branch undecided", origin=b.origin, status=b.status) for b in branches if b.end == "undecided"]
     if equator.all_directions:
-        notes.append("Every direction is a limit direction: the equator is a line of equilibria, with no separatrices.")
+        notes.append(say("no separatrices"))
     return tuple(dict.fromkeys(notes))

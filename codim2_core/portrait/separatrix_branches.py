@@ -21,6 +21,7 @@ from ..layer_problem.problem import LayerProblem
 from ..orbits.trajectories import Status, Trajectories, continuation, joined, trajectories
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
+from ..words import say
 from .endings import (
     CAPTURE,
     CONNECTION,
@@ -165,7 +166,7 @@ def ray(equator: EquatorEquilibria, i: int, view: float) -> Separatrix:
     far = view / max(abs(u[0]), abs(u[1]))
     stable = equator.lambda_rho[i] < 0.0
     points = np.array([far * u, u] if stable else [u, far * u])
-    sentence = f"The ray θ = θ_{i + 1} itself, as f is constant: " + ("it arrives." if stable else "it leaves.")
+    sentence = say("ray arrives" if stable else "ray leaves", Q=f"Q{i + 1}")
     direction = "stable" if stable else "unstable"
     return Separatrix(f"Q{i + 1}", direction, "outside", points, angle, angle, False, False, None, sentence)
 
@@ -186,7 +187,7 @@ def bent(problem: LayerProblem, i: int, t_max: float, rtol: float, view: float, 
     points = np.concatenate([u[None, :], line.points[0]])
     far = math.atan2(points[-1, 1], points[-1, 0])
     direction = "stable" if stable else "unstable"
-    sentence = f"Outside, from Q{i + 1}: " + ("it arrives." if stable else "it leaves.")
+    sentence = say("branch arrives" if stable else "branch leaves", Q=f"Q{i + 1}")
     if line.status[0] is not Status.LEFT_VIEW:
         sentence += f" {line.status[0].value}"
     ordered = np.ascontiguousarray(points[::-1] if stable else points)

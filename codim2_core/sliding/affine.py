@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..layer_problem.location import Existence, locate
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
+from ..words import say
 
 Array = NDArray[np.float64]
 
@@ -41,13 +42,12 @@ class AffinePlane:
     sentence: str
 
 
-_ONE = "The plane of affine combinations of limit vectors meets Σ in one point (×), "
 _SENTENCES = {
-    Existence.INSIDE: _ONE + "a convex combination: there is sliding.",
-    Existence.NONE: _ONE + "which is no convex combination: there is crossing.",
-    Existence.EQUATOR: _ONE + "which is itself a limit vector, within rounding: between sliding and crossing.",
+    Existence.INSIDE: say("affine: convex"),
+    Existence.NONE: say("affine: not convex"),
+    Existence.EQUATOR: say("affine: limit vector"),
 }
-_SINGULAR = "det A = 0 within rounding: no single affine combination of limit vectors is tangent to Σ."
+_SINGULAR = say("affine: none single")
 
 
 def affine_plane(system: AnySystem, z: ArrayLike = ()) -> AffinePlane | None:

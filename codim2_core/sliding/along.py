@@ -19,6 +19,7 @@ from ..systems.bounds import slow_values
 from ..systems.elinear import ELinear
 from ..systems.kinds import AnySystem
 from ..systems.typed import System
+from ..words import say, subscript
 from .slow_portrait_result import SlowBranch, SlowInterval, SlowPoint, SlowPortrait
 
 Array = NDArray[np.float64]
@@ -28,9 +29,9 @@ NARROW = 1e-7  # of the span: two changes this near, as where a double zero is l
 AT_EQUATOR = 1e-4  # 1 - |e| of a critical set that is about to reach the equator, one bisected step before it does
 STABLE, UNSTABLE, CROSSING = "sliding", "unstable", "crossing"
 _SENTENCES = {
-    STABLE: "Sliding: a stable critical set.",
-    UNSTABLE: "No stable critical set: it slides only on an unstable one, or on a limit cycle around it.",
-    CROSSING: "Crossing: no critical set.",
+    STABLE: say("along: sliding"),
+    UNSTABLE: say("along: unstable"),
+    CROSSING: say("along: crossing"),
 }
 
 
@@ -186,7 +187,7 @@ def _through(into: SlowPoint, before: Sequence[CriticalSet], narrow: Piece, afte
         return _change(z, before, after)
     if len(before) > len(at) > 0:
         flattest = min(at, key=lambda C: abs(C.determinant))
-        return SlowPoint("fold", z, *_place(flattest), None, "det J = 0: critical sets meet and exchange their kinds.")
+        return SlowPoint("fold", z, *_place(flattest), None, say("along: exchange"))
     return into
 
 
@@ -196,15 +197,15 @@ def _change(z: float, before: Sequence[CriticalSet], after: Sequence[CriticalSet
     if len(before) != len(after):
         outermost = max(more, key=lambda C: float(np.hypot(*C.e)))
         if np.hypot(*outermost.e) > 1.0 - AT_EQUATOR:
-            sentence = "A critical set passes through the equator (transcritical, Figure 19)."
+            sentence = say("along: equator")
             return SlowPoint("equator", z, *_place(outermost), None, sentence)
         flattest = min(more, key=lambda C: abs(C.determinant))
-        return SlowPoint("fold", z, *_place(flattest), None, "Two critical sets meet and vanish: a fold, det J = 0.")
+        return SlowPoint("fold", z, *_place(flattest), None, say("along: fold"))
     pairs = _matching(before, after)
     old, new = next(((p, q) for p, q in pairs if _kind(p) != _kind(q)), pairs[0])
     if {_kind(old).split()[0], _kind(new).split()[0]} == {"stable", "unstable"}:
-        return SlowPoint("Hopf", z, *_place(new), None, f"tr J = 0: the critical set becomes {_article(_kind(new))}.")
-    return SlowPoint("node-focus", z, *_place(new), None, f"Δ(J) = 0: the critical set becomes {_article(_kind(new))}.")
+        return SlowPoint("Hopf", z, *_place(new), None, say("along: Hopf", kind=_article(_kind(new))))
+    return SlowPoint("node-focus", z, *_place(new), None, say("along: node-focus", kind=_article(_kind(new))))
 
 
 def _article(kind: str) -> str:
@@ -264,8 +265,9 @@ def _equilibria(line: _Line, branch: SlowBranch) -> list[SlowPoint]:
             )
             z = float(root)
         falling = bool(flow[i + 1] < 0.0)
-        words = "attracts" if falling else "repels"
-        found.append(
-            SlowPoint("equilibrium", z, *_place(on_branch(z)), falling, f"z′ = 0: it {words} along the critical set.")
-        )
+        way = "attracts" if falling else "repels"
+        here = on_branch(z)
+        alone = not np.delete(here.slow_flow, line.axis).any()
+        sentence = say(f"along: {way}") if alone else say(f"along one: {way}", z=f"z{subscript(line.axis + 1)}")
+        found.append(SlowPoint("equilibrium", z, *_place(here), falling, sentence))
     return found

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
+from ..words import say
 
 Array = NDArray[np.float64]
 
@@ -100,12 +101,7 @@ def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
             vertices.append(vertex)
             combinations.append((directions, weight))
     unique = len(vertices) <= 1
-    sentence = (
-        "All convex combinations of the limit vectors that are tangent to Σ are one vector: Filippov sliding is unique."
-        if unique
-        else "The convex combinations of the limit vectors that are tangent to Σ form a whole set: the Filippov "
-        "sliding vector is not unique."
-    )
+    sentence = say("Filippov: unique") if unique else say("Filippov: not unique")
     if m == 2:  # corners in order around the polygon
         centre = np.mean(vertices, axis=0)
         order = sorted(range(len(vertices)), key=lambda i: math.atan2(*(vertices[i] - centre)[::-1]))
@@ -119,8 +115,8 @@ def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
     )
 
 
-_TOUCHES = "Σ only touches the hull of the limit vectors, within 1e-10: whether a combination is tangent is undecided."
-_NONE = "No convex combination of the limit vectors is tangent to Σ: crossing, by the Filippov convention."
+_TOUCHES = say("Filippov: touches")
+_NONE = say("Filippov: none")
 
 
 def _frozen(values: Array) -> Array:

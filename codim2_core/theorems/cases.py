@@ -6,6 +6,7 @@ import numpy as np
 
 from ..layer_problem.location import Existence
 from ..psi.constructors import compared
+from ..words import say
 from .degenerate import NOT_LINEAR
 from .facts import RAYS, Certificate, Facts, not_applicable, verdict_of
 
@@ -16,12 +17,11 @@ def _why(facts: Facts) -> str:
 
 def case1(facts: Facts) -> tuple[Certificate, ...]:
     """Evaluate thm:case1."""
-    with_set = "Case I, |A⁻¹f| < 1: a unique critical set that all orbits of the layer problem reach; 0, 2 or 4 limit "
-    with_set += "directions. (Time runs backwards for a, d > 0.)"
-    without = "Case I, |A⁻¹f| > 1: no critical set; 2 or 4 limit directions."
-    five = "Case I has five generic portraits: CM0, CM2, CM4, NCM2 and NCM4."
+    with_set = say("case1(a)")
+    without = say("case1(b)")
+    five = say("case1(c)")
     if facts.portrait.case != "I":
-        why = "This is not Case I: a and d are not of one sign." if facts.form is not None else NOT_LINEAR
+        why = say("not Case I") if facts.form is not None else NOT_LINEAR
         parts = ("thm:case1(a)", with_set), ("thm:case1(b)", without), ("thm:case1(c)", five)
         return tuple(not_applicable(*part, why) for part in parts)
     return _case1a(facts, with_set), _without_set("thm:case1(b)", facts, without), _five(facts, five)
@@ -56,12 +56,10 @@ def _case1a(facts: Facts, statement: str) -> Certificate:
     what = "largest √(ζ²+Ψ) div" + (" (time reversed)" if backwards else "")
     numbers = (("critical sets", 1.0), (what, float(scaled.max())), ("its bound −min(|a|, |d|)", bound),
                ("tr J", facts.critical[0].trace), ("limit directions", float(count)))  # fmt: skip
-    sentence = (
-        f"The divergence {'is positive' if backwards else 'is negative'} everywhere, so there is no limit cycle, "
-        f"and C is a {kind}.".replace("a unstable", "an unstable")
-    )
+    kind = f"{'an' if kind.startswith('unstable') else 'a'} {kind}"
+    sentence = say("one sign", sign="positive" if backwards else "negative", kind=kind)
     if not facts.generic:
-        sentence += " The equator is degenerate here, so that the count of directions is not a generic one."
+        sentence += " " + say("count not generic")
     return Certificate(theorem, statement, verdict_of(holds), numbers, sentence)
 
 
@@ -74,35 +72,34 @@ def _without_set(theorem: str, facts: Facts, statement: str) -> Certificate:
         holds = not facts.critical and count >= 1
         return Certificate(
             theorem, statement, verdict_of(holds), numbers,
-            f"No critical set, and {count} limit directions: on the border between the generic counts.",
+            say("none, on a border", count=count),
         )  # fmt: skip
     return Certificate(
         theorem, statement, verdict_of(not facts.critical and count in (2, 4)), numbers,
-        f"No critical set, and {count} limit directions.",
+        say("none, generic", count=count),
     )  # fmt: skip
 
 
 def _five(facts: Facts, statement: str) -> Certificate:
     if facts.portrait.degeneracies:
         names = ", ".join(d.name for d in facts.portrait.degeneracies)
-        return not_applicable("thm:case1(c)", statement, f"The portrait is not a generic one: {names}.")
+        return not_applicable("thm:case1(c)", statement, say("portrait not generic", names=names))
     name = facts.portrait.name
     return Certificate(
         "thm:case1(c)", statement, verdict_of(name in ("CM0", "CM2", "CM4", "NCM2", "NCM4")),
         (("limit directions", float(len(facts.equator))), ("critical sets", float(len(facts.critical)))),
-        f"This one is {name}.",
+        say("this one", name=name),
     )  # fmt: skip
 
 
 def case2(facts: Facts) -> tuple[Certificate, ...]:
     """Evaluate thm:case2."""
-    with_set = "Case II, |A⁻¹f| < 1: C is a saddle for every Ψ, and there are exactly four limit directions, each a "
-    with_set += "saddle of the radial and angular flow."
-    without = "Case II, |A⁻¹f| > 1: no critical set; 2 or 4 limit directions."
+    with_set = say("case2(a)")
+    without = say("case2(b)")
     if facts.portrait.case != "II":
         why = NOT_LINEAR
         if facts.form is not None:
-            why = "This is not Case II: a and d of opposite sign with det A < 0."
+            why = say("not Case II")
         return not_applicable("thm:case2(a)", with_set, why), not_applicable("thm:case2(b)", without, why)
     second = _without_set("thm:case2(b)", facts, without)
     if not facts.critical:
@@ -113,7 +110,5 @@ def case2(facts: Facts) -> tuple[Certificate, ...]:
     holds = saddles and len(products) == 4 and all(v < 0.0 for v in products)
     numbers = (("det J", facts.critical[0].determinant), ("limit directions", float(len(products))),
                *((f"λ_ρ λ_θ at {label}", v) for label, v in zip(equator.labels, products, strict=True)))  # fmt: skip
-    first = Certificate(
-        "thm:case2(a)", with_set, verdict_of(holds), numbers, "One limit direction for each separatrix of the saddle."
-    )
+    first = Certificate("thm:case2(a)", with_set, verdict_of(holds), numbers, say("one for each separatrix"))
     return first, second

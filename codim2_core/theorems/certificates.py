@@ -19,6 +19,7 @@ from ..psi.function import Psi
 from ..sliding.flow import sliding_flow
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
+from ..words import say
 from .cases import case1, case2
 from .degenerate import NOT_LINEAR, equal_diagonal, normal_form, symmetric
 from .facts import CLOSE, RAYS, Certificate, Facts, Verdict, not_applicable, verdict_of
@@ -29,7 +30,6 @@ from .sliding_claims import sliding_claims
 __all__ = ["Certificate", "Verdict", "certificates"]
 
 MOST_CONDITION = 1e12
-_ILL = "The condition number of A is {:.1e}: a check of A⁻¹f in doubles would say nothing."
 
 
 def certificates(
@@ -95,11 +95,11 @@ def certificates_of(
 
 
 def _equilibria(facts: Facts) -> Certificate:
-    theorem, statement = "thm:geneps0(a)", "Where Θ(θ) = 0 the equator of the hemisphere has an equilibrium."
+    theorem, statement = "thm:geneps0(a)", say("geneps0(a)")
     if facts.equator.all_directions:
-        return Certificate(theorem, statement, Verdict.HOLDS, (), "Θ ≡ 0: every point of the equator is one.")
+        return Certificate(theorem, statement, Verdict.HOLDS, (), say("all are equilibria"))
     if not len(facts.equator):
-        return not_applicable(theorem, statement, "Θ has no zero here: the equator is a closed orbit (see (c)).")
+        return not_applicable(theorem, statement, say("no equilibrium"))
     numbers, worst = [], 0.0
     for label, theta in zip(facts.equator.labels, facts.equator.theta.tolist(), strict=True):
         c, s = math.cos(theta), math.sin(theta)
@@ -109,15 +109,15 @@ def _equilibria(facts: Facts) -> Certificate:
     count = len(numbers)
     return Certificate(
         theorem, statement, verdict_of(worst <= CLOSE * facts.size), tuple(numbers),
-        f"Θ vanishes in {count} direction{'s' if count > 1 else ''}, up to rounding.",
+        say("vanishes in one" if count == 1 else "vanishes in", count=count),
     )  # fmt: skip
 
 
 def _up_the_sphere(facts: Facts) -> Certificate:
     theorem = "thm:geneps0(b)"
-    statement = "At an equilibrium of the equator the rates outwards and up the hemisphere are λ_ρ and −λ_ρ."
+    statement = say("geneps0(b)")
     if not len(facts.equator):
-        return not_applicable(theorem, statement, "There are no isolated equilibria on the equator.")
+        return not_applicable(theorem, statement, say("none isolated"))
     numbers, holds = [], True
     equator = facts.equator
     rows = zip(equator.labels, equator.theta, equator.lambda_rho, equator.radially_degenerate, strict=True)
@@ -130,16 +130,16 @@ def _up_the_sphere(facts: Facts) -> Certificate:
         holds &= abs(up + rate) <= (1e-3 if flat else 1e-6) * facts.size
     return Certificate(
         theorem, statement, verdict_of(holds), tuple(numbers),
-        "What arrives from outside goes on up the hemisphere along the same direction, and the other way round.",
+        say("goes on up"),
     )  # fmt: skip
 
 
 def _closed_equator(facts: Facts) -> Certificate:
     theorem = "thm:geneps0(c)"
-    statement = "Without limit directions the equator is a closed orbit; ∫ λ_ρ/|Θ| dθ decides its stability."
+    statement = say("geneps0(c)")
     cycle = facts.cycle
     if cycle is None:
-        return not_applicable(theorem, statement, "There are limit directions.")
+        return not_applicable(theorem, statement, say("there are directions"))
     # The trapezoidal rule converges fast for a periodic analytic integrand; the exponent itself is a closed form.
     theta = np.linspace(0.0, 2.0 * math.pi, 4096, endpoint=False)
     e = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
@@ -163,14 +163,14 @@ def _closed_equator(facts: Facts) -> Certificate:
     return Certificate(
         theorem, statement, verdict_of(holds),
         (("∫ λ_ρ/|Θ| dθ", cycle.exponent), ("the same by quadrature", integral), ("least |Θ|", least)),
-        f"The equator {ends} outside and {other} on the hemisphere.",
+        say("equator ends", ends=ends, other=other),
     )  # fmt: skip
 
 
 def _slow_on_the_sphere() -> Certificate:
     return Certificate(
-        "thm:geneps0(d)", "On the hemisphere z stays constant.", Verdict.HOLDS, (("ρ", 0.0), ("dz/dT = ρ W", 0.0)),
-        "dz/dT = ρ W, and ρ = 0 on the hemisphere: it holds for every system.",
+        "thm:geneps0(d)", say("geneps1: z"), Verdict.HOLDS, (("ρ", 0.0), ("dz/dT = ρ W", 0.0)),
+        say("geneps1: z, why"),
     )  # fmt: skip
 
 
@@ -179,18 +179,18 @@ def _slow_on_the_sphere() -> Certificate:
 
 def _existence(facts: Facts) -> Certificate:
     theorem = "thm:lineps1(a)"
-    statement = "There is a critical set, and only one, just if |A⁻¹f| < 1."
+    statement = say("one set")
     if facts.location is None:
         return not_applicable(theorem, statement, NOT_LINEAR)
     if facts.location.singular:
-        return not_applicable(theorem, statement, "det A = 0 within rounding: A has no inverse.")
+        return not_applicable(theorem, statement, say("no inverse"))
     A, f = facts.given
     condition = float(np.linalg.cond(A))
     if not condition < MOST_CONDITION:
-        return not_applicable(theorem, statement, _ILL.format(condition))
+        return not_applicable(theorem, statement, say("condition number", number=condition))
     length = float(np.linalg.norm(np.linalg.solve(A, f)))
     if facts.location.existence is Existence.EQUATOR:
-        return not_applicable(theorem, statement, f"|A⁻¹f| = {length:.6g}: the critical set is on the equator.")
+        return not_applicable(theorem, statement, say("border of existence", length=length))
     numbers: list[tuple[str, float]] = [("|A⁻¹f|", length), ("critical sets", float(len(facts.critical)))]
     near = abs(length - 1.0) <= 1e-9 * condition
     holds = near or (length < 1.0) == (len(facts.critical) == 1)
@@ -204,7 +204,7 @@ def _existence(facts: Facts) -> Certificate:
         holds &= residual <= CLOSE * facts.size
     return Certificate(
         theorem, statement, verdict_of(holds), tuple(numbers),
-        f"|A⁻¹f| = {length:.6g}: {'one critical set' if facts.critical else 'no critical set'}.",
+        say("one set here" if facts.critical else "no set here", length=length),
     )  # fmt: skip
 
 
@@ -218,17 +218,17 @@ def _affine(at: AtZ) -> bool:
 
 def _filippov(facts: Facts) -> Certificate:
     theorem = "thm:lineps1(b)"
-    statement = "The slow flow is −B A⁻¹f + g, as the Filippov convention has it."
+    statement = say("slow flow of C")
     if facts.location is None or not _affine(facts.at):
-        return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else "W is not e-linear.")
+        return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else say("W not e-linear"))
     if not facts.critical:
-        return not_applicable(theorem, statement, "There is no isolated critical set.")
+        return not_applicable(theorem, statement, say("no isolated critical set"))
     if not facts.at.m:
-        return not_applicable(theorem, statement, "There is no slow variable (m = 0).")
+        return not_applicable(theorem, statement, say("no slow variable"))
     e, slow = facts.critical[0].e, facts.critical[0].slow_flow
     formula = sliding_flow(facts.at)
     if formula is None:
-        return not_applicable(theorem, statement, "The sliding flow is not defined.")
+        return not_applicable(theorem, statement, say("no sliding flow"))
     formula = formula.reshape(slow.shape)
     size = facts.slow_size
     worst = float(abs(slow - formula).max())
@@ -247,7 +247,7 @@ def _filippov(facts: Facts) -> Certificate:
     holds = worst <= CLOSE * size and spread <= CLOSE
     return Certificate(
         theorem, statement, verdict_of(holds), tuple(numbers),
-        "Every convex combination of two limit vectors that is tangent to Σ gives this same vector.",
+        say("all combinations agree"),
     )  # fmt: skip
 
 
@@ -259,13 +259,13 @@ _INDEX = {"saddle": -1, "saddle-node": 0}
 
 def _index(facts: Facts) -> Certificate:
     theorem = "sec:geneps0, index theory"
-    statement = "The indices of the critical sets add up to the number of turns of U along the equator."
+    statement = say("index")
     equator = facts.equator
     if facts.uncertain is not None:
         return not_applicable(theorem, statement, facts.uncertain)
     singular = facts.location is not None and facts.location.singular
     if equator.all_directions or equator.radially_degenerate.any() or singular:
-        return not_applicable(theorem, statement, "U vanishes on the equator, or the critical sets are not isolated.")
+        return not_applicable(theorem, statement, say("index not defined"))
     # Seen from the turning frame U is (lambda_rho, Theta): it crosses the radial axis where Theta changes sign.
     odd = equator.multiplicity % 2 == 1
     slopes, rates = np.sign(equator.lambda_theta[odd]), np.sign(equator.lambda_rho[odd])
@@ -282,24 +282,24 @@ def _index(facts: Facts) -> Certificate:
         turns = float(steps.sum() / (2.0 * math.pi))
         numbers.append(("turns of U, followed along the equator", turns))
         holds &= abs(turns - index) < 1e-6
-    return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), "No critical set is missing.")
+    return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), say("none is missing"))
 
 
 def _limit_cycles(facts: Facts, cycles: Iterable[Any] | None) -> Certificate:
     theorem = "prop:LC"
-    statement = "Along a limit cycle of the layer problem the reduced flow is −B A⁻¹f + g; the mean of e_Ψ is −A⁻¹f."
+    statement = say("mean over a cycle")
     found = () if cycles is None else tuple(cycles)
     if not found:
-        why = "No limit cycle was given." if cycles is None else "There is no limit cycle."
+        why = say("no cycle given") if cycles is None else say("no cycle there")
         return not_applicable(theorem, statement, why)
     if facts.location is None or not _affine(facts.at):
-        return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else "W is not e-linear.")
+        return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else say("W not e-linear"))
     if facts.location.singular:
-        return not_applicable(theorem, statement, "det A = 0 within rounding: A has no inverse.")
+        return not_applicable(theorem, statement, say("no inverse"))
     A, f = facts.given
     condition = float(np.linalg.cond(A))
     if not condition < MOST_CONDITION:
-        return not_applicable(theorem, statement, _ILL.format(condition))
+        return not_applicable(theorem, statement, say("condition number", number=condition))
     mean = -np.linalg.solve(A, f)
     slow = facts.at.W(mean)
     numbers, holds = [], True
@@ -314,6 +314,6 @@ def _limit_cycles(facts: Facts, cycles: Iterable[Any] | None) -> Certificate:
             numbers.append((f"cycle {i + 1}: difference of slow flows", gap))
             holds &= gap <= 1e-6 * size
     if not numbers:
-        return not_applicable(theorem, statement, "There is no slow variable (m = 0), and no mean of e_Ψ was given.")
-    sentence = "The mean of e_Ψ over the cycle is that of the critical set."
+        return not_applicable(theorem, statement, say("no slow variable, no mean"))
+    sentence = say("mean is that of C")
     return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), sentence)

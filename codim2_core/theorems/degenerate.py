@@ -6,14 +6,15 @@ import math
 
 import numpy as np
 
+from ..words import say
 from .facts import Certificate, Facts, not_applicable, verdict_of
 
-NOT_LINEAR = "U is not e-linear."
+NOT_LINEAR = say("U not e-linear")
 
 
 def normal_form(facts: Facts) -> Certificate:
     """Evaluate lem:normalform."""
-    theorem, statement = "lem:normalform", "A rotation brings A into the form [[a, −b], [b, d]], whatever A is."
+    theorem, statement = "lem:normalform", say("rotation")
     affine, form = facts.problem.at.affine, facts.form
     if affine is None or form is None:
         return not_applicable(theorem, statement, NOT_LINEAR)
@@ -25,7 +26,7 @@ def normal_form(facts: Facts) -> Certificate:
     return Certificate(
         theorem, statement, verdict_of(worst <= 1e-14 * max(facts.size, 1e-300) * 8.0),
         (("φ", phi), ("a", form.a), ("b", form.b), ("d", form.d), ("largest |R A Rᵀ − [[a, −b], [b, d]]|", worst)),
-        "It is in the form already." if phi == 0.0 else f"The axes are turned by {phi:.6g}.",
+        say("no rotation") if phi == 0.0 else say("rotated", phi=phi),
     )  # fmt: skip
 
 
@@ -50,36 +51,33 @@ def _held(facts: Facts, theorem: str, statement: str, expected: list[float], sen
 def equal_diagonal(facts: Facts) -> Certificate:
     """Evaluate D1, a = d."""
     theorem = "sec:lin, D1"
-    statement = "For a = d there are 2 limit directions if |b| < |f|, sin(θ − arg f) = b/|f|, and none if |b| > |f|."
+    statement = say("D1")
     form = facts.form
     if form is None:
         return not_applicable(theorem, statement, NOT_LINEAR)
     if form.a != form.d:
-        return not_applicable(theorem, statement, "a ≠ d.")
+        return not_applicable(theorem, statement, say("a and d differ"))
     length = math.hypot(form.f1, form.f2)
     if length == abs(form.b) == 0.0:
-        return not_applicable(theorem, statement, "b = 0 and f = 0: every direction is a limit direction.")
+        return not_applicable(theorem, statement, say("every direction, b = 0"))
     expected: list[float] = []
     if abs(form.b) <= length:
         turn, half = math.atan2(form.f2, form.f1), math.asin(form.b / length)
         expected = [turn + half] if abs(form.b) == length else [turn + half, turn + math.pi - half]
-    return _held(facts, theorem, statement, expected, f"|b| = {abs(form.b):.6g}, |f| = {length:.6g}.")
+    return _held(facts, theorem, statement, expected, say("D1, here", b=abs(form.b), f=length))
 
 
 def symmetric(facts: Facts) -> Certificate:
     """Evaluate D2, b = 0 and a component of f zero (its printed sign is a slip, see the errata)."""
     theorem = "sec:lin, D2"
-    statement = (
-        "For b = 0 and f₂ = 0 (or f₁ = 0) two limit directions lie on an axis, and two more, "
-        "θ = ±arccos(f₁/(d − a)), exist if |f₁| < |d − a|."
-    )
+    statement = say("D2")
     form = facts.form
     if form is None:
         return not_applicable(theorem, statement, NOT_LINEAR)
     if form.b != 0.0 or form.f1 * form.f2 != 0.0 or (form.f1 != 0.0 and form.f2 != 0.0):
-        return not_applicable(theorem, statement, "b ≠ 0, or neither component of f is zero.")
+        return not_applicable(theorem, statement, say("not D2"))
     if facts.equator.all_directions:
-        return not_applicable(theorem, statement, "a = d, b = 0 and f = 0: every direction is a limit direction.")
+        return not_applicable(theorem, statement, say("nothing turns at f = 0, D2"))
     spread = form.d - form.a
     if form.f2 == 0.0:
         expected, force = [0.0, math.pi], form.f1
@@ -91,5 +89,5 @@ def symmetric(facts: Facts) -> Certificate:
         if abs(force) < abs(spread):
             half = math.asin(-force / spread)
             expected += [half, math.pi - half]
-    how = "Pitchfork exactly at |f| = |d − a|." if abs(force) == abs(spread) else "Pitchfork at |f| = |d − a|."
-    return _held(facts, theorem, statement, expected, f"|f| = {abs(force):.6g}, |d − a| = {abs(spread):.6g}. {how}")
+    key = "D2, at the pitchfork" if abs(force) == abs(spread) else "D2, here"
+    return _held(facts, theorem, statement, expected, say(key, f=abs(force), spread=abs(spread)))

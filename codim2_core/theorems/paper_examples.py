@@ -9,6 +9,7 @@ import numpy as np
 from ..examples.attracting_repelling import attracting_repelling
 from ..examples.nonunique_sliding import nonunique_sliding
 from ..systems.typed import System
+from ..words import say
 from .facts import CLOSE, RAYS, Certificate, Facts, not_applicable, verdict_of
 
 _NET = np.concatenate([r * np.stack([np.cos(RAYS), np.sin(RAYS)], axis=-1) for r in (0.0, 0.4, 0.8, 1.0)])
@@ -17,7 +18,7 @@ _NET = np.concatenate([r * np.stack([np.cos(RAYS), np.sin(RAYS)], axis=-1) for r
 def ball_in_pool(facts: Facts) -> Certificate:
     """Evaluate sec:ballpool: a = d < 0, b = 0, f = g and B = 2/7 A."""
     theorem = "sec:ballpool"
-    statement = "The ball sticks and rolls if |f| < |a|, that is |z| < z_crit: a stable node, on which z′ = 5f/7."
+    statement = say("ball")
     at, form = facts.problem.at, facts.form
     own = form is not None and at.m == 2 and form.a == form.d < 0.0 == form.b
     if own:
@@ -27,17 +28,17 @@ def ball_in_pool(facts: Facts) -> Certificate:
         own = bool(np.abs(at.W(_NET) - (2.0 / 7.0 * form.a * _NET + f)).max() <= 1e-12 * facts.size)
         own = own and bool(np.abs(f - g).max() <= 1e-12 * facts.size)
     if not own or form is None:
-        return not_applicable(theorem, statement, "This is not the ball at the bottom of a pool.")
+        return not_applicable(theorem, statement, say("not the ball"))
     f = at.U(np.zeros(2))
     ratio = float(np.hypot(*f)) / abs(form.a)
     if abs(ratio - 1.0) <= 1e-12:
-        return not_applicable(theorem, statement, "|z| = z_crit: the critical set is just on the equator.")
+        return not_applicable(theorem, statement, say("ball, on the border"))
     sticks = bool(facts.critical) and facts.critical[0].kind == "stable node"
     gap = float(np.abs(facts.critical[0].slow_flow - 5.0 / 7.0 * f).max()) if facts.critical else 0.0
     count = len(facts.equator)
     holds = sticks == (ratio < 1.0) and gap <= CLOSE * facts.size and (count == 2 or facts.equator.all_directions)
-    words = "It sticks and rolls, and z decays." if sticks else "It slips."
-    numbers = (("|f|/|a| = |z|/z_crit", ratio), ("limit directions", float(count)), ("|z′ − 5f/7|", gap))
+    words = say("ball sticks") if sticks else say("ball slips")
+    numbers = (("|f|/|a|", ratio), ("limit directions", float(count)), ("|z′ − 5f/7|", gap))
     return Certificate(theorem, statement, verdict_of(holds), numbers, words)
 
 
@@ -54,12 +55,9 @@ def _is(facts: Facts, example: System) -> bool:
 def attracting_and_repelling(facts: Facts) -> Certificate:
     """Evaluate sec:mateslidecross."""
     theorem = "sec:mateslidecross"
-    statement = (
-        "Six limit directions (i − 1)π/3, all radially attracting but Q₁; C₊ is a saddle and C₋ a stable node, for "
-        "every Ψ."
-    )
+    statement = say("attracting and repelling")
     if not _is(facts, attracting_repelling()):
-        return not_applicable(theorem, statement, "This is not the example with attracting and repelling directions.")
+        return not_applicable(theorem, statement, say("not attracting and repelling"))
     equator = facts.equator
     worst = float(np.abs(equator.theta - np.arange(6) * math.pi / 3.0).max()) if len(equator) == 6 else math.pi
     signs = len(equator) == 6 and bool(
@@ -74,19 +72,16 @@ def attracting_and_repelling(facts: Facts) -> Certificate:
     holds = worst <= CLOSE and signs and kinds == ["stable node", "saddle"] and gap <= CLOSE
     numbers = (("limit directions", float(len(equator))), ("largest |θ_i − (i − 1)π/3|", worst))
     numbers += (("critical sets", float(len(kinds))), ("largest |c − (1 ± √5)/4|", float(gap)))
-    words = "What arrives within π/3 of θ = 0 crosses, everything else slides."
+    words = say("within a third")
     return Certificate(theorem, statement, verdict_of(holds), numbers, words)
 
 
 def nonunique(facts: Facts) -> Certificate:
     """Evaluate sec:nonunique (8 limit directions only while chi(z)^2 < 2, see the errata)."""
     theorem = "sec:nonunique"
-    statement = (
-        "C₁ and C₃, at c = ∓χ/2, are stable nodes for every Ψ and C₂ a saddle; the slow flows ±χ + 1/4 differ: sliding "
-        "is not unique."
-    )
+    statement = say("non-unique")
     if not _is(facts, nonunique_sliding()):
-        return not_applicable(theorem, statement, "This is not the example with a non-unique sliding vector field.")
+        return not_applicable(theorem, statement, say("not non-unique"))
     z = float(facts.problem.at.z[0])
     chi = (1.0 + 2.0 * z * z) / (1.0 + z * z)
     kinds = [C.kind for C in facts.critical]
@@ -99,5 +94,5 @@ def nonunique(facts: Facts) -> Certificate:
     holds = holds and (len(facts.equator) == count or not firm)
     numbers = (("χ(z)", chi), ("critical sets", float(len(kinds))), ("limit directions", float(len(facts.equator))))
     numbers += (("largest difference of slow flows from ±χ + 1/4, 1/4", gap),)
-    words = f"z′ = {expected[0]:.4g} on C₁ and {expected[2]:.4g} on C₃. There are 8 limit directions while χ² < 2."
+    words = say("two slow flows", first=expected[0], third=expected[2])
     return Certificate(theorem, statement, verdict_of(holds), numbers, words)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..psi.function import Psi
+from ..words import say
 from .facts import RAYS, Certificate, not_applicable, verdict_of
 
 Array = NDArray[np.float64]
@@ -30,7 +31,7 @@ def psi_claims(psi: Psi) -> tuple[Certificate, ...]:
     broken = [name for name, rule in zip(("R1", "R2", "R3", "R4", "R5"), psi.check(), strict=False) if not rule.holds]
     if not broken:
         return found
-    why = f"This Ψ does not meet {', '.join(broken)} of Definition 2.3."
+    why = say("breaks a condition", which=", ".join(broken))
     return tuple(c if c.verdict.value == "holds" else not_applicable(c.theorem, c.statement, why) for c in found)
 
 
@@ -45,8 +46,8 @@ def _equivariant(psi: Psi) -> Certificate:
         R = np.array([[c, -s], [s, c]])
         worst = max(worst, float(np.abs(e_psi(psi, points @ R.T, 1.0) - e_psi(psi, points, 1.0) @ R.T).max()))
     return Certificate(
-        "lem:ePsi(a)", "e_Ψ is equivariant under rotations: e_Ψ(R(φ)(x, y)) = R(φ) e_Ψ(x, y).",
-        verdict_of(worst <= ROUND), (("largest difference", worst),), "Ψ enters through x² + y² only.",
+        "lem:ePsi(a)", say("lem:ePsi(a)"),
+        verdict_of(worst <= ROUND), (("largest difference", worst),), say("through the square"),
     )  # fmt: skip
 
 
@@ -55,9 +56,9 @@ def _homogeneous(psi: Psi) -> Certificate:
     for k in (0.01, 0.3, 7.0, 1000.0):
         worst = max(worst, float(np.abs(e_psi(psi, k * points, k) - e_psi(psi, points, 1.0)).max()))
     return Certificate(
-        "lem:ePsi(b)", "e_Ψ(kx, ky; kε) = e_Ψ(x, y; ε) for k > 0: it is homogeneous of degree 0.",
+        "lem:ePsi(b)", say("lem:ePsi(b)"),
         verdict_of(worst <= ROUND), (("largest difference", worst),),
-        "So ε only sets the scale: the picture in κ₂ is one for all ε.",
+        say("one scale"),
     )  # fmt: skip
 
 
@@ -68,10 +69,10 @@ def _one_to_one(psi: Psi) -> Certificate:
     back = np.array([float(psi.radius(float(psi.modulus(float(zeta))))) for zeta in inner])
     worst = float(np.abs(back / inner - 1.0).max())
     return Certificate(
-        "lem:ePsi(c)", "e_Ψ(x, y; 1) is one-to-one: |e_Ψ| increases with ζ = |(x₂, y₂)|.",
+        "lem:ePsi(c)", say("lem:ePsi(c)"),
         verdict_of(rises and worst <= 1e-9),
         (("least increase of |e_Ψ| sampled", float(np.diff(modulus).min())), ("largest |ζ(|e_Ψ|)/ζ − 1|", worst)),
-        "Every e in the open disc has one place (x₂, y₂), so a critical set is one point of the chart.",
+        say("one place"),
     )  # fmt: skip
 
 
@@ -82,8 +83,8 @@ def _shorter(psi: Psi) -> Certificate:
     least = float((values / (s + values)).min())
     positive = _stays_positive(psi, s, values)
     return Certificate(
-        "lem:ePsi(d)", "|e_Ψ|² < 1.", verdict_of(positive and least >= 0.0),
-        (("least 1 − |e_Ψ|² sampled", least),), "1 − |e_Ψ|² = Ψ/(ζ² + Ψ), and Ψ > 0.",
+        "lem:ePsi(d)", say("lem:ePsi(d)"), verdict_of(positive and least >= 0.0),
+        (("least 1 − |e_Ψ|² sampled", least),), say("complement"),
     )  # fmt: skip
 
 
@@ -117,8 +118,8 @@ def _positive(psi: Psi) -> Certificate:
     radial, tangential = psi.jacobian_factors(zeta)
     gap = float(np.abs(D - np.diag([radial, tangential])).max())
     return Certificate(
-        "rem:jaco_properties", "D e_Ψ is positive definite: its trace and its determinant are positive.",
+        "rem:jaco_properties", say("lem:ePsi(e)"),
         verdict_of(least >= 0.0 and gap <= 1e-7),
         (("least of tr·|(ζ, √Ψ)| and det·(ζ² + Ψ)", least), ("difference from differences of e_Ψ", gap)),
-        "So a saddle of U stays a saddle for every Ψ, and every orbit turns in the one sense of U.",
+        say("saddle stays"),
     )  # fmt: skip

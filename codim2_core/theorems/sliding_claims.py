@@ -8,10 +8,11 @@ from ..layer_problem.critical import CriticalSet, critical_sets
 from ..layer_problem.linearisation import matrix_determinant
 from ..psi.constructors import compared
 from ..psi.function import Psi
+from ..words import say
 from .facts import Array, Certificate, Facts, not_applicable, verdict_of
 from .psi_claims import e_psi
 
-NO_SET = "There is no isolated critical set."
+NO_SET = say("no isolated critical set")
 FOLDED = ("saddle-node", "degenerate")
 STEPS = (1e-3, 1e-4)  # eps times the way to the slow manifold, of hypot(1, |x2|)
 AHEAD = 1e-5  # step along z, of 1 + |z|
@@ -33,7 +34,7 @@ def _e_of(C: CriticalSet, psi: Psi) -> Array:
 
 def _stand_still(facts: Facts) -> Certificate:
     theorem = "thm:geneps1(a)"
-    statement = "Where U((c, s)) = 0 inside the disc, the layer problem stands still in the scaling chart."
+    statement = say("stands still")
     if not facts.critical:
         return not_applicable(theorem, statement, NO_SET)
     numbers, holds = [], True
@@ -41,14 +42,12 @@ def _stand_still(facts: Facts) -> Certificate:
         residual = float(np.abs(facts.at.U(_e_of(C, facts.psi))).max())
         numbers.append((f"|U(e_Ψ)| at {label}", residual))
         holds &= residual <= (1e-6 if C.kind in FOLDED else 1e-8) * facts.size
-    return Certificate(
-        theorem, statement, verdict_of(holds), tuple(numbers), "Put into the equations of the chart, U vanishes there."
-    )
+    return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), say("vanishes there"))
 
 
 def _kinds(facts: Facts) -> Certificate:
     theorem = "thm:geneps1(b)"
-    statement = "A critical set is a saddle, whatever Ψ is, if det D U < 0; a node or focus if det D U > 0."
+    statement = say("sign of the determinant")
     if not facts.critical:
         return not_applicable(theorem, statement, NO_SET)
     numbers: list[tuple[str, float]] = []
@@ -60,16 +59,16 @@ def _kinds(facts: Facts) -> Certificate:
         words.append(f"{label} is {'an' if C.kind.startswith('unstable') else 'a'} {C.kind}")
         if C.kind not in FOLDED:
             holds &= (C.kind == "saddle") == (sign < 0) and sign * C.determinant >= 0.0  # = 0.0: it has underflown
-    sentence = f"det J = det D U · det D e_Ψ, and the second factor is positive for every Ψ. {'; '.join(words)}."
+    sentence = say("one sign of two determinants", which="; ".join(words))
     return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), sentence)
 
 
 def _slow_flow(facts: Facts) -> Certificate:
-    theorem, statement = "thm:geneps1(c)", "The slow flow on a critical set does not depend on Ψ."
+    theorem, statement = "thm:geneps1(c)", say("independent of Ψ")
     if not facts.critical:
         return not_applicable(theorem, statement, NO_SET)
     if not facts.at.m:
-        return not_applicable(theorem, statement, "There is no slow variable (m = 0).")
+        return not_applicable(theorem, statement, say("no slow variable"))
     numbers, holds = [], True
     for other in dict.fromkeys((facts.psi, *compared(1))):
         found = facts.problem.under(other).critical
@@ -81,21 +80,19 @@ def _slow_flow(facts: Facts) -> Certificate:
         holds &= len(found) == len(facts.critical) and worst <= (1e-4 if folded else 1e-7) * facts.slow_size
     return Certificate(
         theorem, statement, verdict_of(holds), tuple(numbers),
-        "Each Ψ puts the critical set elsewhere in the chart, and all give one slow flow.",
+        say("elsewhere in the chart"),
     )  # fmt: skip
 
 
 def _slow_manifold(facts: Facts) -> Certificate:
     theorem = "thm:geneps1(d)"
-    statement = (
-        "Beside a normally hyperbolic C lies a slow manifold C_ε, ε-close to it; to first order its flow is that on C."
-    )
+    statement = say("slow manifold")
     if not facts.critical:
         return not_applicable(theorem, statement, NO_SET)
     if not facts.at.m:
-        return not_applicable(theorem, statement, "There is no slow variable (m = 0): C is an equilibrium.")
+        return not_applicable(theorem, statement, say("m = 0, an equilibrium"))
     if facts.system is None or len(facts.z) != facts.at.m:
-        return not_applicable(theorem, statement, "The system is frozen at one z: nothing is known of C beside it.")
+        return not_applicable(theorem, statement, say("frozen"))
     numbers: list[tuple[str, float]] = []
     holds, skipped = True, []
     beside = _beside(facts)
@@ -119,11 +116,11 @@ def _slow_manifold(facts: Facts) -> Certificate:
         numbers.append((f"and where ε is a tenth, at {label}", left[1]))
         holds &= left[1] <= 0.05 * left[0] + 1e-13 * facts.size
     if not numbers:
-        why = f"{', '.join(skipped)} {'is' if len(skipped) == 1 else 'are'} not normally hyperbolic here."
+        why = say("not hyperbolic" if len(skipped) == 1 else "not hyperbolic, several", which=", ".join(skipped))
         return not_applicable(theorem, statement, why)
     return Certificate(
         theorem, statement, verdict_of(holds), tuple(numbers),
-        "x₂* + ε J⁻¹ Dx₂* W meets the equations of the slow manifold up to ε².",
+        say("up to second order"),
     )  # fmt: skip
 
 

@@ -26,7 +26,7 @@ def test_a_click_launches_the_orbit_through_that_point(open_page):
     assert explorer.find(".orbit-words").text_content() == "Tends to C, a stable node: sliding."
     explorer.page.mouse.click(*place(explorer, 1.2, 0.8))
     explorer.settle()
-    assert explorer.find(".orbit-goes").nth(1).text_content().startswith("Reaches Σ along Q2, θ = 2.094, after t = ")
+    assert explorer.find(".orbit-goes").nth(1).text_content().startswith("Reaches Σ along Q₂, θ = 2.094, after t = ")
     explorer.kept()
     (x, y), (u, v) = [tuple(map(float, entry.split(","))) for entry in starts(explorer).split(";")]
     assert (x, y, u, v) == pytest.approx((-0.4, 0.3, 1.2, 0.8), abs=0.02)
@@ -48,7 +48,7 @@ def test_a_drag_takes_the_orbit_along_and_its_start_can_be_moved_later(open_page
     explorer.settle()
     assert explorer.frame() >= first + 3  # it followed
     assert explorer.find(".orbit-list li").count() == 1
-    assert explorer.find(".orbit-goes").text_content() == "Comes down to Q1 and leaves Σ along θ = 0."
+    assert explorer.find(".orbit-goes").text_content() == "Comes down to Q₁ and leaves Σ along θ = 0."
     page.mouse.move(*place(explorer, 0.4, 0.3))
     page.mouse.down()
     page.mouse.move(*place(explorer, 1.3, 0.5), steps=3)

@@ -9,6 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from ...layer_problem.critical import CriticalSet
+from ...words import say
 from ..result import SpecialValue
 from .state import Array, State
 
@@ -34,7 +35,7 @@ def _on_equator(value: float, before: State, after: State) -> list[SpecialValue]
         gone, come = one[away.min(axis=1) > _TOGETHER], two[away.min(axis=0) > _TOGETHER]
         out += [_meeting(value, *met) for side in (gone, come) for met in _meetings(side, side[:0])]
     if before.exponent is not None and after.exponent is not None and before.part(2) != after.part(2):
-        sentence = "The closed equator is neutral to first order: it turns its stability."
+        sentence = say("equator neutral")
         out.append(SpecialValue("neutral equator", value, (0.0, 0.0), sentence, "thm:geneps0"))
     return out
 
@@ -50,9 +51,7 @@ def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
             away = abs(np.angle(np.exp(1j * (other.equator.theta - t)))).min(initial=math.inf)
             if 1.0 - float(np.hypot(*C.e)) < _NEAR_EQUATOR and away < _TOGETHER:
                 t %= 2.0 * math.pi
-                sentence = (
-                    f"A critical set reaches the equator at θ = {t:.4g}, and the limit direction turns its stability."
-                )
+                sentence = say("set reaches the equator", theta=t)
                 out.append(SpecialValue("transcritical", value, (math.cos(t), math.sin(t)), sentence, "fig:transcrit"))
             else:
                 inner.append(C)
@@ -60,24 +59,24 @@ def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
             near = min(combinations(inner, 2), key=lambda pair: math.dist(pair[0].p, pair[1].p))
             inner = [C for C in inner if C is not near[0] and C is not near[1]]
             kinds = sorted("saddle" if C.kind == "saddle" else "node" for C in near)
-            sentence = f"Two critical sets meet: a {kinds[1]} and a {kinds[0]}."
+            sentence = say("two sets meet", one=kinds[1], other=kinds[0])
             out.append(SpecialValue("fold of critical sets", value, _middle(near), sentence, "eq:critical_set"))
         for C in inner:
             place = (float(C.p[0]), float(C.p[1]))
-            sentence = "A critical set comes or goes here, alone."
+            sentence = say("one comes or goes")
             out.append(SpecialValue("change of critical sets", value, place, sentence, "eq:critical_set"))
     for C, D in pairs:
         if C.kind == D.kind:
             continue
         place = (float(D.p[0]), float(D.p[1]))
         if C.kind.split()[0] == D.kind.split()[0]:
-            sentence = "tr(J)² = 4 det J: the critical set changes between node and focus."
+            sentence = say("between node and focus")
             out.append(SpecialValue("node-focus", value, place, sentence, "fig:bads"))
         elif "saddle" in (C.kind, D.kind):
-            sentence = "det J = 0: a critical set turns from a saddle into another kind."
+            sentence = say("saddle turns")
             out.append(SpecialValue("det J = 0", value, place, sentence, "eq:scjaco"))
         else:
-            sentence = "Hopf: tr J = 0 < det J."
+            sentence = say("Hopf, typed")
             out.append(SpecialValue("Hopf", value, place, sentence, "sec:case3"))
     return out
 
@@ -115,9 +114,9 @@ def _meetings(more: Array, fewer: Array) -> list[tuple[int, float]]:
 def _meeting(value: float, count: int, theta: float) -> SpecialValue:
     place, at = (math.cos(theta), math.sin(theta)), f"θ = {theta:.4g}"
     if count == 2:
-        sentence = f"Two limit directions meet at {at}: Θ has a double zero."
+        sentence = say("meet at", at=at)
         return SpecialValue("saddle-node", value, place, sentence, "fig:SNBIF")
-    sentence = f"One limit direction splits into three at {at}: Θ has a triple zero."
+    sentence = say("splits", at=at)
     return SpecialValue("pitchfork", value, place, sentence, "fig:SNBIF")
 
 

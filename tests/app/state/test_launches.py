@@ -33,7 +33,7 @@ def test_a_frame_brings_the_orbits_and_their_words_once():
     assert "launched" not in header
     header, blocks = unpack(frames.answer({"set": {"orbits": "1.5,0.3;0.2,0.1,-;-0.4,0.2"}}))
     assert header["launched"]["x"] == [1.5, -0.4]
-    assert header["launched"]["goes"][0].startswith("Reaches Σ along Q2")
+    assert header["launched"]["goes"][0].startswith("Reaches Σ along Q₂")
     assert header["launched"]["goes"][1] == "Tends to C, a stable node: sliding."
     assert {name for name in blocks if name.startswith("launched_1")}
     header, blocks = unpack(frames.answer({"set": {"B1": 0.4}}))

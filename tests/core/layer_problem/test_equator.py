@@ -73,7 +73,7 @@ def test_result_is_read_only_and_speaks():
     assert found.kind(0) == "radially repelling, angularly repelling"
     assert found.kind(1) == "radially repelling, angularly attracting"
     assert found.summary == "4 equilibria on the equator."
-    assert found.sentence(1).startswith("Q2 at θ = 1.047: radially repelling")
+    assert found.sentence(1).startswith("Q₂ at θ = 1.047: radially repelling")
 
 
 def test_pitchfork_of_the_paper():

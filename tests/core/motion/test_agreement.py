@@ -69,7 +69,7 @@ def test_the_words_tell_whether_phases_agree():
     told = agreement(system, PSI, coarse, limit)
     assert not told.same
     assert "not those of the limit" in told.sentence
-    assert "slides on C3" in told.sentence
+    assert "slides on C₃" in told.sentence
 
 
 @pytest.mark.parametrize(

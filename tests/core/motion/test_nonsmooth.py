@@ -257,7 +257,7 @@ def test_first_steps_away_from_sigma():
     assert not isinstance(step, str)
     assert step.last[0] == pytest.approx(0.5 * step.h**2, rel=1e-9)
     formulas = field(ELinear(-1.0, 0.0, -1.0, ("z", 0.0), g=(-1.0,)))
-    assert "nothing leaves" in leave(formulas, 0.0, 0.0, np.ones(1), 1.0)
+    assert "Nothing leaves" in leave(formulas, 0.0, 0.0, np.ones(1), 1.0)
     # From a direction that repels angularly too a whole sector leaves.
     assert "sector" in leave(field(ELinear(1.0, 0.0, 2.0)), 0.0, 0.0, np.zeros(0), 1.0)
 

@@ -252,8 +252,8 @@ def test_a_start_on_sigma_without_psi():
     two = decide.starting(c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s")), None, none)
     assert (two.kind, "2 stable" in two.reason) == ("stop", True)
     out = decide.starting(c2.ELinear(-1.0, 0.0, -2.0, (3.0, 0.0)), None, none)
-    assert (out.kind, out.theta, "Q1" in out.reason) == ("leave", pytest.approx(0.0, abs=1e-9), True)
+    assert (out.kind, out.theta, "Q₁" in out.reason) == ("leave", pytest.approx(0.0, abs=1e-9), True)
     many = decide.starting(c2.ELinear(1.0, 0.0, -1.0), None, none)
     assert (many.kind, "2 directions lead" in many.reason) == ("stop", True)
     beside = decide.starting(c2.System(U=("c**2 - 1/8", "-2*s")), None, none)  # a node, and the way out at theta = 0
-    assert (beside.kind, "Q1 leads away" in beside.reason) == ("slide", True)
+    assert (beside.kind, "Q₁ leads away" in beside.reason) == ("slide", True)

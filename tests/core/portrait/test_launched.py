@@ -39,7 +39,7 @@ def test_the_ball_without_viscosity_stops_slipping_when_it_must():
 
 def test_words_of_an_orbit_from_outside_that_slides():
     (fate,) = launch(c2.ELinear(-2, 0, -1, (-0.5, 0)), PSI, [[1.5, 0.3]]).goes
-    assert fate.sentence == f"Reaches Σ along Q2, θ = 2.094, after t = {fate.after:.3g}, and slides on C."
+    assert fate.sentence == f"Reaches Σ along Q₂, θ = 2.094, after t = {fate.after:.3g}. It slides on C."
     moved = c2.simulate_nonsmooth(c2.ELinear(-2, 0, -1, (-0.5, 0)), _outside(1.5, 0.3), (0, 2), psi=PSI)
     slip = moved.phases[0]
     assert slip.kind == "slip"
@@ -55,8 +55,8 @@ def _outside(x, y):
 def test_words_of_orbits_on_the_hemisphere_and_of_crossing():
     found = launch(c2.ELinear(-1, 0, -1, (1.1, 0)), PSI, [[0.2, 0.3], [-1.5, 0.1], [1.4, 0.2]])
     assert [fate.label for fate in found.goes] == ["Q1", "away", "away"]
-    assert found.goes[0].sentence == "Comes down to Q1 and leaves Σ along θ = 0."
-    assert found.comes[0].sentence == "Comes up from Q2, θ = 3.142."
+    assert found.goes[0].sentence == "Comes down to Q₁ and leaves Σ along θ = 0."
+    assert found.comes[0].sentence == "Comes up from Q₂, θ = 3.142."
     (exact,) = launch(c2.ELinear(-1, 0, -1, (1.1, 0)), PSI, [[-1.5, 0.0]]).goes
     assert (exact.label, exact.onto) == ("Q2", "Q1")
     assert "crosses" in exact.sentence

@@ -79,7 +79,7 @@ def test_a_triple_zero_is_a_pitchfork_only_where_the_system_is_symmetric():
 
 def test_sentences_count_from_one():
     found = equator_equilibria(ELinear(1, 0, 2, (0.5, 0)))
-    assert [found.sentence(i).split()[0] for i in range(4)] == ["Q1", "Q2", "Q3", "Q4"]
+    assert [found.sentence(i).split()[0] for i in range(4)] == ["Q₁", "Q₂", "Q₃", "Q₄"]
     assert (
         equator_equilibria(ELinear(-1, 5, -1, (3, 4))).summary == "1 equilibrium on the equator, 1 of them degenerate."
     )

@@ -1,31 +1,8 @@
-"""What is said of a portrait: every sentence once, with when it is said.
-
-The portrait's modules say them by `say`; `recognise` finds them again in a text, so that the tests can hold each
-against what motions do: a sentence without a check of its own is a failing test.
-"""
+"""What is said of a portrait: its limit directions, its critical sets, and what becomes of approaches."""
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass
-from string import Formatter
-
-
-@dataclass(frozen=True, slots=True)
-class Sentence:
-    """One sentence.
-
-    Attributes
-    ----------
-    says : str
-        With {fields}.
-    when : str
-        When it is said.
-    """
-
-    says: str
-    when: str
-
+from .sentence import Sentence
 
 SENTENCES: dict[str, Sentence] = {
     # limit directions
@@ -152,62 +129,3 @@ SENTENCES: dict[str, Sentence] = {
         "e-linear: all families slide, not all on the same set",
     ),
 }
-
-
-def say(key: str, **fields: object) -> str:
-    """Return a sentence with its fields filled in."""
-    return SENTENCES[key].says.format(**fields)
-
-
-def _pattern(template: str) -> re.Pattern[str]:
-    parts = [re.escape(text) + (f"(?P<{name}>.+?)" if name else "") for text, name, _, _ in Formatter().parse(template)]
-    return re.compile("".join(parts) + r"(?= |$)")
-
-
-_PATTERNS = {key: _pattern(sentence.says) for key, sentence in SENTENCES.items()}
-
-
-def recognise(text: str) -> list[tuple[str, dict[str, str]]]:
-    """Return the key and the fields of each sentence of a text, in its order.
-
-    Raises
-    ------
-    ValueError
-        Part of the text is no sentence that is listed here.
-    """
-    found, rest = [], text.strip()
-    while rest:
-        matches = [(m, key) for key, pattern in _PATTERNS.items() if (m := pattern.match(rest))]
-        if not matches:
-            raise ValueError(f"{rest!r} begins with no sentence that is listed.")
-        match, key = max(matches, key=lambda pair: len(SENTENCES[pair[1]].says))
-        found.append((key, match.groupdict()))
-        rest = rest[match.end() :].strip()
-    return found
-
-
-_LOWERED, _RAISED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
-def subscript(number: int) -> str:
-    """Return a number as lowered digits."""
-    return str(number).translate(_LOWERED)
-
-
-def named(label: str) -> str:
-    """Return a label as it is written in a sentence: "Q1" as Q₁, "C2" as C₂; "cycle 1" as it is."""
-    return re.sub(r"(?<=[QC])\d+", lambda digits: digits[0].translate(_LOWERED), label)
-
-
-def number(value: float, digits: int = 4) -> str:
-    """Return a number as it is written in a sentence: 0 within rounding as 0, with a minus sign and raised powers."""
-    text = f"{0.0 if abs(value) < 1e-12 else value:.{digits}g}"
-    mantissa, _, exponent = text.partition("e")
-    text = mantissa.replace("-", "−")
-    return f"{text} · 10{str(int(exponent)).translate(_RAISED)}" if exponent else text
-
-
-def power(value: float) -> str:
-    """Return a small positive number such as 1.6e-16 as 1.6 · 10⁻¹⁶."""
-    mantissa, _, exponent = f"{value:.1e}".partition("e")
-    return f"{mantissa} · 10{str(int(exponent)).translate(_RAISED)}"

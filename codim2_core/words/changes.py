@@ -1,0 +1,186 @@
+"""What is said of a change: at a value of one parameter, or on a curve in the plane of two."""
+
+from __future__ import annotations
+
+from .sentence import Sentence
+
+SENTENCES: dict[str, Sentence] = {
+    "pitchfork in the plane": Sentence(
+        "Θ has a triple zero, and b = 0 makes the system symmetric: a pitchfork of limit directions (D2).",
+        "a triple zero, b = 0",
+    ),
+    "cusp in the plane": Sentence(
+        "Θ has a triple zero: two saddle-nodes of limit directions meet in a cusp.", "a triple zero"
+    ),
+    "directions meet": Sentence("Two limit directions meet: Θ has a double zero.", "a curve"),
+    "nothing turns at f = 0": Sentence(
+        "a = d, b = 0 and f = 0: Θ ≡ 0, every direction is a limit direction.", "a = d, b = 0"
+    ),
+    "two for every f": Sentence(
+        "a = d and b = 0: there are two limit directions for every f except f = 0.", "a = d, b = 0"
+    ),
+    "two cusps have met": Sentence("Θ has a fourfold zero: two cusps have met.", "a fourfold zero"),
+    "two double zeros": Sentence("Θ has two double zeros at the same f.", "the curve crosses itself"),
+    "still at f = 0": Sentence(
+        "A = 0: everything stands still at f = 0, and there is no critical set elsewhere.", "A = 0"
+    ),
+    "line on a segment": Sentence(
+        "det A = 0: no critical set, except on this segment, where there is a whole line of them.", "det A = 0"
+    ),
+    "reaches where they meet": Sentence(
+        "The critical set reaches the equator just where two limit directions meet: λ_ρ = λ_θ = 0.",
+        "λ with index ρ and with index θ vanish",
+    ),
+    "reaches, and elsewhere they meet": Sentence(
+        "The critical set reaches the equator, and elsewhere on it two limit directions meet.", "both at one f"
+    ),
+    "reaches the equator": Sentence(
+        "|A⁻¹f| = 1: the critical set reaches the equator, and one limit direction turns its radial stability.",
+        "a curve",
+    ),
+    "fold ends, saddle-node": Sentence(
+        "The fold ends where the critical set reaches the equator in a saddle-node of limit directions.",
+        "a fold of cycles",
+    ),
+    "cusp of cycles": Sentence(
+        "Three limit cycles meet in one: two folds of cycles end here in a cusp.", "a fold of cycles"
+    ),
+    "fold ends, neutral loop": Sentence(
+        "The fold ends where the loop through the equator is neutral.", "a fold of cycles"
+    ),
+    "two cycles meet": Sentence("Two limit cycles, one stable and one unstable, meet and vanish.", "a fold of cycles"),
+    "no fold of cycles": Sentence(
+        "No fold of cycles begins on the Hopf curve, and none was found on {lines} lines across the disc of C.",
+        "the search found none",
+    ),
+    "fold not caught": Sentence("The fold that begins here was not caught.", "a fold of cycles"),
+    "fold reaches the equator": Sentence("The fold of cycles reaches the equator here.", "a fold of cycles"),
+    "fold followed no further": Sentence("The fold of cycles was followed to here and no further.", "a fold of cycles"),
+    "no cycles at all": Sentence(
+        "a and d do not differ in sign, or det A ≤ 0: the layer problem has no limit cycles (Case III has).",
+        "not Case III",
+    ),
+    "equator turns": Sentence(
+        "The closed equator changes its stability, and a limit cycle is born from it or vanishes in it; it does not "
+        "depend on Ψ.",
+        "a curve",
+    ),
+    "equator keeps": Sentence("The closed equator keeps its stability wherever it has no equilibria.", "no curve"),
+    "neutral loop": Sentence(
+        "The loop is neutral (product of the saddles' ratios 1): a fold of cycles ends here.",
+        "the saddles' ratios multiply to 1",
+    ),
+    "loop through the equator": Sentence(
+        "A limit cycle becomes a loop: an orbit between two half-saddles of the equator, and the equator between them.",
+        "a curve",
+    ),
+    "no loop": Sentence(
+        "No loop of half-saddles of the equator was found: limit cycles do not end in one.", "no curve"
+    ),
+    "reversible, equator": Sentence(
+        "a = −d: on these lines the layer problem is reversible and closed orbits fill bands.", "a = −d"
+    ),
+    "changes over Ψ": Sentence("{name} = {value:.6g}: C turns from {before} into {after}.", "along the parameter of Ψ"),
+    "trace vanishes": Sentence(
+        "a = d = 0: tr J = 0 wherever there is a critical set, so none of them is a Hopf bifurcation.", "a = d = 0"
+    ),
+    "no Hopf outside Case III": Sentence(
+        "tr J = 0 < det J needs a and d of opposite sign and det A > 0 (Case III): no Hopf bifurcation.",
+        "the signs of a, d, det A",
+    ),
+    "no Hopf with this Ψ": Sentence(
+        "tr J keeps one sign wherever there is a critical set: no Hopf bifurcation with this Ψ.", "no zero of the trace"
+    ),
+    "reversible lines": Sentence(
+        "a = −d: on the two straight lines the layer problem is reversible and C is a centre; its first Lyapunov "
+        "coefficient is zero there.",
+        "a = −d",
+    ),
+    "Hopf curve": Sentence(
+        "C turns from a focus that attracts into one that repels; a cycle of the layer problem is born or dies: "
+        "stable where the first Lyapunov coefficient is negative, unstable where it is positive.",
+        "a curve",
+    ),
+    "Bautin": Sentence(
+        "The first Lyapunov coefficient is zero (Bautin): a fold of cycles ends here.",
+        "the Lyapunov coefficient is zero",
+    ),
+    "saddle or none": Sentence("det A ≤ 0: the critical set is a saddle or there is none.", "det A ≤ 0"),
+    "both eigenvalues agree": Sentence(
+        "J is a multiple of the identity: both eigenvalues agree.", "J a multiple of the identity"
+    ),
+    "node-focus curve": Sentence(
+        "The discriminant tr(J)² − 4 det J is zero: C changes between node and focus.", "a curve"
+    ),
+    "one kind": Sentence("C is of one kind, node or focus, wherever it exists.", "no curve"),
+    "line at one value": Sentence(
+        "det A = 0 with f in the range of A: a whole line A e = −f of critical points.",
+        "det A = 0, f in the range of A",
+    ),
+    "through infinity": Sentence(
+        "det A = 0: A e = −f has no solution; −A⁻¹f goes through infinity and comes back opposite.",
+        "det A = 0, f not in the range of A",
+    ),
+    "trace touches zero": Sentence(
+        "tr J = 0 at this value only, without a change of sign: C is a centre to first order.", "no change of sign"
+    ),
+    "between node and focus": Sentence(
+        "tr(J)² = 4 det J: the critical set changes between node and focus.", "the discriminant of J is zero"
+    ),
+    "meet at": Sentence("Two limit directions meet at {at}: Θ has a double zero.", "Θ has a double zero"),
+    "pass through": Sentence(
+        "Two limit directions pass through each other at {at} and exchange their angular stability.",
+        "two branches cross",
+    ),
+    "touch": Sentence(
+        "Two limit directions exist at this value only, both at {at}: Θ has a double zero and no sign change.",
+        "no change of sign",
+    ),
+    "splits, D2": Sentence(
+        "One limit direction splits into three at {at}: Θ has a triple zero, and b = 0 makes it symmetric (D2).",
+        "b = 0",
+    ),
+    "passes a cusp": Sentence(
+        "Θ has a triple zero at {at}: the parameter passes through a cusp of the saddle-node curve.",
+        "Θ has a triple zero",
+    ),
+    "equator neutral, a cycle may leave": Sentence(
+        "The closed equator is neutral to first order: it turns its stability, and a cycle may leave it.", "exponent 0"
+    ),
+    "equator neutral": Sentence("The closed equator is neutral to first order: it turns its stability.", "exponent 0"),
+    "set reaches the equator": Sentence(
+        "A critical set reaches the equator at θ = {theta:.4g}, and the limit direction turns its stability.",
+        "e comes to the circle",
+    ),
+    "two sets meet": Sentence("Two critical sets meet: a {one} and a {other}.", "two branches end in one point"),
+    "one comes or goes": Sentence("A critical set comes or goes here, alone.", "a branch ends alone"),
+    "saddle turns": Sentence("det J = 0: a critical set turns from a saddle into another kind.", "det J = 0"),
+    "Hopf, typed": Sentence("Hopf: tr J = 0 < det J.", "tr J = 0 < det J"),
+    "splits": Sentence(
+        "One limit direction splits into three at {at}: Θ has a triple zero.", "Θ has a triple zero, symmetric"
+    ),
+    "on the circle": Sentence("For a = d that is on the circle |f| = |b| (D1).", "a = d"),
+    "border, turns": Sentence(
+        "|A⁻¹f| = 1: the critical set reaches the equator at θ = {theta:.4g}, and the limit direction there turns "
+        "its radial stability.",
+        "|A⁻¹f| − 1 changes sign",
+    ),
+    "border, turns back": Sentence(
+        "|A⁻¹f| = 1: the critical set reaches the equator at θ = {theta:.4g}, but turns back: nothing else changes "
+        "there.",
+        "|A⁻¹f| − 1 keeps its sign",
+    ),
+    "Hopf, supercritical": Sentence(
+        "Hopf: tr J = 0 < det J. First Lyapunov coefficient {number:.4g}, supercritical: a stable cycle is born.",
+        "negative",
+    ),
+    "Hopf, subcritical": Sentence(
+        "Hopf: tr J = 0 < det J. First Lyapunov coefficient {number:.4g}, subcritical: an unstable cycle is born.",
+        "positive",
+    ),
+    "Hopf, degenerate": Sentence(
+        "Hopf: tr J = 0 < det J. First Lyapunov coefficient {number:.4g}, degenerate: the first Lyapunov "
+        "coefficient is zero.",
+        "zero",
+    ),
+}

@@ -1,0 +1,97 @@
+"""What is said of a degenerate setting: what has met, vanished or become neutral."""
+
+from __future__ import annotations
+
+from .sentence import Sentence
+
+SENTENCES: dict[str, Sentence] = {
+    "neutral closed equator": Sentence(
+        "The equator is a closed orbit with exponent 0: it neither attracts nor repels to first order.",
+        "exponent 0 within rounding",
+    ),
+    "two have met": Sentence(
+        "Θ has a double zero: two limit directions have just met (Figure 20). Counted once here.", "multiplicity 2"
+    ),
+    "one splits, D2": Sentence(
+        "Θ has a triple zero with λ_θ = 0: one limit direction is splitting into three (degenerate case D2). "
+        "Counted once here.",
+        "multiplicity 3, b = 0",
+    ),
+    "four have met": Sentence(
+        "Θ has a fourfold zero: all four limit directions have met. Counted once here.", "multiplicity 4, e-linear"
+    ),
+    "cusp": Sentence(
+        "Θ has a triple zero: two saddle-nodes of limit directions meet in a cusp. Counted once here.",
+        "multiplicity 3, not symmetric",
+    ),
+    "nothing turns": Sentence(
+        "a = d, b = 0 and f = 0: Θ ≡ 0, every direction is a limit direction (the ball at z = 0).",
+        "a = d, b = 0, f = 0",
+    ),
+    "linear centre": Sentence(
+        "tr J = 0 within rounding: to first order C is a centre of the layer problem. Nonlinear terms decide "
+        "whether it is one, or a focus, as at a Hopf bifurcation.",
+        "tr J = 0 within rounding, one critical set",
+    ),
+    "between the cases": Sentence(
+        "{which}: on the border between Case I and Cases II, III (Table 1).", "a = 0 or d = 0"
+    ),
+    "one splits": Sentence(
+        "Θ has a triple zero: one limit direction is splitting into three. Counted once here.",
+        "multiplicity 3, symmetric",
+    ),
+    "four directions have met": Sentence(
+        "Θ has a fourfold zero: four limit directions have met. Counted once here.", "multiplicity 4"
+    ),
+    "no turning": Sentence("Θ ≡ 0: every direction is a limit direction.", "Θ vanishes identically"),
+    "many have met": Sentence("{count} limit directions have met. Counted once here.", "multiplicity above 4"),
+    "everything at rest": Sentence("U ≡ 0: every point of the hemisphere is an equilibrium.", "U vanishes identically"),
+    "curve of zeros": Sentence("U = 0 along a whole curve of the hemisphere.", "zeros of U are not isolated"),
+    "zero on the equator": Sentence(
+        "U = 0 on the equator: a critical set is just reaching it (Figure 19).", "U = 0 there"
+    ),
+    "sets have met": Sentence("det J = 0: two critical sets have just met. Counted once here.", "a double zero of U"),
+    "more sets have met": Sentence(
+        "det J = 0: three or more critical sets have met. Counted once here.", "a zero of higher order, of index not 0"
+    ),
+    "corner": Sentence(
+        "U is not differentiable at a critical set, and its sides do not agree: whether it attracts, repels or is a "
+        "saddle is not decided by a linearisation.",
+        "U has a kink at a critical set",
+    ),
+    "linear centre, one of them": Sentence(
+        "tr J = 0 within rounding: to first order a critical set is a centre of the layer problem. Nonlinear terms "
+        "decide whether it is one, or a focus, as at a Hopf bifurcation.",
+        "tr J = 0 within rounding",
+    ),
+    "undecided somewhere": Sentence(
+        "Somewhere on the hemisphere it could not be decided whether U = 0: is U smooth and finite there?",
+        "the search is not proven",
+    ),
+    "index mismatch": Sentence(
+        "The indices of the critical sets found add up to {indices}, but U turns {degree} times on the equator: a "
+        "critical set or a limit direction is missing.",
+        "indices and degree differ",
+    ),
+    "exists once": Sentence("One critical set: |A⁻¹f| < 1 (Theorem 4.1).", "the status of the closed form"),
+    "exists not": Sentence("No critical set: |A⁻¹f| > 1 (Theorem 4.1).", "the status of the closed form"),
+    "exists on the equator": Sentence(
+        "|A⁻¹f| = 1 within rounding: the critical set lies on the equator (transcritical, Figure 19).",
+        "the status of the closed form",
+    ),
+    "singular, none": Sentence(
+        "det A = 0 within rounding, and f is not in the range of A: no critical set.", "the status of the closed form"
+    ),
+    "singular, a line": Sentence(
+        "det A = 0 within rounding, and f is in the range of A: a whole line A e = −f of critical points.",
+        "the status of the closed form",
+    ),
+    "singular, outside": Sentence(
+        "det A = 0 within rounding; the line A e = −f misses the hemisphere: no critical set.",
+        "the status of the closed form",
+    ),
+    "everything, e-linear": Sentence(
+        "A = 0 and f = 0: every point of the hemisphere is an equilibrium of the layer problem.", "A = 0 and f = 0"
+    ),
+    "nearer": Sentence("Doubles cannot tell it from a setting nearer than {within} of {of}.", "within rounding"),
+}

@@ -1,0 +1,76 @@
+"""Every sentence once, with when it is said: `say` makes it, `recognise` finds it again in a text."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from string import Formatter
+from typing import Any
+
+from . import changes, claims, cycles, degenerate, equator, motion, orbits, portrait, slow_flow
+from .sentence import Sentence
+from .written import named, number, power
+
+#: The sentences of each room, by the room's name.
+ROOMS: dict[str, dict[str, Sentence]] = {
+    "portrait": portrait.SENTENCES,
+    "degenerate": degenerate.SENTENCES,
+    "equator": equator.SENTENCES,
+    "orbits": orbits.SENTENCES,
+    "motion": motion.SENTENCES,
+    "slow flow": slow_flow.SENTENCES,
+    "cycles": cycles.SENTENCES,
+    "changes": changes.SENTENCES,
+    "claims": claims.SENTENCES,
+}
+
+SENTENCES: dict[str, Sentence] = {key: one for room in ROOMS.values() for key, one in room.items()}
+
+
+class _Writer(Formatter):
+    """Fills the fields of a sentence: numbers and names are written in one way."""
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        if isinstance(value, float):
+            return power(value) if format_spec.endswith("e") else number(value, int(format_spec.strip(".g") or 6))
+        return named(str(value))
+
+
+_WRITER = _Writer()
+
+
+def say(key: str, **fields: object) -> str:
+    """Return a sentence with its fields filled in."""
+    return _WRITER.vformat(SENTENCES[key].says, (), fields)
+
+
+@cache
+def _patterns() -> dict[str, re.Pattern[str]]:
+    return {key: _pattern(sentence.says) for key, sentence in SENTENCES.items()}
+
+
+def _pattern(template: str) -> re.Pattern[str]:
+    parts, fields = list[str](), set[str]()
+    for text, name, _, _ in Formatter().parse(template):
+        parts += [re.escape(text), "" if not name else f"(?P={name})" if name in fields else f"(?P<{name}>.+?)"]
+        fields |= {name} if name else set()
+    return re.compile("".join(parts) + r"(?= |$)")
+
+
+def recognise(text: str) -> list[tuple[str, dict[str, str]]]:
+    """Return the key and the fields of each sentence of a text, in its order.
+
+    Raises
+    ------
+    ValueError
+        Part of the text is no sentence that is listed here.
+    """
+    found, rest = [], text.strip()
+    while rest:
+        matches = [(m, key) for key, pattern in _patterns().items() if (m := pattern.match(rest))]
+        if not matches:
+            raise ValueError(f"{rest!r} begins with no sentence that is listed.")
+        match, key = max(matches, key=lambda pair: len(SENTENCES[pair[1]].says))
+        found.append((key, match.groupdict()))
+        rest = rest[match.end() :].strip()
+    return found

@@ -1,0 +1,31 @@
+"""Numbers and names as they are written in a sentence."""
+
+from __future__ import annotations
+
+import re
+
+_LOWERED, _RAISED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def subscript(number: int) -> str:
+    """Return a number as lowered digits."""
+    return str(number).translate(_LOWERED)
+
+
+def named(label: str) -> str:
+    """Return a label as it is written in a sentence: "Q1" as Q₁, "f2" as f₂; "cycle 1" as it is."""
+    return re.sub(r"(?<=[QC])\d+|(?<=\b[fgkxzB])\d+\b", lambda digits: digits[0].translate(_LOWERED), label)
+
+
+def number(value: float, digits: int = 4) -> str:
+    """Return a number as it is written in a sentence: 0 within rounding as 0, with a minus sign and raised powers."""
+    text = f"{0.0 if abs(value) < 1e-12 else value:.{digits}g}"
+    mantissa, _, exponent = text.partition("e")
+    text = mantissa.replace("-", "−")
+    return f"{text} · 10{str(int(exponent)).translate(_RAISED)}" if exponent else text
+
+
+def power(value: float) -> str:
+    """Return a small positive number such as 1.6e-16 as 1.6 · 10⁻¹⁶."""
+    mantissa, _, exponent = f"{value:.1e}".partition("e")
+    return f"{mantissa} · 10{str(int(exponent)).translate(_RAISED)}"
