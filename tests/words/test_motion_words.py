@@ -370,7 +370,7 @@ def test_of_the_regularised_motion(name):
 def test_of_every_portrait(name):
     preset = c2.presets[name]
     angle = float(len(name))
-    start = (0.05 * math.cos(angle), 0.05 * math.sin(angle), *preset.z)
+    start = (0.05 * math.cos(angle), 0.05 * math.sin(angle), *(preset.z or (0.0,) * preset.system.m))
     run = c2.simulate_nonsmooth(preset.system, start, (0.0, 0.2), preset.psi)
     hold(preset.system, preset.psi, start, run, 0.2)
 
