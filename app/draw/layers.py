@@ -40,6 +40,8 @@ class Part:
         Lengths of dashes and gaps in px; () is solid. What differs in meaning differs by more than colour.
     arrows : bool
         Whether arrowheads tell the sense of time.
+    sketch : str
+        The layer of the scene that is drawn while the kernels of the other are compiled.
     """
 
     name: str
@@ -49,6 +51,7 @@ class Part:
     pieces: Callable[[Any], Pieces] = lambda result: glyphs.join([curve.points for curve in result])
     dash: tuple[float, ...] = ()
     arrows: bool = False
+    sketch: str = ""
 
 
 @dataclass(frozen=True)
@@ -69,7 +72,7 @@ class Layer:
     hidden : bool
         Until it is asked for.
     compiled : bool
-        Made by the compiled integrator, so that it is left out until that is ready.
+        Made by the compiled integrator: until that is ready it is sketched, or left out.
     tip : str
         What it is, for its tooltip.
     optional : bool
@@ -122,12 +125,12 @@ LAUNCH_COLOURS = 6
 _ROWS = (
     Layer(
         "outside", "Trajectories outside", 50, compiled=True, colours={"outside": ("#5b6675", "#8d99aa")},
-        parts=(Part("outside", "outside", 0.9, "outside", _orbits, arrows=True),),
+        parts=(Part("outside", "outside", 0.9, "outside", _orbits, arrows=True, sketch="outside_sketch"),),
         tip="The system without regularisation, at radius 1 + |(x, y)|; arrows tell the sense of time.",
     ),
     Layer(
         "inside", "Trajectories on the hemisphere", 60, compiled=True, colours={"orbit": ("#1c2430", "#d6dce5")},
-        parts=(Part("inside", "orbit", 0.9, "inside", _orbits, arrows=True),),
+        parts=(Part("inside", "orbit", 0.9, "inside", _orbits, arrows=True, sketch="inside_sketch"),),
         tip="Orbits of the layer problem, projected from the hemisphere.",
     ),
     Layer(

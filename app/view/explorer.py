@@ -42,7 +42,7 @@ from .warmup import is_ready
 #: Seconds for which an answer waits for a picture that is computed beside the frames.
 PATIENCE = 0.25
 
-COMPILING = "The integrator is being compiled, once; trajectories follow."
+COMPILING = "The integrator is being compiled, once; trajectories are sketched."
 
 
 class ExplorerView(JSComponent):

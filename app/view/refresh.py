@@ -52,7 +52,7 @@ class Frames:
     system : ELinear or System, optional
         Drawn instead of one that the controls choose.
     ready : callable, optional
-        Says whether the compiled integrator is ready for this Psi and system; until then trajectories are left out.
+        Says whether the compiled integrator is ready for this Psi and system; until then trajectories are sketched.
     errors : sequence of InputError
         What the address asked for in vain, told with the first frames.
     budget : Budget, optional

@@ -46,8 +46,7 @@ def warm_all(told: Callable[[str, float], None] = lambda _what, _seconds: None) 
     for family in FAMILIES.values():
         if not family.typed:
             timed(f"trajectories for Ψ = {family.title}", partial(warm, make(family.name)))
-    three = presets["case3-n3"]
-    timed("limit cycles", partial(limit_cycles, three.system, three.psi))
+    timed("limit cycles", _warm_cycles)
     timed(GENERAL, warm_general)
 
 
@@ -56,11 +55,12 @@ outcome = ""
 
 
 def _first_scene() -> None:
-    """Compile what is needed, and compute the scene that the explorer opens with."""
+    """Compile what the scene needs that the explorer opens with, and compute it; then compile the rest."""
     global outcome
     try:
-        warm_all()
         scene = make_scene(first_values())
+        warm(scene.psi)
+        _warm_cycles()
         for layer in ("equator", "critical", "inside", "outside", "nullclines_inside"):
             scene[layer]
     except Exception as error:
@@ -68,6 +68,13 @@ def _first_scene() -> None:
         outcome = f"the first scene cannot be computed: {error}"
     else:
         outcome = "ready"
+        warm_all()
+
+
+def _warm_cycles() -> None:
+    """Compile, or load, the return map of e-linear systems."""
+    three = presets["case3-n3"]
+    limit_cycles(three.system, three.psi)
 
 
 def warm_general() -> None:
@@ -104,6 +111,8 @@ def is_ready(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
     If compiling failed, they are asked for all the same, so that their error is seen.
     """
     psi = constant() if psi is None else psi
+    if not outcome and constant() in _threads:
+        return False
     typed = None if system is None else system.typed
     if typed is not None and not _done(GENERAL, warm_general):
         return False

@@ -38,8 +38,9 @@ FARTHEST = (
     1e6  # from Sigma, of a seed whose line is drawn: to a quarter of a pixel an arc has points without end beyond
 )
 
-GENERAL = "general"
-_warm: set[str] = set()  # what has run: families of Psi for e-linear systems, GENERAL for any other
+GENERAL, CREEPING = "general", "creeping"
+# What has run: families of Psi for e-linear systems, GENERAL for any other; and the implicit kernels.
+_warm: set[str] = set()
 
 
 @lru_cache(maxsize=1)
@@ -215,6 +216,7 @@ def _crept(
         0.0 if options.samples == "ends" else DRAWN * float(options.pixel),
     )
     clock *= (-1.0 if options.backward else 1.0) / unit
+    _warm.add(CREEPING)
     return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
 
 
@@ -241,7 +243,7 @@ def warm(psi: Psi | None = None, system: AnySystem | None = None) -> None:
 
 def is_warm(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
     """Whether trajectories (with this Psi and system, if given) run at once, without compiling or loading."""
-    if not _warm:
+    if CREEPING not in _warm:
         return False
     if psi is None:
         return True

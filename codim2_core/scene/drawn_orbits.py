@@ -9,6 +9,7 @@ import numpy as np
 
 from ..orbits.duration import drawn_duration, is_stiff
 from ..orbits.seeds import ring, structured_seeds, window_seeds
+from ..orbits.sketch import Sketch, sketch
 from ..orbits.trajectories import Trajectories, continuation, trajectories
 from ..orbits.whole import Orbits
 from ..psi import constructors
@@ -58,19 +59,32 @@ def _stepping(setting: Setting, outside: bool = False) -> dict[str, Any]:
     }
 
 
+def starts(setting: Setting, outside: bool) -> np.ndarray:
+    """Where drawn orbits start: at the seeds, and around what they would not leave."""
+    seeds = seeds_of(setting, outside)
+    if outside or setting.seeds is not None or not setting.count:
+        return seeds
+    # What leaves an unstable critical set (to a limit cycle, in Case III) starts nearer to it than any fixed seed.
+    unstable = [C for C in setting.problem.critical if C.kind.startswith(("unstable", "centre"))]
+    rings = [C.p + ring(AROUND, 6) for C in unstable]
+    return np.concatenate([seeds, *(r for r in rings if np.hypot(r[:, 0], r[:, 1]).max() < 1.0)])
+
+
 def orbits(setting: Setting, outside: bool) -> Orbits:
     """Whole orbits through the seeds, on the hemisphere or outside."""
-    seeds, options = seeds_of(setting, outside), _stepping(setting, outside)
-    if not outside and setting.seeds is None and setting.count:
-        # What leaves an unstable critical set (to a limit cycle, in Case III) starts nearer to it than any fixed seed.
-        unstable = [C for C in setting.problem.critical if C.kind.startswith(("unstable", "centre"))]
-        rings = [C.p + ring(AROUND, 6) for C in unstable]
-        seeds = np.concatenate([seeds, *(r for r in rings if np.hypot(r[:, 0], r[:, 1]).max() < 1.0)])
+    seeds, options = starts(setting, outside), _stepping(setting, outside)
     # Outside, e is the direction itself: Psi has no say. E-linear systems have a field that is cheapest for Psi = 1.
     cheapest = outside and setting.coefficients.typed is None
     psi = constructors.constant() if cheapest else setting.psi
     halves = (trajectories(setting.coefficients, psi, seeds, backward=back, **options) for back in (True, False))
     return Orbits(*halves)
+
+
+def sketched(setting: Setting, outside: bool) -> Sketch:
+    """Sketch the same orbits, without the kernels."""
+    options = _stepping(setting, outside)
+    wanted = {name: options[name] for name in ("t_max", "length", "view")}
+    return sketch(setting.coefficients, setting.psi, starts(setting, outside), **wanted)
 
 
 def continuations(setting: Setting) -> Trajectories:

@@ -19,7 +19,7 @@ from ..portrait.separatrices import Separatrices, separatrices_of
 from ..sliding.flow import sliding_flow
 from ..systems.bounds import SMALLEST
 from ..theorems.certificates import Certificate, certificates_of
-from .drawn_orbits import continuations, orbits, seeds_of
+from .drawn_orbits import continuations, orbits, seeds_of, sketched
 from .setting import Setting
 
 
@@ -107,6 +107,8 @@ layers: Mapping[str, Layer] = MappingProxyType(
         "conics": Layer(("plane", "view"), lambda s: conics_of(s.problem, s.view)),
         "inside": Layer(("plane", "psi", "inner seeds", *_STEPPED), lambda s: orbits(s, outside=False)),
         "outside": Layer(("plane", "outer seeds", "view", *_STEPPED), lambda s: orbits(s, outside=True)),
+        "inside_sketch": Layer(("plane", "psi", "inner seeds", "time"), lambda s: sketched(s, outside=False)),
+        "outside_sketch": Layer(("plane", "outer seeds", "view", "time"), lambda s: sketched(s, outside=True)),
         "continuations": Layer(("plane", "psi", *_STEPPED), continuations),
         "closed_orbits": Layer(("plane", "psi"), lambda s: closed_orbits(s.problem)),
         "cycles": Layer(("plane", "slow", "psi"), lambda s: cycles_of(s.problem)),

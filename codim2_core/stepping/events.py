@@ -118,8 +118,10 @@ def winding(P, field, scratch):
     Outside it is the opposite. The sign of the integral of lambda_rho/|Theta|, by the trapezoidal rule.
     """
     S2, P2 = scratch[: 2 * WIDTH], scratch[2 * WIDTH :]
-    P2[:SIGN] = P[:SIGN]
-    P2[SIGN:] = 1.0  # outside, at w = rho = FAINT, where w' = w lambda_rho
+    for m in range(SIGN):
+        P2[m] = P[m]
+    for m in range(SIGN, PARAMETERS):
+        P2[m] = 1.0  # outside, at w = rho = FAINT, where w' = w lambda_rho
     total, size, first = 0.0, 0.0, 0.0
     for base in range(0, ROUND, LANES):
         for k in range(LANES):

@@ -200,7 +200,8 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
     n = states.shape[0]
     draw = distance > 0.0
     S, P, scratch = np.zeros(WORKSPACE), np.zeros(PARAMETERS), np.empty(MIRROR)
-    P[:SIGN] = shared
+    for m in range(SIGN):
+        P[m] = shared[m]
     cursor = np.zeros((CURSOR, LANES))
     times, steps, tried, accepted = np.zeros(2 * LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
     flags = np.zeros(LANES, np.int64)

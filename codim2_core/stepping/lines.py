@@ -19,7 +19,10 @@ def longer(array):
     """Twice the room along the second axis (of lines) or the first (of a table)."""
     k, n, m = array.shape
     larger = np.empty((k, 2 * n, m))
-    larger[:, :n] = array
+    for i in range(k):  # assigning a slice would have Numba compile its error messages: seconds
+        for j in range(n):
+            for c in range(m):
+                larger[i, j, c] = array[i, j, c]
     return larger
 
 

@@ -41,6 +41,7 @@ from .layout import (
     WORKSPACE,
     call_field,
 )
+from .lines import keep_line, longer
 from .polyline import CURSOR, X, Y, follow, start
 
 # As in `lanes`
@@ -189,14 +190,6 @@ def _error(S, high, k, rtol, atol):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _longer(lines):
-    k, n, m = lines.shape
-    larger = np.empty((k, 2 * n, m))
-    larger[:, :n] = lines
-    return larger
-
-
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, capture, view, distance):
     """Follow every row of `states` implicitly.
 
@@ -207,7 +200,8 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
     """
     n = states.shape[0]
     S, P, scratch = np.zeros(WORKSPACE), np.zeros(PARAMETERS), np.empty(MIRROR)
-    P[:SIGN] = shared
+    for m in range(SIGN):
+        P[m] = shared[m]
     J, M, h, high = np.zeros((9, LANES)), np.zeros((9, LANES)), np.ones(LANES), np.zeros(LANES)
     cursor = np.zeros((CURSOR, LANES))
     ends, codes, evaluations = np.empty((n, 3)), np.full(n, RUNNING), 0
@@ -261,7 +255,7 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
                 if distance > 0.0:
                     count = follow(S, P, k, cursor, lines, counts[k], times[k], taken, stop, distance)
                     while count < 0:
-                        lines = _longer(lines)
+                        lines = longer(lines)
                         count = follow(S, P, k, cursor, lines, -1 - count, times[k], taken, stop, distance)
                     for j in range(counts[k], count):
                         travelled[k] += math.hypot(
@@ -291,15 +285,17 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
             for c in range(3):
                 ends[i, c] = S[STATE + c * LANES + k]
             if counts[k] == lines.shape[1]:
-                lines = _longer(lines)
+                lines = longer(lines)
             scale = 1.0 + ends[i, 2] if P[SIGN + k] > 0.0 else 1.0
             if times[k] > lines[k, counts[k] - 1, 2] or counts[k] == 1:
                 lines[k, counts[k], 0], lines[k, counts[k], 1] = scale * ends[i, 0], scale * ends[i, 1]
                 lines[k, counts[k], 2] = times[k]
                 counts[k] += 1
             while stored + counts[k] > store.shape[1]:
-                store = _longer(store)
-            store[0, stored : stored + counts[k]] = lines[k, : counts[k]]
-            stored += counts[k]
+                store = longer(store)
+            stored = keep_line(store, stored, lines, counts, k)
             offsets[i + 1] = stored
-    return store[0, :stored, :2].copy(), store[0, :stored, 2].copy(), offsets, ends, codes, evaluations
+    points, clock = np.empty((stored, 2)), np.empty(stored)
+    for j in range(stored):
+        points[j, 0], points[j, 1], clock[j] = store[0, j, 0], store[0, j, 1], store[0, j, 2]
+    return points, clock, offsets, ends, codes, evaluations

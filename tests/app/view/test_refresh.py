@@ -1,5 +1,6 @@
 import math
 
+import numpy as np
 import pytest
 from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.packing import unpack
@@ -178,7 +179,10 @@ def test_cold_integrator_sends_closed_forms_then_the_rest():
     header, blocks = unpack(frames.answer({"all": True}))
     assert header["ready"] is False
     assert header["portrait"]["name"] == "CM4"
-    assert not any(name.startswith(("inside", "outside")) for name in blocks)
+    assert not frames.scene.runs.get("inside")
+    for name in ("inside", "outside"):  # sketched
+        lines = np.diff(frames.scene[f"{name}_sketch"].offsets)
+        assert blocks[f"{name}.n"].tolist() == lines[lines > 1].tolist()
     ready[0] = True
     header, sent = ask(frames)
     assert header["ready"] is True

@@ -37,12 +37,14 @@ def ran(scene, **changes):
     return computed, changed
 
 
-EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "conics", "outside"}
-HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations",
-              "classification", "certificates", "outcomes", "launched"}  # fmt: skip
+EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "conics", "outside", "outside_sketch"}
+HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "inside_sketch",
+              "continuations", "classification", "certificates", "outcomes", "launched"}  # fmt: skip
 
 ATLAS = {"atlas_curves", "regions"}  # of the plane (f1, f2): neither f nor Psi is in them
 SLOW = {"critical", "classification", "certificates", "slow_flow", "outcomes", "cycles"}
+
+SKETCHES = {"inside_sketch", "outside_sketch"}
 
 REACHES = {
     "a": ({"a": -1.7}, EQUATOR | HEMISPHERE | ATLAS | {"slow_flow"}),
@@ -55,15 +57,15 @@ REACHES = {
     "z": ({"z": 1.0}, {"certificates"}),  # the slow manifold is looked for along z
     "B": ({"B": [[2.0, 1.0]]}, SLOW),
     "g": ({"g": [0.5]}, SLOW),
-    "length": ({"length": 5.0}, {"inside", "outside", "continuations"}),
-    "t_max": ({"t_max": 6.0}, {"inside", "outside", "continuations"}),
+    "length": ({"length": 5.0}, {"inside", "outside", "continuations"} | SKETCHES),
+    "t_max": ({"t_max": 6.0}, {"inside", "outside", "continuations"} | SKETCHES),
     "rtol": ({"rtol": 1e-5}, {"inside", "outside", "continuations", "separatrices"}),
     "atol": ({"atol": 1e-6}, {"inside", "outside", "continuations", "separatrices"}),
     "pixel": ({"pixel": 1 / 90}, {"inside", "outside", "continuations", "separatrices", "launched"}),
-    "view": ({"view": 2.5}, {"nullclines_outside", "conics", "outside", "launched"}),
-    "window": ({"window": (0.1, 0.4, 0.2, 0.5)}, {"inside", "outside"}),
-    "count": ({"count": 40}, {"inside", "outside"}),
-    "seeds": ({"seeds": [[0.3, 0.2], [1.5, 0.1]]}, {"inside", "outside"}),
+    "view": ({"view": 2.5}, {"nullclines_outside", "conics", "outside", "outside_sketch", "launched"}),
+    "window": ({"window": (0.1, 0.4, 0.2, 0.5)}, {"inside", "outside"} | SKETCHES),
+    "count": ({"count": 40}, {"inside", "outside"} | SKETCHES),
+    "seeds": ({"seeds": [[0.3, 0.2], [1.5, 0.1]]}, {"inside", "outside"} | SKETCHES),
     "launch": ({"launch": [[0.2, 0.1]]}, {"launched"}),
     "nothing": ({"a": -2.0, "psi": c2.psi.constant()}, set()),
 }

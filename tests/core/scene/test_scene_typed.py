@@ -8,7 +8,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import examples
-from codim2_core.orbits.trajectories import is_warm
+from codim2_core.orbits.trajectories import is_warm, warm
 from codim2_core.scene import ELINEAR_ONLY, layers
 
 from .test_scene import fingerprint
@@ -38,12 +38,14 @@ def ran(first, **changes):
     return computed, changed
 
 
-EQUATOR = {"equator", "equator_cycle", "nullclines_outside", "conics", "outside"}
+EQUATOR = {"equator", "equator_cycle", "nullclines_outside", "conics", "outside", "outside_sketch"}
 SLOW = {"critical", "classification", "certificates", "slow_flow", "cycles", "outcomes"}
-HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "continuations",
-              "classification", "certificates", "outcomes", "launched"}  # fmt: skip
+HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "inside_sketch",
+              "continuations", "classification", "certificates", "outcomes", "launched"}  # fmt: skip
 PLANE = EQUATOR | HEMISPHERE | {"slow_flow", "location"}
 STEPPED = {"inside", "outside", "continuations"}
+
+SKETCHES = {"inside_sketch", "outside_sketch"}
 
 REACHES = {
     "parameter of U": ({"q": 0.3}, PLANE),
@@ -53,13 +55,13 @@ REACHES = {
     "psi": ({"psi": c2.psi.tanh()}, HEMISPHERE),
     "z that neither reads": ({"z": (0.5, 0.9)}, set()),
     "z that W reads": ({"z": (0.6, 0.2)}, SLOW),
-    "view": ({"view": 2.5}, {"nullclines_outside", "conics", "outside", "launched"}),
-    "length": ({"length": 5.0}, STEPPED),
-    "t_max": ({"t_max": 6.0}, STEPPED),
+    "view": ({"view": 2.5}, {"nullclines_outside", "conics", "outside", "outside_sketch", "launched"}),
+    "length": ({"length": 5.0}, STEPPED | SKETCHES),
+    "t_max": ({"t_max": 6.0}, STEPPED | SKETCHES),
     "rtol": ({"rtol": 1e-5}, STEPPED | {"separatrices"}),
     "pixel": ({"pixel": 1 / 90}, STEPPED | {"separatrices", "launched"}),
     "launch": ({"launch": [[0.2, 0.1]]}, {"launched"}),
-    "count": ({"count": 20}, {"inside", "outside"}),
+    "count": ({"count": 20}, {"inside", "outside"} | SKETCHES),
     "nothing": ({"q": 0.4, "psi": c2.psi.rational()}, set()),
 }
 
@@ -118,6 +120,7 @@ def test_what_the_system_does_not_have_is_refused_and_nothing_changes():
 
 def test_one_compilation_draws_every_setting():
     system = c2.System(U=("2*c**2 - q*c - 1/2", "-s + q*c*s"), parameters={"q": 1.0})
+    warm()
     first = c2.Scene(system, c2.psi.tanh(), count=8)
     first["outside"]
     for p in (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3)):
