@@ -424,3 +424,132 @@ test("a frame may come as any view of bytes", () => {
     assert.equal(one.find(".portrait-name").textContent, "CM2")
   }
 })
+
+test("a place of the window is a place of the picture within the frame, and nowhere else", () => {
+  const {picture} = wired().root.explorer
+  const under = (x, y) => { const place = picture.at(x, y); return place && [place.x, place.y, Number(place.unit.toFixed(9))] }
+  assert.deepEqual(under(10, 20), [-1.75, 1.75, 0.01])
+  assert.deepEqual(under(360, 370), [1.75, -1.75, 0.01])
+  assert.deepEqual(under(235, 170), [0.5, 0.25, 0.01])
+  for (const [x, y] of [[9.9, 100], [360.1, 100], [100, 19.9], [100, 370.1]]) assert.equal(under(x, y), null, `${x}, ${y}`)
+})
+
+test("what is seen is the whole picture only if all four edges are where they were", () => {
+  const {picture} = wired().root.explorer, home = [-1.75, 1.75, -1.75, 1.75]
+  assert.equal(picture.window, null)
+  home.forEach((_, i) => {
+    picture.seen = home.map((edge, k) => k === i ? edge / 2 : edge)
+    const [left, right, bottom, top, pixel] = picture.window
+    assert.deepEqual([left, right, bottom, top], picture.seen)
+    assert.ok(Math.abs(pixel - (right - left) / 350) < 1e-12)
+  })
+  picture.home()
+  assert.equal(picture.window, null)
+})
+
+test("the picture is drawn when something of it has come, or has become old, and once a frame of the screen", () => {
+  const one = wired(), {picture} = one.root.explorer
+  one.tick(50)
+  const paints = (act) => { const before = picture.drawn.paints; act(); return picture.drawn.paints - before }
+  assert.equal(paints(() => one.answer({slow_flow: [1]})), 0)
+  assert.equal(paints(() => one.answer({sense: []})), 1)
+  assert.equal(paints(() => { one.answer({sense: []}); one.answer({sense: []}) }), 0) // this frame has been drawn
+  assert.equal(paints(() => one.tick(16)), 1)
+  one.tick(50)
+  assert.equal(paints(() => one.answer({}, {inside: {counts: [2], points: [0, 0, 1, 1], heads: []}})), 1)
+  one.tick(50)
+  assert.equal(paints(() => one.answer({late: ["inside"]})), 1)
+  assert.ok(!picture.list.some(({layer}) => layer === "inside"))
+  one.tick(50)
+  assert.equal(paints(() => one.answer({late: ["inside"]})), 0)
+  one.tick(50)
+  assert.equal(paints(() => one.answer({late: ["numbers of a panel"]})), 1) // and it is there again
+  assert.ok(picture.list.some(({layer}) => layer === "inside"))
+})
+
+test("the picture is asked for anew once it rests somewhere else, and is under way until then", () => {
+  const one = wired(), {picture, requests} = one.root.explorer
+  const rests = () => one.sent.splice(0).map(({rest, window}) => [rest, window])
+  pull(one, "#c2-f1", "1"); one.tick(20); one.answer(); one.sent.splice(0)
+  one.plot.x_range.setv({start: -1, end: 1})
+  assert.equal(settled(one), "false")
+  one.tick(149)
+  assert.deepEqual(rests(), [])
+  one.tick(20)
+  assert.deepEqual(rests(), [[true, [-1, 1, -1.75, 1.75, 2 / 350]]])
+  one.answer()
+  assert.equal(settled(one), "true")
+  one.plot.x_range.setv({start: -1, end: 1}) // where it was
+  one.tick(200)
+  assert.deepEqual(rests(), [])
+  assert.equal(settled(one), "true")
+  assert.equal(requests.idle, true)
+  assert.equal(picture.asked, String(picture.window))
+})
+
+test("a slider's range widens for what is typed, on both sides only if it had both", () => {
+  const one = wired({ranges: {a: [-4, 4], f1: [0, 4], n: [0.5, 6], z: [-4, 4], trajectories: [0, 200]}})
+  const slider = (name) => { const {min, max, step, value} = one.find(`#c2-${name}`); return [min, max, step, value].map(Number) }
+  type(one, "[data-control=a] .number", "7")
+  assert.deepEqual(slider("a"), [-10, 10, 0.01, 7])
+  type(one, "[data-control=a] .number", "-37")
+  assert.deepEqual(slider("a"), [-50, 50, 0.1, -37])
+  type(one, "[data-control=a] .number", "2")
+  assert.deepEqual(slider("a"), [-4, 4, 0.001, 2])
+  type(one, "[data-control=f1] .number", "7")
+  assert.deepEqual(slider("f1"), [0, 10, 0.01, 7])
+  type(one, "[data-control=f1] .number", "4")
+  assert.deepEqual(slider("f1"), [0, 4, 0.001, 4])
+  const box = one.find("[data-control=f1] .number")
+  box.value = "−2,5"
+  one.fire(box, "keydown", {key: "x"})
+  assert.equal(one.root.explorer.values.f1, 4)
+  one.fire(box, "keydown", {key: "Enter"})
+  assert.equal(one.root.explorer.values.f1, -2.5)
+  pull(one, "#c2-a", "1.25")
+  assert.equal(one.find("[data-control=a] .number").value, "1.25")
+})
+
+test("the dialog writes a frame with the controls that are named, and copies", async () => {
+  const copied = []
+  const one = wired({}, FIRST, {location: {origin: "http://h", pathname: "/codim2", href: "http://h/codim2"}})
+  const clipboard = {writeText: (text) => { copied.push(text); return Promise.resolve() }}
+  Object.defineProperty(globalThis, "navigator", {value: {clipboard}, configurable: true, writable: true})
+  const dialog = one.find("dialog"), opened = []
+  dialog.showModal = () => { dialog.querySelector(".address").select = dialog.querySelector(".html").select = () => opened.push("select"); opened.push("show") }
+  const wait = async (holds) => { for (let i = 0; i < 10000 && !holds(); i++) await new Promise((done) => { setImmediate(done) }) }
+  click(one, ".share")
+  await wait(() => opened.length > 1)
+  const html = () => dialog.querySelector(".html").value
+  assert.equal(html(), '<iframe src="http://h/codim2?v=1&amp;embed=1&amp;controls=f1%2Cf2" width="640" height="620" style="border:0" title="codim2 explorer"></iframe>')
+  const names = dialog.querySelector(".names")
+  names.value = 'a,"z'
+  one.fire(names, "input")
+  assert.match(html(), /controls=a%2Cz"/)
+  names.value = ""
+  one.fire(names, "input")
+  assert.ok(!html().includes("controls"))
+  const code = dialog.querySelector(".qr")
+  assert.deepEqual([code.getAttribute("src") ?? code.src, code.hidden], ["http://h/qr.svg?text=http%3A%2F%2Fh%2Fcodim2%3Fv%3D1", false])
+  code.onerror()
+  assert.equal(code.hidden, true)
+  one.fire(dialog.querySelector("[data-copies=address]"), "click")
+  await wait(() => dialog.querySelector(".told").textContent)
+  assert.deepEqual([copied, dialog.querySelector(".told").textContent], [["http://h/codim2?v=1"], "Copied."])
+  clipboard.writeText = () => Promise.reject(new Error("no https"))
+  one.document.execCommand = (name) => Boolean(copied.push(name))
+  one.fire(dialog.querySelector("[data-copies=html]"), "click")
+  await wait(() => copied.length > 1)
+  assert.equal(copied[1], "copy")
+  let closed = 0
+  dialog.close = () => { closed += 1 }
+  one.fire(dialog.querySelector(".html"), "click")
+  assert.equal(closed, 0)
+  one.fire(dialog, "click")
+  assert.equal(closed, 1)
+  dialog.open = true
+  opened.length = 0
+  click(one, ".share")
+  await wait(() => opened.length > 0)
+  assert.deepEqual([opened, dialog.querySelector(".told").textContent], [["select"], ""])
+})
