@@ -101,10 +101,13 @@ def _drawn(layers: Sequence[str], now: dict[str, Any], ready: bool, window: Wind
     moved = now.get("window") != rectangle  # what was cut to another window is not whole
     now["window"] = rectangle
     for layer in LAYERS.values():
-        if layer.name not in layers or (layer.compiled and not ready):
+        if layer.name not in layers:
             continue
         for part in layer.parts:
-            result = asked.get(part.scene)
+            source = part.sketch if layer.compiled and not ready else part.scene
+            if not source:
+                continue
+            result = asked.get(source)
             if result is LATER:
                 continue
             if result is NOTHING:
