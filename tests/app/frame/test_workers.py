@@ -47,7 +47,7 @@ def test_work_is_done_elsewhere(workers):
 def test_errors_come_back(workers):
     with pytest.raises(ZeroDivisionError):
         workers.submit(divmod, 1, 0).result()
-    with pytest.raises(Exception, match="pickle|local object"):
+    with pytest.raises(Exception, match=r"pickle|local object"):
         workers.submit(lambda: 1).result()
     with pytest.raises(RuntimeError, match="cannot be sent"):
         workers.submit(open, os.devnull).result()
