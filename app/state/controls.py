@@ -61,9 +61,9 @@ class ExplorerState(param.Parameterized):
     z4 = _number(0.0, -4, 4, "z₄", "Fourth slow variable.")
     k1 = _number(0.5, -2, 2, "k₁", "f(z) = f + z k: how f₁ changes along z.")
     k2 = _number(0.0, -2, 2, "k₂", "f(z) = f + z k: how f₂ changes along z.")
-    B1 = _number(1.0, -3, 3, "B₁", "z' = B e + g: weight of cos θ.")
-    B2 = _number(0.0, -3, 3, "B₂", "z' = B e + g: weight of sin θ.")
-    g0 = _number(0.0, -3, 3, "g", "z' = B e + g: constant part of the slow flow.")
+    B1 = _number(1.0, -3, 3, "B₁", "z′ = B e + g: weight of cos θ.")
+    B2 = _number(0.0, -3, 3, "B₂", "z′ = B e + g: weight of sin θ.")
+    g0 = _number(0.0, -3, 3, "g", "z′ = B e + g: constant part of the slow flow.")
     psi = param.Selector(
         default="constant",
         objects=list(psi_families.FAMILIES),
@@ -72,7 +72,7 @@ class ExplorerState(param.Parameterized):
         doc="Regularisation function Ψ(s), s = (x² + y²)/ε².",
     )
     n = _number(2.0, 0.5, 6, "n", "Parameter of Ψ, such as the exponent of 3/(3 + (4s)ⁿ).")
-    psi_text = param.String("1/(1+s)**2", label="Ψ(s) =", doc="Your own Ψ(s), positive, with s Ψ'(s) < Ψ(s).")
+    psi_text = param.String("1/(1+s)**2", label="Ψ(s) =", doc="Your own Ψ(s), positive, with s Ψ′(s) < Ψ(s).")
     trajectories = param.Integer(
         64, bounds=(0, MAX_TRAJECTORIES), label="Trajectories", doc="Number of starting points."
     )

@@ -1,7 +1,7 @@
 // What is always in view beside the picture: the portrait's name and sentence, what is degenerate, the slow flow.
 
 import {put, say} from "./dom.js"
-import {digits, escape} from "./words.js"
+import {escape, slowWords} from "./words.js"
 
 export class Inspector {
   constructor(root) {
@@ -10,6 +10,7 @@ export class Inspector {
 
   apply(header) {
     if (header.portrait) this.portrait(header.portrait)
+    if ("psi_note" in header) say(this.find(".psi-note"), header.psi_note)
     if ("slow_flow" in header) this.slowLine(header.slow_flow)
   }
 
@@ -24,7 +25,7 @@ export class Inspector {
 
   // One line that is always in view.
   slowLine(flow) {
-    const sense = !flow || !flow.length || flow[0] === 0 ? "" : flow[0] > 0 ? ", ⊙ out of the page" : ", ⊗ into the page"
-    say(this.find(".slow-line"), flow?.length ? `z′ = ${flow.map((v) => digits(v)).join(", ")} on C${sense}` : "")
+    const words = flow?.length ? slowWords(flow) : null
+    say(this.find(".slow-line"), words ? `${words.flow} on C, ${words.sense}` : "")
   }
 }

@@ -1,7 +1,7 @@
 // Which system is drawn: a choice, its equations, text boxes for what can be typed, and a slider for every name in it.
 
 import {NumberControl, sayAt, slider} from "./controls.js"
-import {slowName} from "./words.js"
+import {SAYS, slowName} from "./words.js"
 
 export class SystemChooser {
   // `change(name, value)` and `setAll(values)` as everywhere; `place(name, control)` registers a control, by the name
@@ -69,7 +69,7 @@ export class SystemChooser {
     const boxes = this.config.boxes[this.choice] ?? []
     this.find(".boxes").innerHTML = boxes.map(({name, label, lines}) => `<div class="control typed" data-box="${name}">
       <label for="c2-box-${name}">${label}</label><textarea id="c2-box-${name}" data-box="${name}" rows="${lines}" spellcheck="false" autocapitalize="off" autocomplete="off"></textarea>
-      <p class="error" role="alert" hidden></p></div>`).join("")
+      <p class="error" role="alert" hidden></p></div>`).join("") + (boxes.length ? `<p class="note">${SAYS.typed}</p>` : "")
     for (const {name, text} of boxes) {
       const box = this.find(`[data-box=${name}].control`), area = box.querySelector("textarea")
       area.value = this.values.texts[name] ?? text

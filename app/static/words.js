@@ -24,5 +24,29 @@ export function eigen([first, second]) {
   return `${digits(first[0])}, ${digits(second[0])}`
 }
 
-
 export const slowName = (i) => (i ? `z${i + 1}` : "z")
+
+// What the browser itself says of a system; all else is the core's, and comes with the frames.
+export const SAYS = {
+  allDirections: "Every direction is a limit direction.",
+  noDirection: "None.",
+  attractingEquator: "None: the equator is a closed orbit, attracting outside",
+  repellingEquator: "None: the equator is a closed orbit, repelling outside",
+  neutralEquator: "None: the equator is a closed orbit, neutral to first order",
+  noCriticalSet: "No critical set is on the hemisphere.",
+  slidingEnds: "Sliding ends here: no critical set and no limit cycle attracts.",
+  slowRest: "The slow flow has come to rest: z′ = 0.",
+  rangeEnds: "The end of the range.",
+  typed: "c and s are the components of e; the letter e alone is the number 2.718…",
+}
+
+// The slow flow on C by its parts: ⊙ and ⊗ are of the first slow variable, which is said where there are others.
+export function slowWords(flow, symbols = []) {
+  const name = (i) => symbols.length >= flow.length ? symbols[i] : (flow.length > 1 ? `z${"₁₂₃₄₅₆₇₈₉"[i] ?? i + 1}` : "z")
+  const of = flow.length > 1 ? ` (${name(0)} only)` : ""
+  const sense = !flow[0] ? flow.some(Boolean) ? `${name(0)} at rest` : "at rest" : flow[0] > 0 ? `⊙ out of the page: ${name(0)} grows${of}` : `⊗ into the page: ${name(0)} falls${of}`
+  return {flow: flow.map((v, i) => `${name(i)}′ = ${digits(v)}`).join(", "), sense}
+}
+
+// How a phase of a motion is called; of a ball also in the words of mechanics.
+export const phaseWords = (kind, ball) => ({slip: "slips", slide: ball ? "slides (the ball sticks and rolls)" : "slides", cross: "crosses"})[kind]

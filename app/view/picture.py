@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 from numpy.typing import NDArray
 
 from codim2_core.layer_problem.equator import EquatorEquilibria, equator_equilibria
 from codim2_core.portrait.classification import NEARER, Classification
+from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 
@@ -24,6 +25,8 @@ Blocks = dict[str, NDArray[Any] | Polylines]
 #: In place of a layer: it is computed beside the frames; it is left out.
 LATER, NOTHING = object(), object()
 
+OUTSIDE = "This Ψ does not meet {} of Definition 2.3, which the paper’s results assume."
+
 
 def told_once(name: Classification) -> str:
     """Return the sentence of a portrait without what its degeneracies, shown below it, say again."""
@@ -31,6 +34,14 @@ def told_once(name: Classification) -> str:
     for degeneracy in name.degeneracies:
         sentence = sentence.replace(degeneracy.sentence.partition(f" {NEARER}")[0], "").strip()
     return sentence
+
+
+@lru_cache(maxsize=64)
+def breaks(psi: Psi) -> str:
+    """Say which of the conditions R1 to R5 a family of Psi does not meet, and where; empty if it meets all."""
+    missed = [condition for condition in psi.check() if not condition.holds]
+    names = ", ".join(condition.name for condition in missed)
+    return f"{OUTSIDE.format(names)} {' '.join(condition.sentence for condition in missed)}" if missed else ""
 
 
 class Asked:
@@ -134,6 +145,8 @@ def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked) -> No
         header["sense"] = glyphs.equator_arrows(equator, 0 if cycle is None else int(cycle.direction))
         header["all_directions"] = bool(equator.all_directions)
         header["cycle"] = None if cycle is None else float(cycle.exponent)
+    if _fresh(now, "psi", asked.scene.psi):
+        header["psi_note"] = breaks(asked.scene.psi)
     critical = () if critical is NOTHING else critical
     if critical is not LATER and _fresh(now, "critical", critical):
         header["critical"] = glyphs.critical_columns(critical)

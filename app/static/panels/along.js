@@ -4,7 +4,7 @@ import {Chart} from "../chart/chart.js"
 import {spanOf} from "../chart/scale.js"
 import {shape} from "../marks.js"
 import {register} from "../panels.js"
-import {digits, escape, slowName} from "../words.js"
+import {SAYS, digits, escape, slowName} from "../words.js"
 
 const DRIFT_SECONDS = 10 // in which play would cross the whole range at the largest slow flow shown
 
@@ -79,13 +79,13 @@ class Along {
       if (!this.playing) return
       const dt = Math.min(now - before, 60) / 1000 * this.rate * Number(this.find(".speed").value)
       before = now
-      if (!this.drift) { this.stop("Sliding ends here: no critical set and no limit cycle attracts."); return }
+      if (!this.drift) { this.stop(SAYS.slidingEnds); return }
       const {flow} = this.drift
       const wanted = {}
       flow.slice(0, 4).forEach((rate, i) => { wanted[slowName(i)] = this.values[slowName(i)] + rate * dt })
       const at = wanted[this.data.control]
-      if (flow.every((rate) => Math.abs(rate) < 1e-4 * most)) { this.stop("The slow flow has come to rest: z′ = 0."); return }
-      if (at < low || at > high) { this.stop("The end of the range."); return }
+      if (flow.every((rate) => Math.abs(rate) < 1e-4 * most)) { this.stop(SAYS.slowRest); return }
+      if (at < low || at > high) { this.stop(SAYS.rangeEnds); return }
       this.setControls(wanted)
       // the next step once this one is drawn: nothing runs ahead of the picture
       this.arrived = () => { this.arrived = null; requestAnimationFrame(step) }

@@ -3,7 +3,7 @@
 import {put} from "../dom.js"
 import {register} from "../panels.js"
 import {roundUp} from "../ranges.js"
-import {digits, eigen, escape, pair, plain} from "../words.js"
+import {SAYS, digits, eigen, escape, pair, plain, slowWords} from "../words.js"
 
 const QUIET = 60 // ms: longer than three frames of a drag
 
@@ -44,8 +44,8 @@ class Numbers {
     const rows = q.theta.map((theta, i) => `<tr class="plain"><td><b>${q.label[i]}</b></td><td>${digits(theta)}</td>
       <td>${digits(q.lambda_rho[i])}</td><td>${digits(q.lambda_theta[i])}</td></tr>
       <tr><td></td><td class="words" colspan="3">${q.type[i]}${q.multiplicity[i] > 1 ? `, multiplicity ${q.multiplicity[i]}` : ""}</td></tr>`)
-    const words = all ? "Every direction is a limit direction." : cycle === null ? "None." :
-      `None: the equator is a closed orbit, ${cycle < 0 ? "attracting" : cycle > 0 ? "repelling" : "neutral"} outside (exponent ${digits(cycle)}).`
+    const words = all ? SAYS.allDirections : cycle === null ? SAYS.noDirection :
+      `${cycle < 0 ? SAYS.attractingEquator : cycle > 0 ? SAYS.repellingEquator : SAYS.neutralEquator} (exponent ${digits(cycle)}).`
     put(this.find(".equator-table"), "<h2>Equator equilibria</h2>" + (rows.length
       ? `<table><tr><th></th><th>θ</th><th>λ<sub>ρ</sub></th><th>λ<sub>θ</sub></th></tr>${rows.join("")}</table>` : `<p class="note">${words}</p>`))
   }
@@ -59,7 +59,7 @@ class Numbers {
       <tr><td>Δ(J)</td><td>${digits(c.discriminant[i])}</td></tr>
       <tr><td>eigenvalues</td><td>${eigen(c.eigenvalues[i])}</td></tr>
       ${c.slow_flow[i].length && c.label.length > 1 ? `<tr><td>z′</td><td>${c.slow_flow[i].map((v) => digits(v)).join(", ")}</td></tr>` : ""}</table>`)
-    put(this.find(".critical-table"), `<h2>${c.label.length > 1 ? "Critical sets" : "Critical set"}</h2>` + (rows.join("") || '<p class="note">None in the scaling chart.</p>'))
+    put(this.find(".critical-table"), `<h2>${c.label.length > 1 ? "Critical sets" : "Critical set"}</h2>` + (rows.join("") || `<p class="note">${SAYS.noCriticalSet}</p>`))
   }
 
   cycles(c) {
@@ -90,13 +90,13 @@ class Numbers {
     const head = tip < y(z) ? 7 : -7
     const arrow = rate === 0 ? "" : `<path class="z-arrow" d="M42 ${y(z)}V${tip + head * 0.8}"/>
       <path class="z-head" d="M42 ${tip}l5 ${head * 1.3}h-10Z"/>`
-    const sense = rate > 0 ? "⊙ out of the page" : rate < 0 ? "⊗ into the page" : "at rest"
+    const words = slowWords(flow, this.tools.slowSymbols())
     box.innerHTML = `<h2>Slow flow on C</h2><div class="slow-box"><svg viewBox="0 0 84 150" aria-hidden="true">
       <path class="z-axis" d="M30 6V144M26 ${y(reach)}h8M26 ${y(0)}h8M26 ${y(-reach)}h8"/><text x="22" y="12" text-anchor="end">z</text>
       <text x="23" y="${y(reach) + 14}" text-anchor="end">${plain(reach)}</text><text x="23" y="${y(0) + 4}" text-anchor="end">0</text>
       <text x="23" y="${y(-reach) + 4}" text-anchor="end">−${plain(reach)}</text>
       ${arrow}<circle class="z-dot" cx="30" cy="${y(z)}" r="4"/></svg>
-      <div><b>z′ = ${flow.map((v) => digits(v)).join(", ")}</b><br>${sense}<br><span class="note">at z = ${digits(z)}; independent of Ψ</span></div></div>`
+      <div><b>${escape(words.flow)}</b><br>${escape(words.sense)}<br><span class="note">at z = ${digits(z)}; independent of Ψ</span></div></div>`
   }
 }
 

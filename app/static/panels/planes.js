@@ -4,7 +4,7 @@
 import {Chart} from "../chart/chart.js"
 import {eigenvalues, kindAt, withDouble} from "../jacobian.js"
 import {register} from "../panels.js"
-import {digits, eigen, escape} from "../words.js"
+import {SAYS, digits, eigen, escape} from "../words.js"
 
 const TRAIL = 90 // positions remembered
 const KINDS = ["saddle", "stable focus", "unstable focus", "stable node", "unstable node"]
@@ -50,7 +50,7 @@ class Planes {
     this.drawTrace(shown, beside)
     this.drawEigenvalues(shown, beside)
     if (beside.psis.length) this.drawPsis(beside)
-    this.find(".plane-note").textContent = this.critical.length ? beside.sentence : "No critical set in the scaling chart."
+    this.find(".plane-note").textContent = this.critical.length ? beside.sentence : SAYS.noCriticalSet
     this.find(".plane-table").innerHTML = beside.named.length ? `<table><tr><th></th><th>tr J</th><th>det J</th><th></th></tr>${beside.named.map((one) =>
       `<tr><td>${escape(one.text)}</td><td>${digits(one.trace)}</td><td>${digits(one.determinant)}</td><td>${one.kind}</td></tr>`).join("")}</table>` : ""
   }

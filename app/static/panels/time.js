@@ -5,9 +5,8 @@ import {Chart} from "../chart/chart.js"
 import {spanOf} from "../chart/scale.js"
 import {slider} from "../controls.js"
 import {register} from "../panels.js"
-import {digits, escape, plain, slowName} from "../words.js"
+import {digits, escape, phaseWords, plain, slowName} from "../words.js"
 
-const PHASE = {slip: "slips", slide: "slides", cross: "crosses"}
 const PLAY_SECONDS = 9 // for the whole motion
 
 const MARKUP = `<div class="control typed" data-control="launch"><label for="c2-launch">start</label><input type="text" id="c2-launch" class="text" placeholder="x, y, z₁, …" spellcheck="false" autocomplete="off"><p class="error" role="alert" hidden></p></div>
@@ -110,7 +109,7 @@ class Motion {
     // the other views follow: the portrait is that of the present z
     if (moved) this.setControls(Object.fromEntries(state.slice(2, 6).map((z, i) => [slowName(i), Number(z.toPrecision(6))])))
     const phase = this.motion.phases.findLast(([, start]) => start <= this.at) ?? this.motion.phases[0]
-    this.find(".phase-now").textContent = phase ? `t = ${digits(this.at, 3)}: ${PHASE[phase[0]]}. ${phase[3]}` : ""
+    this.find(".phase-now").textContent = phase ? `t = ${digits(this.at, 3)}: ${phaseWords(phase[0], this.motion.ball)}. ${phase[3]}` : ""
     if (this.motion.ball) this.ball.show(this.motion, this.at)
   }
 
@@ -135,8 +134,9 @@ class Motion {
       }
     }))
     this.svg.setAttribute("aria-valuemin", 0); this.svg.setAttribute("aria-valuemax", this.end)
-    this.find(".time-key").innerHTML = `<span>full line and bands: ε = ${plain(motion.eps)}</span><span>broken line and list: ε → 0</span>`
-    this.find(".phases").innerHTML = (limit ?? motion).phases.map(([kind, from, , why]) => `<li><i class="band ${kind}"></i><span>${digits(from, 4)}</span><span class="note">${PHASE[kind]}: ${escape(why)}</span></li>`).join("")
+    this.find(".time-key").innerHTML = limit ? `<span>full line and bands: ε = ${plain(motion.eps)}</span><span>broken line and list: ε → 0</span>`
+      : `<span>line, bands and list: ε = ${plain(motion.eps)}</span>`
+    this.find(".phases").innerHTML = (limit ?? motion).phases.map(([kind, from, , why]) => `<li><i class="band ${kind}"></i><span>${digits(from, 4)}</span><span class="note">${phaseWords(kind, motion.ball)}: ${escape(why)}</span></li>`).join("")
     this.ball.canvas.hidden = !motion.ball
     if (motion.ball) this.ball.prepare(motion)
     this.show()

@@ -354,7 +354,7 @@ test("the panel planes: trace to the right, determinant upward, eigenvalues besi
   assert.ok(stable.every(([x, y]) => x <= 0.02 && y >= -0.02) && stable.some(([x]) => x < -1) && stable.some(([, y]) => y > 1))
   assert.ok(eigen.areas[0].points.every(([x]) => x <= 0.02) && eigen.areas[0].points.some(([, y]) => y < -1))
   one.frame({critical: {label: [], kind: [], trace: [], determinant: [], x2: []}})
-  assert.equal(one.find(".plane-note").textContent, "No critical set in the scaling chart.")
+  assert.equal(one.find(".plane-note").textContent, "No critical set is on the hemisphere.")
 })
 
 test("the panel planes: the trail goes from the oldest, faintest place to the newest, with a gap where nothing was", () => {

@@ -27,7 +27,7 @@ test("the panel numbers: each number under its head", () => {
   assert.equal(one.find(".critical-table h2").textContent, "Critical set")
   assert.ok(!cells(one, ".critical-table").some(([name]) => name === "z′")) // it stands below
   one.frame({critical: Object.fromEntries(Object.keys(C).map((name) => [name, []]))})
-  assert.equal(one.find(".critical-table .note").textContent, "None in the scaling chart.")
+  assert.equal(one.find(".critical-table .note").textContent, "No critical set is on the hemisphere.")
 })
 
 test("the panel numbers: an equator without directions says how it is run through", () => {
@@ -36,7 +36,7 @@ test("the panel numbers: an equator without directions says how it is run throug
   assert.equal(words({cycle: null}), "None.")
   assert.equal(words({cycle: -0.5}), "None: the equator is a closed orbit, attracting outside (exponent −0.500).")
   assert.equal(words({cycle: 0.5}), "None: the equator is a closed orbit, repelling outside (exponent 0.500).")
-  assert.equal(words({cycle: 0}), "None: the equator is a closed orbit, neutral outside (exponent 0).")
+  assert.equal(words({cycle: 0}), "None: the equator is a closed orbit, neutral to first order (exponent 0).")
   assert.equal(words({cycle: null, all_directions: true}), "Every direction is a limit direction.")
 })
 
@@ -66,7 +66,7 @@ test("the panel numbers: the arrow along z starts at z and points as z′ does",
   let now = read([0.5, -1])
   assert.deepEqual([now.from, now.dot], [at(2), at(2)])
   assert.ok(Math.abs(now.tip - (at(2) - 14 - 44 / 3)) < 1e-9 && now.tip < now.to && now.to < now.from)
-  assert.match(now.words, /z′ = 0\.500, −1\.000⊙ out of the page/)
+  assert.match(now.words, /z₁′ = 0\.500, z₂′ = −1\.000⊙ out of the page: z₁ grows \(z₁ only\)/)
   now = read([-1, 1])
   assert.ok(Math.abs(now.tip - (at(2) + 36)) < 1e-9 && now.tip > now.to && now.to > now.from)
   assert.match(now.words, /⊗ into the page/)

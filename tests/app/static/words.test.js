@@ -1,7 +1,8 @@
 import assert from "node:assert/strict"
+import {readFileSync, readdirSync} from "node:fs"
 import test from "node:test"
 
-import {digits, eigen, escape, measured, plain} from "../../../app/static/words.js"
+import {SAYS, digits, eigen, escape, measured, phaseWords, plain, slowWords} from "../../../app/static/words.js"
 
 test("numbers have four places, a real minus, and no exponent where none is needed", () => {
   assert.equal(digits(0), "0")
@@ -19,4 +20,28 @@ test("complex eigenvalues are a pair, real ones are two", () => {
 
 test("what was typed cannot become markup", () => {
   assert.equal(escape('<b a="1">&'), "&lt;b a=&quot;1&quot;&gt;&amp;")
+})
+
+test("the arrow into the page is of the first slow variable, and says so where there are others", () => {
+  assert.deepEqual(slowWords([0.5]), {flow: "z′ = 0.500", sense: "⊙ out of the page: z grows"})
+  assert.deepEqual(slowWords([-1, 2], ["u", "v"]), {flow: "u′ = −1.000, v′ = 2.000", sense: "⊗ into the page: u falls (u only)"})
+  assert.equal(slowWords([0, 2]).sense, "z₁ at rest")
+  assert.equal(slowWords([0]).sense, "at rest")
+})
+
+test("a ball slides and, in the words of mechanics, sticks and rolls", () => {
+  assert.equal(phaseWords("slide", true), "slides (the ball sticks and rolls)")
+  assert.deepEqual(["slip", "slide", "cross"].map((kind) => phaseWords(kind, false)), ["slips", "slides", "crosses"])
+})
+
+test("what the browser says of a system stands in one place", () => {
+  const folder = new URL("../../../app/static/", import.meta.url)
+  const files = readdirSync(folder, {recursive: true}).filter((name) => /^(panels\/.*|inspector|picture|system)\.js$/.test(name))
+  assert.ok(files.length > 10)
+  for (const name of files) {
+    const source = readFileSync(new URL(name, folder), "utf8").replace(/^\s*(\/\/|\*|\/\*).*$/gm, "")
+    const said = source.match(/"[A-Z][a-z]+ [^"]*(critical set|limit direction|slides|attract|repel|slow flow|equator)[^"]*\."/g)
+    assert.equal(said, null, `${name}: ${said}`)
+  }
+  for (const sentence of Object.values(SAYS)) assert.ok(!/lambda|Psi|eps|scaling chart/.test(sentence))
 })
