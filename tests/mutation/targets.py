@@ -28,7 +28,7 @@ ELSEWHERE: dict[str, tuple[str, ...]] = {
     "core.stepping": ("core/orbits",),
     "core.systems": ("core/layer_problem/test_critical.py",),
     "core.figures": ("presets",),
-    "app.draw": ("app/view/test_view.py",),
+    "app.draw": ("app/view/test_view.py", "pictures"),
     "app.frame": ("app/panels", "app/view/test_refresh.py"),
     "app.slow_layers": ("app/panels",),
     "app.state": ("app/view/test_refresh.py",),

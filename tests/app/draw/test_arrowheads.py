@@ -109,5 +109,5 @@ def test_at_the_edges_of_what_is_seen_the_grid_has_room():
     corners = [(x, y) for x in window[:2] for y in window[2:]]
     lines = [np.array([[x - 0.2, y], [x + 0.2, y]]) for x, y in corners]
     assert place(*lines, pixel=0.005, window=window)[:, :2].tolist() == [list(corner) for corner in corners]
-    moved = [line + (0, 0.05) for line in lines]  # 10 px above: two are beyond, two find room beside
+    moved = [line + np.array([0, 0.05]) for line in lines]  # 10 px above: two are beyond, two find room beside
     assert len(place(*lines, *moved, pixel=0.005, window=window)) == 6
