@@ -243,7 +243,7 @@ function wire({model, view, root, plot}) {
     if ("ready" in header) {
       const slow = late.includes("picture")
       busy.hidden = header.ready && !slow
-      busy.textContent = slow ? "This system takes longer than a frame; its picture follows …" : "Compiling the integrator, once; trajectories are sketched until then …"
+      busy.textContent = slow ? "This system takes longer than a frame; its picture follows …" : "Compiling, once: trajectories are sketched …"
       clearTimeout(warmTimer)
       if (!header.ready) warmTimer = setTimeout(() => requests.refresh(), 250)
     }
