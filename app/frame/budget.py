@@ -128,8 +128,8 @@ def wild(scene: Scene) -> str:
     if directions + sets <= MOST_STANDING:
         return ""
     return (
-        f"U is too wild: it has {directions} limit directions and {sets} critical sets, and at most {MOST_STANDING} "
-        "together can be followed"
+        f"U is too wild: {directions} limit directions and {sets} critical sets were found, and at most "
+        f"{MOST_STANDING} together can be followed"
     )
 
 

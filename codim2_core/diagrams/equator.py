@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..layer_problem.closed_equator import equator_cycle
-from ..numerics.root_between import root_between
-from ..numerics.sign_changes import refined, sign_changes
+from ..numerics.sign_changes import refined, roots, sign_changes
 from ..numerics.trigonometric import real_zeros, tangential_zeros
 from ..words import say
 from .critical import OFF_CENTRE, SPREAD, Borders
@@ -25,7 +24,10 @@ Array = NDArray[np.float64]
 _TAU = 2.0 * math.pi
 _FLAT = 1e-13
 _TURN, _HALVINGS = 0.15, 6  # zeros turn by at most this between samples, unless so many halvings are not enough
-_CLOSED = 17  # values at which the exponent of a closed equator is computed
+# Of a piece, where the exponent of a closed equator is computed: at its ends, where limit directions appear, it grows
+# beyond all bounds, and may turn its sign just before
+_PART = np.concatenate([np.geomspace(1e-9, 1e-3, 7), 0.5 * (1.0 - np.cos(np.pi * (np.arange(11) + 0.5) / 22))])
+_PARTS = np.concatenate([_PART, [0.5], 1.0 - _PART[::-1]])
 
 
 def equator_part(
@@ -241,11 +243,12 @@ def _closed(path: Line, low: float, high: float) -> tuple[list[ClosedEquator], l
         cycle = equator_cycle(path(np.array([v])).coefficients(0))
         return cycle.exponent if cycle is not None else 0.0
 
-    x = low + (high - low) * 0.5 * (1.0 - np.cos(np.pi * (np.arange(_CLOSED) + 0.5) / _CLOSED))
+    x = low + (high - low) * _PARTS
     y = np.array([exponent(v) for v in x.tolist()])
     if not y.any():
         return [_closed_branch(x, y)], []
-    stops = [root_between(exponent, float(x[i]), float(x[i + 1])) for i in sign_changes(y)]
+    found = roots(lambda values: np.array([exponent(v) for v in values.tolist()]), [x], [y]).zeros[0]
+    stops = [v for v in found.tolist() if low < v < high]
     sentence = say("equator neutral, a cycle may leave")
     special = [SpecialValue("neutral equator", v, (0.0, 0.0), sentence, "thm:geneps0") for v in stops]
     edges = [-math.inf, *stops, math.inf]

@@ -139,12 +139,12 @@ class EquatorEquilibria:
         if self.all_directions:
             return say("every direction of the equator")
         if not len(self):
-            return say("no equilibria")
+            return say("no equilibria" if self.proven else "no equilibria found")
         noun = "equilibrium" if len(self) == 1 else "equilibria"
         multiple = int((self.multiplicity > 1).sum())
-        return say(
-            "equilibria, some degenerate" if multiple else "equilibria", count=len(self), noun=noun, some=multiple
-        )
+        key = "equilibria, some degenerate" if multiple else "equilibria"
+        summary = say(key, count=len(self), noun=noun, some=multiple)
+        return summary if self.proven else f"{summary} {say('no more proved')}"
 
 
 def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:

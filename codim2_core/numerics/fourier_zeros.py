@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -174,8 +173,16 @@ def _add_multiple(f: Series, theta: Array, h: float, found: list[tuple[float, in
             if not abs(x - middle) <= width:
                 continue
             taylor = f.derivatives(np.array([x]), range(m + 1))[:, 0]
-            within = all(abs(taylor[j]) <= ROUNDINGS * UNIT * max(f.size, f.bound(j)) for j in range(m - 1))
-            if within and abs(taylor[m]) > 1e-9 * f.bound(m):
+            if not abs(taylor[m]) > 1e-9 * f.bound(m):
+                continue
+            # f is rounding as far as `reach` from an m-fold zero: so are zeros that its lower terms part there
+            # (Chebyshev's polynomials of degree 3 and 4: below 3 times the rounding)
+            reach = (f.tolerance * math.factorial(m) / abs(taylor[m])) ** (1.0 / m)
+            if all(
+                abs(taylor[j])
+                <= max(ROUNDINGS * UNIT * max(f.size, f.bound(j)), 3.0 * f.tolerance * math.factorial(j) / reach**j)
+                for j in range(m - 1)
+            ):
                 radius = 0.5 * (m + 1) * abs(taylor[m]) / f.bound(m + 1)
                 if not any(abs(math.remainder(x - other, 2 * math.pi)) < max(r, SAME) for other, _, r in found):
                     found.append((x, m, radius))
@@ -199,15 +206,26 @@ def _collected(
             kept.append(entry)
     if len(kept) > 1 and _same(f, kept[-1], (kept[0][0] + 2.0 * math.pi, *kept[0][1:])):
         kept.pop()
-    ups = [slope > 0.0 for _, m, slope in kept if m == 1]
-    if all(m == 1 for _, m, _ in kept):
-        proven = proven and len(ups) % 2 == 0 and all(a != b for a, b in pairwise(ups))
+    proven = proven and _alternate(kept)
     return Zeros(
         np.array([t for t, _, _ in kept], float),
         np.array([m for _, m, _ in kept], np.int64),
         proven,
         0.0 if multiple else distance,
     )
+
+
+def _alternate(found: list[tuple[float, int, float]]) -> bool:
+    """Whether signs of f fit together around the circle: they change at odd zeros, each way by turns."""
+    first = next((i for i, (_, m, _) in enumerate(found) if m == 1), None)
+    if first is None:
+        return sum(m % 2 for _, m, _ in found) % 2 == 0
+    rises = found[first][2] > 0.0
+    for _, m, slope in (*found[first:], *found[:first]):
+        if m == 1 and (slope > 0.0) != rises:
+            return False
+        rises = rises != bool(m % 2)
+    return rises == (found[first][2] > 0.0)
 
 
 def _same(f: Series, one: tuple[float, int, float], next_: tuple[float, int, float]) -> bool:

@@ -53,7 +53,8 @@ class Classification:
     name : str
         "CM" or "NCM" (critical set or none) and the number of distinct equilibria on the equator, as in
         fig:sketches: "CM0", "CM2", "CM4", "NCM2", "NCM4"; other numbers only where `degeneracies` says why. For a
-        system that is not e-linear a count, such as "2 critical sets, 6 limit directions".
+        system that is not e-linear a count, such as "2 critical sets, 6 limit directions"; with "found" where that
+        there are no more is not proved.
     sentence : str
     degeneracies : tuple of Degeneracy
     """
@@ -83,6 +84,8 @@ def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
         return say("all directions")
     count = len(equator.theta)
     if count == 0:
+        if not equator.proven:
+            return say("no directions found")
         if cycle is None or cycle.exponent == 0.0:
             return say("closed equator")
         return say("closed equator, stable" if cycle.exponent < 0.0 else "closed equator, unstable")
@@ -99,6 +102,8 @@ def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
         first = say("some arrive" if arriving else "some leave", count=count, moving=arriving or leaving)
     else:
         first = say("all arrive" if arriving else "all leave", count=count)
+    if not equator.proven:
+        first = f"{first} {say('directions unproved')}"
     if not neutral.any():
         return first
     which = " and ".join(f"Q{subscript(i + 1)}" for i in range(count) if neutral[i])

@@ -20,15 +20,16 @@ def general_portrait(
 ) -> Classification:
     """Name the portrait of a system that is not e-linear, from its parts (all at one z)."""
     found = disc_zeros(at.key)
-    lines = "every direction" if equator.all_directions else _count(len(equator), "limit direction")
-    name = f"{_count(len(critical), 'critical set')}, {lines}"
+    lines = "every direction" if equator.all_directions else _count(len(equator), "limit direction", equator.proven)
+    name = f"{_count(len(critical), 'critical set', found.proven)}, {lines}"
     sentence = f"{directions(equator, cycle)} {_consequence(critical, found)}"
     degeneracies = _equator(equator, cycle) + _critical(critical, found)
     return Classification(None, name, sentence, tuple(degeneracies))
 
 
-def _count(k: int, noun: str) -> str:
-    return f"no {noun}" if k == 0 else f"{k} {noun}" + ("" if k == 1 else "s")
+def _count(k: int, noun: str, proven: bool) -> str:
+    count = f"no {noun}" if k == 0 else f"{k} {noun}" + ("" if k == 1 else "s")
+    return count if proven else f"{count} found"
 
 
 def _counted(k: int, kind: str) -> str:
@@ -40,11 +41,13 @@ def _counted(k: int, kind: str) -> str:
 
 def _consequence(critical: tuple[CriticalSet, ...], found: DiscZeros) -> str:
     if not critical:
-        if found.everything or found.curve or found.on_equator or not found.proven:
+        if found.everything or found.curve or found.on_equator:
             return say("no isolated set")
-        return say("no critical set")
+        return say("no critical set" if found.proven else "no set found")
     kinds = [C.kind for C in critical]
     counted = ", ".join(_counted(kinds.count(kind), kind) for kind in sorted(set(kinds)))
+    if not found.proven:
+        return say("sets unproved", kinds=counted)
     stable = sum(kind.startswith("stable") for kind in kinds)
     if stable == 0:
         return say("none stable", kinds=counted)

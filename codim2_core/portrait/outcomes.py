@@ -297,6 +297,9 @@ def _whole(own: LayerProblem, others: list[LayerProblem], sensitive: bool, cycle
         rest = not radial.any()
         reason, why = (say("at rest"), "neutral") if rest else (say("some lead"), "several")
         return Outcome(None, label, "nothing", "undecided", None, None, None, reason, why=why)
+    if not own.equator.proven:
+        reason = say("no directions found")
+        return Outcome(None, "equator", "nothing", "undecided", None, None, None, reason, why="unfollowed")
     if cycle is None or cycle.neutral:
         reason = say("neutral equator")
         return Outcome(None, "equator", "nothing", "undecided", None, None, None, reason, why="neutral")

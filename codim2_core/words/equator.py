@@ -22,6 +22,10 @@ SENTENCES: dict[str, Sentence] = {
         "Every direction is a limit direction: Θ vanishes identically.", "Θ ≡ 0"
     ),
     "no equilibria": Sentence("No equilibria on the equator: it is a closed orbit.", "Θ has no zero"),
+    "no equilibria found": Sentence(
+        "No equilibria were found on the equator; that there are none is not proved.", "none, `proven` is False"
+    ),
+    "no more proved": Sentence("That there are no more is not proved.", "`proven` is False"),
     "equilibria": Sentence("{count} {noun} on the equator.", "all simple"),
     "equilibria, some degenerate": Sentence(
         "{count} {noun} on the equator, {some} of them degenerate.", "a multiple zero"

@@ -34,6 +34,13 @@ SENTENCES: dict[str, Sentence] = {
         "{which} radially neutral: to first order trajectories neither reach Σ nor leave it there.",
         "λ with index ρ is 0 within rounding",
     ),
+    "directions unproved": Sentence(
+        "These limit directions were found; that there are no more is not proved.",
+        "`EquatorEquilibria.proven` is False",
+    ),
+    "no directions found": Sentence(
+        "No limit direction was found; that there is none is not proved.", "none, `EquatorEquilibria.proven` is False"
+    ),
     # critical sets of the e-linear system
     "crossing": Sentence("There is no critical set, so nothing slides: what reaches Σ crosses it.", "|A⁻¹f| > 1"),
     "repelled": Sentence("There is no critical set, and nothing reaches Σ.", "|A⁻¹f| > 1, no direction attracts"),
@@ -52,8 +59,14 @@ SENTENCES: dict[str, Sentence] = {
     "unstable": Sentence("The critical set C is an {kind}: sliding along C itself is unstable.", "unstable"),
     "centre": Sentence("The critical set C is a centre to first order.", "tr J = 0 within rounding"),
     # critical sets of other systems
-    "no isolated set": Sentence("No isolated critical set inside.", "a curve of zeros, or the search gave up"),
+    "no isolated set": Sentence("No isolated critical set inside.", "a curve of zeros, or zeros on the equator"),
     "no critical set": Sentence("There is no critical set.", "U has no zero in the disc, proven"),
+    "no set found": Sentence(
+        "No critical set was found inside; that there is none is not proved.", "none, the search left something open"
+    ),
+    "sets unproved": Sentence(
+        "Critical sets found: {kinds}; that there are no more is not proved.", "some, the search left something open"
+    ),
     "none stable": Sentence("Critical sets: {kinds}. None is stable: sliding along them is not.", "none stable"),
     "one stable": Sentence("Critical sets: {kinds}. There is one way to slide stably along Σ.", "one stable"),
     "several stable": Sentence(

@@ -9,6 +9,7 @@ import math
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import codim2_core as c2
 from codim2_core import ELinear, psi
@@ -34,6 +35,9 @@ class Portrait:
     def slowest(self):
         """How slow the slowest thing on the equator is, of the speed: what is nearly degenerate takes too long."""
         rates = np.abs([*self.equator.lambda_rho, *self.equator.lambda_theta])
+        cycle = c2.equator_cycle(self.system, self.z)
+        if cycle is not None:
+            return abs(cycle.exponent)
         return float(rates.min()) / self.size if len(rates) else 1.0
 
     def ray(self, i):
@@ -47,10 +51,17 @@ class Portrait:
         return any(phase.t_start > 0.0 for phase in motion.phases) or "Σ" in motion.status.value
 
     def stays(self, angle):
-        """Largest |(x, y)|/eps late in the regularised motion from near Sigma at that angle."""
+        """Largest |(x, y)|/eps late in the regularised motion from near Sigma at that angle.
+
+        Late: well after the limit has come to Sigma, which a spiral does as slowly as its exponent says: a turn may
+        take it out tenfold before the next takes it in.
+        """
         start = (200 * EPS * math.cos(angle), 200 * EPS * math.sin(angle), *self.z)
-        motion = c2.simulate(self.system, self.psi, EPS, start, (0.0, 4e4 * EPS / self.size))
-        late = motion.times >= 0.6 * motion.times[-1]
+        limit = c2.simulate_nonsmooth(self.system, start, (0.0, 1e6 * EPS / self.size), psi=self.psi)
+        came = limit.phases[0].t_end
+        end = 1.2 * came + 4e4 * EPS / self.size
+        motion = c2.simulate(self.system, self.psi, EPS, start, (0.0, end), max_steps=400_000)
+        late = motion.times >= 1.2 * came + 0.4 * (motion.times[-1] - 1.2 * came)
         return float(np.hypot(*motion.states[late, :2].T).max()) / EPS
 
     def index(self, Q):
@@ -201,6 +212,10 @@ CLASSES = {
     "neutral directions": lambda p, f: np.testing.assert_allclose(
         [p.equator.lambda_rho[p.index(Q)] for Q in f["which"].split() if Q.startswith("Q")], 0.0, atol=1e-9 * p.size
     ),
+    "directions unproved": lambda p, _: np.testing.assert_allclose([p.equator.proven], [False]),
+    "no directions found": lambda p, _: (not p.equator.proven and not len(p.equator)) or pytest.fail("proven"),
+    "no set found": lambda p, _: p.critical and pytest.fail("there are critical sets"),
+    "sets unproved": kinds_of_general,
     "crossing": crossing,
     "repelled": repelled,
     "stable sliding": stable_sliding,
@@ -278,6 +293,7 @@ OUTCOMES = {
     "all directions": lambda p, _: p.equator.all_directions or pytest.fail("no"),
     "some lead": says("undecided", "several"),
     "at rest": says("undecided", "neutral"),
+    "no directions found": says("undecided", "unfollowed"),
     "neutral equator": says("undecided", "neutral"),
     "equator repels": lambda p, _: closed_unstable(p, {}),
     "slides": slides,
@@ -329,6 +345,27 @@ def test_of_every_portrait(name):
 @given(systems, regularisations)
 def test_of_random_systems(system, family):
     held(system, family)
+
+
+@settings(max_examples=FEW)
+@given(st.data(), regularisations)
+def test_of_random_systems_of_case_three(data, family):
+    a, d = data.draw(st.floats(0.5, 4.0)), -data.draw(st.floats(0.5, 4.0))
+    b = math.sqrt(-a * d) * data.draw(st.floats(1.05, 1.6))
+    modulus, angle = data.draw(st.floats(0.0, 0.8)), data.draw(st.floats(0.0, 6.28))
+    e = modulus * np.array([math.cos(angle), math.sin(angle)])
+    held(ELinear(a, b, d, tuple(-np.array([[a, -b], [b, d]]) @ e)), family)
+
+
+@pytest.mark.parametrize(
+    ("coefficients", "n"),
+    [
+        ((3.4802007, 3.86984481, -3.61166203, (0.03495135, 0.03385512)), 7),  # the spiral shrinks by a fifth in a turn
+        ((3.60161226, 4.86135258, -3.58835332, (2.76897393, 3.23009686)), 13),  # within a turn it grows tenfold
+    ],
+)
+def test_where_the_way_in_is_long(coefficients, n):
+    assert held(ELinear(*coefficients), psi.hill(n))
 
 
 DEGENERATE = {

@@ -1,7 +1,8 @@
-"""What stands still at one value of the parameter."""
+"""What stands still in a general system at one value of a parameter, and what is about to appear."""
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from functools import cached_property
 from typing import Any
@@ -15,9 +16,18 @@ from ...layer_problem.problem import LayerProblem
 from ...layer_problem.vary import varied
 from ...psi.function import Psi
 
+__all__ = ["State", "Turns"]
+
 Array = NDArray[np.float64]
+Turns = tuple[Array, Array]  # places (k, 2) in the closed disc, and sizes (k,)
+
 _ANGLES = 2.0 * np.pi * np.arange(256) / 256
 _CIRCLE = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=-1)
+_SIDE = 25
+_NET = np.stack(np.meshgrid(*2 * [np.linspace(-1.0, 1.0, _SIDE)]), axis=-1)  # of the disc, where |U| is looked at
+_WITHIN = np.hypot(_NET[..., 0], _NET[..., 1]) < 1.0 + 1.0 / _SIDE
+_POLISHES, _LONGEST, _ZERO, _STEP = 6, 0.1, 1e-9, 1e-4
+_STENCIL = _STEP * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
 
 
 class State:
@@ -34,17 +44,36 @@ class State:
         return self._problem.equator
 
     @cached_property
-    def near_direction(self) -> float:
-        """Smallest |Theta| at which it turns back before zero: where two limit directions are about to appear."""
+    def near_directions(self) -> Turns:
+        """Where |Theta| turns back before zero, and how large it is: there two limit directions may appear."""
         U = self._problem.at.U(_CIRCLE)
         value = _CIRCLE[:, 0] * U[:, 1] - _CIRCLE[:, 1] * U[:, 0]
         size, before, after = np.abs(value), np.roll(value, 1), np.roll(value, -1)
         turns = (size <= np.abs(before)) & (size <= np.abs(after)) & (before * value > 0.0) & (after * value > 0.0)
-        if not turns.any():
-            return float(size.max())
         # by the parabola through three samples
         rise, bend = np.abs(after) - np.abs(before), np.abs(before) - 2.0 * size + np.abs(after)
-        return float((size[turns] - rise[turns] ** 2 / (8.0 * np.maximum(bend[turns], 1e-300))).min())
+        return _CIRCLE[turns], (size - rise**2 / (8.0 * np.maximum(bend, 1e-300)))[turns]
+
+    @cached_property
+    def near_sets(self) -> Turns:
+        """Where |U| turns back before zero in the disc, and how large it is: there two critical sets may appear."""
+        at = self._problem.at
+        size = np.hypot(*np.moveaxis(at.U(_NET), -1, 0))
+        padded = np.pad(size, 1, constant_values=math.inf)
+        around = [padded[i : i + _SIDE, j : j + _SIDE] for i in range(3) for j in range(3) if (i, j) != (1, 1)]
+        e = _NET[(size <= np.min(around, axis=0)) & _WITHIN]
+        for _ in range(_POLISHES):
+            beside = e[:, None] + _STENCIL  # Newton on half the gradient of |U|^2, downhill
+            slope = np.einsum("knji,knj->kni", at.DU(beside), at.U(beside))
+            bend = (slope[:, 1:3] - slope[:, 3:]) / (2.0 * _STEP)
+            if not np.isfinite(bend).all():
+                return e[:0], np.zeros(0)
+            rate, way = np.linalg.eigh(bend + np.swapaxes(bend, 1, 2))
+            along = np.einsum("kji,kj->ki", way, slope[:, 0]) / np.maximum(0.5 * abs(rate), 1e-300)
+            e = e - np.einsum("kij,kj->ki", way, np.clip(along, -_LONGEST, _LONGEST))
+        left = np.hypot(*at.U(e).T)
+        turns = (np.hypot(*e.T) < 1.0) & (left > _ZERO * size.max())
+        return e[turns], left[turns]
 
     @property
     def critical(self) -> tuple[CriticalSet, ...]:
@@ -56,6 +85,14 @@ class State:
         """Of a closed equator; None where there is none."""
         cycle = self._problem.equator_cycle
         return None if cycle is None else cycle.exponent
+
+    @property
+    def plain(self) -> bool:
+        """Whether nothing is degenerate here within rounding."""
+        firm = self.equator.proven and not (
+            self.equator.radially_degenerate.any() or (self.equator.multiplicity > 1).any()
+        )
+        return firm and all(C.kind.split()[0] in ("stable", "unstable", "saddle") for C in self.critical)
 
     def part(self, i: int) -> Any:
         """Return what does not change along a piece: of the equator (0), critical sets (1), a closed equator (2)."""

@@ -15,11 +15,13 @@ PARTS = np.array([1e-4, 1e-2, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 0.9999])
 
 
 def standing(system, psi, name, value):
-    """How many limit directions, how many of them attract radially, and the kinds of the critical sets."""
+    """Limit directions, those that attract radially, the side that a closed equator attracts, and the critical sets."""
     at, psi_at, z = varied(system, psi, (), name, value)
-    equator = c2.equator_equilibria(at, z)
+    equator, closed = c2.equator_equilibria(at, z), c2.equator_cycle(at, z)
     kinds = sorted(C.kind for C in c2.critical_sets(at, psi_at, z))
-    return len(equator), int((equator.lambda_rho < 0.0).sum()), tuple(kinds)
+    return (
+        len(equator), int((equator.lambda_rho < 0.0).sum()), closed and closed.exponent < 0.0, tuple(kinds)
+    )  # fmt: skip
 
 
 def hidden(system, psi, name, span, closest):
@@ -88,3 +90,80 @@ def test_two_saddle_nodes_that_undo_each_other_within_a_step():
     special = diagram(c2.System(U=U, parameters={"p": 0.0}), c2.psi.tanh(), "p", (-1.5, 1.5)).special
     nodes = [s.value for s in special if s.kind == "saddle-node"]
     assert nodes[:2] == pytest.approx([-1.4280734, -1.4087529], abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("plane", "psi", "name", "value"),
+    [
+        ((1.094, 0.9558, -0.2416, -0.5848, -0.7059), c2.psi.tanh(), "d", -0.36815),
+        ((-1.3435, -1.6679, -0.0319, -0.2324, 0.22), c2.psi.hill(3), "d", 1.3503),
+        ((-0.243, -0.024, 0.097, -0.1191, 0.1874), c2.psi.exponential(), "b", 0.25205),
+    ],
+)
+def test_a_closed_equator_turns_its_stability_just_before_limit_directions_appear(plane, psi, name, value):
+    system = c2.ELinear(*plane[:3], plane[3:])
+    special = diagram(system, psi, name, (-3.0, 3.0)).special
+    assert min(abs(s.value - value) for s in special if s.kind == "neutral equator") < 2e-3
+    assert hidden(system, psi, name, (-3.0, 3.0), 4e-8) == []
+
+
+def test_changes_that_undo_each_other_within_a_step_among_others_that_nearly_do():
+    """Two folds of critical sets (with what lies between), and two node-focus points, each within a step."""
+    near_folds = typed((
+        "-0.0094*s + (0.164 + 0.5899*p)*s**3 + (-0.239 + 1.0019*p)*c + 2.5529*c*s + 1.2667*c*s**2 + 1.1103*c**3",
+        "-0.3792 - 2.1358*p + 0.0281*s - 1.3874*s**2 + (1.1104 + 0.6687*p)*s**3 + 0.2597*c + 1.6731*c*s + 0.809*c**2"
+        "- 1.0673*c**2*s + (-1.5946 + 2.2924*p)*c**3",
+    ))  # fmt: skip
+    assert hidden(near_folds, c2.psi.hill(2), "p", (-2.0, 2.0), 2e-7) == []
+    turning = typed((
+        "0.6191 + 0.292*s + (-1.544 - 0.9556*p)*s**2 - 0.4299*c + (-0.4696 - 0.0377*p)*c*s + (-0.5964 - 0.6446*p)*c**2",
+        "0.188 + (-0.4999 + 1.5421*p)*s + (0.3 - 0.2556*p)*s**2 - 1.235*c + (0.8791 + 0.5794*p)*c*s"
+        "+ (-1.2103 + 0.6786*p)*c**2",
+    ))  # fmt: skip
+    special = [s for s in diagram(turning, c2.psi.rational(), "p", (-2.0, 2.0)).special if -0.03 < s.value < 0.1]
+    assert [s.kind for s in special].count("node-focus") >= 2
+
+
+def typed(U, gap=0.0):
+    return c2.System(U=U, parameters={"p": 0.1, "g": gap})
+
+
+TURN = "((c-(1-p))*(c+(1-(p-g))))"  # Theta: limit directions appear at theta = 0 at p = 0, at theta = pi at p = g
+CLOSE = {
+    "fold of critical sets": (("((c-0.3)**2-p)*((c+0.3)**2-(p-g))", "s"), 0.0),
+    "saddle-node": ((f"-s*{TURN}-c", f"c*{TURN}-s"), 0.0),
+    "transcritical": (("(c-(1.11-p))*(c+(1.11+g-p))", "s"), 0.11),
+}
+
+
+@pytest.mark.parametrize("kind", CLOSE)
+@pytest.mark.parametrize("gap", [1e-4, 3e-8, 1e-9, 1e-10])
+def test_two_events_each_have_their_own_value_however_close(kind, gap):
+    U, first = CLOSE[kind]
+    special = diagram(typed(U, gap), c2.psi.constant(), "p", (-0.3, 0.4)).special
+    places = [(s.value - first) / gap for s in special if s.kind == kind]
+    assert places == pytest.approx([0.0, 1.0], abs=0.02 + 1e-12 / gap)
+
+
+@pytest.mark.parametrize("width", [0.02, 1e-3, 1e-5])
+@pytest.mark.parametrize("middle", [0.123, -0.456])
+def test_two_folds_that_undo_each_other_within_a_step(width, middle):
+    U = "s+0.2*p*c", f"(c-0.3)**2+(p-{middle})**2-{width}**2"
+    special = diagram(typed(U), c2.psi.constant(), "p", (-2.0, 2.0)).special
+    folds = [s.value for s in special if s.kind == "fold of critical sets"]
+    assert folds == pytest.approx([middle - width, middle + width], abs=1e-9)
+
+
+def test_two_folds_that_undo_each_other_beside_a_special_value():
+    """A critical set comes in over the equator at p = 0.69850; another pair is there from 0.69906 to 0.744 only."""
+    system = typed((
+        "-0.3168 + (-0.1579 + 0.27*p)*s + 1.9565*s**2 + (0.115 - 0.5393*p)*s**3 + (1.0919 - 0.3544*p)*c - 0.0204*c*s"
+        "+ 1.4397*c*s**2 + 0.5219*c**2 + (1.5321 + 1.7922*p)*c**2*s",
+        "1.8893 - 2.0319*p - 1.2819*s + 0.3261*s**2 + (0.4046 - 1.3064*p)*c - 0.7762*c*s + (0.7898 + 0.1294*p)*c*s**2"
+        "- 0.8687*c**2 + (0.6823 - 1.1556*p)*c**2*s + (-1.1112 + 1.5368*p)*c**3",
+    ))  # fmt: skip
+    special = diagram(system, c2.psi.hill(6), "p", (-2.0, 2.0)).special
+    assert [s.kind for s in special].count("fold of critical sets") == 2
+    for low, high in pairwise([0.6986, *(s.value for s in special if 0.6986 < s.value < 1.6), 1.6]):
+        x = low + (high - low) * PARTS[1:-1]
+        assert len({standing(system, c2.psi.hill(6), "p", float(v)) for v in x}) == 1

@@ -2,11 +2,16 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 
+import codim2_core as c2
 from codim2_core import ELinear, classify, psi
+from codim2_core.layer_problem.disc_zeros import disc_zeros
+from codim2_core.layer_problem.problem import LayerProblem
 from codim2_core.systems.typed import System
+from codim2_core.words import recognise
 from tests.core.general_systems import ATTRACTING, NONUNIQUE, polynomials
 from tests.core.strategies import regularisations, systems
 
@@ -110,3 +115,35 @@ def test_the_unit_of_time_changes_nothing(k):
     )
     assert "fold" in names(f"{k}*c**2", f"{k}*(s - 1/7)")
     assert names(f"{k}*(-c*(1 + c*s))", f"-{k}*s*(1 + c*s)") == ["all directions"]
+
+
+WILD = {
+    "directions": c2.System(U=("sin(1000000*c) - c", "s")),  # some million zeros of Theta
+    "kinks": c2.System(U=("-c/(1 + abs(s)) + 0.1", "-abs(s)*s - c/2")),
+    "sets": c2.System(U=("c/(1/3 + s) - 1", "exp(c) - 1.2 + s")),
+}
+
+
+@pytest.mark.parametrize("name", WILD)
+def test_what_is_not_proved_is_said_to_be_found(name):
+    system = WILD[name]
+    problem = LayerProblem(system.at(), c2.psi.tanh())
+    sets = disc_zeros(system.at().key)
+    found = c2.classify(system, c2.psi.tanh())
+    first, second = found.name.split(", ")
+    assert not (problem.equator.proven and sets.proven)
+    assert (first.endswith(" found"), second.endswith(" found")) == (not sets.proven, not problem.equator.proven)
+    unproved = [key for key, _ in recognise(found.sentence) if key.endswith(("unproved", "found"))]
+    assert len(unproved) == (not sets.proven) + (not problem.equator.proven)
+    assert problem.equator.summary.endswith("not proved.") != problem.equator.proven
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_next_to_a_pitchfork_rounding_makes_no_limit_directions(side):
+    """sec:nonunique: 8 limit directions, or 4; within rounding two triple zeros. No more, unless called unproved."""
+    for distance in np.geomspace(1e-13, 1e-7, 60):
+        equator = c2.equator_equilibria(c2.examples.nonunique_sliding(), (2**-0.25 + side * distance,))
+        count = len(equator) if distance > 3e-9 or equator.proven else 4
+        assert count in ((8, 4) if side < 0 else (4, 5))
+        if distance < 3e-11:
+            assert equator.multiplicity.tolist() == [3, 1, 3, 1]
