@@ -462,3 +462,30 @@ test("the panel time: play takes nine seconds for the whole motion, and begins a
   one.panels.show("", one.values)
   assert.deepEqual(one.said(), [["trace", null]])
 })
+
+// --- axes
+test("the panel diagram: a part of a range in six steps, and a list of axes that keeps the chosen one", () => {
+  const one = opened("diagram", {along: "own:mu", f1: 2.5, n: 3, zoom: 0, "own:mu": 0.5})
+  one.frame({...AXES, diagram: {...DIAGRAM, control: "own:mu"}})
+  const options = () => one.all("select.along option").map((option) => [option.getAttribute("value"), option.textContent, option.hasAttribute("selected")])
+  assert.deepEqual(options(), [["own:mu", "μ", true], ["f1", "f₁", false], ["n", "n", false]])
+  one.values.along = "n"
+  one.frame(AXES)
+  assert.deepEqual(options(), [["f1", "f₁", false], ["n", "n", true]])
+  one.values.along = "own:<x"
+  one.frame(AXES)
+  assert.deepEqual(options()[0][1], "<x")
+  const [wider, narrower] = [one.find(".zoom .out"), one.find(".zoom .in")]
+  const zoomed = (button, zoom) => { one.set({zoom}); one.said(); one.fire(button, "click"); return [one.said().map(([, , to]) => to)[0], wider.disabled, narrower.disabled] }
+  assert.deepEqual(zoomed(narrower, 0), [1, false, false])
+  assert.deepEqual(zoomed(narrower, 5), [6, false, true])
+  assert.deepEqual(zoomed(narrower, 6), [6, false, true])
+  assert.deepEqual(zoomed(wider, 6), [5, false, false])
+  assert.deepEqual(zoomed(wider, 1), [0, true, false])
+  assert.deepEqual(zoomed(wider, 0), [0, true, false])
+  one.setters.along("f1")
+  assert.equal(one.find("select.along").value, "f1")
+  one.find("select.along").value = "n"
+  one.fire(one.find("select.along"), "change")
+  assert.deepEqual(one.said().at(-1), ["choose", "along", "n"])
+})
