@@ -56,7 +56,7 @@ class Results:
         """Keep a result, and forget those not used for longest."""
         self.size -= self._kept.pop(key, (None, 0))[1]
         size = _size(result)
-        if size > self.most_bytes:
+        if size is None or size > self.most_bytes:
             return
         self._kept[key] = result, size
         self.size += size
@@ -64,11 +64,12 @@ class Results:
             self.size -= self._kept.popitem(last=False)[1][1]
 
 
-def _size(result: Any) -> int:
+def _size(result: Any) -> int | None:
+    """Return about how many bytes a result holds; what cannot be sent by a process has no size that is known."""
     try:
         return len(pickle.dumps(result, pickle.HIGHEST_PROTOCOL))
-    except Exception:
-        return 100_000
+    except (pickle.PicklingError, TypeError, AttributeError):
+        return None
 
 
 @dataclass(eq=False)

@@ -116,6 +116,10 @@ class Page(DocHandler):
         before, after = skeleton.replace(TOKEN, token).split(MARKUP)
         self.finish(before + self._notice() + markup_of(query) + after)
 
+    async def head(self, *args: Any, **kwargs: Any) -> None:
+        """Answer a probe as `get` does, without the page."""
+        await self.get(*args, **kwargs)
+
     async def _skeleton(self) -> str | None:
         """Return the page without what is a visitor's own; the first one is made with a session."""
         app: Any = self.application

@@ -119,3 +119,5 @@ def test_results_are_bounded_in_number_and_in_size():
     kept.put("too big", b"x" * 20_000)
     assert kept.get("too big") is None
     assert kept.get(("big", 19)) is not None
+    kept.put("of unknown size", lambda: 1)
+    assert kept.get("of unknown size") is None

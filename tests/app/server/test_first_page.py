@@ -47,6 +47,12 @@ def test_a_page_makes_no_session_and_the_websocket_does(address):
     assert '["a",-1' in json.dumps(document).replace(" ", "")  # the address went with the token
 
 
+def test_a_probe_is_answered_without_the_page(address):
+    with urlopen(Request(address, method="HEAD")) as answer:
+        assert (answer.status, answer.read()) == (200, b"")
+        assert answer.headers["Content-Type"].startswith("text/html")
+
+
 def test_headers_allow_this_origin_and_tell_nothing(address):
     page, headers = opened(address)
     said = headers["Content-Security-Policy"]
