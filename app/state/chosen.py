@@ -129,7 +129,7 @@ def _typed(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
     names: list[str] = []
     for text in (*boxes.values(), *definitions.values()):
         for word in re.findall(r"(?<![\w.])[A-Za-z]\w*", text, re.ASCII):
-            if word not in known and word not in names:
+            if word not in known and word not in names and word.lower() != "theta":  # the reader says: write c
                 names.append(word)
     if len(names) > MOST_PARAMETERS:
         shown = ", ".join(names[:6])

@@ -4,6 +4,8 @@ import {sidewaysOnly} from "./gestures.js"
 import {roundUp} from "./ranges.js"
 import {escape, plain} from "./words.js"
 
+const LONG = 160 // characters of an error that are shown at once
+
 export class NumberControl {
   constructor(box, range, onValue) {
     this.box = box
@@ -50,11 +52,24 @@ export class NumberControl {
   say(sentence) { sayAt(this.box, sentence) }
 }
 
+// What a long sentence says first, and what stands behind "more": the list of what is allowed, or what follows it.
+export function folded(sentence) {
+  const listed = sentence.match(/^(.*?\.) (Allowed are .*?\.)(?: (Mend: .*))?$/s)
+  if (listed) return [[listed[1], listed[3]].filter(Boolean).join(" "), listed[2]]
+  const end = sentence.length > LONG ? sentence.indexOf(". ", 40) : -1
+  return end < 0 ? [sentence, ""] : [sentence.slice(0, end + 1), sentence.slice(end + 2)]
+}
+
 export function sayAt(box, sentence) {
   const error = box.querySelector(".error")
   box.classList.toggle("bad", Boolean(sentence))
   if (!error) return
-  error.textContent = sentence ?? ""
+  const [told, rest] = folded(sentence ?? "")
+  if (error.dataset.said !== sentence) {
+    error.textContent = told
+    if (rest) error.insertAdjacentHTML("beforeend", ` <details><summary>more</summary>${escape(rest)}</details>`)
+    error.dataset.said = sentence ?? ""
+  }
   error.hidden = !sentence
 }
 

@@ -68,3 +68,9 @@ def test_text_that_cannot_be_used_names_its_box_and_column(choice, texts, box, c
 def test_boxes_that_were_not_touched_keep_their_text():
     assert texts_of(OWN, {"U2": "-s"})["U1"] == BOXES[OWN][0].text
     assert texts_of("normal", {}) == {}
+
+
+@pytest.mark.parametrize("text", ["theta", "-sin(theta)", "Theta*c"])
+def test_theta_is_no_slider_but_says_write_c(text):
+    with pytest.raises(TextError, match="write c for cos"):
+        build(OWN, {"U1": text}, {})

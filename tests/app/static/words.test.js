@@ -36,7 +36,7 @@ test("a ball slides and, in the words of mechanics, sticks and rolls", () => {
 
 test("what the browser says of a system stands in one place", () => {
   const folder = new URL("../../../app/static/", import.meta.url)
-  const files = readdirSync(folder, {recursive: true}).filter((name) => /^(panels\/.*|inspector|picture|system)\.js$/.test(name))
+  const files = readdirSync(folder, {recursive: true, encoding: "utf8"}).filter((name) => /^(panels\/.*|inspector|picture|system)\.js$/.test(name))
   assert.ok(files.length > 10)
   for (const name of files) {
     const source = readFileSync(new URL(name, folder), "utf8").replace(/^\s*(\/\/|\*|\/\*).*$/gm, "")
