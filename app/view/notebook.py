@@ -53,6 +53,11 @@ def explorer(
     ValueError
         A name or a value is not allowed, or the system cannot be evaluated.
 
+    Notes
+    -----
+    With ``panel.config.comms = "ipywidgets"`` the notebook's file keeps the libraries, 7 MB once a kernel, and no
+    picture: a page in which no kernel runs shows nothing. Tried in JupyterLab only.
+
     Examples
     --------
     >>> view = explorer(a=-1, b=1, d=-1, f=(0, 0))
