@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 PIXEL = 1.0 / 180.0
+LEAST_PIXEL = 1e-10  # a line within a quarter of it has some 1e5 points
 STEP_LIMIT = 10_000
 
 
@@ -37,7 +38,7 @@ class Stepping:
         _positive(self.rtol, "rtol", "give a relative tolerance from 1e-14 to 0.1", 1e-14, 0.1)
         _positive(self.atol, "atol", "give an absolute tolerance from 1e-15 to 0.1", 1e-15, 0.1)
         _positive(self.view, "view", "give the finite half-width of the view, greater than 1 (the equator)", 1.0)
-        _positive(self.pixel, "pixel", "give the size of a pixel in picture units, up to 1", high=1.0)
+        _positive(self.pixel, "pixel", "give the size of a pixel in picture units, from 1e-10 to 1", LEAST_PIXEL, 1.0)
         if self.capture is not None:
             _positive(self.capture, "capture", "give a distance from an attractor, up to 0.1; or None", high=0.1)
         if not self.length > 0.0:

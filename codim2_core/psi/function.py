@@ -291,8 +291,8 @@ def _apply(function: Any, x: Any, what: str, most: float, rule: str, *more: Any)
     if type(x) is not float:
         try:
             x = np.asarray(x, float)
-        except (TypeError, ValueError) as error:
-            raise ValueError(f"{what} is {x!r}; give numbers, {rule}.") from error
+        except (TypeError, ValueError, OverflowError) as error:
+            raise ValueError(f"{what} is {repr(x)[:60]}; give numbers, {rule}.") from error
         if x.ndim:
             if x.size and not (x.min() >= 0.0 and x.max() <= most):
                 found = _culprit(x, lambda v: (v >= 0.0) & (v <= most))

@@ -14,8 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import number, whole
 from ..layer_problem.critical import shown
 from ..layer_problem.problem import LayerProblem, Result
+from ..orbits.options import LEAST_PIXEL
 from ..orbits.seeds import checked_seeds
 from ..psi import constructors
 from ..psi.function import Psi
@@ -24,6 +26,8 @@ from ..systems.frozen import AtZ
 from ..systems.kinds import KINDS, AnySystem
 from .layer_table import ELINEAR_ONLY, FOUND_BY, INPUTS, layers
 from .memory import Memory
+
+MOST_SEEDS = 20_000
 
 _PARAMETERS = (
     "system", "psi", "z", "seeds", "count", "launch", "t_max", "length", "rtol", "atol", "view", "pixel", "window"
@@ -111,22 +115,23 @@ class Scene:
             psi = constructors.constant()
         if not isinstance(psi, Psi):
             raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
-        if not (np.isfinite(view) and view > 1.0):
+        view, pixel, count = number("view", view), number("pixel", pixel), whole("count", count, MOST_SEEDS)
+        if not view > 1.0:
             raise ValueError(f"view is {view}; give a finite radius greater than 1 (the equator).")
-        if not (np.isfinite(pixel) and 0.0 < pixel < 1.0):
-            raise ValueError(f"pixel is {pixel}; give the size of a pixel in picture units, in (0, 1).")
+        if not LEAST_PIXEL <= pixel < 1.0:
+            raise ValueError(f"pixel is {pixel}; give the size of a pixel in picture units, from 1e-10 to 1.")
         self.system: AnySystem = system
         self.psi: Psi = psi
         self.z = slow_values(z, system.m, needed=False) if not system.frozen else ()
         self.seeds = None if seeds is None else checked_seeds(seeds)
         self.launch = checked_seeds(launch)
-        self.count, self.rtol, self.atol = count, float(rtol), float(atol)
-        self.t_max, self.length = None if t_max is None else float(t_max), float(length)
+        self.count, self.rtol, self.atol = count, number("rtol", rtol), number("atol", atol)
+        self.t_max, self.length = None if t_max is None else number("t_max", t_max), float(length)
         if window is not None and not (
             len(window) == 4 and np.isfinite(window).all() and window[0] < window[1] and window[2] < window[3]
         ):
             raise ValueError(f"window is {window}; give finite left < right and bottom < top.")
-        self.view, self.pixel, self.window = float(view), float(pixel), window
+        self.view, self.pixel, self.window = view, pixel, window
         self.coefficients: AtZ = system.at(self.z)
         self._memory = Memory() if _memory is None else _memory
         self._own: dict[str, Any] = {}

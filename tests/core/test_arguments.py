@@ -187,3 +187,44 @@ def test_classes_tell_wrong_values_too(make):
 
 def test_each_kind_of_argument_has_one_check():
     assert set(BY_NAME).isdisjoint(BY_ANNOTATION)
+
+
+PLAIN = c2.ELinear(-1.0, 0.0, -1.5, (-0.3, 0.0))
+SIZES = {
+    "trajectories, pixel": lambda v: c2.trajectories(PLAIN, c2.psi.tanh(), [[0.1, 0.2], [1.2, 0.0]], pixel=v),
+    "trajectories, view": lambda v: c2.trajectories(PLAIN, c2.psi.tanh(), [[0.1, 0.2], [1.2, 0.0]], view=v),
+    "trajectories, t_max": lambda v: c2.trajectories(PLAIN, c2.psi.tanh(), [[0.1, 0.2], [1.2, 0.0]], t_max=v),
+    "trajectories, seeds": lambda v: c2.trajectories(PLAIN, c2.psi.tanh(), [[v, 0.2]]),
+    "separatrices, pixel": lambda v: c2.separatrices(PLAIN, c2.psi.tanh(), pixel=v),
+    "separatrices, tolerance": lambda v: c2.separatrices(PLAIN, c2.psi.tanh(), tolerance=v),
+    "nullclines, view": lambda v: c2.nullclines(PLAIN, c2.psi.tanh(), view=v),
+    "scene, pixel": lambda v: c2.Scene(PLAIN, c2.psi.tanh(), pixel=v)["separatrices"],
+    "scene, view": lambda v: c2.Scene(PLAIN, c2.psi.tanh(), view=v)["nullclines_outside"],
+    "scene, count": lambda v: c2.Scene(PLAIN, c2.psi.tanh(), count=v)["inside"],
+    "simulate, eps": lambda v: c2.simulate(PLAIN, c2.psi.tanh(), v, (0.1, 0.2), (0.0, 1.0)),
+    "simulate, time": lambda v: c2.simulate(PLAIN, c2.psi.tanh(), 1e-3, (0.1, 0.2), (0.0, v)),
+    "simulate_nonsmooth, time": lambda v: c2.simulate_nonsmooth(PLAIN, (0.1, 0.2), (0.0, v)),
+    "hill": lambda v: c2.limit_cycles(c2.presets["case3-n2"].system, c2.psi.hill(v)),
+    "basins": lambda v: c2.basins(PLAIN, c2.psi.tanh(), n=v),
+    "slow_portrait": lambda v: c2.slow_portrait(c2.examples.nonunique_sliding(), c2.psi.tanh(), (-v, v)),
+    "psi": c2.psi.tanh(),
+    "psi.modulus": c2.psi.tanh().modulus,
+    "psi.radius": c2.psi.tanh().radius,
+}
+
+
+@pytest.mark.parametrize("name", SIZES)
+@pytest.mark.parametrize(
+    "size",
+    [1e-300, 1e99, -1e99, np.nan, np.inf, 10**18, 10**400],
+    ids=["tiny", "1e99", "-1e99", "nan", "inf", "1e18", "beyond"],
+)
+def test_a_size_without_measure_is_answered_or_refused_in_one_sentence(name, size):
+    told = "."
+    with bounded(60.0):
+        try:
+            SIZES[name](size)
+        except ValueError as error:
+            told = str(error)
+    assert len(told) < 300
+    assert told.endswith((".", "…"))
