@@ -18,7 +18,7 @@ from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..words import say
 from .orbit import Orbit, orbit
-from .resolution import UNRESOLVED, Samples, counted, zeros
+from .resolution import NEAR_FOLD, UNRESOLVED, Samples, counted, near_fold, zeros
 from .section import FINE, Crossing
 from .turn_section import Array, TurnSection
 
@@ -106,6 +106,9 @@ def _searched(section: TurnSection) -> tuple[list[Crossing], list[str]]:
         if band:
             notes.append(BAND_NOTE)
         if not backward:
+            gap = near_fold(samples.q, shift, samples.noise)
+            if gap < NEAR_FOLD:
+                notes.append(say("near a fold", gap=gap))
             out += [Crossing(float(xi[i]), touching=True) for i in touching]
         for i, j in changes:
             if shift[i] > 0.0 and np.isfinite(shift[[i, j]]).all():  # attracting

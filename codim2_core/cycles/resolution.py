@@ -11,6 +11,7 @@ What is hidden in a part that four samples on either side do not show at all is 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from itertools import pairwise
 from typing import Protocol
@@ -33,6 +34,8 @@ BAND = 0.05  # width in q of an interval of fixed points that is no fold
 STEEP = 1e-3  # change of the displacement
 MOST, ROUNDS = 900, 24  # samples in all; rounds
 UNDECIDED = 0.25  # share of undecided samples at which looking closer is in vain
+NEAR_FOLD = 1e-6  # displacement at an extremum: a pair of cycles there is not told from none with certainty
+RISE = 10.0  # times its noise, by which a sample differs from another
 _INSIDE = np.linspace(0.0, 1.0, PARTS + 1)
 
 
@@ -235,3 +238,27 @@ def counted(count: int, way: str, about: str = "") -> str:
     """Say how many limit cycles were found, and by which way: "section" or "turn"."""
     found = "no cycle" if not count else "one cycle" if count == 1 else "cycles"
     return say(f"{found}, {way}", count=count, about=about)
+
+
+def near_fold(q: Array, shift: Array, noise: Array) -> float:
+    """Return the smallest size of the displacement at one of its extrema, to within its noise; inf if it has none.
+
+    Extrema of three neighbouring samples by their parabola; where several in a row are zero within noise, and those
+    beside them have one sign, the largest of the row.
+    """
+    with np.errstate(invalid="ignore"):
+        left, right = np.diff(shift)[:-1], np.diff(shift)[1:]
+        rise = np.maximum(abs(left), abs(right))
+        at = np.flatnonzero(np.isfinite(rise) & (left * right <= 0.0) & (rise > RISE * noise[1:-1]))
+    u, v = q[at] - q[at + 1], q[at + 2] - q[at + 1]
+    first, second = -left[at] / u, right[at] / v
+    bend, slope = (second - first) / (v - u), (first * v - second * u) / (v - u)
+    turned = np.where(bend == 0.0, 0.0, slope * slope / (4.0 * np.where(bend == 0.0, 1.0, bend)))
+    least = float(abs(shift[at + 1] - turned).min(initial=math.inf))
+    flat = np.concatenate([[False], np.abs(shift) <= RISE * noise, [False]]).astype(np.int8)
+    edges = np.flatnonzero(np.diff(flat))
+    for low, high in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        beside = shift[[low - 1, high]] if low > 0 and high < len(shift) else np.zeros(1)
+        if np.isfinite(beside).all() and beside.min() * beside.max() > 0.0:
+            least = min(least, float(np.abs(shift[low:high]).max()))
+    return least

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from ..words import say
-from .resolution import UNRESOLVED, Samples, zeros
+from .resolution import NEAR_FOLD, UNRESOLVED, Samples, near_fold, zeros
 from .section import COARSE, FINE, INNER, Array, Crossing, Section
 
 TOUCHING = 1e-9  # noise with which a fold can be told: not so near C that all displacements are small
@@ -151,6 +151,9 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
     found += [Crossing(float(xi[i]), touching=True) for i in touching if noise[i] < TOUCHING]
     last = shift[:-1][finite[:-1] & (shift[1:] == np.inf)]
     notes += [say("near a loop", gap=y) for y in last.tolist() if abs(y) < NEAR_LOOP]
+    gap = near_fold(q, shift, noise)
+    if gap < NEAR_FOLD:
+        notes.append(say("near a fold", gap=gap))
     trace = section.critical.trace
     if finite.any() and finite[0] and section.critical.discriminant < 0.0 and shift[0] * trace < 0.0:
         newborn = _newborn(section)

@@ -77,6 +77,11 @@ SENTENCES: dict[str, Sentence] = {
         "beyond it orbits go to the equator.",
         "the last orbit that returns",
     ),
+    "near a fold": Sentence(
+        "Near a fold of cycles: at an extremum the return map is within {gap:.1e} of its diagonal (in the logarithm "
+        "of the distance). Whether there are two cycles or none is undecided within that.",
+        "an extremum of the displacement near zero",
+    ),
     "too small, about C": Sentence(
         "A cycle too small to resolve surrounds C: it was just born in a Hopf bifurcation.",
         "just past a Hopf bifurcation",
