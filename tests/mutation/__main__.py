@@ -24,7 +24,7 @@ from typing import Any
 from . import javascript, record
 from .mutants import Mutant, mutants
 from .session import Job, preload, run
-from .targets import ROOT, explained, guards, is_kernel, modules, room
+from .targets import ROOT, explained, front_end, guards, is_kernel, modules, room
 
 
 @dataclass
@@ -137,7 +137,7 @@ def attempt(task: tuple) -> list[Count]:
 
 def meant(names: list[str]) -> list[str]:
     """Modules and files that the names of the command mean; all of them without any."""
-    known = [*modules(), *javascript.files()]
+    known = [*modules(), *front_end()]
     found = []
     for name in names or ["core", "app", "static"]:
         fulls = (name, f"core.{name}")

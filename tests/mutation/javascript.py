@@ -35,11 +35,6 @@ class Mutant(NamedTuple):
         return f"{self.line}: {self.before}  →  {self.after}"
 
 
-def files() -> list[str]:
-    """All modules, as ``static/NAME.js``."""
-    return [path.relative_to(STATIC.parent).as_posix() for path in sorted(STATIC.rglob("*.js"))]
-
-
 def mutants(name: str) -> list[Mutant]:
     """All mutants of a module.
 

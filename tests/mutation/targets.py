@@ -49,6 +49,12 @@ def modules() -> dict[str, Path]:
     return found
 
 
+def front_end() -> dict[str, Path]:
+    """All modules of the browser's half, as ``static/NAME.js``."""
+    app = ROOT / "app"
+    return {path.relative_to(app).as_posix(): path for path in sorted((app / "static").rglob("*.js"))}
+
+
 def room(module: str) -> str:
     """``core.ROOM`` of ``core.ROOM.NAME``."""
     return ".".join(module.split(".")[:2])
@@ -200,6 +206,13 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.cycles.first_turns", "8  →  9", "How many samples show that all orbits are closed, at least."),
     Lives("core.cycles.first_turns", "left - right  →  left", "The interval is 1e-13 wide by then."),
     Lives("core.cycles.orbit", "way is not None and math.dist", "Once more round than needed: the same orbit."),
+    Lives("static/cell.js", "0  →  1", "A millisecond more is waited."),
+    Lives("static/chart/chart.js", "26  →  27", "From where on a name stands below: a pixel."),
+    Lives("static/hands.js", "0  →  1", "Where the orbit would be: only how many there are is asked for."),
+    Lives("static/panels/along.js", "!this.box.hidden  →", "Drawn once more, or with the next change: the same."),
+    Lives("static/panels/diagram.js", "8  →  9", "A ninth digit of what has been rounded."),
+    Lives("static/panels/numbers.js", "0.1  →  0.125", "The axis shows at least −4 to 4."),
+    Lives("static/panels/psi.js", "1.05 *", "How much room there is above a curve."),
     Lives("core.sliding.filippov", "np.minimum(weighed, 0.0)", "Newton's method fails, and the weights are balanced."),
 )
 

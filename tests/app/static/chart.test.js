@@ -26,6 +26,7 @@ test("ticks are round, within the span, two or more, and not too many", () => {
   }
   assert.deepEqual(ticks([-4, 4], 5).values, [-4, -2, 0, 2, 4])
   assert.deepEqual(ticks([1, 1], 5).values, [])
+  assert.deepEqual(ticks([0.05, 0.25], 2), {values: [0.1, 0.2], step: 0.1})
 })
 
 test("ticks are written with as many decimals as they need, and a real minus", () => {

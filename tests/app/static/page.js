@@ -34,7 +34,11 @@ export function page(body = "", more = {}) {
   const cancel = (id) => { waiting.delete(id) }
   const every = (go, ms) => after(() => { go(); every(go, ms) }, ms)
   const heard = {} // listeners of the window
-  const listens = {addEventListener: (type, go) => { (heard[type] ??= []).push(go) }, removeEventListener: (type, go) => { heard[type] = (heard[type] ?? []).filter((it) => it !== go) }}
+  const how = new Map() // each listens: one is taken away only as it was given
+  const listens = {
+    addEventListener: (type, go, as) => { how.set(go, as); (heard[type] ??= []).push(go) },
+    removeEventListener: (type, go, as) => { if (how.get(go) === as) heard[type] = (heard[type] ?? []).filter((it) => it !== go) },
+  }
   dress(window, document)
   const given = {
     document, window: {...listens, document, history: browsed()}, devicePixelRatio: 1,

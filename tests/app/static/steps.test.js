@@ -91,6 +91,31 @@ test("a list of steps is bounded, the oldest go", () => {
   assert.equal(kept.canRedo, false)
 })
 
+test("one step can be undone and redone, and none beyond", () => {
+  const kept = new Listed({value: 0}), seen = []
+  const go = (by) => { kept.go(by, ({value}) => seen.push(value)); return [kept.canUndo, kept.canRedo] }
+  assert.deepEqual([kept.canUndo, kept.canRedo, go(-1), go(1)], [false, false, [false, false], [false, false]])
+  kept.add({value: 1})
+  assert.deepEqual([kept.canUndo, kept.canRedo], [true, false])
+  assert.deepEqual([go(1), go(-1), go(-1), go(1)], [[true, false], [false, true], [false, true], [true, false]])
+  assert.deepEqual(seen, [0, 1])
+})
+
+test("an entry of the browser's history knows its number, and how far it goes on", () => {
+  const history = browser(), kept = new Browsed({value: 0}, history, () => "?")
+  const state = () => { const {at, last, snapshot} = history.state.codim2; return [at, last, snapshot.value] }
+  assert.deepEqual(state(), [0, 0, 0])
+  kept.add({value: 1}); kept.add({value: 2})
+  assert.deepEqual(state(), [2, 2, 2])
+  history.heard = (given) => kept.arrived(given, () => {})
+  kept.go(-1)
+  assert.deepEqual(state(), [1, 2, 1])
+  kept.arrived(null, assert.fail)
+  kept.arrived({other: 1}, assert.fail)
+  kept.add({value: 5})
+  assert.deepEqual([...state(), kept.canRedo], [2, 2, 5, false])
+})
+
 test("in the page Back and Forward walk the same steps, and each has its link", () => {
   const time = clock(), history = browser()
   const {seen, steps, set} = made(new Browsed({value: 0}, history, (snapshot) => `?v=${snapshot.value}`), time)

@@ -432,7 +432,9 @@ test("a place of the window is a place of the picture within the frame, and nowh
   assert.deepEqual(under(10, 20), [-1.75, 1.75, 0.01])
   assert.deepEqual(under(360, 370), [1.75, -1.75, 0.01])
   assert.deepEqual(under(235, 170), [0.5, 0.25, 0.01])
-  for (const [x, y] of [[9.9, 100], [360.1, 100], [100, 19.9], [100, 370.1]]) assert.equal(under(x, y), null, `${x}, ${y}`)
+  picture.drawn.view.plot_view.canvas_view.el.getBoundingClientRect = () => ({left: 40, top: 30}) // it is not at the corner of the window
+  assert.deepEqual(under(275, 200), [0.5, 0.25, 0.01])
+  for (const [x, y] of [[49.9, 100], [400.1, 100], [100, 49.9], [100, 400.1]]) assert.equal(under(x, y), null, `${x}, ${y}`)
 })
 
 test("what is seen is the whole picture only if all four edges are where they were", () => {
