@@ -11,6 +11,7 @@ from typing import Any
 import codim2_core as c2
 from codim2_core.paper import cite
 from codim2_core.psi import FAMILIES, make
+from codim2_core.words import number, subscript
 
 
 def add_classify(commands: Any) -> None:
@@ -111,10 +112,16 @@ def classify(chosen: argparse.Namespace) -> int:
     for item in found.degeneracies:
         print(f"  {item.name}: {item.sentence}")
     for i, theta in enumerate(equator.theta.tolist()):
-        print(f"  Q{i + 1}: θ = {theta:.6g}, λ_ρ = {equator.lambda_rho[i]:.6g}, λ_θ = {equator.lambda_theta[i]:.6g}")
+        rates = f"λ_ρ = {_six(equator.lambda_rho[i])}, λ_θ = {_six(equator.lambda_theta[i])}"
+        print(f"  Q{subscript(i + 1)}: θ = {_six(theta)}, {rates}")
     for C in critical:
-        print(f"  C: e = ({C.e[0]:.6g}, {C.e[1]:.6g}), {C.kind}, tr J = {C.trace:.6g}, det J = {C.determinant:.6g}")
+        place = f"e = ({_six(C.e[0])}, {_six(C.e[1])})"
+        print(f"  C: {place}, {C.kind}, tr J = {_six(C.trace)}, det J = {_six(C.determinant)}")
     return 0
+
+
+def _six(value: float) -> str:
+    return number(float(value), 6)
 
 
 def presets(chosen: argparse.Namespace) -> int:

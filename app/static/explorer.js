@@ -24,7 +24,7 @@ function wire({model, view, root, plot}) {
   const values = {...config.values}
   const rest = new Rest(root)
   const picture = new Picture(plot, config, rest, () => requests.rest())
-  const inspector = new Inspector(root)
+  const inspector = new Inspector(root, () => config.slowSymbols ?? [])
   const find = (name) => root.querySelector(name)
   const requests = new Requests((request) => { picture.asked = String(picture.window); model.send_msg({...request, window: picture.window}) }, () => rest.note("asked", true))
   const controls = {}

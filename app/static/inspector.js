@@ -4,7 +4,9 @@ import {put, say} from "./dom.js"
 import {escape, slowWords} from "./words.js"
 
 export class Inspector {
-  constructor(root) {
+  /** @param {() => string[]} symbols of the slow variables of the present system */
+  constructor(root, symbols = () => []) {
+    this.symbols = symbols
     this.find = (name) => root.querySelector(name)
   }
 
@@ -25,7 +27,7 @@ export class Inspector {
 
   // One line that is always in view.
   slowLine(flow) {
-    const words = flow?.length ? slowWords(flow) : null
+    const words = flow?.length ? slowWords(flow, this.symbols()) : null
     say(this.find(".slow-line"), words ? `${words.flow} on C, ${words.sense}` : "")
   }
 }

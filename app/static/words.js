@@ -43,8 +43,8 @@ export const SAYS = {
 // The slow flow on C by its parts: ⊙ and ⊗ are of the first slow variable, which is said where there are others.
 export function slowWords(flow, symbols = []) {
   const name = (i) => symbols.length >= flow.length ? symbols[i] : (flow.length > 1 ? `z${"₁₂₃₄₅₆₇₈₉"[i] ?? i + 1}` : "z")
-  const of = flow.length > 1 ? ` (${name(0)} only)` : ""
-  const sense = !flow[0] ? flow.some(Boolean) ? `${name(0)} at rest` : "at rest" : flow[0] > 0 ? `⊙ out of the page: ${name(0)} grows${of}` : `⊗ into the page: ${name(0)} falls${of}`
+  const of = flow.length > 1 ? `, of ${name(0)} only` : ""
+  const sense = !flow[0] ? flow.some(Boolean) ? `${name(0)} at rest` : "at rest" : flow[0] > 0 ? `⊙ out of the page${of}: ${name(0)} grows` : `⊗ into the page${of}: ${name(0)} falls`
   return {flow: flow.map((v, i) => `${name(i)}′ = ${digits(v)}`).join(", "), sense}
 }
 
