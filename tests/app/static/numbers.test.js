@@ -90,7 +90,7 @@ test("a name stands close beside its point, to the right and above first", () =>
 
 test("round ends, exactly where they change", () => {
   assert.deepEqual([1, 1.66, 1.67, 4.1, 4.2].map(roundUp), [2, 2, 5, 5, 10])
-  assert.deepEqual([1, 1.3, 1.4, 1.78, 1.8, 8, 8.9].map(reachFor), [1.5, 1.5, 2, 2, 3, 10, 10])
+  assert.deepEqual([1, 1.3, 1.4, 1.78, 1.8, 3, 4, 5, 6, 8, 8.9].map(reachFor), [1.5, 1.5, 2, 2, 3, 4, 5, 6, 8, 10, 10])
 })
 
 test("what touches does not meet, and a region's border is crossed an odd number of times", () => {
