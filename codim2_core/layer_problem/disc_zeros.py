@@ -28,6 +28,7 @@ CURVE = 200  # undecided boxes that are no mere neighbours of a point,
 LONG = 0.02  # if they extend this far
 REGULAR = 1e-4  # det D_e U, in units of |D_e U|^2, of a zero that is not multiple
 ROUGH = 1e-2  # change of D_e U over `BESIDE`, in units of itself, of a U that is not differentiable
+SMALL = 2e-6  # radius of the circle around a rough zero on which its index is counted
 CROWDED = 100  # zeros: more effort would only find more of them
 
 
@@ -95,6 +96,8 @@ def disc_zeros(key: Hashable) -> DiscZeros:
     return _searched(program(key), size, degree, *EFFORTS[1])
 
 
+_ANGLES = 2.0 * math.pi * (np.arange(256) + 0.5) / 256
+_CIRCLE = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=-1)
 _NET = np.stack(np.meshgrid(np.linspace(-0.7, 0.7, 9), np.linspace(-0.7, 0.7, 9)), axis=-1).reshape(-1, 2)
 
 
@@ -126,7 +129,9 @@ def _searched(run: Program, size: float, degree: int | None, levels: int, most: 
     points, DU, degenerate, rough = points[order], DU[order], degenerate[order], rough[order]
     index = np.sign(DU[:, 0, 0] * DU[:, 1, 1] - DU[:, 0, 1] * DU[:, 1, 0]).astype(np.int64)
     index[degenerate] = 0
-    if degree is not None and degenerate.sum() == 1:
+    for i in np.flatnonzero(rough):
+        index[i] = _turns(run, points[i], SMALL)
+    if degree is not None and degenerate.sum() == 1 and not rough.any():
         index[degenerate] = degree - index.sum()
         if abs(int(index[degenerate][0])) > 8:
             proven = False
@@ -186,11 +191,28 @@ def _undecided(run: Program, boxes: Array, half: float, size: float) -> tuple[li
     left = False
     for cluster in _clusters(boxes, half):
         ends, ok = _least_squares(run, cluster[:: max(1, len(cluster) // CURVE)], size, 4.0 * half)
-        if ok.any() and np.ptp(cluster, axis=0).max() < LONG:
+        extent = float(np.ptp(cluster, axis=0).max())
+        middle = 0.5 * (cluster.min(axis=0) + cluster.max(axis=0))
+        if ok.any() and extent < LONG:
             places.append(np.median(ends[ok], axis=0))
+        elif extent < TOGETHER and _turns(run, middle, 2.0 * (extent + half)):
+            places.append(middle)  # U turns around it: as it is continuous it vanishes inside, with no slope to follow
         else:
             left = True
     return places, False, left
+
+
+def _turns(run: Program, middle: Array, radius: float) -> int:
+    """Count how often U turns around a small circle; 0 where it is not finite, or turns too fast to tell."""
+    U = run.at(middle + radius * _CIRCLE)[:, :, 0]
+    if not (np.isfinite(U).all() and U.any(axis=1).all()):
+        return 0
+    largest = np.abs(U).max(axis=0)  # its rows may be of very different size: that turns nothing
+    if not largest.all():
+        return 0
+    angle = np.arctan2(U[:, 1] / largest[1], U[:, 0] / largest[0])
+    step = np.remainder(np.diff(angle, append=angle[:1]) + math.pi, 2.0 * math.pi) - math.pi
+    return 0 if np.abs(step).max() > 2.5 else round(float(step.sum()) / (2.0 * math.pi))
 
 
 def _clusters(boxes: Array, half: float) -> list[Array]:

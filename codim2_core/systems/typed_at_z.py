@@ -167,6 +167,11 @@ class Frozen:
         largest = float(speeds.max())
         if not largest <= LARGEST:  # also NaN
             c, s = _PROBES[int(np.argmax(~(speeds <= LARGEST)))]
+            if math.isnan(largest):
+                raise ValueError(
+                    f"U has no value at e = ({c:.3g}, {s:.3g}), z = {self.z}; it must be finite on the whole disc "
+                    "|e| <= 1: where a formula has a limit only, give it a value, as in c*log(abs(c) + 1e-300)."
+                )
             raise ValueError(
                 f"U is {self.U((c, s)).tolist()} at e = ({c:.3g}, {s:.3g}), z = {self.z}; it must be finite, and at "
                 f"most {LARGEST:g}, on the whole disc |e| <= 1."

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 import codim2_core as c2
 from codim2_core.expressions.arrays import program
 from codim2_core.expressions.expression import parse
+from codim2_core.layer_problem.disc_zeros import disc_zeros
 
 HILL = c2.psi.hill(2)
 CORNERS = c2.System(U=("-c-0.3*abs(s)", "-s"))
@@ -140,3 +141,31 @@ def test_what_jumps_in_e_is_refused_and_what_jumps_in_z_is_not():
         c2.System(U=("-x/sqrt(x^2+y^2)", "-s"))
     with pytest.raises(ValueError, match="write c for x/sqrt"):
         c2.System(U=("-c", "2*y/(x**2+y**2)**0.5"))
+
+
+@pytest.mark.parametrize(
+    ("U", "e", "index"),
+    [
+        (("-(sqrt(max(s, 0)) - sqrt(max(-s, 0)))", "-c + 0.1"), (0.1, 0.0), -1),
+        (("-(sqrt(max(c, 0)) - sqrt(max(-c, 0)))", "-s - 0.2"), (0.0, -0.2), 1),
+        (("-(max(c - 0.2, 0)**0.5 - max(0.2 - c, 0)**0.5)", "-s + 0.1"), (0.2, 0.1), 1),
+    ],
+)
+def test_a_zero_with_an_infinite_slope_is_found_with_its_index(U, e, index):
+    system = c2.System(U=U)
+    (C,) = c2.critical_sets(system, c2.psi.tanh())
+    np.testing.assert_allclose(C.e, e, atol=1e-6)
+    assert C.kind in (("saddle",) if index < 0 else ("degenerate",))
+    found = disc_zeros(system.at().key)
+    assert found.index.tolist() == [index]
+    assert found.consistent
+    named = c2.classify(system, c2.psi.tanh())
+    assert named.name.startswith("1 critical set")
+    assert ("corner at a critical set" in [d.name for d in named.degeneracies]) == (C.kind == "degenerate")
+
+
+def test_a_limit_that_is_no_value_is_refused_with_what_to_write():
+    with pytest.raises(ValueError, match=r"no value at e = \(0, 0\).*log\(abs\(c\) \+ 1e-300\)"):
+        c2.classify(c2.System(U=("c*log(abs(c)) - s", "-s - c")), c2.psi.tanh())
+    named = c2.classify(c2.System(U=("c*log(abs(c) + 1e-300) - s", "-s - c")), c2.psi.tanh())
+    assert named.name.startswith("3 critical sets")
