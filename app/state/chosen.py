@@ -183,7 +183,9 @@ def _own(boxes: Mapping[str, str], definitions: dict[str, str], parameters: dict
     except TextError:
         raise
     except ValueError as error:
-        raise TextError("where" if "definition" in str(error) else "W", str(error)) from error
+        first = str(error).split()[0]  # what is wrong with one formula begins with its name
+        place = first if first in boxes else "where" if "definition" in str(error) else "W"
+        raise TextError(place, str(error)) from error
     return made
 
 

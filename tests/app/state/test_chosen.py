@@ -54,6 +54,8 @@ def test_an_example_takes_its_parameters_by_name():
         (OWN, {"U1": "+".join(f"n{i}x" for i in range(14))}, "U1", None),
         (OWN, {"U1": "(" * 5000}, "U1", 1000),
         (OWN, {"W": "z3"}, "W", None),
+        (OWN, {"U1": "x/sqrt(x^2 + y^2)"}, "U1", None),
+        (OWN, {"U2": "-s - sign(c)"}, "U2", None),
         (TYPED, {"f1": "z**"}, "f1", 4),
         (TYPED, {"d": "__import__('os')"}, "d", 12),
     ],
