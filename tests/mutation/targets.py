@@ -139,6 +139,7 @@ ALLOWED: tuple[Allowed, ...] = (
     Allowed("core.sliding.filippov", "s + 0.5 * abs(s)", "How early a round may end; the next would find the same."),
     Allowed("core.sliding.filippov", "np.abs(residual).max() < 1e-12", "Newton's method has converged, or it has not."),
     Allowed("core.sliding.filippov", "for _ in range(40)", "One golden section more, beyond what can be told."),
+    Allowed("core.sliding.filippov", "fresh = np.abs(", "A direction that is taken twice changes no extreme."),
     Allowed("core.sliding.along", "xtol=1e-15", "A tolerance of a few roundings."),
     Allowed("core.nullcline.drawing", "POINTS", _LOOKS),
     Allowed("core.nullcline.drawing", "PASSES", _LOOKS),
@@ -204,6 +205,7 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.layer_problem.closed_equator", "abs(a) + abs(d)  →  abs(d)", "A tolerance of a few roundings."),
     Lives("core.layer_problem.closed_equator", "0.1  →  0.125", "Either way is right there."),
     Lives("core.cycles.first_turns", "8  →  9", "How many samples show that all orbits are closed, at least."),
+    Lives("core.cycles.turn_section", "0.25  →  0.3125", "Which of all rays is taken: any of them will do."),
     Lives("core.cycles.first_turns", "left - right  →  left", "The interval is 1e-13 wide by then."),
     Lives("core.cycles.orbit", "way is not None and math.dist", "Once more round than needed: the same orbit."),
     Lives("static/cell.js", "0  →  1", "A millisecond more is waited."),
@@ -218,6 +220,7 @@ LIVES: tuple[Lives, ...] = (
     Lives("static/panels/diagram.js", "8  →  9", "A ninth digit of what has been rounded."),
     Lives("static/panels/numbers.js", "0.1  →  0.125", "The axis shows at least −4 to 4."),
     Lives("static/panels/psi.js", "1.05 *", "How much room there is above a curve."),
+    Lives("core.sliding.filippov", "512  →  513", "How finely maxima are looked for first."),
     Lives("core.sliding.filippov", "np.minimum(weighed, 0.0)", "Newton's method fails, and the weights are balanced."),
 )
 

@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
+from codim2_core.cycles import loop as module
 from codim2_core.cycles.loop import gap, loops
+from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED, UNDECIDED
+from codim2_core.cycles.section import Section
 
 # a, b, d, f1, f2 with one arc each, found at random
 PLANES = [
@@ -102,3 +105,42 @@ def test_a_turned_and_slowed_system_has_the_turned_cycle():
     assert gaps.max() < 0.01
     (mirror,) = c2.limit_cycles(c2.ELinear(172.0, -186.0, -200.0, (-86.0, 93.0)), p)
     assert mirror.direction == -1
+
+
+@EVERY
+def test_the_gap_is_measured_on_the_longest_ray_that_ends_outside_the_arc(plane):
+    for at in (made(plane), made(mirrored(plane)), made(plane, -1.0)):
+        (loop,) = loops(at)
+        sense = math.copysign(1.0, at.b)
+        rays = [Section(at, PSI, c2.critical_sets(at, PSI)[0], k) for k in range(4)]
+        ends = [one.e + one.reach * one.u for one in rays]
+        np.testing.assert_allclose(np.hypot(*np.transpose(ends)), 1.0, atol=1e-12)
+        width = (sense * (loop.sink - loop.source)) % math.tau
+        outside = [k for k in range(4) if (sense * (math.atan2(*ends[k][::-1]) - loop.source)) % math.tau > width]
+        assert loop.ray == max(outside, key=lambda k: rays[k].reach)
+
+
+@pytest.mark.parametrize(
+    ("leaving", "entering", "expected"),
+    [
+        (INWARD, RETURNED, -math.inf),
+        (OUTWARD, RETURNED, math.inf),
+        (RETURNED, INWARD, math.inf),
+        (RETURNED, OUTWARD, -math.inf),
+        (INWARD, OUTWARD, math.nan),
+        (OUTWARD, OUTWARD, math.nan),
+        (UNDECIDED, RETURNED, math.nan),
+        (RETURNED, RETURNED, 0.0),
+    ],
+)
+def test_a_branch_that_does_not_reach_the_ray_is_infinitely_far(monkeypatch, leaving, entering, expected):
+    at = made(PLANES[0])
+    (loop,) = loops(at)
+    state = np.array([[0.6, 0.0, 0.8]])
+    monkeypatch.setattr(module, "departures", lambda *_: state)
+    monkeypatch.setattr(
+        Section,
+        "turn",
+        lambda _self, states, _rtol, backward, **_: (states, None, [entering if backward else leaving], None),
+    )
+    assert gap(at, PSI, loop) == pytest.approx(expected, nan_ok=True)

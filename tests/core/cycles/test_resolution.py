@@ -1,11 +1,13 @@
 """Samples of a displacement, on sections made up so that every answer is known."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from codim2_core.cycles import first_turns, search
+from codim2_core.cycles.limit_cycles import _cycle
 from codim2_core.cycles.orbit import Orbit, gauss
 from codim2_core.cycles.resolution import Samples, _doubtful, cubics, differences, unresolved, zeros
 
@@ -74,6 +76,7 @@ def test_other_zeros_than_the_signs_ask_for(values, doubtful):
     row = np.array([values])
     for sign in (1.0, -1.0):
         assert _doubtful(sign * row, np.full_like(row, 0.1)).tolist() == [doubtful]
+        assert _doubtful(0.01 * sign * row, np.full_like(row, 0.001)).tolist() == [doubtful]  # in another unit
 
 
 def test_what_samples_do_and_do_not_show():
@@ -261,6 +264,8 @@ def test_orbits_are_told_apart_and_have_a_sense():
     assert not first_turns._same(one, circle(period=2.1))
     assert not first_turns._same(one, circle(divergence=1.0))
     assert not first_turns._same(one, circle(radius=0.5))
+    assert not first_turns._same(one, circle(period=2.0001))
+    assert not first_turns._same(circle(divergence=1e-4), circle(divergence=3e-4))
 
     class Ray:
         def states(self, xi):
@@ -286,3 +291,44 @@ def test_nodes_of_the_collocation_integrate_polynomials():
         assert w @ c**degree == pytest.approx(1.0 / (degree + 1), abs=1e-15)
     for degree in range(6):
         np.testing.assert_allclose(a @ c**degree, c ** (degree + 1) / (degree + 1), atol=1e-14)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_cycle_just_born_is_where_its_expansion_vanishes(sign):
+    """displacement = linear + r^2 (square + 300 r + 1e5 r^2): the terms after the square are told from it."""
+    trace, omega = sign * 1e-9, 2.0
+    linear, square = 2.0 * math.pi * trace / omega, -sign * 0.7
+
+    def made(square, linear=linear):
+        r = lambda xi: 1.0 / (1.0 + np.exp(-xi))  # noqa: E731
+        section = Line(lambda xi: linear + r(xi) ** 2 * (square + 300.0 * r(xi) + 1e5 * r(xi) ** 2))
+        section.critical = SimpleNamespace(trace=linear * omega / (2.0 * math.pi), discriminant=-(omega**2))
+        return search._newborn(section)
+
+    found = made(square)
+    size = math.sqrt(-linear / square)
+    assert 1.0 / (1.0 + math.exp(-found.xi)) == pytest.approx(size, rel=1e-5)
+    assert found.born
+    assert found.repelling == (square > 0.0)
+    assert made(-square) is None  # of the other kind: no cycle
+    assert made(square, linear * 1e4) is None  # larger than what is sampled: found there
+    assert made(square, linear * 1e-9) is None  # smaller than the trace of J can tell
+
+
+@pytest.mark.parametrize(
+    ("divergence", "crossing", "kind"),
+    [
+        (-1.0, {}, "stable"),
+        (1.0, {}, "unstable"),
+        (1e-6, {}, "semistable"),
+        (-1.0, {"touching": True}, "semistable"),
+        (1e-6, {"born": True}, "stable"),
+        (-1e-6, {"born": True, "repelling": True}, "unstable"),
+        (1e5, {}, "unstable"),
+        (-1e5, {}, "stable"),
+    ],
+)
+def test_the_kind_of_a_cycle(divergence, crossing, kind):
+    cycle = _cycle(search.Crossing(0.0, **crossing), circle(divergence=divergence), -1)
+    assert (cycle.kind, cycle.direction) == (kind, -1)
+    assert math.log(cycle.divergence_multiplier) == pytest.approx(max(min(divergence, 700.0), -700.0))

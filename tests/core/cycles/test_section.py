@@ -8,7 +8,7 @@ import pytest
 import codim2_core as c2
 from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED
 from codim2_core.cycles.section import COARSE, FINE, INNER, Section, rays
-from codim2_core.cycles.turn_section import TurnSection
+from codim2_core.cycles.turn_section import OUTER, SPACING, TurnSection
 
 PSIS = [c2.psi.constant(), c2.psi.rational(), c2.psi.tanh(), c2.psi.hill(3)]
 EVERY = pytest.mark.parametrize("psi", PSIS, ids=lambda p: p.text)
@@ -56,6 +56,8 @@ def test_states_lie_on_the_ray_in_e(psi):
         assert (np.diff(grid) > 0.0).all()
         assert grid[0] == pytest.approx(math.log(INNER))
         assert grid[-1] <= 600.0
+        zeta = 1.0 / own.states(grid[grid >= math.log(9.0) - 1e-9])[0][:, 2]
+        assert (zeta[1:] / zeta[:-1]).max() < 4.0  # no gap between the samples near C and those far out
 
 
 @EVERY
@@ -128,7 +130,7 @@ def test_first_turns_of_a_general_system_without_f(psi, trace):
 
 
 def test_the_ray_keeps_away_from_other_critical_sets():
-    system = c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s"))
+    system = c2.System(U=("-(c - 1/10)*(c - 3/5)*(c + 1/2)", "-(s - 1/5)"))
     at, psi = system.at(), c2.psi.constant()
     sets = c2.critical_sets(at, psi)
     for C in sets:
@@ -145,3 +147,8 @@ def test_the_ray_keeps_away_from_other_critical_sets():
         assert np.isinf(shift).all()  # nodes and a saddle: nothing turns
         if C.kind == "stable node":
             assert shift[0] == -np.inf
+        grid = own.grid()
+        first, last = own.states(grid[[0, -1]])[0]
+        assert np.hypot(*(first[:2] - C.p)) == pytest.approx(INNER * own.reach, rel=1e-3)
+        assert last[2] == pytest.approx(OUTER, rel=1e-2)
+        np.testing.assert_allclose(np.diff(grid), SPACING, rtol=0.05)

@@ -237,13 +237,27 @@ def test_the_unit_of_the_slow_variable_changes_nothing_but_the_values():
 
 
 def test_an_equilibrium_is_looked_for_on_its_own_branch_between_two_values():
-    """Sets at c = 3/10 and 7/10 for all z: z' vanishes on the first at z = 0.9, on the other far away."""
-    system = c2.System(U=("(c - 3/10)*(c - 7/10)", "-s"), W=("z - 9/10 + 5*(c - 3/10)",))
+    """Sets at c = 3/10 and 9/25 for all z: z' vanishes on the first at z = 0.9, on the other at z = 0.6."""
+    system = c2.System(U=("(c - 3/10)*(c - 9/25)", "-s"), W=("z - 9/10 + 5*(c - 3/10)",))
     found = slow_portrait(system, c2.psi.constant(), (0.0, 1.0), count=2)
-    (point,) = found.points
-    assert (point.kind, point.z, point.e, point.stable) == (
-        "equilibrium",
-        pytest.approx(0.9),
-        pytest.approx((0.3, 0.0)),
-        False,
-    )
+    expected = [("equilibrium", pytest.approx(z), pytest.approx((c, 0.0)), False) for z, c in ((0.6, 0.36), (0.9, 0.3))]
+    assert [(p.kind, p.z, p.e, p.stable) for p in found.points] == expected
+
+
+def test_equilibria_in_neighbouring_steps_are_both_found():
+    found = slow_portrait(c2.ELinear(-1, 0, -2, g=("z**2 - 1/100",)), c2.psi.constant(), (-1.0, 1.0), count=5)
+    assert [(p.z, p.stable) for p in found.points] == [(pytest.approx(-0.1), True), (pytest.approx(0.1), False)]
+
+
+def test_an_interval_of_a_ten_thousandth_of_the_span_is_one():
+    found = slow_portrait(c2.ELinear(-1, 0, -2, ("1e4*z", 0), g=(1.0,)), c2.psi.constant(), (-1.0, 1.0), count=3)
+    assert [i.kind for i in found.intervals] == ["crossing", "sliding", "crossing"]
+    assert [p.z for p in found.points if p.kind == "equator"] == pytest.approx([-1e-4, 1e-4])
+
+
+def test_sets_that_pass_at_a_value_that_is_looked_at_pass_there():
+    """c = 0 and c = z - 1/4 meet at z = 1/4."""
+    system = c2.System(U=("c*(c - z + 1/4)", "-s"), W=("1",))
+    (point,) = slow_portrait(system, c2.psi.constant(), (-0.5, 0.5), count=5).points
+    assert (point.kind, point.z) == ("fold", pytest.approx(0.25, abs=1e-7))
+    assert "exchange" in point.sentence

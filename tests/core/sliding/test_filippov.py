@@ -246,3 +246,10 @@ def test_maxima_are_all_found_and_well():
     np.testing.assert_allclose(5.0 * np.sin(5.0 * found) + 0.2 * np.sin(found), 0.0, atol=1e-6)
     single = filippov._maxima(lambda t: -np.abs(np.angle(np.exp(1j * (t - 1.0)))), grid)  # a kink
     np.testing.assert_allclose(single, [1.0], atol=1e-9)
+
+
+def test_a_small_set_of_candidates_is_no_point():
+    """U = e and W = c + 1e-7 cos 2 theta: the candidates are all of [-1e-7, 1e-7]."""
+    found = filippov_sliding(c2.System(U=("c", "s"), W=("c + 1e-7*(c**2 - s**2)",)), 0.0)
+    assert not found.unique
+    assert sorted(found.vertices.ravel()) == pytest.approx([-1e-7, 1e-7], abs=1e-9)
