@@ -213,18 +213,32 @@ def checked(function: Callable[..., Any], module: str) -> Callable[..., Any]:
     signature = inspect.signature(function)
     parameters = signature.parameters
     checks = {name: _check(function.__name__, parameter) for name, parameter in parameters.items()}
+    defaults = {name: parameter.default for name, parameter in parameters.items()}
+    in_order = [
+        (name, checks[name], defaults[name]) for name, p in parameters.items() if p.kind is p.POSITIONAL_OR_KEYWORD
+    ]
+    # After so many arguments by their place: which names may follow, and which must. `bind` would take as long as some
+    # of the functions.
+    may = [frozenset(parameters) - {name for name, *_ in in_order[:n]} for n in range(len(in_order) + 1)]
+    must = [{name for name in names if defaults[name] is inspect.Parameter.empty} for names in may]
 
     @wraps(function)
     def door(*given: Any, **named: Any) -> Any:
-        try:
-            bound = signature.bind(*given, **named)
-        except TypeError as error:
-            wanted = ", ".join(parameters) or "nothing"
-            raise TypeError(f"{function.__name__}: {error}; it takes {wanted}.") from None
-        for name, value in bound.arguments.items():
-            if value is not parameters[name].default:
-                bound.arguments[name] = checks[name](name, value)
-        return function(*bound.args, **bound.kwargs)
+        n, names = len(given), named.keys()
+        if n >= len(may) or not must[n] <= names <= may[n]:
+            try:
+                signature.bind(*given, **named)
+            except TypeError as error:
+                wanted = ", ".join(parameters) or "nothing"
+                raise TypeError(f"{function.__name__}: {error}; it takes {wanted}.") from None
+        values = [
+            value if value is default else check(name, value)
+            for (name, check, default), value in zip(in_order, given, strict=False)
+        ]
+        for name, value in named.items():
+            if value is not defaults[name]:
+                named[name] = checks[name](name, value)
+        return function(*values, **named)
 
     door.__module__ = module  # where it is pickled by name
     return door

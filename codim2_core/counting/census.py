@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +14,11 @@ from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .table import Census, Tally, tabulated
 
+if TYPE_CHECKING:  # an import that takes as long as a tenth of this package
+    from concurrent.futures import Executor, Future
+
 #: Draws systems: (random generator, how many) to coefficients (n, 5), or to a sequence of systems.
-Draw = Callable[[np.random.Generator, int], "NDArray[np.float64] | Sequence[AnySystem]"]
+Draw = Callable[["np.random.Generator", int], "NDArray[np.float64] | Sequence[AnySystem]"]
 
 CHUNK, FEW = 100_000, 200  # systems in a chunk: of coefficients, and of systems that are classified one by one
 AHEAD = 64  # chunks handed to an executor at a time
@@ -127,6 +129,8 @@ def _submit(executor: Executor, draw: Draw, psi: Psi, seed: int, i: int, size: i
 
 
 def _finished(waiting: dict[Future[Tally], int]) -> Iterator[tuple[int, Tally]]:
+    from concurrent.futures import FIRST_COMPLETED, wait
+
     ready, _ = wait(waiting, return_when=FIRST_COMPLETED)
     for future in ready:
         yield waiting.pop(future), future.result()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
@@ -80,6 +79,8 @@ class Census:
     def to_csv(self, path: str | Path) -> None:
         """Write the table as CSV, a row a portrait."""
         with Path(path).open("w", newline="", encoding="utf-8") as file:
+            import csv
+
             writer = csv.writer(file)
             writer.writerow([field.name for field in fields(Row)])
             writer.writerows([getattr(row, field.name) for field in fields(Row)] for row in self.table)

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from ..numerics.radau import Step, shortened
@@ -142,6 +141,8 @@ class Watch:
                 break
         else:  # a corner, or a jump: the nodes themselves
             return nodes.tolist(), values.tolist()
+        from numpy.polynomial import chebyshev  # imported late: most motions have no events
+
         roots = chebyshev.chebroots(chebyshev.chebder(chebyshev.chebtrim(polynomial, 1e-15 * size)))
         inside = np.unique(0.5 + 0.5 * roots.real[(np.abs(roots.imag) < 1e-3) & (np.abs(roots.real) < 1.0)])
         u = [0.0, *inside.tolist(), 1.0]

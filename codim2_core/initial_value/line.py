@@ -9,12 +9,11 @@ Psi: ``q' ~ n.U(q n, 0, 0, z)``, from one end of the diameter to the first zero,
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.radau import Problem
 from .field import Field
 
 Array = NDArray[np.float64]
@@ -39,17 +38,11 @@ class Line:
     field: Field
     n: Array
 
-    def projected(self, problem: Problem) -> Problem:
-        """Return the problem with (x, y) kept in the line."""
-
-        def F(state: Array) -> Array:
-            within = state.copy()
-            within[:2] = self.n * float(self.n @ state[:2])
-            rate = problem.F(within)
-            rate[:2] = self.n * float(self.n @ rate[:2])
-            return rate
-
-        return replace(problem, F=F)
+    @property
+    def vector(self) -> tuple[float, float]:
+        """The unit vector, in floats."""
+        n1, n2 = self.n.tolist()
+        return n1, n2
 
     def along(self, q: float, z: Array) -> float:
         """Return n.U at e = q n on Sigma."""

@@ -58,7 +58,20 @@ def direction(psi: Psi | None, eps: float, x: float, y: float) -> tuple[float, f
     return tangential * x, tangential * y, radial, tangential, n1, n2
 
 
-def plane_problem(field: Field, psi: Psi | None, eps: float, rtol: float, atol: float) -> Problem:
+def smoothed(psi: Psi | None, eps: float, x: float, y: float) -> tuple[float, float]:
+    """Return e alone, as `direction` does."""
+    r = math.hypot(x, y)
+    if eps == 0.0 or psi is None:
+        return (x / r, y / r) if r > 0.0 else (1.0, 0.0)
+    if r == 0.0:
+        return 0.0, 0.0
+    part = psi.modulus(r / eps) / r
+    return part * x, part * y
+
+
+def plane_problem(
+    field: Field, psi: Psi | None, eps: float, rtol: float, atol: float, line: tuple[float, float] | None = None
+) -> Problem:
     """State (x, y, z) of the regularised system; for eps = 0 of the nonsmooth one, away from Sigma.
 
     Parameters
@@ -68,16 +81,26 @@ def plane_problem(field: Field, psi: Psi | None, eps: float, rtol: float, atol: 
     eps : float
     rtol, atol : float
         Errors of x and y are measured by rho, those of z by |z| + atol/rtol.
+    line : (2,), optional
+        Unit vector along an invariant line, in which (x, y) is kept.
     """
     value, floor = field.value, atol / rtol
+    n1, n2 = (0.0, 0.0) if line is None else line
 
     def F(state: Array) -> Array:
         x, y, *z = state.tolist()
+        if line is not None:
+            along = n1 * x + n2 * y
+            x, y = n1 * along, n2 * along
         try:
-            c, s, *_ = direction(psi, eps, x, y)
+            c, s = smoothed(psi, eps, x, y)
         except ValueError:  # a stage of a step far too long is at infinity
             return np.full(len(state), math.nan)
-        return np.array(value(c, s, x, y, *z))
+        rate = value(c, s, x, y, *z)
+        if line is not None:
+            along = n1 * rate[0] + n2 * rate[1]
+            rate = (n1 * along, n2 * along, *rate[2:])
+        return np.array(rate)
 
     def J(state: Array) -> Array:
         x, y, *z = state.tolist()

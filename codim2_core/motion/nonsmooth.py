@@ -99,8 +99,7 @@ def simulate_nonsmooth(
 
     formulas = Field(formulas.m, formulas.rows, counted, formulas.slope)
     line = invariant_line(formulas, first)
-    problem = plane_problem(formulas, None, 0.0, rtol, atol)
-    problem = problem if line is None else line.projected(problem)
+    problem = plane_problem(formulas, None, 0.0, rtol, atol, None if line is None else line.vector)
     watch = Watch(checked_events(events), t_start, first)
     course = Course(system, psi, formulas, problem, line, watch, t_start, first, t_end, rtol, atol, max_steps)
     status, detail = SimulationStatus.T_END, ""

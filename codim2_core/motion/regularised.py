@@ -6,7 +6,6 @@ import math
 import os
 import sys
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from importlib.util import resolve_name
 from typing import TYPE_CHECKING, overload
@@ -192,6 +191,8 @@ def simulate(
         return one(states[0])
     if len(states) < MANY or watched:
         return tuple(one(first) for first in states)
+    from concurrent.futures import ThreadPoolExecutor  # imported late: one motion does without
+
     found = [one(states[0])]  # which compiles
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         return (*found, *pool.map(one, states[1:], chunksize=1))
@@ -225,9 +226,9 @@ def _followed(
 ) -> tuple[list[Steps], SimulationStatus, str, int]:
     """Follow a motion: its steps, why it ended, and the evaluations it took."""
     line = invariant_line(formulas, first)
-    problem = plane_problem(formulas, psi, eps, rtol, atol)
+    problem = plane_problem(formulas, psi, eps, rtol, atol, None if line is None else line.vector)
     count = [0]
-    problem = _counting(problem if line is None else line.projected(problem), count)
+    problem = _counting(problem, count)
     rate = problem.F(first)
     if not np.isfinite(rate).all():
         raise ValueError(f"(U, W) is {rate.tolist()} at state0 = {first.tolist()}; it must be finite there.")

@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from html import escape
 
-import numpy as np
-
 from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
 from ..numerics.trigonometric import ROUNDING
 from ..tables import paragraphs, table
 from ..words import SENTENCES, power, say, subscript
-from .endings import radially_neutral
+from .endings import radially_neutral_ones
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,22 +87,22 @@ def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
         if cycle is None or cycle.exponent == 0.0:
             return say("closed equator")
         return say("closed equator, stable" if cycle.exponent < 0.0 else "closed equator, unstable")
-    neutral = np.array([radially_neutral(equator, i) for i in range(count)])
-    arriving = int(((equator.lambda_rho < 0.0) & ~neutral).sum())
-    leaving = int(((equator.lambda_rho > 0.0) & ~neutral).sum())
+    neutral = radially_neutral_ones(equator)
+    moving = [rho for rho, still in zip(equator.lambda_rho.tolist(), neutral, strict=True) if not still]
+    arriving, leaving = sum(rho < 0.0 for rho in moving), sum(rho > 0.0 for rho in moving)
     if arriving == leaving == 0:
         first = say("none moves", count=count)
     elif arriving and leaving:
         first = say("both", count=count, arriving=arriving, leaving=leaving)
     elif count == 1:
         first = say("one arrives" if arriving else "one leaves")
-    elif neutral.any():
+    elif any(neutral):
         first = say("some arrive" if arriving else "some leave", count=count, moving=arriving or leaving)
     else:
         first = say("all arrive" if arriving else "all leave", count=count)
     if not equator.proven:
         first = f"{first} {say('directions unproved')}"
-    if not neutral.any():
+    if not any(neutral):
         return first
     which = " and ".join(f"Q{subscript(i + 1)}" for i in range(count) if neutral[i])
-    return f"{first} {say('neutral directions', which=f'{which} ' + ('is' if neutral.sum() == 1 else 'are'))}"
+    return f"{first} {say('neutral directions', which=f'{which} ' + ('is' if sum(neutral) == 1 else 'are'))}"

@@ -15,7 +15,7 @@ from ..systems.kinds import AnySystem
 from ..words import say
 from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
 from .classify_typed import general_portrait
-from .endings import radially_neutral
+from .endings import radially_neutral_ones
 
 _MULTIPLE = {
     2: undecided(
@@ -85,7 +85,8 @@ def _arrives(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> bool:
     """Whether some trajectory reaches Sigma, as far as first order tells."""
     if equator.all_directions or cycle is not None:
         return cycle is None or cycle.exponent < 0.0
-    return any(equator.lambda_rho[i] < 0.0 and not radially_neutral(equator, i) for i in range(len(equator)))
+    neutral = radially_neutral_ones(equator)
+    return any(rho < 0.0 and not still for rho, still in zip(equator.lambda_rho.tolist(), neutral, strict=True))
 
 
 def _consequence(location: Location, critical: tuple[CriticalSet, ...], case: str | None, arrives: bool) -> str:

@@ -188,8 +188,14 @@ def _stopping(equator: EquatorEquilibria, i: int, w: float) -> str:
 
 def radially_neutral(equator: EquatorEquilibria, i: int) -> bool:
     """Whether lambda_rho of Q_{i+1} is zero, or too near zero for doubles to tell its sign again."""
-    size = max(float(np.abs(equator.lambda_rho).max()), float(np.abs(equator.lambda_theta).max()))
-    return bool(equator.radially_degenerate[i]) or abs(float(equator.lambda_rho[i])) <= NEUTRAL * size
+    return radially_neutral_ones(equator)[i]
+
+
+def radially_neutral_ones(equator: EquatorEquilibria) -> list[bool]:
+    """`radially_neutral` of all limit directions; in floats, for there are few, and NumPy's calls would cost more."""
+    rho = equator.lambda_rho.tolist()
+    least = NEUTRAL * max(map(abs, (*rho, *equator.lambda_theta.tolist())), default=0.0)
+    return [zero or abs(r) <= least for r, zero in zip(rho, equator.radially_degenerate.tolist(), strict=True)]
 
 
 def half_saddle(equator: EquatorEquilibria, i: int) -> bool:

@@ -165,13 +165,16 @@ class ELinear:
     @cached_property
     def expressions(self) -> tuple[tuple[str, Expression], ...]:
         """The coefficients that are text, by name: ("f1", ...), ("A[1,2]", ...), ("B[1,1]", ...), ("g1", ...)."""
-        matrix = self.given_matrix or ()
-        entries: list[tuple[str, Any]] = [(name, getattr(self, name)) for name in "abd"]
-        entries += [(f"f{i + 1}", value) for i, value in enumerate(self.f)]
-        entries += [(f"A[{i + 1},{j + 1}]", v) for i, row in enumerate(matrix) for j, v in enumerate(row)]
-        entries += [(f"B[{i + 1},{j + 1}]", v) for i, row in enumerate(self.B or ()) for j, v in enumerate(row)]
-        entries += [(f"g{i + 1}", value) for i, value in enumerate(self.g or ())]
-        return tuple((name, value) for name, value in entries if isinstance(value, Expression))
+        found = [
+            (name, v) for name, v in zip("abd", (self.a, self.b, self.d), strict=True) if isinstance(v, Expression)
+        ]
+        for name, entries in (("f", self.f), ("A", self.given_matrix), ("B", self.B), ("g", self.g)):
+            for i, entry in enumerate(entries or (), 1):
+                if isinstance(entry, Expression):
+                    found.append((f"{name}{i}", entry))
+                elif isinstance(entry, tuple):
+                    found += [(f"{name}[{i},{j}]", v) for j, v in enumerate(entry, 1) if isinstance(v, Expression)]
+        return tuple(found)
 
     @cached_property
     def _slow_names(self) -> frozenset[str]:

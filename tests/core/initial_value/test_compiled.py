@@ -9,6 +9,7 @@ from codim2_core import ELinear, Event, System, examples, simulate
 from codim2_core import psi as families
 from codim2_core.initial_value.compiled import is_compiled
 from codim2_core.initial_value.field import field
+from codim2_core.initial_value.problem import direction, smoothed
 from codim2_core.motion import regularised
 from codim2_core.motion.result import SimulationStatus
 
@@ -104,3 +105,10 @@ def test_states_that_are_none_say_so():
     with pytest.raises(ValueError, match="numbers"):
         simulate(BALL, families.constant(), 1e-4, [[0.0] * 4, ["a"] * 4], (0.0, 1.0))
     assert simulate(ELinear(-1.0, 0.0, -1.0), families.constant(), 1e-4, [[1.0, 0.0]], (0.0, 1.0))[0].times[-1] == 1.0
+
+
+@pytest.mark.parametrize("psi", PSI, ids=lambda psi: psi.text)
+def test_the_smoothed_direction_alone_is_that_with_its_slopes(psi):
+    for eps, x, y in ((0.3, -0.7, 0.2), (1e-14, 1e-9, -3.0), (1e6, 2e-3, 5.0), (1e-3, 0.0, 0.0), (1.0, 5e-324, 0.0)):
+        assert smoothed(psi, eps, x, y) == pytest.approx(direction(psi, eps, x, y)[:2], rel=1e-15, abs=1e-300)
+    assert smoothed(None, 0.0, -3.0, 4.0) == (-0.6, 0.8)
