@@ -13,25 +13,23 @@ import numpy as np
 from numba import njit
 
 from ..stepping.dop853 import ARITHMETIC, advance
-from ..stepping.layout import (
-    ERROR_3,
-    ERROR_5,
-    K0,
-    K12,
-    LANES,
-    NEW,
-    PARAMETERS,
-    SIGN,
-    STATE,
-    STEP,
-    WORKSPACE,
-    call_field,
+from ..stepping.layout import K0, K12, LANES, NEW, STATE, STEP, call_field
+from .lane_steps import (
+    SHARE,
+    TRIALS,
+    growth,
+    judged,
+    load,
+    narrow,
+    next_length,
+    noted,
+    set_lengths,
+    to_sphere,
+    workspace,
 )
 
 RETURNED, INWARD, OUTWARD, UNDECIDED = range(4)  # inward: onto C; outward: onto the equator
 DONE, FIRST_HALF, TURNED, SECOND_HALF, REFINING = range(5)
-SHARE = 0.1  # of the tolerance, for one step
-TRIALS = 40
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
@@ -39,20 +37,6 @@ def _velocity(S, state, slope, k):
     """``U = x2'`` of one lane."""
     q = S[slope + 2 * LANES + k] / S[state + 2 * LANES + k]
     return S[slope + k] - S[state + k] * q, S[slope + LANES + k] - S[state + LANES + k] * q
-
-
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _error(S, k, rtol):
-    """Error of the step tried in lane k, in units of what is allowed; puts NEW back on the sphere."""
-    x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
-    plane, height = 1.0 / rtol, 1.0 / (rtol * abs(w) + 1e-300)
-    five = (S[ERROR_5 + k] * plane) ** 2 + (S[ERROR_5 + LANES + k] * plane) ** 2
-    five += (S[ERROR_5 + 2 * LANES + k] * height) ** 2
-    three = (S[ERROR_3 + k] * plane) ** 2 + (S[ERROR_3 + LANES + k] * plane) ** 2
-    three += (S[ERROR_3 + 2 * LANES + k] * height) ** 2
-    length = 1.0 / math.sqrt(x * x + y * y + w * w)
-    S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k] = x * length, y * length, w * length
-    return five / math.sqrt(3.0 * (five + 0.01 * three) + 1e-300)
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -90,9 +74,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
     n = states.shape[0]
     ends, times, codes = states.copy(), np.zeros(n), np.full(n, UNDECIDED)
     log, logged = np.empty((record, 4)), 0
-    S, P = np.zeros(WORKSPACE), np.zeros(PARAMETERS)
-    P[:SIGN] = shared
-    P[SIGN:] = -1.0
+    S, P = workspace(shared)
     phase, tries = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
     clock, step = np.zeros(LANES), np.zeros(LANES)
     low, high, at_low, at_high = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
@@ -100,10 +82,8 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
     allowed = SHARE * rtol
     for base in range(0, n, LANES):
         active = min(LANES, n - base)
+        load(S, states, base, active)
         for k in range(LANES):
-            i = base + k if k < active else base
-            for c in range(3):
-                S[STATE + c * LANES + k] = states[i, c]
             phase[k] = FIRST_HALF if k < active else DONE
             clock[k], step[k] = 0.0, 0.5 * rtol**0.125 if k < active else 0.0
         call_field(field, S, STATE, K0, P)
@@ -115,27 +95,19 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
         spent, running = 0, active
         while running > 0 and spent < limit:
             spent += 1
-            for k in range(LANES):
-                for c in range(3):
-                    S[STEP + c * LANES + k] = step[k]
+            set_lengths(S, step)
             advance(S, P, field)
             for k in range(LANES):
-                if phase[k] != REFINING:
-                    continue
-                x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
-                length = 1.0 / math.sqrt(x * x + y * y + w * w)
-                S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k] = x * length, y * length, w * length
+                if phase[k] == REFINING:
+                    to_sphere(S, k)
             # Errors before the field at NEW, which belongs on the sphere.
             for k in range(LANES):
                 if phase[k] == DONE or phase[k] == REFINING:
                     continue
-                error = _error(S, k, allowed)
-                good = error <= 1.0
-                factor = 0.9 / math.sqrt(math.sqrt(math.sqrt(error + 1e-30)))
-                factor = min(factor if factor > 0.2 else 0.2, 5.0)
-                tries[k] = 1 if good else 0
+                error = judged(S, k, allowed)
+                tries[k] = 1 if error <= 1.0 else 0
                 low[k] = step[k]  # the length just tried
-                step[k] *= factor
+                step[k] *= growth(error)
             call_field(field, S, NEW, K12, P)
             for k in range(LANES):
                 if phase[k] == DONE:
@@ -145,26 +117,13 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
                 if phase[k] == REFINING:
                     h = step[k]
                     tries[k] += 1
-                    # The Illinois rule: an end kept twice counts half.
-                    if g > 0.0:
-                        low[k], at_low[k] = h, g
-                        at_high[k] *= 0.5 if side[k] == 1 else 1.0
-                        side[k] = 1
-                    else:
-                        high[k], at_high[k] = h, g
-                        at_low[k] *= 0.5 if side[k] == -1 else 1.0
-                        side[k] = -1
+                    narrow(k, g > 0.0, g, step, low, at_low, high, at_high, side)
                     size = math.sqrt(vx * vx + vy * vy)
                     if abs(g) > 1e-16 * size and high[k] - low[k] > 4e-16 * high[k] and tries[k] < TRIALS:
-                        step[k] = (low[k] * at_high[k] - high[k] * at_low[k]) / (at_high[k] - at_low[k])
-                        if not low[k] < step[k] < high[k]:
-                            step[k] = 0.5 * (low[k] + high[k])
+                        step[k] = next_length(k, low, at_low, high, at_high)
                         continue
-                    if base + k == 0 and logged < record:
-                        for c in range(3):
-                            log[logged, c] = S[STATE + c * LANES + k]
-                        log[logged, 3] = h
-                        logged += 1
+                    if base + k == 0:
+                        logged = noted(log, logged, S, k, h)
                     codes[base + k], times[base + k] = RETURNED, clock[k] + h
                     phase[k] = DONE
                 elif tries[k] == 1:
@@ -180,11 +139,8 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
                         step[k] = h * at_low[k] / (at_low[k] - g)
                         phase[k], tries[k], side[k] = REFINING, 0, 0
                         continue
-                    if base + k == 0 and logged < record:
-                        for c in range(3):
-                            log[logged, c] = S[STATE + c * LANES + k]
-                        log[logged, 3] = h
-                        logged += 1
+                    if base + k == 0:
+                        logged = noted(log, logged, S, k, h)
                     clock[k] += h
                     w = S[NEW + 2 * LANES + k]
                     dx, dy = S[NEW + k] / w - centre[0], S[NEW + LANES + k] / w - centre[1]
@@ -211,9 +167,7 @@ def reached(states, lengths, shared, field):
     """Take one step of given length (n,) from each state (n, 3): for short ones as accurate as the stepping."""
     n = states.shape[0]
     out = np.empty((n, 3))
-    S, P = np.zeros(WORKSPACE), np.zeros(PARAMETERS)
-    P[:SIGN] = shared
-    P[SIGN:] = -1.0
+    S, P = workspace(shared)
     for base in range(0, n, LANES):
         for k in range(LANES):
             i = min(base + k, n - 1)

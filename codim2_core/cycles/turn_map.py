@@ -13,44 +13,26 @@ import numpy as np
 from numba import njit
 
 from ..stepping.dop853 import ARITHMETIC, advance
-from ..stepping.layout import (
-    ERROR_3,
-    ERROR_5,
-    K0,
-    K12,
-    LANES,
-    NEW,
-    PARAMETERS,
-    SIGN,
-    STATE,
-    STEP,
-    WORKSPACE,
-    call_field,
+from ..stepping.layout import K0, K12, LANES, NEW, STATE, call_field
+from .lane_steps import (
+    SHARE,
+    TRIALS,
+    growth,
+    judged,
+    load,
+    narrow,
+    next_length,
+    noted,
+    set_lengths,
+    to_sphere,
+    workspace,
 )
 from .return_map import INWARD, OUTWARD, RETURNED, UNDECIDED
 
 DONE, RUNNING, REFINING = range(3)
-SHARE = 0.1  # of the tolerance, for one step
-TRIALS = 40
 FARTHEST = 2.0  # radians about the point in one step: more could be a turn unseen
 FULL = 2.0 * math.pi
 STILL = 3.0  # times the tolerance: a speed at which an orbit has come to rest
-
-
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _judged(S, k, rtol, refining):
-    """Error of the step tried in lane k, in units of what is allowed; puts NEW back on the sphere."""
-    x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
-    length = 1.0 / math.sqrt(x * x + y * y + w * w)
-    S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k] = x * length, y * length, w * length
-    if refining:
-        return 0.0
-    plane, height = 1.0 / rtol, 1.0 / (rtol * abs(w) + 1e-300)
-    five = (S[ERROR_5 + k] * plane) ** 2 + (S[ERROR_5 + LANES + k] * plane) ** 2
-    five += (S[ERROR_5 + 2 * LANES + k] * height) ** 2
-    three = (S[ERROR_3 + k] * plane) ** 2 + (S[ERROR_3 + LANES + k] * plane) ** 2
-    three += (S[ERROR_3 + 2 * LANES + k] * height) ** 2
-    return five / math.sqrt(3.0 * (five + 0.01 * three) + 1e-300)
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
@@ -92,31 +74,27 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
     n = states.shape[0]
     ends, times, codes = states.copy(), np.zeros(n), np.full(n, UNDECIDED)
     log, logged = np.empty((record, 4)), 0
-    S, P = np.zeros(WORKSPACE), np.zeros(PARAMETERS)
-    P[:SIGN] = shared
-    P[SIGN:] = -1.0
+    S, P = workspace(shared)
     phase, tries, side = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
     clock, step, angle, errors = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
     low, high, at_low, at_high = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
     for base in range(0, n, LANES):
         active = min(LANES, n - base)
+        load(S, states, base, active)
         for k in range(LANES):
-            i = base + k if k < active else base
-            for c in range(3):
-                S[STATE + c * LANES + k] = states[i, c]
             phase[k] = RUNNING if k < active else DONE
             clock[k], angle[k], step[k] = 0.0, 0.0, 0.5 * rtol**0.125 if k < active else 0.0
         call_field(field, S, STATE, K0, P)
         spent, running = 0, active
         while running > 0 and spent < limit:
             spent += 1
-            for k in range(LANES):
-                for c in range(3):
-                    S[STEP + c * LANES + k] = step[k]
+            set_lengths(S, step)
             advance(S, P, field)
             for k in range(LANES):
-                if phase[k] != DONE:
-                    errors[k] = _judged(S, k, SHARE * rtol, phase[k] == REFINING)
+                if phase[k] == REFINING:
+                    to_sphere(S, k)
+                elif phase[k] != DONE:
+                    errors[k] = judged(S, k, SHARE * rtol)
             call_field(field, S, NEW, K12, P)
             for k in range(LANES):
                 if phase[k] == DONE:
@@ -126,24 +104,13 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
                 if phase[k] == REFINING:
                     tries[k] += 1
                     g = abs(angle[k] + swept) - FULL
-                    # The Illinois rule: an end kept twice counts half.
-                    if g < 0.0:
-                        low[k], at_low[k] = h, g
-                        at_high[k] *= 0.5 if side[k] == 1 else 1.0
-                        side[k] = 1
-                    else:
-                        high[k], at_high[k] = h, g
-                        at_low[k] *= 0.5 if side[k] == -1 else 1.0
-                        side[k] = -1
+                    narrow(k, g < 0.0, g, step, low, at_low, high, at_high, side)
                     if abs(g) > 1e-15 and high[k] - low[k] > 4e-16 * high[k] and tries[k] < TRIALS:
-                        step[k] = (low[k] * at_high[k] - high[k] * at_low[k]) / (at_high[k] - at_low[k])
-                        if not low[k] < step[k] < high[k]:
-                            step[k] = 0.5 * (low[k] + high[k])
+                        step[k] = next_length(k, low, at_low, high, at_high)
                         continue
                     finished = True
                 else:
-                    factor = 0.9 / math.sqrt(math.sqrt(math.sqrt(errors[k] + 1e-30)))
-                    factor = min(factor if factor > 0.2 else 0.2, 5.0)
+                    factor = growth(errors[k])
                     if not errors[k] <= 1.0:
                         step[k] *= factor
                         continue
@@ -151,12 +118,8 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
                         step[k] *= 0.5
                         continue
                     if abs(angle[k] + swept) >= FULL:
-                        low[k], at_low[k], high[k], at_high[k] = (
-                            0.0,
-                            abs(angle[k]) - FULL,
-                            h,
-                            abs(angle[k] + swept) - FULL,
-                        )
+                        low[k], at_low[k] = 0.0, abs(angle[k]) - FULL
+                        high[k], at_high[k] = h, abs(angle[k] + swept) - FULL
                         step[k] = h * at_low[k] / (at_low[k] - at_high[k])
                         phase[k], tries[k], side[k] = REFINING, 0, 0
                         continue
@@ -171,11 +134,8 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
                         still = vx * vx + vy * vy + vw * vw < (STILL * rtol) ** 2
                         if still or clock[k] + h >= t_max:
                             finished, code = True, UNDECIDED
-                if base + k == 0 and logged < record:
-                    for c in range(3):
-                        log[logged, c] = S[STATE + c * LANES + k]
-                    log[logged, 3] = h
-                    logged += 1
+                if base + k == 0:
+                    logged = noted(log, logged, S, k, h)
                 clock[k] += h
                 angle[k] += swept
                 for c in range(3):
