@@ -30,9 +30,6 @@ NEAR = 1e-6  # ebar and rho below which (or below `capture`) a trajectory has sp
 EXTREME = 1e-300
 LEAVING, SLOW, OTHER = 1, 2, 4  # marks of lanes to look at
 IDLE = -(1 << 60)  # steps spent by a lane without a trajectory
-# For loops over all lanes: put into their caller before compilation, where it is known that no two arrays overlap.
-# (What returns an array is slower so, by the count of references to it.)
-within = njit(inline="always")
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -104,7 +101,7 @@ def _begin(S, P, states, signs, following, first, who, times, steps, spent, coun
     return following
 
 
-@within
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def _try(S, who, times, steps, tried, t_max):
     """Choose the step that each lane tries: its own, or what is left of the time; 0 in a lane without a trajectory."""
     for k in range(LANES):
@@ -155,7 +152,7 @@ def _end(S, k, fraction, ends, i):
             ends[i, c] = S[NEW + c * LANES + k]
 
 
-@within
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def _go_on(S, times, accepted):
     """Let each lane stand where its step has led, if that was accepted. Vectorised."""
     for k in range(LANES):
