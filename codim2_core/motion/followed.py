@@ -113,7 +113,8 @@ def followed(field: Field, psi: Psi, eps: float, state: Array) -> Followed | Non
     D = field.jacobian(float(e[0]), float(e[1]), 0.0, 0.0, z.tolist())
     J = D[:2, :2] @ De
     trace, determinant = float(np.trace(J)), float(np.linalg.det(J))
-    rate = math.sqrt(max(abs(determinant), 0.25 * trace * trace))
+    split = 0.25 * trace * trace - determinant  # eigenvalues: trace/2 +- sqrt(split)
+    rate = 0.5 * abs(trace) + math.sqrt(split) if split >= 0.0 else math.sqrt(determinant)
     if distance > FLOOR:
         with np.errstate(all="ignore"):
             try:

@@ -6,6 +6,7 @@ not change; the special points are found by bisection on exactly that.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -26,6 +27,8 @@ Array = NDArray[np.float64]
 
 BISECTIONS = 44  # of one step of the net: to the rounding of z
 NARROW = 1e-7  # of the span: two changes this near, as where a double zero is lost in rounding, are one
+SLOPING = 0.75  # of the larger of its neighbours: the smallest distance of two sets that meet within a step of the net
+THIRDS, MET = 48, 1e-6  # times that an interval around it is cut by a third; distance in e at which they have met
 AT_EQUATOR = 1e-4  # 1 - |e| of a critical set that is about to reach the equator, one bisected step before it does
 STABLE, UNSTABLE, CROSSING = "sliding", "unstable", "crossing"
 _SENTENCES = {
@@ -92,7 +95,8 @@ def slow_portrait(
     others = slow_values(z if np.size(z) else (0.0,) * system.m, system.m)
     line = _Line(system, psi, others, axis)
     pieces: list[Piece] = []
-    outer, points = _pieces(line, np.linspace(low, high, count), len)
+    even = np.linspace(low, high, count)
+    outer, points = _pieces(line, np.union1d(even, _exchanges(line, even)), len)
     for values, sets in outer:  # where there are critical sets, however small that is, their kinds are looked at
         net = np.linspace(values[0], values[-1], count if sets[0] else 2)
         inner, changes = _pieces(line, net, _kinds)
@@ -122,6 +126,33 @@ def _kind(C: CriticalSet) -> str:
 
 def _kinds(sets: Sequence[CriticalSet]) -> tuple[str, ...]:
     return tuple(sorted(map(_kind, sets)))
+
+
+def _exchanges(line: _Line, net: Array) -> list[float]:
+    """Values of z at which a saddle and another critical set pass through each other: their distance vanishes.
+
+    Nothing else shows it: there are as many of each kind on both sides.
+    """
+
+    def distance(z: float) -> float:
+        sets = line(z)
+        saddles = [C.e for C in sets if C.determinant < 0.0]
+        others = [C.e for C in sets if C.determinant > 0.0]
+        return min((math.dist(e, other) for e in saddles for other in others), default=0.0 if sets else math.inf)
+
+    d = [distance(z) for z in net.tolist()]
+    found: list[float] = []
+    for i in range(1, len(net) - 1):
+        near, far = d[i], max(d[i - 1], d[i + 1])
+        if not (0.0 < near <= min(d[i - 1], d[i + 1]) and near <= SLOPING * far < math.inf):
+            continue
+        low, high = float(net[i - 1]), float(net[i + 1])
+        for _ in range(THIRDS):
+            one, two = low + (high - low) / 3.0, high - (high - low) / 3.0
+            low, high = (low, two) if distance(one) <= distance(two) else (one, high)
+        if distance(0.5 * (low + high)) <= MET:
+            found.append(0.5 * (low + high))
+    return found
 
 
 Piece = tuple[list[float], list[tuple[CriticalSet, ...]]]

@@ -261,3 +261,18 @@ def test_sets_that_pass_at_a_value_that_is_looked_at_pass_there():
     (point,) = slow_portrait(system, c2.psi.constant(), (-0.5, 0.5), count=5).points
     assert (point.kind, point.z) == ("fold", pytest.approx(0.25, abs=1e-7))
     assert "exchange" in point.sentence
+
+
+@pytest.mark.parametrize("U", [("-c*(c-z)", "-s"), ("c*(c-z)", "-s-0.3"), ("-(c-0.2)*(c-0.2-z)", "-s+0.1*c")])
+@pytest.mark.parametrize("span", [(-0.5, 0.5), (-0.5, 0.43), (-0.37, 0.5123)])
+def test_sets_that_exchange_their_kinds_are_told_at_any_value(U, span):
+    found = c2.slow_portrait(c2.System(U=U, W=("1",)), c2.psi.tanh(), span)
+    (point,) = [p for p in found.points if "exchange" in p.sentence]
+    assert point.z == pytest.approx(0.0, abs=1e-8)
+
+
+@pytest.mark.parametrize("gap", [1e-4, 1e-8])
+def test_sets_that_pass_each_other_by_do_not_meet(gap):
+    """c^2 - z c - gap: a saddle and a node, never closer than 2 sqrt(gap)."""
+    system = c2.System(U=(f"-(c**2 - z*c - {gap})", "-s"), W=("1",))
+    assert not [p for p in c2.slow_portrait(system, c2.psi.tanh(), (-0.5, 0.43)).points if "exchange" in p.sentence]
