@@ -201,6 +201,8 @@ class Lives(NamedTuple):
 
 
 LIVES: tuple[Lives, ...] = (
+    Lives("app.draw.arrowheads", "/ clearance) + 1  →  1", "All in one row of cells: the same places, more slowly."),
+    Lives("app.draw.arrowheads", "row - 1  →  -1", "More cells are looked at: the same places, more slowly."),
     Lives("core.layer_problem.border", "0.05  →  0.0625", _EXACT),
     Lives("core.layer_problem.closed_equator", "abs(a) + abs(d)  →  abs(d)", "A tolerance of a few roundings."),
     Lives("core.layer_problem.closed_equator", "0.1  →  0.125", "Either way is right there."),
@@ -217,6 +219,11 @@ LIVES: tuple[Lives, ...] = (
     Lives("static/words.js", "0  →  1", "Zero is written as it is either way."),
     Lives("static/hands.js", "0  →  1", "Where the orbit would be: only how many there are is asked for."),
     Lives("static/panels/along.js", "!this.box.hidden  →", "Drawn once more, or with the next change: the same."),
+    Lives("static/launches.js", "|| 0  →", "-0 is written as 0 either way."),
+    Lives("static/panels/along.js", "1e-9  →", "A bound that keeps from dividing by zero."),
+    Lives("static/panels/along.js", "1e-4  →", "How slow counts as at rest."),
+    Lives("static/panels/diagram.js", "200  →  201", "A key's step is rounded to a thousandth of the span."),
+    Lives("static/panels/diagram.js", "0.6  →", "How far apart points come that were one mark."),
     Lives("static/panels/diagram.js", "8  →  9", "A ninth digit of what has been rounded."),
     Lives("static/panels/numbers.js", "0.1  →  0.125", "The axis shows at least −4 to 4."),
     Lives("static/panels/psi.js", "1.05 *", "How much room there is above a curve."),
