@@ -7,6 +7,8 @@ import "../../../app/static/panels/numbers.js"
 import "../../../app/static/panels/orbits.js"
 import "../../../app/static/panels/solid.js"
 import {seen} from "../../../app/static/projection.js"
+import {Panels, register} from "../../../app/static/panels.js"
+import {page} from "./page.js"
 import {opened} from "./reading.js"
 
 const cells = (one, selector) => one.all(`${selector} tr`).map((row) => [...row.children].map((cell) => cell.textContent))
@@ -362,4 +364,17 @@ test("the panel solid: a fine screen has a finer canvas, a closed panel none, an
   assert.deepEqual(one.said(), [["choose", "solid", "filippov"]])
   one.frame({}, {}, ["filippov"])
   assert.ok(one.canvas.classList.contains("old"))
+})
+
+test("arrows go along the strip of tabs to both sides, and round", () => {
+  const keys = ["one", "two", "three"]
+  for (const key of keys) register(key, () => ({}))
+  const there = page(`<div class="codim2"><div class="portrait"></div><div class="tabs">${keys.map((key) => `<button role="tab" data-panel="${key}"></button>`).join("")}</div>${keys.map((key) => `<section role="tabpanel" data-panel="${key}"></section>`).join("")}</div>`)
+  const root = /** @type {any} */ (there.document.querySelector(".codim2"))
+  const panels = new Panels(root, {}, {}, (key) => panels.show(key, {}))
+  panels.show("two", {})
+  for (const [key, name] of [["ArrowLeft", "one"], ["ArrowLeft", "three"], ["ArrowRight", "one"], ["ArrowRight", "two"], ["End", "three"], ["Home", "one"]]) {
+    there.fire(root.querySelector(".tabs"), "keydown", {key})
+    assert.equal(panels.open, name, key)
+  }
 })
