@@ -69,3 +69,14 @@ test("where Bokeh lacks a part, or has not been laid out, it is asked to paint w
   assert.equal(first.view.wanted, undefined)
   repaint(Object.assign(attached("glyph").renderer, {view: null})) // not attached yet
 })
+
+test("a triangle stands on its base, a diamond is higher than wide", () => {
+  const corners = (shape) => {
+    const {renderer, calls} = attached("glyph")
+    renderer.list = [{kind: "mark", shape, x: 1, y: 0, size: 12, width: 1, colour: "c", fill: "f"}]
+    repaint(renderer)
+    return calls.filter(([, name]) => name === "moveTo" || name === "lineTo").map(([, , x, y]) => [Math.round(x - 150), Math.round(y - 200)])
+  }
+  assert.deepEqual(corners("triangle"), [[0, -7], [6, 3], [-6, 3]])
+  assert.deepEqual(corners("diamond"), [[0, -6], [4, 0], [0, 6], [-4, 0]])
+})
