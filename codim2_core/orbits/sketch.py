@@ -27,13 +27,16 @@ class Sketch:
 
     Attributes
     ----------
-    buffer : ndarray (N, 2)
-    offsets : ndarray (k + 1,) of int
+    buffer : ndarray (N, 2), read-only
+    offsets : ndarray (k + 1,) of int, read-only
         Line i is ``buffer[offsets[i]:offsets[i + 1]]``.
     """
 
     buffer: Array
     offsets: NDArray[np.int64]
+
+    def __post_init__(self) -> None:
+        self.buffer.flags.writeable = self.offsets.flags.writeable = False
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
