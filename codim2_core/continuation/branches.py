@@ -27,6 +27,7 @@ from ..systems.elinear import ELinear
 from ..words import say
 from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, reversible, values
 from .result import CycleBranch, CycleBranches, CyclePoint
+from .sought import sought
 from .trace import LEVEL, Trace, Tracer, reversed_trace
 from .turn import Family, Turn
 
@@ -93,8 +94,10 @@ def continue_cycles(
 
     for value in (low, high):
         at(value)
-    family = Family(at, high - low, limits(system, psi, name))
-    allowed = [v for v in values(low, high) if family.allows(v)]
+    bounds = limits(system, psi, name)
+    part = sought(Family(at, high - low, bounds), low, high)
+    family = Family(at, part[1] - part[0], bounds)
+    allowed = [v for v in values(*part) if family.allows(v)]
     if all(reversible(at(v)[0]) for v in allowed):
         settings = (at(float(v)) for v in values(low, high))
         reasons = dict.fromkeys(reason_for_none(q, critical_sets(q, member)) for q, member in settings)
@@ -102,7 +105,7 @@ def continue_cycles(
         return CycleBranches(name, (low, high), (), sentence or say("no cycle on the span"))
     middle = allowed[len(allowed) // 2]
     family.ray = family.section(middle).ray
-    return _Search(family, name, low, high).run()
+    return _Search(family, name, part, (low, high)).run()
 
 
 def folds_along(at: Callable[[float], tuple[Coefficients, Psi]], low: float, high: float) -> list[Turn]:
@@ -123,7 +126,7 @@ def folds_along(at: Callable[[float], tuple[Coefficients, Psi]], low: float, hig
     if all(reversible(at(v)[0]) for v in allowed):
         return []
     family.ray = family.section(allowed[len(allowed) // 2]).ray
-    search_ = _Search(family, "t", low, high)
+    search_ = _Search(family, "t", (low, high), (low, high))
     search_.run()
     return [trace.points[i].turn for trace, *_ in search_.found for i in trace.folds]
 
@@ -131,8 +134,9 @@ def folds_along(at: Callable[[float], tuple[Coefficients, Psi]], low: float, hig
 class _Search:
     """One call of `continue_cycles`."""
 
-    def __init__(self, family: Family, name: str, low: float, high: float) -> None:
-        self.family, self.name, self.low, self.high = family, name, low, high
+    def __init__(self, family: Family, name: str, part: tuple[float, float], span: tuple[float, float]) -> None:
+        self.family, self.name, self.span = family, name, span
+        low, high = self.low, self.high = part
         self.tracer = Tracer(family, low, high)
         self.hopf = hopf_ends(family, low, high)
         self.closed = equator_ends(family, low, high)
@@ -160,9 +164,9 @@ class _Search:
         missed = [e for e in self.loops if id(e) not in self.used]
         self.notes += [say("loop without a cycle", name=self.name, value=e.value) for e in missed]
         kind = "no branch" if not branches else "one branch" if len(branches) == 1 else "branches"
-        span = {"name": self.name, "low": self.low, "high": self.high}
+        span = {"name": self.name, "low": self.span[0], "high": self.span[1]}
         reason = say(kind, **span, count=len(branches) or COLUMNS)
-        return CycleBranches(self.name, (self.low, self.high), branches, reason, tuple(self.notes))
+        return CycleBranches(self.name, self.span, branches, reason, tuple(self.notes))
 
     def _nu(self, value: float) -> float:
         return (value - self.low) / (self.high - self.low)

@@ -30,6 +30,11 @@ from .axes import Axis, available, missing, spans_of, without
 PLANE = ("a", "b", "d", "f1", "f2")
 #: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
 CURVES = ("saddle_node", "transcritical")
+#: Of equations typed whole, also where they are e-linear at the present z: whether they are at others is not known.
+EQUATIONS = (
+    "The atlas needs the coefficients A and f: choose an e-linear system, or type them as formulas. "
+    "This system is given by its equations."
+)
 #: A region narrower than this, of the width of the map, gets no small portrait.
 THINNEST = 0.012
 
@@ -49,7 +54,7 @@ def add(draft: Draft) -> None:
     if axes[0] == axes[1]:
         reason = "Choose two different parameters."
     elif not isinstance(draft.scene.system, (ELinear, Coefficients)):
-        reason = "The atlas is of e-linear systems; this one is not."
+        reason = EQUATIONS
     if reason:
         if draft.now.get("map") != reason:
             draft.now["map"] = reason

@@ -140,3 +140,19 @@ def furthest(points, line):
     share = np.clip(((points[:, None] - start) * step).sum(2) / squared, 0, 1)
     gap = points[:, None] - start - share[..., None] * step
     return float(np.hypot(gap[..., 0], gap[..., 1]).min(1).max())
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"system": "unit_vector_control"},
+        {"system": "own", "texts": {"U1": "-2*c + 1/4", "U2": "-s"}},
+        {"system": "own"},
+        {"system": "attracting_repelling"},
+    ],
+)
+def test_a_system_given_by_equations_is_not_called_other_than_e_linear(frames, values):
+    header, _ = unpack(frames.answer({"id": 1, "set": {**values, "panel": "atlas"}, "rest": True}))
+    said = header["unable"]["map"]
+    assert "coefficients" in said
+    assert "is not" not in said  # the first two are e-linear, and are named by their Case beside it

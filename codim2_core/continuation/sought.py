@@ -1,0 +1,69 @@
+"""The part of a span on which limit cycles can be: where C is on the hemisphere, which may be a narrow part."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from ..numerics.root_between import root_between
+from .ends import values
+from .turn import Family
+
+NARROW = 0.25  # of the span: a part narrower than this is looked at by itself
+BESIDE = 0.05  # of the part: how far it is looked beyond its ends
+STEPS, GOLDEN = 48, 0.5 * (math.sqrt(5.0) - 1.0)
+
+
+def sought(family: Family, low: float, high: float) -> tuple[float, float]:
+    """Return the part of a span on which cycles are to be looked for: the whole span where it is no narrow part.
+
+    C with det A > 0 is on the hemisphere where |adj(A) f| < det A. Along f this margin is concave, so that its
+    greatest value, and the ends of the part, are found however narrow the part is.
+
+    Parameters
+    ----------
+    family : Family
+    low, high : float
+    """
+
+    def margin(value: float) -> float:
+        if not family.bounds[0] <= value <= family.bounds[1]:
+            return -math.inf
+        a, b, d, f1, f2 = family.at(value)[0].plane
+        return min(a * d + b * b - math.hypot(d * f1 + b * f2, a * f2 - b * f1), -a * d)
+
+    places = values(low, high)
+    found = [margin(v) for v in places]
+    steps = range(len(places))
+    for i in steps:
+        before, after = max(i - 1, 0), min(i + 1, len(places) - 1)
+        if found[before] <= found[i] >= found[after] and -math.inf < found[i] <= 0.0:
+            places[i], found[i] = _greatest(margin, places[before], places[after])
+    inside = [i for i in steps if found[i] > 0.0]
+    if not inside:
+        return low, high
+    first, last = inside[0], inside[-1]
+    start = root_between(margin, places[first - 1], places[first]) if first > 0 else low
+    end = root_between(margin, places[last], places[last + 1]) if last < len(places) - 1 else high
+    if end - start > NARROW * (high - low):
+        return low, high
+    more = BESIDE * (end - start)
+    return max(start - more, low), min(end + more, high)
+
+
+def _greatest(function: Callable[[float], float], low: float, high: float) -> tuple[float, float]:
+    """Where a function is greatest, and that value, by golden sections; it stops where the value is positive."""
+    one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    at_one, at_two = function(one), function(two)
+    for _ in range(STEPS):
+        if max(at_one, at_two) > 0.0:
+            break
+        if at_one > at_two:
+            high, two, at_two = two, one, at_one
+            one = high - GOLDEN * (high - low)
+            at_one = function(one)
+        else:
+            low, one, at_one = one, two, at_two
+            two = low + GOLDEN * (high - low)
+            at_two = function(two)
+    return (one, at_one) if at_one > at_two else (two, at_two)
