@@ -141,6 +141,33 @@ test("the last value is asked for, in order, and in the end nothing is out", () 
   }
 })
 
+test("a line that has become longer is not held against its shortest trip for ever", () => {
+  const window = new Window()
+  window.measured(100000, 20, 0.2)
+  for (let t = 100000; t < 104900; t += 100) window.measured(t, 200, 0.2)
+  assert.equal(window.size, 1) // as if replies queued: the short trip may come back
+  for (let t = 104900; t < 108000; t += 17) window.measured(t, 200, 0.2)
+  assert.equal(window.size, 12) // one for each frame of the screen
+})
+
+test("however long the line, a dozen requests are the most", () => {
+  const window = new Window()
+  for (let t = 0; t < 4000; t += 17) window.measured(t, 900, 0.2)
+  assert.equal(window.size, 12)
+})
+
+test("after a step down the next one waits until its effect can be seen: a round trip", () => {
+  const window = new Window()
+  for (let t = 0; t < 2000; t += 17) window.measured(t, 80, 0.2)
+  const steps = []
+  for (let t = 2000; t < 2400; t += 10) {
+    const before = window.size
+    window.measured(t, 200, 0.2)
+    if (window.size < before) steps.push(t)
+  }
+  assert.deepEqual(steps, [2000, 2200])
+})
+
 test("values set while the window is full travel together, the newest of each", () => {
   const world = new World({line: 50})
   const {requests} = world
