@@ -53,6 +53,8 @@ export function repaint(renderer) {
   const own = plot?._render_count > 0 && box && layer?.prepare && layer?.finish && (!above || plot._paint_overlays)
   if (!own) { view.request_paint(); return }
   const ctx = layer.prepare()
+  // Bokeh shifts by half a pixel before it clears: of the first row and column it leaves half, and dashes would stay
+  ctx.clearRect(box.x - 1, box.y - 1, box.width + 2, box.height + 2)
   if (above) { plot._paint_overlays(ctx); layer.finish(); return } // a tool that is being dragged is drawn there too
   ctx.beginPath()
   ctx.rect(box.x - 1, box.y - 1, box.width + 2, box.height + 2)

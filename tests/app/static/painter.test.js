@@ -31,7 +31,7 @@ test("a list is painted at once, clipped to the frame, with x to the right and y
   assert.deepEqual([renderer.level, renderer.syncable, renderer.view === view, view.needs_clip], ["glyph", false, true, true])
   renderer.list = LIST
   repaint(renderer)
-  assert.deepEqual(calls.slice(0, 4), [["primary", "prepare"], ["primary", "beginPath"], ["primary", "rect", 9, 19, 302, 202], ["primary", "clip"]])
+  assert.deepEqual(calls.slice(0, 5), [["primary", "prepare"], ["primary", "clearRect", 9, 19, 302, 202], ["primary", "beginPath"], ["primary", "rect", 9, 19, 302, 202], ["primary", "clip"]])
   assert.deepEqual(calls.filter(([, name]) => name === "moveTo" || name === "lineTo"), [["primary", "moveTo", 100, 200], ["primary", "lineTo", 150, 120]])
   assert.deepEqual(calls.at(-1), ["primary", "finish"])
   assert.equal(renderer.paints, 1)
@@ -42,7 +42,7 @@ test("what moves alone is painted above, with the tools that Bokeh draws there",
   const {renderer, calls} = attached("overlay")
   renderer.list = LIST
   repaint(renderer)
-  assert.deepEqual(calls.slice(0, 2), [["overlays", "prepare"], ["overlays", "tools"]])
+  assert.deepEqual(calls.slice(0, 3), [["overlays", "prepare"], ["overlays", "clearRect", 9, 19, 302, 202], ["overlays", "tools"]])
   assert.ok(calls.every(([layer]) => layer === "overlays") && !calls.some(([, name]) => name === "rect"))
   assert.deepEqual(calls.at(-1), ["overlays", "finish"])
 })
