@@ -120,34 +120,37 @@ class Watch:
         """Zeros of event i along a step: as fraction of the step, and whether it rises there."""
         along = lambda u: self.value(i, step.start + u * step.h, step.last if u == 1.0 else step.at(u))  # noqa: E731
         start, self.before[i] = self.before[i], along(1.0)
-        u, values = self.turns(along, start, self.before[i])
+        u, values = turns(along, start, self.before[i])
         found: list[tuple[float, bool]] = []
         for low, high, at_low, at_high in zip(u, u[1:], values, values[1:], strict=False):
             if at_low < 0.0 <= at_high or at_low > 0.0 >= at_high:
                 found.append((_root(along, low, high, at_high), at_low < 0.0))
         return found
 
-    def turns(self, along: Callable[[float], float], start: float, end: float) -> tuple[list[float], list[float]]:
-        """Return fractions of a step, between which the event is monotone, and its values there."""
-        nodes, values, polynomial, size = np.empty(0), np.empty(0), np.empty(0), 0.0
-        for degree in DEGREES:
-            nodes = 0.5 - 0.5 * np.cos(math.pi * np.arange(degree + 1) / degree)
-            values = np.array([start, *(along(u) for u in nodes[1:-1].tolist()), end])
-            polynomial = _interpolated(values)
-            size = float(np.abs(values).max())
-            if abs(polynomial[0]) > 2.0 * float(np.abs(polynomial[1:]).sum()):  # far from zero all along
-                return [0.0, 1.0], [start, end]
-            if np.abs(polynomial[-2:]).max() <= RESOLVED * size:
-                break
-        else:  # a corner, or a jump: the nodes themselves
-            return nodes.tolist(), values.tolist()
-        from numpy.polynomial import chebyshev  # imported late: most motions have no events
 
-        roots = chebyshev.chebroots(chebyshev.chebder(chebyshev.chebtrim(polynomial, 1e-15 * size)))
-        inside = np.unique(0.5 + 0.5 * roots.real[(np.abs(roots.imag) < 1e-3) & (np.abs(roots.real) < 1.0)])
-        u = [0.0, *inside.tolist(), 1.0]
-        at = [start, *(along(x) for x in inside.tolist()), end]
-        return u, [0.0 if abs(v) <= TOUCH * size and 0 < k < len(u) - 1 else v for k, v in enumerate(at)]
+def turns(
+    along: Callable[[float], float], start: float, end: float, degrees: Sequence[int] = DEGREES
+) -> tuple[list[float], list[float]]:
+    """Return fractions of a step, between which a function along it is monotone, and its values there."""
+    nodes, values, polynomial, size = np.empty(0), np.empty(0), np.empty(0), 0.0
+    for degree in degrees:
+        nodes = 0.5 - 0.5 * np.cos(math.pi * np.arange(degree + 1) / degree)
+        values = np.array([start, *(along(u) for u in nodes[1:-1].tolist()), end])
+        polynomial = _interpolated(values)
+        size = float(np.abs(values).max())
+        if abs(polynomial[0]) > 2.0 * float(np.abs(polynomial[1:]).sum()):  # far from zero all along
+            return [0.0, 1.0], [start, end]
+        if np.abs(polynomial[-2:]).max() <= RESOLVED * size:
+            break
+    else:  # a corner, or a jump: the nodes themselves
+        return nodes.tolist(), values.tolist()
+    from numpy.polynomial import chebyshev  # imported late: most motions need none
+
+    roots = chebyshev.chebroots(chebyshev.chebder(chebyshev.chebtrim(polynomial, 1e-15 * size)))
+    inside = np.unique(0.5 + 0.5 * roots.real[(np.abs(roots.imag) < 1e-3) & (np.abs(roots.real) < 1.0)])
+    u = [0.0, *inside.tolist(), 1.0]
+    at = [start, *(along(x) for x in inside.tolist()), end]
+    return u, [0.0 if abs(v) <= TOUCH * size and 0 < k < len(u) - 1 else v for k, v in enumerate(at)]
 
 
 def _interpolated(values: Array) -> Array:

@@ -9,10 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..initial_value.events import DEGREES, turns
 from ..initial_value.field import Field
 from ..initial_value.line import Line
 from ..initial_value.problem import growth_bound
@@ -26,6 +28,7 @@ NEWTON = 20
 SHORTEST = 1e-14  # of the time span: steps that short mean that the set ends here
 AT_EQUATOR = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
 AT_FOLD = 1e-3  # |det D_e U|, in units of its entries squared, at which it is taken for a fold
+INSIDE = (4, *DEGREES)  # of the polynomials that a gauge is taken for along a step: most are far from zero
 NEAR_HOPF = 1e-2  # |tr J| in units of D_e U, below which a stable cycle may be too small to be found
 
 
@@ -205,6 +208,7 @@ def slide(
     h = 1e-2 / float(np.max(np.abs(rate) / problem.scale(z))) if rate.any() else math.inf
     taken: list[Step] = []
     places = [sheet.e]
+    before = {name: gauge(sheet.e, z) for name, gauge in gauges.items()}
     span = t_end - t
     try:
         for step in bounded(problem, steps(problem, t, t_end, z, rtol, h, most, SHORTEST * span), SHORTEST * span):
@@ -212,9 +216,12 @@ def slide(
             if after is None:
                 raise StepsTooShortError
             found: list[tuple[float, str]] = []
+            place = cache(partial(_place, sheet, step))
             for name, gauge in gauges.items():
-                if gauge(after, step.last) < 0.0:
-                    found.append((_zero(sheet, gauge, step), name))
+                start, before[name] = before[name], gauge(after, step.last)
+                u = _first(gauge, place, start, before[name])
+                if u is not None:
+                    found.append((u, name))
             if not alive(step.last):
                 found.append((_last_alive(alive, step), "cycle"))
             if found:
@@ -240,19 +247,33 @@ def slide(
     return Slide(taken, "time", sheet.e, places)
 
 
-def _zero(sheet: Sheet, gauge: Callable[[Array, Array], float], step: Step) -> float:
-    """Fraction of the step at which a gauge that is negative at its end turns negative."""
+def _place(sheet: Sheet, step: Step, u: float) -> tuple[Array | None, Array]:
+    """Return the critical set, None where there is none, and z at a fraction of a step."""
+    z = step.at(u)
+    return sheet.at(z), z
 
-    def value(u: float) -> float:
-        z = step.at(u)
-        e = sheet.at(z)
-        return -1.0 if e is None else gauge(e, z)
 
-    if value(0.0) <= 0.0:  # began on the border itself, and stays outside
-        return 0.0
-    from scipy.optimize import root_scalar  # imported late: it takes longer than all of this package
+def _first(
+    gauge: Callable[[Array, Array], float],
+    place: Callable[[float], tuple[Array | None, Array]],
+    start: float,
+    end: float,
+) -> float | None:
+    """Fraction of a step at which a gauge first turns negative, whatever it is at its end; None if it does not."""
 
-    return float(root_scalar(value, bracket=(0.0, 1.0), xtol=1e-15).root)
+    def value(u: float, missing: float = math.nan) -> float:
+        e, z = place(u)
+        return missing if e is None else gauge(e, z)
+
+    positive = None
+    for u, at in zip(*turns(value, start, end, INSIDE), strict=True):
+        if at > 0.0:
+            positive = u
+        elif at < 0.0 and positive is not None:
+            from scipy.optimize import root_scalar  # imported late: it takes longer than all of this package
+
+            return float(root_scalar(value, args=(-1.0,), bracket=(positive, u), xtol=1e-15).root)
+    return 0.0 if start <= 0.0 and end < 0.0 else None  # began on the border itself, and stays outside
 
 
 def _last_alive(alive: Callable[[Array], bool], step: Step) -> float:

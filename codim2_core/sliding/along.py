@@ -75,8 +75,8 @@ def slow_portrait(
     axis : int
         Which slow variable is varied, from 0.
     count : int
-        Values of z on which changes are looked for, and again where there are critical sets; two changes within one
-        step that undo one another are missed.
+        Values of z, at least 2, on which changes are looked for, and again where there are critical sets; two changes
+        within one step that undo one another are missed.
 
     Returns
     -------
@@ -85,8 +85,10 @@ def slow_portrait(
     Raises
     ------
     ValueError
-        There is no slow variable `axis`, or the span is empty.
+        There is no slow variable `axis`, the span is empty, or `count` is below 2.
     """
+    if count < 2:
+        raise ValueError(f"count is {count}; give at least 2 values of z, the ends of the span.")
     if not 0 <= axis < system.m:
         raise ValueError(f"axis is {axis}, but the system has m = {system.m} slow variable(s); give 0 … m - 1.")
     low, high = (float(v) for v in span)

@@ -1,6 +1,7 @@
 """Slides on followed sets and slips to Sigma, where both are known in closed form."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 import codim2_core as c2
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.problem import plane_problem
-from codim2_core.motion.slide import Sheet, _last_alive, _whole, _zero, complement, determinant, slide, trace
+from codim2_core.motion.slide import Sheet, _first, _last_alive, _place, _whole, complement, determinant, slide, trace
 from codim2_core.motion.slide_on_cycle import _means
 from codim2_core.motion.slip import _polished, leave, slip
 from codim2_core.numerics.radau import Step
@@ -91,6 +92,19 @@ def test_an_unstable_set_is_followed_around_a_cycle_until_that_is_gone():
     assert (gone.end, gone.taken[-1].last[2]) == ("cycle", pytest.approx(-0.3, abs=1e-4))
 
 
+@pytest.mark.parametrize("height", [1.5, 1.01, 1.0001, 1.0000001])
+@pytest.mark.parametrize("rate", [1.0, 10.0])
+def test_a_slide_ends_where_the_set_is_outside_for_part_of_a_step(height, rate):
+    """c = height sin(rate z), z' = 1: beyond the equator for a short while, which one step of z spans."""
+    system = c2.System(U=(f"-c + {height}*sin({rate}*z)", "-s"), W=("1",))
+    out = math.asin(1.0 / height) / rate
+    found = slide(field(system), PSIS[0], np.zeros(2), 0.0, np.zeros(1), 3.0 / rate, **OPTIONS)
+    assert found.end == "equator"
+    assert found.taken[-1].end == pytest.approx(out, abs=1e-9)
+    limit = c2.simulate_nonsmooth(system, (0.0, 0.0, 0.0), (0.0, 3.0 / rate), psi=PSIS[0])
+    assert [phase.kind for phase in limit.phases][:2] == ["slide", "slip"]
+
+
 def test_parts_of_a_step():
     polynomial = np.array([[1.0, -2.0, 0.5, 0.0, 0.0]])
     step = Step(2.0, 4.0, np.array([3.0]), np.array([2.5]), polynomial)
@@ -103,8 +117,11 @@ def test_parts_of_a_step():
     rising = Step(0.0, 1.0, np.array([0.0]), np.array([1.0]), np.array([[1.0, 0.0, 0.0, 0.0, 0.0]]))
     assert _last_alive(lambda z: bool(z[0] < 0.37), rising) == pytest.approx(0.37, abs=2e-6)
     sheet = Sheet(field(c2.System(U=("z - c", "-s"), W=("1",))), np.zeros(2), np.zeros(1))
-    assert _zero(sheet, lambda e, z: 0.37 - float(e[0]), rising) == pytest.approx(0.37, abs=1e-12)
-    assert _zero(sheet, lambda e, z: -1.0, rising) == 0.0
+    place = partial(_place, sheet, rising)
+    assert _first(lambda e, z: 0.37 - float(e[0]), place, 0.37, -0.63) == pytest.approx(0.37, abs=1e-12)
+    assert _first(lambda e, z: (0.37 - float(e[0])) * (0.4 - float(e[0])), place, 0.148, 0.378) == pytest.approx(0.37)
+    assert _first(lambda e, z: -1.0, place, -1.0, -1.0) == 0.0
+    assert _first(lambda e, z: float(e[0]), place, 0.0, 1.0) is None  # from the border inwards
 
 
 @pytest.mark.parametrize("rho", [0.3, 2.0])

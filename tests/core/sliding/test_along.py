@@ -75,6 +75,12 @@ def test_what_cannot_be_varied_is_said(arguments, says):
         slow_portrait(system, c2.psi.constant(), arguments.get("span", (-1.0, 1.0)), axis=arguments.get("axis", 0))
 
 
+@pytest.mark.parametrize("count", [0, 1])
+def test_a_span_has_two_ends(count):
+    with pytest.raises(ValueError, match="give at least 2 values of z"):
+        slow_portrait(c2.ELinear(-1, 0, -2, g=(1,)), c2.psi.constant(), (-1.0, 1.0), count=count)
+
+
 THREE = ("-c*(c - 1/2)*(c + 1/2)", "-s")  # nodes at c = -1/2 and 1/2, a saddle between them
 
 
