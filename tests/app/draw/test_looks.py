@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from codim2_app.draw import glyphs, plane_curves
 from codim2_app.draw.figure import CRITICAL_TOOLTIP, EQUATOR_TOOLTIP, make_figure
-from codim2_app.draw.layers import LAYERS, TRACES, painted, shown, table
+from codim2_app.draw.layers import LAYERS, TRACES, painted, shown, swatches, table
 from codim2_app.draw.mathml import equations_mathml, mathml, plain_symbol, symbol
 from codim2_app.draw.packing import EXTENT, Polylines, pack, unpack
 from codim2_app.draw.shapes import OPEN, shape
@@ -389,3 +389,11 @@ def test_a_system_is_a_table_with_its_definitions_after_it():
     assert "<mi>z</mi><mo>−</mo>" in rows[2]
     assert "<mi>K</mi>" in rows[0]
     assert "<mn>1</mn><mo>+</mo>" in rows[3]
+
+
+@pytest.mark.parametrize("layer", LAYERS.values(), ids=lambda layer: layer.name)
+def test_the_mark_beside_a_layers_control_has_the_layers_colours_in_their_order(layer):
+    rule = next(line for line in swatches().splitlines() if f".swatch-{layer.name} " in line)
+    named = re.findall(r"var\(--([\w-]+)\)", rule)
+    assert named
+    assert named == list(layer.colours)[: len(named)]
