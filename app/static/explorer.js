@@ -193,7 +193,8 @@ function wire({model, view, root, plot}) {
   redo.addEventListener("click", () => steps.redo())
   if (config.page) window.addEventListener("popstate", (event) => { steps.arrived(event.state); rest.note("history", false) })
   root.addEventListener("pointerdown", () => { steps.held = true })
-  for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => { steps.held = false })
+  // before Bokeh hears it: at the end of a pan it lets nobody else hear
+  for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => { steps.held = false }, true)
   for (const range of [plot.x_range, plot.y_range]) range.properties.start.change.connect(() => steps.changed())
   const keys = (event) => {
     const typing = event.composedPath()[0]?.matches?.("input[type=text], textarea") // which undoes its own letters

@@ -83,3 +83,20 @@ def test_what_is_seen_is_sampled(explorer):
     explorer.settle()
     assert explorer.ask("picture.window") is None
     assert explorer.ask("picture.list.every((item) => item.kind !== 'curves' || item.points instanceof Int16Array)")
+
+
+def test_a_pan_is_a_step_and_in_the_address(explorer):
+    explorer.type("a", "-1.5").kept()
+    box, mouse = explorer.find(".bokeh").bounding_box(), explorer.page.mouse
+    explorer.page.keyboard.down("Shift")
+    mouse.move(box["x"] + 0.8 * box["width"], box["y"] + 0.2 * box["height"])
+    mouse.down()
+    mouse.move(box["x"] + 0.3 * box["width"], box["y"] + 0.6 * box["height"], steps=8)
+    mouse.up()
+    explorer.page.keyboard.up("Shift")
+    explorer.kept()
+    assert "seen=" in explorer.page.url
+    explorer.find(".undo").click()
+    explorer.kept()
+    assert "seen=" not in explorer.page.url
+    assert "a=-1.5" in explorer.page.url
