@@ -115,7 +115,8 @@ def _branches(h: float, k: float, product: float, reach: float) -> list[Array]:
         if not low < high:
             continue
         t = np.linspace(low, high, 2 + math.ceil((high - low) / step))
-        pieces.append(np.stack([h + sign * size * np.exp(t), k + up * size * np.exp(-t)], axis=-1))
+        points = np.stack([h + sign * size * np.exp(t), k + up * size * np.exp(-t)], axis=-1)
+        pieces.append(np.clip(points, -reach, reach))  # a centre far away costs digits
     return pieces
 
 

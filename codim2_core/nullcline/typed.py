@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ..expressions.arrays import Program, program
 from ..layer_problem.equator_zeros import component_zeros, directions
 from ..systems.frozen import AtZ
-from .crossings import Crossing, crossings
+from .crossings import CLOSE, Crossing, crossings
 
 Array = NDArray[np.floating[Any]]
 Kind = Literal["rho", "theta", "U1", "U2"]
@@ -214,7 +214,21 @@ class _Tracer:
             within = 1.0 <= r <= self.reach if self.outside else r <= 1.0
             if within and not self._at_crossing(start) and np.abs(start[:2] - middle).max() <= cell:
                 self._both_ways(start)
+        self._join()
         return self.found
+
+    def _join(self) -> None:
+        """Let ends meet that have come as near to each other as can be followed: where U vanishes to second order."""
+        ends = np.array([branch.points[i] for branch in self.found for i in (0, -1)])
+        border = np.abs(np.hypot(*ends.T) - 1.0) < 1e-12 if len(ends) else np.zeros(0, bool)
+        for i in np.flatnonzero(~border).tolist():
+            gaps = np.hypot(*(ends - ends[i]).T)
+            gaps[i] = math.inf
+            j = int(gaps.argmin())
+            if not border[j] and 0.0 < gaps[j] < CLOSE:
+                ends[[i, j]] = 0.5 * (ends[i] + ends[j])
+                for k in (i, j):
+                    self.found[k // 2].points[-(k % 2)] = ends[k]
 
     def _enough(self) -> bool:
         return sum(len(branch.points) for branch in self.found) > ALL_POINTS

@@ -111,6 +111,8 @@ def test_nullclines_end_on_the_equator_or_where_they_meet(system, p):
 
 @settings(max_examples=25)
 @given(polynomials, st.sampled_from([c2.psi.exponential(), c2.psi.tanh(), c2.psi.hill(6)]))
+@example(c2.System(U=("0", "s**2")), c2.psi.exponential())  # vanishes to second order, and no curve is followed there
+@example(c2.System(U=("0", "s**2 - c*s")), c2.psi.tanh())
 def test_nullclines_of_general_systems_end_on_the_equator_or_where_they_meet(system, p):
     check_nullclines(system, p)
 
