@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-#: Authors and title.
+#: Authors, title, and where it is found: Crossref knows papers by title. Nothing is asked until a reader clicks.
 PAPER = (
     "N. Cheesman, K. Uldall Kristiansen and S. J. Hogan",
     "Regularisation of isolated codimension-2 discontinuity sets",
+    "https://search.crossref.org/search/works?q=Regularisation+of+isolated+codimension-2+discontinuity+sets",
 )
 #: Term and meaning, in the paper's words, in the order in which a reader of the picture meets them.
 GLOSSARY: tuple[tuple[str, str], ...] = (
