@@ -23,13 +23,13 @@ class Compiling(event.Listener):
         self._depth = 0  # one kernel compiles those that it calls
         self._since = self._seconds = 0.0
 
-    def on_start(self, event: event.Event) -> None:  # noqa: ARG002
+    def on_start(self, event: event.Event) -> None:  # noqa: ARG002 (Numba gives it)
         """Begin to count."""
         if self._depth == 0:
             self._since = time.process_time()
         self._depth += 1
 
-    def on_end(self, event: event.Event) -> None:  # noqa: ARG002
+    def on_end(self, event: event.Event) -> None:  # noqa: ARG002 (Numba gives it)
         """Stop counting."""
         self._depth -= 1
         if self._depth == 0:

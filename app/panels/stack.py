@@ -73,12 +73,17 @@ def stacked(
     Heights are shares of the span, from 0 to 1.
     """
     low, high = span
-    at = lambda value: (*others[:axis], float(value), *others[axis + 1 :])  # noqa: E731
+
+    def at(value: float) -> tuple[float, ...]:
+        return (*others[:axis], float(value), *others[axis + 1 :])
+
+    def share(value: float) -> float:
+        return round((float(value) - low) / (high - low), 4)
+
     discs = []
     for value in np.linspace(low, high, SLICES):
         scene = Scene(system, psi, at(value), count=SEEDS)
         discs.append({"z": float(value), "lines": [_flat(line) for line in _lines(scene["inside"])]})
-    share = lambda value: round((float(value) - low) / (high - low), 4)  # noqa: E731
     found = directions_along(system, span, others, axis, ANGLES)
     columns = (found.z, found.theta, found.lambda_rho, found.lambda_theta)
     directions = [

@@ -3,8 +3,9 @@
 import pickle
 
 import pytest
+from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.packing import unpack
-from codim2_app.frame.budget import LAYER, MOST_STANDING, Budget, layers_of, wildness
+from codim2_app.frame.budget import LAYER, MOST_STANDING, WORDS, Budget, layers_of, wildness
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.frame.turns import Turns
@@ -81,6 +82,10 @@ def test_a_formula_too_wild_to_draw_is_named_so():
     assert f"at most {MOST_STANDING}" in last["left_out"]
     assert "separatrices" in last["left_out"]
     assert last["left_out"].count("limit directions") == 1  # one reason, one sentence
+
+
+def test_what_is_left_out_is_named_in_words():
+    assert {part.sketch or part.scene for layer in LAYERS.values() for part in layer.parts} <= WORDS.keys()
 
 
 def test_the_wildness_of_a_formula_grows_with_it():
