@@ -10,6 +10,7 @@ from ..words import say
 from .curve import BifurcationCurve, SpecialPoint, frozen, matrix, place
 from .geometry import Geometry
 
+_TOGETHER = 1e-6  # radians, between directions that rounding keeps apart
 _TAU = 2.0 * math.pi
 _TURN = _TAU / 360  # the tangent turns by at most this from point to point
 _CUSP = {
@@ -113,9 +114,13 @@ def critical_boundary(a: float, b: float, d: float) -> BifurcationCurve:
     branch[-1] = branch[0]
     touching = say("reaches where they meet")
     crossing = say("reaches, and elsewhere they meet")
+    # where the touching and the crossing direction have come together (a fourfold zero) nothing is elsewhere
+    elsewhere = [
+        t for t in plane.crossing if all(abs(math.remainder(t - touch, _TAU)) > _TOGETHER for touch in plane.touching)
+    ]
     special = [
         *(SpecialPoint("saddle-node on the equator", place(plane.saddle_node_at(t)), touching) for t in plane.touching),
-        *(SpecialPoint("saddle-node elsewhere", place(plane.saddle_node_at(t)), crossing) for t in plane.crossing),
+        *(SpecialPoint("saddle-node elsewhere", place(plane.saddle_node_at(t)), crossing) for t in elsewhere),
     ]
     name = "transcritical: the circle |f| = |b|, also the saddle-node curve" if plane.coincide else "transcritical"
     sentence = say("reaches the equator")

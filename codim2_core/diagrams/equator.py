@@ -38,10 +38,12 @@ def equator_part(
     span = (float(grid[0]), float(grid[-1]))
     values = discriminant(plane, exponent)
     size = sum((abs(np.ldexp(v, exponent)) for v in plane.arrays), np.full(len(grid), 1e-300))
-    if plane.rigid or (abs(values) <= _FLAT * size**6).mean() > 0.5:
+    flat = abs(values) <= _FLAT * size**6
+    # a share of the span: where something was looked for again, samples crowd
+    if plane.rigid or np.average(flat, weights=np.gradient(grid)) > 0.5:
         return _unchanging(path, grid, cuts)
     everywhere = _all_directions(path, grid, plane)
-    found = _meetings(path, grid, values, plane, exponent, span)
+    found = _meetings(path, grid, values, flat, plane, exponent, span)
     width = span[1] - span[0]
     found = [m for m in found if all(abs(m.value - v) > 1e-5 * width for v in everywhere)]
     stops = sorted({m.value for m in found} | set(everywhere))
@@ -72,7 +74,13 @@ def equator_part(
 
 
 def _meetings(
-    path: Line, grid: Array, values: Array, plane: Plane, exponent: int, span: tuple[float, float]
+    path: Line,
+    grid: Array,
+    values: Array,
+    flat: NDArray[np.bool_],
+    plane: Plane,
+    exponent: int,
+    span: tuple[float, float],
 ) -> list[Meeting]:
     """All multiple zeros of Theta along the path."""
     changes = sign_changes(values)
@@ -81,22 +89,22 @@ def _meetings(
     ends = [i for i in (0, len(grid) - 1) if size[i] <= 1e-9 * size.max()]
     starts = np.unique(np.concatenate([0.5 * (grid[changes] + grid[changes + 1]), grid[lowest], grid[ends]]))
     found = meetings(path, span, starts, 1.5 * float(np.diff(grid).max())) if len(starts) else []
-    # every change of the number of zeros must have a meeting next to it
-    counts = equator_counts(plane, exponent)
+    # every change of the number of zeros must have a meeting next to it; next to one rounding decides the number
+    counts, solid = equator_counts(plane, exponent)[~flat], grid[~flat]
     missed = [
         i
         for i in np.flatnonzero(counts[1:] != counts[:-1])
-        if not any(grid[i] - 1e-9 <= m.value <= grid[i + 1] + 1e-9 for m in found)
+        if not any(solid[i] - 1e-9 <= m.value <= solid[i + 1] + 1e-9 for m in found)
     ]
     if missed:
         at = np.array(missed)
-        places, poles = refined(lambda v: discriminant(path(v), exponent), grid[at], grid[at + 1])
+        places, poles = refined(lambda v: discriminant(path(v), exponent), solid[at], solid[at + 1])
         for value in places[~poles].tolist():
             q = path(np.array([value])).coefficients(0)
-            flat = real_zeros(0.0, -q.f1, -q.f2, q.d - q.a, 0.0).theta
-            one = path(np.full(len(flat), value))
-            lowest_ = int(abs(theta_value(one, np.array(flat))).argmin())
-            found.append(Meeting("saddle-node", value, flat[lowest_]))
+            still = real_zeros(0.0, -q.f1, -q.f2, q.d - q.a, 0.0).theta
+            one = path(np.full(len(still), value))
+            lowest_ = int(abs(theta_value(one, np.array(still))).argmin())
+            found.append(Meeting("saddle-node", value, still[lowest_]))
     return sorted(found, key=lambda m: (m.value, m.theta))
 
 
@@ -241,10 +249,11 @@ def _closed(path: Line, low: float, high: float) -> tuple[list[ClosedEquator], l
 
     def exponent(v: float) -> float:
         cycle = equator_cycle(path(np.array([v])).coefficients(0))
-        return cycle.exponent if cycle is not None else 0.0
+        return cycle.exponent if cycle is not None else math.nan
 
     x = low + (high - low) * _PARTS
     y = np.array([exponent(v) for v in x.tolist()])
+    x, y = x[np.isfinite(y)], y[np.isfinite(y)]  # at its ends Θ may vanish within rounding: no closed orbit is seen
     if not y.any():
         return [_closed_branch(x, y)], []
     found = roots(lambda values: np.array([exponent(v) for v in values.tolist()]), [x], [y]).zeros[0]

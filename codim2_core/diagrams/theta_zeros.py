@@ -289,4 +289,5 @@ def _solve(kind: str, path: Line, span: tuple[float, float], theta: Array, value
         good &= t2 <= 1e-9 * size
     if kind == "exchange":
         good &= v0 <= 1e-10 * (change + size)
-    return _Settled(theta, value, good, good & (t2 > 1e-3 * size) & (v0 > 1e-3 * change))
+    regular = good & (t2 > 1e-3 * size) & (v0 > np.maximum(1e-3 * change, 1e-4 * size))
+    return _Settled(theta, value, good, regular)

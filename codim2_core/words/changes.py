@@ -155,6 +155,10 @@ SENTENCES: dict[str, Sentence] = {
     "two sets meet": Sentence("Two critical sets meet: a {one} and a {other}.", "two branches end in one point"),
     "one comes or goes": Sentence("A critical set comes or goes here, alone.", "a branch ends alone"),
     "saddle turns": Sentence("det J = 0: a critical set turns from a saddle into another kind.", "det J = 0"),
+    "set splits": Sentence(
+        "det J = 0: three critical sets meet in one, which turns between a saddle and another kind.",
+        "two come to a third, which turns",
+    ),
     "Hopf, typed": Sentence("Hopf: tr J = 0 < det J.", "tr J = 0 < det J"),
     "splits": Sentence(
         "One limit direction splits into three at {at}: Θ has a triple zero.", "Θ has a triple zero, symmetric"

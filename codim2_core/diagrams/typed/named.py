@@ -58,6 +58,12 @@ def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
         while len(inner) > 1:
             near = min(combinations(inner, 2), key=lambda pair: math.dist(pair[0].p, pair[1].p))
             inner = [C for C in inner if C is not near[0] and C is not near[1]]
+            third = _between(near, pairs)
+            if third is not None:  # it goes on, and turned where the two came to it
+                pairs.remove(third)
+                place = (float(third[1].p[0]), float(third[1].p[1]))
+                out.append(SpecialValue("det J = 0", value, place, say("set splits"), "eq:scjaco"))
+                continue
             kinds = sorted("saddle" if C.kind == "saddle" else "node" for C in near)
             sentence = say("two sets meet", one=kinds[1], other=kinds[0])
             out.append(SpecialValue("fold of critical sets", value, _middle(near), sentence, "eq:critical_set"))
@@ -118,6 +124,18 @@ def _meeting(value: float, count: int, theta: float) -> SpecialValue:
         return SpecialValue("saddle-node", value, place, sentence, "fig:SNBIF")
     sentence = say("splits", at=at)
     return SpecialValue("pitchfork", value, place, sentence, "fig:SNBIF")
+
+
+def _between(
+    near: tuple[CriticalSet, CriticalSet], pairs: Sequence[tuple[CriticalSet, CriticalSet]]
+) -> tuple[CriticalSet, CriticalSet] | None:
+    """Return the critical set that turned between two of the other kind, which came from it or went into it."""
+    saddles = [C.kind == "saddle" for C in near]
+    if saddles[0] != saddles[1]:
+        return None
+    middle, reach = _middle(near), _TOGETHER + 0.5 * math.dist(near[0].p, near[1].p)
+    turned = [pair for pair in pairs if sum(C.kind == "saddle" for C in pair) == 1]
+    return next((pair for pair in turned if math.dist(pair[1].p, middle) < reach), None)
 
 
 def _middle(pair: tuple[CriticalSet, CriticalSet]) -> tuple[float, float]:
