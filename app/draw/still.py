@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from html import escape
 
-from .svg import SIDE, draw
+from .svg import draw
 from .theme import themes
+from .vector.parts import SIDE
 
 _VARIABLE = re.compile(r"var\(--([\w-]+)\)")
 
@@ -34,7 +35,12 @@ def still(buffer: bytes, layers: Collection[str], theme: str = "light", width: i
     ground = f'<rect width="{SIDE}" height="{SIDE}" fill="var(--page)"/>'
     clear = '<text paint-order="stroke" stroke="var(--page)" stroke-width="6" '  # of the lines behind it
     whole = inner.replace(">", f">{ground}", 1).replace("<text ", clear)
-    return _VARIABLE.sub(lambda name: colours[name[1]], whole)
+    return coloured(whole, colours)
+
+
+def coloured(svg: str, colours: Mapping[str, str]) -> str:
+    """Return an SVG with colours by name in place of the style sheet's custom properties."""
+    return _VARIABLE.sub(lambda name: colours[name[1]], svg)
 
 
 def page_of(svg: str, sentence: str, title: str) -> str:

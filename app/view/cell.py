@@ -25,7 +25,7 @@ from panel.io.notebook import EXEC_MIME, JupyterCommManagerBinary
 from panel.io.resources import DIST_DIR
 from tornado.ioloop import IOLoop
 
-from .bundle import bundle
+from ..draw.bundle import bundle
 
 SCRIPT = Path(__file__).parents[1] / "static" / "cell.js"
 #: Name of the comm that a cell's script opens.

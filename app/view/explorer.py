@@ -28,13 +28,13 @@ from ..draw.figure import make_figure
 from ..draw.packing import pack, unpack
 from ..draw.still import page_of, still
 from ..frame.budget import Budget
+from ..frame.picture import make_frame
 from ..state.chosen import System_
 from ..state.controls import NAMES, ExplorerState, InputError
 from ..state.links import Look
 from .cell import Cell, kernel
 from .first_markup import first_words
 from .markup import STATIC, config, explorer_html, script
-from .picture import make_frame
 from .refresh import Frames
 from .shared import SHARED, declare, join
 from .warmup import is_ready

@@ -13,6 +13,7 @@ from jinja2 import Environment, FileSystemLoader, Template, select_autoescape
 
 from codim2_core.psi import FAMILIES
 
+from ..draw.bundle import bundle
 from ..draw.layers import LAYERS, TRACES, looks, swatches, table
 from ..draw.theme import DISCS, HATCHES, RING, VIEW, custom_properties, themes
 from ..panels.registry import PANELS
@@ -22,7 +23,6 @@ from ..state.chosen import BOXES, titles
 from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values, slider_range
 from ..state.links import BROUGHT, VERSION, Look
 from ..state.portraits import portraits
-from .bundle import bundle
 from .glossary import GLOSSARY, MARKS, OPENING, PAPER
 
 STATIC = Path(__file__).parents[1] / "static"

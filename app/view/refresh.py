@@ -22,6 +22,7 @@ from ..frame.budget import Budget, Layers, LeftOut, layers_of
 from ..frame.draft import Draft
 from ..frame.faults import sentence_of
 from ..frame.jobs import Jobs
+from ..frame.picture import Asked, Blocks, make_frame
 from ..frame.scenes import evolved, locked_controls, make_scene, settled
 from ..frame.sides import sides
 from ..frame.turns import Failed
@@ -33,7 +34,6 @@ from ..state.chosen import GIVEN, System_, describe
 from ..state.controls import NAMES, TYPED_IN, ExplorerState, InputError, clean, first_values, preset_values
 from .load import load
 from .notices import left_out
-from .picture import Asked, Blocks, make_frame
 
 #: Controls that are axes of the picture's parameters.
 MOVED = frozenset(AXES)

@@ -309,9 +309,10 @@ def test_the_svg_of_one_frame():
     assert 'transform="translate(400 300)"' in svg
     assert 'd="M-5 -5L5 5M5 -5L-5 5" stroke="var(--crit)" stroke-width="3" fill="none"' in svg
     assert (
-        '<text x="643" y="150" font-size="22" font-weight="700" fill="var(--ink)" text-anchor="middle">Q₁</text>' in svg
+        '<text x="642.4" y="149.9" font-size="22" font-weight="700" fill="var(--ink)" text-anchor="middle">Q₁</text>'
+        in svg
     )
-    assert '<text x="418" y="290" font-size="22" font-weight="700" fill="var(--ink)">C ⊙</text>' in svg
+    assert '<text x="418" y="290.1" font-size="22" font-weight="700" fill="var(--ink)">C ⊙</text>' in svg
     [head] = re.findall(r'd="(M[^"]*)" fill="var\(--orbit\)"', svg)  # its tip to the right and down
     assert head == "M607 454L592 452L597 443Z"
     [sense] = re.findall(r'd="(M[^"]*)" fill="var\(--ink\)"', svg)

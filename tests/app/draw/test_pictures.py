@@ -8,8 +8,9 @@ import pytest
 from codim2_app.draw import layers
 from codim2_app.draw.layers import Layer, Part
 from codim2_app.draw.overlay import elements, holoviews
-from codim2_app.draw.svg import SIDE, SMALL_SIDE, draw, small
+from codim2_app.draw.svg import SMALL_SIDE, draw, small
 from codim2_app.draw.theme import VIEW, custom_properties, themes
+from codim2_app.draw.vector.parts import SIDE
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.markup import config, stylesheet
 from codim2_app.view.refresh import Frames

@@ -8,7 +8,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from codim2_app.view.bundle import bundle
+from codim2_app.draw.bundle import bundle
 from codim2_app.view.markup import script
 
 HERE = Path(__file__).parent

@@ -17,8 +17,8 @@ from codim2_core.systems.elinear import ELinear
 from ..draw import glyphs
 from ..draw.layers import LAYERS
 from ..draw.packing import Polylines
-from ..frame.budget import LeftOut, NotYet
-from ..frame.window import Window
+from .budget import LeftOut, NotYet
+from .window import Window
 
 Blocks = dict[str, NDArray[Any] | Polylines]
 

@@ -1,0 +1,257 @@
+"""Parts of the picture as SVG elements: where a point of it lies in a drawing, and what is drawn there.
+
+Colours are custom properties of the style sheet, ``var(--name)``, so that themes need no second drawing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..layers import Part
+from ..packing import ANGLE_STEP, STEP, Rectangle
+from ..shapes import OPEN, shape
+from ..theme import HATCHES, RING, VIEW
+from .labels import Box, clear_of
+
+SIDE = 1000
+#: A hatch's strokes are so far apart, in px of the screen.
+HATCH = 7.0
+
+
+@dataclass(frozen=True)
+class Place:
+    """How the picture lies in a drawing.
+
+    Attributes
+    ----------
+    seen : (left, right, bottom, top)
+        What is drawn of the picture.
+    side : float
+        Its width in the drawing; its corner is at (0, 0).
+    unit : float
+        What is a px on the screen: of widths of lines and sizes of marks.
+    text : float
+        Size of labels.
+    decimals : int
+        Of coordinates.
+    dashes : mapping of str to tuple of float
+        By colour, where lines differ by dashes, in px of the screen, as they are in black and white.
+    """
+
+    seen: Rectangle = (-VIEW, VIEW, -VIEW, VIEW)
+    side: float = SIDE
+    unit: float = SIDE / 700
+    text: float = 22.0
+    decimals: int = 0
+    dashes: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+
+    @property
+    def scale(self) -> float:
+        """What is the disc's radius."""
+        return self.side / (self.seen[1] - self.seen[0])
+
+    @property
+    def height(self) -> float:
+        """Of the drawing."""
+        return self.scale * (self.seen[3] - self.seen[2])
+
+    def points(self, values: Any) -> Any:
+        """Return points of the picture in the drawing, as an array (n, 2)."""
+        points = (np.asarray(values, float).reshape(-1, 2) - (self.seen[0], self.seen[3])) * (self.scale, -self.scale)
+        return self.rounded(points)
+
+    def rounded(self, points: Any) -> Any:
+        """Return coordinates with as many decimals as are written."""
+        if not self.decimals:
+            return np.rint(points).astype(int)
+        return np.round(points, self.decimals)
+
+    def path(self, pieces: Iterable[Any]) -> str:
+        """Return polylines of points of the drawing as the text of a path."""
+        write = str if not self.decimals else f"{{:.{self.decimals + 3}g}}".format
+        return "".join(
+            "M" + "L".join(f"{write(x)} {write(y)}" for x, y in piece.tolist()) for piece in pieces if len(piece) > 1
+        )
+
+    def holds(self, x: float, y: float) -> bool:
+        """Whether a point of the drawing is in it."""
+        return 0 <= x <= self.side and 0 <= y <= self.height
+
+
+def steps(blocks: Mapping[str, Any], name: str) -> Any:
+    """Return packed coordinates as numbers."""
+    values = blocks[name]
+    return values * STEP if values.dtype == np.int16 else values
+
+
+def disc(radius: float, place: Place) -> str:
+    """Return a disc around the centre of the hemisphere."""
+    [[x, y]] = place.points((0.0, 0.0)).tolist()
+    return f'<circle cx="{x}" cy="{y}" r="{radius * place.scale:.{place.decimals}f}"/>'
+
+
+def curves(part: Part, blocks: Mapping[str, Any], place: Place) -> str:
+    """Return the strokes of one part; "" if there are none."""
+    if f"{part.name}.n" not in blocks:
+        return ""
+    ends = np.cumsum(blocks[f"{part.name}.n"], dtype=np.int64)[:-1]
+    path = place.path(np.split(place.points(steps(blocks, f"{part.name}.xy")), ends))
+    dashes = part.dash or place.dashes.get(part.colour, ())
+    return f'<path d="{path}" {stroke(part.colour, part.width, dashes, place)}/>'
+
+
+def stroke(colour: str, width: float, dashes: Sequence[float], place: Place) -> str:
+    """Return the attributes of a line."""
+    dash = f' stroke-dasharray="{" ".join(f"{v * place.unit:.{place.decimals}f}" for v in dashes)}"' if dashes else ""
+    return f'stroke="var(--{colour})" stroke-width="{width * place.unit:.{max(1, place.decimals)}f}"{dash}'
+
+
+def heads(part: Part, blocks: Mapping[str, Any], place: Place) -> str:
+    """Return the arrowheads of one part; "" if there are none."""
+    if f"{part.name}.at" not in blocks:
+        return ""
+    places = place.points(steps(blocks, f"{part.name}.at"))
+    return arrows(places, blocks[f"{part.name}.angle"] * ANGLE_STEP, 5.6, part.colour, place)
+
+
+def arrows(places: Any, angles: Any, size: float, colour: str, place: Place) -> str:
+    """Return filled triangles; `size` is from the middle to a corner."""
+    corners = -np.asarray(angles)[:, None] + (0, 2.4, -2.4)
+    u = places[:, :1] + size * place.unit * np.cos(corners)
+    v = places[:, 1:] + size * place.unit * np.sin(corners)
+    found = place.path(place.rounded(np.stack([u, v], axis=-1)))
+    return f'<path d="{found.replace("M", "ZM")[1:]}Z" fill="var(--{colour})"/>' if found else ""
+
+
+def equator(header: Mapping[str, Any], place: Place) -> list[str]:
+    """Return the circle |p| = 1, and arrowheads in the sense of theta'."""
+    colour, width = ("degenerate", 6) if header.get("all_directions") else ("ink", 2)
+    circle = disc(1.0, place).replace("/>", f" {stroke(colour, width, (), place)}/>")
+    sense = np.asarray(header.get("sense") or np.zeros((0, 3)), float)
+    return [circle, arrows(place.points(sense[:, :2]), sense[:, 2], 7.7, "ink", place) if len(sense) else ""]
+
+
+def starts(launched: Mapping[str, Any] | None, parts: Sequence[Part], place: Place) -> list[str]:
+    """Return where launched orbits start."""
+    if not launched:
+        return []
+    found = place.points(np.column_stack([launched["x"], launched["y"]])).tolist()
+    return [
+        f'<circle cx="{u}" cy="{v}" r="{5.5 * place.unit:.1f}" fill="var(--{parts[i % len(parts)].colour})" '
+        f"{stroke('page', 2.4, (), place)}/>"
+        for i, (u, v) in enumerate(found)
+    ]
+
+
+def marks(columns: Mapping[str, Any], place: Place, taken: list[Box]) -> list[str]:
+    """Return the marks of equator equilibria or critical sets; their boxes are added to `taken`."""
+    drawn = []
+    for i, (u, v) in enumerate(place.points(np.column_stack([columns["x"], columns["y"]])).tolist()):
+        if place.holds(u, v):
+            drawn.append(mark(columns, i, u, v, place.unit, 2.1 * place.unit))
+            size = columns["size"][i] * place.unit
+            taken.append(Box(u - size / 2, v - size / 2, size, size))
+    return drawn
+
+
+def labels(columns: Mapping[str, Any], place: Place, taken: list[Box]) -> list[str]:
+    """Return the labels of marks: none stands over what is in `taken`, to which their boxes are added."""
+    drawn = []
+    for i, (u, v) in enumerate(place.points(np.column_stack([columns["x"], columns["y"]])).tolist()):
+        if not place.holds(u, v):
+            continue
+        if "label_x" in columns:
+            away = np.array([columns["label_x"][i] - columns["x"][i], columns["y"][i] - columns["label_y"][i]])
+            away *= min(place.scale, place.side / (2 * VIEW))  # zoomed in, it stays as near to its mark
+            drawn.append(label(columns["label"][i], u + away[0], v + away[1], "middle", place, taken))
+        else:
+            text = f"{columns['label'][i]} {columns['sense'][i]}".strip()
+            drawn.append(label(text, u + 12.6 * place.unit, v - 12.2 * place.unit, "start", place, taken))
+    return drawn
+
+
+def mark(columns: Mapping[str, Any], i: int, u: float, v: float, unit: float, width: float) -> str:
+    """Return mark i of some columns at a place of the drawing."""
+    name, colour = columns["shape"][i], f"var(--{columns['colour'][i]})"
+    fill = "none" if name in OPEN else colour if columns["filled"][i] else "var(--page)"
+    look = f'stroke="{colour}" stroke-width="{width:.3g}" fill="{fill}"'
+    return f'<path transform="translate({u} {v})" d="{shape(name, columns["size"][i] * unit)}" {look}/>'
+
+
+def label(text: str, x: float, y: float, anchor: str, place: Place, taken: list[Box]) -> str:
+    """Return a label beside (x, y), the middle of its height, or where it stands over no other."""
+    box = clear_of(taken, text, x, y, anchor, place.text, place.side, place.height)
+    taken.append(box)
+    at = box.x + box.width / 2 if anchor == "middle" else box.x
+    return words(at, box.y + box.height / 2 + 0.34 * place.text, text, place.text, anchor, bold=True)
+
+
+def words(x: float, y: float, text: str, size: float, anchor: str = "start", bold: bool = False) -> str:
+    """Return a line of text; `y` is that of its foot."""
+    look = f'font-size="{size:g}"' + (' font-weight="700"' if bold else "") + ' fill="var(--ink)"'
+    aligned = f' text-anchor="{anchor}"' if anchor != "start" else ""
+    return f'<text x="{round(x, 1):g}" y="{round(y, 1):g}" {look}{aligned}>{text}</text>'
+
+
+def arcs(outcomes: Mapping[str, Any] | None, place: Place) -> list[str]:
+    """Return the ring of approach outcomes: colours, and hatches over them."""
+    if not outcomes:
+        return []
+    drawn = []
+    for start, end, kind in zip(outcomes["start"], outcomes["end"], outcomes["kind"], strict=True):
+        ring = place.points(_ring(start, end, *RING))
+        drawn.append(f'<path d="{place.path([ring])}Z" fill="var(--{kind})"/>')
+        if strokes := _hatching(start, end, HATCHES[kind], place):
+            drawn.append(f'<path d="{place.path(place.points(s) for s in strokes)}" {stroke("page", 1.4, (), place)}/>')
+    return drawn
+
+
+def _ring(start: float, end: float, inner: float, outer: float) -> list[tuple[float, float]]:
+    """Return the outline of one arc of the ring as a closed polygon of points of the picture."""
+    count = max(2, math.ceil((end - start) / 0.1) + 1)
+    angles = [start + (end - start) * i / (count - 1) for i in range(count)]
+    there = [(outer * math.cos(t), outer * math.sin(t)) for t in angles]
+    return there + [(inner * math.cos(t), inner * math.sin(t)) for t in reversed(angles)]
+
+
+def _hatching(start: float, end: float, hatch: str, place: Place) -> list[Any]:
+    """Return strokes across an arc of the ring: "/" one way, "x" both ways, "." short ones along its middle."""
+    inner, outer = RING
+    middle = (inner + outer) / 2
+    step, lean = HATCH * place.unit / (middle * place.scale), (outer - inner) / middle / 2
+    ways = {"/": ((inner, -lean, outer, lean),), "x": ((inner, -lean, outer, lean), (inner, lean, outer, -lean)),
+            ".": ((middle, -lean / 4, middle, lean / 4),)}.get(hatch, ())  # fmt: skip
+    angles = np.arange(start + step / 2, end, step)
+    return [
+        [(r * math.cos(t + back), r * math.sin(t + back)), (q * math.cos(t + on), q * math.sin(t + on))]
+        for t in angles
+        for r, back, q, on in ways
+    ]
+
+
+def basins(found: Mapping[str, Any] | None, blocks: Mapping[str, Any], place: Place) -> list[str]:
+    """Return the basins, a rectangle for each run of cells in a row; rows rise with y."""
+    if not found:
+        return []
+    cells = found["cells"]
+    side = 2 * place.scale / cells
+    left, bottom = ((-1 - place.seen[0]) * place.scale, (place.seen[3] + 1) * place.scale)
+    paths: dict[str, list[str]] = {}
+    at = 0
+    for length, which in blocks["basins"].reshape(-1, 2).tolist():
+        colour = found["colours"][which]
+        while length:
+            row, column = divmod(at, cells)
+            here = min(length, cells - column)
+            if colour:
+                x, y = left + column * side, bottom - (row + 1) * side
+                paths.setdefault(colour, []).append(
+                    f"M{x:.1f} {y:.1f}h{here * side:.1f}v{side:.1f}h{-here * side:.1f}Z"
+                )
+            at, length = at + here, length - here
+    return [f'<path d="{"".join(path)}" fill="var(--{colour})" opacity=".3"/>' for colour, path in paths.items()]

@@ -1,0 +1,182 @@
+"""A figure for print: the picture as SVG with a legend, and, where asked for, ticks, a title and a caption.
+
+The picture itself is `draw.svg.content`, which draws the page's first picture too. Lengths are points (1/72 inch).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from html import escape
+
+from ..draw.packing import unpack
+from ..draw.still import coloured
+from ..draw.svg import content
+from ..draw.theme import themes
+from ..draw.vector import parts as vector
+from ..draw.vector.labels import width_of
+from ..draw.vector.paper import DASHES, paper
+from ..draw.vector.parts import Place
+from .describe import caption_of
+from .legend import Entry, entries
+from .view import View
+
+THEMES = ("light", "dark", "paper")
+#: What the programs that make PNG and PDF of it bring along; the others are what a reader may have.
+FONTS = "Libertinus Serif, Linux Libertine O, STIX Two Text, Times New Roman, Liberation Serif, Nimbus Roman, serif"
+#: Points to a millimetre; to a px of the screen, for widths of lines and sizes of marks.
+MM, PX = 72 / 25.4, 0.55
+LABEL, SMALL = 11.0, 8.0
+#: The sample of a legend's entry, what is between it and the words, between columns, and between lines.
+SAMPLE, GAP, GUTTER, LINE = 22.0, 5.0, 12.0, 12.0
+#: Between ticks: about so many on an axis.
+TICKS = 6
+LEAST, MOST = 40.0, 400.0  # mm
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a figure looks.
+
+    Attributes
+    ----------
+    size : float
+        Width of the picture in mm, 40 to 400.
+    theme : {"light", "dark", "paper"}
+        "paper" is black and white.
+    legend, labels, ticks, title, caption : bool
+        What stands in and around the picture besides.
+    """
+
+    size: float = 120.0
+    theme: str = "light"
+    legend: bool = True
+    labels: bool = True
+    ticks: bool = False
+    title: bool = False
+    caption: bool = False
+
+    def __post_init__(self) -> None:
+        if not LEAST <= self.size <= MOST:
+            raise ValueError(f"size is {self.size:g}; give the width of the picture in mm, {LEAST:g} to {MOST:g}.")
+        if self.theme not in THEMES:
+            raise ValueError(f"theme is {self.theme!r}; choose one of {', '.join(THEMES)}.")
+
+
+def figure(view: View, style: Style | None = None) -> str:
+    """Return a view as an SVG file that needs nothing else, 50 to 300 kB.
+
+    Parameters
+    ----------
+    view : View
+    style : Style, optional
+    """
+    style = style or Style()
+    buffer, layers = view.frame(), view.values["layers"]
+    header, blocks = unpack(buffer)
+    side = style.size * MM
+    place = Place(view.seen, side, PX, LABEL, 2, DASHES if style.theme == "paper" else {})
+    left, right = (30.0, 8.0) if style.ticks else (0.0, 0.0)
+    parts: list[str] = []
+    y = 0.0
+    if style.title:
+        title = view.title or header["portrait"]["name"]
+        parts.append(vector.words(left + side / 2, 14.0, escape(title), 12.0, "middle", bold=True))
+        y = 22.0
+    drawn = content(buffer, layers, place, style.labels)
+    frame = f'x="0" y="0" width="{side:.2f}" height="{place.height:.2f}"'
+    parts.append(
+        f'<clipPath id="picture"><rect {frame}/></clipPath><g transform="translate({left:g} {y:g})">'
+        f'<g clip-path="url(#picture)">{_clear(drawn)}</g>{"".join(_ticks(place)) if style.ticks else ""}</g>'
+    )
+    y += place.height + (30.0 if style.ticks else 0.0)
+    width = left + side + right
+    if style.legend:
+        columns = _columns(entries(header, blocks, layers), side)
+        parts += _legend(columns, place, left, y + 6.0)
+        y += 6.0 + LINE * max((len(column) for _, column in columns), default=0) + 4.0
+    if style.caption:
+        lines = list(_wrapped(caption_of(view, header), side))
+        parts += [vector.words(left, y + LINE * (i + 1), escape(line), SMALL) for i, line in enumerate(lines)]
+        y += LINE * len(lines) + 8.0
+    whole = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.2f}pt" height="{y:.2f}pt" '
+        f'viewBox="0 0 {width:.2f} {y:.2f}" fill="none" stroke-linejoin="round" stroke-linecap="butt" '
+        f'font-family="{FONTS}"><title>{escape(caption_of(view, header))}</title>'
+        f'<rect width="{width:.2f}" height="{y:.2f}" fill="var(--page)"/>{"".join(parts)}</svg>\n'
+    )
+    return coloured(whole, paper() if style.theme == "paper" else themes()[style.theme])
+
+
+def _wrapped(text: str, width: float) -> Iterator[str]:
+    """Return a text in lines that are not wider."""
+    line = ""
+    for word in text.split():
+        longer = f"{line} {word}".lstrip()
+        if line and width_of(longer, SMALL) > width:
+            yield line
+            longer = word
+        line = longer
+    yield line
+
+
+def _clear(drawn: str) -> str:
+    """Return a drawing whose labels are clear of the lines behind them."""
+    return drawn.replace("<text ", '<text paint-order="stroke" stroke="var(--page)" stroke-width="2.6" ')
+
+
+def _columns(shown: list[Entry], side: float) -> list[tuple[float, list[Entry]]]:
+    """Return the columns of the legend, as many as there is room for: where each begins, and its entries."""
+    found: list[tuple[float, list[Entry]]] = []
+    for count in (3, 2, 1):
+        rows = max(1, math.ceil(len(shown) / count))
+        found, x = [], 2.0
+        for i in range(0, len(shown), rows):
+            column = shown[i : i + rows]
+            found.append((x, column))
+            x += SAMPLE + GAP + max(width_of(entry.words, SMALL) for entry in column) + GUTTER
+        if x - GUTTER <= side:
+            break
+    return found
+
+
+def _legend(columns: list[tuple[float, list[Entry]]], place: Place, left: float, y: float) -> Iterator[str]:
+    for x, column in columns:
+        for i, entry in enumerate(column):
+            middle = y + LINE * (i + 0.5)
+            yield entry.drawn(place, left + x, middle, SAMPLE)
+            foot = middle + 0.34 * SMALL
+            yield vector.words(left + x + SAMPLE + GAP, foot, escape(entry.words), SMALL)
+
+
+def _ticks(place: Place) -> Iterator[str]:
+    """Return a frame with ticks, their numbers, and the names of both axes."""
+    left, right, bottom, top = place.seen
+    line = vector.stroke("soft", 1.2, (), place)
+    yield f'<rect width="{place.side:.2f}" height="{place.height:.2f}" {line}/>'
+    for value in _round_steps(left, right):
+        [[u, _]] = place.points((value, 0.0)).tolist()
+        yield f'<path d="M{u} {place.height:.2f}v-4M{u} 0v4" {line}/>'
+        yield vector.words(u, place.height + 11.0, _number(value), SMALL, "middle")
+    for value in _round_steps(bottom, top):
+        [[_, v]] = place.points((0.0, value)).tolist()
+        yield f'<path d="M0 {v}h4M{place.side:.2f} {v}h-4" {line}/>'
+        yield vector.words(-4.0, v + 0.34 * SMALL, _number(value), SMALL, "end")
+    yield vector.words(place.side / 2, place.height + 24.0, "x̄ = p₁ inside, (1 + ρ) cos θ outside", SMALL, "middle")
+    turned = vector.words(0.0, 0.0, "ȳ", SMALL, "middle")
+    yield f'<g transform="translate(-22 {place.height / 2:.1f})">{turned}</g>'
+
+
+def _round_steps(low: float, high: float) -> list[float]:
+    """Return round values between two, about `TICKS` of them, clear of the corners."""
+    rough = (high - low) / TICKS
+    power = 10.0 ** math.floor(math.log10(rough))
+    step = next(power * k for k in (1, 2, 5, 10) if power * k >= rough)
+    margin = 0.02 * (high - low)
+    first = math.ceil((low + margin) / step)
+    return [k * step for k in range(first, math.floor((high - margin) / step) + 1)]
+
+
+def _number(value: float) -> str:
+    return f"{0.0 if abs(value) < 1e-12 else value:.6g}".replace("-", "−")

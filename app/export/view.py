@@ -1,0 +1,116 @@
+"""The view that is taken away: what is on one screen, frozen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
+
+from codim2_core.figures.presets import presets
+from codim2_core.scene import Scene
+
+from ..draw.packing import Rectangle, pack
+from ..draw.theme import VIEW
+from ..frame.picture import make_frame
+from ..frame.scenes import make_scene
+from ..frame.window import Window, seen
+from ..slow_layers import basins, outcomes
+from ..state.chosen import System_
+from ..state.links import Link, Look, read_link, squeezed, write_link
+
+#: Of the whole picture's width: curves of a figure are sampled within a quarter of it.
+FINE = 1 / 1600
+WHOLE: Rectangle = (-VIEW, VIEW, -VIEW, VIEW)
+
+
+@dataclass(frozen=True)
+class View:
+    """What is on one screen.
+
+    Attributes
+    ----------
+    values : dict
+        Of all controls.
+    seen : (left, right, bottom, top)
+        The part of the picture that is seen.
+    system : ELinear or System, optional
+        Drawn instead of the one that the values choose: the user's own, from Python.
+    """
+
+    values: dict[str, Any]
+    seen: Rectangle = WHOLE
+    system: System_ | None = field(default=None)
+
+    @classmethod
+    def of(cls, link: Link) -> View:
+        """Return what a link shows."""
+        window = Window.read([*link.look.seen, 0.0])  # None where nothing, or more than the page can, is zoomed into
+        return cls(link.state.values(), WHOLE if window is None else window.rectangle)
+
+    @property
+    def title(self) -> str:
+        """Of its portrait in the paper, if it is one; else empty."""
+        preset = presets.get(self.values["preset"])
+        return preset.title if preset else ""
+
+    @property
+    def query(self) -> str:
+        """The query of the address that shows it; empty for a system from Python, which no address can carry."""
+        if self.system is not None:
+            return ""
+        return squeezed(write_link(self.values, Look(() if self.seen == WHOLE else self.seen)))
+
+    @property
+    def width(self) -> float:
+        """Of what is seen, in picture units."""
+        return self.seen[1] - self.seen[0]
+
+    def scene(self) -> Scene:
+        """Return what is computed for the screen."""
+        window = None if self.seen == WHOLE else Window(self.seen, self.width / 700)
+        return seen(make_scene(self.values, self.system), window, rest=True)
+
+    def frame(self, share: float = FINE) -> bytes:
+        """Return all that is drawn as one packed frame, its curves sampled as finely as `share` of the width asks."""
+        scene = self.scene().evolve(pixel=share * self.width)
+        window = Window(self.seen, scene.pixel)
+        header, blocks, _ = make_frame(scene, self.values, {}, ready=True, window=window)
+        if "outcomes" in self.values["layers"]:
+            header["outcomes"] = outcomes.columns(scene["outcomes"])
+        if "basins" in self.values["layers"]:
+            header["basins"], blocks["basins"] = basins.columns(scene)
+        return pack(header, blocks, self.seen, self.width / 700)
+
+
+def view_of(text: str) -> View:
+    """Return the view that a text names: a preset, a link, or the query of one.
+
+    Raises
+    ------
+    ValueError
+        It is none of these, or something in it cannot be used.
+    """
+    if text in presets:
+        return View.of(read_link({"preset": text}))
+    query = urlsplit(text).query or (text if "=" in text else "")
+    if not query:
+        some = ", ".join(list(presets)[:3])
+        raise ValueError(f"{text[:60]!r} is no preset and no link; give one such as {some}, or an explorer's address.")
+    link = read_link(query)
+    if link.errors:
+        raise ValueError(" ".join(map(str, link.errors)))
+    return View.of(link)
+
+
+def suffix_of(path: Path, allowed: tuple[str, ...]) -> str:
+    """Return how a file's name ends.
+
+    Raises
+    ------
+    ValueError
+        Otherwise than is allowed.
+    """
+    if path.suffix not in allowed:
+        raise ValueError(f"{path.name!r} ends in {path.suffix or 'nothing'}; give a name in {', '.join(allowed)}.")
+    return path.suffix

@@ -1,0 +1,50 @@
+"""The commands that write files of a view: `figure`. None of them loads the server, and none needs a browser."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+VIEW = "a preset (`codim2 presets` lists them), an explorer's link, or the query of one"
+
+
+def add_figure(commands: Any) -> None:
+    """Add `codim2 figure`."""
+    command = commands.add_parser("figure", help="draw a preset or a link: SVG, PNG or PDF")
+    command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
+    command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="ends in .svg, .png or .pdf")
+    command.add_argument("--size", type=float, default=120.0, metavar="MM", help="width of the picture; default 120")
+    command.add_argument("--scale", type=float, default=3.0, help="of a PNG: 1 is 96 dots per inch; default 3")
+    command.add_argument("--theme", default="light", help="light, dark or paper (black and white); default light")
+    command.add_argument("--no-legend", dest="legend", action="store_false", help="leave out the legend")
+    command.add_argument("--no-labels", dest="labels", action="store_false", help="leave out Q₁, Q₂, …, C")
+    for name, words in (("ticks", "a frame with ticks"), ("title", "a title"), ("caption", "a caption")):
+        command.add_argument(f"--{name}", action="store_true", help=f"draw {words} too")
+    command.set_defaults(run=lambda chosen: _written(chosen.output, lambda: _figure(chosen)))
+
+
+def _figure(chosen: argparse.Namespace) -> bytes:
+    from ..export.figure import Style, figure  # the kernels, and all that is drawn, are not needed for --help
+    from ..export.printing import pdf, png
+    from ..export.view import suffix_of, view_of
+
+    suffix = suffix_of(chosen.output, (".svg", ".png", ".pdf"))
+    style = Style(chosen.size, chosen.theme, chosen.legend, chosen.labels, chosen.ticks, chosen.title, chosen.caption)
+    svg = figure(view_of(chosen.view), style)
+    return svg.encode() if suffix == ".svg" else pdf(svg) if suffix == ".pdf" else png(svg, chosen.scale)
+
+
+def _written(output: Path, make: Callable[[], bytes]) -> int:
+    """Write a file; print what is wrong in one sentence if it cannot be."""
+    try:
+        output.write_bytes(make())
+    except ValueError as error:
+        print(f"codim2: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"codim2: {output} cannot be written: {error.strerror}.", file=sys.stderr)
+        return 1
+    return 0

@@ -1,0 +1,163 @@
+"""Figures hold what the core computes, with labels that are clear of each other, and a legend of what is drawn."""
+
+import re
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from codim2_app.draw.layers import LAYERS
+from codim2_app.draw.theme import themes
+from codim2_app.draw.vector.labels import Box, clear_of, width_of
+from codim2_app.draw.vector.paper import DASHES, paper
+from codim2_app.export.figure import MM, Style, figure
+from codim2_app.export.view import WHOLE, view_of
+
+SVG = "{http://www.w3.org/2000/svg}"
+SEVERAL = ("case1-cm4", "case3-n3", "ball-dynamic", "attracting-repelling", "nonunique-sliding", "conics-4")
+
+
+def strokes(svg, colour):
+    """The polylines of one colour, in points of the drawing."""
+    paths = re.findall(rf'<path d="(M[^"hHvV]*)" stroke="{colour}"', svg.split("</clipPath>")[1].split("</g></g>")[0])
+    pieces = [piece for path in paths for piece in path.split("M")[1:]]
+    return [np.array([[float(v) for v in pair.split()] for pair in piece.split("L")]) for piece in pieces]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a=-2&b=0.35&d=-1&f1=-0.4&f2=0.25&psi=rational&layers=inside,continuations",
+        "a=-2&b=0.35&d=-1&f1=-0.4&f2=0.25&psi=rational&layers=inside,continuations&seen=-0.5,0.7,-0.3,0.9",
+        "system=own&layers=inside,continuations&z=0.3",
+    ],
+)
+def test_its_curves_are_those_of_the_core(text):
+    view = view_of(text)
+    svg = figure(view, Style(size=100.0, legend=False))
+    left, right, _, top = view.seen
+    scale = 100.0 * MM / (right - left)
+    scene = view.scene().evolve(pixel=(right - left) / 1600)
+    for colour, points in (("orbit", scene["inside"].points), ("continuation", scene["continuations"].points)):
+        drawn = strokes(svg, themes()["light"][colour])
+        assert drawn
+        whole = np.concatenate([(np.asarray(p) - (left, top)) * (scale, -scale) for p in points])
+        for piece in drawn:  # a window cuts what is far outside away: each point that is left is one of the core's
+            nearest = [np.abs(whole - point).max(axis=1).min() for point in piece[:: max(1, len(piece) // 8)]]
+            assert max(nearest) < 0.02
+        if view.seen == WHOLE:
+            assert [len(piece) for piece in drawn] == [len(p) for p in points if len(p) > 1]
+
+
+@pytest.mark.parametrize("key", SEVERAL)
+@pytest.mark.parametrize("theme", ["light", "dark", "paper"])
+def test_it_needs_nothing_else_and_nothing_is_clipped(key, theme):
+    svg = figure(view_of(key), Style(size=80.0, theme=theme, ticks=True, title=True, caption=True))
+    root = ElementTree.fromstring(svg)
+    assert "var(" not in svg
+    assert not re.search(r'(href|src)="', svg)
+    assert len(svg) < 400_000
+    _, _, width, height = map(float, root.get("viewBox").split())
+    foots = [float(text.get("y")) for text in root.findall(f"{SVG}text")]
+    assert min(foots) > 0
+    assert max(foots) < height - 2
+    for text in root.findall(f"{SVG}text"):
+        if text.get("text-anchor") is None:
+            assert float(text.get("x")) + width_of(text.text, float(text.get("font-size"))) < width + 1
+    colours = set(re.findall(r"#[0-9a-f]{6}", svg))
+    if theme == "paper":
+        assert all(len(set((c[1:3], c[3:5], c[5:7]))) == 1 for c in colours)
+    else:
+        assert colours <= set(themes()[theme].values())
+
+
+def boxes(svg):
+    """The labels of the picture, each as the box in which its letters are."""
+    found = []
+    inside = svg.split('clip-path="url(#picture)">')[1].split("</g>")[1]
+    for x, y, size, anchor, text in re.findall(
+        r'<text [^>]*?x="([\d.]+)" y="([\d.]+)" font-size="([\d.]+)"[^>]*?(text-anchor="middle")?>([^<]*)<', inside
+    ):
+        wide = width_of(text, float(size))
+        found.append(Box(float(x) - (wide / 2 if anchor else 0), float(y) - 0.8 * float(size), wide, 0.9 * float(size)))
+    return found
+
+
+@pytest.mark.parametrize("key", [*SEVERAL, "case1-ncm4", "transcritical-at"])
+def test_no_label_stands_over_another(key):
+    view = view_of(key)
+    svg = figure(view, Style(size=60.0, legend=False))
+    found = boxes(svg)
+    scene = view.scene()
+    assert len(found) == len(scene["equator"].theta) + len(scene["critical"])
+    for i, one in enumerate(found):
+        assert one.within(60.0 * MM, 60.0 * MM)
+        assert not any(one.meets(other) for other in found[:i])
+
+
+def test_a_label_goes_where_there_is_room():
+    free = clear_of((), "C", 50.0, 50.0, "start", 10.0, 100.0, 100.0)
+    assert (free.x, free.y + free.height / 2) == (50.0, 50.0)
+    beside = clear_of((free,), "C", 50.0, 50.0, "start", 10.0, 100.0, 100.0)
+    assert not beside.meets(free)
+    assert clear_of((), "C", 99.0, 50.0, "start", 10.0, 100.0, 100.0).within(100.0, 100.0)
+
+
+def test_the_legend_lists_what_is_drawn_and_nothing_else():
+    words = re.findall(r"<text[^>]*>([^<]*)</text>", figure(view_of("case1-cm4")).split("</g></g>")[1])
+    assert {"ρ-nullclines", "θ-nullclines", "Trajectories on the hemisphere", "C: stable node"} <= set(words)
+    assert "Limit cycles" not in words  # there are none
+    assert "Stable separatrices" not in words  # they are not shown
+    assert sum(word.startswith("Q: ") for word in words) == 2
+    shown = figure(view_of("preset=case3-n3&layers=cycles,separatrices,outcomes,critical"))
+    words = re.findall(r"<text[^>]*>([^<]*)</text>", shown)
+    assert {"Limit cycles", "Stable separatrices", "Unstable separatrices", "C: unstable focus"} <= set(words)
+    assert any(word.startswith("From there: ") for word in words)
+    assert "ρ-nullclines" not in words
+
+
+def test_launched_orbits_start_where_they_were_launched():
+    svg = figure(view_of("orbits=0.3,0.2;1.2,-0.4&layers=launched"), Style(size=100.0, legend=False))
+    found = re.findall(r'<circle cx="([\d.]+)" cy="([\d.]+)" r="3.0"', svg)
+    scale = 100.0 * MM / 3.5
+    expected = [((x + 1.75) * scale, (1.75 - y) * scale) for x, y in ((0.3, 0.2), (1.2, -0.4))]
+    assert np.allclose([list(map(float, pair)) for pair in found], expected, atol=0.01)
+
+
+def test_black_and_white_tells_apart_what_colours_do():
+    grey, looks = paper(), {}
+    assert set(grey) == set(themes()["light"])
+    for layer in LAYERS.values():
+        for part in layer.parts:
+            if part.scene and layer.name != "launched":
+                looks.setdefault((grey[part.colour], part.dash or DASHES.get(part.colour), part.width), set()).add(
+                    part.name.partition("_")[0]
+                )
+    assert all(len(names) == 1 for names in looks.values()), looks
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("case9", "no preset and no link"),
+        ("a=x", "not a number"),
+        ("https://example.org/explorer", "no preset and no link"),
+        ("nonsense=1", "does not have"),
+    ],
+)
+def test_what_cannot_be_drawn_is_told(text, said):
+    with pytest.raises(ValueError, match=said):
+        view_of(text)
+
+
+def test_a_view_is_the_same_by_its_link():
+    view = view_of("a=-2&b=0.35&f1=-0.4&orbits=0.3,0.2&seen=-0.5,0.7,-0.3,0.9&layers=inside,launched")
+    again = view_of(f"https://example.org/?{view.query}")
+    assert again == view
+    assert view.seen == (-0.5, 0.7, -0.3, 0.9)
+    assert view_of("case3-n2").seen == WHOLE
+
+
+@pytest.mark.parametrize(("style", "said"), [({"size": 4.0}, "40 to 400"), ({"theme": "red"}, "light, dark, paper")])
+def test_a_style_that_there_is_not(style, said):
+    with pytest.raises(ValueError, match=said):
+        Style(**style)
