@@ -1,7 +1,8 @@
 """Web explorer of the dynamics near an isolated codimension-2 discontinuity set.
 
-``explorer()`` is the live widget of a notebook, ``holoviews(scene)`` the same picture as HoloViews elements.
-Both are imported when they are first used, so that importing this package costs nothing.
+``explorer()`` is the live widget of a notebook, ``holoviews(scene)`` the same picture as HoloViews elements,
+``svg(result)`` a small picture of a scene or another result. They are imported when they are first used, so that
+importing this package costs nothing.
 """
 
 from __future__ import annotations
@@ -10,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .draw.overlay import holoviews
+    from .export.results import svg
     from .view.notebook import explorer
 
-__all__ = ["explorer", "holoviews"]
+__all__ = ["explorer", "holoviews", "svg"]
 
 
 def __getattr__(name: str) -> Any:
@@ -24,6 +26,10 @@ def __getattr__(name: str) -> Any:
         from .draw.overlay import holoviews
 
         return holoviews
+    if name == "svg":
+        from .export.results import svg
+
+        return svg
     if name == "__version__":
         from codim2_core import __version__
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import drawing
 from ..systems.elinear import ELinear
 
 Array = NDArray[np.float64]
@@ -61,6 +62,9 @@ class BifurcationCurve:
     special: tuple[SpecialPoint, ...] = ()
     values: tuple[Array, ...] = ()
     sentence: str = ""
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
 
     def __len__(self) -> int:
         return len(self.branches)

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .. import drawing
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.linearisation import matrix_determinant
 from ..layer_problem.location import Existence, Location, locate
@@ -26,6 +27,7 @@ from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
+from ..tables import number, paragraphs, point, table
 from ..words import say
 from .orbit import Orbit, orbit
 from .resolution import counted
@@ -102,6 +104,14 @@ class LimitCycles:
     cycles: tuple[LimitCycle, ...]
     reason: str
     notes: tuple[str, ...] = ()
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        head = ("kind", "period", "multiplier", "mean of e", "slow flow")
+        rows = [(c.kind, number(c.period), number(c.multiplier), point(c.mean_e), point(c.slow_flow)) for c in self]
+        return (self._repr_svg_() or "") + table(head, rows) + paragraphs([self.reason, *self.notes])
 
     def __iter__(self) -> Iterator[LimitCycle]:
         return iter(self.cycles)

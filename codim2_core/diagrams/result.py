@@ -8,6 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import drawing
+from ..tables import number, table
+
 __all__ = ["ClosedEquator", "CriticalBranch", "Diagram", "EquatorBranch", "SpecialValue"]
 
 Array = NDArray[np.float64]
@@ -141,3 +144,10 @@ class Diagram:
     special: tuple[SpecialValue, ...]
     cycles: tuple[Any, ...] = ()
     gaps: tuple[tuple[float, float], ...] = field(default=())
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        rows = [(one.kind, number(one.value), one.sentence) for one in self.special]
+        return (self._repr_svg_() or "") + table(("at", self.name, "what happens"), rows)

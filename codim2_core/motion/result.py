@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .. import drawing
 from ..numerics.dense import Dense
 from ..tables import number, paragraphs, table
 from ..words import say
@@ -162,7 +163,10 @@ class Simulation:
     def _repr_html_(self) -> str:
         head = ("phase", "from t", "to t", "on", "why it began")
         rows = [(p.kind, number(p.t_start), number(p.t_end), p.onto or "", p.reason) for p in self.phases]
-        return table(head, rows) + paragraphs([self.reason])
+        return (self._repr_svg_() or "") + table(head, rows) + paragraphs([self.reason])
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
 
     @property
     def times(self) -> Array:

@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import drawing
 from ..words import say
 
 Array = NDArray[np.float64]
@@ -62,6 +63,9 @@ class Trajectories:
     def __post_init__(self) -> None:
         for array in (self.buffer, self.clock, self.offsets, self.ends, self.codes):
             array.flags.writeable = False
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
 
     def __len__(self) -> int:
         return len(self.codes)

@@ -8,6 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import drawing
+from ..tables import paragraphs, table
+
 Array = NDArray[np.float64]
 
 
@@ -64,6 +67,14 @@ class Separatrices:
 
     branches: tuple[Separatrix, ...]
     notes: tuple[str, ...] = ()
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        head = ("of", "branch", "other end", "where")
+        rows = [(b.origin, b.direction, b.end, "hemisphere" if b.inside else "outside") for b in self]
+        return (self._repr_svg_() or "") + table(head, rows) + paragraphs(self.notes)
 
     def __iter__(self) -> Iterator[Separatrix]:
         return iter(self.branches)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import drawing
 from ..arguments import number, whole
 from ..layer_problem.critical import shown
 from ..layer_problem.problem import LayerProblem, Result
@@ -175,9 +176,29 @@ class Scene:
         self._own[name] = self._memory.result(name, self.key(*layer.inputs), compute)
         return self._own[name]
 
+    def plot(self) -> Any:
+        """Return the picture as a HoloViews overlay, to add to, restyle and lay out.
+
+        Load a backend first: ``hv.extension("bokeh")``. It is drawn by ``codim2_app.holoviews``, imported here.
+
+        Returns
+        -------
+        holoviews.Overlay
+
+        Raises
+        ------
+        ValueError
+            The app that draws is not installed.
+        """
+        return drawing.overlay(self)
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
     def _repr_html_(self) -> str:
         results = (self["classification"], self["equator"])
-        return "".join(result._repr_html_() for result in results) + shown(self["critical"])
+        tables = "".join(result._repr_html_() for result in results) + shown(self["critical"])
+        return (self._repr_svg_() or "") + tables
 
     def __iter__(self) -> Iterator[str]:
         return iter(layers)
