@@ -11,9 +11,11 @@ def calls(do: Callable[[], object]) -> int:
     """Run something, and return how many functions it entered, Python's and C's (compiled kernels count as none)."""
     entered = 0
 
-    def note(_frame, event, _argument):
+    def note(frame, event, argument):
         nonlocal entered
         entered += event in ("call", "c_call")
+        if before is not None:
+            before(frame, event, argument)
 
     before, collecting = sys.getprofile(), gc.isenabled()
     gc.disable()  # finalisers of earlier tests are not this one's work

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -116,6 +116,7 @@ def slow_portrait(
             intervals.append(SlowInterval(intervals[-1].high if intervals else low, values[-1], kind, _SENTENCES[kind]))
         for branch in followed:
             points += _equilibria(line, branch)
+    intervals[-1] = replace(intervals[-1], high=high)  # what is there only at the end is no interval
     return SlowPortrait(tuple(branches), tuple(sorted(points, key=lambda p: p.z)), tuple(intervals))
 
 

@@ -256,8 +256,7 @@ def _polished(field: _Field, n: Array, theta: Array, weights: Array, slope: Arra
     does not converge (an e-linear curve is plane: all of it lies in the face).
     """
     k = len(theta)
-    U, W = (part / field.size for part in field(theta))
-    slope = np.append(slope, float(np.mean(W @ n + U @ slope)))
+    slope = np.append(slope, 0.0)  # linear in the level: the first step finds it
     residual = np.ones(1)
     for _ in range(6):
         (U, W), (dU, dW), (ddU, ddW) = (field.series(theta, order) for order in range(3))
@@ -273,7 +272,7 @@ def _polished(field: _Field, n: Array, theta: Array, weights: Array, slope: Arra
         matrix[2 * k + 2, k : 2 * k] = 1.0
         step = np.linalg.lstsq(matrix, -residual, rcond=1e-12)[0]
         moved, weighed = theta + step[:k], weights + step[k : 2 * k]
-        if np.abs(step[:k]).max() > CLOSE or weighed.min() < -WEIGHTLESS:
+        if np.abs(step[:k]).max() > CLOSE:
             return None
         theta, weights, slope = moved, np.maximum(weighed, 0.0), slope + step[2 * k :]
     return (theta % (2.0 * math.pi), weights) if np.abs(residual).max() < 1e-12 else None

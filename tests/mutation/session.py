@@ -4,6 +4,7 @@ reach the changed function, the quickest first, up to the first failure.
 
 from __future__ import annotations
 
+import cProfile
 import gc
 import getpass
 import importlib
@@ -30,12 +31,12 @@ from .targets import FOLDERS
 TESTS = Path(__file__).parents[1]
 ROOT = TESTS.parent
 PACKAGES = {short: f"codim2_{short}" for short in FOLDERS}
-# Seconds of processor time. A test that takes longer than FIRST and three times what it takes as it is has noticed
-# a mutant that loops.
+# Seconds of processor time on a machine that does `_work` in PACE: `Room.slow` times as many on this one. A test that
+# takes longer than FIRST and three times what it takes as it is has noticed a mutant that loops.
 FIRST = 3.0
-SURVIVORS = 6.0  # of all tests of a mutant, the quickest first
-LONGEST = 5.0  # of one test as it is: slower ones are left out (and kernels that are not compiled)
-EVENTS = 300_000  # calls and returns of one test that are looked at
+SURVIVORS = 20.0  # of all tests of a mutant, the quickest first
+LONGEST = 20.0  # of one test as it is: slower ones are left out
+PACE = 3.2e-3
 MEMORY = 3 << 30
 UNFIT = 77  # exit code
 KEPT = Path(tempfile.gettempdir()) / f"codim2-mutation-{getpass.getuser()}"  # what tests reach, by what they read
@@ -144,18 +145,20 @@ class Room:
     def __init__(self, jobs: list[Job], target: Path, kernels: bool, told: Callable[[Job, Mutant, str], None]) -> None:
         self.jobs, self.target, self.kernels, self.told = jobs, target, kernels, told
         self.early: set[Function] = set()  # entered while tests are collected: what they gave may be kept
+        self.slow = 1.0
 
     @pytest.hookimpl(wrapper=True)
     def pytest_collection(self) -> Any:
         """Note what runs while tests are collected; what would be imported late is imported now."""
-        sys.setprofile(_entering(self.early))
+        profile = cProfile.Profile(subcalls=False, builtins=False)
         try:
-            for job in self.jobs:
-                if job.path.stem != "__main__":
-                    importlib.import_module(imported_as(job.path))
-            return (yield)
+            with profile:
+                for job in self.jobs:
+                    if job.path.stem != "__main__":
+                        importlib.import_module(imported_as(job.path))
+                return (yield)
         finally:
-            sys.setprofile(None)
+            self.early |= _entered(profile)
 
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         """Find what the tests reach, then try all mutants."""
@@ -199,12 +202,13 @@ class Room:
                 cache.cache_clear()
             signal.signal(signal.SIGPROF, signal.SIG_DFL)
             for name in tests:
-                signal.setitimer(signal.ITIMER_PROF, FIRST + 3.0 * self.reach[name].cost)
+                signal.setitimer(signal.ITIMER_PROF, self.slow * (FIRST + 3.0 * self.reach[name].cost))
                 if not self._passes(name):
                     return 1
             return 0
 
-        return forked(do, FIRST * (1 + len(tests)) + 3.0 * sum(self.reach[name].cost for name in tests))
+        self.slow = _slow()
+        return forked(do, self.slow * (FIRST * (1 + len(tests)) + 3.0 * sum(self.reach[name].cost for name in tests)))
 
     def _passes(self, name: str) -> bool:
         from _pytest.runner import runtestprotocol
@@ -218,12 +222,14 @@ class Room:
 
         signal.signal(signal.SIGPROF, late)
         found: dict[str, Reach] = {}
-        common = _digest(path for path in TESTS.rglob("*.py") if not path.name.startswith("test_"))
-        common += _digest(path for folder in FOLDERS.values() for path in (ROOT / folder).rglob("*.py"))
+        kinds = (path for path in TESTS.rglob("*.py") if not path.name.startswith("test_"))
+        common = _digest(path for path in kinds if path.parent != Path(__file__).parent)
+        common += _digest([Path(__file__), *(path for one in FOLDERS.values() for path in (ROOT / one).rglob("*.py"))])
         for file in dict.fromkeys(item.path for item in self.items.values()):
             kept = KEPT / f"{_digest([file])}-{common}-{self.kernels}"
             if not kept.exists():
                 here = [name for name, item in self.items.items() if item.path == file]
+                self.slow = _slow()
                 reach = {name: one for name in here if (one := self._measured(name))}
                 KEPT.mkdir(exist_ok=True)
                 kept.write_bytes(pickle.dumps(reach))
@@ -232,16 +238,38 @@ class Room:
         return 0
 
     def _measured(self, name: str) -> Reach | None:
+        profile = cProfile.Profile(subcalls=False, builtins=False)
+        found = self._run(name, profile.enable, profile.disable)
+        if found is not None:
+            return Reach(found, _entered(profile)) if _entered(profile) else None
+        noted: set[Function] = set()  # the test has a profile of its own, which cProfile cannot share
+        found = self._run(name, lambda: sys.setprofile(_noting(noted)), lambda: sys.setprofile(None))
+        return Reach(found, frozenset(noted)) if found is not None and noted else None
+
+    def _run(self, name: str, begin: Callable[[], object], end: Callable[[], object]) -> float | None:
+        """What a test costs that passes in time."""
         for cache in live.caches(tuple(PACKAGES.values())):
             cache.cache_clear()  # what another test has computed is reached by this one as well
-        entered: set[Function] = set()
         before = time.process_time()
-        signal.setitimer(signal.ITIMER_PROF, LONGEST)
-        sys.setprofile(_entering(entered, EVENTS))
-        passed = self._passes(name)
-        sys.setprofile(None)
-        signal.setitimer(signal.ITIMER_PROF, 0.0)
-        return Reach(time.process_time() - before, frozenset(entered)) if passed and entered else None
+        signal.setitimer(signal.ITIMER_PROF, self.slow * LONGEST)
+        begin()
+        try:
+            passed = self._passes(name)
+        finally:
+            end()
+            signal.setitimer(signal.ITIMER_PROF, 0.0)
+        return (time.process_time() - before) / self.slow if passed else None
+
+
+def _work() -> float:
+    start = time.process_time()
+    sum(i * i for i in range(100_000))
+    return time.process_time() - start
+
+
+def _slow() -> float:
+    """How many times slower this machine is, loaded as it is now."""
+    return max(1.0, min(_work() for _ in range(3)) / PACE)
 
 
 def _digest(paths: Iterable[Path]) -> str:
@@ -252,20 +280,22 @@ def _digest(paths: Iterable[Path]) -> str:
     return found.hexdigest()
 
 
-def _entering(found: set[Function], most: int = sys.maxsize) -> Callable[[Any, str, object], None]:
-    """Note the functions of the packages that are entered; what comes after `most` events is more of the same."""
-    folders = tuple(str(ROOT / folder) + os.sep for folder in FOLDERS.values())
-    seen = 0
+OURS = tuple(str(ROOT / folder) + os.sep for folder in FOLDERS.values())
+
+
+def _entered(profile: cProfile.Profile) -> frozenset[Function]:
+    """Functions of the packages that were entered while a profile was taken."""
+    codes = [one.code for one in profile.getstats() if not isinstance(one.code, str)]
+    return frozenset((c.co_filename, c.co_qualname, c.co_firstlineno) for c in codes if c.co_filename.startswith(OURS))
+
+
+def _noting(found: set[Function]) -> Callable[[Any, str, object], None]:
+    """Note the same, slowly, but so that others may note what they want as well."""
 
     def enter(frame: Any, event: str, _argument: object) -> None:
-        nonlocal seen
-        if event == "call":
-            code = frame.f_code
-            if code.co_filename.startswith(folders):
-                found.add((code.co_filename, code.co_qualname, code.co_firstlineno))
-        seen += 1
-        if seen > most:
-            sys.setprofile(None)
+        code = frame.f_code
+        if event == "call" and code.co_filename.startswith(OURS):
+            found.add((code.co_filename, code.co_qualname, code.co_firstlineno))
 
     return enter
 
@@ -338,7 +368,7 @@ def afresh(path: Path, text: str, names: list[str], cost: float) -> str:
         files = tuple(dict.fromkeys(name.split("::")[0].removeprefix("tests/") for name in names))
         return pytest_main(files, [Chosen(names)])
 
-    return forked(do, 20.0 + FIRST + 3.0 * cost) if names else "passed"
+    return forked(do, _slow() * (20.0 + FIRST + 3.0 * cost)) if names else "passed"
 
 
 def run(jobs: list[Job], tests: tuple[str, ...], kernels: bool, told: Callable[[Job, Mutant, str], None]) -> list[Job]:

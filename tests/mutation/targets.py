@@ -227,6 +227,8 @@ LIVES: tuple[Lives, ...] = (
     Lives("static/panels/diagram.js", "8  →  9", "A ninth digit of what has been rounded."),
     Lives("static/panels/numbers.js", "0.1  →  0.125", "The axis shows at least −4 to 4."),
     Lives("static/panels/psi.js", "1.05 *", "How much room there is above a curve."),
+    Lives("core.sliding.along", "48  →  49", "A third less, beyond the digits of z."),
+    Lives("core.sliding.filippov", "1.0  →  1.25", "The unit of a field that is zero everywhere."),
     Lives("core.sliding.filippov", "512  →  513", "How finely maxima are looked for first."),
     Lives("core.sliding.filippov", "np.minimum(weighed, 0.0)", "Newton's method fails, and the weights are balanced."),
 )

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.portrait.basins import OUTSIDE, basins
+from codim2_core.portrait import basins as module
+from codim2_core.portrait.basins import OUTSIDE, UNDECIDED, basins
 
 
 def centres(n):
@@ -58,3 +59,42 @@ def test_case_three_has_the_cycle_as_a_destination_with_the_mean_slow_flow():
 def test_a_size_that_cannot_be_refined_to_is_refused():
     with pytest.raises(ValueError, match="32 times a power of two"):
         basins(c2.presets["case1-cm4"].system, c2.psi.constant(), n=100)
+
+
+def test_cells_that_lead_nowhere_are_told_by_negative_numbers():
+    assert (OUTSIDE, UNDECIDED) == (-2, -1)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_cells_on_a_border_are_those_with_a_neighbour_of_another_kind(seed):
+    cells = np.random.default_rng(seed).choice(np.array([-2, -1, 0, 1], np.int8), (9, 9), p=(0.2, 0.1, 0.6, 0.1))
+    found = module._bordering(cells)
+    for i in range(9):
+        for j in range(9):
+            near = {int(v) for v in cells[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2].ravel()} - {OUTSIDE}
+            assert found[i, j] == (cells[i, j] != OUTSIDE and near != {int(cells[i, j])}), (i, j)
+    assert not module._bordering(np.full((4, 4), 3, np.int8)).any()
+
+
+@pytest.mark.parametrize(("n", "friction"), [(32, 0.1), (64, 0.5)])
+def test_a_border_that_winds_is_where_orbits_that_are_followed_closely_say(n, friction, monkeypatch):
+    """Two wells with friction: x' = y, y' = x/2 - 2 x^3 - friction y before it is regularised."""
+    system, psi = c2.System(U=("s", f"c/2 - 2*c**3 - {friction}*s")), c2.psi.constant()
+    asked = []
+
+    def counted(*arguments, **options):
+        asked.append(c2.trajectories(*arguments, **options))
+        return asked[-1]
+
+    monkeypatch.setattr(module, "trajectories", counted)
+    found = basins(system, psi, n=n)
+    assert found.evaluations == sum(one.evaluations for one in asked) > 0
+    followed, every = sum(len(one) for one in asked), (found.cells != OUTSIDE).sum()
+    assert followed == every if n == 32 else followed < 0.8 * every  # refined at borders only
+    inside = np.flatnonzero((found.cells != OUTSIDE).ravel())[:: n // 16 - 1]
+    places, kinds = centres(n).reshape(-1, 2)[inside], found.cells.ravel()[inside]
+    lines = c2.trajectories(system, psi, places, t_max=400.0, rtol=1e-9, atol=1e-9, samples="ends")
+    sets = [C for C in c2.critical_sets(system, psi) if C.kind.startswith("stable")]
+    away = np.hypot(*(lines.ends[:, None, :2] - np.array([C.p for C in sets])).transpose(2, 0, 1))
+    assert (away.min(axis=1) < 1e-2).all()
+    assert (kinds != np.argmin(away, axis=1)).mean() <= 0.005  # next to a border, or a tongue thinner than the cells

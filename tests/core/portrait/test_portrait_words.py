@@ -1,9 +1,14 @@
 """What the portrait's sentences say of the directions, of the critical set, and of what is degenerate."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from codim2_core import ELinear, System, approach_outcomes, classify, equator_cycle, equator_equilibria, psi
+from codim2_core.layer_problem.equator import EquatorEquilibria
+from codim2_core.portrait import classify_typed
+from codim2_core.portrait.classification import Degeneracy, directions
 
 
 def said(a, b, d, f1, f2, family=None):
@@ -139,3 +144,97 @@ def test_at_the_saddle_node_every_angle_arrives():
     (outcome,) = approach_outcomes(ELinear(-1, 1, -1, (1, 0)), psi.constant())
     assert outcome.arrives == "one side"
     assert "from every angle" in outcome.reason
+
+
+def limits(rho, neutral=(), proven=True):
+    k = len(rho)
+    return EquatorEquilibria(
+        np.linspace(0.1, 6.0, k),
+        np.array(rho, float),
+        np.ones(k),
+        np.ones(k, np.int64),
+        np.isin(np.arange(1, k + 1), neutral),
+        False,
+        k,
+        np.inf,
+        False,
+        proven,
+    )
+
+
+@pytest.mark.parametrize(
+    ("rho", "neutral", "words"),
+    [
+        ([-0.5], (), "1 limit direction: trajectories reach Σ along it."),
+        ([0.5], (), "1 limit direction: trajectories leave Σ along it."),
+        ([-0.5, -2.0], (), "2 limit directions: trajectories reach Σ along them."),
+        ([0.5, 2.0, 0.2], (), "3 limit directions: trajectories leave Σ along them."),
+        ([-0.5, 0.5, 0.2], (), "3 limit directions: trajectories reach Σ along 1 and leave it along 2."),
+        ([-0.5, -0.5, 0.2], (), "3 limit directions: trajectories reach Σ along 2 and leave it along 1."),
+        ([-0.5, -0.5, 0.0], (3,), "3 limit directions: trajectories reach Σ along 2 of them. Q₃ is radially neutral"),
+        ([0.0, 0.5, 0.0], (1, 3), "3 limit directions: trajectories leave Σ along 1 of them. Q₁ and Q₃ are radially n"),
+        ([1e-3, 0.5], (1,), "2 limit directions: trajectories leave Σ along 1 of them. Q₁ is radially neutral"),
+        ([0.0, 0.0], (1, 2), "Limit directions: 2. Q₁ and Q₂ are radially neutral"),
+    ],
+)
+def test_what_directions_do(rho, neutral, words):
+    assert directions(limits(rho, neutral), None).startswith(words)
+    assert ("neutral" in directions(limits(rho, neutral), None)) == bool(neutral)
+    unproved = directions(limits(rho, neutral, proven=False), None)
+    assert "that there are no more is not proved" in unproved
+    assert "that there are no more is not proved" not in directions(limits(rho, neutral), None)
+
+
+def test_what_is_said_without_directions():
+    assert directions(limits([], proven=False), None).startswith("No limit direction was found")
+    assert directions(limits([]), None) == "No limit directions: the equator is a closed orbit."
+    for exponent, words in ((-0.3, "attracts outside"), (0.3, "repels outside"), (0.0, "is a closed orbit.")):
+        cycle = replace(equator_cycle(ELinear(-1, 1, -1)), exponent=exponent)
+        assert words in directions(limits([]), cycle)
+
+
+@pytest.mark.parametrize(
+    ("kind", "several"),
+    [
+        ("stable focus", "3 stable foci"),
+        ("saddle", "3 saddles"),
+        ("saddle-node", "3 saddle-nodes"),
+        ("centre (linear)", "3 centres (linear)"),
+        ("unstable node", "3 unstable nodes"),
+        ("degenerate", "3 degenerate"),
+    ],
+)
+def test_kinds_are_counted_in_words(kind, several):
+    assert classify_typed._counted(1, kind) == f"1 {kind}"
+    assert classify_typed._counted(3, kind) == several
+
+
+@pytest.mark.parametrize(("power", "name"), [(2, "saddle-node"), (4, "quadruple zero"), (5, "zero of multiplicity 5")])
+def test_a_zero_of_theta_is_named_by_its_multiplicity(power, name):
+    """U = -e + s^power times e turned: Theta = s^power."""
+    (found,) = classify(System(U=(f"-c - s*s**{power}", f"-s + c*s**{power}")), psi.constant()).degeneracies
+    assert found.name == name
+    assert 0.0 < found.within < 1e-9
+    assert power != 5 or "5 " in found.sentence
+    away = System(U=(f"-c - s*(s**{power} + 1e-4)", f"-s + c*(s**{power} + 1e-4)"))
+    assert name not in [d.name for d in classify(away, psi.constant()).degeneracies]
+
+
+@pytest.mark.parametrize(
+    ("U", "words"),
+    [
+        (("(c - 1)*(2 + s)", "s"), "No isolated critical set inside."),  # one on the equator
+        (("(c - s)*(2 + c)", "(c - s)*(3 + s)"), "No isolated critical set inside."),  # a curve
+        (("c*s - s*c", "0*c*s"), "No isolated critical set inside."),
+        (("c*s + 2", "s"), "There is no critical set."),
+        (("c**2 - 1/4", "-s"), "Critical sets: 1 saddle, 1 stable node. There is one way to slide stably along Σ."),
+        (("c**2 - 1/4", "s"), "Critical sets: 1 saddle, 1 unstable node. None is stable"),
+        (("-c*(c**2 - 1/4)", "-s"), "1 saddle, 2 stable nodes. There are 2 ways to slide stably along Σ"),
+    ],
+)
+def test_what_is_said_of_several_critical_sets(U, words):
+    assert words in classify(System(U=U), psi.constant()).sentence
+
+
+def test_what_is_so_exactly_has_no_width():
+    assert Degeneracy("name", "sentence").within == 0.0

@@ -282,3 +282,23 @@ def test_sets_that_pass_each_other_by_do_not_meet(gap):
     """c^2 - z c - gap: a saddle and a node, never closer than 2 sqrt(gap)."""
     system = c2.System(U=(f"-(c**2 - z*c - {gap})", "-s"), W=("1",))
     assert not [p for p in c2.slow_portrait(system, c2.psi.tanh(), (-0.5, 0.43)).points if "exchange" in p.sentence]
+
+
+@pytest.mark.parametrize(("span", "count"), [((-0.1, 0.9), 9), ((-0.9, 0.1), 9), ((-0.1, 0.3), 4), ((-0.3, 0.1), 4)])
+def test_sets_that_exchange_their_kinds_near_an_end_of_the_span(span, count):
+    """c = 0 and c = z meet at z = 0, in the first or in the last step."""
+    system = c2.System(U=("c*(c - z)", "-s - 1/5"), W=("1",))
+    (point,) = slow_portrait(system, c2.psi.constant(), span, count=count).points
+    assert (point.kind, point.z) == ("fold", pytest.approx(0.0, abs=1e-8))
+    assert "exchange" in point.sentence
+
+
+@pytest.mark.parametrize("offset", [0.0, 50.0])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_what_is_there_only_at_an_end_of_the_span_is_no_interval(sign, offset):
+    """A set is born at the end: there it is degenerate, and for no z beside it does it exist."""
+    low, high = sorted((offset, offset - sign))
+    system = c2.System(U=(f"c**2 - {sign}*(z - {offset})/2", "-s"), W=("1",))
+    found = slow_portrait(system, c2.psi.constant(), (low, high), count=5)
+    assert [(i.kind, i.low, i.high) for i in found.intervals] == [("crossing", low, high)]
+    assert (found.points, found.branches) == ((), ())
