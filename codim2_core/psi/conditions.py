@@ -121,6 +121,8 @@ def _jump(expression: Expression, values: Array, least: float) -> float | None:
     """Where a function jumps, or None: the ten steepest cells are bisected towards the larger change."""
     keep = np.isfinite(values) & (values > NEGLIGIBLE * PROBES) & (least <= PROBES)
     s = PROBES[keep]
+    if not len(s):  # where it matters at all is below the probes
+        return None
     y = expression.evaluate({"s": s})
     # formulas of large s may overflow in their higher derivatives: inf/inf up to the end says nothing
     defined = np.isfinite(y)

@@ -22,7 +22,7 @@ PROBES: Array = np.concatenate([[0.0], np.geomspace(1e-16, 1e16, 3201)])
 PROBES.flags.writeable = False
 TINY_PSI = 1e-290
 NEGLIGIBLE = 1e-13  # Psi(s) < NEGLIGIBLE s cannot be told from 0 in s + Psi(s)
-VERDICT = "Psi cannot be used: "
+VERDICT = "Ψ cannot be used: "
 
 
 @dataclass(frozen=True)
@@ -161,21 +161,21 @@ def custom_kernel(expression: Expression) -> Custom:
     if bad.any():
         s, value = _first(bad), values[int(np.argmax(bad))]
         raise ValueError(
-            f"{VERDICT}{expression.text} is {value} at s = {s:.6g}. It must be finite for all s >= 0; "
+            f"{VERDICT}{expression.text} is {value} at s = {s:.6g}. It must be finite for all s ≥ 0; "
             "rewrite it so that it can be computed from s = 0 to 1e16, e.g. exp(-s) for 1/exp(s)."
         )
     place = first_not_positive(expression, values)
     if place is not None:
         value = expression.evaluate({"s": place})
         raise ValueError(
-            f"{VERDICT}{expression.text} is {value:.6g} at s = {place:.6g}. It must be positive for all s >= 0 (R3), "
-            "or s + Psi(s) is not and |e_Psi| is not below 1; choose e.g. 1/(1+s)."
+            f"{VERDICT}{expression.text} is {value:.6g} at s = {place:.6g}. It must be positive for all s ≥ 0 (R3), "
+            "or s + Ψ(s) is not and |e_Ψ| is not below 1; choose e.g. 1/(1+s)."
         )
     if values[-1] > 1e-6 * PROBES[-1]:
         top = 1.0 / math.sqrt(1.0 + float(values[-1] / PROBES[-1]))
         raise ValueError(
-            f"{VERDICT}with {expression.text}, |e_Psi| rises to {top:.6g} only. It must tend to 1 as zeta grows, "
-            "so Psi must stay small against s; a Psi that never rises (R4) is always right."
+            f"{VERDICT}with {expression.text}, |e_Ψ| rises to {top:.6g} only. It must tend to 1 as ζ grows, "
+            "so Ψ must stay small against s; a Ψ that never rises (R4) is always right."
         )
     with np.errstate(all="ignore"):
         kappa = kernel.kappa(VECTOR, np.sqrt(PROBES))
@@ -188,8 +188,8 @@ def custom_kernel(expression: Expression) -> Custom:
         falling[:2] = False
     if falling.any():
         raise ValueError(
-            f"{VERDICT}with {expression.text}, |e_Psi| = zeta/sqrt(zeta^2 + Psi(zeta^2)) does not rise at "
-            f"s = zeta^2 = {_first(falling):.6g}. Psi must not grow as fast as s there; a Psi that never rises "
+            f"{VERDICT}with {expression.text}, |e_Ψ| = ζ/√(ζ² + Ψ(ζ²)) does not rise at "
+            f"s = ζ² = {_first(falling):.6g}. Ψ must not grow as fast as s there; a Ψ that never rises "
             "(R4) is always right, e.g. 1/(1+s)."
         )
     return kernel

@@ -60,7 +60,8 @@ def certificates(
     if not isinstance(psi, Psi):
         raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
     at = system.at(z)
-    place = tuple(float(v) for v in np.atleast_1d(np.asarray(z, float)))
+    # left out where nothing depends on z: then any will do
+    place = tuple(float(v) for v in np.atleast_1d(np.asarray(z, float))) or (0.0,) * at.m
     return certificates_of(LayerProblem(at, psi), cycles, None if system.frozen else system, place)
 
 

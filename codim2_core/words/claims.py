@@ -111,7 +111,6 @@ SENTENCES: dict[str, Sentence] = {
     "two slow flows": Sentence(
         "z′ = {first:.4g} on C₁ and {third:.4g} on C₃. There are 8 limit directions while χ² < 2.", "the finding"
     ),
-    "breaks a condition": Sentence("This Ψ does not meet {which} of Definition 2.3.", "why it does not apply"),
     "lem:ePsi(a)": Sentence("e_Ψ is equivariant under rotations: e_Ψ(R(φ)(x, y)) = R(φ) e_Ψ(x, y).", "the claim"),
     "through the square": Sentence("Ψ enters through x² + y² only.", "the finding"),
     "lem:ePsi(b)": Sentence("e_Ψ(kx, ky; kε) = e_Ψ(x, y; ε) for k > 0: it is homogeneous of degree 0.", "the claim"),

@@ -12,7 +12,7 @@ test("a long error is one sentence and how to mend it; the list of what is allow
 
 test("what is short is said whole; what goes on for long after its first sentence is folded there", () => {
   assert.deepEqual(folded("f₁: nan given; give a finite number."), ["f₁: nan given; give a finite number.", ""])
-  const first = "Psi cannot be used: 1/s is inf at s = 0, and so it has no place in the regularised system at all."
+  const first = "Ψ cannot be used: 1/s is inf at s = 0, and so it has no place in the regularised system at all."
   const more = "It must be finite for all s ≥ 0; rewrite it so that it can be computed from s = 0 to 1e16."
   assert.deepEqual(folded(`${first} ${more}`), [first, more])
   assert.deepEqual(folded("x".repeat(400)), ["x".repeat(400), ""])

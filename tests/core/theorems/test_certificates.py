@@ -178,3 +178,10 @@ def test_a_psi_that_is_zero_from_somewhere_on_is_not(zero):
     s = ZETA**2
     assert not _stays_positive(zero, s, zero(s))
     assert _stays_positive(lambda s: np.exp(-s), s, np.exp(-s))
+
+
+@pytest.mark.parametrize("text", ["1e-30/(1+s)", "1e-300"])
+def test_a_psi_that_is_next_to_nothing_is_checked_like_any_other(text):
+    found = psi.custom(text)
+    assert [rule.holds for rule in found.check()][1:4] == [False, True, True]
+    assert all(claim.verdict.value == "holds" for claim in psi_claims(found))
