@@ -1,4 +1,4 @@
-"""The commands that write files of a view: `figure`. None of them loads the server, and none needs a browser."""
+"""The commands that write files of a view: `figure`, `data`. None loads the server, and none needs a browser."""
 
 from __future__ import annotations
 
@@ -24,6 +24,22 @@ def add_figure(commands: Any) -> None:
     for name, words in (("ticks", "a frame with ticks"), ("title", "a title"), ("caption", "a caption")):
         command.add_argument(f"--{name}", action="store_true", help=f"draw {words} too")
     command.set_defaults(run=lambda chosen: _written(chosen.output, lambda: _figure(chosen)))
+
+
+def add_data(commands: Any) -> None:
+    """Add `codim2 data`."""
+    command = commands.add_parser("data", help="write what a preset or a link draws: data, Python code, a LaTeX table")
+    command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
+    endings = ".zip (CSV files), .json, .npz, .py (code that rebuilds the view) or .tex (equilibria and critical sets)"
+    command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=f"ends in {endings}")
+    command.set_defaults(run=lambda chosen: _written(chosen.output, lambda: _data(chosen)))
+
+
+def _data(chosen: argparse.Namespace) -> bytes:
+    from ..export.files import DATA
+    from ..export.view import suffix_of, view_of
+
+    return DATA[suffix_of(chosen.output, tuple(DATA))](view_of(chosen.view))
 
 
 def _figure(chosen: argparse.Namespace) -> bytes:

@@ -2,6 +2,7 @@
 
 import pytest
 from codim2_app.export.figure import Style, figure
+from codim2_app.export.files import DATA
 from codim2_app.export.view import view_of
 from codim2_app.server.cli import main
 
@@ -38,3 +39,15 @@ def test_what_cannot_be_written_is_one_sentence(tmp_path, monkeypatch, capsys, a
     assert said in error
     assert error.count("\n") == 1
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("suffix", DATA)
+def test_data_code_and_tables(tmp_path, suffix):
+    out = tmp_path / f"view{suffix}"
+    assert main(["data", "case1-cm4", "-o", str(out)]) == 0
+    assert out.read_bytes() == DATA[suffix](view_of("case1-cm4"))
+
+
+def test_data_of_another_kind(tmp_path, capsys):
+    assert main(["data", "case1-cm4", "-o", str(tmp_path / "view.xls")]) == 2
+    assert ".zip, .json, .npz, .py, .tex" in capsys.readouterr().err
