@@ -145,7 +145,7 @@ def _fourier_of_reciprocal(b: float, f2: float, f1: float, a: float, d: float, d
     outer = gaps[0] + gaps[1] - gaps[0] * gaps[1]  # 1 - |z1 z2|^2
     g0 = 2.0 * math.pi * outer / (amplitude * gaps[0] * gaps[1] * abs(1.0 - z1 * z2.conjugate()) ** 2)
     g1 = g0 * (total - product * total.conjugate()) / outer
-    return g0, (total * g1 - product * g0).real
+    return g0, (total * g1).real  # and -product g0, which is imaginary
 
 
 def _factor(b: float, f2: float, f1: float, s2: float, amplitude: float) -> tuple[float, complex, complex]:
@@ -177,7 +177,7 @@ def _integrals(K: float, total: complex, product: complex) -> tuple[float, float
     skew = total - product * total.conjugate()
     g0 = 2.0 * math.pi * outer / (K * (outer * outer - abs(skew) ** 2))
     g1 = g0 * skew / outer
-    return g0, (total * g1 - product * g0).real
+    return g0, (total * g1).real  # and -product g0, which is imaginary
 
 
 def _polished(coefficients: tuple[float, float, float, float, float], start: complex) -> tuple[complex, float]:

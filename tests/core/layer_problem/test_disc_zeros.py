@@ -324,3 +324,34 @@ def test_points_outside_the_disc_are_no_critical_sets():
     assert len(zeros_of("c - 1.01", "s").e) == 0
     assert len(zeros_of("c - 0.8", "s - 0.8").e) == 0
     assert len(circle(4)[1]) == 4
+
+
+@pytest.mark.parametrize(
+    ("U", "kinds"),
+    [
+        (("2*abs(c) + c", "s"), ["saddle-node"]),  # index 0: U1 is positive on both sides
+        (("abs(c - 1/4)", "s"), ["saddle-node"]),
+        (("abs(c - 3/10)*abs(c + 3/10)", "s"), ["degenerate"] * 2),  # two: the degree says nothing of either
+        (("c*abs(c)", "s"), ["degenerate"]),  # index 1
+        (("c**3", "s"), ["degenerate"]),
+        (("c**2", "s"), ["saddle-node"]),
+        (("2*c + abs(c)", "s"), ["unstable node"]),  # slopes 1 and 3
+        (("-2*c + abs(c)", "-s"), ["stable node"]),
+        (("-c", "s + s*abs(s)"), ["saddle"]),  # no corner: twice the slope from either side
+        (("-3*c/5 + abs(c)/2 - s", "c"), ["stable focus"]),  # traces -1/10 and -11/10
+        (("3*c/5 + abs(c)/2 - s", "c"), ["unstable focus"]),
+        (("-c/5 + abs(c)/2 - s", "c"), ["degenerate"]),  # traces 3/10 and -7/10
+        (("-(c - 1/4)/5 + abs(c - 1/4)/2 - (s - 1/8)", "c - 1/4"), ["degenerate"]),
+        (
+            ("-(c - 1/4)/5 - (s - 1/8)", "c - 1/4 + abs(s - 3/4)*(s - 1/8)/8"),
+            ["stable focus"],
+        ),  # the corner is elsewhere
+        # the radial direction counts 1 - |e|^2 = 0.19 there
+        (("(c - 9/10) + abs(c - 9/10)/10 - s", "2*(c - 9/10) - 3/10*s"), ["stable focus"]),
+        (("11/5*(c - 9/10) + abs(c - 9/10)/10 - s", "2*(c - 9/10) - 3/10*s"), ["unstable focus"]),
+    ],
+)
+@pytest.mark.parametrize("factor", ["1", "1e-5", "3e4"])
+def test_a_critical_set_on_a_corner_has_a_kind_where_its_sides_agree(U, kinds, factor):
+    system = System(U=tuple(f"{factor}*({row})" for row in U))
+    assert [C.kind for C in critical_sets(system, psi.constant())] == kinds

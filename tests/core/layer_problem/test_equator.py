@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from codim2_core.layer_problem.closed_equator import _polished
 from codim2_core.layer_problem.equator import equator_cycle, equator_equilibria
 from codim2_core.systems.elinear import ELinear
 from tests.core.exact_trigonometric import count_equilibria, polished, theta_coefficients
@@ -165,6 +166,45 @@ def test_cycle_near_a_saddle_node(power):
     assert not cycle.stable_outside
 
 
+def by_residues(q):
+    """The integrals of 1/|Theta| and lambda_rho/|Theta|, by the zeros of Theta inside the unit circle in 60 digits."""
+    with mp.workdps(60):
+        a, b, d, f1, f2 = map(mp.mpf, q)
+        i, s2 = mp.mpc(0, 1), (d - a) / 2
+        P = [i * s2, f2 - i * f1, 2 * b, f2 + i * f1, -i * s2]  # 2 z^2 Theta, lowest power first
+        zeros = [mp.mpc(z) for z in np.roots([complex(v) for v in P[::-1]])]
+        for _ in range(60):  # Newton's method
+            slopes = [sum(k * P[k] * z ** (k - 1) for k in range(1, 5)) for z in zeros]
+            values = [sum(v * z**k for k, v in enumerate(P)) for z in zeros]
+            zeros = [z - v / slope for z, v, slope in zip(zeros, values, slopes, strict=True)]
+        inside = [z for z in zeros if abs(z) < 1]
+        assert len(inside) == 2
+        slopes = [sum(k * P[k] * z ** (k - 1) for k in range(1, 5)) for z in inside]
+        g0, g2 = (2 * mp.pi * sum(2 * z**k / v for z, v in zip(inside, slopes, strict=True)).real for k in (1, 3))
+        sign = mp.sign(b)  # lambda_rho is d cos^2 + a sin^2 and what integrates to 0
+        return float(sign * g0), float(sign * ((d + a) * g0 + (d - a) * g2) / 2)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("power", [2, 5, 8, 12])
+@pytest.mark.parametrize("q", [(-1.0, 0.3, 0.7, -0.4), (2.0, -0.5, 0.1, 0.9), (0.4, 0.5, -1.0, -0.2)])
+def test_cycle_near_a_saddle_node_of_any_form(q, power, sign):
+    a, d, f1, f2 = q
+
+    def Theta(t):
+        return sign * (f2 * mp.cos(t) - f1 * mp.sin(t) + (d - a) * mp.sin(t) * mp.cos(t))
+
+    with mp.workdps(40):
+        coarse = min((Theta(2 * mp.pi * k / 400), k) for k in range(400))[1]
+        t = mp.findroot(lambda t: mp.diff(Theta, t), 2 * mp.pi * coarse / 400)
+        b = float(-sign * Theta(t) * (1 + mp.mpf(10) ** -power))
+    cycle = equator_cycle(system(a, b, d, f1, f2))
+    period, exponent = by_residues((a, b, d, f1, f2))
+    assert cycle.direction == sign
+    assert cycle.period == pytest.approx(period, rel=1e-12 if power > 4 else 1e-14 * 10.0**power)
+    assert cycle.exponent == pytest.approx(exponent, abs=(1e-12 if power > 4 else 1e-14 * 10.0**power) * period)
+
+
 @pytest.mark.parametrize("power", range(1, 15))
 def test_cycle_near_two_saddle_nodes_at_once(power):
     # f = 0: the integral of 1/(b + (d - a)/2 sin 2 theta) is 2 pi/sqrt(b^2 - (d - a)^2/4).
@@ -229,3 +269,17 @@ def test_only_the_limit_direction_that_the_critical_set_reached_is_radially_dege
     assert len(found) == 2
     assert found.radially_degenerate.sum() == 1
     assert np.count_nonzero(found.lambda_rho) == 1
+
+
+@pytest.mark.parametrize("gap", [1e-2, 1e-6, 1e-12])
+def test_a_zero_and_its_mirror_image_outside_the_circle_are_one(gap):
+    """Theta = -b + 5 cos(theta - nu) has its zeros at r and 1/r times exp(i nu), 5 (1 + r^2) = 2 b r."""
+    b = 5.0 * (1.0 + gap)
+    with mp.workdps(40):
+        ratio = mp.mpf(b) / 5
+        r = ratio - mp.sqrt(ratio**2 - 1)
+        expected, rest = complex(r * mp.mpc(0.6, 0.8)), float(1 - r * r)
+    for start in (expected * (1.0 - 1e-3 * gap), (1.0 + 1e-3 * gap) * expected / abs(expected) ** 2):
+        found, left = _polished((-b, 3.0, 4.0, 0.0, 0.0), start)
+        assert found == pytest.approx(expected, abs=1e-15)
+        assert left == pytest.approx(rest, rel=1e-13)

@@ -67,6 +67,8 @@ def test_half_saddles(radial):
     assert not endings.radially_neutral(neutral, 1)
     small, _ = equator([0.3, 1.4], [1, 1], lambda_rho=[radial * 1e-16, radial])
     assert endings.radially_neutral(small, 0)
+    slow, _ = equator([0.3, 1.4], [1, 1], lambda_rho=[radial * 1e-11, radial])  # slow, but its sign is known
+    assert not endings.radially_neutral(slow, 0)
 
 
 def test_the_nearest_direction_is_found_across_the_cut():
