@@ -19,6 +19,7 @@ from ..state.choices import SLOW_CONTROLS
 from ..state.chosen import System_, slow_ranges
 from ..state.controls import slider_range
 from .panel import Panel
+from .short import short
 
 PLANE = 15  # arrows along each axis of the plane
 NONE = "There is no slow variable: m = 0."
@@ -81,7 +82,7 @@ def columns(found: SlowPortrait, axis: int) -> dict[str, Any]:
     return {
         "intervals": [{"low": i.low, "high": i.high, "kind": i.kind, "sentence": i.sentence} for i in found.intervals],
         "branches": [
-            {"z": _short(b.z), "flow": _short(b.flow[:, axis]), "kind": b.kind, "stable": b.stable}
+            {"z": short(b.z), "flow": short(b.flow[:, axis]), "kind": b.kind, "stable": b.stable}
             for b in found.branches
         ],
         "points": [
@@ -103,14 +104,10 @@ def plane_of(
     """Return the slow flow over a net in the plane of the first two slow variables, where there is sliding."""
     found = slow_plane(system, psi, (spans[0], spans[1]), rest, PLANE)
     arrows = [
-        [float(z1), float(z2), *_short(flow[:2]), int(stable)]
+        [float(z1), float(z2), *short(flow[:2]), int(stable)]
         for (z1, z2), flow, stable in zip(found.z, found.flow, found.stable, strict=True)
     ]
     return {"spans": [list(spans[0]), list(spans[1])], "arrows": arrows}
-
-
-def _short(values: Any) -> list[float]:
-    return [float(f"{v:.5g}") for v in values]
 
 
 PANEL = Panel("along", "Along z", add, "Where Σ slides, and the slow flow along it.")

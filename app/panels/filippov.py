@@ -18,6 +18,7 @@ from codim2_core.sliding.filippov import filippov_sliding
 
 from ..frame.draft import Draft
 from ..state.chosen import System_
+from .short import short
 
 POINTS = 97  # of the curve
 WIDEST = 6.0  # half the side of the plane's square, in (lambda1, lambda2): a cross farther out is beside the view
@@ -39,13 +40,13 @@ def vectors(system: System_, psi: Psi, z: tuple[float, ...]) -> dict[str, Any]:
 
     def limit(angles: np.ndarray) -> list[list[float]]:
         e = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-        return [_short((*u, w[0])) for u, w in zip(at.U(e), at.W(e), strict=True)]
+        return [short((*u, w[0]), 4) for u, w in zip(at.U(e), at.W(e), strict=True)]
 
     found, plane = filippov_sliding(system, z), affine_plane(system, z)
     corners = [] if plane is None else [_square(plane, vertex) for vertex in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
     return {
         "plane": corners,
-        "cross": None if plane is None or plane.point is None else _short(plane.point[:1])[0],
+        "cross": None if plane is None or plane.point is None else short(plane.point[:1], 4)[0],
         "curve": limit(theta),
         "candidates": [float(vertex[0]) for vertex in found.vertices],
         "combined": [limit(directions) for directions in found.directions],
@@ -57,8 +58,4 @@ def vectors(system: System_, psi: Psi, z: tuple[float, ...]) -> dict[str, Any]:
 def _square(plane: AffinePlane, vertex: tuple[int, int]) -> list[float]:
     """Return the combination at a corner of a square in (lambda1, lambda2) that holds the unit disc and the cross."""
     reach = 1.15 if plane.place is None else min(WIDEST, max(1.15, 1.15 * float(np.abs(plane.place).max())))
-    return _short((plane.matrix @ (reach * np.array(vertex)) + plane.offset)[:3])
-
-
-def _short(values: Any) -> list[float]:
-    return [float(f"{v:.4g}") for v in values]
+    return short((plane.matrix @ (reach * np.array(vertex)) + plane.offset)[:3], 4)

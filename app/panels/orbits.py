@@ -1,13 +1,86 @@
-"""The panel "Orbits": the orbits that were launched, each with where it goes and where it comes from."""
+"""The panel "Orbits": what was launched, with where it goes and comes from; the chosen orbit over time."""
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+
+from codim2_core.motion.regularised import simulate
+from codim2_core.orbits.in_time import InTime, in_time
+from codim2_core.psi.function import Psi
+
 from ..frame.draft import Draft
+from ..state.chosen import System_
+from ..state.launches import chosen, read_launches
 from .panel import Panel
+from .short import short
+from .time import RTOL
+
+ON = 1.5  # times as long as it takes to Sigma is a motion for eps > 0 followed: what it does there is seen too
 
 
 def add(draft: Draft) -> None:
-    """Nothing besides what every frame brings: `header["launched"]` goes with the layer of this name."""
+    """Add the chosen orbit over time, and its motion for eps > 0 if it is wanted, once nothing moves."""
+    i = chosen(read_launches(draft.values["orbits"]), draft.values["orbit"])
+    if i is None:
+        return
+    if not draft.ready:
+        draft.late("orbit")
+        return
+    scene = draft.scene
+    launched = scene["launched"]
+    key = (launched, i)
+    seed, clock = scene.launch[i], launched.orbits.times[i]
+    if draft.now.get("orbit") != key:
+        draft.now["orbit"] = key
+        if np.hypot(*seed) == 1.0:
+            draft.unable("orbit", "It follows the equator, where no time t passes.")
+        else:
+            found = in_time(scene.coefficients, scene.psi, seed, (clock[0], clock[-1]))
+            draft.header["orbit"] = {"index": i, **_columns(found)}
+    if draft.values["orbit_eps"] == "show" and draft.system is not None and np.hypot(*seed) != 1.0:
+        eps = 10.0 ** draft.values["log_eps"]
+        arrives = launched.goes[i].after is not None
+        asked = (draft.system, scene.psi, eps, tuple(seed.tolist()), scene.z, (clock[0], clock[-1]), arrives)
+        motion = draft.slow("orbit_motion", asked, regularised, *asked)
+        if motion is not None:
+            draft.header["orbit_motion"] = motion
+
+
+def regularised(
+    system: System_,
+    psi: Psi,
+    eps: float,
+    seed: tuple[float, float],
+    z: tuple[float, ...],
+    span: tuple[float, float],
+    arrives: bool,
+) -> dict[str, Any]:
+    """Return the motion for eps > 0 from where an orbit starts, in the units of the orbit, as the browser draws it."""
+    orbit = in_time(system, psi, seed, (0.0, span[1]), z)
+    unit = eps if orbit.fast else 1.0
+    state = (*(unit * orbit.xy[0]).tolist(), *z)
+    end = unit * orbit.time[-1] * (ON if arrives else 1.0)
+    drawn = simulate(system, psi, eps, state, (0.0, end), rtol=RTOL).drawn()
+    x, y = drawn.states[:, 0] / unit, drawn.states[:, 1] / unit
+    rho = np.hypot(x, y)
+    radius = np.hypot(*drawn.points.T) if orbit.fast else rho
+    return {
+        "eps": eps,
+        "t": short(drawn.times / unit),
+        "states": [short(column) for column in (x, y, np.unwrap(np.arctan2(y, x)), radius, *drawn.states[:, 2:].T)],
+        "picture": [short(column) for column in drawn.points.T],
+    }
+
+
+def _columns(orbit: InTime) -> dict[str, Any]:
+    return {
+        "fast": orbit.fast,
+        "t": short(orbit.time),
+        "states": [short(column) for column in (*orbit.xy.T, orbit.theta, orbit.radius)],
+        "picture": [short(column) for column in orbit.points.T],
+    }
 
 
 PANEL = Panel(

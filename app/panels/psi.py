@@ -6,6 +6,7 @@ import numpy as np
 
 from ..frame.draft import Draft
 from .panel import Panel
+from .short import short
 
 S = np.linspace(0.0, 4.0, 81)
 #: Distances in the chart kappa_2 at which |e_Psi| is sent; L(l; eps) is read from them in the browser for every eps.
@@ -18,16 +19,12 @@ def add(draft: Draft) -> None:
     if draft.now.get("psi_curves") != psi:
         draft.now["psi_curves"] = psi
         draft.header["psi_curves"] = {
-            "s": _short(S),
-            "psi": _short(psi(S)),
-            "zeta": _short(ZETA),
-            "modulus": _short(psi.modulus(ZETA)),
+            "s": short(S),
+            "psi": short(psi(S)),
+            "zeta": short(ZETA),
+            "modulus": short(psi.modulus(ZETA)),
             "text": psi.words,
         }
-
-
-def _short(values: np.ndarray) -> list[float]:
-    return [float(f"{v:.5g}") for v in values]
 
 
 PANEL = Panel("psi", "Ψ", add, "The regularisation function, and the smooth step that it makes.")

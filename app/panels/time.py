@@ -6,9 +6,6 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from codim2_core.examples import Ball, catalogue
 from codim2_core.motion.agreement import agreement
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
@@ -21,6 +18,7 @@ from ..frame.draft import Draft
 from ..state.chosen import System_
 from ..state.controls import InputError
 from .panel import Panel
+from .short import short
 
 RTOL = 1e-7
 EPS = round(math.log10(SMALLEST_EPS)), round(math.log10(LARGEST_EPS))
@@ -92,9 +90,9 @@ def both(
 def _curves(run: Simulation) -> dict[str, Any]:
     drawn = run.drawn()
     return {
-        "t": _short(drawn.times),
-        "states": [_short(column) for column in drawn.states.T],
-        "picture": [_short(column) for column in drawn.points.T],
+        "t": short(drawn.times),
+        "states": [short(column) for column in drawn.states.T],
+        "picture": [short(column) for column in drawn.points.T],
         "phases": [[p.kind, p.t_start, p.t_end, p.reason, p.onto] for p in run.phases],
         "reason": run.reason,
         "ended": float(run.times[-1]),
@@ -107,14 +105,10 @@ def _rolling(ball: Ball, run: Simulation, parameters: Mapping[str, float]) -> di
     rate = 0.0 if ball.turning is None else float(parameters[ball.turning])
     found = rolling(ball, drawn.times, drawn.states, rate)
     return {
-        "centre": [_short(column) for column in found.centre.T],
+        "centre": [short(column) for column in found.centre.T],
         "turns": [[round(float(v), 4) for v in turn] for turn in found.turns],
         "radius": found.radius,
     }
-
-
-def _short(values: NDArray[np.float64]) -> list[float]:
-    return [float(f"{v:.5g}") for v in values]
 
 
 PANEL = Panel("time", "Time", add, "One motion in time, for ε > 0 and in the limit ε → 0.")

@@ -22,7 +22,7 @@ from codim2_core.psi.function import Psi
 from ..draw.layers import LAYERS, shown
 from .choices import AXES, MAX_TRAJECTORIES, OWN_AXIS, PANELS, SLOW_CONTROLS, SOLIDS
 from .chosen import NORMAL, has_atlas, starting_launch, starting_z, titles
-from .launches import read_launches
+from .launches import MOST, read_launches
 from .portraits import portrait_keys, portraits
 
 MOST_ENTRIES = 16  # of a mapping that a browser sends
@@ -100,6 +100,10 @@ class ExplorerState(param.Parameterized):
     log_eps = _number(-2.0, -10, 0, "log₁₀ ε", "Size of the regularised region.")
     launch = param.String("0.6, 0.8, 0", label="Start", doc="State (x, y, z₁, …) from which a motion starts.")
     orbits = param.String("", label="Orbits", doc="Launched orbits: x,y of each, joined by semicolons.")
+    orbit = param.Integer(1, bounds=(1, MOST), label="Orbit", doc="Number of the launched orbit that is shown in time.")
+    orbit_eps = param.Selector(
+        default="hide", objects=["hide", "show"], label="ε > 0", doc="The motion for ε > 0 beside that orbit."
+    )
     lesson = param.String("", label="Lesson", doc="The lesson that is open.")
     quiz = param.String("", label="Question", doc="QUESTION.SEED or QUESTION.SEED.ANSWER of the open lesson.")
     t_end = _number(8.0, 0, 40, "until t", "How long a motion is followed.")

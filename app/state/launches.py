@@ -58,3 +58,14 @@ def _read(entry: str) -> Launch:
     if len(name) > LONGEST_NAME:
         raise ValueError(f"the name {name[:40]!r} is too long; give at most {LONGEST_NAME} characters.")
     return Launch(x, y, hidden, name.strip())
+
+
+def chosen(launches: tuple[Launch, ...], number: int) -> int | None:
+    """Return the place, among those that are shown, of the orbit of this number, counted from 1; the last if fewer.
+
+    None where it is hidden, or nothing was launched.
+    """
+    if not launches:
+        return None
+    k = min(number, len(launches)) - 1
+    return None if launches[k].hidden else sum(not launch.hidden for launch in launches[:k])

@@ -133,7 +133,7 @@ function wire({model, view, root, plot}) {
       change("orbits", launches)
       if (values.panel === "orbits") panels.draw(values)
     },
-    begin: (i) => { held = i; clearTimeout(quiet) },
+    begin: (i) => { held = i; clearTimeout(quiet); change("orbit", i + 1) },
     end: () => { quiet = setTimeout(() => { held = -1; spoken.hidden = true }, 5000) },
   })
   find(".home").addEventListener("click", () => picture.home())

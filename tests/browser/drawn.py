@@ -14,7 +14,8 @@ def number(text):
     """A tick's words as a number."""
     text = text.replace("−", "-")
     if "π" in text:
-        return np.pi * float(text.replace("π", "") or 1)
+        times, _, parts = text.partition("π")
+        return np.pi * float(f"{times}1" if times in ("", "-") else times) / float(parts.strip("/") or 1)
     return float(text)
 
 

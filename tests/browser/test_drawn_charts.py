@@ -223,13 +223,53 @@ def test_slow_flow_in_the_plane_of_two_slow_variables(open_page):
 def test_time(opened, setting):
     page = opened("time", launch="0.6, 0.8, 0.3", t_end=3.0, log_eps=-1.0)
     motion = c2.simulate(system(setting), PSI, 0.1, (0.6, 0.8, 0.3), (0.0, 3.0))
-    upper, lower = plots(page, ".series.chart:not(.psi-curves)")
+    upper, lower = plots(page, ".panel-time .series")
     assert (upper.title, lower.title, lower.word) == ("x y", "z", "t")
     for plot, column, name, token in [(upper, 0, "s0", "rho"), (upper, 1, "s1", "theta"), (lower, 2, "s0", "rho")]:
         points, drawn = next((points, it) for points, it in plot.lines(name) if "limit" not in it["name"])
         assert drawn["stroke"] == colour(page, token)
         wanted = np.array([motion.dense(t)[column] for t in np.clip(points[:, 0], 0, motion.times[-1])])
         np.testing.assert_allclose(points[:, 1], wanted, atol=6 * plot.near[1] + 0.01)
+
+
+@pytest.mark.parametrize("seed", [(0.45, -0.3), (-1.2, 0.7)])
+def test_an_orbit_over_time(opened, setting, seed):
+    x, y = seed
+    page = opened("orbits", orbits=f"{x},{y}", orbit_eps="show", log_eps=-2.5)
+    page.page.wait_for_selector(".orbit-key:not([hidden])")
+    eps, r = 10.0**-2.5, np.hypot(x, y)
+    unit = eps if r < 1.0 else 1.0
+    state = unit * np.array(seed) * (1.0 / np.sqrt(1.0 - r * r) if r < 1.0 else (r - 1.0) / r)
+    plane, angle, radius, slow = plots(page, ".orbit-time .series")
+    assert (plane.title, slow.word) == (("x/ε y/ε", "t/ε") if r < 1.0 else ("x y", "t"))
+    (broken,) = [points for points, _ in slow.lines("limit")]
+    motion = c2.simulate(system(setting), PSI, eps, (*state, 0.0), (0.0, unit * broken[-1, 0]))
+
+    def states(t):
+        return np.array([motion.dense(v)[:2] / unit for v in np.clip(unit * t, 0.0, motion.times[-1])])
+
+    for name, token, column in [("s0", "rho", 0), ("s1", "theta", 1)]:
+        for points, drawn in plane.lines(name):
+            assert drawn["stroke"] == colour(page, token)
+            if "limit" in drawn["name"]:
+                np.testing.assert_allclose(points[:, 1], states(points[:, 0])[:, column], atol=4 * plane.near[1] + 0.01)
+    # the orbit itself: x = r cos theta, y = r sin theta, with the radius of the third plot
+    full = {
+        name: next(points for points, it in plane.lines(name) if "limit" not in it["name"]) for name in ("s0", "s1")
+    }
+    theta = next(points for points, it in angle.lines("s2") if "limit" not in it["name"])
+    size = next(points for points, it in radius.lines("s3") if "limit" not in it["name"])
+    length = np.hypot(full["s0"][:, 1], full["s1"][:, 1])
+    p = length / np.hypot(1.0, length) if r < 1.0 else length
+    np.testing.assert_allclose(size[:, 1], p, atol=3 * radius.near[1] + 0.01)
+    far = length > 20 * plane.near[1]
+    turn = theta[:, 1] - np.arctan2(full["s1"][:, 1], full["s0"][:, 1])
+    assert np.abs(np.exp(1j * turn[far]) - 1.0).max() < 0.15
+    at = np.abs(full["s0"][:, 0]).argmin()
+    assert (full["s0"][at, 1], full["s1"][at, 1]) == pytest.approx(state / unit, abs=6 * plane.near[1])
+    page.find(".orbit-time .series").press("ArrowRight")
+    assert " = 0:" not in page.find(".orbit-now").text_content()
+    assert page.complaints == []
 
 
 def test_psi(opened):

@@ -5,9 +5,8 @@ import {Chart} from "../chart/chart.js"
 import {spanOf} from "../chart/scale.js"
 import {slider} from "../controls.js"
 import {register} from "../panels.js"
+import {Player, sampled} from "../player.js"
 import {digits, escape, phaseWords, plain, slowName} from "../words.js"
-
-const PLAY_SECONDS = 9 // for the whole motion
 
 const MARKUP = `<div class="control typed" data-control="launch"><label for="c2-launch">start</label><input type="text" id="c2-launch" class="text" placeholder="x, y, z₁, …" spellcheck="false" autocomplete="off"><p class="error" role="alert" hidden></p></div>
   <div class="time-body">
@@ -35,12 +34,11 @@ class Motion {
     this.svg = this.find(".series")
     this.chart = new Chart(this.svg, {
       aspect: (width) => Math.min(0.75 * width, 520),
-      onMove: (t) => { if (this.motion) { this.toggle(false); this.go(t) } },
-      onKey: ([way]) => { if (way && this.motion) this.go(this.at + way * this.end / 100) },
+      onMove: (t) => { if (this.motion) this.player.scrub(t) },
+      onKey: ([way]) => { if (this.motion) this.player.step(way) },
     })
+    this.player = new Player(this.find(".play"), (moved) => this.show(moved))
     this.ball = new Ball(tools.root, this.find(".ball"))
-    this.at = 0
-    this.find(".play").addEventListener("click", () => this.toggle())
     this.find(".here").addEventListener("click", () => {
       if (!this.motion) return
       const m = this.motion.states.length - 2
@@ -66,60 +64,32 @@ class Motion {
 
   close() {
     this.open = false
-    this.toggle(false)
+    this.player.toggle(false)
     this.trace(null)
   }
 
   get end() { return Math.max(this.motion.t.at(-1), this.limit?.t.at(-1) ?? 0) }
 
-  toggle(on = !this.playing) {
-    this.playing = on && Boolean(this.motion)
-    this.find(".play").textContent = this.playing ? "❚❚ Pause" : "▶ Play"
-    this.find(".play").setAttribute("aria-pressed", this.playing)
-    if (!this.playing) return
-    if (this.at >= this.end) this.at = 0
-    let before = performance.now()
-    const step = (now) => {
-      if (!this.playing) return
-      this.go(this.at + Math.min(now - before, 80) / 1000 * this.end / PLAY_SECONDS)
-      before = now
-      if (this.at >= this.end) this.toggle(false)
-      else requestAnimationFrame(step)
-    }
-    requestAnimationFrame(step)
-  }
-
-  go(t) { this.at = Math.max(0, Math.min(this.end, t)); this.show(true) }
-
-  // The state of a motion at the present time, linear between samples.
-  sample(run, columns) {
-    const {t} = run
-    let low = 0, high = t.length - 1
-    while (high - low > 1) { const mid = (low + high) >> 1; if (t[mid] <= this.at) low = mid; else high = mid }
-    const share = t[high] > t[low] ? Math.max(0, Math.min(1, (this.at - t[low]) / (t[high] - t[low]))) : 0
-    return columns.map((c) => c[low] + share * (c[high] - c[low]))
-  }
-
   show(moved = false) {
     if (!this.open || !this.motion) return
-    this.chart.at(this.at)
-    this.svg.setAttribute("aria-valuenow", this.at)
-    const state = this.sample(this.motion, this.motion.states)
-    this.trace([this.motion.picture, this.limit?.picture], this.sample(this.motion, this.motion.picture))
+    const {at} = this.player, {t, states, picture} = this.motion
+    this.chart.at(at)
+    this.svg.setAttribute("aria-valuenow", at)
+    const state = sampled(t, states, at)
+    this.trace([picture, this.limit?.picture], sampled(t, picture, at))
     // the other views follow: the portrait is that of the present z
     if (moved) this.setControls(Object.fromEntries(state.slice(2, 6).map((z, i) => [slowName(i), Number(z.toPrecision(6))])))
-    const phase = this.motion.phases.findLast(([, start]) => start <= this.at) ?? this.motion.phases[0]
-    this.find(".phase-now").textContent = phase ? `t = ${digits(this.at, 3)}: ${phaseWords(phase[0], this.motion.ball)}. ${phase[3]}` : ""
-    if (this.motion.ball) this.ball.show(this.motion, this.at)
+    const phase = this.motion.phases.findLast(([, start]) => start <= at) ?? this.motion.phases[0]
+    this.find(".phase-now").textContent = phase ? `t = ${digits(at, 3)}: ${phaseWords(phase[0], this.motion.ball)}. ${phase[3]}` : ""
+    if (this.motion.ball) this.ball.show(this.motion, at)
   }
 
   drawAll() {
     const {motion, limit} = this
-    this.toggle(false)
+    this.player.over(0, motion ? this.end : 0)
     this.find(".time-body").hidden = !motion
     this.find(".time-note").textContent = motion ? [motion.agreement, motion.t.at(-1) < this.end * 0.999 ? motion.reason : "", limit && limit.t.at(-1) < this.end * 0.999 ? `The limit: ${limit.reason}` : ""].filter(Boolean).join(" ") : this.why ?? ""
     if (!motion) { this.trace(null); return }
-    this.at = Math.min(this.at, this.end)
     const m = motion.states.length - 2
     const rows = [[0, 1], Array.from({length: Math.min(m, 4)}, (_, i) => 2 + i)].filter((columns) => columns.length)
     this.chart.draw(rows.map((columns, k) => {

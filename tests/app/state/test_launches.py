@@ -3,7 +3,7 @@
 import pytest
 from codim2_app.draw.packing import unpack
 from codim2_app.state.controls import ExplorerState, InputError, clean
-from codim2_app.state.launches import MOST, Launch, read_launches
+from codim2_app.state.launches import MOST, Launch, chosen, read_launches
 from codim2_app.view.refresh import Frames
 
 
@@ -52,3 +52,19 @@ def test_without_orbits_a_slider_sends_nothing_of_them():
     header, blocks = unpack(frames.answer({"set": {"f1": -0.4}}))
     assert "launched" not in header
     assert not [name for name in blocks if name.startswith("launched")]
+
+
+@pytest.mark.parametrize(
+    ("text", "number", "place"),
+    [
+        ("", 1, None),
+        ("0,0", 1, 0),
+        ("0,0", 9, 0),
+        ("0,0,-", 1, None),
+        ("0,0,-;1,1;2,2", 3, 1),
+        ("0,0;1,1,-;2,2", 9, 1),
+        ("0,0;1,1,-", 2, None),
+    ],
+)
+def test_the_chosen_orbit_has_its_place_among_those_that_are_shown(text, number, place):
+    assert chosen(read_launches(text), number) == place

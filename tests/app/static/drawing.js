@@ -61,7 +61,10 @@ const HANDS = {
     ["frame", {lesson: {key: "", list: [{key: "01-friction", title: "One", summary: "First.", questions: 1, values: {lesson: "01-friction"}}]}}],
   ],
   numbers: [["values", {z: -7.3}], ["frame", {slow_flow: [-0.4, 2]}], ["frame", {slow_flow: [0]}], ["frame", {slow_flow: []}], ["frame", {unable: {outcomes: "Not here."}}], ["late", ["outcomes"]]],
-  orbits: [[".hide", "click"], [".hide@2", "click"], [".remove@1", "click"], [".orbit-name", "change"], [".clear", "click"]],
+  orbits: [
+    [".orbit-time .series", "pointerdown", {clientX: 200, clientY: 60}], [".orbit-time .series", "pointerup"], [".orbit-time .series", "keydown", {key: "ArrowLeft"}], [".orbit-time .play", "click"], [33], [33], [".orbit-time .play", "click"], [".choose@1", "click"], [".orbit-eps input", "change"],
+    ["late", ["orbit", "orbit_motion"]], ["frame", {unable: {orbit: "No time passes."}}], [".hide", "click"], [".hide@2", "click"], [".remove@1", "click"], [".orbit-name", "change"], [".clear", "click"],
+  ],
   planes: [["frame", {critical: {label: ["C"], kind: ["saddle"], trace: [0.4], determinant: [-1.5], x2: [[0.5, 0.2]]}}], ["frame", {critical: {label: ["C"], kind: ["stable focus"], trace: [-0.5], determinant: [2], x2: [[-1.5, 0.4]]}}], ["frame", {critical: {label: [], kind: [], trace: [], determinant: [], x2: []}}], ["frame", {system: {}, critical: {label: ["C"], kind: ["unstable node"], trace: [3], determinant: [2], x2: [[0, 3]]}}]],
   psi: [["values", {log_eps: -1.2}], [".psi-curves", "pointermove", {clientX: 100, clientY: 60}]],
   solid: [

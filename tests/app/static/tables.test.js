@@ -98,7 +98,7 @@ test("the panel numbers: while it is closed its tables wait until nothing moves"
 })
 
 test("the panel orbits: each orbit has its colour and its words, hidden ones none", () => {
-  const one = opened("orbits", {orbits: "0.1,0.2:slow;0.3,0.4,-;0.5,-0.6;1,1;2,1;2,2;3,1;3,2;3,3"})
+  const one = opened("orbits", {orbit: 1, log_eps: -2, orbits: "0.1,0.2:slow;0.3,0.4,-;0.5,-0.6;1,1;2,1;2,2;3,1;3,2;3,3"})
   one.frame({launched: {goes: ["To C.", "To Q₁.", "Away."], comes: ["From Q₂.", "", "From far."]}})
   assert.deepEqual(one.all(".orbit-colour").map((it) => it.getAttribute("style").replace("background: ", "")),
     [1, 0, 2, 3, 4, 5, 6, 1, 2].map((k) => k ? `var(--launch-${k})` : "transparent"))
@@ -124,7 +124,7 @@ test("the panel orbits: each orbit has its colour and its words, hidden ones non
 })
 
 test("the panel orbits: a name that is being typed is not written over, a button that was pressed is", () => {
-  const one = opened("orbits", {orbits: "0.1,0.2"}), root = one.find(".orbit-list").getRootNode()
+  const one = opened("orbits", {orbit: 1, log_eps: -2, orbits: "0.1,0.2"}), root = one.find(".orbit-list").getRootNode()
   const active = (element) => Object.defineProperty(root, "activeElement", {value: element, configurable: true})
   one.frame({launched: {goes: ["To C."], comes: [""]}})
   const name = one.find(".orbit-name")

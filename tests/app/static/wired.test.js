@@ -144,7 +144,7 @@ test("a launched orbit is seen: its layer is shown with it", () => {
   one.answer()
   hand(one, "pointerdown", ...at(-0.5, -0.75)); hand(one, "pointerup", ...at(-0.5, -0.75))
   one.tick(20)
-  assert.deepEqual(asked(one), [{orbits: "0.5,-0.25;-0.5,-0.75"}])
+  assert.deepEqual(asked(one), [{orbit: 2, orbits: "0.5,-0.25;-0.5,-0.75"}]) // and it is the chosen one
 })
 
 test("two fingers move the picture, but not while one of them holds an orbit", () => {

@@ -21,7 +21,7 @@ ${["a", "f1", "n", "z", "trajectories"].map(slider).join("\n")}
 <div class="sheets"><button data-sheet="controls"></button><button data-sheet="inspector"></button></div>
 <div class="tabs"><button role="tab" data-panel="orbits">Orbits</button><button role="tab" data-panel="numbers">Numbers</button></div><section role="tabpanel" data-panel="orbits"></section><section role="tabpanel" data-panel="numbers" hidden></section></div></div>`
 
-const VALUES = {a: -2, f1: 0.5, n: 3, z: 0, z2: 0, trajectories: 64, psi: "constant", psi_text: "1", preset: "", system: "normal", texts: {}, parameters: {}, layers: ["inside", "equator", "critical", "basins"], orbits: "", panel: "orbits", t_end: 5, launch: ""}
+const VALUES = {a: -2, f1: 0.5, n: 3, z: 0, z2: 0, trajectories: 64, psi: "constant", psi_text: "1", preset: "", system: "normal", texts: {}, parameters: {}, layers: ["inside", "equator", "critical", "basins"], orbits: "", orbit: 1, orbit_eps: "hide", log_eps: -2, panel: "orbits", t_end: 5, launch: ""}
 const curve = (name, colour, more = {}) => ({name, colour, width: 1.5, dash: [], ...more})
 const LAYERS = [
   {name: "basins", parts: []}, {name: "outcomes", parts: []},

@@ -1,0 +1,142 @@
+"""One orbit over time: fast time tau = t/eps in the layer problem on the hemisphere, t outside."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import LSODA
+
+from ..layer_problem.hemisphere import flow, outside_flow, scaling_from_disc
+from ..psi.function import Psi
+from ..systems.kinds import AnySystem, AtZ
+from .seeds import checked_seeds
+
+Array = NDArray[np.float64]
+
+RTOL, ATOL = 1e-7, 1e-9
+FAR = 10.0  # eps: how far from Sigma an orbit on the hemisphere is followed; it comes from or goes to infinity there …
+BEYOND = 3.0  # … or so many times as far as its seed, where that is farther
+PARTS = np.array([1.0, 2.0, 3.0]) / 3.0  # of each step, so that a curve drawn through them is smooth
+STEPS = 400  # of each half
+MOST = 300  # points of each half
+
+
+@dataclass(frozen=True, eq=False)
+class InTime:
+    """An orbit over time; arrays are read-only and run with increasing time.
+
+    Attributes
+    ----------
+    fast : bool
+        The orbit lies on the hemisphere: times are tau = t/eps and lengths are in eps, eq:LP. Outside they are as they
+        are, eq:vf with z frozen.
+    time : ndarray (k,)
+        0 at the seed.
+    xy : ndarray (k, 2)
+        (x, y)/eps on the hemisphere, (x, y) outside.
+    theta : ndarray (k,)
+        Angle of (x, y), without jumps by 2 pi.
+    radius : ndarray (k,)
+        |p| on the hemisphere, rho = |(x, y)| outside.
+    points : ndarray (k, 2)
+        Of the picture.
+    """
+
+    fast: bool
+    time: Array
+    xy: Array
+    theta: Array
+    radius: Array
+    points: Array
+
+    def __post_init__(self) -> None:
+        for array in (self.time, self.xy, self.theta, self.radius, self.points):
+            array.flags.writeable = False
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+def in_time(system: AnySystem, psi: Psi, seed: ArrayLike, span: tuple[float, float], z: ArrayLike = ()) -> InTime:
+    """Follow one orbit both ways over its own time; z is frozen.
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+    psi : Psi
+    seed : (2,)
+        Point of the picture: |p| < 1 on the hemisphere, |p| = 1 + rho outside.
+    span : (float, float)
+        From which time T to which (dT = dt/rho), T = 0 at the seed: the clock of its trajectory.
+    z : (m,) floats
+
+    Returns
+    -------
+    InTime
+        A half on the hemisphere ends 10 eps from Sigma at the latest, or three times as far as the seed; any half after
+        400 steps.
+
+    Raises
+    ------
+    ValueError
+        The seed is no point of the picture, or lies on the equator, where no time t passes; or 0 is not in the span.
+    """
+    start = checked_seeds(np.reshape(np.asarray(seed, float), (-1, 2)))[0]
+    first, last = map(float, span)
+    if not (math.isfinite(first) and math.isfinite(last) and first <= 0.0 <= last):
+        raise ValueError(f"span is ({first}, {last}); give finite times T with first <= 0 <= last.")
+    radius = math.hypot(*start)
+    if radius == 1.0:
+        raise ValueError("The seed lies on the equator, where no time t passes; give one on the hemisphere or outside.")
+    at = system.at(z)
+    half = _on_hemisphere if radius < 1.0 else _outside
+    back, ahead = (half(at, psi, start, end) for end in (first, last))
+    columns = [np.concatenate([b[:0:-1], a]) for b, a in zip(back, ahead, strict=True)]
+    time, points, xy, r = columns
+    return InTime(radius < 1.0, time, xy, np.unwrap(np.arctan2(points[:, 1], points[:, 0])), r, points)
+
+
+def _on_hemisphere(at: AtZ, psi: Psi, start: Array, end: float) -> tuple[Array, Array, Array, Array]:
+    """Follow (p, tau) over T: dtau = dT/ebar."""
+    far = max(FAR, BEYOND * math.hypot(*scaling_from_disc(start)))
+    edge = far / math.hypot(1.0, far)
+    beyond = 0.5 * (1.0 + edge)  # steps may try what lies there
+
+    def rate(_: float, y: Array) -> Array:
+        r = min(math.hypot(y[0], y[1]), beyond)
+        return np.append(flow(at, psi, y[:2]), 1.0 / math.sqrt((1.0 - r) * (1.0 + r)))
+
+    y = _followed(rate, np.append(start, 0.0), end)
+    left = np.flatnonzero(np.hypot(y[:, 0], y[:, 1]) > edge)
+    y = y[: left[0] if len(left) else None]
+    p = y[:, :2]
+    return y[:, 2], p, scaling_from_disc(p), np.hypot(p[:, 0], p[:, 1])
+
+
+def _outside(at: AtZ, _: Psi, start: Array, end: float) -> tuple[Array, Array, Array, Array]:
+    """Follow (log rho, theta, t) over T: dt = rho dT."""
+
+    def rate(_: float, y: Array) -> Array:
+        radial, turning = outside_flow(at, y[1])
+        return np.array([radial, turning, math.exp(min(y[0], 700.0))])
+
+    r = math.hypot(*start)
+    y = _followed(rate, np.array([math.log(r - 1.0), math.atan2(start[1], start[0]), 0.0]), end)
+    rho, e = np.exp(y[:, 0]), np.stack([np.cos(y[:, 1]), np.sin(y[:, 1])], axis=-1)
+    return y[:, 2], (1.0 + rho)[:, None] * e, rho[:, None] * e, rho
+
+
+def _followed(rate: Callable[[float, Array], Array], start: Array, end: float) -> Array:
+    """Return the states from T = 0 to `end`, in `STEPS` steps at most: (k, n)."""
+    found = [start[None]]
+    solver = LSODA(rate, 0.0, start, end, rtol=RTOL, atol=ATOL)
+    while end and solver.status == "running" and len(found) <= STEPS:
+        before = solver.t
+        solver.step()
+        found.append(solver.dense_output()(before + (solver.t - before) * PARTS).T)
+    states = np.concatenate(found)
+    return states[np.unique(np.rint(np.linspace(0, len(states) - 1, MOST)).astype(int))]

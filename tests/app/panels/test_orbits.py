@@ -1,0 +1,105 @@
+"""The panel "Orbits": the chosen orbit over time, and its motion for eps > 0, against the core."""
+
+import json
+import math
+from concurrent.futures import Executor, Future
+
+import numpy as np
+import pytest
+from codim2_app.frame.draft import Draft
+from codim2_app.frame.jobs import Jobs
+from codim2_app.frame.scenes import make_scene
+from codim2_app.panels import orbits
+from codim2_app.state.controls import ExplorerState
+
+INSIDE, OUTSIDE = "0.6,0.3", "1.4,0.6"
+
+
+class Now(Executor):
+    """Computes when asked."""
+
+    def submit(self, fn, /, *args, **kwargs):
+        future = Future()
+        future.set_result(fn(*args, **kwargs))
+        return future
+
+
+def visitor(**changes):
+    """A function that gives the header of one more frame, for values that have changed since."""
+    now, jobs = {}, Jobs(Now())
+    values = {**ExplorerState().values(), **changes}
+
+    def frame(*, rest=True, ready=True, **more):
+        values.update(more)
+        scene = kept.setdefault(json.dumps(values["orbits"]) + str(values["f1"]), make_scene(values))
+        draft = Draft(scene, values, {}, {}, now, jobs, rest, ready, ())
+        orbits.add(draft)
+        json.dumps(draft.header, allow_nan=False)
+        return draft.header
+
+    kept = {}
+    return frame
+
+
+@pytest.mark.parametrize(
+    ("number", "seed", "fast"), [(1, (0.6, 0.3), True), (2, (1.4, 0.6), False), (7, (1.4, 0.6), False)]
+)
+def test_the_chosen_orbit_comes_over_its_own_time(number, seed, fast):
+    header = visitor(orbits=f"{INSIDE};{OUTSIDE}", orbit=number)()
+    orbit = header["orbit"]
+    assert orbit["fast"] is fast
+    k = orbit["t"].index(0.0)
+    x, y, theta, radius = (column[k] for column in orbit["states"])
+    r = math.hypot(*seed)
+    size = r / math.sqrt(1.0 - r * r) if fast else r - 1.0
+    assert (x, y) == pytest.approx((size * seed[0] / r, size * seed[1] / r), rel=1e-4)
+    assert theta == pytest.approx(math.atan2(seed[1], seed[0]), rel=1e-4)
+    assert radius == pytest.approx(r if fast else size, rel=1e-4)
+    assert [column[k] for column in orbit["picture"]] == pytest.approx(seed, rel=1e-4)
+    assert "orbit_motion" not in header
+
+
+def test_what_has_not_changed_is_not_sent_again():
+    frame = visitor(orbits=f"{INSIDE};{OUTSIDE}")
+    assert frame()["orbit"]["index"] == 0
+    assert frame() == {}
+    assert frame(orbit=2)["orbit"]["index"] == 1
+    assert frame(orbit=1)["orbit"]["index"] == 0
+    assert "orbit" in frame(f1=-0.3)
+
+
+def test_a_hidden_orbit_and_none_bring_nothing_and_the_place_counts_those_that_are_shown():
+    frame = visitor(orbits=f"{INSIDE},-;{OUTSIDE}")
+    assert frame() == {}
+    assert frame(orbit=2)["orbit"]["index"] == 0
+    assert visitor()() == {}
+
+
+def test_an_orbit_on_the_equator_says_why_it_has_no_time():
+    header = visitor(orbits="1,0")()
+    assert "no time t passes" in header["unable"]["orbit"]
+
+
+def test_before_the_kernels_are_there_it_is_late():
+    assert visitor(orbits=INSIDE)(ready=False) == {"late": ["orbit"]}
+
+
+@pytest.mark.parametrize("seed", [INSIDE, OUTSIDE])
+def test_for_small_eps_the_motion_is_the_orbit_and_outside_it_goes_on_beyond_sigma(seed):
+    frame = visitor(orbits=seed, orbit_eps="show", log_eps=-5.0, k1=0.0)  # f does not move with z
+    orbit = frame(rest=False)["orbit"]
+    found = [frame() for _ in range(3)]
+    (motion,) = (header["orbit_motion"] for header in found if "orbit_motion" in header)
+    assert motion["eps"] == pytest.approx(1e-5)
+    t, ahead = np.array(motion["t"]), np.array(orbit["t"]) >= 0.0
+    for mine, other in zip(motion["states"], orbit["states"], strict=False):
+        until = ahead & (np.array(orbit["t"]) < 0.9 * orbit["t"][-1])
+        np.testing.assert_allclose(np.interp(np.array(orbit["t"])[until], t, mine), np.array(other)[until], atol=0.02)
+    assert bool(t[-1] > 1.2 * orbit["t"][-1]) is not orbit["fast"]
+    assert len(motion["states"]) == 5  # and z
+
+
+def test_with_the_motion_hidden_nothing_is_computed_for_it():
+    frame = visitor(orbits=OUTSIDE, orbit_eps="hide")
+    frame()
+    assert frame() == {}
