@@ -2,39 +2,43 @@
 
 Follows N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, "Regularisation of isolated codimension-2
 discontinuity sets"; docstrings give the paper's equation labels.
+
+A public name is imported when it is first asked for (PEP 562): a program loads what it uses.
 """
 
-from . import bifurcations, examples, psi
-from .arguments import guarded
-from .counting.census import census
-from .counting.table import Census
-from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
-from .figures.preset import Preset
-from .figures.presets import presets
-from .initial_value.events import Event
-from .layer_problem import hemisphere
-from .layer_problem.critical import CriticalSet, critical_sets
-from .layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
-from .motion.nonsmooth import simulate_nonsmooth
-from .motion.regularised import simulate
-from .motion.result import Phase, Simulation, SimulationStatus
-from .nullcline.nullclines import NullclineBranch, nullclines
-from .orbits.trajectories import Trajectories, trajectories
-from .portrait.basins import Basins, basins
-from .portrait.classify import Classification, Degeneracy, classify
-from .portrait.outcomes import approach_outcomes
-from .portrait.separatrices import Separatrices, Separatrix, separatrices
-from .psi.function import Psi
-from .scene import Scene
-from .sliding.along import slow_portrait
-from .sliding.filippov import FilippovSliding, filippov_sliding
-from .sliding.flow import sliding_flow
-from .sliding.slow_portrait_result import SlowPortrait
-from .systems.coefficients import Coefficients
-from .systems.elinear import ELinear
-from .systems.typed import System
-from .systems.typed_at_z import Frozen
-from .theorems.certificates import certificates
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Python the same
+    from . import bifurcations, examples, psi
+    from .counting.census import census
+    from .counting.table import Census
+    from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
+    from .figures.preset import Preset
+    from .figures.presets import presets
+    from .initial_value.events import Event
+    from .layer_problem import hemisphere
+    from .layer_problem.critical import CriticalSet, critical_sets
+    from .layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+    from .motion.nonsmooth import simulate_nonsmooth
+    from .motion.regularised import simulate
+    from .motion.result import Phase, Simulation, SimulationStatus
+    from .nullcline.nullclines import NullclineBranch, nullclines
+    from .orbits.trajectories import Trajectories, trajectories
+    from .portrait.basins import Basins, basins
+    from .portrait.classify import Classification, Degeneracy, classify
+    from .portrait.outcomes import approach_outcomes
+    from .portrait.separatrices import Separatrices, Separatrix, separatrices
+    from .psi.function import Psi
+    from .scene import Scene
+    from .sliding.along import slow_portrait
+    from .sliding.filippov import FilippovSliding, filippov_sliding
+    from .sliding.flow import sliding_flow
+    from .sliding.slow_portrait_result import SlowPortrait
+    from .systems.coefficients import Coefficients
+    from .systems.elinear import ELinear
+    from .systems.typed import System
+    from .systems.typed_at_z import Frozen
+    from .theorems.certificates import certificates
 
 __version__ = "0.1.0"
 
@@ -89,8 +93,60 @@ __all__ = [
     "trajectories",
 ]
 
+_MODULES = {
+    "bifurcations": "bifurcations",
+    "examples": "examples",
+    "hemisphere": "layer_problem.hemisphere",
+    "psi": "psi",
+}
+_HOMES = {
+    "counting.census": "census",
+    "counting.table": "Census",
+    "cycles.limit_cycles": "LimitCycle LimitCycles limit_cycles",
+    "figures.preset": "Preset",
+    "figures.presets": "presets",
+    "initial_value.events": "Event",
+    "layer_problem.critical": "CriticalSet critical_sets",
+    "layer_problem.equator": "EquatorCycle EquatorEquilibria equator_cycle equator_equilibria",
+    "motion.nonsmooth": "simulate_nonsmooth",
+    "motion.regularised": "simulate",
+    "motion.result": "Phase Simulation SimulationStatus",
+    "nullcline.nullclines": "NullclineBranch nullclines",
+    "orbits.trajectories": "Trajectories trajectories",
+    "portrait.basins": "Basins basins",
+    "portrait.classify": "Classification Degeneracy classify",
+    "portrait.outcomes": "approach_outcomes",
+    "portrait.separatrices": "Separatrices Separatrix separatrices",
+    "psi.function": "Psi",
+    "scene": "Scene",
+    "sliding.along": "slow_portrait",
+    "sliding.filippov": "FilippovSliding filippov_sliding",
+    "sliding.flow": "sliding_flow",
+    "sliding.slow_portrait_result": "SlowPortrait",
+    "systems.coefficients": "Coefficients",
+    "systems.elinear": "ELinear",
+    "systems.typed": "System",
+    "systems.typed_at_z": "Frozen",
+    "theorems.certificates": "certificates",
+}
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 
-globals().update(guarded(__name__, globals(), __all__))
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        """Import a public name; a function comes with the checks of what it is given."""
+        from importlib import import_module
+
+        if name in _MODULES:
+            found = import_module(f".{_MODULES[name]}", __name__)
+        elif name in _HOME:
+            from .arguments import guarded
+
+            one = {name: getattr(import_module(f".{_HOME[name]}", __name__), name)}
+            found = (one | guarded(__name__, one, one))[name]
+        else:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        return globals().setdefault(name, found)  # one object, whichever thread was first: pickle compares
 
 
 def __dir__() -> list[str]:

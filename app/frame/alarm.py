@@ -11,34 +11,43 @@ from contextlib import contextmanager
 from typing import Any
 
 from numba.core import event
+from numba.core.compiler_lock import global_compiler_lock
 
 #: Seconds of processor time after which an alarm that was not heard comes again.
 AGAIN = 0.05
 
 
 class Compiling(event.Listener):
-    """How long kernels have been compiled: that is the installation's matter, and is not counted against a formula."""
+    """How long this thread compiled kernels: that is the installation's matter, and is not counted against a formula.
+
+    Numba tells every listener of what any thread compiles.
+    """
 
     def __init__(self) -> None:
+        self._thread = threading.get_ident()
         self._depth = 0  # one kernel compiles those that it calls
         self._since = self._seconds = 0.0
 
     def on_start(self, event: event.Event) -> None:  # noqa: ARG002 (Numba gives it)
         """Begin to count."""
+        if threading.get_ident() != self._thread:
+            return
         if self._depth == 0:
-            self._since = time.process_time()
+            self._since = time.thread_time()
         self._depth += 1
 
     def on_end(self, event: event.Event) -> None:  # noqa: ARG002 (Numba gives it)
         """Stop counting."""
+        if threading.get_ident() != self._thread:
+            return
         self._depth -= 1
         if self._depth == 0:
-            self._seconds += time.process_time() - self._since
+            self._seconds += time.thread_time() - self._since
 
     @property
     def seconds(self) -> float:
         """Seconds of processor time, that of a compilation under way included."""
-        return self._seconds + (time.process_time() - self._since if self._depth else 0.0)
+        return self._seconds + (time.thread_time() - self._since if self._depth else 0.0)
 
 
 @contextmanager
@@ -47,10 +56,11 @@ def at_most(seconds: float) -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread() or not hasattr(signal, "setitimer"):
         yield
         return
-    compiling, began = Compiling(), time.process_time()
+    compiling, began = Compiling(), time.thread_time()
 
     def stop(*_: object) -> None:
-        if time.process_time() - began - compiling.seconds >= seconds:
+        # Not while this thread holds the compiler's lock: what is raised as it is taken leaves it taken for ever.
+        if not global_compiler_lock.is_locked() and time.thread_time() - began - compiling.seconds >= seconds:
             raise TimeoutError
 
     def unraised(found: Any) -> None:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 
 from ..layer_problem.hemisphere import flow, outside_flow
 from ..psi.function import Psi
@@ -87,6 +86,8 @@ def _half(at: AtZ, psi: Psi, seeds: Array, end: float, length: float, view: floa
             return np.stack(outside_flow(at, y[:, 1]), axis=-1).ravel()
         r = np.maximum(np.hypot(y[:, 0], y[:, 1]), 1.0)[:, None]
         return flow(at, psi, y / r).ravel()
+
+    from scipy.integrate import solve_ivp  # imported late: it takes longer than all of this package
 
     found = solve_ivp(
         rate, (0.0, end), start.ravel(), "RK45", t_eval=np.linspace(0.0, end, SAMPLES), rtol=RTOL, atol=ATOL

@@ -1,9 +1,14 @@
 """What may import what, what importing costs, and what the wheel installs."""
 
+import ast
 import subprocess
 import sys
 import tomllib
 from pathlib import Path
+
+import pytest
+
+import codim2_core
 
 ROOT = Path(__file__).parents[2]
 
@@ -23,6 +28,26 @@ def imported_by(module):
 def test_the_core_draws_nothing_and_serves_nothing():
     loaded = {name.split(".")[0] for name in imported_by("codim2_core")}
     assert not loaded & {"bokeh", "panel", "holoviews", "param", "tornado", "matplotlib", "pandas", "sympy"}
+
+
+def test_a_name_of_the_core_is_imported_when_it_is_asked_for():
+    """The package alone loads nothing, and what a first picture needs loads no SciPy and compiles nothing."""
+    assert not {name.split(".")[0] for name in imported_by("codim2_core")} & {"numpy", "scipy", "numba"}
+    scene = {name.split(".")[0] for name in imported_by("codim2_core; from codim2_core import Scene, ELinear, psi")}
+    assert "numpy" in scene
+    assert not scene & {"scipy", "numba"}
+
+
+def test_type_checkers_find_every_name_where_python_does():
+    tree = ast.parse((ROOT / "codim2_core" / "__init__.py").read_text())
+    (typed,) = [one.body for one in tree.body if isinstance(one, ast.If) and isinstance(one.test, ast.Name)]
+    told = [f"{one.module or ''}.{alias.name}".strip(".") for one in typed for alias in one.names]
+    found = [*codim2_core._MODULES.values(), *(f"{home}.{name}" for name, home in codim2_core._HOME.items())]
+    assert sorted(told) == sorted(found)
+    assert sorted({*codim2_core._MODULES, *codim2_core._HOME}) == sorted(codim2_core.__all__)
+    assert all(getattr(codim2_core, name) is not None for name in codim2_core.__all__)
+    with pytest.raises(AttributeError, match="no attribute 'scene_table'"):
+        _ = codim2_core.scene_table
 
 
 def test_importing_the_app_starts_no_plotting_library():

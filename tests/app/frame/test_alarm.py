@@ -2,12 +2,14 @@
 
 import signal
 import sys
+import threading
 import time
 import weakref
 
 import numba
 import pytest
 from codim2_app.frame.alarm import at_most
+from numba.core.compiler_lock import global_compiler_lock
 
 
 def spin(first=bool):
@@ -75,3 +77,37 @@ def test_compiling_is_not_counted():
     assert time.process_time() - began > 0.02  # it did take longer
     with pytest.raises(TimeoutError):
         spin(lambda: kernel(3))
+
+
+def test_an_alarm_waits_until_the_compiler_is_left():
+    """What is raised while its lock is being taken leaves it taken: all other threads that compile wait for ever."""
+    left = []
+
+    def compiles():
+        with global_compiler_lock:
+            busy(None)
+            left.append(time.process_time())
+
+    with pytest.raises(TimeoutError):
+        spin(compiles)
+    assert left
+    assert not global_compiler_lock.is_locked()
+
+
+def test_what_other_threads_take_is_not_counted():
+    stop = threading.Event()
+
+    def other():
+        while not stop.is_set():
+            pass
+
+    thread = threading.Thread(target=other)
+    thread.start()
+    try:
+        with at_most(0.1):
+            began = time.process_time()
+            while time.process_time() - began < 0.3:
+                time.sleep(0.01)
+    finally:
+        stop.set()
+        thread.join()
