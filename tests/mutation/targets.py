@@ -210,6 +210,14 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.layer_problem.critical", "sides - middle  →  sides", "Sides are looked at that agree."),
     Lives("core.layer_problem.critical", "1e-3  →  0.00125", "Sides that differ by so little agree."),
     Lives("core.layer_problem.closed_equator", "1e-16  →", "A tolerance of a few roundings."),
+    Lives(
+        "core.cycles.section", "start * start  →", "Where the first of the outer samples lies: they are looked between."
+    ),
+    Lives(
+        "core.motion.decide", "  →  outcome.depends_on_psi", "With a Psi given none is compared: nothing depends on it."
+    ),
+    Lives("core.motion.course", "self.t < self.t_end  →", "Only where a phase ends just at the end of the time."),
+    Lives("core.motion.course", "  →  self.line is not None", "In a line there is no Hopf point and no cycle."),
     Lives("core.portrait.endings", "138: 0  →  1", "The name of a direction where there is none: not read."),
     Lives("core.cycles.first_turns", "8  →  9", "How many samples show that all orbits are closed, at least."),
     Lives("core.cycles.turn_section", "0.25  →  0.3125", "Which of all rays is taken: any of them will do."),

@@ -81,6 +81,8 @@ def test_the_words_tell_whether_phases_agree():
         (EQUATOR_EXIT, (0.1, 0.0, 0.4), families.constant(), 4 / 5),
         (EQUATOR_EXIT, (0.1, 0.0, 0.4), families.rational(), 8 / 9),
         (ELinear(0.5, 0.0, 0.1, f=(1.0, 0.0)), (0.1, 0.0), families.constant(), 1.0),  # never at Sigma
+        # lambda_rho = 3 and lambda_theta = -3/2 where it leaves, but in the line there are no other directions
+        (ELinear(1.0, 0.0, 1.5, f=(2.0, 0.0)), (-0.1, 0.0), families.constant(), 1.0),
         (ELinear(1.0, 0.5, 0.8, f=(-1.6, -0.9)), (0.0, 0.0), families.rational(), 0.6708),
         (ELinear(-0.5, 0.2, -0.3, f=(-1.0, -0.8)), (0.0, 0.0), families.constant(), 1.0),
         (ELinear(-1.0, 0.5, -2.0), (0.3, -0.2), families.constant(), 1.0),  # arrives, and stays
@@ -89,3 +91,13 @@ def test_the_words_tell_whether_phases_agree():
 def test_the_order_is_read_off_the_limit_alone(system, state0, psi, order):
     limit = simulate_nonsmooth(system, state0, (0.0, 1.0 if state0[-1] != 0.4 else 1.6), psi)
     assert limit_order(system, psi, limit) == pytest.approx(order, abs=1e-4)
+
+
+def test_only_the_time_that_both_were_followed_is_compared():
+    system, start = examples.nonunique_sliding(), (0.25, 0.3, 0.0)
+    limit = simulate_nonsmooth(system, start, (0.0, 2.0), PSI)
+    assert len(limit.phases) > 1
+    early = 0.3 * limit.phases[0].t_end
+    assert agreement(system, PSI, simulate(system, PSI, 1e-2, start, (0.0, early)), limit).same
+    other = simulate_nonsmooth(system, start, (0.0, early), PSI)
+    assert agreement(system, PSI, simulate(system, PSI, 1e-2, start, (0.0, 2.0)), other).same

@@ -168,3 +168,22 @@ def test_a_crossing_leaves_where_it_says():
     slip, cross, after, _ = limit.phases
     np.testing.assert_allclose(cross.e(cross.t_start), after.e(after.t_start), atol=1e-6)
     np.testing.assert_allclose(cross.ascent[0], slip.e(slip.t_end), atol=1e-4)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("turn", [0.0, 0.5 * np.pi])
+def test_in_an_invariant_line_the_way_up_ends_where_the_slide_begins(side, turn):
+    """C = (z, 0), or the same turned: what comes to Sigma at one end of the line climbs to C, and leaves at z = 1."""
+    f = ("z", 0.0) if turn == 0.0 else (0.0, "z")
+    n = np.array([np.cos(turn), np.sin(turn)])
+    start = (*(0.1 * side * n + 0.0), -0.5)
+    limit = simulate_nonsmooth(ELinear(-1.0, 0.0, -1.0, f, g=(1.0,)), start, (0.0, 2.5), families.constant())
+    slip, slide, away = limit.phases
+    assert [phase.kind for phase in limit.phases] == ["slip", "slide", "slip"]
+    z = float(limit.dense(slide.t_start)[2])
+    np.testing.assert_allclose(slide.e(slide.t_start), z * n, atol=1e-9)
+    np.testing.assert_allclose(slide.ascent[0], side * n, atol=1e-6)
+    np.testing.assert_allclose(slide.ascent[-1], slide.p(slide.t_start), atol=1e-5)  # as far as it is drawn
+    assert float(limit.dense(away.t_start)[2]) == pytest.approx(1.0, abs=1e-9)
+    np.testing.assert_allclose(away.e(away.t_end), n, atol=1e-9)
+    np.testing.assert_allclose(slip.e(0.0), side * n, atol=1e-12)
