@@ -17,6 +17,7 @@ import numpy as np
 
 from codim2_core.scene import Scene
 
+from ..phrases import say
 from .alarm import at_most
 from .faults import FAILURES
 
@@ -79,7 +80,7 @@ class LeftOut(Exception):
             words, why = each.args
             if words not in reasons.setdefault(why, []):
                 reasons[why].append(words)
-        return " ".join(f"Left out: {', '.join(words)}; {why}." for why, words in reasons.items())
+        return " ".join(say("left out", names=", ".join(words), why=why) for why, words in reasons.items())
 
 
 @dataclass(frozen=True)
@@ -115,7 +116,7 @@ def layers_of(scene: Scene, names: Iterable[str], known: Mapping[str, Any], seco
             with at_most(seconds):
                 scene[name]
         except TimeoutError:
-            left_out[name] = f"computing this takes longer than {seconds:g} s"
+            left_out[name] = say("too long a layer", seconds=seconds)
             if name in first:
                 others = dict.fromkeys((one for one in (*first, *names) if one not in took), left_out[name])
                 return Layers(scene.results(), took, {**others, **left_out})
@@ -130,10 +131,7 @@ def wild(scene: Scene) -> str:
     directions, sets = len(scene["equator"]), len(scene["critical"])
     if directions + sets <= MOST_STANDING:
         return ""
-    return (
-        f"U is too wild: {directions} limit directions and {sets} critical sets were found, and at most "
-        f"{MOST_STANDING} together can be followed"
-    )
+    return say("too wild", directions=directions, sets=sets, most=MOST_STANDING)
 
 
 def wildness(scene: Scene) -> int:

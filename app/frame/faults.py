@@ -9,9 +9,11 @@ import logging
 
 import numpy as np
 
+from ..phrases import say
+
 #: What the core raises for input that it cannot use: its words are for the user.
 FAILURES = (ValueError, ArithmeticError, np.linalg.LinAlgError)
-FAULT = "This could not be computed: a fault of the program, which its log describes."
+FAULT = say("fault")
 _logged: set[tuple[str, str, int]] = set()
 
 

@@ -17,6 +17,7 @@ from codim2_core.systems.elinear import ELinear
 from ..draw import glyphs
 from ..draw.layers import LAYERS
 from ..draw.packing import Polylines
+from ..phrases import say
 from .budget import LeftOut, NotYet
 from .window import Window
 
@@ -24,8 +25,6 @@ Blocks = dict[str, NDArray[Any] | Polylines]
 
 #: In place of a layer: it is computed beside the frames; it is left out.
 LATER, NOTHING = object(), object()
-
-OUTSIDE = "This Ψ does not meet {} of Definition 2.3, which the paper’s results assume."
 
 
 def told_once(name: Classification) -> str:
@@ -41,7 +40,7 @@ def breaks(psi: Psi) -> str:
     """Say which of the conditions R1 to R5 a family of Psi does not meet, and where; empty if it meets all."""
     missed = [condition for condition in psi.check() if not condition.holds]
     names = ", ".join(condition.name for condition in missed)
-    return f"{OUTSIDE.format(names)} {' '.join(condition.sentence for condition in missed)}" if missed else ""
+    return " ".join([say("outside the class", which=names), *(one.sentence for one in missed)]) if missed else ""
 
 
 class Asked:

@@ -20,6 +20,7 @@ from typing import Any
 
 from codim2_core.scene import Scene
 
+from ..phrases import say
 from .faults import FAULT, sentence_of
 
 #: Results kept for all browsers of a process, and what they may hold together, in bytes.
@@ -203,9 +204,9 @@ def _outcome(done: Future[Any]) -> tuple[Any, bool]:
     try:
         return done.result(), False
     except TimeoutError as error:
-        return Failed(str(error) or "This takes too long, and was stopped."), False
+        return Failed(str(error) or say("stopped")), False
     except (BrokenExecutor, CancelledError):
-        return Failed("The process that computed this has ended: move a control to try again."), True
+        return Failed(say("lost")), True
     except Exception:
         logging.getLogger(__name__).exception("work beside the frames failed")
         return Failed(FAULT), False
@@ -218,7 +219,7 @@ def compute(function: Callable[..., Any], *args: Any) -> Any:
     try:
         return function(*own)
     except MemoryError:
-        return Failed("This needs more memory than the server gives it.")
+        return Failed(say("memory"))
     except Exception as error:  # a panel must not take the picture with it
         return Failed(sentence_of(error, "a panel"))
 

@@ -14,6 +14,8 @@ from multiprocessing.connection import Connection, wait
 from queue import SimpleQueue
 from typing import Any
 
+from ..phrases import say
+
 #: Seconds after which a worker is stopped, whatever it is doing.
 SECONDS = 60.0
 NICE = 10  # processes that answer visitors go first
@@ -169,7 +171,7 @@ class Workers(Executor):
                 raise CancelledError
             if there:
                 raise Stopped(f"a worker ended with status {process.exitcode} before its work was done.")
-            raise TimeoutError(f"This takes longer than {self.seconds:g} s, and was stopped.")
+            raise TimeoutError(say("stopped after", seconds=self.seconds))
         good, result = pickle.loads(answer)
         if not good:
             raise result

@@ -15,6 +15,7 @@ from codim2_core.sliding.over import slow_plane
 from codim2_core.sliding.slow_portrait_result import SlowPortrait
 
 from ..frame.draft import Draft
+from ..phrases import say
 from ..state.choices import SLOW_CONTROLS
 from ..state.chosen import System_, slow_ranges
 from ..state.controls import slider_range
@@ -22,7 +23,7 @@ from .panel import Panel
 from .short import short
 
 PLANE = 15  # arrows along each axis of the plane
-NONE = "There is no slow variable: m = 0."
+NONE = say("no slow variable")
 
 
 def add(draft: Draft) -> None:

@@ -20,6 +20,7 @@ from panel.io.resources import Resources
 from panel.io.server import DocHandler, server_html_page_for_session
 from panel.io.state import set_curdoc
 
+from ..phrases import say
 from ..state.controls import ExplorerState, InputError
 from ..state.links import Link, read_link
 from ..view.first_markup import page_markup
@@ -41,8 +42,7 @@ def opening(query: Mapping[str, str]) -> Link:
         return read_link(query)
     except Exception:  # a visitor sees the explorer and a sentence; the log has the rest
         logging.getLogger(__name__).exception("an address could not be opened")
-        sentence = "This address could not be opened, a fault of the program: here is the first portrait instead."
-        return Link(ExplorerState(), (InputError("", sentence),))
+        return Link(ExplorerState(), (InputError("", say("address failed")),))
 
 
 def markup_of(query: Mapping[str, str]) -> str:

@@ -25,6 +25,7 @@ from tornado.websocket import WebSocketClosedError
 from ..frame.jobs import serve_with
 from ..frame.turns import Turns
 from ..frame.workers import Workers, processors
+from ..phrases import say
 from ..state.controls import InputError
 from ..state.links import Link
 from ..view import warmup
@@ -68,8 +69,7 @@ def opened(link: Link) -> ExplorerView:
         return ExplorerView(link.state, page=True, errors=link.errors, look=link.look)
     except Exception:  # a visitor sees the explorer and a sentence; the log has the rest
         logging.getLogger(__name__).exception("an address could not be opened")
-        sentence = "This address could not be opened, a fault of the program: here is the first portrait instead."
-        return ExplorerView(page=True, errors=(InputError("", sentence),))
+        return ExplorerView(page=True, errors=(InputError("", say("address failed")),))
 
 
 class _Markup:

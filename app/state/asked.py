@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from ..phrases import say
+
 #: Characters of one text, entries of one list or mapping, and controls that one request sets.
 LONGEST, MOST_ENTRIES, MOST_CONTROLS = 4000, 64, 64
 #: Numbers of requests are whole numbers that a browser counts without rounding.
@@ -24,7 +26,7 @@ def read_request(given: Any) -> tuple[dict[str, Any], dict[str, Any], str]:
         What was left out, and why; "" if nothing was.
     """
     if given is not None and not isinstance(given, Mapping):
-        return {"id": 0}, {}, f"A request came as {_kind(given)}; it is {{id, set, rest}}: left out."
+        return {"id": 0}, {}, say("request of a wrong kind", kind=_kind(given))
     given = given or {}
     number = given.get("id", 0)
     whole = isinstance(number, (int, float)) and not isinstance(number, bool) and abs(number) <= LARGEST_NUMBER
@@ -38,9 +40,9 @@ def read_request(given: Any) -> tuple[dict[str, Any], dict[str, Any], str]:
     if asked is None:
         return request, {}, ""
     if not isinstance(asked, Mapping):
-        return request, {}, f"Values came as {_kind(asked)}; they are given by the names of controls: left out."
+        return request, {}, say("values of a wrong kind", kind=_kind(asked))
     if len(asked) > MOST_CONTROLS:
-        return request, {}, f"{len(asked)} values came at once; at most {MOST_CONTROLS} controls can be set: left out."
+        return request, {}, say("too many values", count=len(asked), most=MOST_CONTROLS)
     values: dict[str, Any] = {}
     refused: list[str] = []
     for name, value in asked.items():
@@ -51,7 +53,7 @@ def read_request(given: Any) -> tuple[dict[str, Any], dict[str, Any], str]:
             refused.append(f"{str(name)[:20]} ({why})")
         else:
             values[name] = value
-    return request, values, f"Left out: {', '.join(refused[:3])}." if refused else ""
+    return request, values, say("values left out", names=", ".join(refused[:3])) if refused else ""
 
 
 def _kind(value: Any) -> str:

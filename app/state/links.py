@@ -16,6 +16,7 @@ from types import MappingProxyType
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
+from ..phrases import say
 from .chosen import BOXES, NORMAL
 from .controls import LONGEST_TEXT, NAMES, ExplorerState, InputError, clean, opening, preset_values
 
@@ -106,7 +107,7 @@ def read_link(query: str | Mapping[str, str]) -> Link:
     unknown = [name[:20] for name in given if name not in NAMES and not name.startswith("bokeh-")]
     if unknown:
         shown = ", ".join(map(repr, unknown[:3])) + (f" and {len(unknown) - 3} more" if len(unknown) > 3 else "")
-        errors.append(InputError("", f"The address names {shown}, which the explorer does not have: left out."))
+        errors.append(InputError("", say("address names", names=shown)))
     return Link(ExplorerState.of(good, first), tuple(errors), look)
 
 
@@ -144,9 +145,9 @@ def unsqueezed(text: str) -> str:
     ValueError
         It is cut short, changed, or too long.
     """
-    sentence = "The address is cut short or was changed on its way: copy the whole link."
+    sentence = say("address changed")
     if len(text) > LONGEST_SQUEEZED:
-        raise ValueError(f"The address is too long: its s may have {LONGEST_SQUEEZED} characters.")
+        raise ValueError(say("address too long", most=LONGEST_SQUEEZED))
     try:
         packed = urlsafe_b64decode(text + "=" * (-len(text) % 4))
         reader = zlib.decompressobj(-15)
@@ -164,7 +165,7 @@ def _first(version: str, errors: list[InputError]) -> Mapping[str, Any]:
         return {}
     if version.isdecimal() and int(version[:9]) in FIRST:
         return FIRST[int(version[:9])]
-    errors.append(InputError("", f"The address is of version {version[:9]!r}; this release reads up to {VERSION}."))
+    errors.append(InputError("", say("address of a later version", version=version[:9], newest=VERSION)))
     return FIRST[VERSION]
 
 
@@ -174,7 +175,7 @@ def _look(given: dict[str, str], errors: list[InputError]) -> Look:
     names = [name for name in controls.split(",") if name]
     good = [name for name in names if _NAME.fullmatch(name)][:MOST_CONTROLS]
     if len(good) < len(names):
-        errors.append(InputError("", f"controls: give at most {MOST_CONTROLS} names of controls, such as f1,n."))
+        errors.append(InputError("", say("controls of a frame", most=MOST_CONTROLS)))
     return Look(_rectangle(seen, errors), embed not in ("", "0"), tuple(good))
 
 
@@ -187,7 +188,7 @@ def _rectangle(text: str, errors: list[InputError]) -> tuple[float, ...]:
         left = right = bottom = top = 0.0
     if all(abs(v) <= 100 for v in (left, right, bottom, top)) and right - left > 1e-9 and top - bottom > 1e-9:
         return left, right, bottom, top
-    errors.append(InputError("", f"seen: {text[:40]!r} given; give left,right,bottom,top within 100 of the centre."))
+    errors.append(InputError("", say("part of the picture", given=text[:40])))
     return ()
 
 

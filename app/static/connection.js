@@ -1,6 +1,8 @@
 // The page's connection to its server: says when it is lost, and loads the page again, with the state that is in its
 // address, as soon as a server answers. (The server keeps a session only for seconds after its socket has closed.)
 
+import {SAYS} from "./words.js"
+
 const RETRY = [500, 1000, 2000, 3000, 5000] // ms between attempts; the last one goes on
 
 export class Connection {
@@ -11,8 +13,8 @@ export class Connection {
       if (this.attempts) return
       lost()
       this.attempts = 1
-      if (!page) { say("Connection lost. Reload the page, or run the cell again."); return }
-      say("Connection lost. Trying again …")
+      if (!page) { say(SAYS.lost); return }
+      say(SAYS.trying)
       this.leave = leave
       this.wait()
     })

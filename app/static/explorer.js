@@ -16,6 +16,7 @@ import {Share} from "./share.js"
 import {Sheets} from "./sheets.js"
 import {Browsed, Listed, Steps} from "./steps.js"
 import {SystemChooser} from "./system.js"
+import {SAYS} from "./words.js"
 
 const PATIENCE = 1200 // ms without an answer before the page says so
 
@@ -220,7 +221,7 @@ function wire({model, view, root, plot}) {
   setInterval(() => {
     const [oldest] = requests.out.values()
     const now = oldest !== undefined && performance.now() - oldest.at > PATIENCE
-    if (now !== waits) { waits = now; busy.hidden = !now; busy.textContent = "Waiting for the server …" }
+    if (now !== waits) { waits = now; busy.hidden = !now; busy.textContent = SAYS.waiting }
   }, 500)
   let warmTimer = null
   const apply = (buffer) => {
@@ -244,7 +245,7 @@ function wire({model, view, root, plot}) {
     if ("ready" in header) {
       const slow = late.includes("picture")
       busy.hidden = header.ready && !slow
-      busy.textContent = slow ? "This system takes longer than a frame; its picture follows …" : "Compiling, once: trajectories are sketched …"
+      busy.textContent = slow ? SAYS.follows : SAYS.compiling
       clearTimeout(warmTimer)
       if (!header.ready) warmTimer = setTimeout(() => requests.refresh(), 250)
     }

@@ -92,7 +92,7 @@ export class SystemChooser {
         const box = this.find(`[data-control="parameter-${p.name}"]`)
         const moved = (_, value) => {
           if (typeof value === "number") this.change("parameters", {...this.values.parameters, [p.name]: value})
-          else sayAt(box, "Type a number such as −0.5.")
+          else sayAt(box, SAYS.number)
         }
         this.sliders[p.name] = new NumberControl(box, p.range, moved)
       }

@@ -26,7 +26,7 @@ export function eigen([first, second]) {
 
 export const slowName = (i) => (i ? `z${i + 1}` : "z")
 
-// What the browser itself says of a system; all else is the core's, and comes with the frames.
+// What the browser itself says; all else is the server's and the core's, and comes with the frames.
 export const SAYS = {
   allDirections: "Every direction is a limit direction.",
   noDirection: "None.",
@@ -37,6 +37,13 @@ export const SAYS = {
   slidingEnds: "Sliding ends here: no critical set and no limit cycle attracts.",
   slowRest: "The slow flow has come to rest: z′ = 0.",
   rangeEnds: "The end of the range.",
+  number: "Type a number such as −0.5.",
+  lost: "Connection lost. Reload the page, or run the cell again.",
+  trying: "Connection lost. Trying again …",
+  waiting: "Waiting for the server …",
+  follows: "This system takes longer than a frame; its picture follows …",
+  compiling: "Compiling, once: trajectories are sketched …",
+  looking: "Looking for limit cycles …",
   typed: "c and s are the components of e; the letter e alone is the number 2.718…",
 }
 

@@ -29,6 +29,7 @@ from ..draw.packing import pack, unpack
 from ..draw.still import page_of, still
 from ..frame.budget import Budget
 from ..frame.picture import make_frame
+from ..phrases import say
 from ..state.chosen import System_
 from ..state.controls import NAMES, ExplorerState, InputError
 from ..state.links import Look
@@ -42,7 +43,7 @@ from .warmup import is_ready
 #: Seconds for which an answer waits for a picture that is computed beside the frames.
 PATIENCE = 0.25
 
-COMPILING = "The integrator is being compiled, once; trajectories are sketched."
+COMPILING = say("compiling")
 
 
 class ExplorerView(JSComponent):

@@ -11,6 +11,7 @@ from codim2_core.systems.typed import System
 
 from ..lessons.library import lessons
 from ..panels.time import launch_of
+from ..phrases import say
 from ..state.chosen import NORMAL
 from ..state.controls import InputError
 
@@ -26,10 +27,10 @@ def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
     if unknown:
         shown = ", ".join(name[:20] for name in unknown[:3])
         there = f"it has {', '.join(own)}" if own else "it has none"
-        said.append(f"The system has no parameter {shown} ({there}): left out.")
+        said.append(say("no such parameter", names=shown, there=there))
     if values["lesson"] and values["lesson"] not in lessons():
         named, some = values["lesson"][:40], ", ".join(list(lessons())[:3])
-        said.append(f"Lessons: there is no {named!r}; choose one such as {some}.")
+        said.append(say("no such lesson", name=named, some=some))
     try:
         launch_of(values, system.m)
     except InputError as error:

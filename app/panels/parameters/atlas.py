@@ -23,6 +23,7 @@ from ...draw import plane_curves
 from ...draw.packing import Polylines
 from ...draw.thumbnails import thumbnails
 from ...frame.draft import Draft
+from ...phrases import say
 from ..panel import Panel
 from .axes import Axis, available, missing, spans_of, without
 
@@ -31,10 +32,7 @@ PLANE = ("a", "b", "d", "f1", "f2")
 #: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
 CURVES = ("saddle_node", "transcritical")
 #: Of equations typed whole, also where they are e-linear at the present z: whether they are at others is not known.
-EQUATIONS = (
-    "The atlas needs the coefficients A and f: choose an e-linear system, or type them as formulas. "
-    "This system is given by its equations."
-)
+EQUATIONS = say("no atlas of equations")
 #: A region narrower than this, of the width of the map, gets no small portrait.
 THINNEST = 0.012
 
@@ -52,7 +50,7 @@ def add(draft: Draft) -> None:
         _plane_of_f(draft)
         return
     if axes[0] == axes[1]:
-        reason = "Choose two different parameters."
+        reason = say("one axis twice")
     elif not isinstance(draft.scene.system, (ELinear, Coefficients)):
         reason = EQUATIONS
     if reason:

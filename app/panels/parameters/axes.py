@@ -13,6 +13,7 @@ from codim2_core.systems.elinear import ELinear
 
 from ...draw.mathml import plain_symbol
 from ...frame.draft import Draft
+from ...phrases import say
 from ...state.choices import AXES, COEFFICIENTS, OWN_AXIS, SLOW_CONTROLS
 from ...state.chosen import NORMAL, PARAMETER_RANGE, slow_ranges
 from ...state.controls import ExplorerState, slider_range
@@ -85,11 +86,10 @@ def missing(draft: Draft, there: dict[str, Axis], *wanted: str) -> str:
         if name in there:
             continue
         if name == "n":
-            return "n is a parameter of Ψ = 3/(3 + (4s)ⁿ) only."
+            return say("n of another Ψ")
         own = name.startswith(OWN_AXIS)
         symbol = plain_symbol(name.removeprefix(OWN_AXIS)) if own else ExplorerState.param[name].label
-        where = "given by your system" if name in draft.locked else "not in this system"
-        return f"{symbol} is {where}: choose another."
+        return say("axis given" if name in draft.locked else "no such axis", symbol=symbol)
     return ""
 
 

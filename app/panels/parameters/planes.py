@@ -19,6 +19,7 @@ from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.frozen import AtZ
 
 from ...frame.draft import Draft
+from ...phrases import say
 from ..panel import Panel
 
 POINTS = 120  # along the curve over the parameter
@@ -57,7 +58,7 @@ def over_parameter(at: AtZ, psi: Psi) -> dict[str, Any]:
         )
         for i in np.flatnonzero(path.exists)
     ]
-    sentence = f"Dashed: over {shape.name} of Ψ = {family.title}, from {low:g} to {high:g}."
+    sentence = say("over the parameter of Ψ", name=shape.name, title=family.title, low=low, high=high)
     members = [(f"{shape.name} = {value:g}", make(family.name, value)) for value in family.compared]
     return _columns(rows, members, line=True, sentence=sentence)
 
@@ -72,7 +73,7 @@ def over_families(at: AtZ, psi: Psi) -> dict[str, Any]:
         if other != psi
         for C in critical_sets(at, other)
     ]
-    return _columns(rows, named, line=False, sentence="Small dots: the same system with other Ψ.")
+    return _columns(rows, named, line=False, sentence=say("other Ψ"))
 
 
 def _columns(

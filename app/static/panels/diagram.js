@@ -5,7 +5,7 @@ import {axesMarkup, AxisChoice, ZoomButtons} from "../axes.js"
 import {Chart} from "../chart/chart.js"
 import {shape} from "../marks.js"
 import {register} from "../panels.js"
-import {escape, minus, plain} from "../words.js"
+import {SAYS, escape, minus, plain} from "../words.js"
 
 const TURN = 2 * Math.PI
 
@@ -69,7 +69,7 @@ class Diagram {
     if (header.unable?.["cycles along"] && this.data) this.why = header.unable["cycles along"]
     if (fresh) this.drawAll()
     this.old = late.includes("diagram")
-    this.find(".diagram-note").textContent = this.why || (late.includes("cycles along") && !this.old ? "Looking for limit cycles …" : this.data?.cycles?.sentence ?? "")
+    this.find(".diagram-note").textContent = this.why || (late.includes("cycles along") && !this.old ? SAYS.looking : this.data?.cycles?.sentence ?? "")
     this.svg.classList.toggle("old", this.old && !this.fits())
     if (this.values && fresh && !this.box.hidden) this.draw(this.values)
   }

@@ -1,0 +1,76 @@
+"""What the explorer itself says to a visitor: of what it leaves out, waits for or cannot show; each sentence once.
+
+What is said of systems is the core's: `codim2_core.words`. What is said of a wrong value stands where that is checked.
+"""
+
+from __future__ import annotations
+
+from codim2_core.words.sentence import Sentence
+
+SENTENCES: dict[str, Sentence] = {
+    "left out": Sentence("Left out: {names}; {why}.", "layers that are not drawn"),
+    "too long a layer": Sentence("computing this takes longer than {seconds:g} s", "a layer of typed formulas"),
+    "too wild": Sentence(
+        "U is too wild: {directions} limit directions and {sets} critical sets were found, and at most {most} together "
+        "can be followed",
+        "more than can be followed",
+    ),
+    "fault": Sentence(
+        "This could not be computed: a fault of the program, which its log describes.", "an exception of the program"
+    ),
+    "stopped": Sentence("This takes too long, and was stopped.", "work beside the frames"),
+    "stopped after": Sentence("This takes longer than {seconds:g} s, and was stopped.", "work beside the frames"),
+    "lost": Sentence("The process that computed this has ended: move a control to try again.", "a worker that ended"),
+    "memory": Sentence("This needs more memory than the server gives it.", "a worker at its bound"),
+    "address failed": Sentence(
+        "This address could not be opened, a fault of the program: here is the first portrait instead.",
+        "an exception of the program",
+    ),
+    "compiling": Sentence(
+        "The integrator is being compiled, once; trajectories are sketched.", "before the compiler is done"
+    ),
+    "outside the class": Sentence(
+        "This Ψ does not meet {which} of Definition 2.3, which the paper’s results assume.", "Ψ breaks a condition"
+    ),
+    "no slow variable": Sentence("There is no slow variable: m = 0.", "a panel along z"),
+    "no atlas of equations": Sentence(
+        "The atlas needs the coefficients A and f: choose an e-linear system, or type them as formulas. This system is "
+        "given by its equations.",
+        "equations typed whole",
+    ),
+    "one axis twice": Sentence("Choose two different parameters.", "both axes are one parameter"),
+    "n of another Ψ": Sentence("n is a parameter of Ψ = 3/(3 + (4s)ⁿ) only.", "an axis that Ψ does not have"),
+    "no such axis": Sentence("{symbol} is not in this system: choose another.", "an axis that the system lacks"),
+    "axis given": Sentence("{symbol} is given by your system: choose another.", "an axis that is locked"),
+    "over the parameter of Ψ": Sentence(
+        "Dashed: over {name} of Ψ = {title}, from {low:g} to {high:g}.", "a family with a parameter"
+    ),
+    "other Ψ": Sentence("Small dots: the same system with other Ψ.", "a family without a parameter"),
+    "request of a wrong kind": Sentence(
+        "A request came as {kind}; it is {{id, set, rest}}: left out.", "what no page of ours sends"
+    ),
+    "values of a wrong kind": Sentence(
+        "Values came as {kind}; they are given by the names of controls: left out.", "what no page of ours sends"
+    ),
+    "too many values": Sentence(
+        "{count} values came at once; at most {most} controls can be set: left out.", "what no page of ours sends"
+    ),
+    "values left out": Sentence("Left out: {names}.", "values that are too large"),
+    "address names": Sentence("The address names {names}, which the explorer does not have: left out.", "a link"),
+    "address changed": Sentence("The address is cut short or was changed on its way: copy the whole link.", "a link"),
+    "address too long": Sentence("The address is too long: its s may have {most} characters.", "a link"),
+    "address of a later version": Sentence(
+        "The address is of version {version!r}; this release reads up to {newest}.", "a link"
+    ),
+    "part of the picture": Sentence(
+        "seen: {given!r} given; give left,right,bottom,top within 100 of the centre.", "a link"
+    ),
+    "controls of a frame": Sentence("controls: give at most {most} names of controls, such as f1,n.", "a link"),
+    "no such parameter": Sentence("The system has no parameter {names} ({there}): left out.", "a link, or a cell"),
+    "no such lesson": Sentence("Lessons: there is no {name!r}; choose one such as {some}.", "a link"),
+}
+
+
+def say(key: str, **fields: object) -> str:
+    """Return a sentence with its fields filled in."""
+    return SENTENCES[key].says.format(**fields)

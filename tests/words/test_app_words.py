@@ -1,0 +1,226 @@
+"""What the explorer says of itself is so: what is left out is not there, and what it advises helps."""
+
+import re
+from string import Formatter
+
+import pytest
+from codim2_app import phrases
+from codim2_app.draw.packing import unpack
+from codim2_app.frame import budget, faults, turns
+from codim2_app.server.first_page import opening
+from codim2_app.state import asked, links
+from codim2_app.state.controls import ExplorerState
+from codim2_app.state.links import read_link, squeezed, unsqueezed, write_link
+from codim2_app.view.refresh import Frames
+
+from codim2_core import System, psi
+from codim2_core.scene import Scene
+
+CASE_3 = {"a": 172.0, "b": 186.0, "d": -200.0, "f1": -86.0, "f2": -93.0, "k1": 0.0}
+
+
+def fields(key, text):
+    """The fields of a sentence found in a text."""
+    parts = [(re.escape(literal), name) for literal, name, _, _ in Formatter().parse(phrases.SENTENCES[key].says)]
+    pattern = "".join(literal + (f"(?P<{name}>.+?)" if name else "") for literal, name in parts)
+    found = re.search(pattern + r"(?= |$)", text)
+    assert found, (key, text)
+    return found.groupdict()
+
+
+def frame(values=None, errors=(), system=None, **asked_for):
+    state = ExplorerState(**{"layers": [], "panel": "psi", "trajectories": 0, **(values or {})})
+    frames = Frames(state, system, errors=errors)
+    header, _ = unpack(frames.answer({"id": 1, "rest": True, **asked_for}))
+    return frames, header
+
+
+def wild(_key):
+    scene = Scene(System(U=("cos(90*c)", "sin(80*s)")), psi.constant(), count=2)
+    why = budget.wild(scene)
+    told = fields("too wild", why)
+    assert int(told["directions"]) == len(scene["equator"])
+    assert int(told["sets"]) == len(scene["critical"])
+    assert int(told["directions"]) + int(told["sets"]) > int(told["most"])
+    found = budget.layers_of(scene, ["cycles"], {})
+    assert "cycles" not in found.results
+    assert found.left_out["cycles"] == why
+    said = budget.LeftOut.sentence([budget.LeftOut("limit cycles", why), budget.LeftOut("separatrices", why)])
+    assert fields("left out", said) == {"names": "limit cycles, separatrices", "why": why}
+
+
+def slow_layer(_key):
+    scene = Scene(System(U=("cos(30*c)*s", "sin(30*s)")), psi.constant(), count=2)
+    found = budget.layers_of(scene, ["equator"], {}, seconds=1e-6)
+    assert fields("too long a layer", found.left_out["equator"])["seconds"] == "1e-06"
+    assert "equator" not in found.results
+
+
+def fault(_key):
+    def broken():
+        raise RuntimeError("/secret/path")
+
+    failed = turns.compute(broken)
+    assert failed.sentence == phrases.say("fault") == faults.FAULT
+    assert turns.compute(lambda: 3) == 3
+
+
+def memory(_key):
+    def hungry():
+        raise MemoryError
+
+    assert turns.compute(hungry).sentence == phrases.say("memory")
+
+
+def address_failed(_key, monkeypatch):
+    def broken(_query):
+        raise RuntimeError("/secret/path")
+
+    monkeypatch.setattr("codim2_app.server.first_page.read_link", broken)
+    link = opening({"a": "1"})
+    assert [str(error) for error in link.errors] == [phrases.say("address failed")]
+    assert link.state.values() == ExplorerState().values()
+
+
+def outside_the_class(key):
+    _, header = frame({"psi": "custom", "psi_text": "2/(1+s)"}, all=True)
+    told = fields(key, re.sub(r"(results assume\.).*", r"\1", header["psi_note"]))
+    broken = [condition.name for condition in psi.custom("2/(1+s)").check() if not condition.holds]
+    assert told["which"] == ", ".join(broken)
+
+
+def unable(panel, name, **values):
+    def check(key):
+        _, header = frame({"panel": panel, **values}, all=True)
+        return fields(key, header["unable"][name])
+
+    return check
+
+
+def axes(key):
+    across = "own:mu" if key == "no such axis" else "f1"
+    return unable("atlas", "map", across=across, up="f1" if key == "one axis twice" else "f2")(key)
+
+
+def planes(psi_name):
+    def check(key):
+        _, header = frame({"panel": "planes", "psi": psi_name, **CASE_3}, all=True)  # fmt: skip
+        told = fields(key, header["planes"]["sentence"])
+        if told:
+            values = [float(v) for v in (told["low"], told["high"])]
+            assert values == [psi.FAMILIES[psi_name].parameter.shown[i] for i in (0, 1)]
+
+    return check
+
+
+def request(given, **wanted):
+    def check(key):
+        _, values, said = asked.read_request(given)
+        told = fields(key, said)
+        assert wanted.items() <= told.items()
+        assert not values or key == "values left out"
+
+    return check
+
+
+def address(query, *, left=True):
+    def check(key):
+        link = read_link(query)
+        (said,) = [str(error) for error in link.errors]
+        told = fields(key, said)
+        if left:
+            assert link.state.values() == read_link("v=1").state.values() or "v" not in query
+        return told
+
+    return check
+
+
+def squeezed_address(key):
+    whole = squeezed(write_link(c2_values("case3-n3")))
+    text = dict(part.split("=") for part in whole.split("&"))["s"]
+    assert unsqueezed(text) == write_link(c2_values("case3-n3"))  # as the sentence advises: the whole link
+    with pytest.raises(ValueError, match=re.escape(phrases.say(key))):
+        unsqueezed(text[: len(text) // 2])
+
+
+def c2_values(preset):
+    texts = {"U1": "-c + 0.123456*s + c*s/7", "U2": "-s + 0.2345*c**2 - c*s/9"}
+    return read_link(f"preset={preset}").state.values() | {"system": "own", "texts": texts, "f2": 0.123456}
+
+
+def too_long(key):
+    with pytest.raises(ValueError, match="too long") as refused:
+        unsqueezed("A" * (links.LONGEST_SQUEEZED + 1))
+    assert fields(key, str(refused.value)) == {"most": str(links.LONGEST_SQUEEZED)}
+
+
+def later_version(key):
+    told = address("v=99")(key)
+    assert int(told["newest"]) == links.VERSION
+    assert not read_link(f"v={told['newest']}&a=1").errors
+
+
+def no_parameter(key):
+    frames, header = frame({"system": "ball_in_pool", "parameters": {"mu": 0.3, "foo": 1.0}}, all=True)
+    told = fields(key, header["errors"][""])
+    assert told["names"] == "foo"
+    assert told["there"] == f"it has {', '.join(name for name, _ in frames.scene.system.parameters)}"
+
+
+def no_lesson(key):
+    _, header = frame({"lesson": "nowhere"}, all=True)
+    some = fields(key, header["errors"][""])["some"].split(", ")
+    _, header = frame({"lesson": some[0]}, all=True)
+    assert not header["errors"]
+
+
+CHECKS = {
+    "left out": wild,
+    "too wild": wild,
+    "too long a layer": slow_layer,
+    "fault": fault,
+    "memory": memory,
+    "address failed": address_failed,
+    "outside the class": outside_the_class,
+    "no slow variable": unable("along", "along", system="own", texts={"U1": "-c", "U2": "-s", "W": ""}),
+    "no atlas of equations": unable("atlas", "map", system="own", across="z", up="n"),
+    "one axis twice": axes,
+    "n of another Ψ": unable("atlas", "map", across="f1", up="n"),
+    "no such axis": axes,
+    "over the parameter of Ψ": planes("hill"),
+    "other Ψ": planes("constant"),
+    "request of a wrong kind": request([1], kind="list"),
+    "values of a wrong kind": request({"set": 3.0}, kind="float"),
+    "too many values": request(
+        {"set": dict.fromkeys(map(str, range(99)), 0)}, count="99", most=str(asked.MOST_CONTROLS)
+    ),
+    "values left out": request({"set": {"a": 1.0, "psi_text": "s" * 10**5}}),
+    "address names": address("v=1&foo=1&bar=2"),
+    "address changed": squeezed_address,
+    "address too long": too_long,
+    "address of a later version": later_version,
+    "part of the picture": address("v=1&seen=3,1,0,0"),
+    "controls of a frame": address("v=1&controls=a b,f1"),
+    "no such parameter": no_parameter,
+    "no such lesson": no_lesson,
+}
+#: Of processes and of what a kernel of Jupyter does, held where those are run.
+ELSEWHERE = {
+    "stopped": "tests/app/frame/test_turns.py",
+    "stopped after": "tests/app/frame/test_workers.py",
+    "lost": "tests/app/frame/test_turns.py",
+    "compiling": "tests/app/view/test_notebook.py",
+    "axis given": "tests/app/panels/parameters/test_atlas.py",
+}
+
+
+@pytest.mark.parametrize("key", CHECKS)
+def test_what_is_said_is_so(key, monkeypatch):
+    if key == "address failed":
+        CHECKS[key](key, monkeypatch)
+    else:
+        CHECKS[key](key)
+
+
+def test_every_sentence_of_the_explorer_is_held():
+    assert CHECKS.keys() | ELSEWHERE.keys() == phrases.SENTENCES.keys()

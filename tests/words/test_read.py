@@ -1,0 +1,93 @@
+"""Each sentence is the one that was read beside its check; nothing that a visitor reads is outside the registries."""
+
+import ast
+import random
+import re
+
+import pytest
+from codim2_app import phrases
+
+from .inventory import READ, ROOT, STATIC, browser, lines
+from .test_registry import beside
+
+#: Texts in the app that are no notices: each is held elsewhere.
+ASIDE = {
+    "phrases.py": "the registry",
+    "lessons": "the course, held in tests/app/lessons",
+    "server/cli.py": "the command's own help",
+    "server/commands.py": "the command's own help",
+    "server/first_page.py": "a page of its own, held in tests/app/server",
+    "server/kernel_cache.py": "the log",
+    "server/taking.py": "the command's own",
+    "frame/workers.py": "the log; what is told is said by phrases",
+    "draw/layers.py": "tooltips of layers",
+    "state/controls.py": "tooltips of controls",
+    "view/glossary.py": "the glossary, held in tests/browser/test_explorer.py",
+    "panels": "tooltips of tabs",
+    "export": "legends of figures, held in tests/app/export",
+}
+SWAPS = (
+    ("stable", "unstable"), ("unstable", "stable"), ("attract", "repel"), ("repel", "attract"), (" no ", " a "),
+    ("leave", "reach"), ("reach", "leave"), ("outside", "inside"), ("crosses", "slides"), ("slides", "crosses"),
+    ("C ", "D "), ("limit direction", "critical set"), ("saddle", "node"),
+)  # fmt: skip
+
+
+def test_every_sentence_is_as_it_was_read():
+    kept, now = READ.read_text(encoding="utf-8").splitlines(), lines()
+    changed = sorted(set(now) ^ set(kept))
+    assert kept == now, "read its check, then `python -m tests.words --accept`:\n" + "\n".join(changed)
+
+
+def test_a_wrong_word_is_noticed():
+    kept = READ.read_text(encoding="utf-8").splitlines()
+    planted = [
+        line[::-1].replace(old[::-1], new[::-1], 1)[::-1] for line in lines() for old, new in SWAPS if old in line
+    ]
+    assert len(planted) > 300
+    for wrong in random.Random(7).sample(planted, 60):
+        assert wrong not in kept
+
+
+def docs(tree):
+    """Texts that Panel and param show as tooltips: of a declared control, panel or setting."""
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    return {
+        part.value
+        for call in calls
+        if ast.unparse(call.func) in ("Panel", "ClassSelector", "field", "Setting")
+        for part in ast.walk(call)
+        if isinstance(part, ast.Constant) and isinstance(part.value, str)
+    }
+
+
+def test_no_notice_is_made_beside_the_registry():
+    missed = []
+    for path in sorted((ROOT / "app").rglob("*.py")):
+        name = path.relative_to(ROOT / "app").as_posix()
+        tips = docs(ast.parse(path.read_text(encoding="utf-8")))
+        outside = [(line, text) for line, text in beside(path.read_text(encoding="utf-8")) if text not in tips]
+        if any(name.startswith(one) for one in ASIDE if one != "panels"):
+            continue
+        missed += [f"{name}:{line}: {text}" for line, text in outside]
+    assert not missed, "\n".join(missed)
+
+
+def test_no_sentence_is_made_in_a_script_beside_words_js():
+    missed = []
+    for path in sorted(STATIC.rglob("*.js")):
+        source = re.sub(r"^\s*(//|\*|/\*).*$", "", path.read_text(encoding="utf-8"), flags=re.MULTILINE)
+        texts = re.findall(r'"([A-Z][^"\n]* [^"\n]* [^"\n]*[.…])"', source)
+        missed += [f"{path.name}: {text}" for text in texts if text not in browser().values()]
+    assert not missed, "\n".join(missed)
+
+
+@pytest.mark.parametrize("key", phrases.SENTENCES)
+def test_every_notice_is_said_somewhere(key):
+    sources = (path.read_text(encoding="utf-8") for path in (ROOT / "app").rglob("*.py") if path.name != "phrases.py")
+    assert any(f'"{key}"' in source for source in sources)
+
+
+def test_every_sentence_of_the_browser_is_said_somewhere():
+    sources = "\n".join(path.read_text(encoding="utf-8") for path in STATIC.rglob("*.js") if path.name != "words.js")
+    assert {key for key in browser() if f"SAYS.{key}" not in sources} == set()
