@@ -13,24 +13,19 @@ from .reading import LessonError, read_lesson
 #: A lesson is one file here; its name's number gives the order.
 TEXT = Path(__file__).parent / "text"
 
-
 _own: dict[str, Lesson] = {}
 
 
-def lessons() -> Mapping[str, Lesson]:
-    """Return all lessons that are offered by key: the course, then the lecturer's own."""
-    return _offered(len(_own))
-
-
 @lru_cache(maxsize=1)
-def _offered(_count: int) -> Mapping[str, Lesson]:
+def lessons() -> Mapping[str, Lesson]:
+    """Return all lessons that are offered by key: the course, then the lecturer's own; the same object until more are."""
     return MappingProxyType({**built_in(), **_own})
 
 
 def offer(found: Mapping[str, Lesson]) -> None:
     """Offer lessons besides the course, as `codim2 serve --lessons DIR` does; one of the same key replaces another."""
     _own.update(found)
-    _offered.cache_clear()
+    lessons.cache_clear()
 
 
 @lru_cache(maxsize=1)

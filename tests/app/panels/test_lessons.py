@@ -4,6 +4,7 @@ import time
 
 import pytest
 from codim2_app.draw.packing import unpack
+from codim2_app.lessons import library
 from codim2_app.lessons.library import lessons, offer
 from codim2_app.lessons.reading import read_lesson
 from codim2_app.panels.lessons import Quiz, opening_values, read_quiz
@@ -97,6 +98,15 @@ def test_a_quiz_is_read():
     assert read_quiz("0.12.2", lessons()[LIMITS]) == Quiz(0, 12, 2)
 
 
+@pytest.fixture
+def offered_here_only(monkeypatch):
+    with monkeypatch.context() as patch:
+        patch.setattr(library, "_own", {})
+        yield
+    lessons.cache_clear()
+
+
+@pytest.mark.usefixtures("offered_here_only")
 def test_a_lesson_of_ones_own_is_one_file(tmp_path):
     path = tmp_path / "own-lesson.md"
     path.write_text(OWN, encoding="utf-8")
