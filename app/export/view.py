@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -16,7 +17,8 @@ from ..frame.picture import make_frame
 from ..frame.scenes import make_scene
 from ..frame.window import Window, seen
 from ..slow_layers import basins, outcomes
-from ..state.chosen import System_
+from ..state.choices import OWN_AXIS as OWN
+from ..state.chosen import System_, parameters_of
 from ..state.links import Link, Look, read_link, squeezed, write_link
 
 #: Of the whole picture's width: curves of a figure are sampled within a quarter of it.
@@ -71,8 +73,26 @@ class View:
         window = None if self.seen == WHOLE else Window(self.seen, self.width / 700)
         return seen(make_scene(self.values, self.system), window, rest=True)
 
-    def frame(self, share: float = FINE) -> bytes:
-        """Return all that is drawn as one packed frame, its curves sampled as finely as `share` of the width asks."""
+    def number(self, name: str) -> float:
+        """Return the value of a control, or, after "own:", of a parameter of the system."""
+        if name in self.values:
+            return float(self.values[name])
+        own = name.removeprefix(OWN)
+        first = parameters_of(self.values["system"], self.values["texts"])
+        return float({**first, **self.values["parameters"]}[own])
+
+    def changed(self, numbers: Mapping[str, float]) -> View:
+        """Return the view with some of them changed."""
+        own = {name.removeprefix(OWN): value for name, value in numbers.items() if name not in self.values}
+        plain = {name: value for name, value in numbers.items() if name in self.values}
+        parameters = {**self.values["parameters"], **own}
+        return replace(self, values={**self.values, **plain, "parameters": parameters})
+
+    def frame(self, share: float = FINE, whole: bool = False) -> bytes:
+        """Return all that is drawn as one packed frame, its curves sampled as finely as `share` of the width asks.
+
+        `whole`: in whole steps, as frames of the whole picture travel, where the whole picture is seen.
+        """
         scene = self.scene().evolve(pixel=share * self.width)
         window = Window(self.seen, scene.pixel)
         header, blocks, _ = make_frame(scene, self.values, {}, ready=True, window=window)
@@ -80,6 +100,8 @@ class View:
             header["outcomes"] = outcomes.columns(scene["outcomes"])
         if "basins" in self.values["layers"]:
             header["basins"], blocks["basins"] = basins.columns(scene)
+        if whole and self.seen == WHOLE:
+            return pack(header, blocks)
         return pack(header, blocks, self.seen, self.width / 700)
 
 

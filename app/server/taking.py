@@ -1,4 +1,4 @@
-"""The commands that write files of a view: `figure`, `data`. None loads the server, and none needs a browser."""
+"""The commands that write files of a view: `figure`, `data`, `live`. None loads the server or needs a browser."""
 
 from __future__ import annotations
 
@@ -40,6 +40,24 @@ def _data(chosen: argparse.Namespace) -> bytes:
     from ..export.view import suffix_of, view_of
 
     return DATA[suffix_of(chosen.output, tuple(DATA))](view_of(chosen.view))
+
+
+def add_live(commands: Any) -> None:
+    """Add `codim2 live`."""
+    command = commands.add_parser("live", help="write one HTML file that moves a slider or two with no server")
+    command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
+    words = "f1, n, mu, …, or with a range: f1=-1,1; give it twice for two sliders"
+    command.add_argument("--slider", action="append", required=True, metavar="NAME[=LOW,HIGH]", help=words)
+    command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="ends in .html")
+    command.set_defaults(run=lambda chosen: _written(chosen.output, lambda: _live(chosen)))
+
+
+def _live(chosen: argparse.Namespace) -> bytes:
+    from ..export.live import live
+    from ..export.view import suffix_of, view_of
+
+    suffix_of(chosen.output, (".html",))
+    return live(view_of(chosen.view), chosen.slider)
 
 
 def _figure(chosen: argparse.Namespace) -> bytes:
