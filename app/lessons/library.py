@@ -18,7 +18,7 @@ _own: dict[str, Lesson] = {}
 
 @lru_cache(maxsize=1)
 def lessons() -> Mapping[str, Lesson]:
-    """Return all lessons that are offered by key: the course, then the lecturer's own; the same object until more are."""
+    """Return all lessons that are offered by key: the course, then one's own. One object until more are offered."""
     return MappingProxyType({**built_in(), **_own})
 
 
