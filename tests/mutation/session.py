@@ -34,7 +34,7 @@ PACKAGES = {short: f"codim2_{short}" for short in FOLDERS}
 # Seconds of processor time on a machine that does `_work` in PACE: `Room.slow` times as many on this one. A test that
 # takes longer than FIRST and three times what it takes as it is has noticed a mutant that loops.
 FIRST = 3.0
-SURVIVORS = 6.0  # of all tests of a mutant, the quickest first
+SURVIVORS = 5.0  # of all tests of a mutant, the quickest first
 LONGEST = 10.0  # of one test as it is: slower ones are left out
 PACE = 3.2e-3
 MEMORY = 3 << 30
@@ -58,19 +58,6 @@ def preload() -> None:
     # A failure is all that is asked for: no smaller example of it, no memory of it.
     phases = (hypothesis.Phase.explicit, hypothesis.Phase.generate)
     hypothesis.settings.register_profile("mutation", deadline=None, derandomize=True, database=None, phases=phases)
-
-
-def load_kernels() -> None:
-    """Load what is compiled, once for all forks."""
-    import codim2_core as c2
-    from codim2_core.orbits.trajectories import warm
-
-    for psi in (c2.psi.constant(), c2.psi.rational(), c2.psi.tanh(), c2.psi.hill(3.0)):
-        warm(psi)
-    c2.limit_cycles(c2.ELinear(172.0, 186.0, -200.0, (-86.0, -93.0)), c2.psi.hill(3.0))
-    system = c2.System(U=("1/4 - c**2 - s/8", "s*c - s/2"))
-    for layer in ("critical", "nullclines_inside", "nullclines_outside", "cycles", "separatrices"):
-        c2.Scene(system, c2.psi.constant())[layer]
 
 
 def forked(do: Callable[[], int], seconds: float) -> str:
@@ -168,13 +155,11 @@ class Room:
             raise RuntimeError("the tests could not be run as they are")
         self.reach: dict[str, Reach] = pickle.loads(note.read_bytes())
         note.unlink()
-        entered = frozenset(file for one in self.reach.values() for file, _, _ in one.entered)
-        if not self.kernels and any(f"{os.sep}stepping{os.sep}" in file for file in entered):
-            load_kernels()
+        self._warm()
         gc.collect()
         gc.freeze()
         paths = frozenset(str(job.path) for job in self.jobs)
-        living, held = live.functions(paths), live.caches(tuple(PACKAGES.values()))
+        living, held = live.functions(paths), live.caches((*PACKAGES.values(), "tests"))
         for job in self.jobs:
             job.reach = self.reach
             source, path = job.path.read_text(), str(job.path)
@@ -216,6 +201,13 @@ class Room:
         item = self.items[name]
         return all(report.outcome != "failed" for report in runtestprotocol(item, log=False, nextitem=None))
 
+    def _warm(self) -> None:
+        """Run tests here until each function was entered by one: what is loaded late is loaded then, for all forks."""
+        entered: set[Function] = set()
+        for name, one in sorted(self.reach.items(), key=lambda item: item[1].cost):
+            if not one.entered <= entered and self._passes(name):
+                entered |= one.entered
+
     def _baseline(self, note: Path) -> int:
         def late(*_: object) -> None:
             raise TimeoutError("slower than a test may be here")
@@ -248,7 +240,7 @@ class Room:
 
     def _run(self, name: str, begin: Callable[[], object], end: Callable[[], object]) -> float | None:
         """What a test costs that passes in time."""
-        for cache in live.caches(tuple(PACKAGES.values())):
+        for cache in live.caches((*PACKAGES.values(), "tests")):
             cache.cache_clear()  # what another test has computed is reached by this one as well
         before = time.process_time()
         signal.setitimer(signal.ITIMER_PROF, self.slow * LONGEST)
