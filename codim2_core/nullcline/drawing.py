@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 from itertools import pairwise
 from typing import Any
@@ -12,9 +13,11 @@ from numpy.typing import NDArray
 
 from ..psi.function import Psi
 from .conics import Arc, Curve, Straight
+from .refining import Seen, placed, refined
 from .typed import Traced
 
 Array = NDArray[np.floating[Any]]
+Exactly = Callable[[Array], Array]
 
 POINTS = 65  # most points of a branch
 PASSES = 8  # of redistribution; each resolves tighter bends, smooth branches need none or one
@@ -46,27 +49,39 @@ def _onto_disc(psi: Psi, e: Array) -> Array:
     return e * factor[:, None]
 
 
-def drawn(curve: Curve, psi: Psi) -> Array:
+def drawn(curve: Curve, psi: Psi, seen: Seen | None = None, exactly: Exactly | None = None) -> Array:
     """Picture points along a curve of the e-disc, spread so that no segment sags by more than SAG.
 
-    At most POINTS, or for a traced curve so many for each half turn, and for a conic between its tips.
+    At most POINTS, or for a traced curve so many for each half turn, and for a conic between its tips; closer where
+    the curve is `seen`. `exactly` brings points of a traced curve onto what it was traced for.
     """
     if isinstance(curve, Straight) and (psi.record.identity or curve.is_diameter):
         return _onto_disc(psi, np.stack([curve.start, curve.end]))  # Psi moves points along their radius
+    if isinstance(curve, Traced) and curve.straight:
+        return drawn(Straight(curve.points[0], curve.points[-1]), psi, seen)
+    t, points = _sampled(curve, psi)
+    if seen is None or not seen.near(points).any():
+        return points
+    onto = exactly or (lambda e: e)
+    return refined(curve, lambda e: placed(psi, onto(e)), t, points, seen)
+
+
+def _sampled(curve: Curve, psi: Psi) -> tuple[Array, Array]:
+    """Parameters along a curve, and its picture points there."""
     if isinstance(curve, Arc) and not psi.record.identity:
         knots = [0.0, *curve.tips(), 1.0]
         parts = [_spread(curve, psi, low + (high - low) * _GRID) for low, high in pairwise(knots)]
-        return np.concatenate([parts[0], *(part[1:] for part in parts[1:])])
-    count = POINTS
-    if isinstance(curve, Traced):
-        if curve.straight:
-            return drawn(Straight(curve.points[0], curve.points[-1]), psi)
-        count *= max(1, math.ceil(curve.turning / math.pi))
+        first, *others = parts
+        return (
+            np.concatenate([first[0], *(t[1:] for t, _ in others)]),
+            np.concatenate([first[1], *(points[1:] for _, points in others)]),
+        )
+    count = POINTS * max(1, math.ceil(curve.turning / math.pi)) if isinstance(curve, Traced) else POINTS
     return _spread(curve, psi, _GRID if count == POINTS else np.linspace(0.0, 1.0, count))
 
 
-def _spread(curve: Curve, psi: Psi, t: Array) -> Array:
-    """Picture points along a curve from t[0] to t[-1], as many as of t, moved to where it bends."""
+def _spread(curve: Curve, psi: Psi, t: Array) -> tuple[Array, Array]:
+    """Parameters and picture points along a curve from t[0] to t[-1], as many as of t, moved to where it bends."""
     count = len(t)
     points = _onto_disc(psi, curve(t))
     for _ in range(PASSES):
@@ -84,4 +99,4 @@ def _spread(curve: Curve, psi: Psi, t: Array) -> Array:
         measure = np.concatenate([[0.0], np.cumsum(share)])
         t = np.interp(np.linspace(0.0, measure[-1], count), measure, t)
         points = _onto_disc(psi, curve(t))
-    return points
+    return t, points

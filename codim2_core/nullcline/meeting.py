@@ -14,6 +14,7 @@ from ..numerics.trigonometric import ROUNDING
 Array = NDArray[np.float64]
 FAR = 1e6  # of the view: a hyperbola whose centre is farther away is a straight line in it, to 1e-5 of the view
 WITHIN = 5e-4  # of the view: farther than this from the hyperbola no chord may be
+MOST = 4000  # points of a piece
 LONGEST = 0.5  # step of t on the hyperbola (e^t, e^-t)
 
 
@@ -37,7 +38,7 @@ class Conics:
     meeting: Array
 
 
-def conics_of(problem: LayerProblem, view: float = 2.0) -> Conics:
+def conics_of(problem: LayerProblem, view: float = 2.0, pixel: float | None = None) -> Conics:
     """Return the conic (d - a) x y + f2 x - f1 y + b = 0 of the normal form, and the limit directions on it.
 
     Parameters
@@ -45,6 +46,9 @@ def conics_of(problem: LayerProblem, view: float = 2.0) -> Conics:
     problem : LayerProblem
     view : float
         Half the side of the square that is drawn.
+    pixel : float, optional
+        Of what is looked at more closely: then no chord is farther than a quarter of it from the hyperbola, as long as
+        `MOST` points of a piece allow.
 
     Returns
     -------
@@ -57,7 +61,8 @@ def conics_of(problem: LayerProblem, view: float = 2.0) -> Conics:
         return Conics("", (), meeting)
     turned = problem.at.as_given is None
     reach = view * math.sqrt(2.0) if turned else view
-    kind, pieces = _conic(form.d - form.a, form.f2, -form.f1, form.b, reach)
+    within = WITHIN * reach if pixel is None else 0.25 * pixel
+    kind, pieces = _conic(form.d - form.a, form.f2, -form.f1, form.b, reach, within)
     if turned:
         c, s = math.cos(form.rotation), math.sin(form.rotation)
         pieces = [piece @ np.array([[c, -s], [s, c]]) for piece in pieces]
@@ -70,7 +75,7 @@ def _fixed(points: Array) -> Array:
     return points
 
 
-def _conic(q: float, p1: float, p2: float, b: float, reach: float) -> tuple[str, list[Array]]:
+def _conic(q: float, p1: float, p2: float, b: float, reach: float, within: float) -> tuple[str, list[Array]]:
     """Return the kind of q x y + p1 x + p2 y + b = 0, and its pieces with |x|, |y| <= reach."""
     if q == p1 == p2 == 0.0:
         return ("plane" if b == 0.0 else "none"), []
@@ -82,7 +87,7 @@ def _conic(q: float, p1: float, p2: float, b: float, reach: float) -> tuple[str,
     product = h * k - b / q
     if abs(product) <= ROUNDING * (abs(h * k) + abs(b / q)):
         return "two lines", [*_line(1.0, 0.0, -h, reach), *_line(0.0, 1.0, -k, reach)]
-    return "hyperbola", _branches(h, k, product, reach)
+    return "hyperbola", _branches(h, k, product, reach, within)
 
 
 def _line(p1: float, p2: float, b: float, reach: float) -> list[Array]:
@@ -101,11 +106,11 @@ def _line(p1: float, p2: float, b: float, reach: float) -> list[Array]:
     return [np.stack([x, slope * x + offset], axis=-1)] if x[0] < x[1] else []
 
 
-def _branches(h: float, k: float, product: float, reach: float) -> list[Array]:
+def _branches(h: float, k: float, product: float, reach: float, within: float) -> list[Array]:
     """Return the pieces of (x - h)(y - k) = product, x - h = ±size e^t and y - k = ±size e^-t on each branch."""
     size = math.sqrt(abs(product))
     # a chord over a step s of t is within size s^2/(4 sqrt 2) of its arc
-    step = min(LONGEST, math.sqrt(4.0 * math.sqrt(2.0) * WITHIN * reach / size))
+    step = min(LONGEST, math.sqrt(4.0 * math.sqrt(2.0) * within / size))
     pieces = []
     for sign in (1.0, -1.0):
         up = math.copysign(sign, sign * product)
@@ -114,7 +119,7 @@ def _branches(h: float, k: float, product: float, reach: float) -> list[Array]:
         low, high = max(low_x, -high_y), min(high_x, -low_y)
         if not low < high:
             continue
-        t = np.linspace(low, high, 2 + math.ceil((high - low) / step))
+        t = np.linspace(low, high, min(MOST, 2 + math.ceil((high - low) / step)))
         points = np.stack([h + sign * size * np.exp(t), k + up * size * np.exp(-t)], axis=-1)
         pieces.append(np.clip(points, -reach, reach))  # a centre far away costs digits
     return pieces

@@ -16,6 +16,7 @@ from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .conics import Curve, Straight, affine_plane, chord_ends, conic, lines
 from .drawing import drawn
+from .refining import Seen, on_component
 from .typed import Kind, inside_curves, outside_curves
 
 Array = NDArray[np.floating[Any]]
@@ -42,11 +43,16 @@ class NullclineBranch:
     points: Array
 
 
-def inside_nullclines(coefficients: AtZ, psi: Psi, limit_directions: list[float]) -> tuple[NullclineBranch, ...]:
+def inside_nullclines(
+    coefficients: AtZ, psi: Psi, limit_directions: list[float], seen: Seen | None = None
+) -> tuple[NullclineBranch, ...]:
     """Nullclines on the hemisphere; `limit_directions` are the zeros of Theta (where theta-nullclines end)."""
     affine = affine_plane(coefficients)
     if affine is None:
-        return tuple(_branch(kind, True, drawn(curve, psi)) for kind, curve in inside_curves(coefficients))
+        return tuple(
+            _branch(kind, True, drawn(curve, psi, seen, on_component(coefficients, kind, inside=True)))
+            for kind, curve in inside_curves(coefficients)
+        )
     U, radial = affine
     ends: tuple[tuple[Kind, list[float]], ...] = (
         ("rho", radial),
@@ -60,7 +66,7 @@ def inside_nullclines(coefficients: AtZ, psi: Psi, limit_directions: list[float]
         chord = chord_ends(*line)
         if chord is not None:
             shapes.append((kind, Straight(*chord)))
-    return tuple(_branch(kind, True, drawn(curve, psi)) for kind, curve in shapes)
+    return tuple(_branch(kind, True, drawn(curve, psi, seen)) for kind, curve in shapes)
 
 
 def _branch(kind: Kind, inside: bool, points: Array) -> NullclineBranch:
@@ -68,7 +74,9 @@ def _branch(kind: Kind, inside: bool, points: Array) -> NullclineBranch:
     return NullclineBranch(kind, inside, points)
 
 
-def outside_nullclines(coefficients: AtZ, limit_directions: list[float], view: float) -> tuple[NullclineBranch, ...]:
+def outside_nullclines(
+    coefficients: AtZ, limit_directions: list[float], view: float, seen: Seen | None = None
+) -> tuple[NullclineBranch, ...]:
     """Nullclines outside, to the corners of a view of that half-width: rays, and the straight lines continued.
 
     Where U is not affine in (c, s), U1 = 0 and U2 = 0 are rays too, and none is straight if U reads x or y.
@@ -77,7 +85,10 @@ def outside_nullclines(coefficients: AtZ, limit_directions: list[float], view: f
     affine = affine_plane(coefficients)
     if affine is None:
         one = constant()
-        return tuple(_branch(kind, False, drawn(curve, one)) for kind, curve in outside_curves(coefficients, reach))
+        return tuple(
+            _branch(kind, False, drawn(curve, one, seen, on_component(coefficients, kind, inside=False)))
+            for kind, curve in outside_curves(coefficients, reach)
+        )
     U, radial = affine
     branches = []
     rays: tuple[tuple[Kind, list[float]], ...] = (

@@ -10,8 +10,9 @@ from typing import Any
 from ..bifurcations import BifurcationCurve, Region, critical_boundary, regions, saddle_node
 from ..cycles.limit_cycles import closed_orbits, cycles_of
 from ..layer_problem.problem import find_critical, find_equator, find_equator_cycle, find_location
-from ..nullcline.meeting import conics_of
+from ..nullcline.meeting import Conics, conics_of
 from ..nullcline.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
+from ..nullcline.refining import Seen
 from ..portrait.classify import portrait
 from ..portrait.launched import Launched, launched
 from ..portrait.outcomes import outcomes_of
@@ -49,8 +50,20 @@ INPUTS: Mapping[str, Callable[[Setting], Hashable]] = {
     "tolerance": lambda s: (s.rtol, s.atol),
     "view": lambda s: s.view,
     "pixel": lambda s: s.pixel,
+    "closely": lambda s: seen_closely(s),
 }
+#: Pixels across what is seen.
+ACROSS = 720
 _STEPPED = ("time", "tolerance", "pixel")
+
+
+def seen_closely(setting: Setting) -> Seen | None:
+    """Return what is looked at more closely than the whole picture, whether something moves or not."""
+    if setting.window is None:
+        return None
+    left, right, bottom, top = setting.window
+    pixel = max(right - left, top - bottom) / ACROSS
+    return Seen(setting.window, pixel) if pixel < 2.0 * setting.view / ACROSS else None
 
 
 def _matrix(setting: Setting) -> tuple[float, float, float] | None:
@@ -87,11 +100,18 @@ def _certificates(setting: Setting) -> tuple[Certificate, ...]:
 
 
 def _inside_nullclines(setting: Setting) -> tuple[NullclineBranch, ...]:
-    return inside_nullclines(setting.coefficients, setting.psi, setting.problem.equator.theta.tolist())
+    directions = setting.problem.equator.theta.tolist()
+    return inside_nullclines(setting.coefficients, setting.psi, directions, seen_closely(setting))
 
 
 def _outside_nullclines(setting: Setting) -> tuple[NullclineBranch, ...]:
-    return outside_nullclines(setting.coefficients, setting.problem.equator.theta.tolist(), setting.view)
+    directions = setting.problem.equator.theta.tolist()
+    return outside_nullclines(setting.coefficients, directions, setting.view, seen_closely(setting))
+
+
+def _conics(setting: Setting) -> Conics:
+    closely = seen_closely(setting)
+    return conics_of(setting.problem, setting.view, None if closely is None else closely.pixel)
 
 
 layers: Mapping[str, Layer] = MappingProxyType(
@@ -102,9 +122,9 @@ layers: Mapping[str, Layer] = MappingProxyType(
         "critical": Layer(("plane", "slow", "psi"), lambda s: find_critical(s.problem)),
         "slow_flow": Layer(("plane", "slow"), lambda s: sliding_flow(s.coefficients)),
         "classification": Layer(("plane", "slow", "psi"), lambda s: portrait(s.problem)),
-        "nullclines_inside": Layer(("plane", "psi"), _inside_nullclines),
-        "nullclines_outside": Layer(("plane", "view"), _outside_nullclines),
-        "conics": Layer(("plane", "view"), lambda s: conics_of(s.problem, s.view)),
+        "nullclines_inside": Layer(("plane", "psi", "closely"), _inside_nullclines),
+        "nullclines_outside": Layer(("plane", "view", "closely"), _outside_nullclines),
+        "conics": Layer(("plane", "view", "closely"), _conics),
         "inside": Layer(("plane", "psi", "inner seeds", *_STEPPED), lambda s: orbits(s, outside=False)),
         "outside": Layer(("plane", "outer seeds", "view", *_STEPPED), lambda s: orbits(s, outside=True)),
         "inside_sketch": Layer(("plane", "psi", "inner seeds", "time"), lambda s: sketched(s, outside=False)),

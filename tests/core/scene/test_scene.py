@@ -44,6 +44,7 @@ HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines
 ATLAS = {"atlas_curves", "regions"}  # of the plane (f1, f2): neither f nor Psi is in them
 SLOW = {"critical", "classification", "certificates", "slow_flow", "outcomes", "cycles"}
 
+CLOSELY = {"nullclines_inside", "nullclines_outside", "conics"}  # what stands still, as finely as it is seen
 SKETCHES = {"inside_sketch", "outside_sketch"}
 
 REACHES = {
@@ -63,10 +64,11 @@ REACHES = {
     "atol": ({"atol": 1e-6}, {"inside", "outside", "continuations", "separatrices"}),
     "pixel": ({"pixel": 1 / 90}, {"inside", "outside", "continuations", "separatrices", "launched"}),
     "view": ({"view": 2.5}, {"nullclines_outside", "conics", "outside", "outside_sketch", "launched"}),
-    "window": ({"window": (0.1, 0.4, 0.2, 0.5)}, {"inside", "outside"} | SKETCHES),
+    "window": ({"window": (0.1, 0.4, 0.2, 0.5)}, {"inside", "outside", *CLOSELY} | SKETCHES),
     "count": ({"count": 40}, {"inside", "outside"} | SKETCHES),
     "seeds": ({"seeds": [[0.3, 0.2], [1.5, 0.1]]}, {"inside", "outside"} | SKETCHES),
     "launch": ({"launch": [[0.2, 0.1]]}, {"launched"}),
+    "the whole picture": ({"window": (-2.0, 2.0, -2.0, 2.0)}, {"inside", "outside"} | SKETCHES),
     "nothing": ({"a": -2.0, "psi": c2.psi.constant()}, set()),
 }
 
