@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 BISECTIONS = 44  # of one step of the net: to the rounding of z
 NARROW = 1e-7  # of the span: two changes this near, as where a double zero is lost in rounding, are one
 SLOPING = 0.75  # of the larger of its neighbours: the smallest distance of two sets that meet within a step of the net
-THIRDS, MET = 48, 1e-6  # times that an interval around it is cut by a third; distance in e at which they have met
+THIRDS = 48  # times that an interval around it is cut by a third
 AT_EQUATOR = 1e-4  # 1 - |e| of a critical set that is about to reach the equator, one bisected step before it does
 STABLE, UNSTABLE, CROSSING = "sliding", "unstable", "crossing"
 _SENTENCES = {
@@ -132,7 +132,7 @@ def _kinds(sets: Sequence[CriticalSet]) -> tuple[str, ...]:
 
 
 def _exchanges(line: _Line, net: Array) -> list[float]:
-    """Values of z at which a saddle and another critical set pass through each other: their distance vanishes.
+    """Values of z at which a saddle and another critical set are nearest, so where they pass through each other.
 
     Nothing else shows it: there are as many of each kind on both sides.
     """
@@ -153,8 +153,7 @@ def _exchanges(line: _Line, net: Array) -> list[float]:
         for _ in range(THIRDS):
             one, two = low + (high - low) / 3.0, high - (high - low) / 3.0
             low, high = (low, two) if distance(one) <= distance(two) else (one, high)
-        if distance(0.5 * (low + high)) <= MET:
-            found.append(0.5 * (low + high))
+        found.append(0.5 * (low + high))
     return found
 
 

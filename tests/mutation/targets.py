@@ -91,6 +91,7 @@ _LOOKS = "How finely a line is drawn, within what the tests allow."
 
 ALLOWED: tuple[Allowed, ...] = (
     Allowed("core.sliding.along", "BISECTIONS = 44", "One bisection more, beyond the digits of z."),
+    Allowed("core.sliding.along", "THIRDS = 48", "A third less, beyond the digits of z."),
     Allowed("core.sliding.along", "AT_EQUATOR = 1e-4", "A critical set this near the equator is about to reach it."),
     Allowed("core.sliding.along", "count: int = 81", "How finely changes are looked for, unless the caller says it."),
     Allowed("core.sliding.along", "if sets[0] else 2", "Where there is nothing, nothing is looked at in between."),
@@ -227,6 +228,10 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.motion.course", "self.t < self.t_end  →", "Only where a phase ends just at the end of the time."),
     Lives("core.motion.course", "  →  self.line is not None", "In a line there is no Hopf point and no cycle."),
     Lives("core.portrait.endings", "138: 0  →  1", "The name of a direction where there is none: not read."),
+    Lives("core.cycles.first_turns", "0.0  →  1.0", "A zero just at a sample is found as any other."),
+    Lives(
+        "core.cycles.first_turns", "  →  C.discriminant < 0.0 and", "Where no orbit returns it goes as the trace says."
+    ),
     Lives("core.cycles.first_turns", "8  →  9", "How many samples show that all orbits are closed, at least."),
     Lives("core.cycles.turn_section", "0.25  →  0.3125", "Which of all rays is taken: any of them will do."),
     Lives("core.cycles.first_turns", "left - right  →  left", "The interval is 1e-13 wide by then."),
@@ -248,7 +253,6 @@ LIVES: tuple[Lives, ...] = (
     Lives("static/panels/diagram.js", "8  →  9", "A ninth digit of what has been rounded."),
     Lives("static/panels/numbers.js", "0.1  →  0.125", "The axis shows at least −4 to 4."),
     Lives("static/panels/psi.js", "1.05 *", "How much room there is above a curve."),
-    Lives("core.sliding.along", "48  →  49", "A third less, beyond the digits of z."),
     Lives("core.sliding.filippov", "1.0  →  1.25", "The unit of a field that is zero everywhere."),
     Lives("core.sliding.filippov", "512  →  513", "How finely maxima are looked for first."),
     Lives("core.sliding.filippov", "np.minimum(weighed, 0.0)", "Newton's method fails, and the weights are balanced."),

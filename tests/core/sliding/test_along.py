@@ -284,13 +284,19 @@ def test_sets_that_pass_each_other_by_do_not_meet(gap):
     assert not [p for p in c2.slow_portrait(system, c2.psi.tanh(), (-0.5, 0.43)).points if "exchange" in p.sentence]
 
 
-@pytest.mark.parametrize(("span", "count"), [((-0.1, 0.9), 9), ((-0.9, 0.1), 9), ((-0.1, 0.3), 4), ((-0.3, 0.1), 4)])
-def test_sets_that_exchange_their_kinds_near_an_end_of_the_span(span, count):
-    """c = 0 and c = z meet at z = 0, in the first or in the last step."""
-    system = c2.System(U=("c*(c - z)", "-s - 1/5"), W=("1",))
-    (point,) = slow_portrait(system, c2.psi.constant(), span, count=count).points
-    assert (point.kind, point.z) == ("fold", pytest.approx(0.0, abs=1e-8))
+@pytest.mark.parametrize(
+    ("span", "count"),
+    [((-0.1, 0.9), 9), ((-0.9, 0.1), 9), ((-0.1, 0.3), 4), ((-0.3, 0.1), 4), ((-0.549, 0.451), 11)],
+    ids=["first step", "last step", "first of three", "last of three", "midway"],
+)
+def test_sets_that_exchange_their_kinds_within_any_step(span, count):
+    """c = 0 and c = z - 3/10 meet at z = 3/10; a third set, at c = -4/5, stays away."""
+    system = c2.System(U=("c*(c - z + 3/10)*(c + 4/5)", "-s"), W=("z",))
+    (point,) = slow_portrait(system, c2.psi.constant(), (span[0] + 0.3, span[1] + 0.3), count=count).points[-1:]
+    assert (point.kind, point.z) == ("fold", pytest.approx(0.3, abs=1e-8))
     assert "exchange" in point.sentence
+    assert point.e == pytest.approx((0.0, 0.0), abs=1e-6)
+    assert point.flow == pytest.approx((0.3,), abs=1e-6)
 
 
 @pytest.mark.parametrize("offset", [0.0, 50.0])
