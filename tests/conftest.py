@@ -1,11 +1,17 @@
 """Hypothesis profiles, the marks of all tests (`tests.tiers`), and as many processes as there are processors."""
 
 import os
+import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
 from tests import tiers
+
+# Where this is set, as in containers, each process, a test's server too, would compile all that it imports.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 # No deadlines (machines differ); in CI the examples are the same on every run.
 settings.register_profile("local", deadline=None)
@@ -22,12 +28,13 @@ def pytest_cmdline_main(config: pytest.Config) -> None:
             config.option.numprocesses, config.option.dist = count, "worksteal"
 
 
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out the slow folders unless they are asked for, and for the inner loop all that are not its own."""
+    folder = collection_path.is_dir() and collection_path.parent == tiers.TESTS
+    return True if folder and not tiers.wants(config, collection_path.name) else None
+
+
 @pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark all tests, and leave out the slow ones unless they are asked for."""
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark all tests."""
     tiers.mark(items)
-    if tiers.leaves_out_slow(config):
-        slow = [item for item in items if item.get_closest_marker("slow")]
-        if slow:
-            config.hook.pytest_deselected(items=slow)
-            items[:] = [item for item in items if item not in slow]

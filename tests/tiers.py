@@ -57,6 +57,13 @@ def leaves_out_slow(config: pytest.Config) -> bool:
     return not config.option.markexpr and not any(parts and parts[0] in SLOW for parts in asked_for(config))
 
 
+def wants(config: pytest.Config, folder: str) -> bool:
+    """Whether the command may run a test of that folder of ``tests``; others are not read."""
+    if config.option.markexpr == "fast":
+        return folder in FAST
+    return folder not in SLOW or not leaves_out_slow(config)
+
+
 def processes(config: pytest.Config) -> int:
     """Processes for this command: one a processor if it names nothing smaller than a folder of ``tests``."""
     small = any(len(parts) > 1 or (parts and parts[0].endswith(".py")) for parts in asked_for(config))
