@@ -30,6 +30,7 @@ ELSEWHERE: dict[str, tuple[str, ...]] = {
     "core.figures": ("presets",),
     "app.draw": ("app/view/test_view.py",),
     "app.frame": ("app/panels", "app/view/test_refresh.py"),
+    "app.phrases": ("words/test_app_words.py",),
     "app.slow_layers": ("app/panels",),
     "app.state": ("app/view/test_refresh.py",),
     "app.view": ("app/state",),
@@ -222,9 +223,7 @@ LIVES: tuple[Lives, ...] = (
     Lives(
         "core.cycles.section", "start * start  →", "Where the first of the outer samples lies: they are looked between."
     ),
-    Lives(
-        "core.motion.decide", "  →  outcome.depends_on_psi", "With a Psi given none is compared: nothing depends on it."
-    ),
+    Lives("core.motion.decide", "  →  outcome.depends_on_psi", "With a Psi given none is compared."),
     Lives("core.motion.course", "self.t < self.t_end  →", "Only where a phase ends just at the end of the time."),
     Lives("core.motion.course", "  →  self.line is not None", "In a line there is no Hopf point and no cycle."),
     Lives("core.portrait.endings", "138: 0  →  1", "The name of a direction where there is none: not read."),

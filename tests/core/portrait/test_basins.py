@@ -56,13 +56,18 @@ def test_case_three_has_the_cycle_as_a_destination_with_the_mean_slow_flow():
     np.testing.assert_allclose(flow, c2.sliding_flow(slow, (0.0,)), atol=1e-6)  # prop:LC
 
 
-def test_a_size_that_cannot_be_refined_to_is_refused():
+@pytest.mark.parametrize("n", [100, 96, 33, 16, 0, -32])
+def test_a_size_that_cannot_be_refined_to_is_refused(n):
     with pytest.raises(ValueError, match="32 times a power of two"):
-        basins(c2.presets["case1-cm4"].system, c2.psi.constant(), n=100)
+        basins(c2.presets["case1-cm4"].system, c2.psi.constant(), n=n)
 
 
 def test_cells_that_lead_nowhere_are_told_by_negative_numbers():
-    assert (OUTSIDE, UNDECIDED) == (-2, -1)
+    """Closed orbits about C in all of the disc."""
+    found = basins(c2.ELinear(0.0, 1.0, 0.0), c2.psi.constant(), n=32)
+    inside = np.hypot(*np.moveaxis(centres(32), -1, 0)) < 1.0
+    np.testing.assert_array_equal(found.cells, np.where(inside, -1, -2))
+    assert (OUTSIDE, UNDECIDED, found.destinations, found.slow_flow) == (-2, -1, (), ())
 
 
 @pytest.mark.parametrize("seed", [0, 1])
