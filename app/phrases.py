@@ -66,6 +66,7 @@ SENTENCES: dict[str, Sentence] = {
         "seen: {given!r} given; give left,right,bottom,top within 100 of the centre.", "a link"
     ),
     "controls of a frame": Sentence("controls: give at most {most} names of controls, such as f1,n.", "a link"),
+    "no time passes": Sentence("It follows the equator, where no time t passes.", "a launched orbit on the equator"),
     "no such parameter": Sentence("The system has no parameter {names} ({there}): left out.", "a link, or a cell"),
     "no such lesson": Sentence("Lessons: there is no {name!r}; choose one such as {some}.", "a link"),
 }

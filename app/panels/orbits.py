@@ -11,6 +11,7 @@ from codim2_core.orbits.in_time import InTime, in_time
 from codim2_core.psi.function import Psi
 
 from ..frame.draft import Draft
+from ..phrases import say
 from ..state.chosen import System_
 from ..state.launches import chosen, read_launches
 from .panel import Panel
@@ -35,7 +36,7 @@ def add(draft: Draft) -> None:
     if draft.now.get("orbit") != key:
         draft.now["orbit"] = key
         if np.hypot(*seed) == 1.0:
-            draft.unable("orbit", "It follows the equator, where no time t passes.")
+            draft.unable("orbit", say("no time passes"))
         else:
             found = in_time(scene.coefficients, scene.psi, seed, (clock[0], clock[-1]))
             draft.header["orbit"] = {"index": i, **_columns(found)}

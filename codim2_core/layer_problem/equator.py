@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -71,6 +71,9 @@ class EquatorEquilibria:
         No equilibrium is missing.
     certificate : str
         The sentence that says why, or why that is not certain.
+    arcs : ndarray (j, 2)
+        First and last angle of the arcs on which every direction is a limit direction: of a Theta with kinks only, and
+        not among the k.
     """
 
     theta: NDArray[np.float64]
@@ -84,6 +87,7 @@ class EquatorEquilibria:
     symmetric: bool
     proven: bool = True
     certificate: str = say("at most four")
+    arcs: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2)))
 
     def __len__(self) -> int:
         return len(self.theta)
@@ -138,6 +142,8 @@ class EquatorEquilibria:
         """One sentence for people on the whole equator."""
         if self.all_directions:
             return say("every direction of the equator")
+        if len(self.arcs):
+            return " ".join(arcs_of(self.arcs))
         if not len(self):
             return say("no equilibria" if self.proven else "no equilibria found")
         noun = "equilibrium" if len(self) == 1 else "equilibria"
@@ -145,6 +151,11 @@ class EquatorEquilibria:
         key = "equilibria, some degenerate" if multiple else "equilibria"
         summary = say(key, count=len(self), noun=noun, some=multiple)
         return summary if self.proven else f"{summary} {say('no more proved')}"
+
+
+def arcs_of(arcs: NDArray[np.float64]) -> list[str]:
+    """Say of each arc that every direction on it is a limit direction."""
+    return [say("arc of directions", first=float(first), last=float(last)) for first, last in arcs]
 
 
 def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
@@ -258,6 +269,7 @@ def _general(at: AtZ) -> EquatorEquilibria:
         found.symmetric,
         found.proven,
         found.certificate,
+        found.arcs,
     )
 
 

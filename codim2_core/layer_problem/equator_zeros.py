@@ -29,6 +29,8 @@ NET = 4096  # on a net of that many angles
 BESIDE = 1e-7  # so far from a kink the formula is taken to be smooth
 MOST_OF_A_TURN = 65_536  # for the integrals over a closed equator close to a saddle-node
 NEUTRAL = 2.0**-49
+NOTHING = 1e-13  # of |U|: a component that is smaller all along a piece vanishes there
+NO_ARCS = np.zeros((0, 2))
 FLAT = 1e-9  # of |U|: a smaller slope at a sign change of a Theta that is not smooth counts as none
 
 
@@ -53,6 +55,7 @@ class EquatorZeros:
     certificate: str
     proven: bool
     degree: int | None
+    arcs: NDArray[np.float64]
 
 
 def directions(theta: Array) -> Array:
@@ -113,10 +116,11 @@ def component_series(key: Hashable, kind: str) -> Series:
 def equator_zeros(key: Hashable) -> EquatorZeros:
     """Zeros of Theta with eigenvalues; `key` is `Frozen.key`."""
     run, f = program(key), component_series(key, "theta")
+    arcs: Array = NO_ARCS
     if f.vanishes:
         return _result(key, np.zeros((4, 0)), f, math.inf, all_directions=True)
     if not f.resolved:
-        theta, multiplicity = _pieces(key, "theta", f.size)
+        theta, multiplicity, arcs = _pieces(key, "theta", f.size)
         proven, distance = False, math.inf
     else:
         found = zeros(f)
@@ -137,11 +141,17 @@ def equator_zeros(key: Hashable) -> EquatorZeros:
     blur = np.where(slope != 0.0, np.abs(radial_rate) / np.where(slope == 0.0, 1.0, np.abs(slope)), 4.0)
     flat = np.abs(radial) <= 16.0 * UNIT * f.size * (1.0 + np.minimum(blur, 1e6))
     rows = np.stack([theta, np.where(flat, 0.0, radial), slope, multiplicity.astype(float)])
-    return _result(key, rows, f, distance, proven)
+    return _result(key, rows, f, distance, proven, arcs=arcs)
 
 
 def _result(
-    key: Hashable, rows: Array, f: Series, distance: float, proven: bool = True, all_directions: bool = False
+    key: Hashable,
+    rows: Array,
+    f: Series,
+    distance: float,
+    proven: bool = True,
+    all_directions: bool = False,
+    arcs: Array = NO_ARCS,
 ) -> EquatorZeros:
     theta, radial, slope = np.asarray(rows[:3], np.float64)
     multiplicity = rows[3].astype(np.int64)
@@ -158,7 +168,8 @@ def _result(
         symmetric,
         _certificate(f, proven),
         proven,
-        _degree(key, rows, f, all_directions),
+        None if len(arcs) else _degree(key, rows, f, all_directions),
+        np.remainder(np.asarray(arcs, np.float64), 2.0 * math.pi),
     )
 
 
@@ -220,7 +231,7 @@ def component_zeros(key: Hashable, kind: str) -> tuple[Array, NDArray[np.int64]]
     if f.vanishes or f.resolved:
         result = zeros(f)
         return result.theta, result.multiplicity
-    return _pieces(key, kind, f.size)
+    return _pieces(key, kind, f.size)[:2]
 
 
 @lru_cache(maxsize=128)
@@ -244,8 +255,11 @@ def _kinks(key: Hashable) -> NDArray[np.float64]:
     return np.unique(np.concatenate(found) % (2.0 * math.pi))
 
 
-def _pieces(key: Hashable, kind: str, size: float) -> tuple[Array, NDArray[np.int64]]:
-    """Zeros of a component that is not smooth, and multiplicities (2 where it only touches), between its kinks."""
+def _pieces(key: Hashable, kind: str, size: float) -> tuple[Array, NDArray[np.int64], Array]:
+    """Zeros of a component that is not smooth, multiplicities (2 where it only touches), and arcs (k, 2) of zeros.
+
+    Between its kinks it is analytic: it vanishes on all of a piece, or in single points.
+    """
     run, edges = program(key), _kinks(key)
 
     def value(theta: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -257,7 +271,11 @@ def _pieces(key: Hashable, kind: str, size: float) -> tuple[Array, NDArray[np.in
     grids = [
         np.linspace(a, b, 33 + int(NET * (b - a) / (2.0 * math.pi))) for a, b in zip(low, high, strict=True) if a < b
     ]
-    between = roots(value, grids, [value(grid) for grid in grids])
+    samples = [value(grid) for grid in grids]
+    still = [bool((np.abs(sample) <= NOTHING * size).all()) for sample in samples]
+    arcs = np.array([(grid[0], grid[-1]) for grid, none in zip(grids, still, strict=True) if none]).reshape(-1, 2)
+    grids, samples = ([one for one, none in zip(each, still, strict=True) if not none] for each in (grids, samples))
+    between = roots(value, grids, samples)
     left, at, right = value(edges - BESIDE), value(edges), value(edges + BESIDE)
     through = (left > 0.0) != (right > 0.0)
     across = refined(value, edges[through] - BESIDE, edges[through] + BESIDE)[0]
@@ -266,7 +284,14 @@ def _pieces(key: Hashable, kind: str, size: float) -> tuple[Array, NDArray[np.in
     multiplicity = np.ones(len(theta), np.int64)
     multiplicity[len(theta) - sum(map(len, touches)) :] = 2
     order = np.argsort(theta)
-    return theta[order], multiplicity[order]
+    order = order[~_on(theta[order], arcs)]
+    return theta[order], multiplicity[order], arcs
+
+
+def _on(theta: Array, arcs: Array) -> NDArray[np.bool_]:
+    """Tell which angles lie on some arcs, ends included."""
+    after = np.remainder(theta[:, None] - arcs[:, 0] + 1e-6, 2.0 * math.pi)
+    return np.asarray((after <= arcs[:, 1] - arcs[:, 0] + 2e-6).any(axis=1))
 
 
 @lru_cache(maxsize=128)
@@ -277,7 +302,7 @@ def closed_equator(key: Hashable) -> tuple[int, float, float, bool] | None:
     faster than any power for a smooth U.
     """
     on = equator_zeros(key)
-    if on.all_directions or len(on.theta):
+    if on.all_directions or len(on.theta) or len(on.arcs):
         return None
     run = program(key)
     n, sums, last = 64, np.zeros(3), (math.inf, math.inf)

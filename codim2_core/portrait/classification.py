@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from html import escape
 
 from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
-from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
+from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
 from ..numerics.trigonometric import ROUNDING
 from ..tables import paragraphs, table
 from ..words import SENTENCES, power, say, subscript
@@ -81,6 +81,8 @@ def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
     if equator.all_directions:
         return say("all directions")
     count = len(equator.theta)
+    if len(equator.arcs) and not count:
+        return " ".join(arcs_of(equator.arcs))
     if count == 0:
         if not equator.proven:
             return say("no directions found")

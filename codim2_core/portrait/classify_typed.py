@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.disc_zeros import DiscZeros, disc_zeros
-from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
+from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
 from ..layer_problem.linearisation import NEUTRAL_TRACE
 from ..numerics.fourier_zeros import ROUNDINGS, UNIT
 from ..systems.frozen import AtZ
@@ -21,6 +21,8 @@ def general_portrait(
     """Name the portrait of a system that is not e-linear, from its parts (all at one z)."""
     found = disc_zeros(at.key)
     lines = "every direction" if equator.all_directions else _count(len(equator), "limit direction", equator.proven)
+    if len(equator.arcs):
+        lines = f"{lines} and {'an arc' if len(equator.arcs) == 1 else f'{len(equator.arcs)} arcs'} of them"
     name = f"{_count(len(critical), 'critical set', found.proven)}, {lines}"
     sentence = f"{directions(equator, cycle)} {_consequence(critical, found)}"
     degeneracies = _equator(equator, cycle) + _critical(critical, found)
@@ -69,6 +71,7 @@ def _equator(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Deg
     if equator.all_directions:
         text = say("no turning")
         degeneracies.append(undecided("all directions", text, WITHIN, TERMS))
+    degeneracies += [undecided("arc of directions", text, WITHIN, TERMS) for text in arcs_of(equator.arcs)]
     for m in sorted({int(m) for m in equator.multiplicity if m > 1}):
         high = (f"zero of multiplicity {m}", say("many have met", count=m))
         name, text = _CUSP if m == 3 and not equator.symmetric else _MULTIPLE.get(m, high)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..layer_problem.critical import CriticalSet
-from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
+from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
 from ..layer_problem.problem import LayerProblem
 from ..psi.constructors import compared
 from ..psi.function import Psi
@@ -298,7 +298,7 @@ def _whole(own: LayerProblem, others: list[LayerProblem], sensitive: bool, cycle
         reason, why = (say("at rest"), "neutral") if rest else (say("some lead"), "several")
         return Outcome(None, label, "nothing", "undecided", None, None, None, reason, why=why)
     if not own.equator.proven:
-        reason = say("no directions found")
+        reason = " ".join(arcs_of(own.equator.arcs)) or say("no directions found")
         return Outcome(None, "equator", "nothing", "undecided", None, None, None, reason, why="unfollowed")
     if cycle is None or cycle.neutral:
         reason = say("neutral equator")

@@ -161,6 +161,7 @@ class Facts:
         flat = bool((equator.multiplicity > 1).any() or equator.radially_degenerate.any())
         return not (
             equator.all_directions
+            or len(equator.arcs)
             or flat
             or (self.location is not None and self.location.existence is Existence.EQUATOR)
         )

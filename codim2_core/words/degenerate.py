@@ -44,6 +44,11 @@ SENTENCES: dict[str, Sentence] = {
         "Θ has a fourfold zero: four limit directions have met. Counted once here.", "multiplicity 4"
     ),
     "no turning": Sentence("Θ ≡ 0: every direction is a limit direction.", "Θ vanishes identically"),
+    "arc of directions": Sentence(
+        "Θ vanishes on a whole arc: every direction from θ = {first:.4g} to {last:.4g} is a limit direction. The "
+        "others are counted.",
+        "Θ vanishes between two of its kinks",
+    ),
     "many have met": Sentence("{count} limit directions have met. Counted once here.", "multiplicity above 4"),
     "everything at rest": Sentence("U ≡ 0: every point of the hemisphere is an equilibrium.", "U vanishes identically"),
     "curve of zeros": Sentence("U = 0 along a whole curve of the hemisphere.", "zeros of U are not isolated"),

@@ -206,6 +206,7 @@ CHECKS = {
 }
 #: Of processes and of what a kernel of Jupyter does, held where those are run.
 ELSEWHERE = {
+    "no time passes": "tests/app/panels/test_panels_of_motion.py",
     "stopped": "tests/app/frame/test_turns.py",
     "stopped after": "tests/app/frame/test_workers.py",
     "lost": "tests/app/frame/test_turns.py",

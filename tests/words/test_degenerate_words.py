@@ -74,6 +74,13 @@ def trace_vanishes(system):
     assert min(abs(C.jacobian.trace()) for C in c2.critical_sets(system, ONE, (0.0,) * system.m)) < 1e-9
 
 
+def on_an_arc(system):
+    ((first, last),) = c2.equator_equilibria(system).arcs
+    angles = first + np.linspace(0.0, (last - first) % math.tau, 9)
+    assert np.abs([theta(system, t) for t in angles]).max() < 1e-12
+    assert min(abs(theta(system, first - 0.1)), abs(theta(system, last + 0.1))) > 1e-3
+
+
 DEGENERATE = {
     "two have met": multiple(2),
     "one splits, D2": multiple(3),
@@ -83,6 +90,7 @@ DEGENERATE = {
     "four directions have met": multiple(4),
     "nothing turns": turns_nowhere,
     "no turning": turns_nowhere,
+    "arc of directions": on_an_arc,
     "everything at rest": at_rest,
     "everything, e-linear": at_rest,
     "neutral closed equator": neutral,
@@ -109,6 +117,7 @@ SETTINGS = [
     ELinear(-1, 0, 0, (1.3, 0)),
     System(U=("-s", "c - c**3")),
     System(U=("-c**3", "-s*c**2")),
+    System(U=("-c", "-s + abs(c) - c")),
 ]
 
 

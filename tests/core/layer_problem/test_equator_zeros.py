@@ -8,6 +8,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+import codim2_core as c2
 from codim2_core import ELinear, equator_cycle, equator_equilibria
 from codim2_core.layer_problem.equator_zeros import component_series, equator_zeros
 from codim2_core.numerics.fourier_zeros import series, zeros
@@ -304,3 +305,22 @@ def test_a_dense_sweep_has_the_counts_of_the_closed_form(span, d, f):
         found, exact = equator_equilibria(typed.evolve(b=b)), equator_equilibria(ELinear(-1.0, b, d, f))
         assert len(found) == len(exact)
         assert found.proven
+
+
+@pytest.mark.parametrize(("U", "arc", "others"), [
+    (("-c", "-s + (abs(c) - c)"), (1.5 * np.pi, 0.5 * np.pi), 0),
+    (("-c", "-s + abs(c) - c"), (1.5 * np.pi, 0.5 * np.pi), 0),
+    (("abs(s) - s - 2*c", "-2*s"), (0.0, np.pi), 0),
+    (("-c - s*(abs(c) - c)*(1 - 2*c)", "-s + c*(abs(c) - c)*(1 - 2*c)"), (1.5 * np.pi, 0.5 * np.pi), 0),
+    (("-c - s*(abs(c) - c)*(s - 1/2)", "-s + c*(abs(c) - c)*(s - 1/2)"), (1.5 * np.pi, 0.5 * np.pi), 1),
+])  # fmt: skip
+def test_an_arc_of_limit_directions_is_named(U, arc, others):
+    system = System(U=U)
+    found = c2.equator_equilibria(system)
+    np.testing.assert_allclose(found.arcs, [arc], atol=1e-5)
+    assert len(found) == others
+    said = c2.classify(system, c2.psi.constant())
+    assert "arc of directions" in [d.name for d in said.degeneracies]
+    assert c2.equator_cycle(system) is None
+    c2.approach_outcomes(system, c2.psi.constant())
+    c2.Scene(system)["classification"]
