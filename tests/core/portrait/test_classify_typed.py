@@ -98,6 +98,7 @@ def test_sentences_say_why_an_equator_is_uncertain():
         if d.name == "limit directions uncertain"
     ]
     assert "No proof" in found.sentence
+    assert found.within == 0.0
 
 
 @pytest.mark.parametrize("k", [1, 2, 3])

@@ -1,6 +1,7 @@
 """Launched orbits: where they go and come from, against what is known exactly and against other ways to ask."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,6 +9,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import codim2_core as c2
+from codim2_core.portrait import launched as module
+from codim2_core.portrait.endings import Ending
 
 PSI = c2.psi.constant()
 
@@ -100,3 +103,80 @@ def test_lines_run_through_their_seeds():
         assert np.hypot(*(line[times == 0][0] - seed)) < 1e-12
         assert (np.diff(times) > 0).all()
     assert len(found) == 2
+
+
+@pytest.mark.parametrize(
+    ("verdict", "leaving", "onto", "words"),
+    [
+        ("slide", None, "C", "It slides on C."),
+        ("cycle", None, "cycle 2", "It slides on limit cycle 2."),
+        ("cross", 1.25, "Q2", "It crosses: leaves along θ = 1.25."),
+        ("cross", None, "equator", "It crosses: leaves in a spiral."),
+        ("undecided", None, None, "What follows is not decided."),
+        ("misses", None, "C", "What follows is not decided."),
+    ],
+)
+def test_what_follows_an_arrival(verdict, leaving, onto, words):
+    said, on = module._then(SimpleNamespace(verdict=verdict, leaving=leaving, onto=onto))
+    assert (said, on) == (words, None if "not decided" in words else onto)
+    assert module._then(None) == ("What follows is not decided.", None)
+
+
+@pytest.mark.parametrize(
+    ("label", "ahead", "behind"),
+    [
+        ("C1", "Tends to C1, a saddle: sliding.", "Comes from C1, a saddle."),
+        ("C2", "Tends to C2, an unstable node: sliding.", "Comes from C2, an unstable node."),
+        ("cycle 3", "Winds onto limit cycle 3.", "Unwinds from limit cycle 3."),
+        ("Q4", "Comes down to Q4 and leaves Σ along θ = 0.5.", "Comes up from Q4, θ = 0.5."),
+        ("equator", "Spirals down to the equator and leaves Σ.", "Spirals up from the closed equator."),
+        ("undecided", "Not followed to an end: why", "Not followed to an end: why"),
+    ],
+)
+def test_what_is_said_of_an_orbit_on_the_hemisphere(label, ahead, behind):
+    sets = (SimpleNamespace(kind="saddle"), SimpleNamespace(kind="unstable node"))
+    for backward, words in ((False, ahead), (True, behind)):
+        fate = module._on_hemisphere(Ending(label, 0.5, "why"), sets, backward)
+        said = fate.sentence
+        for i in range(1, 5):  # labels are written with lowered digits
+            said = said.replace("₀₁₂₃₄"[i], str(i))
+        assert (fate.label, fate.onto, fate.after, said) == (label, None, None, words)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize(("rate", "first"), [(2.0, 0.8), (0.3, 0.1)])
+def test_the_time_outside_of_an_exponential_approach_is_exact(rate, first, sign):
+    """rho = first exp(-rate T): the integral over all T is first/rate, however few points are drawn."""
+    T = np.array([0.0, 0.3, 0.5, 1.7])
+    rho = first * np.exp(-rate * T)
+    line = np.stack([1.0 + rho, 0.0 * rho], axis=-1)
+    before = np.array([[9.0, 9.0]])  # another line stands before it
+    half = SimpleNamespace(
+        offsets=np.array([0, 1, 5]),
+        buffer=np.concatenate([before, line]),
+        clock=np.concatenate([[7.0], sign * T]),
+        ends=np.array([[0.0, 0.0, 5.0], [1.0, 0.0, rho[-1]]]),
+    )
+    assert module._time(half, 1) == pytest.approx(first / rate, rel=1e-12)
+    assert module._time(half, 0) == 0.0
+    line[:] = (1.25, 0.0)  # at rest: rho T
+    half.buffer[1:], half.ends[1, 2] = line, 0.25
+    assert module._time(half, 1) == pytest.approx(0.25 * 1.7, rel=1e-12)
+
+
+def test_an_orbit_on_the_equator_and_one_that_leaves_are_told():
+    system = c2.ELinear(-1, 2, -1)
+    (fate,) = launch(system, PSI, [[1.0, 0.0]]).goes
+    assert (fate.label, fate.sentence) == ("equator", "Stays on the equator, where it starts.")
+    found = launch(c2.ELinear(1, 2, 1), PSI, [[1.5, 0.0]])
+    assert (found.goes[0].label, found.goes[0].sentence) == ("away", "Leaves the picture.")
+    assert found.comes[0].label == "equator"
+    assert found.comes[0].onto is None
+    assert found.comes[0].sentence == f"Left Σ in a spiral, t = {found.comes[0].after:.3g} ago."
+    assert found.comes[0].after == pytest.approx(0.5, rel=1e-3)  # rho' = 1
+    away = launch(c2.ELinear(1, 0, 1.5, (0.2, 0.1)), PSI, [[1.4, 0.3]]).comes[0]
+    assert away.label.startswith("Q")
+    assert away.sentence.startswith("Left Σ along Q")
+    back = launch(c2.ELinear(-2, 0, -1, (-0.5, 0)), PSI, [[1.5, 0.3]]).comes[0]
+    assert (back.label, back.sentence) == ("away", "Comes from outside the picture.")
+    assert len(launch(system, PSI, [])) == 0

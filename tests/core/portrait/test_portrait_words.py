@@ -8,7 +8,7 @@ import pytest
 from codim2_core import ELinear, System, approach_outcomes, classify, equator_cycle, equator_equilibria, psi
 from codim2_core.layer_problem.equator import EquatorEquilibria
 from codim2_core.portrait import classify_typed
-from codim2_core.portrait.classification import Degeneracy, directions
+from codim2_core.portrait.classification import directions
 
 
 def said(a, b, d, f1, f2, family=None):
@@ -37,6 +37,7 @@ def said(a, b, d, f1, f2, family=None):
         ((1, 0, -2, 0.2, 0.3), "The critical set C is a saddle whatever Ψ is"),
         ((0, 1, 0, 0.3, 0), "The critical set C is a centre to first order."),
         ((-1, 0, -1, 1.5, 0), "There is no critical set, so nothing slides: what reaches Σ crosses it."),
+        ((2.71, -2.25, -1.38, 1.62, -1.43), "The critical set C is a stable focus, but nothing reaches Σ: only"),
         ((1, 1, -1, 0.5, 0.25), "det A = 0 within rounding, and f is not in the range of A: no critical set."),
     ],
 )
@@ -216,8 +217,9 @@ def test_a_zero_of_theta_is_named_by_its_multiplicity(power, name):
     assert found.name == name
     assert 0.0 < found.within < 1e-9
     assert power != 5 or "5 " in found.sentence
-    away = System(U=(f"-c - s*(s**{power} + 1e-4)", f"-s + c*(s**{power} + 1e-4)"))
-    assert name not in [d.name for d in classify(away, psi.constant()).degeneracies]
+    for change, named in ((0.5 * found.within, True), (100.0 * found.within, power > 2), (1e-4, False)):
+        near = System(U=(f"-c - s*(s**{power} + {change!r})", f"-s + c*(s**{power} + {change!r})"))
+        assert (name in [d.name for d in classify(near, psi.constant()).degeneracies]) == named, change
 
 
 @pytest.mark.parametrize(
@@ -234,7 +236,3 @@ def test_a_zero_of_theta_is_named_by_its_multiplicity(power, name):
 )
 def test_what_is_said_of_several_critical_sets(U, words):
     assert words in classify(System(U=U), psi.constant()).sentence
-
-
-def test_what_is_so_exactly_has_no_width():
-    assert Degeneracy("name", "sentence").within == 0.0
