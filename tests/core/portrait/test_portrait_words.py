@@ -217,7 +217,7 @@ def test_a_zero_of_theta_is_named_by_its_multiplicity(power, name):
     assert found.name == name
     assert 0.0 < found.within < 1e-9
     assert power != 5 or "5 " in found.sentence
-    for change, named in ((0.5 * found.within, True), (100.0 * found.within, power > 2), (1e-4, False)):
+    for change, named in ((0.5 * found.within, True), (100.0 * found.within, False), (1e-4, False)):
         near = System(U=(f"-c - s*(s**{power} + {change!r})", f"-s + c*(s**{power} + {change!r})"))
         assert (name in [d.name for d in classify(near, psi.constant()).degeneracies]) == named, change
 
