@@ -227,6 +227,10 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.motion.course", "self.t < self.t_end  →", "Only where a phase ends just at the end of the time."),
     Lives("core.motion.course", "  →  self.line is not None", "In a line there is no Hopf point and no cycle."),
     Lives("core.portrait.endings", "138: 0  →  1", "The name of a direction where there is none: not read."),
+    Lives("core.portrait.endings", "52: 0  →  1", "The number of a set where there is none: not read."),
+    Lives("core.portrait.endings", "1.0  →  1.25", "Beyond the end of a piece, where the next one is as near."),
+    Lives("core.portrait.endings", "  →  statuses[i] is Status.ARRIVED", "Only at a limit direction does one arrive."),
+    Lives("core.motion.followed", "size >= 0.5 * before", "How early Newton's method ends."),
     Lives("core.cycles.first_turns", "0.0  →  1.0", "A zero just at a sample is found as any other."),
     Lives(
         "core.cycles.first_turns", "  →  C.discriminant < 0.0 and", "Where no orbit returns it goes as the trace says."

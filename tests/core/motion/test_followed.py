@@ -23,3 +23,25 @@ def test_its_rate_is_the_largest_modulus_of_its_eigenvalues(name):
     np.testing.assert_allclose(one.e, C.e, atol=1e-12)
     assert one.rate == pytest.approx(np.abs(C.eigenvalues).max(), rel=1e-9)
     assert one.attracts == C.kind.startswith("stable")
+
+
+@pytest.mark.parametrize("psi", [c2.psi.constant(), c2.psi.tanh()], ids=lambda p: p.family)
+def test_a_state_follows_within_twice_what_the_slow_manifold_is_away(psi):
+    """The motion itself tells where the slow manifold is; beyond it, and on the other side, up to twice as far."""
+    system = c2.System(U=("-c + z/4 + 2*x", "-2*s + y - z/3"), W=("4 + c",))
+    eps, formulas = 0.02, field(system)
+    run = c2.simulate(system, psi, eps, (0.0, 0.0, -0.4), (0.0, 0.15), rtol=1e-10, atol=1e-12)
+    for t in (0.1, 0.15):
+        state = np.asarray(run.dense(t))
+        (C,) = c2.critical_sets(system, psi, state[2:])
+        own = state[:2] / np.hypot(np.hypot(*state[:2]), eps)
+        away = own - C.p
+        assert np.hypot(*away) > 5e-3  # more than what any orbit is given
+        for k, follows in ((0.0, True), (1.0, True), (1.8, True), (-1.8, True), (2.5, False), (-2.5, False)):
+            p = C.p + k * away
+            x = eps * p / np.sqrt(1.0 - p @ p)
+            found = followed(formulas, psi, eps, np.append(x, state[2:]))
+            assert (found is not None) == follows, (t, k)
+            if found is not None:
+                np.testing.assert_allclose(found.e, C.e, atol=1e-9)
+                np.testing.assert_allclose(found.p, C.p, atol=1e-9)
