@@ -38,6 +38,11 @@ SENTENCES: dict[str, Sentence] = {
         "given by its equations.",
         "equations typed whole",
     ),
+    "too few parameters": Sentence(
+        "An atlas needs two parameters; this system has {names}. A name typed in a formula becomes one, and Ψ = 3/(3 + "
+        "(4s)ⁿ) has n.",
+        "typed coefficients without names",
+    ),
     "one axis twice": Sentence("Choose two different parameters.", "both axes are one parameter"),
     "n of another Ψ": Sentence("n is a parameter of Ψ = 3/(3 + (4s)ⁿ) only.", "an axis that Ψ does not have"),
     "no such axis": Sentence("{symbol} is not in this system: choose another.", "an axis that the system lacks"),
@@ -66,6 +71,17 @@ SENTENCES: dict[str, Sentence] = {
         "seen: {given!r} given; give left,right,bottom,top within 100 of the centre.", "a link"
     ),
     "controls of a frame": Sentence("controls: give at most {most} names of controls, such as f1,n.", "a link"),
+    "name of a box": Sentence(
+        "{name} names a box, and is no parameter; write its formula here, or give the parameter another name.",
+        "a typed name",
+    ),
+    "name of the regularisation": Sentence(
+        "{name}: the system is the one without regularisation; Ψ has a box of its own, and ε is in the panel Time.",
+        "a typed name",
+    ),
+    "name of time": Sentence(
+        "{name} is time, on which no formula may depend; give the parameter another name.", "a typed name"
+    ),
     "no time passes": Sentence("It follows the equator, where no time t passes.", "a launched orbit on the equator"),
     "no such parameter": Sentence("The system has no parameter {names} ({there}): left out.", "a link, or a cell"),
     "no such lesson": Sentence("Lessons: there is no {name!r}; choose one such as {some}.", "a link"),

@@ -7,7 +7,7 @@ and that nothing else explains become parameters, each with a slider.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from types import MappingProxyType
@@ -22,6 +22,7 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
 from ..draw.mathml import equations_mathml, plain_symbol
+from ..phrases import say
 
 NORMAL, TYPED, OWN = "normal", "typed", "own"
 GIVEN = "given"  # the user's own system, from Python
@@ -31,6 +32,9 @@ LONGEST_TEXT = 1000
 PARAMETER, PARAMETER_RANGE, SLOW_RANGE = 1.0, (-4.0, 4.0), (-4.0, 4.0)
 
 System_ = ELinear | System
+
+
+_WORD = re.compile(r"(?<![\w.])[A-Za-z]\w*", re.ASCII)
 
 
 class TextError(ValueError):
@@ -127,8 +131,12 @@ def _typed(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
     known = {*PLANE, "z", *(f"z{i}" for i in range(1, 17)), *FUNCTIONS, *CONSTANTS}
     known |= {key.split("(")[0].strip() for key in definitions}
     names: list[str] = []
-    for text in (*boxes.values(), *definitions.values()):
-        for word in re.findall(r"(?<![\w.])[A-Za-z]\w*", text, re.ASCII):
+    own = {box.name for box in BOXES[choice]}
+    for box, text in (*boxes.items(), *(("where", formula) for formula in definitions.values())):
+        for found in _WORD.finditer(text):
+            word = found.group()
+            if word not in known and (why := _taken(word, own)):
+                raise TextError(box, why, found.start() + 1)
             if word not in known and word not in names and word.lower() != "theta":  # the reader says: write c
                 names.append(word)
     if len(names) > MOST_PARAMETERS:
@@ -137,6 +145,17 @@ def _typed(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
     parameters = dict.fromkeys(names, PARAMETER)
     make = _elinear if choice == TYPED else _own
     return make(boxes, definitions, parameters)
+
+
+def _taken(word: str, boxes: Collection[str]) -> str:
+    """Say why a name is none of a parameter, which would get a slider; "" if it may be one."""
+    if word in boxes:
+        return say("name of a box", name=word)
+    if word.lower() in ("psi", "eps", "epsilon"):
+        return say("name of the regularisation", name=word)
+    if word in ("t", "T", "tau"):
+        return say("name of time", name=word)
+    return ""
 
 
 def _definitions(text: str) -> dict[str, str]:

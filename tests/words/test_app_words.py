@@ -102,6 +102,17 @@ def axes(key):
     return unable("atlas", "map", across=across, up="f1" if key == "one axis twice" else "f2")(key)
 
 
+def too_few(key):
+    """As it advises: with a name in a formula, or n, there is a map."""
+    values = {"system": "typed", "texts": {}, "across": "z", "up": "n"}
+    told = unable("atlas", "map", **values)(key)
+    assert told["names"] == "z"
+    _, header = frame({"panel": "atlas", **values, "texts": {"d": "-1 + q"}, "up": "own:q"}, all=True)
+    assert "map" not in header.get("unable", {})
+    _, header = frame({"panel": "atlas", **values, "psi": "hill"}, all=True)
+    assert "map" not in header.get("unable", {})
+
+
 def planes(psi_name):
     def check(key):
         _, header = frame({"panel": "planes", "psi": psi_name, **CASE_3}, all=True)  # fmt: skip
@@ -184,6 +195,7 @@ CHECKS = {
     "outside the class": outside_the_class,
     "no slow variable": unable("along", "along", system="own", texts={"U1": "-c", "U2": "-s", "W": ""}),
     "no atlas of equations": unable("atlas", "map", system="own", across="z", up="n"),
+    "too few parameters": too_few,
     "one axis twice": axes,
     "n of another Ψ": unable("atlas", "map", across="f1", up="n"),
     "no such axis": axes,
@@ -206,6 +218,9 @@ CHECKS = {
 }
 #: Of processes and of what a kernel of Jupyter does, held where those are run.
 ELSEWHERE = {
+    "name of a box": "tests/app/state/test_chosen.py",
+    "name of the regularisation": "tests/app/state/test_chosen.py",
+    "name of time": "tests/app/state/test_chosen.py",
     "no time passes": "tests/app/panels/test_panels_of_motion.py",
     "stopped": "tests/app/frame/test_turns.py",
     "stopped after": "tests/app/frame/test_workers.py",

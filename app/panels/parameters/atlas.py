@@ -49,6 +49,8 @@ def add(draft: Draft) -> None:
     if plane:
         _plane_of_f(draft)
         return
+    if reason and len(there) < 2:
+        reason = say("too few parameters", names=", ".join(axis.symbol for axis in there.values()) or "none")
     if axes[0] == axes[1]:
         reason = say("one axis twice")
     elif not isinstance(draft.scene.system, (ELinear, Coefficients)):

@@ -67,6 +67,32 @@ def test_text_that_cannot_be_used_names_its_box_and_column(choice, texts, box, c
     assert caught.value.column == column
 
 
+@pytest.mark.parametrize(
+    ("choice", "box", "text", "said"),
+    [
+        (OWN, "U1", "U1", "names a box"),
+        (OWN, "U2", "-s + U1*c", "names a box"),
+        (OWN, "W", "W", "names a box"),
+        (TYPED, "d", "-1 - a", "names a box"),
+        (OWN, "U1", "-c + Psi", "without regularisation"),
+        (OWN, "U1", "-c*psi(s)", "without regularisation"),
+        (OWN, "W", "eps*c", "without regularisation"),
+        (OWN, "U2", "-s + sin(t)", "is time"),
+        (OWN, "U2", "-T*s", "is time"),
+    ],
+)
+def test_a_name_with_another_meaning_gets_no_slider(choice, box, text, said):
+    with pytest.raises(TextError, match=said) as caught:
+        build(choice, {box: text}, {})
+    assert caught.value.box == box
+    assert text[caught.value.column - 1].lower() in "uwapet"
+
+
+def test_a_definition_may_have_such_a_name():
+    system = build(OWN, {"U1": "-c*t(z)", "U2": "-s", "W": "1", "where": "t(z) = 1 + z^2"}, {})
+    assert system.parameters == ()
+
+
 def test_boxes_that_were_not_touched_keep_their_text():
     assert texts_of(OWN, {"U2": "-s"})["U1"] == BOXES[OWN][0].text
     assert texts_of("normal", {}) == {}
