@@ -219,6 +219,10 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.layer_problem.critical", "and location is None", "Both are None, or neither is."),
     Lives("core.layer_problem.critical", "sides - middle  →  sides", "Sides are looked at that agree."),
     Lives("core.layer_problem.critical", "1e-3  →  0.00125", "Sides that differ by so little agree."),
+    Lives("core.layer_problem.closed_equator", "abs(b) + h  →", "A tolerance of a few roundings."),
+    Lives("core.layer_problem.closed_equator", "-f1  →  f1", "Where Newton's method starts; it finds the same zero."),
+    Lives("core.portrait.launched", "40.0  →", "How long a line is drawn."),
+    Lives("core.portrait.launched", "1.0  →  1.25", "How finely a line is drawn, unless the caller says it."),
     Lives("core.layer_problem.closed_equator", "1e-16  →", "A tolerance of a few roundings."),
     Lives(
         "core.cycles.section", "start * start  →", "Where the first of the outer samples lies: they are looked between."

@@ -283,3 +283,13 @@ def test_a_zero_and_its_mirror_image_outside_the_circle_are_one(gap):
         found, left = _polished((-b, 3.0, 4.0, 0.0, 0.0), start)
         assert found == pytest.approx(expected, abs=1e-15)
         assert left == pytest.approx(rest, rel=1e-13)
+
+
+@pytest.mark.parametrize("power", [-900, -400, 400, 900])
+@pytest.mark.parametrize("f", [(0.0, 0.0), (0.3, 0.0), (0.3, -1.1)])
+def test_a_closed_equator_in_any_unit_of_time(power, f):
+    """Times a power of two, even where squares over- and underflow: nothing is rounded otherwise."""
+    q, unit = (-0.7, 1.5, 0.4, *f), 2.0**power
+    plain, scaled = equator_cycle(system(*q)), equator_cycle(system(*(v * unit for v in q)))
+    assert (scaled.exponent, scaled.period * unit) == (plain.exponent, plain.period)
+    assert (scaled.direction, scaled.neutral) == (plain.direction, plain.neutral)

@@ -9,6 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import codim2_core as c2
+from codim2_core.orbits.result import Status
 from codim2_core.portrait import launched as module
 from codim2_core.portrait.endings import Ending
 
@@ -180,3 +181,44 @@ def test_an_orbit_on_the_equator_and_one_that_leaves_are_told():
     back = launch(c2.ELinear(-2, 0, -1, (-0.5, 0)), PSI, [[1.5, 0.3]]).comes[0]
     assert (back.label, back.sentence) == ("away", "Comes from outside the picture.")
     assert len(launch(system, PSI, [])) == 0
+
+
+def outside(status, whole=None, ends=(0.0, 1.0, 0.3), after=0.25, backward=False):
+    """What is said of an orbit that came to these `ends` outside, where there are directions at 1 and 4 radians."""
+
+    class Equator:
+        theta = np.array([1.0, 4.0])
+
+        def __len__(self):
+            return 2
+
+    first, second = (SimpleNamespace(verdict="slide", leaving=None, onto=f"C{i}") for i in (1, 2))
+    outcomes = SimpleNamespace(whole=whole, directions=(first, second))
+    problem = SimpleNamespace(equator=Equator(), keep=lambda _: outcomes)
+    half = SimpleNamespace(status=[status], ends=np.array([ends]))
+    return module._outside(problem, half, 0, after, backward)
+
+
+def test_what_an_orbit_outside_came_to():
+    fate = outside(Status.ARRIVED)
+    assert (fate.label, fate.onto, fate.after) == ("Q1", "C1", 0.25)
+    assert fate.sentence == "Reaches Σ along Q₁, θ = 1, after t = 0.25. It slides on C₁."
+    assert outside(Status.ARRIVED, ends=(-0.6, -0.8, 0.0)).label == "Q2"
+    assert outside(Status.ARRIVED, after=None).sentence == "Reaches Σ along Q₁, θ = 1. It slides on C₁."
+    whole = SimpleNamespace(verdict="cross", leaving=None, onto="equator")
+    assert outside(Status.ARRIVED, whole).onto == "equator"  # all approaches are one
+    spiral = outside(Status.SPIRALLED, whole)
+    assert (spiral.label, spiral.sentence) == (
+        "equator",
+        "Reaches Σ in a spiral, after t = 0.25. It crosses: leaves in a spiral.",
+    )
+    for backward in (False, True):
+        lost = outside(Status.T_MAX, backward=backward)
+        assert (lost.label, lost.onto, lost.after) == ("undecided", None, None)
+        assert lost.sentence.startswith("Not followed to an end")
+    u = (math.cos(4.0), math.sin(4.0))
+    assert outside(Status.T_MAX, ends=(*u, 1e-6)).label == "Q2"  # at a saddle, which captures nothing
+    assert outside(Status.T_MAX, ends=(*u, 1e-3)).label == "undecided"
+    assert outside(Status.T_MAX, ends=(math.cos(4.01), math.sin(4.01), 1e-6)).label == "undecided"
+    back = outside(Status.ARRIVED, backward=True)
+    assert (back.onto, back.after, back.sentence) == (None, 0.25, "Left Σ along Q₁, θ = 1, t = 0.25 ago.")

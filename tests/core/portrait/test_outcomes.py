@@ -206,3 +206,14 @@ def test_scene_coefficients_are_accepted():
     scene = Scene(presets["case1-cm4"].system, psi.tanh())
     assert len(approach_outcomes(scene.coefficients, scene.psi)) == 4
     assert equator_cycle(scene.coefficients) is None
+
+
+@pytest.mark.parametrize("system", [ELinear(-1.0, 0.0, -1.5, (2.0, 0.3)), ELinear(1.0, 0.2, 1.5, (0.1, 0.2))])
+def test_where_nothing_slides_no_psi_is_asked(system):
+    """No critical set: all that arrives crosses; and a repelling Sigma, at which nothing arrives."""
+    found = approach_outcomes(system, psi.constant())
+    for outcome in (*found, *found.directions):
+        assert outcome.verdict in ("cross", "misses")
+        assert (outcome.depends_on_psi, outcome.families, outcome.slides_alike, outcome.why) == (False, (), False, "")
+        assert outcome.slow_flow is None
+    assert any(outcome.verdict == "cross" for outcome in found) == (system.at().a < 0.0)
