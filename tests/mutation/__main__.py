@@ -54,6 +54,7 @@ class Choice:
     sample: int | None
     seed: int
     again: frozenset[tuple[str, int, str]] | None  # file, line and change
+    seconds: float = 10.0  # that the tests of one may take
 
     def of(self, found: list[Any], file: str) -> list[Any]:
         """Choose from a module's mutants."""
@@ -92,7 +93,7 @@ def try_python(task: tuple[str, bool, list[str], Choice]) -> list[Count]:
         left = [mutant for mutant in found if not explained(module, lines[mutant.line - 1])]
         counts.append(Count(module, all=len(left), explained=len(found) - len(left)))
         jobs.append(Job(path, choice.of(left, path.relative_to(ROOT).as_posix())))
-    for count, job in zip(counts, run(jobs, guards(name), kernels, tell), strict=True):
+    for count, job in zip(counts, run(jobs, guards(name), kernels, tell, choice.seconds), strict=True):
         count.tried = len(job.outcomes)
         for mutant, outcome, tests in zip(job.mutants, job.outcomes, job.tests, strict=True):
             count.killed += outcome in ("failed", "timeout")
@@ -159,6 +160,9 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("names", nargs="*", metavar="NAME", help="a room or a module; without one, everything")
     parser.add_argument("--sample", type=int, help="at most so many mutants of each module, chosen at random")
     parser.add_argument("--seed", type=int, default=0, help="of that choice")
+    parser.add_argument(
+        "--seconds", type=float, default=10.0, help="that the tests of a mutant may take, were it to live"
+    )
     parser.add_argument("--again", metavar="FILE", help="only those that lived in a run whose output this is")
     parser.add_argument("--record", action="store_true", help="keep what was found in results.md")
     parser.add_argument("--processes", type=int, default=len(os.sched_getaffinity(0)), help="side by side")
@@ -166,7 +170,7 @@ def main(arguments: list[str]) -> int:
     if options.record and options.again is not None:
         parser.error("--again tries only those that lived: no share of all can be recorded.")
     again = None if options.again is None else survivors(Path(options.again).read_text())
-    choice = Choice(options.sample, options.seed, again)
+    choice = Choice(options.sample, options.seed, again, options.seconds)
     rooms: dict[tuple[str, bool], list[str]] = {}
     tasks: list[tuple] = []
     for name in meant(options.names):

@@ -34,7 +34,6 @@ PACKAGES = {short: f"codim2_{short}" for short in FOLDERS}
 # Seconds of processor time on a machine that does `_work` in PACE: `Room.slow` times as many on this one. A test that
 # takes longer than FIRST and three times what it takes as it is has noticed a mutant that loops.
 FIRST = 3.0
-SURVIVORS = 5.0  # of all tests of a mutant, the quickest first
 LONGEST = 10.0  # of one test as it is: slower ones are left out
 PACE = 3.2e-3
 MEMORY = 3 << 30
@@ -129,8 +128,10 @@ class Job:
 class Room:
     """A pytest plugin that tries mutants where pytest would run the tests."""
 
-    def __init__(self, jobs: list[Job], target: Path, kernels: bool, told: Callable[[Job, Mutant, str], None]) -> None:
-        self.jobs, self.target, self.kernels, self.told = jobs, target, kernels, told
+    def __init__(
+        self, jobs: list[Job], target: Path, kernels: bool, told: Callable[[Job, Mutant, str], None], seconds: float
+    ) -> None:
+        self.jobs, self.target, self.kernels, self.told, self.seconds = jobs, target, kernels, told, seconds
         self.early: set[Function] = set()  # entered while tests are collected: what they gave may be kept
         self.slow = 1.0
 
@@ -167,7 +168,7 @@ class Room:
             for mutant in job.mutants:
                 new = live.changes(before, compile(mutant.source, path, "exec"))
                 keys = None if new is None else {(path, code.co_qualname, code.co_firstlineno) for code in new}
-                tests = reaching(self.reach, keys, path)
+                tests = reaching(self.reach, keys, path, self.seconds)
                 outcome = "afresh"
                 if new is not None:
                     outcome = self._tried(new, living.get(path, {}), held, tests)
@@ -292,8 +293,8 @@ def _noting(found: set[Function]) -> Callable[[Any, str, object], None]:
     return enter
 
 
-def reaching(reach: dict[str, Reach], keys: set[tuple[str, str, int]] | None, path: str) -> list[str]:
-    """Tests that enter one of these functions (None: any of the file), quickest first, of bounded cost."""
+def reaching(reach: dict[str, Reach], keys: set[tuple[str, str, int]] | None, path: str, seconds: float) -> list[str]:
+    """Tests that enter one of these functions (None: any of the file), quickest first, that take so long together."""
     met = [
         name
         for name, one in reach.items()
@@ -302,7 +303,7 @@ def reaching(reach: dict[str, Reach], keys: set[tuple[str, str, int]] | None, pa
     found, cost = [], 0.0
     for name in sorted(met, key=lambda name: reach[name].cost):
         cost += reach[name].cost
-        if found and cost > SURVIVORS:
+        if found and cost > seconds:
             break
         found.append(name)
     return found
@@ -363,10 +364,13 @@ def afresh(path: Path, text: str, names: list[str], cost: float) -> str:
     return forked(do, _slow() * (20.0 + FIRST + 3.0 * cost)) if names else "passed"
 
 
-def run(jobs: list[Job], tests: tuple[str, ...], kernels: bool, told: Callable[[Job, Mutant, str], None]) -> list[Job]:
+def run(
+    jobs: list[Job], tests: tuple[str, ...], kernels: bool, told: Callable[[Job, Mutant, str], None], seconds: float
+) -> list[Job]:
     """Try all mutants of some modules of a room, in place where that can be, then afresh where that may show more.
 
     kernels : the modules are Numba's: all that it compiles is run as Python then.
+    seconds : of processor time that the tests of one mutant may take, were it to live.
     """
     if kernels:
         interpreted.interpret()
@@ -377,7 +381,7 @@ def run(jobs: list[Job], tests: tuple[str, ...], kernels: bool, told: Callable[[
         target = Path(folder) / "jobs"
 
         def warm() -> int:
-            room = Room(jobs, target, kernels, told)
+            room = Room(jobs, target, kernels, told, seconds)
             code = pytest_main(tests, [room])
             return 0 if target.exists() else code or 1
 
@@ -393,7 +397,7 @@ def run(jobs: list[Job], tests: tuple[str, ...], kernels: bool, told: Callable[[
             raise SystemExit(f"{', '.join(tests)}: these tests cannot be run as they are; mend that first.")
         jobs = pickle.loads(target.read_bytes())
     for job in jobs:
-        every = reaching(job.reach, None, str(job.path))
+        every = reaching(job.reach, None, str(job.path), seconds)
         if "afresh" in job.outcomes and every:
             cost = sum(job.reach[name].cost for name in every)
             if afresh(job.path, job.path.read_text(), every, cost) != "passed":

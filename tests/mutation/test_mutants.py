@@ -118,9 +118,9 @@ def test_the_quickest_tests_that_reach_a_function_come_first():
         "other": Reach(0.1, frozenset({("a.py", "g", 7), ("b.py", "f", 3)})),
         "very slow": Reach(900.0, frozenset({key})),
     }
-    assert reaching(reach, {key}, "a.py") == ["quick", "slow"]
-    assert reaching(reach, None, "b.py") == ["other"]
-    assert reaching(reach, {("a.py", "h", 1)}, "a.py") == []
+    assert reaching(reach, {key}, "a.py", 6.0) == ["quick", "slow"]
+    assert reaching(reach, None, "b.py", 6.0) == ["other"]
+    assert reaching(reach, {("a.py", "h", 1)}, "a.py", 6.0) == []
 
 
 def test_those_that_lived_can_be_tried_again():
