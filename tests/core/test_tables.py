@@ -6,6 +6,7 @@ from xml.etree import ElementTree
 import pytest
 
 import codim2_core as c2
+from codim2_core.layer_problem.critical import shown as shown_sets
 from codim2_core.tables import MOST, number, table
 
 FOUR = c2.ELinear(-2, 0, -1, (-0.5, 0), B=((1, 0),), g=(0.25,))
@@ -64,3 +65,21 @@ def test_text_is_escaped_and_long_tables_are_cut():
     assert len(cells(shown)) == 1 + MOST
     assert table(("a",), []) == ""
     assert number(-0.5) == "−0.5"
+
+
+def test_limit_cycles_are_drawn_listed_and_explained():
+    found = c2.limit_cycles(c2.presets["case3-n3"].system, c2.presets["case3-n3"].psi)
+    shown = found._repr_html_()
+    _, row = cells(shown)
+    assert row[0] == found[0].kind
+    assert "<svg" in shown
+    assert found.reason in shown
+    assert all(note in shown for note in found.notes)
+    none = c2.limit_cycles(FOUR, PSI)
+    assert none.reason in none._repr_html_()
+
+
+def test_several_critical_sets_are_numbered_from_one():
+    sets = c2.critical_sets(c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s")), PSI)
+    assert [row[0] for row in cells(shown_sets(sets))[1:]] == ["C1", "C2", "C3"]
+    assert [row[0] for row in cells(shown_sets(sets[:1]))[1:]] == ["C"]

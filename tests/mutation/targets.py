@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).parents[2]
 FOLDERS = {"core": "codim2_core", "app": "app"}
-EVERYWHERE = {"core": ("core/test_read_only.py",)}
+EVERYWHERE = {"core": ("core/test_read_only.py", "core/test_tables.py")}
 # Beside the tests in the room itself.
 ELSEWHERE: dict[str, tuple[str, ...]] = {
     "core.bifurcations": ("precision/test_bifurcations.py",),
@@ -216,6 +216,11 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.layer_problem.border", "0.05  →  0.0625", _EXACT),
     Lives("core.layer_problem.closed_equator", "abs(a) + abs(d)  →  abs(d)", "A tolerance of a few roundings."),
     Lives("core.layer_problem.closed_equator", "0.1  →  0.125", "Either way is right there."),
+    Lives("core.layer_problem.critical", "  →  at.affine is None", "Both are None, or neither is."),
+    Lives("core.layer_problem.critical", "or location.e  →", "Turned back it is there as well."),
+    Lives("core.portrait.outcomes", "  →  cycle.neutral", "Without a limit direction there is a closed orbit."),
+    Lives("core.cycles.first_turns", "  →  finite.sum() >= 8", "Backward it is the identity where it is forward."),
+    Lives("core.cycles.first_turns", "left * (left - right)", "The interval is 1e-13 wide by then."),
     Lives("core.layer_problem.critical", "and location is None", "Both are None, or neither is."),
     Lives("core.layer_problem.critical", "sides - middle  →  sides", "Sides are looked at that agree."),
     Lives("core.layer_problem.critical", "1e-3  →  0.00125", "Sides that differ by so little agree."),

@@ -259,6 +259,8 @@ def circle(radius=1.0, sense=1, period=2.0, divergence=-1.0, n=50):
 def test_orbits_are_told_apart_and_have_a_sense():
     assert first_turns._sense(circle().points) == 1
     assert first_turns._sense(circle(sense=-1).points) == -1
+    for away in ((3.0, -2.0), (-5.0, 0.1), (0.0, 4.0)):  # the origin need not lie inside
+        assert [first_turns._sense(circle(sense=sense).points + away) for sense in (1, -1)] == [1, -1]
     one = circle()
     assert first_turns._same(one, circle(n=37))
     assert not first_turns._same(one, circle(period=2.1))
