@@ -144,3 +144,16 @@ def test_manifolds_start_as_far_out_as_the_tolerance_allows():
         assert far[0] > far[1] > far[2] > 1e-3
         assert near[0] > near[2]
         assert near[2] < 1e-4
+
+
+@pytest.mark.parametrize("factor", [1e-4, 1e5])
+def test_where_manifolds_start_does_not_know_the_unit_of_time(factor):
+    plain, scaled = (c2.ELinear(1.2 * k, 0.4 * k, -0.7 * k, (0.3 * k, 0.2 * k)).at() for k in (1.0, factor))
+    p = c2.psi.rational()
+    (one,), (other,) = (c2.critical_sets(at, p) for at in (plain, scaled))
+    for i in range(2):
+        first, second = (
+            starts(at, p, C, float(C.eigenvalues.real[i]), 1e-8) for at, C in ((plain, one), (scaled, other))
+        )
+        np.testing.assert_allclose(second[0], first[0], atol=1e-9)
+        np.testing.assert_allclose(second[1], first[1], atol=1e-12)
