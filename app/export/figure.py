@@ -94,11 +94,13 @@ def figure(view: View, style: Style | None = None) -> str:
     width = left + side + right
     if style.legend:
         columns = _columns(entries(header, blocks, layers), side)
-        parts += _legend(columns, place, left, y + 6.0)
+        parts += _legend(columns, place, left, y + 6.0, side)
         y += 6.0 + LINE * max((len(column) for _, column in columns), default=0) + 4.0
     if style.caption:
         lines = list(_wrapped(caption_of(view, header), side))
-        parts += [vector.words(left, y + LINE * (i + 1), escape(line), SMALL) for i, line in enumerate(lines)]
+        parts += [
+            vector.words(left, y + LINE * (i + 1), escape(line), SMALL, room=side) for i, line in enumerate(lines)
+        ]
         y += LINE * len(lines) + 8.0
     whole = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.2f}pt" height="{y:.2f}pt" '
@@ -141,13 +143,18 @@ def _columns(shown: list[Entry], side: float) -> list[tuple[float, list[Entry]]]
     return found
 
 
-def _legend(columns: list[tuple[float, list[Entry]]], place: Place, left: float, y: float) -> Iterator[str]:
-    for x, column in columns:
+def _legend(
+    columns: list[tuple[float, list[Entry]]], place: Place, left: float, y: float, side: float
+) -> Iterator[str]:
+    ends = [*(x - GUTTER for x, _ in columns[1:]), side]
+    for (x, column), end in zip(columns, ends, strict=True):
+        begin = x + SAMPLE + GAP
+        tight = any(vector.WIDEST * width_of(entry.words, SMALL) > end - begin for entry in column)
         for i, entry in enumerate(column):
             middle = y + LINE * (i + 0.5)
             yield entry.drawn(place, left + x, middle, SAMPLE)
             foot = middle + 0.34 * SMALL
-            yield vector.words(left + x + SAMPLE + GAP, foot, escape(entry.words), SMALL)
+            yield vector.words(left + begin, foot, escape(entry.words), SMALL, room=0.0 if tight else math.inf)
 
 
 def _ticks(place: Place) -> Iterator[str]:

@@ -34,6 +34,7 @@ from ..view.markup import page_template
 from .first_page import Page, markup_of, opening
 from .headers import transform
 from .qr import QrCode
+from .scripts import TakeAway
 
 #: What each open page shows; a page that is closed is told so at once, long before Bokeh forgets its session.
 _views: WeakKeyDictionary[Document, ExplorerView] = WeakKeyDictionary()
@@ -256,7 +257,7 @@ def _server(
         title={"/": TITLE},
         location=False,
         num_procs=processes,
-        extra_patterns=[(r"/health", Health), (r"/ready", Ready), (r"/qr.svg", QrCode)],
+        extra_patterns=[(r"/health", Health), (r"/ready", Ready), (r"/qr.svg", QrCode), (r"/takeaway.js", TakeAway)],
         websocket_max_message_size=MOST_SENT,
         prefix=prefix,
         compress_response=True,

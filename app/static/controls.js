@@ -78,3 +78,14 @@ export function slider(name, symbol, doc = symbol) {
   return `<div class="control" data-control="${name}" title="${escape(doc)}"><label for="c2-${name}">${escape(symbol)}</label><input type="range" id="c2-${name}" aria-label="${escape(symbol)}: ${escape(doc)}">
     <input type="text" inputmode="decimal" class="number" aria-label="value of ${escape(symbol)}" spellcheck="false" autocomplete="off"><p class="error" role="alert" hidden></p></div>`
 }
+
+/** The sliders of the present system: name of the value, symbol and range. @param {Element} root */
+export function slidersOf(root) {
+  const boxes = /** @type {HTMLElement[]} */ ([...root.querySelectorAll(".controls .control[data-control]")])
+  const foreign = root.classList.contains("not-normal") ? ", .normal-only" : ""
+  return boxes.filter((box) => !box.closest(`[hidden]${foreign}`) && box.querySelector("input[type=range]:not([disabled])")).map((box) => {
+    const {min, max} = /** @type {HTMLInputElement} */ (box.querySelector("input[type=range]"))
+    const name = box.dataset.control.replace(/^parameter-/, "own:").replace(/^slow-/, "")
+    return {name, symbol: box.querySelector("label").textContent, low: Number(min), high: Number(max)}
+  })
+}

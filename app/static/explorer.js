@@ -1,7 +1,7 @@
 // The explorer: markup from the server, one Bokeh figure, frames asked for as fast as the line carries them.
 
 import {Connection} from "./connection.js"
-import {NumberControl, sayAt} from "./controls.js"
+import {NumberControl, sayAt, slidersOf} from "./controls.js"
 import {readFrame} from "./frames.js"
 import {Hands} from "./hands.js"
 import {letScroll, twoFingers} from "./gestures.js"
@@ -16,6 +16,7 @@ import {Share} from "./share.js"
 import {Sheets} from "./sheets.js"
 import {Browsed, Listed, Steps} from "./steps.js"
 import {SystemChooser} from "./system.js"
+import {Takes} from "./taken.js"
 import {SAYS} from "./words.js"
 
 const PATIENCE = 1200 // ms without an answer before the page says so
@@ -28,6 +29,7 @@ function wire({model, view, root, plot}) {
   const inspector = new Inspector(root, () => config.slowSymbols ?? [])
   const find = (name) => root.querySelector(name)
   const requests = new Requests((request) => { picture.asked = String(picture.window); model.send_msg({...request, window: picture.window}) }, () => rest.note("asked", true))
+  const takes = new Takes((message) => model.send_msg(message), () => ({window: picture.window, layers: picture.state.layers}))
   const controls = {}
 
   const change = (name, value) => {
@@ -174,7 +176,7 @@ function wire({model, view, root, plot}) {
   if (config.page) {
     const whole = {...config, look: {embed: false, controls: []}}
     const query = () => writeLink(values, picture.window && picture.seen, whole)
-    const share = new Share(find("dialog.sharing"), query, config.link.version)
+    const share = new Share(find("dialog.sharing"), query, config.link.version, (box) => takes.open(box, {theme: () => root.classList.contains("dark") ? "dark" : "light", sliders: () => slidersOf(root)}))
     find(".share").addEventListener("click", () => share.open())
     find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
   }
@@ -263,7 +265,7 @@ function wire({model, view, root, plot}) {
   new Connection(view.model.document, {
     page: config.page, say: banner, leave: () => steps.settle(), lost: () => { requests.held = true },
   })
-  model.on("msg:custom", (event) => apply((event.data ?? event).frame))
+  model.on("msg:custom", (event) => { const message = event.data ?? event; if (!takes.hear(message)) apply(message.frame) })
   if (model.first) apply(model.first instanceof ArrayBuffer ? model.first : model.first.buffer ?? model.first)
   for (const [name, given] of Object.entries(config.refused)) {
     if (name in numbers || name === "trajectories") controls[name].show(given)

@@ -12,18 +12,21 @@ const MARKUP = `
   <h2>In another page</h2>
   <p class="note">A frame with the picture and the controls that you name: <label>controls <input type="text" class="names" value="f1,f2" spellcheck="false" autocomplete="off"></label></p>
   <div class="row"><input type="text" class="html" readonly aria-label="HTML of the frame"><button type="button" data-copies="html">Copy</button></div>
-  <p class="note told" role="status"></p>`
+  <p class="note told" role="status"></p>
+  <div class="take"></div>`
 
 export class Share {
   /**
    * @param {HTMLDialogElement} dialog
    * @param {() => string} query of the present view
    * @param {number} version of links
+   * @param {(box: HTMLElement) => Promise<void>} more fills what is below the links
    */
-  constructor(dialog, query, version) {
+  constructor(dialog, query, version, more) {
     this.dialog = dialog
     this.query = query
     this.version = version
+    this.more = more
   }
   find(name) { return this.dialog.querySelector(name) }
 
@@ -47,6 +50,7 @@ export class Share {
     this.frame()
     if (!this.dialog.open) this.dialog.showModal()
     this.find(".address").select()
+    this.more(this.find(".take")).catch(() => { this.find(".told").textContent = "The server does not answer: there are no files now." })
   }
 
   make() {

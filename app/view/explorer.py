@@ -38,6 +38,7 @@ from .first_markup import first_words
 from .markup import STATIC, config, explorer_html, script
 from .refresh import Frames
 from .shared import SHARED, declare, join
+from .taking import Taking
 from .warmup import is_ready
 
 #: Seconds for which an answer waits for a picture that is computed beside the frames.
@@ -98,6 +99,7 @@ class ExplorerView(JSComponent):
         self._given_params = params
         # a page is answered by the thread that answers all pages; a notebook is one person's
         self.frames = Frames(self.state, system, is_ready, errors, Budget() if page else None)
+        self.taking = Taking(self.frames)
         self._held: object = None
         self._cell: Cell | None = None
         self._first_values = self.state.values()
@@ -246,6 +248,9 @@ class ExplorerView(JSComponent):
             self._handle_msg(event.data)
             return
         request = event.data or {}
+        if "take" in request:
+            self._take(model, request["take"])
+            return
         frame = self.frames.answer(request)
         pending = self.frames.pending
         if pending is None:
@@ -254,6 +259,15 @@ class ExplorerView(JSComponent):
             self.frames.keep()
             self._hold(model, pending, {key: request.get(key) for key in ("id", "rest", "window")})
         self.frames.publish()
+
+    def _take(self, model: Any, request: Any) -> None:
+        doc = model.document
+
+        def reply(message: dict[str, Any]) -> None:
+            if model.document is not None:
+                doc.callbacks.send_event(ESMEvent(model=model, data=message))
+
+        self.taking.answer(request, reply, doc.add_next_tick_callback)
 
     def _reply(self, model: Any, frame: bytes) -> None:
         self._held = None

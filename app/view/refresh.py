@@ -70,7 +70,7 @@ class Frames:
         self.state = state
         self.budget = budget
         self.given = None if system is None else dict(system.parameters)
-        self._system = system
+        self.own = system
         #: What was asked for last and could not be drawn, by control, as it was given; asked for again with each frame.
         self.refused: dict[str, Any] = {e.control: e.given for e in errors if e.control in TYPED_IN}
         self._notices = [str(error) for error in errors if error.control not in TYPED_IN]
@@ -91,11 +91,11 @@ class Frames:
     def _begin(self, wanted: Mapping[str, Any]) -> None:
         """Start from these values or, where they have no scene, from those of their portrait or the first ones."""
         try:
-            self.scene, self.values = make_scene(wanted, self._system), dict(wanted)
+            self.scene, self.values = make_scene(wanted, self.own), dict(wanted)
         except Exception as error:
             sentence_of(error, "a first picture")
             self.values = preset_values(wanted["preset"]) or first_values()
-            self.scene = make_scene(self.values, self._system)
+            self.scene = make_scene(self.values, self.own)
             self.refused |= {name: value for name, value in wanted.items() if value != self.values[name]}
             self._unpublished |= {name: self.values[name] for name in self.refused}
 

@@ -16,11 +16,13 @@ from ..layers import Part
 from ..packing import ANGLE_STEP, STEP, Rectangle
 from ..shapes import OPEN, shape
 from ..theme import HATCHES, RING, VIEW
-from .labels import Box, clear_of
+from .labels import Box, clear_of, width_of
 
 SIDE = 1000
 #: A hatch's strokes are so far apart, in px of the screen.
 HATCH = 7.0
+#: Width of a text in the widest font that a reader may see it in, and in the usual one, over `width_of`.
+WIDEST, USUAL = 1.25, 0.87
 
 
 @dataclass(frozen=True)
@@ -191,10 +193,14 @@ def label(text: str, x: float, y: float, anchor: str, place: Place, taken: list[
     return words(at, box.y + box.height / 2 + 0.34 * place.text, text, place.text, anchor, bold=True)
 
 
-def words(x: float, y: float, text: str, size: float, anchor: str = "start", bold: bool = False) -> str:
-    """Return a line of text; `y` is that of its foot."""
+def words(
+    x: float, y: float, text: str, size: float, anchor: str = "start", bold: bool = False, room: float = math.inf
+) -> str:
+    """Return a line of text; `y` is that of its foot. In a wide font it is condensed where there is no more `room`."""
     look = f'font-size="{size:g}"' + (' font-weight="700"' if bold else "") + ' fill="var(--ink)"'
     aligned = f' text-anchor="{anchor}"' if anchor != "start" else ""
+    if WIDEST * width_of(text, size) > room:
+        aligned += f' textLength="{USUAL * width_of(text, size):.1f}" lengthAdjust="spacingAndGlyphs"'
     return f'<text x="{round(x, 1):g}" y="{round(y, 1):g}" {look}{aligned}>{text}</text>'
 
 

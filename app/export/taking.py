@@ -1,0 +1,97 @@
+"""What a browser may ask to take away of what it shows, and the file that it gets: one wish, read, bounded, made."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any
+
+from ..draw.layers import LAYERS
+from ..draw.packing import Rectangle
+from ..frame.window import Window
+from ..state.chosen import System_
+from .figure import THEMES, Style, figure
+from .files import DATA
+from .live import MOST_SLIDERS, live
+from .view import WHOLE, View
+
+#: Bytes of a file; what holds more goes by the command line.
+MOST = 24_000_000
+TOO_LARGE = "The file would hold {} MB; show fewer layers, or fewer starting points."
+TYPES: Mapping[str, str] = MappingProxyType(
+    {
+        "svg": "image/svg+xml", "zip": "application/zip", "json": "application/json",
+        "npz": "application/octet-stream", "py": "text/x-python", "tex": "text/x-tex", "html": "text/html",
+    }
+)  # fmt: skip
+LONGEST = 80  # characters of a slider
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What is asked for.
+
+    Attributes
+    ----------
+    kind : str
+        How the file's name ends: a key of `TYPES`.
+    style : Style
+        Of a figure.
+    sliders : tuple of str
+        Of a live file.
+    """
+
+    kind: str
+    style: Style = field(default_factory=Style)
+    sliders: tuple[str, ...] = ()
+
+    @classmethod
+    def read(cls, request: Any) -> Wish:
+        """Return the wish of a request.
+
+        Raises
+        ------
+        ValueError
+            It is none.
+        """
+        if not isinstance(request, Mapping) or request.get("kind") not in TYPES:
+            raise ValueError(f"There is no such file to take; the kinds are {', '.join(TYPES)}.")
+        theme, sliders = request.get("theme", "light"), request.get("sliders", ())
+        if theme not in THEMES or not isinstance(sliders, (list, tuple)) or len(sliders) > MOST_SLIDERS:
+            raise ValueError(f"Give a theme ({', '.join(THEMES)}) and at most {MOST_SLIDERS} sliders.")
+        if not all(isinstance(one, str) and len(one) <= LONGEST for one in sliders):
+            raise ValueError("Give sliders as NAME or NAME=LOW,HIGH.")
+        style = Style(theme=theme, legend=bool(request.get("legend", True)))
+        return cls(request["kind"], style, tuple(sliders))
+
+
+def seen_by(request: Any, values: Mapping[str, Any], system: System_ | None) -> View:
+    """Return the view of a browser: the values that are drawn, the layers and the rectangle that it shows."""
+    asked = request if isinstance(request, Mapping) else {}
+    window = Window.read(asked.get("window"))
+    seen: Rectangle = WHOLE if window is None else window.rectangle
+    layers = asked.get("layers")
+    if isinstance(layers, (list, tuple)):  # a question of a lesson may hide some
+        shown = [name for name in LAYERS if name in layers]
+        values = {**values, "layers": [name for name in values["layers"] if name in shown]}
+    return View(dict(values), seen, system)
+
+
+def taken(view: View, wish: Wish) -> tuple[str, bytes]:
+    """Return the file's name and what it holds.
+
+    Raises
+    ------
+    ValueError
+        It cannot be had, or is too large.
+    """
+    make: Callable[[View], bytes] = {
+        "svg": lambda one: figure(one, wish.style).encode(),
+        "html": lambda one: live(one, wish.sliders),
+    }.get(wish.kind) or DATA[f".{wish.kind}"]
+    made = make(view)
+    if len(made) > MOST:
+        raise ValueError(TOO_LARGE.format(round(len(made) / 1e6)))
+    name = view.values["preset"] or view.scene()["classification"].name.lower() or "view"
+    return f"codim2-{name}.{wish.kind}", made

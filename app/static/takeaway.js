@@ -1,0 +1,80 @@
+// The menu "Take away": files of what is on the screen. It is no part of the page's first load.
+
+import {escape} from "./words.js"
+
+const MARKUP = `
+  <h2>Take away</h2>
+  <p class="note">What is on the screen: its zoom, layers and launched orbits.</p>
+  <div class="row"><label>Look <select class="look"><option value="">as on the screen</option><option value="light">light</option><option value="dark">dark</option><option value="paper">black and white</option></select></label>
+    <label><input type="checkbox" class="legend-too" checked> legend</label></div>
+  <div class="row"><button type="button" data-kind="png">PNG</button><label>at <select class="scale" aria-label="Scale of the PNG"><option value="1">×1</option><option value="2" selected>×2</option><option value="4">×4</option><option value="8">×8</option></select></label><button type="button" data-kind="svg">SVG</button></div>
+  <div class="row"><button type="button" data-kind="zip" title="All that is drawn as tables, CSV files in a zip">CSV</button><button type="button" data-kind="json" title="All that is drawn as JSON">JSON</button><button type="button" data-kind="npz" title="All that is drawn as NumPy arrays">NPZ</button><button type="button" data-kind="py" title="Code that rebuilds this view">Python</button><button type="button" data-kind="tex" title="A table of limit directions and critical sets">LaTeX</button></div>
+  <div class="row"><button type="button" data-kind="html" title="One file that moves these sliders with no server">Live file</button><label>moves <select class="first-slider" aria-label="First slider of the live file"></select></label><label>and <select class="second-slider" aria-label="Second slider of the live file"></select></label></div>
+  <p class="note making" role="status"></p>`
+const PX = 96 / 72 // to a point
+
+/**
+ * @param {HTMLElement} box
+ * @param {{ask: (wish: any) => Promise<any>, theme: () => string, sliders: () => {name: string, symbol: string, low: number, high: number}[]}} tools
+ */
+export function menu(box, {ask, theme, sliders}) {
+  if (!box.firstElementChild) box.innerHTML = MARKUP
+  const find = (name) => /** @type {any} */ (box.querySelector(name))
+  const there = sliders()
+  const options = there.map(({name, symbol}) => `<option value="${escape(name)}">${escape(symbol)}</option>`).join("")
+  for (const [name, none] of [["first", ""], ["second", '<option value="">no other</option>']]) {
+    const list = find(`.${name}-slider`), chosen = list.value
+    list.innerHTML = none + options
+    const wanted = chosen || (none ? "" : "f1")
+    if ([...list.options].some((option) => option.value === wanted)) list.value = wanted
+  }
+  find("[data-kind=html]").disabled = !there.length
+  const buttons = /** @type {HTMLButtonElement[]} */ ([...box.querySelectorAll("button[data-kind]")])
+  const told = find(".making")
+  told.textContent = ""
+
+  const ranged = (name) => { const {low, high} = there.find((slider) => slider.name === name); return `${name}=${low},${high}` }
+  const make = async (kind) => {
+    const chosen = [...new Set([find(".first-slider").value, find(".second-slider").value])].filter(Boolean)
+    const look = find(".look").value || theme()
+    const answer = await ask({kind: kind === "png" ? "svg" : kind, theme: look, legend: find(".legend-too").checked, sliders: kind === "html" ? chosen.map(ranged) : []})
+    if (answer.error) return answer.error
+    const {file} = answer
+    const blob = new Blob([file instanceof ArrayBuffer ? file : file.buffer ?? file], {type: answer.type})
+    if (kind !== "png") return save(blob, answer.name)
+    return save(await rastered(blob, Number(find(".scale").value)), answer.name.replace(/svg$/, "png"))
+  }
+  for (const button of buttons) {
+    button.onclick = async () => {
+      for (const one of buttons) one.disabled = true
+      told.textContent = `Making ${button.textContent} …`
+      try { told.textContent = await make(button.dataset.kind) } catch (error) { told.textContent = `It could not be made: ${error.message}.` }
+      for (const one of buttons) one.disabled = one.dataset.kind === "html" && !there.length
+      button.focus()
+    }
+  }
+}
+
+function save(blob, name) {
+  const link = document.createElement("a")
+  link.href = URL.createObjectURL(blob)
+  link.download = name
+  link.click()
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000)
+  return `${name}, ${blob.size < 1e6 ? `${Math.ceil(blob.size / 1000)} kB` : `${(blob.size / 1e6).toFixed(1)} MB`}`
+}
+
+// The browser draws the figure: what is asked of the server is its text, whatever the scale.
+async function rastered(svg, scale) {
+  const text = await svg.text()
+  const [width, height] = ["width", "height"].map((name) => Number(text.match(`<svg[^>]* ${name}="([\\d.]+)pt"`)[1]) * PX * scale)
+  const image = new Image()
+  image.src = URL.createObjectURL(new Blob([text.replace(/ width="[\d.]+pt" height="[\d.]+pt"/, ` width="${width}" height="${height}"`)], {type: "image/svg+xml"}))
+  await image.decode()
+  const canvas = document.createElement("canvas")
+  canvas.width = Math.round(width)
+  canvas.height = Math.round(height)
+  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height)
+  URL.revokeObjectURL(image.src)
+  return new Promise((done, fail) => { canvas.toBlob((blob) => blob ? done(blob) : fail(new Error("this browser makes no picture so large"))) })
+}

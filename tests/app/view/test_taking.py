@@ -1,0 +1,100 @@
+"""A browser's wish for a file is read, made in its turn, and answered once."""
+
+import re
+from concurrent.futures import ThreadPoolExecutor
+from queue import Queue
+
+import pytest
+from codim2_app.draw.theme import themes
+from codim2_app.export import taking as made
+from codim2_app.export.figure import Style, figure
+from codim2_app.export.files import DATA
+from codim2_app.export.taking import TYPES, Wish, seen_by, taken
+from codim2_app.export.view import WHOLE, view_of
+from codim2_app.frame.jobs import Jobs
+from codim2_app.state.links import read_link
+from codim2_app.view.refresh import Frames
+from codim2_app.view.taking import Taking
+
+
+@pytest.fixture(scope="module")
+def executor():
+    with ThreadPoolExecutor(1) as one:
+        yield one
+
+
+def asked(executor, link, request):
+    """The one answer to a request."""
+    frames = Frames(read_link(link).state)
+    frames.jobs = Jobs(executor)
+    answers, later = Queue(), Queue()
+    Taking(frames).answer(request, answers.put, later.put)
+    if answers.empty():
+        later.get(timeout=60)()  # on the thread that answers
+    answer = answers.get(timeout=1)
+    assert answers.empty()
+    assert later.empty()
+    return answer
+
+
+@pytest.mark.parametrize("kind", ["svg", "zip", "json", "npz", "py", "tex"])
+def test_a_file_is_what_the_command_line_writes(executor, kind):
+    answer = asked(executor, "preset=case1-cm4", {"id": 7, "kind": kind, "theme": "paper", "legend": False})
+    assert (answer["taken"], answer["name"], answer["type"]) == (7, f"codim2-case1-cm4.{kind}", TYPES[kind])
+    view = view_of("case1-cm4")
+    expected = figure(view, Style(theme="paper", legend=False)).encode() if kind == "svg" else DATA[f".{kind}"](view)
+    assert answer["file"] == expected
+    again = asked(executor, "preset=case1-cm4", {"id": 8, "kind": kind, "theme": "paper", "legend": False})
+    assert (again["taken"], again["file"]) == (8, expected)
+
+
+def test_it_is_what_is_on_the_screen(executor):
+    request = {"id": 1, "kind": "svg", "theme": "dark", "window": [-0.5, 0.5, -0.5, 0.5, 0.002], "layers": ["inside"]}
+    text = asked(executor, "f1=0.25&layers=inside,outside,critical", request)["file"].decode()
+    assert themes()["dark"]["page"] in text
+    assert re.search(r'<path d="M[^"]*" stroke="{}"'.format(themes()["dark"]["orbit"]), text)
+    assert f'stroke="{themes()["dark"]["outside"]}"' not in text  # a question hides it
+    view = seen_by(request, read_link("f1=0.25&layers=inside,outside,critical").state.values(), None)
+    assert (view.seen, view.values["layers"], view.values["f1"]) == ((-0.5, 0.5, -0.5, 0.5), ["inside"], 0.25)
+
+
+@pytest.mark.parametrize(
+    ("request_", "said"),
+    [
+        ({"kind": "exe"}, "no such file"),
+        ("svg", "no such file"),
+        ({"kind": "svg", "theme": "red"}, "light, dark, paper"),
+        ({"kind": "html", "sliders": ["a", "b", "d"]}, "at most 2 sliders"),
+        ({"kind": "html", "sliders": ["a" * 200]}, "NAME=LOW,HIGH"),
+        ({"kind": "html", "sliders": [3]}, "NAME=LOW,HIGH"),
+        ({"kind": "html", "sliders": ["q"]}, "no slider of this system"),
+    ],
+)
+def test_a_wish_that_cannot_be_had_is_answered_with_a_sentence(executor, request_, said):
+    answer = asked(executor, "v=1", request_)
+    assert said in answer["error"]
+    assert "file" not in answer
+
+
+@pytest.mark.parametrize("window", [None, "x", [0, 0, 0, 0, 1], [-1e9, 1e9, -1, 1, 1], [1, 2]])
+def test_a_window_that_is_none_is_the_whole_picture(window):
+    assert seen_by({"window": window}, view_of("v=1").values, None).seen == WHOLE
+
+
+def test_a_file_is_bounded(monkeypatch):
+    monkeypatch.setattr(made, "MOST", 1000)
+    with pytest.raises(ValueError, match="show fewer layers"):
+        taken(view_of("v=1"), Wish("svg"))
+
+
+def test_a_newer_wish_replaces_an_older(executor):
+    frames = Frames(read_link("v=1").state)
+    frames.jobs = Jobs(executor)
+    answers, later = Queue(), Queue()
+    taking = Taking(frames)
+    for i, kind in enumerate(("json", "npz", "tex")):
+        taking.answer({"id": i, "kind": kind}, answers.put, later.put)
+        assert frames.jobs.turns.pending <= 1
+    while answers.empty():
+        later.get(timeout=60)()
+    assert answers.get()["taken"] == 2
