@@ -83,3 +83,15 @@ def test_several_critical_sets_are_numbered_from_one():
     sets = c2.critical_sets(c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s")), PSI)
     assert [row[0] for row in cells(shown_sets(sets))[1:]] == ["C1", "C2", "C3"]
     assert [row[0] for row in cells(shown_sets(sets[:1]))[1:]] == ["C"]
+
+
+def test_separatrices_are_drawn_and_listed():
+    found = c2.separatrices(c2.ELinear(1, 0, -2, (0.2, 0.3)), PSI)
+    _, *rows = cells(found._repr_html_())
+    where = {True: "hemisphere", False: "outside"}
+    assert [tuple(row) for row in rows] == [(b.origin, b.direction, b.end, where[b.inside]) for b in found]
+    assert {row[3] for row in rows} == set(where.values())
+    assert "<svg" in found._repr_html_()
+    none = c2.separatrices(c2.ELinear(-1, 0, -1), PSI)  # every direction is a limit direction
+    assert none.notes
+    assert all(note in none._repr_html_() for note in none.notes)

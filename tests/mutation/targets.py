@@ -137,6 +137,14 @@ ALLOWED: tuple[Allowed, ...] = (
     Allowed("core.layer_problem.hemisphere", "h2 = np.maximum", _UNUSED),
     Allowed("core.layer_problem.hemisphere", "s = np.where(h2 > 0.0", _UNUSED),
     Allowed("core.layer_problem.hemisphere", "shape = np.where(h2 > 0.0", _UNUSED),
+    Allowed("core.portrait.separatrices", "PIXEL = ", _LOOKS),
+    Allowed(
+        "core.portrait.separatrices", "rtol: float = 1e-9", "How closely it is followed, unless the caller says it."
+    ),
+    Allowed("core.portrait.launched", "LONG = 40.0", "How long a line is drawn."),
+    Allowed("core.motion.agreement", "FAR_OUT = 1e6", "Where the limit of the steepness is read off."),
+    Allowed("core.cycles.orbit", "LEAST = 1e-300", "A number too small to be told from the next."),
+    Allowed("core.layer_problem.border", "CANCELS = 0.05", _EXACT),
     Allowed("core.sliding.filippov", "START = 48", "How many directions are combined first: the others are added."),
     Allowed(
         "core.sliding.filippov",
@@ -213,7 +221,6 @@ class Lives(NamedTuple):
 LIVES: tuple[Lives, ...] = (
     Lives("app.draw.arrowheads", "/ clearance) + 1  →  1", "All in one row of cells: the same places, more slowly."),
     Lives("app.draw.arrowheads", "row - 1  →  -1", "More cells are looked at: the same places, more slowly."),
-    Lives("core.layer_problem.border", "0.05  →  0.0625", _EXACT),
     Lives("core.layer_problem.closed_equator", "abs(a) + abs(d)  →  abs(d)", "A tolerance of a few roundings."),
     Lives("core.layer_problem.closed_equator", "0.1  →  0.125", "Either way is right there."),
     Lives("core.layer_problem.critical", "  →  at.affine is None", "Both are None, or neither is."),
@@ -223,15 +230,11 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.cycles.first_turns", "left * (left - right)", "The interval is 1e-13 wide by then."),
     Lives("core.cycles.loop", "64: 2  →  3", "With two directions there was no loop in 60 000 draws."),
     Lives("core.cycles.loop", "64: 1  →  2", "A multiple zero has no eigenvalue, and begins and ends no arc."),
-    Lives("core.cycles.orbit", "1e-300  →", "A number too small to be told from the next."),
-    Lives("core.motion.agreement", "1e6  →", "How far out the limit of the steepness is read off."),
-    Lives("core.portrait.separatrices", "1.0  →  1.25", "How finely a line is drawn, unless the caller says it."),
     Lives("core.layer_problem.critical", "and location is None", "Both are None, or neither is."),
     Lives("core.layer_problem.critical", "sides - middle  →  sides", "Sides are looked at that agree."),
     Lives("core.layer_problem.critical", "1e-3  →  0.00125", "Sides that differ by so little agree."),
     Lives("core.layer_problem.closed_equator", "abs(b) + h  →", "A tolerance of a few roundings."),
     Lives("core.layer_problem.closed_equator", "-f1  →  f1", "Where Newton's method starts; it finds the same zero."),
-    Lives("core.portrait.launched", "40.0  →", "How long a line is drawn."),
     Lives("core.portrait.launched", "1.0  →  1.25", "How finely a line is drawn, unless the caller says it."),
     Lives("core.layer_problem.closed_equator", "1e-16  →", "A tolerance of a few roundings."),
     Lives(

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from codim2_core import critical_sets, hemisphere, psi, sliding_flow
 from codim2_core.expressions.arrays import polynomial_degree, program
+from codim2_core.layer_problem import disc_zeros as disc_zeros_module
 from codim2_core.layer_problem.disc_zeros import EFFORTS, disc_zeros
 from codim2_core.numerics import disc_search
 from codim2_core.numerics.intervals import enclose
@@ -355,3 +356,17 @@ def test_points_outside_the_disc_are_no_critical_sets():
 def test_a_critical_set_on_a_corner_has_a_kind_where_its_sides_agree(U, kinds, factor):
     system = System(U=tuple(f"{factor}*({row})" for row in U))
     assert [C.kind for C in critical_sets(system, psi.constant())] == kinds
+
+
+@pytest.mark.parametrize("way", [(1, 0), (0, 1), (1, 1), (1, -1)])
+def test_boxes_that_hang_together_are_one_cluster(way):
+    """A chain of cells in one direction, with a branch; and a box far away, which is another."""
+    half = 0.01
+    cell = 5.0 * half + 1e-6
+    chain = [np.array(way) * k for k in range(-2, 3)] + [np.array((-way[1], way[0]))]
+    alone = np.array((20, 13))
+    boxes = (np.array([*chain, alone]) + 0.5) * cell
+    found = sorted(disc_zeros_module._clusters(boxes[[3, 6, 0, 5, 1, 4, 2]], half), key=len)
+    assert [len(one) for one in found] == [1, 6]
+    np.testing.assert_allclose(found[0], boxes[6:])
+    assert {tuple(row) for row in found[1].tolist()} == {tuple(row) for row in boxes[:6].tolist()}

@@ -247,3 +247,14 @@ def test_the_middle_of_a_branch_is_that_of_its_length():
         1.9
     )  # from its end at (2, 1.9)
     assert saddle_connections._gap(across - np.array([3.0, 0.0]), bent) == pytest.approx(1.1)
+
+
+def test_branches_outside_are_drawn_to_the_edge_of_a_picture_of_half_width_two():
+    for system in (ELinear(-2, 0, -1, (-0.5, 0)), ELinear(-2, 0, -1, (-0.5, "z/8"), g=(1.0,)).at((0.3,))):
+        for view, options in ((2.0, {}), (3.0, {"view": 3.0})):
+            outside = [one for one in separatrices(system, psi.constant(), **options) if not one.inside]
+            assert outside
+            for one in outside:
+                reach = np.abs(one.points).max(axis=1)
+                assert reach.max() == pytest.approx(view, abs=1e-9)
+                assert np.hypot(*one.points.T).min() == pytest.approx(1.0, abs=1e-12)
