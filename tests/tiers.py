@@ -14,6 +14,7 @@ from __future__ import annotations
 import os
 import resource
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -78,20 +79,32 @@ def spent() -> float:
 
 
 class Measured:
-    """A plugin that notes the largest processor time of each test function."""
+    """A plugin that notes the largest processor time of each test function; a fixture's is that of all who use it."""
 
     def __init__(self) -> None:
         self.costs: dict[str, float] = {}
+        self.fixtures: dict[str, float] = {}
 
     @pytest.hookimpl(wrapper=True)
-    def pytest_runtest_protocol(self, item: pytest.Item):
+    def pytest_fixture_setup(self, fixturedef: pytest.FixtureDef[Any]):
+        """Measure one fixture without those that it uses."""
+        before = spent()
+        try:
+            return (yield)
+        finally:
+            name = f"{fixturedef.baseid}::{fixturedef.argname}"
+            self.fixtures[name] = max(self.fixtures.get(name, 0.0), spent() - before)
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_protocol(self, item: pytest.Function):
         """Measure one test, its fixtures included."""
         before = spent()
         try:
             return (yield)
         finally:
-            name = named(item)
-            self.costs[name] = max(self.costs.get(name, 0.0), spent() - before)
+            name, used = named(item), item._fixtureinfo.name2fixturedefs.values()
+            shared = [self.fixtures.get(f"{one.baseid}::{one.argname}", 0.0) for found in used for one in found]
+            self.costs[name] = max(self.costs.get(name, 0.0), spent() - before, *shared)
 
 
 def main() -> int:

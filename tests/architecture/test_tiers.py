@@ -74,3 +74,46 @@ def test_a_test_named_runs_alone_and_folders_are_shared_among_the_processors(pyt
         assert tiers.processes(Asked(*asked)) == 0
     monkeypatch.setenv("PYTEST_XDIST_WORKER", "gw0")
     assert tiers.processes(Asked("tests")) == 0
+
+
+def test_what_a_fixture_costs_is_the_cost_of_all_who_use_it(tmp_path):
+    path = tmp_path / "test_it.py"
+    path.write_text("""
+import time
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def server():
+    until = time.process_time() + 0.1
+    while time.process_time() < until:
+        pass
+
+
+@pytest.fixture
+def page(server):
+    pass
+
+
+def test_first(page):
+    pass
+
+
+def test_second(page):
+    pass
+
+
+def test_alone():
+    pass
+""")
+    code = f"""
+import pytest
+from pathlib import Path
+from tests import tiers
+tiers.TESTS, measured = Path({str(tmp_path)!r}), tiers.Measured()
+pytest.main(["-q", "-n0", "-p", "no:cacheprovider", {str(path)!r}], plugins=[measured])
+print([measured.costs[f"test_it.py::test_{{name}}"] > 0.09 for name in ("first", "second", "alone")])
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[True, True, False]", done.stdout
