@@ -89,6 +89,9 @@ class EquatorEquilibria:
     certificate: str = say("at most four")
     arcs: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2)))
 
+    def __post_init__(self) -> None:
+        self.arcs.flags.writeable = False  # the others come read-only
+
     def __len__(self) -> int:
         return len(self.theta)
 
