@@ -9,7 +9,8 @@ import pytest
 from codim2_core.cycles import first_turns, search
 from codim2_core.cycles.limit_cycles import _cycle
 from codim2_core.cycles.orbit import Orbit, gauss
-from codim2_core.cycles.resolution import Samples, _doubtful, cubics, differences, unresolved, zeros
+from codim2_core.cycles.resolution import Samples, _doubtful, cubics, differences, near_fold, unresolved, zeros
+from codim2_core.cycles.section import COARSE
 
 UNEVEN = np.array([0.0, 0.3, 0.5, 1.1, 1.2, 2.0, 2.3, 3.1])
 
@@ -428,3 +429,43 @@ def test_what_a_ray_shows(displacement, trace, discriminant, crossings, words):
     assert len(set(notes)) == len(words)
     for word in words:
         assert any(word in note for note in notes), (word, notes)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize(("centre", "height", "bend"), [(0.37, 3e-4, 2.0), (1.62, -0.2, 0.3), (2.11, 5.0, 70.0)])
+def test_how_near_a_fold_is_the_height_of_a_parabola(centre, height, bend, sign):
+    """Wherever its vertex lies between uneven samples."""
+    shift = sign * (height + bend * (UNEVEN - centre) ** 2)
+    assert near_fold(UNEVEN, shift, np.zeros(8)) == pytest.approx(abs(height), rel=1e-9, abs=1e-12)
+    assert near_fold(-UNEVEN[::-1], shift[::-1], np.zeros(8)) == pytest.approx(abs(height), rel=1e-9, abs=1e-12)
+    broken = np.where(np.abs(UNEVEN - centre) < 0.45, np.nan, shift)
+    assert near_fold(UNEVEN, broken, np.zeros(8)) == math.inf  # its vertex is not seen
+
+
+def test_without_an_extremum_there_is_no_fold_near():
+    assert near_fold(UNEVEN, UNEVEN**3 - 2.0, np.zeros(8)) == math.inf
+    assert near_fold(UNEVEN, np.full(8, 0.3), np.zeros(8)) == math.inf
+    small = 1e-3 * np.array([5.0, 4.0, 3.0, 3.1, 3.0, 4.0, 5.0, 6.0])
+    assert near_fold(UNEVEN, small, np.full(8, 1e-3)) == math.inf  # it falls and rises by no more than noise
+
+
+def test_a_row_that_is_zero_within_noise_is_as_near_a_fold_as_its_largest():
+    row = np.array([1.0, 1e-4, -2e-4, 5e-5, 1.0, 2.0, 3.0, 4.0])
+    noise = np.full(8, 1e-4)
+    assert near_fold(UNEVEN, row, noise) == pytest.approx(2e-4, rel=1.0)
+    assert near_fold(UNEVEN, row, noise) <= 2e-4
+    crossing = np.where(np.arange(8) > 3, -row, row)  # of one sign before, of the other behind
+    assert near_fold(UNEVEN, crossing, noise) > 0.1
+
+
+@pytest.mark.parametrize("fine", [math.nan, 0.5])
+def test_where_the_fine_tolerance_shows_nothing_a_fixed_point_is_midway(fine):
+    class Coarse(Line):
+        def displacement(self, xi, rtol=1e-9, backward=False):
+            plain = super().displacement(xi, rtol, backward)
+            return plain if rtol == COARSE else np.full_like(plain, fine)
+
+    section = Coarse(lambda xi: 3.3 - xi)
+    xi = np.linspace(3.0, 4.0, 5)
+    found = search._polished(section, xi, section.displacement(xi, COARSE), 1, 2, False)
+    assert found == pytest.approx(3.3, abs=1e-3)
