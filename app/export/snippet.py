@@ -85,8 +85,9 @@ def _entry(value: Any) -> str:
 
 
 def _psi(psi: Psi) -> str:
-    if psi.family == "custom":
-        return f"c2.psi.custom({psi.text!r})"
-    if not hasattr(c2.psi, psi.family):
+    family = c2.psi.FAMILIES.get(psi.family)
+    if family is None:
         raise ValueError(f"Ψ is of the family {psi.family!r}, which only the program that registered it can make.")
+    if family.typed:
+        return f"c2.psi.{psi.family}({psi.text!r})"
     return f"c2.psi.{psi.family}({psi.parameter!r})" if psi.parameter else f"c2.psi.{psi.family}()"
