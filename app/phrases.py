@@ -68,7 +68,8 @@ SENTENCES: dict[str, Sentence] = {
         "The address is of version {version!r}; this release reads up to {newest}.", "a link"
     ),
     "part of the picture": Sentence(
-        "seen: {given!r} given; give left,right,bottom,top within 100 of the centre.", "a link"
+        "seen: {given!r} given; give left,right,bottom,top, {least:g} to {most:g} apart, within {far:g} of the centre.",
+        "a link",
     ),
     "controls of a frame": Sentence("controls: give at most {most} names of controls, such as f1,n.", "a link"),
     "name of a box": Sentence(

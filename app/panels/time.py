@@ -15,8 +15,8 @@ from codim2_core.motion.rolling import rolling
 from codim2_core.psi.function import Psi
 
 from ..frame.draft import Draft
-from ..state.chosen import System_
-from ..state.controls import InputError
+from ..state.chosen import System_, slow_symbols
+from ..state.controls import InputError, opening_launch
 from .panel import Panel
 from .short import short
 
@@ -63,8 +63,10 @@ def launch_of(values: Mapping[str, Any], m: int) -> tuple[tuple[float, ...], flo
         start = tuple(float(word) for word in text.replace("−", "-").split(","))
     except ValueError:
         start = ()
+    if text == opening_launch(values["system"]):  # not the user's: as many numbers of it as the system has
+        start = (*start, *(0.0,) * m)[: 2 + m]
     if len(start) != 2 + m or not all(map(math.isfinite, start)):
-        names = ", ".join(["x", "y", *(f"z{i + 1}" for i in range(m))])
+        names = ", ".join(["x", "y", *slow_symbols(values["system"], m)])
         raise InputError("launch", f"Start: {text[:60]!r} given; give {2 + m} numbers: {names}.")
     return start, t_end
 

@@ -263,7 +263,7 @@ def describe(choice: str, system: System_) -> dict[str, Any]:
         {"name": name, "symbol": plain_symbol(name), "range": list(ranges.get(name, PARAMETER_RANGE)), "value": value}
         for name, value in system.parameters
     ]
-    symbols = [one[0] for one in example.slow] if example else [_slow_symbol(i, system.m) for i in range(system.m)]
+    symbols = slow_symbols(choice, system.m)
     slow = [{"symbol": s, "range": list(r)} for s, r in zip(symbols, slow_ranges(choice, system.m), strict=True)]
     return {
         "choice": choice,
@@ -274,6 +274,12 @@ def describe(choice: str, system: System_) -> dict[str, Any]:
         "slow": slow,
         "coefficients": choice == GIVEN and isinstance(system, ELinear),
     }
+
+
+def slow_symbols(choice: str, m: int) -> list[str]:
+    """Return what each slow variable is called."""
+    example = catalogue.get(choice)
+    return [one[0] for one in example.slow] if example else [_slow_symbol(i, m) for i in range(m)]
 
 
 def _slow_symbol(i: int, m: int) -> str:

@@ -131,13 +131,19 @@ def opening(choice: str) -> dict[str, Any]:
     And a panel that has something to show of it.
     """
     z = (*starting_z(choice), *(0.0,) * len(SLOW_CONTROLS))
-    launch, t_end = starting_launch(choice)
+    _, t_end = starting_launch(choice)
     slow = dict(zip(SLOW_CONTROLS, z, strict=False))
     across, up = axes_of(choice)
-    motion = {"launch": ", ".join(f"{v:g}" for v in launch), "t_end": t_end}
+    motion = {"launch": opening_launch(choice), "t_end": t_end}
     axes = {"drift": "z", "across": across, "up": up, "along": across}
     panel = "atlas" if has_atlas(choice) else "numbers"
     return {"texts": {}, "parameters": {}, **slow, **motion, **axes, "panel": panel}
+
+
+def opening_launch(choice: str) -> str:
+    """Return the text of the state from which a motion of a choice starts at first."""
+    launch, _ = starting_launch(choice)
+    return ", ".join(f"{v:g}" for v in launch)
 
 
 def axes_of(choice: str) -> tuple[str, str]:

@@ -16,6 +16,7 @@ from types import MappingProxyType
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
+from ..draw.theme import NEAREST, WIDEST
 from ..phrases import say
 from .chosen import BOXES, NORMAL
 from .controls import LONGEST_TEXT, NAMES, ExplorerState, InputError, clean, opening, preset_values
@@ -186,9 +187,12 @@ def _rectangle(text: str, errors: list[InputError]) -> tuple[float, ...]:
         left, right, bottom, top = (float(word) for word in text[:200].split(","))
     except ValueError:
         left = right = bottom = top = 0.0
-    if all(abs(v) <= 100 for v in (left, right, bottom, top)) and right - left > 1e-9 and top - bottom > 1e-9:
-        return left, right, bottom, top
-    errors.append(InputError("", say("part of the picture", given=text[:40])))
+    far = max(map(abs, (left, right, bottom, top)))
+    if far <= 3 * WIDEST and all(1.9 * NEAREST <= size <= 2.1 * WIDEST for size in (right - left, top - bottom)):
+        return left, right, bottom, top  # as far as the picture's own tools go, and no closer: so far it is sampled
+    errors.append(
+        InputError("", say("part of the picture", given=text[:40], least=2 * NEAREST, most=2 * WIDEST, far=3 * WIDEST))
+    )
     return ()
 
 

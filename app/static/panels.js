@@ -58,6 +58,7 @@ export class Panels {
     const hold = (height) => { portrait.style.height = height; portrait.style.overflow = height && "hidden" }
     for (const box of this.boxes) box.addEventListener("pointerdown", () => hold(`${portrait.offsetHeight}px`))
     for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => hold(""))
+    if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => this.reveal()).observe(this.strip)
     // the strip is one row: what does not fit is drawn or rolled into view
     this.strip.addEventListener("wheel", (event) => {
       if (event.deltaX || this.strip.scrollWidth <= this.strip.clientWidth) return
@@ -83,10 +84,16 @@ export class Panels {
       const open = tab.dataset.panel === name
       tab.setAttribute("aria-selected", open)
       tab.tabIndex = open ? 0 : -1
-      if (open && other) this.strip.scrollLeft = tab.offsetLeft - this.strip.offsetLeft - (this.strip.clientWidth - tab.offsetWidth) / 2
     }
+    if (other) this.reveal()
     for (const box of this.boxes) box.hidden = box.dataset.panel !== name
     this.draw(values)
+  }
+
+  // Rolls the strip so that the tab of the open panel is in its middle; a strip that has no width yet is rolled once it has.
+  reveal() {
+    const {strip} = this, tab = this.tabs.find((one) => one.dataset.panel === this.open)
+    if (tab) strip.scrollLeft = tab.offsetLeft - strip.offsetLeft - (strip.clientWidth - tab.offsetWidth) / 2
   }
 
   forget() { for (const panel of Object.values(this.made)) panel.forget?.() }

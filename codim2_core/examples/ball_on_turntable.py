@@ -43,7 +43,7 @@ EXAMPLE = Example(
     title="Ball on a turntable",
     label="rolls at 2Ω/7",
     source="K. Weltner, Am. J. Physics 47 (1979) 984-986",
-    sentence="It rolls on a circle, at 2/7 of the turntable's rate, or slips if that is too fast.",
+    sentence="It rolls on a circle, at 2/7 of the turntable's rate, or slips if too fast; z = (v₁, v₂, r₁, r₂).",
     ranges={"mu": (0.05, 1.0), "Omega": (-8.0, 8.0), "g": (1.0, 20.0)},
     z=(1.0, 0.0, 0.5, 0.0),
     slow=(("v₁", -4.0, 4.0), ("v₂", -4.0, 4.0), ("r₁", -2.0, 2.0), ("r₂", -2.0, 2.0)),

@@ -31,7 +31,7 @@ def test_the_ball_on_the_point_of_slipping():
     frames = Frames(state)
     frames.answer({"all": True})
     header, _ = unpack(frames.answer({"id": 1, "set": {"z": 7.0 * 0.2 * 9.81 / 2.0}}))
-    assert header["portrait"]["sides"] == {"symbol": "v₁", "below": "CM2", "above": "NCM2"}
+    assert header["portrait"]["sides"] == {"symbol": "z₁", "below": "CM2", "above": "NCM2"}
 
 
 @pytest.mark.parametrize("f1", [-0.4, -0.6])
@@ -47,5 +47,5 @@ def test_a_portrait_names_a_control_that_the_page_has(key):
     beside, preset = header["portrait"]["sides"], c2.presets[key]
     assert (beside["below"], beside["above"]) != (header["portrait"]["name"],) * 2
     if preset.example:
-        assert beside["symbol"] in {"v₁", "v₂", "μ", "m", "K", "g"}
+        assert beside["symbol"] in {"z₁", "z₂", "μ", "m", "K", "g"}
     assert beside["below"] != beside["above"]

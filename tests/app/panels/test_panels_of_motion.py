@@ -5,13 +5,16 @@ from concurrent.futures import Executor, Future
 
 import numpy as np
 import pytest
+from codim2_app.draw.packing import unpack
 from codim2_app.frame.draft import Draft
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import along as panel_along
 from codim2_app.panels import filippov, psi, time
 from codim2_app.panels import stack as panel_stack
+from codim2_app.panels.time import launch_of
 from codim2_app.state.controls import ExplorerState, InputError, opening
+from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
 
@@ -157,7 +160,7 @@ def test_a_jump_up_the_hemisphere_takes_no_time():
 @pytest.mark.parametrize("launch", ["", "1,2", "1,2,3,4", "a,b,c", "1,2,nan"])
 def test_a_start_that_is_no_state_is_told(launch):
     with pytest.raises(InputError, match="give 3 numbers: x, y, z1"):
-        time.launch_of({"launch": launch, "t_end": 1.0, "log_eps": -2.0}, 1)
+        time.launch_of({"system": "own", "launch": launch, "t_end": 1.0, "log_eps": -2.0}, 1)
     assert "give 3 numbers" in sent(time, launch=launch)["unable"]["motion"]
 
 
@@ -190,3 +193,16 @@ def test_psi_is_sent_once_and_as_it_is(family):
     again = {}
     psi.add(Draft(scene, values, again, {}, now, Jobs(Now()), False, True, ()))
     assert again == {}
+
+
+@pytest.mark.parametrize(("m", "W"), [(0, ""), (2, "1\nz1"), (3, "1\nz1\nz2")])
+def test_the_first_start_has_as_many_numbers_as_the_system(m, W):
+    texts = {"U1": "-c", "U2": "-s", "W": W, "where": ""}
+    frames = Frames(ExplorerState(system="own", texts=texts, panel="time", layers=[], launch="0.6, 0.8, 0"))
+    header, _ = unpack(frames.answer({"all": True, "rest": True}))
+    assert "" not in header["errors"]
+    assert "motion" not in header.get("unable", {})
+    start, _ = launch_of(frames.values, m)
+    assert start == (0.6, 0.8, *(0.0,) * m)
+    with pytest.raises(InputError, match=f"give {2 + m} numbers"):
+        launch_of({**frames.values, "launch": "1, 2, 3, 4, 5, 6, 7, 8"}, m)

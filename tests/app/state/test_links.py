@@ -167,3 +167,11 @@ def test_the_browser_writes_the_same_links():
         there, here = read_link(query), read_link(written)
         assert (there.errors, there.look) == ((), here.look)
         assert there.state.values() == here.state.values()
+
+
+@pytest.mark.parametrize("seen", ["-0.3,-0.29,0,0.01", "0,1e-9,0,1e-9", "0,30,0,30", "50,51,0,1", "1,0,1,0"])
+def test_what_is_nearer_or_farther_than_the_tools_go_is_not_seen(seen):
+    link = read_link(f"v=1&seen={seen}")
+    assert link.look.seen == ()
+    assert "0.1 to 24 apart" in str(link.errors[0])
+    assert read_link("v=1&seen=-0.3,-0.2,0,0.1").look.seen == (-0.3, -0.2, 0.0, 0.1)
