@@ -234,6 +234,13 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.motion.course", "10.0  →  12.5", "How far past the last cycle it is looked."),
     Lives("core.motion.decide", "8  →  9", "How many orbits around a set are followed."),
     Lives("core.motion.nonsmooth", "1e-200  →", "A number too small to be told from the next."),
+    Lives("core.portrait.separatrices", "2.0 * pixel  →", "Lines are drawn finely though they are far apart."),
+    Lives("core.portrait.separatrix_branches", "1e-4  →", "How near the equator a branch starts."),
+    Lives(
+        "core.portrait.separatrix_branches", "- NEAR_SIGMA * lean", "Where it starts, within 1e-4: all is drawn to it."
+    ),
+    Lives("core.portrait.verdicts", "0.02  →", "How near a direction a fan of orbits starts."),
+    Lives("core.portrait.verdicts", "0.1  →", "How closely orbits are followed whose ends are asked for."),
     Lives("core.cycles.loop", "64: 2  →  3", "With two directions there was no loop in 60 000 draws."),
     Lives("core.cycles.loop", "64: 1  →  2", "A multiple zero has no eigenvalue, and begins and ends no arc."),
     Lives("core.layer_problem.critical", "and location is None", "Both are None, or neither is."),

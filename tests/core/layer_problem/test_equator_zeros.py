@@ -324,3 +324,12 @@ def test_an_arc_of_limit_directions_is_named(U, arc, others):
     assert c2.equator_cycle(system) is None
     c2.approach_outcomes(system, c2.psi.constant())
     c2.Scene(system)["classification"]
+
+
+@pytest.mark.parametrize("power", [1, 3, 5])
+def test_the_degree_where_all_zeros_are_multiple(power):
+    """U = c e + s^power times e turned: once round e itself, and once more round by c + i s^power."""
+    found = equator_zeros(System(U=(f"c*c - s*s**{power}", f"c*s + c*s**{power}")).at().key)
+    assert found.degree == 2
+    other = equator_zeros(System(U=(f"c*c + s*s**{power}", f"c*s - c*s**{power}")).at().key)
+    assert other.degree == 0

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
+from codim2_core.orbits.result import Status
 from codim2_core.portrait import endings
 from codim2_core.portrait.saddle_manifold import starts, to_disc
+from codim2_core.portrait.verdicts import judge
 
 
 def equator(theta, multiplicity, sign=1.0, lambda_rho=None):
@@ -157,3 +159,42 @@ def test_where_manifolds_start_does_not_know_the_unit_of_time(factor):
         )
         np.testing.assert_allclose(second[0], first[0], atol=1e-9)
         np.testing.assert_allclose(second[1], first[1], atol=1e-12)
+
+
+def judged(*found, affine=True, many="Orbits"):
+    limits, _ = equator([0.3, 1.4, 2.9], [1, 1, 1], lambda_rho=[1.0, 0.0, -1.0])
+    sets = tuple(SimpleNamespace(kind=kind, slow_flow=(k,)) for k, kind in enumerate(("saddle", "stable node")))
+    cycles = [SimpleNamespace(slow_flow=(k,)) for k in (10, 11)]
+    at = SimpleNamespace(normal_form="there" if affine else None)
+    problem = SimpleNamespace(equator=limits, critical=sets, keep=lambda _: cycles, at=at)
+    return judge(problem, [endings.Ending(*one) for one in found], many)
+
+
+def test_ends_are_judged():
+    one = judged(("C2", 0.1, "why"))
+    assert (one.verdict, one.onto, one.slow_flow) == ("slide", "C2", (1,))
+    assert one.reason == "They reach the critical set C₂, a stable node: sliding."
+    assert judged(("C2", 0.1, "why"), ("C2", 0.7, "how")).verdict == "slide"
+    one = judged(("cycle 2", None, "why"))
+    assert (one.verdict, one.onto, one.slow_flow) == ("cycle", "cycle 2", (11,))
+    assert "on average" in one.reason
+    assert "mean slow flow" in judged(("cycle 1", None, "why"), affine=False).reason
+    for label, angle in (("Q1", 0.3), ("Q3", 2.9)):
+        one = judged((label, angle, "why"))
+        assert (one.verdict, one.onto, one.leaving, one.slow_flow) == ("cross", label, angle, None)
+        assert f"θ = {angle}" in one.reason
+    one = judged(("Q2", 1.4, "why"))
+    assert (one.verdict, one.why) == ("undecided", "neutral")
+    assert "Q₂, which is radially neutral" in one.reason
+    one = judged(("equator", None, "why"))
+    assert (one.verdict, one.onto, one.leaving) == ("cross", "equator", None)
+    one = judged(("C1", 0.1, endings.CONNECTION))
+    assert (one.verdict, one.why, one.onto) == ("undecided", "several", None)
+    assert "the saddle C₁" in one.reason
+    one = judged(("C1", 0.1, "why"), ("Q3", 2.9, "why"), ("C1", 0.1, "why"), many="A family")
+    assert (one.verdict, one.why) == ("undecided", "several")
+    assert one.reason == "A family, and they end at different places: C₁, Q₃."
+    one = judged(("undecided", None, Status.EQUILIBRIUM.value))
+    assert (one.verdict, one.why) == ("undecided", "neutral")
+    one = judged(("undecided", None, "why"))
+    assert (one.verdict, one.why) == ("undecided", "unfollowed")
