@@ -50,7 +50,8 @@ export class Share {
     this.frame()
     if (!this.dialog.open) this.dialog.showModal()
     this.find(".address").select()
-    this.more(this.find(".take")).catch(() => { this.find(".told").textContent = "The server does not answer: there are no files now." })
+    const below = this.find(".take")
+    this.more(below).catch(() => { below.textContent = "The server does not answer: there are no files now." })
   }
 
   make() {
