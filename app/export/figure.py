@@ -146,8 +146,8 @@ def _columns(shown: list[Entry], side: float) -> list[tuple[float, list[Entry]]]
 def _legend(
     columns: list[tuple[float, list[Entry]]], place: Place, left: float, y: float, side: float
 ) -> Iterator[str]:
-    ends = [*(x - GUTTER for x, _ in columns[1:]), side]
-    for (x, column), end in zip(columns, ends, strict=True):
+    for k, (x, column) in enumerate(columns):
+        end = columns[k + 1][0] - GUTTER if k + 1 < len(columns) else side
         begin = x + SAMPLE + GAP
         tight = any(vector.WIDEST * width_of(entry.words, SMALL) > end - begin for entry in column)
         for i, entry in enumerate(column):

@@ -157,6 +157,13 @@ def test_a_view_is_the_same_by_its_link():
     assert view_of("case3-n2").seen == WHOLE
 
 
+def test_a_picture_without_layers_is_the_bare_hemisphere():
+    svg = figure(view_of("layers="), Style(caption=True))
+    assert "<text" in svg.split("</g></g>")[1]  # the caption
+    assert strokes(svg, themes()["light"]["orbit"]) == []
+    assert svg.count("<circle") > 2
+
+
 @pytest.mark.parametrize(("style", "said"), [({"size": 4.0}, "40 to 400"), ({"theme": "red"}, "light, dark, paper")])
 def test_a_style_that_there_is_not(style, said):
     with pytest.raises(ValueError, match=said):
