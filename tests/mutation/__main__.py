@@ -16,6 +16,7 @@ import multiprocessing
 import os
 import random
 import re
+import subprocess
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -182,12 +183,16 @@ def main(arguments: list[str]) -> int:
             rooms.setdefault((room(name), is_kernel(name)), []).append(name)
     tasks = [(*key, names, choice) for key, names in rooms.items()] + tasks
     preload()
+    tag = subprocess.run(["git", "describe", "--always", "--abbrev=7"], cwd=ROOT, capture_output=True, text=True)
+    at = tag.stdout.strip().rsplit("-g", 1)[-1]
     counts: list[Count] = []
     with multiprocessing.get_context("fork").Pool(options.processes, maxtasksperchild=1) as pool:
         for part in pool.imap_unordered(attempt, tasks, chunksize=1):
             counts += part
             if options.record:
-                record.write(record.Found(c.name, c.killed, c.tried, c.all, options.seed, tuple(c.alive)) for c in part)
+                record.write(
+                    record.Found(c.name, c.killed, c.tried, c.all, options.seed, tuple(c.alive), at) for c in part
+                )
     print("\nBy module:")
     for count in sorted(counts, key=lambda count: count.name):
         print(count)

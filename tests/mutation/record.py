@@ -15,7 +15,7 @@ from .mutants import mutants
 from .targets import ALLOWED, modules, reason, room
 
 RESULTS = Path(__file__).with_name("results.md")
-_ROW = re.compile(r"^\| (\S+) \| (\d+) of (\d+) \| \d+ % \| (\d+) \| (\d+) \|$", re.MULTILINE)
+_ROW = re.compile(r"^\| (\S+) \| (\d+) of (\d+) \| \d+ % \| (\d+) \| (\d+) \|(?: (\w+) \|)?$", re.MULTILINE)
 _ALIVE = re.compile(r"^- `(\S+?):(\d+: .*?)`(?:: (.*))?$", re.MULTILINE)
 
 
@@ -28,6 +28,7 @@ class Found(NamedTuple):
     all: int
     seed: int
     alive: tuple[str, ...]
+    commit: str = ""  # at which it was tried
 
 
 def read(text: str) -> dict[str, Found]:
@@ -35,9 +36,10 @@ def read(text: str) -> dict[str, Found]:
     alive: dict[str, list[str]] = {}
     for name, change, _ in _ALIVE.findall(text):
         alive.setdefault(name, []).append(change)
+    rows = _ROW.findall(text)
     return {
-        name: Found(name, int(killed), int(tried), int(every), int(seed), tuple(alive.get(name, ())))
-        for name, killed, tried, every, seed in _ROW.findall(text)
+        name: Found(name, int(killed), int(tried), int(every), int(seed), tuple(alive.get(name, ())), commit)
+        for name, killed, tried, every, seed, commit in rows
     }
 
 
@@ -51,15 +53,19 @@ def written(found: Iterable[Found]) -> str:
         "# What the tests notice",
         "",
         "Written by `python -m tests.mutation ROOM --record`: one expression of a module is changed at a time, and the",
-        "tests of its room are run. A part of a module's mutants is a sample, drawn with the seed given.",
+        "tests of its room are run. A part of a module's mutants is a sample, drawn with the seed and tried at the",
+        "commit given; a share of a small sample is no more than that.",
         "",
         "| room | killed |  |",
         "|---|---|---|",
     ]
     for name, ones in rooms.items():
         lines.append(_share(name, sum(one.killed for one in ones), sum(one.tried for one in ones)) + "|")
-    lines += ["", "| module | killed |  | all | seed |", "|---|---|---|---|---|"]
-    lines += [f"{_share(one.name, one.killed, one.tried)}| {one.all} | {one.seed} |" for one in kept]
+    lines += ["", "| module | killed |  | all | seed | commit |", "|---|---|---|---|---|---|"]
+    lines += [
+        f"{_share(one.name, one.killed, one.tried)}| {one.all} | {one.seed} |{f' {one.commit} |' * bool(one.commit)}"
+        for one in kept
+    ]
     lines += ["", "## Who lives", ""]
     for one in kept:
         lines += [f"- `{one.name}:{change}`{reason(one.name, change)}" for change in one.alive]

@@ -145,6 +145,7 @@ ALLOWED: tuple[Allowed, ...] = (
     Allowed("core.motion.agreement", "FAR_OUT = 1e6", "Where the limit of the steepness is read off."),
     Allowed("core.cycles.orbit", "LEAST = 1e-300", "A number too small to be told from the next."),
     Allowed("core.layer_problem.border", "CANCELS = 0.05", _EXACT),
+    Allowed("core.layer_problem.linearisation", "radial * (cc * abs(m11)", "A tolerance of a few roundings."),
     Allowed("core.sliding.filippov", "START = 48", "How many directions are combined first: the others are added."),
     Allowed(
         "core.sliding.filippov",
