@@ -159,7 +159,7 @@ def test_a_jump_up_the_hemisphere_takes_no_time():
 
 @pytest.mark.parametrize("launch", ["", "1,2", "1,2,3,4", "a,b,c", "1,2,nan"])
 def test_a_start_that_is_no_state_is_told(launch):
-    with pytest.raises(InputError, match="give 3 numbers: x, y, z1"):
+    with pytest.raises(InputError, match=r"give 3 numbers: x, y, z\."):
         time.launch_of({"system": "own", "launch": launch, "t_end": 1.0, "log_eps": -2.0}, 1)
     assert "give 3 numbers" in sent(time, launch=launch)["unable"]["motion"]
 
