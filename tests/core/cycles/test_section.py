@@ -49,6 +49,7 @@ def test_states_lie_on_the_ray_in_e(psi):
         near = np.array([math.log(INNER / (1.0 - INNER))])
         away = own.states(near)[0]
         assert np.hypot(*(away[0, :2] / away[0, 2] - own.critical.x2)) == pytest.approx(own.inner, rel=0.5)
+        assert (away[0, :2] / away[0, 2] - own.critical.x2) @ own.u == pytest.approx(own.inner, rel=1e-3)
         far = np.array([20.0, 100.0])
         there = own.states(own.xi_at_radius(far))[0]
         np.testing.assert_allclose(np.hypot(*there[:, :2].T) / there[:, 2], far, rtol=0.1)
