@@ -11,7 +11,7 @@ import pytest
 
 from codim2_core import ELinear, bifurcations, critical_sets, psi
 from codim2_core.layer_problem.lyapunov import first_lyapunov, psi_derivatives
-from tests.core.bifurcations.test_bifurcations import normal_form_coefficient
+from tests.core.bifurcations.test_hopf import normal_form_coefficient
 
 from .reference import CRITICAL, DIGITS, critical, measure, radius, regularisation
 

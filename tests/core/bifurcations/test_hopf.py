@@ -1,0 +1,258 @@
+"""Hopf and node-focus curves, the first Lyapunov coefficient, and what changes with n."""
+
+import math
+from itertools import pairwise
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from codim2_core import ELinear, bifurcations, critical_sets, psi
+from codim2_core.layer_problem.linearisation import determinant_sign
+from codim2_core.layer_problem.lyapunov import first_lyapunov, psi_derivatives
+from tests.core.strategies import coefficient
+
+matrices = st.tuples(coefficient, coefficient, coefficient)
+families = st.one_of(
+    st.sampled_from([psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.custom("1/(1+s)**2")]),
+    st.integers(1, 6).map(psi.hill),
+)
+CASE3 = (172.0, 186.0, -200.0)
+
+
+@settings(max_examples=60)
+@given(matrices, families)
+def test_trace_and_discriminant_vanish_on_their_curves(abd, regularisation):
+    curves = bifurcations.hopf(*abd, regularisation), bifurcations.node_focus(*abd, regularisation)
+    for curve in curves:
+        for branch in curve.branches:
+            for f in branch[2:-2:23]:
+                found = critical_sets(ELinear(*abd, tuple(f)), regularisation)
+                if not found or np.hypot(*found[0].e) > 0.99 or abs(found[0].jacobian).max() == 0.0:
+                    continue
+                C, size = found[0], np.abs(found[0].jacobian).max()
+                value = C.trace / size if curve.kind == "hopf" else C.discriminant / size**2
+                assert value == pytest.approx(0.0, abs=1e-8)
+                assert C.determinant > 0.0
+
+
+@settings(max_examples=30)
+@given(st.sampled_from([CASE3, (1, 1.5, -1.2), (2, -1.4, -0.7)]), families, st.integers(0, 2**32 - 1))
+def test_the_sign_of_the_trace_changes_only_across_the_hopf_curve(abd, regularisation, seed):
+    curve = bifurcations.hopf(*abd, regularisation)
+    A = np.array([[abd[0], -abd[1]], [abd[1], abd[2]]])
+    rng = np.random.default_rng(seed)
+    ends = []
+    for _ in range(2):
+        t, m = rng.uniform(0, 2 * np.pi), 0.97 * np.sqrt(rng.uniform())
+        ends.append(m * np.array([np.cos(t), np.sin(t)]))
+    path = ends[0] + np.linspace(0, 1, 120)[:, None] * (ends[1] - ends[0])
+    traces = [critical_sets(ELinear(*abd, tuple(-A @ e)), regularisation)[0].trace for e in path]
+    e_curve = [-np.linalg.solve(A, b.T).T for b in curve.branches]
+    crossings = 0
+    for branch in e_curve:
+        side = (branch - ends[0]) @ np.array([-(ends[1] - ends[0])[1], (ends[1] - ends[0])[0]])
+        span = (ends[1] - ends[0]) @ (ends[1] - ends[0])
+        for i in np.flatnonzero(side[1:] * side[:-1] < 0):
+            w = side[i] / (side[i] - side[i + 1])
+            u = (branch[i] + w * (branch[i + 1] - branch[i]) - ends[0]) @ (ends[1] - ends[0]) / span
+            crossings += 0 < u < 1
+    changes = sum(a * b < 0 for a, b in pairwise(traces))
+    assert crossings >= changes
+    assert (crossings - changes) % 2 == 0
+
+
+def normal_form_coefficient(A, f, regularisation_mp, x0):
+    """First Lyapunov coefficient by the planar formula with partial derivatives, in 30 digits."""
+    with mpmath.workdps(40):
+
+        def U(x, y):
+            r = mpmath.sqrt(x * x + y * y + regularisation_mp(x * x + y * y))
+            return (A[0, 0] * x / r + A[0, 1] * y / r + f[0], A[1, 0] * x / r + A[1, 1] * y / r + f[1])
+
+        x0 = mpmath.findroot(lambda x, y: U(x, y), tuple(map(mpmath.mpf, x0)))
+        J = mpmath.matrix([[mpmath.diff(lambda x, y, i=i: U(x, y)[i], tuple(x0), n) for n in ((1, 0), (0, 1))]
+                           for i in range(2)])  # fmt: skip
+        w = mpmath.sqrt(mpmath.det(J))
+        # columns Re q, -Im q of the eigenvector: (u, v)' = [[0, -w], [w, 0]] (u, v) + ...
+        P = mpmath.matrix([[J[0, 1], 0], [-J[0, 0], -w]])
+        Q = P**-1
+
+        def G(u, v):
+            x = P * mpmath.matrix([u, v])
+            return Q * mpmath.matrix(U(x0[0] + x[0], x0[1] + x[1]))
+
+        D = lambda i, n: mpmath.diff(lambda u, v: G(u, v)[i], (0, 0), n)  # noqa: E731
+        Jc = Q * J * P
+        sign = mpmath.sign(Jc[1, 0])  # with (u, v)' = [[0, -w], [w, 0]] the formula holds; else mirror
+        w = sign * w
+        F = {n: D(0, n) for n in ((2, 0), (1, 1), (0, 2), (3, 0), (1, 2))}
+        H = {n: D(1, n) for n in ((2, 0), (1, 1), (0, 2), (2, 1), (0, 3))}
+        sixteen = (
+            F[3, 0] + F[1, 2] + H[2, 1] + H[0, 3]
+            + (F[1, 1] * (F[2, 0] + F[0, 2]) - H[1, 1] * (H[2, 0] + H[0, 2])) / w
+            + (F[0, 2] * H[0, 2] - F[2, 0] * H[2, 0]) / w
+        )  # fmt: skip
+        # r' = (sixteen/16) r^3 in these coordinates; |x| of the vector q = P (1, -i)/2 normalised to length 1
+        scale = 2 / sum(abs(P[i, j]) ** 2 for i in range(2) for j in range(2))
+        return float(sixteen / 16 * scale * 2 / abs(w)), float(abs(w))
+
+
+@pytest.mark.parametrize(
+    ("regularisation", "formula"),
+    [
+        (psi.constant(), lambda s: mpmath.mpf(1)),
+        (psi.rational(), lambda s: 1 / (1 + s)),
+        (psi.exponential(), lambda s: mpmath.exp(-s)),
+        (psi.tanh(), lambda s: s / mpmath.sinh(mpmath.sqrt(s)) ** 2),
+        (psi.hill(3), lambda s: 3 / (3 + (4 * s) ** 3)),
+        (psi.custom("1/(1+s)**2"), lambda s: 1 / (1 + s) ** 2),
+    ],
+)
+def test_first_lyapunov_coefficient_is_that_of_the_planar_normal_form(regularisation, formula):
+    a, b, d = 1.0, 1.5, -1.2
+    A = np.array([[a, -b], [b, d]])
+    curve = bifurcations.hopf(a, b, d, regularisation)
+    for branch, values in zip(curve.branches, curve.values, strict=True):
+        for i in (60, 150):
+            f = branch[i]
+            (C,) = critical_sets(ELinear(a, b, d, tuple(f)), regularisation)
+            expected, _ = normal_form_coefficient(A, f, formula, C.x2)
+            assert values[i] == pytest.approx(expected, rel=1e-8)
+
+
+@pytest.mark.parametrize("regularisation", [psi.constant(), psi.rational(), psi.hill(3)])
+def test_small_orbits_on_the_hopf_curve_shrink_or_grow_as_the_coefficient_says(regularisation):
+    a, b, d = 1.0, 1.5, -1.2
+    A = np.array([[a, -b], [b, d]])
+    curve = bifurcations.hopf(a, b, d, regularisation)
+    for branch, values in list(zip(curve.branches, curve.values, strict=True))[:2]:
+        for i in (80, 130, 200):
+            f = branch[i]
+            (C,) = critical_sets(ELinear(a, b, d, tuple(f)), regularisation)
+
+            def field(_, x, f=f):
+                return A @ x / math.sqrt(x @ x + regularisation(float(x @ x))) + f
+
+            omega = math.sqrt(C.determinant)
+            # in the eigenbasis a circle of radius r comes back as r (1 + 2 pi l1 r^2 |q|...): the sign is what counts
+            _, vectors = np.linalg.eig(C.jacobian)
+            q = vectors[:, 0]
+            start = C.x2 + 0.02 * np.real(q)
+            across = np.array([-np.real(q)[1], np.real(q)[0]])
+
+            def returns(_, x, C=C, across=across):
+                return float((x - C.x2) @ across)
+
+            returns.direction = np.sign(across @ (C.jacobian @ np.real(q)))
+            options = {"rtol": 1e-12, "atol": 1e-14, "events": returns, "method": "DOP853"}
+            found = solve_ivp(field, (0, 8.5 * np.pi / omega), start, **options)
+            radius = np.hypot(*(found.y_events[0] - C.x2).T)
+            radius = radius[radius > 0.005]
+            last = [r for r in radius if abs(r - 0.02) < 0.01][-1]
+            assert np.sign(last - np.hypot(*(0.02 * np.real(q)))) == np.sign(values[i])
+
+
+def test_generalised_hopf_points_are_zeros_of_the_coefficient():
+    curve = bifurcations.hopf(*CASE3, psi.rational())
+    A = np.array([[172.0, -186.0], [186.0, -200.0]])
+    assert len(curve.special) == 4
+    largest = max(float(abs(v).max()) for v in curve.values)
+    for point in curve.special:
+        assert point.type == "generalised Hopf"
+        (C,) = critical_sets(ELinear(*CASE3, point.place), psi.rational())
+        assert C.trace == pytest.approx(0.0, abs=1e-7)
+        assert first_lyapunov(A, psi.rational(), C.x2[None])[0] == pytest.approx(0.0, abs=1e-7 * largest)
+
+
+@given(families, st.floats(1e-3, 12.0))
+def test_derivatives_of_psi(regularisation, s):
+    formula = {
+        "constant": lambda v: mpmath.mpf(1) + 0 * v,
+        "rational": lambda v: 1 / (1 + v),
+        "exponential": lambda v: mpmath.exp(-v),
+        "tanh": lambda v: v / mpmath.sinh(mpmath.sqrt(v)) ** 2,
+        "hill": lambda v: 3 / (3 + (4 * v) ** int(regularisation.parameter)),
+        "custom": lambda v: 1 / (1 + v) ** 2,
+    }[regularisation.family]
+    found = psi_derivatives(regularisation, np.array([s]))
+    with mpmath.workdps(40):
+        expected = mpmath.taylor(formula, mpmath.mpf(s), 3)
+    for j in (1, 2, 3):
+        value = float(expected[j]) * math.factorial(j)
+        # the Hill form divides by s^j
+        assert found[j - 1][0] == pytest.approx(value, rel=1e-10, abs=1e-12 * max(1.0, s**-j))
+
+
+def test_where_there_is_no_hopf_curve_it_says_why():
+    assert not bifurcations.hopf(-1, 1, -2, psi.hill(4)).branches
+    assert "Case III" in bifurcations.hopf(1, 0.1, -1, psi.constant()).sentence
+    assert "everywhere" in bifurcations.hopf(0, 1, 0, psi.constant()).name
+    reversible = bifurcations.hopf(1, 2, -1, psi.constant())
+    assert "reversible" in reversible.sentence
+    assert all((v == 0.0).all() for v in reversible.values)
+
+
+def test_case_three_changes_at_284_129_and_two_more():
+    found = bifurcations.hill_changes(ELinear(*CASE3, (-86, -93)))
+    assert [c.type for c in found] == ["node-focus", "Hopf", "node-focus"]
+    assert found[1].n == pytest.approx(284 / 129, abs=1e-12)
+    # (-71 + 32.25 n)^2 = 4 (147 + 36.75 n)
+    with mpmath.workdps(30):
+        p, q, r = mpmath.mpf("32.25") ** 2, -2 * 71 * mpmath.mpf("32.25") - 147, mpmath.mpf(71) ** 2 - 588
+        root = mpmath.sqrt(q * q - 4 * p * r)
+        roots = [float((-q - root) / (2 * p)), float((-q + root) / (2 * p))]
+    assert [found[0].n, found[2].n] == pytest.approx(roots, abs=1e-12)
+    assert [found[0].before, *(c.after for c in found)] == [
+        "stable node", "stable focus", "unstable focus", "unstable node",
+    ]  # fmt: skip
+
+
+@settings(max_examples=40)
+@given(matrices, st.floats(0.05, 0.95), st.floats(0, 6.3))
+def test_kinds_between_the_changes_of_n(abd, m, t):
+    assume(determinant_sign(*abd) > 0)
+    A = np.array([[abd[0], -abd[1]], [abd[1], abd[2]]])
+    assume(np.linalg.cond(A) < 1e4)
+    system = ELinear(*abd, tuple(-A @ np.array([m * math.cos(t), m * math.sin(t)])))
+    changes = bifurcations.hill_changes(system)
+    edges = [0.02, *(c.n for c in changes if 0.02 < c.n < 900), 900]
+    for low, high in pairwise(edges):
+        if high / low < 1 + 1e-6:
+            continue
+        kinds = {critical_sets(system, psi.hill(low * (high / low) ** u))[0].kind for u in (0.03, 0.4, 0.97)}
+        assert len(kinds) == 1
+    for c in changes:
+        if 0.02 < c.n < 900 and all(abs(o.n / c.n - 1) > 1e-5 for o in changes if o is not c):
+            kinds = [critical_sets(system, psi.hill(c.n * (1 + s * 1e-6)))[0].kind for s in (-1, 1)]
+            assert kinds == [c.before, c.after]
+
+
+def test_the_cycle_of_case_three_is_born_stable_with_the_amplitude_of_the_normal_form():
+    # fig:bad_sketches: a supercritical Hopf bifurcation at n = 284/129
+    n = 284 / 129
+    system = ELinear(*CASE3, (-86, -93))
+    A, f = system.at().A, system.at().f
+    (C,) = critical_sets(system, psi.hill(n))
+    l1 = float(first_lyapunov(A, psi.hill(n), C.x2[None])[0])
+    assert l1 < 0.0
+    regularisation = psi.hill(n + 0.004)
+    (near,) = critical_sets(system, regularisation)
+    mu, omega = near.trace / 2, math.sqrt(near.determinant)
+    z = math.sqrt(-mu / (omega * l1))
+    q = np.linalg.eig(near.jacobian)[1][:, 0]
+    predicted = max(np.hypot(*(2 * z * np.real(q * np.exp(1j * v)))) for v in np.linspace(0, np.pi, 200))
+
+    def field(_, x):
+        s = x[0] * x[0] + x[1] * x[1]
+        return A @ x / math.sqrt(s + regularisation(s)) + f
+
+    times = np.linspace(40, 41, 300)
+    found = solve_ivp(
+        field, (0, 41), near.x2 + 2 * z * np.real(q), t_eval=times, rtol=1e-8, atol=1e-10, method="DOP853"
+    )
+    amplitude = np.hypot(*(found.y.T - near.x2).T).max()
+    assert amplitude == pytest.approx(predicted, rel=0.1)

@@ -1,0 +1,230 @@
+"""Typed text: what is read, what is refused, and in which words."""
+
+import math
+import pickle
+import sys
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from codim2_core.expressions.expression import Expression, ExpressionError, parse
+from tests.work import calls
+
+NAMES = ("x", "y")
+
+
+HOSTILE = [
+    "__import__('os').system('true')",
+    "s.__class__",
+    "s[0]",
+    "{s}",
+    "lambda: 1",
+    "exec(s)",
+    "eval(s)",
+    "open(s)",
+    "s;s",
+    "s\x00",
+    "\x00",
+    "s=1",
+    "s if s else s",
+    "s and s",
+    "not s",
+    "`s`",
+    "s@s",
+    "s%2",
+    "s//2",
+    "s!",
+    "1_0",
+    "0x10",
+    "1j",
+    "10**10**10",
+    "9**9**9**9**9",
+    "s**1e9",
+    "s**-100000",
+    "2**(2**(2**20))",
+    "1e999",
+    "9" * 999,
+    "1/0",
+    "log(0)",
+    "0**-1",
+    "(" * 999,
+    ")" * 999,
+    "(" * 400 + "s" + ")" * 400,
+    "sin(" * 200 + "s" + ")" * 200,
+    "-(" * 300,
+    "s**" * 300 + "s",
+    "s^" * 400,
+    "s+" * 499 + "s",
+    "2" * 2000,
+    "s" * 900,
+    "s" * 10**6,
+    " " * 999,
+    "",
+    "+",
+    "*",
+    "**",
+    "()",
+    "|s",
+    "s|",
+    "||",
+    "min(s)",
+    "min(s,)",
+    "1/2s",
+    "1e",
+    "2 3",
+    "abs(s,s)",
+    "sin()",
+    "sin",
+    "sin s",
+    "sin(s,s)",
+    "s s",
+    "s(2)",
+    "s 2",
+    "s,",
+    "θ",
+    "ѕ",
+    "١",
+    "\u202es",
+    "\ud800",
+    "None",
+    "True",
+    "math.sin(s)",
+    "inf",
+    "nan",
+    "s..s",
+    "1.2.3",
+    "..",
+    "1e",
+    "1e+",
+    "s\\",
+    "'s'",
+    '"s"',
+    "#s",
+    "s#",
+    "$s",
+    "~s",
+    "s**",
+    "(s",
+    "s)",
+]
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=lambda t: ascii(t[:12]))
+def test_hostile_text_is_refused_quickly(text):
+    def refused():
+        with pytest.raises(ExpressionError) as caught:
+            parse(text, ("s",))
+        errors.append(caught.value)
+
+    errors = []
+    assert calls(refused) < 20_000  # whatever the length of the text
+    (error,) = errors
+    assert isinstance(error, ValueError)
+    assert f"column {error.column}" in str(error)
+    assert "Allowed are" in str(error)
+    assert "Mend: " in str(error)
+    assert error.column >= 1
+    assert len(str(error)) < 700
+    assert str(error).isascii()
+    line, caret = error.caret.split("\n")
+    assert len(line) <= 60
+    assert caret.strip() == "^"
+    assert len(caret) <= 61
+
+
+@given(st.text(alphabet="s12.e+-*/^() sincoexp,[]_'\x00θ", max_size=60) | st.text(max_size=30))
+@settings(max_examples=400, deadline=None)
+def test_any_text_is_read_or_refused(text):
+    try:
+        expression = parse(text, ("s",))
+    except ExpressionError:
+        return
+    assert isinstance(expression.evaluate({"s": 0.7}), float)
+    assert isinstance(expression.derivative("s").evaluate({"s": 0.7}), float)
+    compile(expression.python_source(), "formula", "eval")
+    assert parse(expression.text, ("s",)) == expression
+
+
+def test_deep_stack_does_not_matter():
+    def dive(n):
+        return parse("(" * 35 + "s" + ")" * 35 + f"+{n}", ("s",)) if n == 0 else dive(n - 1)
+
+    assert dive(sys.getrecursionlimit() // 2).evaluate({"s": 1.0}) == 1.0
+
+
+def test_repeated_derivatives_stay_small_or_are_refused():
+    expression = parse("*".join(f"sin({k}+s)" for k in range(1, 40)), ("s",))
+    seen = [expression]
+
+    def differentiate(times):
+        for _ in range(times):
+            seen.append(seen[-1].derivative("s"))
+            assert math.isfinite(seen[-1].evaluate({"s": 0.3}))
+            assert len(seen[-1].text) < 200_000
+
+    with pytest.raises(ValueError, match="more than 20000 operations"):
+        differentiate(40)
+    assert len(seen) > 3
+    with pytest.raises(ValueError, match="too long"):
+        seen[-1].python_source()
+
+
+@pytest.mark.parametrize("names", [("sin",), ("lambda",), ("math",), ("x y",), ("é",), ("_x",), ("x" * 99,), (3,), "s"])
+def test_unusable_names(names):
+    with pytest.raises(ValueError, match=r"name"):
+        parse("1", names)
+
+
+@pytest.mark.parametrize("text", [None, 3, b"s", ["s"]])
+def test_only_text(text):
+    with pytest.raises(ValueError, match="as text"):
+        parse(text, ("s",))
+
+
+def test_mends_are_named():
+    for text, mend in [
+        ("s s", "write s*s"),
+        ("1/2s", "write (1/2)*c, or 1/(2*c)"),
+        ("0,5", "write decimals with a point"),
+        ("min(s)", "write min(u, v)"),
+        ("snh(s)", "did you mean sinh"),
+        ("sin s", "write sin(...)"),
+    ]:
+        with pytest.raises(ExpressionError, match="Mend: ") as caught:
+            parse(text, ("s",))
+        assert mend in str(caught.value)
+    error = ExpressionError("m", "1+?", 3)
+    assert pickle.loads(pickle.dumps(error)).column == 3
+    assert error.caret == "1+?\n  ^"
+
+
+def test_substitution():
+    inner, outer = parse("1/x", ("x",)), parse("x**2+x", ("x",))
+    assert outer.substitute("x", inner).evaluate({"x": 4.0}) == pytest.approx(1 / 16 + 1 / 4)
+    assert isinstance(outer, Expression)
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("2x", "2*x"), ("2x^2y", "2*x**2*y"), ("2(x + y)", "2*(x + y)"), ("(x)(y)", "x*y"), ("(x)y", "x*y"),
+        ("2sin(x)", "2*sin(x)"), ("-2x", "-(2*x)"), ("x − 2y", "x - 2*y"), ("x×y·x", "x*y*x"), ("x²", "x**2"),
+        ("|x|", "abs(x)"), ("2|x|", "2*abs(x)"), ("|x-|y||", "abs(x - abs(y))"), ("-|x|^2", "-abs(x)**2"),
+        ("x/|y|", "x/abs(y)"), ("|x|*|y|", "abs(x)*abs(y)"), ("max(x, y, 1)", "max(max(x, y), 1)"),
+        ("1/(2x)", "1/(2*x)"),
+    ],
+)  # fmt: skip
+def test_what_people_write_is_read(text, plain):
+    assert parse(text, ("x", "y")).evaluate({"x": 1.7, "y": -0.6}) == parse(plain, ("x", "y")).evaluate(
+        {"x": 1.7, "y": -0.6}
+    )
+
+
+def test_where_e_is_known_an_angle_is_told_as_c_and_s():
+    for text in ("cos(theta)", "θ"):
+        with pytest.raises(ExpressionError, match=r"write c for cos\(theta\) and s for sin\(theta\)"):
+            parse(text, ("c", "s"))
+        with pytest.raises(ExpressionError) as caught:
+            parse(text, ("x",))
+        assert "cos(theta)" not in str(caught.value).split("Mend")[1]
