@@ -244,6 +244,11 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.portrait.verdicts", "0.1  →", "How closely orbits are followed whose ends are asked for."),
     Lives("core.layer_problem.linearisation", "Fraction(ROUNDING)", "A tolerance of a few roundings."),
     Lives("core.cycles.turn_section", "2000  →  2001", "How many steps are tried at most."),
+    Lives(
+        "core.layer_problem.problem",
+        "31: len(on) or",
+        "Asked for the closed orbit of an equator at rest, there is none.",
+    ),
     Lives("core.cycles.loop", "64: 2  →  3", "With two directions there was no loop in 60 000 draws."),
     Lives("core.cycles.loop", "64: 1  →  2", "A multiple zero has no eigenvalue, and begins and ends no arc."),
     Lives("core.layer_problem.critical", "and location is None", "Both are None, or neither is."),

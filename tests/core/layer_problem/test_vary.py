@@ -49,6 +49,8 @@ def test_a_frozen_system_and_short_names() -> None:
         (TEXT, "zeta", 1, "cannot be varied"),
         (TEXT, "a", "x", "give a number"),
         (TEXT, "z1", float("nan"), "finite"),
+        (TEXT, "z1", 2e150, "of size up to"),
+        (TEXT, "a", -2e150, "of size up to"),
         (TEXT.at((1, 1)), "a", float("inf"), "finite"),
         (TEXT.at((1, 1)), "z1", 1, "cannot be varied"),
         (TEXT, "n", 0, "allowed is"),
