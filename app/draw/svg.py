@@ -71,7 +71,7 @@ def content(buffer: bytes, layers: Collection[str], place: Place, labelled: bool
     for columns in marked:
         parts += vector.marks(columns, place, taken)
     for columns in marked if labelled else ():
-        parts += vector.labels(columns, place, taken)
+        parts += vector.labels(columns, place, taken, bool("outcomes" in layers and header.get("outcomes")))
     return "".join(parts)
 
 

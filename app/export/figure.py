@@ -32,6 +32,8 @@ LABEL, SMALL = 11.0, 8.0
 SAMPLE, GAP, GUTTER, LINE = 22.0, 5.0, 12.0, 12.0
 #: Between ticks: about so many on an axis.
 TICKS = 6
+#: Labels stand outside the ring of outcomes.
+BEYOND = 1.6
 LEAST, MOST = 40.0, 400.0  # mm
 
 
@@ -76,7 +78,7 @@ def figure(view: View, style: Style | None = None) -> str:
     buffer, layers = view.frame(), view.values["layers"]
     header, blocks = unpack(buffer)
     side = style.size * MM
-    place = Place(view.seen, side, PX, LABEL, 2, DASHES if style.theme == "paper" else {})
+    place = Place(view.seen, side, PX, LABEL, 2, DASHES if style.theme == "paper" else {}, BEYOND)
     left, right = (30.0, 8.0) if style.ticks else (0.0, 0.0)
     parts: list[str] = []
     y = 0.0
@@ -130,14 +132,16 @@ def _clear(drawn: str) -> str:
 
 def _columns(shown: list[Entry], side: float) -> list[tuple[float, list[Entry]]]:
     """Return the columns of the legend, as many as there is room for: where each begins, and its entries."""
+    lines = sum(entry.part is not None for entry in shown)
     found: list[tuple[float, list[Entry]]] = []
-    for count in (3, 2, 1):
-        rows = max(1, math.ceil(len(shown) / count))
+    for rows in (math.ceil(len(shown) / 3), math.ceil(len(shown) / 2), max(lines, len(shown) - lines), len(shown)):
+        cut = lines if rows == max(lines, len(shown) - lines) else rows  # lines beside marks, whose words are longer
         found, x = [], 2.0
-        for i in range(0, len(shown), rows):
-            column = shown[i : i + rows]
-            found.append((x, column))
-            x += SAMPLE + GAP + max(width_of(entry.words, SMALL) for entry in column) + GUTTER
+        for first, last in [(0, cut), *((k, k + rows) for k in range(cut, len(shown), max(1, rows)))]:
+            column = shown[first:last]
+            if column:
+                found.append((x, column))
+                x += SAMPLE + GAP + max(width_of(entry.words, SMALL) for entry in column) + GUTTER
         if x - GUTTER <= side:
             break
     return found

@@ -23,6 +23,8 @@ SIDE = 1000
 HATCH = 7.0
 #: Width of a text in the widest font that a reader may see it in, and in the usual one, over `width_of`.
 WIDEST, USUAL = 1.25, 0.87
+#: The part of a mark's width over which no label stands.
+CORE = 0.8
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,8 @@ class Place:
         Of coordinates.
     dashes : mapping of str to tuple of float
         By colour, where lines differ by dashes, in px of the screen, as they are in black and white.
+    beyond : float
+        How much farther out labels of limit directions stand where there is the ring of outcomes.
     """
 
     seen: Rectangle = (-VIEW, VIEW, -VIEW, VIEW)
@@ -51,6 +55,7 @@ class Place:
     text: float = 22.0
     decimals: int = 0
     dashes: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    beyond: float = 1.0
 
     @property
     def scale(self) -> float:
@@ -156,13 +161,16 @@ def marks(columns: Mapping[str, Any], place: Place, taken: list[Box]) -> list[st
     for i, (u, v) in enumerate(place.points(np.column_stack([columns["x"], columns["y"]])).tolist()):
         if place.holds(u, v):
             drawn.append(mark(columns, i, u, v, place.unit, 2.1 * place.unit))
-            size = columns["size"][i] * place.unit
+            size = CORE * columns["size"][i] * place.unit
             taken.append(Box(u - size / 2, v - size / 2, size, size))
     return drawn
 
 
-def labels(columns: Mapping[str, Any], place: Place, taken: list[Box]) -> list[str]:
-    """Return the labels of marks: none stands over what is in `taken`, to which their boxes are added."""
+def labels(columns: Mapping[str, Any], place: Place, taken: list[Box], ringed: bool) -> list[str]:
+    """Return the labels of marks: none stands over what is in `taken`, to which their boxes are added.
+
+    `ringed`: there is a ring around the equator.
+    """
     drawn = []
     for i, (u, v) in enumerate(place.points(np.column_stack([columns["x"], columns["y"]])).tolist()):
         if not place.holds(u, v):
@@ -170,6 +178,7 @@ def labels(columns: Mapping[str, Any], place: Place, taken: list[Box]) -> list[s
         if "label_x" in columns:
             away = np.array([columns["label_x"][i] - columns["x"][i], columns["y"][i] - columns["label_y"][i]])
             away *= min(place.scale, place.side / (2 * VIEW))  # zoomed in, it stays as near to its mark
+            away *= place.beyond if ringed else 1.0
             drawn.append(label(columns["label"][i], u + away[0], v + away[1], "middle", place, taken))
         else:
             text = f"{columns['label'][i]} {columns['sense'][i]}".strip()
@@ -260,4 +269,5 @@ def basins(found: Mapping[str, Any] | None, blocks: Mapping[str, Any], place: Pl
                     f"M{x:.1f} {y:.1f}h{here * side:.1f}v{side:.1f}h{-here * side:.1f}Z"
                 )
             at, length = at + here, length - here
-    return [f'<path d="{"".join(path)}" fill="var(--{colour})" opacity=".3"/>' for colour, path in paths.items()]
+    look = 'opacity=".3" shape-rendering="crispEdges"'  # no seams between the rows
+    return [f'<path d="{"".join(path)}" fill="var(--{colour})" {look}/>' for colour, path in paths.items()]
