@@ -258,7 +258,8 @@ function wire({model, view, root, plot}) {
       if (name in errors) control.say(errors[name])
       else if (control.box.classList.contains("bad") && !(name in requests.waiting)) control.say(null)
     }
-    banner(Object.entries(errors).filter(([name]) => !controls[name]?.box.querySelector(".error")).map(([, sentence]) => sentence).join(" "))
+    const closed = getComputedStyle(find(".controls")).display === "none" // the sheet of a phone
+    banner(Object.entries(errors).filter(([name]) => closed || !controls[name]?.box.querySelector(".error")).map(([, sentence]) => sentence).join(" "))
   }
   const banner = (sentence) => { const bar = find(".banner"); bar.hidden = !sentence; bar.textContent = sentence }
 

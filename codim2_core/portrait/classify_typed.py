@@ -22,7 +22,8 @@ def general_portrait(
     found = disc_zeros(at.key)
     lines = "every direction" if equator.all_directions else _count(len(equator), "limit direction", equator.proven)
     if len(equator.arcs):
-        lines = f"{lines} and {'an arc' if len(equator.arcs) == 1 else f'{len(equator.arcs)} arcs'} of them"
+        arcs = "an arc" if len(equator.arcs) == 1 else f"{len(equator.arcs)} arcs"
+        lines = f"{lines} and {arcs} of them" if len(equator) else f"{arcs} of limit directions"
     name = f"{_count(len(critical), 'critical set', found.proven)}, {lines}"
     sentence = f"{directions(equator, cycle)} {_consequence(critical, found)}"
     degeneracies = _equator(equator, cycle) + _critical(critical, found)

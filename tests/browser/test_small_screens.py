@@ -115,3 +115,13 @@ def test_one_finger_leaves_the_picture_where_it_is_and_two_move_it(touched):
     assert right - left == pytest.approx((before[1] - before[0]) / 3, rel=0.1)
     assert high - low == pytest.approx((before[3] - before[2]) / 3, rel=0.1)
     assert left + right == pytest.approx(before[0] + before[1], abs=0.1)
+
+
+def test_what_a_link_asked_in_vain_is_read_where_its_control_is_in_a_closed_sheet(open_page):
+    page = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    page.open("?v=1&psi=hill&n=-3&panel=time").settle()
+    assert "-3" in page.find(".banner").text_content()
+    tab, strip = page.find("#c2-tab-time").bounding_box(), page.find(".tabs").bounding_box()
+    assert strip["x"] < tab["x"] < tab["x"] + tab["width"] < strip["x"] + strip["width"]
+    for row in (".legend", ".reading", ".tabs"):
+        assert "linear-gradient" in page.find(row).evaluate("(row) => getComputedStyle(row).maskImage")
