@@ -55,7 +55,7 @@ class Wish:
         ValueError
             It is none.
         """
-        if not isinstance(request, Mapping) or request.get("kind") not in TYPES:
+        if not isinstance(request, Mapping) or str(request.get("kind")) not in TYPES:
             raise ValueError(f"There is no such file to take; the kinds are {', '.join(TYPES)}.")
         theme, sliders = request.get("theme", "light"), request.get("sliders", ())
         if theme not in THEMES or not isinstance(sliders, (list, tuple)) or len(sliders) > MOST_SLIDERS:
@@ -63,7 +63,7 @@ class Wish:
         if not all(isinstance(one, str) and len(one) <= LONGEST for one in sliders):
             raise ValueError("Give sliders as NAME or NAME=LOW,HIGH.")
         style = Style(theme=theme, legend=bool(request.get("legend", True)))
-        return cls(request["kind"], style, tuple(sliders))
+        return cls(str(request["kind"]), style, tuple(sliders))
 
 
 def seen_by(request: Any, values: Mapping[str, Any], system: System_ | None) -> View:

@@ -248,7 +248,7 @@ class ExplorerView(JSComponent):
             self._handle_msg(event.data)
             return
         request = event.data or {}
-        if "take" in request:
+        if isinstance(request, Mapping) and "take" in request:
             self._take(model, request["take"])
             return
         frame = self.frames.answer(request)

@@ -63,6 +63,9 @@ def test_it_is_what_is_on_the_screen(executor):
     [
         ({"kind": "exe"}, "no such file"),
         ("svg", "no such file"),
+        ({"kind": ["svg"]}, "no such file"),
+        ({"kind": None, "id": [1]}, "no such file"),
+        ({"kind": "svg", "theme": ["dark"]}, "light, dark, paper"),
         ({"kind": "svg", "theme": "red"}, "light, dark, paper"),
         ({"kind": "html", "sliders": ["a", "b", "d"]}, "at most 2 sliders"),
         ({"kind": "html", "sliders": ["a" * 200]}, "NAME=LOW,HIGH"),
