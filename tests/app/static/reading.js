@@ -1,4 +1,5 @@
 // One panel in a page of its own, and what its charts show: pixels become numbers by the ticks that a person reads.
+import assert from "node:assert/strict"
 
 import {page} from "./page.js"
 import {Panels} from "../../../app/static/panels.js"
@@ -70,3 +71,6 @@ export function plots(svg) {
 
 /** Whether numbers are those expected, to half a pixel of these charts. */
 export const close = (found, expected, most = 0.02) => found.flat(3).length === expected.flat(3).length && found.flat(3).every((v, i) => Math.abs(v - expected.flat(3)[i]) <= most)
+
+export const near = (found, expected, most) => assert.ok(close(found, expected, most), `${JSON.stringify(found)} is not ${JSON.stringify(expected)}`)
+export const named = (all, ...names) => all.filter(({name}) => names.every((one) => name.split(" ").includes(one)))

@@ -227,3 +227,18 @@ export function story() {
   }
   return `${lines.join("\n")}\n`
 }
+
+/** What is told of work under way. */
+export const busy = (one) => one.find(".busy").hidden ? "" : one.find(".busy").textContent
+
+/** What has been asked for since this was called last. */
+export const asked = (one) => one.sent.splice(0).map(({set}) => set)
+
+export const shows = (one) => one.root.explorer.picture.state.layers
+export const settled = (one) => one.root.dataset.settled
+
+/** A browser's storage that begins with these values. */
+export const memory = (kept) => ({getItem: (name) => kept[name] ?? null, setItem: (name, value) => { kept[name] = value }})
+
+/** What the address carries. */
+export const query = (one) => Object.fromEntries(new URLSearchParams(one.window.history.url))
