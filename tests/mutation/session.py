@@ -157,10 +157,10 @@ class Room:
         self.reach: dict[str, Reach] = pickle.loads(note.read_bytes())
         note.unlink()
         self._warm()
-        gc.collect()
-        gc.freeze()
         paths = frozenset(str(job.path) for job in self.jobs)
         living, held = live.functions(paths), live.caches((*PACKAGES.values(), "tests"))
+        gc.collect()
+        gc.freeze()  # only now: what is frozen is not listed any more
         for job in self.jobs:
             job.reach = self.reach
             source, path = job.path.read_text(), str(job.path)
