@@ -1,7 +1,7 @@
 // The dialog "Share": the link of the present view, its QR code for the phones in the room, and a frame for another page.
 
 import {squeezed} from "./links.js"
-import {escape} from "./words.js"
+import {SAYS, escape} from "./words.js"
 
 const MARKUP = `
   <form method="dialog"><button class="close" title="Close" aria-label="Close">✕</button></form>
@@ -51,7 +51,7 @@ export class Share {
     if (!this.dialog.open) this.dialog.showModal()
     this.find(".address").select()
     const below = this.find(".take")
-    this.more(below).catch(() => { below.textContent = "The server does not answer: there are no files now." })
+    this.more(below).catch(() => { below.textContent = SAYS.noFiles })
   }
 
   make() {

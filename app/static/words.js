@@ -40,6 +40,7 @@ export const SAYS = {
   number: "Type a number such as −0.5.",
   lost: "Connection lost. Reload the page, or run the cell again.",
   trying: "Connection lost. Trying again …",
+  noFiles: "The server does not answer: there are no files now.",
   waiting: "Waiting for the server …",
   follows: "This system takes longer than a frame; its picture follows …",
   compiling: "Compiling, once: trajectories are sketched …",
