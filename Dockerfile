@@ -1,7 +1,12 @@
 # The explorer as a container: slim base, no root, kernels compiled at build time for a baseline processor, health check.
 # It runs with a read-only root: docker run --read-only --user 10001 -p 5006:5006 codim2
-FROM python:3.12-slim
+FROM python:3.12-slim AS wheel
+COPY pyproject.toml README.md LICENSE /source/
+COPY app /source/app
+COPY codim2_core /source/codim2_core
+RUN pip wheel --no-cache-dir --no-deps --wheel-dir /wheels /source
 
+FROM python:3.12-slim
 # What the kernels are compiled for: every server processor since 2015. On ARM: --build-arg KERNELS_FOR=generic
 ARG KERNELS_FOR=x86-64-v3
 ENV NUMBA_CPU_NAME=${KERNELS_FOR} \
@@ -12,10 +17,13 @@ ENV NUMBA_CPU_NAME=${KERNELS_FOR} \
 
 RUN useradd --create-home --uid 10001 codim2
 WORKDIR /srv/codim2
-COPY pyproject.toml README.md LICENSE ./
-COPY app app
-COPY codim2_core codim2_core
-RUN pip install --no-cache-dir . && codim2 warm
+COPY --from=wheel /wheels /wheels
+# Tests, examples, stubs and source maps of the dependencies, a quarter of them all, are of no use here.
+RUN pip install --no-cache-dir /wheels/*.whl \
+    && cd "$(python -c 'import panel; print(panel.__path__[0])')/.." \
+    && find . -type d \( -name tests -o -name test \) -prune -exec rm -rf {} + \
+    && find . \( -name "*.map" -o -name "*.pyi" \) -delete && rm -rf holoviews/examples \
+    && codim2 warm
 
 USER codim2
 EXPOSE 5006

@@ -34,7 +34,8 @@ def arrowheads(
     ndarray (l, 3)
         x, y and direction in radians; no two are nearer than `CLEARANCE`.
     """
-    offsets, points = np.ascontiguousarray(offsets, np.int64), np.ascontiguousarray(points, np.float64)
+    offsets, points = np.ascontiguousarray(offsets, np.int64)[:], np.ascontiguousarray(points, np.float64)[:]
+    offsets.flags.writeable = points.flags.writeable = False  # one type, and so one compilation, for all that come
     return _place(offsets, points, CLEARANCE * pixel, STRETCH * pixel, SHORTEST * pixel, TRIED, *map(float, window))
 
 

@@ -11,6 +11,7 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 from multiprocessing.connection import Connection, wait
+from multiprocessing.forkserver import ensure_running
 from queue import SimpleQueue
 from typing import Any
 
@@ -51,6 +52,25 @@ class Stoppable(Future[Any]):
         with self._guard:
             self._process = process
             return not self.stopped
+
+
+def _open_forkserver() -> None:
+    """Start the process from which workers are forked; it imports from where this one does.
+
+    Of its own it would look in the working folder first, and import what lies there: a copy of the sources, whose
+    kernels nobody has compiled, or anybody's numpy.py.
+    """
+    wanted = {"PYTHONSAFEPATH": "1", "PYTHONPATH": os.pathsep.join(path or os.getcwd() for path in sys.path)}
+    kept = {name: os.environ.get(name) for name in wanted}
+    os.environ.update(wanted)
+    try:
+        ensure_running()
+    finally:
+        for name, value in kept.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
 
 
 class Workers(Executor):
@@ -146,6 +166,8 @@ class Workers(Executor):
         with self._once:
             if not self._opened:
                 self._first()
+                if self._context.get_start_method() == "forkserver":
+                    _open_forkserver()
                 self._opened = True
         ours, theirs = self._context.Pipe()
         process = self._context.Process(target=_work, args=(theirs,), daemon=True, name="codim2-worker")

@@ -7,6 +7,7 @@ read-only root, another user, no home or a full disk is no reason to show nobody
 from __future__ import annotations
 
 import logging
+import os
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -48,6 +49,11 @@ def prepare() -> str:
             _say_once(UNCACHED.format(why=error.strerror))
 
     caching.FunctionCache.save_overload = saved_if_possible
+    given = Path(config.CACHE_DIR) if config.CACHE_DIR else None
+    if given is not None and given.is_dir() and not os.access(given, os.W_OK):
+        # Numba would go on to the home, where nothing is, though the host has warmed this folder
+        config.CACHE_LOCATOR_CLASSES = f"{__name__}.{AsItIs.__name__}"
+        return "" if next(given.rglob("*.nbi"), None) else UNCACHED.format(why=f"{given} cannot be written")
     module = str(Path(codim2_core.__file__))
     if config.CACHE_LOCATOR_CLASSES or any(
         locator.from_function(prepare.__wrapped__, module)

@@ -9,6 +9,8 @@ from collections.abc import Callable, Hashable
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.figures.presets import presets
 from codim2_core.orbits.trajectories import is_warm, warm
@@ -17,6 +19,7 @@ from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.kinds import AnySystem
 
+from ..draw.arrowheads import arrowheads
 from ..frame.scenes import make_scene
 from ..state.controls import first_values
 
@@ -47,6 +50,7 @@ def warm_all(told: Callable[[str, float], None] = lambda _what, _seconds: None) 
         if not family.typed:
             timed(f"trajectories for Ψ = {family.title}", partial(warm, make(family.name)))
     timed("limit cycles", _warm_cycles)
+    timed("arrowheads", _warm_arrowheads)
     timed(GENERAL, warm_general)
 
 
@@ -75,6 +79,11 @@ def _warm_cycles() -> None:
     """Compile, or load, the return map of e-linear systems."""
     three = presets["case3-n3"]
     limit_cycles(three.system, three.psi)
+
+
+def _warm_arrowheads() -> None:
+    """Compile, or load, what places arrowheads on curves."""
+    arrowheads(np.array([0, 2]), np.eye(2), 0.01, (-1.0, 1.0, -1.0, 1.0))
 
 
 def warm_general() -> None:

@@ -63,7 +63,13 @@ def test_without_home_and_cache_it_serves_and_says_so(package):
 
 
 @needs_root
-def test_a_cache_that_was_warmed_is_found_where_it_cannot_be_written(package):
+@pytest.mark.parametrize("home", ["none", "writable"])
+def test_a_cache_that_was_warmed_is_found_where_it_cannot_be_written(package, home):
+    of_user = {}
+    if home == "writable":
+        (package / "home").mkdir()
+        os.chown(package / "home", NOBODY, NOBODY)
+        of_user["HOME"] = str(package / "home")
     cache = package / "kernels"
     cache.mkdir()
     command = [sys.executable, "-c", CODE, "warm"]
@@ -78,11 +84,12 @@ def test_a_cache_that_was_warmed_is_found_where_it_cannot_be_written(package):
         "print(sum(sum(d.stats.cache_hits.values()) for d in gc.get_objects() if isinstance(d, Dispatcher)))\n"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code], env=environment(package, NUMBA_CACHE_DIR=str(cache)), user=NOBODY,
+        [sys.executable, "-c", code], env=environment(package, NUMBA_CACHE_DIR=str(cache), **of_user), user=NOBODY,
         capture_output=True, text=True, check=True, cwd="/",
     )  # fmt: skip
     assert int(done.stdout) > 10
     assert {path: path.stat().st_mtime_ns for path in cache.rglob("*.nb[ic]")} == kept
+    assert not list(package.glob("home/**/*.nb[ic]"))
 
 
 @needs_root

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 from codim2_app.draw import glyphs
-from codim2_app.draw.arrowheads import CLEARANCE, SHORTEST, STRETCH, arrowheads
+from codim2_app.draw.arrowheads import CLEARANCE, SHORTEST, STRETCH, _place, arrowheads
 from codim2_app.draw.packing import PIXEL, WINDOW
 
 import codim2_core as c2
@@ -111,3 +111,15 @@ def test_at_the_edges_of_what_is_seen_the_grid_has_room():
     assert place(*lines, pixel=0.005, window=window)[:, :2].tolist() == [list(corner) for corner in corners]
     moved = [line + np.array([0, 0.05]) for line in lines]  # 10 px above: two are beyond, two find room beside
     assert len(place(*lines, *moved, pixel=0.005, window=window)) == 6
+
+
+def test_one_compilation_does_for_arrays_of_all_kinds():
+    offsets, points = np.array([0, 2]), np.array([(0.0, 0.0), (0.0, 0.0), (0.5, 0.5), (1.0, 1.0)])
+    found = []
+    for frozen in (False, True):
+        one, other = offsets.astype(np.int32 if frozen else np.int64), points[::2].copy()
+        one.flags.writeable = other.flags.writeable = not frozen
+        found.append(arrowheads(one, other, 0.01, (-1.0, 1.0, -1.0, 1.0)))
+        assert other.flags.writeable is not frozen  # what was given stays as it was
+    np.testing.assert_array_equal(*found)
+    assert len(_place.signatures) == 1

@@ -2,8 +2,11 @@
 
 import os
 import signal
+import subprocess
+import sys
 import time
 from concurrent.futures import CancelledError, wait
+from pathlib import Path
 
 import pytest
 from codim2_app.frame.workers import Stopped, Workers
@@ -85,3 +88,29 @@ def test_nothing_runs_for_ever(tmp_path):
         future = workers.submit(endless, tmp_path)
         with pytest.raises(TimeoutError, match=r"longer than 0\.2 s"):
             future.result(20)
+
+
+SHADOWED = """
+import os, sys
+sys.path.insert(0, {repository!r})
+from codim2_app.frame.workers import Workers
+
+if __name__ == "__main__":
+    workers = Workers(1, preload=("colorsys", "codim2_core"))
+    print(workers.submit(os.getpid).result(60) != os.getpid())
+    workers.shutdown()
+"""
+
+
+def test_what_lies_in_the_folder_of_the_server_is_not_imported_by_its_workers(tmp_path):
+    """A copy of the sources in the working folder, as in a container, or anybody's colorsys.py."""
+    script = tmp_path / "elsewhere" / "script.py"
+    script.parent.mkdir()
+    script.write_text(SHADOWED.format(repository=str(Path(__file__).parents[3])))
+    here = tmp_path / "here"
+    (here / "codim2_core").mkdir(parents=True)
+    for name in ("colorsys.py", "codim2_core/__init__.py"):
+        (here / name).write_text(f"open({str(here / 'imported')!r}, 'a').write('{name} ')\n")
+    done = subprocess.run([sys.executable, str(script)], cwd=here, capture_output=True, text=True, check=True)
+    assert done.stdout == "True\n"
+    assert not (here / "imported").exists()
