@@ -85,6 +85,7 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "no time passes": Sentence("It follows the equator, where no time t passes.", "a launched orbit on the equator"),
     "no such parameter": Sentence("The system has no parameter {names} ({there}): left out.", "a link, or a cell"),
+    "no such box": Sentence("The system has no box {names} ({there}): left out.", "a link, or a cell"),
     "no such lesson": Sentence("Lessons: there is no {name!r}; choose one such as {some}.", "a link"),
 }
 

@@ -177,7 +177,12 @@ class Turns:
             self._queues.move_to_end(owner)
             self._running[work] = owner
             work.since = time.monotonic()
-            work.under_way = self.executor.submit(compute, *work.call)
+            try:
+                work.under_way = self.executor.submit(compute, *work.call)
+            except RuntimeError:  # it has been shut down, as at the end of the process: nobody waits for what is left
+                del self._running[work]
+                self._queues.clear()
+                return
             work.under_way.add_done_callback(lambda done, work=work: self._done(work, done))
 
     def _done(self, work: Work, done: Future[Any]) -> None:

@@ -12,22 +12,23 @@ from codim2_core.systems.typed import System
 from ..lessons.library import lessons
 from ..panels.time import launch_of
 from ..phrases import say
-from ..state.chosen import NORMAL
+from ..state.chosen import NORMAL, texts_of
 from ..state.controls import InputError
 
 
 def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
-    """Say what was asked for in vain: parameters that are none of the system's, a lesson, a motion's start."""
+    """Say what was asked for in vain: parameters and boxes that the system has not, a lesson, a motion's start."""
     said = []
     system = scene.system
     if not isinstance(system, (ELinear, System)):
         return said
     own = () if values["system"] == NORMAL and not given else [name for name, _ in system.parameters]
-    unknown = [name for name in values["parameters"] if name not in own]
-    if unknown:
-        shown = ", ".join(name[:20] for name in unknown[:3])
-        there = f"it has {', '.join(own)}" if own else "it has none"
-        said.append(say("no such parameter", names=shown, there=there))
+    boxes = [] if given else list(texts_of(values["system"], {}))
+    for key, asked, there in (("no such parameter", "parameters", own), ("no such box", "texts", boxes)):
+        unknown = [name[:20] for name in values[asked] if name not in there]
+        if unknown:
+            has = f"it has {', '.join(there)}" if there else "it has none"
+            said.append(say(key, names=", ".join(unknown[:3]), there=has))
     if values["lesson"] and values["lesson"] not in lessons():
         named, some = values["lesson"][:40], ", ".join(list(lessons())[:3])
         said.append(say("no such lesson", name=named, some=some))

@@ -178,6 +178,17 @@ def no_parameter(key):
     assert told["there"] == f"it has {', '.join(name for name, _ in frames.scene.system.parameters)}"
 
 
+def no_box(key):
+    _, header = frame({"system": "own", "texts": {"U1": "-c", "U2": "-s", "U3": "c", "V": "s"}}, all=True)
+    told = fields(key, header["errors"][""])
+    assert told["names"] == "U3, V"
+    assert told["there"] == "it has U1, U2, W, where"
+    _, header = frame({"system": "ball_in_pool", "texts": {"U1": "-c"}}, all=True)
+    assert fields(key, header["errors"][""])["there"] == "it has none"
+    _, header = frame({"system": "typed", "texts": {"a": "-1", "g": "z"}}, all=True)
+    assert not header["errors"]
+
+
 def no_lesson(key):
     _, header = frame({"lesson": "nowhere"}, all=True)
     some = fields(key, header["errors"][""])["some"].split(", ")
@@ -214,6 +225,7 @@ CHECKS = {
     "part of the picture": address("v=1&seen=3,1,0,0"),
     "controls of a frame": address("v=1&controls=a b,f1"),
     "no such parameter": no_parameter,
+    "no such box": no_box,
     "no such lesson": no_lesson,
 }
 #: Of processes and of what a kernel of Jupyter does, held where those are run.

@@ -121,3 +121,22 @@ def test_results_are_bounded_in_number_and_in_size():
     assert kept.get(("big", 19)) is not None
     kept.put("of unknown size", lambda: 1)
     assert kept.get("of unknown size") is None
+
+
+def test_when_what_computes_has_been_shut_down_what_waits_is_given_up_without_a_word(caplog):
+    """As at the end of a process: the work under way ends, and others wait."""
+    executor = Held()
+    turns = Turns(executor, 1)
+    first = turns.want("one", 1, str, "first")
+    second = turns.want("two", 2, str, "second")
+
+    def refuse(*_):
+        raise RuntimeError("cannot schedule new futures after interpreter shutdown")
+
+    executor.submit = refuse
+    executor.run()
+    assert first.result(10) == "first"
+    assert not second.done()
+    assert not caplog.records
+    turns.want("three", 3, str, "third")
+    assert turns.result(1) == "first"
