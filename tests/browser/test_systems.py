@@ -129,4 +129,4 @@ def test_another_slow_variable_can_run_along_the_panel(explorer):
     explorer.find("select.drift").select_option("z2")
     explorer.settle()
     assert "v₂′" in explorer.find("svg.along").text_content()
-    assert "z₁ and z₂" in explorer.find(".plane-box").text_content()
+    assert "v₁ and v₂" in explorer.find(".plane-box").text_content()
