@@ -64,7 +64,7 @@ def _text(value: Any) -> str:
 
 def psi_words(view: View) -> str:
     """Return Psi as a formula in s."""
-    return f"Ψ(s) = {view.scene().psi.text.replace('**', '^').replace('*', ' ')}"
+    return f"Ψ(s) = {view.scene().psi.words}"
 
 
 def place_words(view: View) -> str:

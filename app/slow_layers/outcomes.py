@@ -84,7 +84,7 @@ def _row(outcome: Outcome) -> list[Any]:
     label = named(outcome.label)
     by_verdict: dict[str, list[str]] = {}
     for text, verdict, onto in outcome.families if outcome.depends_on_psi else ():
-        by_verdict.setdefault(_verdict(verdict, onto), []).append(text.replace("**", "^").replace("*", ""))
+        by_verdict.setdefault(_verdict(verdict, onto), []).append(text)
     words = UNDECIDED.get(outcome.why) if kind(outcome) == "undecided" else None
     return [
         label,

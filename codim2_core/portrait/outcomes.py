@@ -59,7 +59,7 @@ class Outcome:
     reason : str
     depends_on_psi : bool or None
         Whether other regularisations give another outcome; None where they were not asked.
-    families : tuple of (text of Psi, verdict, onto)
+    families : tuple of (Psi as a menu writes it, verdict, onto)
         What they give; empty where a theorem makes asking needless.
     slides_alike : bool
         It depends on Psi what it slides on, C or a cycle around it, but not how: the slow flow is the same.
@@ -240,7 +240,7 @@ def outcomes_of(own: LayerProblem, compare: Sequence[Psi] | None = None) -> Outc
     which = [i for i in range(len(equator)) if not radially_neutral(equator, i) and equator.lambda_rho[i] < 0.0]
     columns = [arriving(problem, which) for problem in (own, *others)]
     judged = {i: [column[k] for column in columns] for k, i in enumerate(which)}
-    texts = [other.psi.text for other in others]
+    texts = [other.psi.words for other in others]
     directions = tuple(_direction(own, judged.get(i, ()), texts, sensitive, i) for i in range(len(equator)))
     order = ("open set", "one side", "single direction")
     found = sorted((o for o in directions if o.arrives in order), key=lambda o: order.index(o.arrives))
@@ -290,7 +290,7 @@ def _whole(own: LayerProblem, others: list[LayerProblem], sensitive: bool, cycle
             reason = f"{say('all directions')} {reason}"
             outcome = Outcome(None, label, "open set", verdict, onto, leaving, slow, reason, why=why)
             return _compared(
-                outcome, [(other.psi.text, *spiralling(other)[:2]) for other in others], sensitive, elinear
+                outcome, [(other.psi.words, *spiralling(other)[:2]) for other in others], sensitive, elinear
             )
         if radial.min() > 0.0:
             return Outcome(None, label, "nothing", "misses", None, None, None, say("all lead away"))
@@ -308,4 +308,4 @@ def _whole(own: LayerProblem, others: list[LayerProblem], sensitive: bool, cycle
         return Outcome(None, "equator", "nothing", "misses", None, None, None, reason)
     verdict, onto, leaving, slow, reason, why = spiralling(own)
     outcome = Outcome(None, "equator", "open set", verdict, onto, leaving, slow, f"{say('spiral')} {reason}", why=why)
-    return _compared(outcome, [(other.psi.text, *spiralling(other)[:2]) for other in others], sensitive, elinear)
+    return _compared(outcome, [(other.psi.words, *spiralling(other)[:2]) for other in others], sensitive, elinear)

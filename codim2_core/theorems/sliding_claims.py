@@ -75,7 +75,7 @@ def _slow_flow(facts: Facts) -> Certificate:
         worst = 0.0
         for C, D in zip(facts.critical, found, strict=False):
             worst = max(worst, float(np.abs(facts.at.W(_e_of(D, other)) - C.slow_flow).max()))
-        numbers.append((f"largest change of z′ with Ψ = {other.text}", worst))
+        numbers.append((f"largest change of z′ with Ψ = {other.words}", worst))
         folded = any(C.kind in FOLDED for C in facts.critical)
         holds &= len(found) == len(facts.critical) and worst <= (1e-4 if folded else 1e-7) * facts.slow_size
     return Certificate(

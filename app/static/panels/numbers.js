@@ -71,7 +71,7 @@ class Numbers {
 
   outcomes(rows) {
     const items = rows.map(([label, kind, words, sentence, families]) => `<li><i class="outcome ${kind}"></i><b>${escape(label)}</b> ${escape(words)}
-      <p class="note">${escape(sentence)}</p>${families.map(([what, psis]) => `<p class="note"><b>${escape(what)}</b> with Ψ = ${psis.map(escape).join(", ")}</p>`).join("")}</li>`)
+      <p class="note">${escape(sentence)}</p>${families.map(([what, psis]) => `<p class="note"><b>${escape(what)}</b> with Ψ = ${psis.map(escape).join("; ")}</p>`).join("")}</li>`)
     put(this.find(".outcome-table"), `<h2>Approach outcomes</h2><ul>${items.join("")}</ul>`)
   }
 

@@ -102,7 +102,7 @@ def test_they_say_what_they_are_data_of():
     told.append(json.dumps(json.loads(json_text(view))["about"], ensure_ascii=False))
     for text in told:
         assert "a = 172" in text
-        assert "3/(3+(4 s)^3)" in text
+        assert "Ψ(s) = 3/(3 + (4s)ⁿ), n = 3" in text
         assert f"codim2 {c2.__version__}" in text
         assert view.query in text
     rows = [row for row in csv.reader(told[1].splitlines()) if not row[0].startswith("#")]

@@ -47,7 +47,7 @@ test("the panel numbers: cycles and outcomes", () => {
   one.frame({cycles: {kind: ["stable", "unstable"], period: [7.5, 12], multiplier: [0.25, 3], reason: "", notes: ["More <may> be."]}, outcomes: {rows: [["Q₁", "slide", "slide", "All slide.", [["slides on C", ["1", "3/(3+s)"]]]]]}})
   assert.deepEqual(cells(one, ".cycle-table"), [["Limit cycle", "stable"], ["period (fast time τ)", "7.500"], ["multiplier", "0.250"], ["Limit cycle", "unstable"], ["period (fast time τ)", "12.00"], ["multiplier", "3.000"]])
   assert.deepEqual(one.texts(".cycle-table .note"), ["More <may> be."])
-  assert.deepEqual([one.find(".outcome-table i").className, ...one.texts(".outcome-table .note")], ["outcome slide", "All slide.", "slides on C with Ψ = 1, 3/(3+s)"])
+  assert.deepEqual([one.find(".outcome-table i").className, ...one.texts(".outcome-table .note")], ["outcome slide", "All slide.", "slides on C with Ψ = 1; 3/(3+s)"])
   one.frame({cycles: {kind: [], period: [], multiplier: [], reason: "Case I has none.", notes: []}}, {}, ["outcomes"])
   assert.deepEqual(one.texts(".cycle-table .note"), ["Case I has none."])
   assert.ok(one.find(".outcome-table").classList.contains("old"))

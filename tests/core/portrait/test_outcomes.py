@@ -57,6 +57,7 @@ def test_case_III_depends_on_psi(n, verdict):
     assert (first.label, first.arrives, first.verdict) == ("Q1", "open set", verdict)
     assert first.slow_flow == pytest.approx([1.0], abs=1e-9)  # (1/2, 0) B + g, on C and on the cycle
     assert first.depends_on_psi
+    assert [words for words, _, _ in first.families] == ["1", *(f"3/(3 + (4s)ⁿ), n = {k}" for k in (2, 3))]
     assert [given for _, given, _ in first.families] == ["slide", "slide", "cycle"]
     assert approach_outcomes(system, p, compare=())[0].depends_on_psi is None
     # "Whether trajectories slide or cross depends upon their initial conditions."
