@@ -152,6 +152,8 @@ def _closed_equator(facts: Facts) -> Certificate:
         # Theta itself, not the component of U: a, however much larger than b, stays out of it
         around = (d - a) * e[:, 1] * e[:, 0] + f2 * e[:, 0] - f1 * e[:, 1] + b
         size = abs(d - a) + abs(f1) + abs(f2) + abs(b)
+    if not around.all():  # directions to rounding, such as those of a star that was typed in turned axes
+        return not_applicable(theorem, statement, say("there are directions"))
     integral = float((out / abs(around)).mean() * 2.0 * math.pi)
     weight = float((abs(out) / abs(around)).mean() * 2.0 * math.pi)
     rounding = 1e-15 * size

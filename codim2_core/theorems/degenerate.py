@@ -76,7 +76,7 @@ def symmetric(facts: Facts) -> Certificate:
         return not_applicable(theorem, statement, NOT_LINEAR)
     if form.b != 0.0 or form.f1 * form.f2 != 0.0 or (form.f1 != 0.0 and form.f2 != 0.0):
         return not_applicable(theorem, statement, say("not D2"))
-    if facts.equator.all_directions:
+    if facts.equator.all_directions or (form.f1 == form.f2 == 0.0 and form.a == form.d):  # or all but for rounding
         return not_applicable(theorem, statement, say("nothing turns at f = 0, D2"))
     spread = form.d - form.a
     if form.f2 == 0.0:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 _LOWERED, _RAISED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -19,6 +20,8 @@ def named(label: str) -> str:
 
 def number(value: float, digits: int = 4) -> str:
     """Return a number as it is written in a sentence: 0 within rounding as 0, with a minus sign and raised powers."""
+    if math.isinf(value):
+        return "∞" if value > 0.0 else "−∞"
     text = f"{0.0 if abs(value) < 1e-12 else value:.{digits}g}"
     mantissa, _, exponent = text.partition("e")
     text = mantissa.replace("-", "−")
@@ -26,6 +29,8 @@ def number(value: float, digits: int = 4) -> str:
 
 
 def power(value: float) -> str:
-    """Return a small positive number such as 1.6e-16 as 1.6 · 10⁻¹⁶."""
+    """Return a small or large positive number such as 1.6e-16 as 1.6 · 10⁻¹⁶."""
+    if math.isinf(value):
+        return "∞"
     mantissa, _, exponent = f"{value:.1e}".partition("e")
     return f"{mantissa} · 10{str(int(exponent)).translate(_RAISED)}"

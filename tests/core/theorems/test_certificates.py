@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, examples, presets, psi
@@ -90,6 +90,9 @@ def turned(system, angle):
 
 @settings(max_examples=60)
 @given(st.one_of(systems, round_systems), regularisations, st.sampled_from([0.0, 0.5 * np.pi, 0.3, 2.0]))
+@example(ELinear(3.0, 0.0, 3.0, (0.0, 0.0)), psi.constant(), 0.3)  # stars, but for the rounding of the turn
+@example(ELinear(3.0, 0.0, 3.0, (0.0, 0.0)), psi.constant(), 2.0)
+@example(ELinear(1.0, 0.0, 1.0, (0.0, 0.0)), psi.constant(), 0.3)
 def test_nothing_fails_for_typed_affine_systems(system, regularisation, angle):
     typed = turned(system, angle)
     try:
