@@ -163,8 +163,8 @@ def _basins(scene: Scene) -> Table:
     names = np.array(["", "", *header["destinations"]])
     row, column = np.divmod(np.arange(cells * cells), cells)
     inside = which > 0
-    middle = lambda k: (2 * k[inside] + 1) / cells - 1  # noqa: E731 (of a cell, in the picture)
-    return Table(BASINS, {"px": middle(column), "py": middle(row), "destination": names[which[inside]]})
+    px, py = (2 * np.stack((column, row))[:, inside] + 1) / cells - 1  # the middle of each cell
+    return Table(BASINS, {"px": px, "py": py, "destination": names[which[inside]]})
 
 
 def rows(table: Table) -> Iterator[tuple[Any, ...]]:

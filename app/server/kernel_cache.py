@@ -7,7 +7,6 @@ read-only root, another user, no home or a full disk is no reason to show nobody
 from __future__ import annotations
 
 import logging
-import os
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -22,16 +21,29 @@ config: Any = numba_config  # its names are made at run time
 UNCACHED = "the compiled kernels cannot be kept on disk ({why}): what is not there yet is compiled anew at every start."
 
 
-class AsItIs(caching.InTreeCacheLocator):
-    """The cache as it is, read and never made: in NUMBA_CACHE_DIR, else beside the modules."""
+class AsGiven(caching.UserProvidedCacheLocator):
+    """The folder in NUMBA_CACHE_DIR as it is, where it cannot be written: read, and never made."""
 
-    def __init__(self, py_func: Any, py_file: str) -> None:
-        super().__init__(py_func, py_file)
-        if config.CACHE_DIR:
-            self._cache_path = caching.UserProvidedCacheLocator(py_func, py_file).get_cache_path()
+    def ensure_cache_path(self) -> None:
+        """Leave the folder alone; without one, let the next locator answer."""
+        if not Path(config.CACHE_DIR).is_dir():
+            raise FileNotFoundError(config.CACHE_DIR)
+
+
+class AsItIs(caching.InTreeCacheLocator):
+    """What lies beside the modules as it is, where nothing can be written: read, and never made."""
 
     def ensure_cache_path(self) -> None:
         """Leave the folder alone."""
+
+
+def _locators() -> list[type[Any]]:
+    """Return Numba's locators, in the order in which it asks them, with those that only read.
+
+    A folder that the host has warmed comes before a home that can be written, where nothing is.
+    """
+    first, *others = caching.CacheImpl._locator_classes  # noqa: SLF001
+    return [first, AsGiven, *others, AsItIs]
 
 
 @cache
@@ -49,19 +61,17 @@ def prepare() -> str:
             _say_once(UNCACHED.format(why=error.strerror))
 
     caching.FunctionCache.save_overload = saved_if_possible
-    given = Path(config.CACHE_DIR) if config.CACHE_DIR else None
-    if given is not None and given.is_dir() and not os.access(given, os.W_OK):
-        # Numba would go on to the home, where nothing is, though the host has warmed this folder
-        config.CACHE_LOCATOR_CLASSES = f"{__name__}.{AsItIs.__name__}"
-        return "" if next(given.rglob("*.nbi"), None) else UNCACHED.format(why=f"{given} cannot be written")
-    module = str(Path(codim2_core.__file__))
-    if config.CACHE_LOCATOR_CLASSES or any(
-        locator.from_function(prepare.__wrapped__, module)
-        for locator in caching.CacheImpl._locator_classes[:3]  # noqa: SLF001
-    ):
-        return ""
-    config.CACHE_LOCATOR_CLASSES = f"{__name__}.{AsItIs.__name__}"
-    return UNCACHED.format(why="no folder for them can be written")
+    if config.CACHE_LOCATOR_CLASSES:
+        return ""  # the host has named its own
+    locators = _locators()
+    config.CACHE_LOCATOR_CLASSES = ",".join(f"{one.__module__}.{one.__name__}" for one in locators)
+    asked = (one.from_function(prepare.__wrapped__, str(Path(codim2_core.__file__))) for one in locators)
+    found = next(one for one in asked if one)
+    if isinstance(found, AsItIs):
+        return UNCACHED.format(why="no folder for them can be written")
+    if isinstance(found, AsGiven) and not next(Path(config.CACHE_DIR).rglob("*.nbi"), None):
+        return UNCACHED.format(why=f"{config.CACHE_DIR} cannot be written")
+    return ""
 
 
 @cache
