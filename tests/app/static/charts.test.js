@@ -6,7 +6,7 @@ import "../../../app/static/panels/along.js"
 import "../../../app/static/panels/planes.js"
 import "../../../app/static/panels/psi.js"
 import "../../../app/static/panels/time.js"
-import {named, near, opened, plots} from "./reading.js"
+import {named, near, opened, plots, wide} from "./reading.js"
 
 // --- along
 const ALONG = {
@@ -40,6 +40,22 @@ test("the panel along: slow flow, its sense and its rests, and where it slides",
   near([z], [2.25], 0.03)
   one.frame({unable: {along: "No z."}})
   assert.deepEqual([one.find(".along-body").hidden, one.find(".along-note").textContent], [true, "No z."])
+})
+
+test("the panel along: what comes before it is opened is drawn when it is, no higher than 460 px", () => {
+  const one = opened("along", {z: -1.5, z2: 0, drift: "z"}, {}, null), svg = one.find(".along")
+  one.panels.apply({header: {along: ALONG}, blocks: {}}, [])
+  assert.equal(svg.getAttribute("aria-valuenow"), null)
+  one.panels.show("along", one.values)
+  assert.equal(svg.getAttribute("aria-valuenow"), "-1.5")
+  one.panels.show("elsewhere", one.values) // hidden, it is not kept up to date
+  one.values.z = 2
+  one.panels.apply({header: {along: ALONG}, blocks: {}}, [])
+  assert.equal(svg.getAttribute("aria-valuenow"), "-1.5")
+  one.panels.show("along", one.values)
+  assert.equal(svg.getAttribute("aria-valuenow"), "2")
+  const heights = [500, 690, 700, 2000].map((px) => { wide(svg, px); one.frame({along: ALONG}); return svg.style.height })
+  assert.deepEqual(heights, ["330px", "455px", "460px", "460px"])
 })
 
 test("the panel along: play goes with the slow flow, to where it rests or the range ends", () => {

@@ -3,7 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import "../../../app/static/panels/diagram.js"
-import {named, near, opened, plots} from "./reading.js"
+import {named, near, opened, plots, wide} from "./reading.js"
 
 const DIAGRAM = {
   control: "f1", span: [-2, 6], closed: [[4.5, 5.5]],
@@ -126,4 +126,26 @@ test("the panel diagram: a part of a range in six steps, and a list of axes that
   one.find("select.along").value = "n"
   one.fire(one.find("select.along"), "change")
   assert.deepEqual(one.said().at(-1), ["choose", "along", "n"])
+})
+
+test("the panel diagram: higher where there are cycles, and no higher than a screen however wide it is", () => {
+  const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 0}), svg = one.find(".diagram")
+  const heights = () => [500, 700, 2000].map((px) => { wide(svg, px); one.frame({diagram: DIAGRAM}); const low = svg.style.height; one.frame({cycles_along: CYCLES}); return [low, svg.style.height] })
+  assert.deepEqual(heights(), [["430px", "650px"], ["602px", "820px"], ["620px", "820px"]])
+})
+
+test("the panel diagram: what comes before it is opened is drawn when it is", () => {
+  const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 0}, {}, null)
+  one.panels.apply({header: {diagram: DIAGRAM, ...AXES}, blocks: {}}, [])
+  const value = () => one.find(".diagram .value").getAttribute("d")
+  assert.equal(value(), "")
+  one.panels.show("diagram", one.values)
+  near([plots(one.find(".diagram"))[0].x.of(Number(value().match(/M([\d.]+)/)[1]))], [2.5], 0.03)
+  one.panels.show("elsewhere", one.values) // hidden, it is not kept up to date
+  const before = value()
+  one.values.f1 = 4
+  one.panels.apply({header: {diagram: DIAGRAM}, blocks: {}}, [])
+  assert.equal(value(), before)
+  one.panels.show("diagram", one.values)
+  near([plots(one.find(".diagram"))[0].x.of(Number(value().match(/M([\d.]+)/)[1]))], [4], 0.03)
 })

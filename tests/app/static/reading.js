@@ -11,8 +11,9 @@ const RANGES = {a: [-4, 4], f1: [-3, 3], f2: [-3, 3], n: [0.5, 6], z: [-4, 4], z
 /**
  * Open a panel. What it does to the rest of the page is noted in `said`: [what, ...with].
  * @param {string} key @param {Record<string, any>} values of the controls @param {any} more of the tools
+ * @param {string | null} shown what is open at first, if not this panel; null: nothing yet
  */
-export function opened(key, values, more = {}) {
+export function opened(key, values, more = {}, shown = key) {
   const there = page(`<div class="codim2"><div class="portrait"></div><div class="tabs" role="tablist"><button role="tab" data-panel="${key}">A panel</button></div><section role="tabpanel" data-panel="${key}"></section></div>`)
   const root = /** @type {any} */ (there.document.querySelector(".codim2")), box = /** @type {any} */ (there.document.querySelector("[role=tabpanel]"))
   const said = [], note = (what) => (...all) => { said.push([what, ...all]) }
@@ -24,7 +25,7 @@ export function opened(key, values, more = {}) {
     choose: (it, value) => { said.push(["choose", it, value]); values[it] = value; panels.draw(values) },
     trace: note("trace"), open: note("open"), hide: note("hide"), ...more,
   }, note("choose"))
-  panels.show(key, values)
+  if (shown !== null) panels.show(shown, values)
   return {
     ...there, root, box, panels, values, setters,
     /** What was done since it was asked for. */
@@ -68,6 +69,9 @@ export function plots(svg) {
     }
   })
 }
+
+/** Give an element another width than all have here. @param {any} element @param {number} value px */
+export const wide = (element, value) => Object.defineProperty(element, "clientWidth", {value, configurable: true})
 
 /** Whether numbers are those expected, to half a pixel of these charts. */
 export const close = (found, expected, most = 0.02) => found.flat(3).length === expected.flat(3).length && found.flat(3).every((v, i) => Math.abs(v - expected.flat(3)[i]) <= most)

@@ -163,9 +163,9 @@ test("after a step down the next one waits until its effect can be seen: a round
   for (let t = 2000; t < 2400; t += 10) {
     const before = window.size
     window.measured(t, 200, 0.2)
-    if (window.size < before) steps.push(t)
+    if (window.size < before) steps.push([t, window.size])
   }
-  assert.deepEqual(steps, [2000, 2200])
+  assert.deepEqual(steps, [[2000, 4], [2200, 3]])
 })
 
 test("values set while the window is full travel together, the newest of each", () => {
@@ -233,4 +233,100 @@ test("a change puts off what is late, and asks with patience again", () => {
   assert.equal(world.asked.length, 2)
   world.run(900)
   assert.equal(world.asked.length, 3)
+})
+
+test("round trips are smoothed as TCP does it: an eighth of what is new", () => {
+  const window = new Window()
+  window.measured(0, 40)
+  assert.deepEqual([window.mean, window.spread], [40, 0])
+  window.measured(17, 120)
+  assert.deepEqual([window.mean, window.spread], [50, 10])
+  for (let k = 1; k < 20; k++) window.measured(17 * k, 120)
+  assert.ok(Math.abs(window.mean - (120 - 80 * (7 / 8) ** 20)) < 1e-9)
+})
+
+test("the window grows by one for each frame of the screen, and not while replies queue", () => {
+  const window = new Window(), sizes = []
+  for (let t = 0; t < 60; t += 10) { window.measured(t, 80, 0.2); sizes.push(window.size) }
+  assert.deepEqual(sizes, [2, 2, 3, 3, 4, 4])
+  window.measured(70, 200, 0.2)
+  assert.equal(window.size, 3)
+})
+
+test("of round trips the shortest of the last five seconds counts", () => {
+  const window = new Window()
+  window.measured(1000, 30)
+  for (let t = 1100; t <= 6000; t += 100) window.measured(t, 60)
+  assert.equal(window.best[0][1], 30)
+  window.measured(6001, 60)
+  assert.equal(window.best[0][1], 60)
+  window.measured(6100, 45)
+  assert.deepEqual(window.best, [[6100, 45]])
+  window.measured(99999, 80) // the only one is kept, however old
+  assert.deepEqual(window.best, [[99999, 80]])
+})
+
+// Requests whose clock is turned by hand: `soon` notes what is to be done, `after` what would be done when.
+function byHand(size = 1) {
+  const soon = [], later = [], sent = [], asks = [0]
+  const requests = new Requests((request) => sent.push(request), () => { asks[0] += 1 }, {now: () => 0, soon: (go) => soon.push(go), after: (ms, go) => later.push({ms, go}), cancel() {}})
+  requests.window.size = size
+  return {requests, soon, later, sent, asks, frame: () => { for (const go of soon.splice(0)) go() }}
+}
+
+test("however much changes within a frame, one request leaves, and nothing more is scheduled", () => {
+  const {requests, soon, sent, asks, frame} = byHand(3)
+  requests.set("a", 1); requests.set("b", 2); requests.refresh()
+  assert.equal(soon.length, 1)
+  assert.deepEqual(asks, [3])
+  frame()
+  assert.deepEqual(sent.map(({set}) => set), [{a: 1, b: 2}])
+  requests.set("a", 2)
+  assert.equal(soon.length, 1)
+  frame()
+  assert.deepEqual(sent.map(({set, rest}) => [set, rest]), [[{a: 1, b: 2}, false], [{a: 2}, false]])
+  assert.equal(sent[1].id, sent[0].id + 1)
+  requests.schedule(); frame() // nothing is wanted
+  assert.equal(sent.length, 2)
+})
+
+test("it is idle when nothing is out and nothing wanted", () => {
+  const {requests, frame, sent} = byHand()
+  assert.equal(requests.idle, true)
+  requests.set("a", 1)
+  assert.equal(requests.idle, false) // wanted, not out
+  frame()
+  assert.equal(requests.idle, false) // out, not wanted
+  requests.arrived(sent[0].id, 0)
+  assert.equal(requests.idle, true)
+  requests.refresh()
+  assert.equal(requests.idle, false)
+  frame()
+  assert.deepEqual(sent[1].set, {})
+})
+
+test("what was lost is asked for again, but no value that a later request carries, and no empty request follows", () => {
+  const {requests, frame, sent, later} = byHand(2)
+  requests.set("a", 1); requests.set("b", 1); frame()
+  requests.set("a", 2); frame()
+  assert.deepEqual(later.map(({ms}) => ms), [20000, 20000])
+  later[0].go()
+  frame()
+  assert.deepEqual(sent.map(({set}) => set), [{a: 1, b: 1}, {a: 2}, {b: 1}])
+  requests.window.size = 3
+  requests.set("b", 2); frame()
+  later[2].go() // its value has been sent anew
+  frame()
+  assert.equal(sent.length, 4)
+  assert.deepEqual([requests.holds("b"), requests.holds("c")], [true, false])
+})
+
+test("a reply to a later request means that earlier ones are not to come", () => {
+  const {requests, frame, sent} = byHand(3)
+  for (const value of [1, 2, 3]) { requests.set("a", value); frame() }
+  requests.arrived(sent[1].id, 0)
+  assert.deepEqual([...requests.out.keys()], [sent[2].id])
+  requests.arrived(sent[0].id, 0) // unknown by now
+  requests.arrived(sent[2].id, 0)
+  assert.equal(requests.idle, true)
 })
