@@ -12,6 +12,8 @@ from codim2_core.portrait.launched import launched
 from codim2_core.sliding.along import slow_portrait
 from codim2_core.words import ROOMS, named, recognise
 
+from .read_back import number
+
 ONE = psi.constant()
 TURN = np.linspace(0.3, 6.1, 5)
 SYSTEMS = {
@@ -24,12 +26,6 @@ SYSTEMS = {
     "three sets": (System(U=("-c*(c - 1/2)*(c + 1/2)", "-s")), ONE),
     "cycle": (c2.presets["case3-n3"].system, c2.presets["case3-n3"].psi),
 }
-
-
-def number(text):
-    mantissa, _, power = text.replace("−", "-").partition(" · 10")
-    digits = power.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
-    return float(mantissa) * 10.0 ** int(digits or 0)
 
 
 def angles_agree(one, other):
