@@ -43,6 +43,11 @@ SENTENCES: dict[str, Sentence] = {
         "(4s)ⁿ) has n.",
         "typed coefficients without names",
     ),
+    "no parameter": Sentence(
+        "A diagram needs a parameter; this system has none. A name typed in a formula becomes one, and Ψ = 3/(3 + "
+        "(4s)ⁿ) has n.",
+        "numbers only, and m = 0",
+    ),
     "one axis twice": Sentence("Choose two different parameters.", "both axes are one parameter"),
     "n of another Ψ": Sentence("n is a parameter of Ψ = 3/(3 + (4s)ⁿ) only.", "an axis that Ψ does not have"),
     "no such axis": Sentence("{symbol} is not in this system: choose another.", "an axis that the system lacks"),

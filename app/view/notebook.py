@@ -11,11 +11,14 @@ from param.parameterized import resolve_ref, resolve_value
 
 from codim2_core.examples import catalogue
 from codim2_core.figures.presets import presets
+from codim2_core.psi import constant
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
+from ..frame.scenes import locked_controls
+from ..panels.parameters.axes import axes_there
 from ..state.choices import SLOW_CONTROLS
 from ..state.chosen import System_, titles
 from ..state.controls import NAMES, ExplorerState, InputError, clean
@@ -164,6 +167,9 @@ def _values_of(system: System_, values: Mapping[str, Any]) -> dict[str, Any]:
     z = [values.get(name, 0.0) for name in SLOW_CONTROLS[: system.m]]
     at = system.at((*z, *[0.0] * (system.m - len(z))))
     shown = {"a": at.a, "b": at.b, "d": at.d, "f1": at.f1, "f2": at.f2, "k1": 0.0, "k2": 0.0, "launch": launch}
+    scene = Scene(system, constant(), (*z, *[0.0] * (system.m - len(z))))
+    if len(axes_there(scene, ExplorerState.of(shown).values(), locked_controls(scene, True))) < 2:
+        shown["panel"] = "numbers"  # there is no atlas
     if system.m:
         shown |= {"B1": float(at.B[0, 0]), "B2": float(at.B[0, 1]), "g0": float(at.g[0])}
     return shown

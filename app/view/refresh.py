@@ -28,6 +28,7 @@ from ..frame.sides import sides
 from ..frame.turns import Failed
 from ..frame.window import Window, inputs, seen
 from ..panels import registry
+from ..panels.parameters.axes import opening_axes
 from ..state.asked import read_request
 from ..state.choices import AXES
 from ..state.chosen import GIVEN, System_, describe
@@ -37,6 +38,8 @@ from .notices import left_out
 
 #: Controls that are axes of the picture's parameters.
 MOVED = frozenset(AXES)
+#: Controls that say which parameters there are.
+AXES_OF = frozenset({"system", "texts", "psi"})
 #: Layers that others start from, and that are small: whoever computes those is given these.
 STANDING = frozenset({"equator", "equator_cycle", "location", "critical", "classification", "slow_flow"})
 #: How often a frame is begun anew because what it lacked is there.
@@ -80,6 +83,9 @@ class Frames:
             self.scene.ask_before(budget.before)
         self._notices += left_out(self.scene, self.values, self.given is not None)
         self.locked = locked_controls(self.scene, self.given is not None)
+        axes = opening_axes(self.scene, self.values, self.locked)
+        self.values |= axes
+        self._unpublished |= axes
         self.ready = ready
         self.jobs = Jobs()
         self.window: Window | None = None
@@ -198,6 +204,8 @@ class Frames:
         values = {**self.values, **changes}
         changed = [name for name in changes if values[name] != self.values[name]]
         scene = evolved(self.scene, values, [name for name in changed if name not in self.locked], self.given)
+        if AXES_OF.intersection(changed):
+            values |= opening_axes(scene, values, self.locked)
         return values, changed, scene
 
     def _draw(self, changes: Mapping[str, Any], sent: Mapping[str, Any], rest: bool) -> tuple[dict[str, Any], Blocks]:

@@ -207,6 +207,7 @@ CHECKS = {
     "no slow variable": unable("along", "along", system="own", texts={"U1": "-c", "U2": "-s", "W": ""}),
     "no atlas of equations": unable("atlas", "map", system="own", across="z", up="n"),
     "too few parameters": too_few,
+    "no parameter": unable("diagram", "diagram", system="own", texts={"U1": "-c", "U2": "-s", "W": "", "where": ""}),
     "one axis twice": axes,
     "n of another Ψ": unable("atlas", "map", across="f1", up="n"),
     "no such axis": axes,
@@ -238,7 +239,7 @@ ELSEWHERE = {
     "stopped after": "tests/app/frame/test_workers.py",
     "lost": "tests/app/frame/test_turns.py",
     "compiling": "tests/app/view/test_notebook.py",
-    "axis given": "tests/app/panels/parameters/test_atlas.py",
+    "axis given": "tests/app/panels/parameters/test_axes.py",
 }
 
 

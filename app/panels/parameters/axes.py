@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,8 +16,8 @@ from ...draw.mathml import plain_symbol
 from ...frame.draft import Draft
 from ...phrases import say
 from ...state.choices import AXES, COEFFICIENTS, OWN_AXIS, SLOW_CONTROLS
-from ...state.chosen import NORMAL, PARAMETER_RANGE, slow_ranges
-from ...state.controls import ExplorerState, slider_range
+from ...state.chosen import NORMAL, OWN, PARAMETER_RANGE, slow_ranges
+from ...state.controls import ExplorerState, axes_of, slider_range
 
 #: Coefficients of the slow flow: nothing in a diagram or a map depends on them.
 SLOW = ("B1", "B2", "g0")
@@ -47,11 +48,20 @@ class Axis:
 
 
 def available(draft: Draft) -> dict[str, Axis]:
-    """Return, by name, the axes that belong to the present system and Psi; the browser is told when they change.
+    """Return, by name, the axes that belong to the present system and Psi; the browser is told when they change."""
+    found = axes_there(draft.scene, draft.values, draft.locked)
+    told = tuple((axis.name, axis.symbol, axis.low, axis.high) for axis in found.values())
+    if draft.now.get("axes") != told:
+        draft.now["axes"] = told
+        draft.header["axes"] = [list(row) for row in told]
+    return found
+
+
+def axes_there(scene: Scene, values: Mapping[str, Any], locked: Collection[str] = ()) -> dict[str, Axis]:
+    """Return, by name, the axes that belong to the system and Psi of a scene.
 
     They are those of `AXES`, and "own:" with the name of any other parameter of the system.
     """
-    scene, values = draft.scene, draft.values
     known = names(scene.system, scene.psi, scene.z)
     normal, example = values["system"] == NORMAL, catalogue.get(values["system"])
     own = dict(getattr(scene.system, "parameters", ()))
@@ -61,22 +71,39 @@ def available(draft: Draft) -> dict[str, Axis]:
     for name in AXES if normal else (*SLOW_CONTROLS, "n"):
         slow = SLOW_CONTROLS.index(name) if name in SLOW_CONTROLS else None
         core = name if slow is None else f"z{slow + 1}"
-        if core not in known or name in draft.locked or (name == "n" and "n" in own):
+        if core not in known or name in locked or (name == "n" and "n" in own):
             continue
         declared = ExplorerState.param[name]
         low, high = declared.softbounds if normal or slow is None else ranges[slow]
         symbol = example.slow[slow][0] if example and slow is not None else str(declared.label)
         found[name] = Axis(name, core, symbol, float(low), float(high), float(values[name]))
     for parameter, value in own.items():
-        if normal and parameter in COEFFICIENTS:
+        if normal and parameter in COEFFICIENTS and parameter not in locked:
             continue
         low, high = example.ranges.get(parameter, PARAMETER_RANGE) if example else PARAMETER_RANGE
         name = OWN_AXIS + parameter
         found[name] = Axis(name, parameter, plain_symbol(parameter), float(low), float(high), float(value))
-    told = tuple((axis.name, axis.symbol, axis.low, axis.high) for axis in found.values())
-    if draft.now.get("axes") != told:
-        draft.now["axes"] = told
-        draft.header["axes"] = [list(row) for row in told]
+    return found
+
+
+def opening_axes(scene: Scene, values: Mapping[str, Any], locked: Collection[str] = ()) -> dict[str, str]:
+    """Return other axes for those with which a choice of system opens, where the system at hand lacks them.
+
+    What a choice opens with is the same whatever is typed, and whichever Psi is chosen. An axis that was chosen stays:
+    a sentence says that it is not there.
+    """
+    choice = values["system"]
+    across, up = axes_of(OWN if choice == NORMAL and not isinstance(scene.system, ELinear) else choice)
+    there = axes_there(scene, values, locked)
+    # along Sigma, then over what the system's author named
+    order = sorted(there, key=lambda name: (name not in SLOW_CONTROLS, not name.startswith(OWN_AXIS)))
+    found: dict[str, str] = {}
+    for control, first in (("across", across), ("up", up), ("along", across)):
+        if values[control] == first and first not in there:
+            other = {"across": values["up"], "up": found.get("across", values["across"]), "along": None}[control]
+            free = [name for name in order if name != other]
+            if free:
+                found[control] = free[0]
     return found
 
 

@@ -14,6 +14,7 @@ from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.elinear import ELinear
 
 from ...frame.draft import Draft
+from ...phrases import say
 from ..panel import Panel
 from .axes import available, missing, spans_of, without
 
@@ -29,7 +30,7 @@ def add(draft: Draft) -> None:
     """Add the diagram along the chosen parameter, over a span around its value, once nothing moves; then the cycles."""
     name = draft.values["along"]
     there = available(draft)
-    reason = missing(draft, there, name)
+    reason = missing(draft, there, name) if there else say("no parameter")
     if reason:
         if draft.now.get("diagram") != reason:
             draft.now["diagram"] = reason

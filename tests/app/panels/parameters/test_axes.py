@@ -1,0 +1,83 @@
+"""A panel over parameters opens on parameters that the system has, whatever is typed and whichever Ψ is chosen."""
+
+import pytest
+from codim2_app import explorer
+from codim2_app.draw.packing import unpack
+from codim2_app.phrases import say
+from codim2_app.state.controls import ExplorerState
+from codim2_app.view.refresh import Frames
+
+import codim2_core as c2
+
+TYPED = {
+    "a name": {"system": "typed", "texts": {"f1": "-1/2 + k*z"}},
+    "two names": {"system": "typed", "texts": {"a": "-q", "f1": "-1/2 + k*z"}},
+    "nothing of z": {"system": "typed", "texts": {"f1": "-1/2 + k"}},
+    "the parameter of Ψ": {"system": "typed", "psi": "hill"},
+    "no slow variable": {"system": "own", "texts": {"U1": "-2*c + k", "U2": "-s", "W": "", "where": ""}},
+    "no name": {"system": "own", "texts": {"U1": "-2*c", "U2": "-s", "W": "", "where": ""}, "psi": "hill"},
+}
+GIVEN = {
+    "a ball": c2.examples.ball_in_pool(),
+    "f as text": c2.ELinear(-1, "0.1*z1", -2, ("k*z1", "q"), B=((1, 0),), parameters={"k": 1.0, "q": 0.2}),
+    "no z": c2.System(U=("-2*c + k", "-s"), parameters={"k": 0.3}),
+    "a parameter called a": c2.System(U=("-a*c", "-s"), parameters={"a": 0.3}),
+    "a matrix": c2.ELinear.from_matrix([[-1, 2], [0, -3]], ("0.1*z", 0.2)),
+}
+
+
+def shown(frames, panel):
+    header, _ = unpack(frames.answer({"id": 1, "set": {"panel": panel}, "rest": True, "all": True}))
+    return header
+
+
+def why_not(header, name):
+    return header.get("unable", {}).get(name)
+
+
+def hold(frames):
+    header = shown(frames, "diagram")
+    assert why_not(header, "diagram") is None
+    there = [axis[0] for axis in header["axes"]]
+    assert frames.values["along"] in there
+    assert why_not(shown(frames, "atlas"), "map") in (
+        None,
+        say("no atlas of equations"),
+        *([say("too few parameters", names=header["axes"][0][1])] if len(there) < 2 else []),
+    )
+
+
+@pytest.mark.parametrize("values", TYPED.values(), ids=TYPED.keys())
+def test_typed_systems(values):
+    hold(Frames(ExplorerState.of({**values, "layers": [], "trajectories": 0})))
+
+
+@pytest.mark.parametrize("system", GIVEN.values(), ids=GIVEN.keys())
+def test_systems_from_python(system):
+    view = explorer(system, layers=[], trajectories=0)
+    view.frames.ready = lambda _psi, _system: True
+    assert why_not(unpack(view.frames.answer({"all": True, "rest": True}))[0], "map") is None  # it opens on something
+    hold(view.frames)
+    assert (view.state.across, view.state.up) == (view.frames.values["across"], view.frames.values["up"])
+
+
+def test_the_axes_follow_what_is_typed():
+    frames = Frames(ExplorerState.of({"system": "typed", "panel": "atlas"}))
+    header, _ = unpack(frames.answer({"id": 1, "set": {"texts": {"d": "-1 + q"}}, "rest": True}))
+    assert header["set"]["up"] == "own:q"
+    assert why_not(header, "map") is None
+    header, _ = unpack(frames.answer({"id": 2, "set": {"psi": "hill"}, "rest": True}))
+    assert frames.values["up"] == "own:q"  # it is there
+
+
+def test_an_axis_that_was_chosen_stays_and_a_sentence_says_that_it_is_not_there():
+    frames = Frames(ExplorerState.of({"up": "n"}))
+    assert why_not(shown(frames, "atlas"), "map") == say("n of another Ψ")
+    view = explorer(c2.ELinear(-1, "0.1*z1", -2, (0.2, 0.3)), across="b")
+    assert why_not(shown(view.frames, "atlas"), "map") == say("axis given", symbol="b")
+
+
+def test_numbers_alone_have_no_diagram_and_open_on_what_they_have():
+    frames = Frames(ExplorerState.of({"system": "own", "texts": TYPED["no name"]["texts"]}))
+    assert why_not(shown(frames, "diagram"), "diagram") == say("no parameter")
+    assert explorer(c2.ELinear.from_matrix([[-1, 2], [0, -3]], (0.1, 0.2))).state.panel == "numbers"
