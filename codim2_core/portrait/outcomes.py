@@ -32,6 +32,7 @@ __all__ = ["Outcome", "Outcomes", "approach_outcomes"]
 
 
 MOST_COMPARED = 8  # critical sets: with more, other regularisations are asked only on request
+TURN = 2.0 * math.pi
 AT_ZERO = 1e-9  # angle to a limit direction that counts as that direction
 
 
@@ -102,6 +103,7 @@ class Outcomes:
     equator : EquatorEquilibria
     whole : Outcome or None
         That of all angles, where no Q decides (closed equator, or every direction is a limit direction).
+        None where there are limit directions Q.
     """
 
     outcomes: tuple[Outcome, ...]
@@ -130,7 +132,7 @@ class Outcomes:
         Returns
         -------
         int or None
-            None where no Q decides.
+            None where no Q decides: where there is none, or theta leads to a whole arc of limit directions.
 
         Raises
         ------
@@ -139,38 +141,54 @@ class Outcomes:
         """
         if not math.isfinite(theta):
             raise ValueError(f"theta is {theta}; give a finite angle in radians.")
-        zeros = self.equator.theta.tolist()
-        if self.whole is not None or not zeros:
+        if self.whole is not None:
             return None
-        angle = theta % (2.0 * math.pi)
-        for i, zero in enumerate(zeros):
-            if abs(math.remainder(angle - zero, 2.0 * math.pi)) <= AT_ZERO:
+        angle = theta % TURN
+        for i, zero in enumerate(self.equator.theta.tolist()):
+            if abs(math.remainder(angle - zero, TURN)) <= AT_ZERO:
                 return i
-        after = bisect.bisect(zeros, angle)
-        c, s = math.cos(angle), math.sin(angle)
+        if any((angle - first) % TURN <= (last - first) % TURN for first, last in self.equator.arcs.tolist()):
+            return None
+        cuts = self._cuts
+        after = bisect.bisect([cut for cut, _ in cuts], angle) % len(cuts)
+        (begin, before), (end, beyond) = cuts[after - 1], cuts[after]
+        # Theta has one sign between its zeros; near a multiple one rounding would decide
+        middle = 0.5 * (begin + end + (0.0 if end > begin else TURN))
+        c, s = math.cos(middle), math.sin(middle)
         u, v = self._at.U(np.array([c, s])).tolist()
-        turning = c * v - s * u
-        return after % len(zeros) if turning > 0.0 else (after - 1) % len(zeros)
+        return beyond if c * v > s * u else before
+
+    @property
+    def _cuts(self) -> list[tuple[float, int | None]]:
+        """Limit directions (angle, index) and the ends of whole arcs of them (angle, None), in order."""
+        ends = [(end, None) for end in self.equator.arcs.ravel().tolist()]
+        cuts = [*((zero, i) for i, zero in enumerate(self.equator.theta.tolist())), *ends]
+        return sorted(cuts, key=lambda cut: cut[0])
 
     def outcome(self, theta: float) -> Outcome:
         """Outcome for a trajectory that starts outside at angle theta (radians).
 
         At any distance, or near Sigma if U depends on x or y.
         """
-        i = self.destination(theta)
-        if i is None:
-            assert self.whole is not None
+        if self.whole is not None:
             return self.whole
-        return self.directions[i]
+        i = self.destination(theta)
+        return _on_arcs(self.equator) if i is None else self.directions[i]
 
     @property
     def arcs(self) -> tuple[tuple[float, float, Outcome], ...]:
         """The circle of approach angles, cut at the limit directions: (from, to, outcome), to > from."""
-        zeros = self.equator.theta.tolist()
-        if self.whole is not None or not zeros:
-            return ((0.0, 2.0 * math.pi, self.outcome(0.0)),)
-        ends = [*zeros[1:], zeros[0] + 2.0 * math.pi]
-        return tuple((t, e, self.outcome(0.5 * (t + e))) for t, e in zip(zeros, ends, strict=True))
+        if self.whole is not None:
+            return ((0.0, TURN, self.whole),)
+        angles = [angle for angle, _ in self._cuts]
+        ends = [*angles[1:], angles[0] + TURN]
+        return tuple((t, e, self.outcome(0.5 * (t + e))) for t, e in zip(angles, ends, strict=True))
+
+
+def _on_arcs(equator: EquatorEquilibria) -> Outcome:
+    """Say of angles that they lead to a whole arc of limit directions, as a Theta with kinks may have."""
+    reason = " ".join(arcs_of(equator.arcs)) or say("no directions found")
+    return Outcome(None, "equator", "nothing", "undecided", None, None, None, reason, why="unfollowed")
 
 
 def _sensitive(at: AtZ, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...]) -> bool:
@@ -226,14 +244,13 @@ def outcomes_of(own: LayerProblem, compare: Sequence[Psi] | None = None) -> Outc
     at, equator, cycle = own.at, own.equator, own.equator_cycle
     others: list[LayerProblem] = []
     sensitive = _sensitive(at, equator, own.critical)
-    arrive = equator.all_directions or (equator.lambda_rho < 0.0).any()
-    if sensitive and (arrive or (cycle is not None and cycle.exponent < 0.0)):
+    if sensitive:
         if compare is None and len(own.critical) > MOST_COMPARED:
             compare = ()
         if compare is None:
             compare = compared()
         others = [own.under(other) for other in compare]
-    if equator.all_directions or cycle is not None or not len(equator):
+    if not len(equator):
         whole = _whole(own, others, sensitive, cycle)
         found = () if whole.verdict == "misses" else (whole,)
         return Outcomes(found, (), equator, whole, at)
@@ -274,8 +291,8 @@ def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], se
         return Outcome(theta, label, "nothing", "misses", None, None, None, reason)
     arrives = _arrival(equator, i)
     (verdict, onto, leaving, slow, reason, why), *others = judged
-    alone = arrives == "one side" and len(equator) == 1
-    reason = f"{say('one side, all angles' if alone else arrives, Q=named(label))} {reason}"
+    # a single direction is an even zero of Theta
+    reason = f"{say('one side, all angles' if len(equator) == 1 else arrives, Q=named(label))} {reason}"
     outcome = Outcome(theta, label, arrives, verdict, onto, leaving, slow, reason, why=why)
     verdicts = [(text, *other[:2]) for text, other in zip(texts, others, strict=True)]
     return _compared(outcome, verdicts, sensitive, own.at.normal_form is not None)
@@ -298,8 +315,7 @@ def _whole(own: LayerProblem, others: list[LayerProblem], sensitive: bool, cycle
         reason, why = (say("at rest"), "neutral") if rest else (say("some lead"), "several")
         return Outcome(None, label, "nothing", "undecided", None, None, None, reason, why=why)
     if not own.equator.proven:
-        reason = " ".join(arcs_of(own.equator.arcs)) or say("no directions found")
-        return Outcome(None, "equator", "nothing", "undecided", None, None, None, reason, why="unfollowed")
+        return _on_arcs(own.equator)
     if cycle is None or cycle.neutral:
         reason = say("neutral equator")
         return Outcome(None, "equator", "nothing", "undecided", None, None, None, reason, why="neutral")

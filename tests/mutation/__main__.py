@@ -94,7 +94,7 @@ def try_python(task: tuple[str, bool, list[str], Choice]) -> list[Count]:
         left = [mutant for mutant in found if not explained(module, lines[mutant.line - 1])]
         counts.append(Count(module, all=len(left), explained=len(found) - len(left)))
         jobs.append(Job(path, choice.of(left, path.relative_to(ROOT).as_posix())))
-    for count, job in zip(counts, run(jobs, guards(name), kernels, tell, choice.seconds), strict=True):
+    for count, job in zip(counts, run(jobs, guards(name, kernels), kernels, tell, choice.seconds), strict=True):
         count.tried = len(job.outcomes)
         for mutant, outcome, tests in zip(job.mutants, job.outcomes, job.tests, strict=True):
             count.killed += outcome in ("failed", "timeout")

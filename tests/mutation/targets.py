@@ -37,6 +37,12 @@ ELSEWHERE: dict[str, tuple[str, ...]] = {
 }
 
 
+# Of kernels, which are run as Python: tests that are quick all the same.
+KERNELS = {
+    "core.cycles": tuple(f"core/cycles/test_{name}.py" for name in ("lane_steps", "return_map", "turn_map")),
+}
+
+
 def modules() -> dict[str, Path]:
     """All modules that are more than a list of names, as ``core.ROOM.NAME`` and ``app.ROOM.NAME``."""
     found = {}
@@ -66,8 +72,10 @@ def is_kernel(module: str) -> bool:
     return room(module) == "core.stepping" or "from numba import" in modules()[module].read_text()
 
 
-def guards(name: str) -> tuple[str, ...]:
-    """Files and folders of the tests that guard a room."""
+def guards(name: str, kernels: bool = False) -> tuple[str, ...]:
+    """Files and folders of the tests that guard a room, or its kernels."""
+    if kernels and name in KERNELS:
+        return KERNELS[name]
     own = name.replace(".", "/")
     folder = ROOT / "tests" / own
     # a module beside the rooms has files of tests beside their folders
@@ -144,6 +152,8 @@ ALLOWED: tuple[Allowed, ...] = (
     Allowed("core.portrait.launched", "LONG = 40.0", "How long a line is drawn."),
     Allowed("core.motion.agreement", "FAR_OUT = 1e6", "Where the limit of the steepness is read off."),
     Allowed("core.cycles.orbit", "LEAST = 1e-300", "A number too small to be told from the next."),
+    Allowed("core.cycles.return_map", "step[k] = h * at_low[k] / (", _GUESS),
+    Allowed("core.cycles.turn_map", "step[k] = h * at_low[k] / (", _GUESS),
     Allowed("core.layer_problem.border", "CANCELS = 0.05", _EXACT),
     Allowed("core.layer_problem.linearisation", "radial * (cc * abs(m11)", "A tolerance of a few roundings."),
     Allowed("core.sliding.filippov", "START = 48", "How many directions are combined first: the others are added."),

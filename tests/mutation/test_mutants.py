@@ -62,7 +62,7 @@ def test_every_mutant_is_valid_code_and_differs():
 
 def test_tests_of_every_room_exist():
     for name in {*map(room, modules()), *ELSEWHERE}:
-        tests = guards(name)
+        tests = (*guards(name), *guards(name, kernels=True))
         assert tests, name
         assert all((Path(__file__).parents[1] / test).exists() for test in tests), name
 

@@ -39,6 +39,8 @@ def equator(theta, multiplicity, sign=1.0, lambda_rho=None):
         lambda_theta=np.array(slopes),
         lambda_rho=rho,
         radially_degenerate=rho == 0.0,
+        all_directions=False,
+        arcs=np.zeros((0, 2)),
     ), beyond
 
 
