@@ -97,8 +97,8 @@ def invariant_line(field: Field, state: Array) -> Line | None:
     else:
         directions = [np.array([1.0, 0.0]), np.array([0.0, 1.0])]
         at_rest = np.array(field.value(0.0, 0.0, 0.0, 0.0, *state[2:].tolist())[:2])
-        if np.isfinite(at_rest).all() and at_rest.any():
-            directions.insert(0, at_rest / math.hypot(*at_rest.tolist()))
+        if np.isfinite(at_rest).all() and at_rest.any():  # it leaves e = 0 that way, and no other
+            directions = [at_rest / math.hypot(*at_rest.tolist())]
     found = [n for n in directions if _invariant(field, n, max(r, 1.0), state[2:])]
     return Line(field, found[0]) if len(found) == 1 or (found and r > 0.0) else None
 

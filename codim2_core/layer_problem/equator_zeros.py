@@ -168,7 +168,7 @@ def _result(
         symmetric,
         _certificate(f, proven),
         proven,
-        None if len(arcs) else _degree(key, rows, f, all_directions),
+        _degree(key, rows, f, all_directions),
         np.remainder(np.asarray(arcs, np.float64), 2.0 * math.pi),
     )
 
@@ -185,6 +185,8 @@ def _degree(key: Hashable, rows: Array, f: Series, all_directions: bool) -> int 
     _, radial, slope, multiplicity = rows
     if (radial == 0.0).any():
         return None
+    if not f.resolved:  # Theta may vanish on arcs, and its series says no sign beside a zero
+        return _turns(key)
     if all_directions:
         radial_series = component_series(key, "rho")
         return None if radial_series.vanishes or _changes_sign(radial_series) else 1
@@ -193,6 +195,16 @@ def _degree(key: Hashable, rows: Array, f: Series, all_directions: bool) -> int 
         # across an odd zero the sign changes: from what lies between it and the next
         signs = _crossings(f, rows[0], multiplicity)
     return 1 + int(signs[radial > 0.0].sum())
+
+
+def _turns(key: Hashable) -> int | None:
+    """Count how often U turns along a net on the equator; None where it vanishes, or turns too fast to tell."""
+    U = _components(program(key), (np.arange(NET) + 0.5) * (2.0 * math.pi / NET))[-1]
+    if not (np.isfinite(U).all() and U.any(axis=1).all()):
+        return None
+    angle = np.arctan2(U[:, 1], U[:, 0])
+    step = np.remainder(np.diff(angle, append=angle[:1]) + math.pi, 2.0 * math.pi) - math.pi
+    return None if np.abs(step).max() > 2.5 else round(float(step.sum()) / (2.0 * math.pi))
 
 
 def _changes_sign(f: Series) -> bool:

@@ -156,3 +156,13 @@ def test_cusps_of_cycles_are_named_where_the_folds_turn_back():
         assert arms[0] @ arms[1] > 0.9 * np.hypot(*arms[0]) * np.hypot(*arms[1])
     tongue = limit_cycles(ELinear(*abd, (-1.0450119219070992, 0.07895443583277581)), p)
     assert len(tongue) == 3
+
+
+def test_two_cycles_meet_on_a_fold_however_narrow_the_strip_is_in_which_they_are_two():
+    """Here it is narrower than 1e-5: the outer one ends in a connection of saddles, the inner one at C."""
+    p = psi.hill(3)
+    line = bifurcations.cycle_folds(1.0, 1.5, -2.0, p).branches[0]
+    along = line[20] - line[18]
+    across = np.array([along[1], -along[0]]) / np.hypot(*along)
+    counts = [len(limit_cycles(ELinear(1.0, 1.5, -2.0, tuple(line[19] + h * across)), p)) for h in (-1e-7, 1e-7, 1e-5)]
+    assert counts == [0, 2, 0]

@@ -123,6 +123,13 @@ def test_degree_of_the_field(system):
     assert equator_zeros(system.at().key).degree == counted
 
 
+@pytest.mark.parametrize("U", [("abs(c)", "s"), ("c", "abs(s)"), ("abs(2*c) - c", "s"), ("c*abs(c)", "s"), ("abs(c - 1/5)", "s"),
+                               ("abs(c)", "s - 2"), ("abs(c) + c", "s*abs(s) - c*abs(c)"), ("abs(c) - c", "abs(c) - c")])  # fmt: skip
+def test_the_degree_where_theta_has_corners_or_vanishes_on_an_arc(U):
+    system = c2.System(U=U)
+    assert equator_zeros(system.at().key).degree == turns(system.at())
+
+
 @given(st.lists(st.floats(0.0, 6.28), min_size=2, max_size=8), st.floats(0.3, 2.0))
 @settings(max_examples=200)
 def test_zeros_that_were_put_in_are_found(angles, factor):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from codim2_core import ELinear, equator_equilibria, examples, simulate, simulate_nonsmooth
+from codim2_core import ELinear, System, equator_equilibria, examples, simulate, simulate_nonsmooth
 from codim2_core import psi as families
 from codim2_core.motion.agreement import agreement, limit_order
 
@@ -83,6 +83,10 @@ def test_the_words_tell_whether_phases_agree():
         (ELinear(0.5, 0.0, 0.1, f=(1.0, 0.0)), (0.1, 0.0), families.constant(), 1.0),  # never at Sigma
         # lambda_rho = 3 and lambda_theta = -3/2 where it leaves, but in the line there are no other directions
         (ELinear(1.0, 0.0, 1.5, f=(2.0, 0.0)), (-0.1, 0.0), families.constant(), 1.0),
+        # from Sigma itself, along an axis or not: lambda_theta/lambda_rho = -13/18, and the order measured is 1.0000
+        (ELinear(0.2, 0.0, 0.5, f=(-1.6, 0.0)), (0.0, 0.0), families.constant(), 1.0),
+        (System(U=("s/2", "c/5 - 8/5")), (0.0, 0.0), families.constant(), 1.0),
+        (System(U=("0.35*c - 0.15*s - 1.2", "0.35*s - 0.15*c - 1.2")), (0.0, 0.0), families.constant(), 1.0),
         (ELinear(1.0, 0.5, 0.8, f=(-1.6, -0.9)), (0.0, 0.0), families.rational(), 0.6708),
         (ELinear(-0.5, 0.2, -0.3, f=(-1.0, -0.8)), (0.0, 0.0), families.constant(), 1.0),
         (ELinear(-1.0, 0.5, -2.0), (0.3, -0.2), families.constant(), 1.0),  # arrives, and stays
