@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from codim2_core.motion.regularised import simulate
-from codim2_core.orbits.in_time import InTime, in_time
+from codim2_core.orbits.in_time import in_time
 from codim2_core.psi.function import Psi
+from codim2_core.systems.kinds import AtZ
 
 from ..frame.draft import Draft
 from ..phrases import say
@@ -31,22 +32,34 @@ def add(draft: Draft) -> None:
         return
     scene = draft.scene
     launched = scene["launched"]
-    key = (launched, i)
-    seed, clock = scene.launch[i], launched.orbits.times[i]
-    if draft.now.get("orbit") != key:
-        draft.now["orbit"] = key
-        if np.hypot(*seed) == 1.0:
+    seed, clock = tuple(scene.launch[i].tolist()), launched.orbits.times[i]
+    if np.hypot(*seed) == 1.0:
+        if draft.fresh("orbit", launched):
             draft.unable("orbit", say("no time passes"))
-        else:
-            found = in_time(scene.coefficients, scene.psi, seed, (clock[0], clock[-1]))
-            draft.header["orbit"] = {"index": i, **_columns(found)}
-    if draft.values["orbit_eps"] == "show" and draft.system is not None and np.hypot(*seed) != 1.0:
+        return
+    span = float(clock[0]), float(clock[-1])
+    key = (i, seed, span, scene.key("plane", "psi"))
+    orbit = draft.slow("orbit", key, over_time, scene.coefficients, scene.psi, seed, span)
+    if orbit is not None:
+        draft.header["orbit"] = {"index": i, **orbit}
+    if draft.values["orbit_eps"] == "show" and draft.system is not None:
         eps = 10.0 ** draft.values["log_eps"]
         arrives = launched.goes[i].after is not None
-        asked = (draft.system, scene.psi, eps, tuple(seed.tolist()), scene.z, (clock[0], clock[-1]), arrives)
-        motion = draft.slow("orbit_motion", asked, regularised, *asked)
+        wanted = (draft.system, scene.psi, eps, seed, scene.z, span, arrives)
+        motion = draft.slow("orbit_motion", wanted, regularised, *wanted)
         if motion is not None:
             draft.header["orbit_motion"] = motion
+
+
+def over_time(at: AtZ, psi: Psi, seed: tuple[float, float], span: tuple[float, float]) -> dict[str, Any]:
+    """Return an orbit over time as the browser draws it."""
+    orbit = in_time(at, psi, seed, span)
+    return {
+        "fast": orbit.fast,
+        "t": short(orbit.time),
+        "states": [short(column) for column in (*orbit.xy.T, orbit.theta, orbit.radius)],
+        "picture": [short(column) for column in orbit.points.T],
+    }
 
 
 def regularised(
@@ -72,15 +85,6 @@ def regularised(
         "t": short(drawn.times / unit),
         "states": [short(column) for column in (x, y, np.unwrap(np.arctan2(y, x)), radius, *drawn.states[:, 2:].T)],
         "picture": [short(column) for column in drawn.points.T],
-    }
-
-
-def _columns(orbit: InTime) -> dict[str, Any]:
-    return {
-        "fast": orbit.fast,
-        "t": short(orbit.time),
-        "states": [short(column) for column in (*orbit.xy.T, orbit.theta, orbit.radius)],
-        "picture": [short(column) for column in orbit.points.T],
     }
 
 

@@ -2,8 +2,13 @@ import os
 import shutil
 
 import pytest
+from codim2_app.frame.workers import SECONDS
 
 from tests.app.serving import serving
+
+#: Milliseconds that a test waits for anything. No test is about the time that a thing takes; workers give way to all
+#: else on a machine that is busy with tests, and end by themselves, which the page then says.
+PATIENCE = 1000 * (SECONDS + 30)
 
 
 def _no_browser(reason):
@@ -110,7 +115,7 @@ def open_page(chromium, server):
     def make(**options):
         context = chromium.new_context(**{"viewport": {"width": 1280, "height": 800}, **options})
         contexts.append(context)
-        context.set_default_timeout(20_000)
+        context.set_default_timeout(PATIENCE)
         return Explorer(context.new_page(), server)
 
     yield make

@@ -5,7 +5,7 @@ from urllib.parse import urlparse
 
 import pytest
 
-from tests.browser.conftest import Explorer
+from tests.browser.conftest import PATIENCE, Explorer
 from tests.browser.jupyterlab import jupyterlab, write_notebook
 
 pytestmark = pytest.mark.skipif(
@@ -94,7 +94,7 @@ def notebook(lab, chromium, request):
     address, folder = lab
     write_notebook(folder / f"{request.param}.ipynb", [START.format(request.param), SECOND, TELL, SET])
     context = chromium.new_context(viewport={"width": 1280, "height": 1000})
-    context.set_default_timeout(60_000)
+    context.set_default_timeout(PATIENCE)
     yield Notebook(context.new_page(), address, folder / f"{request.param}.ipynb").open(f"{request.param}.ipynb")
     context.close()
 

@@ -86,7 +86,7 @@ def test_play_drifts_along_the_slow_flow_to_its_equilibrium(explorer):
     explorer.find(".panel-along .play").click()
     z = "Number(root.querySelector('[data-control=slow-z] .number').value)"
     explorer.until(f"0 < {z} && {z} < 3.5")
-    explorer.page.locator(".along-note", has_text="rest").wait_for(timeout=30_000)
+    explorer.page.locator(".along-note", has_text="rest").wait_for()
     assert abs(value(explorer, "slow-z")) < 0.1
 
 

@@ -25,7 +25,7 @@ def opened(page):
 
 def fetched(page, kind):
     """The file that a click on one of the buttons brings."""
-    with page.page.expect_download(timeout=90_000) as download:
+    with page.page.expect_download() as download:
         page.find(f".take [data-kind={kind}]").click()
     found = download.value
     page.find(".take .making").filter(has_text=re.compile(r"^codim2-.*B$")).wait_for()
