@@ -47,6 +47,7 @@ class OfState:
     psi : Psi or None
         None for the limit eps = 0.
     eps : float
+        Not read in the limit.
     t_start, t_end : float
         Of the phase.
     """
@@ -60,7 +61,7 @@ class OfState:
     def at(self, t: Array) -> tuple[Array, Array]:
         """Return e and p."""
         xy = self.motion(t)[:, :2]
-        if self.psi is not None and self.eps > 0.0:
+        if self.psi is not None:
             r = np.hypot(*xy.T)
             p = xy / np.hypot(r, self.eps)[:, None]
             zeta = r / self.eps
@@ -76,11 +77,9 @@ class OfState:
     def beside(self, t: float) -> Array:
         """Return (x, y) within the phase, a moment after or before a time at which it is 0."""
         times, states = self.motion.times, self.motion.states
-        low, high = np.searchsorted(times, (self.t_start, self.t_end), side="left").tolist()
-        inside = np.arange(max(low - 1, 0), min(high + 1, len(times) - 1) + 1)
-        off = [i for i in inside if states[i, :2].any() and self.t_start <= times[i] <= self.t_end]
-        if off:
-            return states[min(off, key=lambda i: abs(times[i] - t)), :2].copy()
+        off = np.flatnonzero(states[:, :2].any(axis=1) & (self.t_start <= times) & (times <= self.t_end))
+        if len(off):
+            return states[off[np.argmin(np.abs(times[off] - t))], :2].copy()
         return self.motion(0.5 * (self.t_start + self.t_end))[:2]
 
 

@@ -14,6 +14,7 @@ import resource
 import signal
 import sys
 import tempfile
+import threading
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -59,8 +60,16 @@ def preload() -> None:
     hypothesis.settings.register_profile("mutation", deadline=None, derandomize=True, database=None, phases=phases)
 
 
+def settle() -> None:
+    """Wait for threads that compile: a fork has not got them, and keeps for ever a lock that one of them holds."""
+    for thread in threading.enumerate():
+        if thread.name.startswith("codim2-compile"):
+            thread.join()
+
+
 def forked(do: Callable[[], int], seconds: float) -> str:
     """Run this in a fork; "passed" if it returns 0, "afresh" if UNFIT, "timeout" if late, else "failed"."""
+    settle()
     child = os.fork()
     if child == 0:
         code = 3
@@ -89,11 +98,11 @@ def forked(do: Callable[[], int], seconds: float) -> str:
     return "timeout"
 
 
-def pytest_main(tests: tuple[str, ...], plugins: list[Any]) -> int:
-    """Run pytest quietly in this process."""
-    nothing = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nothing, 1)
-    os.dup2(nothing, 2)
+def pytest_main(tests: tuple[str, ...], plugins: list[Any], says: str | Path = os.devnull) -> int:
+    """Run pytest in this process; what it says goes into a file."""
+    file = os.open(says, os.O_WRONLY | os.O_CREAT)
+    os.dup2(file, 1)
+    os.dup2(file, 2)
     options = ["-x", "-q", "-n0", "-p", "no:cacheprovider", "--hypothesis-profile=mutation", "--rootdir", str(ROOT)]
     options += ["--tb=native", "-W", "ignore::pytest.PytestAssertRewriteWarning"]  # hypothesis is loaded already
     return int(pytest.main([*options, *(str(TESTS / test) for test in tests)], plugins=plugins))
@@ -378,11 +387,11 @@ def run(
         sys.dont_write_bytecode = True
         sys.meta_path.insert(0, Finder(ROOT / file, (ROOT / file).read_text().replace(there, read)))  # type: ignore[arg-type]
     with tempfile.TemporaryDirectory(prefix="mutation-") as folder:
-        target = Path(folder) / "jobs"
+        target, says = Path(folder) / "jobs", Path(folder) / "says"
 
         def warm() -> int:
             room = Room(jobs, target, kernels, told, seconds)
-            code = pytest_main(tests, [room])
+            code = pytest_main(tests, [room], says)
             return 0 if target.exists() else code or 1
 
         child = os.fork()
@@ -394,7 +403,8 @@ def run(
                 os._exit(code)
         _, status = os.waitpid(child, 0)
         if status:
-            raise SystemExit(f"{', '.join(tests)}: these tests cannot be run as they are; mend that first.")
+            why = says.read_text(errors="replace")[-2000:] if says.exists() else ""
+            raise SystemExit(f"{', '.join(tests)}: these tests cannot be run as they are; mend that first.\n{why}")
         jobs = pickle.loads(target.read_bytes())
     for job in jobs:
         every = reaching(job.reach, None, str(job.path), seconds)

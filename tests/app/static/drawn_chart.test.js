@@ -3,7 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import {Chart} from "../../../app/static/chart/chart.js"
-import {Space} from "../../../app/static/chart/space.js"
+import {Space, TEXT, beside, textSize} from "../../../app/static/chart/space.js"
 import {page} from "./page.js"
 import {close, plots} from "./reading.js"
 
@@ -168,4 +168,76 @@ test("what is marked beyond the grid marks nothing in it", () => {
   line.line([[0, 0], [NaN, 5]])
   line.line([[30, 15]])
   assert.equal(line.taken.reduce((a, b) => a + b), 29)
+})
+
+// Every cell of 3 px that a box touches, held against what a space says: [column, row] in order.
+const cells = ([x, y, width, height], columns, rows) => {
+  const found = []
+  for (let row = 0; row < rows; row++) {
+    for (let column = 0; column < columns; column++) {
+      const apart = 3 * column > x + width / 2 || 3 * column + 3 <= x - width / 2 || 3 * row > y + height / 2 || 3 * row + 3 <= y - height / 2
+      if (!apart) found.push([column, row])
+    }
+  }
+  return found
+}
+
+test("a box marks the cells that it touches, and is free where none of them is marked", () => {
+  let seed = 7
+  const random = (most) => { seed = seed * 16807 % 2147483647; return seed % (2 * most) / 2 }
+  for (let k = 0; k < 60; k++) {
+    const space = new Space(60, 42), box = [random(60), random(42), 1 + random(20), 1 + random(14)]
+    space.box(box)
+    const marked = [...space.taken.keys()].filter((i) => space.taken[i]).map((i) => [i % 20, Math.floor(i / 20)])
+    assert.deepEqual(marked, cells(box, 20, 14), `${box}`)
+    for (let j = 0; j < 20; j++) {
+      const other = [random(60), random(42), 1 + random(20), 1 + random(14)], [x, y, width, height] = other
+      const inside = x >= width / 2 && y >= height / 2 && x + width / 2 <= 60 && y + height / 2 <= 42
+      const meets = cells(other, 20, 14).some(([column, row]) => marked.some(([u, v]) => u === column && v === row))
+      assert.equal(space.free(other), inside && !meets, `${box} ${other}`)
+    }
+  }
+})
+
+test("what is marked at any of the four edges is not free", () => {
+  for (const [x, y] of [[0, 20], [59, 20], [30, 0], [30, 41]]) {
+    const space = new Space(60, 42), box = [Math.min(56, Math.max(4, x)), Math.min(38, Math.max(4, y)), 8, 8]
+    assert.equal(space.free(box), true)
+    space.mark(x, y)
+    assert.equal(space.free(box), false, `${[x, y]}`)
+  }
+})
+
+test("middles around a place: all that lie inside, the nearest first, from the nearest place inside", () => {
+  for (const [favourite, [x, y]] of [[[7, 13], [7, 13]], [[-40, 9], [0, 9]], [[31, 99], [30, 20]]]) {
+    const found = [...new Space(30, 20).around(favourite)], all = []
+    for (let u = x % 6; u < 30; u += 6) for (let v = y % 6; v < 20; v += 6) if (u > 0 && v > 0) all.push([u, v])
+    const far = found.map(([u, v]) => Math.hypot(u - x, v - y)), order = (one, other) => one[0] - other[0] || one[1] - other[1]
+    assert.deepEqual(far, [...far].sort((a, b) => a - b))
+    assert.deepEqual(found.sort(order), all.sort(order))
+  }
+})
+
+test("a name stands beside its point, not over it, at three distances in eight directions", () => {
+  const text = "a name", [width, height] = textSize(text), middles = beside([100, 50], text)
+  assert.deepEqual([width, height], [0.56 * TEXT * 6 + 2, TEXT])
+  assert.deepEqual(textSize("abc", 20), [0.56 * 20 * 3 + 2, 20])
+  assert.equal(middles.length, 24)
+  middles.forEach(([x, y], i) => {
+    const gap = [6, 12, 20][Math.floor(i / 8)], across = Math.max(0, Math.abs(x - 100) - width / 2), up = Math.max(0, Math.abs(y - 50) - height / 2)
+    assert.ok(Math.hypot(across, up) >= 3 && Math.hypot(across, up) <= gap + 8, `${[x, y]}`)
+  })
+  const sides = middles.slice(0, 8).map(([x, y]) => [Math.sign(x - 100), Math.sign(y - 50)])
+  assert.deepEqual(sides, [[1, -1], [1, 1], [-1, -1], [-1, 1], [1, 0], [-1, 0], [0, -1], [0, 1]])
+  near(middles[4], [100 + 6 + width / 2, 50], 1e-9)
+  near(middles[0], [100 + 6 + width / 2 - 2, 41], 1e-9)
+})
+
+test("a text takes the first place that is free and allowed", () => {
+  const space = new Space(120, 60), middles = [[5, 30], [40, 30], [80, 30]]
+  assert.deepEqual(space.place("word", middles), [40, 30]) // the first would begin beyond the edge
+  assert.deepEqual(space.place("word", middles), [80, 30])
+  assert.equal(space.place("word", middles), null)
+  assert.deepEqual(new Space(120, 60).place("word", middles, ([x]) => x > 50), [80, 30])
+  assert.equal(new Space(120, 60).place("word", middles, () => true, 90), null)
 })

@@ -3,7 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import {register} from "../../../app/static/panels.js"
-import {asked, busy, click, FIRST, memory, OWN, pull, query, setBox, settled, shows, type, wired} from "./wiring.js"
+import {asked, busy, click, CONFIG, FIRST, memory, OWN, pull, query, setBox, settled, shows, SYSTEM, type, wired} from "./wiring.js"
 
 let tools = /** @type {any} */ (null)
 register("numbers", (_box, given) => { tools = given; return {} }) // a panel that lets us do what panels do
@@ -242,4 +242,57 @@ test("a slider's range widens for what is typed, on both sides only if it had bo
   assert.equal(one.root.explorer.values.f1, -2.5)
   pull(one, "#c2-a", "1.25")
   assert.equal(one.find("[data-control=a] .number").value, "1.25")
+})
+
+test("slow variables have the system's symbols, those that it has not the usual ones, four in all", () => {
+  const one = wired(), of = () => Object.entries(tools.symbols).filter(([name]) => name.startsWith("z")).sort()
+  one.answer({system: OWN})
+  assert.deepEqual(of(), [["z", "v"], ["z2", "w"], ["z3", "z₃"], ["z4", "z₄"]])
+  assert.deepEqual(tools.slowSymbols(), ["v", "w"])
+  one.answer({system: {...OWN, slow: []}})
+  assert.deepEqual(of(), [["z", "z"], ["z2", "z₂"], ["z3", "z₃"], ["z4", "z₄"]])
+  one.answer({system: SYSTEM})
+  assert.deepEqual(tools.slowSymbols(), ["z"])
+})
+
+test("a text that is as it should be is not written again: the caret would jump", () => {
+  const one = wired()
+  one.answer({system: OWN, set: {system: "own"}})
+  const area = one.find("textarea"), written = []
+  let text = area.value
+  Object.defineProperty(area, "value", {get: () => text, set(value) { written.push(value); text = value }})
+  one.answer({set: {f1: 1}})
+  one.answer({set: {texts: {U1: "-c"}}})
+  assert.deepEqual(written, [])
+  one.answer({set: {texts: {U1: "-c + s"}}})
+  assert.deepEqual(written, ["-c + s"])
+})
+
+test("before the server has told of the system nothing is known of its texts and parameters", () => {
+  const one = wired({values: {...CONFIG.values, system: "own"}}, {...FIRST, system: undefined})
+  assert.equal(one.find("textarea"), null)
+  assert.equal(tools.valueOf("own:mu"), 0)
+  one.answer({set: {texts: {U1: "s"}}})
+  one.answer({system: OWN})
+  assert.deepEqual([tools.valueOf("own:mu"), tools.valueOf("own:nu"), one.find("textarea").value], [0.3, 0, "s"])
+})
+
+test("a system's parameters and slow variables have sliders, which stay while it does", () => {
+  const one = wired()
+  one.answer({system: OWN, set: {system: "own"}})
+  const names = () => [...one.root.querySelectorAll(".parameters .control, .slow-controls .control")].map((box) => box.dataset.control)
+  assert.deepEqual(names(), ["parameter-mu", "slow-z", "slow-z2"])
+  assert.equal(one.find(".slow-controls").hidden, false)
+  const [mu, slow] = ["#c2-parameter-mu", "#c2-slow-z2"].map((it) => one.find(it))
+  one.answer({system: {...OWN, parameters: [{...OWN.parameters[0], value: 0.7}]}})
+  assert.deepEqual([one.find("#c2-parameter-mu") === mu, one.find("#c2-slow-z2") === slow, mu.value], [true, true, "0.7"])
+  pull(one, "#c2-slow-z2", "0.5")
+  one.tick(20)
+  assert.deepEqual(asked(one), [{z2: 0.5}])
+  one.answer({system: {...OWN, slow: [OWN.slow[0]]}})
+  assert.deepEqual(names(), ["parameter-mu", "slow-z"])
+  one.answer({system: SYSTEM}) // its z has a slider among the coefficients
+  assert.deepEqual([names(), one.find(".slow-controls").hidden], [[], true])
+  one.answer({system: {...SYSTEM, slow: [...SYSTEM.slow, {symbol: "w", range: [0, 1]}]}})
+  assert.deepEqual(names(), ["slow-z2"])
 })

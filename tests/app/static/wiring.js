@@ -32,7 +32,7 @@ const LAYERS = [
 const COLOURS = ["page", "shade", "ink", "orbit", "separatrix", "launch-1", "launch-2", "attr", "rep", "crit", "slide", "cross", "basin-1", "motion", "limit", "degenerate"]
 const theme = (name) => ({...Object.fromEntries(COLOURS.map((colour) => [colour, `${name} ${colour}`])), "shade-alpha": "0.02"})
 
-const CONFIG = {
+export const CONFIG = {
   page: true, dark: false, values: VALUES, defaults: VALUES, numbers: ["a", "f1", "n", "z"], setting: ["a", "f1", "psi", "n"], locked: [], refused: {f1: "x"},
   ranges: {a: [-4, 4], f1: [-4, 4], n: [0.5, 6], z: [-4, 4], trajectories: [0, 200]}, symbols: {a: "a", f1: "f₁"}, docs: {a: "a", f1: "f"},
   families: {constant: {}, hill: {parameter: true}, custom: {typed: true}}, boxes: {own: [{name: "U1", label: "x′", lines: 1, text: "-c"}]},

@@ -90,6 +90,9 @@ def test_undecided_boxes_become_a_curve_a_zero_or_stay_undecided():
     # as many boxes as long along a line on which U does not vanish, or does at one end only
     places, curve, left = module._undecided(run("c + 1/10", "c*(2 + s)"), chain(400, half), half, 1.0)
     assert (places, curve, left) == ([], False, True)
+    for unit in ("1", "1e-8"):  # nor where all lead to one zero, in any unit of time
+        regular = run(f"{unit}*(c - 1/50)", f"{unit}*(s + c)")
+        assert module._undecided(regular, chain(400, half), half, float(unit)) == ([], False, True)
     # as many in one place, and few boxes, are no curve but a zero
     square = np.array([(x, y) for x in chain(16, half)[:, 1] for y in chain(16, half)[:, 1]])
     for boxes in (square, chain(9, half)):
@@ -112,6 +115,9 @@ def test_a_zero_without_a_slope_is_where_u_turns():
     places, curve, left = module._undecided(run(f"(c - 1/5)*{root}", f"(s - 1/10)*{root}"), boxes, tiny, 1.0)
     assert (len(places), curve, left) == (1, False, False)
     np.testing.assert_allclose(places[0], (0.2, 0.1), atol=1e-8)
+    aside = boxes + [3.0 * tiny, 0.0]  # the zero is in the box at the end
+    places, curve, left = module._undecided(run(f"(c - 1/5)*{root}", f"(s - 1/10)*{root}"), aside, tiny, 1.0)
+    assert (len(places), curve, left) == (1, False, False)
     places, curve, left = module._undecided(run(f"abs(c - 1/5)*{root} + 1e-3", f"(s - 1/10)*{root}"), boxes, tiny, 1.0)
     assert (places, curve, left) == ([], False, True)
 
@@ -122,3 +128,26 @@ def test_a_fold_close_to_another_critical_set_is_one_of_its_own(apart):
     np.testing.assert_allclose(found.e, [(0.3, 0.0), (0.3 + apart, 0.0)], atol=1e-2 * apart)
     assert found.degenerate.tolist() == [True, False]
     assert found.index.tolist() == [0, 1]
+
+
+@pytest.mark.parametrize(
+    ("U", "degenerate", "rough"),
+    [
+        (("2*c + abs(c)", "s"), False, False),  # a corner, one orientation
+        (("c + 2*abs(c)", "s"), True, True),
+        (("c**2", "s"), True, False),
+        (("c*abs(c)", "s"), True, False),
+        (("c", "2*s - c"), False, False),
+        (("c/(c**2 + s**2)**(1/3)", "s/(c**2 + s**2)**(1/3)"), True, True),  # unbounded slopes
+    ],
+)
+@pytest.mark.parametrize("unit", ["1", "1e-7", "1e6"])
+def test_slopes_at_a_zero_say_whether_it_is_degenerate_and_rough(U, degenerate, rough, unit):
+    field = run(*(f"{unit}*({row})" for row in U))
+    D, found, uneven = module._slopes(field, np.zeros((1, 2)), np.ones(1, bool))
+    assert (found.tolist(), uneven.tolist()) == ([degenerate], [rough])
+    assert np.isfinite(D).all()
+    if np.isfinite(field.at(np.zeros((1, 2)))).all():
+        np.testing.assert_array_equal(D, field.at(np.zeros((1, 2)))[:, :, 1:])
+        sure = module._slopes(field, np.zeros((1, 2)), np.zeros(1, bool))  # proven to be simple: nothing is asked
+        assert (sure[1].tolist(), sure[2].tolist()) == ([False], [False])

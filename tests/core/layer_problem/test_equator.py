@@ -272,15 +272,16 @@ def test_only_the_limit_direction_that_the_critical_set_reached_is_radially_dege
 
 
 @pytest.mark.parametrize("gap", [1e-2, 1e-6, 1e-12])
-def test_a_zero_and_its_mirror_image_outside_the_circle_are_one(gap):
+@pytest.mark.parametrize(("c", "s"), [(3.0, 4.0), (5.0, 0.0), (0.0, 5.0), (-4.0, 3.0)])
+def test_a_zero_and_its_mirror_image_outside_the_circle_are_one(gap, c, s):
     """Theta = -b + 5 cos(theta - nu) has its zeros at r and 1/r times exp(i nu), 5 (1 + r^2) = 2 b r."""
     b = 5.0 * (1.0 + gap)
     with mp.workdps(40):
         ratio = mp.mpf(b) / 5
         r = ratio - mp.sqrt(ratio**2 - 1)
-        expected, rest = complex(r * mp.mpc(0.6, 0.8)), float(1 - r * r)
+        expected, rest = complex(r * mp.mpc(c, s) / 5), float(1 - r * r)
     for start in (expected * (1.0 - 1e-3 * gap), (1.0 + 1e-3 * gap) * expected / abs(expected) ** 2):
-        found, left = _polished((-b, 3.0, 4.0, 0.0, 0.0), start)
+        found, left = _polished((-b, c, s, 0.0, 0.0), start)
         assert found == pytest.approx(expected, abs=1e-15)
         assert left == pytest.approx(rest, rel=1e-13)
 

@@ -102,7 +102,7 @@ def test_the_degree_where_every_direction_is_one(radial, degree):
 def test_zeros_of_a_theta_with_corners(t, theta, slopes, multiplicity):
     found = equator_zeros(with_theta(t).at().key)
     away = np.abs(np.remainder(found.theta - theta + 1.0, TURN) - 1.0)
-    assert (away < 1e-6).all()
+    assert (away < 1e-9).all()
     assert found.multiplicity.tolist() == multiplicity
     np.testing.assert_allclose(found.lambda_rho, -1.0, atol=1e-6)
     if slopes is not None:
@@ -169,3 +169,16 @@ def test_a_closed_equator_by_its_mean(sign):
     narrow = equator_cycle(with_theta("1.0001 + c", "-1/2"))  # close to a saddle-node
     assert narrow.period == pytest.approx(TURN / math.sqrt(1.0001**2 - 1.0), rel=1e-10)
     assert narrow.exponent == pytest.approx(-0.5 * narrow.period, rel=1e-10)
+
+
+@pytest.mark.parametrize("slope", [1.0, 1e-3, 1e-5])
+@pytest.mark.parametrize("shift", [0.0, 1e-5, -1e-5])
+def test_where_both_vanish_a_flat_theta_blurs_lambda_rho(slope, shift):
+    """Theta = k (s - 3/5) and lambda_rho = s - 3/5 + shift, multiplied out, so that each term is rounded alone."""
+    k, f = repr(slope), repr(-0.6 + shift)
+    field = System(U=(f"s*c + ({f})*c - {k}*s*s + 3/5*{k}*s", f"s*s + ({f})*s + {k}*s*c - 3/5*{k}*c"))
+    found = equator_equilibria(field)
+    low = math.asin(0.6)
+    np.testing.assert_allclose(found.theta, [low, math.pi - low], atol=1e-9)
+    assert found.radially_degenerate.tolist() == [shift == 0.0] * 2
+    np.testing.assert_allclose(found.lambda_rho, shift, atol=1e-9)
