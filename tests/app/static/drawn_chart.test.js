@@ -170,8 +170,8 @@ test("what is marked beyond the grid marks nothing in it", () => {
   assert.equal(line.taken.reduce((a, b) => a + b), 29)
 })
 
-// Every cell of 3 px that a box touches, held against what a space says: [column, row] in order.
-const cells = ([x, y, width, height], columns, rows) => {
+// Every cell of 3 px that a box (x, y, width, height) touches: [column, row], in order.
+const cells = (/** @type {number[]} */ [x, y, width, height], columns, rows) => {
   const found = []
   for (let row = 0; row < rows; row++) {
     for (let column = 0; column < columns; column++) {

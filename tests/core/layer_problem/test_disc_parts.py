@@ -115,7 +115,7 @@ def test_a_zero_without_a_slope_is_where_u_turns():
     places, curve, left = module._undecided(run(f"(c - 1/5)*{root}", f"(s - 1/10)*{root}"), boxes, tiny, 1.0)
     assert (len(places), curve, left) == (1, False, False)
     np.testing.assert_allclose(places[0], (0.2, 0.1), atol=1e-8)
-    aside = boxes + [3.0 * tiny, 0.0]  # the zero is in the box at the end
+    aside = boxes + np.array([3.0 * tiny, 0.0])  # the zero is in the box at the end
     places, curve, left = module._undecided(run(f"(c - 1/5)*{root}", f"(s - 1/10)*{root}"), aside, tiny, 1.0)
     assert (len(places), curve, left) == (1, False, False)
     places, curve, left = module._undecided(run(f"abs(c - 1/5)*{root} + 1e-3", f"(s - 1/10)*{root}"), boxes, tiny, 1.0)

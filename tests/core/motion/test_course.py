@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -71,7 +72,7 @@ def test_past_a_fold_the_first_answer_counts_that_is_no_stop(monkeypatch, answer
     flow = own.ahead(e, PAST) - own.state[2:]
     further = [float((z - own.state[2:]) @ flow / (flow @ flow)) for _, z, _ in asked]
     assert further[0] == pytest.approx(1.0)
-    assert all(later > 10.0 * before for before, later in zip(further, further[1:], strict=False))
+    assert all(later > 10.0 * before for before, later in pairwise(further))
     for _, z, points in asked:
         np.testing.assert_allclose(z - own.state[2:], (z - own.state[2:]) @ flow / (flow @ flow) * flow)
         np.testing.assert_array_equal(points, [in_disc(PSI, e)])
@@ -151,7 +152,7 @@ def test_from_where_an_attractor_was_orbits_decide_unless_psi_would(monkeypatch)
     assert asked[-1][0] == PSI
     open_ = course(psi=None)
     assert open_.onward("Because.", here, circle(3)).kind == "stop"
-    assert "Because. nothing" == open_.onward("Because.", none, circle(3)).reason
+    assert open_.onward("Because.", none, circle(3)).reason == "Because. nothing"
     assert asked[-1][0] == c2.psi.constant()
     edge = course().onward("Because.", np.array([2.0, 0.0]), circle(3))
     assert (edge.kind, edge.reason) == ("stop", "Because. no value there.")
