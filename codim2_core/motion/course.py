@@ -14,6 +14,7 @@ from ..cycles.limit_cycles import limit_cycles
 from ..initial_value.events import Watch
 from ..initial_value.field import Field
 from ..initial_value.line import Line
+from ..layer_problem.equator import equator_equilibria
 from ..numerics.radau import Problem, Step, TooManyStepsError
 from ..psi import constructors
 from ..psi.function import Psi
@@ -31,6 +32,7 @@ from .slip import leave, slip
 Array = NDArray[np.float64]
 
 CLOSER = 1e-4  # a trajectory that turns before Sigma is followed this much closer, and asked again
+SAME_DIRECTION = 1e-12  # 1 - cos: directions that differ by a rounding of either
 AROUND = 16  # points of a cycle that has ended, from which orbits are followed
 PAST = 1e-6  # of the time ahead: how far past a Hopf bifurcation its cycle is looked for
 
@@ -140,6 +142,8 @@ class Course:
             onto = critical_name(self.system, self.own, z, e)
             return Decision("slide", f"{reason} {say('slides in a line', onto=onto)}", e, onto=onto)
         theta = math.atan2(*(onward * n)[::-1].tolist())
+        if self.on_equator(theta, z):
+            return self.at_border(Decision("border", f"{reason} {say('on the equator')}", onward * n, theta, "C"))
         reason = f"{reason} {say('crosses in a line', theta=theta)}"
         return Decision("leave", reason, theta=theta)
 
@@ -306,10 +310,16 @@ class Course:
         reason = say("Hopf, nothing takes over", C=C)
         return Decision("stop", reason if self.psi is not None else f"{reason} {say('for the constant')}")
 
+    def on_equator(self, theta: float, z: Array) -> bool:
+        """Tell whether a critical set lies on the equator in a direction: lambda_rho is 0 there."""
+        equator = equator_equilibria(self.system, z)
+        there = np.cos(equator.theta[equator.radially_degenerate] - theta)
+        return bool((there > 1.0 - SAME_DIRECTION).any())
+
     def at_border(self, decision: Decision) -> Decision:
         """Start where the critical set lies on the equator: it moves in, or lambda_rho becomes positive."""
         assert decision.theta is not None
-        first = leave(self.formulas, decision.theta, self.t, self.state[2:], self.t_end)
+        first = leave(self.formulas, decision.theta, self.t, self.state[2:], self.t_end, self.line)
         if isinstance(first, str):
             return Decision("slide", f"{decision.reason} {say('border moves in')}", decision.e, onto="C")
         return Decision("leave", f"{decision.reason} {say('border moves out')}", theta=decision.theta)

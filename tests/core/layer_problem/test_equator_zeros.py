@@ -123,8 +123,13 @@ def test_degree_of_the_field(system):
     assert equator_zeros(system.at().key).degree == counted
 
 
-@pytest.mark.parametrize("U", [("abs(c)", "s"), ("c", "abs(s)"), ("abs(2*c) - c", "s"), ("c*abs(c)", "s"), ("abs(c - 1/5)", "s"),
-                               ("abs(c)", "s - 2"), ("abs(c) + c", "s*abs(s) - c*abs(c)"), ("abs(c) - c", "abs(c) - c")])  # fmt: skip
+@pytest.mark.parametrize(
+    "U",
+    [
+        ("abs(c)", "s"), ("c", "abs(s)"), ("abs(2*c) - c", "s"), ("c*abs(c)", "s"), ("abs(c - 1/5)", "s"),
+        ("abs(c)", "s - 2"), ("abs(c) + c", "s*abs(s) - c*abs(c)"), ("abs(c) - c", "abs(c) - c"),
+    ],
+)  # fmt: skip
 def test_the_degree_where_theta_has_corners_or_vanishes_on_an_arc(U):
     system = c2.System(U=U)
     assert equator_zeros(system.at().key).degree == turns(system.at())

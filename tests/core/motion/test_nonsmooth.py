@@ -70,6 +70,17 @@ def test_ball_sticks_below_the_critical_speed_and_slips_above():
     assert run.states[-1, 2] == pytest.approx(critical * math.exp(-10 / 7), rel=1e-9)
 
 
+@pytest.mark.parametrize(("f1", "after"), [(1, "slide"), ("1 - z", "slide"), ("1 + z", "slip")])
+def test_in_a_line_a_critical_set_on_the_equator_is_slid_on_where_it_stays_or_moves_in(f1, after):
+    moving = ELinear(-1.0, 0.0, -1.0, (f1, 0.0), B=((0.0, 0.0),), g=(1.0,))
+    assert kinds(simulate_nonsmooth(moving, (0.0, 0.0, 0.0), (0.0, 0.2))) == [after]
+
+
+def test_in_a_line_a_motion_arrives_at_a_critical_set_on_the_equator():
+    system = ELinear(-1.0, 0.0, -1.0, (1.0, 0.0))
+    assert kinds(simulate_nonsmooth(system, (-0.1, 0.0), (0.0, 0.2))) == ["slip", "slide"]
+
+
 def test_crossing_at_once_and_coming_back():
     run = simulate_nonsmooth(examples.ball_in_pool(K=2.0), (1.0, 0.0, 12.0, 0.0), (0.0, 3.0))
     assert kinds(run) == ["slip", "cross", "slip", "slide"]
