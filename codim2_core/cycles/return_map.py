@@ -54,7 +54,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
     u, centre : (2,)
         Direction of the section, and x2 of the critical set.
     sense : float
-        +1 or -1: the sense of rotation.
+        Its sign is the sense of rotation.
     floor : float
         Distance from the centre in x2 below which an orbit has gone inward.
     sunk : float

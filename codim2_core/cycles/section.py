@@ -226,7 +226,7 @@ class Section:
             function.address,
             self.u,
             self.critical.x2,
-            math.copysign(1.0, -self.plane[1] if backward else self.plane[1]),
+            -self.plane[1] if backward else self.plane[1],
             SUNK_INWARD * nearest,
             SUNK_OUTWARD,
             LONGEST,

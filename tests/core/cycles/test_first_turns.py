@@ -18,6 +18,8 @@ def test_fixed_points_of_a_first_turn_are_told_from_jumps():
     assert first_turns._narrowed(jump, 0.1, 0.6, False) == []
     beyond = Line(lambda xi: 0.65 - xi)  # the samples were of another tolerance
     assert first_turns._narrowed(beyond, 0.1, 0.6, False) == [pytest.approx(0.65, abs=1e-13)]
+    before = Line(lambda xi: 0.05 - xi)
+    assert first_turns._narrowed(before, 0.1, 0.6, False) == [pytest.approx(0.05, abs=1e-13)]
     repelling = Line(lambda xi: xi - 0.3)
     assert first_turns._narrowed(repelling, 0.1, 0.6, False) == []
     assert first_turns._narrowed(repelling, 0.1, 0.6, True) == [pytest.approx(0.3, abs=1e-13)]

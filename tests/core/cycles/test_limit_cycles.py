@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, psi, sliding_flow, trajectories
-from codim2_core.cycles.limit_cycles import limit_cycles
+from codim2_core.cycles.limit_cycles import LimitCycles, limit_cycles, reason_for_none
 from codim2_core.cycles.section import COARSE, FINE, Section
 
 CASE_III = ELinear(172, 186, -200, (-86, -93), B=[[1.0, -2.0], [0.5, 3.0]], g=[0.25, -1.0])
@@ -166,6 +166,33 @@ def test_reasons():
     assert "f = 0" in reason(1, 3, -2, 0, 0)
     assert "reversible" in reason(1, 3, -1, 0.5, -0.5)
     assert "isolated" in reason(1, 1, -1, 1, 1)
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "d", "f1", "f2"),
+    [
+        (1, 3, -2, 0.5, 0.5),  # |f1| = |f2| alone is not reversible
+        (1, 3, -1, 0.5, 0.3),  # nor is a = -d
+        (1, 3, -2, 0.5, 0),  # f2 = 0 alone is not linear
+        (1, 3, -2, 0, 0.5),
+        (-2, -3, 1, 0.1, 0.2),
+        (0.1, 3, -0.1, 0.2, -0.3),
+    ],
+)
+def test_no_theorem_is_read_into_what_it_does_not_say(a, b, d, f1, f2):
+    system = ELinear(a, b, d, (f1, f2))
+    assert reason_for_none(system.at(), critical_sets(system, psi.rational())) is None
+
+
+def test_the_table_stands_without_a_picture(monkeypatch):
+    found = LimitCycles((), "None is there.", ("A note.",))
+    for picture in (None, "<svg/>"):
+        monkeypatch.setattr("codim2_core.drawing.svg", lambda _, picture=picture: picture)
+        text = found._repr_html_()
+        assert text.startswith(picture or "<p>")
+        assert "None is there." in text
+        assert "A note." in text
+        assert text.count("None") == 1
 
 
 def test_reversible_centre_is_a_band_of_closed_orbits():

@@ -1,13 +1,102 @@
-"""The closed orbit as a polynomial on pieces: its collocation."""
+"""A closed orbit in closed form: under Psi = 1 the circle |e|^2 = h of ``U = +-e (h - |e|^2) + turn e_perp``.
+
+With e = p and dT = ebar dtau: r' = r (h - r^2) in p at the rate ebar, so the period is 2 pi/|turn| in T and that over
+sqrt(1 - h) in tau; the exponent is that of d zeta'/d zeta = -2 h (1 - h)^(3/2), zeta = |x2|, over the period in tau.
+"""
+
+import math
 
 import numpy as np
 import pytest
 
-from codim2_core.cycles.orbit import gauss
+import codim2_core as c2
+from codim2_core.cycles import orbit as module
+from codim2_core.cycles.orbit import orbit, path
+from codim2_core.cycles.section import FINE, Crossing
+from codim2_core.cycles.turn_section import TurnSection
+
+H = 0.36
+
+
+def circle(sign, turn):
+    factor = f"({sign})*({H!r} - c**2 - s**2)"
+    at = c2.System(U=(f"c*{factor} - ({turn!r})*s", f"s*{factor} + ({turn!r})*c")).at()
+    sets = c2.critical_sets(at, c2.psi.constant())
+    section = TurnSection(at, c2.psi.constant(), sets[0], sets)
+    r = math.sqrt(H)
+    return section, math.log(r / (1.0 - r))
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("turn", [1.3, -0.8])
+def test_a_circle_has_the_period_and_the_multiplier_that_it_must(sign, turn):
+    section, xi = circle(sign, turn)
+    found = orbit(section, Crossing(xi, repelling=sign < 0))
+    assert found is not None
+    tau = 2.0 * math.pi / abs(turn) / math.sqrt(1.0 - H)
+    exponent = -2.0 * sign * H * (1.0 - H) * 2.0 * math.pi / abs(turn)
+    assert found.period == pytest.approx(tau, rel=1e-11)
+    assert found.period_T == pytest.approx(2.0 * math.pi / abs(turn), rel=1e-11)
+    assert math.log(found.multiplier) == pytest.approx(exponent, rel=1e-9)
+    assert found.divergence == pytest.approx(exponent, rel=1e-9)
+    assert found.closure < 1e-12
+    np.testing.assert_allclose(found.mean_e, 0.0, atol=1e-11)
+    np.testing.assert_allclose(np.hypot(*found.points.T), math.sqrt(H), rtol=1e-11)
+    np.testing.assert_allclose(np.hypot(*found.e.T), math.sqrt(H), rtol=1e-11)
+    assert found.share.sum() == pytest.approx(1.0, rel=1e-13)
+    assert (found.share > 0.0).all()
+    np.testing.assert_array_equal(found.points[0], found.points[-1])
+    steps = np.diff(np.unwrap(np.arctan2(*found.points.T[::-1])))
+    assert (np.sign(steps) == np.sign(turn)).all()  # in order of time, whichever way it was followed
+    assert abs(steps.sum()) == pytest.approx(2.0 * math.pi, rel=1e-12)
+    for array in (found.points, found.mean_e, found.e, found.share):
+        assert not array.flags.writeable
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_orbit_is_followed_from_where_it_is_drawn_to(sign):
+    """A fixed point off by 1e-6: the second time round, the way it attracts, it closes better than the first."""
+    section, xi = circle(sign, 1.3)
+    exact, found = (orbit(section, Crossing(xi + off, repelling=sign < 0)) for off in (0.0, 1e-6))
+    assert exact is not None
+    assert found is not None
+    contraction = math.exp(-2.0 * H * (1.0 - H) * 2.0 * math.pi / 1.3)
+    first = 1e-6 * H * 0.4 * (1.0 - contraction)  # about: d r = r (1 - r) d xi
+    assert 0.1 * contraction < found.closure / first < 10.0 * contraction
+    assert found.multiplier == pytest.approx(exact.multiplier, rel=1e-4)
+
+
+def test_the_nodes_of_a_path_lie_on_it():
+    section, xi = circle(1, 1.3)
+    start = section.states(np.array([xi]))[0][0]
+    way = path(section, start, FINE, False)
+    assert way is not None
+    assert way.h.sum() == pytest.approx(way.time, rel=1e-13)
+    nodes, weights, _ = module.gauss()
+    clock = (np.concatenate([[0.0], np.cumsum(way.h)[:-1]])[:, None] + way.h[:, None] * nodes).ravel() / section.rate
+    angle = math.atan2(start[1], start[0]) + 1.3 * clock
+    np.testing.assert_allclose(
+        way.inner[:, :2], math.sqrt(H) * np.stack([np.cos(angle), np.sin(angle)], -1), atol=1e-11
+    )
+    np.testing.assert_allclose(way.weight, np.outer(way.h, weights).ravel() / math.sqrt(1.0 - H), rtol=1e-11)
+
+
+def test_what_does_not_come_round_is_no_orbit(monkeypatch):
+    section, xi = circle(1, 1.3)
+    monkeypatch.setattr(module, "MOST_STEPS", 5)
+    assert orbit(section, Crossing(xi)) is None
+
+
+def test_a_cycle_that_repels_beyond_all_numbers_has_a_multiplier(monkeypatch):
+    section, xi = circle(-1, 1.3)
+    monkeypatch.setattr(module, "_normal_growth", lambda *_: 0.0)
+    found = orbit(section, Crossing(xi, repelling=True))
+    assert found is not None
+    assert 1e250 < found.multiplier < math.inf
 
 
 def test_nodes_of_the_collocation_integrate_polynomials():
-    c, w, a = gauss()
+    c, w, a = module.gauss()
     for degree in range(12):
         assert w @ c**degree == pytest.approx(1.0 / (degree + 1), abs=1e-15)
     for degree in range(6):

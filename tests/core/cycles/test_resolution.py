@@ -86,6 +86,11 @@ def test_a_dip_of_few_samples_is_looked_into_on_both_sides():
     assert {5, 6} <= set(found)
     shift[6] = 0.999
     assert unresolved(q, shift, np.zeros(12)) == []
+    for unit in (1e-3, -1e-3, -1.0, 50.0):  # in any unit, on either side
+        shift[6] = 0.4
+        assert {5, 6} <= set(unresolved(q, unit * shift, np.zeros(12)))
+        shift[6] = 0.6  # not much of a dip, were it not for the cubic's error
+        assert unresolved(q, unit * shift, np.zeros(12)) == unresolved(q, shift, np.zeros(12))
 
 
 @pytest.mark.parametrize(

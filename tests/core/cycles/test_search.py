@@ -8,7 +8,8 @@ import pytest
 
 from codim2_core.cycles import search
 from codim2_core.cycles.limit_cycles import _cycle
-from codim2_core.cycles.section import COARSE
+from codim2_core.cycles.section import COARSE, Crossing
+from codim2_core.words import recognise
 
 from .sections import Line, circle
 
@@ -110,3 +111,95 @@ def test_where_the_fine_tolerance_shows_nothing_a_fixed_point_is_midway(fine):
     xi = np.linspace(3.0, 4.0, 5)
     found = search._polished(section, xi, section.displacement(xi, COARSE), 1, 2, False)
     assert found == pytest.approx(3.3, abs=1e-3)
+
+
+# ---- all that a section shows ----------------------------------------------------------------------------------------
+
+INF = math.inf
+
+
+def sought(displacement, trace=1.0, discriminant=1.0, backward=None):
+    """Fixed points (place, repelling, touching), and the names of what is said."""
+
+    class Ray(Line):
+        critical = SimpleNamespace(trace=trace, discriminant=discriminant)
+
+        def grid(self):
+            return np.linspace(-5.0, 5.0, 41)
+
+        def displacement(self, xi, rtol=1e-9, backward=False):
+            if backward and against is not None:
+                return against(np.asarray(xi, float))
+            return super().displacement(xi, rtol, backward)
+
+    against = backward
+    found, notes = search.search(Ray(displacement))
+    assert all(not one.born or one.xi == -20.0 for one in found)
+    return [(one.xi, one.repelling, one.touching) for one in found], [key for n in notes for key, _ in recognise(n)]
+
+
+def at(x, repelling=False, touching=False):
+    return pytest.approx(x, abs=1e-9 if not touching else 1e-4), repelling, touching
+
+
+@pytest.mark.parametrize(
+    ("displacement", "found", "said"),
+    [
+        (lambda xi: 1.03 - xi, [at(1.03)], []),
+        (lambda xi: xi - 1.03, [at(1.03, True)], []),
+        (lambda xi: (xi + 2.04) * (1.03 - xi), [at(-2.04, True), at(1.03)], []),
+        (lambda xi: 1.0 + xi**2, [], []),
+        (lambda xi: 5e-9 * np.sin(9.0 * xi), [], ["identity"]),
+        (lambda xi: np.where(abs(xi) < 4.0, 5e-9, INF), [], ["identity"]),
+        (lambda xi: (xi - 1.03) ** 2, [at(1.03, touching=True)], ["near a fold"]),
+        (lambda xi: (xi - 1.03) ** 2 + 1e-7, [], ["near a fold"]),
+        (lambda xi: (xi - 1.03) ** 2 + 1e-5, [], []),
+        (lambda xi: (xi + 4.03) ** 2, [], ["near a fold"]),  # so near C that all displacements are small
+        (lambda xi: np.where(xi > 3.1, np.nan, 1.03 - xi), [at(1.03)], ["not all followed"]),
+        (lambda xi: np.where(xi > 3.1, INF, 5e-4 + (xi - 3.1) ** 2), [], ["near a loop"]),
+        (lambda xi: np.where(xi > 3.1, INF, -5e-4 - (xi - 3.1) ** 2), [at(3.1, True)], ["near a loop"]),
+        (lambda xi: np.where(xi > 3.1, INF, 5e-3 + (xi - 3.1) ** 2), [], []),
+        (lambda xi: np.where(xi > 3.1, -INF, 5e-4 + (xi - 3.1) ** 2), [], []),  # no way to the equator
+        (lambda xi: np.where(xi < 0.3, INF, -INF), [], []),
+        (lambda xi: np.where(xi < 0.3, -INF, INF), [at(0.3, True)], []),  # so repelling that only the way back shows it
+        (lambda xi: np.where(xi < 0.3, -INF, 1.0), [at(0.3, True)], []),
+        (lambda xi: np.where(xi < 0.3, -1.0, INF), [at(0.3, True)], []),
+        (lambda xi: np.where(xi < 0.3, INF, -1.0), [], []),
+    ],
+)
+def test_what_a_section_shows(displacement, found, said):
+    places, words = sought(displacement)
+    assert places == found
+    assert words == said
+
+
+def test_a_jump_that_the_way_back_does_not_show_is_none():
+    jump = lambda xi: np.where(xi < 0.3, -INF, INF)  # noqa: E731
+    for back in (lambda xi: 1.0 + 0.0 * xi, lambda xi: -1.0 + 0.0 * xi, lambda xi: np.full_like(xi, np.nan)):
+        assert sought(jump, backward=back) == ([], [])
+
+
+def test_a_whole_interval_of_fixed_points_is_a_band():
+    _, said = sought(lambda xi: np.where(abs(xi) < 2.0, 0.0, xi))
+    assert "band" in said
+    few = sought(lambda xi: np.where(abs(xi) < 0.8, 0.0, INF * np.sign(xi)))  # too few samples to say more
+    assert "identity" not in few[1]
+
+
+@pytest.mark.parametrize("newborn", [Crossing(-20.0, born=True), None])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_cycle_is_born_between_the_critical_set_and_the_samples(monkeypatch, newborn, sign):
+    """C attracts, and beside it orbits go away from it: there is one too small to be sampled."""
+    monkeypatch.setattr(search, "_newborn", lambda _: newborn)
+    plain = [at(1.03, sign < 0.0)]
+    one = [(-20.0, False, False), *plain] if newborn else plain
+    displacement = lambda xi: sign * (1.03 - xi)  # noqa: E731
+    assert sought(displacement, -sign, -1.0) == (one, [] if newborn else ["too small, about C"])
+    assert sought(displacement, sign, -1.0) == (plain, [])
+    assert sought(displacement, 0.0, -1.0) == (plain, [])
+    assert sought(displacement, -sign, 1.0) == (plain, [])  # a node: nothing turns about it
+    lost = lambda xi: np.where(xi < -4.0, np.nan, displacement(xi))  # noqa: E731
+    assert sought(lost, -sign, -1.0) == (one, ["not all followed"] + ([] if newborn else ["too small, about C"]))
+    gone = lambda xi: np.where(xi < -4.0, INF, displacement(xi))  # noqa: E731
+    if sign > 0.0:
+        assert sought(gone, -sign, -1.0) == (plain, [])

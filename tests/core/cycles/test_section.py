@@ -1,12 +1,14 @@
 """Sections and their return maps: geometry by its definition, maps where x2' = A x2 is solved in closed form."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED
+from codim2_core.cycles import return_map
+from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED, UNDECIDED
 from codim2_core.cycles.section import COARSE, FINE, INNER, Section, rays
 from codim2_core.cycles.turn_section import OUTER, SPACING, TurnSection
 
@@ -153,3 +155,76 @@ def test_the_ray_keeps_away_from_other_critical_sets():
         assert np.hypot(*(first[:2] - C.p)) == pytest.approx(INNER * own.reach, rel=1e-3)
         assert last[2] == pytest.approx(OUTER, rel=1e-2)
         np.testing.assert_allclose(np.diff(grid), SPACING, rtol=0.05)
+
+
+INF, NAN = math.inf, math.nan
+P, Q = (0.1, 0.2), (-0.4, 0.5)  # critical sets: the one the ray starts from, and another
+
+
+@pytest.mark.parametrize(
+    ("code", "end", "ebar", "expected"),
+    [
+        (RETURNED, (0.3, 0.2), 0.5, None),  # as far as it came
+        (INWARD, (0.1005, 0.2), 0.5, -INF),
+        (OUTWARD, (0.8, 0.2), 0.5, INF),
+        (UNDECIDED, (0.8, 0.2), 0.5, NAN),
+        (UNDECIDED, (0.10005, 0.2), 0.5, -INF),  # settled at the set itself
+        (UNDECIDED, (-0.40005, 0.5), 0.5, INF),  # at another one
+        (UNDECIDED, (0.8, 0.6), 5e-5, INF),  # on the equator
+        (INWARD, (-0.40005, 0.5), 5e-5, -INF),
+        (OUTWARD, (0.10005, 0.2), 0.5, -INF),
+        (RETURNED, (0.10005, 0.2), 0.5, None),
+    ],
+)
+def test_where_an_orbit_that_never_turned_has_settled(monkeypatch, code, end, ebar, expected):
+    own = TurnSection.__new__(TurnSection)
+    own.critical, own._rests = SimpleNamespace(p=np.array(P)), np.array([P, Q])
+    own.u, own.reach, own.other = np.array([1.0, 0.0]), 0.8, 1.1
+    monkeypatch.setattr(TurnSection, "kernel", (return_map, None))
+    ends = np.array([(0.3, 0.2, 0.5), (*end, ebar)])
+    monkeypatch.setattr(TurnSection, "turn", lambda *_: (ends, None, np.array([RETURNED, code]), None))
+    xi = np.array([-0.3, 0.4])
+    shift = own.displacement(xi)
+    plain = own.coordinate(ends) - xi
+    assert shift[0] == plain[0]  # whatever becomes of the other
+    np.testing.assert_array_equal(shift[1], plain[1] if expected is None else expected)
+
+
+@pytest.mark.parametrize("rtol", [1e-9, 1e-12])
+def test_what_the_tolerance_cannot_tell_from_zero_is_zero(monkeypatch, rtol):
+    """An error of 10 rtol in p is ``10 rtol (1/r + 1/(reach - r))`` in ln(r/(reach - r)), r = reach/(1 + exp(-q))."""
+    own = TurnSection.__new__(TurnSection)
+    own.critical, own._rests = SimpleNamespace(p=np.array(P)), np.array([P])
+    own.u, own.reach, own.other = np.array([1.0, 0.0]), 0.8, 1.1
+    monkeypatch.setattr(TurnSection, "kernel", (return_map, None))
+    xi = np.array([-6.0, -3.0, -1.0, 0.0])
+    r = own.reach / (1.0 + np.exp(-xi))
+    for factor, told in ((5.0, False), (40.0, True)):
+        for side in (1.0, -1.0):
+            moved = np.log(r + side * factor * rtol) - np.log(own.reach - r)
+            monkeypatch.setattr(TurnSection, "coordinate", lambda _, __, moved=moved: moved)
+            ends = np.column_stack([np.array(P) + r[:, None] * own.u, np.full(4, 0.5)])
+            monkeypatch.setattr(TurnSection, "turn", lambda *_, ends=ends: (ends, None, np.full(4, RETURNED), None))
+            assert (own.displacement(xi, rtol) != 0.0).tolist() == [told] * 4
+
+
+def test_of_sixteen_rays_the_one_that_keeps_furthest_away_is_taken():
+    own = TurnSection.__new__(TurnSection)
+    for away in ([(0.4, 0.3)], [(0.1, 0.0), (-0.5, 0.5)], [(0.3, 0.0), (0.0, 0.2), (-0.3, 0.0), (0.0, -0.2)]):
+        u = own._direction([np.array(d) for d in away])
+        assert math.hypot(*u) == pytest.approx(1.0)
+
+        def room(v, away=away):
+            """Of the distances of sets from a ray, the least."""
+            along = np.linspace(0.0, 2.0, 801)[:, None] * v
+            return min(np.hypot(*(along - np.array(d)).T).min() for d in away)
+
+        others = [room(np.array([math.cos(t), math.sin(t)])) for t in np.linspace(0.0, 2.0 * math.pi, 180)]
+        assert room(u) > 0.8 * max(others)
+
+
+def test_a_section_needs_a_critical_set():
+    at = c2.ELinear(1.0, 3.0, -2.0, (9.0, 0.0)).at()
+    inside = c2.critical_sets(c2.ELinear(1.0, 3.0, -2.0, (0.4, 0.3)), PSIS[0])[0]
+    with pytest.raises(ValueError, match="no critical set"):
+        Section(at, PSIS[0], inside)

@@ -153,21 +153,26 @@ def test_what_is_said_of_an_orbit_on_the_hemisphere(label, ahead, behind):
 @pytest.mark.parametrize(("rate", "first"), [(2.0, 0.8), (0.3, 0.1)])
 def test_the_time_outside_of_an_exponential_approach_is_exact(rate, first, sign):
     """rho = first exp(-rate T): the integral over all T is first/rate, however few points are drawn."""
-    T = np.array([0.0, 0.3, 0.5, 1.7])
+    T = np.array([0.0, 0.3, 0.5, 1.7, 1.8])
     rho = first * np.exp(-rate * T)
     line = np.stack([1.0 + rho, 0.0 * rho], axis=-1)
     before = np.array([[9.0, 9.0]])  # another line stands before it
     half = SimpleNamespace(
-        offsets=np.array([0, 1, 5]),
+        offsets=np.array([0, 1, 6]),
         buffer=np.concatenate([before, line]),
         clock=np.concatenate([[7.0], sign * T]),
         ends=np.array([[0.0, 0.0, 5.0], [1.0, 0.0, rho[-1]]]),
     )
     assert module._time(half, 1) == pytest.approx(first / rate, rel=1e-12)
     assert module._time(half, 0) == 0.0
+    half.clock[5] = half.clock[4]  # drawn twice at once: what is left is not known from it
+    drawn = (first - rho[3]) / rate
+    half.ends[1, 2] = rho[3]
+    assert module._time(half, 1) == pytest.approx(drawn, rel=1e-12)
+    half.clock[1:] = sign * T
     line[:] = (1.25, 0.0)  # at rest: rho T
     half.buffer[1:], half.ends[1, 2] = line, 0.25
-    assert module._time(half, 1) == pytest.approx(0.25 * 1.7, rel=1e-12)
+    assert module._time(half, 1) == pytest.approx(0.25 * 1.8, rel=1e-12)
 
 
 def test_an_orbit_on_the_equator_and_one_that_leaves_are_told():
