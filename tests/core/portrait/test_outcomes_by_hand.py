@@ -66,17 +66,32 @@ def test_where_no_direction_decides_all_angles_have_one_outcome():
     assert found.arcs == ((0.0, 2.0 * math.pi, whole),)
 
 
-@pytest.mark.parametrize("sign", [1, -1])
+def on_arc(turn, sign):
+    """Outcomes of Theta = sign max(sin(theta - turn), 0) cos(theta - turn): rests on half the circle."""
+    limits, _ = equator([(0.5 * math.pi + turn) % (2.0 * math.pi)], [1])
+    limits.arcs = np.remainder([(math.pi + turn, 2.0 * math.pi + turn)], 2.0 * math.pi)
+
+    def U(e):
+        t = math.atan2(e[1], e[0]) - turn
+        return sign * max(math.sin(t), 0.0) * math.cos(t) * np.array([-e[1], e[0]]) - e
+
+    return Outcomes((), (SimpleNamespace(label="Q1"),), limits, None, SimpleNamespace(U=U))
+
+
+def typed_arc():
+    turning = "max(s, 0)*c"
+    return c2.approach_outcomes(c2.System(U=(f"-s*{turning} - c", f"c*{turning} - s")), PSI, compare=())
+
+
 @pytest.mark.parametrize(
-    ("axis", "across", "turn"), [("s", "c", 0.0), ("-c", "s", 0.5 * math.pi), ("c", "-s", -0.5 * math.pi)]
+    ("made", "turn", "sign"),
+    [(typed_arc, 0.0, 1), *((None, turn, sign) for turn in (0.3, 1.9, 2.8, -1.2) for sign in (1, -1))],
 )
-def test_on_a_whole_arc_of_limit_directions_none_is_tended_to(axis, across, turn, sign):
-    """Theta = ±max(sin, 0) cos: rests on half the circle, and on the other turns to Q in its middle, or from it."""
-    turning = f"({sign})*max({axis}, 0)*({across})"
-    found = c2.approach_outcomes(c2.System(U=(f"-s*{turning} - c", f"c*{turning} - s")), PSI, compare=())
+def test_on_a_whole_arc_of_limit_directions_none_is_tended_to(made, turn, sign):
+    """On the other half all turn to Q in its middle, or from it to the ends of the arc."""
+    found = made() if made else on_arc(turn, sign)
     (Q,) = found.directions
-    assert math.cos(Q.theta - turn) == pytest.approx(0.0, abs=1e-9)
-    for angle in (3.5, 4.5, 6.0, -0.1, 4.0 * math.pi - 1.0):
+    for angle in (3.2, 4.5, 6.2, -0.1, 4.0 * math.pi - 1.0):
         assert found.destination(angle + turn) is None
         assert found.outcome(angle + turn).verdict == "undecided"
         assert "a limit direction" in found.outcome(angle + turn).reason
@@ -212,6 +227,11 @@ def test_directions_that_nothing_arrives_along():
         neutral = said(limits, i)
         assert (neutral.verdict, neutral.arrives, neutral.why) == ("undecided", "nothing", "neutral")
         assert "radially neutral" in neutral.reason
+
+
+def test_beside_a_double_direction_that_leads_away_nothing_more_is_said():
+    limits, _ = equator([0.3, 2.4, 4.9], [2, 1, 1], lambda_rho=[1.0, -1.0, -1.0])
+    assert said(limits, 0).reason == say("leads away", Q="Q₁")
 
 
 @pytest.mark.parametrize(

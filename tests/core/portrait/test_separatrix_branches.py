@@ -9,6 +9,7 @@ import pytest
 import codim2_core as c2
 from codim2_core.orbits.result import Status
 from codim2_core.portrait import separatrices, separatrix_branches
+from codim2_core.portrait.endings import CONNECTION, SLOW, SPEEDS, Ending
 from codim2_core.portrait.separatrix import Separatrices, Separatrix
 from codim2_core.words import say
 
@@ -97,6 +98,70 @@ def test_outside_the_half_saddles_are_the_others():
 
 # ---- on the hemisphere, to their ends -------------------------------------------------------------------------------
 
+
+@pytest.mark.parametrize("backward", [False, True])
+def test_each_branch_starts_at_its_saddle_and_is_followed_as_long_as_it_needs(monkeypatch, backward):
+    """Up from a Q it takes several times 1/|lambda_rho|, beside the time that any branch takes."""
+    begun, stiff = [], []
+    sign = 1.0 if backward else -1.0
+    limits, beyond = equator([0.3, 1.4, 2.9, 4.4, 5.5], [1, 1, 1, 1, 2])
+    half = [i for i in range(4) if beyond[i] * sign > 0] + [4]
+    limits.lambda_rho[:] = sign * np.array([1.0, 2.0, 0.01, 0.02, 3.0])  # of the sign that goes up the hemisphere
+
+    def note(places, options):
+        begun.append((np.asarray(places).tolist(), options["t_max"]))
+        stiff.append((options["stiff"], options["backward"], options["atol"] < options["rtol"]))
+        return SimpleNamespace(points=[np.array([(0.0, 0.0), (0.1, 0.1)])] * len(places))
+
+    monkeypatch.setattr(separatrix_branches, "continuation", lambda _at, _psi, theta, **options: note(theta, options))
+    monkeypatch.setattr(separatrix_branches, "trajectories", lambda _at, _psi, p, **options: note(p, options))
+    seen = []
+    monkeypatch.setattr(
+        separatrix_branches, "starts", lambda *given: seen.append(given[3:]) or (np.ones((2, 2)), np.array(TANGENTS))
+    )
+
+    def joined(parts):
+        return SimpleNamespace(points=[line for part in parts for line in part.points])
+
+    def ended(_at, _psi, lines, *_, **options):
+        assert options["backward"] is backward
+        return [Ending("C1", 0.5, "why")] * (len(lines.points) - 1) + [Ending("Q2", 1.4, CONNECTION)]
+
+    monkeypatch.setattr(separatrix_branches, "joined", joined)
+    monkeypatch.setattr(separatrix_branches, "endings", ended)
+    places = []
+    monkeypatch.setattr(
+        separatrix_branches, "_tails", lambda *given: places.extend(given[3]) or [[np.array([p])] for p in given[3]]
+    )
+    sets = tuple(
+        SimpleNamespace(kind=kind, p=np.array(p), eigenvalues=np.array([1.5, -0.7]))
+        for kind, p in (("stable node", (0.2, 0.0)), ("saddle", (-0.2, 0.1)))
+    )
+    problem = SimpleNamespace(at=SimpleNamespace(speed=2.0), psi=PSI, equator=limits, critical=sets)
+    found = separatrix_branches.branches_inside(problem, 900.0, 1e-9, 0.005, backward)
+    assert stiff == [(True, backward, True)] * (len(half) + 1)
+    for (theta, time), i in zip(begun, half, strict=False):
+        assert theta == [limits.theta[i]]
+        rate = abs(limits.lambda_rho[i])
+        assert time == pytest.approx(min(900.0, SPEEDS / 2.0 + SLOW / rate))
+    assert begun[-1] == ([[1.0, 1.0]] * 2, 900.0)
+    assert seen == [(-0.7 if backward else 1.5, pytest.approx(1e-10))]
+    assert [one.origin for one in found] == [f"Q{i + 1}" for i in half] + ["C2", "C2"]
+    directions = [*limits.theta[half], *(math.atan2(t[1], t[0]) for t in TANGENTS)]
+    assert [one.departure_angle for one in found] == pytest.approx(directions)
+    for k, one in enumerate(found):
+        line = one.points[::-1] if backward else one.points
+        begin = np.array([math.cos(directions[k]), math.sin(directions[k])]) if k < len(half) else sets[1].p
+        end = sets[0].p if k + 1 < len(found) else np.array([math.cos(1.4), math.sin(1.4)])
+        np.testing.assert_allclose(line, [begin, (0.0, 0.0), (0.1, 0.1), end], atol=1e-15)
+        assert (one.direction, one.inside, one.gap) == ("stable" if backward else "unstable", True, None)
+        assert one.connection == (k + 1 == len(found))
+        assert (one.end, one.arrival_angle) == (("Q2", 1.4) if one.connection else ("C1", 0.5))
+    none = SimpleNamespace(at=problem.at, psi=PSI, equator=equator([], [])[0], critical=sets[:1])
+    assert separatrix_branches.branches_inside(none, 900.0, 1e-9, 0.005, backward) == []
+
+
+TANGENTS = [(0.6, -0.8), (-0.6, 0.8)]
 PIXEL = 0.005
 END = np.array([0.5, 0.5])
 
@@ -196,11 +261,13 @@ def test_notes_name_connections_once_and_what_is_undecided():
 def test_lines_are_refined_where_they_are_too_coarse_to_tell_a_connection(monkeypatch):
     drawn = []
 
-    def inside(_problem, _longest, _rtol, pixel, back):
+    def inside(_problem, longest, _rtol, pixel, back):
+        assert longest == (700.0 if given is None else given)
         drawn.append((pixel, back))
         return [branch("stable" if back else "unstable")]
 
     monkeypatch.setattr(separatrices, "branches_inside", inside)
+    monkeypatch.setattr(separatrices, "drawn_time", lambda *_: 700.0)
     monkeypatch.setattr(
         separatrices, "connected", lambda branches, gaps, within: kept.append((len(branches), gaps, within)) or branches
     )
@@ -211,13 +278,17 @@ def test_lines_are_refined_where_they_are_too_coarse_to_tell_a_connection(monkey
         seen, kept = [gaps, finer], []
         monkeypatch.setattr(separatrices, "gaps_between", lambda _, seen=seen: seen.pop(0))
         drawn.clear()
-        assert len(separatrices.separatrices_of(problem, pixel=0.005, tolerance=1e-6)) == 2
+        given = None if again else 20.0
+        found = separatrices.separatrices_of(problem, pixel=0.005, tolerance=1e-6, t_max=given)
+        assert len(found) == 2
+        assert not any(one.points.flags.writeable for one in found)
         assert drawn == [(0.005, False), (0.005, True), *([(1e-6, False), (1e-6, True)] if again else [])]
         assert kept == [(2, finer if again else gaps, 1e-6)]
 
 
 def test_the_table_stands_without_a_picture(monkeypatch):
     found = Separatrices((branch(), branch("stable", "undecided")), ("A note.",))
+    assert found.graph == (("Q1", "C"), ("undecided", "Q1"))  # in the direction of time
     for picture in (None, "<svg/>"):
         monkeypatch.setattr("codim2_core.drawing.svg", lambda _, picture=picture: picture)
         text = found._repr_html_()
