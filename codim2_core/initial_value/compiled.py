@@ -28,8 +28,9 @@ from ..stepping.compiling import Kept
 from ..stepping.gains import one_gain
 from ..stepping.layout import FIELD, PARAMETERS
 from ..stepping.numbers import PSI
-from ..stepping.radau import BLOWN_UP, FULL, LIMIT, SHORT, follow
 from ..words import say
+from .compiled_radau import BLOWN_UP, FULL, LIMIT, SHORT, follow
+from .compiled_rate import Motion
 from .field import Field
 from .line import Line
 
@@ -102,11 +103,11 @@ class Compiled:
         self.problem = problem
         functions = _fields.get(field.rows, lambda: _made(field))
         self.functions = (*functions, one_gain(psi))  # they must outlive their use
-        self.addresses = np.array([function.address for function in self.functions], np.int64)
-        self.parameters = np.zeros(PARAMETERS)
-        self.parameters[PSI] = psi.parameter
-        self.eps, self.rtol, self.floor = eps, rtol, floor
-        self.line = np.zeros(3) if line is None else np.array([*line.n, 1.0])
+        addresses = np.array([function.address for function in self.functions], np.int64)
+        parameters = np.zeros(PARAMETERS)
+        parameters[PSI] = psi.parameter
+        along = np.zeros(3) if line is None else np.array([*line.n, 1.0])
+        self.motion = Motion(addresses, parameters, len(first), eps, rtol, floor, along)
         self.y, self.clock = np.array(first), np.array([t_start, 0.0, t_end, 0.0])
         self.control = np.array([h, 1.0, 0.0, float(most), 0.0, max(1.0, float(np.abs(first).max()))])
 
@@ -130,10 +131,8 @@ class Compiled:
             ends, polynomials = np.empty((CHUNK, n)), np.empty((CHUNK, n, STAGES))
             begin = self.y.copy()
             code, filled = follow(
-                self.addresses, self.parameters, self.y, self.clock, self.control, n, self.eps, self.line, self.rtol,
-                self.floor, table.A, table.nodes, table.gamma, table.error, table.fit,
-                starts, lengths, ends, polynomials,
-            )  # fmt: skip
+                self.motion, table, self.y, self.clock, self.control, starts, lengths, ends, polynomials
+            )
             yield Steps(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
         t = float(self.clock[0])
         if code == LIMIT:

@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,8 +24,7 @@ SAFETY, SHRINK, GROW, FAILED = 0.9, 0.2, 8.0, 0.3
 CAREFUL, GROWTH_AFTER_FAILURE = 6, 1.2  # so many steps after Newton's method failed, a step grows by so much at most
 
 
-@dataclass(frozen=True)
-class Tableau:
+class Tableau(NamedTuple):
     """Coefficients of the method.
 
     Attributes
