@@ -186,11 +186,11 @@ export class Chart {
   // The line at the present value of x, through all plots.
   at(value) {
     this.value = value
-    const path = this.svg.querySelector(".value"), [first] = this.frames
-    if (!path || !first) return
-    const x = value === null ? NaN : first.x.at(value), seen = x >= first.left - 0.1 && x <= first.right + 0.1
-    if (seen) this.cover((box) => Math.abs(box[0] - x) < box[2] / 2 + 2)
-    path.setAttribute("d", seen ? this.frames.map(({top, bottom}) => `M${fixed(x)} ${fixed(top)}V${fixed(bottom)}`).join("") : "")
+    const path = this.svg.querySelector(".value")
+    if (!path) return
+    const seen = this.frames.map((frame) => ({...frame, at: value === null ? NaN : frame.x.at(value)})).filter(({at, left, right}) => at >= left - 0.1 && at <= right + 0.1)
+    this.cover(([u, v, wide]) => seen.some(({at, top, bottom}) => v >= top && v <= bottom && Math.abs(u - at) < wide / 2 + 2))
+    path.setAttribute("d", seen.map(({at, top, bottom}) => `M${fixed(at)} ${fixed(top)}V${fixed(bottom)}`).join(""))
   }
 
   /**

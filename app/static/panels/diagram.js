@@ -3,11 +3,13 @@
 
 import {axesMarkup, AxisChoice, ZoomButtons} from "../axes.js"
 import {Chart} from "../chart/chart.js"
+import {spanOf} from "../chart/scale.js"
 import {shape} from "../marks.js"
 import {register} from "../panels.js"
 import {SAYS, escape, minus, plain} from "../words.js"
 
 const TURN = 2 * Math.PI
+const NARROW = 0.2 // of the span: what happens within less of it has an axis of its own
 
 const MARKUP = `${axesMarkup({along: "along"}, "zoom")}
   <svg class="diagram" role="slider" tabindex="0" aria-label="Bifurcation diagram: click to set the parameter, or use the arrow keys"></svg>
@@ -28,7 +30,7 @@ class Diagram {
     this.data = null
     this.chart = new Chart(this.svg, {
       aspect: (width) => Math.min((this.data?.cycles?.pieces.length ? 1.3 : 0.86) * width, this.data?.cycles?.pieces.length ? 820 : 620),
-      onMove: (value) => this.go(this.rounded(value)),
+      onMove: (value, _, plot) => this.go(this.rounded(value, this.chart.plots[plot].x.span)),
       onKey: ([across, up], far) => {
         const [low, high] = this.data.span
         this.go(this.rounded(this.tools.valueOf(this.values.along) + (across + up) * (high - low) / (far ? 20 : 200)))
@@ -43,8 +45,7 @@ class Diagram {
 
   go(value) { this.setControls({[this.values.along]: value}) }
 
-  rounded(value) {
-    const [low, high] = this.data.span
+  rounded(value, [low, high] = this.data.span) {
     const unit = 10 ** (Math.floor(Math.log10(high - low)) - 3)
     return Number((Math.round(value / unit) * unit).toPrecision(8))
   }
@@ -106,8 +107,10 @@ class Diagram {
       })
       plots.push({share: 38, ...of("limit cycles, amplitude |p − C|", "y")}, {share: 38, ...of("limit cycles, period (fast time τ)", "period")})
     }
+    const part = this.partOf(plots.slice(1), special.filter((one) => this.plotOf(one) > 0))
     plots.forEach((plot, i) => {
-      plot.x = {span, word: words, hidden: i < plots.length - 1}
+      if (i && part) plot.title += ", magnified"
+      plot.x = {span: i ? part ?? span : span, word: words, hidden: i < plots.length - 1 && !(part && !i)}
       plot.marks = special.filter((one) => this.plotOf(one) === i).map((one) => this.mark(one))
     })
     this.chart.draw(plots)
@@ -116,6 +119,13 @@ class Diagram {
     this.find(".diagram-key").innerHTML = `<span>green: arrive</span><span>pink: leave</span><span>red: critical set${cycles.length ? ", cycles" : ""}</span><span>dashed: unstable</span><span>dotted: saddle</span>`
     this.find(".special-list").innerHTML = special.map((one, i) => `<li><button type="button" data-special="${i}"><svg viewBox="-5 -5 10 10">${shape(one.kind)}</svg>
       <span>${escape(one.kind)}</span><span>${words} = ${minus(plain(one.value))}</span><span class="note">${escape(one.sentence)}</span></button></li>`).join("")
+  }
+
+  // The part of the span in which there are critical sets and cycles, if it is narrow: else they were one column of pixels.
+  partOf(plots, special) {
+    const [low, high] = this.data.span, values = [...plots.flatMap((plot) => plot.lines.flatMap((line) => line.x)), ...special.map((one) => one.value)]
+    const [from, to] = spanOf(values, 0.08)
+    return values.some((value) => value !== values[0]) && to - from < NARROW * (high - low) ? [Math.max(low, from), Math.min(high, to)] : null
   }
 
   // θ runs on along a branch: it is drawn in every turn that the plot may show.

@@ -64,6 +64,29 @@ test("the panel diagram: limit cycles by amplitude and period, stable ones full"
   assert.deepEqual([one.find(".diagram-note").textContent, one.find(".diagram").hasAttribute("hidden")], ["", false])
 })
 
+test("the panel diagram: what happens in a narrow part of the span has an axis of its own, in which a hand is as fine", () => {
+  const at = (x) => x.map((v) => 2 + v / 20) // 0.2 wide, of 8
+  const critical = DIAGRAM.critical.map((b) => ({...b, x: at(b.x)})), special = [DIAGRAM.special[0], {...DIAGRAM.special[1], value: 2.15}]
+  const cycles = {...CYCLES, pieces: CYCLES.pieces.map((b) => ({...b, x: at(b.x)})), special: []}
+  const one = opened("diagram", {along: "f1", f1: 2.1, n: 3, zoom: 0})
+  one.frame({diagram: {...DIAGRAM, critical, special}, ...AXES})
+  one.frame({cycles_along: cycles})
+  const all = plots(one.find(".diagram"))
+  assert.deepEqual(all.map(({title}) => title), ["limit directions θ", "critical set |p|, magnified", "limit cycles, amplitude |p − C|, magnified", "limit cycles, period (fast time τ), magnified"])
+  assert.deepEqual(all.map(({word}) => word), ["f₁", undefined, undefined, "f₁"])
+  near(named(all[0].lines, "attracting").map((line) => line.points[0][0]), [-2], 0.03)
+  near(named(all[1].lines, "stable").map((line) => line.points), [[[1.9, 0.25], [2.1, 0.75]]], 0.002)
+  near(all[1].marks.map(({at: place}) => place[0]), [2.15], 0.002)
+  const places = [...one.find(".diagram .value").getAttribute("d").matchAll(/M([\d.]+)/g)].map((found) => Number(found[1]))
+  near(places.map((place, i) => all[i].x.of(place)), [2.1, 2.1, 2.1, 2.1], 0.03)
+  near([all[3].x.of(places[3])], [2.1], 0.002)
+  one.fire(one.find(".diagram"), "pointerdown", {clientX: all[3].x.back(2.0123), clientY: 460})
+  const [[, {f1}]] = one.said()
+  assert.ok(Math.abs(f1 - 2.0123) < 0.001 && Number((f1 * 10000).toFixed(6)) % 1 === 0, String(f1))
+  one.frame({diagram: {...DIAGRAM, critical: DIAGRAM.critical.map((b) => ({...b, x: [2, 2]})), special: []}})
+  assert.deepEqual(plots(one.find(".diagram")).map(({title}) => title), ["limit directions θ", "critical set |p|"]) // one value has no part
+})
+
 test("the panel diagram: a hand sets the parameter, a mark goes exactly there, several come apart", () => {
   const special = [...DIAGRAM.special, {kind: "cusp", value: 1.25, place: [-0.65, 0.76], sentence: "Near by."}]
   const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 1})
