@@ -122,6 +122,6 @@ def _means(system: AnySystem, psi: Psi, z: Array, cycle: LimitCycle) -> tuple[Ar
     e = x2 * (psi.modulus(zeta) / np.maximum(zeta, 1e-300))[:, None]
     speed = np.hypot(*system.at(tuple(z.tolist())).U(e).T)
     distance = np.hypot(*(np.roll(x2, -1, axis=0) - x2).T)
-    time = distance / np.maximum(0.5 * (speed + np.roll(speed, -1)), 1e-300)
+    time = distance / np.maximum(speed + np.roll(speed, -1), 1e-300)  # in a unit of its own, as weights are its parts
     weight = 0.5 * (time + np.roll(time, 1)) / time.sum()
     return weight @ e, weight @ p

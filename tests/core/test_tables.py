@@ -56,6 +56,7 @@ def test_a_motion_shows_its_phases():
     _, *rows = cells(run._repr_html_())
     assert [row[0] for row in rows] == [phase.kind for phase in run.phases]
     assert run.reason in run._repr_html_()
+    assert "<svg" in run._repr_html_()
 
 
 def test_text_is_escaped_and_long_tables_are_cut():

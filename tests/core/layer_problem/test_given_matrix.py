@@ -10,6 +10,7 @@ import pytest
 import codim2_core as c2
 from codim2_core import ELinear, System, psi
 from codim2_core.layer_problem.location import Existence, locate
+from codim2_core.numerics.trigonometric import ROUNDING
 
 HALVES = [Fraction(k, 2) for k in range(-6, 7)]
 # -A has the zeros of A for -f, which lie opposite: half of all matrices say everything
@@ -148,3 +149,37 @@ def test_a_pitchfork_of_a_turned_matrix_is_named(A, f, name):
         assert equator.symmetric
         names = [d.name for d in c2.classify(system, psi.constant()).degeneracies]
         assert ("pitchfork" in names) == (name == "pitchfork"), names
+
+
+def fields(rng):
+    """Matrices and forces whose zero e is at 1 + distance from the centre, from far away to within rounding."""
+    for _ in range(400):
+        A = rng.normal(size=(2, 2))
+        if rng.random() < 0.3:  # nearly singular
+            A[1] = rng.normal() * A[0] + 10.0 ** rng.uniform(-9, -1) * rng.normal(size=2)
+        angle, distance = rng.uniform(0, 2 * math.pi), rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-17, -13)
+        f = -(1.0 + distance) * A @ [math.cos(angle), math.sin(angle)]
+        yield tuple(A.ravel().tolist()), tuple(f.tolist())
+
+
+def test_on_the_equator_means_within_the_rounding_of_the_entries():
+    """The gap det^2 - |adj(A) f|^2 against half its change by each entry in turn, all in exact fractions."""
+    seen = set()
+    for A, f in fields(np.random.default_rng(9)):
+        entries = [Fraction(v) for v in (*A, *f)]
+
+        def gap(m11, m12, m21, m22, f1, f2):
+            return (m11 * m22 - m12 * m21) ** 2 - (m22 * f1 - m12 * f2) ** 2 - (m11 * f2 - m21 * f1) ** 2
+
+        change = Fraction(0)
+        for i, entry in enumerate(entries):  # of second degree in each: a central difference is exact
+            up, down = list(entries), list(entries)
+            up[i], down[i] = entry * 2, Fraction(0)
+            change += abs(gap(*up) - gap(*down)) / 4
+        level = abs(gap(*entries)) / change / Fraction(2 * ROUNDING)
+        found = locate(ELinear.from_matrix([A[:2], A[2:]], f).at()).existence
+        if found in (Existence.INSIDE, Existence.NONE, Existence.EQUATOR) and not Fraction(999, 1000) < level < 1:
+            seen.add(found)
+            inside = Existence.INSIDE if gap(*entries) > 0 else Existence.NONE
+            assert found is (Existence.EQUATOR if level < 1 else inside)
+    assert len(seen) == 3

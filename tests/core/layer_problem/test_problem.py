@@ -98,3 +98,14 @@ def test_the_slow_flow_of_a_typed_law_on_a_cycle_is_the_mean_of_w():
     found = c2.limit_cycles(typed, regularisation, 0.0)[0]
     assert found.period == pytest.approx(same.period, rel=1e-12)
     assert found.slow_flow[0] > float(same.mean_e @ same.mean_e) + 1e-4
+
+
+@pytest.mark.parametrize("system", [c2.ELinear(-2.0, 0.0, -1.0), c2.ELinear(-1.0, 0.0, -1.0), TYPED])
+def test_where_the_equator_has_directions_no_closed_orbit_is_looked_for(monkeypatch, system):
+    def never(_at):
+        raise AssertionError("looked for")
+
+    monkeypatch.setattr(problem, "equator_cycle", never)
+    own = LayerProblem(system.at((0.2,) * system.m), psi.tanh())
+    assert len(own.equator) or own.equator.all_directions
+    assert own.equator_cycle is None

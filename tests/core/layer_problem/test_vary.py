@@ -19,6 +19,8 @@ def test_only_numbers_parameters_and_given_slow_variables_can_be_varied() -> Non
     assert names(owner, HILL) == ("b", "d", "f1", "f2", "n")
     assert varied(owner, HILL, (), "n", 7)[0].at().a == 7
     assert limits(owner, HILL, "n")[1] > limits(TEXT, HILL, "n")[1] == 1000
+    for psi in (HILL, c2.psi.tanh()):  # with a parameter, and without
+        assert limits(TEXT, psi, "a") == limits(TEXT, psi, "z1") == (-1e150, 1e150)
 
 
 @pytest.mark.parametrize("name", ["a", "d", "f1", "k", "z1", "z2", "n"])

@@ -72,16 +72,17 @@ def test_a_state_on_a_critical_set_follows_it(psi):
     assert followed(field(nothing), psi, eps, np.array([0.0, 0.0, z])) is None
 
 
-@pytest.mark.parametrize("psi", PSIS[:2], ids=lambda p: p.text)
-def test_the_slow_manifold_lies_within_its_margin(psi):
+@pytest.mark.parametrize("psi", [PSIS[0], PSIS[1], PSIS[3]], ids=lambda p: p.text)
+@pytest.mark.parametrize("z", [0.18, 1.2])  # at |p| = 0.3 or so, and where the hemisphere is steep
+def test_the_slow_manifold_lies_within_its_margin(psi, z):
     """x2 = X + eps X1: J X1 = D_z X W - U_x X; up to twice that far is followed, and no further."""
-    formulas, z = field(BENT), 0.18
+    formulas = field(BENT)
     C = next(C for C in c2.critical_sets(BENT, psi, (z,)) if C.kind.startswith("stable"))
     step = 1e-5
     X = [next(D.x2 for D in c2.critical_sets(BENT, psi, (z + h,)) if D.kind == C.kind) for h in (-step, step)]
     moved = (X[1] - X[0]) / (2.0 * step)
     X1 = np.linalg.solve(C.jacobian, moved - np.array([[0.0, 0.0], [1.0, 0.0]]) @ C.x2)
-    eps = 0.01
+    eps = 0.01 if z < 1.0 else 0.003
     for times, follows in ((1.0, True), (1.9, True), (3.0, False), (-1.0, True), (-3.0, False)):
         x2 = C.x2 + times * eps * X1
         assert (followed(formulas, psi, eps, np.array([*(eps * x2), z])) is not None) == follows, times
@@ -122,6 +123,24 @@ def test_places_on_sets_cycles_and_where_it_leaves():
     e, p = places.Leaving(2.0).at(t)
     np.testing.assert_allclose(e, [(math.cos(2.0), math.sin(2.0))] * 3)
     np.testing.assert_array_equal(p, e)
+
+
+def test_beyond_the_equator_a_set_is_not_polished():
+    """C = (z, 0) has left the disc: what was followed is the place on the equator."""
+    system = c2.System(U=("z - c", "-s"), W=("1",))
+    motion = lambda t: np.stack([0.0 * t, 0.0 * t, 1.0 + t], axis=-1)  # noqa: E731
+    on_set = places.OnSet(system, PSIS[1], motion, np.array([-1.0, 1.0]), np.array([(0.0, 0.0), (1.0, 0.0)]))
+    e, p = on_set.at(np.array([-0.5, 0.1, 0.9]))
+    np.testing.assert_allclose(e, [(0.5, 0.0), (0.55, 0.0), (0.95, 0.0)], atol=1e-12)
+    np.testing.assert_allclose(p, [in_disc(PSIS[1], one) for one in e], atol=1e-12)
+
+
+def test_at_the_moment_of_arrival_the_nearest_moment_off_sigma_tells_the_direction():
+    slip = places.OfState(Motion(), None, 0.0, 0.0, 2.5)  # rests in between
+    e, _ = slip.at(np.array([1.0, 1.4, 2.0]))
+    np.testing.assert_allclose(e, [(math.sqrt(0.5), -math.sqrt(0.5)), (math.sqrt(0.5), -math.sqrt(0.5)), (0.0, 1.0)])
+    late = places.OfState(Motion(), None, 0.0, 0.6, 1.0)  # no step ends off Sigma: from the middle of the phase
+    np.testing.assert_allclose(late.at(np.array([1.0]))[0], [(math.sqrt(0.5), -math.sqrt(0.5))])
 
 
 def test_an_ascent_is_the_orbit_up_the_hemisphere():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,8 +15,10 @@ from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
 from codim2_core.initial_value.events import Event
 from codim2_core.initial_value.field import field
+from codim2_core.initial_value.problem import plane_problem
+from codim2_core.motion import regularised
 from codim2_core.motion.regularised import simulate
-from codim2_core.motion.result import SimulationStatus
+from codim2_core.motion.result import MOST, SAMPLES, SimulationStatus
 from codim2_core.numerics.radau import tableau
 from tests.core.strategies import coefficient, regularisations
 
@@ -254,3 +257,60 @@ def test_results_are_read_only():
     for array in (run.times, run.states):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0.0
+
+
+def test_how_often_the_field_is_evaluated_is_counted(monkeypatch):
+    calls = [0]
+
+    def counted(*arguments):
+        problem = plane_problem(*arguments)
+
+        def F(state):
+            calls[0] += 1
+            return problem.F(state)
+
+        return type(problem)(F, problem.J, problem.scale, problem.limit)
+
+    monkeypatch.setattr(regularised, "plane_problem", counted)
+    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
+    run = simulate(ELinear(-1.0, 0.25, -1.75), families.rational(), 0.5, (0.3, 0.2), (0.0, 0.5))
+    assert run.evaluations == calls[0] > 10
+
+
+@pytest.mark.parametrize("rate", [(0.5, -2.0), (1e-9, 0.0), (0.0, 0.0)])
+def test_the_first_step_is_a_small_part_of_the_time_in_which_it_changes(rate):
+    problem = SimpleNamespace(scale=lambda state: np.array([1.0, 4.0]))
+    h = regularised.first_step(problem, np.zeros(2), np.array(rate))
+    if any(rate):
+        assert 0.0 < h * max(rate[0], abs(rate[1]) / 4.0) <= 0.05
+    else:
+        assert h == math.inf
+
+
+@pytest.mark.parametrize(
+    ("rtol", "atol", "most", "wrong"),
+    [
+        (1e-13, 1e-300, 1, None), (1e-2, 1e300, 10**9, None),
+        (0.9e-13, 1.0, 9, "rtol"), (1.1e-2, 1.0, 9, "rtol"), (math.nan, 1.0, 9, "rtol"),
+        (1e-3, 0.0, 9, "atol"), (1e-3, math.inf, 9, "atol"), (1e-3, math.nan, 9, "atol"),
+        (1e-3, 1.0, 0, "max_steps"), (1e-3, 1.0, 10**9 + 1, "max_steps"),
+    ],
+)  # fmt: skip
+def test_tolerances_have_bounds(rtol, atol, most, wrong):
+    if wrong is None:
+        regularised.checked_tolerances(rtol, atol, most)
+        return
+    with pytest.raises(ValueError, match=f"^{wrong} is"):
+        regularised.checked_tolerances(rtol, atol, most)
+
+
+def test_a_drawn_motion_is_even_in_time_and_of_bounded_length():
+    run = simulate(ELinear(-1.0, 0.25, -1.75), families.rational(), 0.5, (0.3, 0.2), (0.0, 5.0))
+    drawn = run.drawn()
+    assert np.diff(drawn.times).max() <= 5.0 / (SAMPLES - 1) * (1.0 + 1e-9)
+    assert (drawn.times[0], drawn.times[-1]) == (0.0, 5.0)
+    assert len(drawn.times) <= MOST
+    np.testing.assert_allclose(drawn.states, run.dense(drawn.times))
+    rho = np.hypot(np.hypot(*drawn.states[:, :2].T), 0.5)
+    np.testing.assert_allclose(drawn.points, (drawn.states[:, :2] / rho[:, None]) * (1.0 + rho)[:, None], atol=1e-12)
+    assert simulate(ELinear(-1.0, 0.25, -1.75), families.rational(), 0.5, (0.3, 0.2), (0.0, 5.0)).invariant < 1e-14

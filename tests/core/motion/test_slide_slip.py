@@ -8,6 +8,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.initial_value.field import field
+from codim2_core.initial_value.line import Line
 from codim2_core.initial_value.problem import plane_problem
 from codim2_core.motion.slide import Sheet, _first, _last_alive, _place, _whole, complement, determinant, slide, trace
 from codim2_core.motion.slide_on_cycle import _means
@@ -77,6 +78,7 @@ def test_a_slide_ends_at_the_time_the_equator_a_fold_or_a_hopf_point():
             assert found.places[-1] == pytest.approx([last, 0.0], abs=1e-4)
     still = slide(field(c2.ELinear(-1.0, 0.0, -1.0)), psi, np.zeros(2), 1.0, np.zeros(0), 3.0, **OPTIONS)
     assert (still.end, still.taken[0].end, len(still.places)) == ("time", 3.0, 2)
+    assert still.taken[0].at(0.3).tolist() == still.taken[0].first.tolist() == still.taken[0].last.tolist() == [0.0, 0.0]
     few = slide(field(BENT), psi, np.array([0.2, 0.0]), 0.0, np.array([0.2]), 0.5, rtol=1e-10, atol=1e-12, most=1)
     assert few.end == "given up"
     assert few.stopped is not None
@@ -159,6 +161,24 @@ def test_the_first_step_away_along_a_limit_direction(turn):
     assert y / x == pytest.approx(turn * 3.0 * step.h / (2.0 + 3.0), rel=1e-4, abs=1e-18)
     assert step.first.tolist() == [0.0, 0.0, 0.0]
     assert step.at(1.0) == pytest.approx(step.last)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_in_a_line_the_first_step_stays_in_it_though_what_lies_beside_turns(side):
+    """U = (2 side + z, -s + z): without the line z turns the direction; in it the step is as long as it may be."""
+    system = c2.System(U=(f"{2 * side} + 0*z", "-s + z"), W=("3",))
+    line = Line(field(system), np.array([1.0, 0.0]))
+    theta = 0.0 if side > 0 else math.pi
+    free, kept = (leave(field(system), theta, 5.0, np.array([0.0]), 6.0, one) for one in (None, line))
+    assert isinstance(kept, Step)
+    assert kept.last == pytest.approx([2.0 * side * kept.h, 0.0, 3.0 * kept.h], rel=1e-12)
+    assert kept.last[1] == 0.0
+    assert kept.h == pytest.approx(free.h) == pytest.approx(1e-9)
+    assert abs(free.last[1]) > 0.0
+    quadratic = c2.System(U=(f"c - {side} + {side}*z", "-s + z"), W=("2",))
+    kept = leave(field(quadratic), theta, 0.0, np.array([0.0]), 1.0, Line(field(quadratic), np.array([1.0, 0.0])))
+    assert kept.last == pytest.approx([side * kept.h**2, 0.0, 2.0 * kept.h], rel=1e-6)
+    assert kept.last[1] == 0.0
 
 
 def test_where_lambda_rho_only_begins_to_grow_the_way_out_is_quadratic():
