@@ -13,7 +13,7 @@ from codim2_app.draw.packing import EXTENT, Polylines, pack, unpack
 from codim2_app.draw.shapes import OPEN, shape
 from codim2_app.draw.still import page_of, still
 from codim2_app.draw.svg import draw, small
-from codim2_app.draw.theme import DISCS, HATCHES, RING, VIEW, custom_properties, themes
+from codim2_app.draw.theme import DISCS, HATCHES, NEAREST, RING, VIEW, WIDEST, custom_properties, themes
 from codim2_app.draw.thumbnails import COUNT, MOST, PIXEL, thumbnails
 from codim2_app.draw.thumbnails import VIEW as SMALL_VIEW
 
@@ -98,6 +98,16 @@ def test_the_figure_asks_for_tooltips_of_its_two_marks_and_sends_nothing_back():
     wheel = next(tool for tool in plot.tools if type(tool).__name__ == "WheelZoomTool")
     assert wheel.modifiers == {"ctrl": True}
     assert next(tool for tool in plot.tools if type(tool).__name__ == "BoxZoomTool").match_aspect
+
+
+def test_nothing_stands_around_the_picture():
+    plot = make_figure()
+    assert (plot.min_border, plot.title, plot.toolbar_location, plot.lod_threshold) == (0, None, None, None)
+    assert (plot.outline_line_color, plot.background_fill_color, plot.border_fill_color) == (None, None, None)
+    assert [axis.end for axis in (plot.x_range, plot.y_range)] == [VIEW, VIEW]
+    assert [axis.start for axis in (plot.x_range, plot.y_range)] == [-VIEW, -VIEW]
+    assert (plot.x_range.min_interval, plot.x_range.max_interval) == (2 * NEAREST, 2 * WIDEST)
+    assert plot.select_one({"name": "critical"}).glyph.size == 16  # as large as a mark, where a pointer asks
 
 
 def corners(name, size=12.0):

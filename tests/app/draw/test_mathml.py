@@ -84,6 +84,22 @@ def test_the_equations_of_an_example_are_its_right_hand_sides(example):
     ElementTree.fromstring(equations_mathml(system))
 
 
+@pytest.mark.parametrize(
+    "more",
+    [{}, {"g": (0.25,)}, {"B": ((0.5, -2.0),)}, {"B": ((0.5, -2.0),), "g": ("z - 1",)}, {"B": ((0.5, 1.0),) * 2}],
+    ids=repr,
+)
+@pytest.mark.parametrize("b", [0.3, "mu*z"])
+def test_the_equations_of_an_e_linear_system_are_its_right_hand_sides(more, b):
+    system = c2.ELinear(-1.0, b, "mu", (0.1, -0.2), parameters={"mu": 1.5}, **more)
+    z = (0.7, -0.4)[: system.m] or (0.7,) * isinstance(b, str)
+    at = system.at(z)
+    values = {"c": 0.6, "s": -0.8, "mu": 1.5, "z": 0.7, "z1": 0.7, "z2": -0.4}
+    rates = [float(right.evaluate(values)) for _, right in equations(system)]
+    assert rates == pytest.approx([*at.U((0.6, -0.8)), *at.W((0.6, -0.8))], abs=1e-12)
+    assert [left for left, _ in equations(system)] == ["x", "y", "z1", "z2"][: 2 + system.m]
+
+
 def test_a_matrix_is_written_as_given():
     system = c2.ELinear.from_matrix([["k", 2.0], [0.0, -1.0]], (0.5, "z"), g=(1.0,), parameters={"k": -3.0})
     rows = dict(equations(system))

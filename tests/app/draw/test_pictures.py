@@ -8,9 +8,9 @@ import pytest
 from codim2_app.draw import layers
 from codim2_app.draw.layers import Layer, Part
 from codim2_app.draw.overlay import elements, holoviews
-from codim2_app.draw.svg import SMALL_SIDE, draw, small
+from codim2_app.draw.svg import SMALL_SIDE, content, draw, small
 from codim2_app.draw.theme import VIEW, custom_properties, themes
-from codim2_app.draw.vector.parts import SIDE
+from codim2_app.draw.vector.parts import SIDE, Place
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.markup import config, stylesheet
 from codim2_app.view.refresh import Frames
@@ -172,6 +172,59 @@ def test_holoviews_shows_the_core(setting):
     assert np.column_stack([made["critical"].dimension_values(i) for i in (0, 1)]) == pytest.approx(
         np.array([C.p for C in scene["critical"]])
     )
+
+
+def test_holoviews_has_equal_axes_of_the_pictures_window_and_its_widths():
+    import holoviews as hv
+
+    hv.extension("bokeh")
+    scene = Frames(ExplorerState(**NODE)).scene
+    made, drawn = elements(scene), hv.render(holoviews(scene), backend="bokeh")
+    for axis in (drawn.x_range, drawn.y_range):
+        assert (axis.start, axis.end) == (-VIEW, VIEW)
+    assert holoviews(scene).opts.get("plot").kwargs["data_aspect"] == 1
+    circle = made["hemisphere"].array()
+    assert np.hypot(*circle.T) == pytest.approx(np.ones(len(circle)))
+    widths = {name: element.opts.get("style").kwargs["line_width"] for name, element in made.items()}
+    curves = {part.name: part.width for layer in layers.painted() for part in layer.parts}
+    for name in ("rho", "theta", "inside", "outside", "lines_inside", "lines_outside"):
+        assert widths[name] == (curves[name] if name in curves else curves[f"{name}_inside"])
+    assert widths["hemisphere"] == widths["equator"] == widths["critical"] == 2  # as marks have in the page
+    sizes = [made[name].opts.get("style").kwargs["size"] for name in ("equator", "critical")]
+    assert sizes == [11, 12]
+    assert all("hover" in made[name].opts.get("plot").kwargs["tools"] for name in ("equator", "critical"))
+
+
+@SETTINGS
+def test_marks_of_a_small_portrait_are_of_one_width(setting):
+    """18 of 240: six of the eighty px that it is wide, with a line of a px and a third, as the circle has."""
+    svg, _, side, _ = _small(setting)
+    marks = [one for one in attributes(svg) if "transform" in one]
+    assert len(marks) > 2
+    for one in marks:
+        places = [float(v) for v in re.findall(r"-?\d+(?:\.\d+)?", one["d"])]
+        assert max(places) == pytest.approx(9.0 * side / 240)
+        assert float(one["stroke-width"]) == pytest.approx(side / 60)
+    [circle] = attributes(svg, "circle")
+    assert (circle["r"], circle["stroke-width"]) == ("80", "4")
+    widths = {one["stroke"]: float(one["stroke-width"]) for one in attributes(svg) if "transform" not in one}
+    assert widths["var(--orbit)"] == pytest.approx(0.6 * side / 80)
+
+
+def test_labels_stand_farther_out_only_where_the_ring_is_shown():
+    frames = Frames(ExplorerState(**SADDLE, layers=["equator", "outcomes"]))
+    buffer = frames.answer({"all": True})
+
+    def radii(shown, beyond):
+        texts = attributes(content(buffer, shown, Place(beyond=beyond)), "text")
+        return [math.hypot(float(one["x"]) - SIDE / 2, float(one["y"]) - SIDE / 2) for one in texts]
+
+    plain = radii(["equator"], 1.0)
+    assert len(plain) == len(frames.scene["equator"].theta)
+    assert radii(["equator"], 1.4) == plain
+    assert radii(["equator", "outcomes"], 1.0) == plain
+    farther = radii(["equator", "outcomes"], 1.4)
+    assert all(one > other + 5 for one, other in zip(farther, plain, strict=True))
 
 
 def test_a_new_layer_is_one_row(monkeypatch):

@@ -50,7 +50,7 @@ def test_the_mean_slow_flow_is_followed_beside_others(monkeypatch):
         place = 0.1 * z
         return [
             cycle(place, (9.0, 9.0), stable=False),
-            cycle(place + [0.15, 0.0], (7.0, 7.0)),
+            cycle(place + np.array([0.15, 0.0]), (7.0, 7.0)),
             cycle(place, M @ z + K),
         ]
 
@@ -95,9 +95,7 @@ def test_its_rate_slope_and_scale(monkeypatch):
 
 @pytest.mark.parametrize("far", [0.9 * APART, 1.1 * APART])
 def test_a_cycle_far_from_the_last_one_is_another(monkeypatch, far):
-    problem, *_ = problem_of(
-        monkeypatch, lambda z: [cycle((0.0 if z[0] < 1.0 else far, 0.0), (1.0, 2.0))], (0.5, 0.0)
-    )
+    problem, *_ = problem_of(monkeypatch, lambda z: [cycle((0.0 if z[0] < 1.0 else far, 0.0), (1.0, 2.0))], (0.5, 0.0))
     assert problem.F(np.array([0.5, 0.0])).tolist() == [1.0, 2.0]
     there = problem.F(np.array([1.5, 0.0]))
     assert np.isnan(there).all() == (far > APART)

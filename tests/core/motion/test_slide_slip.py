@@ -78,7 +78,9 @@ def test_a_slide_ends_at_the_time_the_equator_a_fold_or_a_hopf_point():
             assert found.places[-1] == pytest.approx([last, 0.0], abs=1e-4)
     still = slide(field(c2.ELinear(-1.0, 0.0, -1.0)), psi, np.zeros(2), 1.0, np.zeros(0), 3.0, **OPTIONS)
     assert (still.end, still.taken[0].end, len(still.places)) == ("time", 3.0, 2)
-    assert still.taken[0].at(0.3).tolist() == still.taken[0].first.tolist() == still.taken[0].last.tolist() == [0.0, 0.0]
+    assert (
+        still.taken[0].at(0.3).tolist() == still.taken[0].first.tolist() == still.taken[0].last.tolist() == [0.0, 0.0]
+    )
     few = slide(field(BENT), psi, np.array([0.2, 0.0]), 0.0, np.array([0.2]), 0.5, rtol=1e-10, atol=1e-12, most=1)
     assert few.end == "given up"
     assert few.stopped is not None
