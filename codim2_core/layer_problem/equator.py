@@ -74,6 +74,8 @@ class EquatorEquilibria:
     arcs : ndarray (j, 2)
         First and last angle of the arcs on which every direction is a limit direction: of a Theta with kinks only, and
         not among the k.
+    beyond : tuple of int
+        Sign of Theta between each direction and the next, where some multiplicity is odd and none is 1; else empty.
     """
 
     theta: NDArray[np.float64]
@@ -88,6 +90,7 @@ class EquatorEquilibria:
     proven: bool = True
     certificate: str = say("at most four")
     arcs: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2)))
+    beyond: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
         self.arcs.flags.writeable = False  # the others come read-only
@@ -129,6 +132,8 @@ class EquatorEquilibria:
 
     def _weakly(self, i: int) -> str:
         """Theta rises and falls in turn through its odd zeros: the next simple one tells how it passes zero i."""
+        if self.beyond:
+            return ", weakly " + ("repelling" if self.beyond[i] > 0 else "attracting")
         rises = True
         for j in (*range(i + 1, len(self)), *range(i)):
             rises = rises != bool(self.multiplicity[j] % 2)
@@ -273,6 +278,7 @@ def _general(at: AtZ) -> EquatorEquilibria:
         found.proven,
         found.certificate,
         found.arcs,
+        found.beyond,
     )
 
 

@@ -40,6 +40,8 @@ class EquatorZeros:
 
     Attributes
     ----------
+    beyond : tuple of int
+        As there.
     degree : int or None
         Degree of theta -> U/|U|, which the indices of the critical sets add up to; None if U vanishes on the equator.
     """  # noqa: D400
@@ -56,6 +58,7 @@ class EquatorZeros:
     proven: bool
     degree: int | None
     arcs: NDArray[np.float64]
+    beyond: tuple[int, ...]
 
 
 def directions(theta: Array) -> Array:
@@ -141,7 +144,18 @@ def equator_zeros(key: Hashable) -> EquatorZeros:
     blur = np.where(slope != 0.0, np.abs(radial_rate) / np.where(slope == 0.0, 1.0, np.abs(slope)), 4.0)
     flat = np.abs(radial) <= 16.0 * UNIT * f.size * (1.0 + np.minimum(blur, 1e6))
     rows = np.stack([theta, np.where(flat, 0.0, radial), slope, multiplicity.astype(float)])
-    return _result(key, rows, f, distance, proven, arcs=arcs)
+    return _result(key, rows, f, distance, proven, arcs=arcs, beyond=_beyond(run, theta, multiplicity, arcs))
+
+
+def _beyond(run: Program, theta: Array, multiplicity: NDArray[np.int64], arcs: Array) -> tuple[int, ...]:
+    """Sign of Theta after each of its zeros, where some are odd and none is simple, so that no slope tells it."""
+    if not (multiplicity % 2 == 1).any() or (multiplicity == 1).any():
+        return ()
+    stops = np.concatenate([theta, np.asarray(arcs, np.float64).reshape(-1, 2)[:, 0]])
+    gaps = np.remainder(stops - theta[:, None], 2.0 * math.pi)
+    gaps = np.where(gaps == 0.0, 2.0 * math.pi, gaps).min(axis=1)
+    Theta = _components(run, theta + 0.5 * gaps)[0]
+    return tuple(int(sign) for sign in np.sign(Theta))
 
 
 def _result(
@@ -152,6 +166,7 @@ def _result(
     proven: bool = True,
     all_directions: bool = False,
     arcs: Array = NO_ARCS,
+    beyond: tuple[int, ...] = (),
 ) -> EquatorZeros:
     theta, radial, slope = np.asarray(rows[:3], np.float64)
     multiplicity = rows[3].astype(np.int64)
@@ -170,6 +185,7 @@ def _result(
         proven,
         _degree(key, rows, f, all_directions),
         np.remainder(np.asarray(arcs, np.float64), 2.0 * math.pi),
+        beyond,
     )
 
 

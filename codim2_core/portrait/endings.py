@@ -214,6 +214,8 @@ def angular_sign(equator: EquatorEquilibria, i: int) -> int:
     """Sign of dTheta/dtheta at Q_{i+1}; at a zero of odd multiplicity, of Theta beyond it; 0 at an even one."""
     if equator.multiplicity[i] % 2 == 0:
         return 0
+    if equator.beyond:
+        return equator.beyond[i]
     sign, count = 1, len(equator)
     for step in range(count):  # the signs alternate between zeros of odd multiplicity
         j = (i + step) % count

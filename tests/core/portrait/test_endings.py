@@ -41,6 +41,7 @@ def equator(theta, multiplicity, sign=1.0, lambda_rho=None):
         radially_degenerate=rho == 0.0,
         all_directions=False,
         arcs=np.zeros((0, 2)),
+        beyond=() if 1 in multiplicity or not any(beyond) else tuple(beyond),
     ), beyond
 
 
@@ -53,9 +54,13 @@ def test_the_sign_beyond_a_multiple_zero(multiplicity, sign):
     assert [endings.angular_sign(found, i) for i in range(4)] == beyond
 
 
-def test_without_a_simple_zero_no_sign_is_known():
-    found, _ = equator([0.3, 2.0], [3, 3])
-    assert [endings.angular_sign(found, i) for i in range(2)] == [0, 0]
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("multiplicity", [(3, 3), (3, 2, 5), (2, 3, 2, 3)])
+def test_without_a_simple_zero_the_sign_beyond_is_given(multiplicity, sign):
+    found, beyond = equator([0.3, 1.4, 2.9, 4.4][: len(multiplicity)], multiplicity, sign)
+    assert [endings.angular_sign(found, i) for i in range(len(multiplicity))] == beyond
+    found.beyond = ()
+    assert [endings.angular_sign(found, i) for i in range(len(multiplicity))] == [0] * len(multiplicity)
 
 
 @pytest.mark.parametrize("radial", [1.0, -1.0])

@@ -8,8 +8,20 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from codim2_core import ELinear, Scene, critical_sets, equator_cycle, equator_equilibria, presets, psi, trajectories
+from codim2_core import (
+    ELinear,
+    Scene,
+    System,
+    critical_sets,
+    equator_cycle,
+    equator_equilibria,
+    presets,
+    psi,
+    trajectories,
+)
 from codim2_core.portrait.outcomes import approach_outcomes
+from codim2_core.portrait.separatrices import separatrices
+from codim2_core.words import say
 from tests.core.strategies import regularisations, systems
 
 VERDICTS = {"slide", "cycle", "cross", "undecided", "misses"}
@@ -106,6 +118,32 @@ def test_in_case_three_psi_changes_what_it_slides_on_and_not_how(n):
     assert first.slides_alike
     C = critical_sets(presets[f"case3-n{n}"].system, psi.hill(n))[0]
     assert first.slow_flow == pytest.approx(C.slow_flow)
+
+
+@pytest.mark.parametrize("turning", ["s**3", "-s**3", "s**5", "s*abs(s)", "-s*abs(s)", "s**3*(1 - c)"])
+@pytest.mark.parametrize("radial", ["-", "+"])
+def test_where_all_directions_are_multiple_zeros_the_attracting_one_is_arrived_at(turning, radial):
+    """Theta = ±sin^3 and its like: no slope tells which of 0 and pi attracts; orbits from all other angles go there."""
+    system = System(U=(f"-s*({turning}) {radial} c", f"c*({turning}) {radial} s"))
+    limits = equator_equilibria(system)
+    assert len(limits) == 2
+    assert (limits.multiplicity > 1).all()
+    found = approach_outcomes(system, psi.constant(), compare=())
+    sink = 0 if turning.startswith("-") else 1  # Theta > 0 above: to pi
+    assert math.cos(limits.theta[sink]) == pytest.approx(1.0 - 2.0 * sink)
+    for angle in (0.5, 2.5, 4.0, 6.0):
+        assert found.destination(angle) == sink
+    assert "attracting" in limits.kind(sink).split("ally")[-1] or limits.multiplicity[sink] > 4
+    assert "repelling" in limits.kind(1 - sink).split("ally")[-1] or limits.multiplicity[1 - sink] > 4
+    arrives = [direction.arrives for direction in found.directions]
+    if radial == "-":
+        assert (arrives[sink], arrives[1 - sink]) == ("open set", "single direction")
+    else:
+        assert arrives == ["nothing", "nothing"]
+        assert found.directions[1 - sink].reason == say("repels", Q=f"Q{'₁₂'[1 - sink]}")
+    # orbits go up where others come along the equator, and come down where others leave along it: a half-saddle
+    inside = [one.origin for one in separatrices(system, psi.constant()) if one.inside]
+    assert inside == [f"Q{(sink if radial == '-' else 1 - sink) + 1}"]
 
 
 def test_angle_must_be_finite():
