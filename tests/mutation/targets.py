@@ -97,6 +97,8 @@ _GUESS = "A first guess: the steps that follow restore all digits of it."
 _UNUSED = "The value of the branch that `where` does not take."
 _SLACK = "Part of a bound that is larger than it need be."
 _LOOKS = "How finely a line is drawn, within what the tests allow."
+_FAR_APART = "A threshold: what it tells apart lies far on either side."
+_EFFORT = "How much is tried: less would do for what is asked of it here."
 
 ALLOWED: tuple[Allowed, ...] = (
     Allowed("core.sliding.along", "BISECTIONS = 44", "One bisection more, beyond the digits of z."),
@@ -191,6 +193,32 @@ ALLOWED: tuple[Allowed, ...] = (
     Allowed("core.numerics.trigonometric", "len(starts) not in", _EXACT),
     Allowed("core.numerics.trigonometric", "steep", _EXACT),
     Allowed("core.numerics.trigonometric", "clear", _EXACT),
+    Allowed("core.layer_problem.disc_zeros", "EFFORTS = ", _EFFORT),
+    Allowed("core.layer_problem.disc_zeros", "CURVE = 200", _FAR_APART),
+    Allowed("core.layer_problem.disc_zeros", "LONG = 0.02", _FAR_APART),
+    Allowed("core.layer_problem.disc_zeros", "REGULAR = 1e-4", _FAR_APART),
+    Allowed("core.layer_problem.disc_zeros", "ROUGH = 1e-2", _FAR_APART),
+    Allowed("core.layer_problem.disc_zeros", "SMALL = 2e-6", _FAR_APART),
+    Allowed("core.layer_problem.disc_zeros", "CROWDED = 100", _EFFORT),
+    Allowed(
+        "core.layer_problem.disc_zeros", "found, rest = np.empty(", "Room for what is found, of which part is read."
+    ),
+    Allowed("core.layer_problem.disc_zeros", "for _ in range(40)", _EFFORT),
+    Allowed("core.layer_problem.closed_equator", "CLOSE = 1e-4", _FAR_APART),
+    Allowed("core.layer_problem.closed_equator", "NEUTRAL_EQUATOR = ", "A tolerance of a few roundings."),
+    Allowed("core.layer_problem.closed_equator", "for _ in range(3)", _EFFORT),
+    Allowed("core.layer_problem.closed_equator", "for _ in range(100)", _EFFORT),
+    Allowed("core.layer_problem.closed_equator", "bits = 256", "More digits than are asked for."),
+    Allowed("core.layer_problem.equator_zeros", "MOST_ANGLES = ", _EFFORT),
+    Allowed("core.layer_problem.equator_zeros", "NET = 4096", _EFFORT),
+    Allowed("core.layer_problem.equator_zeros", "MOST_OF_A_TURN = ", _EFFORT),
+    Allowed("core.layer_problem.equator_zeros", "for _ in range(2)", _EFFORT),
+    Allowed("core.layer_problem.equator_zeros", "between = (np.arange(n)", "Any angles between will do."),
+    Allowed("core.motion.phases", "HALVINGS = 45", _EFFORT),
+    Allowed("core.motion.followed", "NEWTON = 12", _EFFORT),
+    Allowed("core.motion.slide", "NEWTON = 20", _EFFORT),
+    Allowed("core.motion.regularised", "PATIENCE = 400", "When a motion goes on compiled: the same motion."),
+    Allowed("core.motion.regularised", "MANY = 8", "When motions are compiled at once: the same motions."),
     Allowed("static/cell.js", "const PATIENCE", "How long a kernel is waited for, to a millisecond."),
     Allowed("static/cell.js", "step = 50", "How often it is looked, to a millisecond."),
     Allowed("static/cell.js", "Infinity, 500)", "How often it is looked, to a millisecond."),
@@ -334,6 +362,27 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.cycles.turn_section", "0.25  →  0.3125", "Which of all rays is taken: any of them will do."),
     Lives("core.cycles.first_turns", "left - right  →  left", "The interval is 1e-13 wide by then."),
     Lives("core.cycles.orbit", "way is not None and math.dist", "Once more round than needed: the same orbit."),
+    Lives(
+        "app.draw.arrowheads", "int((x - left) / clearance) + 1  →", "The cells beside the first wrap to empty ones."
+    ),
+    Lives(
+        "app.draw.arrowheads", "int((y - bottom) / clearance) + 1  →", "The cells beside the first wrap to empty ones."
+    ),
+    Lives("app.draw.arrowheads", "y - bottom  →", "Other cells by the same rule: the same places."),
+    Lives("app.draw.arrowheads", "x - left  →", "Other cells by the same rule: the same places."),
+    Lives("app.draw.arrowheads", "83: 1  →  2", "More cells are looked at: the same places, more slowly."),
+    Lives("app.draw.arrowheads", "84: 1  →  2", "More cells are looked at: the same places, more slowly."),
+    Lives("app.draw.plane_curves", "66: 0.0  →  1.0", "Without curves their size is 1 either way."),
+    Lives("app.draw.still", "33: 1  →  2", "It is there once."),
+    Lives("app.draw.svg", "97: -view  →  view", "The height of a small portrait is not asked for."),
+    Lives("core.layer_problem.critical", "not kinks(system.U, PLANE)", "Sides that agree are looked at, more slowly."),
+    Lives("core.motion.course", "1e2  →", "How far past a fold it is looked next."),
+    Lives("core.motion.part", "40: 0.0  →  1.0", "In the limit eps is not read."),
+    Lives("core.motion.regularised", "compile_at_once and", "How it is computed: the same motion."),
+    Lives("core.motion.regularised", "→  len(taken) in (0, PATIENCE)", "Only where just so many steps end a motion."),
+    Lives("core.motion.result", "0.1  →  0.125", "Up to where rounding is measured."),
+    Lives("core.motion.slide", "→  -turn / trace", "Only its sign is asked for."),
+    Lives("static/chart/space.js", "row >= 0  →  (column >= 0)", "What has a negative index is no part of an array."),
     Lives("static/cell.js", "0  →  1", "A millisecond more is waited."),
     Lives("static/chart/chart.js", "26  →  27", "From where on a name stands below: a pixel."),
     Lives("static/chart/scale.js", "1e-9  →", "A tolerance of a few roundings."),
@@ -342,7 +391,6 @@ LIVES: tuple[Lives, ...] = (
     Lives("static/chart/space.js", "width / 2  →", "Marked again where it has been marked."),
     Lives("static/words.js", "0  →  1", "Zero is written as it is either way."),
     Lives("static/hands.js", "0  →  1", "Where the orbit would be: only how many there are is asked for."),
-    Lives("static/panels/along.js", "!this.box.hidden  →", "Drawn once more, or with the next change: the same."),
     Lives("static/launches.js", "|| 0  →", "-0 is written as 0 either way."),
     Lives("static/panels/along.js", "1e-9  →", "A bound that keeps from dividing by zero."),
     Lives("static/panels/along.js", "1e-4  →", "How slow counts as at rest."),

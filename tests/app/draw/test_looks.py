@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,6 +17,8 @@ from codim2_app.draw.svg import draw, small
 from codim2_app.draw.theme import DISCS, HATCHES, NEAREST, RING, VIEW, WIDEST, custom_properties, themes
 from codim2_app.draw.thumbnails import COUNT, MOST, PIXEL, thumbnails
 from codim2_app.draw.thumbnails import VIEW as SMALL_VIEW
+from codim2_app.draw.vector import parts as vector
+from codim2_app.draw.vector.parts import SIDE, Place
 
 import codim2_core as c2
 from codim2_core.expressions.expression import parse
@@ -28,6 +31,20 @@ def test_layers_lie_above_each_other_as_the_legend_says():
     ]  # fmt: skip
     assert [row["name"] for row in table()] == [layer.name for layer in painted()]
     assert set(LAYERS) - set(shown()) == {"separatrices", "conics", "outcomes", "basins"}
+
+
+def test_what_is_told_of_a_point_is_drawn_thicker_than_what_only_fills_the_picture():
+    widths = {part.name: part.width for layer in painted() for part in layer.parts}
+    assert widths.pop("lines_outside") == 1.4
+    assert {widths.pop(f"launched_{k}") for k in range(1, 7)} == {2.4}
+    assert {name.partition("_")[0]: width for name, width in widths.items()} == {
+        "outside": 0.9, "inside": 0.9, "continuations": 1.6, "lines": 1.8, "rho": 1.8, "theta": 1.8,
+        "separatrices": 2.0, "conics": 2.4, "cycles": 2.8,
+    }  # fmt: skip
+    assert {layer.name for layer in painted() if not layer.compiled} == {
+        "lines", "rho", "theta", "conics", "equator", "critical", "outcomes", "basins",
+    }  # fmt: skip
+    assert [layer.name for layer in painted() if layer.optional] == ["launched"]
 
 
 def test_what_differs_in_meaning_differs_by_dashes_and_carries_its_arrows():
@@ -216,7 +233,32 @@ def test_critical_columns_say_what_the_core_does():
     ],
 )  # fmt: skip
 def test_marks_of_critical_sets(kind, mark):
-    assert glyphs.CRITICAL_MARKS[kind] == mark
+    [C] = c2.critical_sets(c2.ELinear(-2, 0, -1), c2.psi.constant())
+    told = glyphs.critical_columns([replace(C, kind=kind)])
+    assert (told["shape"], told["filled"]) == ([mark[0]], [mark[1]])
+
+
+def test_a_simple_direction_need_not_be_said_to_be_simple():
+    assert glyphs.equator_type(-1.0, -2.0) == "radially and angularly attracting"
+    assert glyphs.equator_type(-1.0, -2.0, 2) == "radially attracting, angularly degenerate"
+
+
+@pytest.mark.parametrize(
+    ("angles", "moved"),
+    [
+        ([1.0], [1.0]),
+        ([1.0, 2.0, 5.0], [1.0, 2.0, 5.0]),  # apart already
+        ([1.0, 1.1], [0.95, 1.15]),
+        ([0.05, 6.2], [0.083407, 6.166593]),  # neighbours across 0
+        ([1.0, 1.0, 1.0], [0.8, 1.0, 1.2]),
+        ([1.0, 1.0, 4.0, 4.1], [0.9, 1.1, 3.95, 4.15]),
+        ([], []),
+    ],
+)
+def test_labels_move_apart_by_as_little_on_either_side(angles, moved):
+    found = glyphs.spread(angles, 0.2)
+    assert found == pytest.approx(moved, abs=1e-5)
+    assert sum(found) == pytest.approx(sum(angles))
 
 
 def test_no_pieces_are_no_points():
@@ -357,6 +399,7 @@ def test_a_picture_of_its_own_has_the_colours_of_its_theme():
         assert f'<rect width="1000" height="1000" fill="{colours["page"]}"/>' in svg
         assert f'stroke="{colours["orbit"]}"' in svg
         assert svg.index("<rect") < svg.index("<g ")
+        assert svg.count("<rect width=") == 1
     page = page_of(light, "One < two.", "A & B")
     assert "<p>One &lt; two.</p>" in page
     assert "<title>A &amp; B</title>" in page
@@ -408,3 +451,84 @@ def test_the_mark_beside_a_layers_control_has_the_layers_colours_in_their_order(
     named = re.findall(r"var\(--([\w-]+)\)", rule)
     assert named
     assert named == list(layer.colours)[: len(named)]
+
+
+def lengths(*steps):
+    """A line along x with these steps."""
+    return np.column_stack([np.concatenate([[0.0], np.cumsum(steps)]), np.zeros(len(steps) + 1)])
+
+
+def test_a_thinned_line_keeps_a_point_for_each_allowed_length_and_turn():
+    far, near = 1.01 * plane_curves.LENGTH, 0.26 * plane_curves.LENGTH
+    assert len(plane_curves.thin([lengths(*[far] * 6)], 1.0)[1]) == 7  # all
+    assert len(plane_curves.thin([lengths(*[2.0 * far] * 6)], 2.0)[1]) == 7  # in units of the size
+    kept = plane_curves.thin([lengths(*[near] * 40)], 1.0)[1][:, 0]
+    assert 10 <= len(kept) <= 13
+    assert np.diff(kept).max() <= plane_curves.LENGTH + near  # the first point at which it is that long
+    angle = np.linspace(0.0, 6.0, 601)
+    _, kept = plane_curves.thin([1e-3 * np.column_stack([np.cos(angle), np.sin(angle)])], 1.0)
+    turns = np.diff(np.unwrap(np.arctan2(kept[:, 1], kept[:, 0])))
+    assert turns.max() <= 1.2 * plane_curves.TURN  # of so small a circle only the turns count
+    assert len(kept) < 1.2 * 6.0 / plane_curves.TURN
+    corner = np.concatenate([lengths(*[near] * 10), [(10 * near, k * near) for k in range(1, 11)]])
+    _, kept = plane_curves.thin([corner], 1.0)
+    assert {(round(x / near), round(y / near)) for x, y in kept.tolist()} >= {
+        (0, 0),
+        (9, 0),
+        (10, 0),
+        (10, 1),
+        (10, 10),
+    }
+
+
+def test_thinned_pieces_are_those_of_each_alone():
+    angle = np.linspace(0.0, 2.0, 200)
+    pieces = [
+        np.column_stack([np.cos(angle), 0.3 * np.sin(angle)]), lengths(*[0.01] * 50) + 3.0,
+        np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]), np.array([(5.0, 5.0)]), lengths(0.001, 0.001),
+    ]  # fmt: skip
+    offsets, points = plane_curves.thin(pieces, 4.0)
+    for i, piece in enumerate(pieces):
+        own = points[offsets[i] : offsets[i + 1]]
+        assert own[0] == pytest.approx(piece[0] / 4.0)
+        assert own[-1] == pytest.approx(piece[-1] / 4.0)
+        away = np.abs(own[:, None] - piece / 4.0).max(axis=2).min(axis=1)
+        assert away.max() < 1e-15  # none is made up
+    assert np.diff(offsets)[2:].tolist() == [3, 1, 3]
+    assert plane_curves.size_of([]) == 1.0
+
+
+@pytest.mark.parametrize(("hatch", "strokes"), [("/", 1), ("x", 2), (".", 1), ("", 0)])
+def test_hatches_lie_on_the_ring_as_far_apart_on_any_screen(hatch, strokes):
+    inner, outer = RING
+    middle = (inner + outer) / 2
+    for place in (Place(), Place(side=500.0, unit=500 / 700), Place(unit=SIDE / 350)):
+        found = vector._hatching(0.5, 2.0, hatch, place)
+        step = vector.HATCH * place.unit / (middle * place.scale)  # of the angle
+        assert len(found) == strokes * math.floor(1.5 / step + 0.5)
+        for i, ((x, y), (u, v)) in enumerate(found):
+            angle = 0.5 + (i // max(strokes, 1) + 0.5) * step
+            one, other = math.atan2(y, x) - angle, math.atan2(v, u) - angle
+            assert one == pytest.approx(-other)
+            lean = (outer - inner) / middle / 2
+            if hatch == ".":
+                assert (math.hypot(x, y), math.hypot(u, v)) == pytest.approx((middle, middle))
+                assert other == pytest.approx(lean / 4)
+            else:
+                assert (math.hypot(x, y), math.hypot(u, v)) == pytest.approx((inner, outer))
+                assert other == pytest.approx(lean if i % strokes == 0 else -lean)  # at 45 degrees
+
+
+def test_no_label_stands_over_the_core_of_a_mark():
+    columns = {
+        "x": [0.5, 9.0], "y": [-0.25, 0.0], "shape": ["circle"] * 2, "size": [14, 14], "colour": ["attr"] * 2,
+        "filled": [1, 1],
+    }  # fmt: skip
+    for place in (Place(), Place(unit=3.0)):
+        taken = []
+        assert len(vector.marks(columns, place, taken)) == 1  # the other is not seen
+        [box] = taken
+        [(u, v)] = place.points([(0.5, -0.25)]).tolist()
+        assert (box.x + box.width / 2, box.y + box.height / 2) == pytest.approx((u, v))
+        assert box.width == box.height == pytest.approx(vector.CORE * 14 * place.unit)
+        assert 0.5 * 14 * place.unit < box.width < 14 * place.unit

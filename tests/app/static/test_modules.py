@@ -8,7 +8,6 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from codim2_app.draw.bundle import bundle
 from codim2_app.view.markup import script
 
 HERE = Path(__file__).parent
@@ -40,12 +39,6 @@ def ended(command, folder, seconds):
             output, _ = process.communicate()
             output = f"{output}\n{command}: no end after {seconds:g} s."
     return process.returncode, output
-
-
-def write(folder, **modules):
-    for name, text in modules.items():
-        (folder / f"{name}.js").write_text(text)
-    return folder / f"{next(reversed(modules))}.js"
 
 
 def in_a_document(path):
@@ -88,43 +81,3 @@ def test_every_module_is_reached():
             continue
         first = next(line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("// "))
         assert joined.count(first + "\n") == 1, path.name
-
-
-def test_what_is_imported_stands_before_what_imports_it_and_stands_once(tmp_path):
-    entry = write(
-        tmp_path,
-        one="export const a = 1\n",
-        two='import {a} from "./one.js"\nexport const b = a + 1\n',
-        all='import {b} from "./two.js"\nimport {a} from "./one.js"\nexport default {a, b}\n',
-    )
-    joined = bundle(entry)
-    assert [joined.count(part) for part in ("a = 1", "b = a + 1", "export default {a, b}")] == [1, 1, 1]
-    assert joined.index("a = 1") < joined.index("b = a + 1") < joined.index("export default")
-
-
-def test_modules_keep_names_of_their_own(node, tmp_path):
-    entry = write(
-        tmp_path,
-        one="const secret = 1\nexport const a = secret\n",
-        two='import {a} from "./one.js"\nconst secret = 10\nexport function b() { return a + secret }\n',
-        all='import {b} from "./two.js"\nconst secret = 100\nconsole.log(b() + secret)\n',
-    )
-    (tmp_path / "joined.mjs").write_text(bundle(entry))
-    done = subprocess.run([node, str(tmp_path / "joined.mjs")], capture_output=True, text=True, check=True)
-    assert done.stdout == "111\n"
-
-
-@pytest.mark.parametrize(
-    ("modules", "words"),
-    [
-        ({"one": 'import {b} from "./two.js"\n', "two": 'import {a} from "./one.js"\n'}, "in a circle"),
-        ({"one": "const a = 1\n", "two": 'import {a} from "./one.js"\n'}, "exports no such name"),
-        ({"one": 'import {a} from "./none.js"\n'}, "does not exist"),
-        ({"one": "export default 1\n", "two": 'import "./one.js"\n'}, "is not read"),
-        ({"one": "export const a = 1\n", "two": 'import * as b from "./one.js"\n'}, "is not read"),
-        ({"one": "export const a = 1\n", "two": 'import {a as b} from "./one.js"\n'}, "exports no such name"),
-    ],
-)
-def test_what_cannot_be_joined_is_said(tmp_path, modules, words):
-    with pytest.raises(ValueError, match=words):
-        bundle(write(tmp_path, **modules))
