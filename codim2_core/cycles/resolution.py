@@ -157,7 +157,7 @@ def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], 
     decided = np.flatnonzero(np.abs(shift) > noise).tolist()
     changes, touching, band = [], [], False
     for i, j in pairwise(decided):
-        if j > i + 2 and q[j - 1] - q[i + 1] > BAND:
+        if q[j - 1] - q[i + 1] > BAND:
             band = True
         elif (shift[i] < 0.0) != (shift[j] < 0.0):
             changes.append((i, j))

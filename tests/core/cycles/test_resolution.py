@@ -5,7 +5,18 @@ import math
 import numpy as np
 import pytest
 
-from codim2_core.cycles.resolution import Samples, _doubtful, cubics, differences, near_fold, unresolved, zeros
+from codim2_core.cycles import resolution
+from codim2_core.cycles.resolution import (
+    Samples,
+    _doubtful,
+    counted,
+    cubics,
+    differences,
+    near_fold,
+    unresolved,
+    zeros,
+)
+from codim2_core.words import say
 
 from .sections import UNEVEN, Line
 
@@ -93,6 +104,36 @@ def test_a_dip_of_few_samples_is_looked_into_on_both_sides():
         assert unresolved(q, unit * shift, np.zeros(12)) == unresolved(q, shift, np.zeros(12))
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("unit", [1.0, 1e-3])
+@pytest.mark.parametrize(
+    ("three", "dip"),
+    [
+        ((1.0, 0.4, 0.5), True),  # less than half of the higher beside it,
+        ((0.5, 0.4, 1.0), True),
+        ((1.0, 0.6, 0.7), False),  # or not,
+        ((1.0, 0.3, 0.2), False),  # and no lower one beside it
+        ((0.2, 0.3, 1.0), False),
+        ((1.0, 0.1, -1.0), False),  # on its way through zero
+        ((0.5, 0.5, 0.5), False),
+    ],
+)
+def test_a_dip_is_one_between_two_that_are_higher(monkeypatch, three, dip, unit, sign):
+    """Where the cubics show nothing, the heights alone tell."""
+    straight = lambda q, shift: (np.linspace(shift[:-1], shift[1:], 17, axis=1), np.zeros((len(q) - 1, 17)))  # noqa: E731
+    monkeypatch.setattr(resolution, "cubics", straight)
+    slow = 1.1 ** np.arange(1, 4)  # beside the three nothing dips
+    shift = sign * unit * np.concatenate([three[0] * slow[::-1], three, three[2] * slow])
+    found = unresolved(np.arange(9.0), shift, np.zeros(9))
+    assert found == ([3, 4] if dip else [])
+
+
+def test_how_many_were_found_is_said():
+    for count, key in ((0, "no cycle"), (1, "one cycle"), (2, "cycles"), (5, "cycles")):
+        for way in ("section", "turn"):
+            assert counted(count, way, about="C") == say(f"{key}, {way}", count=count, about="C")
+
+
 @pytest.mark.parametrize(
     ("shift", "expected"),
     [
@@ -145,6 +186,8 @@ def test_two_zeros_close_together_are_separated(apart, backward):
     assert (len(changes), touching, band) == (3, [], False)
     for (i, j), root in zip(changes, sorted(at), strict=True):
         assert samples.xi[i] <= root <= samples.xi[j]
+        if apart < 0.1 and root > 0.0:  # what is close together is judged by samples that are all fine
+            assert samples.fine[i - 1 : j + 2].all()
     assert len(samples.xi) < 200
     assert np.sign(samples.shift[0]) == (1.0 if backward else -1.0)
 
@@ -198,5 +241,7 @@ def test_a_row_that_is_zero_within_noise_is_as_near_a_fold_as_its_largest():
     noise = np.full(8, 1e-4)
     assert near_fold(UNEVEN, row, noise) == pytest.approx(2e-4, rel=1.0)
     assert near_fold(UNEVEN, row, noise) <= 2e-4
+    for beyond in (row[1:], row[3::-1]):  # at an end, where it may go either way
+        assert near_fold(UNEVEN[: len(beyond)], beyond, noise[: len(beyond)]) > 0.1
     crossing = np.where(np.arange(8) > 3, -row, row)  # of one sign before, of the other behind
     assert near_fold(UNEVEN, crossing, noise) > 0.1

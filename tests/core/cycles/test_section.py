@@ -143,6 +143,11 @@ def test_the_ray_keeps_away_from_other_critical_sets():
             if D is not C:
                 along = max(float((D.p - C.p) @ own.u), 0.0)
                 assert np.hypot(*(D.p - C.p - along * own.u)) > 0.35 * np.hypot(*(D.p - C.p))
+        states, _ = own.states(XI)
+        np.testing.assert_allclose(own.coordinate(states), XI, atol=1e-9)
+        r = own.reach / (1.0 + np.exp(-XI))
+        np.testing.assert_allclose(states[:, :2], C.p + r[:, None] * own.u, atol=1e-14)
+        np.testing.assert_allclose((states**2).sum(axis=1), 1.0, atol=1e-14)
         e = np.array([(0.3, 0.1)])
         np.testing.assert_allclose(own.rate * own.field(e), at.U(e), atol=1e-14)
         np.testing.assert_allclose(own.rate * own.derivative(e), at.DU(e), atol=1e-14)
@@ -221,6 +226,30 @@ def test_of_sixteen_rays_the_one_that_keeps_furthest_away_is_taken():
 
         others = [room(np.array([math.cos(t), math.sin(t)])) for t in np.linspace(0.0, 2.0 * math.pi, 180)]
         assert room(u) > 0.8 * max(others)
+
+
+@pytest.mark.parametrize("backward", [False, True])
+@pytest.mark.parametrize("b", [3.0, -3.0])
+def test_an_orbit_has_gone_inward_when_it_is_far_within_where_it_began(monkeypatch, b, backward):
+    """A thousandth of the innermost sample, or of a state that starts further in; and the sense is that of b."""
+    own = section(PSIS[0], b=b)
+    asked = []
+    made = SimpleNamespace(returns=lambda *given: asked.append(given) or "returned")
+    monkeypatch.setattr(Section, "kernel", (made, SimpleNamespace(address=7)))
+    for distance in (0.5 * own.inner, 0.01 * own.inner, 30.0 * own.inner):
+        x2 = own.critical.x2 + np.array([[1.0, 0.0], [0.0, distance]])
+        states = np.column_stack([x2, np.ones(2)]) / np.hypot(1.0, np.hypot(*x2.T))[:, None]
+        assert own.turn(states, 1e-9, backward, 5, 11, elsewhere=True) == "returned"
+        _, shared, address, u, centre, sense, floor, sunk, _, rtol, limit, record, elsewhere = asked.pop()
+        assert floor == pytest.approx(1e-3 * min(distance, own.inner), rel=1e-6)
+        assert 0.0 < sunk < 1e-6
+        assert (address, rtol, limit, record, elsewhere) == (7, 1e-9, 11, 5, True)
+        np.testing.assert_array_equal(u, own.u)
+        np.testing.assert_array_equal(centre, own.critical.x2)
+        assert (sense > 0.0) == ((b > 0.0) != backward)
+        np.testing.assert_allclose(
+            shared[:5] * own.rate, np.array([1.0, b, -2.0, 0.4, -0.3]) * (-1.0 if backward else 1.0)
+        )
 
 
 def test_a_section_needs_a_critical_set():
