@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from ..cycles.limit_cycles import LimitCycles
 from ..layer_problem.critical import CriticalSet
+from ..layer_problem.eigendirections import to_disc
 from ..layer_problem.equator import EquatorEquilibria
 from ..orbits.trajectories import Status, Trajectories, trajectories
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..words import say
-from .saddle_manifold import to_disc
 
 Array = NDArray[np.float64]
 

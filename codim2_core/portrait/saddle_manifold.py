@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..layer_problem.critical import CriticalSet
+from ..layer_problem.eigendirections import to_disc
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 
@@ -112,9 +113,3 @@ def starts(at: AtZ, psi: Psi, critical: CriticalSet, eigenvalue: float, toleranc
     points = x2 / np.hypot(1.0, np.hypot(x2[:, :1], x2[:, 1:]))
     tangent = to_disc(critical.x2, terms[1])
     return points, np.array([-tangent, tangent])
-
-
-def to_disc(x2: Array, vector: Array) -> Array:
-    """Carry a tangent (2,) at x2 (2,) of kappa_2 to the disc, ``p = x2/sqrt(1 + |x2|^2)``, with length 1."""
-    image = vector - x2 * float(x2 @ vector) / (1.0 + float(x2 @ x2))
-    return image / np.linalg.norm(image)

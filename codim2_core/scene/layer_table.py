@@ -9,6 +9,7 @@ from typing import Any
 
 from ..bifurcations import BifurcationCurve, Region, critical_boundary, regions, saddle_node
 from ..cycles.limit_cycles import closed_orbits, cycles_of
+from ..layer_problem.eigendirections import find_eigendirections
 from ..layer_problem.problem import find_critical, find_equator, find_equator_cycle, find_location
 from ..nullcline.meeting import Conics, conics_of
 from ..nullcline.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
@@ -122,6 +123,7 @@ layers: Mapping[str, Layer] = MappingProxyType(
         "critical": Layer(("plane", "slow", "psi"), lambda s: find_critical(s.problem)),
         "slow_flow": Layer(("plane", "slow"), lambda s: sliding_flow(s.coefficients)),
         "classification": Layer(("plane", "slow", "psi"), lambda s: portrait(s.problem)),
+        "eigendirections": Layer(("plane", "psi"), lambda s: find_eigendirections(s.problem)),
         "nullclines_inside": Layer(("plane", "psi", "closely"), _inside_nullclines),
         "nullclines_outside": Layer(("plane", "view", "closely"), _outside_nullclines),
         "conics": Layer(("plane", "view", "closely"), _conics),

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
+from codim2_core.layer_problem.eigendirections import to_disc
 from codim2_core.orbits.result import Status
 from codim2_core.portrait import endings
-from codim2_core.portrait.saddle_manifold import starts, to_disc
+from codim2_core.portrait.saddle_manifold import starts
 from codim2_core.portrait.verdicts import judge
 
 

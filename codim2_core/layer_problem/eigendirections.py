@@ -1,0 +1,175 @@
+"""Along which directions of the picture orbits come to what stands still, and leave it: eigenvectors, projected.
+
+At a critical set they are those of J (eq:scjaco) in kappa_2, carried to the disc by the differential of
+``p = x2/sqrt(1 + |x2|^2)``. At a limit direction Q (thm:geneps0) there are three: along the equator (lambda_theta), up
+the hemisphere (-lambda_rho) and outwards (lambda_rho). On the hemisphere the one that goes up is vertical; what is seen
+of it is the projection of its invariant curve ``theta = theta_0 + k w^2``, w = ebar (see `orbits.departures`): as
+``|p| = 1 - w^2/2 + ...``, the curve comes in along ``-e + 2 k e_perp``, with
+
+    2 k = Psi(inf) Theta_e/(lambda_theta + 2 lambda_rho),  Theta_e = e_perp.D_e U e,  e_perp = (-sin, cos).
+
+Outside, ``theta = theta_0 + k_out rho`` with ``k_out = Theta_rho/(lambda_rho - lambda_theta)``, which is 0 unless U
+reads x or y.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.trigonometric import ROUNDING
+from ..systems.frozen import AtZ
+from .critical import CriticalSet
+from .problem import LayerProblem
+
+Array = NDArray[np.float64]
+
+SAME = 64 * ROUNDING  # of the size of J: both eigenvalues are one, and every direction is an eigenvector
+RESONANCE = 1e-6  # of the eigenvalues: their curves meet in the end, and are tangent to the equator
+
+Where = Literal["disc", "equator", "up", "outside"]
+
+
+@dataclass(frozen=True, slots=True)
+class Eigendirection:
+    """A direction along which orbits come in or leave, as it is seen in the picture.
+
+    Attributes
+    ----------
+    direction : (float, float)
+        Unit vector of the picture. The line through the object runs both ways along it, but for "up" and "outside",
+        which are half-lines.
+    value : float
+        The eigenvalue: of J at a critical set; lambda_theta, -lambda_rho and lambda_rho at a limit direction.
+    where : str
+        "disc" of a critical set; "equator", "up" or "outside" of a limit direction.
+    """
+
+    direction: tuple[float, float]
+    value: float
+    where: Where = "disc"
+
+
+@dataclass(frozen=True, slots=True)
+class Linearised:
+    """What the linearisation at one object shows in the picture.
+
+    Attributes
+    ----------
+    directions : tuple of Eigendirection
+        None of a complex pair, none where every direction is one, one where both eigenvalues have the same.
+    turning : int
+        Of a complex pair: 1 if orbits turn anticlockwise, -1 if clockwise; 0 where the eigenvalues are real.
+    every : bool
+        Whether every direction is an eigenvector.
+    """
+
+    directions: tuple[Eigendirection, ...]
+    turning: int = 0
+    every: bool = False
+
+
+def of_critical_set(C: CriticalSet) -> Linearised:
+    """Return the eigendirections of a critical set, in the disc.
+
+    Parameters
+    ----------
+    C : CriticalSet
+
+    Returns
+    -------
+    Linearised
+        By falling eigenvalue. Of a set whose kind is "degenerate" none: the linearisation does not decide there.
+    """
+    if C.kind == "degenerate":
+        return Linearised(())
+    (j11, j12), (j21, j22) = C.jacobian.tolist()
+    if C.eigenvalues[0].imag != 0.0:
+        return Linearised((), 1 if j21 > j12 else -1)  # j12 j21 < 0
+    size = abs(j11) + abs(j12) + abs(j21) + abs(j22)
+    if max(abs(j11 - j22), abs(j12), abs(j21)) <= SAME * size:
+        return Linearised((), 0, True)
+    values = [float(v.real) for v in C.eigenvalues]
+    found = []
+    for value in values[:1] if values[0] == values[1] else values:
+        # the longer row of J - lambda has the eigenvector across it
+        u, v = max((j11 - value, j12), (j21, j22 - value), key=lambda row: math.hypot(*row))
+        x, y = to_disc(C.x2, np.array([-v, u])).tolist()
+        found.append(Eigendirection((x, y), value))
+    return Linearised(tuple(found))
+
+
+def to_disc(x2: Array, vector: Array) -> Array:
+    """Carry a tangent (2,) at x2 (2,) of kappa_2 to the disc, ``p = x2/sqrt(1 + |x2|^2)``, with length 1."""
+    image = vector - x2 * float(x2 @ vector) / (1.0 + float(x2 @ x2))
+    return image / np.linalg.norm(image)
+
+
+def of_limit_directions(problem: LayerProblem) -> tuple[Linearised, ...]:
+    """Return the eigendirections of each limit direction, in order of theta.
+
+    Parameters
+    ----------
+    problem : LayerProblem
+
+    Returns
+    -------
+    tuple of Linearised
+        Of each "equator", then "up" and "outside". Where lambda_theta = -2 lambda_rho (outside lambda_theta =
+        lambda_rho) meets a flow along the equator, orbits come in along the equator alone, and that half-line is left
+        out.
+    """
+    on, at, psi = problem.equator, problem.at, problem.psi
+    if not len(on):
+        return ()
+    e = np.stack([np.cos(on.theta), np.sin(on.theta)], axis=-1)
+    across = np.stack([-e[:, 1], e[:, 0]], axis=-1)
+    tilting = np.einsum("ki,kij,kj->k", across, at.DU(e), e) * psi.limit
+    lifting = (across * _along_rho(at, e)).sum(axis=-1)
+    rows = zip(e.tolist(), across.tolist(), on.lambda_rho.tolist(), on.lambda_theta.tolist(), tilting.tolist(),
+               lifting.tolist(), strict=True)  # fmt: skip
+    found = []
+    for (c, s), (u, v), rho, theta, tilt, lift in rows:
+        directions = [Eigendirection((u, v), theta, "equator")]
+        slope = _slope(tilt, theta + 2.0 * rho, abs(theta) + abs(rho))
+        if slope is not None:
+            directions.append(Eigendirection(_unit(slope * u - c, slope * v - s), 0.0 - rho, "up"))
+        slope = _slope(lift, rho - theta, abs(theta) + abs(rho))
+        if slope is not None:
+            directions.append(Eigendirection(_unit(slope * u + c, slope * v + s), rho, "outside"))
+        found.append(Linearised(tuple(directions)))
+    return tuple(found)
+
+
+def _slope(forcing: float, gap: float, size: float) -> float | None:
+    """Return how far a curve leans along the equator; None at a resonance, where it is tangent to it."""
+    if forcing == 0.0:
+        return 0.0
+    return None if abs(gap) <= RESONANCE * size else forcing / gap
+
+
+def _along_rho(at: AtZ, e: Array) -> Array:
+    """Return dU/drho at rho = 0 along each direction e (k, 2): zero unless U reads x or y."""
+    if not at.reads_position:
+        return np.zeros_like(e)
+    numbers = dict(zip(at.typed.numbers, at.numbers, strict=True))
+    values = {**numbers, "c": e[:, 0], "s": e[:, 1], "x": 0.0, "y": 0.0}
+    rows = [
+        sum(np.asarray(row.derivative(name).evaluate(values), float) * e[:, j] for j, name in enumerate(("x", "y")))
+        for row in at.typed.U
+    ]
+    return np.stack(rows, axis=-1)
+
+
+def _unit(u: float, v: float) -> tuple[float, float]:
+    length = math.hypot(u, v)
+    return u / length, v / length
+
+
+def find_eigendirections(problem: LayerProblem) -> tuple[tuple[Linearised, ...], tuple[Linearised, ...]]:
+    """Return those of the limit directions, and those of the critical sets, in their orders."""
+    return of_limit_directions(problem), tuple(map(of_critical_set, problem.critical))
