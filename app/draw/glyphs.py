@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from codim2_core.layer_problem.eigendirections import Linearised
 from codim2_core.portrait.launched import Launched
 from codim2_core.words import subscript
 
@@ -185,9 +186,22 @@ def cycle_columns(cycles: Any) -> dict[str, Any]:
         "kind": [cycle.kind for cycle in cycles.cycles],
         "period": [float(cycle.period) for cycle in cycles.cycles],
         "multiplier": [float(cycle.multiplier) for cycle in cycles.cycles],
+        "direction": [int(cycle.direction) for cycle in cycles.cycles],
         "reason": cycles.reason,
         "notes": list(cycles.notes),
     }
+
+
+def eigen_columns(objects: Sequence[Linearised]) -> list[dict[str, Any]]:
+    """Return the eigenvectors of each object, as x, y, eigenvalue and where; and why others have none."""
+    return [
+        {
+            "directions": [[*(round(v, 5) for v in d.direction), d.value, d.where] for d in one.directions],
+            "turning": one.turning,
+            "every": one.every,
+        }
+        for one in objects
+    ]
 
 
 def launched_columns(seeds: NDArray[np.float64], launched: Launched) -> dict[str, Any]:

@@ -30,7 +30,7 @@ MOST_STANDING = 100
 #: Layers that start at each limit direction or critical set, or look for what is between them.
 FOLLOWING = frozenset(
     {"nullclines_inside", "nullclines_outside", "continuations", "closed_orbits", "cycles", "separatrices", "outcomes",
-     "certificates"}
+     "certificates", "eigendirections"}
 )  # fmt: skip
 #: Layers of e-linear systems that search for cycles: quick unless there may be some, in Case III.
 SEARCHING = frozenset({"outcomes", "certificates"})
@@ -58,6 +58,7 @@ WORDS = {
     "classification": "the name of the portrait",
     "slow_flow": "the slow flow",
     "outcomes": "outcomes",
+    "eigendirections": "eigenvectors",
     "certificates": "theorems",
 }
 

@@ -135,6 +135,7 @@ def _drawn(layers: Sequence[str], now: dict[str, Any], ready: bool, window: Wind
 def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked) -> None:
     """Add what is said of the setting: limit directions, critical sets, the portrait's name, the slow flow."""
     equator, cycle, critical = (asked.get(name) for name in ("equator", "equator_cycle", "critical"))
+    eigen = asked.get("eigendirections")
     name, flow = asked.get("classification"), asked.get("slow_flow")
     if equator is NOTHING:
         equator, cycle = no_directions(), None
@@ -149,6 +150,12 @@ def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked) -> No
     critical = () if critical is NOTHING else critical
     if critical is not LATER and _fresh(now, "critical", critical):
         header["critical"] = glyphs.critical_columns(critical)
+    # what stands still comes with its eigenvectors, or without any: never with those of another setting
+    if _fresh(now, "eigendirections", eigen) or "equator" in header or "critical" in header:
+        there = eigen is not LATER and eigen is not NOTHING
+        header["eigen"] = (
+            dict(zip(("equator", "critical"), map(glyphs.eigen_columns, eigen), strict=True)) if there else None
+        )
     if name is NOTHING and _fresh(now, "classification", name):
         header["portrait"] = {"case": None, "name": "", "sentence": "", "degeneracies": []}
     elif isinstance(name, Classification) and _fresh(now, "classification", name):

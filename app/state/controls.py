@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from functools import lru_cache
@@ -27,6 +28,7 @@ from .portraits import portrait_keys, portraits
 
 MOST_ENTRIES = 16  # of a mapping that a browser sends
 LONGEST_TEXT = 2000
+PINNED = re.compile(r"(Q[1-9]\d{0,2}|C([1-9]\d{0,2})?|L[1-9]\d{0,2})?")
 
 
 class InputError(ValueError):
@@ -101,6 +103,7 @@ class ExplorerState(param.Parameterized):
     launch = param.String("0.6, 0.8, 0", label="Start", doc="State (x, y, z₁, …) from which a motion starts.")
     orbits = param.String("", label="Orbits", doc="Launched orbits: x,y of each, joined by semicolons.")
     orbit = param.Integer(1, bounds=(1, MOST), label="Orbit", doc="Number of the launched orbit that is shown in time.")
+    pinned = param.String("", label="Pinned", doc="The object whose card stays: Q2, C, C1, L1; empty if none does.")
     orbit_eps = param.Selector(
         default="hide", objects=["hide", "show"], label="ε > 0", doc="The motion for ε > 0 beside that orbit."
     )
@@ -248,6 +251,10 @@ def clean(name: str, value: Any) -> Any:
         if not own and value not in AXES:
             known = ", ".join([*AXES, f"{OWN_AXIS}mu"])
             raise InputError(name, f"{declared.label}: {str(value)[:40]!r} given; choose one such as {known}.")
+        return str(value)
+    if name == "pinned":
+        if not isinstance(value, str) or not PINNED.fullmatch(value):
+            raise InputError(name, f"Pinned: {str(value)[:40]!r} given; give an object such as Q2, C or L1.")
         return str(value)
     if name in ("texts", "parameters"):
         return _mapping(name, declared.label, value)

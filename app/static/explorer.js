@@ -10,6 +10,7 @@ import {readLaunches} from "./launches.js"
 import {writeLink} from "./links.js"
 import {Panels} from "./panels.js"
 import {Picture} from "./picture.js"
+import {Pointing} from "./pointing.js"
 import {Requests} from "./requests.js"
 import {Rest} from "./rest.js"
 import {Share} from "./share.js"
@@ -91,7 +92,12 @@ function wire({model, view, root, plot}) {
   controls.psi_text.set = (value) => { text.value = value }
 
   const boxes = [...root.querySelectorAll(".layer input[type=checkbox]")]
-  const showLayers = () => { for (const box of boxes) box.checked = values.layers.includes(box.value); picture.show(values.layers.filter((layer) => !hidden.includes(layer))); find(".outcome-key").hidden = !values.layers.includes("outcomes") }
+  const showLayers = () => {
+    for (const box of boxes) box.checked = values.layers.includes(box.value)
+    picture.show(values.layers.filter((layer) => !hidden.includes(layer)))
+    pointing.frame()
+    find(".outcome-key").hidden = !values.layers.includes("outcomes")
+  }
   for (const box of boxes) box.addEventListener("change", () => { change("layers", boxes.filter((b) => b.checked).map((b) => b.value)); showLayers() })
 
   // Set many controls at once.
@@ -121,6 +127,14 @@ function wire({model, view, root, plot}) {
   controls.preset.set = (value) => { if (portrait) portrait.value = value }
   find(".controls").addEventListener("submit", (event) => event.preventDefault())
   find(".reset").addEventListener("click", () => open({}))
+  const pointing = new Pointing(root, picture, () => config.slowSymbols ?? [], (name) => change("pinned", name))
+  pointing.set(values.pinned)
+  controls.pinned = {box: pointing.kept, say: () => {}, set: (name) => pointing.set(name)}
+  // What is pinned may be called otherwise after a frame: no step of the history.
+  const followObjects = (header) => {
+    const name = pointing.frame(header)
+    if (name !== values.pinned) { values.pinned = name; requests.set("pinned", name) }
+  }
   // Words on the orbit in hand: where it goes.
   const spoken = find(".orbit-words")
   let held = -1, quiet = null
@@ -138,7 +152,7 @@ function wire({model, view, root, plot}) {
     },
     begin: (i) => { held = i; clearTimeout(quiet); change("orbit", i + 1) },
     end: () => { quiet = setTimeout(() => { held = -1; spoken.hidden = true }, 5000) },
-  })
+  }, pointing)
   find(".home").addEventListener("click", () => picture.home())
   twoFingers(find(".bokeh"), plot, () => hands.held !== null)
   new Sheets(root)
@@ -233,6 +247,7 @@ function wire({model, view, root, plot}) {
     systems.apply(frame)
     sayErrors({...header.left_out && {"": header.left_out}, ...header.errors})
     picture.apply(frame)
+    followObjects(header)
     if (header.launched) speak(header.launched)
     const late = header.late ?? []
     requests.restLater(late.length > 0)

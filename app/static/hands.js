@@ -1,5 +1,6 @@
 // Hands on the picture: a click or tap launches the orbit through that point; press and drag, and the orbit follows;
-// a drag that begins at a launched orbit's start moves that one. Shift, a wheel with Ctrl, or two fingers are Bokeh's.
+// a drag that begins at a launched orbit's start moves that one. A click or tap on an object pins it. Shift, a wheel with
+// Ctrl, or two fingers are Bokeh's.
 
 import {changed, launchedAt, nearest, readLaunches, writeLaunches} from "./launches.js"
 
@@ -12,12 +13,14 @@ export class Hands {
    * @param {any} element that holds the picture
    * @param {{at: (x: number, y: number) => {x: number, y: number, unit: number} | null}} picture
    * @param {{get: () => string, set: (text: string) => void, begin: (i: number) => void, end: () => void}} orbits
+   * @param {{under: (event: any) => any, toggle: (one: any) => void}} objects that can be pinned
    */
-  constructor(element, picture, orbits) {
+  constructor(element, picture, orbits, objects) {
     this.picture = picture
     this.orbits = orbits
+    this.objects = objects
     this.held = null // {id, i}: the pointer that holds an orbit's start
-    this.tap = null
+    this.tap = null // {id, x, y, since, one}: a pointer that may be lifted where it came down; `one` is the object there
     const on = (kind, call) => element.addEventListener(kind, call, {capture: true})
     on("pointerdown", (event) => this.down(event, element))
     on("pointermove", (event) => this.move(event))
@@ -30,19 +33,30 @@ export class Hands {
     if (!place) return
     const launches = readLaunches(this.orbits.get())
     const i = nearest(launches, place.x, place.y, REACH[event.pointerType] * place.unit)
-    if (event.pointerType === "touch" && i < 0) { // a finger scrolls the page, unless it only taps
-      this.tap = {id: event.pointerId, x: event.clientX, y: event.clientY, since: event.timeStamp}
-      return
-    }
+    const one = i < 0 ? this.objects.under(event) : null
+    if (i < 0) this.tap = {id: event.pointerId, x: event.clientX, y: event.clientY, since: event.timeStamp, one}
+    if (event.pointerType === "touch" && i < 0) return // a finger scrolls the page, unless it only taps
     event.preventDefault()
     event.stopPropagation()
     element.setPointerCapture?.(event.pointerId)
+    if (one) return // a click pins it, a drag launches
+    this.tap = null
+    this.take(event, launches, i, place)
+  }
+
+  take(event, launches, i, place) {
     this.held = {id: event.pointerId, i: i < 0 ? Math.min(launches.length, launchedAt(launches, 0, 0).length - 1) : i}
     this.orbits.begin(this.held.i)
     if (i < 0) this.orbits.set(writeLaunches(launchedAt(launches, place.x, place.y)))
   }
 
   move(event) {
+    const {tap} = this
+    if (tap?.one && tap.id === event.pointerId && event.pointerType !== "touch" && Math.hypot(event.clientX - tap.x, event.clientY - tap.y) > STILL) {
+      this.tap = null
+      const place = this.picture.at(tap.x, tap.y)
+      if (place) this.take(event, readLaunches(this.orbits.get()), -1, place)
+    }
     if (this.held?.id !== event.pointerId) return
     event.preventDefault()
     event.stopPropagation()
@@ -59,7 +73,13 @@ export class Hands {
     const tap = this.tap
     if (!tap || tap.id !== event.pointerId) return
     this.tap = null
-    const still = Math.hypot(event.clientX - tap.x, event.clientY - tap.y) <= STILL && event.timeStamp - tap.since <= TAP
+    const near = Math.hypot(event.clientX - tap.x, event.clientY - tap.y) <= STILL
+    if (tap.one) {
+      if (event.pointerType !== "touch") event.stopPropagation()
+      if (done && near) this.objects.toggle(tap.one)
+      return
+    }
+    const still = near && event.timeStamp - tap.since <= TAP
     const place = done && still ? this.picture.at(event.clientX, event.clientY) : null
     if (!place) return
     const launches = launchedAt(readLaunches(this.orbits.get()), place.x, place.y)

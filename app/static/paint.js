@@ -171,6 +171,33 @@ const PAINTERS = {
     ctx.stroke()
   },
 
+  // A stroke of so many px away from a point, with an arrowhead at its far end or one that comes in.
+  ray(ctx, {x, y, angle, from, length, colour, back, width, dash, head}, {left, across, top, up}) {
+    const px = left + across * x, py = top + up * y, c = Math.cos(angle), s = -Math.sin(angle) // y of a canvas falls
+    const end = from + length - (head === "out" ? 8 : 0)
+    for (const [ink, wide, dashes] of [[back, width + 3, []], [colour, width, dash]]) {
+      stroke(ctx, ink, wide, dashes)
+      ctx.beginPath()
+      ctx.moveTo(px + from * c, py + from * s)
+      ctx.lineTo(px + end * c, py + end * s)
+      ctx.stroke()
+    }
+    if (!head) return
+    const tip = from + (head === "out" ? length - 5 : 0.5 * length)
+    ctx.fillStyle = colour
+    ctx.beginPath()
+    arrowhead(ctx, px + tip * c, py + tip * s, head === "out" ? angle : angle + Math.PI, 12)
+    ctx.fill()
+  },
+
+  // A circle of so many px around a point.
+  ring(ctx, {x, y, radius, colour, width}, {left, across, top, up}) {
+    stroke(ctx, colour, width, [])
+    ctx.beginPath()
+    ctx.arc(left + across * x, top + up * y, radius, 0, 2 * Math.PI)
+    ctx.stroke()
+  },
+
   mark(ctx, {shape, x, y, size, width, colour, fill}, {left, across, top, up}) {
     stroke(ctx, colour, width, [])
     ctx.fillStyle = fill

@@ -2,10 +2,10 @@
 
 import {displayList, traceList} from "./display.js"
 import {makeRenderer, repaint} from "./painter.js"
-import {digits, eigen, pair} from "./words.js"
 
 const DRAWN = ["launched", "equator", "critical", "sense", "all_directions", "outcomes", "basins"] // entries of a frame's header
-const REST = 150 // ms after the last frame until the tooltips follow
+const TOLD = ["eigen", "cycles"] // others that are shown of an object
+const REST = 150 // ms after the view has moved until it is asked for
 
 export class Picture {
   // `moved` is called when another part of the picture has come into view, and stays; `rest` is told until then.
@@ -17,10 +17,10 @@ export class Picture {
     this.state = {table: layers, layers: [], old: [], header: {}, blocks: {}, theme: themes.light, measures}
     this.parts = new Set(["basins", ...layers.flatMap((layer) => layer.parts.map((part) => part.name))])
     this.paths = this.place = null
+    this.pointed = []
     this.drawn = makeRenderer("glyph")
     this.above = makeRenderer("overlay")
-    this.hovered = Object.fromEntries(plot.renderers.map((renderer) => [renderer.name, renderer.data_source]))
-    plot.renderers = [this.drawn, ...plot.renderers, this.above]
+    plot.renderers = [this.drawn, this.above]
     this.pending = this.waiting = false
     const soon = () => {
       clearTimeout(this.moving)
@@ -36,6 +36,7 @@ export class Picture {
 
   apply({header, blocks}) {
     const {state} = this
+    for (const name of TOLD) if (name in header) state.header[name] = header[name]
     const old = header.late ?? []
     const aged = state.layers.some((name) => old.includes(name) !== state.old.includes(name))
     const words = DRAWN.filter((name) => name in header)
@@ -44,7 +45,6 @@ export class Picture {
     for (const name of words) state.header[name] = header[name]
     for (const name of arrays) state.blocks[name] = blocks[name]
     state.old = old
-    if (header.equator || header.critical) this.hoverSoon()
     this.draw()
   }
 
@@ -72,13 +72,19 @@ export class Picture {
   }
 
   drawTrace() {
-    this.above.list = traceList(this.traces, this.paths, this.place, this.state.theme)
+    this.above.list = [...this.pointed, ...traceList(this.traces, this.paths, this.place, this.state.theme)]
     repaint(this.above)
+  }
+
+  // What is pointed at: drawn above the picture, which is left alone.
+  point(list) {
+    if (!list.length && !this.pointed.length) return
+    this.pointed = list
+    this.drawTrace()
   }
 
   show(layers) {
     this.state.layers = layers
-    this.hoverSoon()
     this.draw()
   }
 
@@ -100,6 +106,16 @@ export class Picture {
     return {x: x_scale.invert(sx), y: y_scale.invert(sy), unit: Math.abs(x_scale.invert(sx + 1) - x_scale.invert(sx))}
   }
 
+  // Where in the picture's element a point is, in px, and how large that is; null before it is drawn.
+  pixel(x, y) {
+    const view = this.drawn.view, frame = view?.plot_view?.frame?.bbox
+    if (!frame) return null
+    return {x: view.coordinates.x_scale.compute(x), y: view.coordinates.y_scale.compute(y), width: frame.x + frame.width, height: frame.y + frame.height}
+  }
+
+  /** @param {() => void} call whenever another part of the picture comes into view */
+  viewed(call) { for (const range of [this.plot.x_range, this.plot.y_range]) range.change.connect(call) }
+
   // The rectangle that is seen, as [left, right, bottom, top].
   get seen() { const {x_range: x, y_range: y} = this.plot; return [x.start, x.end, y.start, y.end] }
   set seen([left, right, bottom, top]) {
@@ -116,25 +132,5 @@ export class Picture {
 
   home() {
     for (const range of [this.plot.x_range, this.plot.y_range]) range.setv({start: -this.view, end: this.view})
-  }
-
-  // Tooltips belong to marks that Bokeh knows and does not draw; nobody reads one while a slider moves.
-  hoverSoon() {
-    clearTimeout(this.timer)
-    this.timer = setTimeout(() => this.hover(), REST)
-  }
-
-  hover() {
-    const {header: {equator: q, critical: c}, layers} = this.state
-    const none = {x: [], y: []}
-    this.hovered.equator.data = q && layers.includes("equator") ? {
-      x: q.x, y: q.y, label: q.label, type: q.type, theta_text: q.theta.map((v) => `${digits(v, 5)} (${digits(v * 180 / Math.PI)}°)`),
-      rho_text: q.lambda_rho.map((v) => digits(v, 5)), ang_text: q.lambda_theta.map((v) => digits(v, 5)),
-    } : none
-    this.hovered.critical.data = c && layers.includes("critical") ? {
-      x: c.x, y: c.y, label: c.label, kind: c.kind, e_text: c.e.map((v) => pair(v)), x2_text: c.x2.map((v) => pair(v)),
-      trace_text: c.trace.map((v) => digits(v)), det_text: c.determinant.map((v) => digits(v)), eig_text: c.eigenvalues.map(eigen),
-      slow_text: c.slow_flow.map((v) => v.map((w) => digits(w)).join(", ") || "–"),
-    } : none
   }
 }

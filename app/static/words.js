@@ -45,6 +45,18 @@ export const SAYS = {
   follows: "This system takes longer than a frame; its picture follows …",
   compiling: "Compiling, once: trajectories are sketched …",
   looking: "Looking for limit cycles …",
+  orbit: "Launched orbit",
+  cycle: "Limit cycle",
+  along: "along the equator",
+  up: "up the hemisphere",
+  out: "outwards",
+  comes: "comes in",
+  leaves: "leaves",
+  neutral: "neutral",
+  complex: "A complex pair has no eigenvectors in the plane.",
+  every: "Every direction is an eigenvector.",
+  undecided: "The linearisation does not decide: no eigenvectors are drawn.",
+  gone: "is not there at this setting.",
   typed: "c and s are the components of e; the letter e alone is the number 2.718…",
 }
 
@@ -55,6 +67,10 @@ export function slowWords(flow, symbols = []) {
   const sense = !flow[0] ? flow.some(Boolean) ? `${name(0)} at rest` : "at rest" : flow[0] > 0 ? `⊙ out of the page${of}: ${name(0)} grows` : `⊗ into the page${of}: ${name(0)} falls`
   return {flow: flow.map((v, i) => `${name(i)}′ = ${digits(v)}`).join(", "), sense}
 }
+
+// Which way orbits turn, as it is seen in the picture.
+/** @param {number} way */
+export const turned = (way) => `Orbits turn ${way > 0 ? "anticlockwise" : "clockwise"}.`
 
 // How a phase of a motion is called; of a ball also in the words of mechanics.
 export const phaseWords = (kind, ball) => ({slip: "slips", slide: ball ? "slides (the ball sticks and rolls)" : "slides", cross: "crosses"})[kind]

@@ -89,3 +89,68 @@ def test_a_finger_that_taps_launches_and_one_that_swipes_does_not(open_page):
     explorer.settle()
     assert explorer.find(".orbit-list li").count() == 1
     assert explorer.complaints == []
+
+
+def objects(explorer, kind):
+    """Where the objects of a kind are, in the picture."""
+    columns = explorer.ask(f"picture.state.header.{kind}")
+    return list(zip(columns["x"], columns["y"], strict=True))
+
+
+def test_a_click_on_an_object_pins_it_and_one_beside_launches(open_page):
+    explorer = open_page().open("?b=0.3&panel=orbits")
+    page, pinned = explorer.page, explorer.find(".card.pinned")
+    at = objects(explorer, "critical")[0]
+    page.mouse.click(*place(explorer, *at))
+    explorer.kept()
+    assert pinned.text_content().startswith("×C stable node(c, s)")
+    assert "pinned=C" in page.url
+    drawn = [item["kind"] for item in explorer.ask("picture.above.list")]
+    assert drawn == ["ray"] * 4 + ["ring"]
+    page.mouse.click(*place(explorer, at[0] + 0.2, at[1]))
+    explorer.kept()
+    assert explorer.find(".orbit-list li").count() == 1
+    before = pinned.text_content()
+    explorer.type("f1", "-0.3")  # the pin follows its object
+    explorer.settle()
+    assert pinned.text_content() != before
+    ring = explorer.ask("picture.above.list").pop()
+    assert (ring["x"], ring["y"]) == pytest.approx(objects(explorer, "critical")[0])
+    explorer.kept()
+    explorer.find(".undo").click()
+    explorer.find(".undo").click()
+    explorer.settle()
+    assert pinned.text_content() == before or not pinned.is_visible()
+    page.keyboard.press("Escape")
+    explorer.kept()
+    assert not pinned.is_visible()
+    assert "pinned" not in page.url
+    assert explorer.complaints == []
+
+
+def test_objects_are_reached_by_the_keyboard(open_page):
+    explorer = open_page().open("?b=0.3")
+    explorer.until("root.querySelectorAll('.objects button').length === 3")
+    explorer.find(".objects button").nth(1).focus()
+    hint = explorer.find(".card:not(.pinned)")
+    assert hint.text_content().startswith("Q₁ ")
+    explorer.page.keyboard.press("Enter")
+    explorer.kept()
+    assert explorer.find(".card.pinned").text_content().startswith("×Q₁ ")
+    assert "pinned=Q1" in explorer.page.url
+    again = open_page().open("?b=0.3&pinned=Q1")
+    assert again.find(".card.pinned").text_content().startswith("×Q₁ ")
+
+
+def test_a_tap_on_an_object_pins_it(open_page):
+    explorer = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open(
+        "?b=0.3&panel=orbits"
+    )
+    explorer.page.touchscreen.tap(*place(explorer, *objects(explorer, "critical")[0]))
+    explorer.settle()
+    assert explorer.find(".card.pinned").text_content().startswith("×C stable node")
+    assert explorer.find(".orbit-list li").count() == 0
+    explorer.page.touchscreen.tap(*place(explorer, 1.1, 0.9))
+    explorer.settle()
+    assert explorer.find(".orbit-list li").count() == 1
+    assert explorer.find(".card.pinned").is_visible()

@@ -7,7 +7,7 @@ import {Hands} from "../../../app/static/hands.js"
 import {Inspector} from "../../../app/static/inspector.js"
 import {MOST} from "../../../app/static/launches.js"
 
-function played(text = "", frame = 300) {
+function played(text = "", frame = 300, marks = [[-9, -9]]) {
   const calls = {}, log = [], captured = []
   const element = {
     addEventListener: (type, call, {capture}) => { assert.equal(capture, true); (calls[type] ??= []).push(call) },
@@ -15,7 +15,8 @@ function played(text = "", frame = 300) {
   }
   const at = (x, y) => x < 0 || x > frame ? null : {x: x / 100, y: -y / 100, unit: 0.01}
   const orbits = {get: () => text, set: (now) => { text = now; log.push(now) }, begin: (i) => log.push(`begin ${i}`), end: () => log.push("end")}
-  const hands = new Hands(element, {at}, orbits)
+  const objects = {under: ({clientX, clientY}) => { const i = marks.findIndex(([x, y]) => Math.hypot(clientX - x, clientY - y) <= 10); return i < 0 ? null : {name: `Q${i + 1}`} }, toggle: ({name}) => log.push(`pin ${name}`)}
+  const hands = new Hands(element, {at}, orbits, objects)
   return {
     hands, captured,
     log: () => log.splice(0),
@@ -102,6 +103,30 @@ test("a finger that taps launches, one that scrolls or rests does not", () => {
   const edge = played()
   edge.tell("pointerdown", 2, 40, {pointerType: "touch"}); edge.tell("pointerup", -2, 40, {pointerType: "touch"})
   assert.deepEqual(edge.log(), [])
+})
+
+test("a click or tap on an object pins it, a drag from there launches, and a launched start above it is taken", () => {
+  const one = played("", 300, [[100, 50]])
+  assert.ok(one.tell("pointerdown", 104, 50).prevented)
+  assert.ok(one.tell("pointerup", 107, 52, {timeStamp: 5000}).stopped)
+  assert.deepEqual(one.log(), ["pin Q1"])
+  one.tell("pointerdown", 104, 50); one.tell("pointermove", 112, 50)
+  assert.deepEqual(one.log(), []) // still a click
+  one.tell("pointermove", 113, 50); one.tell("pointermove", 150, 0); one.tell("pointerup", 150, 0)
+  assert.deepEqual(one.log(), ["begin 0", "1.04,-0.5", "1.13,-0.5", "1.5,0", "end"])
+  one.tell("pointerdown", 104, 50); one.tell("pointercancel", 104, 50)
+  assert.deepEqual(one.log(), [])
+  one.tell("pointerdown", 115, 50); one.tell("pointerup", 115, 50) // beside it
+  assert.deepEqual(one.log(), ["begin 1", "1.5,0;1.15,-0.5", "end"])
+  const finger = played("", 300, [[100, 50]])
+  assert.equal(finger.tell("pointerdown", 100, 50, {pointerType: "touch"}).prevented, false)
+  finger.tell("pointermove", 100, 80, {pointerType: "touch"}); finger.tell("pointerup", 100, 80, {pointerType: "touch"}) // it scrolls
+  assert.deepEqual(finger.log(), [])
+  finger.tell("pointerdown", 100, 50, {pointerType: "touch"}); finger.tell("pointerup", 102, 50, {pointerType: "touch", timeStamp: 2000})
+  assert.deepEqual(finger.log(), ["pin Q1"])
+  const both = played("1,-0.5", 300, [[100, 50]])
+  both.tell("pointerdown", 100, 50); both.tell("pointerup", 100, 50)
+  assert.deepEqual(both.log(), ["begin 0", "end"])
 })
 
 test("one line says how C slides, out of the page or into it", () => {

@@ -1,40 +1,11 @@
-// What is seen of the picture, its tooltips, and when it is drawn: see wiring.js for what is played.
+// What is seen of the picture, and when it is drawn: see wiring.js for what is played.
 import assert from "node:assert/strict"
 import test from "node:test"
 
 import {register} from "../../../app/static/panels.js"
-import {CRITICAL, packed, pull, settled, wired} from "./wiring.js"
+import {packed, pull, settled, wired} from "./wiring.js"
 
 register("numbers", () => ({})) // the panel that is open: until it is there, something is under way
-
-test("tooltips hold the numbers of their marks, at their places, and follow the layers", () => {
-  const one = wired(), {picture} = one.root.explorer
-  one.tick(200)
-  const {equator, critical} = picture.hovered
-  assert.deepEqual([equator.data.x, equator.data.y, equator.data.label], [[0.6, -0.8], [0.8, 0.6], ["Q₁", "Q₂"]])
-  assert.deepEqual(equator.data.theta_text, ["0.9273 (53.13°)", "2.4981 (143.1°)"])
-  assert.deepEqual([equator.data.rho_text, equator.data.ang_text], [["−1.5000", "0.2500"], ["−0.3000", "2.0000"]])
-  assert.deepEqual([critical.data.x, critical.data.y, critical.data.kind], [[0.2], [-0.35], ["stable node"]])
-  assert.deepEqual([critical.data.e_text, critical.data.x2_text], [["(0.200, −0.300)"], ["(0.210, −0.330)"]])
-  assert.deepEqual([critical.data.trace_text, critical.data.det_text, critical.data.slow_text], [["−3.000"], ["2.000"], ["0.400"]])
-  assert.deepEqual(critical.data.eig_text, ["−1.000, −2.000"])
-  picture.show(["critical"])
-  one.tick(200)
-  assert.deepEqual([equator.data.x, critical.data.x], [[], [0.2]])
-  picture.show(["equator"])
-  one.tick(200)
-  assert.deepEqual([equator.data.x, critical.data.x], [[0.6, -0.8], []])
-  one.answer({critical: {...CRITICAL, slow_flow: [[]]}})
-  picture.show(["critical"])
-  one.tick(149)
-  assert.deepEqual(critical.data.x, [])
-  one.tick(1)
-  assert.deepEqual(critical.data.slow_text, ["–"])
-  picture.state.header.equator = null // as before the first frame
-  picture.show(["equator", "critical"])
-  one.tick(200)
-  assert.deepEqual([equator.data.x, critical.data.x], [[], [0.2]])
-})
 
 test("a frame may come as any view of bytes", () => {
   const one = wired(), bytes = packed({id: 1, errors: {}, portrait: {case: "II", name: "CM2", sentence: "Case II, CM2. Two.", degeneracies: []}})

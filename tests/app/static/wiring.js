@@ -21,7 +21,7 @@ ${["a", "f1", "n", "z", "trajectories"].map(slider).join("\n")}
 <div class="sheets"><button data-sheet="controls"></button><button data-sheet="inspector"></button></div>
 <div class="tabs"><button role="tab" data-panel="orbits">Orbits</button><button role="tab" data-panel="numbers">Numbers</button></div><section role="tabpanel" data-panel="orbits"></section><section role="tabpanel" data-panel="numbers" hidden></section></div></div>`
 
-const VALUES = {a: -2, f1: 0.5, n: 3, z: 0, z2: 0, trajectories: 64, psi: "constant", psi_text: "1", preset: "", system: "normal", texts: {}, parameters: {}, layers: ["inside", "equator", "critical", "basins"], orbits: "", orbit: 1, orbit_eps: "hide", log_eps: -2, panel: "orbits", t_end: 5, launch: ""}
+export const VALUES = {a: -2, f1: 0.5, n: 3, z: 0, z2: 0, trajectories: 64, psi: "constant", psi_text: "1", preset: "", system: "normal", texts: {}, parameters: {}, layers: ["inside", "equator", "critical", "basins"], orbits: "", orbit: 1, pinned: "", orbit_eps: "hide", log_eps: -2, panel: "orbits", t_end: 5, launch: ""}
 const curve = (name, colour, more = {}) => ({name, colour, width: 1.5, dash: [], ...more})
 const LAYERS = [
   {name: "basins", parts: []}, {name: "outcomes", parts: []},
@@ -99,7 +99,6 @@ export function wired(more = {}, first = FIRST, scope = {}) {
   const scale = (zero, slope) => ({compute: (value) => zero + slope * value, invert: (place) => (place - zero) / slope})
   const plot = {
     x_range: range(), y_range: range(), views: [],
-    get renderers() { return [{name: "equator", data_source: {data: {}}}, {name: "critical", data_source: {data: {}}}] },
     set renderers(all) {
       for (const renderer of all) {
         if (!renderer.default_view) continue
@@ -214,7 +213,7 @@ export function story() {
     }
     for (const request of one.sent.splice(0)) lines.push(`asks ${JSON.stringify(request)}`)
     const {picture} = one.root.explorer
-    const now = [...one.root.outerHTML.replaceAll("><", ">\n<").split("\n"), `link ${one.window.history.url}`, `hover ${JSON.stringify(Object.values(picture.hovered).map(({data}) => data))}`, `window ${JSON.stringify(picture.window)}`]
+    const now = [...one.root.outerHTML.replaceAll("><", ">\n<").split("\n"), `link ${one.window.history.url}`, `window ${JSON.stringify(picture.window)}`]
     const old = new Set(before.split("\n"))
     lines.push(...before ? now.filter((line) => !old.has(line)) : now)
     before = now.join("\n")
