@@ -104,7 +104,6 @@ def test_nothing_stands_around_the_picture():
     assert [axis.end for axis in (plot.x_range, plot.y_range)] == [VIEW, VIEW]
     assert [axis.start for axis in (plot.x_range, plot.y_range)] == [-VIEW, -VIEW]
     assert (plot.x_range.min_interval, plot.x_range.max_interval) == (2 * NEAREST, 2 * WIDEST)
-    assert plot.select_one({"name": "critical"}).glyph.size == 16  # as large as a mark, where a pointer asks
 
 
 def corners(name, size=12.0):
