@@ -1,6 +1,7 @@
 """Critical sets against 50-digit arithmetic, finite differences and the paper's numbers."""
 
 import math
+from fractions import Fraction
 
 import mpmath
 import numpy as np
@@ -8,9 +9,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from codim2_core import ELinear, critical_sets, hemisphere, psi, sliding_flow
+from codim2_core import ELinear, critical_sets, equator_cycle, hemisphere, psi, sliding_flow
 from codim2_core.layer_problem.linearisation import determinant_sign
 from codim2_core.layer_problem.location import Existence, locate
+from codim2_core.numerics.trigonometric import ROUNDING
 from tests.core.strategies import regularisations, systems
 
 
@@ -86,6 +88,56 @@ def test_existence_changes_exactly_at_the_ellipse(system, angle, distance, insid
         assert existence is (Existence.INSIDE if gap > 0 else Existence.NONE)
     else:
         assert existence in (Existence.EQUATOR, Existence.INSIDE if gap > 0 else Existence.NONE)
+
+
+def test_on_the_equator_means_within_the_rounding_of_the_coefficients():
+    """The gap det^2 - |adj(A) f|^2 against half its change by each coefficient in turn, in exact fractions."""
+    rng, seen = np.random.default_rng(21), set()
+    for _ in range(300):
+        a, b, d = rng.normal(size=3).tolist()
+        if rng.random() < 0.3:  # nearly singular
+            d = -b * b / a * (1.0 + 10.0 ** rng.uniform(-9, -1))
+        angle, distance = rng.uniform(0.0, 2.0 * math.pi), rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-17, -13)
+        c, s = (1.0 + distance) * math.cos(angle), (1.0 + distance) * math.sin(angle)
+        plane = [a, b, d, b * s - a * c, -b * c - d * s]
+        exact = [Fraction(v) for v in plane]
+
+        def gap(a, b, d, f1, f2):
+            return (a * d + b * b) ** 2 - (d * f1 + b * f2) ** 2 - (a * f2 - b * f1) ** 2
+
+        def slope(i, exact=exact):
+            """x df/dx: five points are exact up to the fourth degree, in which b stands."""
+            at = [gap(*(v * (1 + k * (j == i)) for j, v in enumerate(exact))) for k in (-2, -1, 1, 2)]
+            return (8 * (at[2] - at[1]) - (at[3] - at[0])) / 12
+
+        level = abs(gap(*exact)) / (sum(abs(slope(i)) for i in range(5)) / 2) / Fraction(2 * ROUNDING)
+        found = locate(ELinear(a, b, d, tuple(plane[3:])).at()).existence
+        if found in (Existence.INSIDE, Existence.NONE, Existence.EQUATOR) and not Fraction(999, 1000) < level < 1:
+            seen.add(found)
+            inside = Existence.INSIDE if gap(*exact) > 0 else Existence.NONE
+            assert found is (Existence.EQUATOR if level < 1 else inside)
+    assert len(seen) == 3
+
+
+@pytest.mark.parametrize("size", [1e-310, 1e-150])
+def test_a_coefficient_that_is_next_to_nothing_changes_nothing(size):
+    for one, other in (
+        (ELinear(-1.0, size, -2.0, (0.2, 0.3)), ELinear(-1.0, 0.0, -2.0, (0.2, 0.3))),
+        (ELinear(size, 1.5, -0.5, (0.2, 0.3)), ELinear(0.0, 1.5, -0.5, (0.2, 0.3))),
+        (
+            ELinear.from_matrix([[-1, size], [0.5, -2]], (0.2, 0.3)),
+            ELinear.from_matrix([[-1, 0], [0.5, -2]], (0.2, 0.3)),
+        ),
+        (ELinear(1.0, 3.0, 1.2, (size, 0.3)), ELinear(1.0, 3.0, 1.2, (0.0, 0.3))),
+    ):
+        (C,), (D,) = (critical_sets(system, psi.rational()) for system in (one, other))
+        np.testing.assert_allclose(C.e, D.e, atol=1e-15)
+        np.testing.assert_allclose(C.jacobian, D.jacobian, atol=1e-14)
+        assert (C.kind, C.determinant, C.trace) == (D.kind, pytest.approx(D.determinant), pytest.approx(D.trace))
+        mine, its = equator_cycle(one), equator_cycle(other)
+        assert (mine is None) == (its is None)
+        if mine is not None:
+            assert (mine.period, mine.exponent) == (pytest.approx(its.period), pytest.approx(its.exponent))
 
 
 @pytest.mark.parametrize("scale", [1e-150, 1e-40, 1.0, 1e40, 1e149])
