@@ -58,6 +58,14 @@ test("the panel along: what comes before it is opened is drawn when it is, no hi
   assert.deepEqual(heights, ["330px", "455px", "460px", "460px"])
 })
 
+test("the panel along: a dozen points are listed, not all that there may be", () => {
+  const one = opened("along", {z: -1.5, z2: 0, drift: "z"})
+  const points = Array.from({length: 15}, (_, i) => ({...ALONG.points[0], z: i / 4 - 2, kind: i === 3 ? "node-focus" : "equilibrium"}))
+  one.frame({along: {...ALONG, points}})
+  assert.equal(one.all(".along-points button").length, 12)
+  assert.deepEqual(one.texts(".along-points button span:first-of-type").slice(2, 4), ["z = −1.50000", "z = −1.00000"])
+})
+
 test("the panel along: play goes with the slow flow, to where it rests or the range ends", () => {
   const one = opened("along", {z: -1.5, z2: 0, drift: "z"}), go = (ms, flow) => { one.tick(ms); one.frame({drift: {on: "C", flow: [flow]}}) }
   one.frame({along: ALONG, drift: {on: "C", flow: [2]}})

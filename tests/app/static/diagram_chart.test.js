@@ -172,3 +172,30 @@ test("the panel diagram: what comes before it is opened is drawn when it is", ()
   one.panels.show("diagram", one.values)
   near([plots(one.find(".diagram"))[0].x.of(Number(value().match(/M([\d.]+)/)[1]))], [4], 0.03)
 })
+
+test("the panel diagram: a part is narrow if, with its margin of 8 %, it takes less than a fifth of the span, wherever that lies", () => {
+  const one = opened("diagram", {along: "f1", f1: 0.5, n: 3, zoom: 0})
+  for (const low of [-8, -2, 0, 5]) {
+    for (const [width, magnified] of /** @type {[number, boolean][]} */ ([[1.36, true], [1.39, false]])) { // 1.16 times as wide, of a fifth of 8
+      const x = [low + 1, low + 1 + width]
+      one.frame({diagram: {...DIAGRAM, span: [low, low + 8], critical: [{...DIAGRAM.critical[0], x}], special: [], equator: [], closed: []}, ...AXES})
+      const [, radii] = plots(one.find(".diagram"))
+      assert.equal(radii.title.endsWith("magnified"), magnified, `${x}`)
+      const frame = one.all(".diagram .frame")[1], left = Number(frame.getAttribute("x")), right = left + Number(frame.getAttribute("width"))
+      near([radii.x.of(left), radii.x.of(right)], magnified ? [x[0] - 0.08 * width, x[1] + 0.08 * width] : [low, low + 8], 0.02)
+    }
+  }
+  one.frame({diagram: {...DIAGRAM, span: [0, 8], critical: [{...DIAGRAM.critical[0], x: [0.01, 1]}], special: [], equator: [], closed: []}, ...AXES})
+  const [, radii] = plots(one.find(".diagram")), left = Number(one.all(".diagram .frame")[1].getAttribute("x"))
+  near([radii.x.of(left)], [0], 0.005) // no further than the span
+})
+
+test("the panel diagram: points under one mark come apart by as many steps as leave them three fifths of the span", () => {
+  for (const [high, steps] of [[3.8, 1], [6, 2]]) { // 0.6 times the span over 0.25 is 4^1.9, and 4^2.1
+    const special = [...DIAGRAM.special.slice(0, 1), {kind: "cusp", value: 1.25, place: [-0.6, 0.8], sentence: "Near by."}]
+    const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 0})
+    one.frame({diagram: {...DIAGRAM, span: [-2, high], special}})
+    one.fire(one.find(".diagram .special.group circle"), "pointerdown")
+    assert.deepEqual(one.said(), [["move", {f1: 1.125}], ["choose", "zoom", steps]])
+  }
+})

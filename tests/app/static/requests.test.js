@@ -330,3 +330,11 @@ test("a reply to a later request means that earlier ones are not to come", () =>
   requests.arrived(sent[2].id, 0)
   assert.equal(requests.idle, true)
 })
+
+test("as many requests go out as frames of the screen pass in a round trip", () => {
+  for (const [trip, size] of [[1, 1], [17, 1], [18, 2], [34, 2], [35, 3], [84, 5], [85, 6]]) { // 1000/60 ms each, to a ms
+    const window = new Window()
+    for (let t = 0; t < 1000; t += 17) window.measured(t, trip)
+    assert.equal(window.size, size, `${trip} ms`)
+  }
+})
