@@ -114,7 +114,7 @@ def test_the_gap_is_measured_on_the_longest_ray_that_ends_outside_the_arc(plane)
         sense = math.copysign(1.0, at.b)
         rays = [Section(at, PSI, c2.critical_sets(at, PSI)[0], k) for k in range(4)]
         ends = [one.e + one.reach * one.u for one in rays]
-        np.testing.assert_allclose(np.hypot(*np.transpose(ends)), 1.0, atol=1e-12)
+        np.testing.assert_allclose(np.hypot(*np.transpose(ends)), 1.0, rtol=0.0, atol=1e-12)
         width = (sense * (loop.sink - loop.source)) % math.tau
         outside = [k for k in range(4) if (sense * (math.atan2(*ends[k][::-1]) - loop.source)) % math.tau > width]
         assert loop.ray == max(outside, key=lambda k: rays[k].reach)

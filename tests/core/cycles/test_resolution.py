@@ -23,7 +23,7 @@ from .sections import UNEVEN, Line
 
 def test_fourth_differences_are_the_leading_coefficient():
     for degree, expected in ((3, 0.0), (4, 2.5)):
-        np.testing.assert_allclose(differences(UNEVEN, 2.5 * UNEVEN**degree - UNEVEN**2), expected, atol=1e-9)
+        np.testing.assert_allclose(differences(UNEVEN, 2.5 * UNEVEN**degree - UNEVEN**2), expected, rtol=0.0, atol=1e-9)
     assert len(differences(UNEVEN, UNEVEN)) == len(UNEVEN) - 4
 
 
@@ -32,7 +32,7 @@ def test_a_cubic_is_itself_and_of_a_quartic_the_remainder_is_known():
     for f, far in ((lambda x: x**3 - 2.0 * x + 1.0, False), (lambda x: 3.0 * x**4 - x, True)):
         values, error = cubics(UNEVEN, f(UNEVEN))
         assert values.shape == error.shape == places.shape
-        np.testing.assert_allclose(np.abs(f(places) - values), error, atol=1e-11)
+        np.testing.assert_allclose(np.abs(f(places) - values), error, rtol=0.0, atol=1e-11)
         assert (error.max() > 0.1) == far
         assert not error[:, [0, -1]].any()  # both ends of an interval are among its samples
     # in the middle of the samples the four about an interval are used: the product of distances is smaller there

@@ -97,15 +97,15 @@ def test_the_steps_of_the_first_state_are_those_of_its_orbit():
     np.testing.assert_array_equal(steps[0, :3], sphere(x2)[0])
     np.testing.assert_allclose(steps[:, 3].sum(), times[0], rtol=1e-14)
     after = reached(steps[:, :3].copy(), steps[:, 3].copy(), own.shared, FIELD.address)
-    np.testing.assert_allclose(after, [*steps[1:, :3], ends[0]], atol=2e-16)
+    np.testing.assert_allclose(after, [*steps[1:, :3], ends[0]], rtol=0.0, atol=5e-16)
     clock = np.concatenate([[0.0], np.cumsum(steps[:, 3])])
-    np.testing.assert_allclose(plane(steps[:, :3]), own.at(x2[0], clock[:-1]), atol=1e-11)
+    np.testing.assert_allclose(plane(steps[:, :3]), own.at(x2[0], clock[:-1]), rtol=0.0, atol=1e-11)
     short = own.returns(x2, record=3)[3]
     np.testing.assert_array_equal(short, steps[:3])
     middle = reached(np.repeat(steps[:1, :3], SEVERAL, axis=0), np.linspace(0, 0.2, SEVERAL), own.shared, FIELD.address)
-    np.testing.assert_allclose(plane(middle), own.at(x2[0], np.linspace(0, 0.2, SEVERAL)), atol=1e-12)
+    np.testing.assert_allclose(plane(middle), own.at(x2[0], np.linspace(0, 0.2, SEVERAL)), rtol=0.0, atol=1e-12)
     long = reached(np.repeat(steps[:1, :3], SEVERAL, axis=0), np.linspace(1, 2, SEVERAL), own.shared, FIELD.address)
-    np.testing.assert_allclose(np.linalg.norm(long, axis=1), 1.0, atol=5e-16)  # whatever its error
+    np.testing.assert_allclose(np.linalg.norm(long, axis=1), 1.0, rtol=0.0, atol=5e-16)  # whatever its error
     assert np.abs(plane(long) - own.at(x2[0], np.linspace(1, 2, SEVERAL))).max() > 1e-9
 
 
@@ -118,7 +118,7 @@ def test_steps_are_as_long_as_the_tolerance_lets_them_be():
         ends, _, _, steps = own.returns(x2, record=200, rtol=rtol)
         counts.append(len(steps))
         errors.append(float(np.abs(plane(ends) - math.exp(-0.2 * period) * x2).max()))
-        np.testing.assert_allclose(np.linalg.norm([*steps[:, :3], *ends], axis=1), 1.0, atol=5e-16)
+        np.testing.assert_allclose(np.linalg.norm([*steps[:, :3], *ends], axis=1), 1.0, rtol=0.0, atol=5e-16)
         assert errors[-1] < 3.0 * rtol
         assert len(steps) < 13 * (1e-6 / rtol) ** 0.125
     assert errors[0] > 1e-9

@@ -43,9 +43,11 @@ def test_states_lie_on_the_ray_in_e(psi):
     assert one.ray == max(range(4), key=lambda i: section(psi, ray=i).reach)
     for own in (one, section(psi, ray=(one.ray + 1) % 4)):
         states, q = own.states(XI)
-        np.testing.assert_allclose((states**2).sum(axis=1), 1.0, atol=1e-14)
+        np.testing.assert_allclose((states**2).sum(axis=1), 1.0, rtol=0.0, atol=1e-14)
         r = own.reach / (1.0 + np.exp(-XI))
-        np.testing.assert_allclose(c2.hemisphere.e_psi(psi, states[:, :2]), own.e + r[:, None] * own.u, atol=1e-12)
+        np.testing.assert_allclose(
+            c2.hemisphere.e_psi(psi, states[:, :2]), own.e + r[:, None] * own.u, rtol=0.0, atol=1e-12
+        )
         x2 = states[:, :2] / states[:, 2:]
         np.testing.assert_allclose(np.exp(q), (x2 - own.critical.x2) @ own.u, rtol=1e-6)
         near = np.array([math.log(INNER / (1.0 - INNER))])
@@ -68,9 +70,9 @@ def test_the_field_is_that_of_the_system_in_its_unit(psi):
     own, e = section(psi), np.array([(0.3, 0.1), (-0.2, 0.8)])
     at = own.coefficients
     assert own.rate == pytest.approx(math.hypot(1.0, 3.0, 2.0, 0.4, 0.3))
-    np.testing.assert_allclose(own.rate * own.field(e), at.U(e), atol=1e-13)
-    np.testing.assert_allclose(own.rate * own.derivative(e), [[1.0, -3.0], [3.0, -2.0]], atol=1e-14)
-    np.testing.assert_allclose(own.inverse.T @ own.matrix, np.eye(2), atol=1e-14)
+    np.testing.assert_allclose(own.rate * own.field(e), at.U(e), rtol=0.0, atol=1e-13)
+    np.testing.assert_allclose(own.rate * own.derivative(e), [[1.0, -3.0], [3.0, -2.0]], rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(own.inverse.T @ own.matrix, np.eye(2), rtol=0.0, atol=1e-14)
     assert section(psi, ray=2).ray == 2
 
 
@@ -82,11 +84,11 @@ def test_without_f_a_turn_multiplies_x2(psi, b, swap):
     own = section(psi, (0.0, 0.0), a=swap, b=b, d=-2.0 * swap)
     expected = -swap * math.pi / math.sqrt(7.0 - 0.25)
     for backward, sign in ((False, 1.0), (True, -1.0)):
-        np.testing.assert_allclose(own.displacement(XI, FINE, backward), sign * expected, atol=1e-8)
-    np.testing.assert_allclose(own.displacement(XI, COARSE), expected, atol=1e-6)
+        np.testing.assert_allclose(own.displacement(XI, FINE, backward), sign * expected, rtol=0.0, atol=1e-8)
+    np.testing.assert_allclose(own.displacement(XI, COARSE), expected, rtol=0.0, atol=1e-6)
     ends, times, codes, _ = own.turn(own.states(XI)[0], FINE)
     assert (codes == RETURNED).all()
-    np.testing.assert_allclose((ends**2).sum(axis=1), 1.0, atol=1e-13)
+    np.testing.assert_allclose((ends**2).sum(axis=1), 1.0, rtol=0.0, atol=1e-13)
     assert (times > 0.0).all()
     zeta = np.hypot(*(own.states(XI[:1])[0][0, :2]))  # near C: T = tau
     assert times[0] / own.rate == pytest.approx(2.0 * math.pi / math.sqrt(6.75), rel=max(1e-3, 10.0 * zeta))
@@ -120,16 +122,16 @@ def turned(psi, trace, U=None):
 def test_first_turns_of_a_general_system_without_f(psi, trace):
     own, omega = turned(psi, trace)
     states, q = own.states(XI)
-    np.testing.assert_allclose((states**2).sum(axis=1), 1.0, atol=1e-14)
+    np.testing.assert_allclose((states**2).sum(axis=1), 1.0, rtol=0.0, atol=1e-14)
     np.testing.assert_array_equal(q, XI)
-    np.testing.assert_allclose(own.coordinate(states), XI, atol=1e-10)
+    np.testing.assert_allclose(own.coordinate(states), XI, rtol=0.0, atol=1e-10)
     r = own.reach / (1.0 + np.exp(-XI))
-    np.testing.assert_allclose(states[:, :2], own.critical.p + r[:, None] * own.u, atol=1e-14)
+    np.testing.assert_allclose(states[:, :2], own.critical.p + r[:, None] * own.u, rtol=0.0, atol=1e-14)
     for backward, sign in ((False, 1.0), (True, -1.0)):
         x2 = math.exp(sign * math.pi * trace / omega) * r / np.sqrt(1.0 - r * r)
         p = x2 / np.hypot(1.0, x2)
         rest = 1.0 / (np.hypot(1.0, x2) * (np.hypot(1.0, x2) + x2))  # 1 - p
-        np.testing.assert_allclose(own.displacement(XI, FINE, backward), np.log(p / rest) - XI, atol=1e-6)
+        np.testing.assert_allclose(own.displacement(XI, FINE, backward), np.log(p / rest) - XI, rtol=0.0, atol=1e-6)
 
 
 def test_the_ray_keeps_away_from_other_critical_sets():
@@ -144,13 +146,13 @@ def test_the_ray_keeps_away_from_other_critical_sets():
                 along = max(float((D.p - C.p) @ own.u), 0.0)
                 assert np.hypot(*(D.p - C.p - along * own.u)) > 0.35 * np.hypot(*(D.p - C.p))
         states, _ = own.states(XI)
-        np.testing.assert_allclose(own.coordinate(states), XI, atol=1e-9)
+        np.testing.assert_allclose(own.coordinate(states), XI, rtol=0.0, atol=1e-9)
         r = own.reach / (1.0 + np.exp(-XI))
-        np.testing.assert_allclose(states[:, :2], C.p + r[:, None] * own.u, atol=1e-14)
-        np.testing.assert_allclose((states**2).sum(axis=1), 1.0, atol=1e-14)
+        np.testing.assert_allclose(states[:, :2], C.p + r[:, None] * own.u, rtol=0.0, atol=1e-14)
+        np.testing.assert_allclose((states**2).sum(axis=1), 1.0, rtol=0.0, atol=1e-14)
         e = np.array([(0.3, 0.1)])
-        np.testing.assert_allclose(own.rate * own.field(e), at.U(e), atol=1e-14)
-        np.testing.assert_allclose(own.rate * own.derivative(e), at.DU(e), atol=1e-14)
+        np.testing.assert_allclose(own.rate * own.field(e), at.U(e), rtol=0.0, atol=1e-14)
+        np.testing.assert_allclose(own.rate * own.derivative(e), at.DU(e), rtol=0.0, atol=1e-14)
         shift = own.displacement(np.array([-3.0, 3.0]))
         assert np.isinf(shift).all()  # nodes and a saddle: nothing turns
         if C.kind == "stable node":

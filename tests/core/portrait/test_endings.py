@@ -111,7 +111,7 @@ def test_tangents_are_carried_to_the_disc(x2):
         v = 3.0 * np.array([math.cos(angle), math.sin(angle)])
         p = [y / math.sqrt(1.0 + y @ y) for y in (x2 - step * v, x2 + step * v)]
         expected = (p[1] - p[0]) / np.linalg.norm(p[1] - p[0])
-        np.testing.assert_allclose(to_disc(x2, v), expected, atol=1e-8)
+        np.testing.assert_allclose(to_disc(x2, v), expected, rtol=0.0, atol=1e-8)
 
 
 @pytest.mark.parametrize("f", [(0.0, 0.0), (0.3, -0.6)])
@@ -122,7 +122,7 @@ def test_an_orbit_comes_to_a_node_along_the_direction_it_is_on(f):
     for side in (1.0, -1.0):
         for ahead, other in ((first, second), (second, first)):
             found = endings._tangent_at(C, C.p + 0.1 * side * ahead + 0.01 * other)
-            np.testing.assert_allclose((math.cos(found), math.sin(found)), side * ahead, atol=1e-12)
+            np.testing.assert_allclose((math.cos(found), math.sin(found)), side * ahead, rtol=0.0, atol=1e-12)
     (star,) = c2.critical_sets(c2.ELinear(-1.0, 0.0, -1.0), c2.psi.constant())
     assert endings._tangent_at(star, np.array([0.1, -0.1])) == pytest.approx(-math.pi / 4)
     (focus,) = c2.critical_sets(c2.ELinear(-1.0, 2.0, -1.0), c2.psi.constant())
@@ -143,8 +143,8 @@ def test_manifolds_start_as_far_out_as_the_tolerance_allows():
         far, near = [], []
         for tolerance in (1e-4, 1e-8, 1e-12):
             points, tangents = starts(at, p, C, value, tolerance)
-            np.testing.assert_allclose(tangents[0], -tangents[1], atol=1e-15)
-            np.testing.assert_allclose(np.linalg.norm(tangents, axis=1), 1.0, atol=1e-14)
+            np.testing.assert_allclose(tangents[0], -tangents[1], rtol=0.0, atol=1e-15)
+            np.testing.assert_allclose(np.linalg.norm(tangents, axis=1), 1.0, rtol=0.0, atol=1e-14)
             assert (np.einsum("ij,ij->i", points - C.p, tangents) > 0.0).all()
             far.append(np.hypot(*(points - C.p).T).max())
             orbits = c2.trajectories(
@@ -165,8 +165,8 @@ def test_where_manifolds_start_does_not_know_the_unit_of_time(factor):
         first, second = (
             starts(at, p, C, float(C.eigenvalues.real[i]), 1e-8) for at, C in ((plain, one), (scaled, other))
         )
-        np.testing.assert_allclose(second[0], first[0], atol=1e-9)
-        np.testing.assert_allclose(second[1], first[1], atol=1e-12)
+        np.testing.assert_allclose(second[0], first[0], rtol=0.0, atol=1e-9)
+        np.testing.assert_allclose(second[1], first[1], rtol=0.0, atol=1e-12)
 
 
 def judged(*found, affine=True, many="Orbits"):

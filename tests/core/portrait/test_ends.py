@@ -144,12 +144,12 @@ def test_along_the_equator_a_branch_goes_the_way_that_orbits_do(first, last, sen
     at = c2.ELinear(0.5, 3.0 * sense, 0.4, (0.3, 0.1)).at()  # Theta has the sign of b
     begin, end = (np.array([math.cos(t), math.sin(t)]) for t in (first, last))
     points = _along_equator(at, 0.999 * begin, end, backward)
-    np.testing.assert_allclose(np.hypot(*points.T), 1.0, atol=1e-12)
+    np.testing.assert_allclose(np.hypot(*points.T), 1.0, rtol=0.0, atol=1e-12)
     np.testing.assert_array_equal(points[-1], end)
     way = -sense if backward else sense
     angles = np.unwrap(np.arctan2(*points.T[::-1]))
     turn = (way * (last - first)) % math.tau
     steps = way * np.diff(np.append(first, np.unwrap(np.append(first, angles))[1:]))
-    np.testing.assert_allclose(steps.sum(), turn, atol=1e-9)
+    np.testing.assert_allclose(steps.sum(), turn, rtol=0.0, atol=1e-9)
     assert (steps > 0.0).all()
     assert steps.max() <= 0.05 + 1e-9

@@ -41,11 +41,11 @@ def test_a_bent_branch_outside_is_the_invariant_curve(bend, tangential, speed, t
         one = outside[angle]
         assert one.direction == ("unstable" if speed > 0.0 else "stable")
         line = one.points if speed > 0.0 else one.points[::-1]
-        np.testing.assert_allclose(line[0], (math.cos(angle), math.sin(angle)), atol=1e-15)
+        np.testing.assert_allclose(line[0], (math.cos(angle), math.sin(angle)), rtol=0.0, atol=1e-15)
         radius = np.hypot(*line.T)
         rho, theta = radius - 1.0, np.arctan2(*line.T[::-1]) - turn
         x, y = rho * np.cos(theta), rho * np.sin(theta)
-        np.testing.assert_allclose(y, bend * x * x, atol=2e-8)
+        np.testing.assert_allclose(y, bend * x * x, rtol=0.0, atol=2e-8)
         assert np.abs(line).max() == pytest.approx(2.0, abs=1e-9)
         assert (np.diff(radius) > 0.0).all()
         assert rho[1] < 2e-4
@@ -75,8 +75,8 @@ def test_a_ray_goes_from_the_equator_to_the_edge(angle, rho, view):
     one = separatrix_branches.ray(limits, 1, view)
     near, far = one.points if rho > 0.0 else one.points[::-1]
     u = np.array([math.cos(angle), math.sin(angle)])
-    np.testing.assert_allclose(near, u, atol=1e-15)
-    np.testing.assert_allclose(far / np.hypot(*far), u, atol=1e-15)
+    np.testing.assert_allclose(near, u, rtol=0.0, atol=1e-15)
+    np.testing.assert_allclose(far / np.hypot(*far), u, rtol=0.0, atol=1e-15)
     assert np.abs(far).max() == pytest.approx(view, rel=1e-14)
     assert (one.origin, one.end, one.inside) == ("Q2", "outside", False)
     assert one.direction == ("unstable" if rho > 0.0 else "stable")
@@ -153,7 +153,7 @@ def test_each_branch_starts_at_its_saddle_and_is_followed_as_long_as_it_needs(mo
         line = one.points[::-1] if backward else one.points
         begin = np.array([math.cos(directions[k]), math.sin(directions[k])]) if k < len(half) else sets[1].p
         end = sets[0].p if k + 1 < len(found) else np.array([math.cos(1.4), math.sin(1.4)])
-        np.testing.assert_allclose(line, [begin, (0.0, 0.0), (0.1, 0.1), end], atol=1e-15)
+        np.testing.assert_allclose(line, [begin, (0.0, 0.0), (0.1, 0.1), end], rtol=0.0, atol=1e-15)
         assert (one.direction, one.inside, one.gap) == ("stable" if backward else "unstable", True, None)
         assert one.connection == (k + 1 == len(found))
         assert (one.end, one.arrival_angle) == (("Q2", 1.4) if one.connection else ("C1", 0.5))

@@ -51,7 +51,7 @@ def test_a_whole_family_is_followed_from_a_half_circle_around_its_direction(monk
     np.testing.assert_allclose(np.hypot(angle, height), verdicts.FAN, rtol=1e-9)
     assert verdicts.FAN < 0.1  # where the linearisation holds
     around = np.arctan2(height, angle)
-    np.testing.assert_allclose(around, np.repeat(around[:1], len(wide), axis=0), atol=1e-6)
+    np.testing.assert_allclose(around, np.repeat(around[:1], len(wide), axis=0), rtol=0.0, atol=1e-6)
     np.testing.assert_allclose(np.diff(around[0]), math.pi / each, rtol=1e-9)  # even,
     np.testing.assert_allclose(around[0] + around[0][::-1], math.pi, rtol=1e-9)  # and as many on either side
     for i, (labels, many) in zip(which, together, strict=True):
@@ -95,7 +95,9 @@ def test_orbits_are_followed_until_they_have_ended(p):
     equator = problem.equator
     which = [i for i in range(len(equator)) if equator.lambda_rho[i] < 0.0]
     lines = verdicts.from_equator(problem, which)
-    np.testing.assert_allclose(lines.ends[:, :2], np.repeat(problem.critical[0].p[None], len(which), axis=0), atol=1e-5)
+    np.testing.assert_allclose(
+        lines.ends[:, :2], np.repeat(problem.critical[0].p[None], len(which), axis=0), rtol=0.0, atol=1e-5
+    )
     lines = verdicts.followed(problem, np.array([(0.9, 0.3), (-0.99, 0.0)]))
     assert {one.label for one in verdicts.ends(problem, lines)} == {"C"}
 
@@ -105,4 +107,4 @@ def test_orbits_that_end_nowhere_are_followed_closely():
     problem = LayerProblem(c2.ELinear(0.0, 1.0, 0.0).at(), c2.psi.constant())
     points = np.array([(0.3, 0.2), (-0.7, 0.1)])
     lines = verdicts.followed(problem, points)
-    np.testing.assert_allclose(np.hypot(*lines.ends[:, :2].T), np.hypot(*points.T), atol=1e-6)
+    np.testing.assert_allclose(np.hypot(*lines.ends[:, :2].T), np.hypot(*points.T), rtol=0.0, atol=1e-6)
