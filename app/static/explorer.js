@@ -16,9 +16,10 @@ import {Rest} from "./rest.js"
 import {Share} from "./share.js"
 import {Sheets} from "./sheets.js"
 import {Browsed, Listed, Steps} from "./steps.js"
-import {SystemChooser} from "./system.js"
+import {SystemChooser, TYPED} from "./system.js"
 import {Takes} from "./taken.js"
 import {SAYS} from "./words.js"
+import {YoursList} from "./yours_list.js"
 
 const PATIENCE = 1200 // ms without an answer before the page says so
 
@@ -38,6 +39,7 @@ function wire({model, view, root, plot}) {
     // what is no number goes to the server for its sentence; pad and address keep the last good value
     if (name in numbers && typeof value !== "number") { requests.set(name, value); return }
     values[name] = value
+    if (["texts", "parameters", "psi_text"].includes(name)) typed.add(name)
     requests.set(name, value)
     if (name in numbers) panels.draw(values)
     if (setting[name]) tell()
@@ -100,8 +102,19 @@ function wire({model, view, root, plot}) {
   }
   for (const box of boxes) box.addEventListener("change", () => { change("layers", boxes.filter((b) => b.checked).map((b) => b.value)); showLayers() })
 
+  // What was typed is in the list of yours once it is left alone, or left.
+  const typed = new Set()
+  const yours = config.page && !config.look.embed ? new YoursList(find(".yours"), config.boxes, config.families, (wanted) => { leave(); setAll(wanted); tell() }) : null
+  const note = () => {
+    if (typed.size) yours?.note(values, typed, TYPED)
+    typed.clear()
+  }
+  const leave = () => { note(); systems.keep() }
+  window.addEventListener("pagehide", note)
+
   // Set many controls at once.
   const setAll = (wanted) => {
+    if ("system" in wanted && wanted.system !== values.system || "psi" in wanted && wanted.psi !== values.psi) { note(); yours?.leave() }
     for (const [name, value] of Object.entries(wanted)) {
       if (config.locked.includes(name)) continue
       values[name] = value
@@ -113,15 +126,16 @@ function wire({model, view, root, plot}) {
   }
   // A portrait is every value, as is the first setting: nothing is left over from what was open before.
   const open = (wanted) => {
-    systems.keep()
+    leave()
+    yours?.leave()
     panels.forget()
     setAll({...config.defaults, ...wanted}); tell(); picture.home()
   }
-  const portrait = find("select.preset"), note = find(".preset-note")
+  const portrait = find("select.preset"), words = find(".preset-note")
   const tell = () => {
     const p = config.presets[values.preset], whole = {...config.defaults, ...p?.values}
     const same = config.setting.every((name) => JSON.stringify(values[name]) === JSON.stringify(whole[name]))
-    note.textContent = !p ? (same && config.page ? config.opening : "") : same ? `${p.label}. ${p.note}` : `changed from ${p.label}`
+    words.textContent = !p ? (same && config.page ? config.opening : "") : same ? `${p.label}. ${p.note}` : `changed from ${p.label}`
   }
   portrait?.addEventListener("change", () => open(config.presets[portrait.value]?.values))
   controls.preset.set = (value) => { if (portrait) portrait.value = value }
@@ -182,7 +196,8 @@ function wire({model, view, root, plot}) {
   if (config.look.seen.length) picture.seen = config.look.seen
   const look = () => structuredClone({values, seen: picture.seen})
   const restore = (snapshot) => {
-    systems.keep()
+    leave()
+    yours?.leave()
     panels.forget()
     setAll(structuredClone(snapshot.values)); tell()
     picture.seen = snapshot.seen
@@ -203,6 +218,7 @@ function wire({model, view, root, plot}) {
     undo.disabled = !steps.canUndo
     redo.disabled = !steps.canRedo
     root.dataset.kept = !steps.pending
+    if (!steps.pending) note()
   })
   steps.told()
   const keepLink = () => steps.changed()

@@ -127,4 +127,5 @@ export class SystemChooser {
   }
 }
 
-const TYPED = ["texts", "parameters", "z", "z2", "z3", "z4", "launch", "t_end"]
+// What belongs to a system that was typed.
+export const TYPED = ["texts", "parameters", "z", "z2", "z3", "z4", "launch", "t_end"]

@@ -114,7 +114,7 @@ def test_a_click_on_an_object_pins_it_and_one_beside_launches(open_page):
     explorer.type("f1", "-0.3")  # the pin follows its object
     explorer.settle()
     assert pinned.text_content() != before
-    ring = explorer.ask("picture.above.list").pop()
+    ring = next(item for item in explorer.ask("picture.above.list") if item["kind"] == "ring")
     assert (ring["x"], ring["y"]) == pytest.approx(objects(explorer, "critical")[0])
     explorer.kept()
     explorer.find(".undo").click()

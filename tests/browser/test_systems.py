@@ -130,3 +130,42 @@ def test_another_slow_variable_can_run_along_the_panel(explorer):
     explorer.settle()
     assert "v₂′" in explorer.find("svg.along").text_content()
     assert "v₁ and v₂" in explorer.find(".plane-box").text_content()
+
+
+def test_what_was_typed_is_in_a_list_that_this_browser_keeps(open_page):
+    explorer = open_page().open("?system=own")
+    box = explorer.find("textarea[data-box=U1]")
+    box.fill("-c*(c + 1/3)*2")
+    explorer.kept()
+    explorer.find(".reset").click()
+    explorer.settle()
+    yours = explorer.find(".yours")
+    assert yours.locator("summary").text_content() == "Yours (1)"
+    yours.locator("summary").click()
+    yours.locator(".open").click()
+    explorer.settle()
+    assert box.input_value() == "-c*(c + 1/3)*2"
+    yours.locator("input").fill("thirds")
+    yours.locator("input").press("Enter")
+    explorer.open("?")
+    yours.locator("summary").click()
+    assert yours.locator("input").input_value() == "thirds"
+    yours.locator(".remove").click()
+    assert yours.locator("li").text_content().startswith("Removed: thirds")
+    yours.locator(".put-back").click()
+    assert yours.locator("input").input_value() == "thirds"
+    assert explorer.complaints == []
+
+
+def test_without_storage_what_was_typed_is_kept_in_the_page(open_page):
+    explorer = open_page()
+    explorer.page.add_init_script(
+        "Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('no') }})"
+    )
+    explorer.open("?system=own")
+    explorer.find("textarea[data-box=U1]").fill("-c*2")
+    explorer.kept()
+    assert explorer.find(".yours summary").text_content() == "Yours (1)"
+    assert "until this page is closed" in explorer.find(".yours .note").text_content()
+    assert not explorer.find(".banner").is_visible()
+    assert explorer.complaints == []

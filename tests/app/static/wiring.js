@@ -10,7 +10,7 @@ const slider = (name) => `<div class="control" data-control="${name}"><input typ
 
 const MARKUP = `<div id="codim2-first"><div class="codim2"><div class="banner" hidden></div><form class="controls">
 <div data-control="preset"><select class="preset"><option value="">none</option><option value="one">One</option></select></div><button class="reset"></button><p class="preset-note"></p>
-<div class="system-box"><div data-control="system"><select class="system"><option value="normal">N</option><option value="own">O</option></select><p class="error" hidden></p></div><div class="equations"></div><p class="system-note"></p><div class="boxes" data-control="texts"><p class="error" hidden></p></div><div class="parameters" data-control="parameters"></div></div>
+<div class="system-box"><div data-control="system"><select class="system"><option value="normal">N</option><option value="own">O</option></select><p class="error" hidden></p></div><div class="equations"></div><p class="system-note"></p><div class="boxes" data-control="texts"><p class="error" hidden></p></div><div class="parameters" data-control="parameters"></div><details class="yours" hidden><summary></summary><ul></ul><p class="note"></p></details></div>
 <fieldset class="slow-controls" hidden><div class="sliders"></div></fieldset>
 ${["a", "f1", "n", "z", "trajectories"].map(slider).join("\n")}
 <div data-control="psi"><select class="psi"><option value="constant">1</option><option value="hill">H</option><option value="custom">C</option></select><p class="error" hidden></p></div><div class="for-parameter"></div>
