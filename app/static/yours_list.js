@@ -19,6 +19,7 @@ export class YoursList {
     this.families = families
     this.open = open
     this.list = []
+    this.last = 0 // the number that was given last
     this.stored = true
     this.current = {system: "", psi: ""} // the entries that typing has begun
     this.removed = /** @type {{entry: any, at: number} | null} */ (null)
@@ -82,7 +83,8 @@ export class YoursList {
 
   put(which, kind, values) {
     this.change((list) => {
-      const found = noted(list, this.current[which], kind, values, `${Date.now().toString(36)}${Math.random().toString(36).slice(2, 8)}`)
+      this.last = Math.max(this.last, ...list.map(({id}) => Number(id) || 0)) + 1
+      const found = noted(list, this.current[which], kind, values, String(this.last))
       this.current[which] = found.current
       return found.list
     })
