@@ -64,10 +64,10 @@ def place(psi: Psi, eps: float, x: float, y: float) -> tuple[Array, Array]:
     return (p * (float(psi.modulus(r / eps)) * rho / r) if r > 0.0 else np.zeros(2)), p
 
 
-def solved(field: Field, e: Array, z: Array) -> Array | None:
-    """Critical set near e, by Newton's method; None where there is none near."""
+def solved(field: Field, e: Array, z: Array, far: float = FAR, most: int = NEWTON) -> Array | None:
+    """Critical set near e, by Newton's method; None where there is none near: a step is longer than `far`."""
     e, slow, before = np.array(e, float), z.tolist(), math.inf
-    for _ in range(NEWTON):
+    for _ in range(most):
         c, s = e.tolist()
         u, v = field.value(c, s, 0.0, 0.0, *slow)[:2]
         (j11, j12), (j21, j22) = field.jacobian(c, s, 0.0, 0.0, slow)[:2, :2].tolist()
@@ -76,7 +76,7 @@ def solved(field: Field, e: Array, z: Array) -> Array | None:
             return None
         change = np.array([j22 * u - j12 * v, j11 * v - j21 * u]) / det
         size = float(np.abs(change).max())
-        if not size < FAR:
+        if not size < far:
             return None
         e = e - change
         if size <= 1e-15 or (size <= 1e-11 and size >= 0.5 * before):

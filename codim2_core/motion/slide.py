@@ -21,6 +21,7 @@ from ..initial_value.problem import growth_bound
 from ..numerics.growth import bounded
 from ..numerics.radau import STAGES, Problem, Step, StepsTooShortError, TooManyStepsError, steps
 from ..psi.function import Psi
+from .followed import solved
 
 Array = NDArray[np.float64]
 
@@ -54,23 +55,7 @@ class Sheet:
 
     def at(self, z: Array) -> Array | None:
         """Return e at z, or None where the set is not found."""
-        e = self.e + self.slope @ (z - self.z)
-        slow, before = z.tolist(), math.inf
-        for _ in range(NEWTON):
-            u, v = self.field.value(float(e[0]), float(e[1]), 0.0, 0.0, *slow)[:2]
-            (j11, j12), (j21, j22) = self.slopes(e, z)[:2, :2].tolist()
-            det = j11 * j22 - j12 * j21
-            if det == 0.0 or det != det:
-                return None
-            change = np.array([j22 * u - j12 * v, j11 * v - j21 * u]) / det
-            size = float(np.abs(change).max())
-            if not size < 1.0:
-                return None
-            e = e - change
-            if size <= 1e-15 or (size <= 1e-11 and size >= 0.5 * before):
-                return e
-            before = size
-        return None
+        return solved(self.field, self.e + self.slope @ (z - self.z), z, far=1.0, most=NEWTON)
 
     def move(self, z: Array) -> None:
         """Continue from z from now on."""
@@ -183,17 +168,7 @@ def slide(
     if not len(z):
         return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])
     sheet = Sheet(field, e, z)
-    sign = math.copysign(1.0, determinant(sheet, sheet.e, z))
-    turn = 1.0 if lives is None else -1.0  # around a stable cycle C is unstable: tr J > 0
-    gauges: dict[str, Callable[[Array, Array], float]] = {
-        "equator": lambda e, z: complement(e),  # noqa: ARG005 (all gauges are called alike)
-        "fold": lambda e, z: sign * determinant(sheet, e, z),
-        "hopf": lambda e, z: -turn * trace(sheet, psi, e, z),
-    }
-    if line is not None:
-        n = line.n
-        gauges["fold"] = lambda e, z: -float(n @ sheet.slopes(e, z)[:2, :2] @ n)
-        del gauges["hopf"]
+    gauges = _gauges(sheet, psi, on_cycle=lives is not None, line=line)
 
     def alive(z: Array) -> bool:
         if lives is None or lives(z):
@@ -234,17 +209,36 @@ def slide(
             taken.append(_whole(step, 1.0))
             places.append(after)
     except StepsTooShortError as error:
-        if complement(sheet.e) < AT_EQUATOR:
-            return Slide(taken, "equator", sheet.e, places)
-        if (
-            abs(determinant(sheet, sheet.e, sheet.z))
-            < AT_FOLD * np.abs(sheet.slopes(sheet.e, sheet.z)[:2, :2]).max() ** 2
-        ):
-            return Slide(taken, "fold", sheet.e, places)
-        return Slide(taken, "given up", sheet.e, places, error)
+        end = _end(sheet)
+        return Slide(taken, end, sheet.e, places, error if end == "given up" else None)
     except TooManyStepsError as error:
         return Slide(taken, "given up", sheet.e, places, error)
     return Slide(taken, "time", sheet.e, places)
+
+
+def _gauges(sheet: Sheet, psi: Psi, on_cycle: bool, line: Line | None) -> dict[str, Callable[[Array, Array], float]]:
+    """Return what turns negative, as functions of e and z, where the sliding ends, by the name of the end."""
+    found: dict[str, Callable[[Array, Array], float]] = {
+        "equator": lambda e, z: complement(e),  # noqa: ARG005 (all gauges are called alike)
+    }
+    if line is not None:
+        n = line.n
+        return {**found, "fold": lambda e, z: -float(n @ sheet.slopes(e, z)[:2, :2] @ n)}
+    sign = math.copysign(1.0, determinant(sheet, sheet.e, sheet.z))
+    turn = -1.0 if on_cycle else 1.0  # around a stable cycle C is unstable: tr J > 0
+    return {
+        **found,
+        "fold": lambda e, z: sign * determinant(sheet, e, z),
+        "hopf": lambda e, z: -turn * trace(sheet, psi, e, z),
+    }
+
+
+def _end(sheet: Sheet) -> str:
+    """Say what ends the set where steps become too short to go on."""
+    if complement(sheet.e) < AT_EQUATOR:
+        return "equator"
+    size = float(np.abs(sheet.slopes(sheet.e, sheet.z)[:2, :2]).max())
+    return "fold" if abs(determinant(sheet, sheet.e, sheet.z)) < AT_FOLD * size**2 else "given up"
 
 
 def _place(sheet: Sheet, step: Step, u: float) -> tuple[Array | None, Array]:

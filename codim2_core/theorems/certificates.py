@@ -22,7 +22,7 @@ from ..systems.kinds import AnySystem
 from ..words import say
 from .cases import case1, case2
 from .degenerate import NOT_LINEAR, equal_diagonal, normal_form, symmetric
-from .facts import CLOSE, RAYS, Certificate, Facts, Verdict, not_applicable, verdict_of
+from .facts import CLOSE, RAYS, Array, Certificate, Facts, Verdict, not_applicable, verdict_of
 from .paper_examples import attracting_and_repelling, ball_in_pool, nonunique
 from .psi_claims import psi_claims
 from .sliding_claims import sliding_claims
@@ -180,18 +180,27 @@ def _slow_on_the_sphere() -> Certificate:
 # thm:lineps1 ------------------------------------------------------------------------------------------------------
 
 
+def _solution(facts: Facts) -> tuple[Array, float] | str:
+    """Return A⁻¹f and the condition number of A, or why it is not told."""
+    if facts.location is not None and facts.location.singular:
+        return say("no inverse")
+    A, f = facts.given
+    condition = float(np.linalg.cond(A))
+    if not condition < MOST_CONDITION:
+        return say("condition number", number=condition)
+    return np.asarray(np.linalg.solve(A, f), float), condition
+
+
 def _existence(facts: Facts) -> Certificate:
     theorem = "thm:lineps1(a)"
     statement = say("one set")
     if facts.location is None:
         return not_applicable(theorem, statement, NOT_LINEAR)
-    if facts.location.singular:
-        return not_applicable(theorem, statement, say("no inverse"))
-    A, f = facts.given
-    condition = float(np.linalg.cond(A))
-    if not condition < MOST_CONDITION:
-        return not_applicable(theorem, statement, say("condition number", number=condition))
-    length = float(np.linalg.norm(np.linalg.solve(A, f)))
+    solution = _solution(facts)
+    if isinstance(solution, str):
+        return not_applicable(theorem, statement, solution)
+    inverse, condition = solution
+    length = float(np.linalg.norm(inverse))
     if facts.location.existence is Existence.EQUATOR:
         return not_applicable(theorem, statement, say("border of existence", length=length))
     numbers: list[tuple[str, float]] = [("|A⁻¹f|", length), ("critical sets", float(len(facts.critical)))]
@@ -297,13 +306,10 @@ def _limit_cycles(facts: Facts, cycles: Iterable[Any] | None) -> Certificate:
         return not_applicable(theorem, statement, why)
     if facts.location is None or not _affine(facts.at):
         return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else say("W not e-linear"))
-    if facts.location.singular:
-        return not_applicable(theorem, statement, say("no inverse"))
-    A, f = facts.given
-    condition = float(np.linalg.cond(A))
-    if not condition < MOST_CONDITION:
-        return not_applicable(theorem, statement, say("condition number", number=condition))
-    mean = -np.linalg.solve(A, f)
+    solution = _solution(facts)
+    if isinstance(solution, str):
+        return not_applicable(theorem, statement, solution)
+    mean = -solution[0]
     slow = facts.at.W(mean)
     numbers, holds = [], True
     size = facts.slow_size
