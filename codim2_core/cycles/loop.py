@@ -69,7 +69,7 @@ def loops(coefficients: Coefficients) -> tuple[Loop, ...]:
     for j in range(count):
         i = (j + sense) % count
         rho, theta = equator.lambda_rho, equator.lambda_theta
-        if not (rho[j] > 0.0 and theta[j] > 0.0 and rho[i] < 0.0 and theta[i] < 0.0):
+        if not (rho[j] > 0.0 and theta[j] > 0.0 and rho[i] < 0.0):  # theta[i] < 0 then: simple zeros alternate
             continue
         P, Q = float(equator.theta[j]), float(equator.theta[i])
         width = (sense * (Q - P)) % TURN

@@ -341,6 +341,12 @@ LIVES: tuple[Lives, ...] = (
         "31: len(on) or",
         "Asked for the closed orbit of an equator at rest, there is none.",
     ),
+    Lives(
+        "core.cycles.loop", "or location.e is None  →", "A multiple zero has no eigenvalue, and begins and ends no arc."
+    ),
+    Lives("core.cycles.first_turns", "170: 1e-3  →", "How near two multipliers are that are one."),
+    Lives("core.cycles.first_turns", "135: 0.5", "How far beyond two samples it is looked."),
+    Lives("core.portrait.endings", "and found[i] is None  →", "Looked at again, it ends where it ended."),
     Lives("core.cycles.loop", "64: 2  →  3", "With two directions there was no loop in 60 000 draws."),
     Lives("core.cycles.loop", "64: 1  →  2", "A multiple zero has no eigenvalue, and begins and ends no arc."),
     Lives("core.layer_problem.critical", "and location is None", "Both are None, or neither is."),

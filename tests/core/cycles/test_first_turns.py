@@ -40,6 +40,9 @@ def test_orbits_are_told_apart_and_have_a_sense():
     assert not first_turns._same(one, circle(divergence=1.0))
     assert not first_turns._same(one, circle(radius=0.5))
     assert not first_turns._same(one, circle(period=2.0001))
+    for period in (1e-3, 1e3):  # in any unit of time
+        assert first_turns._same(circle(period=period), circle(period=(1.0 + 5e-7) * period))
+        assert not first_turns._same(circle(period=period), circle(period=(1.0 + 5e-6) * period))
     assert not first_turns._same(circle(divergence=1e-4), circle(divergence=3e-4))
 
     class Ray:

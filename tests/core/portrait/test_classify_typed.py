@@ -1,6 +1,7 @@
 """Names of general portraits: counts, degeneracies, and the e-linear name where the field is affine."""
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 
 import codim2_core as c2
-from codim2_core import ELinear, classify, psi
+from codim2_core import ELinear, classify, equator_equilibria, psi
 from codim2_core.layer_problem.disc_zeros import disc_zeros
 from codim2_core.layer_problem.problem import LayerProblem
 from codim2_core.portrait import classify_typed
@@ -254,3 +255,29 @@ def test_degenerate_sets_have_names():
     assert names(proven=False) == ["critical sets uncertain"]
     assert names(consistent=False) == ["index mismatch"]
     assert names(consistent=None) == []
+
+
+def test_arcs_of_limit_directions_are_named_beside_single_ones(monkeypatch):
+    nothing = SimpleNamespace(
+        everything=False, curve=False, on_equator=False, proven=True, consistent=True,
+        degenerate=np.zeros(0, bool), rough=np.zeros(0, bool), index=np.zeros(0, int),
+    )  # fmt: skip
+    monkeypatch.setattr(classify_typed, "disc_zeros", lambda _: nothing)
+
+    def name(arcs, count):
+        on = equator_equilibria(ELinear(-1, 0, -2, (0.2, 0.1)))
+        few = {key: getattr(on, key)[:count] for key in ("theta", "lambda_rho", "lambda_theta", "multiplicity")}
+        limits = replace(
+            on, **few, radially_degenerate=on.radially_degenerate[:count], proven=not arcs,
+            arcs=np.array([(0.5 * k, 0.5 * k + 0.1) for k in range(arcs)]).reshape(-1, 2),
+        )  # fmt: skip
+        found = classify_typed.general_portrait(SimpleNamespace(key=None), limits, None, ())
+        arc_said = say("arc of directions", first=0.0, last=0.1) in found.sentence
+        return found.name.removeprefix("no critical set, "), arc_said
+
+    assert name(0, 4) == ("4 limit directions", False)
+    assert name(0, 1) == ("1 limit direction", False)
+    assert name(1, 0) == ("an arc of limit directions", True)
+    assert name(2, 0) == ("2 arcs of limit directions", True)
+    assert name(1, 2) == ("2 limit directions found and an arc of them", False)
+    assert name(3, 1) == ("1 limit direction found and 3 arcs of them", False)
