@@ -76,7 +76,7 @@ SENTENCES: dict[str, Sentence] = {
         "seen: {given!r} given; give left,right,bottom,top, {least:g} to {most:g} apart, within {far:g} of the centre.",
         "a link",
     ),
-    "controls of a frame": Sentence("controls: give at most {most} names of controls, such as f1,n.", "a link"),
+    "controls of a frame": Sentence("controls: give at most {most} names of controls, such as 'f1,n'.", "a link"),
     "name of a box": Sentence(
         "{name} names a box, and is no parameter; write its formula here, or give the parameter another name.",
         "a typed name",

@@ -41,9 +41,9 @@ def add_presets(commands: Any) -> None:
 def add_census(commands: Any) -> None:
     """Add `codim2 census`."""
     command = commands.add_parser(
-        "census", help="count the portraits of e-linear systems with standard normal a, b, d, f1, f2"
+        "census", help="count the portraits of e-linear systems with standard normal a, b, d, f₁, f₂"
     )
-    command.add_argument("--count", type=_whole, default=1_000_000, help="default 1e6")
+    command.add_argument("--count", type=_whole, default=1_000_000, help="default a million")
     command.add_argument("--seed", type=int, default=0)
     command.add_argument("--processes", type=int, default=1)
     command.add_argument("--csv", metavar="FILE", help="write the table there too")

@@ -46,7 +46,7 @@ def add_live(commands: Any) -> None:
     """Add `codim2 live`."""
     command = commands.add_parser("live", help="write one HTML file that moves a slider or two with no server")
     command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
-    words = "f1, n, mu, …, or with a range: f1=-1,1; give it twice for two sliders"
+    words = "'f1', 'n', 'mu', …, or with a range: 'f1=-1,1'; give it twice for two sliders"
     command.add_argument("--slider", action="append", required=True, metavar="NAME[=LOW,HIGH]", help=words)
     command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="ends in .html")
     command.set_defaults(run=lambda chosen: _written(chosen.output, lambda: _live(chosen)))

@@ -76,7 +76,7 @@ class ExplorerState(param.Parameterized):
     n = _number(2.0, 0.5, 6, "n", "Parameter of Ψ, such as the exponent of 3/(3 + (4s)ⁿ).")
     psi_text = param.String("1/(1+s)**2", label="Ψ(s) =", doc="Your own Ψ(s), positive, with s Ψ′(s) < Ψ(s).")
     trajectories = param.Integer(
-        64, bounds=(0, MAX_TRAJECTORIES), label="Trajectories", doc="Number of starting points."
+        64, bounds=(0, MAX_TRAJECTORIES), label="Starting points", doc="Number of trajectories."
     )
     layers = param.ListSelector(
         default=shown(),
@@ -295,6 +295,8 @@ def _finite(name: str, label: str | None, value: Any) -> float:
         raise InputError(name, f"{label}: the number is too large; give one below 1e308.") from None
     except (TypeError, ValueError):
         raise InputError(name, f"{label}: {str(value)[:40]!r} is not a number; type one such as −0.5.") from None
+    if math.isnan(number):
+        raise InputError(name, f"{label}: this is no number; give a finite number.")
     if not math.isfinite(number):
         raise InputError(name, f"{label}: {number} given; give a finite number.")
     return number

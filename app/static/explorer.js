@@ -169,7 +169,7 @@ function wire({model, view, root, plot}) {
   }, pointing)
   find(".home").addEventListener("click", () => picture.home())
   twoFingers(find(".bokeh"), plot, () => hands.held !== null)
-  new Sheets(root)
+  new Sheets(root, () => sayErrors(told))
 
   // Theme: JupyterLab's or the system's until a choice is made.
   const system = matchMedia("(prefers-color-scheme: dark)")
@@ -283,14 +283,19 @@ function wire({model, view, root, plot}) {
       if (!header.ready) warmTimer = setTimeout(() => requests.refresh(), 250)
     }
   }
-  // Each sentence stands beside its control; what has no place there, above the picture.
+  // Each sentence stands beside its control; what has no place there, or none that is seen, above the picture.
+  let told = {}
   const sayErrors = (errors) => {
     for (const [name, control] of Object.entries(controls)) {
       if (name in errors) control.say(errors[name])
       else if (control.box.classList.contains("bad") && !(name in requests.waiting)) control.say(null)
     }
-    const closed = getComputedStyle(find(".controls")).display === "none" // the sheet of a phone
-    banner(Object.entries(errors).filter(([name]) => closed || !controls[name]?.box.querySelector(".error")).map(([, sentence]) => sentence).join(" "))
+    told = errors
+    const seen = (/** @type {string} */ name) => {
+      const error = controls[name]?.box.querySelector(".error")
+      return error && error.offsetParent !== null // else it is in a closed sheet
+    }
+    banner(Object.entries(errors).filter(([name]) => !seen(name)).map(([, sentence]) => sentence).join(" "))
   }
   const banner = (sentence) => { const bar = find(".banner"); bar.hidden = !sentence; bar.textContent = sentence }
 

@@ -1,8 +1,10 @@
 // On a narrow or low screen the picture stays; controls and panels are sheets that are drawn up beside it, one at a time.
 
 export class Sheets {
-  constructor(root) {
+  /** @param {any} root @param {() => void} moved what is seen is other than before */
+  constructor(root, moved) {
     this.root = root
+    this.moved = moved
     this.buttons = [...root.querySelectorAll(".sheets button")]
     for (const button of this.buttons) button.addEventListener("click", () => this.show(root.dataset.sheet === button.dataset.sheet ? "" : button.dataset.sheet))
   }
@@ -11,5 +13,6 @@ export class Sheets {
   show(name) {
     this.root.dataset.sheet = name
     for (const button of this.buttons) button.setAttribute("aria-pressed", button.dataset.sheet === name)
+    this.moved()
   }
 }

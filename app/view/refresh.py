@@ -16,6 +16,7 @@ from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
+from codim2_core.words import printed
 
 from ..draw.packing import pack
 from ..frame.budget import Budget, Layers, LeftOut, layers_of
@@ -31,7 +32,7 @@ from ..panels import registry
 from ..panels.parameters.axes import opening_axes
 from ..state.asked import read_request
 from ..state.choices import AXES
-from ..state.chosen import GIVEN, System_, describe
+from ..state.chosen import BOXES, GIVEN, System_, describe
 from ..state.controls import NAMES, TYPED_IN, ExplorerState, InputError, clean, first_values, preset_values
 from .load import load
 from .notices import left_out
@@ -42,6 +43,7 @@ MOVED = frozenset(AXES)
 AXES_OF = frozenset({"system", "texts", "psi"})
 #: Layers that others start from, and that are small: whoever computes those is given these.
 STANDING = frozenset({"equator", "equator_cycle", "location", "critical", "classification", "slow_flow"})
+_TYPED_BOXES = frozenset(box.name for boxes in BOXES.values() for box in boxes)
 #: How often a frame is begun anew because what it lacked is there.
 MOST_ROUNDS = 4
 
@@ -139,6 +141,7 @@ class Frames:
         self._last, self._untold = (sent, told, left), {}
         if told:
             header["set"] = told
+        errors = {name: printed(said) for name, said in errors.items()}
         return self._packed({"id": request.get("id", 0), "errors": errors, "load": load.measured(), **header}, blocks)
 
     def keep(self) -> None:
@@ -323,7 +326,11 @@ class Frames:
 
 
 def _culprit(error: Exception, name: str) -> str:
-    return error.control if isinstance(error, InputError) else name
+    if isinstance(error, InputError):
+        return error.control
+    word = str(error).partition(" ")[0]  # what is wrong with one formula begins with its name; W holds W1, W2, …
+    box = "W" if word[:1] == "W" else word
+    return f"text:{box}" if name == "texts" and box in _TYPED_BOXES else name
 
 
 def _sides_of(scene: Scene, values: Mapping[str, Any], control: str) -> tuple[dict[str, Any] | None]:

@@ -14,13 +14,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import drawing
-from ..layer_problem.critical import CriticalSet
+from ..layer_problem.critical import CriticalSet, slow_flow_at
 from ..layer_problem.linearisation import matrix_determinant
 from ..layer_problem.location import Existence, Location, locate
 from ..layer_problem.problem import LayerProblem
@@ -177,7 +178,7 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> LimitCycles:
 def cycles_of(problem: LayerProblem) -> LimitCycles:
     """Find the limit cycles of a layer problem, with their slow flows."""
     found = problem.keep(closed_orbits)
-    W = problem.at.W
+    W = partial(slow_flow_at, problem.at)
     # the mean of W is W at the mean where W is affine
     means = [W(c.mean_e) if problem.at.typed is None else c.share @ W(c.e) for c in found.orbits]
     for mean in means:

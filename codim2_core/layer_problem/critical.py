@@ -16,6 +16,7 @@ from ..expressions.arrays import AROUND, BESIDE
 from ..expressions.kinks import kinks
 from ..expressions.names import PLANE
 from ..psi.function import Psi
+from ..systems.bounds import at_place
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from ..tables import number, point, table
@@ -122,12 +123,30 @@ def sets_at(at: AtZ, psi: Psi, location: Location | None) -> tuple[CriticalSet, 
         m11, m12, m21, m22 = (math.ldexp(v, -shift) for v in at.affine[:4])
         e = turned(location, -at.turn).e or location.e
         parts = linearisation_of((m11, m12, m21, m22), psi, e, location.complement, sign)
-        return (_critical_set(location.e, _turned_parts(parts, at.turn), shift, at.W(location.e)),)
+        return (_critical_set(location.e, _turned_parts(parts, at.turn), shift, slow_flow_at(at, location.e)),)
     # Time in a unit that makes the largest coefficient about 1, so that no product under- or overflows.
     shift = math.frexp(max(map(abs, form.plane[:3])))[1]
     a, b, d = (math.ldexp(v, -shift) for v in form.plane[:3])
     parts = linearisation((a, b, d), psi, location.e, location.complement, sign)
-    return (_critical_set(location.e, parts, shift, at.W(location.e)),)
+    return (_critical_set(location.e, parts, shift, slow_flow_at(at, location.e)),)
+
+
+def slow_flow_at(at: AtZ, e: ArrayLike) -> NDArray[np.float64]:
+    """Return W at points of the disc, of shape (..., m).
+
+    Raises
+    ------
+    ValueError
+        W is not finite there: what slides has no velocity.
+    """
+    flow = np.asarray(at.W(e), np.float64)
+    wrong = np.argwhere(~np.isfinite(flow))
+    if len(wrong):
+        *where, i = wrong[0].tolist()
+        place = at_place(at.z, np.asarray(e, float)[tuple(where)].tolist())
+        name = f"W{i + 1}" if flow.shape[-1] > 1 else "W"
+        raise ValueError(f"{name} is {flow[tuple(wrong[0])]:g}{place}; it must be finite where the motion slides.")
+    return flow
 
 
 def _turned_parts(parts: Parts, angle: float) -> Parts:
@@ -155,7 +174,7 @@ def _general_sets(at: AtZ, psi: Psi) -> tuple[CriticalSet, ...]:
         shift = math.frexp(max(abs(m11), abs(m12), abs(m21), abs(m22), 1e-290))[1]
         M = (math.ldexp(m11, -shift), math.ldexp(m12, -shift), math.ldexp(m21, -shift), math.ldexp(m22, -shift))
         parts = linearisation_of(M, psi, (c, s), (1.0 - modulus) * (1.0 + modulus), int(index))
-        C = _critical_set((c, s), parts, shift, at.W((c, s)))
+        C = _critical_set((c, s), parts, shift, slow_flow_at(at, (c, s)))
         if degenerate and (not rough or (counted and index == 0)):
             # index 0: a saddle and a node have just met; +1 or -1: three critical sets have
             C = replace(C, determinant=0.0, kind="saddle-node" if index == 0 else "degenerate")

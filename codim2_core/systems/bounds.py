@@ -4,12 +4,21 @@ from __future__ import annotations
 
 import math
 import reprlib
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 # Products of two coefficients (det A, |adj A f|^2 needs four, after scaling) must stay finite.
 LARGEST, SMALLEST = 1e150, 1e-150
+
+
+def at_place(z: Sequence[float], e: Sequence[float] = ()) -> str:
+    """Write e and z for a sentence: " at e = (0.35, 0), z = 2"; nothing where there is neither."""
+    parts = [f"e = ({e[0]:.3g}, {e[1]:.3g})"] if len(e) else []
+    if len(z):
+        parts.append(f"z = {z[0]:g}" if len(z) == 1 else f"z = ({', '.join(f'{v:g}' for v in z)})")
+    return f" at {', '.join(parts)}" if parts else ""
 
 
 def slow_values(z: ArrayLike, m: int, needed: bool = True) -> tuple[float, ...]:

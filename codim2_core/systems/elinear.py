@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from ..expressions.expression import Expression, parse
 from ..expressions.names import MOST_SLOW_VARIABLES
-from .bounds import LARGEST, SMALLEST, slow_values
+from .bounds import LARGEST, SMALLEST, at_place, slow_values
 from .coefficients import Affine, Coefficients
 
 Coefficient = float | Expression
@@ -264,16 +264,18 @@ class ELinear:
         if z:
             names["z"] = z[0]
 
+        place = at_place(z)
+
         def number(value: Coefficient, what: str) -> float:
             if not isinstance(value, Expression):
                 return value
             try:
                 result = float(value.evaluate(names))
             except (ArithmeticError, ValueError) as error:
-                raise ValueError(f"{what} cannot be computed at z = {z}: {error}.") from error
+                raise ValueError(f"{what} cannot be computed{place}: {error}.") from error
             if not math.isfinite(result):
-                raise ValueError(f"{what} is {result} at z = {z}; every coefficient must be finite there.")
-            return _finite(result, f"{what} at z = {z}")
+                raise ValueError(f"{what} is {result}{place}; every coefficient must be finite there.")
+            return _finite(result, f"{what}{place}")
 
         f1, f2 = number(self.f[0], "f1"), number(self.f[1], "f2")
         B = np.zeros((self.m, 2))

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..expressions.arrays import program
 from ..expressions.expression import Expression
 from ..expressions.names import PLANE, SLOW, number_names
-from .bounds import LARGEST, SMALLEST
+from .bounds import LARGEST, SMALLEST, at_place
 from .coefficients import Affine, Coefficients
 from .elinear import ELinear
 from .typed_formulas import Formulas
@@ -167,14 +167,15 @@ class Frozen:
         largest = float(speeds.max())
         if not largest <= LARGEST:  # also NaN
             c, s = _PROBES[int(np.argmax(~(speeds <= LARGEST)))]
+            i = int(np.argmax(~(np.abs(self.U((c, s))) <= LARGEST)))
+            value, place = float(self.U((c, s))[i]), at_place(self.z, (c, s))
             if math.isnan(largest):
                 raise ValueError(
-                    f"U has no value at e = ({c:.3g}, {s:.3g}), z = {self.z}; it must be finite on the whole disc "
-                    "|e| <= 1: where a formula has a limit only, give it a value, as in c*log(abs(c) + 1e-300)."
+                    f"U{i + 1} has no value{place}; it must be finite on the whole disc |e| <= 1: where a formula "
+                    "has a limit only, give it a value, as in 'c*log(abs(c) + 1e-300)'."
                 )
             raise ValueError(
-                f"U is {self.U((c, s)).tolist()} at e = ({c:.3g}, {s:.3g}), z = {self.z}; it must be finite, and at "
-                f"most {LARGEST:g}, on the whole disc |e| <= 1."
+                f"U{i + 1} is {value:g}{place}; it must be finite, and at most {LARGEST:g}, on the whole disc |e| <= 1."
             )
         if 0.0 < largest < SMALLEST:
             raise ValueError(f"U is at most {largest:.3g}; multiply it by a factor: that only rescales time.")

@@ -11,4 +11,5 @@ from .registry import say as say
 from .written import named as named
 from .written import number as number
 from .written import power as power
+from .written import printed as printed
 from .written import subscript as subscript

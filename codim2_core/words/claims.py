@@ -37,7 +37,9 @@ SENTENCES: dict[str, Sentence] = {
     "there are directions": Sentence("There are limit directions.", "why it does not apply"),
     "equator ends": Sentence("The equator {ends} outside and {other} on the hemisphere.", "the finding"),
     "geneps1: z": Sentence("On the hemisphere z stays constant.", "the claim"),
-    "geneps1: z, why": Sentence("dz/dT = ρ W, and ρ = 0 on the hemisphere: it holds for every system.", "the finding"),
+    "geneps1: z, why": Sentence(
+        "z′ = ρ W in the fast time T, and ρ = 0 on the hemisphere: it holds for every system.", "the finding"
+    ),
     "one set": Sentence("There is a critical set, and only one, just if |A⁻¹f| < 1.", "the claim"),
     "no inverse": Sentence("det A = 0 within rounding: A has no inverse.", "why it does not apply"),
     "border of existence": Sentence("|A⁻¹f| = {length:.6g}: the critical set is on the equator.", "the finding"),

@@ -33,7 +33,7 @@ SENTENCES: dict[str, Sentence] = {
     "cycle ends, not decided": Sentence(
         "Where orbits go from it is not decided within resolution.", "a cycle is found again beside it"
     ),
-    "onward depends": Sentence("Where orbits go from there may depend on Ψ: give psi.", "no family of Ψ was given"),
+    "onward depends": Sentence("Where orbits go from there may depend on Ψ: give it.", "no family of Ψ was given"),
     "Hopf, delayed": Sentence(
         "{C} loses its stability (Hopf) to a stable limit cycle: after what delay is left to ε.",
         "tr J = 0, a typed system",
@@ -46,7 +46,7 @@ SENTENCES: dict[str, Sentence] = {
         "tr J = 0, a stable cycle, e-linear",
     ),
     "arrival depends": Sentence(
-        "Arrives at Σ at θ = {theta:.4g}; what follows depends on Ψ: give psi.",
+        "Arrives at Σ at θ = {theta:.4g}; what follows depends on Ψ: give it.",
         "no family of Ψ was given, and they differ",
     ),
     "saddle reached": Sentence(
@@ -63,14 +63,14 @@ SENTENCES: dict[str, Sentence] = {
     "on the equator": Sentence("The critical set lies on the equator.", "λ with index ρ is 0"),
     "middle": Sentence("On Σ, x = y = 0 is the middle of the hemisphere.", "e = 0 is no critical set"),
     "stability depends": Sentence(
-        "Whether the critical set is stable depends on Ψ: give psi.", "no family of Ψ was given, and they differ"
+        "Whether the critical set is stable depends on Ψ: give it.", "no family of Ψ was given, and they differ"
     ),
     "several to slide on": Sentence(
         "There are {count} stable critical sets: sliding is not unique on Σ.",
         "no Ψ given, several stable critical sets",
     ),
     "cycles to slide on": Sentence(
-        "There are limit cycles, and psi was not given: sliding is not unique on Σ.", "no Ψ given, stable limit cycles"
+        "There are limit cycles, and no Ψ was given: sliding is not unique on Σ.", "no Ψ given, stable limit cycles"
     ),
     "one way out": Sentence(
         "On Σ nothing attracts; the one way out is θ = {theta:.4g} ({Q}).", "nothing attracts, one direction does"

@@ -34,7 +34,7 @@ SENTENCES: dict[str, Sentence] = {
         "a whole set",
     ),
     "Filippov: touches": Sentence(
-        "Σ only touches the hull of the limit vectors, within 1e-10: whether a combination is tangent is undecided.",
+        "Σ only touches the hull of the limit vectors, within 10⁻¹⁰: whether a combination is tangent is undecided.",
         "Σ on the boundary of the hull",
     ),
     "Filippov: none": Sentence(

@@ -28,6 +28,24 @@ def number(value: float, digits: int = 4) -> str:
     return f"{text} · 10{str(int(exponent)).translate(_RAISED)}" if exponent else text
 
 
+_QUOTED = re.compile(r"""('[^']*'|"[^"]*")""")
+_EXPONENT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?\d+)\b")
+_MINUS = re.compile(r"(?<![\w.)\]}/-])-(?=\.?\d|inf\b)")
+
+
+def printed(sentence: str) -> str:
+    """Return a sentence that was made for Python with its numbers as they are read: minus signs, raised powers, ∞.
+
+    What is quoted stays as it was typed, and names are those that are typed.
+    """
+    parts = _QUOTED.split(sentence)
+    for i in range(0, len(parts), 2):
+        text = _MINUS.sub("−", parts[i])
+        text = _EXPONENT.sub(lambda found: f"{found[1]} · 10{str(int(found[2])).translate(_RAISED)}", text)
+        parts[i] = re.sub(r"\binf\b", "∞", text).replace(" <= ", " ≤ ").replace("is nan", "has no value")
+    return "".join(parts)
+
+
 def power(value: float) -> str:
     """Return a small or large positive number such as 1.6e-16 as 1.6 · 10⁻¹⁶."""
     if math.isinf(value):

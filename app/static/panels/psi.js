@@ -8,7 +8,7 @@ const SHOWN = [[1, "s3"], [0.3, "s1"], [0.1, "s0"]] // ε, and the class of its 
 
 class PsiCurves {
   constructor(box) {
-    box.innerHTML = `<svg class="series psi-curves" role="img" aria-label="Psi, and the smooth step that it makes"></svg>
+    box.innerHTML = `<svg class="series psi-curves" role="img" aria-label="Ψ, and the smooth step that it makes"></svg>
       <p class="pad-key psi-key"></p>`
     this.box = box
     this.chart = new Chart(box.querySelector(".psi-curves"), {aspect: (width) => Math.min(0.98 * width, 560)})

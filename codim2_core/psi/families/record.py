@@ -61,7 +61,7 @@ class Parameter:
         if not self.low <= number <= self.high:
             note = f" ({self.note})" if self.note else ""
             allowed = f"{self.low:g} <= {self.name} <= {self.high:g}"
-            raise ValueError(f"{self.name} is {number!r}; allowed is {allowed}{note}.")
+            raise ValueError(f"{self.name} is {number:g}; allowed is {allowed}{note}.")
         return number
 
 

@@ -156,7 +156,7 @@ def test_values_may_be_spelled_as_in_the_core():
         ((GIVEN[1],), {"preset": "case1-cm0"}, "already"),
         ((), {"f": (1, "z")}, "two numbers"),
         ((), {"B": ((1, 0), (0, 1))}, "two numbers"),
-        ((), {"a": 1e200}, "1e"),
+        ((), {"a": 1e200}, "a is 1 · 10²⁰⁰"),
         ((), {"system": "own", "texts": {"U1": "c +"}}, "column"),
         ((), {"system": "ball_in_pool", "parameters": {"nu": 1}}, "no parameter nu"),
         ((c2.System(U=("1/z", "-s"), W=("1",)),), {}, "finite"),

@@ -268,8 +268,8 @@ def test_a_portrait_forgets_moved_parameters_and_whatever_else_was_set(frames):
 
 REFUSED = [
     ('system=own&texts={"U1":"-2*c %2B"}', "text:U1", "texts"),
-    ('system=own&texts={"U1":"-c %2B 1/z"}', "texts", "texts"),
-    ('system=typed&texts={"a":"1/z"}', "texts", "texts"),
+    ('system=own&texts={"U1":"-c %2B 1/z"}', "text:U1", "texts"),
+    ('system=typed&texts={"a":"1/z"}', "text:a", "texts"),
     ('system=own&texts={"U1":"' + "%2B".join(f"k{i}*c" for i in range(13)) + '"}', "text:U1", "texts"),
     ("psi=custom&psi_text=1/s", "psi_text", "psi_text"),
     ("psi=hill&n=-3", "n", "n"),
@@ -353,7 +353,7 @@ def test_a_text_stays_wrong_until_it_is_mended(frames):
 def test_what_is_refused_may_become_right_by_another_control(frames):
     ask(frames, system="own")
     header, _ = ask(frames, texts={"U1": "-c + sqrt(z - 1)"})
-    assert list(header["errors"]) == ["texts"]
+    assert list(header["errors"]) == ["text:U1"]
     header, _ = ask(frames, z=2.0)
     assert header["errors"] == {}
     assert frames.values["texts"] == {"U1": "-c + sqrt(z - 1)"}

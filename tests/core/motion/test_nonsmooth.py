@@ -237,7 +237,7 @@ def stopped(system, state0, psi=None):
 
 def test_stops_where_the_limit_is_not_unique():
     # Psi decides whether C attracts, and none was given.
-    assert "give psi" in stopped(CASE_3, (0.1, 0.0, 0.5)).reason
+    assert "give it" in stopped(CASE_3, (0.1, 0.0, 0.5)).reason
     # On Sigma two critical sets attract, and the middle is the saddle between them.
     both = examples.nonunique_sliding()
     assert "2 stable critical sets" in stopped(both, (0.0, 0.0, 0.1)).reason

@@ -1,0 +1,139 @@
+"""Every value that is refused is refused in one sentence, beside its control, with numbers as they are read."""
+
+import ast
+import re
+
+import pytest
+from codim2_app.draw.packing import unpack
+from codim2_app.state.controls import ExplorerState
+from codim2_app.view.refresh import Frames
+
+from codim2_core.words import printed
+
+from .inventory import ROOT
+from .shown import RULES
+
+TYPED, OWN, CUSTOM = {"system": "typed"}, {"system": "own"}, {"psi": "custom"}
+
+
+def typed(**texts):
+    return {**TYPED, "texts": texts}
+
+
+def own(**texts):
+    return {**OWN, "texts": texts}
+
+
+def custom(text):
+    return {**CUSTOM, "psi_text": text}
+
+
+#: What is asked for, the control at which it is told ("" at none), and a part of the sentence.
+REFUSED = [
+    ({"a": "x"}, "a", "is not a number"),
+    ({"a": "1" * 400}, "a", "finite"),
+    ({"a": 1e200}, "a", "1 · 10²⁰⁰"),
+    ({"z": 1e300}, "z", "5 · 10²⁹⁹"),
+    ({"a": float("nan")}, "a", "this is no number"),
+    ({"trajectories": -4}, "trajectories", "−4 given; give a whole number from 0 to 160"),
+    ({"trajectories": 2.5}, "trajectories", "whole number"),
+    ({"psi": 3}, "psi", "give its name"),
+    ({"psi": "foo"}, "psi", "choose one of"),
+    ({"preset": "zzz"}, "preset", "choose one such as"),
+    ({"layers": 7}, "layers", "give names among"),
+    ({"layers": "inside,bar"}, "layers", "no layer 'bar'"),
+    ({"along": "foo"}, "along", "choose one such as"),
+    ({"texts": "{"}, "texts", "at most 16 values"),
+    ({"texts": {"a": 3}}, "texts", "at most 2000 characters"),
+    ({"parameters": {"mu": "x"}}, "parameters", "is not a number"),
+    ({"orbits": 3}, "orbits", "at most 2000 characters"),
+    ({"orbits": "1"}, "orbits", "is no orbit"),
+    ({"orbits": "100,2"}, "orbits", "from −4 to 4"),
+    ({"orbits": ";".join(["0.1,0.2"] * 99)}, "orbits", "at most 12"),
+    ({"launch": 7}, "launch", "at most 200 characters"),
+    ({"no": 1}, "no", "There is no control"),
+    ({"psi": "hill", "n": -3}, "n", "n is −3; allowed is 0.01 ≤ n ≤ 1000"),
+    ({"psi": "hill", "n": 1e9}, "n", "n is 1 · 10⁹"),
+    (custom("1/(s-1)"), "psi_text", "is ∞ at s = 1"),
+    (custom("1/s"), "psi_text", "0 to 1 · 10¹⁶"),
+    (custom("-1"), "psi_text", "positive"),
+    (custom("q"), "psi_text", "not known here"),
+    (typed(a="1/z"), "text:a", "a is ∞ at z = 0; "),
+    (typed(d="log(z-1)"), "text:d", "has no value at z = 0"),
+    (typed(a="2*"), "text:a", "the text ends"),
+    (typed(a="1+" * 600 + "1"), "text:a", "at most 1000"),
+    (own(U2="1/c"), "text:U2", "U2 is ∞ at e = (0, 0), z = 0; "),
+    (own(U1="sqrt(c-2)"), "text:U1", "'c*log(abs(c) + 1e-300)'"),
+    (own(U1="c*1e200"), "text:U1", "at most 1 · 10¹⁵⁰"),
+    (own(U1="sign(c)"), "text:U1", "codimension 1"),
+    (own(U1="c", W="1/z"), "text:W", "W is ∞ at e = (0, 0), z = 0; "),
+    (own(U1="c", U2="s", W="1\nlog(z-1)"), "text:W", "W2 has no value"),
+    (own(where="foo"), "text:where", "defines nothing"),
+    (own(W="1\n2\n3\n4\n5"), "text:W", "at most 4"),
+    (own(W="z9"), "text:W", "only 1 row"),
+    (own(U1="+".join("abdghijklmnopq")), "text:U1", "use at most 12"),
+    (own(W="1e400"), "text:W", "number"),
+    (own(U1="t*c"), "text:U1", "is time"),
+    ({"system": "ball_in_pool", "parameters": {"m": 0}}, "parameters", "−∞ at z = (4, 0)"),
+]  # fmt: skip
+BARE = {"layers": [], "trajectories": 0, "panel": "psi"}
+_PYTHON = re.compile(r"\bnan\b|\binf\b|\bNone\b|Traceback|Error\b|\(-?[\d.]+,\)|\[[\d.∞-]|array\(")
+
+
+def faults(sentence):
+    """What is wrong with the spelling; names are those that are typed."""
+    bare = re.sub(r"'[^']*'", "''", sentence)
+    rules = [RULES[name] for name in RULES if "number as" in name or "hyphen" in name or "LaTeX" in name]
+    return [found[0] for rule in (*rules, _PYTHON.pattern) for found in re.finditer(rule, bare)]
+
+
+@pytest.mark.parametrize(("asked", "control", "part"), REFUSED, ids=lambda value: str(value)[:40])
+def test_it_is_told_beside_its_control(asked, control, part):
+    frames = Frames(ExplorerState.of(BARE))
+    header, _ = unpack(frames.answer({"id": 1, "set": asked, "rest": True}))
+    assert list(header["errors"]) == [control]
+    said = header["errors"][control]
+    assert part in said
+    assert faults(said) == []
+    assert said.endswith(".")
+    assert frames.answer({"id": 2, "rest": True})  # what there was before is drawn on
+
+
+def _templates():
+    """Patterns of the sentences in app/state that refuse a value, where they stand."""
+    for path in sorted((ROOT / "app" / "state").glob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not (isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call)):
+                continue
+            if ast.unparse(node.exc.func) not in ("InputError", "TextError", "ValueError"):
+                continue
+            for part in node.exc.args:
+                if isinstance(part, ast.JoinedStr):
+                    words = [v.value if isinstance(v, ast.Constant) else None for v in part.values]
+                    yield path.name, node.lineno, ".*".join(re.escape(printed(w)) if w else "" for w in words)
+
+
+def test_every_refusal_of_a_control_is_among_them():
+    said = []
+    for asked, _, _ in REFUSED:
+        header, _ = unpack(Frames(ExplorerState.of(BARE)).answer({"id": 1, "set": asked, "rest": True}))
+        said += header["errors"].values()
+    known = {"too large; give one below", "is too long; give at most", "slow variables have a slider", "names z"}
+    missed = [
+        f"{name}:{line}: {pattern}"
+        for name, line, pattern in _templates()
+        if not any(re.search(pattern, one) for one in said) and not any(re.escape(k) in pattern for k in known)
+    ]
+    assert not missed, "\n".join(missed)
+
+
+@pytest.mark.parametrize(
+    ("made", "read"),
+    [
+        ("a is -3.5", "a is −3.5"), ("at most 1e+150", "at most 1 · 10¹⁵⁰"), ("is -inf", "is −∞"), ("1e-05 left", "1 · 10⁻⁵ left"),
+        ("cannot read '-3*s + 1e5'", "cannot read '-3*s + 1e5'"), ("0.01 <= n <= 9", "0.01 ≤ n ≤ 9"),
+        ("exp(-s), a-1, case1-cm0", "exp(-s), a-1, case1-cm0"), ("it is nan", "it has no value"),
+    ],
+)  # fmt: skip
+def test_numbers_in_a_sentence_made_for_python(made, read):
+    assert printed(made) == read
