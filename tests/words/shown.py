@@ -22,7 +22,9 @@ from .inventory import STATIC
 
 #: How nothing is written that a person reads, with what it is instead.
 RULES = {
-    "a name of the program; write its letter": r"\b(lambda|lambda_\w+|\w+_crit|Psi|psi|eps|rho|theta|Sigma|sigma|tau|epsilon)\b",
+    "a name of the program; write its letter": (
+        r"\b(lambda|lambda_\w+|\w+_crit|Psi|psi|eps|rho|theta|Sigma|sigma|tau|epsilon)\b"
+    ),
     "a LaTeX key; write what a reader of the paper finds": r"\b(fig|thm|sec|eq|lem|prop|def|cor):\w",
     "a number as a program writes it": r"\b\d+(?:\.\d+)?e[+-]?\d",
     "a hyphen as a minus sign": r"(?<![\w.,/)\]-])-(?=\.?\d)",

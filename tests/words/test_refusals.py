@@ -52,6 +52,7 @@ REFUSED = [
     ({"orbits": ";".join(["0.1,0.2"] * 99)}, "orbits", "at most 12"),
     ({"launch": 7}, "launch", "at most 200 characters"),
     ({"no": 1}, "no", "There is no control"),
+    ({"pinned": "foo bar"}, "pinned", "give an object such as"),
     ({"psi": "hill", "n": -3}, "n", "n is −3; allowed is 0.01 ≤ n ≤ 1000"),
     ({"psi": "hill", "n": 1e9}, "n", "n is 1 · 10⁹"),
     (custom("1/(s-1)"), "psi_text", "is ∞ at s = 1"),
@@ -130,7 +131,8 @@ def test_every_refusal_of_a_control_is_among_them():
 @pytest.mark.parametrize(
     ("made", "read"),
     [
-        ("a is -3.5", "a is −3.5"), ("at most 1e+150", "at most 1 · 10¹⁵⁰"), ("is -inf", "is −∞"), ("1e-05 left", "1 · 10⁻⁵ left"),
+        ("a is -3.5", "a is −3.5"), ("at most 1e+150", "at most 1 · 10¹⁵⁰"),
+        ("is -inf", "is −∞"), ("1e-05 left", "1 · 10⁻⁵ left"),
         ("cannot read '-3*s + 1e5'", "cannot read '-3*s + 1e5'"), ("0.01 <= n <= 9", "0.01 ≤ n ≤ 9"),
         ("exp(-s), a-1, case1-cm0", "exp(-s), a-1, case1-cm0"), ("it is nan", "it has no value"),
     ],

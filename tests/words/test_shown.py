@@ -1,4 +1,4 @@
-"""Names, tips, glossary, lessons and the command's help are written as the sentences are: one spelling, no raw names."""
+"""Names, tips, glossary, lessons and the command's help are written as the sentences are: in one spelling."""
 
 import re
 
@@ -26,7 +26,6 @@ def test_the_registries_are_held_by_the_same_rules():
 def test_all_kinds_of_text_are_read():
     places = [where for where, _ in shown()]
     assert len(places) > 300
-    assert len(places) == len([1 for _, text in shown() if text.strip()]) + sum(not text.strip() for _, text in shown())
     for kind in (
         "glossary",
         "tip of the layer",
@@ -43,7 +42,8 @@ def test_all_kinds_of_text_are_read():
 
 @pytest.mark.parametrize(
     "text",
-    ["lambda_rho is 1", "z_crit falls", "as in fig:bads", "within 6.1e-17", "z = -2", "at Q1", "z' = 0", "a fixed point",
+    ["lambda_rho is 1", "z_crit falls", "as in fig:bads", "within 6.1e-17", "z = -2", "at Q1", "z' = 0",
+     "a fixed point",
      "a regularization", "of Psi"],
 )  # fmt: skip
 def test_each_rule_is_noticed(text):
