@@ -6,6 +6,7 @@ import {readFrame} from "./frames.js"
 import {Hands} from "./hands.js"
 import {letScroll, twoFingers} from "./gestures.js"
 import {Inspector} from "./inspector.js"
+import {welcome} from "./hints.js"
 import {readLaunches} from "./launches.js"
 import {writeLink} from "./links.js"
 import {Panels} from "./panels.js"
@@ -309,6 +310,7 @@ function wire({model, view, root, plot}) {
     else { values[name] = given; controls[name].set(given); systems.set(values) }
   }
   paint(); showLayers(); showFamily(); tell(); showPanels()
+  if (config.page && !config.look.embed) welcome(root)
   root.dataset.ready = "true"
   return {values, requests, picture, apply, plot}
 }

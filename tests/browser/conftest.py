@@ -112,8 +112,10 @@ class Explorer:
 def open_page(chromium, server):
     contexts = []
 
-    def make(**options):
+    def make(first_visit=False, **options):
         context = chromium.new_context(**{"viewport": {"width": 1280, "height": 800}, **options})
+        if not first_visit:
+            context.add_init_script("try { localStorage.setItem('codim2-welcome', 'seen') } catch { /* forbidden */ }")
         contexts.append(context)
         context.set_default_timeout(PATIENCE)
         return Explorer(context.new_page(), server)

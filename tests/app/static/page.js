@@ -45,7 +45,7 @@ export function page(body = "", more = {}) {
     queueMicrotask: (go) => after(go, 0), requestAnimationFrame: (go) => after(go, 16), cancelAnimationFrame: cancel, setTimeout: after, clearTimeout: cancel, setInterval: every,
     performance: {now: () => now}, ResizeObserver: class { observe() {} }, MutationObserver: class { observe() {} },
     getComputedStyle: () => ({getPropertyValue: (name) => `${name.slice(2)} `}), matchMedia: () => ({matches: false, ...listens}),
-    localStorage: storage(), sessionStorage: storage(), structuredClone: (value) => JSON.parse(JSON.stringify(value)), ...more,
+    localStorage: storage({"codim2-welcome": "seen"}), sessionStorage: storage(), structuredClone: (value) => JSON.parse(JSON.stringify(value)), ...more,
   }
   for (const [name, value] of Object.entries(given)) Object.defineProperty(global, name, {value, writable: true, configurable: true})
   return {
@@ -84,8 +84,7 @@ function browsed() {
   }
 }
 
-function storage() {
-  const kept = {}
+function storage(kept = {}) {
   return {getItem: (name) => kept[name] ?? null, setItem: (name, value) => { kept[name] = String(value) }}
 }
 

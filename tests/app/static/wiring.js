@@ -17,7 +17,7 @@ ${["a", "f1", "n", "z", "trajectories"].map(slider).join("\n")}
 <div class="for-custom" data-control="psi_text"><input type="text" class="text"><p class="error" hidden></p></div>
 <div data-control="layers"><label class="layer"><input type="checkbox" value="inside"></label><label class="layer"><input type="checkbox" value="outcomes"></label><label class="layer"><input type="checkbox" value="launched"></label></div><div class="outcome-key"></div></form>
 <div class="picture"><div class="first">drawing</div><div class="bokeh"></div><p class="orbit-words" hidden></p><button class="home"></button><button class="undo"></button><button class="redo"></button><button class="theme"></button><button class="share"></button><a class="whole"></a><dialog class="sharing"></dialog><p class="busy" hidden></p></div>
-<div class="portrait"><b class="portrait-name"></b><i class="portrait-case"></i><p class="sentence"></p><div class="degeneracies"></div><p class="slow-line"></p></div>
+<div class="inspector"><div class="portrait"><b class="portrait-name"></b><i class="portrait-case"></i><p class="sentence"></p><div class="degeneracies"></div><p class="slow-line"></p></div></div>
 <div class="sheets"><button data-sheet="controls"></button><button data-sheet="inspector"></button></div>
 <div class="tabs"><button role="tab" data-panel="orbits">Orbits</button><button role="tab" data-panel="numbers">Numbers</button></div><section role="tabpanel" data-panel="orbits"></section><section role="tabpanel" data-panel="numbers" hidden></section></div></div>`
 

@@ -1,0 +1,45 @@
+"""The bubbles of a first visit: each leads to what it says, none stands in the way, and they never come again."""
+
+import pytest
+
+pytestmark = pytest.mark.browser
+
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+
+
+def test_drag_click_read_and_never_again(open_page):
+    explorer = open_page(first_visit=True).open()
+    hint = explorer.find(".hint")
+    assert hint.text_content().startswith("Drag a slider")
+    explorer.find("#c2-f1").press("ArrowRight")
+    explorer.settle()
+    assert hint.text_content().startswith("Click or tap")
+    box = hint.bounding_box()  # what is below a bubble is reached through it
+    explorer.page.mouse.click(box["x"] + 20, box["y"] + 20)
+    explorer.settle()
+    assert explorer.ask("picture.state.header.launched.x.length") == 1
+    assert hint.text_content().startswith("Read here")
+    explorer.page.keyboard.press("Escape")
+    assert hint.count() == 0
+    explorer.open()
+    assert hint.count() == 0
+    assert explorer.complaints == []
+
+
+def test_by_the_keyboard_and_on_a_phone(open_page):
+    explorer = open_page(first_visit=True, **PHONE).open()
+    hint = explorer.find(".hint")
+    assert hint.get_attribute("role") == "status"
+    for words in ("Drag", "Click", "Read"):
+        assert hint.text_content().startswith(words)
+        box = hint.bounding_box()
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= 390
+        assert box["y"] >= 0
+        assert box["y"] + box["height"] <= 844
+        hint.locator("button").first.press("Enter")
+    assert hint.count() == 0
+
+
+def test_none_in_a_frame_of_another_page(open_page):
+    assert open_page(first_visit=True).open("?embed=1").find(".hint").count() == 0
