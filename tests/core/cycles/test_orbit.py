@@ -53,6 +53,16 @@ def test_a_circle_has_the_period_and_the_multiplier_that_it_must(sign, turn):
         assert not array.flags.writeable
 
 
+def test_an_orbit_that_closes_is_followed_once(monkeypatch):
+    section, xi = circle(1, 1.3)
+    turns = []
+    monkeypatch.setattr(module, "path", lambda *given: turns.append(given[1]) or path(*given))
+    for off, count in ((0.0, 1), (1e-6, 2)):
+        turns.clear()
+        assert orbit(section, Crossing(xi + off)) is not None
+        assert len(turns) == count
+
+
 @pytest.mark.parametrize("sign", [1, -1])
 def test_the_orbit_is_followed_from_where_it_is_drawn_to(sign):
     """A fixed point off by 1e-6: the second time round, the way it attracts, it closes better than the first."""

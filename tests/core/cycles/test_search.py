@@ -100,6 +100,34 @@ def test_the_kind_of_a_cycle(divergence, crossing, kind):
     assert math.log(cycle.divergence_multiplier) == pytest.approx(max(min(divergence, 700.0), -700.0))
 
 
+@pytest.mark.parametrize("root", [-4.93, -0.7, 0.031, 4.6])
+@pytest.mark.parametrize("apart", [0.25, 0.05])
+@pytest.mark.parametrize("backward", [False, True])
+def test_a_smooth_displacement_is_asked_six_times(root, apart, backward):
+    """Near its zero, in the interval of the samples, at the fine tolerance: and that is all, also at the ends."""
+    places = []
+
+    class Kept(Line):
+        def displacement(self, xi, rtol=1e-9, backward=False):
+            places.append((xi, rtol))
+            return super().displacement(xi, rtol, backward)
+
+    section = Kept(lambda xi: np.sinh(0.3 * (xi - root)))
+    xi = np.arange(-5.0, 5.0, apart)
+    shift = section.displacement(xi, COARSE, backward)
+    i = int(np.flatnonzero(np.sign(shift[1:]) != np.sign(shift[:-1]))[0])
+    places.clear()
+    found = search._polished(section, xi, shift, i, i + 1, backward)
+    assert found == pytest.approx(root, abs=1e-12)
+    ((six, rtol),) = places
+    assert len(six) == 6
+    assert rtol < COARSE
+    gaps = np.diff(six)
+    np.testing.assert_allclose(gaps, min(0.02, 0.1 * apart), rtol=1e-9)
+    assert six[0] < root < six[-1]
+    assert abs(six.mean() - root) < 0.1 * gaps[0]
+
+
 @pytest.mark.parametrize("fine", [math.nan, 0.5])
 def test_where_the_fine_tolerance_shows_nothing_a_fixed_point_is_midway(fine):
     class Coarse(Line):
