@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..expressions.expression import Expression
 from ..initial_value.events import Events, Watch, checked_events
 from ..initial_value.field import Field, field
 from ..initial_value.line import invariant_line
@@ -32,10 +33,13 @@ __all__ = ["simulate"]
 
 Array = NDArray[np.float64]
 
+_stepped: dict[tuple[Expression, ...], int] = {}  # steps in Python so far, by the formulas of a system
+
 SMALLEST_EPS, LARGEST_EPS = 1e-14, 1e6
 FIRST = 1e-2  # of rho/|U|: the first step tried
 MAX_STEPS = 20_000
-PATIENCE = 400  # steps in Python, which take about as long as compiling a system's formulas
+PATIENCE = 400  # steps in Python, of all motions of a system: they take about as long as compiling its formulas
+REMEMBERED = 64  # systems whose steps are counted
 MANY = 8  # motions at once for which that is not waited for
 
 
@@ -236,19 +240,19 @@ def _followed(
     parts: list[Steps] = []
     t, state, h = span[0], first, first_step(problem, first, rate)
     motion: Compiled | None = None
-    compile_at_once = compile_at_once or _is_compiled(formulas)
+    patience = 0 if compile_at_once or _is_compiled(formulas) else PATIENCE - _stepped.get(formulas.rows, 0)
     status, detail = SimulationStatus.T_END, ""
     try:
-        if not compile_at_once:
+        if patience > 0:
             for step in bounded(problem, steps(problem, *span, first, rtol, h, max_steps)):
                 last = watch.step(step)
                 taken.append(step if last is None else last)
                 if last is not None:
                     return [gathered(taken, len(first))], SimulationStatus.EVENT, "", count[0]
-                if len(taken) == PATIENCE:
+                if len(taken) == patience:
                     t, state, h = step.end, step.last, step.h
                     break
-        if t < span[1] and len(taken) in (0, PATIENCE):
+        if t < span[1] and len(taken) == max(0, patience):
             from ..initial_value.compiled import Compiled  # loads the compiler, which most motions do without
 
             motion = Compiled(
@@ -270,8 +274,18 @@ def _followed(
         status, detail = SimulationStatus.BLOW_UP, str(error)
     except TooManyStepsError as error:
         status, detail = SimulationStatus.STEP_LIMIT, str(error)
+    finally:
+        _count(formulas, len(taken))
     evaluations = count[0] + (0 if motion is None else motion.evaluations)
     return [gathered(taken, len(first)), *parts], status, detail, evaluations
+
+
+def _count(formulas: Field, steps: int) -> None:
+    """Count steps in Python: a system that comes again is compiled once its motions together are a long one."""
+    before = _stepped.pop(formulas.rows, 0)
+    while len(_stepped) >= REMEMBERED:
+        _stepped.pop(next(iter(_stepped)), None)
+    _stepped[formulas.rows] = before + steps
 
 
 def _is_compiled(formulas: Field) -> bool:

@@ -66,6 +66,23 @@ def test_a_system_that_comes_again_is_followed_compiled_from_the_start(monkeypat
     assert simulate(system, families.tanh(), 0.01, (1.0, 0.5, 0.0), (0.0, 1.0)).times[-1] == 1.0
 
 
+def test_short_motions_of_one_system_are_compiled_once_they_are_a_long_one_together(monkeypatch):
+    system = System(U=("-c + 0.29*s", "-s - 0.29*c"), W=("c + 2.5",))
+    monkeypatch.setattr(regularised, "PATIENCE", 60)
+    runs = [simulate(system, families.tanh(), 0.01, (1.0, 0.5, 0.0), (0.0, 0.3))]
+    steps = len(runs[0].times) - 1
+    assert steps < 60
+    while not is_compiled(field(system)):
+        runs.append(simulate(system, families.tanh(), 0.01, (1.0, 0.5, 0.0), (0.0, 0.3)))
+        assert steps * (len(runs) - 1) <= 60
+    assert steps * len(runs) >= 60
+    for run in runs:
+        np.testing.assert_allclose(run.states[-1], runs[0].states[-1], atol=1e-7)
+    other = System(U=("-c + 0.28*s", "-s - 0.28*c"), W=("c + 2.5",))
+    simulate(other, families.tanh(), 0.01, (1.0, 0.5, 0.0), (0.0, 0.3))
+    assert not is_compiled(field(other))
+
+
 def test_compiled_motions_end_as_others_do(monkeypatch):
     monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: True)
     grows = System(U=("x**2 - c", "-s"))
