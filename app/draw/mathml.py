@@ -80,9 +80,14 @@ def _closed(piece: Piece, least: int) -> str:
     return f"<mrow>{text}</mrow>" if binding >= least else f"<mrow><mo>(</mo>{text}<mo>)</mo></mrow>"
 
 
+def _after_minus(piece: Piece) -> str:
+    """Close what is taken away: a second sign would stand behind the first."""
+    return _closed(piece, _POWER if piece[1] == _SIGN else _PRODUCT)
+
+
 def _function(op: str, inside: Piece) -> Piece:
     if op == "neg":
-        return f"{_MINUS}{_closed(inside, _PRODUCT)}", _SIGN
+        return f"{_MINUS}{_after_minus(inside)}", _SIGN
     if op == "sqrt":
         return f"<msqrt>{inside[0]}</msqrt>", _ATOM
     if op == "abs":
@@ -98,7 +103,7 @@ def _binary(op: str, left: Piece, right: Piece, left_number: bool, right_number:
             return f"{left[0]}{right[0]}", _SUM
         return f"{left[0]}<mo>+</mo>{_closed(right, _PRODUCT)}", _SUM
     if op == "-":
-        return f"{left[0]}<mo>−</mo>{_closed(right, _PRODUCT)}", _SUM
+        return f"{left[0]}{_MINUS}{_after_minus(right)}", _SUM
     if op == "/" and left[1] == _SIGN:
         return f"{_MINUS}<mfrac><mrow>{left[0].removeprefix(_MINUS)}</mrow><mrow>{right[0]}</mrow></mfrac>", _SIGN
     if op == "/":

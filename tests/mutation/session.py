@@ -5,11 +5,13 @@ reach the changed function, the quickest first, up to the first failure.
 from __future__ import annotations
 
 import cProfile
+import functools
 import gc
 import getpass
 import importlib
 import os
 import pickle
+import re
 import resource
 import signal
 import sys
@@ -243,10 +245,10 @@ class Room:
         profile = cProfile.Profile(subcalls=False, builtins=False)
         found = self._run(name, profile.enable, profile.disable)
         if found is not None:
-            return Reach(found, _entered(profile)) if _entered(profile) else None
+            return Reach(found, _entered(profile))
         noted: set[Function] = set()  # the test has a profile of its own, which cProfile cannot share
         found = self._run(name, lambda: sys.setprofile(_noting(noted)), lambda: sys.setprofile(None))
-        return Reach(found, frozenset(noted)) if found is not None and noted else None
+        return Reach(found, frozenset(noted)) if found is not None else None
 
     def _run(self, name: str, begin: Callable[[], object], end: Callable[[], object]) -> float | None:
         """What a test costs that passes in time."""
@@ -302,12 +304,27 @@ def _noting(found: set[Function]) -> Callable[[Any, str, object], None]:
     return enter
 
 
+@functools.cache
+def _reads(file: str, path: str) -> bool:
+    """Whether a file of tests imports a module by its name: its constants are read where no function is entered."""
+    package, _, module = imported_as(Path(path)).rpartition(".")
+    names = rf"^(from|import) {re.escape(package)}\.{module}\b|^from {re.escape(package)} import .*\b{module}\b"
+    return bool(re.search(names, (ROOT / file).read_text(), re.MULTILINE))
+
+
 def reaching(reach: dict[str, Reach], keys: set[tuple[str, str, int]] | None, path: str, seconds: float) -> list[str]:
-    """Tests that enter one of these functions (None: any of the file), quickest first, that take so long together."""
+    """Tests that enter one of these functions, quickest first, that take so long together.
+
+    None, for what runs on import: tests that enter any function of the file, or read its constants.
+    """
     met = [
         name
         for name, one in reach.items()
-        if (one.entered & keys if keys is not None else any(file == path for file, _, _ in one.entered))
+        if (
+            one.entered & keys
+            if keys is not None
+            else any(file == path for file, _, _ in one.entered) or _reads(name.split("::")[0], path)
+        )
     ]
     found, cost = [], 0.0
     for name in sorted(met, key=lambda name: reach[name].cost):

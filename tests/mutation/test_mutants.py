@@ -111,16 +111,21 @@ def test_what_runs_on_import_is_not_changed_in_place(before, after, tmp_path):
 
 
 def test_the_quickest_tests_that_reach_a_function_come_first():
-    key = ("a.py", "f", 3)
+    theme, svg = (str(ROOT / "app" / "draw" / f"{name}.py") for name in ("theme", "svg"))
+    key = (theme, "f", 3)
+    slow, quick, very = (f"tests/app/draw/test_mathml.py::{name}" for name in ("slow", "quick", "very_slow"))
+    other, constants = "tests/app/draw/test_glyphs.py::other", "tests/app/draw/test_looks.py::constants"
     reach = {
-        "slow": Reach(4.0, frozenset({key})),
-        "quick": Reach(1.0, frozenset({key, ("a.py", "g", 7)})),
-        "other": Reach(0.1, frozenset({("a.py", "g", 7), ("b.py", "f", 3)})),
-        "very slow": Reach(900.0, frozenset({key})),
+        slow: Reach(4.0, frozenset({key})),
+        quick: Reach(1.0, frozenset({key, (theme, "g", 7)})),
+        other: Reach(0.1, frozenset({(theme, "g", 7), (svg, "f", 3)})),
+        very: Reach(900.0, frozenset({key})),
+        constants: Reach(0.2, frozenset()),  # enters nothing, but its file imports both
     }
-    assert reaching(reach, {key}, "a.py", 6.0) == ["quick", "slow"]
-    assert reaching(reach, None, "b.py", 6.0) == ["other"]
-    assert reaching(reach, {("a.py", "h", 1)}, "a.py", 6.0) == []
+    assert reaching(reach, {key}, theme, 6.0) == [quick, slow]
+    assert reaching(reach, None, svg, 6.0) == [other, constants]
+    assert reaching(reach, None, theme, 1.3) == [other, constants, quick]
+    assert reaching(reach, {(theme, "h", 1)}, theme, 6.0) == []
 
 
 def test_those_that_lived_can_be_tried_again():

@@ -3,6 +3,7 @@
 import math
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -35,16 +36,43 @@ def test_layers_lie_above_each_other_as_the_legend_says():
 
 def test_what_is_told_of_a_point_is_drawn_thicker_than_what_only_fills_the_picture():
     widths = {part.name: part.width for layer in painted() for part in layer.parts}
-    assert widths.pop("lines_outside") == 1.4
-    assert {widths.pop(f"launched_{k}") for k in range(1, 7)} == {2.4}
-    assert {name.partition("_")[0]: width for name, width in widths.items()} == {
-        "outside": 0.9, "inside": 0.9, "continuations": 1.6, "lines": 1.8, "rho": 1.8, "theta": 1.8,
-        "separatrices": 2.0, "conics": 2.4, "cycles": 2.8,
+    expected = {
+        "outside": 0.9, "inside": 0.9, "continuations": 1.6, "lines_inside": 1.8, "lines_outside": 1.4,
+        "rho_inside": 1.8, "rho_outside": 1.8, "theta_inside": 1.8, "theta_outside": 1.8, "separatrices_stable": 2.0,
+        "separatrices_unstable": 2.0, "conics": 2.4, "cycles": 2.8, **{f"launched_{k}": 2.4 for k in range(1, 7)},
     }  # fmt: skip
+    assert widths == expected
+    dashes = {part.name: part.dash for layer in painted() for part in layer.parts if part.dash}
+    assert dashes == {"separatrices_stable": (7, 4), "conics": (9, 3)}
+    assert {layer.name for layer in painted() if layer.hidden} == {"separatrices", "conics", "outcomes", "basins"}
     assert {layer.name for layer in painted() if not layer.compiled} == {
         "lines", "rho", "theta", "conics", "equator", "critical", "outcomes", "basins",
     }  # fmt: skip
     assert [layer.name for layer in painted() if layer.optional] == ["launched"]
+
+
+def test_parts_take_from_the_scene_what_is_theirs():
+    """Separatrices within, by their direction; nullclines by their kind; launched orbits in turn by their colour."""
+    parts = {part.name: part.pieces for layer in painted() for part in layer.parts}
+
+    def one(k, **more):
+        return SimpleNamespace(points=np.full((k + 2, 2), float(k)), **more)
+
+    ways = [(inside, direction) for inside in (True, False) for direction in ("stable", "unstable")]
+    branches = [one(k, inside=inside, direction=direction) for k, (inside, direction) in enumerate(ways)]
+    for k, name in enumerate(("separatrices_stable", "separatrices_unstable")):
+        offsets, points = parts[name](branches)
+        assert (np.diff(offsets).tolist(), set(points.ravel())) == ([k + 2], {float(k)})
+    lines = [one(k, kind=kind) for k, kind in enumerate(("rho", "theta", "U1", "U2"))]
+    for name, kinds in (
+        ("rho_inside", {0}),
+        ("theta_outside", {1}),
+        ("lines_inside", {2, 3}),
+        ("lines_outside", {2, 3}),
+    ):
+        assert set(parts[name](lines)[1].ravel()) == kinds
+    orbits = SimpleNamespace(orbits=SimpleNamespace(points=[np.full((2, 2), float(k)) for k in range(8)]))
+    assert set(parts["launched_2"](orbits)[1].ravel()) == {1.0, 7.0}
 
 
 def test_what_differs_in_meaning_differs_by_dashes_and_carries_its_arrows():
@@ -441,6 +469,7 @@ def test_a_thinned_line_keeps_a_point_for_each_allowed_length_and_turn():
     far, near = 1.01 * plane_curves.LENGTH, 0.26 * plane_curves.LENGTH
     assert len(plane_curves.thin([lengths(*[far] * 6)], 1.0)[1]) == 7  # all
     assert len(plane_curves.thin([lengths(*[2.0 * far] * 6)], 2.0)[1]) == 7  # in units of the size
+    assert [len(plane_curves.thin([lengths(*[1e-3] * k)], 1.0)[1]) for k in (2, 3, 4)] == [3, 2, 2]
     kept = plane_curves.thin([lengths(*[near] * 40)], 1.0)[1][:, 0]
     assert 10 <= len(kept) <= 13
     assert np.diff(kept).max() <= plane_curves.LENGTH + near  # the first point at which it is that long
@@ -511,3 +540,18 @@ def test_no_label_stands_over_the_core_of_a_mark():
         assert (box.x + box.width / 2, box.y + box.height / 2) == pytest.approx((u, v))
         assert box.width == box.height == pytest.approx(vector.CORE * 14 * place.unit)
         assert 0.5 * 14 * place.unit < box.width < 14 * place.unit
+
+
+def test_zoomed_in_a_label_stands_as_near_to_its_mark():
+    columns = {"x": [0.6], "y": [0.8], "label": ["Q₁"], "label_x": [0.75], "label_y": [0.95]}
+    offsets = []
+    for seen in ((-VIEW, VIEW, -VIEW, VIEW), (0.1, 1.1, 0.3, 1.3), (-7.0, 7.0, -7.0, 7.0)):
+        place = Place(seen)
+        [text] = vector.labels(columns, place, [], False)
+        [(u, v)] = place.points([(0.6, 0.8)]).tolist()
+        x, y = (float(re.search(rf' {name}="([^"]*)"', text)[1]) for name in "xy")
+        offsets.append((x - u, y - 0.34 * place.text - v))
+    scale = SIDE / (2 * VIEW)
+    assert offsets[0] == pytest.approx((0.15 * scale, -0.15 * scale), abs=0.6)
+    assert offsets[1] == pytest.approx(offsets[0], abs=1.1)
+    assert offsets[2] == pytest.approx((0.15 * SIDE / 14, -0.15 * SIDE / 14), abs=1.1)  # smaller with all else

@@ -1,11 +1,12 @@
 """What is drawn means what was typed: MathML is read back and evaluated."""
 
 import math
+import re
 from xml.etree import ElementTree
 
 import pytest
 from codim2_app.draw.mathml import equations, equations_mathml, mathml, plain_symbol
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import codim2_core as c2
@@ -60,6 +61,34 @@ formulas = st.recursive(
     ),
     max_leaves=8,
 )
+
+
+@given(formulas)
+@example("c-(-s*mu)")
+@example("c*(-s*mu)")
+@example("c-(-s/mu)*K")
+@example("c-(-s)")
+@example("-(-s*mu)")
+@example("c-(-(-s*mu))")
+@example("c-(-2*s)")
+def test_no_sign_stands_behind_another(text):
+    """A minus within a sum or a product has brackets, or is the sum's own."""
+    try:
+        formula = parse(text, NAMES)
+    except ValueError:
+        return
+    assert not re.search(r"[-+*]-", read(ElementTree.fromstring(f"<math>{mathml(formula)}</math>")))
+
+
+@pytest.mark.parametrize(
+    ("text", "drawn"),
+    [
+        ("c-(-s*mu)", "c-(-s*mu)"), ("c+(-s*mu)", "c-s*mu"), ("-(-s*mu)", "-(-s*mu)"), ("(-s*mu)/K", "-((s*mu)/(K))"),
+        ("(-s)*mu", "-s*mu"), ("mu*(-s)", "mu*(-s)"), ("(-s)^2", "(((-s))**(2))"), ("-s^2", "-((s)**(2))"),
+    ],
+)  # fmt: skip
+def test_where_signs_have_brackets(text, drawn):
+    assert read(ElementTree.fromstring(f"<math>{mathml(parse(text, NAMES))}</math>")) == drawn
 
 
 @given(formulas)

@@ -182,7 +182,10 @@ def test_holoviews_has_equal_axes_of_the_pictures_window_and_its_widths():
     made, drawn = elements(scene), hv.render(holoviews(scene), backend="bokeh")
     for axis in (drawn.x_range, drawn.y_range):
         assert (axis.start, axis.end) == (-VIEW, VIEW)
-    assert holoviews(scene).opts.get("plot").kwargs["data_aspect"] == 1
+    plot = holoviews(scene).opts.get("plot").kwargs
+    assert (plot["data_aspect"], plot["frame_width"]) == (1, 500)
+    assert "launched" not in made  # nobody has asked for one
+    assert "launched_1" in elements(scene.evolve(launch=((0.3, 0.2),)))
     circle = made["hemisphere"].array()
     assert np.hypot(*circle.T) == pytest.approx(np.ones(len(circle)))
     widths = {name: element.opts.get("style").kwargs["line_width"] for name, element in made.items()}
@@ -209,6 +212,8 @@ def test_marks_of_a_small_portrait_are_of_one_width(setting):
     assert (circle["r"], circle["stroke-width"]) == ("80", "4")
     widths = {one["stroke"]: float(one["stroke-width"]) for one in attributes(svg) if "transform" not in one}
     assert widths["var(--orbit)"] == pytest.approx(0.6 * side / 80)
+    assert widths["var(--cycle)"] == pytest.approx(1.6 * side / 80)
+    assert (widths["var(--outside)"], widths["var(--continuation)"]) == pytest.approx((1.5, 3.0))
 
 
 def test_labels_stand_farther_out_only_where_the_ring_is_shown():

@@ -183,3 +183,15 @@ def test_on_the_equator_means_within_the_rounding_of_the_entries():
             inside = Existence.INSIDE if gap(*entries) > 0 else Existence.NONE
             assert found is (Existence.EQUATOR if level < 1 else inside)
     assert len(seen) == 3
+
+
+@pytest.mark.parametrize("small", [1e-3, 1e-9, 1e-14, -1e-9])
+def test_a_determinant_that_a_rotation_would_round_is_that_of_the_matrix_as_given(small):
+    A, f = [[1.0, 2.0], [0.5, 1.0 + small]], (0.25 * small, 0.0)
+    system = ELinear.from_matrix(A, f)
+    (C,) = c2.critical_sets(system, psi.rational())
+    radial, tangential = psi.rational().jacobian_factors(float(np.hypot(*C.x2)))
+    exact = Fraction(A[0][0]) * Fraction(A[1][1]) - Fraction(A[0][1]) * Fraction(A[1][0])
+    assert C.determinant == pytest.approx(float(exact) * radial * tangential, rel=1e-9)
+    np.testing.assert_allclose(system.at().U(C.e), 0.0, atol=1e-14)
+    assert (C.kind == "saddle") == (small < 0.0)

@@ -23,7 +23,7 @@ from codim2_core.motion.followed import in_disc
 from codim2_core.motion.part import Part
 from codim2_core.motion.result import Phase
 from codim2_core.motion.slide_on_cycle import CycleSlide
-from codim2_core.numerics.radau import STAGES, Step
+from codim2_core.numerics.radau import STAGES, Step, TooManyStepsError
 
 PSI = c2.psi.rational()
 ELINEAR = c2.ELinear(-1.0, 0.5, -2.0, ("z1", "z2/2"), B=((0.5, 0.0), (1.0, -1.0)), g=("1 - z2", "z1"))
@@ -291,3 +291,33 @@ def test_a_part_knows_its_place_in_the_end():
     on_cycle = part.placed(TYPED, PSI, limit.motion)
     np.testing.assert_allclose(on_cycle.e(0.5), (0.2, 0.3))
     np.testing.assert_allclose(on_cycle.p(0.5), (0.4, 0.6))
+
+
+@pytest.mark.parametrize(("most", "why"), [(1, StopError), (0, TooManyStepsError)])
+def test_at_the_step_limit_nothing_more_is_decided(monkeypatch, most, why):
+    script(monkeypatch, "slip", [STOP])
+    own = course(state=(0.3, 0.0, 0.2, -0.1))
+    own.most = most
+    with pytest.raises(why):
+        own.run()
+
+
+def test_a_motion_in_a_line_that_comes_back_is_known_from_its_first_moment():
+    """U1 = z - c, z' = -1 from z = 3/2: x = t/2 - t^2/2 leaves Sigma, and is there again at t = 1."""
+    system = c2.ELinear(-1.0, 0.0, -1.0, ("z", 0.0), g=(-1.0,))
+    run = c2.simulate_nonsmooth(system, (0.0, 0.0, 1.5), (0.0, 1.25), PSI)
+    assert [phase.kind for phase in run.phases] == ["slip", "slide"]
+    assert run.phases[1].t_start == pytest.approx(1.0, abs=1e-9)
+    t = np.array([1e-12, 1e-10, 1e-6, 0.25, 0.5, 0.9])
+    np.testing.assert_allclose(run.dense(t)[:, 0], t / 2 - t * t / 2, rtol=1e-6)
+    assert run.times[1] < 1e-6  # the first step away is short
+
+
+@pytest.mark.parametrize("theta", [0.0, 2.0, -1.2])
+def test_a_critical_set_on_the_equator_is_told_by_its_direction(theta):
+    e0 = (math.cos(theta), math.sin(theta))
+    own = course(c2.System(U=(f"({e0[0]!r}) - c", f"({e0[1]!r}) - s")), state=(0.0, 0.0))
+    assert own.on_equator(theta, np.zeros(0))
+    assert own.on_equator(theta + math.tau, np.zeros(0))
+    for other in (theta + 0.01, theta + math.pi, -theta if theta else 0.5):
+        assert not own.on_equator(other, np.zeros(0))

@@ -228,6 +228,15 @@ def test_ways_out_and_names():
         assert decide.critical_name(BENT, PSIS[0], np.array([0.5]), C.e + 0.1) == f"C{i + 1}"
 
 
+@pytest.mark.parametrize("A", [((1.0, 2.0), (3.0, -1.0)), ((0.0, -2.0), (1.0, 0.5)), ((0.3, 4.0), (-1.0, 0.0))])
+def test_the_zero_of_a_linear_field_however_its_components_are_coupled(A):
+    (a, b), (c, d) = A
+    system = c2.System(U=(f"({a})*c + ({b})*s - z", f"({c})*c + ({d})*s - z/2"), W=("1",))
+    expected = np.linalg.solve(A, (0.3, 0.15))
+    for away in ((0.2, -0.1), (-0.3, 0.2)):
+        assert solved(field(system), expected + np.array(away), np.array([0.3])) == pytest.approx(expected, abs=1e-14)
+
+
 def test_the_zero_of_a_field_whose_components_are_coupled():
     system = c2.System(U=("c**2 + s/5 - z/2", "-2*s + c/3"), W=("1",))
     for C in c2.critical_sets(system, PSIS[0], (0.4,)):
@@ -276,3 +285,48 @@ def test_a_start_on_sigma_without_psi():
     assert (many.kind, "2 directions lead" in many.reason) == ("stop", True)
     beside = decide.starting(c2.System(U=("c**2 - 1/8", "-2*s")), None, none)  # a node, and the way out at theta = 0
     assert (beside.kind, "Q₁ leads away" in beside.reason) == ("slide", True)
+
+
+def test_all_usual_psi_are_asked_only_where_none_is_given(monkeypatch):
+    asked = []
+
+    def approach_outcomes(system, psi, z, compare):
+        asked.append((psi, compare))
+        outcome = SimpleNamespace(depends_on_psi=compare is None, verdict="misses", reason="It turns.")
+        return SimpleNamespace(outcome=lambda theta: outcome)
+
+    monkeypatch.setattr(decide, "approach_outcomes", approach_outcomes)
+    given, none = (decide.arriving(BENT, psi, np.array([0.3]), 0.2) for psi in (PSIS[3], None))
+    assert asked == [(PSIS[3], ()), (c2.psi.constant(), None)]
+    assert (given.kind, given.reason) == ("away", "It turns.")
+    assert (none.kind, "give psi" in none.reason) == ("stop", True)
+
+
+def test_a_stable_set_in_the_middle_has_its_name_and_around_another_orbits_start_evenly(monkeypatch):
+    none = np.zeros(0)
+    three = c2.System(U=("c*(c - 1/2)*(c + 1/2)", "-s"))
+    found = decide.from_middle(three, PSIS[0], none)
+    assert (found.kind, found.onto) == ("slide", "C2")
+    assert decide.from_middle(c2.ELinear(-1.0, 0.0, -2.0), PSIS[0], none).onto == "C"
+    asked = []
+    answer = decide.Decision("stop", "They part.")
+    monkeypatch.setattr(decide, "from_hemisphere", lambda *all: asked.append(all) or answer)
+    found = decide.from_middle(c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s")), PSIS[0], none)
+    assert (found.kind, found.reason.endswith("They part."), "C₂" in found.reason) == ("stop", True, True)
+    ring = asked[0][3]
+    np.testing.assert_allclose(np.hypot(*ring.T), 1e-3)
+    turns = np.diff(np.unwrap(np.arctan2(ring[:, 1], ring[:, 0])))
+    np.testing.assert_allclose(turns, math.tau / len(ring))
+    assert len(ring) >= 6
+
+
+@pytest.mark.parametrize("theta", [0.0, 2.0, -1.2])
+def test_a_start_where_the_critical_set_is_on_the_equator(theta):
+    """U = e0 - e: on the equator at e0, in the direction theta, with or without psi."""
+    e0 = (math.cos(theta), math.sin(theta))
+    exact = c2.System(U=(f"({e0[0]!r}) - c", f"({e0[1]!r}) - s"))
+    for psi in (None, PSIS[1]):
+        found = decide.starting(exact, psi, np.zeros(0))
+        assert (found.kind, found.onto) == ("border", "C")
+        assert math.remainder(found.theta - theta, math.tau) == pytest.approx(0.0, abs=1e-12)
+        assert found.e == pytest.approx(e0, abs=1e-12)
