@@ -151,6 +151,12 @@ ALLOWED: tuple[Allowed, ...] = (
     Allowed(
         "core.portrait.separatrices", "rtol: float = 1e-9", "How closely it is followed, unless the caller says it."
     ),
+    Allowed(
+        "core.portrait.separatrices",
+        "tolerance: float = 1e-6",
+        "What counts as a connection, unless the caller says it.",
+    ),
+    Allowed("core.portrait.endings", "rtol: float = 1e-9", "How closely it is followed, unless the caller says it."),
     Allowed("core.portrait.launched", "LONG = 40.0", "How long a line is drawn."),
     Allowed("core.motion.agreement", "FAR_OUT = 1e6", "Where the limit of the steepness is read off."),
     Allowed("core.cycles.orbit", "LEAST = 1e-300", "A number too small to be told from the next."),
