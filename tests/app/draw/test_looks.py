@@ -15,10 +15,11 @@ from codim2_app.draw.packing import EXTENT, Polylines, pack, unpack
 from codim2_app.draw.shapes import OPEN, shape
 from codim2_app.draw.still import page_of, still
 from codim2_app.draw.svg import draw, small
-from codim2_app.draw.theme import DISCS, HATCHES, NEAREST, RING, VIEW, WIDEST, custom_properties, themes
+from codim2_app.draw.theme import DISCS, HATCHES, NEAREST, REACH, RING, VIEW, WIDEST, custom_properties, themes
 from codim2_app.draw.thumbnails import COUNT, MOST, PIXEL, thumbnails
 from codim2_app.draw.thumbnails import VIEW as SMALL_VIEW
 from codim2_app.draw.vector import parts as vector
+from codim2_app.draw.vector.paper import DASHES, paper
 from codim2_app.draw.vector.parts import SIDE, Place
 
 import codim2_core as c2
@@ -111,6 +112,7 @@ def test_the_ring_is_told_apart_by_hatches_and_lies_just_outside_the_equator():
     assert DISCS[-1] == 1.0
     assert np.diff(DISCS[:-1]) == pytest.approx(0.06)
     assert (DISCS[0], len(DISCS)) == (0.04, 17)
+    assert pytest.approx(VIEW * math.sqrt(2.0), rel=0.02) == REACH  # to the corners of the square picture
 
 
 def test_the_figure_is_empty_and_sends_nothing_back():
@@ -555,3 +557,15 @@ def test_zoomed_in_a_label_stands_as_near_to_its_mark():
     assert offsets[0] == pytest.approx((0.15 * scale, -0.15 * scale), abs=0.6)
     assert offsets[1] == pytest.approx(offsets[0], abs=1.1)
     assert offsets[2] == pytest.approx((0.15 * SIDE / 14, -0.15 * SIDE / 14), abs=1.1)  # smaller with all else
+
+
+def test_in_black_and_white_lines_that_colours_tell_apart_differ():
+    looks = {}
+    for layer in painted():
+        for part in layer.parts:
+            look = (paper()[part.colour], part.dash or DASHES.get(part.colour, ()), part.width)
+            looks.setdefault(look, set()).add(part.name.removesuffix("_inside").removesuffix("_outside"))
+    alike = [names for names in looks.values() if len(names) > 1]
+    assert alike == []
+    assert all(len(dash) % 2 == 0 and min(dash) >= 2 for dash in DASHES.values())
+    assert set(DASHES) <= set(themes()["light"])

@@ -154,9 +154,11 @@ def test_an_ascent_is_the_orbit_up_the_hemisphere():
     assert inside[-1] == pytest.approx((0.3, 0.0), abs=1e-3)
     turning = places.Ascent(c2.ELinear(-0.1, 3.0, -0.1), PSIS[0], np.zeros(0), theta=1.0).path()
     assert np.hypot(*turning[0]) == pytest.approx(places.BESIDE)
+    assert 0.99 < places.BESIDE < 1.0
     assert math.atan2(turning[0, 1], turning[0, 0]) == pytest.approx(1.0)
     none = places.Ascent(c2.ELinear(-1.0, 0.0, -2.0, (3.0, 0.0)), PSIS[0], np.zeros(0), theta=0.0).path()
     assert none.shape == (0, 2)  # orbits only come down there
+    assert not none.flags.writeable
     line = places.Ascent(system, PSIS[0], np.zeros(0), along=(np.zeros(2), np.ones(2)))
     assert line.path().tolist() == [[0.0, 0.0], [1.0, 1.0]]
 
@@ -198,6 +200,7 @@ def test_the_angle_through_which_a_motion_turns():
     for sign in (1.0, -1.0):
         circle = np.stack([3.0 + np.cos(sign * angle), np.sin(sign * angle) - 5.0], axis=-1)
         assert reader.turned(circle) == pytest.approx(sign * 7.0, rel=1e-3)
+        assert reader.turned(circle[20:]) == pytest.approx(sign * (7.0 - angle[20]), rel=0.05)
 
 
 def test_the_time_within_a_step_at_which_something_changes():
@@ -299,7 +302,7 @@ def test_all_usual_psi_are_asked_only_where_none_is_given(monkeypatch):
     given, none = (decide.arriving(BENT, psi, np.array([0.3]), 0.2) for psi in (PSIS[3], None))
     assert asked == [(PSIS[3], ()), (c2.psi.constant(), None)]
     assert (given.kind, given.reason) == ("away", "It turns.")
-    assert (none.kind, "give psi" in none.reason) == ("stop", True)
+    assert (none.kind, "depends on Ψ" in none.reason) == ("stop", True)
 
 
 def test_a_stable_set_in_the_middle_has_its_name_and_around_another_orbits_start_evenly(monkeypatch):
@@ -330,3 +333,11 @@ def test_a_start_where_the_critical_set_is_on_the_equator(theta):
         assert (found.kind, found.onto) == ("border", "C")
         assert math.remainder(found.theta - theta, math.tau) == pytest.approx(0.0, abs=1e-12)
         assert found.e == pytest.approx(e0, abs=1e-12)
+
+
+def test_phases_are_told_apart_by_what_they_say_alone():
+    one, other = Phase("slide", 0.0, 1.0, "Why.", "C"), Phase("slide", 0.0, 1.0, "Why.", "C", places.Leaving(0.3))
+    assert one == other
+    assert repr(one) == repr(other) == "Phase(kind='slide', t_start=0.0, t_end=1.0, reason='Why.', onto='C')"
+    with pytest.raises(ValueError, match="has no place"):
+        one.e(0.5)

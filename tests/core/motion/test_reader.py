@@ -108,6 +108,8 @@ def test_from_when_to_when_a_set_is_followed(monkeypatch):
     assert (run.t_start, run.t_end, run.onto) == (pytest.approx(2.5), pytest.approx(5.5), "C2")
     (found,) = between.runs(1, 4)
     assert (found.first, found.last, found.t_start, found.t_end) == (2, 2, pytest.approx(2.5), pytest.approx(5.5))
+    early = Between(SYSTEM, PSI, EPS, Motion([(0.0, 0.0, 1.0), (0.0, 0.0, 2.0), (0.0, 0.0, 3.0)]), None)
+    assert early.on_set(1, 1, on((0.1, 0.2)), on((0.1, 0.2))).t_start == pytest.approx(0.5)
     whole = reader([(0.0, 0.0, 0.0)] * 3, {0.0: on((0.1, 0.2))})
     run = whole.on_set(0, 2, on((0.1, 0.2)), on((0.1, 0.3)))
     assert (run.t_start, run.t_end) == (0.0, 4.0)

@@ -11,8 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from codim2_core import ELinear, System, examples
+from codim2_core import ELinear, System, examples, simulate_nonsmooth
 from codim2_core import psi as families
+from codim2_core.initial_value import compiled
 from codim2_core.initial_value.events import Event
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.problem import plane_problem
@@ -314,3 +315,32 @@ def test_a_drawn_motion_is_even_in_time_and_of_bounded_length():
     rho = np.hypot(np.hypot(*drawn.states[:, :2].T), 0.5)
     np.testing.assert_allclose(drawn.points, (drawn.states[:, :2] / rho[:, None]) * (1.0 + rho)[:, None], atol=1e-12)
     assert simulate(ELinear(-1.0, 0.25, -1.75), families.rational(), 0.5, (0.3, 0.2), (0.0, 5.0)).invariant < 1e-14
+
+
+def test_the_limit_drifts_nowhere():
+    assert simulate_nonsmooth(ELinear(-1.0, 0.25, -1.75), (0.3, 0.2), (0.0, 0.1)).invariant == 0.0
+
+
+def test_what_is_handed_over_to_be_compiled(monkeypatch):
+    """A motion goes on compiled from where it is, with its own tolerances and the steps that are left."""
+    given = []
+
+    class Compiled:
+        evaluations = 7
+
+        def __init__(self, problem, formulas, psi, eps, line, t, t_end, state, rtol, floor, h, most):
+            given.append((psi, eps, line, t, t_end, state.tolist(), rtol, floor, most))
+            assert h > 0.0
+
+        def chunks(self):
+            return iter(())
+
+    monkeypatch.setattr(compiled, "Compiled", Compiled)
+    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
+    monkeypatch.setattr(regularised, "PATIENCE", 3)
+    psi, system = families.rational(), ELinear(-1.0, 0.25, -1.75, g=(1.0,), B=((0.0, 0.0),))
+    run = simulate(system, psi, 0.5, (0.3, 0.2, 0.1), (1.0, 9.0), rtol=1e-6, atol=1e-9, max_steps=50)
+    assert len(run.times) == 4
+    (told,) = given
+    assert told == (psi, 0.5, None, run.times[-1], 9.0, run.states[-1].tolist(), 1e-6, pytest.approx(1e-3), 47)
+    assert run.evaluations > 7

@@ -204,3 +204,13 @@ def test_means_over_a_round_cycle(psi):
     e, p = _means(c2.System(U=("-s", "c"), W=("1",)), psi, np.array([0.0]), cycle)
     np.testing.assert_allclose(e, 0.0, atol=1e-3)
     np.testing.assert_allclose(p, 0.0, atol=1e-3)
+
+
+@pytest.mark.parametrize("A", [((1.0, 2.0), (3.0, -1.0)), ((0.0, -2.0), (1.0, 0.5)), ((0.3, 4.0), (-1.0, 0.0))])
+def test_a_sheet_of_a_linear_field_is_found_however_its_components_are_coupled(A):
+    (a, b), (c, d) = A
+    system = c2.System(U=(f"({a})*c + ({b})*s - z/9", f"({c})*c + ({d})*s - z**2/9"), W=("1",))
+    exact = lambda z: np.linalg.solve(A, (z / 9.0, z * z / 9.0))  # noqa: E731
+    sheet = Sheet(field(system), exact(0.3), np.array([0.3]))
+    for z in (0.31, 0.5, -1.0):
+        np.testing.assert_allclose(sheet.at(np.array([z])), exact(z), atol=1e-13)
