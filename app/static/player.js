@@ -3,18 +3,56 @@
 const PLAY_SECONDS = 9 // for the whole motion
 const LONGEST = 80 // ms that count as passed between two frames, at most: a page in the background stands still
 
+/** What a button plays and pauses, once a frame of the screen. */
+export class Ticker {
+  /**
+   * @param {any} button to play and pause; it calls `toggle`
+   * @param {(ms: number, next: () => void) => void} advance is called with the time that has passed, and calls `next` when
+   *   it may be called again
+   */
+  constructor(button, advance) {
+    this.button = button
+    this.advance = advance
+    this.run = 0 // of which a step is: one that waits when it is paused goes on no more
+    this.playing = false
+  }
+
+  /** @param {boolean} on */
+  toggle(on) {
+    this.playing = on
+    const run = ++this.run
+    this.button.textContent = on ? "❚❚ Pause" : "▶ Play"
+    this.button.setAttribute("aria-pressed", on)
+    if (!on) return
+    let before = performance.now()
+    const step = (now) => {
+      if (run !== this.run) return
+      const passed = Math.min(now - before, LONGEST)
+      before = now
+      this.advance(passed, next)
+    }
+    const next = () => { if (run === this.run) requestAnimationFrame(step) }
+    next()
+  }
+}
+
 export class Player {
   /**
    * @param {any} button to play and pause
    * @param {(moved: boolean) => void} show is called when the present time, `at`, has changed
    */
   constructor(button, show) {
-    this.button = button
     this.show = show
     this.start = this.end = this.at = 0
-    this.playing = false
+    this.ticker = new Ticker(button, (ms, next) => {
+      this.go(this.at + ms / 1000 * (this.end - this.start) / PLAY_SECONDS)
+      if (this.at >= this.end) this.toggle(false)
+      else next()
+    })
     button.addEventListener("click", () => this.toggle())
   }
+
+  get playing() { return this.ticker.playing }
 
   /** What is there to play has changed: stop, and stay within it. @param {number} start @param {number} end */
   over(start, end) {
@@ -25,20 +63,9 @@ export class Player {
   }
 
   toggle(on = !this.playing) {
-    this.playing = on && this.end > this.start
-    this.button.textContent = this.playing ? "❚❚ Pause" : "▶ Play"
-    this.button.setAttribute("aria-pressed", this.playing)
-    if (!this.playing) return
-    if (this.at >= this.end) this.at = this.start
-    let before = performance.now()
-    const step = (now) => {
-      if (!this.playing) return
-      this.go(this.at + Math.min(now - before, LONGEST) / 1000 * (this.end - this.start) / PLAY_SECONDS)
-      before = now
-      if (this.at >= this.end) this.toggle(false)
-      else requestAnimationFrame(step)
-    }
-    requestAnimationFrame(step)
+    const plays = on && this.end > this.start
+    if (plays && this.at >= this.end) this.at = this.start
+    this.ticker.toggle(plays)
   }
 
   /** @param {number} t */

@@ -4,6 +4,7 @@ import {Chart} from "../chart/chart.js"
 import {spanOf} from "../chart/scale.js"
 import {shape} from "../marks.js"
 import {register} from "../panels.js"
+import {Ticker} from "../player.js"
 import {SAYS, digits, escape, slowName} from "../words.js"
 
 const DRIFT_SECONDS = 10 // in which play would cross the whole range at the largest slow flow shown
@@ -38,7 +39,7 @@ class Along {
       onRedraw: () => this.showPlace(),
       onMove: (z, z2) => { if (this.planeData) this.setControls({z: Number(z.toPrecision(6)), z2: Number(z2.toPrecision(6))}) },
     })
-    this.playing = false
+    this.ticker = new Ticker(this.find(".play"), (ms, next) => this.drifts(ms, next))
     this.data = null
     this.which = this.find(".drift")
     this.which.addEventListener("change", () => tools.choose("drift", this.which.value))
@@ -65,32 +66,29 @@ class Along {
   }
 
   // Play: z follows the slow flow of the attracting set that it is on, a critical set or a limit cycle.
-  toggle(on = !this.playing) {
-    this.playing = on && Boolean(this.data)
-    this.find(".play").textContent = this.playing ? "❚❚ Pause" : "▶ Play"
-    this.find(".play").setAttribute("aria-pressed", this.playing)
-    if (!this.playing) return
-    this.find(".along-note").textContent = ""
-    const most = Math.max(1e-9, ...this.data.branches.flatMap((b) => b.flow.map(Math.abs)))
-    const [low, high] = this.data.span
-    this.rate = (high - low) / most / DRIFT_SECONDS
-    let before = performance.now()
-    const step = (now) => {
-      if (!this.playing) return
-      const dt = Math.min(now - before, 60) / 1000 * this.rate * Number(this.find(".speed").value)
-      before = now
-      if (!this.drift) { this.stop(SAYS.slidingEnds); return }
-      const {flow} = this.drift
-      const wanted = {}
-      flow.slice(0, 4).forEach((rate, i) => { wanted[slowName(i)] = this.values[slowName(i)] + rate * dt })
-      const at = wanted[this.data.control]
-      if (flow.every((rate) => Math.abs(rate) < 1e-4 * most)) { this.stop(SAYS.slowRest); return }
-      if (at < low || at > high) { this.stop(SAYS.rangeEnds); return }
-      this.setControls(wanted)
-      // the next step once this one is drawn: nothing runs ahead of the picture
-      this.arrived = () => { this.arrived = null; requestAnimationFrame(step) }
+  toggle(on = !this.ticker.playing) {
+    const plays = on && Boolean(this.data)
+    if (plays) {
+      this.find(".along-note").textContent = ""
+      this.most = Math.max(1e-9, ...this.data.branches.flatMap((b) => b.flow.map(Math.abs)))
+      const [low, high] = this.data.span
+      this.rate = (high - low) / this.most / DRIFT_SECONDS
     }
-    requestAnimationFrame(step)
+    this.ticker.toggle(plays)
+  }
+
+  drifts(ms, next) {
+    if (!this.drift) { this.stop(SAYS.slidingEnds); return }
+    const {flow} = this.drift, [low, high] = this.data.span
+    const dt = ms / 1000 * this.rate * Number(this.find(".speed").value)
+    const wanted = {}
+    flow.slice(0, 4).forEach((rate, i) => { wanted[slowName(i)] = this.values[slowName(i)] + rate * dt })
+    const at = wanted[this.data.control]
+    if (flow.every((rate) => Math.abs(rate) < 1e-4 * this.most)) { this.stop(SAYS.slowRest); return }
+    if (at < low || at > high) { this.stop(SAYS.rangeEnds); return }
+    this.setControls(wanted)
+    // the next step once this one is drawn: nothing runs ahead of the picture
+    this.arrived = () => { this.arrived = null; next() }
   }
 
   stop(sentence) { this.toggle(false); this.find(".along-note").textContent = sentence }
