@@ -76,7 +76,7 @@ def problem_of(monkeypatch, cycles, z0, index=0):
     given = []
     played(monkeypatch, cycles)
     monkeypatch.setattr(module, "steps", lambda problem, *rest: given.append((problem, *rest)) or iter(()))
-    slide_on_cycle(SYSTEM, PSI, index, 1.0, np.array(z0), 3.0, 77)
+    slide_on_cycle(SYSTEM, PSI, index, 101.0, np.array(z0), 103.0, 77)
     return given[0]
 
 
@@ -84,7 +84,7 @@ def test_its_rate_slope_and_scale(monkeypatch):
     problem, t, t_end, z, rtol, h, most, shortest = problem_of(
         monkeypatch, lambda z: [cycle((0.0, 0.0), M @ z + K)], (0.5, -0.2)
     )
-    assert (t, t_end, z.tolist(), rtol, most) == (1.0, 3.0, [0.5, -0.2], RTOL, 77)
+    assert (t, t_end, z.tolist(), rtol, most) == (101.0, 103.0, [0.5, -0.2], RTOL, 77)
     assert 0.0 < shortest < 1e-3 * h < 1e-3 * (t_end - t)
     at = np.array([3.0, -40.0])
     np.testing.assert_allclose(problem.F(at), M @ at + K)

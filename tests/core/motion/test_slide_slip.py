@@ -177,6 +177,8 @@ def test_in_a_line_the_first_step_stays_in_it_though_what_lies_beside_turns(side
     assert kept.last[1] == 0.0
     assert kept.h == pytest.approx(free.h) == pytest.approx(1e-9)
     assert abs(free.last[1]) > 0.0
+    long = leave(field(system), theta, 5.0, np.array([0.0]), 1e7, line)
+    assert long.h == pytest.approx(1e-2, rel=1e-5)  # nothing turns, that would have to be resolved
     quadratic = c2.System(U=(f"c - {side} + {side}*z", "-s + z"), W=("2",))
     kept = leave(field(quadratic), theta, 0.0, np.array([0.0]), 1.0, Line(field(quadratic), np.array([1.0, 0.0])))
     assert kept.last == pytest.approx([side * kept.h**2, 0.0, 2.0 * kept.h], rel=1e-6)
@@ -189,6 +191,13 @@ def test_where_lambda_rho_only_begins_to_grow_the_way_out_is_quadratic():
     step = leave(field(system), 0.0, 0.0, np.array([0.0]), 1.0)
     assert isinstance(step, Step)
     assert step.last == pytest.approx([step.h**2, 0.0, 2.0 * step.h], rel=1e-6)
+    for U2, W, z in (("-s", "2 + 3*z", lambda h: 2.0 / 3.0 * math.expm1(3.0 * h)), ("z/2 - s", "2 + s", None)):
+        step = leave(field(c2.System(U=("c - 1 + z", U2), W=(W,))), 0.0, 0.0, np.array([0.0]), 1.0)
+        assert isinstance(step, Step)
+        # to second order: of s = theta = t, as Q moves with z, z is 2 t + t^2/2
+        expected = 2.0 * step.h + step.h**2 / 2.0 if z is None else z(step.h)
+        assert step.last[2] == pytest.approx(expected, rel=1e-9)
+        assert step.at(0.5)[2] == pytest.approx(step.h + step.h**2 / 8.0 if z is None else z(0.5 * step.h), rel=1e-9)
     assert "radial eigenvalue is not positive" in leave(
         field(c2.System(U=("c - 1 - z", "-s"), W=("2",))), 0.0, 0.0, np.array([0.0]), 1.0
     )
