@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 
+from codim2_core.layer_problem.hemisphere import scaling_from_disc
 from codim2_core.motion.regularised import simulate
 from codim2_core.orbits.in_time import in_time
 from codim2_core.psi.function import Psi
@@ -42,10 +44,16 @@ def add(draft: Draft) -> None:
     orbit = draft.slow("orbit", key, over_time, scene.coefficients, scene.psi, seed, span)
     if orbit is not None:
         draft.header["orbit"] = {"index": i, **orbit}
+        draft.now["orbit ends"] = key, orbit["t"][-1]
     if draft.values["orbit_eps"] == "show" and draft.system is not None:
+        followed, end = draft.now.get("orbit ends", (None, 0.0))
+        if followed != key:  # the motion lasts as long as the orbit, which is to come, or cannot be followed
+            if draft.now.get("orbit") != key:
+                draft.late("orbit_motion")
+            return
         eps = 10.0 ** draft.values["log_eps"]
-        arrives = launched.goes[i].after is not None
-        wanted = (draft.system, scene.psi, eps, seed, scene.z, span, arrives)
+        lasts = end * (ON if launched.goes[i].after is not None else 1.0)
+        wanted = (draft.system, scene.psi, eps, seed, scene.z, lasts)
         motion = draft.slow("orbit_motion", wanted, regularised, *wanted)
         if motion is not None:
             draft.header["orbit_motion"] = motion
@@ -68,22 +76,21 @@ def regularised(
     eps: float,
     seed: tuple[float, float],
     z: tuple[float, ...],
-    span: tuple[float, float],
-    arrives: bool,
+    lasts: float,
 ) -> dict[str, Any]:
     """Return the motion for eps > 0 from where an orbit starts, in the units of the orbit, as the browser draws it."""
-    orbit = in_time(system, psi, seed, (0.0, span[1]), z)
-    unit = eps if orbit.fast else 1.0
-    state = (*(unit * orbit.xy[0]).tolist(), *z)
-    end = unit * orbit.time[-1] * (ON if arrives else 1.0)
-    drawn = simulate(system, psi, eps, state, (0.0, end), rtol=RTOL).drawn()
+    radius = math.hypot(*seed)
+    fast = radius < 1.0
+    unit = eps if fast else 1.0
+    start = scaling_from_disc(seed) if fast else np.array(seed) * ((radius - 1.0) / radius)
+    drawn = simulate(system, psi, eps, (*(unit * start).tolist(), *z), (0.0, unit * lasts), rtol=RTOL).drawn()
     x, y = drawn.states[:, 0] / unit, drawn.states[:, 1] / unit
     rho = np.hypot(x, y)
-    radius = np.hypot(*drawn.points.T) if orbit.fast else rho
+    height = np.hypot(*drawn.points.T) if fast else rho
     return {
         "eps": eps,
         "t": short(drawn.times / unit),
-        "states": [short(column) for column in (x, y, np.unwrap(np.arctan2(y, x)), radius, *drawn.states[:, 2:].T)],
+        "states": [short(column) for column in (x, y, np.unwrap(np.arctan2(y, x)), height, *drawn.states[:, 2:].T)],
         "picture": [short(column) for column in drawn.points.T],
     }
 

@@ -123,3 +123,34 @@ def test_with_the_motion_hidden_nothing_is_computed_for_it():
     frame = visitor(orbits=OUTSIDE, orbit_eps="hide")
     frame()
     assert frame() == {}
+
+
+def test_the_orbit_is_followed_once_for_its_motion_too(monkeypatch):
+    followed = []
+    real = orbits.in_time
+    monkeypatch.setattr(orbits, "in_time", lambda *given: followed.append(given) or real(*given))
+    frame = visitor(orbits=OUTSIDE, orbit_eps="show")
+    assert {"orbit", "orbit_motion"} <= frame().keys()
+    assert "orbit_motion" in frame(log_eps=-3.0)
+    assert len(followed) == 1
+
+
+def test_an_orbit_that_cannot_be_followed_leaves_no_motion_to_wait_for(monkeypatch):
+    def fails(*_):
+        raise ValueError("It cannot be followed.")
+
+    monkeypatch.setattr(orbits, "in_time", fails)
+
+    class Fails(Beside):
+        def submit(self, fn, /, *args, **kwargs):
+            future = Future()
+            try:
+                future.set_result(fn(*args, **kwargs))
+            except ValueError as error:
+                future.set_exception(error)
+            return future
+
+    header = visitor(Fails(), orbits=OUTSIDE, orbit_eps="show")()
+    assert header["unable"] == {"orbit": "It cannot be followed."}
+    assert "late" not in header
+    assert "orbit_motion" not in header
