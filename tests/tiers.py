@@ -23,6 +23,7 @@ FAST = ("core", "app", "presets")
 SLOW = ("faults", "fuzz", "containers", "versions")
 COSTLY = TESTS / "costly.txt"
 LIMIT = 0.25  # seconds of processor time, of a test that is fast
+ALTOGETHER = 2.0  # the same, of a function for all its parameters
 
 
 def named(item: pytest.Item) -> str:
@@ -79,11 +80,19 @@ def spent() -> float:
 
 
 class Measured:
-    """A plugin that notes the largest processor time of each test function; a fixture's is that of all who use it."""
+    """A plugin that notes the processor time of each test function, the largest and that of all its parameters.
+
+    A fixture's is that of all who use it.
+    """
 
     def __init__(self) -> None:
         self.costs: dict[str, float] = {}
+        self.sums: dict[str, float] = {}
         self.fixtures: dict[str, float] = {}
+
+    def costly(self) -> list[str]:
+        """Names of the functions that are not fast."""
+        return sorted(name for name, cost in self.costs.items() if cost > LIMIT or self.sums[name] > ALTOGETHER)
 
     @pytest.hookimpl(wrapper=True)
     def pytest_fixture_setup(self, fixturedef: pytest.FixtureDef[Any]):
@@ -104,7 +113,9 @@ class Measured:
         finally:
             name, used = named(item), item._fixtureinfo.name2fixturedefs.values()
             shared = [self.fixtures.get(f"{one.baseid}::{one.argname}", 0.0) for found in used for one in found]
-            self.costs[name] = max(self.costs.get(name, 0.0), spent() - before, *shared)
+            cost = spent() - before
+            self.sums[name] = self.sums.get(name, 0.0) + cost
+            self.costs[name] = max(self.costs.get(name, 0.0), cost, *shared)
 
 
 def main() -> int:
@@ -112,11 +123,13 @@ def main() -> int:
     measured = Measured()
     folders = [str(TESTS / folder) for folder in FAST]
     pytest.main(["-q", "-n0", "-p", "no:cacheprovider", *folders], plugins=[measured])
-    costly = sorted(name for name, cost in measured.costs.items() if cost > LIMIT)
+    costly = measured.costly()
     COSTLY.write_text("\n".join(costly) + "\n")
-    total = sum(measured.costs.values())
-    left = sum(cost for name, cost in measured.costs.items() if name not in costly)
-    print(f"{len(costly)} of {len(measured.costs)} test functions take more than {LIMIT} s; {COSTLY} lists them.")
+    total = sum(measured.sums.values())
+    left = sum(cost for name, cost in measured.sums.items() if name not in costly)
+    print(
+        f"{len(costly)} of {len(measured.costs)} test functions take more than {LIMIT} s, or {ALTOGETHER} s altogether."
+    )
     print(f"Processor time: {total:.0f} s, of the fast ones {left:.0f} s.")
     return 0
 

@@ -76,6 +76,13 @@ def test_a_test_named_runs_alone_and_folders_are_shared_among_the_processors(pyt
     assert tiers.processes(Asked("tests")) == 0
 
 
+def test_a_function_is_costly_by_one_of_its_tests_or_by_all_of_them():
+    measured = tiers.Measured()
+    measured.costs = {"quick": 0.01, "long": tiers.LIMIT + 0.01, "often": 0.1}
+    measured.sums = {"quick": tiers.ALTOGETHER - 0.1, "long": tiers.LIMIT + 0.01, "often": tiers.ALTOGETHER + 0.1}
+    assert measured.costly() == ["long", "often"]
+
+
 def test_what_a_fixture_costs_is_the_cost_of_all_who_use_it(tmp_path):
     path = tmp_path / "test_it.py"
     path.write_text("""
