@@ -15,7 +15,7 @@ import codim2_core as c2
 from codim2_core.layer_problem.problem import LayerProblem
 from codim2_core.nullcline.meeting import conics_of
 from codim2_core.sliding.affine import affine_plane
-from tests.app.panels.test_panels import settled
+from tests.app.panels.opening import settled
 
 DIGITS = 3e-4  # of what is packed as whole numbers of the view
 

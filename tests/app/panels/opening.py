@@ -1,0 +1,35 @@
+"""Frames of the explorer with a panel open, asked as the browser asks."""
+
+import time
+
+from codim2_app.draw.packing import unpack
+from codim2_app.state.controls import ExplorerState
+from codim2_app.view.refresh import Frames
+
+CASE3 = {"a": 172.0, "b": 186.0, "d": -200.0, "f1": -86.0, "f2": -93.0, "psi": "hill", "n": 3.0}
+OF_PANELS = {"regions", "atlas_size", "curves_of_psi", "thumbnails", "outcomes", "planes", "diagram", "theorems",
+             "cycles_along", "map"}  # fmt: skip
+
+
+def opened(panel, **values):
+    frames = Frames(ExplorerState(panel=panel, **values))
+    return frames, settled(frames, all=True)
+
+
+def settled(frames, **request):
+    """Ask as the browser does at rest, until nothing is late; return all headers merged."""
+    merged, blocks = unpack(frames.answer(request))
+    deadline = time.monotonic() + 60
+    late = merged.pop("late", [])
+    while late:
+        assert time.monotonic() < deadline, late
+        time.sleep(0.01)
+        header, more = unpack(frames.answer({"rest": True}))
+        late = header.pop("late", [])
+        merged |= header
+        blocks |= more
+    return merged
+
+
+def ask(frames, **values):
+    return unpack(frames.answer({"set": values}))[0]
