@@ -1,5 +1,6 @@
 import os
 import shutil
+from contextlib import ExitStack, contextmanager
 
 import pytest
 from codim2_app.frame.workers import SECONDS
@@ -9,6 +10,9 @@ from tests.app.serving import serving
 #: Milliseconds that a test waits for anything. No test is about the time that a thing takes; workers give way to all
 #: else on a machine that is busy with tests, and end by themselves, which the page then says.
 PATIENCE = 1000 * (SECONDS + 30)
+WINDOW = {"width": 1280, "height": 800}
+VISITED = "try { localStorage.setItem('codim2-welcome', 'seen') } catch { /* forbidden */ }"
+EMPTIED = "() => { try { localStorage.clear(); sessionStorage.clear(); return true } catch { return false } }"
 
 
 def _no_browser(reason):
@@ -48,10 +52,19 @@ class Explorer:
     def __init__(self, page, address):
         self.page, self.address = page, address
         self.requests, self.complaints, self.received = [], [], []
-        page.on("request", lambda request: self.requests.append(request.url))
-        page.on("console", self._hear)
-        page.on("pageerror", lambda error: self.complaints.append(str(error)))
-        page.on("websocket", lambda socket: socket.on("framereceived", lambda part: self.received.append(part)))
+        self.heard = {
+            "request": lambda request: self.requests.append(request.url),
+            "console": self._hear,
+            "pageerror": lambda error: self.complaints.append(str(error)),
+            "websocket": lambda socket: socket.on("framereceived", lambda part: self.received.append(part)),
+        }
+        for event, hear in self.heard.items():
+            page.on(event, hear)
+
+    def leave(self):
+        """Hear no more of the page."""
+        for event, hear in self.heard.items():
+            self.page.remove_listener(event, hear)
 
     def _hear(self, message):
         if message.type in ("error", "warning"):
@@ -108,21 +121,52 @@ class Explorer:
         return self.settle()
 
 
+class Tabs:
+    """Tabs that one test uses after the other: a new one starts a process, which compiles all scripts again."""
+
+    def __init__(self, browser, address):
+        self.browser, self.address, self.free = browser, address, {}
+
+    @contextmanager
+    def page(self, viewport=WINDOW, first_visit=False, **options):
+        """Yield a page of the explorer in an empty tab; then empty the tab, and what the page kept in the browser."""
+        free = self.free.setdefault(repr((first_visit, options)), [])
+        if free:
+            tab = free.pop()
+            tab.set_viewport_size(viewport)
+        else:
+            context = self.browser.new_context(viewport=viewport, **options)
+            if not first_visit:
+                context.add_init_script(VISITED)
+            context.set_default_timeout(PATIENCE)
+            tab = context.new_page()
+        page = Explorer(tab, self.address)
+        yield page
+        page.leave()
+        for other in tab.context.pages:
+            if other is not tab:
+                other.close()
+        scripted = options.get("java_script_enabled", True)
+        if not scripted or (
+            tab.url != "about:blank" and not tab.evaluate(EMPTIED)
+        ):  # a test has changed the tab itself
+            tab.context.close()
+            return
+        tab.context.clear_cookies()
+        tab.mouse.move(0, 0)
+        tab.goto("about:blank")
+        free.append(tab)
+
+
+@pytest.fixture(scope="session")
+def tabs(chromium, server):
+    return Tabs(chromium, server)
+
+
 @pytest.fixture
-def open_page(chromium, server):
-    contexts = []
-
-    def make(first_visit=False, **options):
-        context = chromium.new_context(**{"viewport": {"width": 1280, "height": 800}, **options})
-        if not first_visit:
-            context.add_init_script("try { localStorage.setItem('codim2-welcome', 'seen') } catch { /* forbidden */ }")
-        contexts.append(context)
-        context.set_default_timeout(PATIENCE)
-        return Explorer(context.new_page(), server)
-
-    yield make
-    for context in contexts:
-        context.close()
+def open_page(tabs):
+    with ExitStack() as pages:
+        yield lambda **options: pages.enter_context(tabs.page(**options))
 
 
 @pytest.fixture

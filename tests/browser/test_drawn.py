@@ -98,13 +98,9 @@ def _polygon(points):
 
 
 @pytest.fixture(scope="module", params=list(SETTINGS))
-def drawn(request, chromium, server):
-    from tests.browser.conftest import PATIENCE, Explorer
-
-    context = chromium.new_context(viewport={"width": 1280, "height": 800})
-    context.set_default_timeout(PATIENCE)
-    yield Drawn(Explorer(context.new_page(), server), SETTINGS[request.param])
-    context.close()
+def drawn(request, tabs):
+    with tabs.page() as page:
+        yield Drawn(page, SETTINGS[request.param])
 
 
 def pieces(scene):
