@@ -24,7 +24,8 @@ from typing import Any
 
 from . import javascript, record
 from .mutants import Mutant, mutants
-from .session import Job, preload, run
+from .processes import preload
+from .session import Job, run
 from .targets import ROOT, explained, front_end, guards, is_kernel, modules, room
 
 

@@ -9,8 +9,8 @@ from . import interpreted
 from .__main__ import Choice, survivors
 from .live import changes, functions, put_in
 from .mutants import mutants
+from .reach import Reach, reaching
 from .record import Found, read, written
-from .session import Reach, reaching
 from .targets import ALLOWED, ELSEWHERE, LIVES, ROOT, front_end, guards, is_kernel, modules, room
 
 SOURCE = '''"""A docstring with 1 + 2."""
