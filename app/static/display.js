@@ -62,8 +62,8 @@ function heads(layer, {name, colour}, blocks, theme) {
   return {kind: "heads", layer, part: name, points: blocks[`${name}.at`], angles: blocks[`${name}.angle`], colour: theme[colour], size: 6.5}
 }
 
-function cells({cells: count, colours}, runs, theme) {
-  return {kind: "cells", layer: "basins", count, runs, colours: colours.map((key) => theme[key] ?? null), alpha: 0.3}
+function cells({cells: count, box, colours}, runs, theme) {
+  return {kind: "cells", layer: "basins", count, region: box, runs, colours: colours.map((key) => theme[key] ?? null), alpha: 0.3}
 }
 
 function arcs({start, end, kind}, theme, {ring: [inner, outer], hatches}) {

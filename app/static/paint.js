@@ -78,17 +78,17 @@ const PAINTERS = {
     })
   },
 
-  // Cells of a square around the disc, row by row from the bottom, as runs: how many, of which colour.
-  cells(ctx, {count, runs, colours, alpha}, place, box, bitmaps) {
+  // Cells of a square, row by row from the bottom, as runs: how many, of which colour.
+  cells(ctx, {count, region: [x0, x1, y0, y1], runs, colours, alpha}, place, box, bitmaps) {
     if (typeof CanvasRenderingContext2D === "undefined" || !(ctx instanceof CanvasRenderingContext2D)) {
       ctx.save()
       ctx.globalAlpha = alpha
       ctx.beginPath(); ctx.arc(place.left, place.top, place.across, 0, 2 * Math.PI); ctx.clip()
-      const width = 2 * place.across / count, height = -2 * place.up / count
+      const width = (x1 - x0) * place.across / count, height = -(y1 - y0) * place.up / count
       eachRun(count, runs, (row, column, length, which) => {
         if (!colours[which]) return
         ctx.fillStyle = colours[which]
-        ctx.fillRect(place.left - place.across + column * width, place.top - place.up - (row + 1) * height, length * width, height)
+        ctx.fillRect(place.left + x0 * place.across + column * width, place.top + y0 * place.up - (row + 1) * height, length * width, height)
       })
       ctx.restore()
       return
@@ -104,7 +104,7 @@ const PAINTERS = {
       })
       pen.beginPath(); pen.arc(left, top, across, 0, 2 * Math.PI); pen.clip()
       pen.globalAlpha = alpha
-      pen.drawImage(small, left - across, top + up, 2 * across, -2 * up)
+      pen.drawImage(small, left + x0 * across, top + y1 * up, (x1 - x0) * across, -(y1 - y0) * up)
     })
   },
 

@@ -6,6 +6,7 @@ only where neighbours lead elsewhere.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +22,10 @@ from .endings import CAPTURE, critical_label, drawn_time, endings
 COARSEST = 32  # cells across the disc at first
 OUTSIDE, UNDECIDED = -2, -1
 RTOL = 1e-5
+DISC = (-1.0, 1.0, -1.0, 1.0)
+
+
+Box = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +35,7 @@ class Basins:
     Attributes
     ----------
     cells : ndarray of int8 (n, n)
-        Place in `destinations` for the centre of each cell of [-1, 1]^2, rows by rising y; -1 undecided (on a border,
+        Place in `destinations` for the centre of each cell of the box, rows by rising y; -1 undecided (on a border,
         or slower than was followed), -2 outside the disc.
     destinations : tuple of str
         "C" (or "C1", ...), "cycle 1", "Q2", "equator".
@@ -47,7 +52,13 @@ class Basins:
 
 
 def basins(
-    system: AnySystem, psi: Psi, z: ArrayLike = (), *, n: int = 128, cycles: LimitCycles | None = None
+    system: AnySystem,
+    psi: Psi,
+    z: ArrayLike = (),
+    *,
+    n: int = 128,
+    cycles: LimitCycles | None = None,
+    box: Box = DISC,
 ) -> Basins:
     """Find the basins on the projected disc, eq:LP.
 
@@ -56,29 +67,34 @@ def basins(
     system, psi, z
         As everywhere.
     n : int
-        Cells across the disc: 32 times a power of two.
+        Cells across the box: 32 times a power of two.
     cycles : LimitCycles, optional
         The limit cycles, if they are known already.
+    box : (left, right, bottom, top)
+        The part of the disc, seen nearer; by default the square around it.
 
     Returns
     -------
     Basins
-        A basin thinner than 1/16 of the radius may be missed, since cells are refined only where neighbours of the
-        coarsest 32 x 32 cells differ.
+        A basin thinner than 1/32 of the box (1/16 of the radius) may be missed, since cells are refined only where
+        neighbours of the coarsest 32 x 32 cells differ.
 
     Raises
     ------
     ValueError
-        n is not 32 times a power of two.
+        n is not 32 times a power of two, or the box is no box.
     """
-    return basins_of(LayerProblem(system.at(z), psi).give(cycles_of, cycles), n)
+    return basins_of(LayerProblem(system.at(z), psi).give(cycles_of, cycles), n, box)
 
 
-def basins_of(problem: LayerProblem, n: int = 128) -> Basins:
+def basins_of(problem: LayerProblem, n: int = 128, box: Box = DISC) -> Basins:
     """Find the basins of a layer problem, with the parameters of `basins`."""
     times, rest = divmod(n, COARSEST)
     if rest or times < 1 or times & (times - 1):
         raise ValueError(f"n is {n}; give 32 times a power of two: 32, 64, 128, …")
+    left, right, bottom, top = map(float, box)
+    if not (-math.inf < left < right < math.inf and -math.inf < bottom < top < math.inf):
+        raise ValueError(f"box is {box}; give finite left < right and bottom < top.")
     at, psi, equator, critical = problem.at, problem.psi, problem.equator, problem.critical
     cycles = problem.keep(cycles_of)
     time = drawn_time(at, equator)
@@ -100,16 +116,16 @@ def basins_of(problem: LayerProblem, n: int = 128) -> Basins:
 
     size = COARSEST
     cells = np.full((size, size), OUTSIDE, np.int8)
-    inside = _inside(size)
-    cells[inside] = lead(_centres(size)[inside])
+    inside = _inside(size, box)
+    cells[inside] = lead(_centres(size, box)[inside])
     while size < n:
         size *= 2
         border = np.kron(_bordering(cells), np.ones((2, 2), bool))
         cells = np.kron(cells, np.ones((2, 2), np.int8))
-        inside = _inside(size)
+        inside = _inside(size, box)
         again = inside & (border | (cells == OUTSIDE))
         cells[~inside] = OUTSIDE
-        cells[again] = lead(_centres(size)[again])
+        cells[again] = lead(_centres(size, box)[again])
     cells.flags.writeable = False
     flows = []
     for name in names:
@@ -122,13 +138,14 @@ def basins_of(problem: LayerProblem, n: int = 128) -> Basins:
     return Basins(cells, tuple(names), tuple(flows), evaluations)
 
 
-def _centres(size: int) -> NDArray[np.float64]:
-    x: NDArray[np.float64] = (np.arange(size, dtype=np.float64) + 0.5) * (2.0 / size) - 1.0
-    return np.stack(np.meshgrid(x, x), axis=-1)
+def _centres(size: int, box: Box) -> NDArray[np.float64]:
+    left, right, bottom, top = box
+    part = (np.arange(size, dtype=np.float64) + 0.5) / size
+    return np.stack(np.meshgrid(left + part * (right - left), bottom + part * (top - bottom)), axis=-1)
 
 
-def _inside(size: int) -> NDArray[np.bool_]:
-    return np.hypot(*np.moveaxis(_centres(size), -1, 0)) < 1.0  # never 1: two odd squares are no square
+def _inside(size: int, box: Box) -> NDArray[np.bool_]:
+    return np.hypot(*np.moveaxis(_centres(size, box), -1, 0)) < 1.0
 
 
 def _bordering(cells: NDArray[np.int8]) -> NDArray[np.bool_]:

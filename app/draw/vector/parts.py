@@ -254,8 +254,9 @@ def basins(found: Mapping[str, Any] | None, blocks: Mapping[str, Any], place: Pl
     if not found:
         return []
     cells = found["cells"]
-    side = 2 * place.scale / cells
-    left, bottom = ((-1 - place.seen[0]) * place.scale, (place.seen[3] + 1) * place.scale)
+    x0, x1, y0, _ = found["box"]
+    side = (x1 - x0) * place.scale / cells
+    left, bottom = ((x0 - place.seen[0]) * place.scale, (place.seen[3] - y0) * place.scale)
     paths: dict[str, list[str]] = {}
     at = 0
     for length, which in blocks["basins"].reshape(-1, 2).tolist():

@@ -352,7 +352,7 @@ FRAME = pack(
                      "colour": ["crit"], "size": [7]},
         "sense": [[0.0, 1.0, math.pi]], "all_directions": False,
         "outcomes": {"start": [0.0], "end": [math.pi / 2], "kind": ["slide"]},
-        "basins": {"cells": 2, "colours": ["", "basin-1"]},
+        "basins": {"cells": 2, "box": [-1, 1, -1, 1], "colours": ["", "basin-1"]},
     },
     {"inside": Polylines(np.array([0, 2]), np.array([[0.0, 0.35], [0.7, 0.0]]), True),
      "separatrices_stable": Polylines(np.array([0, 2]), np.array([[0.0, 0.0], [0.0, 0.7]])),

@@ -4,7 +4,7 @@ import test from "node:test"
 import {Bitmaps, paint} from "../../../app/static/paint.js"
 
 // 3 × 3 cells, row by row from the bottom, from left to right: none, none, a; a, b, b; b, none, none.
-const CELLS = {kind: "cells", layer: "basins", count: 3, runs: [2, 0, 2, 1, 3, 2, 2, 0], colours: [null, "a", "b"], alpha: 0.3}
+const CELLS = {kind: "cells", layer: "basins", count: 3, region: [-1, 1, -1, 1], runs: [2, 0, 2, 1, 3, 2, 2, 0], colours: [null, "a", "b"], alpha: 0.3}
 const PLACE = {left: 100, across: 60, top: 200, up: -60}, BOX = {x: 0, y: 0, width: 300, height: 400}
 
 const noting = (drawn) => new Proxy({}, {
@@ -39,4 +39,10 @@ test("basins as a bitmap lie where they are, y upwards", () => {
   assert.deepEqual(filled(small.list), [["a", 2, 2, 1, 1], ["a", 0, 1, 1, 1], ["b", 1, 1, 2, 1], ["b", 0, 0, 1, 1]])
   assert.deepEqual(large.list.find(([name]) => name === "drawImage").slice(2), [40, 140, 120, 120])
   assert.equal(drawn.at(-2)[0], "drawImage")
+})
+
+test("basins of a part of the disc lie in that part", () => {
+  const drawn = []
+  paint(noting(drawn), [{...CELLS, region: [0, 0.5, -0.5, 0]}], PLACE, BOX, new Bitmaps())
+  assert.deepEqual(filled(drawn).map(([colour, ...at]) => [colour, ...at.map((v) => Math.round(v))]), [["a", 120, 220, 10, 10], ["a", 100, 210, 10, 10], ["b", 110, 210, 20, 10], ["b", 100, 200, 10, 10]])
 })

@@ -79,7 +79,7 @@ export const FIRST = {
   ready: true, late: [], errors: {}, portrait: {case: "I", name: "CM4", sentence: "Case I, CM4. Four limit directions.", degeneracies: [["Saddle-node", "Two <meet>."]], sides: {symbol: "f₁", below: "CM2", above: "CM4"}},
   equator: EQUATOR, critical: CRITICAL, sense: [[0, 1, 3.1416], [1, 0, 1.5708]], all_directions: false, slow_flow: [0.4], system: SYSTEM, cycle: null,
   outcomes: {start: [0, 1], end: [1, 2.5], kind: ["slide", "cross"], rows: [["0 to 1", "slide", "slides", "All slide.", [["n > 2", ["1"]]]]]},
-  basins: {cells: 4, colours: ["", "basin-1"]}, launched: {x: [], y: [], goes: [], comes: []}, cycles: {kind: [], period: [], multiplier: [], reason: "None.", notes: []},
+  basins: {cells: 4, box: [-1, 1, -1, 1], colours: ["", "basin-1"]}, launched: {x: [], y: [], goes: [], comes: []}, cycles: {kind: [], period: [], multiplier: [], reason: "None.", notes: []},
 }
 
 /**

@@ -103,3 +103,22 @@ def test_a_border_that_winds_is_where_orbits_that_are_followed_closely_say(n, fr
     away = np.hypot(*(lines.ends[:, None, :2] - np.array([C.p for C in sets])).transpose(2, 0, 1))
     assert (away.min(axis=1) < 1e-2).all()
     assert (kinds != np.argmin(away, axis=1)).mean() <= 0.005  # next to a border, or a tongue thinner than the cells
+
+
+def test_a_part_seen_nearer_has_the_cells_of_the_whole_as_finely():
+    preset = c2.presets["case3-n3"]
+    whole = basins(preset.system, preset.psi, n=256)
+    part = basins(preset.system, preset.psi, n=64, box=(0.25, 0.75, -0.25, 0.25))  # cells of the same size
+    names = np.array(["", "", *whole.destinations])[whole.cells[96:160, 160:224] + 2]
+    np.testing.assert_array_equal(np.array(["", "", *part.destinations])[part.cells + 2], names)
+    assert len(set(names.ravel().tolist())) == 2
+    near = basins(preset.system, preset.psi, n=32, box=(0.9, 1.1, -0.1, 0.1))
+    x = 0.9 + (np.arange(32) + 0.5) * (0.2 / 32)
+    y = x - 1.0
+    np.testing.assert_array_equal(near.cells == OUTSIDE, np.hypot(*np.meshgrid(x, y)) >= 1.0)
+
+
+@pytest.mark.parametrize("box", [(1, -1, -1, 1), (0, 0, 0, 1), (0, float("inf"), 0, 1), (0, 1, float("nan"), 1)])
+def test_a_box_that_is_none_is_refused(box):
+    with pytest.raises(ValueError, match="left < right"):
+        basins(c2.presets["case1-cm4"].system, c2.psi.constant(), n=32, box=box)
