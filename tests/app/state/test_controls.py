@@ -70,3 +70,15 @@ def test_no_portrait_that_there_is_not():
 def test_what_is_taken_from_a_portrait_is_nobody_elses():
     preset_values("attracting-repelling")["layers"].append("separatrices")
     assert "separatrices" not in preset_values("attracting-repelling")["layers"]
+
+
+@pytest.mark.parametrize("name", ["", "Q1", "Q12", "C", "C3", "L2"])
+def test_an_object_is_pinned_by_its_name(name):
+    assert clean("pinned", name) == name
+
+
+@pytest.mark.parametrize("bad", ["Q", "Q0", "L", "C01", "Q1,Q2", "q1", "Q1234", " C", 3, None, ["C"]])
+def test_what_names_no_object_is_not_pinned(bad):
+    with pytest.raises(InputError, match="give an object such as Q2") as caught:
+        clean("pinned", bad)
+    assert caught.value.control == "pinned"
