@@ -3,6 +3,7 @@
 import re
 from concurrent.futures import ThreadPoolExecutor
 from queue import Queue
+from threading import Event
 
 import pytest
 from codim2_app.draw.theme import themes
@@ -94,10 +95,12 @@ def test_a_newer_wish_replaces_an_older(executor):
     frames = Frames(read_link("v=1").state)
     frames.jobs = Jobs(executor)
     answers, later = Queue(), Queue()
-    taking = Taking(frames)
+    taking, begin = Taking(frames), Event()
+    executor.submit(begin.wait)  # none has begun before all are asked for
     for i, kind in enumerate(("json", "npz", "tex")):
         taking.answer({"id": i, "kind": kind}, answers.put, later.put)
         assert frames.jobs.turns.pending <= 1
+    begin.set()
     while answers.empty():
         later.get(timeout=60)()
     assert answers.get()["taken"] == 2
