@@ -142,7 +142,7 @@ function wire({model, view, root, plot}) {
   controls.preset.set = (value) => { if (portrait) portrait.value = value }
   find(".controls").addEventListener("submit", (event) => event.preventDefault())
   find(".reset").addEventListener("click", () => open({}))
-  const pointing = new Pointing(root, picture, () => config.slowSymbols ?? [], (name) => change("pinned", name))
+  const pointing = new Pointing(root, picture, config.page ? document : root, () => config.slowSymbols ?? [], (name) => change("pinned", name))
   pointing.set(values.pinned)
   controls.pinned = {box: pointing.kept, say: () => {}, set: (name) => pointing.set(name)}
   // What is pinned may be called otherwise after a frame: no step of the history.

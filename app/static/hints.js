@@ -57,7 +57,7 @@ export class Hints {
       if (what === "next") this.did(this.step.key, true)
       else if (what) this.end()
     })
-    on(root, "keydown", (event) => { if (event.key === "Escape") this.end() })
+    on(document, "keydown", (event) => { if (event.key === "Escape") this.end() })
     on(window, "resize", () => this.place())
     on(root, "click", () => requestAnimationFrame(() => this.place())) // a sheet may have been drawn up
     on(root, "scroll", () => this.place(), {capture: true})

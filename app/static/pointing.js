@@ -18,10 +18,11 @@ export class Pointing {
   /**
    * @param {any} root the explorer
    * @param {any} picture
+   * @param {any} keyboard where keys are heard: the document of a page, whose picture never has the focus, or the explorer
    * @param {() => string[]} slowSymbols
    * @param {(name: string) => void} choose is called when another object is pinned, or none
    */
-  constructor(root, picture, slowSymbols, choose) {
+  constructor(root, picture, keyboard, slowSymbols, choose) {
     this.root = root
     this.picture = picture
     this.slowSymbols = slowSymbols
@@ -42,7 +43,7 @@ export class Pointing {
     this.list.addEventListener("focusin", (event) => this.show(find(event), true))
     this.list.addEventListener("focusout", () => this.show(null))
     this.list.addEventListener("click", (event) => { const one = find(event); if (one) this.toggle(one) })
-    root.addEventListener("keydown", (event) => {
+    keyboard.addEventListener("keydown", (event) => {
       if (event.key !== "Escape" || !this.name || root.querySelector("dialog[open]")) return
       event.preventDefault()
       this.pin("")

@@ -49,7 +49,7 @@ test("one may go on, do the second first, or have none of it", () => {
   click(other, ".hint .next"); click(other, ".hint .next"); click(other, ".hint .close")
   assert.equal(told(other), null)
   const third = visit({})
-  third.fire(third.root, "keydown", {key: "Escape"})
+  third.fire(third.document.body, "keydown", {key: "Escape"})
   assert.equal(told(third), null)
   pull(third, "#c2-f1", "0.75")
   assert.equal(told(third), null)

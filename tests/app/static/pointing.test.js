@@ -14,7 +14,7 @@ const hint = (one) => one.find(".card:not(.pinned)").hidden ? null : one.find(".
 const hover = (one, [x, y], more = {}) => { hand(one, "pointermove", x, y, more); one.tick(20) }
 /** @param {any} one @param {number[]} place */
 const press = (one, [x, y]) => { hand(one, "pointerdown", x, y); hand(one, "pointerup", x, y); one.tick(400) }
-const escape = (one) => { one.fire(one.root, "keydown", {key: "Escape"}); one.tick(400) }
+const escape = (one) => { one.fire(one.document.body, "keydown", {key: "Escape"}); one.tick(400) }
 
 test("what is under the pointer tells its numbers and shows its eigenvectors, and nothing does elsewhere", () => {
   const one = opened()
