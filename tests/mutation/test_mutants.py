@@ -110,6 +110,17 @@ def test_what_runs_on_import_is_not_changed_in_place(before, after, tmp_path):
     assert in_place(before, after, tmp_path) == (False, 18, 6)
 
 
+def test_what_runs_on_import_is_imported_anew():
+    """Constants, and those made by a generator or a list; but not a function within a function."""
+    plain = "N = tuple(2 * k for k in range(3))\nL = [k for k in N]\n\ndef f():\n    return sum(2 * k for k in N)\n"
+    old = compile(plain, "a.py", "exec")
+    assert changes(old, compile(plain.replace("N = tuple(2 *", "N = tuple(3 *"), "a.py", "exec")) is None
+    assert changes(old, compile(plain.replace("range(3)", "range(4)"), "a.py", "exec")) is None
+    assert changes(old, compile(plain.replace("[k for", "[k + 1 for"), "a.py", "exec")) is None
+    found = changes(old, compile(plain.replace("sum(2 *", "sum(3 *"), "a.py", "exec"))
+    assert [code.co_qualname for code in found] == ["f"]
+
+
 def test_the_quickest_tests_that_reach_a_function_come_first():
     theme, svg = (str(ROOT / "app" / "draw" / f"{name}.py") for name in ("theme", "svg"))
     key = (theme, "f", 3)
