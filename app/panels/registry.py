@@ -17,7 +17,7 @@ from .panel import Panel
 
 #: Modules beside this one that end with a `PANEL`, in the order of the tabs: a new panel is one more name here.
 MODULES = (
-    "parameters.atlas", "numbers", "parameters.planes", "parameters.diagram", "theorems", "along", "stack", "time",
+    "parameters.atlas", "numbers", "parameters.planes", "parameters.diagram", "theorems", "along", "solid", "time",
     "psi", "orbits", "lessons",
 )  # fmt: skip
 #: By key.

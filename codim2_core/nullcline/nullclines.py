@@ -15,7 +15,7 @@ from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .conics import Curve, Straight, affine_plane, chord_ends, conic, lines
-from .drawing import drawn
+from .polylines import drawn
 from .refining import Seen, on_component
 from .typed import Kind, inside_curves, outside_curves
 

@@ -10,8 +10,7 @@ from codim2_app.frame.draft import Draft
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import along as panel_along
-from codim2_app.panels import filippov, psi, time
-from codim2_app.panels import stack as panel_stack
+from codim2_app.panels import filippov, psi, solid, time
 from codim2_app.panels.time import launch_of
 from codim2_app.state.controls import ExplorerState, InputError, opening
 from codim2_app.view.refresh import Frames
@@ -39,7 +38,7 @@ def sent(panel, *, rest=True, **changes):
     return draft.header
 
 
-@pytest.mark.parametrize("panel", [panel_along, panel_stack, time])
+@pytest.mark.parametrize("panel", [panel_along, solid, time])
 def test_while_controls_move_nothing_is_computed(panel):
     header = sent(panel, rest=False, system="ball_in_pool")
     assert set(header) - {"drift"} == {"late"}  # what play follows is known at once
@@ -91,21 +90,21 @@ def test_the_plane_of_two_slow_variables_has_arrows_where_it_slides_only():
 def test_without_slow_variables_it_says_so():
     values = ExplorerState().values()
     scene = make_scene(values, c2.ELinear(-1, 0, -1))
-    for panel in (panel_along, panel_stack):
+    for panel in (panel_along, solid):
         draft = Draft(scene, values, {}, {}, {}, Jobs(Now()), True, True, ())
         panel.add(draft)
         assert "no slow variable" in str(draft.header["unable"])
 
 
 def test_the_lifted_hemisphere_lies_on_the_sphere():
-    sphere = sent(panel_stack)["sphere"]
+    sphere = sent(solid)["sphere"]
     points = np.concatenate([np.array(line) for line in sphere["inside"]])
     np.testing.assert_allclose(np.sum(points**2, axis=1), 1.0, atol=5e-3)  # three digits are sent
     assert points[:, 2].min() >= 0.0
 
 
 def test_the_stack_carries_critical_sets_and_limit_directions_of_every_height():
-    stack = sent(panel_stack, system="nonunique_sliding")["stack"]
+    stack = sent(solid, system="nonunique_sliding")["stack"]
     low, high = stack["span"]
     for height, theta, _, _ in stack["directions"][::40]:
         z = low + height * (high - low)
@@ -172,7 +171,7 @@ def test_an_eps_that_no_motion_takes_is_told(log_eps):
 
 
 def test_the_filippov_view_has_the_whole_interval_and_what_is_selected():
-    header = sent(panel_stack, system="nonunique_sliding", solid="filippov")["filippov"]
+    header = sent(solid, system="nonunique_sliding", solid="filippov")["filippov"]
     assert sorted(header["candidates"]) == pytest.approx([-0.75, 1.25])
     assert sorted(flow for flow, _ in header["selected"]) == pytest.approx([-0.75, 0.25, 1.25])
     for vertex, ends in zip(header["candidates"], header["combined"], strict=True):

@@ -5,7 +5,7 @@ import pytest
 
 import codim2_core as c2
 
-from .test_panels_of_motion import panel_stack, sent
+from .test_panels_of_motion import sent, solid
 
 NAMES = ("a", "b", "d", "f1", "f2", "k1", "k2", "B1", "B2", "g0")
 VALUES = dict(zip(NAMES, (-2.1, 0.3, -1.3, -0.25, 0.2, 0.6, -0.25, 1.2, -0.4, 0.3), strict=True))
@@ -15,11 +15,11 @@ PSI = c2.psi.rational()
 
 @pytest.fixture(scope="module")
 def sphere():
-    return sent(panel_stack, psi="rational", **VALUES)
+    return sent(solid, psi="rational", **VALUES)
 
 
 def test_limit_vectors_are_those_of_the_system(sphere):
-    found = sent(panel_stack, psi="rational", solid="filippov", z=0.7, **VALUES)["filippov"]
+    found = sent(solid, psi="rational", solid="filippov", z=0.7, **VALUES)["filippov"]
     theta = np.linspace(0.0, 2.0 * np.pi, len(found["curve"]))
     e = np.column_stack([np.cos(theta), np.sin(theta)])
     at = SYSTEM.at((0.7,))

@@ -8,7 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, critical_sets, equator_equilibria, hemisphere, nullclines, psi
-from codim2_core.nullcline import drawing
+from codim2_core.nullcline import polylines
 from tests.core.strategies import regularisations, systems
 
 QUARTER_PIXEL = 0.25 / 180
@@ -93,9 +93,9 @@ def worst_gap(system, regularisation, monkeypatch):
     drawn = [b for b in nullclines(system, regularisation) if b.inside]
     with monkeypatch.context() as fine:
         # The exact radius instead of the table, and thirty times the points.
-        fine.setattr(drawing, "_onto_disc", exactly_onto_disc)
-        fine.setattr(drawing, "POINTS", 2049)
-        fine.setattr(drawing, "_GRID", 0.5 - 0.5 * np.cos(np.linspace(0.0, math.pi, 2049)))
+        fine.setattr(polylines, "_onto_disc", exactly_onto_disc)
+        fine.setattr(polylines, "POINTS", 2049)
+        fine.setattr(polylines, "_GRID", 0.5 - 0.5 * np.cos(np.linspace(0.0, math.pi, 2049)))
         exact = [b for b in nullclines(system, regularisation) if b.inside]
     assert [b.kind for b in drawn] == [b.kind for b in exact]
     gaps = [distance_to_polyline(p, a.points) for a, b in zip(drawn, exact, strict=True) for p in b.points[::3]]
