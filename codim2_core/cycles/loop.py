@@ -61,7 +61,7 @@ def loops(coefficients: Coefficients) -> tuple[Loop, ...]:
     equator = equator_equilibria(coefficients)
     count, sense = len(equator), 1 if coefficients.b > 0.0 else -1
     location = locate(coefficients)
-    if count < 2 or location.e is None or (equator.multiplicity > 1).any():
+    if location.e is None or (equator.multiplicity > 1).any():
         return ()
     found = rays(coefficients.a, coefficients.d, location.e, location.complement)
     ends = [math.atan2(location.e[1] + reach * u[1], location.e[0] + reach * u[0]) for reach, _, u in found]

@@ -364,13 +364,12 @@ LIVES: tuple[Lives, ...] = (
         "Asked for the closed orbit of an equator at rest, there is none.",
     ),
     Lives(
-        "core.cycles.loop",
-        "  →  count < 2 or location.e is None",
-        "A multiple zero has no eigenvalue, and begins and ends no arc.",
+        "core.cycles.first_turns", "  →  np.isfinite(shift[[i, j]]).all()", "Where it repels, narrowing finds nothing."
     ),
+    Lives("core.cycles.first_turns", "146: 1.0  →", "How narrow a bracket becomes: a few roundings."),
+    Lives("core.cycles.first_turns", "1e-300  →", "A number too small to be told from the next."),
     Lives("core.cycles.first_turns", "170: 1e-3  →", "How near two multipliers are that are one."),
     Lives("core.cycles.first_turns", "135: 0.5", "How far beyond two samples it is looked."),
-    Lives("core.cycles.loop", "64: 2  →  3", "With two directions there was no loop in 60 000 draws."),
     Lives("core.cycles.loop", "64: 1  →  2", "A multiple zero has no eigenvalue, and begins and ends no arc."),
     Lives("core.layer_problem.critical", "and location is None", "Both are None, or neither is."),
     Lives("core.layer_problem.critical", "sides - middle  →  sides", "Sides are looked at that agree."),

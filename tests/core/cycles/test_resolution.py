@@ -57,6 +57,8 @@ def test_the_largest_of_the_differences_near_an_interval_counts():
     [
         ([1.0, 1.0, 1.0], False),
         ([1.0, 0.05, 1.0], True),
+        ([1.0, 0.09, 1.0], True),
+        ([1.0, 0.11, 1.0], False),
         ([1.0, -0.5, 1.0], True),
         ([1.0, 0.2, -1.0], False),
         ([1.0, -0.5, 0.05, -1.0], True),
