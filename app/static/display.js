@@ -81,6 +81,9 @@ function circle(header, theme) {
   return list
 }
 
+// A label of a critical set stands on the right or, near the equator there, on the left: no limit direction is covered.
+const beside = (x) => x > 0.55 ? {dx: -13, align: "right"} : {dx: 13, align: "left"}
+
 function marks(layer, columns, theme) {
   const list = columns.label.map((_, i) => {
     const colour = theme[columns.colour[i]]
@@ -92,6 +95,6 @@ function marks(layer, columns, theme) {
   const back = theme.page
   const labels = layer === "equator"
     ? columns.label.map((text, i) => ({kind: "label", layer, text, x: columns.label_x[i], y: columns.label_y[i], dx: 0, dy: 0, align: "center", size: 15, colour: theme.ink, back}))
-    : columns.label.map((text, i) => ({kind: "label", layer, text: `${text} ${columns.sense[i]}`.trim(), x: columns.x[i], y: columns.y[i], dx: 13, dy: -11, align: "left", size: 16, colour: theme.ink, back}))
+    : columns.label.map((text, i) => ({kind: "label", layer, text: `${text} ${columns.sense[i]}`.trim(), x: columns.x[i], y: columns.y[i], ...beside(columns.x[i]), dy: -11, size: 16, colour: theme.ink, back}))
   return [...list, ...labels]
 }

@@ -215,7 +215,7 @@ const PAINTERS = {
     const wide = widthOf(ctx, text) + 4, high = 1.25 * size + 2
     ctx.fillStyle = back
     ctx.globalAlpha = 0.72
-    ctx.fillRect(align === "center" ? sx - wide / 2 : sx - 2, sy - high / 2, wide, high)
+    ctx.fillRect({center: sx - wide / 2, left: sx - 2, right: sx - wide + 2}[align], sy - high / 2, wide, high)
     ctx.globalAlpha = 1
     ctx.fillStyle = colour
     ctx.fillText(text, sx, sy)
