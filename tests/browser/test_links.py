@@ -17,9 +17,15 @@ WALK = ["ball-dynamic", "conics-4", "case3-n3", "attracting-repelling", "blowup"
     ("values", "box", "kept", "says"),
     [
         ({"system": "own", "texts": json.dumps({"U1": "-2*c +"})}, "textarea[data-box=U1]", "-2*c +", "column 7"),
+        (
+            {"system": "own", "texts": json.dumps({"U2": "1/c"})},
+            "textarea[data-box=U2]",
+            "1/c",
+            "U2 is ∞ at e = (0, 0)",
+        ),
         ({"psi": "custom", "psi_text": "1/s"}, "#c2-psi-text", "1/s", "s = 0"),
-        ({"psi": "hill", "n": "-3"}, "[data-control=n] .number", "-3", "-3"),
-        ({"z": "1e300"}, "[data-control=z] .number", "1e+300", "1e+300"),
+        ({"psi": "hill", "n": "-3"}, "[data-control=n] .number", "-3", "n is −3"),
+        ({"z": "1e300"}, "[data-control=z] .number", "1e+300", "1 · 10³⁰⁰"),
         ({"a": "two"}, "[data-control=a] .number", "two", "number"),
     ],
 )
