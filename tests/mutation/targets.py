@@ -231,6 +231,7 @@ ALLOWED: tuple[Allowed, ...] = (
     Allowed("app.draw.thumbnails", "VIEW = 1.5", _LOOKS),
     Allowed("app.draw.thumbnails", "PIXEL = 1 / 28", _LOOKS),
     Allowed("app.draw.thumbnails", "COUNT = 22", _LOOKS),
+    Allowed("app.draw.vector.labels", "NARROW, WIDE, CAPITAL, OTHER = ", "How wide letters are at most."),
     Allowed("app.draw.vector.paper", '"rho": (9, 4)', "How long dashes are, as long as they differ."),
     Allowed("app.draw.vector.paper", '"launch-3": (12, 3)', "How long dashes are, as long as they differ."),
     Allowed("static/cell.js", "const PATIENCE", "How long a kernel is waited for, to a millisecond."),
