@@ -333,6 +333,8 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.cycles.turn_section", "20: 1e-", "How near C or the equator an orbit has gone there."),
     Lives("core.cycles.turn_section", "21: 1e-4  →", "How near a set an orbit has settled there."),
     Lives("core.cycles.search", "8.0  →", "How flat a displacement is near its limit."),
+    Lives("core.cycles.search", "y[-1] - y[0]  →  -y[0]", "Only its sign is read."),
+    Lives("core.cycles.search", "89: 1e-3  →", "How closely a jump is looked at."),
     Lives("core.cycles.search", "71: 2  →", "One more sample for the first guess."),
     Lives("core.cycles.search", "width * np.array", "Then the rounds of samples find it."),
     Lives("core.cycles.resolution", "35: 24  →", "How many rounds at most."),
