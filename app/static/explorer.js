@@ -4,6 +4,7 @@ import {Connection} from "./connection.js"
 import {NumberControl, sayAt, slidersOf} from "./controls.js"
 import {readFrame} from "./frames.js"
 import {Hands} from "./hands.js"
+import {Help} from "./help.js"
 import {letScroll, twoFingers} from "./gestures.js"
 import {Inspector} from "./inspector.js"
 import {welcome} from "./hints.js"
@@ -204,6 +205,7 @@ function wire({model, view, root, plot}) {
     picture.seen = snapshot.seen
   }
   if (config.page) {
+    new Help(root, find("dialog.helping"))
     const whole = {...config, look: {embed: false, controls: []}}
     const query = () => writeLink(values, picture.window && picture.seen, whole)
     const share = new Share(find("dialog.sharing"), query, config.link.version, (box) => takes.open(box, {theme: () => root.classList.contains("dark") ? "dark" : "light", sliders: () => slidersOf(root)}))

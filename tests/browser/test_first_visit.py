@@ -1,4 +1,4 @@
-"""The bubbles of a first visit: each leads to what it says, none stands in the way, and they never come again."""
+"""The bubbles of a first visit, which never come again, and the sheet of keys and marks."""
 
 import pytest
 
@@ -43,3 +43,21 @@ def test_by_the_keyboard_and_on_a_phone(open_page):
 
 def test_none_in_a_frame_of_another_page(open_page):
     assert open_page(first_visit=True).open("?embed=1").find(".hint").count() == 0
+
+
+@pytest.mark.parametrize("options", [{}, PHONE], ids=["desktop", "phone"])
+def test_the_sheet_of_keys_and_marks_is_there_on_demand(open_page, options):
+    explorer = open_page(**options).open()
+    sheet = explorer.find("dialog.helping")
+    explorer.page.keyboard.press("?")
+    assert sheet.is_visible()
+    for words in ("Keys and hands", "Shift and drag", "eigenvector, stable", "Approach outcomes", "Limit direction Q"):
+        assert words in sheet.text_content()
+    assert sheet.evaluate("(it) => it.scrollWidth <= it.clientWidth")
+    explorer.page.keyboard.press("Escape")
+    assert not sheet.is_visible()
+    explorer.find("[data-control=f1] .number").press("?")
+    assert not sheet.is_visible()
+    explorer.find(".help").click()
+    assert sheet.is_visible()
+    assert explorer.complaints == []
