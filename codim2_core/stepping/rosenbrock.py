@@ -190,6 +190,34 @@ def _error(S, high, k, rtol, atol):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def _event(S, P, field, k, capture, view, scratch):
+    """Return what ends a lane's trajectory within its step, if anything: a code, and the fraction of the step."""
+    x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
+    ux, uy, uw = S[K12 + k], S[K12 + LANES + k], S[K12 + 2 * LANES + k]
+    if P[SIGN + k] > 0.0 and (1.0 + w) * max(abs(x), abs(y)) > view:
+        return LEFT_VIEW, left_view(S, k, view)
+    if ux * ux + uy * uy + uw * uw <= (4.0 * capture) ** 2:
+        kind = attracted(S, P, field, k, capture, scratch)
+        return EQUILIBRIUM if kind == INTERIOR else ARRIVED if kind == EQUATOR else RUNNING, 1.0
+    return RUNNING, 1.0
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def _go_on(S, k, fraction):
+    """Move a lane's state to that fraction of its step; where it is less than 1 it has left the view on the circle."""
+    x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
+    if fraction < 1.0:
+        x, _u = dense(S, k, fraction)
+        y, _u = dense(S, LANES + k, fraction)
+        w, _u = dense(S, 2 * LANES + k, fraction)
+        r = math.hypot(x, y)
+        x, y = x / r, y / r
+    S[STATE + k], S[STATE + LANES + k], S[STATE + 2 * LANES + k] = x, y, w
+    for c in range(3):
+        S[K0 + c * LANES + k] = S[K12 + c * LANES + k]
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, capture, view, distance):
     """Follow every row of `states` implicitly.
 
@@ -207,7 +235,6 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
     ends, codes, evaluations = np.empty((n, 3)), np.full(n, RUNNING), 0
     times, travelled, counts = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES, np.int64)
     store, stored, offsets = np.empty((1, 64 * n + 64, 3)), 0, np.zeros(n + 1, np.int64)
-    slow = (4.0 * capture) ** 2
     for base in range(0, n, LANES):
         lines = np.empty((LANES, 64, 3))
         many = min(LANES, n - base)
@@ -241,15 +268,8 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
                 h[k] = taken * factor
                 if not error <= 1.0:
                     continue
-                code, fraction, stop = RUNNING, 1.0, times[k] + taken
-                x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
-                ux, uy, uw = S[K12 + k], S[K12 + LANES + k], S[K12 + 2 * LANES + k]
-                if P[SIGN + k] > 0.0 and (1.0 + w) * max(abs(x), abs(y)) > view:
-                    code, fraction = LEFT_VIEW, left_view(S, k, view)
-                    stop = times[k] + fraction * taken
-                elif ux * ux + uy * uy + uw * uw <= slow:
-                    kind = attracted(S, P, field, k, capture, scratch)
-                    code = EQUILIBRIUM if kind == INTERIOR else ARRIVED if kind == EQUATOR else RUNNING
+                code, fraction = _event(S, P, field, k, capture, view, scratch)
+                stop = times[k] + fraction * taken
                 if code == RUNNING and stop >= t_max[i] * (1.0 - 1e-12):
                     code = T_MAX
                 if distance > 0.0:
@@ -265,16 +285,7 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
                     if code == RUNNING and travelled[k] >= longest[i]:
                         code = LENGTH
                 times[k] = stop
-                if fraction < 1.0:  # left the view, so p is on the circle
-                    x, _u = dense(S, k, fraction)
-                    y, _u = dense(S, LANES + k, fraction)
-                    w, _u = dense(S, 2 * LANES + k, fraction)
-                    r = math.hypot(x, y)
-                    x, y = x / r, y / r
-                for c in range(3):
-                    m = c * LANES + k
-                    S[STATE + m] = x if c == 0 else y if c == 1 else w
-                    S[K0 + m] = S[K12 + m]
+                _go_on(S, k, fraction)
                 h[k] = min(h[k], max(t_max[i] - stop, 1e-300))
                 if code != RUNNING:
                     codes[i] = code
