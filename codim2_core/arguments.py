@@ -190,6 +190,7 @@ BY_NAME: Mapping[str, Check] = {
     "events": _as_given,  # `initial_value.events` checks them, one by one
     "family": _as_given,  # `psi` says itself what it takes
     "example": _as_given,
+    "box": _as_given,  # `basins` says itself what it takes
 }
 BY_ANNOTATION: Mapping[str, Check] = {
     "float": number, "bool": truth, "str": text, "ArrayLike": numbers, "tuple[float, float]": pair,

@@ -7,6 +7,7 @@ only where neighbours lead elsewhere.
 from __future__ import annotations
 
 import math
+import reprlib
 from dataclasses import dataclass
 
 import numpy as np
@@ -92,9 +93,7 @@ def basins_of(problem: LayerProblem, n: int = 128, box: Box = DISC) -> Basins:
     times, rest = divmod(n, COARSEST)
     if rest or times < 1 or times & (times - 1):
         raise ValueError(f"n is {n}; give 32 times a power of two: 32, 64, 128, …")
-    left, right, bottom, top = map(float, box)
-    if not (-math.inf < left < right < math.inf and -math.inf < bottom < top < math.inf):
-        raise ValueError(f"box is {box}; give finite left < right and bottom < top.")
+    box = _checked(box)
     at, psi, equator, critical = problem.at, problem.psi, problem.equator, problem.critical
     cycles = problem.keep(cycles_of)
     time = drawn_time(at, equator)
@@ -136,6 +135,16 @@ def basins_of(problem: LayerProblem, n: int = 128, box: Box = DISC) -> Basins:
         else:
             flows.append(None)
     return Basins(cells, tuple(names), tuple(flows), evaluations)
+
+
+def _checked(box: Box) -> Box:
+    try:
+        left, right, bottom, top = map(float, box)
+    except (TypeError, ValueError, OverflowError):
+        left = right = bottom = top = math.nan
+    if not (-math.inf < left < right < math.inf and -math.inf < bottom < top < math.inf):
+        raise ValueError(f"box is {reprlib.repr(box)}; give left, right, bottom, top, with left < right, bottom < top.")
+    return left, right, bottom, top
 
 
 def _centres(size: int, box: Box) -> NDArray[np.float64]:

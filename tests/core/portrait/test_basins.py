@@ -118,7 +118,9 @@ def test_a_part_seen_nearer_has_the_cells_of_the_whole_as_finely():
     np.testing.assert_array_equal(near.cells == OUTSIDE, np.hypot(*np.meshgrid(x, y)) >= 1.0)
 
 
-@pytest.mark.parametrize("box", [(1, -1, -1, 1), (0, 0, 0, 1), (0, float("inf"), 0, 1), (0, 1, float("nan"), 1)])
+@pytest.mark.parametrize(
+    "box", [(1, -1, -1, 1), (0, 0, 0, 1), (0, float("inf"), 0, 1), (0, 1, float("nan"), 1), 3.0, (0, 1), "abcd"]
+)
 def test_a_box_that_is_none_is_refused(box):
     with pytest.raises(ValueError, match="left < right"):
         basins(c2.presets["case1-cm4"].system, c2.psi.constant(), n=32, box=box)
