@@ -1,0 +1,65 @@
+"""In another unit of time, with (U, W) K times as large, a motion is the same one, step by step."""
+
+import numpy as np
+import pytest
+
+from codim2_core import psi as families
+from codim2_core.motion.nonsmooth import simulate_nonsmooth
+from codim2_core.motion.regularised import simulate
+from codim2_core.systems.elinear import ELinear
+from codim2_core.systems.typed import System
+
+K = 1024.0  # a power of two: no rounding differs
+
+
+def fold(k):
+    return System(U=(f"{k}*(c**2 - z + s/4)", f"{k}*(c/8 - s)"), W=(f"{k}*(c/4 - 1/2)",))
+
+
+def hopf(k):
+    return System(U=(f"{k}*(172*c - 186*s - 172*z)", f"{k}*(186*c - 200*s - 186*z)"), W=(f"{k}*c/2",))
+
+
+def cycle(k):
+    return ELinear(172.0 * k, 186.0 * k, -200.0 * k, (f"-172*z*{k}", f"-186*z*{k}"), B=((0.5 * k, 0.0),))
+
+
+def equator(k):
+    return ELinear(-1.0 * k, 0.5 * k, -2.0 * k, (f"{k}*z", f"{k}*0.2"), B=((0.3 * k, 0.0),), g=(0.8 * k,))
+
+
+def along_a_line(k):
+    return System(U=(f"{k}*(c**2 - z)", f"{-k}*s"), W=(f"{k}*(c/4 - 1/2)",))
+
+
+CASES = [
+    (fold, (0.0, 0.0, 0.3), 1.0, families.constant()),
+    (hopf, (8.5e-4, 5.2e-4, 0.3), 0.4, families.hill(3)),
+    (cycle, (8.5e-4, 5.2e-4, 0.3), 2.6, families.hill(3)),
+    (equator, (0.3, -0.2, 0.1), 3.0, families.tanh()),
+    (along_a_line, (0.0, 0.0, 0.3), 1.0, families.constant()),
+]
+
+
+def same(own, other):
+    assert [(phase.kind, phase.onto, phase.reason) for phase in other.phases] == [
+        (phase.kind, phase.onto, phase.reason) for phase in own.phases
+    ]
+    times = [(phase.t_start, phase.t_end) for phase in own.phases]
+    np.testing.assert_allclose([(K * p.t_start, K * p.t_end) for p in other.phases], times, rtol=1e-9, atol=0.0)
+    assert len(other.times) == len(own.times)
+    assert other.evaluations == own.evaluations
+    np.testing.assert_allclose(other.states[-1], own.states[-1], rtol=1e-9, atol=1e-14)
+
+
+@pytest.mark.parametrize(("system", "state0", "t", "psi"), CASES)
+def test_the_limit_is_the_same_in_another_unit_of_time(system, state0, t, psi):
+    own, other = (simulate_nonsmooth(system(k), state0, (0.0, t / k), psi) for k in (1.0, K))
+    assert len(own.phases) > 1
+    same(own, other)
+
+
+@pytest.mark.parametrize(("system", "state0", "t", "psi"), CASES[:1] + CASES[3:])
+def test_a_motion_is_the_same_in_another_unit_of_time(system, state0, t, psi):
+    own, other = (simulate(system(k), psi, 1e-4, state0, (0.0, t / k)) for k in (1.0, K))
+    same(own, other)
