@@ -225,7 +225,7 @@ def at_equator(family: Family, value: float, direction: float, width: float, kno
 
 
 def at_singular(family: Family, value: float, direction: float, width: float) -> End | None:
-    """Find det A = 0 close ahead, with a whole line of critical points through the cycle, or None."""
+    """Find det A = 0 close ahead, with a whole line of equilibria through the cycle, or None."""
 
     def determinant(v: float) -> float:
         a, b, d = family.at(v)[0].plane[:3]

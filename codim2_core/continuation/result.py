@@ -20,7 +20,7 @@ class CyclePoint:
     ----------
     kind : str
         "Hopf", "fold of cycles", "heteroclinic cycle through the equator", "equator" (the closed equator takes over the
-        cycle), "saddle-node on the equator", "det A = 0" (a line of critical points cuts
+        cycle), "saddle-node on the equator", "det A = 0" (a line of equilibria cuts
         the cycle), "span" (an end of the span), "closed" (the branch has no ends) or
         "undecided".
     value : float

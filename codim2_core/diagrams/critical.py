@@ -155,7 +155,7 @@ def _placed(path: Line, values: Array) -> tuple[Linearisation, Array, Array]:
             continue
         m11, m12, m21, m22 = (float(v[i]) for v in plane.affine[:4])
         if abs(m11 * m22 - m12 * m21) <= 1e-12 * (abs(m11 * m22) + abs(m12 * m21)):
-            # a whole line of critical points: where the branch arrives shows a little before
+            # a whole line of equilibria: where the branch arrives shows a little before
             inner = values[i] + 1e-6 * (values[i + 1 if i == 0 else i - 1] - values[i])
             there = linearise(path(np.array([inner])))
             e[i], p[i] = there.e[0], there.p[0]
@@ -181,7 +181,7 @@ def _border_points(path: Line, exponent: int, cuts: Borders) -> list[SpecialValu
             at = linearise(path(np.array([value + 1e-7 * max(1.0, abs(value))])), exponent)
             place = (float(at.p[0, 0]), float(at.p[0, 1]))
             sentence = say("line at one value")
-            special.append(SpecialValue("line of critical points", value, place, sentence, "thm:lineps1"))
+            special.append(SpecialValue("line of equilibria", value, place, sentence, "thm:lineps1"))
         else:
             sentence = say("through infinity")
             special.append(SpecialValue("det A = 0", value, (0.0, 0.0), sentence, "tab:cases"))

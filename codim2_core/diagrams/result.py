@@ -24,7 +24,7 @@ class SpecialValue:
     ----------
     kind : str
         "saddle-node", "pitchfork", "cusp", "exchange of limit directions", "all directions", "transcritical",
-        "touching the equator", "Hopf", "tr J = 0", "node-focus", "det A = 0", "line of critical points" or
+        "touching the equator", "Hopf", "tr J = 0", "node-focus", "det A = 0", "line of equilibria" or
         "neutral equator"; for general systems also "fold of critical sets", "det J = 0" and "change of critical sets"
         (one comes or goes alone).
     value : float

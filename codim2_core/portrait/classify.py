@@ -47,12 +47,24 @@ def _equator_degeneracies(equator: EquatorEquilibria, cycle: EquatorCycle | None
     return found
 
 
-def _critical_degeneracies(location: Location, critical: tuple[CriticalSet, ...]) -> list[Degeneracy]:
+def _true_centre(coefficients: Coefficients) -> bool:
+    """Whether a C with tr J = 0 is a centre for every Psi: the layer problem preserves area, or is reversible.
+
+    For a = d = 0 it has no divergence; for a = -d and |f1| = |f2| it is reversible about a diagonal, which the one C
+    lies on. For f = 0 its orbits are those of x' = A x.
+    """
+    a, _, d, f1, f2 = coefficients.plane
+    return a == d == 0.0 or (a == -d and abs(f1) == abs(f2))
+
+
+def _critical_degeneracies(
+    location: Location, critical: tuple[CriticalSet, ...], coefficients: Coefficients
+) -> list[Degeneracy]:
     names = {
         Existence.EQUATOR: "transcritical",
         Existence.SINGULAR_NONE: "det A = 0",
         Existence.SINGULAR_OUTSIDE: "det A = 0",
-        Existence.SINGULAR_LINE: "line of critical points",
+        Existence.SINGULAR_LINE: "line of equilibria",
         Existence.EVERYTHING: "everything stands still",
     }
     found = []
@@ -62,7 +74,7 @@ def _critical_degeneracies(location: Location, critical: tuple[CriticalSet, ...]
         found.append(
             undecided(
                 "tr J = 0",
-                say("linear centre"),
+                say("true centre" if _true_centre(coefficients) else "linear centre"),
                 NEUTRAL_TRACE,
                 "the terms of the trace",
             )
@@ -89,7 +101,9 @@ def _arrives(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> bool:
     return any(rho < 0.0 and not still for rho, still in zip(equator.lambda_rho.tolist(), neutral, strict=True))
 
 
-def _consequence(location: Location, critical: tuple[CriticalSet, ...], case: str | None, arrives: bool) -> str:
+def _consequence(
+    location: Location, critical: tuple[CriticalSet, ...], case: str | None, arrives: bool, coefficients: Coefficients
+) -> str:
     if not critical:
         if location.existence is Existence.NONE:
             return say("crossing" if arrives else "repelled")
@@ -105,7 +119,7 @@ def _consequence(location: Location, critical: tuple[CriticalSet, ...], case: st
         return say("saddle")
     if kind.startswith("unstable"):
         return say("unstable", kind=kind)
-    return say("centre")
+    return say("closed orbits around" if _true_centre(coefficients) else "centre")
 
 
 def portrait(problem: LayerProblem) -> Classification:
@@ -119,12 +133,13 @@ def portrait(problem: LayerProblem) -> Classification:
     if coefficients is None or location is None or (location.e is None) == bool(critical):
         return general_portrait(problem.at, equator, cycle, critical)
     case, degeneracies = _case(coefficients)
-    degeneracies += _equator_degeneracies(equator, cycle) + _critical_degeneracies(location, critical)
+    degeneracies += _equator_degeneracies(equator, cycle) + _critical_degeneracies(location, critical, coefficients)
     count = "∞" if equator.all_directions else str(len(equator.theta))
-    name = ("CM" if critical else "NCM") + count
+    many = location.existence in (Existence.SINGULAR_LINE, Existence.EVERYTHING)  # equilibria that are not isolated
+    name = ("CM" if critical or many else "NCM") + count
     prefix = f"Case {case}, {name}. " if case else f"{name}. "
     sentence = prefix + directions(equator, cycle) + " "
-    sentence += _consequence(location, critical, case, _arrives(equator, cycle))
+    sentence += _consequence(location, critical, case, _arrives(equator, cycle), coefficients)
     return Classification(case, name, sentence, tuple(degeneracies))
 
 

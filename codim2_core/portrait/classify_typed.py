@@ -90,7 +90,7 @@ def _critical(critical: tuple[CriticalSet, ...], found: DiscZeros) -> list[Degen
     if found.everything:
         named.append(("everything stands still", say("everything at rest")))
     if found.curve:
-        named.append(("curve of critical points", say("curve of zeros")))
+        named.append(("curve of equilibria", say("curve of zeros")))
     if found.on_equator:
         named.append(("transcritical", say("zero on the equator")))
     if "saddle-node" in kinds:

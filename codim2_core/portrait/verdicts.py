@@ -70,11 +70,16 @@ def from_equator(problem: LayerProblem, which: Sequence[int]) -> Trajectories:
     )
 
 
+def _place(end: Ending) -> str:
+    if end.label != "undecided":
+        return named(end.label)
+    return "an equilibrium that is not isolated" if end.sentence == Status.EQUILIBRIUM.value else "no end found"
+
+
 def judge(problem: LayerProblem, found: Sequence[Ending], many: str) -> Judged:
     """Judge trajectories that end so."""
-    labels = list(dict.fromkeys(end.label for end in found))
-    if len(labels) > 1:
-        where = ", ".join(named(label) for label in labels)
+    if len({end.label for end in found}) > 1:
+        where = ", ".join(dict.fromkeys(_place(end) for end in found))
         return Judged("undecided", reason=say("several ends", many=many, labels=where), why="several")
     end = found[0]
     label = end.label

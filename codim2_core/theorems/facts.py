@@ -30,7 +30,7 @@ UNCERTAIN = frozenset(
         "limit directions uncertain",
         "critical sets uncertain",
         "index mismatch",
-        "curve of critical points",
+        "curve of equilibria",
         "everything stands still",
         "degenerate critical set",
     }

@@ -114,7 +114,7 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "one kind": Sentence("C is of one kind, node or focus, wherever it exists.", "no curve"),
     "line at one value": Sentence(
-        "det A = 0 with f in the range of A: a whole line A e = −f of critical points.",
+        "det A = 0 with f in the range of A: a whole line A e = −f of equilibria.",
         "det A = 0, f in the range of A",
     ),
     "through infinity": Sentence(

@@ -165,7 +165,7 @@ SENTENCES: dict[str, Sentence] = {
         "a branch ends",
     ),
     "meets a line": Sentence(
-        "{name} = {value:.6g}: the cycle meets a whole line of critical points, where motion stops: its period "
+        "{name} = {value:.6g}: the cycle meets a whole line of equilibria, where motion stops: its period "
         "grows beyond bounds.",
         "a branch ends, det A = 0",
     ),

@@ -33,6 +33,10 @@ SENTENCES: dict[str, Sentence] = {
         "whether it is one, or a focus, as at a Hopf bifurcation.",
         "tr J = 0 within rounding, one critical set",
     ),
+    "true centre": Sentence(
+        "tr J = 0: C is a centre of the layer problem, surrounded by closed orbits, whatever Ψ is.",
+        "a = d = 0, or a = −d and |f₁| = |f₂|",
+    ),
     "between the cases": Sentence(
         "{which}: on the border between Case I and Cases II, III (Table 1).", "a = 0 or d = 0"
     ),
@@ -88,7 +92,7 @@ SENTENCES: dict[str, Sentence] = {
         "det A = 0 within rounding, and f is not in the range of A: no critical set.", "the status of the closed form"
     ),
     "singular, a line": Sentence(
-        "det A = 0 within rounding, and f is in the range of A: a whole line A e = −f of critical points.",
+        "det A = 0 within rounding, and f is in the range of A: a whole line A e = −f of equilibria.",
         "the status of the closed form",
     ),
     "singular, outside": Sentence(

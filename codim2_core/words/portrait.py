@@ -58,6 +58,9 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "unstable": Sentence("The critical set C is an {kind}: sliding along C itself is unstable.", "unstable"),
     "centre": Sentence("The critical set C is a centre to first order.", "tr J = 0 within rounding"),
+    "closed orbits around": Sentence(
+        "The critical set C is a centre: closed orbits surround it.", "tr J = 0 where the layer problem says more"
+    ),
     # critical sets of other systems
     "no isolated set": Sentence("No isolated critical set inside.", "a curve of zeros, or zeros on the equator"),
     "no critical set": Sentence("There is no critical set.", "U has no zero in the disc, proven"),
@@ -134,7 +137,7 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "rest ahead": Sentence(
         "They come to rest at an equilibrium that is not isolated: terms of higher order decide what they do there.",
-        "they end on a curve of critical points",
+        "they end on a curve of equilibria",
     ),
     "unfollowed": Sentence("They were followed for long and came to no end.", "the computation gave up"),
     "alike": Sentence(

@@ -28,7 +28,7 @@ MOST_FOR_A_LAYER = 5_000_000
 MOST_FOR_OUTCOMES = 20_000_000
 # A band of orbits that close to 1e-8 is found as hundreds of "semistable" cycles, which outcomes then try one by one.
 MOST_CYCLES = 4
-BORDERS = {"transcritical", "det A = 0", "line of critical points", "everything stands still"}
+BORDERS = {"transcritical", "det A = 0", "line of equilibria", "everything stands still"}
 
 
 def numbers(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
@@ -74,9 +74,7 @@ def check_plane(plane: Plane, psi: Psi, scale: float = 1.0) -> tuple[Any, ...]:
     # critical sets: as the doubles say, unless they are named to be on the border
     border = locate(at.at()).existence not in (Existence.INSIDE, Existence.NONE)
     assert border or (existence(plane) == "one") == bool(critical)
-    assert border == bool(
-        {"transcritical", "det A = 0", "line of critical points", "everything stands still"} & {*names}
-    )
+    assert border == bool({"transcritical", "det A = 0", "line of equilibria", "everything stands still"} & {*names})
     for C in critical:
         assert np.hypot(*C.e) <= 1.0
         assert np.hypot(*C.p) <= 1.0

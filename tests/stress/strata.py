@@ -74,10 +74,8 @@ STRATA = (
     Stratum("det A = 0", (1.0, 1.0, -1.0, 0.5, 0.25), "det A = 0", "a b d"),
     Stratum("det A = 0, one row", (0.0, 0.0, 2.0, 1.0, 0.0), "det A = 0", "b a"),
     Stratum("det A = 0, the line misses", (1.0, 1.0, -1.0, 5.0, 5.0), "det A = 0", "a b d"),
-    Stratum(
-        "line of critical points", (1.0, 1.0, -1.0, 0.5, 0.5), "line of critical points", "f1 f2 a b d", 1e-14, 1e-2
-    ),
-    Stratum("line through the centre", (1.0, 1.0, -1.0, 0.0, 0.0), "line of critical points", "a b d f1"),
+    Stratum("line of equilibria", (1.0, 1.0, -1.0, 0.5, 0.5), "line of equilibria", "f1 f2 a b d", 1e-14, 1e-2),
+    Stratum("line through the centre", (1.0, 1.0, -1.0, 0.0, 0.0), "line of equilibria", "a b d f1"),
     Stratum("A = 0", (0.0, 0.0, 0.0, 0.5, 0.25), "det A = 0", "b"),
     Stratum("everything stands still", (0.0, 0.0, 0.0, 0.0, 0.0), "everything stands still", "a b d f1"),
     # |A^-1 f| = 1

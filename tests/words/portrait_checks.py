@@ -9,6 +9,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import codim2_core as c2
 from codim2_core import psi
@@ -70,6 +71,27 @@ class Portrait:
 
     def index(self, Q):
         return int(Q[1:].translate(str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789"))) - 1
+
+
+def closed_around(system, family):
+    """An orbit of the layer problem that starts well away from C comes back to where it was."""
+    at, (C,) = system.at((0.0,) * system.m), c2.critical_sets(system, family, (0.0,) * system.m)
+
+    def flow(_, p):
+        return at.U(p / math.sqrt(p @ p + family(p @ p)))
+
+    centre = C.x2
+    start = centre + np.array([0.6, 0.2])
+
+    def ray(_, p):  # zero where the orbit crosses the ray through the start
+        x, y = p - centre
+        return 0.6 * y - 0.2 * x
+
+    ray.terminal = 5
+    turned = solve_ivp(flow, (0.0, 400.0), start, events=ray, rtol=1e-10, atol=1e-12)
+    again = [p for p in turned.y_events[0][1:] if (p - centre) @ (start - centre) > 0.0]
+    assert len(again) > 1
+    np.testing.assert_allclose(again[:2], [start, start], atol=1e-6)
 
 
 def true(*_):
@@ -228,6 +250,7 @@ CLASSES = {
     "saddle": saddle,
     "unstable": unstable,
     "centre": lambda p, _: np.testing.assert_allclose(p.critical[0].trace, 0.0, atol=1e-6 * p.size),
+    "closed orbits around": lambda p, _: closed_around(p.system, p.psi),
     "no isolated set": lambda p, _: p.critical and pytest.fail("there are critical sets"),
     "no critical set": lambda p, _: p.critical and pytest.fail("there are critical sets"),
     "none stable": kinds_of_general,

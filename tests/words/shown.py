@@ -31,7 +31,7 @@ RULES = {
     "a digit that is lowered in a name": r"\b[QCfzUkB][0-9]\b",
     "a prime that is typed": r"\b[xyz]' |\bd[xyz]/d[tT]\b",
     "another term for what the paper calls limit direction, critical set, layer problem": (
-        r"(?i)fixed point(?! of the)|critical point\b|steady state|direction of approach|fast subsystem|singular set"
+        r"(?i)fixed point(?! of the)|critical points?\b|steady state|direction of approach|fast subsystem|singular set"
     ),
     "another spelling": r"(?i)regularization|\bcolor\b|neighbor|\bcenter\b",
 }  # fmt: skip

@@ -9,6 +9,8 @@ import codim2_core as c2
 from codim2_core import ELinear, System, psi
 from codim2_core.words import ROOMS, recognise
 
+from .portrait_checks import closed_around
+
 ONE = psi.constant()
 
 
@@ -101,6 +103,7 @@ DEGENERATE = {
     "singular, outside": linear(in_range),
     "linear centre": trace_vanishes,
     "linear centre, one of them": trace_vanishes,
+    "true centre": lambda system: [closed_around(system, one) for one in (ONE, psi.hill(3))],
 }
 SETTINGS = [
     ELinear(-1, 1, -1, (1, 0)),
@@ -111,6 +114,7 @@ SETTINGS = [
     ELinear(0, 2, 0),
     ELinear(0, 2, 0, (0.3, 0.1)),
     ELinear(-1, 3, 1),
+    ELinear(-1, 3, 1, (0.4, -0.4)),
     ELinear(-1, 0, -1, (1, 0)),
     ELinear(-1, 0, 0, (0.3, 0.2)),
     ELinear(-1, 0, 0, (0.3, 0)),

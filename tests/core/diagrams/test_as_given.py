@@ -27,7 +27,7 @@ def test_a_matrix_of_rank_one_is_singular_everywhere(u1, u2, k, f1, f2, in_range
     for system in (ELinear.from_matrix(A, f), typed(A, f)):
         assert critical_sets(system, psi.rational()) == ()
         found = classify(system, psi.rational())
-        assert {d.name for d in found.degeneracies} & {"det A = 0", "line of critical points"}
+        assert {d.name for d in found.degeneracies} & {"det A = 0", "line of equilibria"}
         assert found.case not in ("II", "III")
     path = linearisation_path(ELinear.from_matrix(A, f), psi.rational(), "f1", [f[0], f[0] + 0.5, f[0] - 0.25])
     assert not path.exists.any()

@@ -105,7 +105,7 @@ def test_hopf_values_lie_on_the_hopf_curve_with_its_coefficient() -> None:
 
 def test_det_a_zero_and_a_line_of_critical_points() -> None:
     D = diagram(c2.ELinear(-1, 0.2, -1.5), c2.psi.constant(), "a", (-2, 2))
-    assert_allclose(found(D, "line of critical points"), [0.04 / 1.5], rtol=1e-13)
+    assert_allclose(found(D, "line of equilibria"), [0.04 / 1.5], rtol=1e-13)
     assert [b.kind for b in D.critical][-1] == "saddle"
     D = diagram(c2.ELinear(-1, 0.2, -1.5, f=(1, 0)), c2.psi.constant(), "a", (-2, 2))
     assert_allclose(found(D, "det A = 0"), [0.04 / 1.5], rtol=1e-13)
@@ -192,7 +192,7 @@ def test_branches_agree_with_the_exact_answers(
         at, psi_at, z_at = vary.varied(system, psi, z, name, value)
         if (c2.equator_equilibria(at, z_at).multiplicity == 1).all() and not {
             d.name for d in c2.classify(at, psi_at, z_at).degeneracies
-        } & {"all directions", "transcritical", "line of critical points", "det A = 0"}:
+        } & {"all directions", "transcritical", "line of equilibria", "det A = 0"}:
             check(system, psi, z, D, value)
 
 

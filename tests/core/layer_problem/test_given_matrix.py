@@ -68,8 +68,8 @@ def test_half_integer_matrices_are_decided_exactly(given, f):
 
 def test_singular_matrices_are_named_so_and_certified_as_nothing():
     """Both were given a case and a critical set: the rotation had rounded their determinants."""
-    for A, f, name in (([[1, -1], [-2, 2]], (-0.5, 1), "line of critical points"),
-                       ([[-1, -3], [-1.5, -4.5]], (0, 0), "line of critical points")):  # fmt: skip
+    for A, f, name in (([[1, -1], [-2, 2]], (-0.5, 1), "line of equilibria"),
+                       ([[-1, -3], [-1.5, -4.5]], (0, 0), "line of equilibria")):  # fmt: skip
         for system in (ELinear.from_matrix(A, f), as_text(np.ravel(A), f)):
             found = c2.classify(system, psi.constant())
             assert found.case is None, A

@@ -57,9 +57,10 @@ def test_index_of_the_critical_set_is_the_degree_on_the_equator(system, regulari
         (ELinear(-1, 0, -1.5, (-0.5, 0)), "CM2", "pitchfork"),
         (ELinear(-1, 1, -1, (0.6, 0.8)), "CM1", "saddle-node"),
         (ELinear(-1, 0, -1, (0.6, 0.8)), "NCM2", "transcritical"),
-        (ELinear(1, 1, -1, (0.5, 0.5)), "NCM3", "line of critical points"),
+        (ELinear(1, 1, -1, (0.5, 0.5)), "CM4", "line of equilibria"),
         (ELinear(1, 1, -1, (0.5, 0.2)), "NCM2", "det A = 0"),
-        (ELinear(0, 0, 0), "NCM∞", "everything stands still"),
+        (ELinear(-1, 0, 0, (0.3, 0)), "CM4", "line of equilibria"),
+        (ELinear(0, 0, 0), "CM∞", "everything stands still"),
         (ELinear(0, 1, 0), "CM0", "tr J = 0"),
         (ELinear(0, 1, 0), "CM0", "neutral equator"),
         (ELinear(0, 1, 0), "CM0", "a = d = 0"),
@@ -69,8 +70,7 @@ def test_index_of_the_critical_set_is_the_degree_on_the_equator(system, regulari
 def test_degenerate_settings_are_named(system, name, degeneracy):
     found = classify(system, psi.constant())
     assert degeneracy in {d.name for d in found.degeneracies}
-    if name not in ("NCM3", "NCM2"):
-        assert found.name == name
+    assert found.name == name
     assert all(d.sentence.endswith(".") for d in found.degeneracies)
 
 

@@ -74,7 +74,7 @@ def test_degeneracies_are_named():
     assert names("2*c**2 - c - 1", "-s") == ["transcritical"]
     assert "fold" in names("c**2", "s - 1/7")
     assert "degenerate critical set" in names("c**3", "s - 1/7")
-    assert "curve of critical points" in names("c*(c - s)", "s*(c - s) + s*(c - s)")
+    assert "curve of equilibria" in names("c*(c - s)", "s*(c - s) + s*(c - s)")
     assert "everything stands still" in names("c - c", "0*s")
     assert "limit directions uncertain" in names("-c/(1 + abs(s)) + 0.1", "-abs(s)*s - c/2")
     assert "critical sets uncertain" in names("c/(1/3 + s) - 1", "exp(c) - 1.2 + s")
@@ -240,7 +240,7 @@ def test_degenerate_sets_have_names():
     assert names("stable node", "saddle", degenerate=[False, False]) == []
     for what, name in (
         ("everything", "everything stands still"),
-        ("curve", "curve of critical points"),
+        ("curve", "curve of equilibria"),
         ("on_equator", "transcritical"),
     ):
         assert names(**{what: True}) == [name]

@@ -108,3 +108,11 @@ def test_orbits_that_end_nowhere_are_followed_closely():
     points = np.array([(0.3, 0.2), (-0.7, 0.1)])
     lines = verdicts.followed(problem, points)
     np.testing.assert_allclose(np.hypot(*lines.ends[:, :2].T), np.hypot(*points.T), rtol=0.0, atol=1e-6)
+
+
+def test_an_end_that_is_no_object_is_told_in_words():
+    line = c2.ELinear(1, 1, -1, (0.5, 0.5))  # det A = 0, with a line of equilibria in the disc
+    (outcome,) = c2.approach_outcomes(line, c2.psi.constant())
+    assert outcome.why == "several"
+    assert "an equilibrium that is not isolated" in outcome.reason
+    assert "undecided" not in outcome.reason

@@ -141,9 +141,9 @@ def test_a_lineage_may_pass_from_one_kind_of_system_to_the_other():
 
 DEGENERATE = [
     ("0", "0"),  # nothing moves
-    ("c**2", "c*s"),  # a curve of critical points, every direction a limit direction
+    ("c**2", "c*s"),  # a curve of equilibria, every direction a limit direction
     ("c*(c**2 + s**2 - 1)", "s*(c**2 + s**2 - 1)"),  # U = 0 all along the equator
-    ("c*(c**2 + s**2 - 1/4)", "s*(c**2 + s**2 - 1/4)"),  # a circle of critical points
+    ("c*(c**2 + s**2 - 1/4)", "s*(c**2 + s**2 - 1/4)"),  # a circle of equilibria
     ("c**2 - s**2", "2*c*s"),  # a critical set of index 2
     ("-c**3", "-s**3"),  # no linear part
     ("abs(c) - 1/2", "-s"),  # not smooth
