@@ -301,6 +301,14 @@ def test_no_slow_variables():
     run = simulate_nonsmooth(ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), (1.0, 0.2), (0.0, 3.0))
     assert kinds(run) == ["slip", "slide"]
     np.testing.assert_array_equal(run.dense(3.0), (0.0, 0.0))
+    stays = simulate_nonsmooth(ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), (0.0, 0.0), (0.0, 3.0))
+    assert len(stays.times) == 2  # one step, drawn at even times all the same
+    assert len(stays.drawn().times) >= 200
+
+
+def test_where_the_equator_lets_all_out_the_phase_of_the_spiral_is_not_known():
+    run = stopped(ELinear(1.0, 1.0, 1.0, (0.1, 0.0)), (0.0, 0.0, 0.0)[:2], families.constant())
+    assert "phase of the spiral" in run.reason
 
 
 def slope(system, psi, state0, t, eps):

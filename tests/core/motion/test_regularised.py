@@ -315,6 +315,7 @@ def test_a_drawn_motion_is_even_in_time_and_of_bounded_length():
     rho = np.hypot(np.hypot(*drawn.states[:, :2].T), 0.5)
     np.testing.assert_allclose(drawn.points, (drawn.states[:, :2] / rho[:, None]) * (1.0 + rho)[:, None], atol=1e-12)
     assert simulate(ELinear(-1.0, 0.25, -1.75), families.rational(), 0.5, (0.3, 0.2), (0.0, 5.0)).invariant < 1e-14
+    assert simulate(ELinear(-1.0, 0.25, -1.75), families.rational(), 0.7, (0.3, 0.2), (0.0, 5.0)).invariant > 0.0
 
 
 def test_the_limit_drifts_nowhere():
