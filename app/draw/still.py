@@ -48,6 +48,7 @@ def page_of(svg: str, sentence: str, title: str) -> str:
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        "<style>body{margin:2em auto;max-width:40em;font:16px/1.5 sans-serif}svg{max-width:100%;height:auto}</style>"
+        "<style>body{margin:2em auto;padding:0 1em;max-width:40em;font:16px/1.5 sans-serif}\n"
+        "svg{max-width:100%;height:auto}</style>"
         f"</head>\n<body>{svg}<p>{escape(sentence)}</p></body></html>\n"
     )

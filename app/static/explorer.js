@@ -102,7 +102,7 @@ function wire({model, view, root, plot}) {
     pointing.frame()
     find(".outcome-key").hidden = !values.layers.includes("outcomes")
   }
-  for (const box of boxes) box.addEventListener("change", () => { change("layers", boxes.filter((b) => b.checked).map((b) => b.value)); showLayers() })
+  for (const box of boxes) box.addEventListener("change", () => { change("layers", boxes.filter((b) => b.checked).map((b) => b.value)); showPanels(); showLayers() })
 
   // What was typed is in the list of yours once it is left alone, or left.
   const typed = new Set()
@@ -117,6 +117,7 @@ function wire({model, view, root, plot}) {
   // Set many controls at once.
   const setAll = (wanted) => {
     if ("system" in wanted && wanted.system !== values.system || "psi" in wanted && wanted.psi !== values.psi) { note(); yours?.leave() }
+    if ("orbits" in wanted) hush()
     for (const [name, value] of Object.entries(wanted)) {
       if (config.locked.includes(name)) continue
       values[name] = value
@@ -154,6 +155,7 @@ function wire({model, view, root, plot}) {
   // Words on the orbit in hand: where it goes.
   const spoken = find(".orbit-words")
   let held = -1, quiet = null
+  const hush = () => { held = -1; spoken.hidden = true }
   const speak = ({goes}) => {
     const i = readLaunches(values.orbits).slice(0, held + 1).filter((one) => !one.hidden).length - 1
     spoken.hidden = held < 0 || !goes[i]
@@ -167,7 +169,7 @@ function wire({model, view, root, plot}) {
       if (values.panel === "orbits") panels.draw(values)
     },
     begin: (i) => { held = i; clearTimeout(quiet); change("orbit", i + 1) },
-    end: () => { quiet = setTimeout(() => { held = -1; spoken.hidden = true }, 5000) },
+    end: () => { quiet = setTimeout(hush, 5000) },
   }, pointing)
   find(".home").addEventListener("click", () => picture.home())
   twoFingers(find(".bokeh"), plot, () => hands.held !== null)

@@ -39,6 +39,8 @@ from .notices import left_out
 
 #: Controls that are axes of the picture's parameters.
 MOVED = frozenset(AXES)
+#: The control along which a degenerate setting is looked at from both sides, before one is moved.
+FIRST_MOVED = "f1"
 #: Controls that say which parameters there are.
 AXES_OF = frozenset({"system", "texts", "psi"})
 #: Layers that others start from, and that are small: whoever computes those is given these.
@@ -91,7 +93,7 @@ class Frames:
         self.ready = ready
         self.jobs = Jobs()
         self.window: Window | None = None
-        self._moved = "f1"  # the control moved last, along which a degenerate setting is looked at from both sides
+        self._moved = FIRST_MOVED  # the control moved last
         self._sent: dict[str, Any] = {}
         self._last: tuple[Mapping[str, Any], dict[str, Any], str] = ({}, {}, "")  # see `keep`
         self._untold: dict[str, Any] = {}
@@ -216,7 +218,10 @@ class Frames:
         scene = seen(scene, self.window, rest)
         ready = self.ready(scene.psi, scene.system)
         drawable = ready or scene.coefficients.typed is None  # all of a general system needs the compiler
-        self._moved = next((name for name in changed if name in MOVED), self._moved)
+        if "preset" in changes:  # a whole state: nothing was moved
+            self._moved = FIRST_MOVED
+        else:
+            self._moved = next((name for name in changed if name in MOVED), self._moved)
         header: dict[str, Any] = {"ready": False}
         blocks: Blocks = {}
         now_sent = dict(sent)

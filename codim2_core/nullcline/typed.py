@@ -110,13 +110,14 @@ def _curves(
 
     run = program(at.key)
     parts = sample(*run.arrays, reach > 0.0, points.reshape(-1, 2)).reshape(4, 3, *points.shape[:2])
+    nets = [_Net(values, usable, first, second) for values in parts[:, 0]]
+    size = max(at.size, *(net.largest for net in nets))  # what reads x or y may vanish on Sigma, and not outside
     found: list[tuple[Kind, Traced]] = []
-    for number, kind in enumerate(KINDS):
-        net = _Net(parts[number, 0], usable, first, second)
-        if net.largest <= NOTHING * at.size:
+    for number, (kind, net) in enumerate(zip(KINDS, nets, strict=True)):
+        if net.largest <= NOTHING * size:
             continue
-        met = crossings(run, number, reach > 0.0, reach, points, parts[number], at.size)
-        for branch in _Tracer(at.key, run, at.size, kind, net, reach, met).branches():
+        met = crossings(run, number, reach > 0.0, reach, points, parts[number], size)
+        for branch in _Tracer(at.key, run, size, kind, net, reach, met).branches():
             found.append((kind, branch))  # noqa: PERF401 (a comprehension loses the type of kind)
     return found
 

@@ -27,6 +27,9 @@ class Numbers {
     } else this.write(late)
   }
 
+  // Cycles are computed while they are shown only.
+  draw({layers}) { this.find(".cycle-table").hidden = !layers.includes("cycles") }
+
   write(late) {
     this.tools.rest.note("tables", false)
     const header = this.kept

@@ -7,6 +7,7 @@ import {register} from "../panels.js"
 import {SAYS, digits, eigen, escape} from "../words.js"
 
 const TRAIL = 90 // positions remembered
+const ALONE = {trace: 1, determinant: 0.5} // gives the planes their spans where there is nothing to show
 const KINDS = ["saddle", "stable focus", "unstable focus", "stable node", "unstable node"]
 
 class Planes {
@@ -46,7 +47,8 @@ class Planes {
     if (!this.critical) return
     const beside = this.beside ?? {line: false, curve: [], named: [], sentence: "", s: [], psis: []}
     // the curve goes on to far away: its named points are in view
-    const shown = [...this.trail.flat(), ...this.critical, ...beside.named]
+    const all = [...this.trail.flat(), ...this.critical, ...beside.named]
+    const shown = all.some((one) => one.trace || one.determinant) ? all : [ALONE]
     this.drawTrace(shown, beside)
     this.drawEigenvalues(shown, beside)
     if (beside.psis.length) this.drawPsis(beside)

@@ -410,6 +410,7 @@ def test_a_picture_of_its_own_has_the_colours_of_its_theme():
         assert svg.index("<rect") < svg.index("<g ")
         assert svg.count("<rect width=") == 1
     page = page_of(light, "One < two.", "A & B")
+    assert "padding:0 1em" in page  # on a phone the words do not touch the border
     assert "<p>One &lt; two.</p>" in page
     assert "<title>A &amp; B</title>" in page
 

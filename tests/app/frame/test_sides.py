@@ -2,7 +2,7 @@
 
 import pytest
 from codim2_app.draw.packing import unpack
-from codim2_app.state.controls import ExplorerState
+from codim2_app.state.controls import ExplorerState, preset_values
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
@@ -24,6 +24,15 @@ def test_the_pitchfork_of_the_papers_cm2_has_two_on_one_side_and_four_on_the_oth
 def test_the_control_that_was_moved_decides_which_sides():
     portrait = told("d", {"a": -1.0, "b": 0.0, "d": -1.2, "f1": -0.5}, -1.5)
     assert portrait["sides"] == {"symbol": "d", "below": "CM4", "above": "CM2"}
+
+
+def test_a_portrait_is_looked_at_from_the_same_sides_whatever_was_moved_before():
+    frames = Frames(ExplorerState.of({"preset": "saddle-node-at"}))
+    fresh, _ = unpack(frames.answer({"all": True}))
+    frames.answer({"id": 1, "set": {"preset": "", "a": -1.25}})
+    frames.answer({"id": 2, "set": {"a": -1.5}})
+    again, _ = unpack(frames.answer({"id": 3, "set": {**preset_values("saddle-node-at"), "preset": "saddle-node-at"}}))
+    assert again["portrait"]["sides"] == fresh["portrait"]["sides"]
 
 
 def test_the_ball_on_the_point_of_slipping():

@@ -139,6 +139,12 @@ test("the panel planes: trace to the right, determinant upward, eigenvalues besi
   assert.ok(eigen.areas[0].points.every(([x]) => x <= 0.02) && eigen.areas[0].points.some(([, y]) => y < -1))
   one.frame({critical: {label: [], kind: [], trace: [], determinant: [], x2: []}})
   assert.equal(one.find(".plane-note").textContent, "No critical set is on the hemisphere.")
+  const bare = opened("planes", {})
+  for (const found of [{label: [], kind: [], trace: [], determinant: [], x2: []}, {label: ["C"], kind: ["degenerate"], trace: [0], determinant: [0], x2: [[0, 0]]}]) {
+    bare.frame({critical: found})
+    const values = bare.texts(".trace-plane text, .eigen-plane text").map((word) => Number(word.replace("−", "-"))).filter((value) => value)
+    assert.ok(values.length > 4 && values.every((value) => Math.abs(value) > 0.1 && Math.abs(value) < 3), `${values}`) // nothing to show, and no span of 1e-12
+  }
 })
 
 test("the panel planes: the trail goes from the oldest, faintest place to the newest, with a gap where nothing was", () => {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {asked, hand, shows, wired} from "./wiring.js"
+import {asked, click, hand, shows, type, wired} from "./wiring.js"
 
 const LAUNCHED = "0.1,0.2,-;0.3,0.4;0.5,0.6"
 const GOES = {launched: {x: [0.3, 0.5], y: [0.4, 0.6], goes: ["To C.", "To Q₂."], comes: ["", ""]}}
@@ -34,6 +34,21 @@ test("the orbit in hand says where it goes, and stops five seconds after", () =>
   first.answer(GOES)
   assert.equal(first.find(".orbit-words").textContent, "To C.")
   assert.equal(first.find(".orbit-words").hidden, false)
+})
+
+test("another portrait, and Reset, silence the words of an orbit that is no longer there", () => {
+  for (const leave of [(one) => type(one, "select.preset", "one"), (one) => click(one, ".reset")]) {
+    const one = wired({values: {...wired().root.explorer.values, orbits: LAUNCHED}})
+    hand(one, "pointerdown", ...at(0.5, 0.6)); hand(one, "pointermove", ...at(0.5, 0.62)); one.tick(20)
+    one.answer(GOES)
+    hand(one, "pointerup", ...at(0.5, 0.62))
+    assert.equal(one.find(".orbit-words").hidden, false)
+    one.tick(1000)
+    leave(one)
+    assert.equal(one.find(".orbit-words").hidden, true)
+    one.answer(GOES)
+    assert.equal(one.find(".orbit-words").hidden, true)
+  }
 })
 
 test("a hand that takes an orbit before the words of the last one are gone keeps its own", () => {

@@ -14,6 +14,7 @@ const RANGES = {a: [-4, 4], f1: [-3, 3], f2: [-3, 3], n: [0.5, 6], z: [-4, 4], z
  * @param {string | null} shown what is open at first, if not this panel; null: nothing yet
  */
 export function opened(key, values, more = {}, shown = key) {
+  values.layers ??= []
   const there = page(`<div class="codim2"><div class="portrait"></div><div class="tabs" role="tablist"><button role="tab" data-panel="${key}">A panel</button></div><section role="tabpanel" data-panel="${key}"></section></div>`)
   const root = /** @type {any} */ (there.document.querySelector(".codim2")), box = /** @type {any} */ (there.document.querySelector("[role=tabpanel]"))
   const said = [], note = (what) => (...all) => { said.push([what, ...all]) }

@@ -42,6 +42,15 @@ test("the panel numbers: an equator without directions says how it is run throug
   assert.equal(words({cycle: null, all_directions: true}), "Every direction is a limit direction.")
 })
 
+test("the panel numbers: limit cycles are told while they are shown", () => {
+  const one = opened("numbers", {z: 0, layers: ["cycles"]}), box = one.find(".cycle-table")
+  assert.equal(box.hidden, false)
+  one.panels.draw({layers: ["inside"]}) // where none are computed, and those of another setting are left
+  assert.equal(box.hidden, true)
+  one.panels.draw({layers: ["inside", "cycles"]})
+  assert.equal(box.hidden, false)
+})
+
 test("the panel numbers: cycles and outcomes", () => {
   const one = opened("numbers", {z: 0.5})
   one.frame({cycles: {kind: ["stable", "unstable"], period: [7.5, 12], multiplier: [0.25, 3], reason: "", notes: ["More <may> be."]}, outcomes: {rows: [["Q₁", "slide", "slide", "All slide.", [["slides on C", ["1", "3/(3+s)"]]]]]}})

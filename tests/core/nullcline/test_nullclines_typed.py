@@ -266,6 +266,14 @@ def test_a_component_that_vanishes_has_no_nullcline():
     assert nullclines(System(U=("0", "0")), psi.constant()) == ()
 
 
+@pytest.mark.parametrize("U", [("-x", "-y"), ("x*(2 + c)", "y*(2 + c)"), ("-c*x^2 - c*y^2", "-s*(x^2 + y^2)")])
+def test_a_component_that_is_rounding_only_has_no_nullcline_where_u_vanishes_on_sigma(U):
+    """U is 0 on Sigma: what is small outside is measured by U there. theta' = 0 everywhere."""
+    drawn = nullclines(System(U=U), ONE)
+    assert not any(branch.kind == "theta" for branch in drawn)
+    assert any(branch.kind == "U1" for branch in drawn)
+
+
 def test_points_are_read_only_and_on_the_flow():
     for branch in nullclines(NONUNIQUE, ONE, 0.2):
         assert not branch.points.flags.writeable
