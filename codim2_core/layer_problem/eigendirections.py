@@ -120,15 +120,16 @@ def of_limit_directions(problem: LayerProblem) -> tuple[Linearised, ...]:
     -------
     tuple of Linearised
         Of each "equator", then "up" and "outside". Where lambda_theta = -2 lambda_rho (outside lambda_theta =
-        lambda_rho) meets a flow along the equator, orbits come in along the equator alone, and that half-line is left
-        out.
+        lambda_rho) or an infinite Psi(inf) meets a flow along the equator, orbits come in along the equator alone, and
+        that half-line is left out.
     """
     on, at, psi = problem.equator, problem.at, problem.psi
     if not len(on):
         return ()
     e = np.stack([np.cos(on.theta), np.sin(on.theta)], axis=-1)
     across = np.stack([-e[:, 1], e[:, 0]], axis=-1)
-    tilting = np.einsum("ki,kij,kj->k", across, at.DU(e), e) * psi.limit
+    tilting = np.einsum("ki,kij,kj->k", across, at.DU(e), e)
+    tilting[tilting != 0.0] *= psi.limit  # infinite of a Psi that grows for ever (R5)
     lifting = (across * _along_rho(at, e)).sum(axis=-1)
     rows = zip(e.tolist(), across.tolist(), on.lambda_rho.tolist(), on.lambda_theta.tolist(), tilting.tolist(),
                lifting.tolist(), strict=True)  # fmt: skip
@@ -146,10 +147,10 @@ def of_limit_directions(problem: LayerProblem) -> tuple[Linearised, ...]:
 
 
 def _slope(forcing: float, gap: float, size: float) -> float | None:
-    """Return how far a curve leans along the equator; None at a resonance, where it is tangent to it."""
+    """Return how far a curve leans along the equator; None where it is tangent to it, as at a resonance."""
     if forcing == 0.0:
         return 0.0
-    return None if abs(gap) <= RESONANCE * size else forcing / gap
+    return None if abs(gap) <= RESONANCE * size or not math.isfinite(forcing) else forcing / gap
 
 
 def _along_rho(at: AtZ, e: Array) -> Array:

@@ -20,7 +20,7 @@ def functions(paths: frozenset[str]) -> dict[str, dict[Where, list[types.Functio
     """All living functions that were written in these files, by file, name and line."""
     found: dict[str, dict[Where, list[types.FunctionType]]] = {}
     for thing in gc.get_objects():
-        if isinstance(thing, types.FunctionType) and thing.__code__.co_filename in paths:
+        if type(thing) is types.FunctionType and thing.__code__.co_filename in paths:
             code = thing.__code__
             found.setdefault(code.co_filename, {}).setdefault((code.co_qualname, code.co_firstlineno), []).append(thing)
     return found

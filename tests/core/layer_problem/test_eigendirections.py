@@ -135,6 +135,15 @@ def test_a_resonance_leaves_the_half_line_out():
     assert [d.where for d in of_limit_directions(upright)[0].directions] == ["equator", "up", "outside"]
 
 
+@pytest.mark.parametrize("growing", ["sqrt(1+s)", "2 + sin(log(1+s))/2"])
+def test_where_psi_has_no_finite_limit_only_what_does_not_lean_is_shown(growing):
+    # as above, but at no resonance: lambda_theta + 2 lambda_rho = 1
+    upright, leaning = (LayerProblem(ELinear(-1, b, 2, (0, -b)).at(), psi.custom(growing)) for b in (0.0, 0.5))
+    at = [int(np.argmin(np.abs(np.sin(0.5 * problem.equator.theta)))) for problem in (upright, leaning)]
+    assert [d.where for d in of_limit_directions(upright)[at[0]].directions] == ["equator", "up", "outside"]
+    assert [d.where for d in of_limit_directions(leaning)[at[1]].directions] == ["equator", "outside"]
+
+
 def test_there_are_none_without_limit_directions():
     turning = LayerProblem(ELinear(-1, 5, -1, (0, 0)).at(), psi.constant())
     at_equator, at_sets = find_eigendirections(turning)
