@@ -2,6 +2,7 @@
 
 import {Connection} from "./connection.js"
 import {NumberControl, sayAt, slidersOf} from "./controls.js"
+import {put} from "./dom.js"
 import {readFrame} from "./frames.js"
 import {Hands} from "./hands.js"
 import {Help} from "./help.js"
@@ -20,7 +21,7 @@ import {Sheets} from "./sheets.js"
 import {Browsed, Listed, Steps} from "./steps.js"
 import {SystemChooser, TYPED} from "./system.js"
 import {Takes} from "./taken.js"
-import {SAYS} from "./words.js"
+import {SAYS, formula} from "./words.js"
 import {YoursList} from "./yours_list.js"
 
 const PATIENCE = 1200 // ms without an answer before the page says so
@@ -138,7 +139,7 @@ function wire({model, view, root, plot}) {
   const tell = () => {
     const p = config.presets[values.preset], whole = {...config.defaults, ...p?.values}
     const same = config.setting.every((name) => JSON.stringify(values[name]) === JSON.stringify(whole[name]))
-    words.textContent = !p ? (same && config.page ? config.opening : "") : same ? `${p.label}. ${p.note}` : `changed from ${p.label}`
+    put(words, formula(!p ? (same && config.page ? config.opening : "") : same ? `${p.label}. ${p.note}` : `changed from ${p.label}`))
   }
   portrait?.addEventListener("change", () => open(config.presets[portrait.value]?.values))
   controls.preset.set = (value) => { if (portrait) portrait.value = value }

@@ -1,7 +1,7 @@
 // What is always in view beside the picture: the portrait's name and sentence, what is degenerate, the slow flow.
 
 import {put, say} from "./dom.js"
-import {escape, slowWords} from "./words.js"
+import {escape, formula, slowWords} from "./words.js"
 
 export class Inspector {
   /** @param {() => string[]} symbols of the slow variables of the present system */
@@ -21,7 +21,7 @@ export class Inspector {
     say(this.find(".portrait-case"), which ? `Case ${which}` : "")
     say(this.find(".sentence"), sentence.replace(/^(Case \S+, )?\S+\. /, ""))
     put(this.find(".degeneracies"), degeneracies
-      .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${escape(words)}</p>`).join("") + (sides?.below && sides.above
+      .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${formula(words)}</p>`).join("") + (sides?.below && sides.above
         ? `<p class="note sides">A little less ${escape(sides.symbol)}: <b>${escape(sides.below)}</b>. A little more: <b>${escape(sides.above)}</b>.</p>` : ""))
   }
 

@@ -3,7 +3,7 @@
 
 import {put} from "./dom.js"
 import {curveAt, eigenWords, eigenvectorsOf, factsOf, followed, objectAt, objectsOf, pointedList, styleOf} from "./objects.js"
-import {SAYS, escape} from "./words.js"
+import {SAYS, escape, formula} from "./words.js"
 
 const REACH = {mouse: 10, pen: 14, touch: 24} // px around a mark that count as on it
 const QUIET = 150 // ms after the last frame until what is read out follows
@@ -151,7 +151,7 @@ export class Pointing {
       const arrow = head === "in" ? "M13 4l6 4-6 4Z" : head === "out" ? "M20 4l6 4-6 4Z" : ""
       return `<li><svg viewBox="0 0 26 16" width="26" height="16" aria-hidden="true"><path d="M0 8H${head === "out" ? 20 : 26}" stroke="var(--${colour})" stroke-width="2.4" stroke-dasharray="${dash.join(" ")}"/><path d="${arrow}" fill="var(--${colour})"/></svg> ${escape(eigenWords(where, value))}</li>`
     })
-    return `<b>${escape(one.label)}</b>${escape(title.slice(one.label.length))}${rows.length ? `<dl>${rows.map(([name, value]) => `<dt>${escape(name).replace(/_(.)/, "<sub>$1</sub>")}</dt><dd>${escape(value)}</dd>`).join("")}</dl>` : ""}`
+    return `<b>${escape(one.label)}</b>${escape(title.slice(one.label.length))}${rows.length ? `<dl>${rows.map(([name, value]) => `<dt>${formula(name)}</dt><dd>${escape(value)}</dd>`).join("")}</dl>` : ""}`
       + (lines.length ? `<ul>${lines.join("")}</ul>` : "") + notes.map((note) => `<p>${escape(note)}</p>`).join("")
   }
 

@@ -2,6 +2,10 @@
 
 export const escape = (text) => String(text).replace(/[&<>"]/g, (c) => ({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})[c])
 
+// Indices of the paper's letters, lowered: λ_ρ, e_Ψ, θ_i. A text is escaped first; markup is so already.
+export const lowered = (markup) => markup.replace(/([λeLθC])_([ρθΨεi])/g, "$1<sub>$2</sub>")
+export const formula = (text) => lowered(escape(text))
+
 export function digits(value, places = 4) {
   if (value === 0) return "0"
   const size = Math.abs(value)

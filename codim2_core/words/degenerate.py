@@ -34,7 +34,7 @@ SENTENCES: dict[str, Sentence] = {
         "tr J = 0 within rounding, one critical set",
     ),
     "true centre": Sentence(
-        "tr J = 0: C is a centre of the layer problem, surrounded by closed orbits, whatever Ψ is.",
+        "C is a centre of the layer problem, surrounded by closed orbits, whatever Ψ is.",
         "a = d = 0, or a = −d and |f₁| = |f₂|",
     ),
     "between the cases": Sentence(
@@ -102,5 +102,7 @@ SENTENCES: dict[str, Sentence] = {
     "everything, e-linear": Sentence(
         "A = 0 and f = 0: every point of the hemisphere is an equilibrium of the layer problem.", "A = 0 and f = 0"
     ),
-    "nearer": Sentence("Doubles cannot tell it from a setting nearer than {within} of {of}.", "within rounding"),
+    "nearer": Sentence(
+        "In double precision it cannot be told from a setting nearer than {within} of {of}.", "within rounding"
+    ),
 }

@@ -66,6 +66,7 @@ def shown() -> Iterator[tuple[str, str]]:
         yield f"example {key}", f"{example.title}: {example.sentence}"
     yield from ((f"family {name}", family.title) for name, family in psi.FAMILIES.items())
     yield from _markup()
+    yield from _sheet()
     yield from _lessons()
     yield from _command(parser(), "codim2")
 
@@ -75,6 +76,19 @@ def _markup() -> Iterator[tuple[str, str]]:
         source = re.sub(r"\$\{[^}]*\}|\{[{%].*?[%}]\}", " ", path.read_text(encoding="utf-8"))
         for i, found in enumerate(re.findall(r'(?:title|aria-label|placeholder)="([^"<>]{3,})"', source)):
             yield f"{path.name} {i}", found
+        for i, found in enumerate(re.findall(r"<(?!style)[a-z/][^<>]*>([^<>`]*[^\W\d_]{3,}[^<>`]*)<", source)):
+            yield f"text of {path.name} {i}", " ".join(found.split())
+
+
+def _sheet() -> Iterator[tuple[str, str]]:
+    """Yield what the sheet "?" says of keys and marks, which stands in its script."""
+    source = (STATIC / "help.js").read_text(encoding="utf-8")
+    for i, (key, words) in enumerate(re.findall(r'^  \["([^"]+)", "([^"]+)"\],$', source, re.MULTILINE)):
+        yield f"key {i}", f"{key}: {words}"
+    marks = re.search(r"^const ARROWS = (.+)$", source, re.MULTILINE)
+    assert marks, "the marks of help.js"
+    for i, words in enumerate(re.findall(r'"([^"]+)"\]', marks[1])):
+        yield f"eigenvector {i}", words
 
 
 def _lessons() -> Iterator[tuple[str, str]]:

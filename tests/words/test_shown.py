@@ -36,6 +36,10 @@ def test_all_kinds_of_text_are_read():
         "lesson",
         "codim2 serve",
         "psi.js",
+        "text of explorer.html",
+        "text of help.js",
+        "key 8",
+        "eigenvector 2",
     ):
         assert any(where.startswith(kind) for where in places), kind
 

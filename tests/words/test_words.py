@@ -29,7 +29,7 @@ def held(system, family, z=()):
     if said.case or text.startswith(("CM", "NCM")):
         text = text.partition(". ")[2]
     for degeneracy in said.degeneracies:  # what a degeneracy says is told beside it once more
-        text = text.replace(degeneracy.sentence.partition(" Doubles cannot")[0], "")
+        text = text.replace(degeneracy.sentence.partition(" In double")[0], "")
     keys = []
     for key, fields in recognise(text):
         CLASSES[key](portrait, fields)

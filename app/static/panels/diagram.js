@@ -6,7 +6,7 @@ import {Chart} from "../chart/chart.js"
 import {spanOf} from "../chart/scale.js"
 import {shape} from "../marks.js"
 import {register} from "../panels.js"
-import {SAYS, escape, minus, plain} from "../words.js"
+import {SAYS, escape, formula, minus, plain} from "../words.js"
 
 const TURN = 2 * Math.PI
 const NARROW = 0.2 // of the span: what happens within less of it has an axis of its own
@@ -118,7 +118,7 @@ class Diagram {
     this.svg.setAttribute("aria-valuemax", high)
     this.find(".diagram-key").innerHTML = `<span>green: arrive</span><span>pink: leave</span><span>red: critical set${cycles.length ? ", cycles" : ""}</span><span>dashed: unstable</span><span>dotted: saddle</span>`
     this.find(".special-list").innerHTML = special.map((one, i) => `<li><button type="button" data-special="${i}"><svg viewBox="-5 -5 10 10">${shape(one.kind)}</svg>
-      <span>${escape(one.kind)}</span><span>${words} = ${minus(plain(one.value))}</span><span class="note">${escape(one.sentence)}</span></button></li>`).join("")
+      <span>${escape(one.kind)}</span><span>${words} = ${minus(plain(one.value))}</span><span class="note">${formula(one.sentence)}</span></button></li>`).join("")
   }
 
   // The part of the span in which there are critical sets and cycles, if it is narrow: else they were one column of pixels.

@@ -2,7 +2,7 @@
 
 import {register} from "../panels.js"
 import {progressOf, withStep} from "../progress.js"
-import {escape, plain} from "../words.js"
+import {escape, lowered, plain} from "../words.js"
 
 const STORE = "codim2-lessons"
 
@@ -108,7 +108,7 @@ class Lessons {
       option.classList.toggle("right", k === truth)
       option.classList.toggle("wrong", k === choice && k !== truth)
     }
-    section.querySelector(".verdict").innerHTML = `<p><b>${right ? "Right." : "Not so."}</b> ${explain}</p>`
+    section.querySelector(".verdict").innerHTML = `<p><b>${right ? "Right." : "Not so."}</b> ${lowered(explain)}</p>`
     const vary = section.querySelector(".vary")
     if (vary) vary.hidden = false
     if (right) this.keep(i, "answer")

@@ -1,4 +1,4 @@
-// The panel "Ψ" (fig:component): Ψ(s), and the smooth step L(l; ε) = l/√(l² + ε²Ψ(l²/ε²)) along a line through 0.
+// The panel "Ψ" (fig:component): Ψ(s), and the smooth step L_Ψ(l; ε) = l/√(l² + ε²Ψ(l²/ε²)) along a line through 0.
 
 import {Chart} from "../chart/chart.js"
 import {register} from "../panels.js"
@@ -33,7 +33,7 @@ class PsiCurves {
         lines: [{name: "series-line s0", title: "Ψ", x: s, y: psi}],
       },
       {
-        title: "L(l; ε), a smooth step", zeros: true, x: {span: [-1, 1], word: "l"}, y: {span: [-1.06, 1.06]},
+        title: `L<tspan dy="3" font-size="8">Ψ</tspan><tspan dy="-3">(l; ε), a smooth step</tspan>`, zeros: true, x: {span: [-1, 1], word: "l"}, y: {span: [-1.06, 1.06]},
         lines: [...SHOWN.map(([value, name]) => step(value, name)), step(eps, "present"), {name: "series-line limit", title: "ε → 0, sign", x: [-1, 0, 0, 1], y: [-1, -1, 1, 1]}],
       },
     ])

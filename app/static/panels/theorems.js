@@ -1,10 +1,9 @@
 // The panel "Theorems": the paper's claims on the present system, each with the numbers that show it.
 
 import {register} from "../panels.js"
-import {escape, measured} from "../words.js"
+import {escape, formula, measured} from "../words.js"
 
 const MARK = {holds: ["✓", "holds"], fails: ["✗", "fails"], "does not apply": ["–", "idle"]}
-const formula = (text) => escape(text).replace(/_(.)/g, "<sub>$1</sub>") // λ_ρ, e_Ψ
 
 function row([theorem, statement, verdict, sentence, numbers]) {
   const table = numbers.map(([name, value]) => `<tr><td>${formula(name)}</td><td>${measured(value)}</td></tr>`)

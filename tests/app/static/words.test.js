@@ -2,7 +2,7 @@ import assert from "node:assert/strict"
 import {readFileSync, readdirSync} from "node:fs"
 import test from "node:test"
 
-import {SAYS, digits, eigen, escape, measured, phaseWords, plain, slowWords} from "../../../app/static/words.js"
+import {SAYS, digits, eigen, escape, measured, formula, phaseWords, plain, slowWords} from "../../../app/static/words.js"
 
 test("numbers have four places, a real minus, and no exponent where none is needed", () => {
   assert.equal(digits(0), "0")
@@ -44,4 +44,9 @@ test("what the browser says of a system stands in one place", () => {
     assert.equal(said, null, `${name}: ${said}`)
   }
   for (const sentence of Object.values(SAYS)) assert.ok(!/lambda|Psi|eps|scaling chart/.test(sentence))
+})
+
+test("an index is lowered as in the table of numbers, and nothing else is", () => {
+  assert.equal(formula("λ_θ = 0 & λ_ρ < 0, L_Ψ"), "λ<sub>θ</sub> = 0 &amp; λ<sub>ρ</sub> &lt; 0, L<sub>Ψ</sub>")
+  assert.equal(formula("my_rate, x_1"), "my_rate, x_1") // what a visitor has called a parameter
 })
