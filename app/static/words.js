@@ -71,6 +71,7 @@ export const SAYS = {
   every: "Every direction is an eigenvector.",
   undecided: "The linearisation does not decide: no eigenvectors are drawn.",
   gone: "is not there at this setting.",
+  ends: "v₁₃ combines the limit vectors v₁ and v₃, and v₂₄ combines v₂ and v₄.",
   typed: "c and s are the components of e; the letter e alone is the number 2.718…",
 }
 

@@ -219,7 +219,8 @@ def _extreme(field: _Field, theta: Array, n: Array) -> tuple[Array, Array, Array
         weights = np.append(weights, np.zeros(int(fresh.sum())))
     answer = _polished(field, n, *_merged(theta, weights), slope) or _balanced(field, theta, weights)
     theta, weights = answer
-    return weights @ field(theta)[1], theta, weights
+    used = weights > WEIGHTLESS  # balancing and polishing may leave one that combines nothing
+    return weights @ field(theta)[1], theta[used], weights[used]
 
 
 def _balanced(field: _Field, theta: Array, weights: Array) -> tuple[Array, Array]:

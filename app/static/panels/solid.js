@@ -2,7 +2,10 @@
 
 import {register} from "../panels.js"
 import {seen} from "../projection.js"
-import {digits, minus, plain} from "../words.js"
+import {SAYS, digits, minus, plain} from "../words.js"
+
+/** Whether the two ends of what slides combine two limit vectors each. @param {{candidates: number[], combined: number[][][]}} data */
+const inPairs = ({candidates, combined}) => candidates.length === 2 && combined.every((ends) => ends.length === 2)
 
 class Stack {
   constructor(box, tools) {
@@ -73,7 +76,7 @@ class Stack {
     this.colour = (name) => style.getPropertyValue(`--${name}`).trim()
     for (const button of this.box.querySelectorAll("[data-view]")) button.setAttribute("aria-pressed", button.dataset.view === this.view)
     const data = this.data[this.view]
-    this.find(".solid-note").textContent = data ? data.sentence ?? "" : this.why[this.view] || "…"
+    this.find(".solid-note").textContent = data ? [data.sentence, this.view === "filippov" && inPairs(data) && SAYS.ends].filter(Boolean).join(" ") : this.why[this.view] || "…"
     if (!data) return
     this.cx = w / 2
     if (this.view === "sphere") this.paintSphere(data, w, h)
@@ -272,6 +275,12 @@ class Stack {
     combined.forEach((ends, i) => { for (const end of ends) this.line([at(end), [0, 0, lift(candidates[i])]], () => thin) })
     if (candidates.length > 1) this.line([[0, 0, lift(Math.min(...candidates))], [0, 0, lift(Math.max(...candidates))]], () => [this.colour("accent"), 5, 0.7])
     for (const value of candidates) this.dot([0, 0, lift(value)], {fill: this.colour("page"), stroke: this.colour("accent"), size: 3.5})
+    if (inPairs({candidates, combined})) { // as in Figure 3: two of the vectors, each with the pair that it combines
+      combined.forEach((ends, i) => ends.forEach((end, j) => this.dot(at(end), {fill: this.colour("page"), stroke: this.colour("attr"), size: 3, text: `v${"₁₃₂₄"[2 * i + j]}`})))
+      g.textAlign = "right"
+      candidates.forEach((value, i) => { const [x, y] = this.project([0, 0, lift(value)]); g.fillStyle = this.colour("ink"); g.fillText(["v₁₃", "v₂₄"][i], x - 8, y + 4) })
+      g.textAlign = "left"
+    }
     for (const [value, kind] of selected) this.dot([0, 0, lift(value)], {shape: "square", fill: kind.startsWith("stable") ? this.colour("crit") : this.colour("page"), stroke: this.colour("crit"), text: `z′ = ${digits(value, 3)}`})
     if (cross !== null) this.cross([0, 0, lift(cross)])
     g.font = "12px system-ui, sans-serif"; g.fillStyle = this.colour("soft")

@@ -353,6 +353,14 @@ test("the panel solid: limit vectors, Σ upright with z′ growing upward, what 
   assert.ok(!left.some(({points}) => points[0][0] === "F") && !left.some(({colour, width}) => colour === "ink" && width === 2.6) && !left.some(({width}) => width === 5))
 })
 
+test("the panel solid: two candidates that combine a pair each are named with their limit vectors, others are not", () => {
+  const combined = [[[1, 0.5, 2], [-1, -0.75, -1]], [[-0.5, 1, 1], [0.5, -1, 1]]]
+  const names = (data) => paths(solid({filippov: {...FILIPPOV, ...data}}, {solid: "filippov"}).drawn()).filter(({how, points}) => how === "text" && /^v/.test(points[0][0])).map(({points: [[text]]}) => text)
+  assert.deepEqual([...new Set(names({combined}))], ["v₁", "v₃", "v₂", "v₄", "v₁₃", "v₂₄"])
+  assert.deepEqual(names({}), [])
+  assert.match(solid({filippov: {...FILIPPOV, combined}}, {solid: "filippov"}).find(".solid-note").textContent, /^Between\. v₁₃ combines/)
+})
+
 test("the panel solid: a fine screen has a finer canvas, a closed panel none, and what is not known is said", () => {
   const one = solid({sphere: {inside: [], outside: [], sentence: "A ball."}, ...MARKS})
   assert.deepEqual([one.canvas.width, one.canvas.height, one.find(".solid-note").textContent], [360, 240, "A ball."])

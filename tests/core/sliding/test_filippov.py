@@ -24,6 +24,14 @@ def test_nonunique_sliding_has_the_flows_of_c1_and_c3_as_its_extremes(z):
     assert sorted(found.vertices.ravel()) == pytest.approx([0.25 - chi, 0.25 + chi], abs=1e-12)
 
 
+def test_what_has_no_weight_is_not_combined():
+    """The ends of fig:generic_nonuniqueness_of_sliding combine two limit vectors each, at c = 1/2 and at c = -1/2."""
+    found = filippov_sliding(c2.presets["sliding-nonuniqueness"].system, (0.0,))
+    for vertex, directions, weights in zip(found.vertices, found.directions, found.weights, strict=True):
+        np.testing.assert_allclose(weights, [0.5, 0.5], atol=1e-9)
+        np.testing.assert_allclose(np.cos(directions), [(0.25 - vertex[0]) / 2.0] * 2, atol=1e-9)
+
+
 def test_a_slow_flow_that_does_not_read_e_is_unique():
     found = filippov_sliding(c2.examples.attracting_repelling(), 0.5)
     assert found.unique
