@@ -17,7 +17,7 @@ GLOSSARY: tuple[tuple[str, str], ...] = (
     ("ε, Ψ", "the regularisation: e becomes (x, y)/√(x² + y² + ε²Ψ((x² + y²)/ε²)), smooth for ε > 0"),
     ("Limit direction Q", "a direction in which trajectories reach or leave Σ: an equilibrium on the equator"),
     (
-        "λ with index ρ, θ",
+        "λ_ρ, λ_θ",
         "eigenvalues of a limit direction: negative attracts radially (filled), angularly (circle)",
     ),
     ("Critical set C", "an equilibrium inside: there the motion slides along Σ, with the slow flow z′ at C"),

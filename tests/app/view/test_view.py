@@ -132,7 +132,8 @@ def test_the_page_says_which_paper_it_shows_and_what_its_words_mean():
     page = explorer_html(ExplorerState())
     assert PAPER[1] in page
     for term, meaning in GLOSSARY:
-        assert f"<dt>{term}</dt>" in page
+        shown = re.sub("_([ρθ])", r"<sub>\1</sub>", term)  # as in the table of numbers
+        assert f"<dt>{shown}</dt>" in page
         assert len(meaning) < 140
     found = config(ExplorerState())
     scene = c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0)))  # what the opening sentence says, of what is drawn
