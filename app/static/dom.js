@@ -13,3 +13,14 @@ export function put(element, markup) {
 export function say(element, text) {
   if (element.textContent !== text) element.textContent = text
 }
+
+const above = (/** @type {any} */ it) => it.parentElement ?? it.getRootNode().host
+
+/** Whether an element stands on something dark: the first background around it, if that is named by red, green and blue. */
+export function onDark(element) {
+  for (let it = above(element); it; it = above(it)) {
+    const [red, green, blue, alpha = 1] = (getComputedStyle(it).backgroundColor?.match(/^rgba?\((.*)\)$/)?.[1].split(",") ?? []).map(Number)
+    if (red !== undefined && alpha > 0) return red + green + blue < 384
+  }
+  return false
+}

@@ -2,7 +2,7 @@
 
 import {Connection} from "./connection.js"
 import {NumberControl, sayAt, slidersOf} from "./controls.js"
-import {put} from "./dom.js"
+import {onDark, put} from "./dom.js"
 import {readFrame} from "./frames.js"
 import {Hands} from "./hands.js"
 import {Help} from "./help.js"
@@ -178,7 +178,7 @@ function wire({model, view, root, plot}) {
 
   // Theme: JupyterLab's or the system's until a choice is made.
   const system = matchMedia("(prefers-color-scheme: dark)")
-  const isDark = () => document.body.dataset.jpThemeLight ? document.body.dataset.jpThemeLight === "false" : config.dark || system.matches
+  const isDark = () => document.body.dataset.jpThemeLight ? document.body.dataset.jpThemeLight === "false" : config.dark || !config.page && onDark(root) || system.matches
   let chosen = null
   try { chosen = config.page ? localStorage.getItem("codim2-theme") : null } catch { /* storage may be forbidden */ }
   const paint = () => {
@@ -189,6 +189,7 @@ function wire({model, view, root, plot}) {
     return name
   }
   system.addEventListener("change", paint)
+  if (!config.page) new ResizeObserver(paint).observe(root) // what it stands on is known once it stands there
   new MutationObserver(paint).observe(document.body, {attributeFilter: ["data-jp-theme-light"]})
   find(".theme").addEventListener("click", () => {
     chosen = root.classList.contains("dark") ? "light" : "dark"

@@ -83,7 +83,7 @@ export class Pointing {
     if (one) { this.show(one); return }
     const curves = table.filter(({name}) => layers.includes(name) && !old.includes(name) && !NAMELESS.includes(name))
     const curve = curveAt(curves, blocks, place, reach)
-    this.show(curve && {...curve, kind: "curve", name: ""})
+    this.show(curve && {...curve, kind: "curve", name: "", layer: curve.name})
   }
 
   /** Show what is pointed at; null shows nothing. @param {any} one @param {boolean} focus whether by the keyboard */
@@ -141,7 +141,7 @@ export class Pointing {
     if (other && other.kind !== "curve") list.push(...pointedList(other, header, theme, this.byKey))
     picture.point(list)
     this.write(this.kept, pinned, this.name && pinned ? this.gone ? `<b>${escape(pinned.label)}</b> ${SAYS.gone}` : this.markup(pinned) : "")
-    this.write(this.card, other, other ? other.kind === "curve" ? this.curveWords(other.name) : this.markup(other) : "")
+    this.write(this.card, other, other ? other.kind === "curve" ? this.curveWords(other.layer) : this.markup(other) : "")
   }
 
   markup(one) {

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
+import {STEP} from "../../../app/static/frames.js"
 import {CRITICAL, EQUATOR, FIRST, VALUES, click, hand, query, wired} from "./wiring.js"
 
 const EIGEN = {equator: [0, 1].map(() => ({directions: [[0, 1, -0.3, "equator"]], turning: 0, every: false})), critical: [{directions: [[1, 0, -1, "disc"]], turning: 0, every: false}]}
@@ -33,6 +34,17 @@ test("what is under the pointer tells its numbers and shows its eigenvectors, an
   assert.equal(hint(one), null)
   hover(one, C); one.fire(one.find(".bokeh"), "pointerleave"); one.tick(20)
   assert.equal(hint(one), null)
+})
+
+test("a curve under the pointer is called as in the legend", () => {
+  const one = wired({layers: [{name: "theta", parts: [{name: "stable", colour: "separatrix", width: 1.5, dash: []}]}], values: {...VALUES, layers: ["theta"]}})
+  const [x, y] = [2000, 3000].map((it) => it * STEP)
+  hover(one, [185 + 100 * x, 195 - 100 * y]) // where the curve ends
+  assert.equal(hint(one), "theta")
+  one.find(".layer").dataset.layer = "theta"
+  one.find(".layer").title = "Of the angle."
+  hover(one, [185 + 100 * x, 195.5 - 100 * y])
+  assert.deepEqual([hint(one), one.find(".card:not(.pinned) p").textContent], [one.find(".layer").textContent.trim(), "Of the angle."])
 })
 
 test("a click pins, the pin is in the link and is undone; a click beside launches", () => {

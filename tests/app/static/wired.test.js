@@ -94,6 +94,16 @@ test("the theme is the system's, the page's or JupyterLab's, until one is chosen
   assert.equal(dark(wired({}, FIRST, system(true))), true)
   assert.equal(dark(wired({}, FIRST, {...system(true), light: "true"})), false)
   assert.equal(dark(wired({}, FIRST, {light: "false"})), true)
+  const on = (backgroundColor) => ({getComputedStyle: () => ({backgroundColor, getPropertyValue: () => ""})})
+  assert.equal(dark(wired({page: false}, FIRST, on("rgb(33, 33, 33)"))), true) // as in a template's dark theme
+  for (const ground of ["rgb(250, 250, 250)", "rgba(0, 0, 0, 0)"]) assert.equal(dark(wired({page: false}, FIRST, on(ground))), false)
+  assert.equal(dark(wired({page: true}, FIRST, on("rgb(33, 33, 33)"))), false) // our own page paints its ground itself
+  const placed = [], later = {...on(""), ResizeObserver: class { constructor(call) { placed.push(call) } observe() {} }}
+  const put = wired({page: false}, FIRST, later)
+  assert.equal(dark(put), false)
+  globalThis.getComputedStyle = /** @type {any} */ (on("rgb(33, 33, 33)").getComputedStyle)
+  for (const call of placed) call([]) // it stands somewhere now
+  assert.equal(dark(put), true)
   const kept = {"codim2-theme": "dark"}
   assert.equal(dark(wired({}, FIRST, {localStorage: memory(kept)})), true)
   assert.equal(dark(wired({page: false}, FIRST, {localStorage: memory(kept)})), false)
