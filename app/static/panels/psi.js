@@ -33,7 +33,7 @@ class PsiCurves {
         lines: [{name: "series-line s0", title: "Ψ", x: s, y: psi}],
       },
       {
-        title: `L<tspan dy="3" font-size="8">Ψ</tspan><tspan dy="-3">(l; ε), a smooth step</tspan>`, zeros: true, x: {span: [-1, 1], word: "l"}, y: {span: [-1.06, 1.06]},
+        title: 'L<tspan dy="3" font-size="8">Ψ</tspan><tspan dy="-3">(l; ε), a smooth step</tspan>', zeros: true, x: {span: [-1, 1], word: "l"}, y: {span: [-1.06, 1.06]},
         lines: [...SHOWN.map(([value, name]) => step(value, name)), step(eps, "present"), {name: "series-line limit", title: "ε → 0, sign", x: [-1, 0, 0, 1], y: [-1, -1, 1, 1]}],
       },
     ])
