@@ -35,7 +35,7 @@ def said(a, b, d, f1, f2, family=None):
         ),
         ((2, 0, 1, 0.1, 0.1), "The critical set C is an unstable node: sliding along C itself is unstable."),
         ((1, 0, -2, 0.2, 0.3), "The critical set C is a saddle whatever Ψ is"),
-        ((0, 1, 0, 0.3, 0), "The critical set C is a centre to first order."),
+        ((0, 1, 0, 0.3, 0), "The critical set C is a centre: closed orbits surround it."),
         ((-1, 0, -1, 1.5, 0), "There is no critical set, so nothing slides: what reaches Σ crosses it."),
         ((2.71, -2.25, -1.38, 1.62, -1.43), "The critical set C is a stable focus, but nothing reaches Σ: only"),
         ((1, 1, -1, 0.5, 0.25), "det A = 0 within rounding, and f is not in the range of A: no critical set."),
