@@ -340,6 +340,7 @@ LIVES: tuple[Lives, ...] = (
     Lives("core.cycles.turn_map", "114: 1.0  →", "The share of the tolerance that one step may take."),
     Lives("core.cycles.section", "1e-300  →", "A number too small to be told from the next."),
     Lives("core.cycles.section", "1e-290  →", "A number too small to be told from the next."),
+    Lives("core.cycles.search", "y[-1] - y[0]  →  y[-1]", "Only its sign is read, and the two have different ones."),
     Lives("core.cycles.section", "23: 1e-", "How near C or the equator an orbit has gone there."),
     Lives("core.cycles.turn_section", "1e-300  →", "A number too small to be told from the next."),
     Lives("core.cycles.turn_section", "20: 1e-", "How near C or the equator an orbit has gone there."),

@@ -55,8 +55,12 @@ def test_between_and_settled_and_where_a_displacement_ends():
         ([-inf, -inf, inf, inf, inf, inf], [1]),
         ([1, 1, 1, nan, nan, nan], []),
         ([1, 2, 3, 4, 5, 6], []),
+        ([-1, -1, -1, -inf, inf, inf], [3]),
     ):
         assert search._ends(xi, np.array(shift, float)) == expected, shift
+    levels = np.array([1.0, 1.0, 1.05, 1.06, 1.07, inf])
+    for width, shift, expected in ((0.1, levels, [4]), (0.01, levels, []), (0.01, levels - 1.0, [4])):
+        assert search._ends(width * xi, shift) == expected  # a narrow end that has settled hides nothing
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
