@@ -84,7 +84,8 @@ def check_plane(plane: Plane, psi: Psi, scale: float = 1.0) -> tuple[Any, ...]:
         assert (C.kind == "saddle") == (a * d + b * b < 0.0) or abs(a * d + b * b) < 1e-13 * (abs(a * d) + b * b)
         if a > 0.0 < d or a < 0.0 > d:
             assert C.kind.startswith("stable" if a < 0.0 else "unstable"), C.kind
-    assert named.name.startswith("CM" if critical else "NCM")
+    many = {"line of equilibria", "everything stands still"} & {*names}  # critical, and not isolated
+    assert named.name.startswith("CM" if critical or many else "NCM")
     assert all(d.sentence.endswith(".") and (d.within == 0.0 or NEARER in d.sentence) for d in named.degeneracies)
     return named.case, named.name, names, tuple(C.kind.split()[0] for C in critical)
 
