@@ -13,6 +13,7 @@ from bokeh.models import (
     Range1d,
     ResetTool,
     SaveTool,
+    Span,
     WheelZoomTool,
 )
 
@@ -37,6 +38,8 @@ def make_figure() -> Plot:
     )
     pan, wheel = PanTool(), WheelZoomTool(modifiers="ctrl")
     plot.add_tools(pan, wheel, BoxZoomTool(match_aspect=True), ResetTool(), SaveTool())
+    # An empty plot is warned of in the host's log, for each visitor: Bokeh does not know what the browser adds.
+    plot.add_layout(Span(location=0.0, dimension="width", visible=False))
     for model in plot.references():
         model.syncable = False
     return plot

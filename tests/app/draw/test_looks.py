@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from bokeh.core.validation import check_integrity
 from codim2_app.draw import glyphs, plane_curves
 from codim2_app.draw.figure import make_figure
 from codim2_app.draw.layers import LAYERS, TRACES, painted, shown, swatches, table
@@ -113,6 +114,12 @@ def test_the_ring_is_told_apart_by_hatches_and_lies_just_outside_the_equator():
     assert np.diff(DISCS[:-1]) == pytest.approx(0.06)
     assert (DISCS[0], len(DISCS)) == (0.04, 17)
     assert pytest.approx(VIEW * math.sqrt(2.0), rel=0.02) == REACH  # to the corners of the square picture
+
+
+def test_bokeh_has_no_warning_for_the_hosts_log():
+    plot = make_figure()
+    assert check_integrity(plot.references()).warning == []
+    assert check_integrity(plot.references()).error == []
 
 
 def test_the_figure_is_empty_and_sends_nothing_back():
