@@ -104,6 +104,27 @@ def test_a_slider_turns_sideways_only(touched):
     assert touched.find("[data-control=b] .number").input_value() == slider.input_value()
 
 
+def test_a_swipe_over_the_atlas_sets_nothing_and_a_tap_or_a_hand_on_the_handle_does(touched):
+    pad = touched.find(".panel-atlas .pad")
+    pad.scroll_into_view_if_needed()
+    touched.find(".panel-atlas .region").first.wait_for()
+    f = lambda: [touched.find(f"[data-control={name}] .number").input_value() for name in ("f1", "f2")]  # noqa: E731
+    before, box = f(), pad.bounding_box()
+    spot = lambda u, v: (box["x"] + u * box["width"], box["y"] + v * box["height"])  # noqa: E731
+    swipe(touched, spot(0.6, 0.8), spot(0.62, 0.4))
+    assert f() == before
+    pad.scroll_into_view_if_needed()  # it has been swiped away
+    box = pad.bounding_box()
+    touched.page.touchscreen.tap(*spot(0.7, 0.4))
+    touched.settle()
+    tapped = f()
+    assert tapped != before
+    handle = touched.find(".panel-atlas .handle").bounding_box()
+    middle = handle["x"] + handle["width"] / 2, handle["y"] + handle["height"] / 2
+    swipe(touched, middle, (middle[0] + 2, middle[1] + 60))
+    assert float(f()[1]) < float(tapped[1])
+
+
 def test_one_finger_leaves_the_picture_where_it_is_and_two_move_it(touched):
     before = touched.page.evaluate(RANGES)
     box = touched.find(".bokeh").bounding_box()

@@ -39,6 +39,7 @@ import {beside, Space, TEXT, textSize} from "./space.js"
 const GAP = 8 // px around the chart
 const REACH = 14 // px within which a curve is read off
 const GROUP = 16 // px within which marks are drawn as one
+const SLOP = 8 // px that a finger moves in a tap
 
 export class Chart {
   /**
@@ -240,22 +241,27 @@ export class Chart {
   follow() {
     const {svg} = this, {onMove, onKey, onMark, onEnd} = this.options
     const move = (event) => { const {x, y, index} = this.under(event); onMove?.(x, y, index) }
+    const begin = (event) => { svg.setPointerCapture(event.pointerId); this.dragging = true; move(event) }
+    let finger = null // where one has come down that may be about to scroll the page
     svg.addEventListener("pointerdown", (event) => {
       if (!this.frames.length) return
       const mark = event.target.closest(".special")
       if (mark && onMark) { onMark(this.groups[mark.dataset.group]); return }
       if (!onMove) return
-      svg.setPointerCapture(event.pointerId)
-      this.dragging = true
-      move(event)
+      if (event.pointerType === "touch" && !event.target.closest(".handle")) finger = [event.clientX, event.clientY]
+      else begin(event)
     })
     svg.addEventListener("pointermove", (event) => {
       if (!this.frames.length) return
-      if (this.dragging) move(event)
-      else this.read(event)
+      if (finger && swept(finger, event) === "sideways") { finger = null; begin(event) }
+      else if (this.dragging) move(event)
+      else if (!finger) this.read(event)
     })
     svg.addEventListener("pointerleave", () => this.read(null))
-    for (const end of ["pointerup", "pointercancel"]) svg.addEventListener(end, () => { if (this.dragging) { this.dragging = false; onEnd?.() } })
+    svg.addEventListener("pointerup", (event) => { if (finger && swept(finger, event) === "") begin(event) }) // a tap
+    for (const end of ["pointerup", "pointercancel"]) {
+      svg.addEventListener(end, () => { finger = null; if (this.dragging) { this.dragging = false; onEnd?.() } })
+    }
     if (!onKey) return
     svg.addEventListener("keydown", (event) => {
       const way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key]
@@ -291,4 +297,10 @@ export class Chart {
     }
     return best
   }
+}
+
+// Which way a finger has gone from where it came down: "" in a tap, "sideways", or "along" the page, which then scrolls.
+function swept([x, y], event) {
+  const across = Math.abs(event.clientX - x), up = Math.abs(event.clientY - y)
+  return Math.max(across, up) <= SLOP ? "" : across > up ? "sideways" : "along"
 }
