@@ -21,6 +21,13 @@ def at_place(z: Sequence[float], e: Sequence[float] = ()) -> str:
     return f" at {', '.join(parts)}" if parts else ""
 
 
+def slow_names(m: int, rows: str) -> str:
+    """Say which slow variables there are: "W has 1 row: use z"."""
+    if m == 0:
+        return f"{rows} has no rows: use no slow variable"
+    return f"{rows} has 1 row: use z" if m == 1 else f"{rows} has {m} rows: use z1 to z{m}"
+
+
 def slow_values(z: ArrayLike, m: int, needed: bool = True) -> tuple[float, ...]:
     """Check z: m finite numbers (a lone number will do for m = 1; none if no coefficient reads z)."""
     if isinstance(z, tuple) and not z:

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from ..expressions.expression import Expression, parse
 from ..expressions.names import MOST_SLOW_VARIABLES
-from .bounds import LARGEST, SMALLEST, at_place, slow_values
+from .bounds import LARGEST, SMALLEST, at_place, slow_names, slow_values
 from .coefficients import Affine, Coefficients
 
 Coefficient = float | Expression
@@ -178,16 +178,26 @@ class ELinear:
 
     @cached_property
     def _slow_names(self) -> frozenset[str]:
-        used = {name for _, expression in self.expressions for name in expression.names}
-        return frozenset(used - set(dict(self.parameters)))
+        return frozenset(name for _, name in self._slow_reads)
+
+    @cached_property
+    def _slow_reads(self) -> tuple[tuple[str, str], ...]:
+        """Coefficients that read a slow variable, each with its name."""
+        own = dict(self.parameters)
+        return tuple((box, name) for box, text in self.expressions for name in sorted(text.names) if name not in own)
 
     @cached_property
     def m(self) -> int:
         """The number of slow variables."""
-        named = max((1 if name == "z" else int(name[1:]) for name in self._slow_names), default=0)
+        reads = ((1 if name == "z" else int(name[1:]), box) for box, name in self._slow_reads)
+        named, first = max(reads, default=(0, ""))
+        given = "B" if self.B is not None else "g"
         rows = len(self.B) if self.B is not None else len(self.g) if self.g is not None else named
         if named > rows:
-            raise ValueError(f"a coefficient names z{named}, but B or g has only {rows} row(s); give m rows to both.")
+            raise ValueError(
+                f"{first} names z{named}, but {slow_names(rows, given)}, or give B and g {named} "
+                f"row{'s' * (named > 1)}."
+            )
         return rows
 
     def evolve(self, **changes: Any) -> ELinear:

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..expressions.expression import Expression
 from ..expressions.names import MOST_SLOW_VARIABLES, SLOW, number_names
+from .bounds import slow_names
 from .reading import continuous, mapping, parameter, read, shortened, texts
 from .reading import definitions as read_definitions
 
@@ -56,10 +57,14 @@ class Formulas:
     @cached_property
     def m(self) -> int:
         """The number of slow variables."""
-        used = {name for row in (*self.U, *self.W) for name in row.names}
-        named = max((i + 1 for i, name in enumerate(SLOW) if name in used), default=0)
+        rows = [(f"{what}{i}", row) for what, own in (("U", self.U), ("W", self.W)) for i, row in enumerate(own, 1)]
+        named, first = max(
+            ((SLOW.index(name) + 1, box) for box, row in rows for name in row.names if name in SLOW), default=(0, "")
+        )
         if self.W and named > len(self.W):
-            raise ValueError(f"a formula names z{named}, but W has only {len(self.W)} row(s); give m rows.")
+            raise ValueError(
+                f"{first} names z{named}, but {slow_names(len(self.W), 'W')}, or give W {named} row{'s' * (named > 1)}."
+            )
         return len(self.W) or named
 
     @cached_property

@@ -71,7 +71,7 @@ REFUSED = [
     (own(U1="c", U2="s", W="1\nlog(z-1)"), "text:W", "W2 has no value"),
     (own(where="foo"), "text:where", "defines nothing"),
     (own(W="1\n2\n3\n4\n5"), "text:W", "at most 4"),
-    (own(W="z9"), "text:W", "only 1 row"),
+    (own(W="z9"), "text:W", "W1 names z9, but W has 1 row: use z"),
     (own(U1="+".join("abdghijklmnopq")), "text:U1", "use at most 12"),
     (own(W="1e400"), "text:W", "number"),
     (own(U1="t*c"), "text:U1", "is time"),

@@ -91,7 +91,7 @@ def test_from_matrix_takes_entries_that_depend_on_z():
         (lambda: ELinear("exp(1000*z)", 0, 1).at(1.0), "a"),
         (lambda: ELinear(1, 0, 1).at(3.0), "no slow variable"),
         (lambda: ELinear(1, 0, 1).evolve(q=3), "'q' is no coefficient"),
-        (lambda: ELinear("z2", 0, 1, g=[1.0]).m, "m rows"),
+        (lambda: ELinear("z2", 0, 1, g=[1.0]).m, "a names z2, but g has 1 row: use z, or give B and g 2 rows"),
         (lambda: ELinear.from_matrix([1, 2, 3]), "(2, 2)"),
         (lambda: ELinear.from_matrix([[1, 2], [3, 4]]).evolve(a=1), "from_matrix"),
     ],

@@ -96,7 +96,7 @@ def test_slow_variables_are_counted():
     assert System(U=("c", "s")).m == 0
     assert System(U=("c + z3", "s")).m == 3
     assert System(U=("c", "s"), W=("z", "0")).m == 2
-    with pytest.raises(ValueError, match="names z2, but W has only 1 row"):
+    with pytest.raises(ValueError, match="U1 names z2, but W has 1 row: use z, or give W 2 rows"):
         System(U=("c + z2", "s"), W=("0",))
     with pytest.raises(ValueError, match="m = 1"):
         System(U=("c + z", "s")).at((1.0, 2.0))
