@@ -37,6 +37,23 @@ def test_a_fixed_point_is_polished_to_all_digits(f, backward):
     assert search._polished(section, xi, shift, i, i + 1, backward) == pytest.approx(math.log(1.5), abs=1e-9)
 
 
+@pytest.mark.parametrize("backward", [False, True])
+@pytest.mark.parametrize(
+    "f",
+    [
+        lambda xi: np.tanh(1e5 * (xi - 0.4)),  # flat on both sides: samples of one value
+        lambda xi: np.where(xi < 0.4, 1e-3 * xi - 1.0, 5.0 + 1e-3 * xi),  # an interpolant of a jump goes astray
+        lambda xi: np.where(xi < 0.4, 1e-4 * xi - 1e-3, 5.0 + np.cos(3e4 * xi)),
+    ],
+)
+def test_a_steep_change_of_sign_is_placed_between_its_sides(f, backward):
+    section = Line(f)
+    xi = np.linspace(-1.0, 1.0, 8)
+    shift = section.displacement(xi, backward=backward)
+    i = int(np.flatnonzero(np.sign(shift[1:]) != np.sign(shift[:-1]))[0])
+    assert search._polished(section, xi, shift, i, i + 1, backward) == pytest.approx(0.4, abs=2e-3)
+
+
 def test_between_and_settled_and_where_a_displacement_ends():
     assert search._between(1.0, 2.0, 3).tolist() == [1.25, 1.5, 1.75]
     levels = np.array([1.0, 1.0, 1.05, 1.06, 1.07, np.inf])
