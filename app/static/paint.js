@@ -42,6 +42,7 @@ export class Bitmaps {
 
   // `draw(pen)` draws on a canvas of the box's size, in px; `key` holds all that it depends on.
   blit(ctx, name, key, box, draw) {
+    if (!(box.width > 0 && box.height > 0)) return // the page is being laid out
     if (typeof CanvasRenderingContext2D === "undefined" || !(ctx instanceof CanvasRenderingContext2D)) { draw(ctx); return }
     const ratio = ctx.getTransform().a
     const x = box.x - 0.5, y = box.y - 0.5 // Bokeh's canvas is shifted by half a pixel; a bitmap must not be

@@ -275,9 +275,23 @@ def _region(
         if found is None:
             return None
         inside = found
-    coefficients = Coefficients(plane.a, plane.b, plane.d, *inside, *_NOTHING)
-    classification = classify(coefficients, constant())
+    classification = _classified(plane, inside)
+    if any(one.name == "line of equilibria" for one in classification.degeneracies):
+        # det A = 0: on the line f = A e only, which passes through the region
+        inside = _beside(plane, inside, border)
+        classification = _classified(plane, inside)
     return Region(classification.name, inside, frozen(boundary), bounded, classification)
+
+
+def _classified(plane: Geometry, f: tuple[float, float]) -> Classification:
+    return classify(Coefficients(plane.a, plane.b, plane.d, *f, *_NOTHING), constant())
+
+
+def _beside(plane: Geometry, f: tuple[float, float], border: Array) -> tuple[float, float]:
+    """Return a point a tenth of the way from the line {A e} to the border."""
+    u, v = max((plane.a, plane.b), (-plane.b, plane.d), key=lambda column: math.hypot(*column))
+    step = 0.1 * float(np.hypot(border[:, 0] - f[0], border[:, 1] - f[1]).min()) / math.hypot(u, v)
+    return f[0] - step * v, f[1] + step * u
 
 
 def _middle(boundary: list[Array], border: Array) -> tuple[float, float] | None:

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, bifurcations, classify, psi
@@ -70,6 +70,8 @@ def region_area(region):
 
 
 @settings(max_examples=120)
+@example((1.25, 0.0, 0.0), 0)  # a line of equilibria passes through the middle
+@example((1.0, 0.0, 0.0), 7)
 @given(matrices, st.integers(0, 2**32 - 1))
 def test_regions_of_random_matrices(abd, seed):
     size = max(map(abs, abd))
