@@ -1,20 +1,9 @@
 """The front end's modules as one: in order of dependency, each with names of its own."""
 
-import os
-import shutil
 import subprocess
 
 import pytest
 from codim2_app.draw.bundle import bundle
-
-
-@pytest.fixture(scope="module")
-def node():
-    """The path of Node; where it is missing the test is left out, but in CI it fails."""
-    path = shutil.which("node")
-    if path is None:
-        (pytest.fail if os.environ.get("CI") else pytest.skip)("no Node: install nodejs")
-    return path
 
 
 def write(folder, **modules):

@@ -2,12 +2,10 @@
 
 import os
 import re
-import shutil
 import signal
 import subprocess
 from pathlib import Path
 
-import pytest
 from codim2_app.view.markup import script
 
 HERE = Path(__file__).parent
@@ -16,15 +14,6 @@ STATIC = Path(__file__).parents[3] / "app" / "static"
 #: menu is loaded when it is opened.
 APART = ("cell.js", "live.js", "takeaway.js")
 LONGEST = 180.0  # seconds for all of Node's tests, which take five: also where other work has most of the machine
-
-
-@pytest.fixture(scope="module")
-def node():
-    """The path of Node; where it is missing the test is left out, but in CI it fails."""
-    path = shutil.which("node")
-    if path is None:
-        (pytest.fail if os.environ.get("CI") else pytest.skip)("no Node: install nodejs")
-    return path
 
 
 def ended(command, folder, seconds):

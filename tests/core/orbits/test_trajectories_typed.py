@@ -18,6 +18,8 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 from codim2_core.systems.typed_formulas import MOST_NUMBERS
 
+from .seeds import ring, sunflower
+
 FAMILIES = [
     psi.constant(),
     psi.rational(),
@@ -39,17 +41,6 @@ def as_text(system):
     a, b, d, f1, f2 = system.at(()).plane
     values = {"a": a, "b": b, "d": d, "f1": f1, "f2": f2}
     return System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=values)
-
-
-def sunflower(count, radius=0.97):
-    k = np.arange(count)
-    r, t = radius * np.sqrt((k + 0.5) / count), 2.399963 * k + 0.4
-    return np.stack([r * np.cos(t), r * np.sin(t)], axis=-1)
-
-
-def ring(count, radius):
-    t = 2 * np.pi * (np.arange(count) + 0.38) / count
-    return radius * np.stack([np.cos(t), np.sin(t)], axis=-1)
 
 
 @njit
