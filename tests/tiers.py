@@ -38,11 +38,12 @@ def marks(folder: str, name: str, costly: frozenset[str]) -> list[str]:
 
 
 def mark(items: list[pytest.Item]) -> None:
-    """Give all tests their marks."""
+    """Give all tests their marks, and put those in the browser first: one process drives it while others compute."""
     costly = frozenset(COSTLY.read_text().split())
     for item in items:
         for name in marks(item.path.relative_to(TESTS).parts[0], named(item), costly):
             item.add_marker(name)
+    items.sort(key=lambda item: item.get_closest_marker("browser") is None)
 
 
 def asked_for(config: pytest.Config) -> list[tuple[str, ...]]:
@@ -66,11 +67,21 @@ def wants(config: pytest.Config, folder: str) -> bool:
     return folder not in SLOW or not leaves_out_slow(config)
 
 
+def browses(config: pytest.Config) -> bool:
+    """Whether the command runs the tests in the browser beside others."""
+    return not config.option.markexpr and () in asked_for(config)
+
+
 def processes(config: pytest.Config) -> int:
-    """Processes for this command: one a processor if it names nothing smaller than a folder of ``tests``."""
+    """Processes for this command: one a processor if it names nothing smaller than a folder of ``tests``.
+
+    And one more for the tests in the browser: what drives it waits half of the time.
+    """
     small = any(len(parts) > 1 or (parts and parts[0].endswith(".py")) for parts in asked_for(config))
     alone = config.getoption("usepdb") or config.getoption("capture") == "no" or config.option.collectonly
-    return 0 if small or alone or "PYTEST_XDIST_WORKER" in os.environ else len(os.sched_getaffinity(0))
+    if small or alone or "PYTEST_XDIST_WORKER" in os.environ:
+        return 0
+    return len(os.sched_getaffinity(0)) + browses(config)
 
 
 def spent() -> float:

@@ -62,24 +62,32 @@ def _root(x: Array, y: Array) -> float:
     )
 
 
-def _polished(section: Section, xi: Array, shift: Array, i: int, j: int, backward: bool) -> float:
-    """Find the fixed point between samples i and j of opposite sign.
+def _one_way(y: Array) -> bool:
+    """Whether displacements are finite, and all rise or all fall from one sample to the next."""
+    if not np.isfinite(y).all():
+        return False
+    steps = np.diff(y)
+    return bool((steps > 0.0).all() or (steps < 0.0).all())
 
-    By six samples about the zero of the cubic through those around; if these do not show it, by rounds of samples.
+
+def _interpolated(section: Section, x: Array, y: Array, low: float, high: float, backward: bool) -> float | None:
+    """Find the fixed point between low and high by six samples about the zero of the cubic through those around.
+
+    None if these do not show it: they do if their interpolant and that of the inner four agree.
     """
-    low, high = float(xi[i]), float(xi[j])
-    near = slice(max(i - 1, 0), j + 2)
-    x, y = xi[near], shift[near]
-    if np.isfinite(y).all() and (np.diff(y) * (y[-1] - y[0]) > 0.0).all():
-        guess = _root(x, y)
-        width = min(CLOSER, 0.1 * (high - low))
-        if low < guess < high:
-            x = guess + width * np.array([-2.5, -1.5, -0.5, 0.5, 1.5, 2.5])
-            y = section.displacement(x, FINE, backward)
-            if np.isfinite(y).all() and (np.diff(y) * (y[-1] - y[0]) > 0.0).all() and y[0] * y[-1] < 0.0:
-                found = _root(x, y)
-                if abs(found - _root(x[1:-1], y[1:-1])) < AGREED:
-                    return found
+    guess = _root(x, y)
+    if not low < guess < high:
+        return None
+    x = guess + min(CLOSER, 0.1 * (high - low)) * np.array([-2.5, -1.5, -0.5, 0.5, 1.5, 2.5])
+    y = section.displacement(x, FINE, backward)
+    if not _one_way(y) or y[0] * y[-1] > 0.0:
+        return None
+    found = _root(x, y)
+    return found if abs(found - _root(x[1:-1], y[1:-1])) < AGREED else None
+
+
+def _bracketed(section: Section, low: float, high: float, backward: bool) -> float:
+    """Find the fixed point between low and high, where the displacement has opposite signs, by rounds of samples."""
     for _ in range(8):
         x = np.concatenate([[low], _between(low, high, 30), [high]])
         y = section.displacement(x, COARSE, backward)
@@ -95,6 +103,14 @@ def _polished(section: Section, xi: Array, shift: Array, i: int, j: int, backwar
         return 0.5 * (low + high)
     guess = _root(x, y)
     return guess if low - width <= guess <= high + width else 0.5 * (low + high)
+
+
+def _polished(section: Section, xi: Array, shift: Array, i: int, j: int, backward: bool) -> float:
+    """Find the fixed point between samples i and j of opposite sign."""
+    low, high = float(xi[i]), float(xi[j])
+    near = slice(max(i - 1, 0), j + 2)
+    found = _interpolated(section, xi[near], shift[near], low, high, backward) if _one_way(shift[near]) else None
+    return _bracketed(section, low, high, backward) if found is None else found
 
 
 def _newborn(section: Section) -> Crossing | None:
@@ -116,6 +132,32 @@ def _newborn(section: Section) -> Crossing | None:
     return Crossing(math.log(size / (1.0 - size)), square > 0.0, born=True)
 
 
+def _crossed(section: Section, xi: Array, shift: Array, changes: list[tuple[int, int]]) -> list[Crossing]:
+    """Place the fixed points at the changes of sign (i, j) of the displacement.
+
+    One that repels attracts backward in time: it is found and followed backward. It may repel so strongly that forward
+    no sample beside it returns; then the way back shows whether it is there.
+    """
+    found = []
+    for i, j in changes:
+        repelling = bool(shift[i] < 0.0)
+        shown = bool(np.isfinite(shift[[i, j]]).all())
+        if repelling and not shown:
+            back = section.displacement(xi[[i, j]], backward=True)
+            shown = bool(back[0] > 0.0 > back[1])
+        if shown:
+            found.append(Crossing(_polished(section, xi, shift, i, j, repelling), repelling))
+    return found
+
+
+def _nearly_degenerate(q: Array, shift: Array, noise: Array) -> list[str]:
+    """Say where orbits nearly close along a loop, and where two fixed points nearly meet."""
+    last = shift[:-1][np.isfinite(shift[:-1]) & (shift[1:] == np.inf)]
+    said = [say("near a loop", gap=y) for y in last.tolist() if abs(y) < NEAR_LOOP]
+    gap = near_fold(q, shift, noise)
+    return [*said, say("near a fold", gap=gap)] if gap < NEAR_FOLD else said
+
+
 def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
     """Find the fixed points that the samples show, innermost first, and notes on what is nearly degenerate.
 
@@ -123,7 +165,6 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
     ----------
     section : Section
     """
-    found: list[Crossing] = []
     notes: list[str] = []
     samples = Samples(section, section.grid())
     finite = np.isfinite(samples.shift)
@@ -135,27 +176,14 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
     if not known.all():
         notes.append(say("not all followed"))
     xi, q, shift, noise = (v[known] for v in (samples.xi, samples.q, samples.shift, samples.noise))
-    finite = np.isfinite(shift)
     changes, touching, band = zeros(q, shift, noise)
     if band:
         notes.append(say("band"))
-    for i, j in changes:
-        repelling = bool(shift[i] < 0.0)  # then it attracts backward, and is found and followed backward
-        both = finite[i] and finite[j]
-        if not both and repelling:
-            # It may be so repelling that forward no sample beside it returns.
-            back = section.displacement(xi[[i, j]], backward=True)
-            both = bool(back[0] > 0.0 > back[1])
-        if both:
-            found.append(Crossing(_polished(section, xi, shift, i, j, repelling), repelling))
+    found = _crossed(section, xi, shift, changes)
     found += [Crossing(float(xi[i]), touching=True) for i in touching if noise[i] < TOUCHING]
-    last = shift[:-1][finite[:-1] & (shift[1:] == np.inf)]
-    notes += [say("near a loop", gap=y) for y in last.tolist() if abs(y) < NEAR_LOOP]
-    gap = near_fold(q, shift, noise)
-    if gap < NEAR_FOLD:
-        notes.append(say("near a fold", gap=gap))
-    trace = section.critical.trace
-    if finite.any() and finite[0] and section.critical.discriminant < 0.0 and shift[0] * trace < 0.0:
+    notes += _nearly_degenerate(q, shift, noise)
+    C = section.critical
+    if shift.size and np.isfinite(shift[0]) and C.discriminant < 0.0 and shift[0] * C.trace < 0.0:
         newborn = _newborn(section)
         if newborn is not None:
             found.append(newborn)

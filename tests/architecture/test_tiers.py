@@ -51,21 +51,40 @@ def test_every_folder_of_slow_tests_is_left_out_unless_it_is_asked_for(tmp_path)
     assert passed("-p", "no:xdist") == 4  # where pytest-xdist is not installed
 
 
+def test_those_in_the_browser_come_first_and_all_else_keeps_its_order():
+    class Item:
+        def __init__(self, folder, name):
+            self.path, self.name, self.found = tiers.TESTS / folder / "test_it.py", name, []
+
+        def add_marker(self, name):
+            self.found.append(name)
+
+        def get_closest_marker(self, name):
+            return name if name in self.found else None
+
+    items = [Item(*one) for one in (("app", "a"), ("browser", "z"), ("browser", "b"), ("core", "d"), ("core", "c"))]
+    tiers.mark(items)
+    assert [item.name for item in items] == ["z", "b", "a", "d", "c"]
+
+
 def test_a_test_named_runs_alone_and_folders_are_shared_among_the_processors(pytestconfig, monkeypatch):
     class Asked:
         invocation_params = type("Params", (), {"dir": ROOT})
         option = type("Option", (), {"collectonly": False})
 
-        def __init__(self, *args):
-            self.args = args
+        def __init__(self, *args, markexpr=""):
+            self.args, self.option.markexpr = args, markexpr
 
         def getoption(self, name):
             return {"usepdb": False, "capture": "fd"}[name]
 
     monkeypatch.delenv("PYTEST_XDIST_WORKER", raising=False)
     monkeypatch.setattr(tiers.os, "sched_getaffinity", lambda _: {0, 1, 2})
-    for asked in (("tests",), (".",), ("tests/core", "tests/app")):
+    for asked in (("tests/core",), ("tests/core", "tests/app"), ("tests/browser",)):
         assert tiers.processes(Asked(*asked)) == 3
+    assert tiers.processes(Asked("tests", markexpr="fast")) == 3
+    for asked in (("tests",), (".",)):  # and one that drives the browser
+        assert tiers.processes(Asked(*asked)) == 4
     for asked in (
         ("tests/core/psi",),
         ("tests/core/psi/test_psi.py::test_a",),

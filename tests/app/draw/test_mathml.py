@@ -5,7 +5,7 @@ import re
 from xml.etree import ElementTree
 
 import pytest
-from codim2_app.draw.mathml import equations, equations_mathml, mathml, plain_symbol
+from codim2_app.draw.mathml import equations, equations_mathml, mathml, plain_symbol, symbol
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -139,3 +139,43 @@ def test_a_matrix_is_written_as_given():
 @pytest.mark.parametrize(("name", "shown"), [("mu1", "μ₁"), ("Omega", "Ω"), ("rate", "rate"), ("w12", "w₁₂")])
 def test_names_become_symbols(name, shown):
     assert plain_symbol(name) == shown
+
+
+@pytest.mark.parametrize(
+    ("text", "drawn"),
+    [
+        ("c+s", "<mi>c</mi><mo>+</mo><mrow><mi>s</mi></mrow>"),
+        ("c-s", "<mi>c</mi><mo>−</mo><mrow><mi>s</mi></mrow>"),
+        ("c-(s+c)", "<mi>c</mi><mo>−</mo><mrow><mo>(</mo><mi>s</mi><mo>+</mo><mrow><mi>c</mi></mrow><mo>)</mo></mrow>"),
+        ("c/s", "<mfrac><mrow><mi>c</mi></mrow><mrow><mi>s</mi></mrow></mfrac>"),
+        ("-c/s", "<mo>−</mo><mfrac><mrow><mrow><mi>c</mi></mrow></mrow><mrow><mi>s</mi></mrow></mfrac>"),
+        ("c**2", "<msup><mrow><mi>c</mi></mrow><mrow><mn>2</mn></mrow></msup>"),
+        ("exp(c)", "<msup><mi>e</mi><mrow><mi>c</mi></mrow></msup>"),
+        ("sqrt(c)", "<msqrt><mi>c</mi></msqrt>"),
+        ("2*c", "<mn>2</mn><mo>&#8290;</mo><mrow><mi>c</mi></mrow>"),
+        ("c*2", "<mrow><mi>c</mi></mrow><mo>·</mo><mrow><mn>2</mn></mrow>"),
+        ("sin(c)", "<mrow><mi>sin</mi><mo>(</mo><mi>c</mi><mo>)</mo></mrow>"),
+    ],
+)
+def test_formulas_are_written_as_one_writes_them(text, drawn):
+    assert mathml(parse(text, ("c", "s"))) == drawn
+
+
+def test_names_have_indices_and_dots():
+    assert symbol("z1") == "<msub><mi>z</mi><mn>1</mn></msub>"
+    assert symbol("mu_k") == "<msub><mi>μ</mi><mn>k</mn></msub>"
+    assert symbol("z", dot=True) == "<mover><mi>z</mi><mo>˙</mo></mover>"
+    assert symbol("z2", dot=True) == "<msub><mover><mi>z</mi><mo>˙</mo></mover><mn>2</mn></msub>"
+    assert symbol("Psi") == "<mi>Ψ</mi>"
+    assert plain_symbol("B_12") == "B₁₂"
+    assert plain_symbol("a_b_c") == "a_b_c"
+
+
+def test_a_system_is_a_table_with_its_definitions_after_it():
+    system = c2.System(U=("K*c", "s"), W=("z1-c",), definitions={"K": "1+c"})
+    rows = re.findall(r"<mtr>(.*?)</mtr>", equations_mathml(system))
+    left = [re.sub(r"<[^>]*>", "", row.partition("<mo>=</mo>")[0]) for row in rows]
+    assert left == ["x˙", "y˙", "z˙", "K"]
+    assert "<mi>z</mi><mo>−</mo>" in rows[2]
+    assert "<mi>K</mi>" in rows[0]
+    assert "<mn>1</mn><mo>+</mo>" in rows[3]

@@ -54,6 +54,15 @@ def test_the_arc_leads_from_where_orbits_come_down_to_where_they_go_up(plane, ti
 
 
 @EVERY
+@pytest.mark.parametrize("time", [1e-4, 1e4])
+def test_loops_do_not_know_the_unit_of_time(plane, time):
+    (one,), (other,) = loops(made(plane)), loops(made(plane, time))
+    assert (other.source, other.sink, other.ratio) == pytest.approx((one.source, one.sink, one.ratio), rel=1e-12)
+    assert other.ray == one.ray
+    assert gap(made(plane, time), PSI, other) == pytest.approx(gap(made(plane), PSI, one), rel=1e-7)
+
+
+@EVERY
 def test_against_time_ends_change_places_and_the_gap_its_sign(plane):
     for one in (plane, mirrored(plane)):
         forward, backward = made(one), made(one, -1.0)

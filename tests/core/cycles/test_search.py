@@ -13,6 +13,8 @@ from codim2_core.words import recognise
 
 from .sections import Line, circle
 
+INF = math.inf
+
 
 def test_inverse_interpolation_finds_zeros_of_inverse_polynomials():
     """xi is a polynomial of degree 3 of the displacement: four samples are enough."""
@@ -52,6 +54,43 @@ def test_a_steep_change_of_sign_is_placed_between_its_sides(f, backward):
     shift = section.displacement(xi, backward=backward)
     i = int(np.flatnonzero(np.sign(shift[1:]) != np.sign(shift[:-1]))[0])
     assert search._polished(section, xi, shift, i, i + 1, backward) == pytest.approx(0.4, abs=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("y", "expected"),
+    [
+        ([-1.0, 0.5, 2.0], True),
+        ([2.0, 0.5, -1.0], True),
+        ([-1.0, -1.0, 2.0], False),
+        ([-1.0, 2.0, 1.0], False),
+        ([2.0, -1.0, 0.0], False),
+        ([-INF, 0.5, 2.0], False),
+        ([-1.0, 0.5, math.nan], False),
+    ],
+)
+def test_samples_that_all_rise_or_all_fall(y, expected):
+    assert search._one_way(np.array(y)) is expected
+    assert search._one_way(-np.array(y)) is expected
+
+
+@pytest.mark.parametrize(
+    ("fine", "shown"),
+    [
+        (lambda xi: xi - 0.4, True),
+        (lambda xi: 0.4 - xi, True),
+        (lambda xi: xi + 5.0, False),  # no zero among the six
+        (lambda xi: (xi - 0.4) ** 2 - 1e-5, False),  # two
+        (lambda xi: np.where(xi < 0.4, -1.0, 5.0) + 1e-3 * xi, False),  # a jump: the interpolants differ
+        (lambda xi: np.where(xi < 0.4, np.nan, xi - 0.3), False),
+    ],
+)
+def test_six_samples_show_a_fixed_point_or_nothing_is_said(fine, shown):
+    x = np.array([-1.0, 0.0, 1.0, 2.0])
+    found = search._interpolated(Line(fine), x, x - 0.4, 0.0, 1.0, False)
+    assert found == (pytest.approx(0.4, abs=1e-12) if shown else None)
+    beside = Line(fine)
+    assert search._interpolated(beside, x, x - 1.5, 0.0, 1.0, False) is None  # the cubic's zero lies elsewhere
+    assert beside.asked == []
 
 
 def test_between_and_settled_and_where_a_displacement_ends():
@@ -164,8 +203,6 @@ def test_where_the_fine_tolerance_shows_nothing_a_fixed_point_is_midway(fine):
 
 # ---- all that a section shows ----------------------------------------------------------------------------------------
 
-INF = math.inf
-
 
 def sought(displacement, trace=1.0, discriminant=1.0, backward=None):
     """Fixed points (place, repelling, touching), and the names of what is said."""
@@ -226,6 +263,12 @@ def test_a_jump_that_the_way_back_does_not_show_is_none():
     jump = lambda xi: np.where(xi < 0.3, -INF, INF)  # noqa: E731
     for back in (lambda xi: 1.0 + 0.0 * xi, lambda xi: -1.0 + 0.0 * xi, lambda xi: np.full_like(xi, np.nan)):
         assert sought(jump, backward=back) == ([], [])
+
+
+def test_only_of_what_repels_is_the_way_back_asked():
+    """Forward orbits come to a cycle that attracts, however strongly: beside a jump the other way there is none."""
+    jump = lambda xi: np.where(xi < 0.3, INF, -INF)  # noqa: E731
+    assert sought(jump, backward=lambda xi: 0.3 - xi) == ([], [])
 
 
 def test_a_whole_interval_of_fixed_points_is_a_band():

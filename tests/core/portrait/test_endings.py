@@ -206,3 +206,43 @@ def test_ends_are_judged():
     assert (one.verdict, one.why) == ("undecided", "neutral")
     one = judged(("undecided", None, "why"))
     assert (one.verdict, one.why) == ("undecided", "unfollowed")
+
+
+def ended(monkeypatch, end, status=Status.T_MAX, then=None):
+    """Ending of one orbit that is at `end` when its time is up, and then for good, or at the next of `then`."""
+    at, psi = c2.ELinear(1.0, 3.0, -2.0, (3.0, 0.5)).at(), c2.psi.constant()
+    limits, later = c2.equator_equilibria(at), iter(then or ())
+
+    def followed(*_):
+        now, place = next(later, (status, end))
+        return SimpleNamespace(status=[now], ends=np.array([place]))
+
+    monkeypatch.setattr(endings, "_followed", followed)
+    lines = type("Lines", (SimpleNamespace,), {"__len__": lambda _: 1})(status=[status], ends=[end])
+    (one,) = endings.endings(at, psi, lines, limits, c2.critical_sets(at, psi), lambda: ())
+    return one, limits
+
+
+def place(angle, w):
+    r = math.sqrt(1.0 - w * w)
+    return [r * math.cos(angle), r * math.sin(angle), w]
+
+
+@pytest.mark.parametrize("height", [0.0, 5e-5, 2e-4, 0.5])
+@pytest.mark.parametrize("aside", [0.0, 5e-5, 2e-4])
+def test_an_orbit_cut_off_is_at_a_limit_direction_if_it_is_near_in_angle_and_in_height(monkeypatch, height, aside):
+    _, limits = ended(monkeypatch, place(0.0, 0.5))
+    assert len(limits) == 2
+    assert not any(endings.radially_neutral_ones(limits))
+    for i, theta in enumerate(limits.theta.tolist()):
+        one, _ = ended(monkeypatch, place(theta + aside, height))
+        near = max(height, aside) < endings.AT_SADDLE
+        assert (one.label, one.angle) == ((f"Q{i + 1}", theta) if near else ("undecided", None))
+
+
+def test_an_orbit_that_is_near_a_limit_direction_is_followed_before_it_is_said_to_end_there(monkeypatch):
+    _, limits = ended(monkeypatch, place(0.0, 0.5))
+    first, second = limits.theta.tolist()
+    for then, label in (((Status.ARRIVED, place(second, 0.0)), "Q2"), ((Status.SPIRALLED, place(1.0, 0.0)), "equator")):
+        one, _ = ended(monkeypatch, place(first, 5e-5), then=[then])
+        assert one.label == label

@@ -1,0 +1,60 @@
+"""Hatches, marks and labels of a drawing: where they stand at any zoom and size."""
+
+import math
+import re
+
+import pytest
+from codim2_app.draw.theme import RING, VIEW
+from codim2_app.draw.vector import parts as vector
+from codim2_app.draw.vector.parts import SIDE, Place
+
+
+@pytest.mark.parametrize(("hatch", "strokes"), [("/", 1), ("x", 2), (".", 1), ("", 0)])
+def test_hatches_lie_on_the_ring_as_far_apart_on_any_screen(hatch, strokes):
+    inner, outer = RING
+    middle = (inner + outer) / 2
+    for place in (Place(), Place(side=500.0, unit=500 / 700), Place(unit=SIDE / 350)):
+        found = vector._hatching(0.5, 2.0, hatch, place)
+        step = vector.HATCH * place.unit / (middle * place.scale)  # of the angle
+        assert len(found) == strokes * math.floor(1.5 / step + 0.5)
+        for i, ((x, y), (u, v)) in enumerate(found):
+            angle = 0.5 + (i // max(strokes, 1) + 0.5) * step
+            one, other = math.atan2(y, x) - angle, math.atan2(v, u) - angle
+            assert one == pytest.approx(-other)
+            lean = (outer - inner) / middle / 2
+            if hatch == ".":
+                assert (math.hypot(x, y), math.hypot(u, v)) == pytest.approx((middle, middle))
+                assert other == pytest.approx(lean / 4)
+            else:
+                assert (math.hypot(x, y), math.hypot(u, v)) == pytest.approx((inner, outer))
+                assert other == pytest.approx(lean if i % strokes == 0 else -lean)  # at 45 degrees
+
+
+def test_no_label_stands_over_the_core_of_a_mark():
+    columns = {
+        "x": [0.5, 9.0], "y": [-0.25, 0.0], "shape": ["circle"] * 2, "size": [14, 14], "colour": ["attr"] * 2,
+        "filled": [1, 1],
+    }  # fmt: skip
+    for place in (Place(), Place(unit=3.0)):
+        taken = []
+        assert len(vector.marks(columns, place, taken)) == 1  # the other is not seen
+        [box] = taken
+        [(u, v)] = place.points([(0.5, -0.25)]).tolist()
+        assert (box.x + box.width / 2, box.y + box.height / 2) == pytest.approx((u, v))
+        assert box.width == box.height == pytest.approx(vector.CORE * 14 * place.unit)
+        assert 0.5 * 14 * place.unit < box.width < 14 * place.unit
+
+
+def test_zoomed_in_a_label_stands_as_near_to_its_mark():
+    columns = {"x": [0.6], "y": [0.8], "label": ["Q₁"], "label_x": [0.75], "label_y": [0.95]}
+    offsets = []
+    for seen in ((-VIEW, VIEW, -VIEW, VIEW), (0.1, 1.1, 0.3, 1.3), (-7.0, 7.0, -7.0, 7.0)):
+        place = Place(seen)
+        [text] = vector.labels(columns, place, [], False)
+        [(u, v)] = place.points([(0.6, 0.8)]).tolist()
+        x, y = (float(re.search(rf' {name}="([^"]*)"', text)[1]) for name in "xy")
+        offsets.append((x - u, y - 0.34 * place.text - v))
+    scale = SIDE / (2 * VIEW)
+    assert offsets[0] == pytest.approx((0.15 * scale, -0.15 * scale), abs=0.6)
+    assert offsets[1] == pytest.approx(offsets[0], abs=1.1)
+    assert offsets[2] == pytest.approx((0.15 * SIDE / 14, -0.15 * SIDE / 14), abs=1.1)  # smaller with all else
