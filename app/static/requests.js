@@ -1,6 +1,7 @@
 // Asking for frames: the newest values win, nothing queues, and as many requests are out as the line needs.
 
 const INTERVAL = 1000 / 60 // ms between two frames of a screen
+const APART = 10 // ms between two requests at least: less than a frame of the screen, as its frames come unevenly
 const SLACK = 12 // ms by which a round trip may exceed the shortest one before that means a queue, …
 const SPREAD = 3 // … and so many times what round trips differ by on this line
 const REMEMBERED = 5000 // ms for which the shortest round trip counts
@@ -38,22 +39,26 @@ export class Window {
   }
 }
 
-// What leaves once a frame of the screen: at once where nothing has left in this frame, else in the next.
-function screenClock() {
-  let free = true
+// What leaves about once a frame of the screen: at once where nothing has just left, else in the next frame. Whether
+// something may leave is a matter of time: a mark that each frame takes away is still there for who acts first in it.
+/** @param {any} page  what measures time and calls back, for tests */
+export function screenClock(page = globalThis) {
+  let left = -Infinity
+  const now = () => page.performance.now()
   const nextFrame = (go) => {
-    const once = () => { clearTimeout(fallback); cancelAnimationFrame(frame); go() }
-    const frame = requestAnimationFrame(once)
-    const fallback = setTimeout(once, 100) // a page in the background gets no animation frames
+    const once = () => { page.clearTimeout(fallback); page.cancelAnimationFrame(frame); go() }
+    const frame = page.requestAnimationFrame(once)
+    const fallback = page.setTimeout(once, 100) // a page in the background gets no animation frames
   }
-  const take = () => { free = false; nextFrame(() => { free = true }) }
   return {
-    now: () => performance.now(),
+    now,
     soon(go) { // what changes within one task still leaves together
-      if (free) { take(); queueMicrotask(go) } else nextFrame(() => { take(); go() })
+      const leave = () => { left = now(); go() }
+      if (now() - left >= APART) queueMicrotask(leave)
+      else nextFrame(leave)
     },
-    after: (ms, go) => setTimeout(go, ms),
-    cancel: (timer) => clearTimeout(timer),
+    after: (ms, go) => page.setTimeout(go, ms),
+    cancel: (timer) => page.clearTimeout(timer),
   }
 }
 

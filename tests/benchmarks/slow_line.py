@@ -20,18 +20,54 @@ async def _carry(reader: asyncio.StreamReader, writer: asyncio.StreamWriter, del
             if not piece:
                 writer.close()
                 return
-            writer.write(piece)
-            await writer.drain()
+            try:
+                writer.write(piece)
+                await writer.drain()
+            except ConnectionError:  # nobody is there any more
+                return
 
-    delivering = asyncio.ensure_future(deliver())
-    piece = b"start"
-    while piece:
+    async with asyncio.TaskGroup() as both:
+        both.create_task(deliver())
+        piece = b"start"
+        while piece:
+            try:
+                piece = await reader.read(1 << 16)
+            except ConnectionError:
+                piece = b""
+            pieces.put_nowait((time.perf_counter() + delay, piece))
+
+
+class _Line:
+    """The proxy within its loop: connections are closed in order when it ends, and their tasks awaited."""
+
+    def __init__(self, host: str, port: int, delay: float) -> None:
+        self.far = host, port
+        self.delay = delay
+        self.over = asyncio.Event()
+        self.connections: set[asyncio.Task[None]] = set()
+
+    async def connect(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        """Carry one connection until both of its ends have closed it, or all is over."""
+        task = asyncio.current_task()
+        assert task is not None
+        self.connections.add(task)
         try:
-            piece = await reader.read(1 << 16)
-        except (ConnectionError, asyncio.CancelledError):
-            piece = b""
-        pieces.put_nowait((time.perf_counter() + delay, piece))
-    await asyncio.gather(delivering, return_exceptions=True)
+            far_reader, far_writer = await asyncio.open_connection(*self.far)
+        except OSError:
+            writer.close()
+            return
+        writers = (writer, far_writer)
+        for one in writers:
+            one.transport.set_write_buffer_limits(0)
+        ways = [asyncio.create_task(_carry(*way, self.delay)) for way in ((reader, far_writer), (far_reader, writer))]
+        both, over = asyncio.gather(*ways), asyncio.create_task(self.over.wait())
+        await asyncio.wait((both, over), return_when=asyncio.FIRST_COMPLETED)
+        for rest in (*ways, over):
+            rest.cancel()
+        await asyncio.gather(*ways, both, over, return_exceptions=True)
+        for one in writers:
+            one.close()
+        await asyncio.gather(*(one.wait_closed() for one in writers), return_exceptions=True)
 
 
 @contextmanager
@@ -46,39 +82,24 @@ def slow_line(address: str, round_trip: float) -> Iterator[str]:
         In seconds; half of it each way.
     """
     host, port = address.removeprefix("http://").split(":")
-    loop = asyncio.new_event_loop()
-    opened: list[int] = []
+    opened: list[tuple[asyncio.AbstractEventLoop, _Line, int]] = []
     ready = threading.Event()
 
-    async def connect(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        far_reader, far_writer = await asyncio.open_connection(host, int(port))
-        for one in (writer, far_writer):
-            one.transport.set_write_buffer_limits(0)
-        await asyncio.gather(
-            _carry(reader, far_writer, round_trip / 2),
-            _carry(far_reader, writer, round_trip / 2),
-            return_exceptions=True,
-        )
-
-    async def listen() -> None:
-        server = await asyncio.start_server(connect, "localhost", 0)
-        opened.append(server.sockets[0].getsockname()[1])
+    async def serve() -> None:
+        line = _Line(host, int(port), round_trip / 2)
+        server = await asyncio.start_server(line.connect, "localhost", 0)
+        opened.append((asyncio.get_running_loop(), line, server.sockets[0].getsockname()[1]))
         ready.set()
+        await line.over.wait()
+        server.close()
+        await asyncio.gather(*line.connections)
 
-    def run() -> None:
-        asyncio.set_event_loop(loop)
-        loop.run_until_complete(listen())
-        loop.run_forever()
-        for task in asyncio.all_tasks(loop):
-            task.cancel()
-        loop.run_until_complete(asyncio.sleep(0.05))
-        loop.close()
-
-    thread = threading.Thread(target=run, daemon=True)
+    thread = threading.Thread(target=asyncio.run, args=(serve(),), daemon=True)
     thread.start()
     ready.wait(10)
+    loop, line, near = opened[0]
     try:
-        yield f"http://localhost:{opened[0]}"
+        yield f"http://localhost:{near}"
     finally:
-        loop.call_soon_threadsafe(loop.stop)
-        thread.join(5)
+        loop.call_soon_threadsafe(line.over.set)
+        thread.join(10)

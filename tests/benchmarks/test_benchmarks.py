@@ -2,6 +2,7 @@
 
 import math
 import re
+import socket
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from .page import html_of
 from .pictures import plot, svg
 from .problems import condition, problems
 from .race import Curve, ratio
+from .slow_line import slow_line
 
 
 @pytest.mark.parametrize("problem", problems(), ids=lambda problem: problem.name)
@@ -45,3 +47,34 @@ def test_markdown_becomes_html():
     assert html_of("# a\n\n| b | c |\n|---|---|\n| 1 | `2<3` |") == (
         "<h1>a</h1>\n<table><tr><th>b</th><th>c</th></tr>\n<tr><td>1</td><td><code>2&lt;3</code></td></tr>\n</table>"
     )
+
+
+@pytest.mark.parametrize("leaves", [True, False], ids=["the browser leaves", "the line ends first"])
+def test_a_slow_line_carries_both_ways_and_ends_in_order(caplog, leaves):
+    with socket.create_server(("localhost", 0)) as server:
+        with slow_line(f"http://localhost:{server.getsockname()[1]}", 0.01) as address:
+            near = socket.create_connection(("localhost", int(address.rsplit(":", 1)[1])), 10)
+            far, _ = server.accept()
+            far.settimeout(10)
+            for k in range(20):
+                near.sendall(bytes([k]) * 1000)
+                far.sendall(bytes([k + 100]) * 1000)
+            there, back = (_read(one, 20_000) for one in (far, near))
+            if leaves:
+                near.close()
+                assert far.recv(1) == b""
+        assert there == b"".join(bytes([k]) * 1000 for k in range(20))
+        assert back == b"".join(bytes([k + 100]) * 1000 for k in range(20))
+        if not leaves:
+            assert near.recv(1) == b""
+            assert far.recv(1) == b""
+        for one in (near, far):
+            one.close()
+    assert caplog.text == ""
+
+
+def _read(one, size):
+    data = b""
+    while len(data) < size:
+        data += one.recv(size)
+    return data

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import {test} from "node:test"
 
-import {Requests, Window} from "../../../app/static/requests.js"
+import {Requests, Window, screenClock} from "../../../app/static/requests.js"
 
 // A network and a server, simulated: messages take `line` ms each way, the server one after the other `work` ms each,
 // and `others` ms for each frame between ours; a screen of 60 Hz; a slider that moves with every frame of it.
@@ -337,4 +337,58 @@ test("as many requests go out as frames of the screen pass in a round trip", () 
     for (let t = 0; t < 1000; t += 17) window.measured(t, trip)
     assert.equal(window.size, size, `${trip} ms`)
   }
+})
+
+// A screen whose frames are made one by one, with callbacks in the order in which they were asked for.
+class Screen {
+  time = 1000
+  asked = []
+  performance = {now: () => this.time}
+  setTimeout = () => 0
+  clearTimeout = () => {}
+  cancelAnimationFrame = () => {}
+  requestAnimationFrame = (call) => this.asked.push(call)
+
+  frame() {
+    this.time = 1000 * Math.ceil((this.time + 1) / 1000 * 60) / 60
+    const due = this.asked
+    this.asked = []
+    for (const call of due) call()
+  }
+}
+
+test("what is set in a frame of the screen leaves in it, also where the one before left late in its frame", async () => {
+  const screen = new Screen(), left = []
+  const requests = new Requests(({set}) => left.push(set.f1), () => {}, screenClock(screen))
+  const drag = (k) => { requests.set("f1", k); if (k < 6) screen.requestAnimationFrame(() => drag(k + 1)) }
+  drag(0)
+  await null
+  assert.deepEqual(left, [0])
+  screen.frame() // 1 waits, and leaves when the reply to 0 comes, late in this frame
+  await null
+  screen.time += 3
+  requests.arrived(requests.number, 0)
+  await null
+  assert.deepEqual(left, [0, 1])
+  for (let k = 2; k <= 6; k++) { // and from now on replies are there before the next frame
+    screen.time += 9
+    requests.arrived(requests.number, 0)
+    screen.frame()
+    await null
+    assert.equal(left.at(-1), k)
+  }
+})
+
+test("however often values are set, about one request leaves in a frame of the screen, with the newest", async () => {
+  const screen = new Screen(), left = []
+  const requests = new Requests(({set}) => left.push(set.f1), () => {}, screenClock(screen))
+  for (let k = 1; k <= 60; k++) {
+    requests.set("f1", k)
+    await null
+    if (requests.out.size) requests.arrived(requests.number, 0)
+    screen.time += 1000 / 600
+    if (k % 10 === 0) { screen.frame(); await null }
+  }
+  assert.ok(left.length <= 13, `${left}`)
+  assert.equal(left.at(-1), 60)
 })
