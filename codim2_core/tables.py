@@ -4,8 +4,41 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from html import escape
+from typing import ClassVar, TypeVar
 
 MOST = 40  # rows that are shown
+
+
+class Tabled:
+    """A result that is one row of a table."""
+
+    __slots__ = ()
+
+    _head_: ClassVar[tuple[str, ...]] = ()
+
+    def _row_(self) -> tuple[str, ...]:
+        raise NotImplementedError
+
+    def _repr_html_(self) -> str:
+        return rows([self])
+
+
+Kind = TypeVar("Kind", bound=Tabled)
+
+
+class Results(tuple[Kind, ...]):
+    """Several results of one kind, in order: a tuple that a notebook shows as one table."""
+
+    __slots__ = ()
+
+    def _repr_html_(self) -> str:
+        return rows(self) or "<p>none</p>"
+
+
+def rows(results: Iterable[Tabled]) -> str:
+    """Return results of one kind as a table, a row each; nothing if there are none."""
+    found = list(results)
+    return table(found[0]._head_, [one._row_() for one in found]) if found else ""
 
 
 def number(value: float) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -14,9 +15,10 @@ from ..draw.vector.parts import Place, stroke, words
 
 COLOURS = ("rho", "theta", "separatrix", "continuation", "node-focus", "soft")
 WIDTH, HEIGHT, LEFT, BOTTOM = 360.0, 220.0, 44.0, 34.0
+SQUARE, EDGE, NAME_ROOM = 360.0, 'stroke="var(--soft)" stroke-width="0.8"', 60.0
 POINTS = 3000  # of all lines together
-#: Names of lines that are told; letters of one, up to which all stand in one row; height of a row.
-NAMED, LETTERS, ROW = 4, 14, 13
+#: Names of lines that are told; width of a letter, and height of a row of names.
+NAMED, LETTER, ROW = 4, 6.2, 13
 
 
 def chart(lines: Sequence[tuple[str, Any, Any]], across: str, up: str) -> str:
@@ -34,9 +36,9 @@ def chart(lines: Sequence[tuple[str, Any, Any]], across: str, up: str) -> str:
     (left, low), (right, high) = every.min(axis=0), every.max(axis=0)
     colours = dict(zip(dict.fromkeys(name for name, _ in kept), COLOURS * 9, strict=False))
     named = list(colours.items())[:NAMED]
-    beside = all(len(name) <= LETTERS for name, _ in named)  # else each has a row of its own
-    top = 18 + (0 if beside else ROW * (len(named) - 1))
     wide, tall = WIDTH - LEFT - 8, HEIGHT - BOTTOM - 22
+    beside = all(LETTER * len(name) <= wide / len(named) for name, _ in named)  # else each has a row of its own
+    top = 18 + (0 if beside else ROW * (len(named) - 1))
     scale = wide / ((right - left) or 1.0), -tall / ((high - low) or 1.0)
     place = Place(side=WIDTH, unit=1.0, decimals=1)
     floor = top + tall + 4
@@ -56,6 +58,62 @@ def chart(lines: Sequence[tuple[str, Any, Any]], across: str, up: str) -> str:
         words(LEFT - 12, (top + floor) / 2, up, 12.0, "end"),
     ]
     return finished("".join(parts), WIDTH, foot + 8, WIDTH, foot + 8)
+
+
+def regions(
+    areas: Sequence[tuple[str, Sequence[Any]]], spans: Sequence[tuple[float, float]], across: str, up: str
+) -> str:
+    """Return regions of a plane in the colours of the atlas, each with its name where there is room.
+
+    Parameters
+    ----------
+    areas : sequence of (name, polygons)
+        Holes are polygons that run the other way.
+    spans : (low, high) of both axes
+    across, up : str
+        Names of the axes.
+    """
+    (left, right), (low, high) = spans
+    wide, tall = SQUARE - LEFT - 8, SQUARE - LEFT - 8
+    scale, place = (wide / (right - left), -tall / (high - low)), Place(side=SQUARE, unit=1.0, decimals=1)
+    floor = 8 + tall
+    each = POINTS // max(1, sum(len(polygons) for _, polygons in areas))
+    parts, names = [], []
+    for name, polygons in areas:
+        placed = [np.round((thinned(one, each) - (left, low)) * scale + (LEFT, floor), 1) for one in polygons]
+        colour = name.partition(",")[0].lower()
+        fill = f"r-{colour}" if f"r-{colour}" in themes()["light"] else "r-other"
+        path = place.path(placed).replace("M", "ZM")[1:] + "Z"
+        parts.append(f'<path d="{path}" fill="var(--{fill})" fill-opacity=".45" fill-rule="evenodd" {EDGE}/>')
+        x, y, room = _middle(placed)
+        if room > NAME_ROOM:
+            names.append(words(x, y + 4, escape(name), 10.0, "middle"))
+    parts += [f'<rect x="{LEFT}" y="8" width="{wide}" height="{tall}" stroke="var(--line)"/>', *names]
+    foot = floor + 14
+    parts += [words(LEFT, foot, _short(left), 11.0), words(SQUARE - 8, foot, _short(right), 11.0, "end")]
+    parts += [words(LEFT - 4, y, _short(value), 11.0, "end") for y, value in ((floor, low), (18, high))]
+    parts += [words((LEFT + SQUARE) / 2, foot, across, 12.0, "middle"), words(LEFT - 12, 8 + tall / 2, up, 12.0, "end")]
+    clip = f'<clipPath id="plane"><rect x="{LEFT}" y="8" width="{wide}" height="{tall}"/></clipPath>'
+    inside = f'{clip}<g clip-path="url(#plane)">{"".join(parts[: len(areas)])}</g>{"".join(parts[len(areas) :])}'
+    return finished(inside, SQUARE, foot + 8, SQUARE, foot + 8)
+
+
+def _middle(polygons: Sequence[Any]) -> tuple[float, float, float]:
+    """Return the middle of the widest horizontal stretch inside polygons, and how long it is."""
+    rings = [np.vstack([one, one[:1]]) for one in polygons]
+    heights = np.concatenate(polygons)[:, 1]
+    best = (0.0, 0.0, 0.0)
+    for y in np.linspace(heights.min(), heights.max(), 25)[1:-1] + 0.017:
+        crossed = sorted(
+            float(x0 + (y - y0) / (y1 - y0) * (x1 - x0))
+            for ring in rings
+            for (x0, y0), (x1, y1) in pairwise(ring.tolist())
+            if (y0 < y) != (y1 < y)
+        )
+        for x0, x1 in zip(crossed[::2], crossed[1::2], strict=True):
+            if x1 - x0 > best[2]:
+                best = (0.5 * (x0 + x1), float(y), x1 - x0)
+    return best
 
 
 def thinned(points: Any, most: int) -> Any:

@@ -4,24 +4,35 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import singledispatch
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from codim2_core.bifurcations import BifurcationCurve
+from codim2_core.bifurcations.curve import BifurcationCurve
+from codim2_core.bifurcations.plane_regions import Regions
+from codim2_core.continuation.result import CycleBranches
 from codim2_core.cycles.limit_cycles import LimitCycles
+from codim2_core.diagrams.class_map import ClassMap
+from codim2_core.diagrams.eigenvalue_path import LinearisationPath
 from codim2_core.diagrams.result import Diagram
+from codim2_core.figures.preset import Preset
 from codim2_core.motion.result import Simulation
+from codim2_core.nullcline.nullclines import Nullclines
 from codim2_core.orbits.trajectories import Trajectories
+from codim2_core.portrait.basins import Basins
+from codim2_core.portrait.launched import Launched
 from codim2_core.portrait.separatrix import Separatrices
+from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
+from codim2_core.sliding.slow_portrait_result import SlowPortrait
 
 from ..draw import glyphs
 from ..draw.layers import painted
 from ..draw.packing import Polylines, pack
 from ..draw.svg import content
-from ..draw.vector.parts import Place, disc, stroke
-from .chart import chart, finished, thinned
+from ..draw.vector.parts import Place, disc, stroke, words
+from .chart import chart, finished, regions, thinned
 
 #: px of the screen.
 SIDE = 360
@@ -30,6 +41,9 @@ MOST = 45_000  # bytes
 SKETCHED = ((40, 1 / 90), (16, 1 / 50), (0, 1 / 50))
 #: Curves that are drawn, and points of all of them.
 PIECES, POINTS = 200, 4000
+#: Colours of basins; cells across a small picture of them.
+BASINS, MOST_CELLS = ("basin-1", "basin-2", "basin-3", "basin-4"), 64
+UNDECIDED = -1
 
 
 @singledispatch
@@ -71,6 +85,11 @@ def portrait(result: Scene) -> str:
 
 
 @svg.register
+def _preset(result: Preset) -> str:
+    return portrait(Scene(result.system, result.psi, result.z))
+
+
+@svg.register
 def _trajectories(result: Trajectories) -> str:
     return _curves(result.points, "orbit")
 
@@ -101,11 +120,107 @@ def _diagram(result: Diagram) -> str:
     return chart([(branch.kind, branch.value, branch.theta) for branch in result.equator], result.name, "θ")
 
 
-def _curves(pieces: Sequence[Any], colour: str) -> str:
-    """Return curves of the picture over the hemisphere, the first `PIECES` of them."""
-    place = Place()
-    kept = [thinned(np.asarray(piece), POINTS // min(max(1, len(pieces)), PIECES)) for piece in pieces[:PIECES]]
-    path = place.path(place.points(piece) for piece in kept)
-    lines = f'<path d="{path}" {stroke(colour, 1.4, (), place)}/>'
+@svg.register
+def _linearisation(result: LinearisationPath) -> str:
+    pieces = [(result.kind[i], slice(i, j + 1)) for i, j in result.pieces if result.exists[i]]
+    return chart([(kind, result.values[part], result.trace[part]) for kind, part in pieces], result.name, "tr J")
+
+
+@svg.register
+def _cycle_branches(result: CycleBranches) -> str:
+    pieces = [(branch, part) for branch in result for part in _runs(branch.stable)]
+    lines = [("stable" if b.stable[part][0] else "unstable", b.value[part], b.amplitude[part]) for b, part in pieces]
+    return chart(lines, result.name, "size")
+
+
+@svg.register
+def _slow_portrait(result: SlowPortrait) -> str:
+    widths = np.ptp(np.concatenate([branch.e for branch in result.branches]), axis=0) if result.branches else (1, 0)
+    i = int(widths[1] > widths[0])
+    return chart([(branch.kind, branch.z, branch.e[:, i]) for branch in result.branches], "z", "cs"[i])
+
+
+@svg.register
+def _psi(result: Psi) -> str:
+    s = np.linspace(0.0, 4.0, 161)
+    return chart([("Ψ", s, result(s))], "s", "Ψ")
+
+
+@svg.register
+def _class_map(result: ClassMap) -> str:
+    areas = [(region.name, region.boundary) for region in result.regions]
+    return regions(areas, result.spans, *result.names)
+
+
+@svg.register
+def _regions(result: Regions) -> str:
+    every = np.concatenate([ring for region in result for ring in region.boundary] or [np.ones((1, 2))])
+    size = 1.3 * float(np.abs(every).max())
+    span = (-size, size)
+    frame = np.array([(-size, -size), (size, -size), (size, size), (-size, size)])
+    areas = [(one.name, one.boundary if one.bounded else (frame, *one.boundary)) for one in result]
+    return regions(areas, (span, span), "f₁", "f₂")
+
+
+@svg.register
+def _nullclines(result: Nullclines) -> str:
+    named = {"rho": "rho", "theta": "theta", "U1": "soft", "U2": "soft"}
+    return _pictured([(named[branch.kind], branch.points) for branch in result])
+
+
+@svg.register
+def _launched(result: Launched) -> str:
+    halves = (result.orbits.backward.points, result.orbits.forward.points)
+    seeds = "".join(
+        f'<circle cx="{x}" cy="{y}" r="11" fill="var(--orbit)"/>'
+        for x, y in Place().points([line[0] for line in halves[1]]).tolist()
+    )
+    return _pictured([("orbit", line) for half in halves for line in half], seeds)
+
+
+@svg.register
+def _basins(result: Basins) -> str:
+    cells, (left, right, bottom, top) = result.cells, result.box
+    while len(cells) > MOST_CELLS:  # each of four stands for all: the picture is small
+        cells = cells[::2, ::2]
+    place = Place((left, right, bottom, top), decimals=1)
+    side = place.side / len(cells)
+    paths: dict[int, list[str]] = {}
+    for row, line in enumerate(cells):
+        for part in _runs(line):
+            x, y, wide = part.start * side, place.side - (row + 1) * side, (part.stop - part.start) * side
+            paths.setdefault(int(line[part.start]), []).append(f"M{x:.0f} {y:.0f}h{wide:.0f}v{side:.1f}h-{wide:.0f}Z")
+    colours = {i: BASINS[i % len(BASINS)] for i in range(len(result.destinations))} | {UNDECIDED: "undecided"}
+    areas = [
+        f'<path d="{"".join(path)}" fill="var(--{colours[which]})" opacity=".45" shape-rendering="crispEdges"/>'
+        for which, path in sorted(paths.items())
+        if which in colours
+    ]
     circle = disc(1.0, place).replace("/>", f" {stroke('ink', 2, (), place)}/>")
-    return finished(lines + circle, 1000, 1000, SIDE, SIDE)
+    names = [(name, colours[i]) for i, name in enumerate(result.destinations)]
+    said = "".join(
+        words(20, 50 + 44 * i, name, 36.0).replace("--ink", f"--{colour}") for i, (name, colour) in enumerate(names)
+    )
+    return finished("".join(areas) + circle + said, 1000, 1000, SIDE, SIDE)
+
+
+def _runs(values: Any) -> list[slice]:
+    """Return the runs of equal values."""
+    ends = [0, *(np.flatnonzero(np.diff(values)) + 1).tolist(), len(values)]
+    return [slice(first, last) for first, last in pairwise(ends) if first < last]
+
+
+def _curves(pieces: Sequence[Any], colour: str) -> str:
+    return _pictured([(colour, piece) for piece in pieces])
+
+
+def _pictured(pieces: Sequence[tuple[str, Any]], over: str = "") -> str:
+    """Return curves of the picture over the hemisphere, each in a colour, the first `PIECES` of them."""
+    place = Place()
+    each = POINTS // min(max(1, len(pieces)), PIECES)
+    lines = ""
+    for colour in dict.fromkeys(colour for colour, _ in pieces):
+        kept = [thinned(np.asarray(piece), each) for own, piece in pieces[:PIECES] if own == colour]
+        lines += f'<path d="{place.path(map(place.points, kept))}" {stroke(colour, 1.4, (), place)}/>'
+    circle = disc(1.0, place).replace("/>", f" {stroke('ink', 2, (), place)}/>")
+    return finished(lines + circle + over, 1000, 1000, SIDE, SIDE)

@@ -10,13 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import drawing
+from ..paper import cite
 from ..systems.elinear import ELinear
+from ..tables import Tabled, paragraphs, point, rows
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
-class SpecialPoint:
+class SpecialPoint(Tabled):
     """A point of codimension two on a bifurcation curve.
 
     Attributes
@@ -27,9 +29,14 @@ class SpecialPoint:
     sentence : str
     """
 
+    _head_ = ("point", "(f₁, f₂)", "what happens")
+
     type: str
     place: tuple[float, float]
     sentence: str
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.type, point(self.place), self.sentence
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +71,11 @@ class BifurcationCurve:
     sentence: str = ""
 
     def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
+        return drawing.svg(self) if self.branches else None
+
+    def _repr_html_(self) -> str:
+        said = paragraphs([f"{self.name} ({cite(self.label)})" if self.label else self.name, self.sentence])
+        return (self._repr_svg_() or "") + said + rows(self.special)
 
     def __len__(self) -> int:
         return len(self.branches)

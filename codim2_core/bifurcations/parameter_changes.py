@@ -15,13 +15,14 @@ from ..psi.constructors import hill, with_parameter
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
+from ..tables import Results, Tabled, number
 from ..words import say
 
 STEPS = 241
 
 
 @dataclass(frozen=True, slots=True)
-class ParameterChange:
+class ParameterChange(Tabled):
     """A value of the parameter of Psi where the critical set changes its kind.
 
     Attributes
@@ -34,14 +35,19 @@ class ParameterChange:
     sentence : str
     """
 
+    _head_ = ("change", "at", "before", "after", "what happens")
+
     type: str
     n: float
     before: str
     after: str
     sentence: str
 
+    def _row_(self) -> tuple[str, ...]:
+        return self.type, number(self.n), self.before, self.after, self.sentence
 
-def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> tuple[ParameterChange, ...]:
+
+def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> Results[ParameterChange]:
     """`parameter_changes` of the Hill family eq:bad_reg. The paper's Case III changes at n = 284/129 (Hopf).
 
     Parameters
@@ -51,12 +57,13 @@ def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> tuple[Par
 
     Returns
     -------
-    tuple of ParameterChange
+    Results of ParameterChange
+        A tuple.
     """
     return parameter_changes(system, hill(2.0), z)
 
 
-def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> tuple[ParameterChange, ...]:
+def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> Results[ParameterChange]:
     """Every value of the parameter of Psi at which the critical set changes its kind, in increasing order.
 
     e does not depend on Psi, and J only through ``sigma = (1 - |e|^2)(1 - s Psi'(s)/Psi(s))``. With
@@ -73,7 +80,8 @@ def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (
 
     Returns
     -------
-    tuple of ParameterChange
+    Results of ParameterChange
+        A tuple.
         For all values allowed, to about 1e-14 relative. Empty without a critical set, or if it is a saddle.
 
     Raises
@@ -87,11 +95,11 @@ def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (
     a, b, d = coefficients.a, coefficients.b, coefficients.d
     location = locate(coefficients)
     if location.e is None or determinant_sign(a, b, d) <= 0:
-        return ()
+        return Results()
     c, s = location.e
     square = c * c + s * s
     if square == 0.0:
-        return ()
+        return Results()
     modulus = math.sqrt(square)
     # beta is formed from squares too: a + d - alpha would cancel
     alpha, beta = (a * c * c + d * s * s) / square, (a * s * s + d * c * c) / square
@@ -132,7 +140,7 @@ def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (
                 kind, n, before, after, say("changes over Ψ", name=shape.name, value=n, before=before, after=after)
             )
         )
-    return tuple(changes)
+    return Results(changes)
 
 
 def _kind(alpha: float, beta: float, root: float, sigma: float) -> str:

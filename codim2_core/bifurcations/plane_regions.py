@@ -13,9 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .. import drawing
 from ..portrait.classify import Classification, classify
 from ..psi.constructors import constant
 from ..systems.coefficients import Coefficients
+from ..tables import Results, Tabled, point
 from .curve import Array, frozen, matrix
 from .geometry import Geometry
 
@@ -28,7 +30,7 @@ _NOTHING = np.zeros((0, 2)), np.zeros(0)
 
 
 @dataclass(frozen=True, eq=False)
-class Region:
+class Region(Tabled):
     """A region of the plane (f1, f2), open, with one portrait up to what Psi decides.
 
     Attributes
@@ -45,11 +47,28 @@ class Region:
         At `inside`, with Psi = 1.
     """
 
+    _head_ = ("region", "a point (f₁, f₂) of it", "bounded", "portrait there")
+
     name: str
     inside: tuple[float, float]
     boundary: tuple[Array, ...]
     bounded: bool
     classification: Classification
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.name, point(self.inside), "yes" if self.bounded else "no", self.classification.sentence
+
+
+class Regions(Results[Region]):
+    """All regions of the plane (f1, f2): a tuple that a notebook shows as a picture and a table."""
+
+    __slots__ = ()
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        return (self._repr_svg_() or "") + super()._repr_html_()
 
 
 class _Stop(NamedTuple):
@@ -73,7 +92,7 @@ class _Half:
     used: bool = field(default=False)
 
 
-def regions(a: float, b: float, d: float) -> tuple[Region, ...]:
+def regions(a: float, b: float, d: float) -> Regions:
     """All regions of the plane (f1, f2) between the saddle-node curve and the ellipse, each classified inside.
 
     Regions that touch in a point only are separate. Slivers with a mean width below 1e-6 of the coefficients are
@@ -85,9 +104,9 @@ def regions(a: float, b: float, d: float) -> tuple[Region, ...]:
 
     Returns
     -------
-    tuple of Region
-        The unbounded one last. Lines and points, where the portrait is degenerate, are `saddle_node` and
-        `critical_boundary`; when det A = 0 the ellipse is a segment and cuts nothing.
+    Regions
+        A tuple of Region, the unbounded one last. Lines and points, where the portrait is degenerate, are
+        `saddle_node` and `critical_boundary`; when det A = 0 the ellipse is a segment and cuts nothing.
 
     Raises
     ------
@@ -98,7 +117,7 @@ def regions(a: float, b: float, d: float) -> tuple[Region, ...]:
     plane = Geometry(a, b, d)
     if plane.size == 0.0:
         found = [_region(plane, [], np.zeros((1, 2)), (1.0, 0.0), bounded=False)]
-        return tuple(region for region in found if region is not None)
+        return Regions(region for region in found if region is not None)
     # a or d of next to nothing is taken for 0: the points of fourfold contact that it parts cannot be told apart
     halves = _arrangement(Geometry(*(0.0 if abs(v) <= _THIN * plane.size else v for v in (a, b, d))))
     loops = _loops(halves, plane)
@@ -121,7 +140,7 @@ def regions(a: float, b: float, d: float) -> tuple[Region, ...]:
     found = [_region(plane, loops_, border, between if len(loops_) > 1 else None) for loops_ in faces]
     corner = 1.15 * abs(border).max(axis=0) + 0.1 * plane.size
     found.append(_region(plane, free, border, (float(corner[0]), float(corner[1])), bounded=False))
-    return tuple(region for region in found if region is not None)
+    return Regions(region for region in found if region is not None)
 
 
 def _arrangement(plane: Geometry) -> list[_Half]:

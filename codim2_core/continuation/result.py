@@ -9,11 +9,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import drawing
+from ..tables import Tabled, number, paragraphs, rows
+
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class CyclePoint:
+class CyclePoint(Tabled):
     """A special point of a branch of cycles.
 
     Attributes
@@ -30,11 +33,16 @@ class CyclePoint:
     sentence : str
     """
 
+    _head_ = ("point", "at", "period", "amplitude", "what happens")
+
     kind: str
     value: float
     period: float
     amplitude: float
     sentence: str
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.kind, *map(number, (self.value, self.period, self.amplitude)), self.sentence
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +108,13 @@ class CycleBranches:
     branches: tuple[CycleBranch, ...]
     reason: str
     notes: tuple[str, ...] = ()
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self) if self.branches else None
+
+    def _repr_html_(self) -> str:
+        special = rows(one for branch in self.branches for one in branch.special)
+        return (self._repr_svg_() or "") + special + paragraphs([self.reason, *self.notes])
 
     def __iter__(self) -> Iterator[CycleBranch]:
         return iter(self.branches)

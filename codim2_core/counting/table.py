@@ -8,11 +8,13 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from ..tables import Tabled, number, paragraphs, point, rows
+
 NORMAL_95 = 1.959963984540054  # two-sided 95 % of the normal distribution
 
 
 @dataclass(frozen=True)
-class Row:
+class Row(Tabled):
     """One portrait.
 
     Attributes
@@ -29,6 +31,8 @@ class Row:
         The one that lies nearest to a border.
     """
 
+    _head_ = ("portrait", "count", "share", "95 % interval", "example")
+
     name: str
     count: int
     share: float
@@ -36,6 +40,10 @@ class Row:
     high: float
     example: Any
     marginal: Any
+
+    def _row_(self) -> tuple[str, ...]:
+        example = self.example if isinstance(self.example, str) else point(self.example)
+        return self.name, f"{self.count:,}", number(self.share), f"{number(self.low)} to {number(self.high)}", example
 
 
 @dataclass(frozen=True)
@@ -75,6 +83,9 @@ class Census:
     table: tuple[Row, ...]
     count: int
     seed: int
+
+    def _repr_html_(self) -> str:
+        return rows(self.table) + paragraphs([f"{self.count:,} systems, seed {self.seed}"])
 
     def to_csv(self, path: str | Path) -> None:
         """Write the table as CSV, a row a portrait."""

@@ -28,7 +28,7 @@ from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
-from ..tables import number, paragraphs, point, table
+from ..tables import Tabled, number, paragraphs, point, rows
 from ..words import say
 from .orbit import Orbit, orbit
 from .resolution import counted
@@ -45,7 +45,7 @@ SEMISTABLE_NOTE = say("semistable")
 
 
 @dataclass(frozen=True, eq=False)
-class LimitCycle:
+class LimitCycle(Tabled):
     """A limit cycle of the layer problem eq:LP; arrays are read-only.
 
     Attributes
@@ -72,6 +72,8 @@ class LimitCycle:
         Distance on the sphere between the start and the end of one period.
     """
 
+    _head_ = ("kind", "period", "multiplier", "mean of e", "slow flow z′")
+
     points: Array
     period: float
     period_T: float
@@ -82,6 +84,10 @@ class LimitCycle:
     mean_e: Array
     slow_flow: Array
     closure: float
+
+    def _row_(self) -> tuple[str, ...]:
+        flow = point(self.slow_flow)
+        return self.kind, number(self.period), number(self.multiplier), point(self.mean_e), flow
 
     @property
     def stable(self) -> bool:
@@ -110,9 +116,7 @@ class LimitCycles:
         return drawing.svg(self)
 
     def _repr_html_(self) -> str:
-        head = ("kind", "period", "multiplier", "mean of e", "slow flow")
-        rows = [(c.kind, number(c.period), number(c.multiplier), point(c.mean_e), point(c.slow_flow)) for c in self]
-        return (self._repr_svg_() or "") + table(head, rows) + paragraphs([self.reason, *self.notes])
+        return (self._repr_svg_() or "") + rows(self) + paragraphs([self.reason, *self.notes])
 
     def __iter__(self) -> Iterator[LimitCycle]:
         return iter(self.cycles)

@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .. import drawing
 from ..psi.function import Psi
+from ..tables import Tabled, number, point, rows, table
 from .class_map_grid import THIN, Spans, Tree, happening, tree
 from .class_map_trace import Regions, chains, rings, traced
 from .sweep import Plane, class_name, family
@@ -22,7 +24,7 @@ _CANDIDATES = 48  # points of a region among which the one farthest from as many
 
 
 @dataclass(frozen=True, eq=False)
-class MapRegion:
+class MapRegion(Tabled):
     """A region in which the portrait has one class.
 
     Attributes
@@ -39,11 +41,16 @@ class MapRegion:
         Closed polygons (the first point is not repeated): outer ones anticlockwise, holes clockwise.
     """
 
+    _head_ = ("portrait", "a point of the region", "area")
+
     name: str
     inside: tuple[float, float]
     area: float
     width: float
     boundary: tuple[Array, ...]
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.name, point(self.inside), number(self.area)
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,6 +103,13 @@ class ClassMap:
     step: float
     thin: tuple[tuple[str, tuple[float, float]], ...]
     evaluated: int
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        found = [("; ".join(one.happening), *one.between) for one in self.boundaries]
+        return (self._repr_svg_() or "") + rows(self.regions) + table(("what happens", "between", "and"), found)
 
     @property
     def smallest_width(self) -> float:

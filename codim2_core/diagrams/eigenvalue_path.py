@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .. import drawing
 from ..layer_problem.critical import critical_sets
 from ..layer_problem.vary import varied
 from ..psi.function import Psi
+from ..tables import number, table
 from .sweep import KINDS, family, linearise
 
 __all__ = ["LinearisationPath", "linearisation_path"]
@@ -45,6 +47,23 @@ class LinearisationPath:
     discriminant: Array
     eigenvalues: NDArray[np.complex128]
     kind: tuple[str, ...]
+
+    @property
+    def pieces(self) -> tuple[tuple[int, int], ...]:
+        """First and last place of each run of values with one kind of critical set."""
+        starts = [i for i, kind in enumerate(self.kind) if not i or kind != self.kind[i - 1]]
+        return tuple(zip(starts, [*(i - 1 for i in starts[1:]), len(self.kind) - 1], strict=True)) if starts else ()
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        found = [
+            (*(number(self.values[k]) for k in (i, j)), self.kind[i] or "none", number(self.trace[i]))
+            for i, j in self.pieces
+        ]
+        head = (f"from {self.name}", "to", "critical set", "tr J at first")
+        return (self._repr_svg_() or "") + table(head, found)
 
 
 def linearisation_path(system: Any, psi: Psi, name: str, values: ArrayLike, z: ArrayLike = ()) -> LinearisationPath:

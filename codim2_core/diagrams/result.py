@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import drawing
-from ..tables import number, table
+from ..tables import Tabled, number, rows
 
 __all__ = ["ClosedEquator", "CriticalBranch", "Diagram", "EquatorBranch", "SpecialValue"]
 
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
-class SpecialValue:
+class SpecialValue(Tabled):
     """A value of the parameter where something changes.
 
     Attributes
@@ -38,12 +38,17 @@ class SpecialValue:
         For "Hopf" the first Lyapunov coefficient (negative: a stable cycle is born), else 0.
     """
 
+    _head_ = ("at", "value", "what happens")
+
     kind: str
     value: float
     place: tuple[float, float]
     sentence: str
     label: str
     number: float = 0.0
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.kind, number(self.value), self.sentence
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,5 +154,4 @@ class Diagram:
         return drawing.svg(self)
 
     def _repr_html_(self) -> str:
-        rows = [(one.kind, number(one.value), one.sentence) for one in self.special]
-        return (self._repr_svg_() or "") + table(("at", self.name, "what happens"), rows)
+        return (self._repr_svg_() or "") + rows(self.special)

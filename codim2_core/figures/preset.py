@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from .. import drawing
 from ..examples import catalogue
+from ..paper import cite
 from ..psi.constructors import make
 from ..psi.function import Psi
 from ..systems.elinear import ELinear
 from ..systems.typed import System
+from ..tables import paragraphs
 
 
 @dataclass(frozen=True)
@@ -64,6 +67,13 @@ class Preset:
     view: str = ""
     portrait: tuple[str | None, str, str | None] = field(default=("I", "CM0", None))
     degeneracy: str | None = None
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        said = paragraphs([f"{self.title} ({cite(self.label)})" if self.label else self.title, self.note])
+        return (self._repr_svg_() or "") + said
 
     @property
     def system(self) -> ELinear | System:

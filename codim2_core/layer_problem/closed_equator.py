@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..numerics.trigonometric import line_pair, tangential_zeros
 from ..numerics.trigonometric_exact import to_integers
+from ..tables import number, paragraphs, table
 from ..words import say
 from .equator_zeros import closed_equator
 
@@ -40,6 +41,10 @@ class EquatorCycle:
     period: float
     exponent: float
     neutral: bool
+
+    def _repr_html_(self) -> str:
+        numbers = table(("period in T", "exponent"), [(number(self.period), number(self.exponent))])
+        return paragraphs([self.sentence]) + numbers
 
     @property
     def stable_outside(self) -> bool:

@@ -6,7 +6,6 @@ Where they are is `location`'s for the e-linear system (thm:lineps1), that of `d
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,9 +16,10 @@ from ..expressions.kinks import kinks
 from ..expressions.names import PLANE
 from ..psi.function import Psi
 from ..systems.bounds import at_place
+from ..systems.coefficients import Affine
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
-from ..tables import number, point, table
+from ..tables import Results, Tabled, number, point, table
 from .disc_zeros import disc_zeros
 from .linearisation import (
     Parts,
@@ -32,7 +32,7 @@ from .location import Location, locate, turned
 
 
 @dataclass(frozen=True, slots=True)
-class CriticalSet:
+class CriticalSet(Tabled):
     """A critical set C of the layer problem, eq:critical_set, with its linearisation eq:scjaco.
 
     Attributes
@@ -56,6 +56,8 @@ class CriticalSet:
         z' on it, eq:linslowflow; independent of Psi.
     """
 
+    _head_ = ("e", "kind", "tr J", "det J", "slow flow z′")
+
     e: NDArray[np.float64]
     x2: NDArray[np.float64]
     p: NDArray[np.float64]
@@ -67,29 +69,22 @@ class CriticalSet:
     kind: str
     slow_flow: NDArray[np.float64]
 
+    def _row_(self) -> tuple[str, ...]:
+        return point(self.e), self.kind, number(self.trace), number(self.determinant), point(self.slow_flow)
+
+
+class CriticalSets(Results[CriticalSet]):
+    """Critical sets in order: a tuple that a notebook shows as a table, with their names C, or C1, C2, ..."""
+
+    __slots__ = ()
+
     def _repr_html_(self) -> str:
-        return shown([self])
+        names = ["C"] if len(self) == 1 else [f"C{i + 1}" for i in range(len(self))]
+        found = [(name, *C._row_()) for name, C in zip(names, self, strict=True)]
+        return table(("critical set", *CriticalSet._head_), found) or "<p>no critical set</p>"
 
 
-def shown(sets: Sequence[CriticalSet]) -> str:
-    """Return critical sets as an HTML table."""
-    head = ("critical set", "e", "kind", "tr J", "det J", "slow flow z′")
-    names = ["C"] if len(sets) == 1 else [f"C{i + 1}" for i in range(len(sets))]
-    rows = [
-        (
-            name,
-            point(C.e),
-            C.kind,
-            number(C.trace),
-            number(C.determinant),
-            point(C.slow_flow) if len(C.slow_flow) else "–",
-        )
-        for name, C in zip(names, sets, strict=True)
-    ]
-    return table(head, rows)
-
-
-def critical_sets(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> tuple[CriticalSet, ...]:
+def critical_sets(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> CriticalSets:
     """All isolated critical sets at z, eq:critical_set.
 
     For an e-linear system none or one (thm:lineps1(a), eq:lincriticalset), in closed form. For a general system all
@@ -103,32 +98,34 @@ def critical_sets(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> tuple[Criti
 
     Returns
     -------
-    tuple of CriticalSet
-        Without zeros on |e| = 1, and empty when det A = 0, within the rounding of the coefficients; `classify` names
-        these.
+    CriticalSets
+        A tuple of CriticalSet, without zeros on |e| = 1, and empty when det A = 0, within the rounding of the
+        coefficients; `classify` names these.
     """
     at = system.at(z)
     return sets_at(at, psi, None if at.affine is None else locate(at))
 
 
-def sets_at(at: AtZ, psi: Psi, location: Location | None) -> tuple[CriticalSet, ...]:
+def sets_at(at: AtZ, psi: Psi, location: Location | None) -> CriticalSets:
     """All isolated critical sets of a frozen system; `location` is that of `locate`, None if U is not e-linear."""
     if at.affine is None or location is None:
-        return _general_sets(at, psi)
-    if location.e is None:
-        return ()
-    form, sign = at.as_given, matrix_determinant(*at.affine[:4])[1]
+        return CriticalSets(_general_sets(at, psi))
+    return CriticalSets(() if location.e is None else [_linear_set(at, psi, at.affine, location, location.e)])
+
+
+def _linear_set(at: AtZ, psi: Psi, affine: Affine, location: Location, e: tuple[float, float]) -> CriticalSet:
+    form, sign = at.as_given, matrix_determinant(*affine[:4])[1]
     if form is None or form.given is not None:  # by the matrix as given, whatever the rotation has rounded
-        shift = math.frexp(max(map(abs, at.affine[:4])))[1]
-        m11, m12, m21, m22 = (math.ldexp(v, -shift) for v in at.affine[:4])
-        e = turned(location, -at.turn).e or location.e
-        parts = linearisation_of((m11, m12, m21, m22), psi, e, location.complement, sign)
-        return (_critical_set(location.e, _turned_parts(parts, at.turn), shift, slow_flow_at(at, location.e)),)
+        shift = math.frexp(max(map(abs, affine[:4])))[1]
+        m11, m12, m21, m22 = (math.ldexp(v, -shift) for v in affine[:4])
+        given = turned(location, -at.turn).e or e
+        parts = linearisation_of((m11, m12, m21, m22), psi, given, location.complement, sign)
+        return _critical_set(e, _turned_parts(parts, at.turn), shift, slow_flow_at(at, e))
     # Time in a unit that makes the largest coefficient about 1, so that no product under- or overflows.
     shift = math.frexp(max(map(abs, form.plane[:3])))[1]
     a, b, d = (math.ldexp(v, -shift) for v in form.plane[:3])
-    parts = linearisation((a, b, d), psi, location.e, location.complement, sign)
-    return (_critical_set(location.e, parts, shift, slow_flow_at(at, location.e)),)
+    parts = linearisation((a, b, d), psi, e, location.complement, sign)
+    return _critical_set(e, parts, shift, slow_flow_at(at, e))
 
 
 def slow_flow_at(at: AtZ, e: ArrayLike) -> NDArray[np.float64]:

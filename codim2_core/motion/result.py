@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import drawing
 from ..numerics.dense import Dense
-from ..tables import number, paragraphs, table
+from ..tables import Tabled, number, paragraphs, rows
 from ..words import say
 from .places import NONE, Ascent, Place
 
@@ -33,7 +33,7 @@ class SimulationStatus(Enum):
 
 
 @dataclass(frozen=True)
-class Phase:
+class Phase(Tabled):
     """One phase of a motion.
 
     Attributes
@@ -49,6 +49,8 @@ class Phase:
         "cycle 1"; None elsewhere.
     """
 
+    _head_ = ("phase", "from t", "to t", "on", "why it began")
+
     kind: str
     t_start: float
     t_end: float
@@ -56,6 +58,9 @@ class Phase:
     onto: str | None = None
     _place: Place | None = field(default=None, repr=False, compare=False)
     _ascent: Ascent | None = field(default=None, repr=False, compare=False)
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.kind, number(self.t_start), number(self.t_end), self.onto or "", self.reason
 
     def e(self, t: ArrayLike) -> Array:
         """Return e at times within the phase: ``e_Psi`` of the state, in the limit that of the set it slides on.
@@ -161,9 +166,7 @@ class Simulation:
     _phases: Callable[[], tuple[Phase, ...]]
 
     def _repr_html_(self) -> str:
-        head = ("phase", "from t", "to t", "on", "why it began")
-        rows = [(p.kind, number(p.t_start), number(p.t_end), p.onto or "", p.reason) for p in self.phases]
-        return (self._repr_svg_() or "") + table(head, rows) + paragraphs([self.reason])
+        return (self._repr_svg_() or "") + rows(self.phases) + paragraphs([self.reason])
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)

@@ -9,11 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .. import drawing
 from ..layer_problem.equator import equator_equilibria
 from ..psi.constructors import constant
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
+from ..tables import Results, Tabled, point
 from .conics import Curve, Straight, affine_plane, chord_ends, conic, lines
 from .polylines import drawn
 from .refining import Seen, on_component
@@ -23,7 +25,7 @@ Array = NDArray[np.floating[Any]]
 
 
 @dataclass(frozen=True, slots=True)
-class NullclineBranch:
+class NullclineBranch(Tabled):
     """One connected piece of a nullcline in the picture.
 
     Attributes
@@ -38,9 +40,30 @@ class NullclineBranch:
         Picture points, in order along the branch.
     """
 
+    _head_ = ("nullcline", "where", "from", "to")
+
     kind: Kind
     inside: bool
     points: Array
+
+    def _row_(self) -> tuple[str, ...]:
+        ends = (point(self.points[i]) for i in (0, -1)) if len(self.points) else ("–", "–")
+        return _NAMES[self.kind], "hemisphere" if self.inside else "outside", *ends
+
+
+class Nullclines(Results[NullclineBranch]):
+    """All nullclines of a picture: a tuple that a notebook shows as a picture and a table."""
+
+    __slots__ = ()
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        return (self._repr_svg_() or "") + super()._repr_html_()
+
+
+_NAMES: dict[Kind, str] = {"rho": "ρ′ = 0", "theta": "θ′ = 0", "U1": "U₁ = 0", "U2": "U₂ = 0"}
 
 
 def inside_nullclines(
@@ -111,7 +134,7 @@ def outside_nullclines(
     return tuple(branches)
 
 
-def nullclines(system: AnySystem, psi: Psi, z: ArrayLike = (), *, view: float = 2.0) -> tuple[NullclineBranch, ...]:
+def nullclines(system: AnySystem, psi: Psi, z: ArrayLike = (), *, view: float = 2.0) -> Nullclines:
     """All nullclines in the picture, as separate branches.
 
     Parameters
@@ -124,10 +147,12 @@ def nullclines(system: AnySystem, psi: Psi, z: ArrayLike = (), *, view: float = 
 
     Returns
     -------
-    tuple of NullclineBranch
+    Nullclines
+        A tuple of NullclineBranch.
     """
     if not view > 1.0:
         raise ValueError(f"view is {view}; give a half-width greater than 1 (the equator).")
     coefficients = system.at(z)
     directions = [float(t) for t in equator_equilibria(coefficients).theta]
-    return inside_nullclines(coefficients, psi, directions) + outside_nullclines(coefficients, directions, view)
+    inside = inside_nullclines(coefficients, psi, directions)
+    return Nullclines(inside + outside_nullclines(coefficients, directions, view))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import drawing
+from ..tables import table
 from ..words import say
 
 Array = NDArray[np.float64]
@@ -66,6 +68,11 @@ class Trajectories:
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        ends = Counter(one.value for one in self.status)
+        found = [(end, str(count)) for end, count in ends.most_common()]
+        return (self._repr_svg_() or "") + table(("why it ended", "trajectories"), found)
 
     def __len__(self) -> int:
         return len(self.codes)

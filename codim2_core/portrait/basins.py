@@ -13,11 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .. import drawing
 from ..cycles.limit_cycles import LimitCycles, cycles_of
 from ..layer_problem.problem import LayerProblem
 from ..orbits.trajectories import trajectories
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from ..tables import number, point, table
 from .endings import CAPTURE, critical_label, drawn_time, endings
 
 COARSEST = 32  # cells across the disc at first
@@ -44,12 +46,29 @@ class Basins:
         z' at each destination; None where it leaves Sigma.
     evaluations : int
         Evaluations of the field.
+    box : (left, right, bottom, top)
+        The part of the disc that the cells cover.
     """
 
     cells: NDArray[np.int8]
     destinations: tuple[str, ...]
     slow_flow: tuple[NDArray[np.float64] | None, ...]
     evaluations: int
+    box: Box = DISC
+
+    @property
+    def shares(self) -> tuple[float, ...]:
+        """The part of the cells of the disc that leads to each destination; what is left of 1 is undecided."""
+        inside = max(1, int((self.cells != OUTSIDE).sum()))
+        return tuple(float((self.cells == i).sum()) / inside for i in range(len(self.destinations)))
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        flows = ["–" if flow is None else point(flow) for flow in self.slow_flow]
+        found = list(zip(self.destinations, map(number, self.shares), flows, strict=True))
+        return (self._repr_svg_() or "") + table(("leads to", "share of the cells", "slow flow z′"), found)
 
 
 def basins(
@@ -134,7 +153,7 @@ def basins_of(problem: LayerProblem, n: int = 128, box: Box = DISC) -> Basins:
             flows.append(cycles[int(name.split()[1]) - 1].slow_flow)
         else:
             flows.append(None)
-    return Basins(cells, tuple(names), tuple(flows), evaluations)
+    return Basins(cells, tuple(names), tuple(flows), evaluations, box)
 
 
 def _checked(box: Box) -> Box:

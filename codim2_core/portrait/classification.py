@@ -8,13 +8,13 @@ from html import escape
 from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
 from ..numerics.trigonometric import ROUNDING
-from ..tables import paragraphs, table
+from ..tables import Tabled, paragraphs, rows
 from ..words import SENTENCES, power, say, subscript
 from .endings import radially_neutral_ones
 
 
 @dataclass(frozen=True, slots=True)
-class Degeneracy:
+class Degeneracy(Tabled):
     """Something that a small change of the system would destroy.
 
     Attributes
@@ -27,9 +27,14 @@ class Degeneracy:
         which it cannot be told from what lies on either side. 0.0: the coefficients are of this kind exactly.
     """
 
+    _head_ = ("degenerate", "why")
+
     name: str
     sentence: str
     within: float = 0.0
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.name, self.sentence
 
 
 NEARER = SENTENCES["nearer"].says.partition(" {")[0]
@@ -64,8 +69,8 @@ class Classification:
 
     def _repr_html_(self) -> str:
         case = f"Case {self.case}" if self.case else ""
-        said = table(("degenerate", "why"), [(item.name, item.sentence) for item in self.degeneracies])
-        return f"<p><strong>{escape(self.name)}</strong> {case}</p>{paragraphs([self.sentence])}{said}"
+        name = f"<p><strong>{escape(self.name)}</strong> {case}</p>"
+        return f"{name}{paragraphs([self.sentence])}{rows(self.degeneracies)}"
 
 
 NEUTRAL_CLOSED_EQUATOR = undecided(

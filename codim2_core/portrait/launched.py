@@ -8,12 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import drawing
 from ..cycles.limit_cycles import cycles_of
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.problem import LayerProblem
 from ..orbits.result import Status, Trajectories
 from ..orbits.trajectories import joined, trajectories
 from ..orbits.whole import Orbits
+from ..tables import point, table
 from ..words import say
 from .endings import AT_SADDLE, CAPTURE, Ending, critical_label, drawn_time, endings, nearest
 from .outcomes import Outcome, outcomes_of
@@ -63,6 +65,17 @@ class Launched:
     orbits: Orbits
     goes: tuple[Fate, ...]
     comes: tuple[Fate, ...]
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        starts = [point(line[0]) for line in self.orbits.forward.points]
+        fates = [(go.sentence, come.sentence) for go, come in zip(self.goes, self.comes, strict=True)]
+        found = [(start, *fate) for start, fate in zip(starts, fates, strict=True)]
+        if not found:
+            return "<p>no orbit is launched</p>"
+        return (self._repr_svg_() or "") + table(("starts at", "goes", "comes"), found)
 
     def __len__(self) -> int:
         return len(self.goes)

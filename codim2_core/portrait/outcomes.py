@@ -24,6 +24,7 @@ from ..psi.constructors import compared
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
+from ..tables import Tabled, number, point, rows
 from ..words import named, say
 from .endings import angular_sign, radially_neutral
 from .verdicts import Array, Judged, arriving, spiralling
@@ -37,7 +38,7 @@ AT_ZERO = 1e-9  # angle to a limit direction that counts as that direction
 
 
 @dataclass(frozen=True, eq=False)
-class Outcome:
+class Outcome(Tabled):
     """What becomes of trajectories that arrive along one limit direction (or spiral onto the closed equator).
 
     Attributes
@@ -69,6 +70,8 @@ class Outcome:
         order nothing arrives or leaves), or "unfollowed" (the computation gave up); "" else.
     """
 
+    _head_ = ("limit direction", "θ", "arrives", "verdict", "onto", "leaves at θ", "slow flow z′", "why")
+
     theta: float | None
     label: str
     arrives: str
@@ -81,6 +84,11 @@ class Outcome:
     families: tuple[tuple[str, str, str | None], ...] = ()
     slides_alike: bool = False
     why: str = ""
+
+    def _row_(self) -> tuple[str, ...]:
+        theta, leaving = ("–" if angle is None else number(angle) for angle in (self.theta, self.leaving))
+        flow = "–" if self.slow_flow is None else point(self.slow_flow)
+        return self.label, theta, self.arrives, self.verdict, self.onto or "–", leaving, flow, self.reason
 
     @property
     def slides(self) -> bool | None:
@@ -111,6 +119,9 @@ class Outcomes:
     equator: EquatorEquilibria
     whole: Outcome | None
     _at: AtZ
+
+    def _repr_html_(self) -> str:
+        return rows(self) or rows(self.directions)
 
     def __iter__(self) -> Iterator[Outcome]:
         return iter(self.outcomes)

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import drawing
-from ..tables import paragraphs, table
+from ..tables import Tabled, paragraphs, rows
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Separatrix:
+class Separatrix(Tabled):
     """One branch of an invariant manifold; arrays are read-only.
 
     Attributes
@@ -42,6 +42,8 @@ class Separatrix:
         One sentence.
     """
 
+    _head_ = ("of", "branch", "other end", "where")
+
     origin: str
     direction: str
     end: str
@@ -52,6 +54,9 @@ class Separatrix:
     connection: bool
     gap: float | None
     status: str
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.origin, self.direction, self.end, "hemisphere" if self.inside else "outside"
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,9 +77,7 @@ class Separatrices:
         return drawing.svg(self)
 
     def _repr_html_(self) -> str:
-        head = ("of", "branch", "other end", "where")
-        rows = [(b.origin, b.direction, b.end, "hemisphere" if b.inside else "outside") for b in self]
-        return (self._repr_svg_() or "") + table(head, rows) + paragraphs(self.notes)
+        return (self._repr_svg_() or "") + rows(self) + paragraphs(self.notes)
 
     def __iter__(self) -> Iterator[Separatrix]:
         return iter(self.branches)

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ..tables import Tabled, number, rows
+
 
 @dataclass(frozen=True, slots=True)
-class Condition:
+class Condition(Tabled):
     """One condition of def:Psi.
 
     Attributes
@@ -20,10 +22,16 @@ class Condition:
     sentence : str
     """
 
+    _head_ = ("condition", "holds", "fails at s", "why")
+
     name: str
     holds: bool
     where: float | None
     sentence: str
+
+    def _row_(self) -> tuple[str, ...]:
+        where = "–" if self.where is None else number(self.where)
+        return self.name, "yes" if self.holds else "no", where, self.sentence
 
     def __bool__(self) -> bool:
         return self.holds
@@ -38,6 +46,9 @@ class PsiCheck:
     R3: Condition
     R4: Condition
     R5: Condition
+
+    def _repr_html_(self) -> str:
+        return rows(self)
 
     def __iter__(self) -> Iterator[Condition]:
         return iter((self.R1, self.R2, self.R3, self.R4, self.R5))

@@ -18,7 +18,9 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import drawing
 from ..expressions.expression import Expression
+from ..tables import paragraphs
 from . import kernel as arithmetic
 from .condition import PsiCheck
 from .conditions import check
@@ -57,6 +59,12 @@ class Psi:
     expression: Expression | None = field(default=None, compare=False, repr=False)
     kernel: arithmetic.Kernel = field(default_factory=constant.Constant, compare=False, repr=False)
     record: Family = field(default=constant.FAMILY, compare=False, repr=False)
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        return (self._repr_svg_() or "") + paragraphs([f"Ψ(s) = {self.words}"])
 
     @property
     def words(self) -> str:

@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike
 
 from .. import drawing
 from ..arguments import number, whole
-from ..layer_problem.critical import shown
 from ..layer_problem.problem import LayerProblem, Result
 from ..orbits.options import LEAST_PIXEL
 from ..orbits.seeds import checked_seeds
@@ -196,8 +195,8 @@ class Scene:
         return drawing.svg(self)
 
     def _repr_html_(self) -> str:
-        results = (self["classification"], self["equator"])
-        tables = "".join(result._repr_html_() for result in results) + shown(self["critical"])
+        results = (self["classification"], self["equator"], self["critical"])
+        tables = "".join(result._repr_html_() for result in results)
         return (self._repr_svg_() or "") + tables
 
     def __iter__(self) -> Iterator[str]:

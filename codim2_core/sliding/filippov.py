@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
+from ..tables import paragraphs, point, table
 from ..words import say
 
 Array = NDArray[np.float64]
@@ -57,6 +58,11 @@ class FilippovSliding:
     weights: tuple[Array, ...]
     unique: bool
     sentence: str
+
+    def _repr_html_(self) -> str:
+        combined = zip(self.vertices, self.directions, self.weights, strict=True)
+        found = [tuple(map(point, one)) for one in combined]
+        return paragraphs([self.sentence]) + table(("candidate z′", "combines U, W at θ", "with weights"), found)
 
     def __len__(self) -> int:
         return len(self.vertices)

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import drawing
+from ..tables import Tabled, number, point, rows
+
 Array = NDArray[np.float64]
 
 
@@ -39,7 +42,7 @@ class SlowBranch:
 
 
 @dataclass(frozen=True, slots=True)
-class SlowPoint:
+class SlowPoint(Tabled):
     """A value of z at which something happens.
 
     Attributes
@@ -56,6 +59,8 @@ class SlowPoint:
     sentence : str
     """
 
+    _head_ = ("at", "z", "e", "slow flow z′", "what happens")
+
     kind: str
     z: float
     e: tuple[float, float]
@@ -63,15 +68,23 @@ class SlowPoint:
     stable: bool | None
     sentence: str
 
+    def _row_(self) -> tuple[str, ...]:
+        return self.kind, number(self.z), point(self.e), point(self.flow), self.sentence
+
 
 @dataclass(frozen=True, slots=True)
-class SlowInterval:
+class SlowInterval(Tabled):
     """An interval of z: kind "sliding", "unstable" or "crossing"."""
+
+    _head_ = ("from z", "to z", "kind", "what happens")
 
     low: float
     high: float
     kind: str
     sentence: str
+
+    def _row_(self) -> tuple[str, ...]:
+        return number(self.low), number(self.high), self.kind, self.sentence
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,3 +94,9 @@ class SlowPortrait:
     branches: tuple[SlowBranch, ...]
     points: tuple[SlowPoint, ...]
     intervals: tuple[SlowInterval, ...]
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        return (self._repr_svg_() or "") + rows(self.intervals) + rows(self.points)

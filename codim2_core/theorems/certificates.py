@@ -19,6 +19,7 @@ from ..psi.function import Psi
 from ..sliding.flow import sliding_flow
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
+from ..tables import Results
 from ..words import say
 from .cases import case1, case2
 from .degenerate import NOT_LINEAR, equal_diagonal, normal_form, symmetric
@@ -34,7 +35,7 @@ MOST_CONDITION = 1e12
 
 def certificates(
     system: AnySystem, psi: Psi, z: ArrayLike = (), cycles: Iterable[Any] | None = None
-) -> tuple[Certificate, ...]:
+) -> Results[Certificate]:
     """Evaluate all numbered claims of the paper on a system, or say why one does not apply to it.
 
     Parameters
@@ -49,8 +50,8 @@ def certificates(
 
     Returns
     -------
-    tuple of Certificate
-        In the order of the paper.
+    Results of Certificate
+        A tuple, in the order of the paper.
 
     Raises
     ------
@@ -67,10 +68,10 @@ def certificates(
 
 def certificates_of(
     problem: LayerProblem, cycles: Iterable[Any] | None = None, system: Any = None, z: tuple[float, ...] = ()
-) -> tuple[Certificate, ...]:
+) -> Results[Certificate]:
     """Evaluate the claims on a layer problem, with the parameters of `certificates`."""
     facts = Facts(problem, system, z)
-    return (
+    claims = (
         *psi_claims(problem.psi),
         _equilibria(facts),
         _up_the_sphere(facts),
@@ -90,6 +91,7 @@ def certificates_of(
         attracting_and_repelling(facts),
         nonunique(facts),
     )
+    return Results(claims)
 
 
 # thm:geneps0 -------------------------------------------------------------------------------------------------------

@@ -15,10 +15,12 @@ from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.location import Existence, Location
 from ..layer_problem.problem import LayerProblem
+from ..paper import cite
 from ..portrait.classify import Classification, portrait
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.frozen import AtZ
+from ..tables import Tabled, number
 
 Array = NDArray[np.float64]
 CLOSE = 1e-9  # of the size of what is compared
@@ -46,7 +48,7 @@ class Verdict(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Certificate:
+class Certificate(Tabled):
     """One claim of the paper, evaluated.
 
     Attributes
@@ -62,11 +64,17 @@ class Certificate:
         What it comes to here, or why it does not apply.
     """
 
+    _head_ = ("claim", "what it says", "verdict", "numbers", "here")
+
     theorem: str
     statement: str
     verdict: Verdict
     numbers: tuple[tuple[str, float], ...]
     sentence: str
+
+    def _row_(self) -> tuple[str, ...]:
+        numbers = ", ".join(f"{name} = {number(value)}" for name, value in self.numbers)
+        return cite(self.theorem), self.statement, self.verdict.value, numbers, self.sentence
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,191 @@
+"""Every public result shows itself in a notebook: what public functions are annotated with, and what they return."""
+
+import inspect
+import math
+import re
+import typing
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+import codim2_core as c2
+from codim2_core import bifurcations
+from codim2_core.continuation.branches import continue_cycles
+from codim2_core.diagrams.class_map import class_map
+from codim2_core.diagrams.diagram import diagram
+from codim2_core.diagrams.eigenvalue_path import linearisation_path
+from codim2_core.tables import number
+
+ONE = c2.psi.constant()
+FOUR = c2.ELinear(-2, 0, -1, (-0.5, 0), B=((1, 0),), g=(0.25,))
+SADDLE = c2.ELinear(1.0, 0.3, -1.2, (0.2, 0.45))
+SPIRAL = c2.ELinear(-1, 1, -1, (0, 0))
+CYCLE = c2.presets["case3-n3"]
+TWO = c2.examples.nonunique_sliding()
+UNSTEADY = c2.ELinear(-1, 0, -1, ("z", 0), B=((0, 0),), g=(0.25,))
+
+#: What stands in a notebook's cell, and what must be read in it.
+RESULTS = {
+    "approach_outcomes": lambda: c2.approach_outcomes(FOUR, ONE),
+    "basins": lambda: c2.basins(TWO, ONE, 0.0, n=64),
+    "basins, nearer": lambda: c2.basins(TWO, ONE, 0.0, n=32, box=(0.0, 0.5, 0.0, 0.5)),
+    "census": lambda: c2.census(count=5000),
+    "certificates": lambda: c2.certificates(FOUR, ONE),
+    "classify": lambda: c2.classify(FOUR, ONE),
+    "critical_sets": lambda: c2.critical_sets(TWO, ONE, 0.0),
+    "equator_cycle": lambda: c2.equator_cycle(SPIRAL),
+    "equator_equilibria": lambda: c2.equator_equilibria(FOUR),
+    "filippov_sliding": lambda: c2.filippov_sliding(TWO, 0.0),
+    "limit_cycles": lambda: c2.limit_cycles(CYCLE.system, CYCLE.psi),
+    "nullclines": lambda: c2.nullclines(FOUR, ONE),
+    "separatrices": lambda: c2.separatrices(SADDLE, ONE),
+    "simulate": lambda: c2.simulate(SPIRAL, ONE, 0.1, (0.5, 0.2), (0, 3)),
+    "simulate_nonsmooth": lambda: c2.simulate_nonsmooth(FOUR, (0.5, 0.2, 0.0), (0, 3)),
+    "slow_portrait": lambda: c2.slow_portrait(UNSTEADY, ONE, (-2, 2)),
+    "trajectories": lambda: c2.trajectories(FOUR, ONE, [(0.1, 0.2), (1.2, 0.3)]),
+    "scene": lambda: c2.Scene(FOUR),
+    "launched": lambda: c2.Scene(FOUR, launch=[(0.1, 0.2), (1.2, 0.3)])["launched"],
+    "preset": lambda: CYCLE,
+    "psi": lambda: c2.psi.hill(3),
+    "psi.check": lambda: c2.psi.hill(3).check(),
+    "bifurcations.closed_equator": lambda: bifurcations.closed_equator(-1, 2, 1),
+    "bifurcations.critical_boundary": lambda: bifurcations.critical_boundary(-2, 0.5, -1),
+    "bifurcations.hill_changes": lambda: bifurcations.hill_changes(CYCLE.system),
+    "bifurcations.hopf": lambda: bifurcations.hopf(CYCLE.a, CYCLE.b, CYCLE.d, CYCLE.psi),
+    "bifurcations.regions": lambda: bifurcations.regions(-2, 0.5, -1),
+    "bifurcations.saddle_node": lambda: bifurcations.saddle_node(-2, 0.5, -1),
+    "class_map": lambda: class_map(SADDLE, ONE, ("f1", "f2"), ((-2, 2), (-2, 2)), steps=32, thin=0),
+    "continue_cycles": lambda: continue_cycles(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)),
+    "diagram": lambda: diagram(SADDLE, ONE, "f1", (-1, 1)),
+    "linearisation_path": lambda: linearisation_path(CYCLE.system, CYCLE.psi, "n", np.linspace(1.0, 4.0, 31)),
+}
+PICTURED = {
+    "basins", "basins, nearer", "class_map", "continue_cycles", "diagram", "launched", "limit_cycles",
+    "linearisation_path", "nullclines", "preset", "psi", "scene", "separatrices", "simulate", "simulate_nonsmooth",
+    "slow_portrait", "trajectories", "bifurcations.closed_equator", "bifurcations.critical_boundary",
+    "bifurcations.hopf", "bifurcations.regions", "bifurcations.saddle_node",
+}  # fmt: skip
+#: What is given and not found: equations show as their text.
+GIVEN = {c2.ELinear, c2.System, c2.Coefficients, c2.Frozen, c2.Event, c2.SimulationStatus}
+
+
+def classes_of(annotation):
+    """Classes of the core in an annotation, those of the elements of a tuple too."""
+    found = {annotation} if inspect.isclass(annotation) else {typing.get_origin(annotation)}
+    inside = [one for part in typing.get_args(annotation) for one in classes_of(part)]
+    return {one for one in found if getattr(one, "__module__", "").startswith("codim2_core")} | set(inside)
+
+
+def public_classes():
+    """Classes that a public name is, or that a public function returns."""
+    found = set()
+    for home in (c2, bifurcations):
+        for value in (getattr(home, name) for name in home.__all__):
+            if inspect.isclass(value):
+                found.add(value)
+            elif inspect.isfunction(value):
+                inner = inspect.unwrap(value)
+                found |= classes_of(eval(inner.__annotations__["return"], inner.__globals__))
+    return sorted(found - GIVEN, key=lambda one: one.__name__)
+
+
+def cells(shown):
+    """Texts of the cells of all tables, a row each; the HTML is well-formed."""
+    root = ElementTree.fromstring(f"<div>{shown}</div>")
+    return [["".join(cell.itertext()) for cell in row] for row in root.iter("tr")]
+
+
+@pytest.mark.parametrize("kind", public_classes(), ids=lambda kind: kind.__name__)
+def test_what_public_functions_return_shows_itself(kind):
+    assert callable(getattr(kind, "_repr_html_", None)), kind
+
+
+def test_results_of_all_public_functions_are_tried():
+    named = {name for name in c2.__all__ if inspect.isfunction(getattr(c2, name))}
+    assert named - set(RESULTS) == {"sliding_flow"}  # an array
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_a_result_shows_itself_in_little(name):
+    result = RESULTS[name]()
+    shown = result._repr_html_()
+    rows = cells(shown)
+    assert len(shown) < 50_000
+    assert not re.search(r"\bnan\b|var\(--|object at 0x|array\(", shown)
+    assert rows or "<p>" in shown or "<svg" in shown
+    assert ("<svg" in shown) == (name in PICTURED)
+    if name in PICTURED:
+        picture = result._repr_svg_()
+        assert picture in shown
+        assert "<path" in picture
+    if isinstance(result, tuple):
+        assert len(rows) == 1 + len(result)
+        assert type(result)(result) == result == tuple(result)
+
+
+@pytest.mark.parametrize("name", ["critical_sets", "nullclines", "bifurcations.regions", "bifurcations.hill_changes"])
+def test_nothing_found_shows_itself_too(name):
+    assert cells(type(RESULTS[name]())()._repr_html_()) == []
+
+
+def test_numbers_are_those_of_the_result():
+    found = c2.basins(TWO, ONE, 0.0, n=64)
+    _, *rows = cells(found._repr_html_())
+    assert [row[0] for row in rows] == list(found.destinations)
+    for i, row in enumerate(rows):
+        assert row[1] == number((found.cells == i).sum() / (found.cells != -2).sum())
+    counted = c2.census(count=5000)
+    _, *rows = cells(counted._repr_html_())
+    assert [(row[0], row[1]) for row in rows] == [(one.name, f"{one.count:,}") for one in counted.table]
+    along = c2.slow_portrait(UNSTEADY, ONE, (-2, 2))
+    rows = cells(along._repr_html_())
+    assert [row[0] for row in rows if row[0] == "equator"] == [p.kind for p in along.points if p.kind == "equator"]
+    assert [number(one.low) for one in along.intervals] == [row[0] for row in rows[1 : 1 + len(along.intervals)]]
+
+
+def test_areas_of_a_map_lie_where_the_regions_lie():
+    found = RESULTS["class_map"]()
+    shown = found._repr_svg_()
+    areas = re.findall(r'<path d="([^"]*)" fill="([^"]*)"', shown)
+    assert len(areas) == len(found.regions)
+    for (path, _), region in zip(areas, found.regions, strict=True):
+        points = np.array([[float(v) for v in pair.split()] for pair in re.findall(r"[\d.]+ [\d.]+", path)])
+        x, y = (points[:, 0] - 44) / 308 * 4 - 2, (8 + 308 - points[:, 1]) / 308 * 4 - 2
+        every = np.concatenate(region.boundary)
+        assert np.allclose(
+            [x.min(), x.max(), y.min(), y.max()], [*minmax(every[:, 0]), *minmax(every[:, 1])], atol=0.05
+        )
+
+
+def minmax(values):
+    return values.min(), values.max()
+
+
+def test_basins_lie_where_their_sets_lie():
+    found = RESULTS["basins"]()
+    shown = found._repr_svg_()
+    paths = re.findall(r'<path d="([^"]*)" fill="(#\w+)"', shown)
+    for C in c2.critical_sets(TWO, ONE, 0.0):
+        if not C.kind.startswith("stable"):
+            continue
+        x, y = 500 * (1 + C.p[0]), 500 * (1 - C.p[1])
+        over = [
+            fill
+            for path, fill in paths
+            for left, top, wide, high in re.findall(r"M([\d.]+) ([\d.]+)h([\d.]+)v([\d.]+)", path)
+            if float(left) - 1 <= x <= float(left) + float(wide) + 1 and float(top) <= y <= float(top) + float(high)
+        ]
+        assert over
+    assert len({fill for _, fill in paths}) >= 2
+
+
+def test_a_curve_of_psi_is_psi():
+    psi = c2.psi.hill(2)
+    [path] = re.findall(r'<path d="([^"]*)"', psi._repr_svg_())
+    points = np.array([[float(v) for v in pair.split()] for pair in re.findall(r"[\d.]+ [\d.]+", path)])
+    s = (points[:, 0] - points[0, 0]) / np.ptp(points[:, 0]) * 4
+    heights = (points[:, 1].max() - points[:, 1]) / np.ptp(points[:, 1])
+    low, high = psi(4.0), psi(0.0)
+    assert np.allclose(low + heights * (high - low), psi(s), atol=0.01)
+    assert math.isclose(psi(0.0), 1.0)
