@@ -6,7 +6,7 @@ without one, everything is tried: the core, the app's Python and its JavaScript.
 first, up to the first failure, or as long as ``--seconds`` says: in place where that can be (`live`), else with the
 module imported anew; what Numba compiles is run as Python (`interpreted`). Nothing is written in the repository.
 Printed are the mutants that live and, for each module, how many were killed of how many; those that
-`targets.ALLOWED` explains are not tried. ``--record`` keeps all that in `results.md`. The exit code is 1 if any lives.
+`explained.ALLOWED` tells are not tried. ``--record`` keeps all that in `results.md`. The exit code is 1 if any lives.
 """
 
 from __future__ import annotations
@@ -23,10 +23,11 @@ from pathlib import Path
 from typing import Any
 
 from . import javascript, record
+from .explained import explained
 from .mutants import Mutant, mutants
 from .processes import preload
 from .session import Job, run
-from .targets import ROOT, explained, front_end, guards, is_kernel, modules, room
+from .targets import ROOT, front_end, guards, is_kernel, modules, room
 
 
 @dataclass

@@ -11,8 +11,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
+from .explained import ALLOWED, reason
 from .mutants import mutants
-from .targets import ALLOWED, modules, reason, room
+from .targets import modules, room
 
 RESULTS = Path(__file__).with_name("results.md")
 _ROW = re.compile(r"^\| (\S+) \| (\d+) of (\d+) \| \d+ % \| (\d+) \| (\d+) \|(?: (\w+) \|)?$", re.MULTILINE)
@@ -77,11 +78,11 @@ def written(found: Iterable[Found]) -> str:
         texts = source.splitlines()
         for mutant in mutants(source):
             counts.update(
-                [i for i, one in enumerate(ALLOWED) if one.module == module and one.line in texts[mutant.line - 1]][:1]
+                [i for i, one in enumerate(ALLOWED) if one.module == module and one.words in texts[mutant.line - 1]][:1]
             )
     for i, one in enumerate(ALLOWED):
         count = f" ({counts[i]})" if one.module in known else ""
-        lines.append(f"- `{one.module}`: `{one.line}`{count}: {one.why}")
+        lines.append(f"- `{one.module}`: `{one.words}`{count}: {one.why}")
     return "\n".join(lines) + "\n"
 
 

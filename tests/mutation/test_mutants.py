@@ -7,11 +7,12 @@ import pytest
 
 from . import interpreted
 from .__main__ import Choice, survivors
+from .explained import ALLOWED, LIVES
 from .live import changes, functions, put_in
 from .mutants import mutants
 from .reach import Reach, reaching
 from .record import Found, read, written
-from .targets import ALLOWED, ELSEWHERE, LIVES, ROOT, front_end, guards, is_kernel, modules, room
+from .targets import ELSEWHERE, ROOT, front_end, guards, is_kernel, modules, room
 
 SOURCE = '''"""A docstring with 1 + 2."""
 LIMIT: float = 0.5
@@ -72,7 +73,11 @@ def test_what_is_explained_is_there():
     assert {one.module for one in LIVES} <= set(known)
     for one in ALLOWED:
         assert one.module in known, one.module
-        assert one.line in known[one.module].read_text(), (one.module, one.line)
+        assert one.words in known[one.module].read_text(), one
+    for table in (ALLOWED, LIVES):
+        assert len(set(table)) == len(table)
+        assert [one.module for one in table] == sorted(one.module for one in table)
+        assert all(one.words and one.why.endswith(".") for one in table)
 
 
 LIVING = """
@@ -125,7 +130,7 @@ def test_the_quickest_tests_that_reach_a_function_come_first():
     theme, svg = (str(ROOT / "app" / "draw" / f"{name}.py") for name in ("theme", "svg"))
     key = (theme, "f", 3)
     slow, quick, very = (f"tests/app/draw/test_mathml.py::{name}" for name in ("slow", "quick", "very_slow"))
-    other, constants = "tests/app/draw/test_glyphs.py::other", "tests/app/draw/test_looks.py::constants"
+    other, constants = "tests/app/draw/test_glyphs.py::other", "tests/app/draw/test_svg.py::constants"
     reach = {
         slow: Reach(4.0, frozenset({key})),
         quick: Reach(1.0, frozenset({key, (theme, "g", 7)})),
