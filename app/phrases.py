@@ -82,7 +82,7 @@ SENTENCES: dict[str, Sentence] = {
         "a typed name",
     ),
     "name of the regularisation": Sentence(
-        "{name}: the system is the one without regularisation; Ψ has a box of its own, and ε is in the panel Time.",
+        "{name}: the system is the one without regularisation; Ψ has a box of its own, and ε is in the panel Orbits.",
         "a typed name",
     ),
     "name of time": Sentence(

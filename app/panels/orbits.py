@@ -1,4 +1,4 @@
-"""The panel "Orbits": what was launched, with where it goes and comes from; the chosen orbit over time."""
+"""The panel "Orbits": what was launched, with where it goes and comes from; the chosen orbit, or start, over time."""
 
 from __future__ import annotations
 
@@ -16,10 +16,11 @@ from codim2_core.systems.kinds import AtZ
 from ..frame.draft import Draft
 from ..phrases import say
 from ..state.chosen import System_
-from ..state.launches import chosen, read_launches
+from ..state.launches import TYPED, chosen, read_launches
+from . import typed_start
 from .panel import Panel
 from .short import short
-from .time import RTOL
+from .typed_start import RTOL
 
 ON = 1.5  # times as long as it takes to Sigma is a motion for eps > 0 followed: what it does there is seen too
 
@@ -28,6 +29,9 @@ def add(draft: Draft) -> None:
     """Add the chosen orbit over time, and its motion for eps > 0 if it is wanted, once nothing moves."""
     i = chosen(read_launches(draft.values["orbits"]), draft.values["orbit"])
     if i is None:
+        return
+    if i == TYPED:
+        typed_start.add(draft)
         return
     if not draft.ready:
         draft.late("orbit")
@@ -43,7 +47,7 @@ def add(draft: Draft) -> None:
     key = (i, seed, span, scene.key("plane", "psi"))
     orbit = draft.slow("orbit", key, over_time, scene.coefficients, scene.psi, seed, span)
     if orbit is not None:
-        draft.header["orbit"] = {"index": i, **orbit}
+        draft.header["orbit"] = {"index": i, "m": len(scene.z), **orbit}
         draft.now["orbit ends"] = key, orbit["t"][-1]
     if draft.values["orbit_eps"] == "show" and draft.system is not None:
         followed, end = draft.now.get("orbit ends", (None, 0.0))
@@ -56,7 +60,7 @@ def add(draft: Draft) -> None:
         wanted = (draft.system, scene.psi, eps, seed, scene.z, lasts)
         motion = draft.slow("orbit_motion", wanted, regularised, *wanted)
         if motion is not None:
-            draft.header["orbit_motion"] = motion
+            draft.header["orbit_motion"] = {"index": i, **motion}
 
 
 def over_time(at: AtZ, psi: Psi, seed: tuple[float, float], span: tuple[float, float]) -> dict[str, Any]:
@@ -83,7 +87,8 @@ def regularised(
     fast = radius < 1.0
     unit = eps if fast else 1.0
     start = scaling_from_disc(seed) if fast else np.array(seed) * ((radius - 1.0) / radius)
-    drawn = simulate(system, psi, eps, (*(unit * start).tolist(), *z), (0.0, unit * lasts), rtol=RTOL).drawn()
+    run = simulate(system, psi, eps, (*(unit * start).tolist(), *z), (0.0, unit * lasts), rtol=RTOL)
+    drawn = run.drawn()
     x, y = drawn.states[:, 0] / unit, drawn.states[:, 1] / unit
     rho = np.hypot(x, y)
     height = np.hypot(*drawn.points.T) if fast else rho
@@ -92,9 +97,13 @@ def regularised(
         "t": short(drawn.times / unit),
         "states": [short(column) for column in (x, y, np.unwrap(np.arctan2(y, x)), height, *drawn.states[:, 2:].T)],
         "picture": [short(column) for column in drawn.points.T],
+        "phases": [[p.kind, p.t_start / unit, p.t_end / unit, p.reason] for p in run.phases],
     }
 
 
 PANEL = Panel(
-    "orbits", "Orbits", add, "The orbits launched by a click on the picture: where each goes, and where it comes from."
+    "orbits",
+    "Orbits",
+    add,
+    "Orbits launched by a click on the picture or from a typed start, over time: in the limit ε → 0, and for ε > 0.",
 )

@@ -102,7 +102,12 @@ class ExplorerState(param.Parameterized):
     log_eps = _number(-2.0, -10, 0, "log₁₀ ε", "Size of the regularised region.")
     launch = param.String("0.6, 0.8, 0", label="Start", doc="State (x, y, z₁, …) from which a motion starts.")
     orbits = param.String("", label="Orbits", doc="Launched orbits: x,y of each, joined by semicolons.")
-    orbit = param.Integer(1, bounds=(1, MOST), label="Orbit", doc="Number of the launched orbit that is shown in time.")
+    orbit = param.Integer(
+        1,
+        bounds=(0, MOST),
+        label="Orbit",
+        doc="Number of the launched orbit that is shown in time; 0 is the typed start.",
+    )
     pinned = param.String("", label="Pinned", doc="The object whose card stays, such as 'Q2', 'C' or 'L1'; or none.")
     orbit_eps = param.Selector(
         default="hide", objects=["hide", "show"], label="ε > 0", doc="The motion for ε > 0 beside that orbit."

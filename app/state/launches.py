@@ -12,6 +12,7 @@ from dataclasses import dataclass
 MOST = 12
 FARTHEST = 4.0  # from the centre: the edge of what can be seen when zoomed out
 LONGEST_NAME = 24
+TYPED = -1  # in place of a launched orbit's place: the typed start
 
 
 @dataclass(frozen=True)
@@ -63,9 +64,9 @@ def _read(entry: str) -> Launch:
 def chosen(launches: tuple[Launch, ...], number: int) -> int | None:
     """Return the place, among those that are shown, of the orbit of this number, counted from 1; the last if fewer.
 
-    None where it is hidden, or nothing was launched.
+    `TYPED` for 0, and where nothing was launched; None where it is hidden.
     """
-    if not launches:
-        return None
+    if number == 0 or not launches:
+        return TYPED
     k = min(number, len(launches)) - 1
     return None if launches[k].hidden else sum(not launch.hidden for launch in launches[:k])

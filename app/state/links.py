@@ -42,6 +42,11 @@ FIRST: Mapping[int, Mapping[str, Any]] = MappingProxyType(
 #: What another choice of system brings: always written where the system is not that of the portrait.
 BROUGHT = tuple(opening(NORMAL))
 
+#: What a link of an earlier release says otherwise, by name and value: the panel Time is now a part of Orbits.
+SAID_BEFORE: Mapping[tuple[str, str], Mapping[str, str]] = MappingProxyType(
+    {("panel", "time"): {"panel": "orbits", "orbit": "0", "orbit_eps": "show"}}
+)
+
 LONGEST_SQUEEZED, LONGEST_QUERY = 20_000, 60_000  # characters
 MOST_CONTROLS = 12
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,39}")
@@ -98,6 +103,9 @@ def read_link(query: str | Mapping[str, str]) -> Link:
             errors.append(InputError("", str(error)))
     first = _first(given.pop("v", ""), errors)
     look = _look(given, errors)
+    for (name, text), now in SAID_BEFORE.items():
+        if given.get(name) == text:
+            given |= now
     good: dict[str, Any] = {}
     for name, text in given.items():
         if name in NAMES:

@@ -30,7 +30,7 @@ VIEWS: dict[str, dict[str, Any]] = {
     "psi": {"panel": "psi"},
     "planes": {"panel": "planes"},
     "along": {"panel": "along"},
-    "time": {"panel": "time"},
+    "time": {"panel": "orbits", "orbit_eps": "show"},
 }
 
 

@@ -1,29 +1,40 @@
-// One launched orbit over its own time, beside the picture: t/ε on the hemisphere, t outside. A dot runs along both.
+// One orbit over its own time, beside the picture: a launched one, t/ε on the hemisphere and t outside, or the motion from
+// a typed start. ε → 0 is drawn in full, ε > 0 broken. A dot runs along both.
 
+import {Ball} from "./ball.js"
 import {Chart} from "./chart/chart.js"
 import {spanOf} from "./chart/scale.js"
 import {Player, sampled} from "./player.js"
-import {digits, escape, measured, minus} from "./words.js"
+import {digits, escape, measured, minus, phaseWords} from "./words.js"
 
+export const TYPED = -1 // in place of a launched orbit's place: the typed start
+
+/** @typedef {[string, number, number, string]} Phase kind, from, to, why it began */
 /**
  * @typedef {object} InTime
- * @property {number} index among the orbits that are shown
+ * @property {number} index among the orbits that are shown; `TYPED`
+ * @property {number} m of slow variables
  * @property {boolean} fast on the hemisphere
  * @property {number[]} t
- * @property {number[][]} states x, y, θ and |p| or ρ
+ * @property {number[][]} states x, y, θ and |p|, or ρ, or the radius in the picture; of a typed start also z
  * @property {number[][]} picture
- * @typedef {{eps: number, t: number[], states: number[][], picture: number[][]}} Regularised the same, and then z
+ * @property {Phase[]} [phases] of a typed start, which also has a reason why it ends
+ * @property {string} [reason]
+ * @property {any} [ball]
  */
+/** @typedef {{index: number, eps: number, t: number[], states: number[][], picture: number[][], phases: Phase[], reason?: string, agreement?: string, ball?: any}} Regularised the same, and then z */
 
 export const MARKUP = `<section class="orbit-time" hidden>
-  <div class="row"><button type="button" class="play" aria-pressed="false">▶ Play</button><label class="orbit-eps"><input type="checkbox"><span></span></label></div>
-  <p class="note orbit-now" aria-live="off"></p>
+  <div class="row"><button type="button" class="play" aria-pressed="false">▶ Play</button><button type="button" class="here"></button></div>
+  <div class="note now"><p class="orbit-now" aria-live="off"></p><p class="phase-now" aria-live="off"></p></div>
   <svg class="series" role="slider" tabindex="0" aria-label="The orbit over time: drag to move along it"></svg>
-  <p class="pad-key orbit-key" hidden></p>
+  <p class="pad-key orbit-key"></p>
+  <canvas class="ball" hidden role="img" aria-label="The ball, seen from above"></canvas>
+  <ul class="phases"></ul>
 </section>`
 
-/** @param {boolean} fast the words for x, y, θ, the radius and time */
-export const names = (fast) => fast ? ["x/ε", "y/ε", "θ", "|p|", "t/ε"] : ["x", "y", "θ", "ρ = |(x, y)|", "t"]
+/** @param {InTime} orbit the words for x, y, θ, the radius and time */
+export const names = ({fast, index}) => fast ? ["x/ε", "y/ε", "θ", "|p|", "t/ε"] : ["x", "y", "θ", index === TYPED ? "r = |p|, outside 1 + ρ" : "ρ = |(x, y)|", "t"]
 
 // Ticks of an angle: parts of a turn, or numbers where it turns often.
 /** @param {number[]} span */
@@ -41,24 +52,27 @@ export function angleTicks([low, high]) {
 export class OrbitInTime {
   /**
    * @param {any} box that holds the markup
-   * @param {(paths: any, place?: number[]) => void} trace
-   * @param {() => string[]} slowSymbols
+   * @param {import("./panels.js").Tools} tools
+   * @param {(z: number[]) => void} moved is called with the slow variables of a typed start as its time moves
    */
-  constructor(box, trace, slowSymbols) {
+  constructor(box, tools, moved) {
     this.box = box
     this.find = (name) => box.querySelector(name)
-    this.trace = trace
-    this.slowSymbols = slowSymbols
+    this.trace = tools.trace
+    this.slowSymbols = tools.slowSymbols
+    this.moved = moved
     this.orbit = /** @type {InTime | null} */ (null)
     this.motion = /** @type {Regularised | null} */ (null)
     this.shown = null
+    this.rows = 3
     this.svg = this.find(".series")
+    this.ball = new Ball(tools.root, this.find(".ball"))
     this.chart = new Chart(this.svg, {
-      aspect: (width) => Math.min(0.9 * width, 480),
+      aspect: (width) => Math.min((this.rows > 3 ? 1.15 : 0.9) * width, 160 * this.rows),
       onMove: (t) => this.player.scrub(t),
       onKey: ([way]) => this.player.step(way),
     })
-    this.player = new Player(this.find(".play"), () => this.point())
+    this.player = new Player(this.find(".play"), () => this.point(true))
   }
 
   /**
@@ -74,50 +88,81 @@ export class OrbitInTime {
     this.motion = motion
     this.shown = orbit
     if (!orbit) { this.hide(); return }
-    const times = motion ? [...orbit.t, motion.t.at(-1) ?? 0] : orbit.t
-    const start = orbit.t[0], end = Math.max(...times)
+    const start = orbit.t[0]
     if (other) this.player.at = 0
-    this.player.over(start, end)
-    this.chart.draw(this.plots(orbit, motion, [start, end]))
+    this.player.over(start, this.end)
+    const plots = this.plots(orbit, motion, [start, this.end])
+    this.rows = plots.length
+    this.chart.draw(plots)
     this.svg.setAttribute("aria-valuemin", start)
-    this.svg.setAttribute("aria-valuemax", end)
-    this.find(".orbit-key").hidden = !motion
-    if (motion) this.find(".orbit-key").innerHTML = `<span>full line: ${orbit.fast ? "the layer problem, z frozen" : "ε → 0, z frozen"}</span><span>broken line: ε = ${measured(motion.eps)}, z moves</span>`
+    this.svg.setAttribute("aria-valuemax", this.end)
+    this.tell(orbit, motion)
     this.point()
   }
 
+  get end() { return Math.max(this.orbit?.t.at(-1) ?? 0, this.motion?.t.at(-1) ?? 0) }
+
+  // What stands below the charts: which line is which, the ball, and the phases.
+  tell(orbit, motion) {
+    const limit = orbit.index === TYPED ? "ε → 0" : orbit.fast ? "the layer problem, z frozen" : "ε → 0, z frozen"
+    const listed = orbit.phases ? "line and list" : "line"
+    this.find(".orbit-key").innerHTML = motion
+      ? `<span>full ${listed}: ${limit}</span><span>broken line${orbit.phases ? " and bands" : ", bands and list"}: ε = ${measured(motion.eps)}${orbit.phases ? "" : ", z moves"}</span>`
+      : `<span>${orbit.phases ? "line, bands and list" : "line"}: ${limit}</span>`
+    const phases = orbit.phases ?? motion?.phases ?? []
+    this.rolls = [motion, orbit].find((run) => run?.ball) ?? null
+    this.find(".phases").innerHTML = phases.map(([kind, from, , why]) => `<li><i class="band ${kind}"></i><span>${digits(from, 4)}</span><span class="note">${phaseWords(kind, this.rolls)}: ${escape(why)}</span></li>`).join("")
+    this.ball.canvas.hidden = !this.rolls
+    if (this.rolls) this.ball.prepare(this.rolls)
+  }
+
   plots(orbit, motion, span) {
-    const words = names(orbit.fast)
-    const m = motion ? Math.min(motion.states.length - 4, 4) : 0
+    const words = names(orbit)
+    const m = Math.min(Math.max(orbit.states.length, motion?.states.length ?? 0) - 4, 4)
     const rows = [[0, 1], [2], [3], ...(m > 0 ? [Array.from({length: m}, (_, i) => 4 + i)] : [])]
     const word = (c) => c < 4 ? words[c] : this.slowSymbols()[c - 4] ?? `z${m > 1 ? "₁₂₃₄"[c - 4] : ""}`
+    const bands = (motion ?? orbit).phases?.map(([kind, from, to, why]) => ({name: kind, from, to: Math.min(to, span[1]), title: why}))
     return rows.map((columns, k) => {
       const values = columns.flatMap((c) => [...(orbit.states[c] ?? []), ...(motion?.states[c] ?? [])])
       const y = columns[0] === 3 && orbit.fast ? [0, 1.06] : spanOf(values, 0.06, columns[0] === 2 ? [] : [0])
       const shade = columns[0] === 2 ? 2 : columns[0] === 3 ? 3 : 0
       const curve = (run, c, i, name) => ({name: `series-line s${shade + i} ${name}`, title: word(c), x: run.t, y: run.states[c]})
       return {
-        title: columns.map((c, i) => `<tspan class="s${shade + i}">${escape(word(c))}</tspan>`).join(" "), zeros: true,
+        title: columns.map((c, i) => `<tspan class="s${shade + i}">${escape(word(c))}</tspan>`).join(" "), zeros: true, bands,
         x: {span, word: words[4], hidden: k < rows.length - 1},
         y: {span: y, ticks: columns[0] === 2 ? angleTicks(y) : undefined, most: 4}, share: k ? 0.7 : 1,
-        lines: columns.flatMap((c, i) => [...(motion ? [curve(motion, c, i, "limit")] : []), ...(c < 4 ? [curve(orbit, c, i, "")] : [])]),
+        lines: columns.flatMap((c, i) => [...(motion?.states[c] ? [curve(motion, c, i, "broken")] : []), ...(orbit.states[c] ? [curve(orbit, c, i, "")] : [])]),
       }
     })
   }
 
-  // The dot in the picture, the line in the chart, and the numbers, at the present time.
-  point() {
+  // The dot in the picture, the line in the chart, the numbers and the phase, at the present time.
+  point(moved = false) {
     const {orbit, motion} = this
     if (!orbit) return
-    const {at} = this.player, words = names(orbit.fast)
+    const {at} = this.player, words = names(orbit)
     const after = at > /** @type {number} */ (orbit.t.at(-1)) && motion !== null
     const run = after ? motion : orbit
-    const [x, y, theta, radius] = sampled(run.t, run.states.slice(0, 4), at)
+    const [x, y, theta, radius, ...z] = sampled(run.t, run.states, at)
     this.chart.at(at)
     this.svg.setAttribute("aria-valuenow", at)
-    this.trace([motion?.picture, undefined], sampled(run.t, run.picture, at))
+    this.trace([motion?.picture, orbit.index === TYPED ? orbit.picture : undefined], sampled(run.t, run.picture, at))
     const told = [x, y, theta, radius].map((value, i) => `${words[i].split(" ")[0]} = ${digits(value, 3)}`)
     this.find(".orbit-now").textContent = `${words[4]} = ${digits(at, 3)}: ${told.join(", ")}`
+    this.find(".phase-now").textContent = this.phaseAt(at)
+    if (this.rolls) this.ball.show(this.rolls, at)
+    if (moved && orbit.index === TYPED) this.moved(z)
+  }
+
+  phaseAt(at) {
+    const said = new Map()
+    for (const [run, name] of [[this.orbit, "ε → 0"], [this.motion, `ε = ${measured(this.motion?.eps ?? 0)}`]]) {
+      const phase = run?.phases?.findLast(([, from]) => from <= at) ?? run?.phases?.[0]
+      if (!phase) continue
+      const words = `${phaseWords(phase[0], this.rolls)}. ${phase[3]}`
+      said.set(words, [...(said.get(words) ?? []), name])
+    }
+    return [...said].map(([words, runs]) => `${runs.join(" and ")}: ${words}`).join(" ")
   }
 
   hide() {

@@ -10,7 +10,7 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
 from ..lessons.library import lessons
-from ..panels.time import launch_of
+from ..panels.typed_start import launch_of
 from ..phrases import say
 from ..state.chosen import NORMAL, texts_of
 from ..state.controls import InputError

@@ -260,10 +260,10 @@ def test_the_screen_shows_the_marks_the_right_way_up(drawn):
 
 
 def test_a_motion_starts_where_it_is_launched(open_page):
-    page = open_page().open("?panel=time&k1=0&k2=0&launch=-0.3,0.4,0")
+    page = open_page().open("?panel=orbits&orbit_eps=show&k1=0&k2=0&launch=-0.3,0.4,0")
     page.settle()
     *paths, dot = [item for item in page.find(".codim2").evaluate(RECORDER, "above") if item["kind"] == "stroke"]
-    assert {tuple(path["dash"]) for path in paths} == {(), (5, 4)}  # the motion, and its limit
+    assert {tuple(path["dash"]) for path in paths} == {(), (5, 4)}  # the limit, and the motion for eps > 0
     for item in paths:
         assert item["path"][0]["points"][0] == pytest.approx([-0.9, 1.2], abs=0.02)  # radius 1 + rho, rho = 1/2
     assert dot["path"][0]["points"][0] == pytest.approx([-0.9, 1.2], abs=0.05)  # on the rim of its mark

@@ -174,29 +174,34 @@ def test_slow_flow_in_the_plane_of_two_slow_variables(open_page):
         assert way @ flow / np.hypot(*flow) > 0.99
 
 
-def test_time(opened, setting):
-    page = opened("time", launch="0.6, 0.8, 0.3", t_end=3.0, log_eps=-1.0)
-    motion = c2.simulate(system(setting), PSI, 0.1, (0.6, 0.8, 0.3), (0.0, 3.0))
-    upper, lower = plots(page, ".panel-time .series")
-    assert (upper.title, lower.title, lower.word) == ("x y", "z", "t")
-    for plot, column, name, token in [(upper, 0, "s0", "rho"), (upper, 1, "s1", "theta"), (lower, 2, "s0", "rho")]:
-        points, drawn = next((points, it) for points, it in plot.lines(name) if "limit" not in it["name"])
-        assert drawn["stroke"] == colour(page, token)
-        wanted = np.array([motion.dense(t)[column] for t in np.clip(points[:, 0], 0, motion.times[-1])])
-        np.testing.assert_allclose(points[:, 1], wanted, atol=6 * plot.near[1] + 0.01)
+def test_a_typed_start_over_time(opened, setting):
+    page = opened("orbits", launch="0.6, 0.8, 0.3", t_end=3.0, log_eps=-1.0, orbit_eps="show")
+    page.page.wait_for_selector(".phases li")
+    run = c2.simulate(system(setting), PSI, 0.1, (0.6, 0.8, 0.3), (0.0, 3.0))
+    limit = c2.simulate_nonsmooth(system(setting), (0.6, 0.8, 0.3), (0.0, 3.0), psi=PSI)
+    plane, _, radius, slow = plots(page, ".orbit-time .series")
+    assert (plane.title, radius.title, slow.title, slow.word) == ("x y", "r = |p|, outside 1 + ρ", "z", "t")
+    for plot, column, name, token in [(plane, 0, "s0", "rho"), (plane, 1, "s1", "theta"), (slow, 2, "s0", "rho")]:
+        found = plot.lines(name)
+        assert sorted("broken" in it["name"] for _, it in found) == [False, True]
+        for points, drawn in found:
+            motion = run if "broken" in drawn["name"] else limit
+            assert drawn["stroke"] == colour(page, token)
+            wanted = np.array([motion.dense(t)[column] for t in np.clip(points[:, 0], 0, motion.times[-1])])
+            np.testing.assert_allclose(points[:, 1], wanted, atol=6 * plot.near[1] + 0.01)
 
 
 @pytest.mark.parametrize("seed", [(0.45, -0.3), (-1.2, 0.7)])
 def test_an_orbit_over_time(opened, setting, seed):
     x, y = seed
     page = opened("orbits", orbits=f"{x},{y}", orbit_eps="show", log_eps=-2.5)
-    page.page.wait_for_selector(".orbit-key:not([hidden])")
+    page.page.wait_for_selector(".phases li")
     eps, r = 10.0**-2.5, np.hypot(x, y)
     unit = eps if r < 1.0 else 1.0
     state = unit * np.array(seed) * (1.0 / np.sqrt(1.0 - r * r) if r < 1.0 else (r - 1.0) / r)
     plane, angle, radius, slow = plots(page, ".orbit-time .series")
     assert (plane.title, slow.word) == (("x/ε y/ε", "t/ε") if r < 1.0 else ("x y", "t"))
-    (broken,) = [points for points, _ in slow.lines("limit")]
+    (broken,) = [points for points, _ in slow.lines("broken")]
     motion = c2.simulate(system(setting), PSI, eps, (*state, 0.0), (0.0, unit * broken[-1, 0]))
 
     def states(t):
@@ -205,14 +210,14 @@ def test_an_orbit_over_time(opened, setting, seed):
     for name, token, column in [("s0", "rho", 0), ("s1", "theta", 1)]:
         for points, drawn in plane.lines(name):
             assert drawn["stroke"] == colour(page, token)
-            if "limit" in drawn["name"]:
+            if "broken" in drawn["name"]:
                 np.testing.assert_allclose(points[:, 1], states(points[:, 0])[:, column], atol=4 * plane.near[1] + 0.01)
     # the orbit itself: x = r cos theta, y = r sin theta, with the radius of the third plot
     full = {
-        name: next(points for points, it in plane.lines(name) if "limit" not in it["name"]) for name in ("s0", "s1")
+        name: next(points for points, it in plane.lines(name) if "broken" not in it["name"]) for name in ("s0", "s1")
     }
-    theta = next(points for points, it in angle.lines("s2") if "limit" not in it["name"])
-    size = next(points for points, it in radius.lines("s3") if "limit" not in it["name"])
+    theta = next(points for points, it in angle.lines("s2") if "broken" not in it["name"])
+    size = next(points for points, it in radius.lines("s3") if "broken" not in it["name"])
     length = np.hypot(full["s0"][:, 1], full["s1"][:, 1])
     p = length / np.hypot(1.0, length) if r < 1.0 else length
     np.testing.assert_allclose(size[:, 1], p, atol=3 * radius.near[1] + 0.01)

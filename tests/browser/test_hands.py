@@ -159,3 +159,35 @@ def test_a_tap_on_an_object_pins_it(open_page):
     explorer.settle()
     assert explorer.find(".orbit-list li").count() == 1
     assert explorer.find(".card.pinned").is_visible()
+
+
+def test_a_typed_start_is_in_the_link_undone_and_let_move_from_a_launched_orbit(open_page):
+    explorer = open_page().open("?panel=orbits&orbits=1.2,0.8&z=0.25")
+    assert explorer.find("[data-control=t_end]").is_hidden()
+    explorer.find(".orbit-time .here").click()
+    explorer.kept()
+    box = explorer.find("[data-control=launch] input")
+    r = (1.2**2 + 0.8**2) ** 0.5
+    assert [float(word) for word in box.input_value().split(",")] == pytest.approx(
+        [1.2 * (r - 1) / r, 0.8 * (r - 1) / r, 0.25], abs=1e-5
+    )
+    explorer.page.wait_for_selector(".phases li")
+    explorer.find(".orbit-eps input").press("Space")
+    explorer.kept()
+    assert explorer.find("[data-control=log_eps]").is_visible()
+    assert "broken line and bands: ε = 0.01" in explorer.find(".orbit-key").text_content()
+    query = explorer.page.evaluate("location.search")
+    again = open_page().open(query)
+    again.page.wait_for_selector(".phases li")
+    assert again.find(".orbit-typed.chosen").count() == 1
+    assert again.find(".orbit-note").text_content() == explorer.find(".orbit-note").text_content() != ""
+    for _ in range(2):
+        explorer.page.keyboard.press("Control+z")
+        explorer.kept()
+    assert box.input_value() == "0.6, 0.8, 0"
+    assert explorer.find(".orbit-list li.chosen").count() == 1
+    box.fill("0.6, 0.8")
+    box.press("Enter")
+    explorer.settle()
+    assert "give 3 numbers" in explorer.find(".orbit-note").text_content()
+    assert again.complaints == explorer.complaints == []

@@ -14,7 +14,7 @@ TOO_WIDE = """() => {
         .filter((e) => e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).display !== 'inline')
         .map((e) => e.className) }"""
 
-OWN = ["Atlas", "Numbers", "Planes", "Diagram", "Theorems", "Along z", "3-D", "Time", "Ψ"]
+OWN = ["Atlas", "Numbers", "Planes", "Diagram", "Theorems", "Along z", "3-D", "Orbits", "Ψ"]
 
 
 def value(explorer, name):

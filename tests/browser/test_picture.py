@@ -53,10 +53,12 @@ def test_a_mark_tells_its_numbers(explorer):
 
 
 def test_a_motion_lies_above_the_picture_and_leaves_it_alone(explorer):
-    explorer.open("?k1=0&k2=0&panel=time")  # z follows the motion, and the portrait does not depend on z
+    explorer.open(
+        "?k1=0&k2=0&panel=orbits&orbit_eps=show"
+    )  # z follows the motion, and the portrait does not depend on z
     assert [item["kind"] for item in explorer.ask("picture.above.list")] == ["path", "path", "mark"]
     before = explorer.ask("[picture.drawn.paints, picture.above.paints]")
-    explorer.find(".panel-time .series").press("ArrowRight")
+    explorer.find(".panel-orbits .series").press("ArrowRight")
     explorer.settle().painted()
     after = explorer.ask("[picture.drawn.paints, picture.above.paints]")
     assert after[0] == before[0]

@@ -140,7 +140,7 @@ def test_one_finger_leaves_the_picture_where_it_is_and_two_move_it(touched):
 
 def test_what_a_link_asked_in_vain_is_read_where_its_control_is_in_a_closed_sheet(open_page):
     page = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
-    page.open("?v=1&psi=hill&n=-3&panel=time&trajectories=-4").settle()
+    page.open("?v=1&psi=hill&n=-3&panel=orbits&trajectories=-4").settle()
 
     def told(what):
         return [text for text in page.find(".banner, .error").filter(visible=True).all_text_contents() if what in text]
@@ -152,9 +152,9 @@ def test_what_a_link_asked_in_vain_is_read_where_its_control_is_in_a_closed_shee
     assert "−3" not in page.find(".banner").text_content()  # it is read beside its control
     sheet(page, "inspector")
     assert "−3" in page.find(".banner").text_content()
-    page.open("?v=1&panel=time").settle()
+    page.open("?v=1&panel=orbits").settle()
     assert page.find(".legend").bounding_box()["height"] == height
-    tab, strip = page.find("#c2-tab-time").bounding_box(), page.find(".tabs").bounding_box()
+    tab, strip = page.find("#c2-tab-orbits").bounding_box(), page.find(".tabs").bounding_box()
     assert strip["x"] < tab["x"] < tab["x"] + tab["width"] < strip["x"] + strip["width"]
     for row in (".legend", ".reading", ".tabs"):
         assert "linear-gradient" in page.find(row).evaluate("(row) => getComputedStyle(row).maskImage")

@@ -92,17 +92,17 @@ def test_play_drifts_along_the_slow_flow_to_its_equilibrium(explorer):
 
 def test_a_motion_plays_in_step_in_all_views(explorer):
     choose(explorer, "ball_in_pool")
-    open_panel(explorer, "Time")
+    open_panel(explorer, "Orbits")
     explorer.page.wait_for_selector(".phases li:nth-child(2)")
     start = value(explorer, "slow-z")
-    explorer.find(".panel-time .play").click()
+    explorer.find(".panel-orbits .play").click()
     explorer.until(f"Number(root.querySelector('[data-control=slow-z] .number').value) !== {start}")
-    explorer.find(".panel-time .play").click()
+    explorer.find(".panel-orbits .play").click()
     explorer.settle()
-    assert "t =" in explorer.find(".phase-now").text_content()
+    assert "t =" in explorer.find(".orbit-now").text_content()
     assert value(explorer, "slow-z") != start
     drawn = explorer.find(".codim2").evaluate("(root) => root.explorer.picture.above.list.map((item) => item.kind)")
-    assert drawn == ["path", "path", "mark"]
+    assert drawn == ["path", "mark"]
 
 
 def test_the_solid_view_turns_without_asking_the_server(explorer):

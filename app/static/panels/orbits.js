@@ -1,36 +1,53 @@
-// The panel "Orbits": what was launched, where each goes and comes from; hide, name, remove; the chosen one over time.
+// The panel "Orbits": what was launched, where each goes and comes from; hide, name, remove; a start that is typed; and
+// the chosen one over time, for ε → 0 and with one tick for ε > 0.
 
+import {slider} from "../controls.js"
 import {changed, cleanName, coloursOf, readLaunches, without, writeLaunches} from "../launches.js"
-import {MARKUP, OrbitInTime} from "../orbit_in_time.js"
+import {MARKUP, OrbitInTime, TYPED} from "../orbit_in_time.js"
 import {register} from "../panels.js"
-import {escape, measured, pair} from "../words.js"
+import {escape, measured, pair, plain, slowName} from "../words.js"
 
 const COLOURS = 6
+const SHORT = 0.999 // of the time asked for: what ends before says why
 
 class Orbits {
   constructor(box, tools) {
-    box.innerHTML = `<p class="note orbits-hint">Click or tap the picture: the orbit through that point. Press and drag, and it follows. Drag its start to move it.</p>
-      <ol class="orbit-list"></ol><div class="row"><button type="button" class="clear" hidden>Remove all</button></div>${MARKUP}<p class="note orbit-note"></p>`
-    this.list = box.querySelector(".orbit-list")
-    this.clear = box.querySelector(".clear")
+    const {symbols, docs} = tools
+    const number = (name) => slider(name, symbols[name], docs[name])
+    box.innerHTML = `<p class="note orbits-hint">Click or tap the picture: the orbit through that point, at the present z. Press and drag, and it follows. Drag its start to move it. From a typed start z moves too.</p>
+      <ol class="orbit-list"></ol>
+      <div class="control typed orbit-typed" data-control="launch"><button type="button" class="choose" title="Show over time" aria-label="Show the typed start over time"><i class="orbit-colour"></i></button><label for="c2-launch">start</label><input type="text" id="c2-launch" class="text" placeholder="x, y, z₁, …" spellcheck="false" autocomplete="off"><p class="error" role="alert" hidden></p></div>
+      <div class="row"><button type="button" class="clear" hidden>Remove all</button></div>
+      <div class="orbit-set"><label class="orbit-eps"><input type="checkbox"><span></span></label>${number("log_eps")}${number("t_end")}</div>
+      ${MARKUP}<p class="note orbit-note"></p>`
+    this.find = (name) => box.querySelector(name)
+    this.list = this.find(".orbit-list")
+    this.clear = this.find(".clear")
     this.tools = tools
     this.words = {goes: [], comes: []}
     this.shown = null
-    this.inTime = new OrbitInTime(box.querySelector(".orbit-time"), tools.trace, tools.slowSymbols)
+    this.inTime = new OrbitInTime(this.find(".orbit-time"), tools, (z) => this.follow(z))
     this.orbit = this.motion = null
-    this.note = box.querySelector(".orbit-note")
+    this.note = this.find(".orbit-note")
     this.open = false
-    this.eps = box.querySelector(".orbit-eps input")
-    this.epsWord = box.querySelector(".orbit-eps span")
+    this.eps = this.find(".orbit-eps input")
+    this.here = this.find(".here")
+    this.typed = this.find(".orbit-typed")
+    this.start = this.typed.querySelector("input")
+    this.start.value = tools.values.launch
+    tools.follow("launch", (value) => { this.start.value = value })
+    this.start.addEventListener("change", () => { tools.choose("launch", this.start.value); this.choose(0) })
+    this.typed.querySelector(".choose").addEventListener("click", () => this.choose(0))
+    this.here.addEventListener("click", () => this.startHere())
     this.eps.addEventListener("change", () => tools.choose("orbit_eps", this.eps.checked ? "show" : "hide"))
     this.clear.addEventListener("click", () => this.put([]))
     this.list.addEventListener("click", (event) => {
       const button = event.target.closest("button")
       if (!button) return
       const i = Number(button.closest("li").dataset.orbit), launches = this.launches()
-      if (button.classList.contains("choose")) tools.choose("orbit", i + 1)
+      if (button.classList.contains("choose")) this.choose(i + 1)
       else if (button.classList.contains("remove")) {
-        if (i + 1 < tools.values.orbit) tools.choose("orbit", tools.values.orbit - 1)
+        if (i + 1 < tools.values.orbit) this.choose(tools.values.orbit - 1)
         this.put(without(launches, i))
       }
       else if (button.classList.contains("hide")) this.put(changed(launches, i, {hidden: !launches[i].hidden}))
@@ -43,6 +60,10 @@ class Orbits {
 
   launches() { return readLaunches(this.tools.values.orbits) }
   put(launches) { this.tools.choose("orbits", writeLaunches(launches)) }
+  choose(number) { this.tools.choose("orbit", number) }
+
+  // Of the launched ones, the number that is chosen, from 1; 0 is the typed start.
+  get chosen() { return Math.min(this.tools.values.orbit, this.launches().length) }
 
   apply({header}, late) {
     if (header.launched) this.words = header.launched
@@ -58,7 +79,7 @@ class Orbits {
   draw(values) {
     if (values) this.open = true
     this.show()
-    if (this.open) this.follow()
+    if (this.open) this.showInTime()
   }
 
   close() {
@@ -66,26 +87,60 @@ class Orbits {
     this.inTime.hide()
   }
 
-  // The chosen orbit over time, where it is shown and has come.
-  follow() {
-    const {values} = this.tools
-    const launches = this.launches(), k = Math.min(values.orbit, launches.length) - 1
-    const shown = k >= 0 && !launches[k].hidden, wanted = values.orbit_eps === "show"
-    const index = launches.slice(0, Math.max(k, 0)).filter((one) => !one.hidden).length
+  // The chosen one over time, where it is shown and has come.
+  showInTime() {
+    const {values} = this.tools, {chosen} = this
+    const launches = this.launches(), typed = chosen === 0
+    const shown = typed || !launches[chosen - 1].hidden, wanted = values.orbit_eps === "show"
+    const index = typed ? TYPED : launches.slice(0, chosen - 1).filter((one) => !one.hidden).length
+    this.typed.classList.toggle("chosen", typed)
+    this.typed.querySelector(".choose").setAttribute("aria-pressed", typed)
     this.eps.checked = wanted
-    this.epsWord.textContent = `and for ε = ${measured(10 ** values.log_eps)} (set in Time)`
-    this.inTime.show(shown && this.orbit?.index === index ? this.orbit : null, wanted && !this.old ? this.motion : null)
-    this.note.textContent = [shown ? this.why : "", shown && wanted ? this.whyMotion : ""].filter(Boolean).join(" ")
+    this.find(".orbit-eps span").textContent = wanted ? `and for ε = ${measured(10 ** values.log_eps)}` : "and for ε > 0"
+    this.find("[data-control=log_eps]").hidden = !wanted
+    this.find("[data-control=t_end]").hidden = !typed
+    const outside = !typed && Math.hypot(launches[chosen - 1].x, launches[chosen - 1].y) > 1
+    this.here.hidden = !typed && !outside
+    this.here.textContent = typed ? "start at this z" : "let z move from here"
+    this.here.title = typed ? "Start from the z of the sliders" : "A typed start at this point and the z of the sliders"
+    const orbit = shown && this.orbit?.index === index ? this.orbit : null
+    const motion = wanted && !this.old && this.motion?.index === index ? this.motion : null
+    this.inTime.show(orbit, motion)
+    this.note.textContent = (typed && orbit ? this.ends(orbit, motion) : [shown ? this.why : "", shown && wanted ? this.whyMotion : ""]).filter(Boolean).join(" ")
+  }
+
+  ends(orbit, motion) {
+    const early = (run, words) => run && run.t.at(-1) < this.inTime.end * SHORT ? `${words}${run.reason}` : ""
+    return [motion?.agreement, early(motion, ""), early(orbit, motion ? "The limit: " : "")]
+  }
+
+  // The other views follow the time of a typed start: the portrait is that of the present z.
+  follow(z) {
+    this.tools.move(Object.fromEntries(z.slice(0, 4).map((value, i) => [slowName(i), Number(value.toPrecision(6))])))
+  }
+
+  // A typed start: where the chosen launched orbit starts, or the present start, at the z of the sliders.
+  startHere() {
+    const {values} = this.tools, {chosen, orbit} = this
+    let [x, y] = orbit.start ?? []
+    if (chosen) {
+      const one = this.launches()[chosen - 1], r = Math.hypot(one.x, one.y)
+      ;[x, y] = [one.x * (r - 1) / r, one.y * (r - 1) / r]
+    }
+    const start = [x, y, ...Array.from({length: orbit.m}, (_, i) => values[slowName(i)] ?? 0)].map(plain).join(", ")
+    this.start.value = start
+    this.tools.choose("launch", start)
+    this.choose(0)
   }
 
   show() {
-    const launches = this.launches(), colours = coloursOf(launches, COLOURS)
+    const launches = this.launches(), colours = coloursOf(launches, COLOURS), {chosen} = this
     let at = -1
     const rows = launches.map((one, i) => {
       if (!one.hidden) at += 1
       const goes = one.hidden ? "hidden" : this.words.goes[at] ?? "", comes = one.hidden ? "" : this.words.comes[at] ?? ""
-      const chosen = i === Math.min(this.tools.values.orbit, launches.length) - 1
-      return `<li data-orbit="${i}"${chosen ? " class=\"chosen\"" : ""}><button type="button" class="choose" aria-pressed="${chosen}" title="Show over time" aria-label="Show orbit ${i + 1} over time"><i class="orbit-colour" style="background: ${one.hidden ? "transparent" : `var(--launch-${colours[i]})`}"></i></button>
+      const mine = i === chosen - 1
+      return `<li data-orbit="${i}"${mine ? " class=\"chosen\"" : ""}><button type="button" class="choose" aria-pressed="${mine}" title="Show over time" aria-label="Show orbit ${i + 1} over time"><i class="orbit-colour" style="background: ${one.hidden ? "transparent" : `var(--launch-${colours[i]})`}"></i></button>
         <input type="text" class="orbit-name" value="${escape(one.name)}" placeholder="${escape(pair([one.x, one.y]))}" aria-label="name of orbit ${i + 1}" maxlength="24">
         <button type="button" class="hide" aria-pressed="${one.hidden}" title="Hide or show" aria-label="Hide or show orbit ${i + 1}">${one.hidden ? "○" : "●"}</button>
         <button type="button" class="remove" title="Remove" aria-label="Remove orbit ${i + 1}">×</button>

@@ -70,7 +70,7 @@ def test_what_differs_in_meaning_differs_by_dashes_and_carries_its_arrows():
     carry = {"outside", "inside", "continuations", "separatrices_stable", "separatrices_unstable", "cycles"}
     carry |= {f"launched_{k}" for k in range(1, 7)}
     assert {name for name, part in parts.items() if part.arrows} == carry
-    assert [(part.name, bool(part.dash)) for part in TRACES] == [("limit", True), ("motion", False)]
+    assert [(part.name, bool(part.dash)) for part in TRACES] == [("limit", False), ("motion", True)]
     assert (parts["rho_inside"].scene, parts["rho_outside"].scene) == ("nullclines_inside", "nullclines_outside")
     assert (parts["lines_inside"].colour, parts["lines_outside"].colour) == ("lines-in", "lines-out")
 

@@ -1,4 +1,4 @@
-"""The panel "Orbits": the chosen orbit over time, and its motion for eps > 0, against the core."""
+"""The panel "Orbits": the chosen orbit or start over time, and its motion for eps > 0, against the core."""
 
 import json
 import math
@@ -12,6 +12,7 @@ from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import orbits
 from codim2_app.state.controls import ExplorerState
+from codim2_app.state.launches import TYPED
 
 INSIDE, OUTSIDE = "0.6,0.3", "1.4,0.6"
 
@@ -79,11 +80,61 @@ def test_what_has_not_changed_is_not_sent_again():
     assert "orbit" in frame(f1=-0.3)
 
 
-def test_a_hidden_orbit_and_none_bring_nothing_and_the_place_counts_those_that_are_shown():
+def test_a_hidden_orbit_brings_nothing_and_the_place_counts_those_that_are_shown():
     frame = visitor(orbits=f"{INSIDE},-;{OUTSIDE}")
     assert frame() == {}
     assert frame(orbit=2)["orbit"]["index"] == 0
-    assert visitor()() == {}
+
+
+@pytest.mark.parametrize("given", [{}, {"orbits": f"{INSIDE};{OUTSIDE}", "orbit": 0}])
+def test_the_typed_start_is_chosen_by_its_number_and_where_nothing_was_launched(given):
+    header = visitor(**given, launch="1.5, -0.5, 0.25", t_end=2.0)()
+    orbit = header["orbit"]
+    assert (orbit["index"], orbit["m"], orbit["start"]) == (TYPED, 1, [1.5, -0.5, 0.25])
+    rho = math.hypot(1.5, 0.5)
+    first = [column[0] for column in orbit["states"]]
+    assert first == pytest.approx([1.5, -0.5, math.atan2(-0.5, 1.5), 1.0 + rho, 0.25], rel=1e-4)
+    assert [column[0] for column in orbit["picture"]] == pytest.approx(
+        [1.5 * (1.0 + rho) / rho, -0.5 * (1.0 + rho) / rho], rel=1e-4
+    )
+    assert orbit["t"][-1] == 2.0
+    assert "orbit_motion" not in header
+
+
+def test_from_the_typed_start_to_a_launched_orbit_and_back_each_brings_its_own_again():
+    frame = visitor(orbits=OUTSIDE, orbit_eps="show")
+    first = frame()
+    assert (first["orbit"]["index"], first["orbit_motion"]["index"]) == (0, 0)
+    typed = frame(orbit=0)
+    assert (typed["orbit"]["index"], typed["orbit_motion"]["index"]) == (TYPED, TYPED)
+    again = frame(orbit=1)
+    assert (again["orbit"], again["orbit_motion"]) == (first["orbit"], first["orbit_motion"])
+    assert frame(orbit=0)["orbit_motion"] == typed["orbit_motion"]
+
+
+def test_a_start_that_was_mended_is_sent_again():
+    frame = visitor(launch="1.5, -0.5, 0.25")
+    first = frame()["orbit"]
+    assert "give 3 numbers" in frame(launch="1.5, -0.5")["unable"]["orbit"]
+    assert frame(launch="1.5, -0.5, 0.25")["orbit"] == first
+
+
+def test_the_tick_adds_the_motion_for_eps_and_leaves_the_limit_as_it_is():
+    frame = visitor(launch="1.5, -0.5, 0.25", t_end=2.0, log_eps=-3.0)
+    limit = frame()["orbit"]
+    both = frame(orbit_eps="show")
+    assert {name: both["orbit"][name] for name in ("t", "states", "phases")} == {
+        name: limit[name] for name in ("t", "states", "phases")
+    }
+    motion = both["orbit_motion"]
+    assert motion["eps"] == pytest.approx(1e-3)
+    assert "phases" in motion["agreement"]
+    for k in (0, 1, 4):
+        gap = np.interp(limit["t"], motion["t"], motion["states"][k]) - limit["states"][k]
+        assert np.abs(gap).max() < 0.02
+    without = frame(orbit_eps="hide")
+    assert without["orbit"] == limit
+    assert "orbit_motion" not in without
 
 
 def test_an_orbit_on_the_equator_says_why_it_has_no_time():
@@ -107,6 +158,8 @@ def test_for_small_eps_the_motion_is_the_orbit_and_outside_it_goes_on_beyond_sig
         np.testing.assert_allclose(np.interp(np.array(orbit["t"])[until], t, mine), np.array(other)[until], atol=0.02)
     assert bool(t[-1] > 1.2 * orbit["t"][-1]) is not orbit["fast"]
     assert len(motion["states"]) == 5  # and z
+    begins, *_, ends = motion["phases"][0][1], motion["phases"][-1][2]
+    assert (begins, ends) == pytest.approx((0.0, t[-1]), rel=1e-3)  # in the units of the orbit
 
 
 def test_nothing_is_followed_by_the_thread_that_answers_and_nothing_while_something_moves():

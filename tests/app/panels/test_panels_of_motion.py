@@ -1,4 +1,4 @@
-"""The panels "Along z", "3-D", "Time" and "Ψ": what the browser is sent, against the core and closed forms."""
+"""The panels "Along z", "3-D", "Ψ", and "Orbits" from a typed start: what is sent, against core and closed forms."""
 
 import json
 from concurrent.futures import Executor, Future
@@ -10,8 +10,8 @@ from codim2_app.frame.draft import Draft
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import along as panel_along
-from codim2_app.panels import filippov, psi, solid, time
-from codim2_app.panels.time import launch_of
+from codim2_app.panels import filippov, orbits, psi, solid
+from codim2_app.panels.typed_start import launch_of
 from codim2_app.state.controls import ExplorerState, InputError, opening
 from codim2_app.view.refresh import Frames
 
@@ -38,7 +38,7 @@ def sent(panel, *, rest=True, **changes):
     return draft.header
 
 
-@pytest.mark.parametrize("panel", [panel_along, solid, time])
+@pytest.mark.parametrize("panel", [panel_along, solid, orbits])
 def test_while_controls_move_nothing_is_computed(panel):
     header = sent(panel, rest=False, system="ball_in_pool")
     assert set(header) - {"drift"} == {"late"}  # what play follows is known at once
@@ -115,39 +115,41 @@ def test_the_stack_carries_critical_sets_and_limit_directions_of_every_height():
 
 
 def test_the_motion_of_a_ball_slips_then_slides_and_its_limit_lies_over_it():
-    header = sent(time, system="ball_in_pool", log_eps=-4.0)
-    motion, limit = header["motion"], header["limit"]
+    header = sent(orbits, system="ball_in_pool", orbit_eps="show", log_eps=-4.0)
+    motion, limit = header["orbit_motion"], header["orbit"]
     assert [p[0] for p in motion["phases"]] == [p[0] for p in limit["phases"]] == ["slip", "slide"]
     assert motion["phases"][1][1] == pytest.approx(limit["phases"][1][1], abs=1e-3)
-    for smooth, sharp in zip(motion["states"], limit["states"], strict=True):
-        np.testing.assert_allclose(np.interp(limit["t"], motion["t"], smooth), sharp, atol=5e-3)
+    slips = np.array(limit["t"]) < 0.9 * limit["phases"][1][1]
+    for k, (smooth, sharp) in enumerate(zip(motion["states"], limit["states"], strict=True)):
+        gap = np.abs(np.interp(limit["t"], motion["t"], smooth) - sharp)
+        assert gap[slips if k in (2, 3) else ...].max() < 5e-3  # then p jumps up the hemisphere in the limit
     ends = [np.array(run["picture"])[:, -1] for run in (motion, limit)]
     np.testing.assert_allclose(*ends, atol=2e-3)
     ball = motion["ball"]
     assert len(ball["turns"]) == len(ball["centre"][0]) == len(motion["t"])
-    v1 = np.array(motion["states"][2])
+    v1 = np.array(motion["states"][4])
     way = np.concatenate([[0.0], np.cumsum(np.diff(motion["t"]) * (v1[1:] + v1[:-1]) / 2)])
     np.testing.assert_allclose(ball["centre"][0], way, atol=2e-3)
     assert ball["radius"] == pytest.approx(0.07 * way[-1], rel=1e-3)
 
 
 def test_the_limit_is_drawn_on_the_set_that_the_words_name():
-    header = sent(time, system="nonunique_sliding", launch="0.25, 0.3, 0", t_end=2.0, log_eps=-2.0)
-    motion, limit = header["motion"], header["limit"]
-    assert [(p[0], p[4]) for p in motion["phases"]] == [(p[0], p[4]) for p in limit["phases"]]
-    assert limit["phases"][1][4] == "C3"
+    given = {"system": "nonunique_sliding", "launch": "0.25, 0.3, 0", "t_end": 2.0, "orbit_eps": "show"}
+    header = sent(orbits, **given, log_eps=-2.0)
+    motion, limit = header["orbit_motion"], header["orbit"]
+    assert [p[0] for p in motion["phases"]] == [p[0] for p in limit["phases"]]
     assert "C₃" in limit["phases"][1][3]
     ends = [np.array(run["picture"])[:, -1] for run in (motion, limit)]
     np.testing.assert_allclose(*ends, atol=0.02)
     assert ends[1][0] > 0.9
     assert motion["same"]
-    coarse = sent(time, system="nonunique_sliding", launch="0.25, 0.3, 0", t_end=2.0, log_eps=-0.5)["motion"]
+    coarse = sent(orbits, **given, log_eps=-0.5)["orbit_motion"]
     assert not coarse["same"]
     assert "not those of the limit" in coarse["agreement"]
 
 
 def test_a_jump_up_the_hemisphere_takes_no_time():
-    limit = sent(time, system="attracting_repelling", launch="0.3, 0.6, 1", t_end=3.0)["limit"]
+    limit = sent(orbits, system="attracting_repelling", launch="0.3, 0.6, 1", t_end=3.0)["orbit"]
     arrival = limit["phases"][1][1]
     at = np.flatnonzero(np.abs(np.array(limit["t"]) - arrival) < 1e-4)
     radius = np.hypot(*np.array(limit["picture"])[:, at])
@@ -159,14 +161,14 @@ def test_a_jump_up_the_hemisphere_takes_no_time():
 @pytest.mark.parametrize("launch", ["", "1,2", "1,2,3,4", "a,b,c", "1,2,nan"])
 def test_a_start_that_is_no_state_is_told(launch):
     with pytest.raises(InputError, match=r"give 3 numbers: x, y, z\."):
-        time.launch_of({"system": "own", "launch": launch, "t_end": 1.0, "log_eps": -2.0}, 1)
-    assert "give 3 numbers" in sent(time, launch=launch)["unable"]["motion"]
+        launch_of({"system": "own", "launch": launch, "t_end": 1.0, "log_eps": -2.0}, 1)
+    assert "give 3 numbers" in sent(orbits, launch=launch)["unable"]["orbit"]
 
 
 @pytest.mark.parametrize("log_eps", [-14.5, 7.0, 100.0])
 def test_an_eps_that_no_motion_takes_is_told(log_eps):
     with pytest.raises(InputError, match="from -14 to 6") as caught:
-        time.launch_of({"launch": "1,2,3", "t_end": 1.0, "log_eps": log_eps}, 1)
+        launch_of({"launch": "1,2,3", "t_end": 1.0, "log_eps": log_eps}, 1)
     assert caught.value.control == "log_eps"
 
 
@@ -197,10 +199,10 @@ def test_psi_is_sent_once_and_as_it_is(family):
 @pytest.mark.parametrize(("m", "W"), [(0, ""), (2, "1\nz1"), (3, "1\nz1\nz2")])
 def test_the_first_start_has_as_many_numbers_as_the_system(m, W):
     texts = {"U1": "-c", "U2": "-s", "W": W, "where": ""}
-    frames = Frames(ExplorerState(system="own", texts=texts, panel="time", layers=[], launch="0.6, 0.8, 0"))
+    frames = Frames(ExplorerState(system="own", texts=texts, panel="orbits", layers=[], launch="0.6, 0.8, 0"))
     header, _ = unpack(frames.answer({"all": True, "rest": True}))
     assert "" not in header["errors"]
-    assert "motion" not in header.get("unable", {})
+    assert "orbit" not in header.get("unable", {})
     start, _ = launch_of(frames.values, m)
     assert start == (0.6, 0.8, *(0.0,) * m)
     with pytest.raises(InputError, match=f"give {2 + m} numbers"):

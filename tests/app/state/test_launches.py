@@ -3,7 +3,7 @@
 import pytest
 from codim2_app.draw.packing import unpack
 from codim2_app.state.controls import ExplorerState, InputError, clean
-from codim2_app.state.launches import MOST, Launch, chosen, read_launches
+from codim2_app.state.launches import MOST, TYPED, Launch, chosen, read_launches
 from codim2_app.view.refresh import Frames
 
 
@@ -57,7 +57,8 @@ def test_without_orbits_a_slider_sends_nothing_of_them():
 @pytest.mark.parametrize(
     ("text", "number", "place"),
     [
-        ("", 1, None),
+        ("", 1, TYPED),
+        ("0,0", 0, TYPED),
         ("0,0", 1, 0),
         ("0,0", 9, 0),
         ("0,0,-", 1, None),

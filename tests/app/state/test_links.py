@@ -83,7 +83,18 @@ def test_a_link_may_name_a_system_and_opens_where_that_starts(version):
 @pytest.mark.parametrize("choice", titles())
 def test_a_system_opens_on_a_panel_that_can_show_something(choice):
     assert (read_link(f"system={choice}").state.panel == "atlas") == has_atlas(choice)
-    assert read_link(f"system={choice}&panel=time").state.panel == "time"
+    assert read_link(f"system={choice}&panel=solid").state.panel == "solid"
+
+
+@pytest.mark.parametrize("query", ["{}", "v=1&{}", "v=1&preset=ball-dynamic&{}", "v=1&system=ball_in_pool&{}"])
+def test_a_link_to_the_panel_time_opens_the_same_motion_in_orbits(query):
+    carried = "orbits=0.4,0.3&orbit=1&orbit_eps=hide&launch=0.6,0.8,0.3&t_end=3&log_eps=-1.5"
+    for told in (f"panel=time&{carried}", squeezed(f"v=1&panel=time&{carried}")):
+        link = read_link(query.format(told))
+        state = link.state
+        assert link.errors == ()
+        assert (state.panel, state.orbit, state.orbit_eps) == ("orbits", 0, "show")
+        assert (state.launch, state.t_end, state.log_eps, state.orbits) == ("0.6,0.8,0.3", 3.0, -1.5, "0.4,0.3")
 
 
 def test_bad_values_are_told_and_the_rest_is_kept():
@@ -146,7 +157,7 @@ def test_the_browser_writes_the_same_links():
     settings = config(ExplorerState())
     cases = [
         first_values(), {**first_values(), "f1": 1e-7, "layers": ["rho"], "orbits": "0.3,0.2;1,1"},
-        *(preset_values(key) for key in KEYS), {**preset_values("case3-n3"), "z": -0.25, "panel": "time"},
+        *(preset_values(key) for key in KEYS), {**preset_values("case3-n3"), "z": -0.25, "panel": "orbits", "orbit": 0},
         {**preset_values("case3-n3"), **read_link("system=own").state.values(), "preset": "case3-n3"},
         {**first_values(), "system": "typed", "texts": {"a": "-1 + z & 2"}, "parameters": {"mu": 0.5}},
         {**first_values(), "system": "ball_in_pool", "across": "f1"},

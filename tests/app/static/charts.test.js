@@ -5,7 +5,6 @@ import test from "node:test"
 import "../../../app/static/panels/along.js"
 import "../../../app/static/panels/planes.js"
 import "../../../app/static/panels/psi.js"
-import "../../../app/static/panels/time.js"
 import {named, near, opened, plots, wide} from "./reading.js"
 
 // --- along
@@ -177,78 +176,4 @@ test("the panel psi: Ψ itself, and the step of each ε at its scale", () => {
   near(named(lower.lines, "limit")[0].points, [[-1, -1], [0, -1], [0, 1], [1, 1]])
   assert.deepEqual(one.texts(".psi-key span"), [" ε = 1", " ε = 0.3", " ε = 0.1", " ε = 0.316228", " ε → 0: sign l"])
   assert.deepEqual(one.all(".psi-key path").map((it) => it.getAttribute("class")), ["series-line s3", "series-line s1", "series-line s0", "series-line present", "series-line limit"])
-})
-
-// --- time
-const MOTION = {t: [0, 1, 3], states: [[1, 2, 0], [-1, -2, -1.5], [0.5, 1, 3]], picture: [[0.2, 0.4, 0.9], [-0.1, 0.3, 0.5]], phases: [["slip", 0, 1, "Free.", ""], ["slide", 1, 3, "Along C.", ""]], agreement: "They agree.", reason: "It left.", eps: 0.01, start: [1, -1, 0.5], ball: null}
-const LIMIT = {t: [0, 2, 4], states: [[1, 1.5, 0.5], [-1, -0.5, 0], [0.5, 0.75, 2]], picture: [[0.2, 0.3, 0.8], [-0.1, 0, 0.1]], phases: [["cross", 0.5, 4, "Through.", ""]], reason: "To its end."}
-const VALUES = {launch: "1, -1, 0.5", t_end: 4, log_eps: -2, z: 0.5}
-
-test("the panel time: each coordinate over time, for ε in full, for the limit broken", () => {
-  const one = opened("time", {...VALUES})
-  one.frame({motion: MOTION, limit: LIMIT})
-  const [plane, slow] = plots(one.find(".series"))
-  assert.deepEqual([plane.title, slow.title, slow.word], ["x y", "z", "t"])
-  const of = (run, c) => run.t.map((t, i) => [t, run.states[c][i]])
-  near(plane.lines.map(({points}) => points), [of(LIMIT, 0), of(MOTION, 0), of(LIMIT, 1), of(MOTION, 1)], 0.03)
-  assert.deepEqual(plane.lines.map(({name}) => name.trim()), ["series-line s0 limit", "series-line s0", "series-line s1 limit", "series-line s1"])
-  near(slow.lines.map(({points}) => points), [of(LIMIT, 2), of(MOTION, 2)], 0.03)
-  near(plane.bands.map(({from, to}) => [from, to]), [[0, 1], [1, 3]], 0.03)
-  assert.deepEqual(plane.bands.map(({name}) => name), ["slip", "slide"])
-  assert.equal(one.find(".time-note").textContent, "They agree. It left.")
-  assert.deepEqual(one.texts(".phases li"), ["0.500crosses: Through."])
-  one.frame({limit: {...LIMIT, t: [0, 1, 2]}})
-  assert.equal(one.find(".time-note").textContent, "They agree. The limit: To its end.")
-})
-
-test("the panel time: the moving point, the phase and z are those of the chosen time", () => {
-  const one = opened("time", {...VALUES})
-  one.frame({motion: MOTION, limit: LIMIT})
-  one.said()
-  const svg = one.find(".series"), [plot] = plots(svg)
-  const at = (t) => { one.fire(svg, "pointerdown", {clientX: plot.x.back(t), clientY: 40}); one.fire(svg, "pointerup"); return Object.fromEntries(one.said().map(([what, ...all]) => [what, all])) }
-  let did = at(2)
-  near(did.trace[1], [0.65, 0.4])
-  assert.deepEqual(did.trace[0], [MOTION.picture, LIMIT.picture])
-  near([did.move[0].z], [2])
-  assert.match(one.find(".phase-now").textContent, /^t = 2\.\d\d: slides\. Along C\.$/)
-  did = at(0.5)
-  near(did.trace[1], [0.3, 0.1])
-  near([did.move[0].z], [0.75])
-  assert.match(one.find(".phase-now").textContent, /: slips\. Free\.$/)
-  near(at(4).trace[1], [0.9, 0.5]) // after its end it stays there
-  near([Number(svg.getAttribute("aria-valuenow"))], [4])
-  at(1)
-  one.fire(svg, "keydown", {key: "ArrowRight"})
-  near([Number(svg.getAttribute("aria-valuenow"))], [1.04])
-  one.fire(svg, "keydown", {key: "ArrowLeft"}); one.fire(svg, "keydown", {key: "ArrowLeft"}); one.fire(svg, "keydown", {key: "ArrowUp"})
-  near([Number(svg.getAttribute("aria-valuenow"))], [0.96])
-  one.said()
-  one.set({z: -0.375})
-  one.fire(one.find(".here"), "click")
-  assert.deepEqual(one.said().filter(([what]) => what === "move"), [["move", {launch: "1, -1, -0.375"}]])
-})
-
-test("the panel time: play takes nine seconds for the whole motion, and begins again at its end", () => {
-  const one = opened("time", {...VALUES})
-  one.frame({motion: MOTION, limit: LIMIT})
-  const now = () => Number(one.find(".series").getAttribute("aria-valuenow"))
-  one.fire(one.find(".play"), "click")
-  for (let i = 0; i < 100; i++) one.tick(16)
-  near([now()], [1.6 * 4 / 9], 1e-6)
-  assert.equal(one.find(".play").textContent, "❚❚ Pause")
-  for (let i = 0; i < 500; i++) one.tick(16)
-  near([now()], [4], 1e-6)
-  assert.equal(one.find(".play").textContent, "▶ Play")
-  one.fire(one.find(".play"), "click")
-  one.tick(16)
-  near([now()], [0.016 * 4 / 9], 1e-6)
-  one.fire(one.find(".play"), "click")
-  one.tick(200)
-  near([now()], [0.016 * 4 / 9], 1e-6)
-  one.frame({unable: {motion: "It cannot."}})
-  assert.deepEqual([one.find(".time-body").hidden, one.find(".time-note").textContent], [true, "It cannot."])
-  one.said()
-  one.panels.show("", one.values)
-  assert.deepEqual(one.said(), [["trace", null]])
 })

@@ -22,7 +22,6 @@ import "../../../app/static/panels/planes.js"
 import "../../../app/static/panels/psi.js"
 import "../../../app/static/panels/solid.js"
 import "../../../app/static/panels/theorems.js"
-import "../../../app/static/panels/time.js"
 
 /** Names of what is kept: "along-node", … */
 export const names = () => readdirSync(KEPT).filter((file) => /^panel-.*\.json$/.test(file)).map((file) => file.slice(6, -5)).sort()
@@ -62,7 +61,7 @@ const HANDS = {
   ],
   numbers: [["values", {z: -7.3}], ["frame", {slow_flow: [-0.4, 2]}], ["frame", {slow_flow: [0]}], ["frame", {slow_flow: []}], ["frame", {unable: {outcomes: "Not here."}}], ["late", ["outcomes"]]],
   orbits: [
-    [".orbit-time .series", "pointerdown", {clientX: 200, clientY: 60}], [".orbit-time .series", "pointerup"], [".orbit-time .series", "keydown", {key: "ArrowLeft"}], [".orbit-time .play", "click"], [33], [33], [".orbit-time .play", "click"], [".choose@1", "click"], [".orbit-eps input", "change"],
+    [".orbit-time .series", "pointerdown", {clientX: 200, clientY: 60}], [".orbit-time .series", "pointerup"], [".orbit-time .series", "keydown", {key: "ArrowLeft"}], [".orbit-time .play", "click"], [33], [33], [".orbit-time .play", "click"], [".choose@1", "click"], [".orbit-eps input", "change"], [".here", "click"], [".orbit-typed input", "change"], [".orbit-typed .choose", "click"],
     ["late", ["orbit", "orbit_motion"]], ["frame", {unable: {orbit: "No time passes."}}], [".hide", "click"], [".hide@2", "click"], [".remove@1", "click"], [".orbit-name", "change"], [".clear", "click"],
   ],
   planes: [["frame", {critical: {label: ["C"], kind: ["saddle"], trace: [0.4], determinant: [-1.5], x2: [[0.5, 0.2]]}}], ["frame", {critical: {label: ["C"], kind: ["stable focus"], trace: [-0.5], determinant: [2], x2: [[-1.5, 0.4]]}}], ["frame", {critical: {label: [], kind: [], trace: [], determinant: [], x2: []}}], ["frame", {system: {}, critical: {label: ["C"], kind: ["unstable node"], trace: [3], determinant: [2], x2: [[0, 3]]}}]],
@@ -72,11 +71,6 @@ const HANDS = {
     [20], ["[data-view]@2", "click"], ["late", ["stack"]], ["frame", {unable: {stack: "No z.", filippov: "No z."}}],
   ],
   theorems: [["frame", {theorems: [["thm:x", "λ_ρ < 0", "fails", "No & no.", [["e_Ψ", 1e-12]]], ["prop:y", "", "does not apply", "", []]]}]],
-  time: [
-    [".series", "pointerdown", {clientX: 200, clientY: 60}], [".series", "pointermove", {clientX: 100, clientY: 60}], [".series", "pointerup"], [".series", "keydown", {key: "ArrowRight"}], [".series", "keydown", {key: "ArrowLeft", shiftKey: true}],
-    [".here", "click"], [".play", "click"], [33], [33], [".play", "click"], ["[data-control=launch] input", "change"],
-    ["late", ["motion"]], ["frame", {unable: {motion: "It cannot start there."}}],
-  ],
 }
 
 /** The text of one picture. @param {string} name */

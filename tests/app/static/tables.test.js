@@ -109,7 +109,7 @@ test("the panel numbers: while it is closed its tables wait until nothing moves"
 test("the panel orbits: each orbit has its colour and its words, hidden ones none", () => {
   const one = opened("orbits", {orbit: 1, log_eps: -2, orbits: "0.1,0.2:slow;0.3,0.4,-;0.5,-0.6;1,1;2,1;2,2;3,1;3,2;3,3"})
   one.frame({launched: {goes: ["To C.", "To Q₁.", "Away."], comes: ["From Q₂.", "", "From far."]}})
-  assert.deepEqual(one.all(".orbit-colour").map((it) => it.getAttribute("style").replace("background: ", "")),
+  assert.deepEqual(one.all(".orbit-list .orbit-colour").map((it) => it.getAttribute("style").replace("background: ", "")),
     [1, 0, 2, 3, 4, 5, 6, 1, 2].map((k) => k ? `var(--launch-${k})` : "transparent"))
   assert.deepEqual(one.texts(".orbit-goes").slice(0, 5), ["To C.", "hidden", "To Q₁.", "Away.", ""])
   assert.deepEqual(one.texts("li .note").slice(0, 5), ["From Q₂.", "", "", "From far.", ""])

@@ -260,7 +260,7 @@ def test_a_portrait_does_not_depend_on_what_was_open_before():
 
 def test_a_portrait_forgets_moved_parameters_and_whatever_else_was_set(frames):
     ask(frames, **preset_values("ball-stick"))
-    ask(frames, parameters={"mu": 0.9}, B2=0.5, g0=1.0, atlas_zoom=2, trajectories=7, layers=["rho"], panel="time")
+    ask(frames, parameters={"mu": 0.9}, B2=0.5, g0=1.0, atlas_zoom=2, trajectories=7, layers=["rho"], panel="orbits")
     ask(frames, **preset_values("ball-slip"))
     assert frames.values == preset_values("ball-slip")
     assert frames.scene.system == c2.examples.ball_in_pool()

@@ -1,10 +1,12 @@
-"""The panel "Time": one motion, for the chosen eps and in the nonsmooth limit eps -> 0, phases told apart."""
+"""The typed start of the panel "Orbits": the motion from (x, y, z1, ...) in the limit eps -> 0, and for eps > 0."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from typing import Any
+
+import numpy as np
 
 from codim2_core.examples import Ball, catalogue
 from codim2_core.motion.agreement import agreement
@@ -17,7 +19,7 @@ from codim2_core.psi.function import Psi
 from ..frame.draft import Draft
 from ..state.chosen import System_, slow_symbols
 from ..state.controls import InputError, opening_launch
-from .panel import Panel
+from ..state.launches import TYPED
 from .short import short
 
 RTOL = 1e-7
@@ -25,23 +27,23 @@ EPS = round(math.log10(SMALLEST_EPS)), round(math.log10(LARGEST_EPS))
 
 
 def add(draft: Draft) -> None:
-    """Add the motion for eps and that of the limit, once nothing moves."""
-    scene, values = draft.scene, draft.values
-    system, psi = draft.system, scene.psi
+    """Add the motion in the limit and, if it is wanted, the one for eps > 0, once nothing moves."""
+    values, system = draft.values, draft.system
     if system is None:
         return
     try:
         start, t_end = launch_of(values, system.m)
     except InputError as error:
-        draft.header.setdefault("unable", {})["motion"] = str(error)
+        draft.now.pop("orbit", None)  # the browser forgets what it has
+        draft.unable("orbit", str(error))
         return
-    eps = 10.0 ** values["log_eps"]
+    eps = 10.0 ** values["log_eps"] if values["orbit_eps"] == "show" else 0.0
     example = catalogue.get(values["system"])
-    asked = (system, psi, eps, start, t_end, None if example is None else example.ball)
-    found = draft.slow("motion", asked, both, *asked)
+    asked = (system, draft.scene.psi, eps, start, t_end, None if example is None else example.ball)
+    found = draft.slow("orbit", (TYPED, *asked), followed, *asked)
     if found is not None:
-        draft.header["motion"] = {**found["motion"], "eps": eps, "start": list(start)}
-        draft.header["limit"] = found["limit"]
+        draft.header.update(found)
+        draft.now["orbit_motion"] = TYPED  # what was there of a launched orbit is gone
 
 
 def launch_of(values: Mapping[str, Any], m: int) -> tuple[tuple[float, ...], float]:
@@ -50,7 +52,7 @@ def launch_of(values: Mapping[str, Any], m: int) -> tuple[tuple[float, ...], flo
     Raises
     ------
     InputError
-        The text of the state does not hold 2 + m numbers, or the time is not positive.
+        The text of the state does not hold 2 + m numbers, the time is not positive, or no motion takes this eps.
     """
     text, t_end = values["launch"], values["t_end"]
     if t_end <= 0.0:
@@ -71,38 +73,42 @@ def launch_of(values: Mapping[str, Any], m: int) -> tuple[tuple[float, ...], flo
     return start, t_end
 
 
-def both(
+def followed(
     system: System_, psi: Psi, eps: float, start: tuple[float, ...], t_end: float, ball: Ball | None = None
 ) -> dict[str, Any]:
-    """Return the regularised motion and the limit as the browser draws them, how they agree, and how a ball rolls."""
-    run = simulate(system, psi, eps, start, (0.0, t_end), rtol=RTOL)
+    """Return the motion in the limit as the browser draws it and how a ball rolls; with eps also the one for eps > 0.
+
+    Then also how the two agree, and the ball is that of eps > 0.
+    """
     limit = simulate_nonsmooth(system, start, (0.0, t_end), psi=psi, rtol=RTOL)
+    parameters = dict(system.parameters)
+    orbit = {"index": TYPED, "m": system.m, "fast": False, "start": list(start), **curves(limit)}
+    if not eps:
+        return {"orbit": {**orbit, "ball": _rolling(ball, limit, parameters)}}
+    run = simulate(system, psi, eps, start, (0.0, t_end), rtol=RTOL)
     together = agreement(system, psi, run, limit)
-    return {
-        "motion": {
-            **_curves(run),
-            "agreement": together.sentence,
-            "same": together.same,
-            "ball": None if ball is None else _rolling(ball, run, dict(system.parameters)),
-        },
-        "limit": _curves(limit),
-    }
+    told = {"agreement": together.sentence, "same": together.same, "ball": _rolling(ball, run, parameters)}
+    return {"orbit": orbit, "orbit_motion": {"index": TYPED, "eps": eps, **curves(run), **told}}
 
 
-def _curves(run: Simulation) -> dict[str, Any]:
+def curves(run: Simulation) -> dict[str, Any]:
+    """Return a motion over time: x, y, its angle and radius in the picture, the slow variables; and its phases."""
     drawn = run.drawn()
+    angle, radius = np.unwrap(np.arctan2(drawn.points[:, 1], drawn.points[:, 0])), np.hypot(*drawn.points.T)
+    x, y, *z = drawn.states.T
     return {
         "t": short(drawn.times),
-        "states": [short(column) for column in drawn.states.T],
+        "states": [short(column) for column in (x, y, angle, radius, *z)],
         "picture": [short(column) for column in drawn.points.T],
-        "phases": [[p.kind, p.t_start, p.t_end, p.reason, p.onto] for p in run.phases],
+        "phases": [[p.kind, p.t_start, p.t_end, p.reason] for p in run.phases],
         "reason": run.reason,
-        "ended": float(run.times[-1]),
     }
 
 
-def _rolling(ball: Ball, run: Simulation, parameters: Mapping[str, float]) -> dict[str, Any]:
-    """Return where a ball is and how it is turned, at the times of its curves."""
+def _rolling(ball: Ball | None, run: Simulation, parameters: Mapping[str, float]) -> dict[str, Any] | None:
+    """Return where a ball is and how it is turned, at the times of its curves; None where there is no ball."""
+    if ball is None:
+        return None
     drawn = run.drawn()
     rate = 0.0 if ball.turning is None else float(parameters[ball.turning])
     found = rolling(ball, drawn.times, drawn.states, rate)
@@ -111,6 +117,3 @@ def _rolling(ball: Ball, run: Simulation, parameters: Mapping[str, float]) -> di
         "turns": [[round(float(v), 4) for v in turn] for turn in found.turns],
         "radius": found.radius,
     }
-
-
-PANEL = Panel("time", "Time", add, "One motion in time, for ε > 0 and in the limit ε → 0.")
