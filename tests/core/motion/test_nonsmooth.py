@@ -14,7 +14,6 @@ from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
 from codim2_core.initial_value.field import field
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
-from codim2_core.motion.regularised import simulate
 from codim2_core.motion.result import SimulationStatus
 from codim2_core.motion.slide import Sheet
 from codim2_core.motion.slip import leave
@@ -309,54 +308,6 @@ def test_no_slow_variables():
 def test_where_the_equator_lets_all_out_the_phase_of_the_spiral_is_not_known():
     run = stopped(ELinear(1.0, 1.0, 1.0, (0.1, 0.0)), (0.0, 0.0, 0.0)[:2], families.constant())
     assert "phase of the spiral" in run.reason
-
-
-def slope(system, psi, state0, t, eps):
-    limit = simulate_nonsmooth(system, state0, (0.0, t), psi, rtol=1e-12, atol=1e-14)
-    errors = [
-        np.abs(simulate(system, psi, e, state0, (0.0, t), rtol=1e-12, atol=1e-14).states[-1] - limit.states[-1]).max()
-        for e in eps
-    ]
-    return np.diff(np.log10(errors)) / np.diff(np.log10(eps)), kinds(limit)
-
-
-@pytest.mark.parametrize(
-    ("system", "state0", "t", "phases"),
-    [
-        (examples.ball_in_pool(K=2.0), (-1.0, 0.3, 10.0, 0.0), 2.5, ["slip", "slide"]),
-        (examples.ball_in_pool(K=2.0), (1.0, 0.0, 12.0, 0.0), 2.5, ["slip", "cross", "slip", "slide"]),
-        (examples.tilting_block(), (0.3, 0.1, 0.1), 5.0, ["slip", "slide"]),
-        (examples.nonunique_sliding(), (0.02, 0.01, 0.1), 0.2, ["slip", "slide"]),
-    ],
-)
-@pytest.mark.parametrize("psi", [families.constant(), families.tanh()])
-def test_the_two_agree_to_first_order_in_eps(system, state0, t, phases, psi):
-    slopes, found = slope(system, psi, state0, t, [1e-4, 1e-6, 1e-8])
-    assert found == phases
-    np.testing.assert_allclose(slopes, 1.0, atol=0.1)
-
-
-@pytest.mark.parametrize(("psi", "order"), [(families.constant(), 4 / 5), (families.rational(), 8 / 9)])
-def test_after_an_exit_through_the_equator_the_order_is_lower(psi, order):
-    # x' = beta t + k (eps/x)^q, Psi ~ s^-mu, q = 2 + 2 mu: the balance t ~ (eps/t^2)^q gives x ~ eps^(2 q/(1 + 2 q)).
-    slopes, found = slope(ELinear(-1.0, 0.0, -1.0, ("z", 0.0), g=(1.0,)), psi, (0.0, 0.0, 0.8), 0.8, [1e-5, 1e-7, 1e-9])
-    assert found == ["slide", "slip"]
-    np.testing.assert_allclose(slopes, order, atol=0.01)
-
-
-@settings(max_examples=12, deadline=None, derandomize=True)  # a start on a separatrix may go either way
-@given(st.integers(0, 10**6))
-def test_random_systems_agree_with_a_small_eps(seed):
-    rng = np.random.default_rng(seed)
-    a, b, d, f1, f2, g1, g2 = np.round(rng.uniform(-2.0, 2.0, 7), 2).tolist()
-    system = ELinear(
-        -abs(a), b, -abs(d), ("p + q*z", "u + v*z"), B=((0.3, -0.2),), g=("1/2 - z/3",),
-        parameters={"p": f1, "q": g1, "u": f2, "v": g2},
-    )  # fmt: skip
-    state0 = np.round(rng.uniform(-1.0, 1.0, 3), 2)
-    limit = simulate_nonsmooth(system, state0, (0.0, 3.0), families.constant())
-    run = simulate(system, families.constant(), 1e-9, state0, (0.0, 3.0), rtol=1e-9)
-    np.testing.assert_allclose(run.dense(limit.times[-1]), limit.states[-1], atol=1e-4)
 
 
 @pytest.mark.parametrize(("state0", "t_span", "message"), [((1.0,), (0, 1), "state0"), ((1.0, 0.0), (1, 0), "t_start")])
