@@ -266,8 +266,9 @@ def outcomes_of(own: LayerProblem, compare: Sequence[Psi] | None = None) -> Outc
         found = () if whole.verdict == "misses" else (whole,)
         return Outcomes(found, (), equator, whole, at)
     which = [i for i in range(len(equator)) if not radially_neutral(equator, i) and equator.lambda_rho[i] < 0.0]
-    columns = [arriving(problem, which) for problem in (own, *others)]
-    judged = {i: [column[k] for column in columns] for k, i in enumerate(which)}
+    problems = {problem.psi: problem for problem in (own, *others)}  # the own Psi may be one of the others
+    arrivals = {psi: arriving(problem, which) for psi, problem in problems.items()}
+    judged = {i: [arrivals[problem.psi][k] for problem in (own, *others)] for k, i in enumerate(which)}
     texts = [other.psi.words for other in others]
     directions = tuple(_direction(own, judged.get(i, ()), texts, sensitive, i) for i in range(len(equator)))
     order = ("open set", "one side", "single direction")

@@ -15,9 +15,8 @@ import numpy as np
 
 import codim2_core as c2
 from codim2_core.continuation.branches import continue_cycles
-from codim2_core.scene import layers
 
-from .bench_scene import PICTURE, TRAJECTORIES
+from .bench_scene import LAYERS, PICTURE, TRAJECTORIES
 
 PRESETS = ("case3-n2", "case3-n3", "case3-n4")
 PERIODS = {3: 0.5044751410092433, 4: 0.6066957493683202}  # of Case III's cycle, by extrapolation at 22 digits
@@ -37,7 +36,7 @@ def scene_row(preset: str, repeats: int) -> tuple[float, float, float]:
     alone, picture, whole = [], [], []
     for k in range(repeats + 1):
         scene = c2.Scene(values.system, values.psi)
-        times = {name: spent(lambda name=name, scene=scene: scene[name])[0] for name in layers}
+        times = {name: spent(lambda name=name, scene=scene: scene[name])[0] for name in LAYERS}
         if k:  # the first loads what is compiled
             alone.append(sum(times[name] for name in TRAJECTORIES))
             picture.append(sum(times[name] for name in PICTURE) / alone[-1])

@@ -15,10 +15,9 @@ import numpy as np
 import codim2_core as c2
 from codim2_core.orbits.seeds import structured_seeds
 from codim2_core.orbits.trajectories import trajectories
-from codim2_core.scene import layers
 
-ON_REQUEST = ("separatrices", "regions", "certificates", "outcomes", "cycles", "atlas_curves", "location")
-PICTURE = tuple(name for name in layers if name not in ON_REQUEST)
+from .bench_scene import PICTURE
+
 COMPILED = {
     "e-linear as text": 'c2.System(U=("a*c - b*s", "b*c + d*s"), parameters={"a": -2.0, "b": 0.5, "d": -1.0})',
     "attracting and repelling directions": "c2.examples.attracting_repelling()",

@@ -19,6 +19,7 @@ from codim2_core import (
     psi,
     trajectories,
 )
+from codim2_core.portrait import outcomes
 from codim2_core.portrait.outcomes import approach_outcomes
 from codim2_core.portrait.separatrices import separatrices
 from codim2_core.words import say
@@ -245,6 +246,17 @@ def test_scene_coefficients_are_accepted():
     scene = Scene(presets["case1-cm4"].system, psi.tanh())
     assert len(approach_outcomes(scene.coefficients, scene.psi)) == 4
     assert equator_cycle(scene.coefficients) is None
+
+
+def test_no_psi_is_followed_twice(monkeypatch):
+    """The own one is among those compared."""
+    followed = []
+    real = outcomes.arriving
+    monkeypatch.setattr(outcomes, "arriving", lambda problem, which: followed.append(problem) or real(problem, which))
+    own = psi.hill(2)
+    found = approach_outcomes(presets["case3-n2"].system, own)
+    assert own.words in [text for text, *_ in found[0].families]
+    assert len(followed) == len({problem.psi for problem in followed}) == len(found[0].families)
 
 
 @pytest.mark.parametrize("system", [ELinear(-1.0, 0.0, -1.5, (2.0, 0.3)), ELinear(1.0, 0.2, 1.5, (0.1, 0.2))])
