@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 
-from .commands import add_census, add_classify, add_presets
+from .commands import add_census, add_classify, add_notebooks, add_presets
 from .logs import log_to_stderr
 from .settings import add_settings
 from .stopping import stop_when_asked
@@ -30,7 +30,7 @@ def parser() -> argparse.ArgumentParser:
     if serve.get_default("show") is None:
         serve.set_defaults(show=_at_a_screen())
     commands.add_parser("warm", help="compile the integrator into the disk cache, so that servers start warm")
-    for add in (add_classify, add_presets, add_figure, add_data, add_live, add_census):
+    for add in (add_classify, add_presets, add_figure, add_data, add_live, add_census, add_notebooks):
         add(commands)
     return top
 

@@ -1,17 +1,22 @@
-"""The commands that answer in the terminal: `classify`, `presets`, `census`. None of them loads the server."""
+"""The commands that answer in the terminal: `classify`, `presets`, `census`, `notebooks`. None loads the server."""
 
 from __future__ import annotations
 
 import argparse
 import json
+import shlex
+import shutil
 import sys
 from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import codim2_core as c2
 from codim2_core.paper import cite
 from codim2_core.psi import FAMILIES, make
 from codim2_core.words import number, subscript
+
+NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
 
 
 def add_classify(commands: Any) -> None:
@@ -48,6 +53,14 @@ def add_census(commands: Any) -> None:
     command.add_argument("--processes", type=int, default=1)
     command.add_argument("--csv", metavar="FILE", help="write the table there too")
     command.set_defaults(run=census)
+
+
+def add_notebooks(commands: Any) -> None:
+    """Add `codim2 notebooks`."""
+    command = commands.add_parser("notebooks", help="copy the notebooks: first steps, the paper, your own system")
+    command.add_argument("folder", nargs="?", type=Path, default=Path("codim2-notebooks"), metavar="DIR",
+                         help="default codim2-notebooks; notebooks that are there already are kept")  # fmt: skip
+    command.set_defaults(run=notebooks)
 
 
 def _whole(text: str) -> int:
@@ -156,4 +169,22 @@ def census(chosen: argparse.Namespace) -> int:
         print(f"{row.name:10} {row.count:12d} {row.share:9.5f}  {row.low:.5f} to {row.high:.5f}")
     if chosen.csv:
         found.to_csv(chosen.csv)
+    return 0
+
+
+def notebooks(chosen: argparse.Namespace) -> int:
+    """Copy the notebooks into a folder, and say how they are opened."""
+    try:
+        chosen.folder.mkdir(parents=True, exist_ok=True)
+        for notebook in sorted(NOTEBOOKS.glob("*.ipynb")):
+            place = chosen.folder / notebook.name
+            if place.exists():
+                print(f"{place} is there already, and kept")
+            else:
+                shutil.copyfile(notebook, place)
+                print(place)
+    except OSError as error:
+        print(f"codim2: {chosen.folder} cannot be written: {error.strerror}.", file=sys.stderr)
+        return 1
+    print(f"Open them with: jupyter lab {shlex.quote(str(chosen.folder))}")
     return 0

@@ -49,7 +49,7 @@ def explorer(
     Returns
     -------
     ExplorerView
-        ``view.state`` holds the values (param), ``view.frames.scene`` the scene that is drawn.
+        ``view.state`` holds the values (param), ``view.scene`` is what is drawn, ``view.orbits`` what was launched.
 
     Raises
     ------

@@ -26,8 +26,8 @@ COMMANDS = {
     "ipywidgets",
     "jupyter-bokeh",
 }
-# Left out of the extras: the notebook tests are skipped where they are missing, CI installs them.
-OPTIONAL = {"jupyterlab", "jupyter-bokeh"}
+# Left out of the extras: the notebook tests are skipped where JupyterLab, which brings them, is missing; CI has it.
+OPTIONAL = {"jupyterlab", "jupyter-bokeh", "nbclient", "nbconvert", "nbformat"}
 
 
 def imported(folder):

@@ -220,3 +220,62 @@ def test_a_server_without_panel_gets_the_libraries_from_the_kernel(notebook):
     slider.press("ArrowRight")
     notebook.settle()
     assert notebook.frame() > frame
+
+
+OWN = """import codim2_core as c2, codim2_app
+own = c2.System(U=("-mu*c + pull", "-s + z/4"), W=("c - 1/4",), parameters={"mu": 0.5, "pull": 0.3})
+view = codim2_app.explorer(own, c2.psi.tanh(), z=0)
+view"""
+ASK = """pull = dict(view.scene.system.parameters)["pull"]
+print(pull, len(view.scene["critical"]), len(view.orbits), view.scene.system == own, view.scene.psi == c2.psi.tanh())"""
+GIVE = "view.state.parameters = {'mu': 0.5, 'pull': 0.7}\nview.state.orbits = '1.4,0.5;-0.3,0.4'"
+
+
+@pytest.fixture
+def own_system(lab, chromium):
+    address, folder = lab
+    write_notebook(folder / "own.ipynb", [OWN, GIVE, ASK])
+    context = chromium.new_context(viewport={"width": 1280, "height": 1000})
+    context.set_default_timeout(PATIENCE)
+    yield Notebook(context.new_page(), address, folder / "own.ipynb").open("own.ipynb")
+    context.close()
+
+
+def test_a_system_of_ones_own_goes_both_ways_and_is_live_after_reload_and_reopening(own_system):
+    notebook = own_system
+    pull = "[data-control='parameter-pull'] input[type=range]"
+
+    def heard():
+        """Return what the third cell prints, once it has run again."""
+        cell = "window.jupyterapp.shell.currentWidget.content.widgets[2]"
+        before = notebook.page.evaluate(f"{cell}.model.executionCount")
+        notebook.run(2)
+        told = f"{cell}.model.executionCount > (before ?? 0) && {cell}.outputArea.node.textContent.trim()"
+        notebook.page.wait_for_function(f"(before) => {told} && {KERNEL}", arg=before)
+        return notebook.page.evaluate(f"{cell}.outputArea.node.textContent").split()
+
+    notebook.show(0, 0)
+    assert heard() == ["0.3", "1", "0", "True", "True"]
+    notebook.run(1)
+    notebook.wait(lambda: notebook.find(pull).input_value() == "0.7")
+    assert notebook.find(pull).input_value() == "0.7"
+    notebook.wait(lambda: heard()[0] == "0.7")
+    assert heard() == ["0.7", "0", "2", "False", "True"]
+
+    for again in (notebook.page.reload, lambda: notebook.open("own.ipynb")):
+        notebook.page.evaluate("window.jupyterapp.commands.execute('docmanager:save')")
+        again()
+        notebook.page.wait_for_function(KERNEL)
+        notebook.page.wait_for_selector(".codim2[data-settled=true]")
+        assert notebook.find(pull).input_value() == "0.7"
+        slider, frame = notebook.find(pull), notebook.frame()
+        slider.focus()
+        slider.press("ArrowLeft")
+        notebook.settle()
+        assert notebook.frame() > frame
+        value = slider.input_value()
+        notebook.wait(lambda value=value: heard()[0] == value)
+        assert heard()[0] == value
+        notebook.run(1)
+        notebook.wait(lambda: notebook.find(pull).input_value() == "0.7")
+    assert notebook.complaints == []

@@ -90,3 +90,18 @@ def test_the_version_is_told(capsys):
         main(["--version"])
     assert ended.value.code == 0
     assert capsys.readouterr().out.startswith("codim2 0.")
+
+
+def test_notebooks_are_copied_and_what_is_there_is_kept(capsys, tmp_path):
+    folder = tmp_path / "my notebooks"
+    assert main(["notebooks", str(folder)]) == 0
+    assert f"jupyter lab '{folder}'" in capsys.readouterr().out
+    copied = sorted(file.name for file in folder.iterdir())
+    assert copied == ["first-steps.ipynb", "the-paper-in-figures.ipynb", "your-own-system.ipynb"]
+    (folder / copied[0]).write_text("mine")
+    assert main(["notebooks", str(folder)]) == 0
+    assert "kept" in capsys.readouterr().out
+    assert (folder / copied[0]).read_text() == "mine"
+    (tmp_path / "file").touch()
+    assert main(["notebooks", str(tmp_path / "file")]) == 1
+    assert "cannot be written" in capsys.readouterr().err
