@@ -59,7 +59,7 @@ def session() -> ExplorerView:
     doc.config.update(reconnect_session=False, notify_connection_status=False, notifications=None)
     doc.on_session_destroyed(lambda _: view.leave())
     _views[doc] = view
-    doc.template = page_template()  # type: ignore[assignment]
+    doc.template = page_template()  # type: ignore[assignment]  # Bokeh takes a template's text as well
     doc.template_variables["explorer_markup"] = _Markup(query)  # for Bokeh's own handler, which makes a session first
     return view
 

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import drawing
+from ..layer_problem.location import Existence, locate
 from ..portrait.classify import Classification, classify
 from ..psi.constructors import constant
 from ..systems.coefficients import Coefficients
@@ -294,16 +295,15 @@ def _region(
         if found is None:
             return None
         inside = found
-    classification = _classified(plane, inside)
-    if any(one.name == "line of equilibria" for one in classification.degeneracies):
+    if locate(_at(plane, inside)).existence is Existence.SINGULAR_LINE:
         # det A = 0: on the line f = A e only, which passes through the region
         inside = _beside(plane, inside, border)
-        classification = _classified(plane, inside)
+    classification = classify(_at(plane, inside), constant())
     return Region(classification.name, inside, frozen(boundary), bounded, classification)
 
 
-def _classified(plane: Geometry, f: tuple[float, float]) -> Classification:
-    return classify(Coefficients(plane.a, plane.b, plane.d, *f, *_NOTHING), constant())
+def _at(plane: Geometry, f: tuple[float, float]) -> Coefficients:
+    return Coefficients(plane.a, plane.b, plane.d, *f, *_NOTHING)
 
 
 def _beside(plane: Geometry, f: tuple[float, float], border: Array) -> tuple[float, float]:

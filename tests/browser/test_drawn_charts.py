@@ -21,11 +21,11 @@ def test_planes(opened, setting):
     dots = plane.dots("now")
     assert len(dots) == len(sets)
     for (place, drawn), C in zip(dots, sets, strict=True):
-        np.testing.assert_allclose(place, [C.trace, C.determinant], atol=max(plane.near))
+        np.testing.assert_allclose(place, [C.trace, C.determinant], rtol=0.0, atol=max(plane.near))
         assert drawn["stroke"] == colour(page, "crit")
         assert (drawn["fill"] == colour(page, "crit")) == C.kind.startswith("stable")
     ((parabola, _),) = plane.lines("parabola")
-    np.testing.assert_allclose(parabola[:, 1], parabola[:, 0] ** 2 / 4, atol=3 * max(plane.near))
+    np.testing.assert_allclose(parabola[:, 1], parabola[:, 0] ** 2 / 4, rtol=0.0, atol=3 * max(plane.near))
     (area,) = [plane.line(it) for it in plane.raw["areas"]]
     assert area[:, 0].max() == pytest.approx(0, abs=plane.near[0])
     assert area[:, 1].min() == pytest.approx(0, abs=plane.near[1])
@@ -33,7 +33,7 @@ def test_planes(opened, setting):
     drawn = np.array([place for place, _ in values.dots("now")])
     wanted = np.array([[v.real, v.imag] for C in sets for v in C.eigenvalues])
     order = lambda v: v[np.lexsort(v.round(3).T)]  # noqa: E731
-    np.testing.assert_allclose(order(drawn), order(wanted), atol=max(values.near))
+    np.testing.assert_allclose(order(drawn), order(wanted), rtol=0.0, atol=max(values.near))
 
 
 def test_names_of_the_trace_plane_stand_in_their_regions(opened):
@@ -235,7 +235,7 @@ def test_psi(opened):
     page = opened("psi", log_eps=-0.5)
     above, below = plots(page, ".psi-curves")
     ((curve, drawn),) = above.lines("series-line")
-    np.testing.assert_allclose(curve[:, 1], PSI(np.clip(curve[:, 0], 0, None)), atol=2 * above.near[1])
+    np.testing.assert_allclose(curve[:, 1], PSI(np.clip(curve[:, 0], 0, None)), rtol=0.0, atol=2 * above.near[1])
     for points, drawn in below.lines("series-line"):
         eps = {"s3": 1.0, "s1": 0.3, "s0": 0.1, "present": 10**-0.5, "limit": 1e-9}[drawn["name"].split()[-1]]
         x = np.where(np.abs(points[:, 0]) < 2 * below.near[0], 0, points[:, 0])
@@ -260,7 +260,7 @@ def test_atlas(opened, setting):
     curve = np.concatenate([points for points, _ in plot.lines("transcritical")])
     np.testing.assert_allclose(np.hypot(*np.linalg.solve(matrix, curve.T)), 1.0, atol=0.03)
     handle = page.find(".pad .handle").evaluate("(it) => [it.cx.baseVal.value, it.cy.baseVal.value]")
-    np.testing.assert_allclose(plot.data(handle)[0], [setting["f1"], setting["f2"]], atol=max(plot.near))
+    np.testing.assert_allclose(plot.data(handle)[0], [setting["f1"], setting["f2"]], rtol=0.0, atol=max(plot.near))
 
 
 def test_atlas_of_other_axes(opened, setting):

@@ -1,6 +1,7 @@
 """What is drawn in space, against the core's numbers, at two settings without any symmetry."""
 
 import numpy as np
+import pytest
 
 import codim2_core as c2
 from codim2_core.sliding.along import slow_portrait
@@ -17,13 +18,23 @@ def seen(points, azimuth, elevation):
     return np.column_stack([right, np.cos(elevation) * up + np.sin(elevation) * away])
 
 
-def test_hemisphere_in_space(opened, setting):
-    page = opened("solid")
-    canvas = page.find("canvas.solid")
-    canvas.evaluate(SCRIPTS["record"])
-    canvas.press("ArrowRight")  # turned by 0.1: painted anew
-    page.painted()
-    drawn = canvas.evaluate("(it) => it.drawn")
+@pytest.fixture
+def painted(opened):
+    """Open a picture in space, turn it by 0.1, and give its canvas and what was painted on it."""
+
+    def make(**more):
+        page = opened("solid", **more)
+        canvas = page.find("canvas.solid")
+        canvas.evaluate(SCRIPTS["record"])
+        canvas.press("ArrowRight")
+        page.painted()
+        return canvas, canvas.evaluate("(it) => it.drawn")
+
+    return make
+
+
+def test_hemisphere_in_space(painted, setting):
+    canvas, drawn = painted()
     q = equator(setting)
     sets = at(setting)
     circles = np.array([it["all"][:2] for it in drawn if it["name"] == "arc" and it["all"][2] == 4])
@@ -52,13 +63,9 @@ def test_hemisphere_in_space(opened, setting):
         assert (it["fill"] == critical) == C.kind.startswith("stable")
 
 
-def test_limit_directions_along_z_in_space(opened, setting):
-    page = opened("solid", solid="stack")
-    canvas = page.find("canvas.solid")
-    canvas.evaluate(SCRIPTS["record"])
-    canvas.press("ArrowRight")
-    page.painted()
-    drawn = [it for it in canvas.evaluate("(it) => it.drawn") if it["name"] == "fillRect"]
+def test_limit_directions_along_z_in_space(painted, setting):
+    canvas, drawn = painted(solid="stack")
+    drawn = [it for it in drawn if it["name"] == "fillRect"]
     look = {name: canvas.evaluate(SCRIPTS["property"], name) for name in ("attr", "rep")}
     groups = {
         name: np.array([it["all"][:2] for it in drawn if it["fill"] == shade]).reshape(-1, 2) + 1.2
@@ -82,13 +89,8 @@ def test_limit_directions_along_z_in_space(opened, setting):
         assert np.quantile(gaps, 0.97) < 3
 
 
-def test_the_slow_flow_along_z_in_space(opened, setting):
-    page = opened("solid", solid="stack")
-    canvas = page.find("canvas.solid")
-    canvas.evaluate(SCRIPTS["record"])
-    canvas.press("ArrowRight")
-    page.painted()
-    drawn = canvas.evaluate("(it) => it.drawn")
+def test_the_slow_flow_along_z_in_space(painted, setting):
+    _, drawn = painted(solid="stack")
     turns = [it["all"][0] for it in drawn if it["name"] == "rotate"]
     found = slow_portrait(system(setting), PSI, (-4.0, 4.0))
     assert turns

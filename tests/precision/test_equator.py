@@ -108,7 +108,7 @@ def test_a_line_of_critical_points_ends_where_directions_are_radially_degenerate
     ):  # fmt: skip
         found = equator_equilibria(ELinear(a * scale, b * scale, d * scale, (f1 * scale, f2 * scale)))
         flat = np.sort(found.theta[found.radially_degenerate])
-        np.testing.assert_allclose(flat, np.sort(np.remainder(ends, 2 * math.pi)), atol=1e-15)
+        np.testing.assert_allclose(flat, np.sort(np.remainder(ends, 2 * math.pi)), rtol=0.0, atol=1e-15)
         assert (found.lambda_rho[found.radially_degenerate] == 0.0).all()
         assert (np.abs(found.lambda_rho[~found.radially_degenerate]) > 0.1 * scale).all()
     # off the range of A by little: no longer degenerate

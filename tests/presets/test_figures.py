@@ -40,8 +40,8 @@ class Figure:
 def limit_directions(figure):
     assert "equator" in figure.layers
     equator, found = figure.problem.equator, figure.sent["equator"]
-    np.testing.assert_allclose(found["x"], np.cos(equator.theta), atol=1e-12)
-    np.testing.assert_allclose(found["y"], np.sin(equator.theta), atol=1e-12)
+    np.testing.assert_allclose(found["x"], np.cos(equator.theta), rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(found["y"], np.sin(equator.theta), rtol=0.0, atol=1e-12)
     assert found["filled"] == [int(v < 0) for v in equator.lambda_rho]
     assert len(found["x"])
 
@@ -55,7 +55,7 @@ def no_limit_directions(figure):
 def critical_sets(figure):
     assert "critical" in figure.layers
     sets, found = figure.problem.critical, figure.sent["critical"]
-    np.testing.assert_allclose(np.transpose([found["x"], found["y"]]), [C.p for C in sets], atol=1e-12)
+    np.testing.assert_allclose(np.transpose([found["x"], found["y"]]), [C.p for C in sets], rtol=0.0, atol=1e-12)
     assert found["kind"] == [C.kind for C in sets]
     assert sets
 
@@ -123,14 +123,14 @@ def conics(figure):
     x, y = drawn.T
     assert np.abs((d - a) * x * y + f2 * x - f1 * y + b).max() <= 3e-3
     meeting = np.transpose([figure.sent["equator"]["x"], figure.sent["equator"]["y"]]).reshape(-1, 2)
-    np.testing.assert_allclose(meeting, expected.meeting, atol=1e-12)
+    np.testing.assert_allclose(meeting, expected.meeting, rtol=0.0, atol=1e-12)
 
 
 def ellipse_and_f(figure):
     assert "regions" in figure.sent  # the panel Atlas is open: its curves are the ellipse and the saddle-nodes
     ellipse = np.concatenate(c2.bifurcations.critical_boundary(*figure.at.plane[:3]).branches)
     size = np.hypot(*np.linalg.solve(figure.at.A, ellipse.T))
-    np.testing.assert_allclose(size, 1.0, atol=1e-9)
+    np.testing.assert_allclose(size, 1.0, rtol=0.0, atol=1e-9)
 
 
 def connections(figure):

@@ -20,7 +20,7 @@ def ball(case, _):
     assert (np.hypot(*run.states[-1, :2]) < 1e-2) == sticks
     if sticks:
         (C,) = c2.critical_sets(case.at, case.psi)
-        np.testing.assert_allclose(C.slow_flow, 5.0 / 7.0 * f, atol=1e-9)
+        np.testing.assert_allclose(C.slow_flow, 5.0 / 7.0 * f, rtol=0.0, atol=1e-9)
 
 
 def attracting_repelling(case, _):
@@ -45,9 +45,9 @@ def nonunique(case, _):
     z = case.z[0]
     chi = (1.0 + 2.0 * z * z) / (1.0 + z * z)
     found = sorted(c2.critical_sets(case.at, case.psi), key=lambda C: C.e[0])
-    np.testing.assert_allclose([C.e[0] for C in found], [-chi / 2, 0.0, chi / 2], atol=1e-9)
+    np.testing.assert_allclose([C.e[0] for C in found], [-chi / 2, 0.0, chi / 2], rtol=0.0, atol=1e-9)
     assert [C.kind for C in found] == ["stable node", "saddle", "stable node"]
-    np.testing.assert_allclose([C.slow_flow[0] for C in found], [chi + 0.25, 0.25, -chi + 0.25], atol=1e-9)
+    np.testing.assert_allclose([C.slow_flow[0] for C in found], [chi + 0.25, 0.25, -chi + 0.25], rtol=0.0, atol=1e-9)
     assert case.directions == (8 if chi**2 < 2.0 else 4)
 
 

@@ -1,65 +1,13 @@
-"""The compiled return map, for Psi = 1 and f = 0: there x2' = A x2 in the time T, as e_Psi = p and dT = ebar dtau."""
+"""The compiled return map, on orbits whose returns are known."""
 
 import math
 
 import numpy as np
 import pytest
 
-from codim2_core import psi
-from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED, UNDECIDED, reached, returns
-from codim2_core.stepping.fields import field
-from codim2_core.stepping.layout import LANES
-from codim2_core.stepping.numbers import SHARED
+from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED, reached
 
-SEVERAL = 2 * LANES + 1
-FIELD = field(psi.constant())
-RTOL = 1e-12
-
-
-def parameters(a, b, d, f=(0.0, 0.0)):
-    shared = np.zeros(SHARED)
-    shared[:5] = a, b, d, *f
-    return shared
-
-
-def sphere(x2):
-    """States (n, 3) of points (n, 2) of kappa_2."""
-    w = 1.0 / np.hypot(1.0, np.hypot(*x2.T))
-    return np.column_stack([x2 * w[:, None], w])
-
-
-def plane(states):
-    return states[:, :2] / states[:, 2:]
-
-
-def turned(x2, angle):
-    c, s = np.cos(angle), np.sin(angle)
-    return np.stack([c * x2[..., 0] - s * x2[..., 1], s * x2[..., 0] + c * x2[..., 1]], axis=-1)
-
-
-class Spiral:
-    """``A = growth + b J``: orbits turn by b T and grow by exp(growth T). Where u.U = 0, and where they come to it."""
-
-    def __init__(self, growth, b, u=(0.8, 0.6), f=(0.0, 0.0)):
-        self.growth, self.b, self.u = growth, b, np.array(u)
-        self.shared = parameters(growth, b, growth, f)
-        self.sense = math.copysign(1.0, b)
-        # U is x2 turned by arg A; on the section it is u turned by a quarter, in the sense of b
-        self.ray = turned(self.u, self.sense * 0.5 * math.pi - math.atan2(b, growth))
-
-    def at(self, x2, T):
-        return turned(x2, self.b * T) * np.exp(self.growth * T)[..., None]
-
-    def returns(
-        self, x2, floor=1e-9, sunk=1e-9, t_max=1e3, rtol=RTOL, limit=500, record=0, centre=(0.0, 0.0), elsewhere=False
-    ):
-        return returns(
-            sphere(x2), self.shared, FIELD.address, self.u, np.array(centre), self.sense, floor, sunk, t_max, rtol,
-            limit, record, elsewhere,
-        )  # fmt: skip
-
-
-SPIRALS = pytest.mark.parametrize(("growth", "b"), [(-0.2, 1.0), (0.15, 1.3), (0.1, -0.8), (-0.1, -1.1)])
+from .spirals import FIELD, SEVERAL, SPIRALS, Spiral, plane, sphere
 
 
 @SPIRALS
@@ -88,43 +36,6 @@ def test_from_elsewhere_it_is_the_first_crossing(growth, b):
     assert (codes == RETURNED).all()
     np.testing.assert_allclose(times, T, rtol=1e-10)
     np.testing.assert_allclose(plane(ends), own.at(x2, T), rtol=1e-10, atol=1e-12)
-
-
-def test_the_steps_of_the_first_state_are_those_of_its_orbit():
-    own = Spiral(-0.2, 1.0)
-    x2 = np.linspace(0.7, 0.3, SEVERAL)[:, None] * own.ray
-    ends, times, _, steps = own.returns(x2, record=200)
-    np.testing.assert_array_equal(steps[0, :3], sphere(x2)[0])
-    np.testing.assert_allclose(steps[:, 3].sum(), times[0], rtol=1e-14)
-    after = reached(steps[:, :3].copy(), steps[:, 3].copy(), own.shared, FIELD.address)
-    np.testing.assert_allclose(after, [*steps[1:, :3], ends[0]], rtol=0.0, atol=5e-16)
-    clock = np.concatenate([[0.0], np.cumsum(steps[:, 3])])
-    np.testing.assert_allclose(plane(steps[:, :3]), own.at(x2[0], clock[:-1]), rtol=0.0, atol=1e-11)
-    short = own.returns(x2, record=3)[3]
-    np.testing.assert_array_equal(short, steps[:3])
-    middle = reached(np.repeat(steps[:1, :3], SEVERAL, axis=0), np.linspace(0, 0.2, SEVERAL), own.shared, FIELD.address)
-    np.testing.assert_allclose(plane(middle), own.at(x2[0], np.linspace(0, 0.2, SEVERAL)), rtol=0.0, atol=1e-12)
-    long = reached(np.repeat(steps[:1, :3], SEVERAL, axis=0), np.linspace(1, 2, SEVERAL), own.shared, FIELD.address)
-    np.testing.assert_allclose(np.linalg.norm(long, axis=1), 1.0, rtol=0.0, atol=5e-16)  # whatever its error
-    assert np.abs(plane(long) - own.at(x2[0], np.linspace(1, 2, SEVERAL))).max() > 1e-9
-
-
-def test_steps_are_as_long_as_the_tolerance_lets_them_be():
-    """A method of order 8: errors and tolerance go together, and a hundredth of it costs 78 % more steps."""
-    own = Spiral(-0.2, 1.0)
-    x2, period = 0.7 * own.ray[None, :], 2.0 * math.pi
-    counts, errors = [], []
-    for rtol in (1e-6, 1e-8, 1e-10):
-        ends, _, _, steps = own.returns(x2, record=200, rtol=rtol)
-        counts.append(len(steps))
-        errors.append(float(np.abs(plane(ends) - math.exp(-0.2 * period) * x2).max()))
-        np.testing.assert_allclose(np.linalg.norm([*steps[:, :3], *ends], axis=1), 1.0, rtol=0.0, atol=5e-16)
-        assert errors[-1] < 3.0 * rtol
-        assert len(steps) < 13 * (1e-6 / rtol) ** 0.125
-    assert errors[0] > 1e-9
-    first = [own.returns(x2, record=1, rtol=rtol)[3][0, 3] for rtol in (1e-4, 1e-12)]
-    assert first[0] == pytest.approx(10.0 * first[1], rel=1e-12)
-    assert 0.1 < first[0] < 0.2
 
 
 def test_onto_the_centre_and_onto_the_equator_it_does_not_return():
@@ -157,27 +68,24 @@ def test_it_is_the_distance_from_the_centre_that_counts():
     assert (np.hypot(*(plane(steps) - centre).T) >= 1e-4).all()
 
 
-def test_what_does_not_end_in_time_is_undecided():
-    own = Spiral(0.0, 0.1)
-    x2 = 0.5 * own.ray[None, :]
-    ends, times, codes, steps = own.returns(x2, t_max=20.0, record=100)
-    assert codes[0] == UNDECIDED
-    assert times[0] >= 20.0
-    assert times[0] - steps[-1, 3] < 20.0
-    np.testing.assert_allclose(plane(ends), own.at(x2, times), rtol=1e-10)
-    assert own.returns(x2, t_max=63.0)[2][0] == RETURNED  # 2 pi/0.1
-    _, _, codes, steps = own.returns(x2, limit=4, record=100)
-    assert (codes[0], len(steps)) == (UNDECIDED, 4)
-    _, _, codes, steps = own.returns(x2, t_max=1e3, limit=500, record=500)
-    enough = own.returns(x2, limit=len(steps) + 40)  # as many again as finding the end may take
-    assert enough[2][0] == RETURNED
+@pytest.mark.parametrize("u", [(0.8, 0.6), (1.0, 0.0), (0.0, -1.0), (-0.6, 0.8)])
+@pytest.mark.parametrize("b", [1.0, -1.3])
+@pytest.mark.parametrize("before", [0.3, 0.7, 1.05, 1.4])
+def test_a_state_short_of_the_section_is_followed_for_the_whole_turn_after_it(u, b, before):
+    """A crossing counts once U has pointed the other way: rounding may leave a state short of the section."""
+    own = Spiral(-0.05, b, u)
+    x2 = own.at(0.8 * own.ray[None, :], np.array([-before / abs(b)]))
+    ends, times, codes, _ = own.returns(x2)
+    assert codes[0] == RETURNED
+    assert times[0] == pytest.approx((before + 2.0 * math.pi) / abs(b), rel=1e-10)
+    np.testing.assert_allclose(plane(ends), own.at(x2, times), rtol=1e-10, atol=1e-12)
 
 
-def test_lanes_do_not_disturb_each_other():
+def test_a_single_step_of_any_length_stays_on_the_sphere():
     own = Spiral(-0.2, 1.0)
-    x2 = np.linspace(0.1, 3.0, SEVERAL)[:, None] * own.ray
-    together = own.returns(x2, rtol=1e-8)
-    for i in (0, 1, LANES, SEVERAL - 1):
-        alone = own.returns(x2[i : i + 1], rtol=1e-8)
-        np.testing.assert_array_equal(alone[0][0], together[0][i])
-        assert alone[1][0] == together[1][i]
+    begin = np.repeat(sphere(0.7 * own.ray[None, :]), SEVERAL, axis=0)
+    for lengths, right in ((np.linspace(0.0, 0.2, SEVERAL), True), (np.linspace(1.0, 2.0, SEVERAL), False)):
+        ends = reached(begin, lengths, own.shared, FIELD.address)
+        away = np.abs(plane(ends) - own.at(0.7 * own.ray, lengths)).max()
+        assert away < 1e-12 if right else away > 1e-9
+        np.testing.assert_allclose(np.linalg.norm(ends, axis=1), 1.0, rtol=0.0, atol=5e-16)  # whatever its error

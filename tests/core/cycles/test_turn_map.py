@@ -1,26 +1,13 @@
-"""The compiled first turn, for Psi = 1 and f = 0: there x2' = A x2 in the time T, as e_Psi = p and dT = ebar dtau."""
+"""The compiled first turn, on orbits whose turns are known."""
 
 import math
 
 import numpy as np
 import pytest
 
-from codim2_core import psi
-from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED, UNDECIDED, reached
-from codim2_core.cycles.turn_map import turns
-from codim2_core.stepping.fields import field
-from codim2_core.stepping.layout import LANES
+from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED, UNDECIDED
 
-from .test_return_map import SEVERAL, SPIRALS, Spiral, parameters, plane, sphere, turned
-
-FIELD = field(psi.constant())
-RTOL = 1e-12
-
-
-def followed(
-    states, shared, centre=(0.0, 0.0), floor=1e-9, sunk=1e-9, t_max=1e3, rtol=RTOL, limit=500, record=0
-):  # fmt: skip
-    return turns(states, shared, FIELD.address, np.array(centre), floor, sunk, t_max, rtol, limit, record)
+from .spirals import SEVERAL, SPIRALS, Spiral, followed, parameters, plane, sphere, turned
 
 
 def swept(points, centre=(0.0, 0.0)):
@@ -59,35 +46,6 @@ def test_a_turn_about_any_point_that_a_closed_orbit_surrounds(b):
         assert codes[0] == UNDECIDED
         assert 30.0 <= times[0] < 30.0 + steps[-1, 3] + 1e-12
         np.testing.assert_allclose(ends[0, :2], turned(begin[0, :2], b * times[0]), rtol=0.0, atol=1e-9)
-
-
-def test_the_steps_of_the_first_state_are_those_of_its_orbit():
-    own = Spiral(-0.2, 1.0)
-    x2 = np.linspace(0.7, 0.3, SEVERAL)[:, None] * own.ray
-    ends, times, _, steps = followed(sphere(x2), own.shared, record=200)
-    np.testing.assert_array_equal(steps[0, :3], sphere(x2)[0])
-    np.testing.assert_allclose(steps[:, 3].sum(), times[0], rtol=1e-14)
-    after = reached(steps[:, :3].copy(), steps[:, 3].copy(), own.shared, FIELD.address)
-    np.testing.assert_allclose(after, [*steps[1:, :3], ends[0]], rtol=0.0, atol=5e-16)
-    clock = np.concatenate([[0.0], np.cumsum(steps[:, 3])])
-    np.testing.assert_allclose(plane(steps[:, :3]), own.at(x2[0], clock[:-1]), rtol=0.0, atol=1e-11)
-    np.testing.assert_array_equal(followed(sphere(x2), own.shared, record=3)[3], steps[:3])
-
-
-def test_steps_are_as_long_as_the_tolerance_lets_them_be():
-    own = Spiral(-0.2, 1.0)
-    x2, period = 0.7 * own.ray[None, :], 2.0 * math.pi
-    errors = []
-    for rtol in (1e-6, 1e-8, 1e-10):
-        ends, _, _, steps = followed(sphere(x2), own.shared, rtol=rtol, record=200)
-        errors.append(float(np.abs(plane(ends) - math.exp(-0.2 * period) * x2).max()))
-        np.testing.assert_allclose(np.linalg.norm([*steps[:, :3], *ends], axis=1), 1.0, rtol=0.0, atol=5e-16)
-        assert errors[-1] < 3.0 * rtol
-        assert len(steps) < 13 * (1e-6 / rtol) ** 0.125
-    assert errors[0] > 1e-9
-    first = [followed(sphere(x2), own.shared, rtol=rtol, record=1)[3][0, 3] for rtol in (1e-4, 1e-12)]
-    assert first[0] == pytest.approx(10.0 * first[1], rel=1e-12)
-    assert 0.1 < first[0] < 0.2
 
 
 def test_onto_the_point_and_onto_the_equator_there_is_no_turn():
@@ -148,25 +106,9 @@ def test_past_a_point_very_near_no_step_sweeps_most_of_a_turn(side):
     np.testing.assert_allclose(plane(ends), x2 * math.exp(-times[0]), rtol=0.0, atol=1e-5)
 
 
-def test_what_does_not_turn_in_time_is_undecided():
+def test_at_the_limit_of_steps_it_is_told_how_far_it_came():
     own = Spiral(0.0, 0.1)
     x2 = 0.5 * own.ray[None, :]
-    ends, times, codes, steps = followed(sphere(x2), own.shared, t_max=20.0, record=100)
-    assert codes[0] == UNDECIDED
-    assert times[0] >= 20.0 > times[0] - steps[-1, 3]
+    ends, times, _, steps = own.turns(x2, limit=4, record=100)
+    assert times[0] == pytest.approx(steps[:, 3].sum(), rel=1e-14)
     np.testing.assert_allclose(plane(ends), own.at(x2, times), rtol=1e-10)
-    assert followed(sphere(x2), own.shared, t_max=63.0)[2][0] == RETURNED  # 2 pi/0.1
-    ends, times, codes, steps = followed(sphere(x2), own.shared, limit=4, record=100)
-    assert (codes[0], len(steps)) == (UNDECIDED, 4)
-    assert times[0] == pytest.approx(steps[:, 3].sum(), rel=1e-14)  # as far as it came
-    np.testing.assert_allclose(plane(ends), own.at(x2, times), rtol=1e-10)
-
-
-def test_lanes_do_not_disturb_each_other():
-    own = Spiral(-0.2, 1.0)
-    states = sphere(np.linspace(0.1, 3.0, SEVERAL)[:, None] * own.ray)
-    together = followed(states, own.shared, rtol=1e-8)
-    for i in (0, 1, LANES, SEVERAL - 1):
-        alone = followed(states[i : i + 1], own.shared, rtol=1e-8)
-        np.testing.assert_array_equal(alone[0][0], together[0][i])
-        assert alone[1][0] == together[1][i]

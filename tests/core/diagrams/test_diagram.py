@@ -50,13 +50,13 @@ def check(system: object, psi: c2.Psi, z: tuple[float, ...], D: Diagram, value: 
 
 def test_pitchforks_and_transcriticals_of_the_symmetric_case() -> None:
     D = diagram(c2.ELinear(-1, 0, -1.5), c2.psi.constant(), "f1", (-2, 2))
-    assert_allclose(found(D, "pitchfork"), [-0.5, 0.5], atol=1e-12)
-    assert_allclose(found(D, "transcritical"), [-1, 1], atol=1e-12)
+    assert_allclose(found(D, "pitchfork"), [-0.5, 0.5], rtol=0.0, atol=1e-12)
+    assert_allclose(found(D, "transcritical"), [-1, 1], rtol=0.0, atol=1e-12)
     assert len(D.special) == 4
     places = [s.place for s in D.special if s.kind == "pitchfork"]
-    assert_allclose(places, [(1, 0), (-1, 0)], atol=1e-12)
+    assert_allclose(places, [(1, 0), (-1, 0)], rtol=0.0, atol=1e-12)
     assert {b.kind for b in D.critical} == {"stable node"}
-    assert_allclose(D.critical[0].radius[[0, -1]], 1, atol=1e-12)
+    assert_allclose(D.critical[0].radius[[0, -1]], 1, rtol=0.0, atol=1e-12)
 
 
 def test_saddle_nodes_lie_on_the_paper_s_curve() -> None:
@@ -72,8 +72,8 @@ def test_saddle_nodes_lie_on_the_paper_s_curve() -> None:
 
 def test_two_saddle_nodes_at_one_value_and_a_closed_equator() -> None:
     D = diagram(c2.ELinear(-1, 0, -1.5), c2.psi.constant(), "b", (-2, 2))
-    assert_allclose(found(D, "saddle-node"), [-0.25, -0.25, 0.25, 0.25], atol=1e-12)
-    assert_allclose(found(D, "node-focus"), [-0.25, 0.25], atol=1e-12)
+    assert_allclose(found(D, "saddle-node"), [-0.25, -0.25, 0.25, 0.25], rtol=0.0, atol=1e-12)
+    assert_allclose(found(D, "node-focus"), [-0.25, 0.25], rtol=0.0, atol=1e-12)
     assert [b.kind for b in D.closed] == ["attracting from outside"] * 2
     assert [b.kind for b in D.critical] == ["stable focus", "stable node", "stable focus"]
 
@@ -100,7 +100,7 @@ def test_hopf_values_lie_on_the_hopf_curve_with_its_coefficient() -> None:
     assert hopf[0].number == pytest.approx(values[near], rel=0.1)
     C = c2.critical_sets(BAD.evolve(f1=hopf[0].value), psi)[0]
     assert abs(C.trace) < 1e-11 * abs(C.jacobian).max()
-    assert_allclose(hopf[0].place, C.p, atol=1e-12)
+    assert_allclose(hopf[0].place, C.p, rtol=0.0, atol=1e-12)
 
 
 def test_det_a_zero_and_a_line_of_critical_points() -> None:
@@ -113,20 +113,20 @@ def test_det_a_zero_and_a_line_of_critical_points() -> None:
 
 def test_all_directions_exchange_cusp_and_neutral_equator() -> None:
     ball = diagram(c2.ELinear(-1, "z", -1, f=("z", 0)), c2.psi.tanh(), "z1", (-1, 1), z=(0.5,))
-    assert_allclose(found(ball, "all directions"), [0], atol=1e-12)
+    assert_allclose(found(ball, "all directions"), [0], rtol=0.0, atol=1e-12)
     # theta = 0 is always a limit direction, and another one passes through it
     D = diagram(c2.ELinear(-1, 0.5, -1.5, f=(0.3, -0.5)), c2.psi.tanh(), "f1", (-2, 2))
-    assert_allclose(found(D, "exchange of limit directions"), [-0.5], atol=1e-11)
+    assert_allclose(found(D, "exchange of limit directions"), [-0.5], rtol=0.0, atol=1e-11)
     # through the end of the saddle-node curve
     D = diagram(c2.ELinear(-1, 0, -1.5, f=(-0.5, 0)), c2.psi.constant(), "b", (-1, 1))
-    assert_allclose(found(D, "pitchfork"), [0], atol=1e-9)
+    assert_allclose(found(D, "pitchfork"), [0], rtol=0.0, atol=1e-9)
     cusp = c2.bifurcations.saddle_node(-1, 0.2, -1.5).special[0]
     assert cusp.type == "cusp"
     f1, f2 = cusp.place
     D = diagram(c2.ELinear(-1, 0.2, -1.5, f=(f"{f1!r} + z", f"{f2!r} - 2*z")), c2.psi.tanh(), "z", (-0.3, 0.2), z=0)
-    assert_allclose(found(D, "cusp"), [0], atol=1e-9)
+    assert_allclose(found(D, "cusp"), [0], rtol=0.0, atol=1e-9)
     D = diagram(c2.ELinear(1, 2, -1), c2.psi.tanh(), "a", (0, 3))
-    assert_allclose(found(D, "neutral equator"), [1], atol=1e-12)
+    assert_allclose(found(D, "neutral equator"), [1], rtol=0.0, atol=1e-12)
     assert [b.kind for b in D.closed] == ["attracting from outside", "repelling from outside"]
 
 
@@ -135,12 +135,12 @@ def test_a_close_pair_between_two_grid_points_is_found() -> None:
         # |A^-1 f| = |1 - u^2 + gap^2| passes 1 twice, at u = +-gap (and at u = sqrt(2)), with u = z - 0.1234
         text = f"1 - (z - 0.1234)**2 + {gap**2!r}"
         D = diagram(c2.ELinear(-1, 0, -1, f=(text, 0)), c2.psi.tanh(), "z1", (-1, 1), z=(0,))
-        assert_allclose(found(D, "transcritical"), [0.1234 - gap, 0.1234 + gap], atol=max(1e-12, 1e-15 / gap))
+        assert_allclose(found(D, "transcritical"), [0.1234 - gap, 0.1234 + gap], rtol=0.0, atol=max(1e-12, 1e-15 / gap))
 
 
 def test_a_critical_set_that_touches_the_equator_and_turns_back() -> None:
     D = diagram(c2.ELinear(1.5, 0, 1, f=(0, 1)), c2.psi.hill(3), "b", (-3, 3))
-    assert_allclose(found(D, "touching the equator"), [0], atol=1e-10)
+    assert_allclose(found(D, "touching the equator"), [0], rtol=0.0, atol=1e-10)
     assert found(D, "transcritical") == []
     assert [(b.value[0], b.value[-1]) for b in D.critical if 0 in (b.value[0], b.value[-1])] or len(D.critical) >= 2
 
@@ -236,7 +236,7 @@ def test_a_general_system_has_the_values_of_its_e_linear_twin() -> None:
     )
     D, E = (diagram(s, c2.psi.tanh(), "b", (0.2, 0.3)) for s in (system, twin))
     assert [s.kind for s in D.special] == [s.kind for s in E.special] == ["node-focus"]
-    assert_allclose(found(D, "node-focus"), found(E, "node-focus"), atol=1e-10)
+    assert_allclose(found(D, "node-focus"), found(E, "node-focus"), rtol=0.0, atol=1e-10)
     assert [b.kind for b in D.critical] == [b.kind for b in E.critical] == ["stable node", "stable focus"]
     assert {b.kind for b in D.equator} == {b.kind for b in E.equator}
     assert_allclose(D.critical[0].p[0], E.critical[0].p[0], atol=1e-6)
@@ -264,7 +264,7 @@ def test_typed_systems_have_the_special_values_of_their_e_linear_twins(hundredth
     for kind in kinds:
         exact = found(E, kind)
         assume(min(np.diff(exact), default=1.0) > 1e-4)
-        assert_allclose(found(D, kind), exact, atol=1e-9)
+        assert_allclose(found(D, kind), exact, rtol=0.0, atol=1e-9)
 
 
 def test_events_closer_than_a_bracket_are_both_told_with_their_values() -> None:
@@ -275,7 +275,7 @@ def test_events_closer_than_a_bracket_are_both_told_with_their_values() -> None:
     a, b, d, *f = values.values()
     wanted = diagram(c2.ELinear(a, b, d, f), c2.psi.tanh(), "a", span).special[:2]
     assert [s.kind for s in D.special] == [s.kind for s in wanted] == ["transcritical", "saddle-node"]
-    assert_allclose([s.value for s in D.special], [s.value for s in wanted], atol=1e-11)
+    assert_allclose([s.value for s in D.special], [s.value for s in wanted], rtol=0.0, atol=1e-11)
 
 
 def test_pitchforks_of_a_general_system_are_both_named() -> None:
@@ -292,7 +292,7 @@ def test_saddle_nodes_of_a_general_system() -> None:
     system = c2.System(U=("-c - s*(s**2 - p)", "-s + c*(s**2 - p)"), parameters={"p": 0.0})
     D = diagram(system, c2.psi.tanh(), "p", (-0.5, 1.3))
     saddle_nodes = [s for s in D.special if s.kind == "saddle-node"]
-    assert_allclose([s.value for s in saddle_nodes], [0, 0, 1, 1], atol=1e-9)
+    assert_allclose([s.value for s in saddle_nodes], [0, 0, 1, 1], rtol=0.0, atol=1e-9)
     assert_allclose([s.place for s in saddle_nodes], [(1, 0), (-1, 0), (0, 1), (0, -1)], atol=1e-3)
 
 

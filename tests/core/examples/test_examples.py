@@ -36,8 +36,8 @@ def test_the_balls_limit_directions_are_along_its_velocity(speed, phi):
     Q = c2.equator_equilibria(ball, z)
     pull, rub = 0.8 / 1.5 * speed, 3.5 * 0.2 * 9.81
     along = int(np.argmin(np.abs(np.exp(1j * (Q.theta - phi)) - 1.0)))
-    np.testing.assert_allclose(np.exp(1j * Q.theta[along]), np.exp(1j * phi), atol=1e-12)
-    np.testing.assert_allclose(Q.lambda_rho[[along, 1 - along]], [-rub - pull, -rub + pull], atol=1e-11)
+    np.testing.assert_allclose(np.exp(1j * Q.theta[along]), np.exp(1j * phi), rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(Q.lambda_rho[[along, 1 - along]], [-rub - pull, -rub + pull], rtol=0.0, atol=1e-11)
     np.testing.assert_allclose(Q.lambda_theta[[along, 1 - along]], [pull, -pull], rtol=1e-9)
 
 
@@ -54,7 +54,7 @@ def test_unit_vector_control_reaches_the_set_in_the_time_known_and_then_forgets_
     at = control.at((0.3, -0.2))
     # sliding: e = w/K, and q falls at the rate k
     np.testing.assert_allclose(at.U((0.35, -0.2)), 0.0, atol=1e-15)
-    np.testing.assert_allclose(at.W((0.35, -0.2)), [-0.45, 0.3], atol=1e-15)
+    np.testing.assert_allclose(at.W((0.35, -0.2)), [-0.45, 0.3], rtol=0.0, atol=1e-15)
     # without disturbance |(x, y)|' = -K exactly
     free = examples.unit_vector_control(w1=0.0, w2=0.0, h=0.0).at((0.0, 0.0))
     e = np.array([0.6, 0.8])

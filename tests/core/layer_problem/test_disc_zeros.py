@@ -67,9 +67,9 @@ def test_elinear_systems_written_as_text(system, regularisation):
     found = critical_sets(typed, regularisation)
     assert len(found) == len(closed)
     for C, exact in zip(found, closed, strict=True):
-        np.testing.assert_allclose(C.e, exact.e, atol=1e-12)
-        np.testing.assert_allclose(C.p, exact.p, atol=1e-11)
-        np.testing.assert_allclose(C.jacobian, exact.jacobian, atol=1e-11 * size)
+        np.testing.assert_allclose(C.e, exact.e, rtol=0.0, atol=1e-12)
+        np.testing.assert_allclose(C.p, exact.p, rtol=0.0, atol=1e-11)
+        np.testing.assert_allclose(C.jacobian, exact.jacobian, rtol=0.0, atol=1e-11 * size)
         assert C.trace == pytest.approx(exact.trace, abs=1e-11 * size)
         assert C.determinant == pytest.approx(exact.determinant, abs=1e-11 * size**2)
         if abs(exact.trace) > 1e-9 * size and abs(exact.discriminant) > 1e-9 * size**2:
@@ -125,7 +125,9 @@ def test_grids_of_zeros(c, s):
     expected = sorted((u, v) for u in c for v in s if math.hypot(u, v) < 1)
     assert found.proven
     assert len(found.e) == len(expected)
-    np.testing.assert_allclose(sorted(map(tuple, found.e)), expected, atol=1e-14 / min([1e-3, *np.diff(sorted(c))]))
+    np.testing.assert_allclose(
+        sorted(map(tuple, found.e)), expected, rtol=0.0, atol=1e-14 / min([1e-3, *np.diff(sorted(c))])
+    )
     assert found.consistent
 
 
@@ -152,7 +154,7 @@ def test_jacobian_against_the_complex_step(system, regularisation):
         u = C.e / np.hypot(*C.e) if C.e.any() else np.array([1.0, 0.0])
         spread = tangential * np.eye(2) + (radial - tangential) * np.outer(u, u)
         scale = np.abs(D).max() * max(radial, tangential)
-        np.testing.assert_allclose(C.jacobian, np.array(D) @ spread, atol=1e-12 * scale + 1e-40)
+        np.testing.assert_allclose(C.jacobian, np.array(D) @ spread, rtol=0.0, atol=1e-12 * scale + 1e-40)
         expected = np.linalg.eigvals(C.jacobian)
         assert C.trace == pytest.approx(np.trace(C.jacobian), abs=1e-12 * scale)
         np.testing.assert_allclose(np.sort_complex(C.eigenvalues), np.sort_complex(expected), atol=1e-6 * scale)
@@ -196,7 +198,7 @@ def test_a_fold_beside_others():
 def test_a_zero_on_the_equator(shift):
     found = zeros_of("(c - 0.6 - p*0.6)*(c + 2)", "s - 0.8 - p*0.8", p=shift)
     assert len(found.e) == (1 if shift < 0 else 0)
-    np.testing.assert_allclose(found.on_equator, [math.atan2(0.8, 0.6)] * (shift == 0.0), atol=1e-14)
+    np.testing.assert_allclose(found.on_equator, [math.atan2(0.8, 0.6)] * (shift == 0.0), rtol=0.0, atol=1e-14)
     assert (found.degree is None) == (shift == 0.0)
 
 
@@ -212,7 +214,7 @@ def test_curves_of_zeros(U):
 def test_a_curve_and_an_isolated_zero():
     found = zeros_of("c*(c**2 + s**2 - 1/4)", "s*(c**2 + s**2 - 1/4)")
     assert found.curve
-    np.testing.assert_allclose(found.e, [[0.0, 0.0]], atol=1e-17)
+    np.testing.assert_allclose(found.e, [[0.0, 0.0]], rtol=0.0, atol=1e-17)
 
 
 def test_everything_stands_still():

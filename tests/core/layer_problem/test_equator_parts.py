@@ -38,7 +38,7 @@ def test_polynomials_of_any_degree_are_resolved_exactly(degree):
     v, c, s = np.full(37, 1.0 / 7.0), np.cos(theta), np.sin(theta)
     for kind, values in {"U1": u, "U2": v, "rho": c * u + s * v, "theta": c * v - s * u}.items():
         f = component_series(key, kind)
-        np.testing.assert_allclose(f.derivatives(theta, range(1))[0], values, atol=1e-12)
+        np.testing.assert_allclose(f.derivatives(theta, range(1))[0], values, rtol=0.0, atol=1e-12)
         assert f.exact
         assert f.resolved
 
@@ -50,7 +50,7 @@ def test_a_narrow_peak_is_resolved_or_said_not_to_be(width):
     theta = np.linspace(-0.5, 0.5, 101)
     f = component_series(key, "theta")
     exact = 0.5 * np.cos(theta) + np.sin(theta) * (1.0 + np.exp((np.cos(theta) - 1.0) / width**2))
-    np.testing.assert_allclose(f.derivatives(theta, range(1))[0], exact, atol=1e-11)
+    np.testing.assert_allclose(f.derivatives(theta, range(1))[0], exact, rtol=0.0, atol=1e-11)
     assert (f.exact, f.resolved) == (False, True)
     assert not component_series(System(U=("-1 - exp((c - 1)*1e8)", "abs(s)")).at().key, "U1").resolved
 
@@ -114,20 +114,20 @@ def test_zeros_of_a_theta_with_corners(t, theta, slopes, multiplicity):
 def test_corners_are_where_the_arguments_of_abs_vanish():
     system = System(U=("abs(c - p) + max(s, 1/2)", "s"), parameters={"p": 0.5})
     found = module._kinks(system.at().key)
-    np.testing.assert_allclose(found, [math.pi / 6, THIRD, 5 * math.pi / 6, 5 * THIRD], atol=1e-12)
+    np.testing.assert_allclose(found, [math.pi / 6, THIRD, 5 * math.pi / 6, 5 * THIRD], rtol=0.0, atol=1e-12)
     found = module._kinks(system.evolve(p=-0.5).at().key)
-    np.testing.assert_allclose(found, [math.pi / 6, 2 * THIRD, 5 * math.pi / 6, 4 * THIRD], atol=1e-12)
+    np.testing.assert_allclose(found, [math.pi / 6, 2 * THIRD, 5 * math.pi / 6, 4 * THIRD], rtol=0.0, atol=1e-12)
     assert len(module._kinks(System(U=("c**3", "exp(s)")).at().key)) == 0
 
 
 def test_components_vanish_where_they_say():
     key = System(U=("(c - 1/2)*(2 + s)", "abs(s) + s/2 - 1/4")).at().key
     theta, multiplicity = component_zeros(key, "U1")
-    np.testing.assert_allclose(theta, [THIRD, 5 * THIRD], atol=1e-12)
+    np.testing.assert_allclose(theta, [THIRD, 5 * THIRD], rtol=0.0, atol=1e-12)
     assert multiplicity.tolist() == [1, 1]
     theta, multiplicity = component_zeros(key, "U2")  # s = 1/6 above, s = -1/2 below
     low = math.asin(1.0 / 6.0)
-    np.testing.assert_allclose(theta, [low, math.pi - low, 7 * math.pi / 6, 11 * math.pi / 6], atol=1e-12)
+    np.testing.assert_allclose(theta, [low, math.pi - low, 7 * math.pi / 6, 11 * math.pi / 6], rtol=0.0, atol=1e-12)
     assert multiplicity.tolist() == [1] * 4
     on = equator_zeros(key)
     theta, multiplicity = component_zeros(key, "theta")
@@ -179,6 +179,6 @@ def test_where_both_vanish_a_flat_theta_blurs_lambda_rho(slope, shift):
     field = System(U=(f"s*c + ({f})*c - {k}*s*s + 3/5*{k}*s", f"s*s + ({f})*s + {k}*s*c - 3/5*{k}*c"))
     found = equator_equilibria(field)
     low = math.asin(0.6)
-    np.testing.assert_allclose(found.theta, [low, math.pi - low], atol=1e-9)
+    np.testing.assert_allclose(found.theta, [low, math.pi - low], rtol=0.0, atol=1e-9)
     assert found.radially_degenerate.tolist() == [shift == 0.0] * 2
-    np.testing.assert_allclose(found.lambda_rho, shift, atol=1e-9)
+    np.testing.assert_allclose(found.lambda_rho, shift, rtol=0.0, atol=1e-9)

@@ -22,7 +22,7 @@ THIRD = math.pi / 3
 def test_attracting_and_repelling_directions():
     """sec:mateslidecross: Q_i at (i - 1) pi/3; lambda_rho = 2 cos^3 - cos/2 - 1 (the paper's formula slips)."""
     found = equator_equilibria(ATTRACTING, 0.3)
-    np.testing.assert_allclose(found.theta, [i * THIRD for i in range(6)], atol=2e-15)
+    np.testing.assert_allclose(found.theta, [i * THIRD for i in range(6)], rtol=0.0, atol=2e-15)
     np.testing.assert_allclose(found.lambda_rho, [0.5, -1, -1, -2.5, -1, -1], rtol=1e-14)
     np.testing.assert_allclose(found.lambda_theta, [-1.5, 1.5] * 3, rtol=1e-14)
     assert found.proven
@@ -42,14 +42,14 @@ def test_eight_directions_while_chi_is_small(z):
     )
     found = equator_equilibria(NONUNIQUE, z)
     # near z = 0.84 the outer ones are about to meet at 0 and pi: a coefficient's rounding moves them by more
-    np.testing.assert_allclose(found.theta, expected, atol=4e-15 / inner)
+    np.testing.assert_allclose(found.theta, expected, rtol=0.0, atol=4e-15 / inner)
     assert (found.lambda_rho < 0).all()
     np.testing.assert_array_equal(np.sign(found.lambda_theta), [1, -1] * 4)
 
 
 def test_four_directions_beyond():
     found = equator_equilibria(NONUNIQUE, 0.842)
-    np.testing.assert_allclose(found.theta, [0, math.pi / 2, math.pi, 1.5 * math.pi], atol=1e-15)
+    np.testing.assert_allclose(found.theta, [0, math.pi / 2, math.pi, 1.5 * math.pi], rtol=0.0, atol=1e-15)
     np.testing.assert_array_equal(np.sign(found.lambda_theta), [-1, 1, -1, 1])
 
 
@@ -76,9 +76,9 @@ def test_elinear_systems_written_as_text(system):
     assert len(found) == len(closed)
     assert found.proven
     size = max(map(abs, at.plane))
-    np.testing.assert_allclose(found.theta, closed.theta, atol=1e-12)
-    np.testing.assert_allclose(found.lambda_rho, closed.lambda_rho, atol=1e-12 * size)
-    np.testing.assert_allclose(found.lambda_theta, closed.lambda_theta, atol=1e-12 * size)
+    np.testing.assert_allclose(found.theta, closed.theta, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(found.lambda_rho, closed.lambda_rho, rtol=0.0, atol=1e-12 * size)
+    np.testing.assert_allclose(found.lambda_theta, closed.lambda_theta, rtol=0.0, atol=1e-12 * size)
     orbit, exact = equator_cycle(typed), equator_cycle(at)
     assert (orbit is None) == (exact is None)
     if exact is not None:
@@ -109,7 +109,7 @@ def test_no_direction_is_missing_and_every_one_is_one(system):
     c, s = np.cos(found.theta), np.sin(found.theta)
     at_zero = at.U(np.stack([c, s], axis=-1))
     np.testing.assert_allclose(c * at_zero[:, 1] - s * at_zero[:, 0], 0.0, atol=4e-15 * size)
-    np.testing.assert_allclose(found.lambda_rho, c * at_zero[:, 0] + s * at_zero[:, 1], atol=1e-12 * size)
+    np.testing.assert_allclose(found.lambda_rho, c * at_zero[:, 0] + s * at_zero[:, 1], rtol=0.0, atol=1e-12 * size)
     simple = found.multiplicity == 1
     if simple.all() and len(found):
         assert (np.sign(found.lambda_theta) == -np.sign(np.roll(found.lambda_theta, 1))).all()
@@ -175,7 +175,7 @@ def test_multiple_zeros(function, multiplicity):
     assert found.proven
     assert (found.distance == 0.0) == any(m > 1 for m in multiplicity)
     if len(multiplicity) == 1:
-        np.testing.assert_allclose(found.theta, 1.0, atol=1e-8)
+        np.testing.assert_allclose(found.theta, 1.0, rtol=0.0, atol=1e-8)
 
 
 def test_saddle_node_of_limit_directions():
@@ -185,7 +185,7 @@ def test_saddle_node_of_limit_directions():
         return equator_equilibria(System(U=("-c - s*(s**2 - p)", "-s + c*(s**2 - p)"), parameters={"p": p}))
 
     assert at(0.0).multiplicity.tolist() == [2, 2]
-    np.testing.assert_allclose(at(0.0).theta, [0.0, math.pi], atol=1e-12)
+    np.testing.assert_allclose(at(0.0).theta, [0.0, math.pi], rtol=0.0, atol=1e-12)
     assert len(at(-1e-6)) == 0
     assert len(at(1e-6)) == 4
     assert at(1e-6).distance == pytest.approx(1e-6, rel=1.0)
@@ -266,7 +266,7 @@ def test_the_series_are_those_of_the_field():
     }
     for kind, values in expected.items():
         f = component_series(at.key, kind)
-        np.testing.assert_allclose(f.derivatives(theta, range(1))[0], values, atol=1e-15)
+        np.testing.assert_allclose(f.derivatives(theta, range(1))[0], values, rtol=0.0, atol=1e-15)
         assert f.exact
         assert f.degree == {"U1": 3, "U2": 1, "rho": 4, "theta": 4}[kind]
 
@@ -276,7 +276,7 @@ def test_rotated_elinear_has_rotated_directions():
     at = ELinear.from_matrix(A, f).at()
     typed = System(U=("-c + 2*s + 0.2", "0.5*c - 0.3*s + 0.1"))
     rotated = np.sort(np.remainder(equator_equilibria(at).theta - at.rotation, 2 * math.pi))
-    np.testing.assert_allclose(equator_equilibria(typed).theta, rotated, atol=1e-14)
+    np.testing.assert_allclose(equator_equilibria(typed).theta, rotated, rtol=0.0, atol=1e-14)
 
 
 _NEAR = System(

@@ -100,8 +100,8 @@ def test_the_jacobian_of_a_matrix_and_its_frame(regularisation, e):
         det, sign = matrix_determinant(*M)
         x2, p, J, frame = linearisation_of(M, regularisation, e, complement, sign)
         place, numeric = direct(M, regularisation, e)
-        np.testing.assert_allclose(x2, place, atol=1e-12)
-        np.testing.assert_allclose(p, place / math.hypot(1.0, *place), atol=1e-12)
+        np.testing.assert_allclose(x2, place, rtol=0.0, atol=1e-12)
+        np.testing.assert_allclose(p, place / math.hypot(1.0, *place), rtol=0.0, atol=1e-12)
         J = np.reshape(J, (2, 2))
         np.testing.assert_allclose(J, numeric, atol=1e-7)
         # the frame: J in the axes along e and across it
@@ -115,7 +115,7 @@ def test_the_jacobian_of_a_matrix_and_its_frame(regularisation, e):
         assert frame.size >= abs(frame.along) + abs(frame.across) - 1e-12
         trace, determinant, discriminant, kind, pair = spectrum(frame)
         values = np.linalg.eigvals(J)
-        np.testing.assert_allclose(np.sort_complex(pair), np.sort_complex(values), atol=1e-9)
+        np.testing.assert_allclose(np.sort_complex(pair), np.sort_complex(values), rtol=0.0, atol=1e-9)
         assert pair[0].real >= pair[1].real
         assert (trace, determinant) == pytest.approx((np.trace(J), np.linalg.det(J)), abs=1e-12)
         assert discriminant == pytest.approx(np.trace(J) ** 2 - 4.0 * np.linalg.det(J), abs=1e-11)
@@ -135,7 +135,7 @@ def test_the_normal_form_is_a_matrix_like_any_other(regularisation, e):
         M = (a, -b, b, d)
         other = linearisation_of(M, regularisation, e, complement, matrix_determinant(*M)[1])
         for mine, its in zip(one[:3], other[:3], strict=True):
-            np.testing.assert_allclose(mine, its, atol=1e-14)
+            np.testing.assert_allclose(mine, its, rtol=0.0, atol=1e-14)
         for name in ("along", "across", "turning", "determinant", "sign"):
             assert getattr(one[3], name) == pytest.approx(getattr(other[3], name), abs=1e-13)
         assert 1.0 <= other[3].size / one[3].size + 1e-12 < 100.0

@@ -221,7 +221,7 @@ def test_in_a_line_its_own_equation_decides(q, z, kind, there):
         end = math.cos(there)
     start, last = own.ascent.along
     np.testing.assert_allclose(start, in_disc(PSI, np.array([q, 0.0])))
-    np.testing.assert_allclose(last, in_disc(PSI, np.array([end, 0.0])), atol=1e-12)
+    np.testing.assert_allclose(last, in_disc(PSI, np.array([end, 0.0])), rtol=0.0, atol=1e-12)
 
 
 def test_at_rest_on_a_repelling_set_of_a_line_it_stops():

@@ -35,9 +35,9 @@ def test_textbook_ball(mu, v0, direction):
     run = simulate_nonsmooth(examples.ball_in_pool(K=0.0, mu=mu), (v0 * c, v0 * s, v0 * c, v0 * s), (0.0, 2.0 * slips))
     assert kinds(run) == ["slip", "slide"]
     assert run.phases[0].t_end == pytest.approx(slips, rel=1e-9)
-    np.testing.assert_allclose(run.states[-1], (0.0, 0.0, 5 / 7 * v0 * c, 5 / 7 * v0 * s), atol=1e-9 * v0)
+    np.testing.assert_allclose(run.states[-1], (0.0, 0.0, 5 / 7 * v0 * c, 5 / 7 * v0 * s), rtol=0.0, atol=1e-9 * v0)
     half = 0.5 * slips
-    np.testing.assert_allclose(run.dense(half)[2:], (v0 - mu * G * half) * np.array([c, s]), atol=1e-9 * v0)
+    np.testing.assert_allclose(run.dense(half)[2:], (v0 - mu * G * half) * np.array([c, s]), rtol=0.0, atol=1e-9 * v0)
 
 
 def test_ball_in_a_pool_along_a_line():
@@ -51,10 +51,10 @@ def test_ball_in_a_pool_along_a_line():
     assert kinds(run) == ["slip", "slide"]
     assert x(arrives) == pytest.approx(0.0, abs=1e-9)
     t = np.linspace(0.0, arrives, 11)
-    np.testing.assert_allclose(run.dense(t)[:, 0], x(t), atol=1e-9)
-    np.testing.assert_allclose(run.dense(t)[:, 2], z(t), atol=1e-9)
+    np.testing.assert_allclose(run.dense(t)[:, 0], x(t), rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(run.dense(t)[:, 2], z(t), rtol=0.0, atol=1e-9)
     t = np.linspace(arrives, 2.0, 11)
-    np.testing.assert_allclose(run.dense(t)[:, 2], z(arrives) * np.exp(-5 / 7 * k * (t - arrives)), atol=1e-9)
+    np.testing.assert_allclose(run.dense(t)[:, 2], z(arrives) * np.exp(-5 / 7 * k * (t - arrives)), rtol=0.0, atol=1e-9)
     assert not run.dense(t)[:, :2].any()
 
 
@@ -89,7 +89,9 @@ def test_crossing_at_once_and_coming_back():
     # Leaving: z' = mu g - 2 z, x' = 7/2 mu g - 2 z from (0, z) on.
     z0, friction, t = run.dense(cross.t_end)[2], 0.2 * G, 1.0
     z = (z0 - friction / 2) * math.exp(-2 * t) + friction / 2
-    np.testing.assert_allclose(run.dense(cross.t_end + t)[[0, 2]], [2.5 * friction * t + z - z0, z], atol=1e-9)
+    np.testing.assert_allclose(
+        run.dense(cross.t_end + t)[[0, 2]], [2.5 * friction * t + z - z0, z], rtol=0.0, atol=1e-9
+    )
 
 
 def arrival_by_quadrature(system, rho, theta, target):
@@ -135,7 +137,7 @@ def test_arrival_by_a_spiral():
     assert kinds(run) == ["slip", "slide"]
     t = np.linspace(0.0, 3.0, 7)
     rho, theta = 1.0 - 0.3 * t, math.atan2(0.8, 0.6) - np.log(1.0 - 0.3 * t) / 0.3
-    np.testing.assert_allclose(run.dense(t), (rho * np.array([np.cos(theta), np.sin(theta)])).T, atol=1e-8)
+    np.testing.assert_allclose(run.dense(t), (rho * np.array([np.cos(theta), np.sin(theta)])).T, rtol=0.0, atol=1e-8)
 
 
 def test_sliding_ends_where_the_critical_set_reaches_the_equator():
@@ -145,7 +147,9 @@ def test_sliding_ends_where_the_critical_set_reaches_the_equator():
     assert kinds(run) == ["slide", "slip"]
     assert run.phases[0].t_end == pytest.approx(0.75, abs=1e-10)
     t = np.linspace(0.75, 2.0, 9)
-    np.testing.assert_allclose(run.dense(t), np.stack([(t - 0.75) ** 2 / 2, 0 * t, 0.25 + t], axis=-1), atol=1e-10)
+    np.testing.assert_allclose(
+        run.dense(t), np.stack([(t - 0.75) ** 2 / 2, 0 * t, 0.25 + t], axis=-1), rtol=0.0, atol=1e-10
+    )
 
 
 def test_block_slips_when_the_incline_leaves_the_friction_ellipse():
@@ -169,7 +173,7 @@ def test_sliding_ends_in_a_fold():
     assert "fold" in run.phases[1].reason
     # Then along theta = 0: z' = -1/4, x' = 1 - z.
     t = 1.0 - run.phases[0].t_end
-    np.testing.assert_allclose(run.states[-1], (t + t * t / 8.0, 0.0, -t / 4.0), atol=1e-8)
+    np.testing.assert_allclose(run.states[-1], (t + t * t / 8.0, 0.0, -t / 4.0), rtol=0.0, atol=1e-8)
 
 
 def test_the_side_of_approach_decides_how_it_slides():
@@ -222,7 +226,7 @@ def test_through_two_hopf_bifurcations_and_off_the_equator():
     # z = z0 exp(t/2) all along (prop:LC), to z = 1.
     t0 = run.phases[1].t_start
     z0, t = run.dense(t0)[2], np.array([0.5, 1.5, 2.2])
-    np.testing.assert_allclose(run.dense(t0 + t)[:, 2], z0 * np.exp(0.5 * t), atol=1e-9)
+    np.testing.assert_allclose(run.dense(t0 + t)[:, 2], z0 * np.exp(0.5 * t), rtol=0.0, atol=1e-9)
     assert run.phases[3].t_end - t0 == pytest.approx(2.0 * math.log(1.0 / z0), abs=1e-9)
 
 
@@ -252,7 +256,7 @@ def test_stops_where_the_limit_is_not_unique():
 def test_starting_on_sigma_with_one_way_out():
     run = simulate_nonsmooth(ELinear(-1.0, 0.0, -1.0, (1.5, 0.0), g=("x0",), parameters={"x0": 1.0}), (0, 0, 0), (0, 2))
     assert kinds(run) == ["slip"]
-    np.testing.assert_allclose(run.states[-1], (1.0, 0.0, 2.0), atol=1e-9)
+    np.testing.assert_allclose(run.states[-1], (1.0, 0.0, 2.0), rtol=0.0, atol=1e-9)
 
 
 def test_first_steps_away_from_sigma():
@@ -277,7 +281,7 @@ def test_a_critical_set_is_continued_with_its_exact_slope():
     sheet = Sheet(field(examples.nonunique_sliding()), np.array([0.5, 0.0]) * (1.02 / 1.01), z)
     chi = lambda z: (1 + 2 * z * z) / (1 + z * z)  # noqa: E731
     assert sheet.slope[0, 0] == pytest.approx((chi(0.1 + 1e-6) - chi(0.1 - 1e-6)) / 4e-6, rel=1e-6)
-    np.testing.assert_allclose(sheet.at(np.array([0.3])), (chi(0.3) / 2, 0.0), atol=1e-14)
+    np.testing.assert_allclose(sheet.at(np.array([0.3])), (chi(0.3) / 2, 0.0), rtol=0.0, atol=1e-14)
 
 
 def test_a_state_within_underflow_of_sigma_is_on_it():
@@ -291,7 +295,7 @@ def test_a_turn_close_to_sigma_is_no_arrival(side):
     run = simulate_nonsmooth(ELinear(-1.0, 0.0, 1.0), (1.0, side * 1e-28), (0.0, 3.0), families.constant())
     assert kinds(run) == ["slip"]
     assert 1e-16 < np.hypot(*run.states[:, :2].T).min() < 1e-13
-    np.testing.assert_allclose(run.states[-1], (0.0, side * 2.0), atol=1e-9)
+    np.testing.assert_allclose(run.states[-1], (0.0, side * 2.0), rtol=0.0, atol=1e-9)
     near = simulate_nonsmooth(ELinear(-1.0, 0.0, 1.0), (1.0, side * 1e-4), (0.0, 3.0), rtol=1e-12)
     np.testing.assert_allclose(near.states[:, 0] * near.states[:, 1], side * 1e-4, rtol=1e-6)
 

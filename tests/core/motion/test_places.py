@@ -36,12 +36,12 @@ def test_the_place_of_a_state(psi, eps):
     e = states / np.sqrt(r2 + eps**2 * np.array([float(psi(r / eps**2)) for r in r2]))[:, None]
     p = states / np.sqrt(r2 + eps**2)[:, None]
     of_state = places.OfState(lambda t: states, psi, eps, 0.0, 1.0).at(np.arange(4.0))
-    np.testing.assert_allclose(of_state[0], e, atol=1e-12)
-    np.testing.assert_allclose(of_state[1], p, atol=1e-14)
+    np.testing.assert_allclose(of_state[0], e, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(of_state[1], p, rtol=0.0, atol=1e-14)
     for (x, y), own_e, own_p in zip(states.tolist(), e, p, strict=True):
         found = place(psi, eps, x, y)
-        np.testing.assert_allclose(found[0], own_e, atol=1e-12)
-        np.testing.assert_allclose(found[1], own_p, atol=1e-14)
+        np.testing.assert_allclose(found[0], own_e, rtol=0.0, atol=1e-12)
+        np.testing.assert_allclose(found[1], own_p, rtol=0.0, atol=1e-14)
 
 
 def test_the_zero_near_a_guess():
@@ -113,8 +113,8 @@ def test_places_on_sets_cycles_and_where_it_leaves():
     motion = lambda t: np.stack([0.0 * t, 0.0 * t, 0.1 + 0.2 * t], axis=-1)  # noqa: E731
     rough = np.array([(0.2, 0.01), (0.4, -0.01)])
     e, p = places.OnSet(BENT, PSIS[1], motion, np.array([0.0, 1.0]), rough).at(t)
-    np.testing.assert_allclose(e, np.stack([np.sqrt(0.05 + 0.1 * t), 0.0 * t], axis=-1), atol=1e-12)
-    np.testing.assert_allclose(p, [in_disc(PSIS[1], one) for one in e], atol=1e-14)
+    np.testing.assert_allclose(e, np.stack([np.sqrt(0.05 + 0.1 * t), 0.0 * t], axis=-1), rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(p, [in_disc(PSIS[1], one) for one in e], rtol=0.0, atol=1e-14)
     e, p = places.OnCycle(
         np.array([0.0, 2.0]), np.array([(0.0, 1.0), (1.0, 3.0)]), np.array([(0.5, 0.0), (0.1, 0.2)])
     ).at(t)
@@ -131,8 +131,8 @@ def test_beyond_the_equator_a_set_is_not_polished():
     motion = lambda t: np.stack([0.0 * t, 0.0 * t, 1.0 + t], axis=-1)  # noqa: E731
     on_set = places.OnSet(system, PSIS[1], motion, np.array([-1.0, 1.0]), np.array([(0.0, 0.0), (1.0, 0.0)]))
     e, p = on_set.at(np.array([-0.5, 0.1, 0.9]))
-    np.testing.assert_allclose(e, [(0.5, 0.0), (0.55, 0.0), (0.95, 0.0)], atol=1e-12)
-    np.testing.assert_allclose(p, [in_disc(PSIS[1], one) for one in e], atol=1e-12)
+    np.testing.assert_allclose(e, [(0.5, 0.0), (0.55, 0.0), (0.95, 0.0)], rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(p, [in_disc(PSIS[1], one) for one in e], rtol=0.0, atol=1e-12)
 
 
 def test_at_the_moment_of_arrival_the_nearest_moment_off_sigma_tells_the_direction():

@@ -36,7 +36,7 @@ def test_slopes_trace_and_determinant_of_a_sheet(psi):
             both = [c2.critical_sets(BENT, psi, (z + h,)) for h in (-step, step)]
             nearby = [min(sets, key=lambda D: np.hypot(*(D.e - C.e))).e for sets in both]
             np.testing.assert_allclose(sheet.slope[:, 0], (nearby[1] - nearby[0]) / (2.0 * step), atol=1e-6)
-            np.testing.assert_allclose(sheet.at(np.array([z + step])), nearby[1], atol=1e-13)
+            np.testing.assert_allclose(sheet.at(np.array([z + step])), nearby[1], rtol=0.0, atol=1e-13)
     at = SLIDING.at((0.0, 0.0))
     sheet = Sheet(field(SLIDING), np.zeros(2), np.zeros(2))
     assert trace(sheet, psi, np.zeros(2), np.zeros(2)) == pytest.approx(at.a + at.d)
@@ -52,8 +52,8 @@ def test_the_slow_flow_as_a_problem():
     problem = Sheet(field(SLIDING), -np.linalg.solve(A, F @ z), z).problem(0.01)
     M = -B @ np.linalg.solve(A, F) + np.array([[0.0, -1.0], [1.0, 0.0]])
     for at in (z, z + 0.05):
-        np.testing.assert_allclose(problem.F(at), M @ at + (1.0, 0.0), atol=1e-13)
-        np.testing.assert_allclose(problem.J(at), M, atol=1e-12)
+        np.testing.assert_allclose(problem.F(at), M @ at + (1.0, 0.0), rtol=0.0, atol=1e-13)
+        np.testing.assert_allclose(problem.J(at), M, rtol=0.0, atol=1e-12)
         np.testing.assert_allclose(problem.scale(at), np.abs(at) + 0.01)
 
 
@@ -222,4 +222,4 @@ def test_a_sheet_of_a_linear_field_is_found_however_its_components_are_coupled(A
     exact = lambda z: np.linalg.solve(A, (z / 9.0, z * z / 9.0))  # noqa: E731
     sheet = Sheet(field(system), exact(0.3), np.array([0.3]))
     for z in (0.31, 0.5, -1.0):
-        np.testing.assert_allclose(sheet.at(np.array([z])), exact(z), atol=1e-13)
+        np.testing.assert_allclose(sheet.at(np.array([z])), exact(z), rtol=0.0, atol=1e-13)

@@ -70,9 +70,9 @@ def along(piece, step):
 def test_the_meeting_points_are_on_both_conics_and_are_the_limit_directions(system):
     found, at = conic(system), system.at()
     theta = c2.equator_equilibria(system).theta
-    np.testing.assert_allclose(np.hypot(*found.meeting.T), 1.0, atol=1e-15)
+    np.testing.assert_allclose(np.hypot(*found.meeting.T), 1.0, rtol=0.0, atol=1e-15)
     value, gradient = theta_form(at, *found.meeting.T)
-    np.testing.assert_allclose(np.arctan2(*found.meeting.T[::-1]) % (2 * math.pi), theta, atol=1e-14)
+    np.testing.assert_allclose(np.arctan2(*found.meeting.T[::-1]) % (2 * math.pi), theta, rtol=0.0, atol=1e-14)
     assert (np.abs(value) <= 1e-12 * at.size + 1e-7 * np.hypot(*gradient.T)).all()
 
 

@@ -120,7 +120,7 @@ def test_nullclines_meet_at_the_critical_set_and_end_at_the_limit_directions():
         assert min(distance_to_polyline(C.p, b.points) for b in inside) < 1e-3
     ends = [b.points[0] for b in nullclines(system, one) if b.kind == "theta" and not b.inside]
     angles = np.sort(np.arctan2(*np.array(ends).T[::-1]) % (2 * math.pi))
-    np.testing.assert_allclose(angles, equator_equilibria(system).theta, atol=1e-14)
+    np.testing.assert_allclose(angles, equator_equilibria(system).theta, rtol=0.0, atol=1e-14)
 
 
 @pytest.mark.parametrize(

@@ -125,7 +125,7 @@ def test_lines_that_cross_at_any_angle_stay_straight(angle, place):
     assert len(found) == 2
     for curve in found:
         along = (curve.points[-1] - curve.points[0]) / np.hypot(*(curve.points[-1] - curve.points[0]))
-        np.testing.assert_allclose(np.hypot(*curve.points[[0, -1]].T), 1.0, atol=1e-12)
+        np.testing.assert_allclose(np.hypot(*curve.points[[0, -1]].T), 1.0, rtol=0.0, atol=1e-12)
         away = (curve.points - curve.points[0]) @ [along[1], -along[0]]
         np.testing.assert_allclose(away, 0.0, atol=1e-11 / angle)
 
@@ -236,7 +236,7 @@ def test_outside_are_rays():
     at = ATTRACTING.at(0.1)
     rays = [b for b in nullclines(at, psi.rational(), view=1.5) if not b.inside]
     angles = [math.atan2(b.points[-1, 1], b.points[-1, 0]) % (2 * math.pi) for b in rays if b.kind == "theta"]
-    np.testing.assert_allclose(sorted(angles), equator_equilibria(at).theta, atol=1e-14)
+    np.testing.assert_allclose(sorted(angles), equator_equilibria(at).theta, rtol=0.0, atol=1e-14)
     for ray in rays:
         assert np.hypot(*ray.points[0]) == pytest.approx(1.0)
         assert np.hypot(*ray.points[-1]) == pytest.approx(1.5 * math.sqrt(2))

@@ -19,7 +19,7 @@ def test_the_ball_slides_between_two_passages_through_the_equator(psi):
     np.testing.assert_allclose([p.z for p in found.points], [-crit, 0.0, crit], rtol=1e-13, atol=1e-13 * crit)
     assert found.points[1].stable
     (branch,) = found.branches
-    np.testing.assert_allclose(branch.flow[:, 0], -5.0 * 1.5 / (7.0 * 2.0) * branch.z, atol=1e-12)
+    np.testing.assert_allclose(branch.flow[:, 0], -5.0 * 1.5 / (7.0 * 2.0) * branch.z, rtol=0.0, atol=1e-12)
 
 
 def test_the_interval_is_a_chord_when_the_other_slow_variable_is_not_zero():
@@ -89,12 +89,12 @@ def test_each_of_several_critical_sets_has_its_branch_and_its_equilibrium():
     found = slow_portrait(c2.System(U=THREE, W=("c - z",)), c2.psi.constant(), (-1.0, 1.0), count=21)
     assert len(found.branches) == 3
     for branch in found.branches:
-        np.testing.assert_allclose(branch.e, np.broadcast_to(branch.e[0], branch.e.shape), atol=1e-12)
-        np.testing.assert_allclose(branch.flow[:, 0], branch.e[:, 0] - branch.z, atol=1e-12)
+        np.testing.assert_allclose(branch.e, np.broadcast_to(branch.e[0], branch.e.shape), rtol=0.0, atol=1e-12)
+        np.testing.assert_allclose(branch.flow[:, 0], branch.e[:, 0] - branch.z, rtol=0.0, atol=1e-12)
     points = [p for p in found.points if p.kind == "equilibrium"]
     assert len(points) == len(found.points) == 3
-    np.testing.assert_allclose([p.z for p in points], [-0.5, 0.0, 0.5], atol=1e-12)
-    np.testing.assert_allclose([p.e for p in points], [(-0.5, 0.0), (0.0, 0.0), (0.5, 0.0)], atol=1e-12)
+    np.testing.assert_allclose([p.z for p in points], [-0.5, 0.0, 0.5], rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose([p.e for p in points], [(-0.5, 0.0), (0.0, 0.0), (0.5, 0.0)], rtol=0.0, atol=1e-12)
     assert all(p.stable for p in points)
 
 
@@ -108,7 +108,7 @@ def test_sets_that_cross_in_one_coordinate_keep_their_branches():
     for branch in nodes:
         side = np.sign(branch.e[0] @ (np.cos(2 * branch.z[0]), np.sin(2 * branch.z[0])))
         expected = 0.5 * side * np.stack([np.cos(2 * branch.z), np.sin(2 * branch.z)], axis=-1)
-        np.testing.assert_allclose(branch.e, expected, atol=1e-9)
+        np.testing.assert_allclose(branch.e, expected, rtol=0.0, atol=1e-9)
 
 
 def test_the_set_that_changes_its_kind_is_told_from_one_that_does_not():
@@ -117,8 +117,10 @@ def test_the_set_that_changes_its_kind_is_told_from_one_that_does_not():
     found = slow_portrait(system, c2.psi.constant(), (-0.3, 0.3))
     points = [p for p in found.points if p.kind == "node-focus"]
     assert len(points) == len(found.points) == 2
-    np.testing.assert_allclose([p.z for p in points], [-0.25 / np.sqrt(12) * 2, 0.25 / np.sqrt(12) * 2], atol=1e-7)
-    np.testing.assert_allclose([p.e for p in points], [(0.5, 0.0)] * 2, atol=1e-12)
+    np.testing.assert_allclose(
+        [p.z for p in points], [-0.25 / np.sqrt(12) * 2, 0.25 / np.sqrt(12) * 2], rtol=0.0, atol=1e-7
+    )
+    np.testing.assert_allclose([p.e for p in points], [(0.5, 0.0)] * 2, rtol=0.0, atol=1e-12)
     assert ["stable focus" in p.sentence for p in points] == [False, True]
     assert [b.kind for b in found.branches].count("saddle") == 3
 
@@ -144,7 +146,7 @@ def test_points_carry_the_flow_of_the_set_they_lie_on():
     for point in found.points:
         assert point.flow[0] == pytest.approx(-point.e[0] - point.z, abs=1e-9)
     for branch in found.branches:
-        np.testing.assert_allclose(branch.flow[:, 0], -branch.e[:, 0] - branch.z, atol=1e-9)
+        np.testing.assert_allclose(branch.flow[:, 0], -branch.e[:, 0] - branch.z, rtol=0.0, atol=1e-9)
         sets = c2.critical_sets(system, c2.psi.constant(), (branch.z[1],))
         assert min(np.abs(C.p - branch.p[1]).max() for C in sets) < 1e-12
 

@@ -28,8 +28,8 @@ def test_what_has_no_weight_is_not_combined():
     """The ends of fig:generic_nonuniqueness_of_sliding combine two limit vectors each, at c = 1/2 and at c = -1/2."""
     found = filippov_sliding(c2.presets["sliding-nonuniqueness"].system, (0.0,))
     for vertex, directions, weights in zip(found.vertices, found.directions, found.weights, strict=True):
-        np.testing.assert_allclose(weights, [0.5, 0.5], atol=1e-9)
-        np.testing.assert_allclose(np.cos(directions), [(0.25 - vertex[0]) / 2.0] * 2, atol=1e-9)
+        np.testing.assert_allclose(weights, [0.5, 0.5], rtol=0.0, atol=1e-9)
+        np.testing.assert_allclose(np.cos(directions), [(0.25 - vertex[0]) / 2.0] * 2, rtol=0.0, atol=1e-9)
 
 
 def test_a_slow_flow_that_does_not_read_e_is_unique():
@@ -43,7 +43,7 @@ def test_the_e_linear_system_has_one_candidate_the_sliding_flow(z):
     ball = c2.examples.ball_in_pool()
     found = filippov_sliding(ball, z)
     assert found.unique
-    np.testing.assert_allclose(found.vertices[0], c2.sliding_flow(ball, z), atol=1e-12)
+    np.testing.assert_allclose(found.vertices[0], c2.sliding_flow(ball, z), rtol=0.0, atol=1e-12)
 
 
 @settings(max_examples=25)
@@ -87,7 +87,7 @@ def test_extremes_match_a_linear_programme_over_many_directions(k):
         at_theta = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
         assert weight.min() >= 0.0
         np.testing.assert_allclose(weight @ at.U(at_theta), 0.0, atol=1e-8)
-        np.testing.assert_allclose(weight @ at.W(at_theta), vertex, atol=1e-12)
+        np.testing.assert_allclose(weight @ at.W(at_theta), vertex, rtol=0.0, atol=1e-12)
 
 
 @pytest.mark.parametrize("square", ["c^2", "2*c^2"])
@@ -115,7 +115,7 @@ def test_extremes_have_all_digits_and_their_directions(turn, slope):
         expected = sorted([first % math.pi, first % math.pi + math.pi])
         away = (np.sort(directions % (2.0 * math.pi)) - expected + 1.0) % math.pi - 1.0  # 0 and pi are neighbours here
         np.testing.assert_allclose(away, 0.0, atol=1e-10)
-        np.testing.assert_allclose(weights, 0.5, atol=1e-12)
+        np.testing.assert_allclose(weights, 0.5, rtol=0.0, atol=1e-12)
         combined = weights @ np.stack([np.cos(directions), np.sin(directions)], axis=-1)
         np.testing.assert_allclose(combined, 0.0, atol=1e-14)
 
@@ -126,7 +126,7 @@ def test_the_polygon_of_a_disc_touches_it_in_all_its_normals(monkeypatch):
     found = filippov_sliding(c2.System(U=("c", "s"), W=("c**2 - s**2", "2*c*s")), (0.0, 0.0))
     angles = np.arctan2(*found.vertices.T[::-1])
     expected = sorted([*(-math.pi + 2.0 * math.pi * (np.arange(8) + 0.5) / 8), -math.pi / 2, 0.0, math.pi / 2, math.pi])
-    np.testing.assert_allclose(np.hypot(*found.vertices.T), 1.0, atol=1e-12)
+    np.testing.assert_allclose(np.hypot(*found.vertices.T), 1.0, rtol=0.0, atol=1e-12)
     np.testing.assert_allclose(np.sort(angles % (2.0 * math.pi)), np.sort(np.mod(expected, 2.0 * math.pi)), atol=1e-6)
     steps = np.diff(np.unwrap(np.append(angles, angles[0])))
     assert (steps > 0.0).all()  # counter-clockwise, once round
@@ -135,7 +135,7 @@ def test_the_polygon_of_a_disc_touches_it_in_all_its_normals(monkeypatch):
     assert "not unique" in found.sentence
     for vertex, theta, weight in zip(found.vertices, found.directions, found.weights, strict=True):
         np.testing.assert_allclose(
-            weight @ np.stack([np.cos(2 * theta), np.sin(2 * theta)], axis=-1), vertex, atol=1e-12
+            weight @ np.stack([np.cos(2 * theta), np.sin(2 * theta)], axis=-1), vertex, rtol=0.0, atol=1e-12
         )
         assert ((theta >= 0.0) & (theta < 2.0 * math.pi)).all()
 
@@ -145,7 +145,7 @@ def test_three_slow_variables_have_the_extremes_along_their_axes():
     found = filippov_sliding(system, (0.0, 0.0, 0.5))
     ends = {tuple(float(v) for v in vertex.round(9) + 0.0) for vertex in found.vertices}
     assert {(1.5, 0.0, -0.25), (-0.5, 0.0, -0.25), (0.5, 1.0, -0.25), (0.5, -1.0, -0.25)} <= ends
-    np.testing.assert_allclose(found.vertices[:, 2], -0.25, atol=1e-12)
+    np.testing.assert_allclose(found.vertices[:, 2], -0.25, rtol=0.0, atol=1e-12)
 
 
 def test_a_point_is_one_candidate_in_any_number_of_slow_variables():
@@ -154,10 +154,12 @@ def test_a_point_is_one_candidate_in_any_number_of_slow_variables():
         found = filippov_sliding(system, (0.0,) * m)
         assert found.unique
         assert "is unique" in found.sentence
-        np.testing.assert_allclose(found.vertices, np.full((1, m), 0.4), atol=1e-12)
+        np.testing.assert_allclose(found.vertices, np.full((1, m), 0.4), rtol=0.0, atol=1e-12)
         (theta,), (weight,) = found.directions, found.weights
         assert weight.sum() == pytest.approx(1.0, abs=1e-12)
-        np.testing.assert_allclose(weight @ np.stack([np.cos(theta), np.sin(theta)], -1), [0.2, 0.0], atol=1e-12)
+        np.testing.assert_allclose(
+            weight @ np.stack([np.cos(theta), np.sin(theta)], -1), [0.2, 0.0], rtol=0.0, atol=1e-12
+        )
         none = filippov_sliding(c2.System(U=("c - 6/5", "s/100"), W=("2*c",) * m), (0.0,) * m)
         assert (len(none), none.vertices.shape, none.unique) == (0, (0, m), False)
         assert "crossing" in none.sentence
@@ -195,7 +197,7 @@ def test_an_extreme_of_three_directions_has_all_its_digits(turn):
     away = np.exp(1j * found.directions[i]) - np.exp(1j * (TRIANGLE + turn))[order]
     if abs(turn) + 4.6 != 2.0 * math.pi:  # there, one direction is 0 or 2 pi
         np.testing.assert_allclose(away, 0.0, atol=1e-10)
-        np.testing.assert_allclose(found.weights[i], weights[order], atol=1e-12)
+        np.testing.assert_allclose(found.weights[i], weights[order], rtol=0.0, atol=1e-12)
     assert found.weights[i].sum() == pytest.approx(1.0, abs=1e-14)
 
 
@@ -208,8 +210,8 @@ def test_newtons_method_restores_what_was_disturbed():
         field, np.ones(1), TRIANGLE + 4e-4 * wrong, weights + 1e-2 * wrong, np.array([0.3, -0.7]) + 1e-3
     )
     assert found is not None
-    np.testing.assert_allclose(found[0], TRIANGLE, atol=1e-12)
-    np.testing.assert_allclose(found[1], weights, atol=1e-13)
+    np.testing.assert_allclose(found[0], TRIANGLE, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(found[1], weights, rtol=0.0, atol=1e-13)
 
 
 @pytest.mark.parametrize("theta", [TRIANGLE, np.array([0.5, 1.2, 2.2])], ids=["far", "no mean is zero"])
@@ -225,8 +227,10 @@ def test_neighbours_are_merged_to_their_mean_also_across_zero():
     theta = np.array([3.0, 2e-4, 2.0 * math.pi - 4e-4, 5.0, 3.0006, 1.0])
     weights = np.array([0.1, 0.2, 0.3, 0.25, 0.15, 1e-12])
     merged, total = filippov._merged(theta, weights)
-    np.testing.assert_allclose(merged, [(0.2 * 2e-4 - 0.3 * 4e-4) / 0.5, (0.3 + 0.15 * 3.0006) / 0.25, 5.0], atol=1e-14)
-    np.testing.assert_allclose(total, [0.5, 0.25, 0.25], atol=1e-14)
+    np.testing.assert_allclose(
+        merged, [(0.2 * 2e-4 - 0.3 * 4e-4) / 0.5, (0.3 + 0.15 * 3.0006) / 0.25, 5.0], rtol=0.0, atol=1e-14
+    )
+    np.testing.assert_allclose(total, [0.5, 0.25, 0.25], rtol=0.0, atol=1e-14)
     apart, total = filippov._merged(np.array([0.1, 6.2]), np.array([1.0, 3.0]))
     assert (apart.tolist(), total.tolist()) == ([0.1, 6.2], [0.25, 0.75])
 
@@ -238,12 +242,12 @@ def test_weights_are_balanced_by_the_least_change():
     theta = np.array([0.5, 2.2, 4.6, 1.0, 3.6])
     before = np.array([0.28, 0.2, 0.3, 0.22, 0.0])
     used, weights = filippov._balanced(field, theta + 2.0 * math.pi, before)
-    np.testing.assert_allclose(used, theta[:4], atol=1e-14)
+    np.testing.assert_allclose(used, theta[:4], rtol=0.0, atol=1e-14)
     rows = np.vstack([np.cos(used), np.sin(used), np.ones(4)])
-    np.testing.assert_allclose(rows @ weights, [0.0, 0.0, 1.0], atol=1e-14)
+    np.testing.assert_allclose(rows @ weights, [0.0, 0.0, 1.0], rtol=0.0, atol=1e-14)
     change = weights - before[:4]
     assert np.abs(change).max() > 0.01
-    np.testing.assert_allclose(rows.T @ np.linalg.lstsq(rows.T, change, rcond=None)[0], change, atol=1e-14)
+    np.testing.assert_allclose(rows.T @ np.linalg.lstsq(rows.T, change, rcond=None)[0], change, rtol=0.0, atol=1e-14)
 
 
 def test_maxima_are_all_found_and_well():
@@ -253,7 +257,7 @@ def test_maxima_are_all_found_and_well():
     np.testing.assert_allclose(found, 2.0 * math.pi * np.arange(5) / 5, atol=0.02)
     np.testing.assert_allclose(5.0 * np.sin(5.0 * found) + 0.2 * np.sin(found), 0.0, atol=1e-6)
     single = filippov._maxima(lambda t: -np.abs(np.angle(np.exp(1j * (t - 1.0)))), grid)  # a kink
-    np.testing.assert_allclose(single, [1.0], atol=1e-9)
+    np.testing.assert_allclose(single, [1.0], rtol=0.0, atol=1e-9)
 
 
 def test_a_small_set_of_candidates_is_no_point():
@@ -271,7 +275,7 @@ def test_the_unit_of_time_changes_the_flow_and_neither_directions_nor_weights(fa
     one, other = filippov_sliding(plain, 0.0), filippov_sliding(scaled, 0.0)
     np.testing.assert_allclose(other.vertices, factor * one.vertices, rtol=1e-12)
     for a, b in zip((*one.directions, *one.weights), (*other.directions, *other.weights), strict=True):
-        np.testing.assert_allclose(np.sort(np.cos(b)), np.sort(np.cos(a)), atol=1e-9)
+        np.testing.assert_allclose(np.sort(np.cos(b)), np.sort(np.cos(a)), rtol=0.0, atol=1e-9)
     for U in (("c - 6/5", "s/100"), ("c - 1001/1000", "s"), ("c/2", "s - 1.01 + c/9")):
         none = filippov_sliding(c2.System(U=tuple(f"{factor!r}*({u})" for u in U), W=(f"{factor!r}*c",)), 0.0)
         assert (len(none), none.sentence) == (0, filippov_sliding(c2.System(U=U, W=("c",)), 0.0).sentence)
@@ -285,7 +289,7 @@ def test_a_hull_that_holds_zero_by_little_is_found_between_the_first_directions(
     shift = [(1.0 - gap) * v for v in (math.cos(phi), math.sin(phi))]
     found = filippov_sliding(c2.System(U=(f"c - {shift[0]!r}", f"s - {shift[1]!r}"), W=("2*c - s",)), 0.0)
     assert found.unique
-    np.testing.assert_allclose(found.vertices, [[2.0 * shift[0] - shift[1]]], atol=1e-9)
+    np.testing.assert_allclose(found.vertices, [[2.0 * shift[0] - shift[1]]], rtol=0.0, atol=1e-9)
     outside = [(1.0 + gap) * v for v in (math.cos(phi), math.sin(phi))]
     none = filippov_sliding(c2.System(U=(f"c - {outside[0]!r}", f"s - {outside[1]!r}"), W=("2*c - s",)), 0.0)
     assert len(none) == 0

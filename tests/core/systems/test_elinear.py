@@ -51,8 +51,8 @@ def test_from_matrix_is_the_same_system_seen_in_rotated_axes(entries, f1, f2, th
     R = np.array([[c, -s], [s, c]])
     e = np.array([math.cos(theta), math.sin(theta)])
     scale = 1 + np.abs(A).max() + abs(f1) + abs(f2)
-    np.testing.assert_allclose(at.U(R @ e), R @ (A @ e + [f1, f2]), atol=4e-15 * scale)
-    np.testing.assert_allclose(at.W(R @ e), [e[0] - 2 * e[1] + 0.5], atol=1e-14)
+    np.testing.assert_allclose(at.U(R @ e), R @ (A @ e + [f1, f2]), rtol=0.0, atol=4e-15 * scale)
+    np.testing.assert_allclose(at.W(R @ e), [e[0] - 2 * e[1] + 0.5], rtol=0.0, atol=1e-14)
     assert abs(at.a * at.d + at.b**2 - np.linalg.det(A)) <= 1e-13 * scale**2
 
 

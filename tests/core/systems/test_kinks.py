@@ -53,13 +53,13 @@ def test_a_kinked_law_goes_through_every_public_function(system):
 
 def test_limit_directions_on_a_kink():
     on = c2.equator_equilibria(CORNERS)  # Theta = 0.3 s|s|: changes its sign with no slope
-    np.testing.assert_allclose(on.theta, [0.0, math.pi], atol=1e-12)
+    np.testing.assert_allclose(on.theta, [0.0, math.pi], rtol=0.0, atol=1e-12)
     assert on.multiplicity.tolist() == [3, 3]
     on = c2.equator_equilibria(c2.System(U=("-c-0.3*min(s, 0.2)", "-s")))  # 0.3 s min(s, 0.2): only touches zero
     np.testing.assert_allclose(on.theta, [0.0, math.pi], atol=1e-6)
     assert on.multiplicity.tolist() == [2, 2]
     on = c2.equator_equilibria(c2.System(U=("-c", "-s - |s|")))  # Theta = -c|s|: touches at its kinks, crosses beside
-    np.testing.assert_allclose(on.theta, [0.0, 0.5 * math.pi, math.pi, 1.5 * math.pi], atol=1e-9)
+    np.testing.assert_allclose(on.theta, [0.0, 0.5 * math.pi, math.pi, 1.5 * math.pi], rtol=0.0, atol=1e-9)
     assert on.multiplicity.tolist() == [2, 1, 2, 1]
 
 
@@ -72,13 +72,13 @@ def test_directions_of_a_piecewise_linear_law_are_those_of_its_pieces(k, f):
     for side, inside in ((1.0, lambda t: math.sin(t) > 0), (-1.0, lambda t: math.sin(t) < 0)):
         piece = c2.System(U=("-c - k*s", "-f"), parameters={"k": side * k, "f": f})
         expected += [t for t in c2.equator_equilibria(piece).theta if inside(t)]
-    np.testing.assert_allclose(found, sorted(expected), atol=1e-9)
+    np.testing.assert_allclose(found, sorted(expected), rtol=0.0, atol=1e-9)
 
 
 def test_a_critical_set_on_a_kink_has_a_kind_only_where_its_sides_agree():
     (C,) = c2.critical_sets(CORNERS, HILL)
     assert C.kind == "stable node"
-    np.testing.assert_allclose(C.jacobian, -np.eye(2), atol=1e-12)
+    np.testing.assert_allclose(C.jacobian, -np.eye(2), rtol=0.0, atol=1e-12)
     (C,) = c2.critical_sets(c2.System(U=("max(-c, 2c) + 0.1s", "-s")), HILL)  # repels to one side only
     assert C.kind == "saddle-node"  # a stable node and a saddle, one on either side, that have met
     (C,) = c2.critical_sets(c2.System(U=("0.2*abs(c) - 0.1c - s", "c - 0.1s")), c2.psi.constant())
@@ -99,11 +99,11 @@ def test_a_critical_set_on_a_kink_has_a_kind_only_where_its_sides_agree():
 def test_derivatives_at_the_centre_are_no_nan(U, J):
     system = c2.System(U=U, parameters={"k": 0.0})
     (C,) = c2.critical_sets(system, c2.psi.constant())
-    np.testing.assert_allclose(C.jacobian, J, atol=1e-9)
+    np.testing.assert_allclose(C.jacobian, J, rtol=0.0, atol=1e-9)
     assert C.kind.startswith("stable")
     found = c2.classify(system, c2.psi.constant())
     assert not [d.name for d in found.degeneracies if d.name in ("index mismatch", "degenerate critical set")]
-    np.testing.assert_allclose(system.at().DU((0.0, 0.0)), J, atol=1e-9)
+    np.testing.assert_allclose(system.at().DU((0.0, 0.0)), J, rtol=0.0, atol=1e-9)
     c2.separatrices(system, c2.psi.constant())
 
 

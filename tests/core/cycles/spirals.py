@@ -1,0 +1,74 @@
+"""Orbits whose turns are known: for Psi = 1 and f = 0, x2' = A x2 in the time T, as e_Psi = p and dT = ebar dtau."""
+
+import math
+
+import numpy as np
+import pytest
+
+from codim2_core import psi
+from codim2_core.cycles.return_map import returns
+from codim2_core.cycles.turn_map import turns
+from codim2_core.stepping.fields import field
+from codim2_core.stepping.layout import LANES
+from codim2_core.stepping.numbers import SHARED
+
+SEVERAL = 2 * LANES + 1
+FIELD = field(psi.constant())
+RTOL = 1e-12
+
+
+def parameters(a, b, d, f=(0.0, 0.0)):
+    shared = np.zeros(SHARED)
+    shared[:5] = a, b, d, *f
+    return shared
+
+
+def sphere(x2):
+    """States (n, 3) of points (n, 2) of kappa_2."""
+    w = 1.0 / np.hypot(1.0, np.hypot(*x2.T))
+    return np.column_stack([x2 * w[:, None], w])
+
+
+def plane(states):
+    return states[:, :2] / states[:, 2:]
+
+
+def turned(x2, angle):
+    c, s = np.cos(angle), np.sin(angle)
+    return np.stack([c * x2[..., 0] - s * x2[..., 1], s * x2[..., 0] + c * x2[..., 1]], axis=-1)
+
+
+class Spiral:
+    """``A = growth + b J``: orbits turn by b T and grow by exp(growth T). Where u.U = 0, and where they come to it."""
+
+    def __init__(self, growth, b, u=(0.8, 0.6), f=(0.0, 0.0)):
+        self.growth, self.b, self.u = growth, b, np.array(u)
+        self.shared = parameters(growth, b, growth, f)
+        self.sense = math.copysign(1.0, b)
+        # U is x2 turned by arg A; on the section it is u turned by a quarter, in the sense of b
+        self.ray = turned(self.u, self.sense * 0.5 * math.pi - math.atan2(b, growth))
+
+    def at(self, x2, T):
+        return turned(x2, self.b * T) * np.exp(self.growth * T)[..., None]
+
+    def returns(
+        self, x2, floor=1e-9, sunk=1e-9, t_max=1e3, rtol=RTOL, limit=500, record=0, centre=(0.0, 0.0), elsewhere=False
+    ):
+        """Follow orbits from points (n, 2) of kappa_2 to their return to the section u.U = 0."""
+        return returns(
+            sphere(x2), self.shared, FIELD.address, self.u, np.array(centre), self.sense, floor, sunk, t_max, rtol,
+            limit, record, elsewhere,
+        )  # fmt: skip
+
+    def turns(self, x2, **options):
+        """Follow orbits from points (n, 2) of kappa_2 until they have turned about the critical set."""
+        return followed(sphere(x2), self.shared, **options)
+
+
+def followed(
+    states, shared, centre=(0.0, 0.0), floor=1e-9, sunk=1e-9, t_max=1e3, rtol=RTOL, limit=500, record=0
+):  # fmt: skip
+    return turns(states, shared, FIELD.address, np.array(centre), floor, sunk, t_max, rtol, limit, record)
+
+
+SPIRALS = pytest.mark.parametrize(("growth", "b"), [(-0.2, 1.0), (0.15, 1.3), (0.1, -0.8), (-0.1, -1.1)])
