@@ -189,8 +189,8 @@ class _Search:
         for value in values(self.low, self.high, COLUMNS):
             if not self.family.allows(value):
                 continue
-            coefficients, psi = self.family.at(value)
-            if reason_for_none(coefficients, critical_sets(coefficients, psi)) is not None:
+            problem = self.family.problem(value)
+            if reason_for_none(self.family.at(value)[0], problem.critical, problem.location) is not None:
                 continue
             crossings, _ = search(self.family.section(value))
             for crossing in crossings:
@@ -312,8 +312,7 @@ class _Search:
 
     def _limit(self, end: End, beside: tuple[float, ...]) -> tuple[float, ...]:
         """Row of the arrays at an end that is no cycle: C, or a loop on the equator."""
-        coefficients, psi = self.family.at(end.value)
-        found = critical_sets(coefficients, psi)
+        found = self.family.problem(end.value).critical
         place = tuple(found[0].p.tolist()) if end.kind == "Hopf" and found else beside[4:6]
         exponent = 0.0 if end.kind in ("Hopf", "equator") else math.copysign(math.inf, beside[3])
         return (end.value, end.period, end.amplitude, exponent, *place)

@@ -15,7 +15,6 @@ from itertools import pairwise
 import numpy as np
 
 from ..cycles.loop import Loop, gap, loops
-from ..layer_problem.critical import critical_sets
 from ..layer_problem.equator import equator_cycle, equator_equilibria
 from ..layer_problem.lyapunov import first_lyapunov
 from ..numerics.root_between import root_between
@@ -67,13 +66,12 @@ def hopf_ends(family: Family, low: float, high: float) -> list[End]:
     def trace(value: float) -> float | None:
         if not family.allows(value):
             return None
-        coefficients, psi = family.at(value)
-        return critical_sets(coefficients, psi)[0].trace
+        return family.problem(value).critical[0].trace
 
     ends = []
     for value in _roots(trace, values(low, high)):
         coefficients, psi = family.at(value)
-        (C,) = critical_sets(coefficients, psi)
+        (C,) = family.problem(value).critical
         number = float(first_lyapunov(coefficients.A, psi, C.x2[None, :])[0])
         ends.append(End("Hopf", value, 2.0 * math.pi / math.sqrt(C.determinant), 0.0, number))
     return ends
@@ -116,8 +114,7 @@ def _exchange_near(family: Family, value: float, direction: float, width: float,
 
 
 def _on_equator(family: Family, kind: str, value: float, measure: float = 0.0) -> End:
-    coefficients, psi = family.at(value)
-    found = critical_sets(coefficients, psi)
+    found = family.problem(value).critical
     away = 1.0 + float(np.hypot(*found[0].p)) if found else 2.0
     return End(kind, value, math.inf, away, measure)
 

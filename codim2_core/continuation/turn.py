@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 from ..cycles.orbit import NODES, gauss, path
 from ..cycles.section import Section
-from ..layer_problem.critical import critical_sets
-from ..layer_problem.location import Existence, locate
+from ..layer_problem.location import Existence
+from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 
@@ -96,21 +96,27 @@ class Family:
 
     def __init__(self, at: At, scale: float, bounds: tuple[float, float] = (-math.inf, math.inf)) -> None:
         self.at, self.scale, self.bounds = lru_cache(maxsize=KEPT)(at), scale, bounds
-        self.allows = lru_cache(maxsize=KEPT)(self._allows)
+        self.problem = lru_cache(maxsize=KEPT)(self._problem)
         self.ray: int | None = None
 
-    def _allows(self, value: float) -> bool:
+    def _problem(self, value: float) -> LayerProblem:
+        """Make the layer problem at one value: what stands still in it is found once."""
+        return LayerProblem(*self.at(value))
+
+    def allows(self, value: float) -> bool:
         """Whether a, d differ in sign and C exists with det A > 0: else no theorem leaves room for cycles."""
         if not self.bounds[0] <= value <= self.bounds[1]:
             return False
-        coefficients, _ = self.at(value)
-        a, b, d = coefficients.plane[:3]
-        return a * d < 0.0 and a * d + b * b > 0.0 and locate(coefficients).existence is Existence.INSIDE
+        a, b, d = self.at(value)[0].plane[:3]
+        if not (a * d < 0.0 and a * d + b * b > 0.0):
+            return False
+        location = self.problem(value).location
+        return location is not None and location.existence is Existence.INSIDE
 
     def section(self, value: float) -> Section:
         """Make the section at one value; all sections of a family are on rays of the same signs."""
-        coefficients, psi = self.at(value)
-        return Section(coefficients, psi, critical_sets(coefficients, psi)[0], self.ray)
+        problem = self.problem(value)
+        return Section(*self.at(value), problem.critical[0], self.ray, location=problem.location)
 
     def turn(self, xi: float, value: float, backward: bool = False) -> Turn | None:
         """Follow one turn; None where it does not return, or where there is no section.
