@@ -13,6 +13,7 @@ from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from functools import lru_cache
 from typing import Any
+from urllib.parse import parse_qsl
 
 import param
 
@@ -21,13 +22,14 @@ from codim2_core.examples import catalogue
 from codim2_core.psi.function import Psi
 
 from ..draw.layers import LAYERS, shown
-from .choices import AXES, MAX_TRAJECTORIES, OWN_AXIS, PANELS, SLOW_CONTROLS, SOLIDS
+from .choices import AXES, MAX_TRAJECTORIES, OWN_AXIS, PANELS, SETTING, SLOW_CONTROLS, SOLIDS
 from .chosen import NORMAL, has_atlas, starting_launch, starting_z, titles
 from .launches import MOST, read_launches
 from .portraits import portrait_keys, portraits
 
 MOST_ENTRIES = 16  # of a mapping that a browser sends
 LONGEST_TEXT = 2000
+MOST_OWN = 10_000  # characters of all that a second portrait has of its own
 PINNED = re.compile(r"(Q[1-9]\d{0,2}|C([1-9]\d{0,2})?|L[1-9]\d{0,2})?")
 
 
@@ -115,6 +117,9 @@ class ExplorerState(param.Parameterized):
     lesson = param.String("", label="Lesson", doc="The lesson that is open.")
     quiz = param.String("", label="Question", doc="QUESTION.SEED or QUESTION.SEED.ANSWER of the open lesson.")
     t_end = _number(8.0, 0, 40, "until t", "How long a motion is followed.")
+    beside = param.String(
+        "", label="Second portrait", doc="Its own values, as the query of a link; all others are shared."
+    )
 
     def values(self) -> dict[str, Any]:
         """Return every value by name, in the order of declaration."""
@@ -271,8 +276,21 @@ def clean(name: str, value: Any) -> Any:
         except ValueError as error:
             raise InputError(name, f"{declared.label}: {error}") from error
         return str(value)
+    if name == "beside":
+        return _own_values(declared.label, value)
     if not isinstance(value, str) or len(value) > 200:
         raise InputError(name, f"{declared.label}: give text of at most 200 characters.")
+    return value
+
+
+def _own_values(label: str | None, value: Any) -> str:
+    """Return the own values of a second portrait as they came, if each can be used."""
+    if not isinstance(value, str) or len(value) > MOST_OWN:
+        raise InputError("beside", f"{label}: give its own values as text of at most {MOST_OWN} characters.")
+    for name, text in parse_qsl(value, keep_blank_values=True):
+        if name not in SETTING:
+            raise InputError("beside", f"{label}: {name[:20]!r} cannot be its own; it may have {', '.join(SETTING)}.")
+        clean(name, text)
     return value
 
 

@@ -16,6 +16,7 @@ import {Picture} from "./picture.js"
 import {Pointing} from "./pointing.js"
 import {Requests} from "./requests.js"
 import {Rest} from "./rest.js"
+import {SECOND, Second, Seconded} from "./second.js"
 import {Share} from "./share.js"
 import {Sheets} from "./sheets.js"
 import {Browsed, Listed, Steps} from "./steps.js"
@@ -47,9 +48,12 @@ function wire({model, view, root, plot}) {
     if (name in numbers) panels.draw(values)
     if (setting[name]) tell()
     keepLink()
+    beside?.moved([name])
   }
   const setting = Object.fromEntries(config.setting.map((name) => [name, true]))
   const numbers = Object.fromEntries(config.numbers.map((name) => [name, true]))
+  const inside = config.page && config.look.embed && window.parent !== window && window.name === SECOND
+  let beside = /** @type {any} */ (null) // the second portrait, or in it the first
 
   // A panel moves controls: {name: value}.
   const move = (wanted) => {
@@ -127,13 +131,14 @@ function wire({model, view, root, plot}) {
     }
     systems.set(values)
     showPanels(); showLayers(); keepLink()
+    beside?.moved(Object.keys(wanted))
   }
   // A portrait is every value, as is the first setting: nothing is left over from what was open before.
   const open = (wanted) => {
     leave()
     yours?.leave()
     panels.forget()
-    setAll({...config.defaults, ...wanted}); tell(); picture.home()
+    setAll({...config.defaults, beside: values.beside, ...wanted}); tell(); picture.home()
   }
   const portrait = find("select.preset"), words = find(".preset-note")
   const tell = () => {
@@ -144,7 +149,7 @@ function wire({model, view, root, plot}) {
   portrait?.addEventListener("change", () => open(config.presets[portrait.value]?.values))
   controls.preset.set = (value) => { if (portrait) portrait.value = value }
   find(".controls").addEventListener("submit", (event) => event.preventDefault())
-  find(".reset").addEventListener("click", () => open({}))
+  find(".reset").addEventListener("click", () => open({beside: ""}))
   const pointing = new Pointing(root, picture, config.page ? document : root, () => config.slowSymbols ?? [], (name) => change("pinned", name))
   pointing.set(values.pinned)
   controls.pinned = {box: pointing.kept, say: () => {}, set: (name) => pointing.set(name)}
@@ -185,6 +190,7 @@ function wire({model, view, root, plot}) {
     const name = chosen ?? (isDark() ? "dark" : "light")
     root.classList.toggle("dark", name === "dark")
     picture.paint(name)
+    beside?.look?.()
     if (config.page) document.documentElement.style.background = document.body.style.background = config.themes[name].page
     return name
   }
@@ -216,11 +222,24 @@ function wire({model, view, root, plot}) {
     find(".share").addEventListener("click", () => share.open())
     find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
   }
+  if (config.page && !config.look.embed) {
+    beside = new Second(root, config, {
+      values, set: (wanted) => { setAll(wanted); tell() }, keep: (text) => { values.beside = text; keepLink() },
+      look: () => ({seen: picture.seen, theme: root.classList.contains("dark") ? "dark" : "light"}),
+      address: (wanted, own) => writeLink(wanted, picture.window && picture.seen, {...config, look: own}),
+    })
+    picture.viewed(() => beside.look())
+  } else if (inside) {
+    beside = new Seconded(root, {
+      put: (wanted) => { if (Object.keys(wanted).every((name) => name in numbers)) move(wanted); else { setAll(wanted); tell() } },
+      look: ({seen, theme}) => { picture.seen = seen; chosen = theme; paint() },
+    }, values)
+  }
   const undo = find(".undo"), redo = find(".redo")
   // the browser goes to another entry later, and says so
   const entries = {get state() { return window.history.state }, go: (by) => { rest.note("history", true); window.history.go(by) },
     pushState: (state, title, url) => window.history.pushState(state, title, url), replaceState: (state, title, url) => window.history.replaceState(state, title, url)}
-  const kept = config.page ? new Browsed(look(), entries, link) : new Listed(look())
+  const kept = config.page && !inside ? new Browsed(look(), entries, link) : new Listed(look())
   const steps = new Steps(kept, look, restore, () => {
     undo.disabled = !steps.canUndo
     redo.disabled = !steps.canRedo
@@ -251,7 +270,7 @@ function wire({model, view, root, plot}) {
     const fresh = Object.entries(given).filter(([name, value]) => !requests.holds(name) && JSON.stringify(values[name]) !== JSON.stringify(value))
     for (const [name, value] of fresh) { values[name] = value; controls[name]?.set(value) }
     if (fresh.some(([name]) => name === "parameters" || name === "texts")) systems.set(values)
-    if (fresh.length) { showPanels(); showLayers(); tell(); keepLink() }
+    if (fresh.length) { showPanels(); showLayers(); tell(); keepLink(); beside?.sync?.() }
   }
 
   const busy = find(".busy")
@@ -270,6 +289,7 @@ function wire({model, view, root, plot}) {
     systems.apply(frame)
     sayErrors({...header.left_out && {"": header.left_out}, ...header.errors})
     picture.apply(frame)
+    beside?.applied?.(header)
     followObjects(header)
     if (header.launched) speak(header.launched)
     const late = header.late ?? []
@@ -317,6 +337,8 @@ function wire({model, view, root, plot}) {
   }
   paint(); showLayers(); showFamily(); tell(); showPanels()
   if (config.page && !config.look.embed) welcome(root)
+  beside?.sync?.()
+  beside?.started?.()
   root.dataset.ready = "true"
   return {values, requests, picture, apply, plot}
 }

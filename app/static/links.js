@@ -6,7 +6,8 @@
  *   look: {embed: boolean, controls: string[]}}} Config
  */
 
-const written = (value) => Array.isArray(value) ? value.join(",") : typeof value === "object" ? JSON.stringify(value) : String(value)
+/** A value as a link writes it. @param {any} value */
+export const written = (value) => Array.isArray(value) ? value.join(",") : typeof value === "object" ? JSON.stringify(value) : String(value)
 
 /**
  * The query of an address that shows these values.

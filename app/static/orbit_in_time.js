@@ -156,7 +156,7 @@ export class OrbitInTime {
 
   phaseAt(at) {
     const said = new Map()
-    for (const [run, name] of [[this.orbit, "ε → 0"], [this.motion, `ε = ${measured(this.motion?.eps ?? 0)}`]]) {
+    for (const [run, name] of /** @type {[InTime | Regularised | null, string][]} */ ([[this.orbit, "ε → 0"], [this.motion, `ε = ${measured(this.motion?.eps ?? 0)}`]])) {
       const phase = run?.phases?.findLast(([, from]) => from <= at) ?? run?.phases?.[0]
       if (!phase) continue
       const words = `${phaseWords(phase[0], this.rolls)}. ${phase[3]}`

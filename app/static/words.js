@@ -72,6 +72,10 @@ export const SAYS = {
   undecided: "The linearisation does not decide: no eigenvectors are drawn.",
   gone: "is not there at this setting.",
   ends: "v₁₃ combines the limit vectors v₁ and v₃, and v₂₄ combines v₂ and v₄.",
+  secondPortrait: "Second portrait",
+  differsIn: "differs in",
+  systemItself: "the system",
+  itsParameters: "its parameters",
   typed: "c and s are the components of e; the letter e alone is the number 2.718…",
 }
 

@@ -9,8 +9,9 @@ import param
 
 from ..state.controls import NAMES, ExplorerState
 
-#: All values but the text of the launched orbits, as ``view.orbits`` are the orbits themselves.
-SHARED = tuple(name for name in NAMES if name != "orbits")
+#: All values but the text of the launched orbits, as ``view.orbits`` are the orbits themselves, and a page's second
+#: portrait.
+SHARED = tuple(name for name in NAMES if name not in ("orbits", "beside"))
 
 
 def declare(view: type[param.Parameterized]) -> None:

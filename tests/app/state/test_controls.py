@@ -82,3 +82,24 @@ def test_what_names_no_object_is_not_pinned(bad):
     with pytest.raises(InputError, match="give an object such as Q2") as caught:
         clean("pinned", bad)
     assert caught.value.control == "pinned"
+
+
+@pytest.mark.parametrize("text", ["", "psi=hill&n=3", "f1=-0.25&texts=%7B%22U1%22%3A%22-c%22%7D&system=own"])
+def test_a_second_portrait_has_values_of_its_own(text):
+    assert clean("beside", text) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("panel=solid", "'panel' cannot be its own"),
+        ("beside=f1%3D1", "'beside' cannot be its own"),
+        ("f1=far", "f₁: 'far' is not a number"),
+        ("psi=mine", "Ψ: 'mine' given"),
+        ("texts=" + "x" * 20_000, "at most 10000 characters"),
+        (3, "as text"),
+    ],
+)
+def test_what_a_second_portrait_cannot_have_is_told(text, said):
+    with pytest.raises(InputError, match=said):
+        clean("beside", text)

@@ -1,0 +1,119 @@
+"""Two portraits side by side: what they share, what the second has of its own, the link, undo, narrow screens."""
+
+from urllib.parse import parse_qs, parse_qsl, urlparse
+
+import pytest
+
+WIDE = {"width": 1440, "height": 900}
+
+
+def second(page):
+    """The explorer in the frame, as it is now: others of its own make it anew."""
+    return page.page.wait_for_selector(".second-place iframe").content_frame()
+
+
+def until(frame, condition):
+    frame.wait_for_function(f"""() => {{
+        const find = (root) => root.querySelector('.codim2') ?? [...root.querySelectorAll('*')].map(
+            (e) => e.shadowRoot && find(e.shadowRoot)).find(Boolean)
+        const root = find(document), values = root?.explorer?.values
+        return Boolean(root?.dataset.ready) && ({condition}) && root.dataset.settled === 'true' }}""")
+
+
+def own(page):
+    query = parse_qs(urlparse(page.page.url).query)
+    return dict(parse_qsl(query.get("beside", [""])[0], keep_blank_values=True))
+
+
+def test_the_second_follows_all_but_what_is_its_own(open_page):
+    page = open_page(viewport=WIDE).open("?v=1&a=-1.5")
+    page.find(".two").press("Enter")
+    page.kept()
+    assert own(page)["psi"] == "rational"
+    assert page.find(".second-own").text_content() == "differs in Ψ"
+    until(second(page), "values.psi === 'rational' && values.a === -1.5")
+    page.type("f1", "0.7")
+    until(second(page), "values.f1 === 0.7 && values.psi === 'rational'")
+    page.find("select.psi").select_option("exponential")
+    page.find(".layer input[value=inside]").uncheck()
+    page.settle()
+    until(second(page), "values.psi === 'rational' && !values.layers.includes('inside')")
+    mine, other = (box.bounding_box() for box in (page.find(".picture"), page.find(".second-place iframe")))
+    assert mine["width"] == pytest.approx(other["width"], abs=1)
+    assert mine["y"] == pytest.approx(other["y"], abs=1)
+    # what is launched in the second is launched in both
+    second(page).locator(".bokeh").click(position={"x": 200, "y": 250})
+    page.kept()
+    until(second(page), "values.orbits !== ''")
+    assert page.find(".codim2").evaluate("(root) => root.explorer.values.orbits").count(",") == 1
+    assert page.complaints == []
+
+
+def test_its_own_values_are_set_below_it_are_in_the_link_and_are_undone(open_page):
+    page = open_page(viewport=WIDE).open("?v=1&beside=psi%3Dhill%26n%3D2")
+    until(second(page), "values.psi === 'hill' && values.n === 2")
+    box = second(page).locator("[data-control=n] .number")
+    box.fill("3.5")
+    box.press("Enter")
+    page.until("root.explorer.values.beside.includes('n=3.5')").kept()
+    assert own(page) == {"psi": "hill", "n": "3.5"}
+    assert parse_qs(urlparse(page.page.url).query).get("n") is None  # the first has another
+    page.page.reload()
+    until(second(page), "values.n === 3.5")
+    page.settle().find(".undo").click()
+    page.kept()
+    until(second(page), "values.n === 2")
+    page.find(".redo").click()
+    page.kept()
+    until(second(page), "values.n === 3.5")
+    page.find(".two").click()
+    page.kept()
+    assert (own(page), page.find("iframe").count(), page.find(".codim2.twofold").count()) == ({}, 0, 0)
+    assert page.complaints == []
+
+
+def test_before_and_after_and_the_papers_beside_ones_own(open_page):
+    page = open_page(viewport=WIDE).open("?v=1&beside=psi%3Drational")
+    page.find(".second-what").select_option("now")
+    page.kept()
+    page.type("f1", "-1.4")
+    until(second(page), "values.f1 === -0.5 && values.psi === 'constant'")
+    second(page).wait_for_selector(".portrait-name:text-is('CM4')")
+    assert page.name() == "CM2"
+    assert page.find(".first-words").text_content().startswith("Case I, CM2. ")
+    page.find(".second-what").select_option("case3-n3")
+    page.kept()
+    until(second(page), "values.a === 172 && values.n === 3")
+    page.find(".second-bar summary").click()
+    page.find(".second-bar").get_by_label("f₁", exact=True).check()
+    page.kept()
+    until(second(page), "values.a === 172 && values.f1 === -1.4")
+    assert "f1" not in own(page)
+    page.type("f1", "-2")
+    until(second(page), "values.f1 === -2")
+    page.find("select.preset").select_option("case1-cm0")
+    page.kept()
+    until(second(page), "values.a === 172")  # another portrait in the first leaves the second alone
+    page.find(".reset").click()
+    page.kept()
+    assert own(page) == {}
+    assert page.complaints == []
+
+
+def test_on_a_narrow_screen_there_is_one_and_a_sentence(open_page):
+    page = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    page.open("?v=1&beside=psi%3Drational")
+    assert page.find("iframe").count() == 0
+    assert "need a wider screen" in page.find(".second-narrow").text_content()
+    assert page.find(".two").is_hidden()
+    page.page.set_viewport_size(WIDE)
+    until(second(page), "values.psi === 'rational'")
+    assert page.find(".second-narrow").is_hidden()
+    page.open("?v=1")
+    assert page.find(".second").is_hidden()
+
+
+def test_what_a_link_gives_the_second_in_vain_is_told(open_page):
+    page = open_page(viewport=WIDE).open("?v=1&beside=panel%3Dsolid")
+    assert "Second portrait: 'panel' cannot be its own" in page.find(".banner").text_content()
+    assert page.find("iframe").count() == 0
