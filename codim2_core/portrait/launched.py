@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 from .. import drawing
 from ..cycles.limit_cycles import cycles_of
 from ..layer_problem.critical import CriticalSet
+from ..layer_problem.hemisphere import outside_flow
 from ..layer_problem.problem import LayerProblem
 from ..orbits.result import Status, Trajectories
 from ..orbits.trajectories import joined, trajectories
 from ..orbits.whole import Orbits
+from ..systems.frozen import AtZ
 from ..tables import point, table
 from ..words import say
 from .endings import AT_SADDLE, CAPTURE, Ending, critical_label, drawn_time, endings, nearest
@@ -26,6 +28,7 @@ RTOL = 1e-9
 LONG = 40.0  # picture units drawn of an orbit that winds
 PATIENCE = 30.0  # how many times longer than it is drawn an orbit is followed to see where it ends
 CUT = (Status.LENGTH, Status.T_MAX)  # drawn lines that have not ended
+LOST = 1e-9  # rho below which a drawn point |p| = 1 + rho does not tell it, and that takes no time to speak of
 
 
 @dataclass(frozen=True)
@@ -128,8 +131,8 @@ def launched(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: f
         for i, end in zip(within, _endings(problem, half, within, backward), strict=True):
             found[i] = _on_hemisphere(end, problem.critical, backward)
         for i in np.flatnonzero(~inside).tolist():
-            after = None if line.status[i] in CUT else _time(half, i)
-            found[i] = _outside(problem, half, i, after, backward)
+            arrived = line.status[i] not in CUT or line.ends[i, 2] < LOST
+            found[i] = _outside(problem, half, i, _time(at, line, i) if arrived else None, backward)
         fates.append(tuple(fate for fate in found if fate is not None))
     return Launched(Orbits(back, ahead), *fates)
 
@@ -232,22 +235,26 @@ def _a(kind: str) -> str:
     return f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}"
 
 
-def _time(half: Trajectories, i: int) -> float:
+def _time(at: AtZ, lines: Trajectories, i: int) -> float:
     """Return t = ∫ rho dT along a drawn line outside, to its arrival.
 
     Between drawn points rho changes almost exponentially in T, for which the integral is
-    (rho2 - rho1) dT/log(rho2/rho1); what is left after the last point is rho dT/d(log rho), to leading order.
+    (rho2 - rho1) dT/log(rho2/rho1). A drawn rho = |p| - 1 below `LOST` has no digits left, and beside the ray of a
+    saddle the next point drawn may be e^-100 away: from the last point before, what is left is rho/|lambda_rho|, to
+    leading order, or in a spiral rho over the mean rate so far.
     """
-    start, stop = half.offsets[i], half.offsets[i + 1]
-    line, clock = half.buffer[start:stop], np.abs(half.clock[start:stop])
-    rho = np.maximum(np.hypot(line[:, 0], line[:, 1]) - 1.0, 0.0)
-    rho[-1] = half.ends[i, 2]
-    keep = rho > 0.0
-    rho, clock = rho[keep], clock[keep]
-    if len(rho) < 2:
-        return 0.0
+    start, stop = lines.offsets[i], lines.offsets[i + 1]
+    line, clock = lines.buffer[start:stop], np.abs(lines.clock[start:stop])
+    rho = np.hypot(line[:, 0], line[:, 1]) - 1.0
+    rho[-1] = lines.ends[i, 2]
+    lost = np.flatnonzero(rho < LOST)
+    known = slice(0, max(int(lost[0]), 1) if len(lost) else None)
+    line, rho, clock = line[known], rho[known], clock[known]
     steps, ratio = np.diff(clock), np.log(rho[1:] / rho[:-1])
     flat = np.abs(ratio) < 1e-8
     mean = np.where(flat, 0.5 * (rho[1:] + rho[:-1]), np.diff(rho) / np.where(flat, 1.0, ratio))
-    last = -ratio[-1] / steps[-1] if steps[-1] > 0.0 else 0.0
-    return float((mean * steps).sum() + (rho[-1] / last if last > 0.0 else 0.0))
+    if lines.status[i] is Status.SPIRALLED:
+        rate = math.log(rho[0] / rho[-1]) / float(clock[-1])
+    else:
+        rate = abs(float(outside_flow(at, math.atan2(line[-1, 1], line[-1, 0]))[0]))
+    return float((mean * steps).sum() + (rho[-1] / rate if rate > 0.0 else 0.0))

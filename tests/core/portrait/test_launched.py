@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
 
 import codim2_core as c2
+from codim2_core.layer_problem.hemisphere import outside_flow
 from codim2_core.orbits.result import Status
 from codim2_core.portrait import launched as module
 from codim2_core.portrait.endings import Ending
@@ -149,30 +151,68 @@ def test_what_is_said_of_an_orbit_on_the_hemisphere(label, ahead, behind):
         assert (fate.label, fate.onto, fate.after, said) == (label, None, None, words)
 
 
+@pytest.mark.parametrize("spiral", [False, True])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize(("rate", "first"), [(2.0, 0.8), (0.3, 0.1)])
-def test_the_time_outside_of_an_exponential_approach_is_exact(rate, first, sign):
+def test_the_time_outside_of_an_exponential_approach_is_exact(rate, first, sign, spiral):
     """rho = first exp(-rate T): the integral over all T is first/rate, however few points are drawn."""
+    at = c2.ELinear(-sign * rate, 0.0, -sign * rate).at()  # lambda_rho = -sign rate at all angles
     T = np.array([0.0, 0.3, 0.5, 1.7, 1.8])
     rho = first * np.exp(-rate * T)
     line = np.stack([1.0 + rho, 0.0 * rho], axis=-1)
     before = np.array([[9.0, 9.0]])  # another line stands before it
-    half = SimpleNamespace(
+    drawn = SimpleNamespace(
         offsets=np.array([0, 1, 6]),
         buffer=np.concatenate([before, line]),
         clock=np.concatenate([[7.0], sign * T]),
         ends=np.array([[0.0, 0.0, 5.0], [1.0, 0.0, rho[-1]]]),
+        status=(Status.ARRIVED, Status.SPIRALLED if spiral else Status.ARRIVED),
     )
-    assert module._time(half, 1) == pytest.approx(first / rate, rel=1e-12)
-    assert module._time(half, 0) == 0.0
-    half.clock[5] = half.clock[4]  # drawn twice at once: what is left is not known from it
-    drawn = (first - rho[3]) / rate
-    half.ends[1, 2] = rho[3]
-    assert module._time(half, 1) == pytest.approx(drawn, rel=1e-12)
-    half.clock[1:] = sign * T
-    line[:] = (1.25, 0.0)  # at rest: rho T
-    half.buffer[1:], half.ends[1, 2] = line, 0.25
-    assert module._time(half, 1) == pytest.approx(0.25 * 1.8, rel=1e-12)
+    assert module._time(at, drawn, 1) == pytest.approx(first / rate, rel=1e-12)
+    assert module._time(at, drawn, 0) == pytest.approx(5.0 / rate, rel=1e-12)  # nothing drawn: all of it is left
+    # a point drawn where rho has lost its digits tells nothing, and none after it
+    drawn.buffer[4:], drawn.ends[1, 2] = (1.0 + 3e-16, 0.0), 1e-200
+    assert module._time(at, drawn, 1) == pytest.approx(first / rate, rel=1e-12)
+
+
+def test_the_time_at_rest_outside_is_rho_T():
+    drawn = SimpleNamespace(
+        offsets=np.array([0, 3]), buffer=np.full((3, 2), (1.25, 0.0)), clock=np.array([0.0, 0.3, 1.8]),
+        ends=np.array([[1.0, 0.0, 0.25]]), status=(Status.ARRIVED,),
+    )  # fmt: skip
+    assert module._time(c2.ELinear(0.0, 1.0, 0.0).at(), drawn, 0) == pytest.approx(0.25 * 1.8, rel=1e-12)
+
+
+@pytest.mark.parametrize("beside", [1e-3, 1e-9, 1e-20, 1e-40, 3e-63, 1e-200, 0.0])
+@pytest.mark.parametrize("backward", [False, True])
+def test_beside_the_ray_of_a_saddle_it_takes_the_time_of_the_ray(beside, backward):
+    """Q1 is a saddle with lambda_rho = -2.5: it is reached after rho/2.5, and Sigma is not left for long."""
+    sign = -1.0 if backward else 1.0
+    system = c2.ELinear(-2.0 * sign, 0.0, -1.0 * sign, (-0.5 * sign, 0.0))
+    found = launch(system, PSI, [[1.625, beside]])
+    (fate,) = found.comes if backward else found.goes
+    assert fate.after == pytest.approx(0.25, abs=max(5.0 * beside, 1e-9))
+    assert fate.label == ("Q2" if beside else "Q1")
+
+
+@given(st.floats(-3, -0.5), st.floats(-3, -0.5), st.floats(-2, 2), st.floats(-2, 2), st.integers(1, 16))
+def test_the_time_beside_any_saddle_is_that_of_another_solver(a, d, f1, f2, digits):
+    system = c2.ELinear(a, 0.4, d, (f1, f2))
+    equator = c2.equator_equilibria(system)
+    saddles = np.flatnonzero((equator.lambda_rho < -0.2) & (equator.lambda_theta > 0.2))
+    assume(len(saddles))
+    theta = float(equator.theta[saddles[0]]) + 10.0**-digits
+    seed = 1.6 * np.array([math.cos(theta), math.sin(theta)])
+    (fate,) = launch(system, PSI, [seed]).goes
+    assume(fate.after is not None)
+
+    def rate(_, y):
+        radial, turning = outside_flow(system.at(), y[1])
+        return [radial, turning, math.exp(y[0])]
+
+    start = [math.log(math.hypot(*seed) - 1.0), math.atan2(seed[1], seed[0]), 0.0]
+    exact = solve_ivp(rate, (0.0, 400.0), start, method="LSODA", rtol=1e-10, atol=1e-12).y[2, -1]
+    assert fate.after == pytest.approx(exact, rel=2e-3)
 
 
 def test_an_orbit_on_the_equator_and_one_that_leaves_are_told():
