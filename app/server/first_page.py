@@ -26,6 +26,8 @@ from ..state.links import Link, read_link
 from ..view.first_markup import page_markup
 
 TOKEN, MARKUP = "codim2-token", "<!-- codim2 markup -->"
+#: A script of Bokeh's that draws with WebGL, which the picture does not.
+UNUSED = re.compile(r'<script[^>]* src="[^"]*/bokeh-gl\.min\.js[^"]*"></script>')
 #: Where a page gets its session from, written by Bokeh.
 ITEMS = re.compile(r"const render_items = (\[.*?\]);")
 REMEMBERED = 64  # addresses
@@ -71,6 +73,7 @@ def skeleton_of(html: str) -> str | None:
     items = json.loads(found[0])
     if len(items) != 1 or items[0].get("token") != TOKEN:
         return None
+    html = UNUSED.sub("", html)
     item = {**items[0], "roots": {}, "root_ids": [], "elementid": "codim2-root"}
     html = html.replace(found[0], json.dumps([item], separators=(",", ":")))
     for element in items[0].get("roots", {}).values():
@@ -129,7 +132,7 @@ class Page(DocHandler):
                 with set_curdoc(session.document):
                     html = server_html_page_for_session(
                         session, Resources.from_bokeh(app.resources()), session.document.title, TOKEN,
-                        session.document.template, {"explorer_markup": MARKUP},
+                        session.document.template, {**session.document.template_variables, "explorer_markup": MARKUP},
                     )  # fmt: skip
                 _skeletons[app.prefix] = skeleton_of(html)
             except (TypeError, AttributeError, ValueError):

@@ -30,11 +30,11 @@ from ..state.controls import InputError
 from ..state.links import Link
 from ..view import warmup
 from ..view.explorer import ExplorerView
-from ..view.markup import page_template
+from ..view.markup import address_of_script, page_template
 from .first_page import Page, markup_of, opening
 from .headers import transform
 from .qr import QrCode
-from .scripts import TakeAway
+from .scripts import routes
 
 #: What each open page shows; a page that is closed is told so at once, long before Bokeh forgets its session.
 _views: WeakKeyDictionary[Document, ExplorerView] = WeakKeyDictionary()
@@ -60,6 +60,7 @@ def session() -> ExplorerView:
     doc.on_session_destroyed(lambda _: view.leave())
     _views[doc] = view
     doc.template = page_template()  # type: ignore[assignment]  # Bokeh takes a template's text as well
+    doc.template_variables["explorer_script"] = address_of_script()
     doc.template_variables["explorer_markup"] = _Markup(query)  # for Bokeh's own handler, which makes a session first
     return view
 
@@ -217,6 +218,7 @@ def make_server(
     with _prompt_websockets():
         server = _server(port, address, allow_origin, processes, prefix, options)
     application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
+    application.add_handlers(".*", routes(server.prefix))
     application.transforms.insert(0, transform(frame_ancestors))  # before they are compressed
     application.settings["most_sessions"] = sessions
     application.settings["log_function"] = _log
@@ -257,7 +259,7 @@ def _server(
         title={"/": TITLE},
         location=False,
         num_procs=processes,
-        extra_patterns=[(r"/health", Health), (r"/ready", Ready), (r"/qr.svg", QrCode), (r"/takeaway.js", TakeAway)],
+        extra_patterns=[(r"/health", Health), (r"/ready", Ready), (r"/qr.svg", QrCode)],
         websocket_max_message_size=MOST_SENT,
         prefix=prefix,
         compress_response=True,

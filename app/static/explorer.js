@@ -28,7 +28,7 @@ import {YoursList} from "./yours_list.js"
 const PATIENCE = 1200 // ms without an answer before the page says so
 
 function wire({model, view, root, plot}) {
-  const config = model.config
+  const config = {...JSON.parse(model.offered), ...model.config}
   const values = {...config.values}
   const rest = new Rest(root)
   const picture = new Picture(plot, config, rest, () => requests.rest())
@@ -335,11 +335,16 @@ function wire({model, view, root, plot}) {
     if (name in numbers || name === "trajectories") controls[name].show(given)
     else { values[name] = given; controls[name].set(given); systems.set(values) }
   }
-  paint(); showLayers(); showFamily(); tell(); showPanels()
-  if (config.page && !config.look.embed) welcome(root)
-  beside?.sync?.()
-  beside?.started?.()
-  root.dataset.ready = "true"
+  paint(); showLayers(); showFamily(); tell()
+  rest.note("opening", true)
+  requestAnimationFrame(() => setTimeout(() => { // the panel costs as much as all else: the picture is painted before it
+    showPanels()
+    if (config.page && !config.look.embed) welcome(root)
+    beside?.sync?.()
+    beside?.started?.()
+    rest.note("opening", false)
+    root.dataset.ready = "true"
+  }, 0))
   return {values, requests, picture, apply, plot}
 }
 

@@ -35,7 +35,7 @@ from ..state.controls import NAMES, ExplorerState, InputError
 from ..state.links import Look
 from .cell import Cell, kernel
 from .first_markup import first_words
-from .markup import STATIC, config, explorer_html, script
+from .markup import STATIC, address_of_script, digest, explorer_html, offered_text, script, settings
 from .refresh import Frames
 from .shared import SHARED, declare, join
 from .taking import Taking
@@ -73,10 +73,16 @@ class ExplorerView(JSComponent):
 
     picture = Child()
     config = param.Dict({})
+    offered = param.String("")
     first = param.Bytes(b"")
     markup = param.String("")
 
     _esm = script()
+
+    @classmethod
+    def _render_esm(cls, compiled: Any = True, server: bool = False) -> str:  # noqa: ARG003
+        """Return the script as it is: Panel would look for indents to take away, for each page anew."""
+        return script()
 
     def __init__(
         self,
@@ -139,18 +145,18 @@ class ExplorerView(JSComponent):
         header, _ = unpack(first)
         self._whole = bool(header.get("ready"))
         self.refused = tuple(header.get("errors", {}).values())
-        settings = config(self.state, self.frames.locked, self._look)
-        settings["page"] = page
-        settings["refused"] = self.frames.refused
-        settings["dark"] = pn.config.theme == "dark"
-        if not page:  # what a notebook opened with is its first setting
-            settings["defaults"] = self._first_values
+        config = settings(self.state, self.frames.locked, self._look)
+        config["page"] = page
+        config["refused"] = self.frames.refused
+        config["dark"] = pn.config.theme == "dark"
+        told = {"config": config, "offered": offered_text(), "first": first}
         if page:  # its markup is there already, see `page_markup`
-            return {"config": settings, "first": first, "markup": ""}
+            return {**told, "markup": ""}
+        config["defaults"] = self._first_values  # what a notebook opened with is its first setting
         given = self.frames.given is not None
         words = first_words(header, first, self.state.layers)
         markup = explorer_html(self.state, words, ("system",) if given else (), self._look)
-        return {"config": settings, "first": first, "markup": markup}
+        return {**told, "markup": markup}
 
     def get_root(self, doc: Any = None, comm: Any = None, preprocess: bool = True) -> Any:
         """Return the Bokeh model, without Panel's style sheets, which come from a public host in some set-ups.
@@ -166,6 +172,11 @@ class ExplorerView(JSComponent):
             # a notebook shows it once more, or after its state was changed: as it is now
             self.param.update(**self._opening(page=False))
         root = super().get_root(doc, comm, preprocess)
+        # A bundle is run as it is; else the browser would compile the script, which it reads, for 130 ms.
+        if self.config["page"] and not static:
+            root.update(bundle="url", esm=address_of_script())
+        else:
+            root.update(bundle=digest())
         for model in root.references():
             sheets = getattr(model, "stylesheets", None)
             if sheets:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Mapping
 from dataclasses import asdict
-from functools import cache
+from functools import cache, lru_cache
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -22,7 +24,7 @@ from ..state.choices import MAX_TRAJECTORIES, SETTING, SLOW_CONTROLS
 from ..state.chosen import BOXES, titles
 from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values, slider_range
 from ..state.links import BROUGHT, VERSION, Look
-from ..state.portraits import portraits
+from ..state.portraits import portrait_keys, portraits
 from .glossary import GLOSSARY, MARKS, OPENING, PAPER
 
 STATIC = Path(__file__).parents[1] / "static"
@@ -63,16 +65,23 @@ def script() -> str:
     return bundle(*(panel.script for panel in PANELS.values()), STATIC / "explorer.js")
 
 
-def config(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None = None) -> dict[str, Any]:
-    """Return what the front end must know: controls, presets (by what is other than the defaults), colours."""
+@cache
+def digest() -> str:
+    """Return what stands for the front end as it is."""
+    return hashlib.sha256(script().encode()).hexdigest()[:16]
+
+
+def address_of_script() -> str:
+    """Return where a page of the explorer's server finds the front end, from where the page is."""
+    return f"./explorer.js?v={digest()}"
+
+
+def offered() -> dict[str, Any]:
+    """Return what the front end must know whatever is open: presets by what is other than the defaults, colours."""
     first = first_values()
     return {
         "numbers": list(NUMBERS),
-        "ranges": {name: list(state.param[name].softbounds) for name in NUMBERS},
-        "symbols": {name: state.param[name].label for name in NUMBERS},
-        "docs": {name: state.param[name].doc for name in NUMBERS},
         "panels": {key: dict(panel.settings) for key, panel in PANELS.items()},
-        "values": state.values(),
         "defaults": first,
         "setting": list(SETTING),
         "opening": OPENING,
@@ -90,10 +99,35 @@ def config(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None
         "themes": themes(),
         "measures": {"discs": DISCS, "ring": RING, "hatches": HATCHES},
         "view": VIEW,
-        "locked": list(locked),
         "link": {"version": VERSION, "brought": list(BROUGHT)},
+    }
+
+
+@lru_cache(maxsize=4)
+def _offered(*_: Any) -> str:
+    return json.dumps(offered(), ensure_ascii=False, separators=(",", ":"))
+
+
+def offered_text() -> str:
+    """Return `offered` as JSON, written anew where something has been registered: its parts cost 10 ms a page."""
+    return _offered(tuple(PANELS), tuple(portrait_keys()), tuple(FAMILIES), tuple(LAYERS), tuple(BOXES))
+
+
+def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None = None) -> dict[str, Any]:
+    """Return what the front end must know of one view."""
+    return {
+        "ranges": {name: list(state.param[name].softbounds) for name in NUMBERS},
+        "symbols": {name: state.param[name].label for name in NUMBERS},
+        "docs": {name: state.param[name].doc for name in NUMBERS},
+        "values": state.values(),
+        "locked": list(locked),
         "look": asdict(look or Look()),
     }
+
+
+def config(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None = None) -> dict[str, Any]:
+    """Return all that the front end must know."""
+    return {**offered(), **settings(state, locked, look)}
 
 
 def _differences(first: Mapping[str, Any], key: str) -> dict[str, Any]:

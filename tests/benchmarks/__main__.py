@@ -35,7 +35,8 @@ DRAWN = {
 }
 TABLES = {
     "scene": "A cold scene", "general": "Typed systems", "simulate": "Simulated motions against eps",
-    "app": "The server", "browser": "Painted frames", "equator": "Counts of limit directions",
+    "app": "The server", "browser": "Painted frames", "page": "The first page",
+    "equator": "Counts of limit directions",
     "census": "A census of portraits", "cycles": "Case III and its cycles",
     "compiled": "Motions against SciPy with a compiled right-hand side",
 }  # fmt: skip

@@ -39,7 +39,10 @@ def serving(kind: str, *options: str) -> Iterator[tuple[int, int]]:
         for _ in range(300):
             try:
                 urlopen(f"http://localhost:{port}/", timeout=20).read()
-                if kind in ("bare", "mathematics") or b'"ready"' in urlopen(f"http://localhost:{port}/ready").read():
+                if (
+                    kind in ("bare", "mathematics", "panel")
+                    or b'"ready"' in urlopen(f"http://localhost:{port}/ready").read()
+                ):
                     break
             except OSError:
                 time.sleep(0.2)

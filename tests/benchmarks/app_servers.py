@@ -93,9 +93,20 @@ def bare(port: int, before: Callable[[], None] = lambda: None) -> None:
     server.io_loop.start()
 
 
+def panel(port: int) -> None:
+    """Serve a page of Panel's with an empty Bokeh figure."""
+    import panel as pn
+    from bokeh.plotting import figure
+
+    server = pn.io.server.get_server({"/": lambda: pn.pane.Bokeh(figure())}, port=port, start=False)
+    server.start()
+    server.io_loop.start()
+
+
 if __name__ == "__main__":
     kind, port, *more = sys.argv[1:]
     kinds: dict[str, Callable[..., None]] = {
         "explorer": explorer, "forgetful": forgetful, "bare": bare, "mathematics": mathematics,
+        "panel": panel,
     }  # fmt: skip
     kinds[kind](int(port), *more)

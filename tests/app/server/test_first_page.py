@@ -1,17 +1,22 @@
 """The page as text: one for all who open an address, with headers that allow its own origin only."""
 
 import asyncio
+import gzip
 import json
 import re
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from urllib.error import HTTPError
+from urllib.parse import urljoin
 from urllib.request import Request, urlopen
 
 import pytest
 from codim2_app.draw.packing import unpack
 from codim2_app.server import first_page
+from codim2_app.server import scripts as scripts_module
 from codim2_app.server.first_page import MARKUP, TOKEN, skeleton_of
 from codim2_app.server.headers import policy
+from codim2_app.view.markup import script
 
 from tests.app.serving import serving
 from tests.benchmarks.bokeh_wire import Wire
@@ -45,6 +50,74 @@ def test_a_page_makes_no_session_and_the_websocket_does(address):
         header, document = pool.submit(asyncio.run, talk()).result()
     assert header["id"] == 1
     assert '["a",-1' in json.dumps(document).replace(" ", "")  # the address went with the token
+
+
+def test_little_goes_over_the_websocket_and_the_script_by_its_address(address):
+    port = int(address.rsplit(":", 1)[1])
+
+    async def talk():
+        wire = await Wire.connect(port)
+        await wire.close()
+        return wire.bytes, wire.document
+
+    with ThreadPoolExecutor(1) as pool:
+        size, document = pool.submit(asyncio.run, talk()).result()
+    root = document["roots"][0]["attributes"]
+    assert size < 90_000
+    assert root["bundle"] == "url"  # what is no bundle the browser compiles
+    page, _ = opened(address)
+    assert f'href="{root["esm"]}"' in page  # asked for before the websocket is open
+    assert opened(urljoin(f"{address}/", root["esm"]))[0] == script()
+
+
+def refused(ask):
+    """The status with which a request ends that brings no file."""
+    with pytest.raises(HTTPError) as told:
+        ask()
+    told.value.close()
+    return told.value.code
+
+
+def packed_of(address):
+    with urlopen(Request(address, headers={"Accept-Encoding": "gzip"})) as answer:
+        assert answer.headers["Content-Encoding"] == "gzip"
+        return gzip.decompress(answer.read()).decode(), answer.headers
+
+
+def test_scripts_of_a_page_are_compressed_once_and_may_be_kept(address):
+    page, _ = opened(address)
+    scripts = re.findall(r'<script[^>]* src="([^"]+)"', page)
+    assert any("bokeh.min.js" in each for each in scripts)
+    assert any("panel.min.js" in each for each in scripts)
+    for each in (*scripts, re.search(r'href="\./(explorer\.js[^"]*)"', page)[1]):
+        whole = urljoin(f"{address}/", each)
+        plain, headers = opened(whole)
+        packed, with_headers = packed_of(whole)
+        assert packed == plain
+        assert headers["Content-Type"] == with_headers["Content-Type"]
+        assert "?v=" not in whole or "max-age=" in with_headers["Cache-Control"]
+    before = scripts_module._file.cache_info().misses
+    file = [scripts_module._file(scripts_module.__file__, 0.0) for _ in range(3)]
+    assert scripts_module._file.cache_info().misses == before + 1
+    assert gzip.decompress(file[0]) == Path(scripts_module.__file__).read_bytes()
+
+
+def test_a_script_that_a_browser_has_is_not_sent_again(address):
+    page, _ = opened(address)
+    library = next(each for each in re.findall(r'<script[^>]* src="([^"]+)"', page) if "bokeh.min.js" in each)
+    whole = urljoin(f"{address}/", library)
+    _, headers = packed_of(whole)
+    again = Request(whole, headers={"Accept-Encoding": "gzip", "If-None-Match": headers["Etag"]})
+    assert refused(lambda: urlopen(again)) == 304
+    with urlopen(Request(whole, method="HEAD", headers={"Accept-Encoding": "gzip"})) as answer:
+        assert answer.read() == b""
+        assert int(answer.headers["Content-Length"]) > 1000
+
+
+@pytest.mark.parametrize("name", ["static/js/none.js", "static/js/../../secret.js", "static/extensions/none/a.js",
+                                  "static/extensions/panel/none.js"])  # fmt: skip
+def test_a_script_that_is_not_there_is_not_found(address, name):
+    assert refused(lambda: packed_of(f"{address}/{name}")) in (403, 404)
 
 
 def test_a_probe_is_answered_without_the_page(address):

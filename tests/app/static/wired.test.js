@@ -134,7 +134,7 @@ test("what Python sets is followed, but not over a hand", () => {
 
 test("a server that does not answer is waited for, and that is said", () => {
   const one = wired()
-  one.tick(900)
+  one.tick(884) // 900, and so on
   pull(one, "#c2-f1", "1")
   one.tick(1100) // at 2000 the request is 1.1 s old
   assert.equal(busy(one), "")
@@ -200,7 +200,7 @@ test("the page's own markup is used, and the server's drawing stays until Bokeh 
   const one = wired()
   assert.equal(one.document.getElementById("codim2-first"), null)
   assert.equal(one.document.querySelectorAll(".codim2").length, 1)
-  one.tick(165)
+  one.tick(149) // 165, with the frame in which the panel was drawn
   assert.ok(one.find(".first"))
   one.tick(1)
   assert.equal(one.find(".first"), null)

@@ -115,13 +115,14 @@ export function wired(more = {}, first = FIRST, scope = {}) {
   Object.assign(globalThis, {Bokeh: {require: () => ({Renderer: class { constructor(given) { Object.assign(this, given) } }, RendererView: class { initialize() {} }})}})
   document.body.dataset.jpThemeLight = scope.light ?? ""
   const model = {
-    config: settings, markup: MARKUP, first: packed(first, LINES, {basins: [3, 0, 13, 1]}), get_child: () => document.createElement("figure"),
+    config: settings, offered: "{}", markup: MARKUP, first: packed(first, LINES, {basins: [3, 0, 13, 1]}), get_child: () => document.createElement("figure"),
     send_msg: (request) => sent.push({...request, id: "number"}), on: (name, call) => { heard[name] = call }, data: {picture: plot},
   }
   const el = document.createElement("main")
   document.body.append(el)
   explorer.render({model, view: {model: {document: {on_event: (name, call) => { connections[name] = call }}, data: {picture: plot}}}, el})
   const root = /** @type {any} */ (el.querySelector(".codim2"))
+  there.tick(16) // the panel is drawn after the picture
   return {
     ...there, root, plot, painted, sent, connections, model,
     /** The server's answer to the newest request. */

@@ -1,0 +1,161 @@
+"""The first page against a bare Panel page with an empty Bokeh figure: first byte, first stroke, processor time; forty.
+
+``python -m tests.benchmarks page [--quick]``. The two servers take turns; what is compared is the median of the ratios
+within one turn. A stroke is one on a canvas of the page: of the figure's axes there, of the live picture here.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import shutil
+import time
+from contextlib import ExitStack
+from itertools import pairwise
+from statistics import median
+from typing import Any
+from urllib.request import urlopen
+
+from playwright.sync_api import Browser, sync_playwright
+
+from .app_load import at_rest, cpu, serving
+from .bokeh_wire import Wire
+
+KINDS = {"panel": "bare Panel page, empty Bokeh figure", "explorer": "explorer"}
+MANY, WITHIN = 40, 2.0  # pages that are opened together, and the seconds in which they are
+BYTES = 10  # first bytes measured in each turn, one after the other
+
+#: Notes when something is first drawn on a canvas: milliseconds since the page was asked for.
+NOTED = """{
+    const stroke = CanvasRenderingContext2D.prototype.stroke
+    CanvasRenderingContext2D.prototype.stroke = function (...path) {
+        if (this.canvas.isConnected) document.documentElement.dataset.stroke ??= performance.now()
+        return stroke.apply(this, path)
+    }
+}"""
+
+
+def first_byte(port: int) -> float:
+    """Return the seconds until a page's first byte."""
+    times = []
+    for _ in range(BYTES):
+        start = time.perf_counter()
+        with urlopen(f"http://localhost:{port}/") as answer:
+            answer.read(1)
+            times.append(time.perf_counter() - start)
+            answer.read()
+    return median(times)
+
+
+def first_stroke(browser: Browser, port: int) -> tuple[float, float]:
+    """Return the seconds until the first byte and the first stroke in a browser that has never been there."""
+    context = browser.new_context(viewport={"width": 1440, "height": 900})
+    try:
+        page = context.new_page()
+        page.add_init_script(NOTED)
+        page.goto(f"http://localhost:{port}/")
+        page.wait_for_selector("html[data-stroke]", timeout=60_000)
+        byte = page.evaluate("performance.getEntriesByType('navigation')[0].responseStart")
+        return 1e-3 * byte, 1e-3 * float(page.evaluate("document.documentElement.dataset.stroke"))
+    finally:
+        context.close()
+
+
+async def arrivals(port: int, pid: int, count: int) -> float:
+    """Return the server's processor time of a page with its session, in seconds."""
+    before = cpu(pid)
+    for _ in range(count):
+        await (await Wire.connect(port)).close()
+    return (cpu(pid) - before) / count
+
+
+async def burst(port: int) -> list[float]:
+    """Open `MANY` pages evenly over `WITHIN` seconds; return how long each waits for its picture, in their order."""
+
+    async def visit(i: int) -> float:
+        await asyncio.sleep(i * WITHIN / MANY)
+        start = time.perf_counter()
+        page = await asyncio.to_thread(_read, port)
+        wires.append(await Wire.connect(port, page=page))
+        return time.perf_counter() - start
+
+    wires: list[Wire] = []
+    waits = await asyncio.gather(*(visit(i) for i in range(MANY)))
+    await asyncio.gather(*(wire.close() for wire in wires))
+    return list(waits)
+
+
+def _read(port: int) -> str:
+    with urlopen(f"http://localhost:{port}/") as answer:
+        return answer.read().decode()
+
+
+def overtaken(waits: list[float]) -> int:
+    """Count the pairs of neighbours of which the one who came later was served first."""
+    done = [i * WITHIN / len(waits) + wait for i, wait in enumerate(waits)]
+    return sum(later < earlier for earlier, later in pairwise(done))
+
+
+def run(turns: int) -> dict[str, list[dict[str, Any]]]:
+    """Measure both servers in turns: rows by kind, one for each turn."""
+    chromium = os.environ.get("CODIM2_CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
+    found: dict[str, list[dict[str, Any]]] = {kind: [] for kind in KINDS}
+    with ExitStack() as stack:
+        servers = {kind: stack.enter_context(serving(kind)) for kind in KINDS}
+        playwright = stack.enter_context(sync_playwright())
+        browser = playwright.chromium.launch(
+            executable_path=chromium, args=["--headless=new", "--no-sandbox", "--disable-gpu"]
+        )
+        for port, pid in servers.values():
+            first_stroke(browser, port)
+            _run(at_rest(pid))
+        for _ in range(turns):
+            for kind, (port, pid) in servers.items():
+                byte = first_byte(port)
+                seen, stroke = first_stroke(browser, port)
+                used = _run(arrivals(port, pid, 10))
+                waits = _run(burst(port))
+                found[kind].append({"byte": byte, "seen": seen, "stroke": stroke, "cpu": used, "waits": waits})
+                _run(at_rest(pid))
+        browser.close()
+    return found
+
+
+def _run(what: Any) -> Any:
+    """Run a coroutine in a thread of its own: Playwright's loop runs in this one."""
+    from concurrent.futures import ThreadPoolExecutor
+
+    with ThreadPoolExecutor(1) as one:
+        return one.submit(asyncio.run, what).result()
+
+
+def report(quick: bool = False) -> str:
+    """Return the table as Markdown."""
+    found = run(2 if quick else 7)
+    lines = [
+        "| page | first byte | first stroke in a browser | server's CPU a page | "
+        f"{MANY} pages in {WITHIN:g} s: longest wait, last one drawn after | overtaken |",
+        "|---|---|---|---|---|---|",
+    ]
+    for kind, title in KINDS.items():
+        rows = found[kind]
+        byte, stroke, used = (1e3 * median(row[key] for row in rows) for key in ("byte", "stroke", "cpu"))
+        waits = sorted((row["waits"] for row in rows), key=max)[len(rows) // 2]
+        last = max(i * WITHIN / MANY + wait for i, wait in enumerate(waits))
+        lines.append(
+            f"| {title} | {byte:.1f} ms | {stroke:.0f} ms | {used:.0f} ms | {max(waits):.2f} s, {last:.2f} s "
+            f"| {overtaken(waits)} |"
+        )
+    ratios = {
+        key: median(ours[key] / bare[key] for ours, bare in zip(found["explorer"], found["panel"], strict=True))
+        for key in ("byte", "stroke", "cpu")
+    }
+    lines.append(
+        f"\nExplorer over bare page, median of {len(found['panel'])} turns: first byte {ratios['byte']:.2f}, "
+        f"first stroke {ratios['stroke']:.2f}, CPU {ratios['cpu']:.2f}."
+    )
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(report())
