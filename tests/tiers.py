@@ -38,7 +38,7 @@ def marks(folder: str, name: str, costly: frozenset[str]) -> list[str]:
 
 
 def mark(items: list[pytest.Item]) -> None:
-    """Give all tests their marks, and put those in the browser first: one process drives it while others compute."""
+    """Give all tests their marks, and put those in the browser first: they wait, and the others do not."""
     costly = frozenset(COSTLY.read_text().split())
     for item in items:
         for name in marks(item.path.relative_to(TESTS).parts[0], named(item), costly):
@@ -75,13 +75,13 @@ def browses(config: pytest.Config) -> bool:
 def processes(config: pytest.Config) -> int:
     """Processes for this command: one a processor if it names nothing smaller than a folder of ``tests``.
 
-    And one more for the tests in the browser: what drives it waits half of the time.
+    And two more with the tests in the browser: a process that drives it waits for it half of the time.
     """
     small = any(len(parts) > 1 or (parts and parts[0].endswith(".py")) for parts in asked_for(config))
     alone = config.getoption("usepdb") or config.getoption("capture") == "no" or config.option.collectonly
     if small or alone or "PYTEST_XDIST_WORKER" in os.environ:
         return 0
-    return len(os.sched_getaffinity(0)) + browses(config)
+    return len(os.sched_getaffinity(0)) + 2 * browses(config)
 
 
 def spent() -> float:

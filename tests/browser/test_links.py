@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from .conftest import EMPTIED
+
 pytestmark = pytest.mark.browser
 
 WALK = ["ball-dynamic", "conics-4", "case3-n3", "attracting-repelling", "blowup"]
@@ -74,20 +76,22 @@ def alike(first, second):
 
 
 def test_a_portrait_is_the_same_whatever_was_open_before(open_page):
-    page = open_page().open()
+    page, fresh = open_page().open(), open_page().open()
     page.type("B2", "0.5").type("g0", "0.3")
     page.find(".layer input[value=inside]").uncheck()
     for key in WALK:
         page.find("select.preset").select_option(key)
         page.settle()
         walked = state(page, key)
-        fresh = open_page().open(f"?preset={key}")
+        fresh.page.evaluate(EMPTIED)
+        fresh.open(f"?preset={key}")
         fresh.find("select.preset").select_option("case1-cm0")
         fresh.settle().find("select.preset").select_option(key)  # so that the address is written
         fresh.settle()
         assert state(fresh, key) == walked
     for key in WALK[-2:]:
-        fresh = open_page().open(f"?preset={key}")
+        fresh.page.evaluate(EMPTIED)
+        fresh.open(f"?preset={key}")
         page.find("select.preset").select_option(key)
         page.settle()
         for one in (page, fresh):

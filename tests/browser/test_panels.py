@@ -51,21 +51,22 @@ def part_of(explorer, selector, x, y):
     return across / box["width"], up / box["height"]
 
 
-@pytest.mark.parametrize("words", OWN)
-def test_a_tab_opens_its_panel_and_the_address_keeps_it(explorer, words):
-    open_panel(explorer, words)
-    tab = explorer.find("[role=tab][aria-selected=true]")
-    assert tab.text_content() == words
-    assert explorer.find("[role=tabpanel]:visible").count() == 1
-    assert explorer.find(f"#{tab.get_attribute('aria-controls')}").is_visible()
-    explorer.kept()
-    name = tab.get_attribute("data-panel")
-    if words != "Atlas":  # that one is open from the start
-        assert parse_qs(urlparse(explorer.page.url).query)["panel"] == [name]
-    explorer.page.reload()
-    explorer.page.wait_for_selector(".codim2[data-ready]")
-    explorer.settle()
-    assert explorer.find(f"[role=tabpanel][data-panel={name}]").is_visible()
+def test_a_tab_opens_its_panel_and_the_address_keeps_it(explorer):
+    for words in OWN:
+        open_panel(explorer, words)
+        tab = explorer.find("[role=tab][aria-selected=true]")
+        assert tab.text_content() == words
+        assert explorer.find("[role=tabpanel]:visible").count() == 1
+        assert explorer.find(f"#{tab.get_attribute('aria-controls')}").is_visible()
+        explorer.kept()
+        name = tab.get_attribute("data-panel")
+        if words != "Atlas":  # that one is open from the start
+            assert parse_qs(urlparse(explorer.page.url).query)["panel"] == [name]
+        explorer.page.reload()
+        explorer.page.wait_for_selector(".codim2[data-ready]")
+        explorer.settle()
+        assert explorer.find("[role=tabpanel]:visible").count() == 1
+        assert explorer.find(f"[role=tabpanel][data-panel={name}]").is_visible()
 
 
 def test_tabs_are_moved_by_the_keyboard(explorer):
