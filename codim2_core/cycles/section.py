@@ -85,7 +85,7 @@ class AnySection(Protocol):
     @property
     def kernel(self) -> Any: ...  # noqa: D102
 
-    def shared(self, backward: bool = False) -> Array:
+    def shared(self, backward: bool) -> Array:
         """Parameters of the compiled field."""
         ...
 
@@ -236,7 +236,7 @@ class Section:
             elsewhere,
         )
 
-    def shared(self, backward: bool = False) -> Array:
+    def shared(self, backward: bool) -> Array:
         """Parameters of the compiled field."""
         from ..stepping.layout import SHARED
 

@@ -65,7 +65,7 @@ class TurnSection:
 
         return turn_map, problem.problem(self.at, self.psi)
 
-    def shared(self, backward: bool = False) -> Array:
+    def shared(self, backward: bool) -> Array:
         """Parameters of the compiled field that `kernel` keeps alive."""
         _, kept = self.kernel
         return np.array(kept.reversed.shared if backward else kept.shared)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from codim2_core.cycles import first_turns
+from codim2_core.stepping.layout import LANES
 
 from .sections import Line, circle
 
@@ -27,6 +28,38 @@ def test_fixed_points_of_a_first_turn_are_told_from_jumps():
     shift = np.array([1.0, np.inf, np.inf, 2.0, np.nan])
     assert first_turns._ends(np.arange(5.0), shift) == [0, 2, 3]
     assert first_turns._ends(1e-13 * np.arange(5.0), shift) == []
+
+
+def test_only_a_change_from_an_attracting_side_between_orbits_that_return_is_narrowed(monkeypatch):
+    class Ray(Line):
+        critical = SimpleNamespace(trace=1.0, discriminant=1.0)
+
+        def grid(self):
+            return np.linspace(-5.0, 5.0, 41)
+
+    asked = []
+    monkeypatch.setattr(
+        first_turns, "_narrowed", lambda _s, low, high, backward: asked.append((low, high, backward)) or []
+    )
+    for displacement, expected in (
+        (lambda xi: 1.03 - xi, [False]),
+        (lambda xi: xi - 1.03, [True]),
+        (lambda xi: np.where(xi < 1.03, np.inf, -np.inf), []),
+        (lambda xi: np.where(xi < 1.03, -np.inf, np.inf), []),
+        (lambda xi: np.where(xi < 1.03, 1.0, -np.inf), []),
+        (lambda xi: np.where(xi < 1.03, np.inf, -1.0), []),
+    ):
+        asked.clear()
+        first_turns._searched(Ray(displacement))
+        assert [backward for *_, backward in asked] == expected
+        assert all(low < 1.03 < high for low, high, _ in asked)
+
+
+def test_narrowing_fills_all_lanes():
+    section = Line(lambda xi: 0.3 - xi)
+    first_turns._narrowed(section, 0.1, 0.6, False)
+    assert section.asked
+    assert all(count % LANES == 0 for count, *_ in section.asked)
 
 
 def test_orbits_are_told_apart_and_have_a_sense():

@@ -26,6 +26,10 @@ def made(plane, time=1.0):
     return c2.ELinear(a, b, d, (f1, f2)).at()
 
 
+def turn(angle):
+    return np.array([math.cos(angle), math.sin(angle)])
+
+
 def mirrored(plane):
     """In y -> -y, which turns the other way."""
     a, b, d, f1, f2 = plane
@@ -51,6 +55,23 @@ def test_the_arc_leads_from_where_orbits_come_down_to_where_they_go_up(plane, ti
         assert (sense * (e[:, 0] * U[:, 1] - e[:, 1] * U[:, 0]) > 0.0).all()
         ratios = limits.lambda_rho / limits.lambda_theta
         assert loop.ratio == pytest.approx(ratios[i] / ratios[j], rel=1e-12)
+
+
+@pytest.mark.parametrize("time", [1e-4, 1.0])
+def test_there_is_a_loop_for_each_half_saddle_from_which_the_next_one_is_reached(time):
+    """In the sense of b: from one that repels along and across the equator to one that attracts both ways."""
+    rng = np.random.default_rng(11)
+    found = 0
+    for _ in range(200):
+        a, d = rng.uniform(0.3, 2.0, 2) * (1.0, -1.0)
+        b = rng.choice([-1.0, 1.0]) * math.sqrt(-a * d) * rng.uniform(1.0, 1.4)
+        e = rng.uniform(0.5, 1.0) * turn(rng.uniform(0.0, math.tau))
+        at = made((a, b, d, *(-np.array([[a, -b], [b, d]]) @ e)), time)
+        limits = c2.equator_equilibria(at)
+        out = (np.sign(limits.lambda_rho) + np.sign(limits.lambda_theta)).tolist()[:: 1 if b > 0.0 else -1]
+        assert len(loops(at)) == sum(pair == (2.0, -2.0) for pair in zip(out, out[1:] + out[:1], strict=True))
+        found += len(loops(at))
+    assert found > 30
 
 
 @EVERY

@@ -82,6 +82,7 @@ def test_samples_that_all_rise_or_all_fall(y, expected):
         (lambda xi: (xi - 0.4) ** 2 - 1e-5, False),  # two
         (lambda xi: np.where(xi < 0.4, -1.0, 5.0) + 1e-3 * xi, False),  # a jump: the interpolants differ
         (lambda xi: np.where(xi < 0.4, np.nan, xi - 0.3), False),
+        (lambda xi: np.sign(xi - 0.4), False),  # of equal values there is no interpolant
     ],
 )
 def test_six_samples_show_a_fixed_point_or_nothing_is_said(fine, shown):

@@ -66,6 +66,18 @@ def test_states_lie_on_the_ray_in_e(psi):
 
 
 @EVERY
+def test_towards_the_equator_samples_go_on_evenly_in_the_logarithm_of_the_distance(psi):
+    own = section(psi)
+    grid = own.grid()
+    states = own.states(grid)[0]
+    distance = np.log(np.hypot(*states[:, :2].T) / states[:, 2])
+    last = int(np.argmin(np.abs(grid - math.log(9.0))))  # the last of the inner samples, and the first that is passed
+    steps = np.diff(distance[last:])[:-1]  # the last one is cut off
+    assert len(steps) > 10
+    np.testing.assert_allclose(steps, np.median(steps), rtol=0.12)  # they are placed by the expansion at the equator
+
+
+@EVERY
 def test_the_field_is_that_of_the_system_in_its_unit(psi):
     own, e = section(psi), np.array([(0.3, 0.1), (-0.2, 0.8)])
     at = own.coefficients
