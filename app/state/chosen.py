@@ -34,6 +34,11 @@ PARAMETER, PARAMETER_RANGE, SLOW_RANGE = 1.0, (-4.0, 4.0), (-4.0, 4.0)
 System_ = ELinear | System
 
 
+_NUMBER = r"[-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+#: A parameter with its value and the range of its slider: mu = 0.3 in [0, 1].
+_DECLARED = re.compile(
+    rf"\s*([A-Za-z]\w*)\s*=\s*({_NUMBER})\s+in\s*\[\s*({_NUMBER})\s*[,;]\s*({_NUMBER})\s*\]\s*", re.ASCII
+)
 _WORD = re.compile(r"(?<![\w.])[A-Za-z]\w*", re.ASCII)
 
 
@@ -66,6 +71,7 @@ BOXES: Mapping[str, tuple[Box, ...]] = MappingProxyType(
             Box("B1", "B₁", "1"),
             Box("B2", "B₂", "0"),
             Box("g", "g", "0"),
+            Box("where", "where", ""),
         ),
         OWN: (
             Box("U1", "ẋ = U₁", "-c*(c - chi(z)/2)*(c + chi(z)/2)"),
@@ -127,7 +133,10 @@ def _typed(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
     for box, text in texts:
         if len(text) > LONGEST_TEXT:
             raise TextError(box, f"The text has {len(text)} characters; write at most {LONGEST_TEXT}.", LONGEST_TEXT)
-    definitions = _definitions(boxes.pop("where", ""))
+    declared, rest = _declared(boxes.pop("where", ""))
+    definitions = _definitions(rest)
+    if choice == TYPED and definitions:
+        raise TextError("where", "Coefficients take no definitions; write a line such as mu = 0.3 in [0, 1].")
     known = {*PLANE, "z", *(f"z{i}" for i in range(1, 17)), *FUNCTIONS, *CONSTANTS}
     known |= {key.split("(")[0].strip() for key in definitions}
     names: list[str] = []
@@ -142,7 +151,9 @@ def _typed(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
     if len(names) > MOST_PARAMETERS:
         shown = ", ".join(names[:6])
         raise TextError(next(iter(boxes)), f"There are {len(names)} names ({shown}, …); use at most {MOST_PARAMETERS}.")
-    parameters = dict.fromkeys(names, PARAMETER)
+    if unused := [name for name in declared if name not in names]:
+        raise TextError("where", f"{unused[0]} is in no formula: use it, or take its line away.")
+    parameters = {name: declared[name][0] if name in declared else PARAMETER for name in names}
     make = _elinear if choice == TYPED else _own
     return make(boxes, definitions, parameters)
 
@@ -156,6 +167,22 @@ def _taken(word: str, boxes: Collection[str]) -> str:
     if word in ("t", "T", "tau"):
         return say("name of time", name=word)
     return ""
+
+
+def _declared(text: str) -> tuple[dict[str, tuple[float, float, float]], str]:
+    """Return the parameters that are declared with a value and a range, as (value, low, high), and the other lines."""
+    found: dict[str, tuple[float, float, float]] = {}
+    rest: list[str] = []
+    for line in text.splitlines():
+        match = _DECLARED.fullmatch(line)
+        if match is None:
+            rest.append(line)
+            continue
+        value, low, high = (float(number.replace("−", "-")) for number in match.groups()[1:])
+        if not low <= value <= high or low == high:
+            raise TextError("where", f"{line.strip()[:60]}: give a range [low, high] that holds the value.")
+        found[match[1]] = value, low, high
+    return found, "\n".join(rest)
 
 
 def _definitions(text: str) -> dict[str, str]:
@@ -241,8 +268,10 @@ def slow_ranges(choice: str, m: int) -> list[tuple[float, float]]:
     return [(low, high) for _, low, high in example.slow] if example else [SLOW_RANGE] * m
 
 
-def describe(choice: str, system: System_) -> dict[str, Any]:
+def describe(choice: str, system: System_, texts: Mapping[str, str] = MappingProxyType({})) -> dict[str, Any]:
     """Return what the page needs to show a choice: its equations, and a control for each parameter and slow variable.
+
+    Of a typed one the texts may give ranges of parameters.
 
     The keys are ``equations`` (MathML), ``sentence``, ``label``, ``parameters`` and ``slow`` (lists of name, symbol,
     range, value), and ``coefficients``: whether the controls a, b, d, f, … belong to it.
@@ -258,7 +287,8 @@ def describe(choice: str, system: System_) -> dict[str, Any]:
             "slow": [],
             "coefficients": True,
         }
-    ranges = example.ranges if example else {}
+    declared, _ = _declared(texts_of(choice, texts).get("where", ""))
+    ranges = example.ranges if example else {name: ends for name, (_, *ends) in declared.items()}
     parameters = [
         {"name": name, "symbol": plain_symbol(name), "range": list(ranges.get(name, PARAMETER_RANGE)), "value": value}
         for name, value in system.parameters

@@ -117,6 +117,7 @@ class ExplorerState(param.Parameterized):
     lesson = param.String("", label="Lesson", doc="The lesson that is open.")
     quiz = param.String("", label="Question", doc="QUESTION.SEED or QUESTION.SEED.ANSWER of the open lesson.")
     t_end = _number(8.0, 0, 40, "until t", "How long a motion is followed.")
+    ranges = param.Dict({}, label="Ranges", doc="Ranges of sliders, by name: [low, high].")
     beside = param.String(
         "", label="Second portrait", doc="Its own values, as the query of a link; all others are shared."
     )
@@ -266,6 +267,8 @@ def clean(name: str, value: Any) -> Any:
         if not isinstance(value, str) or not PINNED.fullmatch(value):
             raise InputError(name, f"Pinned: {str(value)[:40]!r} given; give an object such as Q2, C or L1.")
         return str(value)
+    if name == "ranges":
+        return _ranges(declared.label, value)
     if name in ("texts", "parameters"):
         return _mapping(name, declared.label, value)
     if name == "orbits":
@@ -281,6 +284,31 @@ def clean(name: str, value: Any) -> Any:
     if not isinstance(value, str) or len(value) > 200:
         raise InputError(name, f"{declared.label}: give text of at most 200 characters.")
     return value
+
+
+def _ranges(label: str | None, value: Any) -> dict[str, list[float]]:
+    """Return ranges of sliders by name, from a mapping or from JSON."""
+    if isinstance(value, str):
+        try:
+            value = json.loads(value) if len(value) <= LONGEST_TEXT else None
+        except ValueError:
+            value = None
+    sliders = isinstance(value, Mapping) and all(isinstance(key, str) and _has_slider(key) for key in value)
+    if not sliders or len(value) > 2 * MOST_ENTRIES:
+        raise InputError("ranges", f"{label}: give at most {2 * MOST_ENTRIES} ranges by the names of sliders.")
+    found: dict[str, list[float]] = {}
+    for key, ends in value.items():
+        if not isinstance(ends, (list, tuple)) or len(ends) != 2:
+            raise InputError("ranges", f"{label}: {key}: give two numbers, [low, high].")
+        low, high = (_finite("ranges", f"{label}: {key}", end) for end in ends)
+        if not low < high or math.isinf(high - low):
+            raise InputError("ranges", f"{label}: {key}: [{low:g}, {high:g}] given; give [low, high] with low < high.")
+        found[key] = [low, high]
+    return found
+
+
+def _has_slider(name: str) -> bool:
+    return name in NUMBERS or (name.startswith(OWN_AXIS) and name.removeprefix(OWN_AXIS).isidentifier())
 
 
 def _own_values(label: str | None, value: Any) -> str:

@@ -2,15 +2,34 @@
 
 import {sidewaysOnly} from "./gestures.js"
 import {roundUp} from "./ranges.js"
-import {escape, plain} from "./words.js"
+import {SAYS, escape, plain} from "./words.js"
 
 const LONG = 160 // characters of an error that are shown at once
 
+// A number, a range, or both, as they are typed: 0.3, in [0, 1], 0.3 in [0, 1].
+/** @param {string} typed @returns {{value?: number, ends?: number[]} | null} null where it is none of these */
+export function readTyped(typed) {
+  const number = (text) => { const plainText = text.trim().replace("−", "-").replace(",", "."); return plainText === "" ? NaN : Number(plainText) }
+  const [, before, inner] = typed.match(/^(.*?)\bin\s*\[(.*)\]\s*$/) ?? [undefined, typed]
+  const value = number(before)
+  if (inner === undefined) return Number.isFinite(value) ? {value} : null
+  const ends = inner.split(inner.includes(";") ? ";" : ",").map(number)
+  const good = ends.length === 2 && ends.every(Number.isFinite) && ends[0] < ends[1]
+  if (!good || before.trim() && !(value >= ends[0] && value <= ends[1])) return null
+  return before.trim() ? {value, ends} : {ends}
+}
+
 export class NumberControl {
-  constructor(box, range, onValue) {
+  /**
+   * @param {any} box @param {number[]} range of the slider as it comes
+   * @param {(name: string, value: any) => void} onValue
+   * @param {(ends: number[]) => void} [onRange] is called with another range that is typed
+   */
+  constructor(box, range, onValue, onRange) {
     this.box = box
     this.name = box.dataset.control
-    this.range = range
+    this.range = this.first = range
+    this.onRange = onRange
     this.slider = box.querySelector("input[type=range]")
     this.number = box.querySelector("input.number")
     this.error = box.querySelector(".error")
@@ -20,13 +39,58 @@ export class NumberControl {
       onValue(this.name, this.slider.valueAsNumber)
     })
     const typed = () => {
-      const text = this.number.value.trim().replace("−", "-").replace(",", ".")
-      const value = Number(text)
-      if (text !== "" && Number.isFinite(value)) this.place(value)
-      onValue(this.name, text !== "" && Number.isFinite(value) ? value : text)
+      const text = this.number.value, {value, ends} = readTyped(text) ?? {}
+      if (/\bin\b/.test(text)) {
+        this.say(ends && this.onRange ? null : SAYS.range)
+        if (!ends || !this.onRange) return
+        this.onRange(ends)
+        this.number.value = plain(value ?? this.slider.valueAsNumber)
+        if (value === undefined) return
+      }
+      if (value !== undefined) this.place(value)
+      onValue(this.name, value ?? text.trim().replace("−", "-").replace(",", "."))
     }
     this.number.addEventListener("change", typed)
     this.number.addEventListener("keydown", (event) => { if (event.key === "Enter") typed() })
+    if (!this.slider || !onRange) return
+    const label = box.querySelector("label")
+    label.title = SAYS.rangeHere
+    label.classList.add("ranged")
+    label.addEventListener("click", (event) => { event.preventDefault(); if (!this.slider.disabled) this.editRange(!this.ends) })
+  }
+
+  // In place of the slider, the ends of its range.
+  editRange(on) {
+    this.ends?.remove()
+    this.ends = null
+    this.slider.hidden = on
+    if (!on) return
+    const {min, max} = this.slider
+    this.ends = document.createElement("span")
+    this.ends.className = "ends"
+    this.ends.innerHTML = ["least", "greatest"].map((word, i) => `<input type="text" inputmode="decimal" class="number" aria-label="${word} value of the slider ${escape(this.slider.getAttribute("aria-label") ?? "")}" value="${plain(Number([min, max][i]))}">`).join("<i>…</i>")
+    this.slider.after(this.ends)
+    const inputs = [...this.ends.querySelectorAll("input")]
+    const set = () => {
+      const {ends} = readTyped(`in [${inputs.map((input) => input.value).join("; ")}]`) ?? {}
+      this.say(ends ? null : SAYS.range)
+      if (ends) this.onRange(ends)
+    }
+    for (const input of inputs) {
+      input.addEventListener("change", (event) => { event.stopPropagation(); set() })
+      input.addEventListener("keydown", (event) => { if (event.key === "Enter" || event.key === "Escape") { event.preventDefault(); event.stopPropagation(); input.blur(); this.editRange(false); this.number.focus() } })
+    }
+    inputs[0].focus()
+    inputs[0].select()
+  }
+
+  /** Another range for the slider; none is the one it came with. @param {number[] | undefined} range */
+  setRange(range) {
+    const wanted = range ?? this.first
+    if (!this.slider || wanted === this.range) return
+    this.range = wanted
+    this.place(this.slider.valueAsNumber)
+    if (this.ends) this.ends.querySelectorAll("input").forEach((input, i) => { input.value = plain(Number([this.slider.min, this.slider.max][i])) })
   }
 
   // Move the slider without telling anyone, widening its range if need be.

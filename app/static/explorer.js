@@ -79,12 +79,19 @@ function wire({model, view, root, plot}) {
   for (const box of root.querySelectorAll("[data-control]")) {
     const name = box.dataset.control
     if (name in numbers || name === "trajectories") {
-      controls[name] = new NumberControl(box, config.ranges[name], change)
+      controls[name] = new NumberControl(box, config.ranges[name], change, (ends) => setRange(name, ends))
       if (box.closest("[role=tabpanel]")) controls[name].set(values[name])
       if (config.locked.includes(name)) for (const input of box.querySelectorAll("input")) { input.disabled = true; input.title = "given by your system" }
     } else controls[name] = {box, say: (sentence) => sayAt(box, sentence), set: setters[name] ?? (() => {})}
   }
-  const systems = new SystemChooser(root, config, values, {change, setAll: (wanted) => setAll(wanted), place: (name, control) => { controls[name] = control }, normal: controls.z})
+  // Ranges of sliders that a person has set.
+  const setRange = (name, ends) => { change("ranges", {...values.ranges, [name]: ends}); showRanges() }
+  const showRanges = () => {
+    for (const [name, control] of Object.entries(controls)) control.setRange?.(values.ranges[name])
+    systems.showRanges()
+  }
+  controls.ranges = {box: document.createElement("div"), say: () => {}, set: showRanges}
+  const systems = new SystemChooser(root, config, values, {change, range: setRange, setAll: (wanted) => setAll(wanted), place: (name, control) => { controls[name] = control }, normal: controls.z})
 
   const family = find("select.psi")
   const showFamily = () => {
@@ -224,7 +231,7 @@ function wire({model, view, root, plot}) {
   }
   if (config.page && !config.look.embed) {
     beside = new Second(root, config, {
-      values, set: (wanted) => { setAll(wanted); tell() }, keep: (text) => { values.beside = text; keepLink() },
+      values, set: (wanted) => { setAll(wanted); tell() }, keep: (own) => { values.beside = own; keepLink() },
       look: () => ({seen: picture.seen, theme: root.classList.contains("dark") ? "dark" : "light"}),
       address: (wanted, own) => writeLink(wanted, picture.window && picture.seen, {...config, look: own}),
     })
@@ -269,6 +276,7 @@ function wire({model, view, root, plot}) {
   const follow = (given) => {
     const fresh = Object.entries(given).filter(([name, value]) => !requests.holds(name) && JSON.stringify(values[name]) !== JSON.stringify(value))
     for (const [name, value] of fresh) { values[name] = value; controls[name]?.set(value) }
+    if (fresh.some(([name]) => name === "ranges")) showRanges()
     if (fresh.some(([name]) => name === "parameters" || name === "texts")) systems.set(values)
     if (fresh.length) { showPanels(); showLayers(); tell(); keepLink(); beside?.sync?.() }
   }
@@ -335,6 +343,7 @@ function wire({model, view, root, plot}) {
     if (name in numbers || name === "trajectories") controls[name].show(given)
     else { values[name] = given; controls[name].set(given); systems.set(values) }
   }
+  showRanges()
   paint(); showLayers(); showFamily(); tell()
   rest.note("opening", true)
   requestAnimationFrame(() => setTimeout(() => { // the panel costs as much as all else: the picture is painted before it

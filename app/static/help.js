@@ -12,7 +12,9 @@ export const KEYS = [
   ["Shift and drag, Ctrl and wheel", "move and enlarge the picture; on a phone with two fingers"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo; also the browser’s Back and Forward"],
   ["← → ↑ ↓", "on a slider, in a chart, in the row of panels"],
-  ["Enter", "takes a typed number; one beyond a slider’s range widens it"],
+  ["Enter", "takes a typed number; one beyond a slider’s range widens it; 0.3 in [0, 1] sets both"],
+  ["click on a symbol", "the range of its slider"],
+  ["◫", "two portraits side by side, which share what is chosen"],
 ]
 
 // How eigenvectors are drawn, as in objects.js.

@@ -4,15 +4,16 @@ import {NumberControl, sayAt, slider} from "./controls.js"
 import {SAYS, slowName} from "./words.js"
 
 export class SystemChooser {
-  // `change(name, value)` and `setAll(values)` as everywhere; `place(name, control)` registers a control, by the name
+  // `change(name, value)`, `range(name, ends)` and `setAll(values)` as everywhere; `place(name, control)` registers a control, by the name
   // that errors use.
   // `normal` is the control of z of the normal form.
-  constructor(root, config, values, {change, setAll, place, normal}) {
+  constructor(root, config, values, {change, range, setAll, place, normal}) {
     this.box = root.querySelector(".system-box")
     this.root = root
     this.config = config
     this.values = values
     this.change = change
+    this.range = range
     this.setAll = setAll
     this.place = place
     this.normal = normal
@@ -74,15 +75,26 @@ export class SystemChooser {
       const box = this.find(`[data-box=${name}].control`), area = box.querySelector("textarea")
       area.value = this.values.texts[name] ?? text
       const fit = () => { area.rows = Math.max(boxes.find((b) => b.name === name).lines, area.value.split("\n").length) }
-      area.addEventListener("input", () => { fit(); this.change("texts", {...this.values.texts, [name]: area.value}) })
+      area.addEventListener("input", () => { fit(); this.declare(this.values.texts[name] ?? text, area.value); this.change("texts", {...this.values.texts, [name]: area.value}) })
       fit()
       this.place(`text:${name}`, {box, say: (sentence) => sayAt(box, sentence), set: () => {}})
     }
   }
 
+  // A parameter whose line was given another value or range has these, whatever its slider was.
+  declare(was, now) {
+    const lines = (text) => Object.fromEntries([...text.matchAll(/^\s*([A-Za-z]\w*)\s*=(.*\bin\b.*)$/gm)].map(([, name, rest]) => [name, rest.trim()]))
+    const old = lines(was), other = Object.entries(lines(now)).filter(([name, rest]) => old[name] !== rest).map(([name]) => name)
+    for (const [held, before] of [["parameters", ""], ["ranges", "own:"]]) {
+      const kept = {...this.values[held]}
+      for (const name of other) delete kept[before + name]
+      if (Object.keys(kept).length < Object.keys(this.values[held]).length) this.change(held, kept)
+    }
+  }
+
   makeParameters() {
     const wanted = this.told.parameters
-    const names = wanted.map((p) => p.name).join()
+    const names = wanted.map((p) => `${p.name} ${p.range}`).join()
     this.defaults = Object.fromEntries(wanted.map((p) => [p.name, p.value]))
     if (names !== this.names) {
       this.names = names
@@ -94,11 +106,14 @@ export class SystemChooser {
           if (typeof value === "number") this.change("parameters", {...this.values.parameters, [p.name]: value})
           else sayAt(box, SAYS.number)
         }
-        this.sliders[p.name] = new NumberControl(box, p.range, moved)
+        this.sliders[p.name] = new NumberControl(box, p.range, moved, (ends) => this.range(`own:${p.name}`, ends))
       }
+      this.showRanges()
     }
     for (const p of wanted) if (document.activeElement !== this.sliders[p.name].number) this.sliders[p.name].set(p.value)
   }
+
+  showRanges() { for (const [name, control] of Object.entries(this.sliders)) control.setRange(this.values.ranges[`own:${name}`]) }
 
   // The value of a parameter of the system, and moving it from elsewhere.
   value(name) { return this.values.parameters[name] ?? this.defaults?.[name] ?? 0 }
@@ -120,7 +135,8 @@ export class SystemChooser {
     holder.querySelector(".sliders").innerHTML = slow.map((one) => slider(`slow-${one.name}`, one.symbol)).join("")
     slow.forEach((one) => {
       const box = holder.querySelector(`[data-control="slow-${one.name}"]`)
-      const control = new NumberControl(box, one.range, (_, value) => this.change(one.name, value))
+      const control = new NumberControl(box, one.range, (_, value) => this.change(one.name, value), (ends) => this.range(one.name, ends))
+      control.setRange(this.values.ranges[one.name])
       control.set(this.values[one.name])
       this.place(one.name, control)
     })

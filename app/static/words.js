@@ -42,6 +42,8 @@ export const SAYS = {
   slowRest: "The slow flow has come to rest: z′ = 0.",
   rangeEnds: "The end of the range.",
   number: "Type a number such as −0.5.",
+  range: "Type a number with its slider’s range, such as 0.3 in [0, 1].",
+  rangeHere: "The range of its slider",
   lost: "Connection lost. Reload the page, or run the cell again.",
   trying: "Connection lost. Trying again …",
   noFiles: "The server does not answer: there are no files now.",

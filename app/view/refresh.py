@@ -283,7 +283,7 @@ class Frames:
         key = (choice, tuple(values["texts"].items()))
         if now.get("system") != key and isinstance(scene.system, ELinear | System):
             now["system"] = key
-            header["system"] = describe(choice, scene.system)
+            header["system"] = describe(choice, scene.system, values["texts"])
 
     def publish(self) -> None:
         """Let the state follow what has been drawn, as one change; its watchers run now.

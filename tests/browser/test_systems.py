@@ -169,3 +169,54 @@ def test_without_storage_what_was_typed_is_kept_in_the_page(open_page):
     assert "until this page is closed" in explorer.find(".yours .note").text_content()
     assert not explorer.find(".banner").is_visible()
     assert explorer.complaints == []
+
+
+def ends(explorer, name):
+    slider = explorer.find(f"[data-control={name}] input[type=range]")
+    return float(slider.get_attribute("min")), float(slider.get_attribute("max"))
+
+
+def test_a_range_is_typed_beside_a_slider_is_in_the_link_and_is_undone(open_page):
+    explorer = open_page().open()
+    first = ends(explorer, "f1")
+    explorer.type("f1", "0.25 in [0, 1]").kept()
+    assert (ends(explorer, "f1"), value(explorer, "f1")) == ((0.0, 1.0), 0.25)
+    explorer.find("[data-control=a] label").click()
+    low, high = explorer.find("[data-control=a] .ends input").all()
+    low.fill("-3")
+    high.fill("-1")
+    high.press("Enter")
+    explorer.kept()
+    assert ends(explorer, "a") == (-3.0, -1.0)
+    assert explorer.find("[data-control=a] .ends").count() == 0
+    explorer.type("b", "3 in [0, 1]")
+    assert "0.3 in [0, 1]" in explorer.find("[data-control=b] .error").text_content()
+    again = open_page().open(explorer.page.evaluate("location.search"))
+    assert (ends(again, "a"), ends(again, "f1"), value(again, "f1")) == ((-3.0, -1.0), (0.0, 1.0), 0.25)
+    explorer.find(".undo").click()
+    explorer.kept()
+    assert (ends(explorer, "a"), ends(explorer, "f1")) == ((-4.0, 4.0), (0.0, 1.0))
+    explorer.find(".undo").click()
+    explorer.kept()
+    assert (ends(explorer, "f1"), value(explorer, "f1")) == (first, -0.5)
+    assert explorer.complaints == again.complaints == []
+
+
+def test_a_line_of_ones_own_system_gives_a_parameter_its_value_and_range(open_page):
+    explorer = open_page().open("?v=1&panel=numbers")
+    choose(explorer, "own")
+    where = explorer.find("textarea[data-box=where]")
+    where.fill(f"{where.input_value()}\nk = 0.3 in [0, 1]")
+    explorer.settle()
+    assert (ends(explorer, "parameter-k"), value(explorer, "parameter-k")) == ((0.0, 1.0), 0.3)
+    explorer.type("parameter-k", "0.75")
+    where.fill(where.input_value().replace("0.3 in [0, 1]", "0.4 in [0, 2]"))
+    explorer.settle()
+    assert (ends(explorer, "parameter-k"), value(explorer, "parameter-k")) == ((0.0, 2.0), 0.4)
+    explorer.kept()
+    again = open_page().open(explorer.page.evaluate("location.search"))
+    assert (ends(again, "parameter-k"), value(again, "parameter-k")) == ((0.0, 2.0), 0.4)
+    where.fill("k = 3 in [0, 1]")
+    explorer.settle()
+    assert "a range [low, high] that holds the value" in explorer.find("[data-box=where] .error").text_content()
+    assert explorer.complaints == again.complaints == []

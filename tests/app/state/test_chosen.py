@@ -56,6 +56,10 @@ def test_an_example_takes_its_parameters_by_name():
         (OWN, {"W": "z3"}, "W", None),
         (OWN, {"U1": "x/sqrt(x^2 + y^2)"}, "U1", None),
         (OWN, {"U2": "-s - sign(c)"}, "U2", None),
+        (OWN, {"where": "k = 3 in [0, 1]"}, "where", None),
+        (OWN, {"where": "k = 0 in [0, 0]"}, "where", None),
+        (OWN, {"where": "nu = 0.5 in [0, 1]"}, "where", None),
+        (TYPED, {"where": "chi(z) = 2"}, "where", None),
         (TYPED, {"f1": "z**"}, "f1", 4),
         (TYPED, {"d": "__import__('os')"}, "d", 12),
     ],
@@ -102,3 +106,22 @@ def test_boxes_that_were_not_touched_keep_their_text():
 def test_theta_is_no_slider_but_says_write_c(text):
     with pytest.raises(TextError, match="write c for cos"):
         build(OWN, {"U1": text}, {})
+
+
+@pytest.mark.parametrize("choice", [OWN, TYPED])
+@pytest.mark.parametrize("line", ["mu = 0.3 in [0, 1]", "  mu=.3  in [ 0 ; 1e0 ] ", "mu = 3e-1 in [0,1]"])
+def test_a_line_gives_a_parameter_its_value_and_the_range_of_its_slider(choice, line):
+    texts = {"U1": "-mu*c", "W": "0", "where": line, "U2": "-s", "a": "-mu"}
+    system = build(choice, texts, {})
+    assert dict(system.parameters)["mu"] == 0.3
+    [told] = [p for p in describe(choice, system, texts)["parameters"] if p["name"] == "mu"]
+    assert (told["value"], told["range"]) == (0.3, [0.0, 1.0])
+    assert dict(build(choice, texts, {"mu": 0.75}).parameters)["mu"] == 0.75  # its slider was moved
+
+
+def test_a_range_may_be_negative_and_stands_beside_definitions():
+    texts = {"U1": "-q(z)*c", "U2": "-s", "W": "0", "where": "w = −0.5 in [−2, 0]\nq(z) = 1 + w*z^2"}
+    system = build(OWN, texts, {})
+    assert system.parameters == (("w", -0.5),)
+    assert system.at((2.0,)).U((1.0, 0.0)).tolist() == [1.0, 0.0]
+    assert describe(OWN, system, texts)["parameters"][0]["range"] == [-2.0, 0.0]

@@ -103,3 +103,19 @@ def test_a_second_portrait_has_values_of_its_own(text):
 def test_what_a_second_portrait_cannot_have_is_told(text, said):
     with pytest.raises(InputError, match=said):
         clean("beside", text)
+
+
+def test_ranges_of_sliders_are_read_from_a_link_and_from_a_mapping():
+    ranges = {"f1": [0.0, 0.5], "own:mu": [-1.0, 1.0]}
+    assert clean("ranges", ranges) == clean("ranges", '{"f1": [0, 0.5], "own:mu": [-1, 1]}') == ranges
+
+
+@pytest.mark.parametrize(
+    "given",
+    ['{"x y": [0, 1]}', '{"f1": [1, 0]}', '{"f1": [0, 0]}', '{"f1": 3}', '{"f1": [0, 1, 2]}', '{"f1": [0, "far"]}', "q",
+     '{"psi": [0, 1]}', {"f1": [-1e308, 1e308]}, {f"own:m{i}": [0, 1] for i in range(40)}, 3],
+)  # fmt: skip
+def test_a_range_that_is_none_is_told(given):
+    with pytest.raises(InputError, match="Ranges: ") as caught:
+        clean("ranges", given)
+    assert caught.value.control == "ranges"

@@ -6,7 +6,7 @@ import explorer from "../../../app/static/explorer.js"
 import "../../../app/static/panels/numbers.js"
 import "../../../app/static/panels/orbits.js"
 
-const slider = (name) => `<div class="control" data-control="${name}"><input type="range" id="c2-${name}" min="-4" max="4" step="0.01" value="0"><input type="text" class="number"><p class="error" hidden></p></div>`
+const slider = (name) => `<div class="control" data-control="${name}"><label for="c2-${name}">${name}</label><input type="range" id="c2-${name}" min="-4" max="4" step="0.01" value="0"><input type="text" class="number"><p class="error" hidden></p></div>`
 
 const MARKUP = `<div id="codim2-first"><div class="codim2"><div class="banner" hidden></div><form class="controls">
 <div data-control="preset"><select class="preset"><option value="">none</option><option value="one">One</option></select></div><button class="reset"></button><p class="preset-note"></p>
@@ -22,7 +22,7 @@ ${["a", "f1", "n", "z", "trajectories"].map(slider).join("\n")}
 <div class="sheets"><button data-sheet="controls"></button><button data-sheet="inspector"></button></div>
 <div class="tabs"><button role="tab" data-panel="orbits">Orbits</button><button role="tab" data-panel="numbers">Numbers</button></div><section role="tabpanel" data-panel="orbits"></section><section role="tabpanel" data-panel="numbers" hidden></section></div></div>`
 
-export const VALUES = {a: -2, f1: 0.5, n: 3, z: 0, z2: 0, trajectories: 64, psi: "constant", psi_text: "1", preset: "", system: "normal", texts: {}, parameters: {}, layers: ["inside", "equator", "critical", "basins"], orbits: "", orbit: 1, pinned: "", orbit_eps: "hide", log_eps: -2, panel: "orbits", t_end: 5, launch: "", beside: ""}
+export const VALUES = {a: -2, f1: 0.5, n: 3, z: 0, z2: 0, trajectories: 64, psi: "constant", psi_text: "1", preset: "", system: "normal", texts: {}, parameters: {}, layers: ["inside", "equator", "critical", "basins"], orbits: "", orbit: 1, pinned: "", orbit_eps: "hide", log_eps: -2, panel: "orbits", t_end: 5, launch: "", beside: "", ranges: {}}
 const curve = (name, colour, more = {}) => ({name, colour, width: 1.5, dash: [], ...more})
 const LAYERS = [
   {name: "basins", parts: []}, {name: "outcomes", parts: []},
