@@ -51,6 +51,8 @@ REFUSED = [
     ({"orbits": "100,2"}, "orbits", "from −4 to 4"),
     ({"orbits": ";".join(["0.1,0.2"] * 99)}, "orbits", "at most 12"),
     ({"launch": 7}, "launch", "at most 200 characters"),
+    ({"beside": 7}, "beside", "give its own values as text"),
+    ({"beside": "layers=inside"}, "beside", "'layers' cannot be its own"),
     ({"no": 1}, "no", "There is no control"),
     ({"pinned": "foo bar"}, "pinned", "give an object such as"),
     ({"psi": "hill", "n": -3}, "n", "n is −3; allowed is 0.01 ≤ n ≤ 1000"),
