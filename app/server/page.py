@@ -4,23 +4,14 @@ from __future__ import annotations
 
 import logging
 import os
-import struct
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from typing import Any
-from weakref import WeakKeyDictionary
 
 import panel as pn
-from bokeh.document import Document
-from bokeh.protocol.message import Message
-from bokeh.server.urls import per_app_patterns
-from panel.io.server import WSHandler
+from panel.io.server import DocHandler, WSHandler
 from tornado.ioloop import IOLoop, PeriodicCallback
-from tornado.iostream import StreamClosedError
-from tornado.locks import Lock
 from tornado.web import RequestHandler
-from tornado.websocket import WebSocketClosedError
 
 from ..frame.jobs import serve_with
 from ..frame.turns import Turns
@@ -35,12 +26,7 @@ from .first_page import Page, markup_of, opening
 from .headers import transform
 from .qr import QrCode
 from .scripts import routes
-
-#: What each open page shows; a page that is closed is told so at once, long before Bokeh forgets its session.
-_views: WeakKeyDictionary[Document, ExplorerView] = WeakKeyDictionary()
-
-#: Bytes of one message from a browser: a request is a few hundred.
-MOST_SENT = 200_000
+from .sockets import MOST_SENT, PromptSocket, untraced, views
 
 #: What the workers find imported.
 PRELOAD = ("codim2_app.server.worker",)
@@ -58,7 +44,7 @@ def session() -> ExplorerView:
     # The page says itself when the connection is lost, and loads itself again: see connection.js.
     doc.config.update(reconnect_session=False, notify_connection_status=False, notifications=None)
     doc.on_session_destroyed(lambda _: view.leave())
-    _views[doc] = view
+    views[doc] = view
     doc.template = page_template()  # type: ignore[assignment]  # Bokeh takes a template's text as well
     doc.template_variables["explorer_script"] = address_of_script()
     doc.template_variables["explorer_markup"] = _Markup(query)  # for Bokeh's own handler, which makes a session first
@@ -84,72 +70,19 @@ class _Markup:
         return markup_of(self.query)
 
 
-class _Parts:
-    """What Bokeh's messages are sent to: keeps the parts of one message, as websocket frames (RFC 6455, 5.2)."""
-
-    def __init__(self, write_lock: Lock) -> None:
-        self.write_lock = write_lock
-        self.frames: list[bytes] = []
-
-    async def write_message(self, part: str | bytes, binary: bool = False, locked: bool = True) -> None:  # noqa: ARG002
-        """Keep one part; `Message.send` holds the lock meanwhile."""
-        data = part.encode() if isinstance(part, str) else part
-        size = len(data)
-        kind = 0x82 if binary else 0x81
-        if size < 126:
-            self.frames.append(bytes((kind, size)))
-        elif size < 1 << 16:
-            self.frames.append(struct.pack("!BBH", kind, 126, size))
-        else:
-            self.frames.append(struct.pack("!BBQ", kind, 127, size))
-        self.frames.append(data)
+#: Routes of Bokeh and Panel that are answered here.
+OURS: dict[type, type] = {WSHandler: PromptSocket, DocHandler: Page}
 
 
-class PromptSocket(WSHandler):
-    """Bokeh's websocket with one write for each message, and without Nagle's algorithm.
-
-    A frame is a message of five parts. Written one by one they cost half of all that a bare swap costs; and with
-    Nagle's algorithm each waits for the browser's delayed acknowledgement, 40 ms.
-    """
-
-    def open(self, *arguments: str, **named: str) -> None:
-        """Start the connection."""
-        super().open(*arguments, **named)
-        self.set_nodelay(True)
-
-    def on_close(self) -> None:
-        """End what was computed for this page alone."""
-        session = None if self.connection is None else self.connection.session
-        super().on_close()
-        if session is not None and not session.connection_count and (view := _views.get(session.document)):
-            view.leave()
-
-    async def send_message(self, message: Message[Any]) -> None:
-        """Send one message of Bokeh's protocol."""
-        parts = _Parts(self.write_lock)
-        await message.send(parts)  # type: ignore[arg-type]  # asks for no more than `_Parts` has
-        connection = self.ws_connection
-        try:
-            if connection is None or connection.is_closing():
-                raise WebSocketClosedError
-            await connection.stream.write(b"".join(parts.frames))  # type: ignore[attr-defined]
-        except (WebSocketClosedError, StreamClosedError):
-            logging.getLogger(__name__).info("the browser left before its frame")  # `on_close` tidies up
-
-
-#: Routes of Bokeh that are answered here.
-OURS = {"/ws": ("/ws", PromptSocket), "/?": ("/?", Page)}
-
-
-@contextmanager
-def _prompt_websockets() -> Iterator[None]:
-    """Let a server that is made meanwhile use `PromptSocket` and `Page`; Bokeh has no option for it."""
-    kept = list(per_app_patterns)
-    per_app_patterns[:] = [OURS.get(route[0], route) for route in kept]
-    try:
-        yield
-    finally:
-        per_app_patterns[:] = kept
+def take_over(application: Any) -> None:
+    """Let a server's websockets be `PromptSocket` and its pages `Page`; what is not found answers as it did."""
+    found = set()
+    for rule in getattr(getattr(application, "wildcard_router", None), "rules", ()):
+        if isinstance(rule.target, type) and rule.target in OURS:
+            found.add(rule.target)
+            rule.target = OURS[rule.target]
+    for theirs in OURS.keys() - found:
+        logging.getLogger(__name__).warning("Panel's routes are others than known here: %s answers.", theirs.__name__)
 
 
 class Health(RequestHandler):
@@ -215,13 +148,14 @@ def make_server(
     if warmup_now:
         warmup.start()
     parent = os.getpid()
-    with _prompt_websockets():
-        server = _server(port, address, allow_origin, processes, prefix, options)
+    server = _server(port, address, allow_origin, processes, prefix, options)
     application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
     application.add_handlers(".*", routes(server.prefix))
+    take_over(application)
     application.transforms.insert(0, transform(frame_ancestors))  # before they are compressed
     application.settings["most_sessions"] = sessions
     application.settings["log_function"] = _log
+    logging.getLogger("bokeh.server.protocol_handler").addFilter(untraced)
     if not warmup_now:
         server.io_loop.add_callback(warmup.start)
     if os.getpid() != parent:

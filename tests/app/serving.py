@@ -4,24 +4,34 @@ import os
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from urllib.request import urlopen
 
 
+class Address(str):
+    """Where a server answers, and which process it is."""
+
+    pid: int
+
+    @property
+    def port(self):
+        return int(self.rsplit(":", 1)[1])
+
+
 @contextmanager
-def serving(*options, command=("-m", "codim2_app.server.cli"), environment=os.environ, user=None):
-    """Yield the address of a warm server on a free port."""
+def serving(*options, command=("-m", "codim2_app.server.cli"), environment=os.environ, user=None, log=None):
+    """Yield the address of a warm server on a free port; what it logs goes to a file, if one is given."""
     whole = [sys.executable, *command, "serve", "--port", "0", *options]
     with_output = {**environment, "PYTHONUNBUFFERED": "1"}
-    process = subprocess.Popen(
-        whole, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=with_output, user=user
-    )
+    with nullcontext(subprocess.STDOUT) if log is None else open(log, "w") as logged:
+        process = subprocess.Popen(whole, stdout=subprocess.PIPE, stderr=logged, text=True, env=with_output, user=user)
     try:
         said = process.stdout.readline()
         while said and "http://" not in said:  # what it says before
             said = process.stdout.readline()
         assert "http://" in said, said + process.stdout.read()
-        address = "http://" + said.split("http://")[1].split("/")[0]
+        address = Address("http://" + said.split("http://")[1].split("/")[0])
+        address.pid = process.pid
         for _ in range(600):
             try:
                 with urlopen(address + "/ready", timeout=5) as answer:

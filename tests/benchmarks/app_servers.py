@@ -65,7 +65,7 @@ def bare(port: int, before: Callable[[], None] = lambda: None) -> None:
     from bokeh.events import ButtonClick
     from bokeh.models import Button, Column, ColumnDataSource
     from bokeh.server.server import Server
-    from codim2_app.server.page import _prompt_websockets
+    from codim2_app.server.page import take_over
     from codim2_app.state.controls import ExplorerState
     from codim2_app.view.refresh import Frames
 
@@ -87,8 +87,8 @@ def bare(port: int, before: Callable[[], None] = lambda: None) -> None:
         button.tags = [source]
         doc.add_root(Column(children=[button]))
 
-    with _prompt_websockets():  # the same favour as for the explorer
-        server = Server({"/": page}, port=port)
+    server = Server({"/": page}, port=port)
+    take_over(server._tornado)  # the same favour as for the explorer
     server.start()
     server.io_loop.start()
 

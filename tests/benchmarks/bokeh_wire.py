@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import re
 from typing import Any
@@ -100,3 +101,10 @@ class Wire:
         stream = self.socket.protocol.stream if self.socket.protocol else None
         if stream is not None:
             stream.close()
+
+    async def vanish(self) -> None:
+        """Let the line go without a word, as a phone does that is switched off."""
+        if self.socket.protocol is not None:
+            self.socket.protocol.stream.close()
+            self.socket.protocol = None  # or it would be warned of: nobody has said goodbye
+        await asyncio.sleep(0)

@@ -196,10 +196,11 @@ def test_a_page_of_another_kind_is_left_to_its_own_handler(other):
     assert skeleton_of(other) is None
 
 
-def test_without_a_skeleton_pages_come_with_a_session():
-    """What a later Panel would answer: the page, by its own handler."""
+def test_without_a_skeleton_pages_come_with_a_session_and_their_messages_in_parts():
+    """What later versions of Panel and Bokeh would answer: the page by its own handler, a message as they send it."""
     code = (
-        "import sys; from codim2_app.server import first_page; first_page.skeleton_of = lambda html: None\n"
+        "import sys; from codim2_app.server import first_page, sockets; first_page.skeleton_of = lambda html: None\n"
+        "sockets._Parts = object  # knows no message\n"
         "from codim2_app.server.cli import main; sys.exit(main(sys.argv[1:]))"
     )
     assert first_page.skeleton_of is skeleton_of

@@ -1,0 +1,76 @@
+"""The socket of a page, where Bokeh and Panel are others than known; tests/faults asks it what no page sends."""
+
+import logging
+import sys
+
+import pytest
+from bokeh.protocol import Protocol
+from codim2_app.server.first_page import Page
+from codim2_app.server.page import OURS, take_over
+from codim2_app.server.sockets import PromptSocket, _Parts, untraced
+from panel.io.server import DocHandler, WSHandler
+from tornado.locks import Lock
+from tornado.web import Application, RequestHandler
+from tornado.websocket import WebSocketHandler
+
+
+def targets(application):
+    return [rule.target for rule in application.wildcard_router.rules]
+
+
+def test_routes_of_panel_are_answered_here(caplog):
+    known = Application([("/ws", WSHandler), ("/?", DocHandler), ("/other", RequestHandler)])
+    take_over(known)
+    assert targets(known)[:3] == [PromptSocket, Page, RequestHandler]
+    assert not caplog.records
+
+
+@pytest.mark.parametrize("other", [object(), Application([("/ws", WebSocketHandler)])])
+def test_routes_that_are_not_found_answer_as_they_did_and_that_is_told(other, caplog):
+    take_over(other)
+    assert len(caplog.records) == len(OURS)
+    assert "DocHandler answers" in caplog.text
+
+
+def test_parts_of_a_message_are_websocket_frames():
+    async def kept():
+        parts = _Parts(Lock())
+        for size in (3, 300, 70_000):
+            await parts.write_message(b"x" * size, binary=True)
+        await parts.write_message("é")
+        return parts.frames
+
+    frames = run(kept())
+    heads = [b"\x82\x03", b"\x82\x7e\x01\x2c", b"\x82\x7f" + (70_000).to_bytes(8, "big"), b"\x81\x02"]
+    assert frames[::2] == heads
+    assert [len(part) for part in frames[1::2]] == [3, 300, 70_000, 2]
+
+
+def run(doing):
+    """Run what waits for nothing."""
+    try:
+        doing.send(None)
+    except StopIteration as done:
+        return done.value
+    raise AssertionError("it waits")
+
+
+def record_of(do):
+    try:
+        do()
+    except Exception:
+        return logging.LogRecord("bokeh", logging.ERROR, "", 0, "long %s", ("words",), sys.exc_info())
+    raise AssertionError("it succeeds")
+
+
+def test_a_visitors_message_that_fails_in_bokeh_is_a_line_and_a_fault_here_keeps_its_traceback():
+    theirs = record_of(lambda: Protocol().create("NOTHING"))
+    assert untraced(theirs)
+    assert theirs.exc_info is None
+    assert theirs.getMessage() == "a message cannot be handled: ProtocolError"
+    ours = record_of(lambda: 1 / 0)
+    assert untraced(ours)
+    assert ours.exc_info is not None
+    plain = logging.LogRecord("bokeh", logging.ERROR, "", 0, "words", (), None)
+    assert untraced(plain)
+    assert plain.getMessage() == "words"
