@@ -29,10 +29,10 @@ ELSEWHERE: dict[str, tuple[str, ...]] = {
     "core.systems": ("core/layer_problem/test_critical.py",),
     "core.figures": ("presets",),
     "app.draw": ("app/view/test_view.py",),
-    "app.frame": ("app/panels", "app/view/test_refresh.py"),
+    "app.frame": ("app/panels", "app/view/test_refresh.py", "app/view/test_refused.py"),
     "app.phrases": ("words/test_app_words.py",),
     "app.slow_layers": ("app/panels",),
-    "app.state": ("app/view/test_refresh.py",),
+    "app.state": ("app/view/test_refresh.py", "app/view/test_refused.py"),
     "app.view": ("app/state",),
 }
 
