@@ -1,10 +1,13 @@
 # The explorer as a container: slim base, no root, kernels compiled at build time for a baseline processor, health check.
 # It runs with a read-only root: docker run --read-only --user 10001 -p 5006:5006 codim2
+# What is installed is pinned with hashes: .ci/lock writes the two files.
 FROM python:3.12-slim AS wheel
+COPY .github/hosting/build.txt /
+RUN pip install --no-cache-dir --require-hashes -r /build.txt
 COPY pyproject.toml README.md LICENSE /source/
 COPY app /source/app
 COPY codim2_core /source/codim2_core
-RUN pip wheel --no-cache-dir --no-deps --wheel-dir /wheels /source
+RUN pip wheel --no-cache-dir --no-deps --no-build-isolation --wheel-dir /wheels /source
 
 FROM python:3.12-slim
 # What the kernels are compiled for: every server processor since 2015. On ARM: --build-arg KERNELS_FOR=generic
@@ -17,9 +20,11 @@ ENV NUMBA_CPU_NAME=${KERNELS_FOR} \
 
 RUN useradd --create-home --uid 10001 codim2
 WORKDIR /srv/codim2
+COPY .github/hosting/requirements.txt ./
 COPY --from=wheel /wheels /wheels
 # Tests, examples, stubs and source maps of the dependencies, a quarter of them all, are of no use here.
-RUN pip install --no-cache-dir /wheels/*.whl \
+RUN pip install --no-cache-dir --require-hashes -r requirements.txt \
+    && pip install --no-cache-dir --no-deps /wheels/*.whl \
     && cd "$(python -c 'import panel; print(panel.__path__[0])')/.." \
     && find . -type d \( -name tests -o -name test \) -prune -exec rm -rf {} + \
     && find . \( -name "*.map" -o -name "*.pyi" \) -delete && rm -rf holoviews/examples \
