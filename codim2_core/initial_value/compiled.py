@@ -2,13 +2,17 @@
 
 A step costs 0.3 ms as Python calls NumPy, and some microseconds compiled; compiling the formulas of a system takes
 about a second. So a motion is followed in Python until it has cost about that much, and from then on, and whenever
-the same system comes again, compiled: the same method to the same coefficients.
+the same system comes again, compiled: implicitly by the same method to the same coefficients, or explicitly where that
+costs less (`compiled_motion`).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -20,17 +24,18 @@ from numpy.typing import NDArray
 
 from ..expressions.names import PLANE, SLOW
 from ..expressions.source import program
-from ..numerics.dense import Steps
+from ..numerics.dense import Dense, Steps
 from ..numerics.growth import BlowUpError, too_short
-from ..numerics.radau import STAGES, Problem, TooManyStepsError, tableau
+from ..numerics.radau import Problem, TooManyStepsError, tableau
 from ..psi.function import Psi
 from ..stepping.compiling import Kept
 from ..stepping.gains import one_gain
-from ..stepping.layout import FIELD, PARAMETERS
-from ..stepping.numbers import PSI
+from ..stepping.layout import FIELD
 from ..words import say
-from .compiled_radau import BLOWN_UP, FULL, LIMIT, SHORT, follow
+from .compiled_explicit import DEGREE, WIDTH
+from .compiled_motion import AHEAD, BLOWN_UP, CONTROL, FULL, LIMIT, SHORT, follow, follow_all, price
 from .compiled_rate import Motion
+from .compiled_stages import tableau_of, workspace
 from .field import Field
 from .line import Line
 
@@ -38,6 +43,8 @@ Array = NDArray[np.float64]
 
 MOST_SYSTEMS = 64
 CHUNK = 256  # steps that one call fills in
+SHARED_OUT = 16  # motions at once that are shared out to all cores, in as many parts each, at most so many in one
+PARTS, LARGEST_PART = 4, 256
 _fields = Kept(MOST_SYSTEMS)
 
 
@@ -65,6 +72,51 @@ def _function(rows: Any, names: tuple[str, ...]) -> Any:
     exec("def function(state, out, parameters):\n" + "\n".join(f"    {line}" for line in lines), scope)
     # Written by `program`: its own names, numbers and math.* only. Strict arithmetic: a formula ends where it ends.
     return cfunc(FIELD, nogil=True, error_model="numpy")(scope["function"])
+
+
+@lru_cache(maxsize=1)
+def _numbers_of_tableau() -> Array:
+    table = tableau()
+    return np.concatenate([[table.gamma], table.nodes, table.A.ravel(), table.error, table.fit.ravel()])
+
+
+@dataclass(frozen=True)
+class _Functions:
+    """The compiled functions of a field and a Psi: they must outlive the use of their addresses."""
+
+    functions: tuple[Any, ...]
+    addresses: NDArray[np.int64]
+
+
+_last = Kept(MOST_SYSTEMS)
+
+
+def _functions(field: Field, psi: Psi) -> _Functions:
+    def make() -> _Functions:
+        functions = (*_fields.get(field.rows, lambda: _made(field)), one_gain(psi))
+        return _Functions(functions, np.array([function.address for function in functions], np.int64))
+
+    return _last.get((field.rows, psi), make)
+
+
+def failure(problem: Problem, code: int, t: float, state: Array) -> TooManyStepsError | None:
+    """Say why a motion has ended before its time; None where it has not.
+
+    Parameters
+    ----------
+    problem : Problem
+        The same in Python.
+    code : int
+        Of `follow`.
+    t : float
+    state : ndarray (n,)
+        The last ones.
+    """
+    if code == LIMIT:
+        return TooManyStepsError()
+    if code == BLOWN_UP:
+        return BlowUpError(say("blow-up time", t=t))
+    return too_short(problem, t, state) if code == SHORT else None
 
 
 class Compiled:
@@ -100,16 +152,16 @@ class Compiled:
         h: float,
         most: int,
     ) -> None:
-        self.problem = problem
-        functions = _fields.get(field.rows, lambda: _made(field))
-        self.functions = (*functions, one_gain(psi))  # they must outlive their use
-        addresses = np.array([function.address for function in self.functions], np.int64)
-        parameters = np.zeros(PARAMETERS)
-        parameters[PSI] = psi.parameter
-        along = np.zeros(3) if line is None else np.array([*line.n, 1.0])
-        self.motion = Motion(addresses, parameters, len(first), eps, rtol, floor, along)
+        self.problem, n = problem, len(first)
+        self.functions, self.parameter = _functions(field, psi), psi.parameter
+        along = (0.0, 0.0) if line is None else line.vector
+        value, slopes, gain = self.functions.addresses.tolist()
+        self.motion = Motion(value, slopes, gain, n, eps, rtol, floor, along[0], along[1])
         self.y, self.clock = np.array(first), np.array([t_start, 0.0, t_end, 0.0])
-        self.control = np.array([h, 1.0, 0.0, float(most), 0.0, max(1.0, float(np.abs(first).max()))])
+        implicit = 1.0 if n > WIDTH else 0.0
+        largest = max(1.0, float(np.abs(first).max()))
+        self.control = np.array([h, 1.0, 0.0, float(most), 0.0, largest, implicit, 0.0, AHEAD * price(n)])
+        assert len(self.control) == CONTROL
 
     @property
     def evaluations(self) -> int:
@@ -124,20 +176,90 @@ class Compiled:
         BlowUpError, StepsTooShortError, TooManyStepsError
             As `bounded` does of `steps`.
         """
-        table, n = tableau(), len(self.y)
-        code = FULL
+        n = len(self.y)
+        table, work, code = tableau_of(_numbers_of_tableau()), workspace(n, self.parameter), FULL
         while code == FULL:
             starts, lengths = np.empty(CHUNK), np.empty(CHUNK)
-            ends, polynomials = np.empty((CHUNK, n)), np.empty((CHUNK, n, STAGES))
+            ends, polynomials = np.empty((CHUNK, n)), np.empty((CHUNK, n, DEGREE))
             begin = self.y.copy()
             code, filled = follow(
-                self.motion, table, self.y, self.clock, self.control, starts, lengths, ends, polynomials
+                self.motion, table, work, self.y, self.clock, self.control, starts, lengths, ends, polynomials
             )
             yield Steps(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
-        t = float(self.clock[0])
-        if code == LIMIT:
-            raise TooManyStepsError
-        if code == BLOWN_UP:
-            raise BlowUpError(say("blow-up time", t=t))
-        if code == SHORT:
-            raise too_short(self.problem, t, self.y)
+        error = failure(self.problem, code, float(self.clock[0]), self.y)
+        if error is not None:
+            raise error
+
+
+@dataclass(frozen=True)
+class Ended:
+    """A motion that was followed all the way: its dense output, why it ended (`failure`), and its evaluations."""
+
+    motion: Dense
+    code: int
+    t: float
+    evaluations: int
+
+
+def followed(
+    field: Field,
+    psi: Psi,
+    eps: float,
+    lines: Sequence[Line | None],
+    first: Array,
+    span: tuple[float, float],
+    rtol: float,
+    floor: float,
+    most: int,
+) -> list[Ended]:
+    """Follow one motion from each state; of many, on all cores.
+
+    Parameters
+    ----------
+    field : Field
+    psi : Psi
+    eps : float
+    lines : sequence of k Line or None
+    first : ndarray (k, n)
+    span : (t_start, t_end)
+    rtol, floor, most
+        As in `Compiled`.
+
+    Raises
+    ------
+    ValueError
+        The rate is not finite at one of the states; the message names the first.
+    """
+    made, count = _functions(field, psi), len(first)
+    numbers, along = np.array([eps, rtol, floor, *span, psi.parameter]), np.zeros((count, 2))
+    for i, line in enumerate(lines):
+        if line is not None:
+            along[i] = line.n
+
+    def part(cut: slice) -> list[Ended]:
+        found = follow_all(made.addresses, numbers, _numbers_of_tableau(), along[cut], first[cut], float(most))
+        return _apart(*found, first.shape[1])
+
+    if count < SHARED_OUT:
+        return part(slice(0, count))
+    from concurrent.futures import ThreadPoolExecutor  # imported late: one motion does without
+
+    cores = os.cpu_count() or 1
+    size = max(1, min(LARGEST_PART, -(-count // (PARTS * cores))))
+    cuts = [slice(i, i + size) for i in range(0, count, size)]
+    with ThreadPoolExecutor(cores) as pool:
+        return [one for found in pool.map(part, cuts) for one in found]
+
+
+def _apart(times: Array, lengths: Array, states: Array, polynomials: Array, told: Array, n: int) -> list[Ended]:
+    """Cut what `follow_all` returns into motions, without copying."""
+    states, polynomials = states.reshape(-1, n), polynomials.reshape(-1, n, DEGREE)
+    for array in (times, lengths, states, polynomials):
+        array.flags.writeable = False
+    found, row = [], 0
+    for steps, code, t, evaluations in told.tolist():
+        last = row + int(steps)
+        motion = Dense(times[row : last + 1], states[row : last + 1], lengths[row:last], polynomials[row:last])
+        found.append(Ended(motion, int(code), t, int(evaluations)))
+        row = last + 1
+    return found

@@ -7,17 +7,20 @@ one that writes their derivatives by all of these, and the gain of Psi at one pl
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from numba import njit
 
+from ..expressions.names import MOST_SLOW_VARIABLES
 from ..stepping.layout import call_field
+from .problem import INWARD
 
 DIFFERENCE = 1e-5
 
-# Where the right-hand side reads and writes: the gain's arguments, the field's, its value, its slopes.
+# Where the right-hand side reads and writes: the gain's arguments, the field's, its value, its slopes. The same array
+# holds the parameter of Psi, at PSI, where the gain looks for it.
 RADIUS, GAIN, ARGUMENTS, VALUE, SLOPES = 0, 4, 8, 8 + 32, 8 + 64
-PLACES = SLOPES + 8 * 12
+PLACES = SLOPES + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
 
 
 class Motion(NamedTuple):
@@ -25,54 +28,77 @@ class Motion(NamedTuple):
 
     Attributes
     ----------
-    fields : int64 (3,)
-        Addresses: value, slopes, gain.
-    P : float64
-        Parameters of all three.
+    value, slopes, gain : int64
+        Addresses.
     n : int
         Components of the state (x, y, z).
     eps, rtol, floor : float
         As in `numerics.radau`, floor = atol/rtol.
-    line : (3,)
-        The invariant line that is kept to, and 1; or 0 in the last place.
+    line1, line2 : float
+        The invariant line that is kept to, or 0.
     """
 
-    fields: Any
-    P: Any
+    value: int
+    slopes: int
+    gain: int
     n: int
     eps: float
     rtol: float
     floor: float
-    line: Any
+    line1: float
+    line2: float
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def rate(motion, y, S, out):
     """Write the rate (U, W) at a state; in an invariant line, kept in it."""
-    n, fields, P, line = motion.n, motion.fields, motion.P, motion.line
-    x1, x2 = y[0], y[1]
-    if line[2] > 0.0:
-        along = line[0] * x1 + line[1] * x2
-        x1, x2 = along * line[0], along * line[1]
+    rate_between(motion, y, 0, S, out, 0)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+def rate_between(motion, y, source, S, out, target):
+    """Write the rate at the state y[source:] to out[target:]."""
+    n, line1, line2 = motion.n, motion.line1, motion.line2
+    in_line = line1 != 0.0 or line2 != 0.0
+    x1, x2 = y[source], y[source + 1]
+    if in_line:
+        along = line1 * x1 + line2 * x2
+        x1, x2 = along * line1, along * line2
     S[RADIUS], S[RADIUS + 1] = x1 * x1 + x2 * x2, motion.eps
-    call_field(fields[2], S, RADIUS, GAIN, P)
+    call_field(motion.gain, S, RADIUS, GAIN, S)
     gain = S[GAIN]
     S[ARGUMENTS], S[ARGUMENTS + 1], S[ARGUMENTS + 2], S[ARGUMENTS + 3] = gain * x1, gain * x2, x1, x2
     for i in range(2, n):
-        S[ARGUMENTS + 2 + i] = y[i]
-    call_field(fields[0], S, ARGUMENTS, VALUE, P)
+        S[ARGUMENTS + 2 + i] = y[source + i]
+    call_field(motion.value, S, ARGUMENTS, VALUE, S)
     for i in range(n):
-        out[i] = S[VALUE + i]
-    if line[2] > 0.0:
-        along = line[0] * out[0] + line[1] * out[1]
-        out[0], out[1] = along * line[0], along * line[1]
+        out[target + i] = S[VALUE + i]
+    if in_line:
+        along = line1 * S[VALUE] + line2 * S[VALUE + 1]
+        out[target], out[target + 1] = along * line1, along * line2
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def sizes(motion, y, size):
+    """Write the size (n,) by which errors are measured at a state."""
+    for i in range(2, motion.n):
+        size[i] = abs(y[i]) + motion.floor
+    size[0] = size[1] = math.sqrt(y[0] * y[0] + y[1] * y[1] + motion.eps * motion.eps)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def inward_bound(motion, y, rates):
+    """Longest step: 0.9 of the way to Sigma."""
+    inward = -(y[0] * rates[0] + y[1] * rates[1])
+    square = y[0] * y[0] + y[1] * y[1] + motion.eps * motion.eps
+    return INWARD * square / inward if inward > 0.0 else math.inf
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _modulus(motion, r, S):
     """|e_Psi| at distance r, odd in r."""
     S[RADIUS], S[RADIUS + 1] = r * r, motion.eps
-    call_field(motion.fields[2], S, RADIUS, GAIN, motion.P)
+    call_field(motion.gain, S, RADIUS, GAIN, S)
     return r * S[GAIN]
 
 
@@ -84,14 +110,14 @@ def jacobian(motion, y, S, J):
     """
     n, r = motion.n, math.hypot(y[0], y[1])
     S[RADIUS], S[RADIUS + 1] = r * r, motion.eps
-    call_field(motion.fields[2], S, RADIUS, GAIN, motion.P)
+    call_field(motion.gain, S, RADIUS, GAIN, S)
     tangential = S[GAIN]
     h = DIFFERENCE * math.hypot(r, motion.eps)
     radial = (_modulus(motion, r + h, S) - _modulus(motion, r - h, S)) / (2.0 * h)
     n1, n2 = (y[0] / r, y[1] / r) if r > 0.0 else (1.0, 0.0)
     spread = radial - tangential
     d11, d12, d22 = tangential + spread * n1 * n1, spread * n1 * n2, tangential + spread * n2 * n2
-    call_field(motion.fields[1], S, ARGUMENTS, SLOPES, motion.P)
+    call_field(motion.slopes, S, ARGUMENTS, SLOPES, S)
     width = n + 2
     for i in range(n):
         row = SLOPES + i * width

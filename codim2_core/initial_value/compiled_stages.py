@@ -8,8 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import njit
 
-from ..numerics.radau import ITERATIONS, STAGES
-from .compiled_rate import PLACES, rate
+from ..numerics.radau import ITERATIONS, STAGES, Tableau
+from ..stepping.numbers import PSI
+from .compiled_explicit import ROOM
+from .compiled_rate import rate
 
 FARTHEST = 4.0  # times the last step: how far its polynomial is continued
 
@@ -36,14 +38,28 @@ class Work(NamedTuple):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def workspace(n):
-    """Return the arrays for a state of n components."""
-    N = STAGES * n
+def workspace(n, parameter):
+    """Return the arrays for a state of n components, and a parameter of Psi."""
+    N, S = STAGES * n, np.zeros(ROOM)
+    S[PSI] = parameter
     return Work(
-        np.zeros(PLACES), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros((n, n)), np.zeros((N, N)), np.zeros((n, n)),
+        S, np.zeros(n), np.zeros(n), np.zeros(n), np.zeros((n, n)), np.zeros((N, N)), np.zeros((n, n)),
         np.zeros(N, np.int64), np.zeros(n, np.int64), np.zeros((STAGES, n)), np.zeros((STAGES, n)), np.zeros(N),
         np.zeros(n), np.zeros(n), np.zeros((n, STAGES)), np.zeros(n),
     )  # fmt: skip
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def tableau_of(numbers):
+    """Return the tableau whose numbers follow one another."""
+    square = STAGES * STAGES
+    return Tableau(
+        numbers[1 : STAGES + 1],
+        numbers[STAGES + 1 : STAGES + 1 + square].copy().reshape((STAGES, STAGES)),
+        numbers[0],
+        numbers[STAGES + 1 + square : 2 * STAGES + 1 + square],
+        numbers[2 * STAGES + 1 + square :].copy().reshape((STAGES, STAGES)),
+    )
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

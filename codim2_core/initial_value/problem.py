@@ -19,6 +19,7 @@ from .field import Field
 Array = NDArray[np.float64]
 
 INWARD = 0.9  # of rho: how far towards Sigma one step may go
+CONTACT = 20.0  # times eps: so near, what looks like a way inward may be the rounding of a slide, eps times 1/rtol
 GROWTH = 1.0  # longest step times a growth rate: an L-stable method damps faster growth away
 
 
@@ -84,7 +85,7 @@ def plane_problem(
     line : (2,), optional
         Unit vector along an invariant line, in which (x, y) is kept.
     """
-    value, floor = field.value, atol / rtol
+    value, floor, contact = field.value, atol / rtol, (CONTACT * eps) ** 2 + eps * eps
     n1, n2 = (0.0, 0.0) if line is None else line
 
     def F(state: Array) -> Array:
@@ -121,7 +122,7 @@ def plane_problem(
     def limit(state: Array, rate: Array, jacobian: Array) -> float:
         x, y, u, v = float(state[0]), float(state[1]), float(rate[0]), float(rate[1])
         inward, square = -(x * u + y * v), x * x + y * y + eps * eps
-        bound = INWARD * square / inward if inward > 0.0 else math.inf
+        bound = INWARD * square / inward if inward > 0.0 and square > contact else math.inf
         return min(bound, growth_bound(jacobian))
 
     return Problem(F, J, scale, limit)

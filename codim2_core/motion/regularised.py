@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import sys
 from collections.abc import Sequence
 from functools import partial
@@ -185,21 +184,53 @@ def simulate(
 
     def one(first: Array) -> Simulation:
         watch = Watch(watched, t_start, first)
-        at_once = len(states) >= MANY
-        parts, status, detail, count = _followed(formulas, psi, eps, first, span, rtol, atol, max_steps, watch, at_once)
+        parts, status, detail, count = _followed(formulas, psi, eps, first, span, rtol, atol, max_steps, watch)
         motion = dense(t_start, first, parts)
         phases = partial(phases_of, system, psi, eps, motion)
         return simulation(motion, phases, status, detail=detail, eps=eps, evaluations=count, events=watch.times)
 
-    if np.ndim(state0) < 2:
-        return one(states[0])
-    if len(states) < MANY or watched:
-        return tuple(one(first) for first in states)
-    from concurrent.futures import ThreadPoolExecutor  # imported late: one motion does without
+    if not watched and (len(states) >= MANY or _is_compiled(formulas)):
+        runs = _compiled(system, formulas, psi, eps, states, span, rtol, atol, max_steps)
+    else:
+        runs = tuple(one(first) for first in states)
+    return runs[0] if np.ndim(state0) < 2 else runs
 
-    found = [one(states[0])]  # which compiles
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        return (*found, *pool.map(one, states[1:], chunksize=1))
+
+def _compiled(
+    system: AnySystem,
+    formulas: Field,
+    psi: Psi,
+    eps: float,
+    states: Array,
+    span: tuple[float, float],
+    rtol: float,
+    atol: float,
+    max_steps: int,
+) -> tuple[Simulation, ...]:
+    """Follow motions compiled from the start, in as few calls as there are cores."""
+    from ..initial_value.compiled import failure, followed  # loads the compiler
+    from ..initial_value.compiled_motion import UNDEFINED
+
+    lines = [invariant_line(formulas, first) for first in states]
+    found, runs = followed(formulas, psi, eps, lines, states, span, rtol, atol / rtol, max_steps), []
+    for one, line, first in zip(found, lines, states, strict=True):
+        status, detail = SimulationStatus.T_END, ""
+        if one.code == UNDEFINED:
+            raise undefined(formulas, psi, eps, first)
+        if one.code:
+            problem = plane_problem(formulas, psi, eps, rtol, atol, None if line is None else line.vector)
+            error = failure(problem, one.code, one.t, one.motion.states[-1])
+            status = SimulationStatus.BLOW_UP if isinstance(error, BlowUpError) else SimulationStatus.STEP_LIMIT
+            detail = str(error)
+        phases = partial(phases_of, system, psi, eps, one.motion)
+        runs.append(simulation(one.motion, phases, status, detail=detail, eps=eps, evaluations=one.evaluations))
+    return tuple(runs)
+
+
+def undefined(formulas: Field, psi: Psi, eps: float, first: Array) -> ValueError:
+    """Say that the rate is not finite where a motion begins."""
+    rate = plane_problem(formulas, psi, eps, 1.0, 1.0).F(first)
+    return ValueError(f"(U, W) is {rate.tolist()} at state0 = {first.tolist()}; it must be finite there.")
 
 
 def _counting(problem: Problem, count: list[int]) -> Problem:
@@ -226,7 +257,6 @@ def _followed(
     atol: float,
     max_steps: int,
     watch: Watch,
-    compile_at_once: bool,
 ) -> tuple[list[Steps], SimulationStatus, str, int]:
     """Follow a motion: its steps, why it ended, and the evaluations it took."""
     line = invariant_line(formulas, first)
@@ -235,12 +265,12 @@ def _followed(
     problem = _counting(problem, count)
     rate = problem.F(first)
     if not np.isfinite(rate).all():
-        raise ValueError(f"(U, W) is {rate.tolist()} at state0 = {first.tolist()}; it must be finite there.")
+        raise undefined(formulas, psi, eps, first)
     taken: list[Step] = []
     parts: list[Steps] = []
     t, state, h = span[0], first, first_step(problem, first, rate)
     motion: Compiled | None = None
-    patience = 0 if compile_at_once or _is_compiled(formulas) else PATIENCE - _stepped.get(formulas.rows, 0)
+    patience = 0 if _is_compiled(formulas) else PATIENCE - _stepped.get(formulas.rows, 0)
     status, detail = SimulationStatus.T_END, ""
     try:
         if patience > 0:

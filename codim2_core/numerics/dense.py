@@ -24,8 +24,8 @@ class Dense:
     states : ndarray (k, 2 + m)
     lengths : ndarray (k - 1,)
         Of the steps; close to Sigma shorter than the spacing of doubles at their times.
-    polynomials : ndarray (k - 1, 2 + m, 5)
-        ``states[i] + polynomials[i] . (u, ..., u^5)``, u from 0 to 1 along step i.
+    polynomials : ndarray (k - 1, 2 + m, d)
+        ``states[i] + polynomials[i] . (u, ..., u^d)``, u from 0 to 1 along step i.
     """
 
     times: Array
@@ -46,14 +46,14 @@ class Dense:
         at = np.searchsorted(self.times, flat, side="right") - 1  # of several equal times the last
         i = np.minimum(at, len(self.lengths) - 1)
         u = np.clip((flat - self.times[i]) / self.lengths[i], 0.0, 1.0)
-        powers = u[:, None] ** np.arange(1, STAGES + 1)
+        powers = u[:, None] ** np.arange(1, self.polynomials.shape[2] + 1)
         found = self.states[i] + np.einsum("ijk,ik->ij", self.polynomials[i], powers)
         found = np.where((flat == self.times[at])[:, None], self.states[at], found)
         return found.reshape(*when.shape, self.states.shape[1])
 
     def within(self, i: int, u: float) -> Array:
         """State (2 + m,) at the fraction u of step i."""
-        return self.states[i] + self.polynomials[i] @ (u ** np.arange(1, STAGES + 1))
+        return self.states[i] + self.polynomials[i] @ (u ** np.arange(1, self.polynomials.shape[2] + 1))
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,12 +78,13 @@ class Steps:
 
 def gathered(taken: Sequence[Step], n: int) -> Steps:
     """Gather steps of n numbers."""
+    degree = taken[0].polynomial.shape[1] if taken else STAGES
     return Steps(
         taken[0].first if taken else np.zeros(n),
         np.array([step.start for step in taken]),
         np.array([step.h for step in taken]),
         np.array([step.last for step in taken]).reshape(len(taken), n),
-        np.array([step.polynomial for step in taken]).reshape(len(taken), n, STAGES),
+        np.array([step.polynomial for step in taken]).reshape(len(taken), n, degree),
     )
 
 
@@ -92,7 +93,13 @@ def dense(t_start: float, first: Array, parts: Sequence[Steps]) -> Dense:
     times = np.maximum.accumulate(np.concatenate([[t_start], *(part.starts + part.lengths for part in parts)]))
     states = np.concatenate([first[None], *(part.ends for part in parts)])
     lengths = np.concatenate([np.zeros(0), *(part.lengths for part in parts)])
-    polynomials = np.concatenate([np.zeros((0, len(first), STAGES)), *(part.polynomials for part in parts)])
+    degree = max([STAGES, *(part.polynomials.shape[2] for part in parts)])
+    polynomials = np.zeros((len(lengths), len(first), degree))
+    at = 0
+    for part in parts:
+        rows, _, own = part.polynomials.shape
+        polynomials[at : at + rows, :, :own] = part.polynomials
+        at += rows
     for array in (times, states, lengths, polynomials):
         array.flags.writeable = False
     return Dense(times, states, lengths, polynomials)

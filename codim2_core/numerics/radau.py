@@ -67,7 +67,7 @@ def tableau() -> Tableau:
 
 @dataclass(frozen=True)
 class Step:
-    """One step: ``Y(start + u h) = first + polynomial . (u, ..., u^5)``, 0 <= u <= 1."""
+    """One step: ``Y(start + u h) = first + polynomial . (u, ..., u^d)``, 0 <= u <= 1; d is 5 for this method."""
 
     start: float
     h: float
@@ -82,12 +82,12 @@ class Step:
 
     def at(self, u: float) -> Array:
         """State at the fraction u of the step."""
-        return self.first + self.polynomial @ (u ** np.arange(1, STAGES + 1))
+        return self.first + self.polynomial @ (u ** np.arange(1, self.polynomial.shape[1] + 1))
 
 
 def shortened(step: Step, u: float) -> Step:
     """Return the first part of a step, up to its fraction u."""
-    powers = u ** np.arange(1, STAGES + 1)
+    powers = u ** np.arange(1, step.polynomial.shape[1] + 1)
     return Step(step.start, u * step.h, step.first, step.at(u), step.polynomial * powers)
 
 

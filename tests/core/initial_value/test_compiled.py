@@ -1,15 +1,19 @@
-"""The compiled motion is the one in Python: the same steps, for every Psi, in a line too; and many motions at once."""
+"""The compiled motion is the one in Python, for every Psi, in a line too; the same steps where implicit; and many."""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 import pytest
 
 from codim2_core import ELinear, Event, System, examples, simulate
 from codim2_core import psi as families
-from codim2_core.initial_value.compiled import is_compiled
+from codim2_core.initial_value import compiled
+from codim2_core.initial_value.compiled import Compiled, is_compiled
+from codim2_core.initial_value.compiled_motion import COUNT, IMPLICIT
 from codim2_core.initial_value.field import field
-from codim2_core.initial_value.problem import direction, smoothed
+from codim2_core.initial_value.problem import direction, plane_problem, smoothed
 from codim2_core.motion import regularised
 from codim2_core.motion.result import SimulationStatus
 
@@ -34,14 +38,65 @@ def test_it_is_the_motion_in_python(monkeypatch, psi, eps):
     monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
     own = simulate(BALL, psi, eps, state0, span, rtol=1e-9)
     monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: True)
-    compiled = simulate(BALL, psi, eps, state0, span, rtol=1e-9)
+    found = simulate(BALL, psi, eps, state0, span, rtol=1e-9)
+    np.testing.assert_allclose(found.states[-1], own.states[-1], rtol=1e-7, atol=1e-8)
+    np.testing.assert_allclose(found.dense(1.234), own.dense(1.234), rtol=1e-6, atol=1e-8)
+    assert found.invariant < 1e-12
+    assert [phase.kind for phase in found.phases] == [phase.kind for phase in own.phases]
+
+
+@pytest.mark.parametrize("eps", [1e-1, 1e-5, 1e-11])
+def test_implicit_alone_it_takes_the_steps_of_python(monkeypatch, eps):
+    def implicit(*arguments):
+        motion = Compiled(*arguments)
+        motion.control[IMPLICIT], motion.control[COUNT] = 1.0, -math.inf  # no count of signs turns it explicit
+        return motion
+
+    def run(chosen, is_compiled):
+        monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: is_compiled)
+        monkeypatch.setattr(compiled, "Compiled", chosen)
+        never = Event(lambda t, state: 1.0)  # a motion under watch is stepped part by part
+        return simulate(BALL, families.rational(), eps, (-1.0, 0.3, 10.0, 0.0), (0.0, 3.0), rtol=1e-9, events=never)
+
+    monkeypatch.setattr(regularised, "PATIENCE", 10**9)
+    own, found = run(Compiled, False), run(implicit, True)
     # Newton's method takes a slope by differences, so that a step may be taken or not.
-    assert len(compiled.times) == pytest.approx(len(own.times), abs=6)
-    assert compiled.evaluations == pytest.approx(own.evaluations, rel=0.1)
-    np.testing.assert_allclose(compiled.states[-1], own.states[-1], rtol=1e-7, atol=1e-8)
-    np.testing.assert_allclose(compiled.dense(1.234), own.dense(1.234), rtol=1e-6, atol=1e-8)
-    assert compiled.invariant < 1e-12
-    assert [phase.kind for phase in compiled.phases] == [phase.kind for phase in own.phases]
+    assert len(found.times) == pytest.approx(len(own.times), abs=6)
+    assert found.evaluations == pytest.approx(own.evaluations, rel=0.1)
+    np.testing.assert_allclose(found.states[-1], own.states[-1], rtol=1e-7, atol=1e-8)
+
+
+@pytest.mark.parametrize("eps", [1e-1, 1e-3, 1e-6, 1e-12])
+@pytest.mark.parametrize("psi", [families.constant(), families.tanh(), families.hill(3)], ids=lambda psi: psi.text)
+def test_a_slide_takes_few_steps_whatever_eps_and_tolerance(psi, eps):
+    for rtol, most in ((1e-3, 80), (1e-6, 120), (1e-9, 260)):
+        run = simulate(BALL, psi, eps, [(-1.0, 0.3, 10.0, 0.0)] * regularised.MANY, (0.0, 3.0), rtol=rtol)[0]
+        assert len(run.times) < most, (rtol, len(run.times))
+        assert run.evaluations < 24 * most
+
+
+@pytest.mark.parametrize("eps", [1e-2, 1e-5])
+def test_dense_output_of_all_steps_joins_and_solves_the_equations(eps):
+    """Between the ends of steps, explicit or not, the slope of the curve is the rate at it."""
+    psi, states = families.rational(), [(-1.0, 0.3, 10.0, 0.0)] * regularised.MANY
+    motion = simulate(BALL, psi, eps, states, (0.0, 3.0), rtol=1e-9)[0].motion
+    problem = plane_problem(field(BALL), psi, eps, 1e-9, 1e-9)
+    powers = np.arange(1, motion.polynomials.shape[2] + 1)
+    for i, (h, coefficients) in enumerate(zip(motion.lengths, motion.polynomials, strict=True)):
+        scale = problem.scale(motion.states[i])
+        np.testing.assert_allclose(motion.within(i, 1.0) / scale, motion.states[i + 1] / scale, atol=1e-13)
+        if h < 10.0 * eps:  # in a slide the rate multiplies what is left of the tolerance
+            for u in (0.0, 0.3, 0.8):
+                slope = coefficients @ (powers * u ** (powers - 1)) / h
+                np.testing.assert_allclose(h * slope / scale, h * problem.F(motion.within(i, u)) / scale, atol=1e-5)
+
+
+def test_as_many_slow_variables_as_there_may_be(monkeypatch):
+    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: True)
+    names = [f"z{i}" for i in range(1, 17)]
+    system = System(U=("-c", "-s"), W=tuple(f"-{i}*{name}/8 + c" for i, name in enumerate(names, 1)))
+    run = simulate(system, families.constant(), 1e-3, (0.0, 0.0, *[1.0] * 16), (0.0, 1.0), rtol=1e-9)
+    np.testing.assert_allclose(run.states[-1, 2:], np.exp(-np.arange(1, 17) / 8), rtol=1e-7)
 
 
 def test_a_long_motion_goes_on_compiled(monkeypatch):

@@ -1,0 +1,141 @@
+"""DOP853 for one motion (x, y, z), compiled: what a slip, a crossing or a turn about Sigma costs least with.
+
+The method is `stepping.dop853`, whose lanes here are the components of one state: the same functions on a workspace of
+another width, with this motion's rate in the place of the field of all lanes.
+"""
+
+from __future__ import annotations
+
+import math
+from types import FunctionType
+from typing import Any
+
+from numba import njit
+
+from ..numerics.radau import FAILED, GROW, SAFETY, SHRINK
+from ..stepping import dop853, layout
+from .compiled_rate import PLACES, jacobian, rate_between
+
+WIDTH = 8  # components at most; a longer state is followed implicitly
+STIFF = 0.4  # h times a rate from which on a step may be short for stability alone, or for its loss of order
+SHARE = 0.1  # of the tolerance, for one step: its estimate is sharper than that of Radau IIA
+
+_rows = {
+    name: PLACES + getattr(layout, name) // layout.WIDTH * WIDTH
+    for name in (*(f"K{k}" for k in range(16)), "STATE", "TRIAL", "STEP", "NEW", "ERROR_5", "ERROR_3", "DENSE")
+}
+K0, K11, K12 = _rows["K0"], _rows["K11"], _rows["K12"]
+STATE, TRIAL, STEP, NEW = _rows["STATE"], _rows["TRIAL"], _rows["STEP"], _rows["NEW"]
+ERROR_5, ERROR_3, DENSE = _rows["ERROR_5"], _rows["ERROR_3"], _rows["DENSE"]
+ROOM = PLACES + layout.WORKSPACE // layout.WIDTH * WIDTH
+DEGREE = 7  # of the dense output
+
+
+@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+def _field(motion, S, source, target, P):  # noqa: ARG001 (called as `layout.call_field` is)
+    rate_between(motion, S, source, S, S, target)
+
+
+def _of_one(function: Any) -> Any:
+    """Compile a function of all lanes for the components of one state."""
+    own = function.py_func
+    scope = {**own.__globals__, **_rows, "WIDTH": WIDTH, "call_field": _field}
+    made = FunctionType(own.__code__, scope, own.__name__)
+    # The disk cache knows a function by its file and its qualified name.
+    made.__module__, made.__qualname__ = own.__module__, f"{own.__name__}_of_one"
+    return njit(cache=True, nogil=True, fastmath=dop853.ARITHMETIC, error_model="numpy")(made)
+
+
+_advance, _interpolate = _of_one(dop853.advance), _of_one(dop853.interpolate)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def begin(motion, y, work):
+    """Write a state, and its rate, where an explicit step begins."""
+    S = work.S
+    for i in range(motion.n):
+        S[STATE + i] = y[i]
+    rate_between(motion, S, STATE, S, S, K0)
+    for i in range(motion.n):
+        work.rate[i] = S[K0 + i]
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def go_on(motion, work):
+    """Begin the next step where the last one ended."""
+    S = work.S
+    for i in range(motion.n):
+        S[STATE + i] = S[NEW + i]
+        S[K0 + i] = S[K12 + i]
+        work.rate[i] = S[K0 + i]
+        work.size[i] = work.end_size[i]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def attempt(motion, h, clock, work):
+    """Try one step: whether it is accepted, and the factor to the next step."""
+    S, n = work.S, motion.n
+    for m in range(WIDTH):
+        S[STEP + m] = h
+    _advance(S, S, motion)
+    clock[3] += 11.0
+    end_size = work.end_size
+    for i in range(2, n):
+        end_size[i] = abs(S[NEW + i]) + motion.floor
+    x, y = S[NEW], S[NEW + 1]
+    end_size[0] = end_size[1] = math.sqrt(x * x + y * y + motion.eps * motion.eps)
+    five, three = 0.0, 0.0
+    for i in range(n):
+        unit = 1.0 / min(work.size[i], end_size[i])
+        five += (S[ERROR_5 + i] * unit) ** 2
+        three += (S[ERROR_3 + i] * unit) ** 2
+    error = five / math.sqrt(five + 0.01 * three + 1e-300) / (SHARE * motion.rtol)
+    if not error < math.inf:
+        return False, SHRINK
+    change = min(max(SAFETY * max(error, 1e-16) ** -0.125, SHRINK), GROW)
+    if error > 1.0:
+        return False, min(change, 0.8)
+    rate_between(motion, S, NEW, S, S, K12)
+    clock[3] += 1.0
+    for i in range(n):
+        if not abs(S[K12 + i]) < math.inf:
+            return False, FAILED
+    return True, change
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def stiff(motion, h, work):
+    """Whether h times a rate is so large that steps may be short for stability alone (at about 6); before `keep`.
+
+    The rate is that of the last two stages (Hairer and Wanner, sec. IV.2), or, as rounding hides that at tight
+    tolerances, the size of the derivative of U by (x, y).
+    """
+    S, J, moved, apart = work.S, work.J, 0.0, 0.0
+    for i in range(motion.n):
+        moved += ((S[K12 + i] - S[K11 + i]) / work.size[i]) ** 2
+        apart += ((S[NEW + i] - S[TRIAL + i]) / work.size[i]) ** 2
+    if h * h * moved > STIFF * STIFF * apart:
+        return True
+    jacobian(motion, S[NEW : NEW + motion.n], S, J)  # S still holds what the rate at NEW has read
+    return h * max(abs(J[0, 0]) + abs(J[0, 1]), abs(J[1, 0]) + abs(J[1, 1])) > 2.0 * STIFF
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def keep(motion, y, clock, work, polynomial, end):
+    """Move the state over a step that is accepted; keep its polynomial, nested in u and 1 - u, in powers of u."""
+    S = work.S
+    _interpolate(S, S, motion)
+    clock[3] += 3.0
+    for i in range(motion.n):
+        row = polynomial[i]
+        for j in range(DEGREE):
+            row[j] = 0.0
+        row[0] = S[DENSE + (DEGREE - 1) * WIDTH + i]
+        for k in range(DEGREE - 2, -1, -1):  # times u for an odd k, else times 1 - u
+            for j in range(DEGREE - 1 - k, 0, -1):
+                row[j] = row[j - 1] if k % 2 == 1 else row[j] - row[j - 1]
+            if k % 2 == 1:
+                row[0] = 0.0
+            row[0] += S[DENSE + k * WIDTH + i]
+        y[i] = S[NEW + i]
+        end[i] = y[i]

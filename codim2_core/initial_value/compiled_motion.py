@@ -1,0 +1,267 @@
+"""One motion (x, y, z), compiled: explicit while it slips, crosses or turns, implicit in a slide, whichever costs less.
+
+An explicit step costs as much as its evaluations; an implicit one some twenty times that, and may be as long as the
+solution is smooth. In a slide an explicit step is short for stability alone: after some such steps, if too many of them
+lie ahead, the motion goes on implicitly; and explicitly again where as many explicit steps would cost less.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from ..numerics.radau import CAREFUL, FAILED, GROW, GROWTH_AFTER_FAILURE
+from . import compiled_explicit as explicit
+from . import compiled_radau as radau
+from .compiled_rate import Motion, inward_bound, rate, sizes
+from .compiled_stages import tableau_of, workspace
+
+FINISHED, LIMIT, SHORT, FULL, BLOWN_UP, UNDEFINED = range(6)
+FIRST = 1e-2  # of rho/|U|: the first step tried
+SHORTEST = 1e-290
+CHUNK = 256  # steps that are filled in at once
+LARGEST, GROWN = 1e200, 8.0  # as in `numerics.growth`
+
+# What `control` holds.
+NEXT, REFINED, WARY, LEFT, TRIED, EXTENT, IMPLICIT, COUNT, WORTH = range(9)
+CONTROL = 9
+
+STABLE = 4.0  # h times a growth rate of an explicit step in a slide
+SIGNS, SIGNS_BACK = 6.0, 3.0  # steps in a row that ask for the other method
+AHEAD = 20.0  # implicit steps that a slide takes at least, about: as many have to be saved
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def price(n):
+    """Cost of an implicit step, in explicit ones, for a state of n numbers (measured for n = 2 ... 5)."""
+    return 1.0 + 0.25 * n * n
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _go_on(clock, control, h, y):
+    """Let the time go on, with what its rounding loses; say whether the state has blown up."""
+    total = h + clock[1]
+    ahead = clock[0] + total
+    clock[1] = total - (ahead - clock[0])
+    extent = 0.0
+    for i in range(len(y)):
+        extent = max(extent, abs(y[i]))
+    if ahead > clock[0]:
+        control[EXTENT] = max(control[EXTENT], extent)
+    clock[0] = ahead
+    return extent > LARGEST or extent > GROWN * control[EXTENT]
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _length(wanted, bound, remaining):
+    """Length of the next step: no longer than its bound, and with no sliver left at the end."""
+    h = min(wanted, bound)
+    if h >= 0.99 * remaining:
+        return remaining
+    return 0.5 * remaining if h > 0.5 * remaining else h
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _turned_implicit(motion, control, work, h, remaining):
+    """After an explicit step: go on implicitly where the next ones would be short for stability alone, and many."""
+    if remaining < control[WORTH] * h:
+        return
+    if not explicit.stiff(motion, h, work):
+        control[COUNT] = max(0.0, control[COUNT] - 0.5)
+        return
+    control[COUNT] += 1.0
+    if control[COUNT] < SIGNS:
+        return
+    control[IMPLICIT], control[COUNT] = 1.0, 0.0
+    control[WORTH] *= 2.0  # what turns back soon is asked for more the next time
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _turned_explicit(motion, control, bound, reach):
+    """Where an implicit step begins: go on explicitly if as far an explicit way costs less."""
+    if motion.n > explicit.WIDTH or min(control[NEXT], bound) * reach > price(motion.n) * STABLE:
+        control[COUNT] = 0.0
+        return False
+    control[COUNT] += 1.0
+    if control[COUNT] < SIGNS_BACK:
+        return False
+    control[IMPLICIT], control[COUNT], control[REFINED] = 0.0, 0.0, 1.0
+    control[NEXT] = min(control[NEXT], STABLE / reach) if reach > 0.0 else control[NEXT]
+    return True
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def follow(motion, table, work, y, clock, control, starts, lengths, ends, polynomials):
+    """Step until the time is over, the steps are used up, or the arrays are full.
+
+    Parameters
+    ----------
+    motion : Motion
+    table : Tableau
+    work : Work
+    y : (n,)
+        The state, which moves on.
+    clock : (4,)
+        Time, what its rounding lost, the end of the time, evaluations so far.
+    control : (CONTROL,)
+        NEXT: the next step. REFINED: 1 where the last one was not accepted. WARY: careful steps left. LEFT: steps
+        left to try. TRIED: how many were. EXTENT: the largest size of the state so far. IMPLICIT: 1 in a slide. COUNT:
+        signs so far that the other method costs less. WORTH: explicit steps that have to lie ahead.
+    starts, lengths (k,), ends (k, n), polynomials (k, n, 7)
+        Filled with steps.
+
+    Returns
+    -------
+    (int, int)
+        Why it stopped, and how many steps were filled in.
+    """
+    filled, fresh, begun, bound, reach, before_h = 0, True, False, math.inf, 0.0, 0.0
+    while clock[2] - clock[0] - clock[1] > 0.0:
+        if filled == len(starts):
+            return FULL, filled
+        if fresh and control[IMPLICIT] > 0.0:
+            bound, reach = radau.linearised(motion, y, control[NEXT], clock, work)
+            begun = False
+            if _turned_explicit(motion, control, bound, reach):
+                before_h = 0.0
+        if fresh and control[IMPLICIT] == 0.0:
+            if begun:
+                explicit.go_on(motion, work)
+            else:
+                explicit.begin(motion, y, work)
+                sizes(motion, y, work.size)
+                clock[3] += 1.0
+                begun = True
+            bound = inward_bound(motion, y, work.rate)
+        remaining = clock[2] - clock[0] - clock[1]
+        h = _length(control[NEXT], bound, remaining)
+        control[LEFT] -= 1.0
+        control[TRIED] += 1.0
+        if control[LEFT] < 0.0:
+            return LIMIT, filled
+        if not h > SHORTEST:
+            return SHORT, filled
+        implicit = control[IMPLICIT] > 0.0
+        if implicit:
+            fresh, change = radau.attempt(motion, table, y, h, before_h, control[REFINED] > 0.0, clock, work)
+        else:
+            fresh, change = explicit.attempt(motion, h, clock, work)
+        if not fresh:
+            before_h = 0.0  # a prediction may have misled
+            control[NEXT], control[REFINED] = h * change, 1.0
+            if change == FAILED:
+                control[WARY] = CAREFUL
+            continue
+        starts[filled], lengths[filled] = clock[0], h
+        if implicit:
+            radau.keep(table, y, work, polynomials[filled], ends[filled])
+            before_h = h
+        else:
+            _turned_implicit(motion, control, work, h, remaining - h)
+            explicit.keep(motion, y, clock, work, polynomials[filled], ends[filled])
+        filled += 1
+        if _go_on(clock, control, h, y):
+            return BLOWN_UP, filled - 1
+        most = GROW
+        if control[REFINED] > 0.0 and control[TRIED] > 1.0:
+            most = 1.0
+        elif control[WARY] > 0.0:
+            most = GROWTH_AFTER_FAILURE
+        control[NEXT], control[REFINED], control[WARY] = h * min(change, most), 0.0, max(control[WARY] - 1.0, 0.0)
+    return FINISHED, filled
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _prepared(motion, y, clock, control, t_start, t_end, most, work):
+    """Set the clock and the control for a motion from its start; say whether the rate is finite there."""
+    clock[0], clock[1], clock[2], clock[3] = t_start, 0.0, t_end, 1.0
+    explicit_first = motion.n <= explicit.WIDTH
+    rate(motion, y, work.S, work.rate)
+    sizes(motion, y, work.size)
+    speed, extent = 0.0, 1.0
+    for i in range(motion.n):
+        if not math.isfinite(work.rate[i]):
+            return False
+        speed = max(speed, abs(work.rate[i]) / work.size[i])
+        extent = max(extent, abs(y[i]))
+    control[NEXT] = FIRST / speed if speed > 0.0 else math.inf
+    control[REFINED], control[WARY], control[LEFT], control[TRIED] = 1.0, 0.0, most, 0.0
+    control[EXTENT], control[COUNT], control[WORTH] = extent, 0.0, AHEAD * price(motion.n)
+    control[IMPLICIT] = 0.0 if explicit_first else 1.0
+    return True
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _longer(array, length):
+    """Return an array of numbers that begins with another's: a plain loop, which compiles fast."""
+    found = np.empty(length)
+    for i in range(len(array)):
+        found[i] = array[i]
+    return found
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def follow_all(fields, numbers, coefficients, lines, first, most):
+    """Follow one motion from each state, all the way.
+
+    Parameters
+    ----------
+    fields : int64 (3,)
+        Addresses, as in `Motion`.
+    numbers : (6,)
+        eps, rtol, floor, t_start, t_end, parameter of Psi.
+    coefficients
+        As for `tableau_of`.
+    lines : (k, 2)
+        The invariant line of each, or 0.
+    first : (k, n)
+    most : float
+        Steps, each.
+
+    Returns
+    -------
+    times, lengths (N,), states (N n,), polynomials (N 7 n,)
+        Of all motions, one after the other: times and states at which steps begin or end; the length and polynomial of
+        the step from there on, none in a motion's last row.
+    told : (k, 4)
+        Steps of each, why it ended, its last time, evaluations.
+    """
+    k, n = first.shape
+    work, table = workspace(n, numbers[5]), tableau_of(coefficients)
+    clock, control, y = np.zeros(4), np.zeros(CONTROL), np.zeros(n)
+    each = explicit.DEGREE * n
+    room, row = CHUNK + 32 * k, 0
+    times, lengths, states, polynomials = np.empty(room), np.empty(room), np.empty(room * n), np.empty(room * each)
+    told = np.zeros((k, 4))
+    for i in range(k):
+        line1, line2 = lines[i, 0], lines[i, 1]
+        motion = Motion(fields[0], fields[1], fields[2], n, numbers[0], numbers[1], numbers[2], line1, line2)
+        for j in range(n):
+            y[j] = first[i, j]
+        code = FULL if _prepared(motion, y, clock, control, numbers[3], numbers[4], most, work) else UNDEFINED
+        begun = row
+        while True:
+            if row + CHUNK >= room:
+                room = 2 * room + CHUNK
+                times, lengths = _longer(times, room), _longer(lengths, room)
+                states, polynomials = _longer(states, room * n), _longer(polynomials, room * each)
+            if row == begun:
+                times[row] = numbers[3]
+                for j in range(n):
+                    states[row * n + j] = y[j]
+            if code != FULL:
+                break
+            code, filled = follow(
+                motion, table, work, y, clock, control,
+                times[row + 1 : row + CHUNK], lengths[row : row + CHUNK - 1],
+                states[(row + 1) * n : (row + CHUNK) * n].reshape((CHUNK - 1, n)),
+                polynomials[row * each : (row + CHUNK - 1) * each].reshape((CHUNK - 1, n, explicit.DEGREE)),
+            )  # fmt: skip
+            for a in range(row, row + filled):  # from a step's start to its end, never decreasing
+                times[a + 1] = max(times[a], times[a + 1] + lengths[a])
+            row += filled
+        told[i, 0], told[i, 1], told[i, 2], told[i, 3] = row - begun, code, clock[0], clock[3]
+        row += 1
+    return times[:row], lengths[:row], states[: row * n], polynomials[: row * each], told
