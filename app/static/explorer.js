@@ -1,5 +1,6 @@
 // The explorer: markup from the server, one Bokeh figure, frames asked for as fast as the line carries them.
 
+import {Beamer} from "./beamer.js"
 import {Connection} from "./connection.js"
 import {NumberControl, sayAt, slidersOf} from "./controls.js"
 import {onDark, put} from "./dom.js"
@@ -232,14 +233,15 @@ function wire({model, view, root, plot}) {
   if (config.page && !config.look.embed) {
     beside = new Second(root, config, {
       values, set: (wanted) => { setAll(wanted); tell() }, keep: (own) => { values.beside = own; keepLink() },
-      look: () => ({seen: picture.seen, theme: root.classList.contains("dark") ? "dark" : "light"}),
+      look: () => ({seen: picture.seen, theme: root.classList.contains("dark") ? "dark" : "light", times: picture.times}),
       address: (wanted, own) => writeLink(wanted, picture.window && picture.seen, {...config, look: own}),
     })
     picture.viewed(() => beside.look())
+    new Beamer(root, picture, () => beside.look())
   } else if (inside) {
     beside = new Seconded(root, {
       put: (wanted) => { if (Object.keys(wanted).every((name) => name in numbers)) move(wanted); else { setAll(wanted); tell() } },
-      look: ({seen, theme}) => { picture.seen = seen; chosen = theme; paint() },
+      look: ({seen, theme, times}) => { picture.seen = seen; picture.enlarge(times); chosen = theme; paint() },
     }, values)
   }
   const undo = find(".undo"), redo = find(".redo")

@@ -14,7 +14,8 @@ export const KEYS = [
   ["← → ↑ ↓", "on a slider, in a chart, in the row of panels"],
   ["Enter", "takes a typed number; one beyond a slider’s range widens it; 0.3 in [0, 1] sets both"],
   ["click on a symbol", "the range of its slider"],
-  ["◫", "two portraits side by side, which share what is chosen"],
+  ["b", "for the beamer: full screen, large letters; controls come with the pointer and fade; Esc ends it"],
+  ["two panes", "the button for two portraits side by side; shares: the sliders that move both"],
 ]
 
 // How eigenvectors are drawn, as in objects.js.

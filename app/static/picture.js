@@ -1,5 +1,6 @@
 // The picture: keeps the newest of what the frames bring, and draws it in the task that brings it.
 
+import {enlarged} from "./beamer.js"
 import {displayList, traceList} from "./display.js"
 import {makeRenderer, repaint} from "./painter.js"
 
@@ -18,6 +19,7 @@ export class Picture {
     this.parts = new Set(["basins", ...layers.flatMap((layer) => layer.parts.map((part) => part.name))])
     this.paths = this.place = null
     this.pointed = []
+    this.times = 1 // as large are letters, marks and lines
     this.drawn = makeRenderer("glyph")
     this.above = makeRenderer("overlay")
     plot.renderers = [this.drawn, this.above]
@@ -59,7 +61,7 @@ export class Picture {
       this.pending = false
       if (this.waiting) { this.waiting = false; this.draw() }
     })
-    this.drawn.list = displayList(this.state)
+    this.drawn.list = enlarged(displayList(this.state), this.times)
     repaint(this.drawn)
   }
 
@@ -72,8 +74,16 @@ export class Picture {
   }
 
   drawTrace() {
-    this.above.list = [...this.pointed, ...traceList(this.traces, this.paths, this.place, this.state.theme)]
+    this.above.list = enlarged([...this.pointed, ...traceList(this.traces, this.paths, this.place, this.state.theme)], this.times)
     repaint(this.above)
+  }
+
+  /** @param {number} times as large letters, marks and lines */
+  enlarge(times) {
+    if (times === this.times) return
+    this.times = times
+    this.draw()
+    this.drawTrace()
   }
 
   // What is pointed at: drawn above the picture, which is left alone.

@@ -32,7 +32,7 @@ export class Second {
   /**
    * @param {any} root the explorer
    * @param {any} config
-   * @param {{values: Record<string, any>, set: (wanted: Record<string, any>) => void, keep: (text: string) => void, look: () => {seen: number[], theme: string}, address: (values: Record<string, any>, look: any) => string}} page
+   * @param {{values: Record<string, any>, set: (wanted: Record<string, any>) => void, keep: (text: string) => void, look: () => {seen: number[], theme: string, times: number}, address: (values: Record<string, any>, look: any) => string}} page
    *   `set` sets values of the first, `keep` the own values of the second, `address` is the query of an embedded page
    */
   constructor(root, config, page) {
@@ -155,7 +155,7 @@ export class Second {
 
 /** What the explorer in the frame does. */
 export class Seconded {
-  /** @param {any} root @param {{put: (wanted: Record<string, any>) => void, look: (look: {seen: number[], theme: string}) => void}} page @param {Record<string, any>} values */
+  /** @param {any} root @param {{put: (wanted: Record<string, any>) => void, look: (look: {seen: number[], theme: string, times: number}) => void}} page @param {Record<string, any>} values */
   constructor(root, page, values) {
     this.values = values
     this.putting = false
