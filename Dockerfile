@@ -1,6 +1,6 @@
 # The explorer as a container: slim base, no root, kernels compiled at build time for a baseline processor, health check.
 # It runs with a read-only root: docker run --read-only --user 10001 -p 5006:5006 codim2
-# What is installed is pinned with hashes: .ci/lock writes the two files.
+# What is installed is pinned with hashes: .ci/lock writes the files.
 FROM python:3.12-slim AS wheel
 COPY .github/hosting/build.txt /
 RUN pip install --no-cache-dir --require-hashes -r /build.txt
@@ -8,6 +8,13 @@ COPY pyproject.toml README.md LICENSE /source/
 COPY app /source/app
 COPY codim2_core /source/codim2_core
 RUN pip wheel --no-cache-dir --no-deps --no-build-isolation --wheel-dir /wheels /source
+
+# The documentation, which the explorer serves at /docs/; what builds it stays in this stage.
+FROM python:3.12-slim AS site
+COPY .github/hosting/docs.txt /
+COPY --from=wheel /wheels /wheels
+RUN pip install --no-cache-dir --require-hashes -r /docs.txt \
+    && pip install --no-cache-dir --no-deps /wheels/*.whl && codim2 docs /site
 
 FROM python:3.12-slim
 # What the kernels are compiled for: every server processor since 2015. On ARM: --build-arg KERNELS_FOR=generic
@@ -22,6 +29,7 @@ RUN useradd --create-home --uid 10001 codim2
 WORKDIR /srv/codim2
 COPY .github/hosting/requirements.txt ./
 COPY --from=wheel /wheels /wheels
+COPY --from=site /site /srv/codim2/site
 # Tests, examples, stubs and source maps of the dependencies, a quarter of them all, are of no use here.
 RUN pip install --no-cache-dir --require-hashes -r requirements.txt \
     && pip install --no-cache-dir --no-deps /wheels/*.whl \
@@ -35,5 +43,5 @@ EXPOSE 5006
 HEALTHCHECK --interval=15s --timeout=5s --start-period=20s \
     CMD python -c "import urllib.request as u; u.urlopen('http://127.0.0.1:5006/health', timeout=4)"
 # The name that visitors type must be allowed to open websockets: set CODIM2_ORIGINS=explorer.example.org
-ENV CODIM2_ADDRESS=0.0.0.0 CODIM2_PORT=5006
+ENV CODIM2_ADDRESS=0.0.0.0 CODIM2_PORT=5006 CODIM2_DOCS=/srv/codim2/site
 CMD ["codim2", "serve"]

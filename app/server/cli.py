@@ -11,7 +11,8 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 
-from .commands import add_census, add_classify, add_notebooks, add_presets
+from ..docs import place
+from .commands import add_census, add_classify, add_docs, add_notebooks, add_presets
 from .logs import log_to_stderr
 from .settings import add_settings
 from .stopping import stop_when_asked
@@ -30,7 +31,7 @@ def parser() -> argparse.ArgumentParser:
     if serve.get_default("show") is None:
         serve.set_defaults(show=_at_a_screen())
     commands.add_parser("warm", help="compile the integrator into the disk cache, so that servers start warm")
-    for add in (add_classify, add_presets, add_figure, add_data, add_live, add_census, add_notebooks):
+    for add in (add_classify, add_presets, add_figure, add_data, add_live, add_census, add_notebooks, add_docs):
         add(commands)
     return top
 
@@ -51,6 +52,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         raise RuntimeError('a worker imports the script that serves; put the call under if __name__ == "__main__":')
     if chosen.lessons is not None and not _offer_lessons(chosen.lessons):
         return 1
+    place.offer(chosen.docs)
     log_to_stderr(chosen.log_json, chosen.log_level)
     try:
         _try_to_listen(chosen.address, chosen.port)

@@ -1,4 +1,4 @@
-"""The commands that answer in the terminal: `classify`, `presets`, `census`, `notebooks`. None loads the server."""
+"""The commands that answer in the terminal, copy notebooks or build the site. None of them loads the server."""
 
 from __future__ import annotations
 
@@ -61,6 +61,14 @@ def add_notebooks(commands: Any) -> None:
     command.add_argument("folder", nargs="?", type=Path, default=Path("codim2-notebooks"), metavar="DIR",
                          help="default codim2-notebooks; notebooks that are there already are kept")  # fmt: skip
     command.set_defaults(run=notebooks)
+
+
+def add_docs(commands: Any) -> None:
+    """Add `codim2 docs`."""
+    command = commands.add_parser("docs", help="build the site that the explorer serves at /docs/")
+    command.add_argument("folder", nargs="?", type=Path, metavar="DIR",
+                         help="default the package's own; `codim2 serve --docs DIR` serves another")  # fmt: skip
+    command.set_defaults(run=docs)
 
 
 def _whole(text: str) -> int:
@@ -188,3 +196,11 @@ def notebooks(chosen: argparse.Namespace) -> int:
         return 1
     print(f"Open them with: jupyter lab {shlex.quote(str(chosen.folder))}")
     return 0
+
+
+def docs(chosen: argparse.Namespace) -> int:
+    """Build the site."""
+    from ..docs.build import main
+    from ..docs.place import OWN
+
+    return main(OWN if chosen.folder is None else chosen.folder)

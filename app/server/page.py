@@ -22,6 +22,7 @@ from ..state.links import Link
 from ..view import warmup
 from ..view.explorer import ExplorerView
 from ..view.markup import address_of_script, page_template
+from .docs import Docs, ToDocs
 from .first_page import Page, markup_of, opening
 from .headers import transform
 from .qr import QrCode
@@ -193,7 +194,13 @@ def _server(
         title={"/": TITLE},
         location=False,
         num_procs=processes,
-        extra_patterns=[(r"/health", Health), (r"/ready", Ready), (r"/qr.svg", QrCode)],
+        extra_patterns=[
+            (r"/health", Health),
+            (r"/ready", Ready),
+            (r"/qr.svg", QrCode),
+            (r"/docs", ToDocs),
+            (r"/docs/(.*)", Docs),
+        ],
         websocket_max_message_size=MOST_SENT,
         prefix=prefix,
         compress_response=True,

@@ -57,6 +57,7 @@ SETTINGS = (
     Setting("workers", 0, "processes for long work, of each of these; 0 shares the processors", int, "N"),
     Setting("sessions", 400, "open pages of a server process, beyond which a new one is asked to wait", int, "N"),
     Setting("lessons", None, "a folder with lessons of your own, offered after the course", Path, "DIR"),
+    Setting("docs", None, "a folder with the site that `codim2 docs DIR` built; else the package's own", Path, "DIR"),
     Setting("log-level", "warning", "what is logged to standard error", str, "LEVEL", choices=LEVELS),
     Setting("log-json", False, "log JSON lines", bool),
     Setting("show", None, "open a browser window (default: when started from a terminal on a screen)", bool),

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from concurrent.futures import Executor, Future
 from typing import Any
 
+from ..docs.place import site
 from ..draw.packing import unpack
 from ..draw.svg import draw
 from ..frame.budget import Budget
@@ -25,7 +26,7 @@ def page_markup(link: Link) -> tuple[str, bool]:
     header, _ = unpack(first)
     complete = bool(header.get("ready")) and "picture" not in header.get("late", ())
     words = first_words(header, first, link.state.layers)
-    return explorer_html(link.state, words, (), link.look), complete
+    return explorer_html(link.state, words, (), link.look, docs=site() is not None), complete
 
 
 class Never(Executor):

@@ -139,6 +139,7 @@ def explorer_html(
     first: Mapping[str, Any] | None = None,
     locked: tuple[str, ...] = (),
     look: Look | None = None,
+    docs: bool = False,
 ) -> str:
     """Return the explorer's markup: controls with their values, legend, and the first picture as SVG.
 
@@ -151,6 +152,8 @@ def explorer_html(
         Controls that the user's own system does not have.
     look : Look, optional
         An embedded page has but the picture and the controls that it names.
+    docs : bool
+        Whether the site is there to be linked to.
     """
     values = state.values()
 
@@ -175,6 +178,7 @@ def explorer_html(
         values=values,
         locked=locked,
         paper=PAPER,
+        docs=docs,
         glossary=GLOSSARY,
         marks=MARKS,
         most=MAX_TRAJECTORIES,

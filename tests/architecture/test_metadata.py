@@ -85,7 +85,7 @@ def test_the_version_stands_in_one_place():
     import codim2_app
 
     assert codim2_app.__version__ == codim2_core.__version__
-    log = (ROOT / ".github" / "CHANGELOG.md").read_text()
+    log = (ROOT / "app" / "docs" / "text" / "changelog.md").read_text()
     assert f"\n## {codim2_core.__version__}" in log
 
 

@@ -12,7 +12,14 @@ from codim2_app.server.cli import main
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text()
 CONTRIBUTING = (ROOT / ".github" / "CONTRIBUTING.md").read_text()
-PAGES = ("README.md", ".readme/benchmarks.md", ".github/CONTRIBUTING.md", ".github/CHANGELOG.md")
+TEXT = ROOT / "app" / "docs" / "text"
+# changelog, hosting, ... are of the site too, where lessons and gallery are made
+PAGES = (
+    "README.md",
+    ".readme/benchmarks.md",
+    ".github/CONTRIBUTING.md",
+    *(f"app/docs/text/{one.name}" for one in TEXT.glob("*.md")),
+)
 
 
 def test_the_core_in_use_runs(capsys):
@@ -69,6 +76,6 @@ def test_every_room_is_named_and_on_its_floor(text, line):
 
 
 def test_files_that_the_house_rules_name_exist():
-    for name in re.findall(r"`((?:app|codim2_core|tests)/[\w./]+)`", CONTRIBUTING):
+    for name in re.findall(r"`((?:app|codim2_core|tests)/[\w./]+)`", CONTRIBUTING + (TEXT / "adding.md").read_text()):
         if "NAME" not in name and "ROOM" not in name:
             assert (ROOT / name).exists(), name

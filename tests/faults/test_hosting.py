@@ -16,7 +16,7 @@ from tests.app.serving import serving
 from tests.benchmarks.app_load import free_port
 from tests.benchmarks.bokeh_wire import Wire
 
-CONFIGURATION = Path(__file__).parents[2] / ".github" / "hosting" / "nginx.conf"
+CONFIGURATION = Path(__file__).parents[2] / "app" / "docs" / "text" / "hosting" / "nginx.conf"
 NGINX = os.environ.get("CODIM2_NGINX") or shutil.which("nginx")
 
 pytestmark = pytest.mark.skipif(NGINX is None, reason="there is no nginx: install Debian's, or set CODIM2_NGINX")

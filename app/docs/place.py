@@ -1,0 +1,21 @@
+"""Where the built site lies: where `codim2 docs` writes it, and the server finds it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+#: Beside the package's own text, so that an image or a wheel with a built site needs no setting.
+OWN = Path(__file__).parent / "site"
+
+_offered: list[Path] = []
+
+
+def offer(folder: Path | None) -> None:
+    """Serve the site of a folder; None: the package's own."""
+    _offered[:] = [] if folder is None else [folder]
+
+
+def site() -> Path | None:
+    """Return the folder of the site that is served; None where none has been built."""
+    folder = _offered[0] if _offered else OWN
+    return folder if (folder / "index.html").is_file() else None

@@ -1,0 +1,151 @@
+"""The site: it builds without a warning, has every public name and portrait, leads nowhere wrong and asks nobody."""
+
+import inspect
+import re
+from html.parser import HTMLParser
+from urllib.parse import unquote, urlsplit
+
+import codim2_app
+import pytest
+from codim2_app.docs import gallery
+from codim2_app.docs.build import build
+from codim2_app.docs.place import offer, site
+from codim2_app.lessons.library import built_in
+from codim2_app.server.cli import main
+
+import codim2_core as c2
+
+FETCHED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"), ("source", "src")}
+
+
+class Page(HTMLParser):
+    """Targets of links, what a page fetches, its ids and its text."""
+
+    def __init__(self, file):
+        super().__init__()
+        self.links, self.fetched, self.ids, self.text = [], [], set(), file.read_text(encoding="utf-8")
+        self.feed(self.text)
+
+    def handle_starttag(self, tag, attributes):
+        for name, value in attributes:
+            if name == "id":
+                self.ids.add(value)
+            elif (tag, name) in FETCHED:
+                self.fetched.append(value)
+            elif (tag, name) == ("a", "href"):
+                self.links.append(value)
+
+    handle_startendtag = handle_starttag
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """The site without portraits, what it warned of, and its pages."""
+    pytest.importorskip("sphinx", reason="no Sphinx: pip install -e '.[docs]'")
+    folder = tmp_path_factory.mktemp("site") / "docs"
+    warned = build(folder, portraits=False)
+    return folder, warned, {file.name: Page(file) for file in folder.glob("*.html")}
+
+
+def test_it_builds_without_a_warning(built):
+    _, warned, pages = built
+    assert warned == []
+    assert {"index.html", "lessons.html", "gallery.html", "theory-on.html", "hosting.html", "changelog.html"} < set(
+        pages
+    )
+
+
+def test_every_internal_link_leads_somewhere(built):
+    folder, _, pages = built
+    followed = 0
+    for name, page in pages.items():
+        for target in page.links:
+            parts = urlsplit(target)
+            if parts.scheme or parts.path == "../":  # the explorer
+                continue
+            path = unquote(parts.path) or name
+            assert (folder / path).is_file(), (name, target)
+            if parts.fragment and path.endswith(".html"):
+                assert unquote(parts.fragment) in pages[path].ids, (name, target)
+            followed += 1
+    assert followed > 200
+
+
+def test_no_page_fetches_from_another_host(built):
+    folder, _, pages = built
+    for name, page in pages.items():
+        for target in page.fetched:
+            parts = urlsplit(target)
+            assert not parts.netloc, (name, target)
+            assert target == "#" or (folder / parts.path).is_file(), (name, target)
+    for sheet in folder.rglob("*.css"):
+        assert not re.search(r"url\(['\"]?(https?:)?//|@import", sheet.read_text(encoding="utf-8")), sheet
+
+
+def test_every_public_name_is_described(built):
+    _, _, pages = built
+    described = {name.rpartition(".")[2] for name in pages["api-core.html"].ids if name.startswith("codim2_core")}
+    modules = {name for name in c2.__all__ if inspect.ismodule(getattr(c2, name))}
+    assert set(c2.__all__) - described <= modules
+    assert {f"codim2_app.{name}" for name in codim2_app.__all__} <= pages["api-app.html"].ids
+    for name in modules:
+        module = getattr(c2, name)
+        own = {one.rpartition(".")[2] for one in pages[f"api-{name}.html"].ids}
+        assert set(module.__all__) - own <= set(c2.__all__), name
+
+
+def test_labels_are_told_as_they_are_printed(built):
+    _, _, pages = built
+    for name in ("api-core.html", "api-bifurcations.html"):
+        assert not re.search(r"\b(fig|thm|sec|tab):[a-zA-Z]", pages[name].text), name
+    assert "Theorem 3.1" in pages["api-core.html"].text
+
+
+def test_formulas_are_mathematics_and_none_is_left_over(built):
+    _, _, pages = built
+    for name in ("theory-near.html", "theory-on.html"):
+        body = re.sub(r"<(script|style).*?</\1>", "", pages[name].text, flags=re.DOTALL)
+        assert body.count("<math") > 15
+        assert "$" not in body
+        assert "\\frac" not in body
+
+
+def test_lessons_open_in_the_explorer(built):
+    _, _, pages = built
+    assert re.findall(r"lesson=([\w-]+)", pages["lessons.html"].text) == list(built_in())
+
+
+def test_the_gallery_has_every_portrait_light_and_dark(tmp_path, monkeypatch):
+    drawn = []
+
+    def figure(view, style):
+        drawn.append((view.values["preset"], style.theme))
+        return "<svg/>"
+
+    monkeypatch.setattr(gallery, "figure", figure)
+    gallery.write(tmp_path)
+    assert drawn == [(key, theme) for key in c2.presets for theme in ("light", "dark")]
+    text = (tmp_path / "gallery.md").read_text(encoding="utf-8")
+    for key, theme in drawn:
+        assert (tmp_path / "portraits" / f"{key}-{theme}.svg").is_file()
+        assert f"_static/portraits/{key}-{theme}.svg" in text
+    assert text.count("<figure>") == len(c2.presets)
+
+
+def test_a_folder_of_something_else_is_left_alone(tmp_path, capsys):
+    pytest.importorskip("sphinx")
+    (tmp_path / "thesis.tex").write_text("mine")
+    assert main(["docs", str(tmp_path)]) == 2
+    assert "something else" in capsys.readouterr().err
+    assert (tmp_path / "thesis.tex").read_text() == "mine"
+
+
+def test_a_site_is_there_once_it_is_built(built, tmp_path):
+    folder, _, _ = built
+    try:
+        offer(tmp_path)
+        assert site() is None
+        offer(folder)
+        assert site() == folder
+    finally:
+        offer(None)
