@@ -13,6 +13,7 @@ from panel.io.server import DocHandler, WSHandler
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.web import RequestHandler
 
+from ..docs.served import Docs, ToDocs
 from ..frame.jobs import serve_with
 from ..frame.turns import Turns
 from ..frame.workers import Workers, processors
@@ -22,7 +23,6 @@ from ..state.links import Link
 from ..view import warmup
 from ..view.explorer import ExplorerView
 from ..view.markup import address_of_script, page_template
-from .docs import Docs, ToDocs
 from .first_page import Page, markup_of, opening
 from .headers import transform
 from .qr import QrCode

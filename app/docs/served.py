@@ -6,7 +6,7 @@ import mimetypes
 
 from tornado.web import HTTPError, RequestHandler
 
-from ..docs.place import site
+from .place import site
 
 UNBUILT = (
     "<!DOCTYPE html><html lang=en><meta charset=utf-8><title>codim2: no documentation</title>"
