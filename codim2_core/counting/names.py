@@ -30,74 +30,76 @@ LARGEST, SMALLEST = 1e40, 1e-40  # of the coefficients: the discriminant has deg
 TINY = 1e-280  # below it products may have lost digits to underflow
 
 
+@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+def _located(a, b, d, f1, f2):
+    """Case (0, 1, 2; -1 undecided), whether there is a critical set, and how far both lie from a border."""
+    det, det_size = a * d + b * b, abs(a * d) + b * b
+    case = 0
+    if (a > 0.0) != (d > 0.0):
+        if abs(det) <= ERROR * det_size:
+            return -1, 0, 0.0
+        case = 1 if det < 0.0 else 2
+    # |adj(A) f| against |det A|
+    n1, n2 = d * f1 + b * f2, a * f2 - b * f1
+    n1_size, n2_size = abs(d * f1) + abs(b * f2), abs(a * f2) + abs(b * f1)
+    reach, needed = n1 * n1 + n2 * n2, det * det
+    gap, gap_size = needed - reach, n1_size * n1_size + n2_size * n2_size + det_size * det_size
+    if abs(gap) <= ERROR * gap_size or gap_size < TINY:
+        return -1, 0, 0.0
+    return case, 1 if gap > 0.0 else 0, min(abs(gap) / (needed + reach), abs(det) / det_size)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+def _counted(a, b, d, f1, f2):
+    """Half the number of zeros of Theta (-1 undecided), and how far it lies from a border."""
+    k = d - a
+    c4, c3, c2, c1, c0 = b - f2, -2.0 * (f1 + k), 2.0 * b, -2.0 * (f1 - k), b + f2
+    s4 = abs(b) + abs(f2)
+    s3 = 2.0 * (abs(f1) + abs(a) + abs(d))
+    s2, s1, s0 = abs(c2), s3, s4
+    first = 12.0 * c4 * c0 - 3.0 * c3 * c1 + c2 * c2
+    first_size = 12.0 * s4 * s0 + 3.0 * s3 * s1 + s2 * s2
+    second = 72.0 * c4 * c2 * c0 + 9.0 * c3 * c2 * c1 - 27.0 * c4 * c1 * c1 - 27.0 * c0 * c3 * c3 - 2.0 * c2 * c2 * c2
+    second_size = (
+        72.0 * s4 * s2 * s0 + 9.0 * s3 * s2 * s1 + 27.0 * s4 * s1 * s1 + 27.0 * s0 * s3 * s3 + 2.0 * s2 * s2 * s2
+    )
+    disc = 4.0 * first * first * first - second * second
+    disc_size = 4.0 * first_size * first_size * first_size + second_size * second_size
+    if abs(disc) <= ERROR * disc_size or disc_size < TINY:
+        return -1, 0.0
+    margin = abs(disc) / (4.0 * abs(first) ** 3 + second * second)
+    if disc < 0.0:
+        return 1, margin
+    p = 8.0 * c4 * c2 - 3.0 * c3 * c3
+    p_size = 8.0 * s4 * s2 + 3.0 * s3 * s3
+    q = (
+        64.0 * c4 * c4 * c4 * c0 - 16.0 * c4 * c4 * c2 * c2 + 16.0 * c4 * c3 * c3 * c2 - 16.0 * c4 * c4 * c3 * c1
+        - 3.0 * c3 * c3 * c3 * c3
+    )  # fmt: skip
+    q_size = (
+        64.0 * s4 * s4 * s4 * s0 + 16.0 * s4 * s4 * s2 * s2 + 16.0 * s4 * s3 * s3 * s2 + 16.0 * s4 * s4 * s3 * s1
+        + 3.0 * s3 * s3 * s3 * s3
+    )  # fmt: skip
+    if p > ERROR * p_size or q > ERROR * q_size:
+        return 0, margin
+    return 2 if p < -ERROR * p_size and q < -ERROR * q_size else -1, margin
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
 def _filter(plane, codes, margins):  # (n, 5) a, b, d, f1, f2; codes (n,), margins (n,) are written
     for i in range(plane.shape[0]):
         a, b, d, f1, f2 = plane[i, 0], plane[i, 1], plane[i, 2], plane[i, 3], plane[i, 4]
-        codes[i] = 0
-        margins[i] = 0.0
+        codes[i], margins[i] = 0, 0.0
         size = max(abs(a), abs(b), abs(d), abs(f1), abs(f2))
         if not SMALLEST <= size <= LARGEST or a == 0.0 or d == 0.0:
             continue
-        # the case
-        det, det_size = a * d + b * b, abs(a * d) + b * b
-        case = 0
-        if (a > 0.0) != (d > 0.0):
-            if abs(det) <= ERROR * det_size:
-                continue
-            case = 1 if det < 0.0 else 2
-        # the critical set: |adj(A) f| against |det A|
-        n1, n2 = d * f1 + b * f2, a * f2 - b * f1
-        n1_size, n2_size = abs(d * f1) + abs(b * f2), abs(a * f2) + abs(b * f1)
-        reach, needed = n1 * n1 + n2 * n2, det * det
-        gap_size = n1_size * n1_size + n2_size * n2_size + det_size * det_size
-        gap = needed - reach
-        if abs(gap) <= ERROR * gap_size or gap_size < TINY:
+        case, exists, near = _located(a, b, d, f1, f2)
+        if case < 0:
             continue
-        exists = 1 if gap > 0.0 else 0
-        # the number of zeros of Theta
-        k = d - a
-        c4, c3, c2, c1, c0 = b - f2, -2.0 * (f1 + k), 2.0 * b, -2.0 * (f1 - k), b + f2
-        s4 = abs(b) + abs(f2)
-        s3 = 2.0 * (abs(f1) + abs(a) + abs(d))
-        s2, s1, s0 = abs(c2), s3, s4
-        first = 12.0 * c4 * c0 - 3.0 * c3 * c1 + c2 * c2
-        first_size = 12.0 * s4 * s0 + 3.0 * s3 * s1 + s2 * s2
-        second = (
-            72.0 * c4 * c2 * c0 + 9.0 * c3 * c2 * c1 - 27.0 * c4 * c1 * c1 - 27.0 * c0 * c3 * c3 - 2.0 * c2 * c2 * c2
-        )
-        second_size = (
-            72.0 * s4 * s2 * s0 + 9.0 * s3 * s2 * s1 + 27.0 * s4 * s1 * s1 + 27.0 * s0 * s3 * s3 + 2.0 * s2 * s2 * s2
-        )
-        disc = 4.0 * first * first * first - second * second
-        disc_size = 4.0 * first_size * first_size * first_size + second_size * second_size
-        if abs(disc) <= ERROR * disc_size or disc_size < TINY:
-            continue
-        pairs = 1
-        if disc > 0.0:
-            p = 8.0 * c4 * c2 - 3.0 * c3 * c3
-            p_size = 8.0 * s4 * s2 + 3.0 * s3 * s3
-            q = (
-                64.0 * c4 * c4 * c4 * c0 - 16.0 * c4 * c4 * c2 * c2 + 16.0 * c4 * c3 * c3 * c2
-                - 16.0 * c4 * c4 * c3 * c1 - 3.0 * c3 * c3 * c3 * c3
-            )  # fmt: skip
-            q_size = (
-                64.0 * s4 * s4 * s4 * s0 + 16.0 * s4 * s4 * s2 * s2 + 16.0 * s4 * s3 * s3 * s2
-                + 16.0 * s4 * s4 * s3 * s1 + 3.0 * s3 * s3 * s3 * s3
-            )  # fmt: skip
-            if p > ERROR * p_size or q > ERROR * q_size:
-                pairs = 0
-            elif p < -ERROR * p_size and q < -ERROR * q_size:
-                pairs = 2
-            else:
-                continue
-        codes[i] = 1 + 6 * case + 3 * exists + pairs
-        margins[i] = min(
-            abs(gap) / (needed + reach),
-            abs(disc) / (4.0 * abs(first) ** 3 + second * second),
-            abs(det) / det_size,
-            min(abs(a), abs(d)) / size,
-        )
+        pairs, nearer = _counted(a, b, d, f1, f2)
+        if pairs >= 0:
+            codes[i] = 1 + 6 * case + 3 * exists + pairs
+            margins[i] = min(near, nearer, min(abs(a), abs(d)) / size)
 
 
 def names(plane: ArrayLike) -> tuple[NDArray[np.int8], NDArray[np.float64], dict[int, tuple[str | None, str]]]:
