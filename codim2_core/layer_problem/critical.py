@@ -137,13 +137,13 @@ def slow_flow_at(at: AtZ, e: ArrayLike) -> NDArray[np.float64]:
         W is not finite there: what slides has no velocity.
     """
     flow = np.asarray(at.W(e), np.float64)
-    wrong = np.argwhere(~np.isfinite(flow))
-    if len(wrong):
-        *where, i = wrong[0].tolist()
-        place = at_place(at.z, np.asarray(e, float)[tuple(where)].tolist())
-        name = f"W{i + 1}" if flow.shape[-1] > 1 else "W"
-        raise ValueError(f"{name} is {flow[tuple(wrong[0])]:g}{place}; it must be finite where the motion slides.")
-    return flow
+    finite = np.isfinite(flow)
+    if finite.all():
+        return flow
+    *where, i = first = np.argwhere(~finite)[0].tolist()
+    place = at_place(at.z, np.asarray(e, float)[tuple(where)].tolist())
+    name = f"W{i + 1}" if flow.shape[-1] > 1 else "W"
+    raise ValueError(f"{name} is {flow[tuple(first)]:g}{place}; it must be finite where the motion slides.")
 
 
 def _turned_parts(parts: Parts, angle: float) -> Parts:

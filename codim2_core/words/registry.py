@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from functools import cache
 from string import Formatter
-from typing import Any
 
 from . import changes, claims, cycles, degenerate, equator, motion, orbits, portrait, slow_flow
 from .sentence import Sentence
@@ -27,21 +26,24 @@ ROOMS: dict[str, dict[str, Sentence]] = {
 SENTENCES: dict[str, Sentence] = {key: one for room in ROOMS.values() for key, one in room.items()}
 
 
-class _Writer(Formatter):
-    """Fills the fields of a sentence: numbers and names are written in one way."""
-
-    def format_field(self, value: Any, format_spec: str) -> str:
-        if isinstance(value, float):
-            return power(value) if format_spec.endswith("e") else number(value, int(format_spec.strip(".g") or 6))
-        return named(str(value))
+@cache
+def _parsed(key: str) -> tuple[tuple[str, str | None, str | None], ...]:
+    """Text, and the name and format of the field that follows it, as often as there are fields, and the rest."""
+    return tuple((text, name, format_) for text, name, format_, _ in Formatter().parse(SENTENCES[key].says))
 
 
-_WRITER = _Writer()
+def _written(value: object, format_: str) -> str:
+    """Numbers and names are written in one way."""
+    if isinstance(value, float):
+        return power(value) if format_.endswith("e") else number(value, int(format_.strip(".g") or 6))
+    return named(str(value))
 
 
 def say(key: str, **fields: object) -> str:
     """Return a sentence with its fields filled in."""
-    return _WRITER.vformat(SENTENCES[key].says, (), fields)
+    return "".join(
+        text if name is None else text + _written(fields[name], format_ or "") for text, name, format_ in _parsed(key)
+    )
 
 
 @cache
