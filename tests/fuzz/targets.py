@@ -16,6 +16,7 @@ from codim2_app.frame.budget import Budget
 from codim2_app.frame.faults import FAULT
 from codim2_app.frame.jobs import Jobs
 from codim2_app.phrases import say
+from codim2_app.state.chosen import BOXES
 from codim2_app.state.controls import NAMES, ExplorerState
 from codim2_app.state.links import read_link
 from codim2_app.view.refresh import Frames
@@ -171,7 +172,17 @@ _SQUEEZED = (st.binary(max_size=60) | st.text(max_size=60).map(str.encode)).map(
 )
 _JSON = _NESTED | st.none() | st.booleans() | st.integers() | st.floats() | st.sampled_from([10**400, -(10**400)])
 _VALUES = _JSON | st.lists(_JSON, max_size=5) | st.dictionaries(_WORDS, _JSON, max_size=4)
-_SETTINGS = st.dictionaries(st.sampled_from(NAMES), _VALUES, max_size=4)
+_BOXES = st.sampled_from(sorted({box.name for boxes in BOXES.values() for box in boxes}))
+_TYPED = {
+    "texts": st.dictionaries(_BOXES, FORMULAS, max_size=3),
+    "psi_text": FORMULAS,
+    "z": _NUMBERS,
+    "layers": st.lists(_WORDS, max_size=4),
+}
+_FORMS = st.fixed_dictionaries(
+    {"system": st.sampled_from(["own", "typed"]), "psi": st.sampled_from(["custom", "hill"])}, optional=_TYPED
+)
+_SETTINGS = _FORMS | st.dictionaries(st.sampled_from(NAMES), _VALUES, max_size=4)
 _KINDS = st.sampled_from(["svg", "zip", "json", "npz", "py", "tex", "html", "exe"])
 _WISHES = st.fixed_dictionaries(
     {
