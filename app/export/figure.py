@@ -66,13 +66,15 @@ class Style:
             raise ValueError(f"theme is {self.theme!r}; choose one of {', '.join(THEMES)}.")
 
 
-def figure(view: View, style: Style | None = None) -> str:
+def figure(view: View, style: Style | None = None, heading: str = "") -> str:
     """Return a view as an SVG file that needs nothing else, 50 to 300 kB.
 
     Parameters
     ----------
     view : View
     style : Style, optional
+    heading : str
+        Of the title, before the portrait's name; by default the title is that of the figure.
     """
     style = style or Style()
     buffer, layers = view.frame(), view.values["layers"]
@@ -83,7 +85,8 @@ def figure(view: View, style: Style | None = None) -> str:
     parts: list[str] = []
     y = 0.0
     if style.title:
-        title = view.title or header["portrait"]["name"]
+        name = header["portrait"]["name"]
+        title = f"{heading}: {name}" if heading else view.title or name
         parts.append(vector.words(left + side / 2, 14.0, escape(title), 12.0, "middle", bold=True))
         y = 22.0
     drawn = content(buffer, layers, place, style.labels)

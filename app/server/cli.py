@@ -16,7 +16,7 @@ from .commands import add_census, add_classify, add_docs, add_notebooks, add_pre
 from .logs import log_to_stderr
 from .settings import add_settings
 from .stopping import stop_when_asked
-from .taking import add_data, add_figure, add_live
+from .taking import add_data, add_figure, add_film, add_live
 
 
 def parser() -> argparse.ArgumentParser:
@@ -31,7 +31,17 @@ def parser() -> argparse.ArgumentParser:
     if serve.get_default("show") is None:
         serve.set_defaults(show=_at_a_screen())
     commands.add_parser("warm", help="compile the integrator into the disk cache, so that servers start warm")
-    for add in (add_classify, add_presets, add_figure, add_data, add_live, add_census, add_notebooks, add_docs):
+    for add in (
+        add_classify,
+        add_presets,
+        add_figure,
+        add_data,
+        add_live,
+        add_film,
+        add_census,
+        add_notebooks,
+        add_docs,
+    ):
         add(commands)
     return top
 

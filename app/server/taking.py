@@ -1,4 +1,4 @@
-"""The commands that write files of a view: `figure`, `data`, `live`. None loads the server or needs a browser."""
+"""The commands that write files of a view: figure, data, live file, film. None loads the server or needs a browser."""
 
 from __future__ import annotations
 
@@ -52,6 +52,32 @@ def add_live(commands: Any) -> None:
     command.set_defaults(run=lambda chosen: _written(chosen.output, lambda: _live(chosen)))
 
 
+def add_film(commands: Any) -> None:
+    """Add `codim2 film`."""
+    command = commands.add_parser("film", help="write a film of a slider that moves: an animated GIF or WebP")
+    command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
+    words = "'f1', 'n', 'mu', …, or with a range: 'f1=-1,1'"
+    command.add_argument("--slider", required=True, metavar="NAME[=LOW,HIGH]", help=words)
+    command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="ends in .gif or .webp")
+    command.add_argument("--positions", type=int, default=41, metavar="N", help="of the slider, 2 to 121; default 41")
+    command.add_argument("--theme", default="light", help="light, dark or paper (black and white); default light")
+    command.set_defaults(run=lambda chosen: _written(chosen.output, lambda: _film(chosen)))
+
+
+def _film(chosen: argparse.Namespace) -> bytes:
+    from dataclasses import replace
+
+    from ..export.film import KINDS, STYLE, film
+    from ..export.view import suffix_of, view_of
+
+    def progress(done: int, count: int) -> None:
+        if sys.stderr.isatty():
+            print(f"\r{done} of {count}", end="\n" if done == count else "", file=sys.stderr, flush=True)
+
+    kind, style = suffix_of(chosen.output, tuple(KINDS)), replace(STYLE, theme=chosen.theme)
+    return film(view_of(chosen.view), chosen.slider, kind, style, chosen.positions, progress)
+
+
 def _live(chosen: argparse.Namespace) -> bytes:
     from ..export.live import live
     from ..export.view import suffix_of, view_of
@@ -78,6 +104,9 @@ def _written(output: Path, make: Callable[[], bytes]) -> int:
     except ValueError as error:
         print(f"codim2: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        print("\ncodim2: stopped; nothing was written.", file=sys.stderr)
+        return 130
     except OSError as error:
         print(f"codim2: {output} cannot be written: {error.strerror}.", file=sys.stderr)
         return 1
