@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import reprlib
 from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,8 +31,9 @@ def slow_names(m: int, rows: str) -> str:
 
 def slow_values(z: ArrayLike, m: int, needed: bool = True) -> tuple[float, ...]:
     """Check z: m finite numbers (a lone number will do for m = 1; none if no coefficient reads z)."""
-    if isinstance(z, tuple) and not z:
-        values: tuple[float, ...] = ()
+    values: tuple[float, ...]
+    if isinstance(z, tuple) and all(type(v) is float for v in z):  # as they mostly come: no array is made
+        values = cast("tuple[float, ...]", z)
     else:
         try:
             values = tuple(float(v) for v in np.atleast_1d(np.asarray(z, float)))

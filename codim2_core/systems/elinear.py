@@ -274,18 +274,16 @@ class ELinear:
         if z:
             names["z"] = z[0]
 
-        place = at_place(z)
-
         def number(value: Coefficient, what: str) -> float:
             if not isinstance(value, Expression):
                 return value
             try:
                 result = float(value.evaluate(names))
             except (ArithmeticError, ValueError) as error:
-                raise ValueError(f"{what} cannot be computed{place}: {error}.") from error
+                raise ValueError(f"{what} cannot be computed{at_place(z)}: {error}.") from error
             if not math.isfinite(result):
-                raise ValueError(f"{what} is {result}{place}; every coefficient must be finite there.")
-            return _finite(result, f"{what}{place}")
+                raise ValueError(f"{what} is {result}{at_place(z)}; every coefficient must be finite there.")
+            return _finite(result, f"{what}{at_place(z)}")
 
         f1, f2 = number(self.f[0], "f1"), number(self.f[1], "f2")
         B = np.zeros((self.m, 2))
