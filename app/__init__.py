@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .draw.overlay import holoviews
-    from .export.results import svg
+    from .export.small.results import svg
     from .export.tables import data_frames as tables
     from .view.notebook import explorer
 
@@ -28,7 +28,7 @@ def __getattr__(name: str) -> Any:
 
         return holoviews
     if name == "svg":
-        from .export.results import svg
+        from .export.small.results import svg
 
         return svg
     if name == "tables":

@@ -27,11 +27,11 @@ from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.sliding.slow_portrait_result import SlowPortrait
 
-from ..draw import glyphs
-from ..draw.layers import painted
-from ..draw.packing import Polylines, pack
-from ..draw.svg import content
-from ..draw.vector.parts import Place, disc, stroke, words
+from ...draw import glyphs
+from ...draw.layers import painted
+from ...draw.packing import Polylines, pack
+from ...draw.svg import content
+from ...draw.vector.parts import Place, disc, stroke, words
 from .chart import chart, finished, regions, thinned
 
 #: px of the screen.

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from ..draw.still import coloured
-from ..draw.theme import themes
-from ..draw.vector.parts import Place, stroke, words
+from ...draw.still import coloured
+from ...draw.theme import themes
+from ...draw.vector.parts import Place, stroke, words
 
 COLOURS = ("rho", "theta", "separatrix", "continuation", "node-focus", "soft")
 WIDTH, HEIGHT, LEFT, BOTTOM = 360.0, 220.0, 44.0, 34.0
