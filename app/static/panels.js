@@ -93,7 +93,8 @@ export class Panels {
   // Rolls the strip so that the tab of the open panel is in its middle; a strip that has no width yet is rolled once it has.
   reveal() {
     const {strip} = this, tab = this.tabs.find((one) => one.dataset.panel === this.open)
-    if (tab) strip.scrollLeft = tab.offsetLeft - strip.offsetLeft - (strip.clientWidth - tab.offsetWidth) / 2
+    const before = tab?.offsetParent === strip ? 0 : strip.offsetLeft // on narrow screens it is sticky, and so the parent
+    if (tab) strip.scrollLeft = tab.offsetLeft - before - (strip.clientWidth - tab.offsetWidth) / 2
   }
 
   forget() { for (const panel of Object.values(this.made)) panel.forget?.() }

@@ -174,7 +174,6 @@ export class Pointing {
     const taken = close || this.kept.hidden ? "" : this.kept.dataset.corner
     const corner = CORNERS.find((name) => name !== own && name !== taken) ?? "bl"
     if (card.dataset.corner !== corner) card.dataset.corner = corner
-    card.classList.toggle("high", own[0] === "b")
   }
 
   // The objects as buttons for the keyboard and for screen readers, once nothing moves.

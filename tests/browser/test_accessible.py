@@ -42,3 +42,31 @@ def test_nothing_serious_in_any_panel(open_page, axe, state):
     if state == "phone":
         page.find(".sheets [data-sheet=controls]").click()
         assert page.page.evaluate(SERIOUS, rules) == [], "controls"
+
+
+#: What else a person comes to: what is pressed there, after the link.
+PLACES = {
+    "two portraits": ("?v=1&beside=psi%3Dhill%26n%3D3", [".second-bar summary"]),
+    "beamer": ("?v=1", [".beam"]),
+    "orbits": ("?v=1&panel=orbits&orbits=0.4,0.3;1.5,0.6,-:slow&orbit=1&orbit_eps=show", []),
+    "a ball": ("?v=1&panel=orbits&system=ball_in_pool&orbit_eps=show", []),
+    "a range": ("?v=1&system=own&panel=numbers", ["[data-control=parameter-k] label"]),
+    "a card": ("?v=1&pinned=C&panel=numbers", []),
+    "help": ("?v=1", [".help"]),
+    "share": ("?v=1", [".share"]),
+}
+
+
+@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("place", PLACES)
+def test_nothing_serious_elsewhere(open_page, axe, place, dark):
+    query, pressed = PLACES[place]
+    page = open_page(**STATES["dark" if dark else "desktop"]).open(query)
+    if place == "two portraits":
+        page.page.wait_for_selector(".second-place iframe").content_frame().wait_for_selector(".codim2[data-ready]")
+    for selector in pressed:
+        page.find(selector).click()
+    page.settle()
+    for frame in page.page.frames:
+        frame.evaluate(axe)
+    assert page.page.evaluate(SERIOUS, COLOURS if dark else None) == []

@@ -158,3 +158,16 @@ def test_what_a_link_asked_in_vain_is_read_where_its_control_is_in_a_closed_shee
     assert strip["x"] < tab["x"] < tab["x"] + tab["width"] < strip["x"] + strip["width"]
     for row in (".legend", ".reading", ".tabs"):
         assert "linear-gradient" in page.find(row).evaluate("(row) => getComputedStyle(row).maskImage")
+
+
+@pytest.mark.parametrize(("width", "height", "most"), [(390, 844, 0.17), (360, 640, 0.25), (844, 390, 0.2)])
+def test_a_pinned_card_leaves_the_picture_to_be_seen_and_the_open_tab_is_in_view(open_page, width, height, most):
+    page = open_page(viewport={"width": width, "height": height}, has_touch=True, is_mobile=True)
+    page.open("?v=1&preset=case3-n3&pinned=Q1&panel=orbits").settle()
+    card, picture = (page.find(name).bounding_box() for name in (".card.pinned", ".picture"))
+    covered = picture["y"] + picture["height"] - card["y"]
+    assert 0 < card["height"]
+    assert covered <= most * picture["height"]
+    assert page.find(".card.pinned").evaluate("(e) => e.scrollWidth <= e.clientWidth + 1")
+    tab, strip = page.find("#c2-tab-orbits").bounding_box(), page.find(".tabs").bounding_box()
+    assert strip["x"] <= tab["x"] < tab["x"] + tab["width"] <= strip["x"] + strip["width"]
