@@ -135,6 +135,8 @@ class Compiled:
         As in `numerics.radau.steps`.
     floor : float
         atol/rtol.
+    farthest : float
+        The largest rho so far, of a nonsmooth motion: eps = 0. It ends where rho is 1e-13 of the largest.
     """
 
     def __init__(
@@ -151,6 +153,7 @@ class Compiled:
         floor: float,
         h: float,
         most: int,
+        farthest: float = 0.0,
     ) -> None:
         self.problem, n = problem, len(first)
         self.functions, self.parameter = _functions(field, psi), psi.parameter
@@ -160,7 +163,7 @@ class Compiled:
         self.y, self.clock = np.array(first), np.array([t_start, 0.0, t_end, 0.0])
         implicit = 1.0 if n > WIDTH else 0.0
         largest = max(1.0, float(np.abs(first).max()))
-        self.control = np.array([h, 1.0, 0.0, float(most), 0.0, largest, implicit, 0.0, AHEAD * price(n)])
+        self.control = np.array([h, 1.0, 0.0, float(most), 0.0, largest, implicit, 0.0, AHEAD * price(n), farthest])
         assert len(self.control) == CONTROL
 
     @property

@@ -18,15 +18,16 @@ from . import compiled_radau as radau
 from .compiled_rate import Motion, inward_bound, rate, sizes
 from .compiled_stages import tableau_of, workspace
 
-FINISHED, LIMIT, SHORT, FULL, BLOWN_UP, UNDEFINED = range(6)
+FINISHED, LIMIT, SHORT, FULL, BLOWN_UP, UNDEFINED, ARRIVED = range(7)
 FIRST = 1e-2  # of rho/|U|: the first step tried
 SHORTEST = 1e-290
+CLOSE = 1e-13
 CHUNK = 256  # steps that are filled in at once
 LARGEST, GROWN = 1e200, 8.0  # as in `numerics.growth`
 
 # What `control` holds.
-NEXT, REFINED, WARY, LEFT, TRIED, EXTENT, IMPLICIT, COUNT, WORTH = range(9)
-CONTROL = 9
+NEXT, REFINED, WARY, LEFT, TRIED, EXTENT, IMPLICIT, COUNT, WORTH, FARTHEST = range(10)
+CONTROL = 10
 
 STABLE = 4.0  # h times a growth rate of an explicit step in a slide
 SIGNS, SIGNS_BACK = 6.0, 3.0  # steps in a row that ask for the other method
@@ -108,7 +109,8 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
     control : (CONTROL,)
         NEXT: the next step. REFINED: 1 where the last one was not accepted. WARY: careful steps left. LEFT: steps
         left to try. TRIED: how many were. EXTENT: the largest size of the state so far. IMPLICIT: 1 in a slide. COUNT:
-        signs so far that the other method costs less. WORTH: explicit steps that have to lie ahead.
+        signs so far that the other method costs less. WORTH: explicit steps that have to lie ahead. FARTHEST: the
+        largest rho so far, of a nonsmooth motion (eps = 0), which has arrived at Sigma where rho is `CLOSE` of that.
     starts, lengths (k,), ends (k, n), polynomials (k, n, 7)
         Filled with steps.
 
@@ -164,6 +166,11 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
         filled += 1
         if _go_on(clock, control, h, y):
             return BLOWN_UP, filled - 1
+        if motion.eps == 0.0:
+            rho = math.hypot(y[0], y[1])
+            control[FARTHEST] = max(control[FARTHEST], rho)
+            if rho <= CLOSE * control[FARTHEST]:
+                return ARRIVED, filled
         most = GROW
         if control[REFINED] > 0.0 and control[TRIED] > 1.0:
             most = 1.0
@@ -189,7 +196,7 @@ def _prepared(motion, y, clock, control, t_start, t_end, most, work):
     control[NEXT] = FIRST / speed if speed > 0.0 else math.inf
     control[REFINED], control[WARY], control[LEFT], control[TRIED] = 1.0, 0.0, most, 0.0
     control[EXTENT], control[COUNT], control[WORTH] = extent, 0.0, AHEAD * price(motion.n)
-    control[IMPLICIT] = 0.0 if explicit_first else 1.0
+    control[IMPLICIT], control[FARTHEST] = 0.0 if explicit_first else 1.0, 0.0
     return True
 
 

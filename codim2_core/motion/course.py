@@ -28,6 +28,7 @@ from .result import Phase
 from .slide import slide
 from .slide_on_cycle import slide_on_cycle
 from .slip import leave, slip
+from .slip_compiled import CompiledSlip
 
 Array = NDArray[np.float64]
 
@@ -64,6 +65,7 @@ class Course:
     taken: list[Step] = made_with(default_factory=list)
     parts: list[Part] = made_with(default_factory=list)
     ascent: Ascent | None = None  # of the phase to come
+    compiled: CompiledSlip | None = None
 
     @property
     def own(self) -> Psi:
@@ -154,7 +156,7 @@ class Course:
             t, state = begun[-1].end, begun[-1].last
         largest = 0.0
         while True:
-            part = slip(self.problem, t, state, self.t_end, self.rtol, self.left, largest)
+            part = slip(self.problem, t, state, self.t_end, self.rtol, self.left, largest, self.compiled)
             if part.theta is None:
                 self.add("slip", taken + part.taken, reason)
                 if part.stopped is not None:

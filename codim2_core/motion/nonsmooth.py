@@ -18,8 +18,9 @@ from ..numerics.radau import TooManyStepsError
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .course import AtEventError, Course, StopError
-from .regularised import MAX_STEPS, checked_span, checked_state, checked_tolerances
+from .regularised import MAX_STEPS, checked_span, checked_state, checked_tolerances, count_steps, waited_for
 from .result import Simulation, SimulationStatus, simulation
+from .slip_compiled import CompiledSlip
 
 __all__ = ["simulate_nonsmooth"]
 
@@ -102,6 +103,8 @@ def simulate_nonsmooth(
     problem = plane_problem(formulas, None, 0.0, rtol, atol, None if line is None else line.vector)
     watch = Watch(checked_events(events), t_start, first)
     course = Course(system, psi, formulas, problem, line, watch, t_start, first, t_end, rtol, atol, max_steps)
+    if not waited_for(formulas):
+        course.compiled = CompiledSlip(problem, formulas, line, rtol, atol / rtol)
     status, detail = SimulationStatus.T_END, ""
     try:
         course.run()
@@ -113,6 +116,8 @@ def simulate_nonsmooth(
         status, detail = SimulationStatus.BLOW_UP, str(error)
     except TooManyStepsError as error:
         status, detail = SimulationStatus.STEP_LIMIT, str(error)
+    count_steps(formulas, len(course.taken))
+    evaluations = count[0] + (course.compiled.evaluations if course.compiled else 0)
     motion = dense(t_start, first, [gathered(course.taken, len(first))])
     phases = partial(tuple, [part.placed(system, course.own, motion) for part in course.parts])
-    return simulation(motion, phases, status, detail=detail, evaluations=count[0], events=watch.times)
+    return simulation(motion, phases, status, detail=detail, evaluations=evaluations, events=watch.times)

@@ -270,7 +270,7 @@ def _followed(
     parts: list[Steps] = []
     t, state, h = span[0], first, first_step(problem, first, rate)
     motion: Compiled | None = None
-    patience = 0 if _is_compiled(formulas) else PATIENCE - _stepped.get(formulas.rows, 0)
+    patience = waited_for(formulas)
     status, detail = SimulationStatus.T_END, ""
     try:
         if patience > 0:
@@ -305,12 +305,17 @@ def _followed(
     except TooManyStepsError as error:
         status, detail = SimulationStatus.STEP_LIMIT, str(error)
     finally:
-        _count(formulas, len(taken))
+        count_steps(formulas, len(taken))
     evaluations = count[0] + (0 if motion is None else motion.evaluations)
     return [gathered(taken, len(first)), *parts], status, detail, evaluations
 
 
-def _count(formulas: Field, steps: int) -> None:
+def waited_for(formulas: Field) -> int:
+    """Say how many steps in Python are still taken before a system's motions are followed compiled."""
+    return 0 if _is_compiled(formulas) else max(0, PATIENCE - _stepped.get(formulas.rows, 0))
+
+
+def count_steps(formulas: Field, steps: int) -> None:
     """Count steps in Python: a system that comes again is compiled once its motions together are a long one."""
     before = _stepped.pop(formulas.rows, 0)
     while len(_stepped) >= REMEMBERED:

@@ -18,6 +18,7 @@ from ..initial_value.line import Line
 from ..numerics.growth import bounded
 from ..numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
 from ..words import say
+from .slip_compiled import CompiledSlip
 
 Array = NDArray[np.float64]
 
@@ -47,7 +48,16 @@ class Slip:
     stopped: TooManyStepsError | None = None
 
 
-def slip(problem: Problem, t: float, state: Array, t_end: float, rtol: float, most: int, largest: float) -> Slip:
+def slip(
+    problem: Problem,
+    t: float,
+    state: Array,
+    t_end: float,
+    rtol: float,
+    most: int,
+    largest: float,
+    compiled: CompiledSlip | None = None,
+) -> Slip:
     """Follow the nonsmooth system until it arrives at Sigma, or to the end of the time span.
 
     Parameters
@@ -62,13 +72,19 @@ def slip(problem: Problem, t: float, state: Array, t_end: float, rtol: float, mo
         Steps.
     largest : float
         The scale of rho: it has arrived where rho is 1e-13 of that (or of a larger rho met on the way).
+    compiled : CompiledSlip, optional
+        Takes the steps instead.
     """
     taken: list[Step] = []
     rate = problem.F(state)
     largest = max(largest, math.hypot(state[0], state[1]))
     h = FIRST / float(np.max(np.abs(rate) / problem.scale(state))) if rate.any() else math.inf
+    if compiled is None:
+        ahead = bounded(problem, steps(problem, t, t_end, state, rtol, h, most))
+    else:
+        ahead = compiled.steps(t, t_end, state, h, most, largest)
     try:
-        for step in bounded(problem, steps(problem, t, t_end, state, rtol, h, most)):
+        for step in ahead:
             taken.append(step)
             x, y = float(step.last[0]), float(step.last[1])
             rho = math.hypot(x, y)

@@ -78,13 +78,16 @@ class Steps:
 
 def gathered(taken: Sequence[Step], n: int) -> Steps:
     """Gather steps of n numbers."""
-    degree = taken[0].polynomial.shape[1] if taken else STAGES
+    degree = max((step.polynomial.shape[1] for step in taken), default=STAGES)
+    polynomials = np.zeros((len(taken), n, degree))
+    for step, polynomial in zip(taken, polynomials, strict=True):
+        polynomial[:, : step.polynomial.shape[1]] = step.polynomial
     return Steps(
         taken[0].first if taken else np.zeros(n),
         np.array([step.start for step in taken]),
         np.array([step.h for step in taken]),
         np.array([step.last for step in taken]).reshape(len(taken), n),
-        np.array([step.polynomial for step in taken]).reshape(len(taken), n, degree),
+        polynomials,
     )
 
 

@@ -7,10 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from codim2_core import ELinear, Event, System, examples, simulate
+from codim2_core import ELinear, Event, System, examples, simulate, simulate_nonsmooth
 from codim2_core import psi as families
 from codim2_core.initial_value import compiled
 from codim2_core.initial_value.compiled import Compiled, is_compiled
+from codim2_core.initial_value.compiled_explicit import DEGREE
 from codim2_core.initial_value.compiled_motion import COUNT, IMPLICIT
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.problem import direction, plane_problem, smoothed
@@ -167,6 +168,24 @@ def test_as_many_motions_as_states(count):
         np.testing.assert_array_equal(run.states[0], state)
         alone = simulate(BALL, families.constant(), 1e-4, state, (0.0, 1.0))
         np.testing.assert_allclose(run.states[-1], alone.states[-1], rtol=0.0, atol=1e-8)
+
+
+@pytest.mark.parametrize("line", [False, True])
+def test_the_slip_of_a_nonsmooth_motion_compiled_is_that_in_python(monkeypatch, line):
+    start = (1.0, 0.0, 12.0, 0.0) if line else (-1.0, 0.3, 10.0, 0.0)
+
+    def run(compiled):
+        monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: compiled)
+        return simulate_nonsmooth(BALL, start, (0.0, 3.0), families.rational(), rtol=1e-11)
+
+    monkeypatch.setattr(regularised, "PATIENCE", 10**9)
+    own, found = run(False), run(True)
+    assert [phase.kind for phase in found.phases] == [phase.kind for phase in own.phases]
+    ends = [[phase.t_end for phase in run.phases] for run in (found, own)]
+    np.testing.assert_allclose(ends[0], ends[1], rtol=1e-10)
+    np.testing.assert_allclose(found.states[-1], own.states[-1], rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(found.dense(np.linspace(0.0, 3.0, 50)), own.dense(np.linspace(0.0, 3.0, 50)), atol=1e-7)
+    assert found.motion.polynomials.shape[2] == DEGREE  # it was compiled
 
 
 def test_states_that_are_none_say_so():

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from codim2_core import psi as families
+from codim2_core.motion import regularised
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.regularised import simulate
 from codim2_core.systems.elinear import ELinear
@@ -55,14 +56,31 @@ def same(own, other):
 NAMES = [case[0].__name__ for case in CASES]
 
 
+def in_one_way(monkeypatch, compiled):
+    """Follow both motions in Python, or both compiled, whatever has been asked for before."""
+    monkeypatch.setattr(regularised, "PATIENCE", 10**9)
+    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: compiled)
+
+
 @pytest.mark.parametrize(("system", "state0", "t", "psi", "end"), CASES, ids=NAMES)
-def test_the_limit_is_the_same_in_another_unit_of_time(system, state0, t, psi, end):
+def test_the_limit_is_the_same_in_another_unit_of_time(monkeypatch, system, state0, t, psi, end):
+    in_one_way(monkeypatch, compiled=False)
     own, other = (simulate_nonsmooth(system(k), state0, (0.0, t / k), psi) for k in (1.0, K))
     assert own.phases[-1].reason.startswith(end)
     same(own, other)
 
 
 @pytest.mark.parametrize(("system", "state0", "t", "psi", "end"), CASES[:1] + CASES[3:], ids=NAMES[:1] + NAMES[3:])
-def test_a_motion_is_the_same_in_another_unit_of_time(system, state0, t, psi, end):
+def test_a_motion_is_the_same_in_another_unit_of_time(monkeypatch, system, state0, t, psi, end):
+    in_one_way(monkeypatch, compiled=False)
     own, other = (simulate(system(k), psi, 1e-4, state0, (0.0, t / k)) for k in (1.0, K))
     same(own, other)
+
+
+def test_compiled_it_is_too(monkeypatch):
+    in_one_way(monkeypatch, compiled=True)
+    system, state0, t, psi, end = CASES[NAMES.index("equator")]
+    own, other = (simulate_nonsmooth(system(k), state0, (0.0, t / k), psi) for k in (1.0, K))
+    assert own.phases[-1].reason.startswith(end)
+    same(own, other)
+    same(*(simulate(system(k), psi, 1e-4, state0, (0.0, t / k)) for k in (1.0, K)))
