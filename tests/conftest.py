@@ -1,4 +1,4 @@
-"""Hypothesis profiles, the marks of all tests (`tests.tiers`), and as many processes as there are processors."""
+"""Hypothesis profiles, the marks of all tests (`tests.tiers`), and how many processes share them."""
 
 import os
 import sys
