@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import os
 from collections.abc import Mapping, Sequence
+from functools import partial
 from importlib.metadata import version
 from typing import Any
 
@@ -106,7 +107,7 @@ class Ready(RequestHandler):
         status = warmup.outcome or "compiling"
         if status != "ready":
             self.set_status(503)
-        self.write({"status": status})
+        self.write({"status": status, "compiled": warmup.done})
 
     head = get
 
@@ -120,6 +121,7 @@ def make_server(
     prefix: str = "",
     frame_ancestors: str = "'self'",
     sessions: int = 400,
+    told: warmup.Told | None = None,
     **options: Any,
 ) -> Any:
     """Return a server of the explorer, not yet started (``.start()``, ``.io_loop.start()``).
@@ -142,12 +144,15 @@ def make_server(
         Who may embed the pages, as Content-Security-Policy says it.
     sessions : int
         Open pages of a process, beyond which a new one is asked to wait.
+    told : callable, optional
+        Told what has been compiled, see `warmup.warm_all`.
     """
     count = workers or max(1, processors() // processes)
     serve_with(Turns(Workers(count, preload=PRELOAD, first=warmup.wait), count))
     warmup_now = processes == 1
+    begin = warmup.start if told is None else partial(warmup.start, told)
     if warmup_now:
-        warmup.start()
+        begin()
     parent = os.getpid()
     server = _server(port, address, allow_origin, processes, prefix, options)
     application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
@@ -158,7 +163,7 @@ def make_server(
     application.settings["log_function"] = _log
     logging.getLogger("bokeh.server.protocol_handler").addFilter(untraced)
     if not warmup_now:
-        server.io_loop.add_callback(warmup.start)
+        server.io_loop.add_callback(begin)
     if os.getpid() != parent:
         _stop_with(parent, server.io_loop)
     return server

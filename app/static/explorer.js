@@ -315,7 +315,7 @@ function wire({model, view, root, plot}) {
     if ("ready" in header) {
       const slow = late.includes("picture")
       busy.hidden = header.ready && !slow
-      busy.textContent = slow ? SAYS.follows : SAYS.compiling
+      busy.textContent = slow ? SAYS.follows : [SAYS.compiling, ...header.compiled ? [header.compiled.join(" / ")] : []].join(" ")
       clearTimeout(warmTimer)
       if (!header.ready) warmTimer = setTimeout(() => requests.refresh(), 250)
     }

@@ -34,6 +34,7 @@ from ..state.asked import read_request
 from ..state.choices import AXES
 from ..state.chosen import BOXES, GIVEN, System_, describe
 from ..state.controls import NAMES, TYPED_IN, ExplorerState, InputError, clean, first_values, preset_values
+from . import warmup
 from .load import load
 from .notices import left_out
 
@@ -143,6 +144,8 @@ class Frames:
         self._last, self._untold = (sent, told, left), {}
         if told:
             header["set"] = told
+        if header.get("ready") is False and warmup.done is not None and warmup.done[0] < warmup.done[1]:
+            header["compiled"] = warmup.done
         errors = {name: printed(said) for name, said in errors.items()}
         return self._packed({"id": request.get("id", 0), "errors": errors, "load": load.measured(), **header}, blocks)
 

@@ -22,57 +22,84 @@ from codim2_core.systems.kinds import AnySystem
 from ..draw.arrowheads import arrowheads
 from ..frame.scenes import make_scene
 from ..state.controls import first_values
+from .alone import alone
 
 MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
 
 MOST_REMEMBERED = 256  # texts that have been compiled, or could not be
 GENERAL = "kernels of general systems"
 
+#: Is told what has been compiled, in how many seconds, and how many steps are done of how many.
+Told = Callable[[str, float, int, int], None]
+
 _lock = threading.Lock()
 _threads: dict[Hashable, threading.Thread] = {}
 
 
-def warm_all(told: Callable[[str, float], None] = lambda _what, _seconds: None) -> None:
+def _steps() -> list[tuple[str, Callable[[], object]]]:
+    """Return what is compiled beforehand, by what it is called, in the order in which it is asked for."""
+    families = [family for family in FAMILIES.values() if not family.typed]
+    first, *others = ((f"trajectories for Ψ = {family.title}", partial(warm, make(family.name))) for family in families)
+    last = [("arrowheads", _warm_arrowheads), (GENERAL, warm_general)]
+    return [first, ("limit cycles", _warm_cycles), *others, *last]
+
+
+#: Of `_steps`, those after which the first scene is drawn.
+FIRST = 2
+
+
+def _nobody(*_: object) -> None:
+    pass
+
+
+def warm_all(told: Told = _nobody, after: Callable[[int], None] = _nobody) -> None:
     """Compile, or load from the disk cache, what all built-in families and the kernels of general systems need.
 
     Parameters
     ----------
     told : callable
-        Called with what has been compiled, and the seconds that it took.
+        Called with what has been compiled, the seconds that it took, how many steps are done, and of how many.
+    after : callable
+        Called with the number of steps that are done.
     """
-
-    def timed(what: str, make_: Callable[[], object]) -> None:
-        began = time.perf_counter()
-        make_()
-        told(what, time.perf_counter() - began)
-
-    for family in FAMILIES.values():
-        if not family.typed:
-            timed(f"trajectories for Ψ = {family.title}", partial(warm, make(family.name)))
-    timed("limit cycles", _warm_cycles)
-    timed("arrowheads", _warm_arrowheads)
-    timed(GENERAL, warm_general)
+    global done
+    steps = _steps()
+    done = 0, len(steps)
+    for number, (what, make_) in enumerate(steps, 1):
+        with alone():
+            began = time.perf_counter()
+            make_()
+            took = time.perf_counter() - began
+        done = number, len(steps)
+        told(what, took, *done)
+        after(number)
 
 
 #: What the warm thread came to: "" while it is at work, "ready", or why the first scene could not be computed.
 outcome = ""
+#: How many of the steps are done, and of how many; None before the first one is begun.
+done: tuple[int, int] | None = None
 
 
-def _first_scene() -> None:
+def _first_scene(told: Told) -> None:
     """Compile what the scene needs that the explorer opens with, and compute it; then compile the rest."""
     global outcome
-    try:
+
+    def draw(number: int) -> None:
+        global outcome
+        if number != FIRST:
+            return
         scene = make_scene(first_values())
-        warm(scene.psi)
-        _warm_cycles()
         for layer in ("equator", "critical", "inside", "outside", "nullclines_inside"):
             scene[layer]
-    except Exception as error:
-        logging.getLogger(__name__).exception("the first scene cannot be computed")
-        outcome = f"the first scene cannot be computed: {error}"
-    else:
         outcome = "ready"
-        warm_all()
+
+    try:
+        warm_all(told, draw)
+    except Exception as error:
+        logging.getLogger(__name__).exception("the kernels cannot all be compiled")
+        if not outcome:
+            outcome = f"the first scene cannot be computed: {error}"
 
 
 def _warm_cycles() -> None:
@@ -94,11 +121,16 @@ def warm_general() -> None:
         scene[layer]
 
 
-def start() -> None:
-    """Begin compiling (or loading from the cache) in a background thread; further calls do nothing."""
+def _warm_general_alone() -> None:
+    with alone():
+        warm_general()
+
+
+def start(told: Told = _nobody) -> None:
+    """Begin compiling (or loading from the cache) in a background thread, see `warm_all`; further calls do nothing."""
     with _lock:
         if constant() not in _threads:
-            _begin(constant(), _first_scene)
+            _begin(constant(), _first_scene, told)
 
 
 def wait() -> None:
@@ -123,7 +155,7 @@ def is_ready(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
     if not outcome and constant() in _threads:
         return False
     typed = None if system is None else system.typed
-    if typed is not None and not _done(GENERAL, warm_general):
+    if typed is not None and not _done(GENERAL, _warm_general_alone):
         return False
     if is_warm(psi, system):
         return True

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import LSODA
 
 from ..layer_problem.hemisphere import flow, outside_flow, scaling_from_disc
 from ..psi.function import Psi
@@ -132,6 +131,8 @@ def _outside(at: AtZ, _: Psi, start: Array, end: float) -> tuple[Array, Array, A
 
 def _followed(rate: Callable[[float, Array], Array], start: Array, end: float) -> Array:
     """Return the states from T = 0 to `end`, in `STEPS` steps at most: (k, n)."""
+    from scipy.integrate import LSODA  # imported late: it takes longer than all of this package
+
     found = [start[None]]
     solver = LSODA(rate, 0.0, start, end, rtol=RTOL, atol=ATOL)
     while end and solver.status == "running" and len(found) <= STEPS:
