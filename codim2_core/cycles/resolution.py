@@ -253,7 +253,7 @@ def near_fold(q: Array, shift: Array, noise: Array) -> float:
     u, v = q[at] - q[at + 1], q[at + 2] - q[at + 1]
     first, second = -left[at] / u, right[at] / v
     bend, slope = (second - first) / (v - u), (first * v - second * u) / (v - u)
-    turned = np.where(bend == 0.0, 0.0, slope * slope / (4.0 * np.where(bend == 0.0, 1.0, bend)))
+    turned = slope * slope / (4.0 * bend)  # first and second differ, or both were zero, and so the rise
     least = float(abs(shift[at + 1] - turned).min(initial=math.inf))
     flat = np.concatenate([[False], np.abs(shift) <= RISE * noise, [False]]).astype(np.int8)
     edges = np.flatnonzero(np.diff(flat))

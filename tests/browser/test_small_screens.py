@@ -166,7 +166,7 @@ def test_a_pinned_card_leaves_the_picture_to_be_seen_and_the_open_tab_is_in_view
     page.open("?v=1&preset=case3-n3&pinned=Q1&panel=orbits").settle()
     card, picture = (page.find(name).bounding_box() for name in (".card.pinned", ".picture"))
     covered = picture["y"] + picture["height"] - card["y"]
-    assert 0 < card["height"]
+    assert card["height"] > 0
     assert covered <= most * picture["height"]
     assert page.find(".card.pinned").evaluate("(e) => e.scrollWidth <= e.clientWidth + 1")
     tab, strip = page.find("#c2-tab-orbits").bounding_box(), page.find(".tabs").bounding_box()

@@ -77,6 +77,11 @@ def test_case_III_stable_focus_and_node_have_no_cycle(n):
     assert found.reason.startswith("No limit cycle")
 
 
+def test_without_slow_variables_there_is_no_slow_flow():
+    (cycle,) = limit_cycles(ELinear(172.0, 186.0, -200.0, (-86.0, -93.0)), psi.hill(3))
+    assert cycle.slow_flow.shape == (0,)
+
+
 def test_case_III_hopf_is_supercritical():
     assert abs(critical_sets(CASE_III, psi.hill(HOPF))[0].trace) < 1e-12 * 200
     assert len(limit_cycles(CASE_III, psi.hill(HOPF - 1e-3))) == 0

@@ -84,6 +84,13 @@ def test_loops_do_not_know_the_unit_of_time(plane, time):
 
 
 @EVERY
+def test_the_gap_is_exact_to_nine_digits(plane):
+    at = made(plane)
+    (loop,) = loops(at)
+    assert gap(at, PSI, loop) == pytest.approx(gap(at, PSI, loop, rtol=1e-13), rel=1e-9)
+
+
+@EVERY
 def test_against_time_ends_change_places_and_the_gap_its_sign(plane):
     for one in (plane, mirrored(plane)):
         forward, backward = made(one), made(one, -1.0)

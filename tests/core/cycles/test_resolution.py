@@ -91,6 +91,12 @@ def test_what_samples_do_and_do_not_show():
     assert unresolved(q, few, none) == [12, 13]
 
 
+def test_five_samples_of_a_run_are_enough_and_four_show_nothing():
+    q = np.linspace(0.0, 1.0, 5)
+    assert unresolved(q, 1.0 + q, np.full(5, 1e-9)) == []
+    assert unresolved(q[:4], 1.0 + q[:4], np.full(4, 1e-9)) == [0, 1, 2]
+
+
 def test_a_dip_of_few_samples_is_looked_into_on_both_sides():
     q = np.arange(12.0)
     shift = np.ones(12)
@@ -229,6 +235,15 @@ def test_how_near_a_fold_is_the_height_of_a_parabola(centre, height, bend, sign)
     assert near_fold(-UNEVEN[::-1], shift[::-1], np.zeros(8)) == pytest.approx(abs(height), rel=1e-9, abs=1e-12)
     broken = np.where(np.abs(UNEVEN - centre) < 0.45, np.nan, shift)
     assert near_fold(UNEVEN, broken, np.zeros(8)) == math.inf  # its vertex is not seen
+
+
+@pytest.mark.parametrize("bend", [1.0, -1.0, 2.0])
+def test_how_near_a_fold_is_whatever_its_bend(bend):
+    q = np.arange(-3.0, 4.0) + 0.25
+    shift = bend * (q**2 + 0.125)
+    assert near_fold(q, shift, np.full(len(q), 1e-9)) == pytest.approx(0.125 * abs(bend), rel=1e-12)
+    jagged = np.array([4.0, 1.0, 2.0, 2.0, 3.0, 5.0, 8.0])  # a level piece beside a rise is none
+    assert near_fold(q, jagged, np.full(len(q), 1e-9)) == pytest.approx(0.875)
 
 
 def test_without_an_extremum_there_is_no_fold_near():
