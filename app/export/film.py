@@ -56,17 +56,18 @@ def film(
     if not 2 <= positions <= MOST_POSITIONS:
         raise ValueError(f"{positions} positions given; allowed is 2 to {MOST_POSITIONS}.")
     drawn: list[bytes] = []
-    places = _places(view, slider, positions)
     for i in range(positions):
-        drawn.append(picture(view, slider, places[i], style))
+        drawn += pictures(view, slider, style, positions, i, i + 1)
         if progress is not None:
             progress(i + 1, positions)
     return joined(drawn, kind)
 
 
-def _places(view: View, slider: str, positions: int) -> list[float]:
+def pictures(view: View, slider: str, style: Style, positions: int, first: int, last: int) -> list[bytes]:
+    """Return the pictures of a film from one position on and up to another, as PNG: a film can be drawn in parts."""
     chosen = Slider.of(view, slider)
-    return chosen.values(positions, view.number(chosen.name))
+    places = chosen.values(positions, view.number(chosen.name))
+    return [picture(view, slider, value, style) for value in places[first:last]]
 
 
 def picture(view: View, slider: str, value: float, style: Style = STYLE) -> bytes:

@@ -7,12 +7,18 @@ lines and letters of a PDF as such. It is an extra: whoever hosts pages needs no
 from __future__ import annotations
 
 from functools import cache
+from importlib.util import find_spec
 from typing import Any
 
 MISSING = "PNG and PDF are made by Typst, which is missing: pip install 'codim2[figures]', or ask for SVG."
 PAGE = b'#set page(width: auto, height: auto, margin: 0pt)\n#image("figure.svg")\n'
 #: Dots per inch of a PNG at scale 1, as a screen has them; largest scale.
 DPI, MOST = 96, 12.0
+
+
+def there() -> bool:
+    """Whether Typst is installed."""
+    return find_spec("typst") is not None
 
 
 def png(svg: str, scale: float = 3.0) -> bytes:

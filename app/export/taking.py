@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
 
@@ -13,6 +13,7 @@ from ..frame.window import Window
 from ..state.chosen import System_
 from .figure import THEMES, Style, figure
 from .files import DATA
+from .film import STYLE, film
 from .live import MOST_SLIDERS, live
 from .view import WHOLE, View
 
@@ -23,6 +24,7 @@ TYPES: Mapping[str, str] = MappingProxyType(
     {
         "svg": "image/svg+xml", "zip": "application/zip", "json": "application/json",
         "npz": "application/octet-stream", "py": "text/x-python", "tex": "text/x-tex", "html": "text/html",
+        "gif": "image/gif",
     }
 )  # fmt: skip
 LONGEST = 80  # characters of a slider
@@ -39,12 +41,22 @@ class Wish:
     style : Style
         Of a figure.
     sliders : tuple of str
-        Of a live file.
+        Of a live file; the first of a film.
     """
 
     kind: str
     style: Style = field(default_factory=Style)
     sliders: tuple[str, ...] = ()
+
+    @property
+    def slider(self) -> str:
+        """The one of a film."""
+        return self.sliders[0] if self.sliders else ""
+
+    @property
+    def moving(self) -> Style:
+        """How a film looks."""
+        return replace(STYLE, theme=self.style.theme)
 
     @classmethod
     def read(cls, request: Any) -> Wish:
@@ -89,9 +101,15 @@ def taken(view: View, wish: Wish) -> tuple[str, bytes]:
     make: Callable[[View], bytes] = {
         "svg": lambda one: figure(one, wish.style).encode(),
         "html": lambda one: live(one, wish.sliders),
+        "gif": lambda one: film(one, wish.slider, style=wish.moving),
     }.get(wish.kind) or DATA[f".{wish.kind}"]
     made = make(view)
     if len(made) > MOST:
         raise ValueError(TOO_LARGE.format(round(len(made) / 1e6)))
+    return named(view, wish), made
+
+
+def named(view: View, wish: Wish) -> str:
+    """Return the name of a file."""
     name = view.values["preset"] or view.scene()["classification"].name.lower() or "view"
-    return f"codim2-{name}.{wish.kind}", made
+    return f"codim2-{name}.{wish.kind}"

@@ -226,7 +226,7 @@ function wire({model, view, root, plot}) {
     new Help(root, find("dialog.helping"))
     const whole = {...config, look: {embed: false, controls: []}}
     const query = () => writeLink(values, picture.window && picture.seen, whole)
-    const share = new Share(find("dialog.sharing"), query, config.link.version, (box) => takes.open(box, {theme: () => root.classList.contains("dark") ? "dark" : "light", sliders: () => slidersOf(root)}))
+    const share = new Share(find("dialog.sharing"), query, config.link.version, (box) => takes.open(box, {theme: () => root.classList.contains("dark") ? "dark" : "light", sliders: () => slidersOf(root), film: config.film}))
     find(".share").addEventListener("click", () => share.open())
     find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
   }

@@ -9,15 +9,15 @@ const MARKUP = `
     <label><input type="checkbox" class="legend-too" checked> legend</label></div>
   <div class="row"><button type="button" data-kind="png">PNG</button><label>at <select class="scale" aria-label="Scale of the PNG"><option value="1">×1</option><option value="2" selected>×2</option><option value="4">×4</option><option value="8">×8</option></select></label><button type="button" data-kind="svg">SVG</button></div>
   <div class="row"><button type="button" data-kind="zip" title="All that is drawn as tables, CSV files in a zip">CSV</button><button type="button" data-kind="json" title="All that is drawn as JSON">JSON</button><button type="button" data-kind="npz" title="All that is drawn as NumPy arrays">NPZ</button><button type="button" data-kind="py" title="Code that rebuilds this view">Python</button><button type="button" data-kind="tex" title="A table of limit directions and critical sets">LaTeX</button></div>
-  <div class="row"><button type="button" data-kind="html" title="One file that moves these sliders with no server">Live file</button><label>moves <select class="first-slider" aria-label="First slider of the live file"></select></label><label>and <select class="second-slider" aria-label="Second slider of the live file"></select></label></div>
-  <p class="note making" role="status"></p>`
+  <div class="row"><button type="button" data-kind="html" title="One file that moves these sliders with no server">Live file</button><button type="button" data-kind="gif" title="A film in which the first of these sliders moves there and back">Film</button><label>moves <select class="first-slider" aria-label="First slider of the live file"></select></label><label>and <select class="second-slider" aria-label="Second slider of the live file"></select></label></div>
+  <p class="note making" role="status"></p><button type="button" class="stop-making" hidden>Stop</button>`
 const PX = 96 / 72 // to a point
 
 /**
  * @param {HTMLElement} box
- * @param {{ask: (wish: any) => Promise<any>, theme: () => string, sliders: () => {name: string, symbol: string, low: number, high: number}[]}} tools
+ * @param {{ask: (wish: any, progress?: (done: number, all: number) => void) => Promise<any>, stop: () => void, film: boolean, theme: () => string, sliders: () => {name: string, symbol: string, low: number, high: number}[]}} tools
  */
-export function menu(box, {ask, theme, sliders}) {
+export function menu(box, {ask, stop, film, theme, sliders}) {
   if (!box.firstElementChild) box.innerHTML = MARKUP
   const find = (name) => /** @type {any} */ (box.querySelector(name))
   const there = sliders()
@@ -28,7 +28,10 @@ export function menu(box, {ask, theme, sliders}) {
     const wanted = chosen || (none ? "" : "f1")
     if ([...list.options].some((option) => option.value === wanted)) list.value = wanted
   }
-  find("[data-kind=html]").disabled = !there.length
+  const moving = ["html", "gif"]
+  for (const kind of moving) find(`[data-kind=${kind}]`).disabled = !there.length
+  find("[data-kind=gif]").hidden = !film
+  find(".stop-making").onclick = stop
   const buttons = /** @type {HTMLButtonElement[]} */ ([...box.querySelectorAll("button[data-kind]")])
   const told = find(".making")
   told.textContent = ""
@@ -37,7 +40,7 @@ export function menu(box, {ask, theme, sliders}) {
   const make = async (kind) => {
     const chosen = [...new Set([find(".first-slider").value, find(".second-slider").value])].filter(Boolean)
     const look = find(".look").value || theme()
-    const answer = await ask({kind: kind === "png" ? "svg" : kind, theme: look, legend: find(".legend-too").checked, sliders: kind === "html" ? chosen.map(ranged) : []})
+    const answer = await ask({kind: kind === "png" ? "svg" : kind, theme: look, legend: find(".legend-too").checked, sliders: moving.includes(kind) ? chosen.map(ranged) : []}, (done, all) => { told.textContent = `Drawing the film: ${done} of ${all} pictures …` })
     if (answer.error) return answer.error
     const {file} = answer
     const blob = new Blob([file instanceof ArrayBuffer ? file : file.buffer ?? file], {type: answer.type})
@@ -48,8 +51,10 @@ export function menu(box, {ask, theme, sliders}) {
     button.onclick = async () => {
       for (const one of buttons) one.disabled = true
       told.textContent = `Making ${button.textContent} …`
+      find(".stop-making").hidden = button.dataset.kind !== "gif"
       try { told.textContent = await make(button.dataset.kind) } catch (error) { told.textContent = `It could not be made: ${error.message}.` }
-      for (const one of buttons) one.disabled = one.dataset.kind === "html" && !there.length
+      find(".stop-making").hidden = true
+      for (const one of buttons) one.disabled = moving.includes(one.dataset.kind ?? "") && !there.length
       button.focus()
     }
   }

@@ -5,28 +5,37 @@ export class Takes {
   constructor(send, shown) {
     this.send = send
     this.shown = shown
-    /** @type {Map<number, (answer: any) => void>} */
+    /** @type {Map<number, {done: (answer: any) => void, progress: (done: number, all: number) => void}>} */
     this.waiting = new Map()
     this.count = 0
   }
 
-  /** Ask for a file; resolves to {name, type, file} or {error}. @param {Record<string, any>} wish @returns {Promise<any>} */
-  ask(wish) {
+  /** Ask for a file; resolves to {name, type, file} or {error}. @param {Record<string, any>} wish @param {(done: number, all: number) => void} [progress] @returns {Promise<any>} */
+  ask(wish, progress = () => {}) {
     const id = ++this.count
-    return new Promise((done) => { this.waiting.set(id, done); this.send({take: {id, ...this.shown(), ...wish}}) })
+    return new Promise((done) => { this.waiting.set(id, {done, progress}); this.send({take: {id, ...this.shown(), ...wish}}) })
+  }
+
+  // The last wish is no longer wanted; its answer says so.
+  stop() {
+    this.send({take: {id: this.count, stop: true}})
   }
 
   // Whether a message was the answer to a wish.
   hear(message) {
     if (!("taken" in message)) return false
-    this.waiting.get(message.taken)?.(message)
-    this.waiting.delete(message.taken)
+    const wish = this.waiting.get(message.taken)
+    if ("done" in message) wish?.progress(message.done, message.all)
+    else {
+      wish?.done(message)
+      this.waiting.delete(message.taken)
+    }
     return true
   }
 
   /** Fill an element with the menu. @param {HTMLElement} box @param {any} tools */
   async open(box, tools) {
     const {menu} = await import(new URL("takeaway.js", location.href).href)
-    menu(box, {ask: (wish) => this.ask(wish), ...tools})
+    menu(box, {ask: (wish, progress) => this.ask(wish, progress), stop: () => this.stop(), ...tools})
   }
 }

@@ -18,6 +18,7 @@ from codim2_core.psi import FAMILIES
 from ..draw.bundle import bundle
 from ..draw.layers import LAYERS, TRACES, looks, swatches, table
 from ..draw.theme import DISCS, HATCHES, RING, VIEW, custom_properties, themes
+from ..export.printing import there
 from ..panels.registry import PANELS
 from ..slow_layers.outcomes import WORDS as OUTCOMES
 from ..state.choices import MAX_TRAJECTORIES, SETTING, SLOW_CONTROLS
@@ -121,6 +122,7 @@ def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | No
         "docs": {name: state.param[name].doc for name in NUMBERS},
         "values": state.values(),
         "locked": list(locked),
+        "film": there(),
         "look": asdict(look or Look()),
     }
 

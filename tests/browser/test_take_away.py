@@ -90,7 +90,7 @@ def test_a_live_file_of_the_page_moves_what_was_chosen(open_page):
     (slider,) = settings["sliders"]
     assert (slider["name"], slider["symbol"]) == ("own:mu", "μ")
     assert themes()["dark"]["page"] in data.decode()
-    for button in page.find(".take button").all():  # all can be reached by a thumb, and none is cut off
+    for button in page.find(".take button:visible").all():  # all can be reached by a thumb, and none is cut off
         button.scroll_into_view_if_needed()
         box = button.bounding_box()
         assert box["x"] >= 0
@@ -107,3 +107,22 @@ def test_what_cannot_be_made_is_told_in_the_menu(open_page):
     told.filter(has_text="no such file").wait_for()
     assert "svg" in told.inner_text()
     assert page.find(".take [data-kind=png]").is_enabled()
+
+
+def test_a_film_tells_how_far_it_is_and_can_be_stopped(open_page):
+    page = opened(open_page().open("?preset=case1-cm4"))
+    page.find(".take .first-slider").select_option("f1")
+    name, data = fetched(page, "gif")
+    film = Image.open(io.BytesIO(data))
+    assert name == "codim2-case1-cm4.gif"
+    assert film.n_frames == 80
+    page.find(".take .first-slider").select_option("f2")
+    stop = page.find(".take .stop-making")
+    assert not stop.is_visible()
+    page.find(".take [data-kind=gif]").click()
+    page.find(".take .making").filter(has_text=re.compile(r"^Drawing the film: \d+ of 41")).wait_for()
+    stop.click()
+    page.find(".take .making").filter(has_text="stopped").wait_for()
+    assert not stop.is_visible()
+    assert fetched(page, "tex")[0] == "codim2-case1-cm4.tex"  # and then the next file comes
+    assert page.complaints == []

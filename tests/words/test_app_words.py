@@ -238,6 +238,7 @@ ELSEWHERE = {
     "stopped": "tests/app/frame/test_turns.py",
     "stopped after": "tests/app/frame/test_workers.py",
     "lost": "tests/app/frame/test_turns.py",
+    "film stopped": "tests/app/view/test_taking.py",
     "compiling": "tests/app/view/test_notebook.py",
     "axis given": "tests/app/panels/parameters/test_axes.py",
 }

@@ -23,6 +23,21 @@ test("a wish is sent with what is seen, and its answer comes back to it", async 
   assert.equal(takes.waiting.size, 0)
 })
 
+test("a film tells how far it is until it is there, and can be stopped", async () => {
+  const sent = [], told = []
+  const takes = new Takes((message) => sent.push(message), () => ({window: null, layers: []}))
+  const film = takes.ask({kind: "gif"}, (...how) => told.push(how))
+  assert.equal(takes.hear({taken: 1, done: 4, all: 41}), true)
+  assert.equal(takes.hear({taken: 1, done: 8, all: 41}), true)
+  takes.stop()
+  assert.deepEqual(sent.at(-1), {take: {id: 1, stop: true}})
+  assert.equal(takes.hear({taken: 1, error: "stopped"}), true)
+  assert.equal(takes.hear({taken: 1, done: 12, all: 41}), true) // what was under way
+  assert.deepEqual(told, [[4, 41], [8, 41]])
+  assert.equal((await film).error, "stopped")
+  assert.equal(takes.waiting.size, 0)
+})
+
 test("the sliders of the present system", () => {
   const slider = (name, more = "") => `<div class="control" data-control="${name}"><label>${name}!</label><input type="range" min="-2" max="3" ${more}></div>`
   const {document} = page(`<div class="codim2"><form class="controls"><fieldset class="normal-only">${slider("f1")}</fieldset>${slider("a", "disabled")}

@@ -2,11 +2,13 @@
 
 import re
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from queue import Queue
 from threading import Event
 
 import pytest
 from codim2_app.draw.theme import themes
+from codim2_app.export import film as films
 from codim2_app.export import taking as made
 from codim2_app.export.figure import Style, figure
 from codim2_app.export.files import DATA
@@ -14,6 +16,7 @@ from codim2_app.export.taking import TYPES, Wish, seen_by, taken
 from codim2_app.export.view import WHOLE, view_of
 from codim2_app.frame.jobs import Jobs
 from codim2_app.state.links import read_link
+from codim2_app.view import taking as takings
 from codim2_app.view.refresh import Frames
 from codim2_app.view.taking import Taking
 
@@ -104,3 +107,47 @@ def test_a_newer_wish_replaces_an_older(executor):
     while answers.empty():
         later.get(timeout=60)()
     assert answers.get()["taken"] == 2
+
+
+FILM = {"id": 3, "kind": "gif", "theme": "dark", "sliders": ["f1=-1,1"]}
+
+
+def conversation(executor, request, stop_after=None):
+    """All answers to the wish for a film; after some of them it is stopped."""
+    frames = Frames(read_link("preset=case1-cm4").state)
+    frames.jobs = Jobs(executor)
+    taking, answers, later = Taking(frames), [], Queue()
+    taking.answer(request, answers.append, later.put)
+    while not answers or "done" in answers[-1]:
+        if len(answers) == stop_after:
+            taking.answer({"id": request["id"], "stop": True}, answers.append, later.put)
+            continue
+        later.get(timeout=60)()
+    while not later.empty():
+        later.get()()
+    return answers
+
+
+def test_a_film_is_drawn_in_parts_and_is_that_of_the_command_line(executor, monkeypatch):
+    monkeypatch.setattr(takings, "POSITIONS", 6)
+    *progress, film = conversation(executor, FILM)
+    assert [(one["taken"], one["done"], one["all"]) for one in progress] == [(3, 4, 6), (3, 6, 6)]
+    assert (film["name"], film["type"]) == ("codim2-case1-cm4.gif", "image/gif")
+    assert film["file"] == films.film(
+        view_of("case1-cm4"), "f1=-1,1", style=replace(films.STYLE, theme="dark"), positions=6
+    )
+
+
+def test_a_film_that_is_stopped_draws_no_more(executor, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(films, "picture", lambda view, slider, value, style: drawn.append(value) or b"")
+    answers = conversation(executor, {**FILM, "sliders": ["f2=-1,1"]}, stop_after=2)
+    assert [set(one) for one in answers] == [{"taken", "done", "all"}] * 2 + [{"taken", "error"}]
+    assert "stopped" in answers[-1]["error"]
+    assert len(drawn) <= 3 * takings.PART
+
+
+@pytest.mark.parametrize("sliders", [[], ["nothing"]])
+def test_a_film_without_a_slider_is_refused(executor, sliders):
+    [answer] = conversation(executor, {**FILM, "sliders": sliders})
+    assert "no slider" in answer["error"]
