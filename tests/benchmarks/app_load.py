@@ -64,12 +64,21 @@ def cpu(pid: int) -> float:
     return total * 1e-9
 
 
+def family(pid: int) -> list[int]:
+    """Return a process and those that it has forked, such as the server processes that share a port."""
+    found = [pid]
+    for one in found:
+        with open(f"/proc/{one}/task/{one}/children") as children:
+            found += [int(child) for child in children.read().split()]
+    return found
+
+
 async def at_rest(pid: int, most: float = 30.0) -> None:
-    """Wait until a server has no work left, such as what its panels compute beside the frames."""
+    """Wait until a server has no work left, such as what it compiles or its panels compute beside the frames."""
     for _ in range(int(2 * most)):
-        before = cpu(pid)
+        before = sum(map(cpu, family(pid)))
         await asyncio.sleep(0.5)
-        if cpu(pid) - before < 0.01:
+        if sum(map(cpu, family(pid))) - before < 0.01:
             return
 
 
@@ -78,7 +87,7 @@ def value(i: float) -> float:
     return -2.0 + 1.2 * np.sin(0.037 * i)
 
 
-async def crowd(port: int, sessions: int) -> list[float]:
+async def crowd(port: int, sessions: int, seconds: float = SECONDS) -> list[float]:
     """Let sessions drag at `RATE`, each with one frame in flight; return the delays from tick to message."""
     wires = [await Wire.connect(port) for _ in range(sessions)]
     delays: list[float] = []
@@ -86,7 +95,7 @@ async def crowd(port: int, sessions: int) -> list[float]:
     async def drag(wire: Wire, which: int) -> None:
         await asyncio.sleep(which / RATE / sessions)
         start, tick = time.perf_counter(), 0
-        while (now := time.perf_counter()) - start < SECONDS:
+        while (now := time.perf_counter()) - start < seconds:
             await wire.frame(tick, a=value(tick + 7.3 * which))
             delays.append(time.perf_counter() - now)
             # a tick that comes while a frame is under way is superseded, as in the browser
@@ -128,7 +137,10 @@ def memory(warm: int = 100, sessions: int = 200) -> tuple[dict[str, float], dict
             for tick in range(3):
                 await wire.frame(tick, a=value(3 * i + tick))
             await wire.close()
-        await asyncio.sleep(3.0)  # until the last one is forgotten
+        for _ in range(60):  # until the last one is forgotten
+            await asyncio.sleep(0.5)
+            if not left(port)["ExplorerView"]:
+                return
 
     with serving("forgetful") as (port, pid):
         asyncio.run(visit(warm))

@@ -9,16 +9,15 @@ from __future__ import annotations
 import os
 import shutil
 import statistics
-import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from playwright.sync_api import Browser, sync_playwright
 
 from ..app.serving import serving
+from .bench_sessions import of
 from .slow_line import slow_line
 
 #: A slider that moves once in each frame of the screen, a tenth of its range to both sides, and what is painted
@@ -113,20 +112,10 @@ def drag(browser: Browser, address: str, case: Case, seconds: float) -> dict[str
 
 
 @contextmanager
-def _of(folder: str) -> Iterator[str]:
+def _served(folder: str) -> Iterator[str]:
     """Serve the package of another clone."""
-    with tempfile.TemporaryDirectory() as path:
-        for package, source in (("codim2_app", "app"), ("codim2_core", "codim2_core")):
-            Path(path, package).symlink_to(Path(folder, source).resolve(), target_is_directory=True)
-        kept = os.environ.get("PYTHONPATH")
-        os.environ["PYTHONPATH"] = path
-        try:
-            with serving() as address:
-                yield address
-        finally:
-            os.environ.pop("PYTHONPATH")
-            if kept is not None:
-                os.environ["PYTHONPATH"] = kept
+    with of(folder), serving() as address:
+        yield address
 
 
 def report(quick: bool = False) -> str:
@@ -141,7 +130,7 @@ def report(quick: bool = False) -> str:
     with ExitStack() as stack:
         pages = {"now": stack.enter_context(serving())}
         if before := os.environ.get("CODIM2_BEFORE"):
-            pages["before"] = stack.enter_context(_of(before))
+            pages["before"] = stack.enter_context(_served(before))
         playwright = stack.enter_context(sync_playwright())
         browser = playwright.chromium.launch(
             executable_path=chromium, args=["--headless=new", "--no-sandbox", "--disable-gpu"]
