@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, psi, sliding_flow, trajectories
+from codim2_core.cycles import limit_cycles as module
 from codim2_core.cycles.limit_cycles import LimitCycles, limit_cycles, reason_for_none
 from codim2_core.cycles.section import COARSE, FINE, Section
 
@@ -174,6 +175,13 @@ def test_reasons():
     assert "f = 0" in reason(1, 3, -2, 0, 0)
     assert "reversible" in reason(1, 3, -1, 0.5, -0.5)
     assert "isolated" in reason(1, 1, -1, 1, 1)
+
+
+def test_a_location_that_is_known_is_not_asked_for_again(monkeypatch):
+    at = ELinear(1.0, 3.0, -2.0, (30.0, 4.0)).at()
+    known, reason = module.locate(at), module.reason_for_none(at, ())
+    monkeypatch.setattr(module, "locate", lambda _: pytest.fail("it is known"))
+    assert module.reason_for_none(at, (), known) == reason
 
 
 @pytest.mark.parametrize(

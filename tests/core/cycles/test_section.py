@@ -1,6 +1,7 @@
 """Sections and their return maps: geometry by its definition, maps where x2' = A x2 is solved in closed form."""
 
 import math
+from fractions import Fraction
 from types import SimpleNamespace
 
 import numpy as np
@@ -271,3 +272,20 @@ def test_a_section_needs_a_critical_set():
     inside = c2.critical_sets(c2.ELinear(1.0, 3.0, -2.0, (0.4, 0.3)), PSIS[0])[0]
     with pytest.raises(ValueError, match="no critical set"):
         Section(at, PSIS[0], inside)
+
+
+@pytest.mark.parametrize("far", [1.0, 1e3, 1e6])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_the_reach_of_a_ray_has_all_digits_however_near_the_equator_its_foot_is(far, side):
+    """|p + r u| = 1 for r = gap/(root + along) = root - along: one of them cancels."""
+    at, psi = c2.ELinear(-1.0, 0.0, -2.0, (0.1, 0.0)).at(), c2.psi.rational()
+    u = np.array([math.cos(math.pi / 32), math.sin(math.pi / 32)])  # the first of its directions
+    x2 = side * far * u
+    foot = SimpleNamespace(x2=x2, p=x2 / math.hypot(1.0, far))
+    own = TurnSection(at, psi, foot, (foot,))
+    assert own.u == pytest.approx(u, abs=1e-15)
+    gap = Fraction(1) / (1 + Fraction(far) ** 2)
+    along = side * math.sqrt(1 - gap)
+    root = math.sqrt(along * along + float(gap))
+    assert own.reach == pytest.approx(float(gap) / (root + along) if side > 0.0 else root - along, rel=1e-12)
+    assert own.other == pytest.approx(float(gap) / own.reach, rel=1e-12)
