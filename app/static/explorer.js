@@ -152,6 +152,7 @@ function wire({model, view, root, plot}) {
   const tell = () => {
     const p = config.presets[values.preset], whole = {...config.defaults, ...p?.values}
     const same = config.setting.every((name) => JSON.stringify(values[name]) === JSON.stringify(whole[name]))
+    if (portrait) portrait.title = p?.title ?? ""
     put(words, formula(!p ? (same && config.page ? config.opening : "") : same ? `${p.label}. ${p.note}` : `changed from ${p.label}`))
   }
   portrait?.addEventListener("change", () => open(config.presets[portrait.value]?.values))
