@@ -11,8 +11,10 @@ import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 from ..docs import place
+from .cluster import ClusterError, cluster
 from .commands import add_census, add_classify, add_docs, add_notebooks, add_presets
 from .logs import log_to_stderr
 from .settings import add_settings
@@ -70,9 +72,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         print(f"codim2: cannot listen on {chosen.address}:{chosen.port}: {error.strerror}. Give another --port.")
         return 1
+    if chosen.dask and chosen.processes > 1:
+        print("codim2: --dask goes with one process; give no --processes.")
+        return 1
     stop_when_asked()
     try:
         _serve(chosen)
+    except ClusterError as error:
+        print(f"codim2: {error}")
+        return 1
     except KeyboardInterrupt:
         print("codim2: stopped", flush=True)
         os._exit(0)  # workers end with their server, and there is nothing to save: an orderly exit waits for both
@@ -113,6 +121,9 @@ def _serve(chosen: argparse.Namespace) -> None:
         print(f"codim2: {uncached}", file=sys.stderr, flush=True)
     from .page import make_server
 
+    long: dict[str, Any] = {}
+    if chosen.dask:
+        long["executor"], long["at_once"] = cluster(chosen.dask)
     server = make_server(
         chosen.port,
         chosen.address,
@@ -123,6 +134,7 @@ def _serve(chosen: argparse.Namespace) -> None:
         frame_ancestors=chosen.frame_ancestors,
         sessions=chosen.sessions,
         told=_say_if_compiled,
+        **long,
     )
     everybody = chosen.address in ("0.0.0.0", "::")
     host = "localhost" if everybody else chosen.address

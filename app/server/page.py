@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import os
 from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
 from functools import partial
 from importlib.metadata import version
 from typing import Any
@@ -122,6 +123,8 @@ def make_server(
     frame_ancestors: str = "'self'",
     sessions: int = 400,
     told: warmup.Told | None = None,
+    executor: Executor | None = None,
+    at_once: int = 1,
     **options: Any,
 ) -> Any:
     """Return a server of the explorer, not yet started (``.start()``, ``.io_loop.start()``).
@@ -146,9 +149,13 @@ def make_server(
         Open pages of a process, beyond which a new one is asked to wait.
     told : callable, optional
         Told what has been compiled, see `warmup.warm_all`.
+    executor : Executor, optional
+        Does the long work in place of `workers`, `at_once` at a time; with one process only, as it cannot be forked.
     """
-    count = workers or max(1, processors() // processes)
-    serve_with(Turns(Workers(count, preload=PRELOAD, first=warmup.wait), count))
+    if executor is None:
+        at_once = workers or max(1, processors() // processes)
+        executor = Workers(at_once, preload=PRELOAD, first=warmup.wait)
+    serve_with(Turns(executor, at_once))
     warmup_now = processes == 1
     begin = warmup.start if told is None else partial(warmup.start, told)
     if warmup_now:

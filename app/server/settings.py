@@ -55,6 +55,7 @@ SETTINGS = (
     Setting("frame-ancestors", "'self'", "who may embed the pages, as in Content-Security-Policy", str, "SOURCES"),
     Setting("processes", 1, "server processes that share the port", int, "N"),
     Setting("workers", 0, "processes for long work, of each of these; 0 shares the processors", int, "N"),
+    Setting("dask", "", "the scheduler of a Dask cluster that does the long work in place of these", str, "ADDRESS"),
     Setting("sessions", 400, "open pages of a server process, beyond which a new one is asked to wait", int, "N"),
     Setting("lessons", None, "a folder with lessons of your own, offered after the course", Path, "DIR"),
     Setting("docs", None, "a folder with the site that `codim2 docs DIR` built; else the package's own", Path, "DIR"),
