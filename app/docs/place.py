@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-#: Beside the package's own text, so that an image or a wheel with a built site needs no setting.
+#: Beside the package's own text: what is built there is served without a setting.
 OWN = Path(__file__).parent / "site"
 
 _offered: list[Path] = []
