@@ -27,7 +27,7 @@ from ..view.explorer import ExplorerView
 from ..view.markup import address_of_script, page_template
 from .first_page import Page, markup_of, opening
 from .headers import transform
-from .qr import QrCode
+from .ports import listen_by_own, shared
 from .scripts import routes
 from .sockets import MOST_SENT, PromptSocket, untraced, views
 
@@ -161,7 +161,9 @@ def make_server(
     if warmup_now:
         begin()
     parent = os.getpid()
-    server = _server(port, address, allow_origin, processes, prefix, options)
+    with shared(processes):
+        server = _server(port, address, allow_origin, processes, prefix, options)
+    listen_by_own(server, address)
     application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
     application.add_handlers(".*", routes(server.prefix))
     take_over(application)
@@ -209,7 +211,6 @@ def _server(
         extra_patterns=[
             (r"/health", Health),
             (r"/ready", Ready),
-            (r"/qr.svg", QrCode),
             (r"/docs", ToDocs),
             (r"/docs/(.*)", Docs),
         ],

@@ -1,21 +1,24 @@
-"""The scripts that a page asks for: the explorer's own, and those of Bokeh and Panel, each compressed once for all."""
+"""What a page asks for besides: scripts, each compressed once for all visitors, and links as QR codes."""
 
 from __future__ import annotations
 
 import gzip
+import io
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
+import segno
 from bokeh.embed.bundle import extension_dirs
 from bokeh.server.views.multi_root_static_handler import MultiRootStaticHandler
 from bokeh.server.views.static_handler import StaticHandler
-from tornado.web import RequestHandler, StaticFileHandler
+from tornado.web import HTTPError, RequestHandler, StaticFileHandler
 
 from ..draw.bundle import bundle
 from ..view.markup import STATIC, script
 
 YEAR = 365 * 86400  # seconds
+LONGEST = 2000  # bytes; beyond it phones no longer read the code from a beamer
 
 
 @cache
@@ -91,11 +94,27 @@ class ExtensionScript(_Packed, MultiRootStaticHandler):
     """One of Panel's files."""
 
 
+class QrCode(RequestHandler):
+    """Answers ``qr.svg?text=...`` with the text as a QR code: dark squares on white, in either theme."""
+
+    def get(self) -> None:
+        """Send the code; 400 if the text is empty or too long for a phone to read."""
+        text = self.get_query_argument("text", "")
+        if not 0 < len(text.encode()) <= LONGEST:
+            raise HTTPError(400, reason="give a text of 1 to 2000 bytes")
+        picture = io.BytesIO()
+        segno.make_qr(text, error="l").save(picture, kind="svg", border=3, light="#fff", xmldecl=False, omitsize=True)
+        self.set_header("Content-Type", "image/svg+xml")
+        self.set_header("Cache-Control", "private, max-age=3600")
+        self.finish(picture.getvalue())
+
+
 def routes(prefix: str) -> list[tuple[Any, ...]]:
     """Return what is answered here, to be asked before Bokeh's own routes."""
     own = "|".join(name.replace(".", r"\.") for name in SCRIPTS)
     return [
         (rf"{prefix}/({own})", Script),
+        (rf"{prefix}/qr\.svg", QrCode),
         (rf"{prefix}/static/extensions/(.*\.js)", ExtensionScript, {"root": extension_dirs}),
         (rf"{prefix}/static/(js/.*\.js)", BokehScript),
     ]

@@ -1,0 +1,50 @@
+"""One port for several server processes: each listens by a socket of its own, and the kernel shares visitors out.
+
+By one socket for all, nearly every visitor came to the process that had just been awake, and the others idled.
+"""
+
+from __future__ import annotations
+
+import socket
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from bokeh.server import server
+from tornado.netutil import bind_sockets
+from tornado.process import task_id
+
+bokeh_server: Any = server  # it says of no name that it may be replaced
+#: Elsewhere such sockets cannot be, or all visitors come to the last of them.
+SHARED = sys.platform == "linux" and hasattr(socket, "SO_REUSEPORT")
+
+
+def _bound(address: str | None, port: int) -> tuple[list[socket.socket], int]:
+    sockets = bind_sockets(port or 0, address, reuse_port=True)
+    return sockets, sockets[0].getsockname()[1]
+
+
+@contextmanager
+def shared(processes: int) -> Iterator[None]:
+    """Let a server of several processes that is made meanwhile bind a port that each of them can bind again."""
+    kept = bokeh_server.bind_sockets
+    if processes > 1 and SHARED:
+        bokeh_server.bind_sockets = _bound
+    try:
+        yield
+    finally:
+        bokeh_server.bind_sockets = kept
+
+
+def listen_by_own(one: Any, address: str) -> None:
+    """In each forked process but the first, which keeps the socket that all have inherited: listen by another one.
+
+    The process from which they are forked has that socket too and never answers: without the first it would be waited
+    for.
+    """
+    if not SHARED or not task_id():
+        return
+    http = one._http  # noqa: SLF001 (Bokeh hands out no other way to it)
+    http.stop()
+    http.add_sockets(bind_sockets(one.port, address, reuse_port=True))
