@@ -27,8 +27,7 @@ from .places import Ascent
 from .result import Phase
 from .slide import slide
 from .slide_on_cycle import slide_on_cycle
-from .slip import leave, slip
-from .slip_compiled import CompiledSlip
+from .slip import CompiledSlip, leave, slip
 
 Array = NDArray[np.float64]
 

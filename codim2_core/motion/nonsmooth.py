@@ -20,7 +20,7 @@ from ..systems.kinds import AnySystem
 from .course import AtEventError, Course, StopError
 from .regularised import MAX_STEPS, checked_span, checked_state, checked_tolerances, count_steps, waited_for
 from .result import Simulation, SimulationStatus, simulation
-from .slip_compiled import CompiledSlip
+from .slip import CompiledSlip
 
 __all__ = ["simulate_nonsmooth"]
 

@@ -8,6 +8,7 @@ the way is straight to within rounding, and the time of arrival is known to that
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,8 +18,8 @@ from ..initial_value.field import Field
 from ..initial_value.line import Line
 from ..numerics.growth import bounded
 from ..numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
+from ..psi.constructors import constant
 from ..words import say
-from .slip_compiled import CompiledSlip
 
 Array = NDArray[np.float64]
 
@@ -193,3 +194,45 @@ def _polished(field: Field, theta: float, slow: list[float]) -> float:
             return theta
         angle -= change
     return angle
+
+
+@dataclass
+class CompiledSlip:
+    """Steps to Sigma, compiled: for systems whose formulas are compiled already or are long asked for.
+
+    Attributes
+    ----------
+    problem : Problem
+        The same in Python.
+    field : Field
+    line : Line or None
+    rtol, floor : float
+        As in `initial_value.compiled.Compiled`.
+    evaluations : int
+        Of the field, so far.
+    """
+
+    problem: Problem
+    field: Field
+    line: Line | None
+    rtol: float
+    floor: float
+    evaluations: int = 0
+
+    def steps(self, t: float, t_end: float, state: Array, h: float, most: int, farthest: float) -> Iterator[Step]:
+        """Step until the motion is as close to Sigma as `slip` asks for, or to t_end.
+
+        Raises
+        ------
+        BlowUpError, TooManyStepsError
+            As `bounded` does.
+        """
+        from ..initial_value.compiled import Compiled  # loads the compiler
+
+        own = (self.problem, self.field, constant(), 0.0, self.line)
+        motion = Compiled(*own, t, t_end, state, self.rtol, self.floor, h, most, farthest)
+        try:
+            for part in motion.chunks():
+                yield from part
+        finally:
+            self.evaluations += motion.evaluations
