@@ -30,11 +30,12 @@ def serving(*options, command=("-m", "codim2_app.server.cli"), environment=os.en
         while said and "http://" not in said:  # what it says before
             said = process.stdout.readline()
         assert "http://" in said, said + process.stdout.read()
-        address = Address("http://" + said.split("http://")[1].split("/")[0])
+        shown = said.split("http://")[1].split()[0].rstrip("/")  # with its prefix
+        address = Address("http://" + shown.split("/")[0])
         address.pid = process.pid
         for _ in range(600):
             try:
-                with urlopen(address + "/ready", timeout=5) as answer:
+                with urlopen(f"http://{shown}/ready", timeout=5) as answer:
                     if b'"ready"' in answer.read():
                         break
             except OSError:  # not yet, or 503: not ready

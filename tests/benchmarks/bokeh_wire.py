@@ -30,14 +30,16 @@ class Wire:
         self.document: dict[str, Any] = {}
 
     @classmethod
-    async def connect(cls, port: int, query: str = "", page: str | None = None) -> Wire:
+    async def connect(cls, port: int, query: str = "", page: str | None = None, prefix: str = "") -> Wire:
         """Open a page (or use its text, fetched before) and the session behind it."""
         if page is None:
-            with urlopen(f"http://localhost:{port}/{query}") as answer:
+            with urlopen(f"http://localhost:{port}{prefix}/{query}") as answer:
                 page = answer.read().decode()
         token = re.search(r'"token":"([^"]+)"', page)
         assert token is not None
-        request = HTTPRequest(f"ws://localhost:{port}/ws", headers={"Sec-WebSocket-Protocol": f"bokeh, {token[1]}"})
+        request = HTTPRequest(
+            f"ws://localhost:{port}{prefix}/ws", headers={"Sec-WebSocket-Protocol": f"bokeh, {token[1]}"}
+        )
         opened = await websocket_connect(request, max_message_size=2**26)
         opened.protocol.stream.set_nodelay(True)  # as browsers do
         wire = cls(opened)

@@ -1,3 +1,5 @@
+import os
+import signal
 import socket
 
 import pytest
@@ -39,3 +41,24 @@ def test_a_lost_connection_is_said_and_the_page_returns_as_it_was(open_page, por
         page.type("a", "-1")
         assert page.frame() > frame
         assert page.find("[data-control=a] .number").input_value() == "-1"
+
+
+def test_a_server_that_stands_still_is_waited_for_and_carries_on(open_page):
+    page = open_page()
+    with serving() as page.address:
+        page.open()
+        busy = page.find(".codim2 .busy")
+        frame = page.frame()
+        os.kill(page.address.pid, signal.SIGSTOP)
+        try:
+            box = page.find("[data-control=a] .number")
+            box.fill("-1.5")
+            box.press("Enter")
+            busy.wait_for(state="visible", timeout=2500)  # within 2 s, told when the page next looks
+            assert busy.text_content() == "Waiting for the server …"
+        finally:
+            os.kill(page.address.pid, signal.SIGCONT)
+        busy.wait_for(state="hidden")
+        page.settle()
+        assert page.frame() > frame
+        assert box.input_value() == "-1.5"

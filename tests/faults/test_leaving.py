@@ -86,7 +86,7 @@ def test_a_thousand_visits_hold_no_more_than_a_hundred():
         for i in range(first, first + count):
             wire = await Wire.connect(port)
             await wire.frame(1, a=app_load.value(i))
-            if i % 25 == 0:
+            if i % 100 == 0:
                 await wire.frame(2, psi="custom", psi_text=f"1+s/{1 + i}")
             await wire.vanish()
         await asyncio.sleep(4.0)  # until the last one is forgotten

@@ -222,3 +222,21 @@ def test_without_a_skeleton_pages_come_with_a_session_and_their_messages_in_part
 def test_hashes_are_of_scripts_that_run():
     page = b'<script src="a.js"></script><script type="application/json">{}</script><script>f()</script>'
     assert policy(page).count("sha256-") == 1
+
+
+def test_below_a_prefix_page_scripts_and_websocket_are_there():
+    with serving("--prefix", "/explorer") as address:
+        page, _ = opened(f"{address}/explorer/?a=-1")
+        files = re.findall(r'src="([^"]+)"', page)
+        assert files
+        for file in files:
+            assert opened(f"{address}{file}" if file.startswith("/") else f"{address}/explorer/{file}")[0]
+
+        async def talk():
+            wire = await Wire.connect(address.port, page=page, prefix="/explorer")
+            header, _ = unpack(await wire.frame(1))
+            await wire.close()
+            return header
+
+        with ThreadPoolExecutor(1) as pool:
+            assert pool.submit(asyncio.run, talk()).result()["id"] == 1
