@@ -41,7 +41,9 @@ TABLES = {
     "census": "A census of portraits", "cycles": "Case III and its cycles",
     "compiled": "Motions against SciPy with a compiled right-hand side",
 }  # fmt: skip
-ON_PAGE = ("trajectories", "scene", "general", "app", "equator", "census")
+ON_PAGE = (
+    "trajectories", "scene", "general", "app", "browser", "page", "start", "sessions", "equator", "census",
+)  # fmt: skip
 # Titles of the plots of the second picture, by their beginnings.
 OTHERS = (
     "limit directions: wrong",
