@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ..docs import place
-from .cluster import ClusterError, cluster
+from ..frame.cluster import ClusterError, cluster
 from .commands import add_census, add_classify, add_docs, add_notebooks, add_presets
 from .logs import log_to_stderr
 from .settings import add_settings
