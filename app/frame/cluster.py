@@ -26,7 +26,7 @@ def cluster(address: str) -> tuple[Executor, int]:
         Dask is not installed, or no scheduler answers.
     """
     try:
-        from distributed import Client
+        from distributed import Client  # pyright: ignore[reportMissingImports] (extra dask)
     except ImportError:
         raise ClusterError("--dask needs Dask: install codim2[dask].") from None
     try:
