@@ -180,7 +180,7 @@ def _declared(text: str) -> tuple[dict[str, tuple[float, float, float]], str]:
             continue
         value, low, high = (float(number.replace("−", "-")) for number in match.groups()[1:])
         if not low <= value <= high or low == high:
-            raise TextError("where", f"{line.strip()[:60]}: give a range [low, high] that holds the value.")
+            raise TextError("where", f"'{line.strip()[:60]}': give a range [low, high] that holds the value.")
         found[match[1]] = value, low, high
     return found, "\n".join(rest)
 

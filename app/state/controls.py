@@ -302,7 +302,7 @@ def _ranges(label: str | None, value: Any) -> dict[str, list[float]]:
             raise InputError("ranges", f"{label}: {key}: give two numbers, [low, high].")
         low, high = (_finite("ranges", f"{label}: {key}", end) for end in ends)
         if not low < high or math.isinf(high - low):
-            raise InputError("ranges", f"{label}: {key}: [{low:g}, {high:g}] given; give [low, high] with low < high.")
+            raise InputError("ranges", f"{label}: {key}: {low:g} to {high:g} given; give [low, high] with low < high.")
         found[key] = [low, high]
     return found
 

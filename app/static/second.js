@@ -63,7 +63,12 @@ export class Second {
   find(name) { return this.box.querySelector(name) }
   get own() { return readOwn(this.page.values.beside, this.config.defaults) }
   keep(own) { this.page.keep(writeOwn(own)); this.sync() }
-  otherPsi() { return {psi: this.page.values.psi === "constant" ? "rational" : "constant", n: this.page.values.n, psi_text: this.page.values.psi_text} }
+  /** The first of the list of Psi that is not chosen. */
+  otherPsi() {
+    const {psi, n, psi_text} = this.page.values
+    const [other] = [...this.root.querySelector("#c2-psi").options].map((option) => option.value).filter((name) => name !== psi)
+    return {psi: other, n, psi_text}
+  }
   whole(values) { return Object.fromEntries(this.config.setting.map((name) => [name, values[name]])) }
 
   // What can be shared or not: [names, words].

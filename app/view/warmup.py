@@ -40,7 +40,7 @@ def _steps() -> list[tuple[str, Callable[[], object]]]:
     """Return what is compiled beforehand, by what it is called, in the order in which it is asked for."""
     families = [family for family in FAMILIES.values() if not family.typed]
     first, *others = ((f"trajectories for Ψ = {family.title}", partial(warm, make(family.name))) for family in families)
-    last = [("arrowheads", _warm_arrowheads), (GENERAL, warm_general)]
+    last = [("arrowheads", _warm_arrowheads), (GENERAL, warm_general), ("motions in time", _warm_motions)]
     return [first, ("limit cycles", _warm_cycles), *others, *last]
 
 
@@ -119,6 +119,15 @@ def warm_general() -> None:
     scene = Scene(example.system, example.psi, example.z)
     for layer in ("equator", "critical", "nullclines_inside", "nullclines_outside", "cycles", "separatrices"):
         scene[layer]
+
+
+def _warm_motions() -> None:
+    """Compile, or load, what follows motions for eps > 0: once for all systems, but for their formulas."""
+    from codim2_core.motion.regularised import simulate  # late: it brings SciPy along
+
+    example = presets["nonunique-sliding"]
+    several = [(0.02, 0.01, 0.1)] * 8  # so many are compiled at once
+    simulate(example.system, example.psi, 0.01, several, (0.0, 0.2))
 
 
 def _warm_general_alone() -> None:

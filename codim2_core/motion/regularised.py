@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 from functools import partial
 from importlib.util import resolve_name
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, NoReturn, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -216,7 +216,7 @@ def _compiled(
     for one, line, first in zip(found, lines, states, strict=True):
         status, detail = SimulationStatus.T_END, ""
         if one.code == UNDEFINED:
-            raise undefined(formulas, psi, eps, first)
+            _refuse(plane_problem(formulas, psi, eps, 1.0, 1.0).F(first), first)
         if one.code:
             problem = plane_problem(formulas, psi, eps, rtol, atol, None if line is None else line.vector)
             error = failure(problem, one.code, one.t, one.motion.states[-1])
@@ -227,10 +227,9 @@ def _compiled(
     return tuple(runs)
 
 
-def undefined(formulas: Field, psi: Psi, eps: float, first: Array) -> ValueError:
+def _refuse(rate: Array, first: Array) -> NoReturn:
     """Say that the rate is not finite where a motion begins."""
-    rate = plane_problem(formulas, psi, eps, 1.0, 1.0).F(first)
-    return ValueError(f"(U, W) is {rate.tolist()} at state0 = {first.tolist()}; it must be finite there.")
+    raise ValueError(f"(U, W) is {rate.tolist()} at state0 = {first.tolist()}; it must be finite there.")
 
 
 def _counting(problem: Problem, count: list[int]) -> Problem:
@@ -265,7 +264,7 @@ def _followed(
     problem = _counting(problem, count)
     rate = problem.F(first)
     if not np.isfinite(rate).all():
-        raise undefined(formulas, psi, eps, first)
+        _refuse(rate, first)
     taken: list[Step] = []
     parts: list[Steps] = []
     t, state, h = span[0], first, first_step(problem, first, rate)

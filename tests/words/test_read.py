@@ -25,6 +25,7 @@ ASIDE = {
     "view/glossary.py": "the glossary, held in tests/browser/test_explorer.py",
     "panels": "tooltips of tabs",
     "export": "legends of figures, held in tests/app/export",
+    "docs": "pages of the site, held in tests/app/docs",
 }
 SWAPS = (
     ("stable", "unstable"), ("unstable", "stable"), ("attract", "repel"), ("repel", "attract"), (" no ", " a "),
@@ -50,12 +51,13 @@ def test_a_wrong_word_is_noticed():
 
 
 def docs(tree):
-    """Texts that Panel and param show as tooltips: of a declared control, panel or setting."""
+    """Texts that Panel and param show as tooltips (of a declared control, panel or setting), and those of the log."""
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
     return {
         part.value
         for call in calls
-        if ast.unparse(call.func) in ("Panel", "ClassSelector", "field", "Setting")
+        if (name := ast.unparse(call.func)) in ("Panel", "ClassSelector", "field", "Setting")
+        or name.endswith(".warning")
         for part in ast.walk(call)
         if isinstance(part, ast.Constant) and isinstance(part.value, str)
     }
