@@ -13,8 +13,6 @@ from __future__ import annotations
 
 import os
 import resource
-from collections.abc import Sequence
-from itertools import chain, islice
 from pathlib import Path
 from typing import Any
 
@@ -40,37 +38,12 @@ def marks(folder: str, name: str, costly: frozenset[str]) -> list[str]:
 
 
 def mark(items: list[pytest.Item]) -> None:
-    """Give all tests their marks, and put them into the order in which processes share them."""
+    """Give all tests their marks, and put those in the browser first: they wait, and the others do not."""
     costly = frozenset(COSTLY.read_text().split())
-    kinds: tuple[list[pytest.Item], ...] = ([], [], [])
     for item in items:
-        found = marks(item.path.relative_to(TESTS).parts[0], named(item), costly)
-        for name in found:
+        for name in marks(item.path.relative_to(TESTS).parts[0], named(item), costly):
             item.add_marker(name)
-        kinds[0 if "browser" in found else 1 if named(item) in costly else 2].append(item)
-    items[:] = shared(kinds, int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1")))
-
-
-def shared(kinds: Sequence[list[pytest.Item]], processes: int) -> list[pytest.Item]:
-    """Order tests for processes that begin with equal parts of the list, and then take from the end of another's.
-
-    Each part begins with its share of the browser's tests, which wait while others compute, goes on with costly ones,
-    and ends with what is quick, so that all processes end together. A file of the first two kinds stays in one part.
-    """
-    *first, rest = kinds
-    parts: list[list[pytest.Item]] = [[] for _ in range(processes)]
-    for kind in first:
-        files: dict[Path, list[pytest.Item]] = {}
-        for item in kind:
-            files.setdefault(item.path, []).append(item)
-        for file in sorted(files.values(), key=len, reverse=True):
-            min(parts, key=len).extend(file)
-    left, quick = sum(map(len, kinds)), iter(rest)
-    for i, part in enumerate(parts):
-        size = left // (processes - i)
-        part.extend(islice(quick, max(0, size - len(part))))
-        left -= size
-    return [*chain(*parts), *quick]
+    items.sort(key=lambda item: item.get_closest_marker("browser") is None)
 
 
 def asked_for(config: pytest.Config) -> list[tuple[str, ...]]:

@@ -51,9 +51,7 @@ def test_every_folder_of_slow_tests_is_left_out_unless_it_is_asked_for(tmp_path)
     assert passed("-p", "no:xdist") == 4  # where pytest-xdist is not installed
 
 
-def test_those_in_the_browser_come_first_and_all_else_keeps_its_order(monkeypatch):
-    monkeypatch.delenv("PYTEST_XDIST_WORKER_COUNT", raising=False)
-
+def test_those_in_the_browser_come_first_and_all_else_keeps_its_order():
     class Item:
         def __init__(self, folder, name):
             self.path, self.name, self.found = tiers.TESTS / folder / "test_it.py", name, []
@@ -67,27 +65,6 @@ def test_those_in_the_browser_come_first_and_all_else_keeps_its_order(monkeypatc
     items = [Item(*one) for one in (("app", "a"), ("browser", "z"), ("browser", "b"), ("core", "d"), ("core", "c"))]
     tiers.mark(items)
     assert [item.name for item in items] == ["z", "b", "a", "d", "c"]
-
-
-def test_each_process_begins_in_the_browser_and_ends_with_what_is_quick():
-    class Item:
-        def __init__(self, kind, file):
-            self.kind, self.path = kind, file
-
-    browser = [Item(0, file) for file in "aaaabbcc"]
-    costly = [Item(1, file) for file in "ddde"]
-    quick = [Item(2, "f") for _ in range(13)]
-    found = tiers.shared((browser, costly, quick), 3)
-    assert sorted(map(id, found)) == sorted(map(id, [*browser, *costly, *quick]))
-    parts = found[:8], found[8:16], found[16:]  # as pytest-xdist deals them out
-    for part in parts:
-        kinds = [item.kind for item in part]
-        assert kinds == sorted(kinds)
-        assert {0, 2} <= set(kinds)
-    for file in "abcde":
-        assert sum(any(item.path == file for item in part) for part in parts) == 1
-    assert tiers.shared((browser, costly, quick), 1) == [*browser, *costly, *quick]
-    assert tiers.shared((browser, [], []), 5)[:4] == browser[:4]  # fewer tests than a part holds
 
 
 def test_a_test_named_runs_alone_and_folders_are_shared_among_the_processors(pytestconfig, monkeypatch):
