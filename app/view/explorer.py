@@ -17,6 +17,7 @@ import panel as pn
 import param
 from bokeh.document import Document
 from panel.custom import JSComponent
+from panel.io.save import Comm  # pyright: ignore[reportPrivateImportUsage] (the one that its files are made with)
 from panel.models.esm import DataEvent, ESMEvent
 from panel.viewable import Child
 from param.parameterized import resolve_value
@@ -45,6 +46,11 @@ from .warmup import is_ready
 PATIENCE = 0.25
 
 COMPILING = say("compiling")
+
+
+def _is_static(doc: Any, comm: Any) -> bool:
+    """Whether nothing will answer: a file that is saved (with a comm of no kernel), or a widget."""
+    return getattr(doc, "session_context", None) is None and (comm is None or type(comm) is Comm)
 
 
 class ExplorerView(JSComponent):
@@ -164,16 +170,9 @@ class ExplorerView(JSComponent):
         (A page that one server process wrote and another one answers; reused sessions; notebooks.) The explorer's
         own style sheet is in its markup.
         """
-        static = comm is None and getattr(doc, "session_context", None) is None  # a file that is saved, or a widget
-        if static:
-            self._wait()
-        changed = self._models or self._opened is not self.frames.values
-        if not self.config["page"] and (changed or (static and not self._whole)):
-            # a notebook shows it once more, or after its state was changed: as it is now
-            self.param.update(**self._opening(page=False))
         root = super().get_root(doc, comm, preprocess)
         # A bundle is run as it is; else the browser would compile the script, which it reads, for 130 ms.
-        if self.config["page"] and not static:
+        if self.config["page"] and not _is_static(doc, comm):
             root.update(bundle="url", esm=address_of_script())
         else:
             root.update(bundle=digest())
@@ -182,6 +181,17 @@ class ExplorerView(JSComponent):
             if sheets:
                 model.update(stylesheets=[sheet for sheet in sheets if isinstance(sheet, str)])
         return root
+
+    def _get_model(self, doc: Any, root: Any = None, parent: Any = None, comm: Any = None) -> Any:
+        """Return the Bokeh model, also within a layout: of a file the finished picture, and of what is now."""
+        static = _is_static(doc, comm)
+        if static:
+            self._wait()
+        changed = self._models or self._opened is not self.frames.values
+        if not self.config["page"] and (changed or (static and not self._whole)):
+            # a notebook shows it once more, or after its state was changed: as it is now
+            self.param.update(**self._opening(page=False))
+        return super()._get_model(doc, root, parent, comm)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
         """Return what a notebook's cell shows."""

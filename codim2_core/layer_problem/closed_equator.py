@@ -96,15 +96,19 @@ def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
         return None
     exponent = math.frexp(max(abs(a), abs(b), abs(d), abs(f1), abs(f2)))[1]
     a, b, d, f1, f2 = (math.ldexp(v, -exponent) for v in (a, b, d, f1, f2))
+    if b == 0.0:  # below 1e-308 of a and d, which then differ by less: one turn takes for ever
+        return EquatorCycle(1 if q.b > 0.0 else -1, math.inf, math.copysign(math.inf, a + d), False)
     if math.hypot(f1, f2) + 0.5 * abs(d - a) <= 0.5 * abs(b):
-        g0, g2 = _mean_rule(b, f2, f1, a, d)
+        unit = abs(b)  # of time: its inverse may be beyond all doubles
+        g0, g2 = _mean_rule(f2 / b, f1 / b, (d - a) / b)
     else:
+        unit = 1.0
         g0, g2 = _fourier_of_reciprocal(b, f2, f1, a, d, zeros.distance)
     cos2, sin2 = 0.5 * (g0 + g2), 0.5 * (g0 - g2)
     value = d * cos2 + a * sin2
     neutral = abs(value) <= NEUTRAL_EQUATOR * (abs(a) + abs(d)) * g0
-    period = math.ldexp(g0, -exponent)
-    return EquatorCycle(1 if b > 0.0 else -1, period, 0.0 if neutral else value, neutral)
+    period = g0 / unit / math.ldexp(1.0, exponent)
+    return EquatorCycle(1 if b > 0.0 else -1, period, 0.0 if neutral else value / unit, neutral)
 
 
 _TURN = np.arange(72) * (2.0 * math.pi / 72.0)
@@ -112,13 +116,13 @@ _COS, _SIN = np.cos(_TURN), np.sin(_TURN)
 _SIN2, _COS2 = np.sin(2.0 * _TURN), np.cos(2.0 * _TURN)
 
 
-def _mean_rule(b: float, f2: float, f1: float, a: float, d: float) -> tuple[float, float]:
-    """Integrate as `_fourier_of_reciprocal`, by the mean over 72 directions, where Theta is within half of b.
+def _mean_rule(f2: float, f1: float, difference: float) -> tuple[float, float]:
+    """Integrate as `_fourier_of_reciprocal`, by the mean over 72 directions, where Theta is within half of b = 1.
 
     The zeros of Theta then have |e| < 0.52 or more than its inverse: the rule is off by 0.52^72 = 4e-21. The closed
     form would lose digits there, its zeros being far apart in size.
     """
-    reciprocal = 1.0 / np.abs(b + f2 * _COS - f1 * _SIN + 0.5 * (d - a) * _SIN2)
+    reciprocal = 1.0 / (1.0 + f2 * _COS - f1 * _SIN + 0.5 * difference * _SIN2)
     step = 2.0 * math.pi / 72.0
     return step * float(reciprocal.sum()), step * float(reciprocal @ _COS2)
 

@@ -294,3 +294,14 @@ def test_a_closed_equator_in_any_unit_of_time(power, f):
     plain, scaled = equator_cycle(system(*q)), equator_cycle(system(*(v * unit for v in q)))
     assert (scaled.exponent, scaled.period * unit) == (plain.exponent, plain.period)
     assert (scaled.direction, scaled.neutral) == (plain.direction, plain.neutral)
+
+
+@pytest.mark.parametrize("size", [1.0, -1e100])
+@pytest.mark.parametrize("b", [5e-324, -1e-310, 1e-308])
+def test_an_equator_that_hardly_turns_has_an_infinite_period(size, b):
+    """Theta = b is so far below a = d that the period 2 pi/|b|, or the exponent a times that, is beyond all doubles."""
+    found = equator_cycle(ELinear(size, b, size))
+    assert found.direction == math.copysign(1, b)
+    assert found.period == math.inf or found.period * abs(b) == pytest.approx(2.0 * math.pi)
+    assert found.exponent == math.copysign(math.inf, size)
+    assert not found.neutral
