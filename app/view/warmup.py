@@ -34,6 +34,7 @@ Told = Callable[[str, float, int, int], None]
 
 _lock = threading.Lock()
 _threads: dict[Hashable, threading.Thread] = {}
+_pictures = threading.Event()
 
 
 def _steps() -> list[tuple[str, Callable[[], object]]]:
@@ -44,8 +45,8 @@ def _steps() -> list[tuple[str, Callable[[], object]]]:
     return [first, ("limit cycles", _warm_cycles), *others, *last]
 
 
-#: Of `_steps`, those after which the first scene is drawn.
-FIRST = 2
+#: Of `_steps`, those after which the first scene is drawn, and those that pictures need: all but the last.
+FIRST, PICTURES = 2, -1
 
 
 def _nobody(*_: object) -> None:
@@ -87,6 +88,8 @@ def _first_scene(told: Told) -> None:
 
     def draw(number: int) -> None:
         global outcome
+        if number == len(_steps()) + PICTURES:
+            _pictures.set()
         if number != FIRST:
             return
         scene = make_scene(first_values())
@@ -143,11 +146,11 @@ def start(told: Told = _nobody) -> None:
 
 
 def wait() -> None:
-    """Wait until the kernels of the built-in families are there: whoever loads them then finds them in the cache."""
+    """Wait until the kernels that pictures need are there: whoever loads them then finds them in the cache."""
     with _lock:
         thread = _threads.get(constant())
-    if thread is not None:
-        thread.join()
+    while thread is not None and thread.is_alive() and not _pictures.wait(0.1):
+        pass
 
 
 def _begin(key: Hashable, target: Callable[..., None], *arguments: Any) -> None:

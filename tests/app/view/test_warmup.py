@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import threading
 
 import pytest
 from codim2_app.draw.packing import unpack
@@ -103,3 +104,16 @@ def test_a_server_starts_without_what_its_first_picture_does_not_need():
     late = "'scipy.integrate', 'scipy.optimize', 'scipy.special', 'holoviews', 'pandas', 'matplotlib', 'IPython'"
     code = f"import sys, codim2_app.server.page; found = {{{late}}} & set(sys.modules); assert not found, found"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_who_waits_for_pictures_does_not_wait_for_motions(folder, monkeypatch):
+    going_on = threading.Event()
+    monkeypatch.setattr(warmup, "_steps", lambda: [("pictures", lambda: None), ("motions", lambda: going_on.wait(60))])
+    monkeypatch.setattr(warmup, "_threads", {})
+    monkeypatch.setattr(warmup, "_pictures", threading.Event())
+    warmup.start()
+    warmup.wait()
+    (thread,) = warmup._threads.values()
+    assert thread.is_alive()
+    going_on.set()
+    thread.join()
