@@ -12,8 +12,10 @@ from codim2_core.systems.typed import System
 from ..draw.theme import REACH
 from ..state.choices import COEFFICIENTS, SLOW_CONTROLS
 from ..state.chosen import NORMAL, System_, TextError, build, parameters_of
-from ..state.controls import InputError, build_psi, opening
+from ..state.chosen_psi import build_psi
+from ..state.cleaning import InputError
 from ..state.launches import read_launches
+from ..state.opening import opening
 
 #: Text of f(z) = f + z k and of z' = B e + g. It never changes, so that nothing is parsed again on a tick:
 #: the numbers travel as parameters of the system.

@@ -11,7 +11,8 @@ import yaml
 from markdown_it.token import Token
 
 from ..draw.layers import LAYERS
-from ..state.controls import NAMES, InputError, clean
+from ..state.cleaning import InputError, clean
+from ..state.controls import NAMES
 from .condition import Condition, condition
 from .facts import COMPILED, KNOWN
 from .lesson import Lesson, Option, Prose, Question, Vary, portrait_of

@@ -18,7 +18,7 @@ from ..frame.draft import Draft
 from ..phrases import say
 from ..state.choices import SLOW_CONTROLS
 from ..state.chosen import System_, slow_ranges
-from ..state.controls import slider_range
+from ..state.slider_range import slider_range
 from .panel import Panel
 from .short import short
 

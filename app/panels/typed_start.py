@@ -18,8 +18,9 @@ from codim2_core.psi.function import Psi
 
 from ..frame.draft import Draft
 from ..state.chosen import System_, slow_symbols
-from ..state.controls import InputError, opening_launch
+from ..state.cleaning import InputError
 from ..state.launches import TYPED
+from ..state.opening import opening_launch
 from .short import short
 
 RTOL = 1e-7

@@ -21,7 +21,8 @@ from panel.io.server import DocHandler, server_html_page_for_session
 from panel.io.state import set_curdoc
 
 from ..phrases import say
-from ..state.controls import ExplorerState, InputError
+from ..state.cleaning import InputError
+from ..state.controls import ExplorerState
 from ..state.links import Link, read_link
 from ..view.first_markup import page_markup
 

@@ -20,7 +20,7 @@ from ..frame.jobs import serve_with
 from ..frame.turns import Turns
 from ..frame.workers import Workers, processors
 from ..phrases import say
-from ..state.controls import InputError
+from ..state.cleaning import InputError
 from ..state.links import Link
 from ..view import warmup
 from ..view.explorer import ExplorerView

@@ -19,7 +19,9 @@ from urllib.parse import parse_qsl, urlencode
 from ..draw.theme import NEAREST, WIDEST
 from ..phrases import say
 from .chosen import BOXES, NORMAL
-from .controls import LONGEST_TEXT, NAMES, ExplorerState, InputError, clean, opening, preset_values
+from .cleaning import LONGEST_TEXT, InputError, clean
+from .controls import NAMES, ExplorerState, preset_values
+from .opening import opening
 
 VERSION = 1
 #: What a link of each version leaves out. A release that opens otherwise gets a new version beside these.

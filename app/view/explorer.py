@@ -32,7 +32,8 @@ from ..frame.budget import Budget
 from ..frame.picture import make_frame
 from ..phrases import say
 from ..state.chosen import System_
-from ..state.controls import NAMES, ExplorerState, InputError
+from ..state.cleaning import InputError
+from ..state.controls import NAMES, ExplorerState
 from ..state.links import Look
 from .cell import Cell, kernel
 from .first_markup import first_words

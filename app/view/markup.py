@@ -23,9 +23,10 @@ from ..panels.registry import PANELS
 from ..slow_layers.outcomes import WORDS as OUTCOMES
 from ..state.choices import MAX_TRAJECTORIES, SETTING, SLOW_CONTROLS
 from ..state.chosen import BOXES, titles
-from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values, slider_range
+from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values
 from ..state.links import BROUGHT, VERSION, Look
 from ..state.portraits import portrait_keys, portraits
+from ..state.slider_range import slider_range
 from .glossary import GLOSSARY, MARKS, OPENING, PAPER
 
 STATIC = Path(__file__).parents[1] / "static"

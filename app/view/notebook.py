@@ -21,7 +21,8 @@ from ..frame.scenes import locked_controls
 from ..panels.parameters.axes import axes_there
 from ..state.choices import SLOW_CONTROLS
 from ..state.chosen import System_, titles
-from ..state.controls import NAMES, ExplorerState, InputError, clean
+from ..state.cleaning import InputError, clean
+from ..state.controls import NAMES, ExplorerState
 from .cell import kernel
 from .explorer import ExplorerView
 from .shared import SHARED

@@ -13,7 +13,7 @@ from ..lessons.library import lessons
 from ..panels.typed_start import launch_of
 from ..phrases import say
 from ..state.chosen import NORMAL, texts_of
-from ..state.controls import InputError
+from ..state.cleaning import InputError
 
 
 def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:

@@ -33,7 +33,8 @@ from ..panels.parameters.axes import opening_axes
 from ..state.asked import read_request
 from ..state.choices import AXES
 from ..state.chosen import BOXES, GIVEN, System_, describe
-from ..state.controls import NAMES, TYPED_IN, ExplorerState, InputError, clean, first_values, preset_values
+from ..state.cleaning import InputError, clean
+from ..state.controls import NAMES, TYPED_IN, ExplorerState, first_values, preset_values
 from . import warmup
 from .load import load
 from .notices import left_out

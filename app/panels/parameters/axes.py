@@ -17,7 +17,9 @@ from ...frame.draft import Draft
 from ...phrases import say
 from ...state.choices import AXES, COEFFICIENTS, OWN_AXIS, SLOW_CONTROLS
 from ...state.chosen import NORMAL, OWN, PARAMETER_RANGE, slow_ranges
-from ...state.controls import ExplorerState, axes_of, slider_range
+from ...state.controls import ExplorerState
+from ...state.opening import axes_of
+from ...state.slider_range import slider_range
 
 #: Coefficients of the slow flow: nothing in a diagram or a map depends on them.
 SLOW = ("B1", "B2", "g0")

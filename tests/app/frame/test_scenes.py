@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from codim2_app.frame.scenes import chosen_system, evolved, locked_controls, make_scene, settled
-from codim2_app.state.controls import ExplorerState, InputError
+from codim2_app.state.cleaning import InputError
+from codim2_app.state.controls import ExplorerState
 
 import codim2_core as c2
 

@@ -12,7 +12,9 @@ from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import along as panel_along
 from codim2_app.panels import filippov, orbits, psi, solid
 from codim2_app.panels.typed_start import launch_of
-from codim2_app.state.controls import ExplorerState, InputError, opening
+from codim2_app.state.cleaning import InputError
+from codim2_app.state.controls import ExplorerState
+from codim2_app.state.opening import opening
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2

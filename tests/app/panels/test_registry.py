@@ -6,7 +6,8 @@ import pytest
 from codim2_app.panels import registry
 from codim2_app.panels.panel import Panel
 from codim2_app.state.choices import PANELS
-from codim2_app.state.controls import ExplorerState, InputError, clean
+from codim2_app.state.cleaning import InputError, clean
+from codim2_app.state.controls import ExplorerState
 from codim2_app.view.markup import config, explorer_html, script
 
 

@@ -5,7 +5,8 @@ import json
 import pytest
 from codim2_app.draw.packing import unpack
 from codim2_app.state.asked import LONGEST, MOST_CONTROLS, read_request
-from codim2_app.state.controls import NAMES, ExplorerState, InputError, clean
+from codim2_app.state.cleaning import InputError, clean
+from codim2_app.state.controls import NAMES, ExplorerState
 from codim2_app.view.refresh import Frames
 from hypothesis import given
 from hypothesis import strategies as st

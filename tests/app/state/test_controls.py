@@ -1,7 +1,9 @@
 import math
 
 import pytest
-from codim2_app.state.controls import NAMES, NUMBERS, ExplorerState, InputError, build_psi, clean, preset_values
+from codim2_app.state.chosen_psi import build_psi
+from codim2_app.state.cleaning import InputError, clean
+from codim2_app.state.controls import NAMES, NUMBERS, ExplorerState, preset_values
 from codim2_app.state.portraits import portraits
 
 KEYS = [item["key"] for item in portraits()]

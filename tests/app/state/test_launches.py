@@ -2,7 +2,8 @@
 
 import pytest
 from codim2_app.draw.packing import unpack
-from codim2_app.state.controls import ExplorerState, InputError, clean
+from codim2_app.state.cleaning import InputError, clean
+from codim2_app.state.controls import ExplorerState
 from codim2_app.state.launches import MOST, TYPED, Launch, chosen, read_launches
 from codim2_app.view.refresh import Frames
 

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from codim2_app.state.chosen import describe, titles
-from codim2_app.state.controls import clean, preset_values
+from codim2_app.state.cleaning import clean
+from codim2_app.state.controls import preset_values
 from codim2_app.state.links import read_link
 
 import codim2_core as c2
