@@ -18,7 +18,7 @@ from ..frame.draft import Draft
 from ..phrases import say
 from ..state.choices import SLOW_CONTROLS
 from ..state.chosen import System_, slow_ranges
-from ..state.slider_range import slider_range
+from ..state.slider_range import edited_range, slider_range
 from .panel import Panel
 from .short import short
 
@@ -65,7 +65,8 @@ def spans_of(system: System_, values: Mapping[str, Any]) -> tuple[tuple[float, f
     """Return the range of the slider of each slow variable."""
     ranges = slow_ranges(values["system"], system.m)
     return tuple(
-        slider_range(low, high, values[name])[:2] for name, (low, high) in zip(SLOW_CONTROLS, ranges, strict=False)
+        slider_range(*edited_range(values, name, first), values[name])[:2]
+        for name, first in zip(SLOW_CONTROLS, ranges, strict=False)
     )
 
 

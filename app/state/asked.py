@@ -60,7 +60,7 @@ def _kind(value: Any) -> str:
     return "nothing" if value is None else type(value).__name__
 
 
-def _too_large(value: Any, inner: bool = False) -> str:
+def _too_large(value: Any, depth: int = 0) -> str:
     """Say why a value is no control's; "" if it may be."""
     if value is None or isinstance(value, (bool, float)):
         return ""
@@ -68,9 +68,11 @@ def _too_large(value: Any, inner: bool = False) -> str:
         return "" if abs(value) < 10**300 else "the number is too large"
     if isinstance(value, str):
         return "" if len(value) <= LONGEST else f"{len(value)} characters, at most {LONGEST} are read"
-    if isinstance(value, (list, tuple, Mapping)) and not inner:
+    if depth == 0 and isinstance(value, (list, tuple, Mapping)):
         if len(value) > MOST_ENTRIES:
             return f"{len(value)} entries, at most {MOST_ENTRIES} are read"
         parts = [*value, *value.values()] if isinstance(value, Mapping) else value
-        return next(filter(None, (_too_large(part, inner=True) for part in parts)), "")
+        return next(filter(None, (_too_large(part, 1) for part in parts)), "")
+    if depth == 1 and isinstance(value, (list, tuple)) and len(value) == 2:  # the ends of a range
+        return next(filter(None, (_too_large(part, 2) for part in value)), "")
     return f"{_kind(value)} is no value of a control"

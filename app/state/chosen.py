@@ -268,6 +268,14 @@ def slow_ranges(choice: str, m: int) -> list[tuple[float, float]]:
     return [(low, high) for _, low, high in example.slow] if example else [SLOW_RANGE] * m
 
 
+def parameter_ranges(choice: str, texts: Mapping[str, str]) -> dict[str, tuple[float, float]]:
+    """Return the range of the slider of each parameter that an example, or a typed line, gives one."""
+    if choice in catalogue:
+        return dict(catalogue[choice].ranges)
+    declared, _ = _declared(texts_of(choice, texts).get("where", ""))
+    return {name: (low, high) for name, (_, low, high) in declared.items()}
+
+
 def describe(choice: str, system: System_, texts: Mapping[str, str] = MappingProxyType({})) -> dict[str, Any]:
     """Return what the page needs to show a choice: its equations, and a control for each parameter and slow variable.
 
@@ -287,8 +295,7 @@ def describe(choice: str, system: System_, texts: Mapping[str, str] = MappingPro
             "slow": [],
             "coefficients": True,
         }
-    declared, _ = _declared(texts_of(choice, texts).get("where", ""))
-    ranges = example.ranges if example else {name: ends for name, (_, *ends) in declared.items()}
+    ranges = parameter_ranges(choice, texts)
     parameters = [
         {"name": name, "symbol": plain_symbol(name), "range": list(ranges.get(name, PARAMETER_RANGE)), "value": value}
         for name, value in system.parameters

@@ -1,20 +1,33 @@
-"""The range and the step of a slider, widened where a value lies outside."""
+"""The ranges of sliders: as a person has set them, and wide enough for their values; the same rule as in ranges.js."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
+from typing import Any
+
 
 def slider_range(low: float, high: float, value: float) -> tuple[float, float, float]:
-    """Return (low, high, step) of a slider, widened to hold the value; the same rule as in controls.js."""
-    size = abs(value)
+    """Return (low, high, step) of a slider, widened to hold the value."""
     if value < low or value > high:
-        reach = _round_up(size)
-        low, high = (-reach, reach) if low < 0 else (low, reach)
-    return low, high, 10.0 ** (len(str(int(high - low))) - 4)
+        reach = _round_up(abs(value))
+        if low < 0 or value < 0:
+            low, high = min(low, -reach), max(high, reach)
+        else:
+            low, high = (0.0, high) if value < low else (low, reach)
+    return low, high, 10.0 ** (math.floor(math.log10(high - low)) - 3)
+
+
+def edited_range(values: Mapping[str, Any], name: str, first: tuple[float, float]) -> tuple[float, float]:
+    """Return the range that a person has set for a slider, or the one it came with."""
+    low, high = values["ranges"].get(name, first)
+    return low, high
 
 
 def _round_up(size: float) -> float:
-    """Return 1, 2 or 5 times a power of ten, at least 1.2 times the size."""
-    target, power = 1.2 * size, 1.0
-    while power * 10 <= target:
-        power *= 10
-    return next(power * k for k in (1, 2, 5, 10) if power * k >= target)
+    """Return 1, 2 or 5 times a power of ten, at least 1.2 times the size; 0 for 0."""
+    if size == 0.0:
+        return 0.0
+    target = 1.2 * size
+    power = 10.0 ** math.floor(math.log10(target))
+    return next((power * k for k in (1, 2, 5) if power * k >= target), 10.0 * power)

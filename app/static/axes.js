@@ -15,7 +15,7 @@ export class AxisChoice {
     tools.follow(name, (value) => { select.value = value })
   }
 
-  /** @param {[string, string, number, number][] | undefined} axes name, symbol and range of each */
+  /** @param {[string, string][] | undefined} axes name and symbol of each */
   apply(axes) {
     if (!axes) return
     const {values, symbols} = this.tools, chosen = values[this.name]

@@ -1,7 +1,7 @@
 // Controls: a slider with an editable number, whose range widens for a typed value.
 
 import {sidewaysOnly} from "./gestures.js"
-import {roundUp} from "./ranges.js"
+import {rangeFor} from "./ranges.js"
 import {SAYS, escape, plain} from "./words.js"
 
 const LONG = 160 // characters of an error that are shown at once
@@ -96,12 +96,7 @@ export class NumberControl {
   // Move the slider without telling anyone, widening its range if need be.
   place(value) {
     if (!this.slider) return
-    let [low, high] = this.range
-    if (value < low || value > high) {
-      const reach = roundUp(Math.abs(value))
-      low = low < 0 ? -reach : low
-      high = reach
-    }
+    const [low, high] = rangeFor(this.range, value)
     this.slider.min = low
     this.slider.max = high
     this.slider.step = 10 ** (Math.floor(Math.log10(high - low)) - 3)

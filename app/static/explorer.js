@@ -68,8 +68,9 @@ function wire({model, view, root, plot}) {
   const setters = {}
   let hidden = [] // layers that a question hides until it is answered
   const panels = new Panels(root, config.panels, {
-    root, values, rest, move, choose, symbols: config.symbols, ranges: config.ranges, docs: config.docs,
+    root, values, rest, move, choose, symbols: config.symbols, docs: config.docs,
     slowSymbols: () => config.slowSymbols ?? [],
+    rangeOf: (name) => (name.startsWith("own:") ? systems.sliders[name.slice(4)] : controls[name])?.range ?? config.ranges[name] ?? [-4, 4],
     valueOf: (name) => name.startsWith("own:") ? systems.value(name.slice(4)) : values[name],
     follow: (name, set) => { setters[name] = set },
     trace: (paths, place) => picture.trace(paths, place),
@@ -306,7 +307,7 @@ function wire({model, view, root, plot}) {
     const late = header.late ?? []
     requests.restLater(late.length > 0)
     inspector.apply(header)
-    for (const [name, symbol, low, high] of header.axes ?? []) { config.symbols[name] = symbol; config.ranges[name] = [low, high] }
+    for (const [name, symbol] of header.axes ?? []) config.symbols[name] = symbol
     panels.apply(frame, late)
     requests.arrived(header.id, header.load)
     if ("id" in header) root.dataset.frame = header.id

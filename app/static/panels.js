@@ -7,7 +7,7 @@
  * @property {any} settings what the server tells this panel's script
  * @property {Record<string, any>} values of all controls, as they are now
  * @property {Record<string, string>} symbols of parameters, by name
- * @property {Record<string, number[]>} ranges of their sliders
+ * @property {(name: string) => number[]} rangeOf the slider of a parameter, as it is or as a person has set it
  * @property {Record<string, string>} docs what a control means
  * @property {import("./rest.js").Rest} rest is told of what is under way
  * @property {() => string[]} slowSymbols of the slow variables of the present system

@@ -31,7 +31,7 @@ export class SystemChooser {
   // What was typed is there again when its system, or a Psi of one's own, is chosen again.
   keep() {
     if (this.config.boxes[this.values.system]) {
-      this.kept[this.values.system] = Object.fromEntries(TYPED.map((name) => [name, this.values[name]]))
+      this.kept[this.values.system] = {...Object.fromEntries(TYPED.map((name) => [name, this.values[name]])), ranges: this.rangesWhere(ofSystem)}
     }
     if (this.config.families[this.values.psi]?.typed) this.kept.psi = {psi_text: this.values.psi_text}
     try { if (this.config.page) sessionStorage.setItem("codim2-typed", JSON.stringify(this.kept)) } catch { /* as above */ }
@@ -39,8 +39,11 @@ export class SystemChooser {
 
   choose(choice) {
     this.keep()
-    this.setAll({texts: {}, parameters: {}, ...this.kept[choice], system: choice})
+    const {ranges = {}, ...typed} = this.kept[choice] ?? {}
+    this.setAll({texts: {}, parameters: {}, ...typed, ranges: {...this.rangesWhere((name) => !ofSystem(name)), ...ranges}, system: choice})
   }
+
+  rangesWhere(which) { return Object.fromEntries(Object.entries(this.values.ranges).filter(([name]) => which(name))) }
 
   // What the server says of the system: its equations, parameters and slow variables.
   apply({header}) {
@@ -145,3 +148,6 @@ export class SystemChooser {
 
 // What belongs to a system that was typed.
 export const TYPED = ["texts", "parameters", "z", "z2", "z3", "z4", "launch", "t_end"]
+
+// Whether a range is of a slider that another system has not, or has for something else.
+const ofSystem = (/** @type {string} */ name) => name.startsWith("own:") || name[0] === "z"

@@ -26,7 +26,7 @@ from ..state.chosen import BOXES, titles
 from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values
 from ..state.links import BROUGHT, VERSION, Look
 from ..state.portraits import portrait_keys, portraits
-from ..state.slider_range import slider_range
+from ..state.slider_range import edited_range, slider_range
 from .glossary import GLOSSARY, MARKS, OPENING, PAPER
 
 STATIC = Path(__file__).parents[1] / "static"
@@ -162,7 +162,7 @@ def explorer_html(
 
     def control(name: str) -> dict[str, Any]:
         declared = state.param[name]
-        low, high, step = slider_range(declared.softbounds[0], declared.softbounds[1], values[name])
+        low, high, step = slider_range(*edited_range(values, name, declared.softbounds), values[name])
         return {"name": name, "symbol": declared.label, "doc": declared.doc, "value": values[name],
                 "low": low, "high": high, "step": step}  # fmt: skip
 

@@ -1,7 +1,7 @@
 """The panel "Atlas": two parameters as a plane, cut into regions of one portrait each, with a small portrait of each.
 
 The plane (f1, f2) is known in closed form: its curves go with every frame. Any other pair of axes, and a part of that
-plane, is mapped by the core's `class_map` once nothing moves.
+plane, by zoom or by the ranges of its sliders, is mapped by the core's `class_map` once nothing moves.
 """
 
 from __future__ import annotations
@@ -42,7 +42,8 @@ def add(draft: Draft) -> None:
     axes = draft.values["across"], draft.values["up"]
     there = available(draft)
     reason = missing(draft, there, *axes)
-    plane = axes == ("f1", "f2") and set(PLANE) <= there.keys() and draft.values["atlas_zoom"] == 0
+    closed_form = axes == ("f1", "f2") and set(PLANE) <= there.keys()
+    plane = closed_form and draft.values["atlas_zoom"] == 0 and not {"f1", "f2"} & draft.values["ranges"].keys()
     if draft.now.get("atlas of") != (axes, plane):
         draft.now["atlas of"] = (axes, plane)
         draft.header["atlas_of"] = [*axes, plane]

@@ -16,10 +16,10 @@ from ...draw.mathml import plain_symbol
 from ...frame.draft import Draft
 from ...phrases import say
 from ...state.choices import AXES, COEFFICIENTS, OWN_AXIS, SLOW_CONTROLS
-from ...state.chosen import NORMAL, OWN, PARAMETER_RANGE, slow_ranges
+from ...state.chosen import NORMAL, OWN, PARAMETER_RANGE, parameter_ranges, slow_ranges
 from ...state.controls import ExplorerState
 from ...state.opening import axes_of
-from ...state.slider_range import slider_range
+from ...state.slider_range import edited_range, slider_range
 
 #: Coefficients of the slow flow: nothing in a diagram or a map depends on them.
 SLOW = ("B1", "B2", "g0")
@@ -52,7 +52,7 @@ class Axis:
 def available(draft: Draft) -> dict[str, Axis]:
     """Return, by name, the axes that belong to the present system and Psi; the browser is told when they change."""
     found = axes_there(draft.scene, draft.values, draft.locked)
-    told = tuple((axis.name, axis.symbol, axis.low, axis.high) for axis in found.values())
+    told = tuple((axis.name, axis.symbol) for axis in found.values())
     if draft.now.get("axes") != told:
         draft.now["axes"] = told
         draft.header["axes"] = [list(row) for row in told]
@@ -76,14 +76,15 @@ def axes_there(scene: Scene, values: Mapping[str, Any], locked: Collection[str] 
         if core not in known or name in locked or (name == "n" and "n" in own):
             continue
         declared = ExplorerState.param[name]
-        low, high = declared.softbounds if normal or slow is None else ranges[slow]
+        low, high = edited_range(values, name, declared.softbounds if normal or slow is None else ranges[slow])
         symbol = example.slow[slow][0] if example and slow is not None else str(declared.label)
         found[name] = Axis(name, core, symbol, float(low), float(high), float(values[name]))
+    typed = parameter_ranges(values["system"], values["texts"])
     for parameter, value in own.items():
         if normal and parameter in COEFFICIENTS and parameter not in locked:
             continue
-        low, high = example.ranges.get(parameter, PARAMETER_RANGE) if example else PARAMETER_RANGE
         name = OWN_AXIS + parameter
+        low, high = edited_range(values, name, typed.get(parameter, PARAMETER_RANGE))
         found[name] = Axis(name, parameter, plain_symbol(parameter), float(low), float(high), float(value))
     return found
 

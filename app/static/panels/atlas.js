@@ -154,7 +154,7 @@ class Atlas {
   chartOfMap() {
     const handle = this.axes.map((name) => this.tools.valueOf(name))
     const {of, spans, regions, curves, points} = this.map.of === this.of ? this.map : this.empty
-    const box = of ? spans : this.axes.map((name, i) => rangeFor(this.tools.ranges[name] ?? [-4, 4], handle[i]))
+    const box = of ? spans : this.axes.map((name, i) => rangeFor(this.tools.rangeOf(name), handle[i]))
     return {box, regions, curves, points, handle, here: handle, path: null}
   }
 

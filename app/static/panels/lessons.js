@@ -154,7 +154,7 @@ class Lessons {
     if (!place) return
     event.preventDefault()
     place.focus()
-    const name = place.dataset.drag, start = this.tools.valueOf(name), [low, high] = this.tools.ranges[name], from = event.clientX
+    const name = place.dataset.drag, start = this.tools.valueOf(name), [low, high] = this.tools.rangeOf(name), from = event.clientX
     place.setPointerCapture(event.pointerId)
     const move = (now) => this.tools.move({[name]: Number((start + (now.clientX - from) * (high - low) / 400).toFixed(2))})
     const end = () => { for (const kind of ["pointermove", "pointerup", "pointercancel"]) place.removeEventListener(kind, kind === "pointermove" ? move : end) }
@@ -168,7 +168,7 @@ class Lessons {
     const sense = {ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1}[event.key]
     if (!place || !sense) return
     event.preventDefault()
-    const name = place.dataset.drag, [low, high] = this.tools.ranges[name]
+    const name = place.dataset.drag, [low, high] = this.tools.rangeOf(name)
     this.tools.move({[name]: Number((this.tools.valueOf(name) + sense * (high - low) / 200).toFixed(2))})
   }
 

@@ -37,6 +37,13 @@ def test_it_is_refused_in_one_bounded_sentence(frames, request_, said):
     assert len(answer) < 20_000
 
 
+def test_ranges_of_sliders_are_a_value():
+    frames = Frames(ExplorerState(layers=[], panel="psi", trajectories=0), ready=lambda *_: False)
+    header, _ = unpack(frames.answer({"id": 1, "set": {"ranges": {"f1": [0.0, 0.5]}}}))
+    assert header["errors"] == {}
+    assert frames.values["ranges"] == {"f1": [0.0, 0.5]}
+
+
 @pytest.mark.parametrize("number", ["x" * 10**7, 10**400, None, [1], float("nan"), float("inf"), True])
 def test_an_odd_number_of_a_request_is_not_sent_back(frames, number):
     answer = frames.answer({"id": number})

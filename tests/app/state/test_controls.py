@@ -5,6 +5,7 @@ from codim2_app.state.chosen_psi import build_psi
 from codim2_app.state.cleaning import InputError, clean
 from codim2_app.state.controls import NAMES, NUMBERS, ExplorerState, preset_values
 from codim2_app.state.portraits import portraits
+from codim2_app.state.slider_range import slider_range
 
 KEYS = [item["key"] for item in portraits()]
 
@@ -121,3 +122,19 @@ def test_a_range_that_is_none_is_told(given):
     with pytest.raises(InputError, match="Ranges: ") as caught:
         clean("ranges", given)
     assert caught.value.control == "ranges"
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "value", "held"),
+    [
+        (-4, 4, -7, (-10, 10)), (0, 4, 7, (0, 10)), (-4, 4, 4, (-4, 4)),
+        (2, 3, -5, (-10, 10)), (2, 3, 1, (0, 3)), (2, 3, 0, (0, 3)), (0, 0.01, 0.05, (0, 0.1)),
+        (-10, -5, 3, (-10, 5)), (0, 1, -0.25, (-0.5, 1)), (0.5, 6, 0.1, (0, 6)),
+    ],
+)  # fmt: skip
+def test_a_range_widens_to_hold_the_value_as_it_does_in_the_browser(low, high, value, held):
+    """The browser's rule is `rangeFor` of ranges.js, with the same rows in geometry.test.js."""
+    least, greatest, step = slider_range(low, high, value)
+    assert (least, greatest) == pytest.approx(held)
+    assert least <= value <= greatest
+    assert 1e-4 <= step / (greatest - least) <= 1e-3 * (1 + 1e-9)

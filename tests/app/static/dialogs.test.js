@@ -95,7 +95,7 @@ test("a system of one's own: its texts, parameters and slow variables, kept whil
   assert.equal(one.find(".system-note").textContent, "thm:x. Normal form.")
   type(one, "select.system", "own")
   one.tick(20)
-  assert.deepEqual(asked(one), [{texts: {U1: "c*c"}, parameters: {}, system: "own"}])
+  assert.deepEqual(asked(one), [{texts: {U1: "c*c"}, parameters: {}, ranges: {}, system: "own"}])
   one.answer({system: OWN})
   assert.deepEqual([one.root.classList.contains("not-normal"), one.find(".system-note").textContent, one.find(".slow-controls").hidden], [true, "Yours.", false])
   assert.deepEqual([...one.root.querySelectorAll(".slow-controls label")].map((label) => label.textContent), ["v", "w"])
@@ -124,7 +124,7 @@ test("a system of one's own: its texts, parameters and slow variables, kept whil
   const note = wired({page: false, values: {...one.root.explorer.values, system: "normal"}}, FIRST, {sessionStorage: memory(kept)})
   type(note, "select.system", "own")
   note.tick(20)
-  assert.deepEqual(asked(note), [{texts: {}, parameters: {}, system: "own"}]) // a notebook keeps nothing
+  assert.deepEqual(asked(note), [{texts: {}, parameters: {}, ranges: {}, system: "own"}]) // a notebook keeps nothing
   const five = {...OWN, slow: ["p", "q", "r", "t", "u"].map((symbol) => ({symbol, range: [-1, 1]}))}
   one.answer({system: five})
   assert.deepEqual([...one.root.querySelectorAll(".slow-controls label")].map((label) => label.textContent), ["p", "q", "r", "t"])

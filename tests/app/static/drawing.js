@@ -83,8 +83,8 @@ export function drawn(name) {
   const said = (what) => (...all) => { lines.push(`${what} ${JSON.stringify(all)}`) }
   const own = values.parameters
   const panels = new Panels(root, {[panel]: tools.settings}, {
-    root, values, rest: new Rest(root), symbols: tools.symbols, ranges: tools.ranges, docs: tools.docs, slowSymbols: () => slow,
-    valueOf: (it) => it.startsWith("own:") ? own[it.slice(4)] ?? 0 : values[it], follow: (it) => said("follow")(it),
+    root, values, rest: new Rest(root), symbols: tools.symbols,  docs: tools.docs, slowSymbols: () => slow,
+    rangeOf: (it) => tools.ranges[it] ?? [-4, 4], valueOf: (it) => it.startsWith("own:") ? own[it.slice(4)] ?? 0 : values[it], follow: (it) => said("follow")(it),
     move: (wanted) => { said("move")(wanted); Object.assign(values, wanted); panels.draw(values) },
     choose: (it, value) => { said("choose")(it, value); values[it] = value; panels.draw(values) },
     trace: (paths, place) => said("trace")(paths && paths.map((path) => path && path.map((column) => column.length)), place?.map((v) => Number(v.toFixed(4)))),

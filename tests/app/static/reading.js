@@ -20,7 +20,7 @@ export function opened(key, values, more = {}, shown = key) {
   const said = [], note = (what) => (...all) => { said.push([what, ...all]) }
   const setters = {}
   const panels = new Panels(root, {[key]: more.settings ?? {}}, {
-    root, values, rest: new Rest(root), symbols: SYMBOLS, ranges: RANGES, docs: SYMBOLS, slowSymbols: () => ["z"],
+    root, values, rest: new Rest(root), symbols: SYMBOLS, rangeOf: (name) => RANGES[name] ?? [-4, 4], docs: SYMBOLS, slowSymbols: () => ["z"],
     valueOf: (it) => values[it] ?? 0, follow: (it, set) => { setters[it] = set },
     move: (wanted) => { said.push(["move", wanted]); Object.assign(values, wanted); panels.draw(values) },
     choose: (it, value) => { said.push(["choose", it, value]); values[it] = value; panels.draw(values) },

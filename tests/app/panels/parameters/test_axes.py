@@ -5,9 +5,12 @@ from codim2_app import explorer
 from codim2_app.draw.packing import unpack
 from codim2_app.phrases import say
 from codim2_app.state.controls import ExplorerState
+from codim2_app.state.slider_range import slider_range
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
+
+from ..opening import settled
 
 TYPED = {
     "a name": {"system": "typed", "texts": {"f1": "-1/2 + k*z"}},
@@ -81,3 +84,45 @@ def test_numbers_alone_have_no_diagram_and_open_on_what_they_have():
     frames = Frames(ExplorerState.of({"system": "own", "texts": TYPED["no name"]["texts"]}))
     assert why_not(shown(frames, "diagram"), "diagram") == say("no parameter")
     assert explorer(c2.ELinear.from_matrix([[-1, 2], [0, -3]], (0.1, 0.2))).state.panel == "numbers"
+
+
+RANGES = {
+    "across an atlas": ({"across": "a", "up": "b"}, {"a": [-3.0, -1.0], "b": [0.0, 0.5]}),
+    "the plane of f": ({}, {"f1": [-1.0, 0.0]}),
+    "outside of its range": ({"across": "a", "up": "b"}, {"a": [0.0, 1.0]}),
+}
+
+
+@pytest.mark.parametrize(("axes", "ranges"), RANGES.values(), ids=RANGES.keys())
+def test_the_atlas_follows_the_ranges_of_the_sliders(axes, ranges):
+    frames = Frames(ExplorerState(panel="atlas", **axes))
+    first = settled(frames, all=True)
+    header = settled(frames, set={"ranges": ranges})
+    names = frames.values["across"], frames.values["up"]
+    assert header["errors"] == {}
+    firsts = [tuple(ExplorerState.param[name].softbounds) for name in names]
+    expected = [
+        slider_range(*ranges.get(name, softbounds), frames.values[name])[:2]
+        for name, softbounds in zip(names, firsts, strict=True)
+    ]
+    assert [tuple(span) for span in header["map"]["spans"]] == expected
+    assert header["map"]["spans"] != first.get("map", {}).get("spans")
+    settled(frames, set={"ranges": {}})
+    assert frames.values["ranges"] == {}
+
+
+def test_the_diagram_and_the_slow_flow_follow_the_ranges_of_the_sliders():
+    frames = Frames(ExplorerState(panel="diagram", along="d"))
+    assert settled(frames, all=True)["diagram"]["span"] == list(ExplorerState.param["d"].softbounds)
+    assert settled(frames, set={"ranges": {"d": [-1.5, -0.5]}})["diagram"]["span"] == [-1.5, -0.5]
+    along = Frames(ExplorerState(panel="along", ranges={"z": [0.0, 0.5]}))
+    assert settled(along, all=True)["along"]["span"] == [0.0, 0.5]
+
+
+@pytest.mark.parametrize(
+    ("ranges", "span"), [({}, [0.25, 0.75]), ({"own:q": [0.0, 1.0]}, [0.0, 1.0])], ids=["typed", "set by hand"]
+)
+def test_a_range_that_is_typed_with_a_parameter_is_that_of_the_diagram(ranges, span):
+    texts = {"d": "-1 - q", "where": "q = 0.5 in [0.25, 0.75]"}
+    frames = Frames(ExplorerState.of({"system": "typed", "texts": texts, "panel": "diagram", "along": "own:q"}))
+    assert settled(frames, all=True, set={"ranges": ranges})["diagram"]["span"] == span
