@@ -1,7 +1,7 @@
 """The Bokeh figure of the picture: ranges and tools. What is seen in it the browser draws by itself.
 
-`static/painter.js` adds two renderers of its own, which draw the packed frames. So a page's document is small, and
-every model is ``syncable=False``: BokehJS must not send ranges, colours or arrays back to the server.
+`static/picture/painter.js` adds two renderers of its own, which draw the packed frames. So a page's document is small,
+and every model is ``syncable=False``: BokehJS must not send ranges, colours or arrays back to the server.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """The layers of the picture: one table, a row a layer, read by the page, the SVG, HoloViews, the legend and the frames.
 
 To add a layer of curves, write its row here and, if the scene does not have it yet, the row of `codim2_core.scene`.
-The four layers without `parts` (basins, outcomes, equator, critical) are no curves: `static/picture.js` and `svg`
-draw them by name.
+The four layers without `parts` (basins, outcomes, equator, critical) are no curves: `static/picture/picture.js` and
+`svg` draw them by name.
 """
 
 from __future__ import annotations

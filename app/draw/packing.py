@@ -5,7 +5,7 @@ then, if ``header["lines"]`` lists polylines as [name, pieces, points, arrowhead
 points of each piece, int16 x, y of each point, int16 x, y of each arrowhead, int16 angle of each arrowhead; then each
 array of ``header["blocks"]``, which lists name, type and number of values. The numbers of points, the run of polylines
 and each array are padded with zeros to a multiple of four. Where ``header["exact"]`` is true, x and y are float32.
-`static/frames.js` reads the same layout.
+`static/picture/frames.js` reads the same layout.
 """
 
 from __future__ import annotations

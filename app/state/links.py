@@ -1,7 +1,7 @@
 """Links: an address carries what is other than in its portrait or in the first setting, and a version.
 
 The version says what the first setting was when the link was made, so that a link shows in later releases what it
-showed then. The browser writes links by the same rule: static/links.js.
+showed then. The browser writes links by the same rule: static/page/links.js.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 // A live file: the frames of a slider or two, computed beforehand, are drawn by the page's own painter. No server.
 
-import {displayList} from "./display.js"
-import {readFrame} from "./frames.js"
-import {Bitmaps, paint} from "./paint.js"
+import {displayList} from "./picture/display.js"
+import {readFrame} from "./picture/frames.js"
+import {Bitmaps, paint} from "./picture/paint.js"
 import {plain} from "./words.js"
 
 const SIDE = 720 // px at most

@@ -1,10 +1,11 @@
 """Do the tests notice a wrong formula? ``python -m tests.mutation [NAME ...] [--sample N] [--record]``.
 
-NAME is a room or a module: ``layer_problem``, ``core.portrait.classify``, ``app.draw``, ``static``, ``static/ball.js``;
-without one, everything is tried: the core, the app's Python and its JavaScript. One expression at a time is changed
-(`mutants`, `javascript`), and those tests of the room (`targets`) that reach the changed function are run, the quickest
-first, up to the first failure, or as long as ``--seconds`` says: in place where that can be (`live`), else with the
-module imported anew; what Numba compiles is run as Python (`interpreted`). Nothing is written in the repository.
+NAME is a room or a module: ``layer_problem``, ``core.portrait.classify``, ``app.draw``, ``static``,
+``static/beside/ball.js``; without one, everything is tried: the core, the app's Python and its JavaScript. One
+expression at a time is changed (`mutants`, `javascript`), and those tests of the room (`targets`) that reach the
+changed function are run, the quickest first, up to the first failure, or as long as ``--seconds`` says: in place where
+that can be (`live`), else with the module imported anew; what Numba compiles is run as Python (`interpreted`). Nothing
+is written in the repository.
 Printed are the mutants that live and, for each module, how many were killed of how many; those that
 `explained.ALLOWED` tells are not tried. ``--record`` keeps all that in `results.md`. The exit code is 1 if any lives.
 """

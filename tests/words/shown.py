@@ -82,7 +82,7 @@ def _markup() -> Iterator[tuple[str, str]]:
 
 def _sheet() -> Iterator[tuple[str, str]]:
     """Yield what the sheet "?" says of keys and marks, which stands in its script."""
-    source = (STATIC / "help.js").read_text(encoding="utf-8")
+    source = (STATIC / "page" / "help.js").read_text(encoding="utf-8")
     for i, (key, words) in enumerate(re.findall(r'^  \["([^"]+)", "([^"]+)"\],$', source, re.MULTILINE)):
         yield f"key {i}", f"{key}: {words}"
     marks = re.search(r"^const ARROWS = (.+)$", source, re.MULTILINE)

@@ -2,8 +2,8 @@
 // bands, arrows, marks, a line at the present value, and what is read off under the pointer. All in pixels: letters keep
 // their size when the chart grows. What is drawn carries its class, so that the style sheet decides on colours.
 
-import {shape} from "../marks.js"
-import {meet} from "../regions.js"
+import {shape} from "./marks.js"
+import {meet} from "./regions.js"
 import {fixed, polyline} from "../svg.js"
 import {digits, escape} from "../words.js"
 import {grouped} from "./groups.js"

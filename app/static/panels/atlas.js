@@ -1,11 +1,11 @@
 // The panel "Atlas": two parameters as a plane, with a portrait of each of its regions.
 // The plane of f comes in closed form and belongs to f(z); any other two axes are mapped by the server at rest.
 
-import {axesMarkup, AxisChoice, ZoomButtons} from "../axes.js"
-import {polygons} from "../frames.js"
-import {Pad, regionClass} from "../pad.js"
-import {register} from "../panels.js"
-import {rangeFor, reachFor} from "../ranges.js"
+import {axesMarkup, AxisChoice, ZoomButtons} from "../beside/axes.js"
+import {polygons} from "../picture/frames.js"
+import {Pad, regionClass} from "../beside/pad.js"
+import {register} from "../beside/panels.js"
+import {rangeFor, reachFor} from "../controls/ranges.js"
 
 const CURVE_NAMES = {
   transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", closed_equator: "cycle at the equator", determinant: "det A = 0", undefined: "undefined",

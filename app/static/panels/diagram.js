@@ -1,11 +1,11 @@
 // The panel "Diagram": limit directions, critical sets and cycles along one parameter, over the range of its slider.
 // A click sets the parameter; a click on a special point goes exactly there.
 
-import {axesMarkup, AxisChoice, ZoomButtons} from "../axes.js"
+import {axesMarkup, AxisChoice, ZoomButtons} from "../beside/axes.js"
 import {Chart} from "../chart/chart.js"
 import {spanOf} from "../chart/scale.js"
-import {shape} from "../marks.js"
-import {register} from "../panels.js"
+import {shape} from "../chart/marks.js"
+import {register} from "../beside/panels.js"
 import {SAYS, escape, formula, minus, plain} from "../words.js"
 
 const TURN = 2 * Math.PI

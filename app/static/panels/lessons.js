@@ -1,7 +1,7 @@
 // The panel "Lessons": the course as a list, or one lesson: text with live numbers, and questions in four steps.
 
-import {register} from "../panels.js"
-import {progressOf, withStep} from "../progress.js"
+import {register} from "../beside/panels.js"
+import {progressOf, withStep} from "../beside/progress.js"
 import {escape, lowered, plain} from "../words.js"
 
 const STORE = "codim2-lessons"

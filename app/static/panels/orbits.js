@@ -1,10 +1,10 @@
 // The panel "Orbits": what was launched, where each goes and comes from; hide, name, remove; a start that is typed; and
 // the chosen one over time, for ε → 0 and with one tick for ε > 0.
 
-import {slider} from "../controls.js"
-import {changed, cleanName, coloursOf, readLaunches, without, writeLaunches} from "../launches.js"
-import {MARKUP, OrbitInTime, TYPED} from "../orbit_in_time.js"
-import {register} from "../panels.js"
+import {slider} from "../controls/controls.js"
+import {changed, cleanName, coloursOf, readLaunches, without, writeLaunches} from "../hands/launches.js"
+import {MARKUP, OrbitInTime, TYPED} from "../beside/orbit_in_time.js"
+import {register} from "../beside/panels.js"
 import {escape, measured, pair, plain, slowName} from "../words.js"
 
 const COLOURS = 6

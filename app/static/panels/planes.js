@@ -2,8 +2,8 @@
 // moving slider leaves while the panel is open.
 
 import {Chart} from "../chart/chart.js"
-import {eigenvalues, kindAt, withDouble} from "../jacobian.js"
-import {register} from "../panels.js"
+import {eigenvalues, kindAt, withDouble} from "../beside/jacobian.js"
+import {register} from "../beside/panels.js"
 import {SAYS, digits, eigen, escape} from "../words.js"
 
 const TRAIL = 90 // positions remembered

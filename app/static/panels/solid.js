@@ -1,7 +1,7 @@
 // The panel "3-D": the hemisphere of the blowup, or hemispheres stacked along z. Turned here, without asking the server.
 
-import {register} from "../panels.js"
-import {seen} from "../projection.js"
+import {register} from "../beside/panels.js"
+import {seen} from "../chart/projection.js"
 import {SAYS, digits, minus, plain} from "../words.js"
 
 /** Whether the two ends of what slides combine two limit vectors each. @param {{candidates: number[], combined: number[][][]}} data */

@@ -1,6 +1,6 @@
 // The panel "Theorems": the paper's claims on the present system, each with the numbers that show it.
 
-import {register} from "../panels.js"
+import {register} from "../beside/panels.js"
 import {escape, formula, measured} from "../words.js"
 
 const MARK = {holds: ["✓", "holds"], fails: ["✗", "fails"], "does not apply": ["–", "idle"]}

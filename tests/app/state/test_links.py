@@ -24,7 +24,7 @@ from codim2_core import classify
 
 HERE = Path(__file__).parent
 KEYS = [item["key"] for item in portraits()]
-LINKS_JS = Path(__file__).parents[3] / "app" / "static" / "links.js"
+LINKS_JS = Path(__file__).parents[3] / "app" / "static" / "page" / "links.js"
 finite = st.floats(allow_nan=False, allow_infinity=False)
 
 

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {STEP} from "../../../app/static/frames.js"
+import {STEP} from "../../../app/static/picture/frames.js"
 import "../../../app/static/panels/atlas.js"
 import {named, near, opened, plots} from "./reading.js"
 

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {enlarged} from "../../../app/static/beamer.js"
+import {enlarged} from "../../../app/static/page/beamer.js"
 
 test("all that is in pixels is larger; what is in the picture stays, but for names outside the equator", () => {
   const list = [{kind: "circle", radius: 1, width: 2}, {kind: "mark", layer: "critical", x: 0.2, y: 0.3, size: 12, width: 2.5}, {kind: "label", layer: "critical", x: 0.2, y: 0.3, dx: 13, dy: -11, size: 16}, {kind: "label", layer: "equator", x: 0, y: -1.25, dx: 0, dy: 0, size: 15}]

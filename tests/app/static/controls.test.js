@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {folded, readTyped} from "../../../app/static/controls.js"
+import {folded, readTyped} from "../../../app/static/controls/controls.js"
 
 test("a long error is one sentence and how to mend it; the list of what is allowed stands behind more", () => {
   const list = "Allowed are numbers, c, s, z, z1, pi, e, + - * / ** ( ) | | and sin cos."

@@ -1,13 +1,13 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {polygons, STEP} from "../../../app/static/frames.js"
-import {pinched} from "../../../app/static/gestures.js"
-import {eigenvalues, kindAt, withDouble} from "../../../app/static/jacobian.js"
-import {seen} from "../../../app/static/projection.js"
-import {turned} from "../../../app/static/quaternions.js"
-import {rangeFor, reachFor, roundUp} from "../../../app/static/ranges.js"
-import {holds, meet} from "../../../app/static/regions.js"
+import {polygons, STEP} from "../../../app/static/picture/frames.js"
+import {pinched} from "../../../app/static/hands/gestures.js"
+import {eigenvalues, kindAt, withDouble} from "../../../app/static/beside/jacobian.js"
+import {seen} from "../../../app/static/chart/projection.js"
+import {turned} from "../../../app/static/beside/quaternions.js"
+import {rangeFor, reachFor, roundUp} from "../../../app/static/controls/ranges.js"
+import {holds, meet} from "../../../app/static/chart/regions.js"
 import {polyline} from "../../../app/static/svg.js"
 
 const near = (one, other, most = 1e-12) => one.flat().forEach((v, i) => assert.ok(Math.abs(v - other.flat()[i]) <= most, `${one} is not ${other}`))

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {STEPS, beside} from "../../../app/static/hints.js"
+import {STEPS, beside} from "../../../app/static/page/hints.js"
 import {FIRST, VALUES, click, hand, memory, pull, wired} from "./wiring.js"
 
 test("a bubble stands beside what it points at, within the window", () => {

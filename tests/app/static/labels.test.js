@@ -2,8 +2,8 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {displayList} from "../../../app/static/display.js"
-import {Bitmaps, paint} from "../../../app/static/paint.js"
+import {displayList} from "../../../app/static/picture/display.js"
+import {Bitmaps, paint} from "../../../app/static/picture/paint.js"
 
 const critical = {label: ["C₁", "C₂"], sense: ["⊙", "⊗"], x: [-0.72, 0.72], y: [0.47, 0.47], colour: ["c", "c"], shape: ["square", "square"], size: [12, 12], filled: [true, true]}
 

@@ -3,9 +3,9 @@ import test from "node:test"
 
 import {scale, spanOf, ticks, wordedTicks} from "../../../app/static/chart/scale.js"
 import {beside, Space, textSize} from "../../../app/static/chart/space.js"
-import {eigenvalues, kindAt} from "../../../app/static/jacobian.js"
-import {reachFor, roundUp} from "../../../app/static/ranges.js"
-import {holds, meet} from "../../../app/static/regions.js"
+import {eigenvalues, kindAt} from "../../../app/static/beside/jacobian.js"
+import {reachFor, roundUp} from "../../../app/static/controls/ranges.js"
+import {holds, meet} from "../../../app/static/chart/regions.js"
 import {digits, measured, pair, slowName} from "../../../app/static/words.js"
 
 test("words at the borders of their forms", () => {

@@ -2,8 +2,8 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {STEP} from "../../../app/static/frames.js"
-import {curveAt, eigenWords, factsOf, followed, objectAt, objectsOf, pointedList, styleOf} from "../../../app/static/objects.js"
+import {STEP} from "../../../app/static/picture/frames.js"
+import {curveAt, eigenWords, factsOf, followed, objectAt, objectsOf, pointedList, styleOf} from "../../../app/static/hands/objects.js"
 import {CRITICAL, EQUATOR} from "./wiring.js"
 
 const square = Int16Array.from([[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5], [0.5, 0.5]].flat().map((v) => Math.round(v / STEP)))

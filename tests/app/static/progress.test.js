@@ -1,6 +1,6 @@
 import assert from "node:assert/strict"
 import {test} from "node:test"
-import {progressOf, withStep} from "../../../app/static/progress.js"
+import {progressOf, withStep} from "../../../app/static/beside/progress.js"
 
 test("a step is kept once, and nothing else changes", () => {
   const first = withStep({}, "one", 0, "answer")

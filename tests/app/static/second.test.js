@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {readOwn, writeOwn} from "../../../app/static/second.js"
+import {readOwn, writeOwn} from "../../../app/static/page/second.js"
 
 const DEFAULTS = {a: -2, psi: "constant", texts: {}, parameters: {}, n: 2}
 

@@ -3,7 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import "../../../app/static/panels/solid.js"
-import {seen} from "../../../app/static/projection.js"
+import {seen} from "../../../app/static/chart/projection.js"
 import {opened} from "./reading.js"
 
 const WIDTH = 360, HEIGHT = 240

@@ -5,7 +5,7 @@ import test from "node:test"
 import "../../../app/static/panels/lessons.js"
 import "../../../app/static/panels/numbers.js"
 import "../../../app/static/panels/orbits.js"
-import {Panels, register} from "../../../app/static/panels.js"
+import {Panels, register} from "../../../app/static/beside/panels.js"
 import {page} from "./page.js"
 import {opened} from "./reading.js"
 

@@ -1,6 +1,6 @@
 // The choice of the parameters along which a panel's chart runs, and how much of their range it shows.
 
-import {escape} from "./words.js"
+import {escape} from "../words.js"
 
 const MOST_ZOOM = 6
 

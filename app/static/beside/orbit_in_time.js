@@ -2,10 +2,10 @@
 // a typed start. ε → 0 is drawn in full, ε > 0 broken. A dot runs along both.
 
 import {Ball} from "./ball.js"
-import {Chart} from "./chart/chart.js"
-import {spanOf} from "./chart/scale.js"
+import {Chart} from "../chart/chart.js"
+import {spanOf} from "../chart/scale.js"
 import {Player, sampled} from "./player.js"
-import {digits, escape, measured, minus, phaseWords} from "./words.js"
+import {digits, escape, measured, minus, phaseWords} from "../words.js"
 
 export const TYPED = -1 // in place of a launched orbit's place: the typed start
 

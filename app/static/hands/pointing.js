@@ -1,9 +1,9 @@
 // Pointing at objects of the picture: the one under the pointer, or in focus, tells its name and numbers and shows its
 // eigenvectors; the one that is pinned goes on doing so while the sliders move.
 
-import {put} from "./dom.js"
+import {put} from "../dom.js"
 import {curveAt, eigenWords, eigenvectorsOf, factsOf, followed, objectAt, objectsOf, pointedList, styleOf} from "./objects.js"
-import {SAYS, escape, formula} from "./words.js"
+import {SAYS, escape, formula} from "../words.js"
 
 const REACH = {mouse: 10, pen: 14, touch: 24} // px around a mark that count as on it
 const QUIET = 150 // ms after the last frame until what is read out follows

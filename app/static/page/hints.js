@@ -1,7 +1,7 @@
 // The first visit: three bubbles, drag, click, read, one after the other, where each is done. What is done is hinted at no
 // more; they are shown once in a browser, and never where that cannot be remembered.
 
-import {SAYS, escape} from "./words.js"
+import {SAYS, escape} from "../words.js"
 
 const STORE = "codim2-welcome"
 const WIDE = 250, GAP = 12 // px: of a bubble, and between it and what it points at

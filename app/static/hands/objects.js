@@ -1,8 +1,8 @@
 // What in the picture has a name: limit directions, critical sets, limit cycles, launched orbits; and the curves below
 // them. Where a pointer is on one, what is said of each, and which one it is after the sliders have moved.
 
-import {unit} from "./frames.js"
-import {SAYS, digits, eigen, pair, turned} from "./words.js"
+import {unit} from "../picture/frames.js"
+import {SAYS, digits, eigen, pair, turned} from "../words.js"
 
 const NEAR = 0.7 // of the picture's unit: what is farther away after one frame is another object
 const CURVE = 0.6 // of a mark's reach is a curve's: it lies anywhere, and its ground is for launching

@@ -1,9 +1,9 @@
 // Two portraits side by side. The second is an embedded explorer in a frame of the same page: it has the values of the first
 // but for those of its own, which the text `beside` holds as a query. The two tell each other by messages.
 
-import {slidersOf} from "./controls.js"
+import {slidersOf} from "../controls/controls.js"
 import {written} from "./links.js"
-import {SAYS, escape} from "./words.js"
+import {SAYS, escape} from "../words.js"
 
 export const SECOND = "codim2-second" // of the frame: by it the explorer inside knows what it is
 const ALIKE = ["layers", "trajectories", "orbits"] // always those of the first

@@ -1,6 +1,6 @@
 // The picture: keeps the newest of what the frames bring, and draws it in the task that brings it.
 
-import {enlarged} from "./beamer.js"
+import {enlarged} from "../page/beamer.js"
 import {displayList, traceList} from "./display.js"
 import {makeRenderer, repaint} from "./painter.js"
 

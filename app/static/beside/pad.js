@@ -1,8 +1,8 @@
 // A plane of two parameters: regions of one portrait each, the curves between them, and a handle over them.
 
-import {Chart} from "./chart/chart.js"
-import {holds} from "./regions.js"
-import {escape} from "./words.js"
+import {Chart} from "../chart/chart.js"
+import {holds} from "../chart/regions.js"
+import {escape} from "../words.js"
 
 export class Pad {
   // `onMove` is called with the two values under the handle, and with null at the end of a drag; `onRegion` with the index

@@ -1,7 +1,7 @@
 // What is always in view beside the picture: the portrait's name and sentence, what is degenerate, the slow flow.
 
-import {put, say} from "./dom.js"
-import {escape, formula, slowWords} from "./words.js"
+import {put, say} from "../dom.js"
+import {escape, formula, slowWords} from "../words.js"
 
 export class Inspector {
   /** @param {() => string[]} symbols of the slow variables of the present system */

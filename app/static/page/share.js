@@ -1,7 +1,7 @@
 // The dialog "Share": the link of the present view, its QR code for the phones in the room, and a frame for another page.
 
 import {squeezed} from "./links.js"
-import {SAYS, escape} from "./words.js"
+import {SAYS, escape} from "../words.js"
 
 const MARKUP = `
   <form method="dialog"><button class="close" title="Close" aria-label="Close">✕</button></form>

@@ -1,7 +1,7 @@
 // Which system is drawn: a choice, its equations, text boxes for what can be typed, and a slider for every name in it.
 
 import {NumberControl, sayAt, slider} from "./controls.js"
-import {SAYS, slowName} from "./words.js"
+import {SAYS, slowName} from "../words.js"
 
 export class SystemChooser {
   // `change(name, value)`, `range(name, ends)` and `setAll(values)` as everywhere; `place(name, control)` registers a control, by the name

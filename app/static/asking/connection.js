@@ -1,7 +1,7 @@
 // The page's connection to its server: says when it is lost, and loads the page again, with the state that is in its
 // address, as soon as a server answers. (The server keeps a session only for seconds after its socket has closed.)
 
-import {SAYS} from "./words.js"
+import {SAYS} from "../words.js"
 
 const RETRY = [500, 1000, 2000, 3000, 5000] // ms between attempts; the last one goes on
 

@@ -1,8 +1,8 @@
 // Controls: a slider with an editable number, whose range widens for a typed value.
 
-import {sidewaysOnly} from "./gestures.js"
+import {sidewaysOnly} from "../hands/gestures.js"
 import {rangeFor} from "./ranges.js"
-import {SAYS, escape, plain} from "./words.js"
+import {SAYS, escape, plain} from "../words.js"
 
 const LONG = 160 // characters of an error that are shown at once
 

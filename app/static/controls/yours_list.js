@@ -1,7 +1,7 @@
 // The list "Yours" below the choice of a system: open, name, remove, put back. It is in this browser's storage or, where
 // there is none, in the page.
 
-import {SAYS, escape} from "./words.js"
+import {SAYS, escape} from "../words.js"
 import {formulaOf, named, noted, readYours, restored, without} from "./yours.js"
 
 const STORE = "codim2-yours"

@@ -1,6 +1,6 @@
 // The sheet "?": all keys, marks, layers and words in one place. What the page says elsewhere is taken from there.
 
-import {escape} from "./words.js"
+import {escape} from "../words.js"
 
 /** @type {[string, string][]} what is pressed or done, and what it does */
 export const KEYS = [
