@@ -101,6 +101,10 @@ def numbers(name: str, value: Any) -> Any:
     """Check an array, or a list, of finite real numbers; what shape it must have, the function says."""
     if type(value) is tuple and len(value) < 9 and all(type(v) is float and abs(v) <= LARGEST for v in value):
         return value  # a z, as it mostly comes
+    if type(value) is np.ndarray and value.dtype == np.float64 and value.size <= MOST_VALUES:
+        flat = value.ravel()
+        if flat.dot(flat) <= LARGEST**2:  # so none is larger, in one pass; else it is said below which
+            return value
     if isinstance(value, str | bytes):
         raise ValueError(f"{name} is {shown(value)}; give numbers.")
     try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 PIXEL = 1.0 / 180.0
@@ -52,6 +53,10 @@ class Stepping:
     def reach(self) -> float:
         """Distance from an attracting equilibrium at which a trajectory ends."""
         return min(self.rtol + self.atol, 0.1) if self.capture is None else float(self.capture)
+
+
+#: The same, made once: those of a picture are the same from frame to frame.
+stepping = lru_cache(maxsize=64)(Stepping)
 
 
 def _positive(value: float, what: str, remedy: str, low: float = 0.0, high: float = math.inf) -> None:

@@ -20,7 +20,7 @@ from ..systems.elinear import ELinear
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .departures import departures
-from .options import PIXEL, STEP_LIMIT, Stepping
+from .options import PIXEL, STEP_LIMIT, Stepping, stepping
 from .result import STATUSES, Status, Trajectories, continued, joined
 from .seeds import checked_seeds
 
@@ -122,16 +122,16 @@ def trajectories(
     ValueError
         An argument is invalid; the message says which, and what is allowed.
     """
-    options = Stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff)
+    options = stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff)
     at = system.at(z)
     points = seeds if isinstance(seeds, np.ndarray) and seeds.dtype == np.float64 else checked_seeds(seeds)
     if points.ndim != 2 or points.shape[1] != 2:
         points = checked_seeds(seeds)
-    states, signs, finite = _kernels().states_of(np.ascontiguousarray(points))
-    if not finite:
+    states, signs, largest = _kernels().states_of(np.ascontiguousarray(points))
+    if math.isnan(largest):
         checked_seeds(seeds)  # says which
-    far = np.flatnonzero(np.abs(points).max(axis=1, initial=0.0) > FARTHEST)
-    if len(far) and options.samples is None:
+    if largest > FARTHEST and options.samples is None:
+        far = np.flatnonzero(np.abs(points).max(axis=1) > FARTHEST)
         raise ValueError(
             f"seed {far[0]} is {tuple(points[far[0]].tolist())}; give points at most {FARTHEST:g} away, "
             'or samples="ends".'
@@ -293,7 +293,7 @@ def continuation(
     ValueError
         A direction is not a limit direction, or no trajectory of the nonsmooth system arrives along it.
     """
-    options = Stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff)
+    options = stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff)
     at = system.at(z)
     states = departures(at, psi, theta, rtol, backward)
     return _integrate(at, psi, states, np.full(len(states), -1.0), options)

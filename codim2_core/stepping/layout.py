@@ -112,17 +112,20 @@ def _defect(x, y):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def states_of(points):
-    """States (k, 3), signs (k,) of picture points (k, 2): p, and ebar (sign -1) or rho (+1); whether all are finite."""
+    """States (k, 3), signs (k,) of picture points (k, 2): p, and ebar (sign -1) or rho (+1); the largest coordinate.
+
+    That is nan where any is not finite.
+    """
     n = points.shape[0]
-    finite = True
+    largest = 0.0
     states, signs = np.empty((n, 3)), np.empty(n)
     for i in range(n):
         x, y = points[i, 0], points[i, 1]
         r = math.hypot(x, y)
-        finite = finite and math.isfinite(r)
+        largest = max(largest, abs(x), abs(y)) if math.isfinite(r) and not math.isnan(largest) else math.nan
         inside = r - 1.0 < -ON_EQUATOR
         scale = 1.0 if inside else r
         states[i, 0], states[i, 1] = x / scale, y / scale
         states[i, 2] = math.sqrt(_defect(x, y)) if inside else r - 1.0 if r - 1.0 > ON_EQUATOR else 0.0
         signs[i] = -1.0 if inside else 1.0
-    return states, signs, finite
+    return states, signs, largest
