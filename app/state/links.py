@@ -67,11 +67,14 @@ class Look:
         Only the picture and the chosen controls, for a frame in another page.
     controls : tuple of str
         Names of controls, slow variables and parameters that an embedded page shows.
+    beamer : bool
+        For the beamer: the picture fills the page, with large letters. An embedded page has no such mode.
     """
 
     seen: tuple[float, ...] = ()
     embed: bool = False
     controls: tuple[str, ...] = ()
+    beamer: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +93,7 @@ def read_link(query: str | Mapping[str, str]) -> Link:
     ----------
     query : str or mapping
         ``v`` is the version; ``s`` holds a whole query squeezed (deflate, base64), over which the others stand;
-        ``seen``, ``embed`` and ``controls`` are of the page; all else are values of controls.
+        ``seen``, ``embed``, ``controls`` and ``beamer`` are of the page; all else are values of controls.
 
     Returns
     -------
@@ -138,6 +141,8 @@ def write_link(values: Mapping[str, Any], look: Look | None = None) -> str:
             query["embed"] = "1"
         if look.controls:
             query["controls"] = ",".join(look.controls)
+        if look.beamer:
+            query["beamer"] = "1"
     return urlencode(query)
 
 
@@ -183,12 +188,13 @@ def _first(version: str, errors: list[InputError]) -> Mapping[str, Any]:
 
 def _look(given: dict[str, str], errors: list[InputError]) -> Look:
     """Take what is of the page out of the given texts."""
-    seen, embed, controls = given.pop("seen", ""), given.pop("embed", ""), given.pop("controls", "")
+    seen, embed, controls, beamer = (given.pop(name, "") for name in ("seen", "embed", "controls", "beamer"))
     names = [name for name in controls.split(",") if name]
     good = [name for name in names if _NAME.fullmatch(name)][:MOST_CONTROLS]
     if len(good) < len(names):
         errors.append(InputError("", say("controls of a frame", most=MOST_CONTROLS)))
-    return Look(_rectangle(seen, errors), embed not in ("", "0"), tuple(good))
+    embedded, beamed = (text not in ("", "0") for text in (embed, beamer))
+    return Look(_rectangle(seen, errors), embedded, tuple(good), beamed and not embedded)
 
 
 def _rectangle(text: str, errors: list[InputError]) -> tuple[float, ...]:

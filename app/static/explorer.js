@@ -226,8 +226,7 @@ function wire({model, view, root, plot}) {
   }
   if (config.page) {
     new Help(root, find("dialog.helping"))
-    const whole = {...config, look: {embed: false, controls: []}}
-    const query = () => writeLink(values, picture.window && picture.seen, whole)
+    const query = () => writeLink(values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer}})
     const share = new Share(find("dialog.sharing"), query, config.link.version, (box) => takes.open(box, {theme: () => root.classList.contains("dark") ? "dark" : "light", sliders: () => slidersOf(root), film: config.film}))
     find(".share").addEventListener("click", () => share.open())
     find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
@@ -239,7 +238,7 @@ function wire({model, view, root, plot}) {
       address: (wanted, own) => writeLink(wanted, picture.window && picture.seen, {...config, look: own}),
     })
     picture.viewed(() => beside.look())
-    new Beamer(root, picture, () => beside.look())
+    new Beamer(root, picture, config.look.beamer, (on) => { config.look.beamer = on; beside.look(); if (kept instanceof Browsed) kept.write("replaceState") })
   } else if (inside) {
     beside = new Seconded(root, {
       put: (wanted) => { if (Object.keys(wanted).every((name) => name in numbers)) move(wanted); else { setAll(wanted); tell() } },

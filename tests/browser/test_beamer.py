@@ -14,6 +14,7 @@ def test_the_picture_fills_the_screen_controls_fade_and_come_with_the_pointer(op
     page.page.keyboard.press("b")
     page.until("root.classList.contains('beamer')")
     assert page.find(".beam").get_attribute("aria-pressed") == "true"
+    assert "beamer=1" in page.page.url
     assert page.find(".picture").bounding_box()["width"] > 1.1 * width
     assert page.ask(labels) > 1.5 * size
     assert page.find(".tabs").is_hidden()
@@ -30,6 +31,15 @@ def test_the_picture_fills_the_screen_controls_fade_and_come_with_the_pointer(op
     page.until("!root.classList.contains('beamer')")
     assert page.ask(labels) == size
     assert page.find(".tabs").is_visible()
+    assert "beamer" not in page.page.url
+    page.open("?v=1&panel=numbers&beamer=1")  # a link to a lecture's first picture
+    assert page.find(".codim2.beamer").count() == 1
+    assert page.ask(labels) > 1.5 * size
+    page.type("f1", "-1.5").kept()
+    assert "beamer=1" in page.page.url
+    page.find(".undo").press("Enter")
+    page.kept()
+    assert page.find(".codim2.beamer").count() == 1  # how it is looked at is no step
     assert page.complaints == []
 
 

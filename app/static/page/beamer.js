@@ -17,8 +17,11 @@ export function enlarged(list, times) {
 }
 
 export class Beamer {
-  /** @param {any} root the explorer @param {{enlarge: (times: number) => void}} picture @param {() => void} told is called when it begins or ends */
-  constructor(root, picture, told) {
+  /**
+   * @param {any} root the explorer @param {{enlarge: (times: number) => void}} picture
+   * @param {boolean} on whether a link asks for it @param {(on: boolean) => void} told is called when it begins or ends
+   */
+  constructor(root, picture, on, told) {
     this.root = root
     this.picture = picture
     this.told = told
@@ -33,16 +36,21 @@ export class Beamer {
     })
     document.addEventListener("fullscreenchange", () => { if (!document.fullscreenElement && this.full) this.toggle(false) })
     for (const moved of ["pointermove", "pointerdown", "keydown"]) document.addEventListener(moved, () => this.wake(), {passive: true})
+    if (on) this.show(true) // over the page: a browser gives the whole screen to nobody who has not pressed anything
   }
 
-  toggle(on = !this.on) {
+  show(on) {
     this.on = on
+    this.full = false
     this.root.classList.toggle("beamer", on)
     this.button.setAttribute("aria-pressed", on)
     this.picture.enlarge(on ? LARGE : 1)
-    this.told()
     if (on) this.wake()
-    this.full = false
+  }
+
+  toggle(on = !this.on) {
+    this.show(on)
+    this.told(on)
     // where a browser refuses, as in a frame, the picture fills the page
     if (on) document.documentElement.requestFullscreen?.().then(() => { this.full = true }, () => {})
     else if (document.fullscreenElement) document.exitFullscreen()
