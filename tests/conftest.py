@@ -1,7 +1,9 @@
 """Hypothesis profiles, the marks of all tests (`tests.tiers`), and how many processes share them."""
 
+import gc
 import os
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -32,6 +34,22 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
     """Leave out the slow folders unless they are asked for, and for the inner loop all that are not its own."""
     folder = collection_path.is_dir() and collection_path.parent == tiers.TESTS
     return True if folder and not tiers.wants(config, collection_path.name) else None
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection(session: pytest.Session) -> Iterator[None]:
+    """Import all that the tests need without searching it for garbage, then or later; share out what is compiled."""
+    if session.config.pluginmanager.hasplugin("dsession"):  # it hands the tests out, and runs none
+        return (yield)
+    from codim2_app.server import compiled_once
+
+    compiled_once.install()  # all processes begin with the same kernels
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -16,6 +16,8 @@ from numba.core import config as numba_config
 
 import codim2_core
 
+from . import compiled_once
+
 config: Any = numba_config  # its names are made at run time
 
 UNCACHED = "the compiled kernels cannot be kept on disk ({why}): what is not there yet is compiled anew at every start."
@@ -61,6 +63,7 @@ def prepare() -> str:
             _say_once(UNCACHED.format(why=error.strerror))
 
     caching.FunctionCache.save_overload = saved_if_possible
+    compiled_once.install()
     if config.CACHE_LOCATOR_CLASSES:
         return ""  # the host has named its own
     locators = _locators()

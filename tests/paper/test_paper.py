@@ -62,23 +62,25 @@ def strings():
         yield path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")
 
 
-TEXTS = [(name, text) for name, text in strings() if name != "codim2_core/paper.py"]
+@pytest.fixture(scope="module")
+def texts():
+    return [(name, text) for name, text in strings() if name != "codim2_core/paper.py"]
 
 
-def test_labels_stand_alone_as_data_and_never_in_a_sentence():
-    wrong = [(name, text[:80]) for name, text in TEXTS if LABEL.search(text) and not PURE.fullmatch(text)]
+def test_labels_stand_alone_as_data_and_never_in_a_sentence(texts):
+    wrong = [(name, text[:80]) for name, text in texts if LABEL.search(text) and not PURE.fullmatch(text)]
     assert wrong == []
 
 
-def test_labels_that_are_data_can_be_printed():
-    for _, text in TEXTS:
+def test_labels_that_are_data_can_be_printed(texts):
+    for _, text in texts:
         if PURE.fullmatch(text) and LABEL.search(text):
             assert not LABEL.search(cite(text))
 
 
-def test_what_is_named_as_printed_is_in_the_table():
+def test_what_is_named_as_printed_is_in_the_table(texts):
     known = {printed for printed, _ in PRINTED.values()}
-    named = {(name, found) for name, text in TEXTS for found in PRINT.findall(text)}
+    named = {(name, found) for name, text in texts for found in PRINT.findall(text)}
     assert named
     for name, found in named:
         assert found in known or re.sub(r"\(\w\)$", "", found) in known, (name, found)

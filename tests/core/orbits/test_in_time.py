@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from scipy.linalg import expm
 
 from codim2_core import psi
 from codim2_core.figures.presets import presets
@@ -23,18 +24,42 @@ coordinates = st.floats(-2.0, 2.0)
     st.tuples(coordinates, coordinates),
     st.sampled_from([(0.3, -0.2), (0.0, 0.0), (-0.9, 0.1), (1.4, 0.3), (-1.0, -0.9)]),
 )
+@example((1.5625, 1.5625), (-0.9, 0.1))  # up to 10 eps from Sigma both ways
 def test_where_the_force_is_constant_an_orbit_is_a_straight_line_run_through_evenly(f, seed):
     if math.hypot(*f) < 0.1:
         return
     found = in_time(ELinear(0.0, 0.0, 0.0, f), psi.constant(), seed, (-1.5, 2.5))
     start = found.xy[found.time == 0.0]
-    np.testing.assert_allclose(found.xy, start + found.time[:, None] * np.array(f), atol=2e-5 * np.abs(found.xy).max())
-    assert (np.diff(found.time) >= 0.0).all()
     r = np.hypot(*seed)
     assert found.fast == (r < 1.0)
+    # x2 - f tau is linear in what is followed, and constant: each step of a linear method keeps it, to rounding
+    off = 1e-12 if found.fast else 2e-5
+    line = start + found.time[:, None] * np.array(f)
+    np.testing.assert_allclose(found.xy, line, rtol=0.0, atol=off * np.abs(found.xy).max())
+    assert (np.diff(found.time) >= 0.0).all()
     np.testing.assert_allclose(
         start[0], np.array(seed) * (1 / math.sqrt(1 - r * r) if r < 1.0 else (r - 1.0) / r), rtol=0.0, atol=1e-12
     )
+
+
+@pytest.mark.parametrize(("b", "f"), [(0.0, (1.2, -0.4)), (0.5, (0.9, 0.6)), (-0.8, (-1.0, 0.3))])
+@pytest.mark.parametrize("seed", [(-0.9, 0.1), (0.2, -0.3)])
+def test_where_it_is_linear_it_is_the_matrix_exponential_as_far_out_as_it_is_followed(b, f, seed):
+    # Psi = 1, a = d = 0: dx2/dT = A x2 + f h, h = sqrt(1 + |x2|^2), dh/dT = f.x2 as A is antisymmetric, dtau/dT = h
+    found = in_time(ELinear(0.0, b, 0.0, f), psi.constant(), seed, (-4.0, 4.0))
+    rates = np.zeros((4, 4))
+    rates[:3, :3] = [[0.0, -b, f[0]], [b, 0.0, f[1]], [*f, 0.0]]
+    rates[3, 2] = 1.0
+    x2 = found.xy[found.time == 0.0][0]
+    start, T = np.array([*x2, math.hypot(1.0, *x2), 0.0]), np.zeros(len(found))
+    for _ in range(30):  # Newton, for the T at which tau is the time that was told
+        there = expm(T[:, None, None] * rates) @ start
+        T += np.clip((found.time - there[:, 3]) / there[:, 2], -0.5, 0.5)
+    there = expm(T[:, None, None] * rates) @ start
+    np.testing.assert_allclose(there[:, 3], found.time, rtol=1e-12, atol=1e-12)
+    assert np.hypot(*found.xy.T).max() > 8.0
+    # an error of 1e-7 in each of a hundred steps, as large as x2 is
+    np.testing.assert_allclose(found.xy, there[:, :2], rtol=0.0, atol=1e-6 * np.hypot(*found.xy.T).max())
 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=str)

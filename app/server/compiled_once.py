@@ -1,0 +1,73 @@
+"""Of several processes one compiles a kernel: the others wait for that one, and load it.
+
+Numba asks the disk before it compiles, but processes that begin together, as servers behind one port or those that
+share the tests, all find nothing, and each compiles everything.
+"""
+
+from __future__ import annotations
+
+import os
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cache, wraps
+from pathlib import Path
+from typing import Any
+
+from numba.core import caching, compiler_lock
+from numba.core.ccallback import CFunc
+from numba.core.dispatcher import Dispatcher
+
+from ..view.alone import place
+
+_one_thread: Any = compiler_lock.global_compiler_lock
+
+
+@cache
+def install() -> None:
+    """Let all that is compiled from now on, and kept on disk, be compiled by one process."""
+    for kind in (Dispatcher, CFunc):
+        kind.compile = once(kind.compile)
+
+
+def once(compile_: Callable[..., Any]) -> Callable[..., Any]:
+    """Return Numba's method with its search on disk, the compiling and what is kept done by one process at a time.
+
+    The one thread that compiles in this process waits. It holds none but the functions that call the one that it waits
+    for, and none calls itself by others: no two processes wait for each other.
+    """
+
+    @wraps(compile_)
+    def compiled(self: Any, *signature: Any) -> Any:
+        if not isinstance(self._cache, caching.FunctionCache):  # nothing of it is kept
+            return compile_(self, *signature)
+        with _one_thread, held(f"{self._cache.cache_path} {self.__qualname__}"):
+            return compile_(self, *signature)
+
+    return compiled
+
+
+@contextmanager
+def held(name: str) -> Iterator[None]:
+    """Wait for other processes that hold this name, and let them wait; where that cannot be, go on.
+
+    A name is a byte of one file: what two names share by chance is compiled one after the other.
+    """
+    try:
+        import fcntl
+
+        file, byte = _opened(place().with_suffix(".kernels")), zlib.crc32(name.encode())
+        fcntl.lockf(file, fcntl.LOCK_EX, 1, byte)
+    except (ImportError, OSError):  # Windows; no folder for such files; a file system without locks
+        yield
+        return
+    try:
+        yield
+    finally:
+        fcntl.lockf(file, fcntl.LOCK_UN, 1, byte)
+
+
+@cache
+def _opened(path: Path) -> int:
+    """Return the file, open for as long as the process lives: closing it would give up all that is held of it."""
+    return os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
