@@ -125,12 +125,14 @@ def warm_general() -> None:
 
 
 def _warm_motions() -> None:
-    """Compile, or load, what follows motions for eps > 0: once for all systems, but for their formulas."""
-    from codim2_core.motion.regularised import simulate  # late: it brings SciPy along
+    """Compile, or load, what follows motions, also in the limit: once for all systems, but for their formulas."""
+    from codim2_core.motion.nonsmooth import simulate_nonsmooth  # late: both bring SciPy along
+    from codim2_core.motion.regularised import simulate
 
     example = presets["nonunique-sliding"]
     several = [(0.02, 0.01, 0.1)] * 8  # so many are compiled at once
     simulate(example.system, example.psi, 0.01, several, (0.0, 0.2))
+    simulate_nonsmooth(example.system, several[0], (0.0, 0.2), example.psi)  # the same formulas: compiled too
 
 
 def _warm_general_alone() -> None:

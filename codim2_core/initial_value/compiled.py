@@ -33,7 +33,7 @@ from ..stepping.gains import one_gain
 from ..stepping.layout import FIELD
 from ..words import say
 from .compiled_explicit import DEGREE, WIDTH
-from .compiled_motion import AHEAD, BLOWN_UP, CONTROL, FULL, LIMIT, SHORT, follow, follow_all, price
+from .compiled_motion import AHEAD, BLOWN_UP, CONTROL, FULL, LIMIT, SHORT, SHORTEST, follow, follow_all, price
 from .compiled_rate import Motion
 from .compiled_stages import tableau_of, workspace
 from .field import Field
@@ -78,6 +78,11 @@ def _function(rows: Any, names: tuple[str, ...]) -> Any:
 def _numbers_of_tableau() -> Array:
     table = tableau()
     return np.concatenate([[table.gamma], table.nodes, table.A.ravel(), table.error, table.fit.ravel()])
+
+
+@lru_cache(maxsize=1)
+def _table() -> Any:
+    return tableau_of(_numbers_of_tableau())
 
 
 @dataclass(frozen=True)
@@ -139,6 +144,8 @@ class Compiled:
         The largest rho so far, of a nonsmooth motion: eps = 0. It ends where rho is 1e-13 of the largest.
     """
 
+    chunk = CHUNK
+
     def __init__(
         self,
         problem: Problem,
@@ -163,7 +170,8 @@ class Compiled:
         self.y, self.clock = np.array(first), np.array([t_start, 0.0, t_end, 0.0])
         implicit = 1.0 if n > WIDTH else 0.0
         largest = max(1.0, float(np.abs(first).max()))
-        self.control = np.array([h, 1.0, 0.0, float(most), 0.0, largest, implicit, 0.0, AHEAD * price(n), farthest])
+        worth = AHEAD * price(n)
+        self.control = np.array([h, 1.0, 0.0, float(most), 0.0, largest, implicit, 0.0, worth, farthest, SHORTEST])
         assert len(self.control) == CONTROL
 
     @property
@@ -179,19 +187,27 @@ class Compiled:
         BlowUpError, StepsTooShortError, TooManyStepsError
             As `bounded` does of `steps`.
         """
-        n = len(self.y)
-        table, work, code = tableau_of(_numbers_of_tableau()), workspace(n, self.parameter), FULL
+        n, count = len(self.y), self.chunk
+        table, work, code = _table(), self.work(), FULL
         while code == FULL:
-            starts, lengths = np.empty(CHUNK), np.empty(CHUNK)
-            ends, polynomials = np.empty((CHUNK, n)), np.empty((CHUNK, n, DEGREE))
+            starts, lengths = np.empty(count), np.empty(count)
+            ends, polynomials = np.empty((count, n)), np.empty((count, n, DEGREE))
             begin = self.y.copy()
             code, filled = follow(
                 self.motion, table, work, self.y, self.clock, self.control, starts, lengths, ends, polynomials
             )
             yield Steps(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
-        error = failure(self.problem, code, float(self.clock[0]), self.y)
+        error = self.failure(code)
         if error is not None:
             raise error
+
+    def work(self) -> Any:
+        """Return a workspace."""
+        return workspace(len(self.y), self.parameter)
+
+    def failure(self, code: int) -> TooManyStepsError | None:
+        """Say why it has ended before its time."""
+        return failure(self.problem, code, float(self.clock[0]), self.y)
 
 
 @dataclass(frozen=True)

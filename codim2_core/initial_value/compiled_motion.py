@@ -26,8 +26,8 @@ CHUNK = 256  # steps that are filled in at once
 LARGEST, GROWN = 1e200, 8.0  # as in `numerics.growth`
 
 # What `control` holds.
-NEXT, REFINED, WARY, LEFT, TRIED, EXTENT, IMPLICIT, COUNT, WORTH, FARTHEST = range(10)
-CONTROL = 10
+NEXT, REFINED, WARY, LEFT, TRIED, EXTENT, IMPLICIT, COUNT, WORTH, FARTHEST, LEAST = range(11)
+CONTROL = 11
 
 STABLE = 4.0  # h times a growth rate of an explicit step in a slide
 SIGNS, SIGNS_BACK = 6.0, 3.0  # steps in a row that ask for the other method
@@ -111,6 +111,7 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
         left to try. TRIED: how many were. EXTENT: the largest size of the state so far. IMPLICIT: 1 in a slide. COUNT:
         signs so far that the other method costs less. WORTH: explicit steps that have to lie ahead. FARTHEST: the
         largest rho so far, of a nonsmooth motion (eps = 0), which has arrived at Sigma where rho is `CLOSE` of that.
+        LEAST: a shorter step ends the motion.
     starts, lengths (k,), ends (k, n), polynomials (k, n, 7)
         Filled with steps.
 
@@ -143,7 +144,7 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
         control[TRIED] += 1.0
         if control[LEFT] < 0.0:
             return LIMIT, filled
-        if not h > SHORTEST:
+        if not h > control[LEAST]:
             return SHORT, filled
         implicit = control[IMPLICIT] > 0.0
         if implicit:
@@ -196,7 +197,7 @@ def _prepared(motion, y, clock, control, t_start, t_end, most, work):
     control[NEXT] = FIRST / speed if speed > 0.0 else math.inf
     control[REFINED], control[WARY], control[LEFT], control[TRIED] = 1.0, 0.0, most, 0.0
     control[EXTENT], control[COUNT], control[WORTH] = extent, 0.0, AHEAD * price(motion.n)
-    control[IMPLICIT], control[FARTHEST] = 0.0 if explicit_first else 1.0, 0.0
+    control[IMPLICIT], control[FARTHEST], control[LEAST] = 0.0 if explicit_first else 1.0, 0.0, SHORTEST
     return True
 
 

@@ -136,7 +136,7 @@ def turns(
     for degree in degrees:
         nodes = 0.5 - 0.5 * np.cos(math.pi * np.arange(degree + 1) / degree)
         values = np.array([start, *(along(u) for u in nodes[1:-1].tolist()), end])
-        polynomial = _interpolated(values)
+        polynomial = interpolated(values)
         size = float(np.abs(values).max())
         if abs(polynomial[0]) > 2.0 * float(np.abs(polynomial[1:]).sum()):  # far from zero all along
             return [0.0, 1.0], [start, end]
@@ -153,7 +153,7 @@ def turns(
     return u, [0.0 if abs(v) <= TOUCH * size and 0 < k < len(u) - 1 else v for k, v in enumerate(at)]
 
 
-def _interpolated(values: Array) -> Array:
+def interpolated(values: Array) -> Array:
     """Chebyshev coefficients of the polynomial through values at the nodes -cos(pi k/n)."""
     n = len(values) - 1
     k = np.arange(n + 1)

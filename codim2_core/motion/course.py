@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..cycles.limit_cycles import limit_cycles
+from ..initial_value.compiled_phases import CompiledPhases
 from ..initial_value.events import Watch
 from ..initial_value.field import Field
 from ..initial_value.line import Line
@@ -27,7 +28,7 @@ from .places import Ascent
 from .result import Phase
 from .slide import slide
 from .slide_on_cycle import slide_on_cycle
-from .slip import CompiledSlip, leave, slip
+from .slip import leave, slip
 
 Array = NDArray[np.float64]
 
@@ -64,7 +65,7 @@ class Course:
     taken: list[Step] = made_with(default_factory=list)
     parts: list[Part] = made_with(default_factory=list)
     ascent: Ascent | None = None  # of the phase to come
-    compiled: CompiledSlip | None = None
+    compiled: CompiledPhases | None = None
 
     @property
     def own(self) -> Psi:
@@ -213,6 +214,7 @@ class Course:
             most=self.left,
             lives=lives,
             line=self.line,
+            compiled=self.compiled,
         )
         self.add("slide", part.taken, decision.reason, decision.onto, part.places)
         if part.stopped is not None:

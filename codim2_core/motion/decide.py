@@ -12,7 +12,7 @@ from ..cycles.limit_cycles import limit_cycles
 from ..layer_problem.critical import CriticalSet, critical_sets
 from ..layer_problem.equator import EquatorEquilibria, equator_equilibria
 from ..layer_problem.problem import LayerProblem
-from ..portrait.outcomes import approach_outcomes
+from ..portrait.outcomes import outcome_towards
 from ..portrait.verdicts import ends, followed, judge
 from ..psi.constructors import compared, constant
 from ..psi.function import Psi
@@ -59,15 +59,13 @@ def arriving(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Deci
     z : ndarray (m,)
     theta : float
     """
-    own = constant() if psi is None else psi
-    at = tuple(z.tolist())
-    outcomes = approach_outcomes(system, own, at, compare=None if psi is None else ())
-    outcome = outcomes.outcome(theta)
+    own = LayerProblem(system.at(tuple(z.tolist())), constant() if psi is None else psi)
+    outcome = outcome_towards(own, theta, None if psi is None else ())
     if psi is None and outcome.depends_on_psi:
         return Decision("stop", say("arrival depends", theta=theta))
     if outcome.verdict == "misses":
         return Decision("away", outcome.reason)
-    return _followed(system, own, at, outcome.verdict, outcome.onto, outcome.leaving, outcome.reason)
+    return _followed(own, outcome.verdict, outcome.onto, outcome.leaving, outcome.reason)
 
 
 def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Decision:
@@ -80,11 +78,10 @@ def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Dec
     points : ndarray (k, 2)
         In the projected disc, |p| < 1. Where they end at different places the decision is "stop".
     """
-    at = tuple(z.tolist())
-    hemisphere = LayerProblem(system.at(at), psi)
+    hemisphere = LayerProblem(system.at(tuple(z.tolist())), psi)
     found = ends(hemisphere, followed(hemisphere, points))
     verdict, onto, leaving, _, reason, _ = judge(hemisphere, found, "Orbits go on from there")
-    return _followed(system, psi, at, verdict, onto, leaving, reason)
+    return _followed(hemisphere, verdict, onto, leaving, reason)
 
 
 def critical_name(system: AnySystem, psi: Psi, z: Array, e: Array) -> str:
@@ -95,23 +92,15 @@ def critical_name(system: AnySystem, psi: Psi, z: Array, e: Array) -> str:
     return f"C{1 + min(range(len(sets)), key=lambda k: float(np.hypot(*(sets[k].e - e))))}"
 
 
-def _followed(
-    system: AnySystem,
-    psi: Psi,
-    at: tuple[float, ...],
-    verdict: str,
-    onto: str | None,
-    leaving: float | None,
-    reason: str,
-) -> Decision:
+def _followed(problem: LayerProblem, verdict: str, onto: str | None, leaving: float | None, reason: str) -> Decision:
     """Turn what approach outcomes say into what the course does next."""
     if verdict == "slide":
-        chosen = critical_sets(system, psi, at)[_index(onto)]
+        chosen = problem.critical[_index(onto)]
         if not _stable(chosen):
             return Decision("stop", f"{reason} {say('saddle reached', onto=onto, kind=chosen.kind)}")
         return Decision("slide", reason, chosen.e, onto=onto)
     if verdict == "cycle":
-        return Decision("cycle", reason, critical_sets(system, psi, at)[0].e, onto=onto)
+        return Decision("cycle", reason, problem.critical[0].e, onto=onto)
     if verdict == "cross" and leaving is not None:
         return Decision("leave", reason, theta=leaving)
     if verdict == "cross":

@@ -14,15 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..initial_value.field import Field
+from ..initial_value.sheet import solved
 from ..psi.function import Psi
 
 Array = NDArray[np.float64]
 
-NEWTON = 12
 MARGIN = 2.0  # times the first-order distance of the slow manifold
 FLOOR = 1e-3  # in p: what an orbit that runs into the set is given besides
 MOST = 0.25  # in p: near a fold, and near the equator, the expansion promises nothing
-FAR = 0.6  # in e: no set is looked for if Newton's first step is longer
 
 
 @dataclass(frozen=True)
@@ -62,27 +61,6 @@ def place(psi: Psi, eps: float, x: float, y: float) -> tuple[Array, Array]:
     r, rho = math.hypot(x, y), math.hypot(x, y, eps)
     p = np.array([x, y]) / rho
     return (p * (float(psi.modulus(r / eps)) * rho / r) if r > 0.0 else np.zeros(2)), p
-
-
-def solved(field: Field, e: Array, z: Array, far: float = FAR, most: int = NEWTON) -> Array | None:
-    """Critical set near e, by Newton's method; None where there is none near: a step is longer than `far`."""
-    e, slow, before = np.array(e, float), z.tolist(), math.inf
-    for _ in range(most):
-        c, s = e.tolist()
-        u, v = field.value(c, s, 0.0, 0.0, *slow)[:2]
-        (j11, j12), (j21, j22) = field.jacobian(c, s, 0.0, 0.0, slow)[:2, :2].tolist()
-        det = j11 * j22 - j12 * j21
-        if det == 0.0 or det != det:
-            return None
-        change = np.array([j22 * u - j12 * v, j11 * v - j21 * u]) / det
-        size = float(np.abs(change).max())
-        if not size < far:
-            return None
-        e = e - change
-        if size <= 1e-15 or (size <= 1e-11 and size >= 0.5 * before):
-            return e
-        before = size
-    return None
 
 
 def followed(field: Field, psi: Psi, eps: float, state: Array) -> Followed | None:

@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..initial_value.compiled_phases import CompiledPhases
 from ..initial_value.events import Events, Watch, checked_events
 from ..initial_value.field import Field, field
 from ..initial_value.line import invariant_line
@@ -20,7 +21,6 @@ from ..systems.kinds import AnySystem
 from .course import AtEventError, Course, StopError
 from .regularised import MAX_STEPS, checked_span, checked_state, checked_tolerances, count_steps, waited_for
 from .result import Simulation, SimulationStatus, simulation
-from .slip import CompiledSlip
 
 __all__ = ["simulate_nonsmooth"]
 
@@ -104,7 +104,7 @@ def simulate_nonsmooth(
     watch = Watch(checked_events(events), t_start, first)
     course = Course(system, psi, formulas, problem, line, watch, t_start, first, t_end, rtol, atol, max_steps)
     if not waited_for(formulas):
-        course.compiled = CompiledSlip(problem, formulas, line, rtol, atol / rtol)
+        course.compiled = CompiledPhases(problem, formulas, line, rtol, atol / rtol)
     status, detail = SimulationStatus.T_END, ""
     try:
         course.run()

@@ -14,12 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..initial_value.field import field
+from ..initial_value.sheet import solved
 from ..layer_problem.equator import equator_equilibria
 from ..numerics.dense import Dense
 from ..orbits.trajectories import continuation, trajectories
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .followed import in_disc, solved
+from .followed import in_disc
 
 Array = NDArray[np.float64]
 

@@ -1,111 +1,40 @@
 """Sliding in the limit eps -> 0: the slow flow on a critical set that is followed in z, and where that ends.
 
-On ``U((c, s), 0, 0, z) = 0``, ``z' = W((c, s), 0, 0, z)``, eq:linslowflow. The set is continued by Newton's method,
-with its exact derivative ``D_z e = -(D_e U)^-1 D_z U``.
+On ``U((c, s), 0, 0, z) = 0``, ``z' = W((c, s), 0, 0, z)``, eq:linslowflow. The set is continued as a `Sheet`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache, partial
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..initial_value.compiled_phases import CompiledPhases
 from ..initial_value.events import DEGREES, turns
 from ..initial_value.field import Field
 from ..initial_value.line import Line
-from ..initial_value.problem import growth_bound
+from ..initial_value.safe_steps import NODES, Safe
+from ..initial_value.sheet import Sheet, complement, determinant, trace
+from ..numerics.dense import Steps
 from ..numerics.growth import bounded
-from ..numerics.radau import STAGES, Problem, Step, StepsTooShortError, TooManyStepsError, steps
+from ..numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, steps
 from ..psi.function import Psi
-from .followed import solved
+
+if TYPE_CHECKING:
+    from ..initial_value.compiled_slow import CompiledSlow
 
 Array = NDArray[np.float64]
 
-NEWTON = 20
 SHORTEST = 1e-14  # of the time span: steps that short mean that the set ends here
 AT_EQUATOR = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
 AT_FOLD = 1e-3  # |det D_e U|, in units of its entries squared, at which it is taken for a fold
 INSIDE = (4, *DEGREES)  # of the polynomials that a gauge is taken for along a step: most are far from zero
 NEAR_HOPF = 1e-2  # |tr J| in units of D_e U, below which a stable cycle may be too small to be found
-
-
-class Sheet:
-    """A critical set as a function of z, continued from the last state that was accepted.
-
-    Parameters
-    ----------
-    field : Field
-    e : ndarray (2,)
-        On the set at z.
-    z : ndarray (m,)
-    """
-
-    def __init__(self, field: Field, e: Array, z: Array) -> None:
-        self.field = field
-        self.e, self.z, self.slope = np.array(e, float), np.array(z, float), np.zeros((2, len(z)))
-        self.move(z)
-
-    def slopes(self, e: Array, z: Array) -> Array:
-        """``D (U, W)`` by (c, s, x, y, z) on the set."""
-        return self.field.jacobian(float(e[0]), float(e[1]), 0.0, 0.0, z.tolist())
-
-    def at(self, z: Array) -> Array | None:
-        """Return e at z, or None where the set is not found."""
-        return solved(self.field, self.e + self.slope @ (z - self.z), z, far=1.0, most=NEWTON)
-
-    def move(self, z: Array) -> None:
-        """Continue from z from now on."""
-        e = self.at(z)
-        if e is not None:
-            D = self.slopes(e, z)
-            self.e, self.z = e, np.array(z)
-            self.slope = -np.linalg.solve(D[:2, :2], D[:2, 4:])
-
-    def problem(self, floor: float) -> Problem:
-        """Return the slow flow as an initial value problem in z; errors are measured by |z| + floor."""
-
-        def F(z: Array) -> Array:
-            e = self.at(z)
-            if e is None:
-                return np.full(len(z), math.nan)
-            return np.array(self.field.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:])
-
-        def J(z: Array) -> Array:
-            self.move(z)
-            D = self.slopes(self.e, self.z)
-            return D[2:, 4:] + D[2:, :2] @ self.slope
-
-        def limit(z: Array, rate: Array, jacobian: Array) -> float:  # noqa: ARG001 (the form of Problem.limit)
-            return growth_bound(jacobian)
-
-        return Problem(F, J, lambda z: np.abs(z) + floor, limit)
-
-
-def complement(e: Array) -> float:
-    """``1 - |e|^2``."""
-    r = math.hypot(e[0], e[1])
-    return (1.0 - r) * (1.0 + r)
-
-
-def determinant(sheet: Sheet, e: Array, z: Array) -> float:
-    """Det of D_e U: the sign of det J."""
-    return float(np.linalg.det(sheet.slopes(e, z)[:2, :2]))
-
-
-def trace(sheet: Sheet, psi: Psi, e: Array, z: Array) -> float:
-    """Tr J in units of the tangential eigenvalue of D e_Psi, which is positive: it has the sign of tr J."""
-    D = sheet.slopes(e, z)[:2, :2]
-    r, gap = math.hypot(e[0], e[1]), complement(e)
-    if r == 0.0 or gap <= 0.0:  # the two eigenvalues of D e_Psi are equal in the centre; radial/tangential is 0 outside
-        ratio, n = (1.0 if r == 0.0 else 0.0), e / (r or 1.0)
-    else:
-        radial, tangential = psi.jacobian_factors(psi.radius(min(r, 1.0), gap))
-        ratio, n = radial / tangential, e / r
-    return float(np.trace(D) + (ratio - 1.0) * (n @ D @ n))
 
 
 @dataclass(frozen=True)
@@ -146,6 +75,7 @@ def slide(
     most: int,
     lives: Callable[[Array], bool] | None = None,
     line: Line | None = None,
+    compiled: CompiledPhases | None = None,
 ) -> Slide:
     """Follow the slow flow until the critical set reaches the equator, folds, or changes stability.
 
@@ -164,6 +94,8 @@ def slide(
         For sliding on a limit cycle: whether it is still there at z.
     line : Line, optional
         The invariant line that the motion stays in, stable across it or not.
+    compiled : CompiledPhases, optional
+        Takes the steps instead.
     """
     if not len(z):
         return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])
@@ -181,22 +113,17 @@ def slide(
     problem = sheet.problem(atol / rtol)
     rate = problem.F(z)
     h = 1e-2 / float(np.max(np.abs(rate) / problem.scale(z))) if rate.any() else math.inf
+    shortest = SHORTEST * (t_end - t)
+    if compiled is None or lives is not None:
+        ahead = _in_python(sheet, bounded(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest))
+    else:
+        safe = Safe(psi, math.copysign(1.0, determinant(sheet, sheet.e, z)), None if line is None else line.n)
+        ahead = _compiled(sheet, compiled.slide(problem, sheet.e, t, t_end, z, h, most, shortest), safe)
     taken: list[Step] = []
     places = [sheet.e]
-    before = {name: gauge(sheet.e, z) for name, gauge in gauges.items()}
-    span = t_end - t
     try:
-        for step in bounded(problem, steps(problem, t, t_end, z, rtol, h, most, SHORTEST * span), SHORTEST * span):
-            after = sheet.at(step.last)
-            if after is None:
-                raise StepsTooShortError
-            found: list[tuple[float, str]] = []
-            place = cache(partial(_place, sheet, step))
-            for name, gauge in gauges.items():
-                start, before[name] = before[name], gauge(after, step.last)
-                u = _first(gauge, place, start, before[name])
-                if u is not None:
-                    found.append((u, name))
+        for step, whole, after, is_safe in ahead:
+            found: list[tuple[float, str]] = [] if is_safe else _ends(sheet, gauges, step, places[-1], after)
             if not alive(step.last):
                 found.append((_last_alive(alive, step), "cycle"))
             if found:
@@ -206,7 +133,7 @@ def slide(
                 end = sheet.at(last)
                 places.append(after if end is None else end)
                 return Slide(taken, name, places[-1], places)
-            taken.append(_whole(step, 1.0))
+            taken.append(whole)
             places.append(after)
     except StepsTooShortError as error:
         end = _end(sheet)
@@ -214,6 +141,59 @@ def slide(
     except TooManyStepsError as error:
         return Slide(taken, "given up", sheet.e, places, error)
     return Slide(taken, "time", sheet.e, places)
+
+
+class _Ahead(NamedTuple):
+    """A step of z, the same of the whole state, e at its end, and whether it is known that no end lies within it."""
+
+    step: Step
+    whole: Step
+    e: Array
+    is_safe: bool
+
+
+def _in_python(sheet: Sheet, ahead: Iterator[Step]) -> Iterator[_Ahead]:
+    """Take the steps of the slow flow; the sheet moves with them."""
+    for step in ahead:
+        after = sheet.at(step.last)
+        if after is None:
+            raise StepsTooShortError
+        yield _Ahead(step, _whole(step, 1.0), after, False)
+
+
+def _compiled(sheet: Sheet, motion: CompiledSlow, safe: Safe) -> Iterator[_Ahead]:
+    """Take the steps of a compiled slide; the sheet is moved to where an end may be near."""
+    z = sheet.z
+    try:
+        for part in motion.chunks():
+            if not len(part.starts):
+                continue
+            e, D = motion.sets(part, NODES)
+            known = safe.steps(e, D)
+            zs = Steps(part.first[2:], part.starts, part.lengths, part.ends[:, 2:], part.polynomials[:, 2:])
+            wholes = Steps(*(of.copy() for of in (part.first, part.starts, part.lengths, part.ends, part.polynomials)))
+            for array in (wholes.first, wholes.ends.T, wholes.polynomials.swapaxes(0, 1)):
+                array[:2] = 0.0
+            for step, whole, before, after, is_safe in zip(zs, wholes, e[:, 0], e[:, -1], known, strict=True):
+                if not is_safe:
+                    sheet.begin(before, step.first)
+                yield _Ahead(step, whole, after, is_safe)
+                z = step.last
+    finally:
+        sheet.begin(motion.y[:2].copy(), z)
+
+
+def _ends(
+    sheet: Sheet, gauges: dict[str, Callable[[Array, Array], float]], step: Step, before: Array, after: Array
+) -> list[tuple[float, str]]:
+    """Fractions of a step at which the slide ends, and how."""
+    place = cache(partial(_place, sheet, step))
+    found: list[tuple[float, str]] = []
+    for name, gauge in gauges.items():
+        u = _first(gauge, place, gauge(before, step.first), gauge(after, step.last))
+        if u is not None:
+            found.append((u, name))
+    return found
 
 
 def _gauges(sheet: Sheet, psi: Psi, on_cycle: bool, line: Line | None) -> dict[str, Callable[[Array, Array], float]]:
@@ -280,8 +260,9 @@ def _last_alive(alive: Callable[[Array], bool], step: Step) -> float:
 
 def _whole(step: Step, u: float) -> Step:
     """Return the part of a step in z up to its fraction u, as a step of the whole state on Sigma."""
-    polynomial = np.zeros((2 + len(step.first), STAGES))
-    polynomial[2:] = step.polynomial * u ** np.arange(1, STAGES + 1)
+    degree = step.polynomial.shape[1]
+    polynomial = np.zeros((2 + len(step.first), degree))
+    polynomial[2:] = step.polynomial * u ** np.arange(1, degree + 1)
     last = step.last if u == 1.0 else step.at(u)
     still = np.zeros(2)
     first, last = np.concatenate([still, step.first]), np.concatenate([still, last])

@@ -8,17 +8,16 @@ the way is straight to within rounding, and the time of arrival is known to that
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..initial_value.compiled_phases import CompiledPhases
 from ..initial_value.field import Field
 from ..initial_value.line import Line
 from ..numerics.growth import bounded
 from ..numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
-from ..psi.constructors import constant
 from ..words import say
 
 Array = NDArray[np.float64]
@@ -57,7 +56,7 @@ def slip(
     rtol: float,
     most: int,
     largest: float,
-    compiled: CompiledSlip | None = None,
+    compiled: CompiledPhases | None = None,
 ) -> Slip:
     """Follow the nonsmooth system until it arrives at Sigma, or to the end of the time span.
 
@@ -73,7 +72,7 @@ def slip(
         Steps.
     largest : float
         The scale of rho: it has arrived where rho is 1e-13 of that (or of a larger rho met on the way).
-    compiled : CompiledSlip, optional
+    compiled : CompiledPhases, optional
         Takes the steps instead.
     """
     taken: list[Step] = []
@@ -83,7 +82,7 @@ def slip(
     if compiled is None:
         ahead = bounded(problem, steps(problem, t, t_end, state, rtol, h, most))
     else:
-        ahead = compiled.steps(t, t_end, state, h, most, largest)
+        ahead = compiled.slip(t, t_end, state, h, most, largest)
     try:
         for step in ahead:
             taken.append(step)
@@ -194,45 +193,3 @@ def _polished(field: Field, theta: float, slow: list[float]) -> float:
             return theta
         angle -= change
     return angle
-
-
-@dataclass
-class CompiledSlip:
-    """Steps to Sigma, compiled: for systems whose formulas are compiled already or are long asked for.
-
-    Attributes
-    ----------
-    problem : Problem
-        The same in Python.
-    field : Field
-    line : Line or None
-    rtol, floor : float
-        As in `initial_value.compiled.Compiled`.
-    evaluations : int
-        Of the field, so far.
-    """
-
-    problem: Problem
-    field: Field
-    line: Line | None
-    rtol: float
-    floor: float
-    evaluations: int = 0
-
-    def steps(self, t: float, t_end: float, state: Array, h: float, most: int, farthest: float) -> Iterator[Step]:
-        """Step until the motion is as close to Sigma as `slip` asks for, or to t_end.
-
-        Raises
-        ------
-        BlowUpError, TooManyStepsError
-            As `bounded` does.
-        """
-        from ..initial_value.compiled import Compiled  # loads the compiler
-
-        own = (self.problem, self.field, constant(), 0.0, self.line)
-        motion = Compiled(*own, t, t_end, state, self.rtol, self.floor, h, most, farthest)
-        try:
-            for part in motion.chunks():
-                yield from part
-        finally:
-            self.evaluations += motion.evaluations

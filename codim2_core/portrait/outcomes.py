@@ -13,12 +13,13 @@ import bisect
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..layer_problem.critical import CriticalSet
-from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
+from ..layer_problem.equator import EquatorEquilibria, arcs_of
 from ..layer_problem.problem import LayerProblem
 from ..psi.constructors import compared
 from ..psi.function import Psi
@@ -252,28 +253,52 @@ def approach_outcomes(
 
 def outcomes_of(own: LayerProblem, compare: Sequence[Psi] | None = None) -> Outcomes:
     """Say of every limit direction of a layer problem what becomes of what arrives there."""
-    at, equator, cycle = own.at, own.equator, own.equator_cycle
-    others: list[LayerProblem] = []
-    sensitive = _sensitive(at, equator, own.critical)
-    if sensitive:
-        if compare is None and len(own.critical) > MOST_COMPARED:
-            compare = ()
-        if compare is None:
-            compare = compared()
-        others = [own.under(other) for other in compare]
+    equator, asked = own.equator, _asked(own, compare)
     if not len(equator):
-        whole = _whole(own, others, sensitive, cycle)
+        whole = _whole(asked)
         found = () if whole.verdict == "misses" else (whole,)
-        return Outcomes(found, (), equator, whole, at)
-    which = [i for i in range(len(equator)) if not radially_neutral(equator, i) and equator.lambda_rho[i] < 0.0]
+        return Outcomes(found, (), equator, whole, own.at)
+    directions = _directions(asked, range(len(equator)))
+    order = ("open set", "one side", "single direction")
+    found = sorted((o for o in directions if o.arrives in order), key=lambda o: order.index(o.arrives))
+    return Outcomes(tuple(found), directions, equator, None, own.at)
+
+
+def outcome_towards(own: LayerProblem, theta: float, compare: Sequence[Psi] | None = None) -> Outcome:
+    """Say what `outcomes_of` says of one angle of approach, at the cost of that one."""
+    equator, asked = own.equator, _asked(own, compare)
+    if not len(equator):
+        return _whole(asked)
+    i = Outcomes((), (), equator, None, own.at).destination(theta)
+    return _on_arcs(equator) if i is None else _directions(asked, (i,))[0]
+
+
+class _Asked(NamedTuple):
+    """A layer problem, the same under other regularisations that are asked, and whether these may say otherwise."""
+
+    own: LayerProblem
+    others: list[LayerProblem]
+    sensitive: bool
+
+
+def _asked(own: LayerProblem, compare: Sequence[Psi] | None) -> _Asked:
+    if not _sensitive(own.at, own.equator, own.critical):
+        return _Asked(own, [], False)
+    if compare is None:
+        compare = () if len(own.critical) > MOST_COMPARED else compared()
+    return _Asked(own, [own.under(other) for other in compare], True)
+
+
+def _directions(asked: _Asked, indices: Sequence[int]) -> tuple[Outcome, ...]:
+    """Say of some limit directions (from 0) what becomes of what arrives there."""
+    own, others, sensitive = asked
+    equator = own.equator
+    which = [i for i in indices if not radially_neutral(equator, i) and equator.lambda_rho[i] < 0.0]
     problems = {problem.psi: problem for problem in (own, *others)}  # the own Psi may be one of the others
     arrivals = {psi: arriving(problem, which) for psi, problem in problems.items()}
     judged = {i: [arrivals[problem.psi][k] for problem in (own, *others)] for k, i in enumerate(which)}
     texts = [other.psi.words for other in others]
-    directions = tuple(_direction(own, judged.get(i, ()), texts, sensitive, i) for i in range(len(equator)))
-    order = ("open set", "one side", "single direction")
-    found = sorted((o for o in directions if o.arrives in order), key=lambda o: order.index(o.arrives))
-    return Outcomes(tuple(found), directions, equator, None, at)
+    return tuple(_direction(own, judged.get(i, ()), texts, sensitive, i) for i in indices)
 
 
 def _compared(outcome: Outcome, verdicts: list[tuple[str, str, str | None]], sensitive: bool, elinear: bool) -> Outcome:
@@ -310,8 +335,9 @@ def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], se
     return _compared(outcome, verdicts, sensitive, own.at.normal_form is not None)
 
 
-def _whole(own: LayerProblem, others: list[LayerProblem], sensitive: bool, cycle: EquatorCycle | None) -> Outcome:
-    elinear = own.at.normal_form is not None
+def _whole(asked: _Asked) -> Outcome:
+    own, others, sensitive = asked
+    elinear, cycle = own.at.normal_form is not None, own.equator_cycle
     if own.equator.all_directions:
         label, radial = "every direction", _radial(own.at)
         if radial.max() < 0.0:

@@ -13,9 +13,9 @@ from scipy.integrate import quad
 from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
 from codim2_core.initial_value.field import field
+from codim2_core.initial_value.sheet import Sheet
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.result import SimulationStatus
-from codim2_core.motion.slide import Sheet
 from codim2_core.motion.slip import leave
 
 G = 9.81

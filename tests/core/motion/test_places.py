@@ -8,8 +8,9 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.initial_value.field import field
+from codim2_core.initial_value.sheet import solved
 from codim2_core.motion import agreement, decide, phases, places
-from codim2_core.motion.followed import followed, in_disc, place, solved
+from codim2_core.motion.followed import followed, in_disc, place
 from codim2_core.motion.result import Phase
 
 PSIS = [c2.psi.constant(), c2.psi.rational(), c2.psi.exponential(), c2.psi.tanh(), c2.psi.hill(3)]
@@ -293,12 +294,11 @@ def test_a_start_on_sigma_without_psi():
 def test_all_usual_psi_are_asked_only_where_none_is_given(monkeypatch):
     asked = []
 
-    def approach_outcomes(system, psi, z, compare):
-        asked.append((psi, compare))
-        outcome = SimpleNamespace(depends_on_psi=compare is None, verdict="misses", reason="It turns.")
-        return SimpleNamespace(outcome=lambda theta: outcome)
+    def outcome_towards(problem, theta, compare):
+        asked.append((problem.psi, compare))
+        return SimpleNamespace(depends_on_psi=compare is None, verdict="misses", reason="It turns.")
 
-    monkeypatch.setattr(decide, "approach_outcomes", approach_outcomes)
+    monkeypatch.setattr(decide, "outcome_towards", outcome_towards)
     given, none = (decide.arriving(BENT, psi, np.array([0.3]), 0.2) for psi in (PSIS[3], None))
     assert asked == [(PSIS[3], ()), (c2.psi.constant(), None)]
     assert (given.kind, given.reason) == ("away", "It turns.")

@@ -7,10 +7,13 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
+from codim2_core.initial_value.compiled_phases import CompiledPhases
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.line import Line
 from codim2_core.initial_value.problem import plane_problem
-from codim2_core.motion.slide import Sheet, _first, _last_alive, _place, _whole, complement, determinant, slide, trace
+from codim2_core.initial_value.safe_steps import _positive
+from codim2_core.initial_value.sheet import Sheet, complement, determinant, trace
+from codim2_core.motion.slide import _first, _last_alive, _place, _whole, slide
 from codim2_core.motion.slide_on_cycle import _means
 from codim2_core.motion.slip import _polished, leave, slip
 from codim2_core.numerics.radau import Step
@@ -57,7 +60,13 @@ def test_the_slow_flow_as_a_problem():
         np.testing.assert_allclose(problem.scale(at), np.abs(at) + 0.01)
 
 
-def test_a_slide_ends_at_the_time_the_equator_a_fold_or_a_hopf_point():
+def compiled_phases(formulas, line=None):
+    problem = plane_problem(formulas, None, 0.0, OPTIONS["rtol"], OPTIONS["atol"])
+    return CompiledPhases(problem, formulas, line, OPTIONS["rtol"], OPTIONS["atol"] / OPTIONS["rtol"])
+
+
+@pytest.mark.parametrize("in_python", [True, False])
+def test_a_slide_ends_at_the_time_the_equator_a_fold_or_a_hopf_point(in_python):
     """U = (z - c, -s), z' = 1: c = z reaches 1. U1 = z - c^2, z' = -1: a fold at 0. a + d = z: tr J = 0 at 0."""
     psi = PSIS[1]
     cases = [
@@ -65,9 +74,11 @@ def test_a_slide_ends_at_the_time_the_equator_a_fold_or_a_hopf_point():
         (c2.System(U=("z - c", "-s"), W=("1",)), 1.0, (0.2, 0.0), 0.2, 5.0, "equator", 1.0),
         (c2.System(U=("z - c**2", "-s"), W=("-1",)), -1.0, (0.5, 0.0), 0.25, 5.0, "fold", 0.0),
         (c2.System(U=("z*c - s", "c + z*s"), W=("2",)), 2.0, (0.0, 0.0), -0.5, 5.0, "hopf", 0.0),
+        (c2.System(U=("z - c + abs(s)", "-s"), W=("1",)), 1.0, (0.2, 0.0), 0.2, 0.5, "time", 0.7),  # a kink all along
     ]
     for system, speed, e, z, t_end, end, last in cases:
-        found = slide(field(system), psi, np.array(e), 1.0, np.array([z]), 1.0 + t_end, **OPTIONS)
+        phases = None if in_python else compiled_phases(field(system))
+        found = slide(field(system), psi, np.array(e), 1.0, np.array([z]), 1.0 + t_end, **OPTIONS, compiled=phases)
         assert found.end == end
         assert found.taken[-1].last == pytest.approx([0.0, 0.0, last], abs=1e-4)
         assert found.taken[-1].end == pytest.approx(1.0 + (last - z) / speed, abs=1e-4)
@@ -84,6 +95,42 @@ def test_a_slide_ends_at_the_time_the_equator_a_fold_or_a_hopf_point():
     few = slide(field(BENT), psi, np.array([0.2, 0.0]), 0.0, np.array([0.2]), 0.5, rtol=1e-10, atol=1e-12, most=1)
     assert few.end == "given up"
     assert few.stopped is not None
+
+
+@pytest.mark.parametrize("psi", [PSIS[0], PSIS[3]], ids=lambda p: p.text)
+def test_a_slide_compiled_is_that_in_python(psi):
+    """Two slow variables, a set that wanders; n.D n and what is across it of two signs, so that Psi is asked."""
+    system = c2.System(
+        U=("-c - s/2 + z1", "3*c/2 + s/10 - z2/4 + c*s/3"), W=("cos(2*z2) - z1", "1 - c/5"), parameters={}
+    )
+    start = (field(system), psi, np.array([0.3, 0.1]), 0.0, np.array([0.3, 1.7]), 4.0)
+    own, phases = slide(*start, **OPTIONS), compiled_phases(field(system))
+    found = slide(*start, **OPTIONS, compiled=phases)
+    assert phases.evaluations > 50
+    assert found.end == own.end
+    assert found.taken[-1].end == pytest.approx(own.taken[-1].end, rel=1e-8)
+    np.testing.assert_allclose(found.taken[-1].last, own.taken[-1].last, rtol=0.0, atol=1e-8)
+    np.testing.assert_allclose(found.places[-1], own.places[-1], rtol=0.0, atol=1e-8)
+    for step in found.taken:
+        assert step.at(0.4)[:2].tolist() == [0.0, 0.0]
+        np.testing.assert_allclose(step.at(1.0), step.last, rtol=0.0, atol=1e-13)
+    assert [len(part.places) for part in (found, own)] == [len(found.taken) + 1, len(own.taken) + 1]
+
+
+@pytest.mark.parametrize("height", [1.01, 1.0000001])
+def test_a_slide_compiled_ends_where_the_set_is_outside_for_part_of_a_step(height):
+    system = c2.System(U=(f"-c + {height}*sin(z)", "-s"), W=("1",))
+    start = (field(system), PSIS[0], np.zeros(2), 0.0, np.zeros(1), 3.0)
+    found = slide(*start, **OPTIONS, compiled=compiled_phases(field(system)))
+    assert found.end == "equator"
+    assert found.taken[-1].end == pytest.approx(math.asin(1.0 / height), abs=1e-9)
+
+
+def test_what_is_surely_positive_all_along_a_step_is():
+    for values, safe in (([1.0] * 5, True), ([-1.0] * 5, False), ([1.0, 1.1, 1.2, 1.1, 1.0], True)):
+        assert _positive(np.array([values])).tolist() == [safe]
+    dips = 1.0 - 1.02 * np.sin(math.pi * np.linspace(0.0, 1.0, 5)) ** 2
+    assert _positive(np.array([dips, [1.0, 1.0, math.nan, 1.0, 1.0]])).tolist() == [False, False]
 
 
 def test_an_unstable_set_is_followed_around_a_cycle_until_that_is_gone():

@@ -19,6 +19,7 @@ from codim2_core import (
     psi,
     trajectories,
 )
+from codim2_core.layer_problem.problem import LayerProblem
 from codim2_core.portrait import outcomes
 from codim2_core.portrait.outcomes import approach_outcomes
 from codim2_core.portrait.separatrices import separatrices
@@ -240,6 +241,17 @@ def test_the_regularised_system_does_as_foretold():
             assert math.hypot(*x) > 10.0 * far
             # The angle closes in on the direction like a power of the distance.
             assert abs(math.remainder(math.atan2(x[1], x[0]) - outcome.leaving, 2 * math.pi)) < 0.5
+
+
+@pytest.mark.parametrize("name", ["case1-cm0", "case1-cm4", "case2-saddle", "case3-n3"])
+def test_one_angle_of_approach_is_told_as_all_are(name):
+    preset = presets[name]
+    found = approach_outcomes(preset.system, preset.psi, compare=())
+    for theta in (0.1, 1.3, 2.9, 4.4):
+        one = outcomes.outcome_towards(LayerProblem(preset.system.at(), preset.psi), theta, ())
+        told = found.outcome(theta)
+        for attribute in ("theta", "label", "arrives", "verdict", "onto", "leaving", "reason", "depends_on_psi", "why"):
+            assert getattr(one, attribute) == getattr(told, attribute)
 
 
 def test_scene_coefficients_are_accepted():

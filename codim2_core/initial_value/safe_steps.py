@@ -1,0 +1,67 @@
+"""Steps of a slide along which it surely does not end: told for many at once, so that few have to be looked at closely.
+
+What turns negative where a slide ends is taken at five points of each step, and bounded between them by the polynomial
+through these, as `events.turns` does.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..psi.function import Psi
+from .events import interpolated
+
+Array = NDArray[np.float64]
+
+DEGREE = 4
+NODES = 0.5 - 0.5 * np.cos(math.pi * np.arange(DEGREE + 1) / DEGREE)
+_COEFFICIENTS = np.array([interpolated(row) for row in np.eye(DEGREE + 1)])
+
+
+def _positive(values: Array) -> NDArray[np.bool_]:
+    """Whether a gauge with these values (k, 5) is far from zero, and positive, all along each of k steps."""
+    of = values @ _COEFFICIENTS
+    return of[:, 0] > 2.0 * np.abs(of[:, 1:]).sum(axis=1)  # not for NaN
+
+
+@dataclass(frozen=True)
+class Safe:
+    """What is asked of steps.
+
+    Attributes
+    ----------
+    psi : Psi
+    sign : float
+        Of det D_e U where the slide begins.
+    n : ndarray (2,) or None
+        Along the invariant line that the motion stays in.
+    """
+
+    psi: Psi
+    sign: float
+    n: Array | None
+
+    def steps(self, e: Array, D: Array) -> list[bool]:
+        """Tell for k steps, with e (k, 5, 2) and D_e U (k, 5, 2, 2) at their `NODES`."""
+        r = np.hypot(e[..., 0], e[..., 1])
+        gap = (1.0 - r) * (1.0 + r)
+        safe = _positive(gap)
+        if self.n is not None:
+            return (safe & _positive(-np.einsum("i,kdij,j->kd", self.n, D, self.n))).tolist()
+        safe &= _positive(self.sign * (D[..., 0, 0] * D[..., 1, 1] - D[..., 0, 1] * D[..., 1, 0]))
+        if not safe.any():
+            return safe.tolist()
+        n = np.where(r[..., None] > 0.0, e / np.where(r > 0.0, r, 1.0)[..., None], (1.0, 0.0))
+        radial = np.einsum("kdi,kdij,kdj->kd", n, D, n)
+        across = D[..., 0, 0] + D[..., 1, 1] - radial
+        stable = _positive(-radial) & _positive(-across)  # tr J is a sum of both, each times a positive number
+        if not stable[safe].all():
+            ratio, inside = np.ones_like(r), (r > 0.0) & (gap > 0.0)
+            along, tangential = self.psi.jacobian_factors(self.psi.radius(np.minimum(r[inside], 1.0), gap[inside]))
+            ratio[inside] = along / tangential
+            stable |= _positive(-(across + ratio * radial))
+        return (safe & stable).tolist()

@@ -1,0 +1,118 @@
+"""A critical set continued in z, by Newton's method with its exact derivative ``D_z e = -(D_e U)^-1 D_z U``."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.radau import Problem
+from ..psi.function import Psi
+from .field import Field
+from .problem import growth_bound
+
+Array = NDArray[np.float64]
+
+NEWTON, FURTHER = 12, 20  # iterations; and where there was a set a little before
+FAR = 0.6  # in e: no set is looked for if Newton's first step is longer
+
+
+def solved(field: Field, e: Array, z: Array, far: float = FAR, most: int = NEWTON) -> Array | None:
+    """Critical set near e, by Newton's method; None where there is none near: a step is longer than `far`."""
+    e, slow, before = np.array(e, float), z.tolist(), math.inf
+    for _ in range(most):
+        c, s = e.tolist()
+        u, v = field.value(c, s, 0.0, 0.0, *slow)[:2]
+        (j11, j12), (j21, j22) = field.jacobian(c, s, 0.0, 0.0, slow)[:2, :2].tolist()
+        det = j11 * j22 - j12 * j21
+        if det == 0.0 or det != det:
+            return None
+        change = np.array([j22 * u - j12 * v, j11 * v - j21 * u]) / det
+        size = float(np.abs(change).max())
+        if not size < far:
+            return None
+        e = e - change
+        if size <= 1e-15 or (size <= 1e-11 and size >= 0.5 * before):
+            return e
+        before = size
+    return None
+
+
+class Sheet:
+    """A critical set as a function of z, continued from the last state that was accepted.
+
+    Parameters
+    ----------
+    field : Field
+    e : ndarray (2,)
+        On the set at z.
+    z : ndarray (m,)
+    """
+
+    def __init__(self, field: Field, e: Array, z: Array) -> None:
+        self.field = field
+        self.begin(np.array(e, float), np.array(z, float))
+
+    def slopes(self, e: Array, z: Array) -> Array:
+        """``D (U, W)`` by (c, s, x, y, z) on the set."""
+        return self.field.jacobian(float(e[0]), float(e[1]), 0.0, 0.0, z.tolist())
+
+    def at(self, z: Array) -> Array | None:
+        """Return e at z, or None where the set is not found."""
+        return solved(self.field, self.e + self.slope @ (z - self.z), z, far=1.0, most=FURTHER)
+
+    def move(self, z: Array) -> None:
+        """Continue from z from now on."""
+        e = self.at(z)
+        if e is not None:
+            D = self.slopes(e, z)
+            self.e, self.z = e, np.array(z)
+            self.slope = -np.linalg.solve(D[:2, :2], D[:2, 4:])
+
+    def begin(self, e: Array, z: Array) -> None:
+        """Continue from e at z from now on."""
+        self.e, self.z, self.slope = e, z, np.zeros((2, len(z)))
+        self.move(z)
+
+    def problem(self, floor: float) -> Problem:
+        """Return the slow flow as an initial value problem in z; errors are measured by |z| + floor."""
+
+        def F(z: Array) -> Array:
+            e = self.at(z)
+            if e is None:
+                return np.full(len(z), math.nan)
+            return np.array(self.field.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:])
+
+        def J(z: Array) -> Array:
+            self.move(z)
+            D = self.slopes(self.e, self.z)
+            return D[2:, 4:] + D[2:, :2] @ self.slope
+
+        def limit(z: Array, rate: Array, jacobian: Array) -> float:  # noqa: ARG001 (the form of Problem.limit)
+            return growth_bound(jacobian)
+
+        return Problem(F, J, lambda z: np.abs(z) + floor, limit)
+
+
+def complement(e: Array) -> float:
+    """``1 - |e|^2``."""
+    r = math.hypot(e[0], e[1])
+    return (1.0 - r) * (1.0 + r)
+
+
+def determinant(sheet: Sheet, e: Array, z: Array) -> float:
+    """Det of D_e U: the sign of det J."""
+    return float(np.linalg.det(sheet.slopes(e, z)[:2, :2]))
+
+
+def trace(sheet: Sheet, psi: Psi, e: Array, z: Array) -> float:
+    """Tr J in units of the tangential eigenvalue of D e_Psi, which is positive: it has the sign of tr J."""
+    D = sheet.slopes(e, z)[:2, :2]
+    r, gap = math.hypot(e[0], e[1]), complement(e)
+    if r == 0.0 or gap <= 0.0:  # the two eigenvalues of D e_Psi are equal in the centre; radial/tangential is 0 outside
+        ratio, n = (1.0 if r == 0.0 else 0.0), e / (r or 1.0)
+    else:
+        radial, tangential = psi.jacobian_factors(psi.radius(min(r, 1.0), gap))
+        ratio, n = radial / tangential, e / r
+    return float(np.trace(D) + (ratio - 1.0) * (n @ D @ n))
