@@ -103,7 +103,8 @@ def complement(e: Array) -> float:
 
 def determinant(sheet: Sheet, e: Array, z: Array) -> float:
     """Det of D_e U: the sign of det J."""
-    return float(np.linalg.det(sheet.slopes(e, z)[:2, :2]))
+    (j11, j12), (j21, j22) = sheet.slopes(e, z)[:2, :2].tolist()
+    return j11 * j22 - j12 * j21
 
 
 def trace(sheet: Sheet, psi: Psi, e: Array, z: Array) -> float:

@@ -87,14 +87,13 @@ class Course:
         p: Sequence[Array] = (),
     ) -> None:
         """Add a phase, as far as no terminal event stops it."""
-        start, kept, stopped = self.t, list[Step](), False
-        for step in taken:
+        start, kept, stopped = self.t, taken, False
+        for i, step in enumerate(taken if self.watch.events else ()):
             last = self.watch.step(step)
-            kept.append(step if last is None else last)
             if last is not None:
-                stopped = True
+                kept, stopped = [*taken[:i], last], True
                 break
-        times = [start, *(step.end for step in kept)]
+        times = [start, *(step.end for step in kept)] if len(e) else []
         if kept:
             self.taken += kept
             self.t, self.state = max(kept[-1].end, start), kept[-1].last

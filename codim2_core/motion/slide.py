@@ -139,8 +139,8 @@ def slide(
         end = _end(sheet)
         return Slide(taken, end, sheet.e, places, error if end == "given up" else None)
     except TooManyStepsError as error:
-        return Slide(taken, "given up", sheet.e, places, error)
-    return Slide(taken, "time", sheet.e, places)
+        return Slide(taken, "given up", places[-1], places, error)
+    return Slide(taken, "time", places[-1], places)
 
 
 class _Ahead(NamedTuple):
@@ -179,8 +179,9 @@ def _compiled(sheet: Sheet, motion: CompiledSlow, safe: Safe) -> Iterator[_Ahead
                     sheet.begin(before, step.first)
                 yield _Ahead(step, whole, after, is_safe)
                 z = step.last
-    finally:
+    except StepsTooShortError:
         sheet.begin(motion.y[:2].copy(), z)
+        raise
 
 
 def _ends(

@@ -65,8 +65,7 @@ def tableau() -> Tableau:
     return Tableau(nodes, A, gamma, (embedded - A[-1]) @ inverse, fit)
 
 
-@dataclass(frozen=True)
-class Step:
+class Step(NamedTuple):
     """One step: ``Y(start + u h) = first + polynomial . (u, ..., u^d)``, 0 <= u <= 1; d is 5 for this method."""
 
     start: float

@@ -9,12 +9,21 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cycles.limit_cycles import cycles_of
+from ..cycles.limit_cycles import cycles_of, reason_for_none
 from ..layer_problem.problem import LayerProblem
 from ..orbits.result import Status
 from ..orbits.trajectories import Trajectories, continuation, trajectories
 from ..words import named, number, say
-from .endings import CAPTURE, CONNECTION, Ending, critical_label, drawn_time, endings, radially_neutral
+from .endings import (
+    CAPTURE,
+    CONNECTION,
+    Ending,
+    critical_label,
+    drawn_time,
+    endings,
+    radially_neutral,
+    radially_neutral_ones,
+)
 
 Array = NDArray[np.float64]
 
@@ -104,10 +113,26 @@ def judge(problem: LayerProblem, found: Sequence[Ending], many: str) -> Judged:
     return Judged("undecided", reason=say("unfollowed"), why="unfollowed")
 
 
+def _all_end_on_C(problem: LayerProblem) -> bool:
+    """Whether no orbit that leaves the equator can end but on the one critical set, which is stable.
+
+    Where a theorem forbids limit cycles (`reason_for_none`), it ends at equilibria or a graphic of orbits between them,
+    Poincare and Bendixson; and where lambda_rho < 0 at all Q no orbit of the open hemisphere comes to one.
+    """
+    equator, critical, form = problem.equator, problem.critical, problem.at.normal_form
+    if form is None or len(critical) != 1 or not critical[0].kind.startswith("stable"):
+        return False
+    down = all(rate < 0.0 for rate in equator.lambda_rho.tolist()) and not any(radially_neutral_ones(equator))
+    return down and not len(equator.arcs) and reason_for_none(form, critical, problem.location) is not None
+
+
 def arriving(problem: LayerProblem, which: Sequence[int]) -> list[Judged]:
     """Judge what arrives at some limit directions (from 0), where lambda_rho < 0: all orbits side by side."""
     if not which:
         return []
+    if _all_end_on_C(problem):
+        C = problem.critical[0]
+        return [Judged("slide", "C", None, C.slow_flow, say("slides", label=named("C"), kind=C.kind))] * len(which)
     equator = problem.equator
     mains = ends(problem, from_equator(problem, which))
     wide = [i for i in which if not (equator.multiplicity[i] == 1 and equator.lambda_theta[i] < 0.0)]

@@ -40,6 +40,7 @@ TABLES = {
     "equator": "Counts of limit directions",
     "census": "A census of portraits", "cycles": "Case III and its cycles",
     "compiled": "Motions against SciPy with a compiled right-hand side",
+    "nonsmooth": "Nonsmooth motions against SciPy told its events",
 }  # fmt: skip
 ON_PAGE = (
     "trajectories", "scene", "general", "app", "browser", "page", "start", "sessions", "equator", "census",

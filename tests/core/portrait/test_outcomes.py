@@ -20,7 +20,7 @@ from codim2_core import (
     trajectories,
 )
 from codim2_core.layer_problem.problem import LayerProblem
-from codim2_core.portrait import outcomes
+from codim2_core.portrait import outcomes, verdicts
 from codim2_core.portrait.outcomes import approach_outcomes
 from codim2_core.portrait.separatrices import separatrices
 from codim2_core.words import say
@@ -252,6 +252,25 @@ def test_one_angle_of_approach_is_told_as_all_are(name):
         told = found.outcome(theta)
         for attribute in ("theta", "label", "arrives", "verdict", "onto", "leaving", "reason", "depends_on_psi", "why"):
             assert getattr(one, attribute) == getattr(told, attribute)
+
+
+@given(
+    *(st.floats(low, high) for low, high in ((-3.0, -0.1), (-0.3, 0.3), (-3.0, -0.1), (0.0, 0.9), (0.0, 6.3))),
+    regularisations,
+)
+@settings(max_examples=25)
+def test_where_all_must_end_on_C_they_are_followed_there(a, b, d, r, angle, shape):
+    c, s = r * math.cos(angle), r * math.sin(angle)
+    problem = LayerProblem(ELinear(a, b, d, (b * s - a * c, -b * c - d * s)).at(), shape)
+    assert verdicts._all_end_on_C(problem) or len(problem.equator.arcs)
+    which = list(range(len(problem.equator)))
+    assume(which)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(verdicts, "_all_end_on_C", lambda problem: False)
+        followed = verdicts.arriving(problem, which)
+    for told, found in zip(verdicts.arriving(problem, which), followed, strict=True):
+        if found.why != "unfollowed":  # which a theorem need not be
+            assert (told.verdict, told.onto, told.reason) == (found.verdict, found.onto, found.reason)
 
 
 def test_scene_coefficients_are_accepted():
