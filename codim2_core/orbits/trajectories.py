@@ -269,6 +269,7 @@ def continuation(
     length: float = math.inf,
     step_limit: int = STEP_LIMIT,
     stiff: bool = False,
+    beside: Array | None = None,
 ) -> Trajectories:
     """Continue trajectories that arrive at limit directions up the hemisphere, fig:side_of_sphere, thm:geneps0(b).
 
@@ -282,11 +283,13 @@ def continuation(
         Limit directions, radians: zeros of Theta with lambda_rho < 0 (backward: > 0).
     system, psi, z, t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff
         As in `trajectories`; the time 0 is where the expansion hands over.
+    beside : (j, 2), optional
+        Points of the hemisphere: trajectories from these are followed along with the others.
 
     Returns
     -------
     Trajectories
-        Each starts less than 1e-6 (in |p|) above the equator, at theta.
+        Each starts less than 1e-6 (in |p|) above the equator, at theta; after these come those from `beside`.
 
     Raises
     ------
@@ -296,4 +299,6 @@ def continuation(
     options = stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff)
     at = system.at(z)
     states = departures(at, psi, theta, rtol, backward)
+    if beside is not None:
+        states = np.concatenate([states, _kernels().states_of(np.ascontiguousarray(beside))[0]])
     return _integrate(at, psi, states, np.full(len(states), -1.0), options)

@@ -53,6 +53,12 @@ def _nearest_critical(critical: tuple[CriticalSet, ...], p: Array, within: float
     return i if gaps and gaps[i] <= within else None
 
 
+def _nears_end(critical: tuple[CriticalSet, ...], p: Array, backward: bool) -> bool:
+    """Whether an orbit is close to a critical set that attracts, or repels backward."""
+    k = _nearest_critical(critical, p, AT_CRITICAL)
+    return k is not None and critical[k].kind.startswith("unstable" if backward else "stable")
+
+
 def _on_cycle(cycles: LimitCycles, p: Array, backward: bool) -> int | None:
     for i, cycle in enumerate(cycles):
         if cycle.kind != "semistable" and (cycle.kind == "unstable") != backward:
@@ -144,6 +150,8 @@ def endings(
                 found[i] = Ending(label, float(equator.theta[near]), statuses[i].value)
             elif statuses[i] is Status.SPIRALLED:
                 found[i] = Ending("equator", None, statuses[i].value)
+            elif not more and _nears_end(critical, p, backward):
+                continue  # it is followed on before cycles, which cost more, are searched for
             elif (reached := _on_cycle(cycles(), p, backward)) is not None:
                 found[i] = Ending(f"cycle {reached + 1}", None, say("onto a cycle"))
             elif w < AT_SADDLE and gap < AT_SADDLE and more:

@@ -41,6 +41,7 @@ class Judged(NamedTuple):
 
 RTOL = 1e-8
 FAN = 0.02  # radius, in (theta, ebar), of the half circle of starts around a Q that many orbits leave
+ANGLES = np.radians([15.0, 45.0, 75.0, 105.0, 135.0, 165.0])
 
 
 def ends(problem: LayerProblem, lines: Trajectories) -> list[Ending]:
@@ -64,8 +65,8 @@ def followed(problem: LayerProblem, points: Array) -> Trajectories:
     )
 
 
-def from_equator(problem: LayerProblem, which: Sequence[int]) -> Trajectories:
-    """Follow the orbits that leave some limit directions (from 0) up the hemisphere."""
+def from_equator(problem: LayerProblem, which: Sequence[int], beside: Array | None = None) -> Trajectories:
+    """Follow the orbits that leave some limit directions (from 0) up the hemisphere, and those from points beside."""
     time = drawn_time(problem.at, problem.equator)
     return continuation(
         problem.at,
@@ -76,6 +77,7 @@ def from_equator(problem: LayerProblem, which: Sequence[int]) -> Trajectories:
         atol=0.1 * RTOL,
         capture=CAPTURE,
         samples="ends",
+        beside=beside,
     )
 
 
@@ -134,15 +136,15 @@ def arriving(problem: LayerProblem, which: Sequence[int]) -> list[Judged]:
         C = problem.critical[0]
         return [Judged("slide", "C", None, C.slow_flow, say("slides", label=named("C"), kind=C.kind))] * len(which)
     equator = problem.equator
-    mains = ends(problem, from_equator(problem, which))
     wide = [i for i in which if not (equator.multiplicity[i] == 1 and equator.lambda_theta[i] < 0.0)]
-    fans: dict[int, list[Ending]] = {}
+    around = None
     if wide:
-        angle = np.radians([15.0, 45.0, 75.0, 105.0, 135.0, 165.0])
-        theta, height = equator.theta[wide][:, None] + FAN * np.cos(angle), FAN * np.sin(angle)
+        theta, height = equator.theta[wide][:, None] + FAN * np.cos(ANGLES), FAN * np.sin(ANGLES)
         around = np.sqrt(1.0 - height**2)[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
-        found = ends(problem, followed(problem, around.reshape(-1, 2)))
-        fans = {i: found[k * len(angle) : (k + 1) * len(angle)] for k, i in enumerate(wide)}
+        around = around.reshape(-1, 2)
+    found = ends(problem, from_equator(problem, which, around))
+    mains, beside = found[: len(which)], found[len(which) :]
+    fans = {i: beside[k * len(ANGLES) : (k + 1) * len(ANGLES)] for k, i in enumerate(wide)}
     return [
         judge(problem, [main, *fans.get(i, [])], "A whole family of orbits leaves Q" if i in fans else "")
         for i, main in zip(which, mains, strict=True)

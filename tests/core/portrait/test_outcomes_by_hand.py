@@ -294,8 +294,8 @@ def whole(monkeypatch, cycle, arcs=(), proven=True, others=()):
     monkeypatch.setattr(outcomes, "spiralling", spiralling)
     on = SimpleNamespace(all_directions=False, proven=proven, arcs=np.array(arcs, float).reshape(-1, 2))
     judged = Judged("cycle", "cycle 1", None, np.ones(1), "Round.", "")
-    own = SimpleNamespace(at=SimpleNamespace(normal_form="there"), equator=on, judged=judged)
-    return outcomes._whole(own, list(others), True, cycle), asked
+    own = SimpleNamespace(at=SimpleNamespace(normal_form="there"), equator=on, equator_cycle=cycle, judged=judged)
+    return outcomes._whole(outcomes._Asked(own, list(others), True)), asked
 
 
 def test_what_spirals_onto_the_closed_equator(monkeypatch):

@@ -14,24 +14,28 @@ from codim2_core.portrait.endings import Ending
 from .test_endings import equator
 
 
+def general(limits):
+    """What `arriving` reads of a general system's layer problem."""
+    return SimpleNamespace(equator=limits, critical=(), at=SimpleNamespace(normal_form=None))
+
+
 def begun(monkeypatch, limits, which):
     """Judge limit directions; the points followed, what was left from the equator, and what was judged together."""
     points, left, together = [], [], []
-    monkeypatch.setattr(verdicts, "followed", lambda _, at: points.append(at) or at)
-    monkeypatch.setattr(verdicts, "from_equator", lambda _, which: left.append(list(which)) or list(which))
 
-    def ends(_, lines):
-        if isinstance(lines, list):
-            return [Ending(f"main {i}", None, "") for i in lines]
-        return [Ending(f"fan {k}", None, "") for k in range(len(lines))]
+    def from_equator(_, which, beside):
+        left.append(list(which))
+        points.extend([] if beside is None else [beside])
+        return [f"main {i}" for i in which] + [f"fan {k}" for k in range(0 if beside is None else len(beside))]
 
     def judge(_, found, many):
         together.append(([one.label for one in found], many))
         return len(together)
 
-    monkeypatch.setattr(verdicts, "ends", ends)
+    monkeypatch.setattr(verdicts, "from_equator", from_equator)
+    monkeypatch.setattr(verdicts, "ends", lambda _, lines: [Ending(label, None, "") for label in lines])
     monkeypatch.setattr(verdicts, "judge", judge)
-    assert verdicts.arriving(SimpleNamespace(equator=limits), which) == list(range(1, len(which) + 1))
+    assert verdicts.arriving(general(limits), which) == list(range(1, len(which) + 1))
     return points, left, together
 
 
@@ -69,7 +73,7 @@ def test_where_single_orbits_leave_no_family_is_followed(monkeypatch):
     points, left, together = begun(monkeypatch, limits, which)
     assert (points, left) == ([], [which])
     assert together == [([f"main {i}"], "") for i in which]
-    assert verdicts.arriving(SimpleNamespace(equator=limits), []) == []
+    assert verdicts.arriving(general(limits), []) == []
 
 
 def test_orbits_leave_the_closed_equator_at_all_angles(monkeypatch):
@@ -100,6 +104,24 @@ def test_orbits_are_followed_until_they_have_ended(p):
     )
     lines = verdicts.followed(problem, np.array([(0.9, 0.3), (-0.99, 0.0)]))
     assert {one.label for one in verdicts.ends(problem, lines)} == {"C"}
+
+
+def test_cycles_are_not_searched_for_where_an_orbit_nears_a_stable_set(monkeypatch):
+    """In Case III with Psi = 1 the orbit from Q1 creeps onto a stiff node: it has not come there in its first time."""
+    problem = LayerProblem(c2.presets["case3-n2"].system.at(), c2.psi.constant())
+    lines = verdicts.from_equator(problem, [0])
+    assert lines.status[0].name == "T_MAX"
+    monkeypatch.setattr(verdicts, "cycles_of", lambda _: pytest.fail("cycles were searched for"))
+    assert [one.label for one in verdicts.ends(problem, lines)] == ["C"]
+
+
+def test_orbits_beside_are_followed_as_they_are_alone():
+    problem = LayerProblem(c2.presets["case3-n3"].system.at(), c2.psi.hill(3))
+    beside = np.array([(0.9, 0.3), (-0.5, 0.1)])
+    both = verdicts.from_equator(problem, [0, 1], beside)
+    apart = [verdicts.from_equator(problem, [0, 1]), verdicts.followed(problem, beside)]
+    np.testing.assert_array_equal(both.ends, np.concatenate([part.ends for part in apart]))
+    assert both.status == apart[0].status + apart[1].status
 
 
 def test_orbits_that_end_nowhere_are_followed_closely():
