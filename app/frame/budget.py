@@ -9,13 +9,15 @@ from __future__ import annotations
 
 import time
 from collections import OrderedDict
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
+from codim2_core.systems.kinds import AnySystem
 
 from ..phrases import say
 from .alarm import at_most
@@ -143,9 +145,16 @@ def wildness(scene: Scene) -> int:
 
 
 class Budget:
-    """What of one browser's scenes may be computed by the thread that answers."""
+    """What of one browser's scenes may be computed by the thread that answers.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    elsewhere : callable, optional
+        Says whether formulas, of Psi or of a system, are compiled in other processes only; by default in this one too.
+    """
+
+    def __init__(self, elsewhere: Callable[[Psi, AnySystem], bool] = lambda _psi, _system: False) -> None:
+        self._elsewhere = elsewhere
         self._timed: OrderedDict[Hashable, tuple[int, dict[str, float]]] = OrderedDict()
         self._left_out: OrderedDict[Hashable, Mapping[str, str]] = OrderedDict()
         self._spent = 0.0
@@ -174,6 +183,8 @@ class Budget:
         wildest, took = self._timed.get(self._formula(scene), (0, {}))
         cost = took.get(name)
         if cost is None or cost > LAYER or self._spent + cost > FRAME or wildness(scene) > wildest:
+            raise NotYet(name)
+        if self._elsewhere(scene.psi, scene.system):
             raise NotYet(name)
         self._spent += cost
 

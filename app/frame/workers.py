@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 from multiprocessing.connection import Connection, wait
 from multiprocessing.forkserver import ensure_running
+from pathlib import Path
 from queue import SimpleQueue
 from typing import Any
 
@@ -22,6 +23,8 @@ SECONDS = 60.0
 #: Processes that answer visitors go first: they have three times the share of a worker where processors are short. At
 #: 10 it was ten times, and work of two seconds was stopped after 60 on a busy machine.
 NICE = 5
+#: Bytes by which a worker may grow: each formula that is typed leaves about 2.5 MB, which Numba never gives back.
+MOST_GROWN = 400_000_000
 
 
 class Stopped(BrokenExecutor):
@@ -89,6 +92,8 @@ class Workers(Executor):
         are forked (where there is no fork, by none).
     first : callable, optional
         Called before the first process is started, by a thread that may wait.
+    most_grown : int
+        Bytes by which a process may have grown when it is done with a work, or another one takes its place.
     """
 
     def __init__(
@@ -97,12 +102,13 @@ class Workers(Executor):
         seconds: float = SECONDS,
         preload: Sequence[str] = (),
         first: Callable[[], None] = lambda: None,
+        most_grown: int = MOST_GROWN,
     ) -> None:
         known = multiprocessing.get_all_start_methods()
         self._context: Any = multiprocessing.get_context("forkserver" if "forkserver" in known else "spawn")
         if "forkserver" in known:
             self._context.set_forkserver_preload(list(preload))
-        self.seconds, self._first = seconds, first
+        self.seconds, self._first, self._most_grown = seconds, first, most_grown
         self._once, self._opened = threading.Lock(), False
         self._tasks: SimpleQueue[tuple[Stoppable, bytes] | None] = SimpleQueue()
         self._count = count
@@ -172,7 +178,9 @@ class Workers(Executor):
                     _open_forkserver()
                 self._opened = True
         ours, theirs = self._context.Pipe()
-        process = self._context.Process(target=_work, args=(theirs,), daemon=True, name="codim2-worker")
+        process = self._context.Process(
+            target=_work, args=(theirs, self._most_grown), daemon=True, name="codim2-worker"
+        )
         process.start()
         theirs.close()
         return ours, process
@@ -196,20 +204,24 @@ class Workers(Executor):
             if there:
                 raise Stopped(f"a worker ended with status {process.exitcode} before its work was done.")
             raise TimeoutError(say("stopped after", seconds=self.seconds))
-        good, result = pickle.loads(answer)
+        good, result, last = pickle.loads(answer)
+        if last:
+            process.join()
+            pipe.close()
         if not good:
             raise result
         return result
 
 
-def _work(pipe: Connection) -> None:
-    """Do one work after the other, as a worker, until nobody can speak to it."""
+def _work(pipe: Connection, most_grown: int) -> None:
+    """Do one work after the other, as a worker, until nobody can speak to it or it has grown too large."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C in a terminal reaches all; the server ends its workers
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     if hasattr(os, "nice"):
         os.nice(max(0, NICE - os.nice(0)))
     threading.Thread(target=_end_with_parent, daemon=True).start()
-    while True:
+    before, last = held(), False
+    while not last:
         try:
             function, args, named = pickle.loads(pipe.recv_bytes())
         except (EOFError, OSError):
@@ -218,11 +230,20 @@ def _work(pipe: Connection) -> None:
             answer = True, function(*args, **named)
         except Exception as error:
             answer = False, error
+        last = held() - before > most_grown
         try:
-            data = pickle.dumps(answer)
+            data = pickle.dumps((*answer, last))
         except Exception as error:
-            data = pickle.dumps((False, RuntimeError(f"the result cannot be sent: {error}")))
+            data = pickle.dumps((False, RuntimeError(f"the result cannot be sent: {error}"), last))
         pipe.send_bytes(data)
+
+
+def held() -> int:
+    """Return how many bytes this process holds; 0 where the system does not tell."""
+    try:
+        return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGESIZE")
+    except (OSError, ValueError):
+        return 0
 
 
 def _end_with_parent() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import os
 from collections.abc import Mapping, Sequence
@@ -9,9 +10,13 @@ from concurrent.futures import Executor
 from functools import partial
 from importlib.metadata import version
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import panel as pn
+from bokeh.application.handlers.handler import Handler
+from bokeh.document import Document
 from panel.io.server import DocHandler, WSHandler
+from panel.io.state import set_curdoc
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.web import RequestHandler
 
@@ -37,13 +42,36 @@ PRELOAD = ("codim2_app.server.worker",)
 TITLE = "Isolated codimension-2 discontinuity: explorer"
 
 
+class Ahead(Handler):
+    """Makes a session's explorer before Bokeh asks for its models: between the two, others have their frames."""
+
+    def modify_document(self, doc: Document) -> None:
+        """Leave this to `session`."""
+
+    async def on_session_created(self, session_context: Any) -> None:
+        """Make the explorer, and let others come."""
+        doc = session_context._document  # noqa: SLF001 (as Panel does)
+        with set_curdoc(doc):
+            _ahead[doc] = opened(opening(_query()))
+        await asyncio.sleep(0)
+
+
+_ahead: WeakKeyDictionary[Document, ExplorerView] = WeakKeyDictionary()
+
+
+def _query() -> dict[str, str]:
+    arguments = pn.state.session_args or {}
+    return {name: values[-1].decode("utf-8", "replace") for name, values in arguments.items() if values}
+
+
 def session() -> ExplorerView:
     """Return one session's explorer; the query of the page's address is its state."""
     doc = pn.state.curdoc
     assert doc is not None  # Bokeh's server calls this with a document
-    arguments = pn.state.session_args or {}
-    query = {name: values[-1].decode("utf-8", "replace") for name, values in arguments.items() if values}
-    view = opened(opening(query))
+    query = _query()
+    view = _ahead.pop(doc, None)
+    if view is None:  # a session that Bokeh makes without telling of it
+        view = opened(opening(query))
     # The page says itself when the connection is lost, and loads itself again: see connection.js.
     doc.config.update(reconnect_session=False, notify_connection_status=False, notifications=None)
     doc.on_session_destroyed(lambda _: view.leave())
@@ -165,6 +193,8 @@ def make_server(
         server = _server(port, address, allow_origin, processes, prefix, options)
     listen_by_own(server, address)
     application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
+    for context in application.applications.values():
+        context.application.add(Ahead())
     application.add_handlers(".*", routes(server.prefix))
     take_over(application)
     application.transforms.insert(0, transform(frame_ancestors))  # before they are compressed

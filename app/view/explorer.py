@@ -41,7 +41,7 @@ from .markup import STATIC, address_of_script, digest, explorer_html, offered_te
 from .refresh import Frames
 from .shared import SHARED, declare, join
 from .taking import Taking
-from .warmup import is_ready
+from .warmup import elsewhere, is_ready, is_ready_for_all
 
 #: Seconds for which an answer waits for a picture that is computed beside the frames.
 PATIENCE = 0.25
@@ -111,7 +111,8 @@ class ExplorerView(JSComponent):
         self._system = system
         self._given_params = params
         # a page is answered by the thread that answers all pages; a notebook is one person's
-        self.frames = Frames(self.state, system, is_ready, errors, Budget() if page else None)
+        ready, budget = (is_ready_for_all, Budget(elsewhere)) if page else (is_ready, None)
+        self.frames = Frames(self.state, system, ready, errors, budget)
         self.taking = Taking(self.frames)
         self._held: object = None
         self._cell: Cell | None = None

@@ -28,6 +28,9 @@ MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
 
 MOST_REMEMBERED = 256  # texts that have been compiled, or could not be
 GENERAL = "kernels of general systems"
+#: Formulas that a process which answers visitors compiles in its life: Numba never gives back the machine code, about
+#: 2.5 MB each. The core keeps all of these, so that no frame compiles one again. Later ones are for the workers.
+MOST_COMPILED = 48
 
 #: Is told what has been compiled, in how many seconds, and how many steps are done of how many.
 Told = Callable[[str, float, int, int], None]
@@ -35,6 +38,7 @@ Told = Callable[[str, float, int, int], None]
 _lock = threading.Lock()
 _threads: dict[Hashable, threading.Thread] = {}
 _pictures = threading.Event()
+_formulas: set[Hashable] = set()  # that this process has begun to compile
 
 
 def _steps() -> list[tuple[str, Callable[[], object]]]:
@@ -173,12 +177,30 @@ def is_ready(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
         return False
     if is_warm(psi, system):
         return True
-    if typed is not None:
-        return _done((psi, typed.U), warm, psi, system)
-    if psi.expression is not None:
-        return _done(psi, warm, psi)
+    key = _formulas_of(psi, system)
+    if key is not None:
+        return _done(key, warm, psi, system)
     with _lock:
         return not any(thread.is_alive() for thread in _threads.values())
+
+
+def _formulas_of(psi: Psi, system: AnySystem | None) -> Hashable:
+    """Return what is typed of both, and is compiled; None if nothing is."""
+    typed = None if system is None else system.typed
+    if typed is not None:
+        return psi, typed.U
+    return psi if psi.expression is not None else None
+
+
+def elsewhere(psi: Psi, system: AnySystem) -> bool:
+    """Whether these formulas are compiled in workers only: this process has compiled its share of others."""
+    key = _formulas_of(psi, system)
+    return key is not None and len(_formulas) >= MOST_COMPILED and key not in _formulas and not is_warm(psi, system)
+
+
+def is_ready_for_all(psi: Psi, system: AnySystem) -> bool:
+    """Say of a page whether all its layers can be drawn, here or by workers, see `is_ready` and `elsewhere`."""
+    return elsewhere(psi, system) or is_ready(psi, system)
 
 
 def _done(key: Hashable, target: Callable[..., None], *arguments: Any) -> bool:
@@ -193,4 +215,6 @@ def _done(key: Hashable, target: Callable[..., None], *arguments: Any) -> bool:
                 del _threads[old]
         if len(alive) < MOST_THREADS:
             _begin(key, target, *arguments)
+            if key != GENERAL:
+                _formulas.add(key)
     return False

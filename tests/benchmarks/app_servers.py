@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
 import gc
+import json
 import sys
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -18,10 +21,14 @@ def explorer(port: int, processes: str = "1") -> None:
 def forgetful(port: int) -> None:
     """Serve the explorer with sessions that end at once, and ``/left``: what they have left behind."""
     from codim2_app.server.page import make_server
+    from codim2_app.view import warmup
     from codim2_app.view.explorer import ExplorerView
+    from codim2_app.view.refresh import Frames
     from tornado.web import RequestHandler
 
+    from codim2_core.psi.function import Psi
     from codim2_core.scene import Scene
+    from codim2_core.systems.typed import System
 
     class Left(RequestHandler):
         def get(self) -> None:
@@ -29,14 +36,62 @@ def forgetful(port: int) -> None:
             living = gc.get_objects()
             with open("/proc/self/statm") as pages:
                 resident = int(pages.read().split()[1]) * 4096
-            counts = {kind.__name__: sum(isinstance(o, kind) for o in living) for kind in (ExplorerView, Scene)}
-            self.write({"resident": resident, "objects": len(living), **counts})
+            kinds = (ExplorerView, Frames, Scene, Psi, System)
+            counts = {kind.__name__: sum(isinstance(one, kind) for one in living) for kind in kinds}
+            formulas = len(warmup._formulas)  # that are compiled here
+            self.write({"resident": resident, "objects": len(living), "formulas": formulas, **counts})
 
     soon: dict[str, Any] = {"unused_session_lifetime_milliseconds": 2000, "check_unused_sessions_milliseconds": 200}
     server = make_server(port, **soon)
     server._tornado.add_handlers(r".*", [("/left", Left)])
     server.start()
     server.io_loop.start()
+
+
+def queued(thread: str = "/proc/thread-self/schedstat") -> float:
+    """Return the seconds for which a thread has waited for a processor that others had."""
+    with open(thread) as statistics:
+        return 1e-9 * int(statistics.read().split()[1])
+
+
+def watched(port: int) -> None:
+    """Serve the explorer, and ``/longest``: see `bench_wild.longest`."""
+    from codim2_app.server.cli import _say_if_compiled
+    from codim2_app.server.page import make_server
+    from tornado.web import RequestHandler
+
+    most: list[Any] = [0.0, 0.0, ""]
+    handle: Any = asyncio.events.Handle
+    run = handle._run
+
+    def timed(self: Any) -> None:
+        began, worked, waited = time.perf_counter(), time.thread_time(), queued()
+        run(self)
+        took = time.perf_counter() - began - (queued() - waited)
+        if took > most[0]:
+            most[:] = took, time.thread_time() - worked, _named(self._callback)
+
+    class Longest(RequestHandler):
+        def get(self) -> None:
+            self.write(json.dumps(most))
+            most[:] = 0.0, 0.0, ""
+
+    handle._run = timed
+    server = make_server(port, told=_say_if_compiled)
+    server._tornado.add_handlers(r".*", [("/longest", Longest)])
+    server.start()
+    gc.freeze()  # as `codim2 serve` does
+    server.io_loop.start()
+
+
+def _named(callback: Any) -> str:
+    """Name a callback of the loop; a step of a task by its coroutine."""
+    task = getattr(callback, "__self__", None)
+    coroutine = task.get_coro() if isinstance(task, asyncio.Task) else None
+    while hasattr(callback, "func"):
+        callback = callback.func
+    found = getattr(coroutine or callback, "__qualname__", "") or type(callback).__name__
+    return found.rpartition(".<locals>.")[2]
 
 
 def mathematics(port: int) -> None:
@@ -107,6 +162,6 @@ if __name__ == "__main__":
     kind, port, *more = sys.argv[1:]
     kinds: dict[str, Callable[..., None]] = {
         "explorer": explorer, "forgetful": forgetful, "bare": bare, "mathematics": mathematics,
-        "panel": panel,
+        "panel": panel, "watched": watched,
     }  # fmt: skip
     kinds[kind](int(port), *more)

@@ -1,13 +1,18 @@
-"""What visitors leave behind: work ends with who wanted it."""
+"""What visitors leave behind: work ends with who wanted it, sessions with their pages, and memory has a plateau."""
 
 import asyncio
 import time
 from pathlib import Path
 
 import pytest
+from codim2_app.draw.packing import unpack
+from codim2_app.view.warmup import MOST_COMPILED, MOST_THREADS
 
 from tests.app.serving import serving
+from tests.benchmarks import app_load
 from tests.benchmarks.bokeh_wire import Wire
+
+PLATEAU = 40e6  # bytes by which what is held after a thousand visits may exceed what is held after a hundred
 
 
 @pytest.fixture(scope="module")
@@ -74,3 +79,42 @@ def test_work_that_nobody_wants_any_more_ends_in_mid_work(address, how):
         return ended
 
     assert asyncio.run(talk())
+
+
+async def type_and_vanish(port, i):
+    """Open a page, move a slider, type a Psi that nobody has typed before, wait for its orbits, and go."""
+    wire = await Wire.connect(port)
+    await wire.frame(1, a=app_load.value(i))
+    header, _ = unpack(await wire.frame(2, psi="custom", psi_text=f"1/(1+s)+exp(-{1 + i}*s)"))
+    while not header["ready"]:
+        await asyncio.sleep(0.1)
+        header, _ = unpack(await wire.frame(3))
+    await wire.vanish()
+
+
+async def drag_and_vanish(port, i):
+    wire = await Wire.connect(port)
+    await wire.frame(1, a=app_load.value(i))
+    await wire.vanish()
+
+
+def test_a_thousand_visits_hold_no_more_than_a_hundred():
+    async def visits(kinds):
+        for i, visit in kinds:
+            await visit(port, i)
+
+    begun = MOST_COMPILED + 10
+    first = [(i, type_and_vanish if i < begun else drag_and_vanish) for i in range(150)]
+    others = [(i, drag_and_vanish if i % 10 else type_and_vanish) for i in range(150, 1000)]
+    held = []
+    with app_load.serving("forgetful") as (port, pid):
+        for kinds in (first, others):
+            asyncio.run(visits(kinds))
+            assert until(lambda: not app_load.left(port)["ExplorerView"]), "pages that are gone are not forgotten"
+            asyncio.run(app_load.at_rest(pid))
+            held.append(app_load.left(port))
+    before, after = held
+    assert MOST_COMPILED <= before["formulas"] <= after["formulas"] < MOST_COMPILED + MOST_THREADS
+    assert after["Frames"] == 0
+    assert after["Scene"] <= before["Scene"]
+    assert after["resident"] - before["resident"] < PLATEAU, held

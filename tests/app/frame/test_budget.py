@@ -5,7 +5,7 @@ import pickle
 import pytest
 from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.packing import unpack
-from codim2_app.frame.budget import LAYER, MOST_STANDING, WORDS, Budget, layers_of, wildness
+from codim2_app.frame.budget import LAYER, MOST_STANDING, WORDS, Budget, Layers, NotYet, layers_of, wildness
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.frame.turns import Turns
@@ -62,13 +62,24 @@ def test_what_was_quick_is_computed_with_the_frame_until_the_formula_is_wilder()
     budget.told(scene, type(found)(found.results, quick, {}))
     assert len(scene.evolve(k=1.1)["equator"]) > 0  # computed here
     assert scene.runs["equator"] == 1
-    from codim2_app.frame.budget import NotYet
-
     with pytest.raises(NotYet):
         scene.evolve(k=1000.0)["equator"]
     budget.told(scene, type(found)({}, dict.fromkeys(quick, 2 * LAYER), {}))
     with pytest.raises(NotYet):
         scene.evolve(k=1.2)["equator"]
+
+
+def test_what_is_compiled_elsewhere_is_not_computed_here_however_quick_it_is():
+    scene, full = make_scene(typed(layers=["critical", "equator"])), []
+    budget = Budget(lambda psi, system: bool(full))
+    scene.ask_before(budget.before)
+    quick = dict.fromkeys(("equator", "location", "critical"), 0.001)
+    budget.told(scene, Layers({}, quick, {}))
+    full.append(True)
+    with pytest.raises(NotYet):
+        scene["equator"]
+    full.clear()
+    assert len(scene["equator"]) > 0
 
 
 def test_a_formula_too_wild_to_draw_is_named_so():

@@ -47,6 +47,22 @@ def test_work_is_done_elsewhere(workers):
     assert workers.submit(os.getpid).result() != os.getpid()
 
 
+_held = []
+
+
+def grow(size):
+    _held.append(bytearray(b"x") * size)
+    return os.getpid(), len(_held)
+
+
+def test_a_worker_that_has_grown_too_large_is_replaced():
+    with Workers(1, seconds=20.0, most_grown=30_000_000) as some:
+        (one, first), (two, second), (three, third) = (some.submit(grow, size).result() for size in (10, 10**8, 10))
+    assert (one, first) == (two, second - 1)  # what is small stays, and what is large is answered
+    assert three != two
+    assert third == 1
+
+
 def test_errors_come_back(workers):
     with pytest.raises(ZeroDivisionError):
         workers.submit(divmod, 1, 0).result()

@@ -12,6 +12,11 @@ from codim2_app.view import alone as alone_module
 from codim2_app.view import warmup
 from codim2_app.view.alone import alone, place
 from codim2_app.view.refresh import Frames
+from codim2_app.view.warmup import MOST_COMPILED
+
+import codim2_core as c2
+from codim2_core.stepping import fields_typed as typed_fields
+from codim2_core.stepping import gains as stepping
 
 ASK = """import fcntl, sys
 try:
@@ -99,11 +104,43 @@ def test_a_terminal_is_told_what_had_to_be_compiled(capsys):
     assert capsys.readouterr().out == "codim2: 2 of 8: compiled limit cycles: 6.5 s\n"
 
 
+def test_kernels_are_no_garbage_once_all_are_there(monkeypatch):
+    frozen = []
+    monkeypatch.setattr(cli.gc, "freeze", lambda: frozen.append(1))
+    cli._say_if_compiled("motions", 0.1, 7, 8)
+    assert not frozen
+    cli._say_if_compiled("motions", 0.1, 8, 8)
+    assert frozen
+
+
 def test_a_server_starts_without_what_its_first_picture_does_not_need():
     """SciPy's parts and what draws in notebooks take longer to import than all of this package."""
     late = "'scipy.integrate', 'scipy.optimize', 'scipy.special', 'holoviews', 'pandas', 'matplotlib', 'IPython'"
     code = f"import sys, codim2_app.server.page; found = {{{late}}} & set(sys.modules); assert not found, found"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_process_compiles_so_many_formulas_in_its_life_and_keeps_them_all(monkeypatch):
+    monkeypatch.setattr(warmup, "MOST_COMPILED", 2)
+    monkeypatch.setattr(warmup, "outcome", "ready")
+    monkeypatch.setattr(warmup, "_threads", {})
+    monkeypatch.setattr(warmup, "_formulas", set())
+    monkeypatch.setattr(warmup, "is_warm", lambda *_: False)
+    monkeypatch.setattr(warmup, "warm", lambda *_: made.append(1))
+    made = []
+    plain = c2.presets["case1-cm0"].system
+    one, two, three = (c2.psi.custom(f"1/({k}+s)") for k in (1, 2, 3))
+    for psi in (one, two):
+        assert not warmup.elsewhere(psi, plain)
+        warmup.is_ready_for_all(psi, plain)
+    assert warmup.elsewhere(three, plain)
+    assert warmup.is_ready_for_all(three, plain)  # by workers
+    assert not any(warmup.elsewhere(psi, plain) for psi in (one, two, c2.psi.tanh()))
+    for thread in warmup._threads.values():
+        thread.join()
+    assert made == [1, 1]
+    assert stepping.MOST_EXPRESSIONS >= MOST_COMPILED
+    assert typed_fields.MOST_SYSTEMS >= MOST_COMPILED
 
 
 def test_who_waits_for_pictures_does_not_wait_for_motions(folder, monkeypatch):

@@ -1,0 +1,157 @@
+"""Visitors ask for what is wild while another drags: how long the one who drags waits; and how soon work is ended.
+
+``python -m tests.benchmarks wild [--quick]``. Each request comes from two visitors, who open a page with it, move z and
+leave; beside them one drags, who is compared with one who drags beside nobody. Time for which a thread waits for a
+processor, because other programs have it, is taken from all that is told; that for which it waits for the interpreter's
+lock is not.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import time
+from concurrent.futures import CancelledError
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+from urllib.request import urlopen
+
+import numpy as np
+
+from .app_load import at_rest, serving, value
+from .app_servers import queued
+from .bokeh_wire import Wire
+
+PLAIN = {"W": "0", "where": ""}
+ALL = ["inside", "outside", "continuations", "separatrices", "cycles", "lines", "critical", "equator"]
+STEEP, LONG, MANY = (
+    {"system": "own", "layers": ALL, "texts": {**PLAIN, "U1": first, "U2": second}}
+    for first, second in (
+        ("sin(1000000*c)-c", "s"),
+        ("sin(100*c+z)-s", "cos(100*s)+c"),
+        ("sin(30*c)*c-s+z", "cos(30*s)+c"),
+    )
+)
+#: Of a third visitor, for this time.
+WILD: dict[str, dict[str, Any]] = {
+    "an ordinary portrait": {"b": 0.5},
+    "b = 1e12": {"b": 1e12},
+    "b = 1e12, all layers": {"b": 1e12, "layers": ALL},
+    "sin(1000000 c)": STEEP,
+    "sin(100 c + z), separatrices": LONG,
+    "sin(30 c) c": MANY,
+    "Ψ = 1 + sin(1000 s)/2": {"b": 0.0, "psi": "custom", "psi_text": "1+sin(1000*s)/2"},
+    "Ψ = exp(−1e6 s²)": {"psi": "custom", "psi_text": "exp(-1e6*s^2)+1e-9"},
+    "3-D": {**MANY, "panel": "solid"},
+    "Diagram": {**MANY, "panel": "diagram"},
+    "Along z": {**MANY, "panel": "along"},
+    "Theorems": {**MANY, "panel": "theorems"},
+    "Atlas": {**MANY, "panel": "atlas"},
+}
+SECONDS = 6.0  # for which each is there
+APART = 1 / 60
+
+
+async def dragged(port: int, pid: int, seconds: float) -> list[float]:
+    """Drag as a hand does, one request a frame of the screen at most; return the seconds until each answer."""
+    server = f"/proc/{pid}/task/{pid}/schedstat"
+    wire = await Wire.connect(port)
+    await wire.frame(0, a=-1.5)
+    took, number, end = [], 0, time.perf_counter() + seconds
+    while (began := time.perf_counter()) < end:
+        number += 1
+        waited = queued(server), queued()
+        await wire.frame(number, a=value(number))
+        passed = time.perf_counter() - began
+        took.append(max(0.0, passed - (queued(server) - waited[0]) - (queued() - waited[1])))
+        await asyncio.sleep(max(0.0, APART - passed))
+    await wire.close()
+    return took
+
+
+async def played(port: int, values: dict[str, Any], seconds: float) -> None:
+    """Open a page, ask for what is wild, move z, rest, and begin again in half of the time; leave without a word."""
+    for _ in range(2):
+        wire = await Wire.connect(port)
+        number, end = 0, time.perf_counter() + seconds / 2
+        while time.perf_counter() < end:
+            asked = values if number == 0 else {"z": 0.01 * (number // 8)}
+            await wire.event("data_event", wire.root, data={"id": number, "set": asked, "rest": number % 8 != 1})
+            await wire.patch()
+            number += 1
+            await asyncio.sleep(0.05)
+        await wire.vanish()
+
+
+def longest(port: int) -> tuple[float, float, str]:
+    """Return the longest time, in seconds, for which one callback had the loop since this was asked last.
+
+    With it, for how long of that its thread was at work, and which it was.
+    """
+    return tuple(json.loads(urlopen(f"http://localhost:{port}/longest").read()))
+
+
+def waits(wild: dict[str, dict[str, Any]], seconds: float) -> dict[str, tuple[list[float], tuple[float, float, str]]]:
+    """Return what the one who drags waits for, and the longest callback, by what the others ask for."""
+
+    async def beside(values: dict[str, Any] | None) -> list[float]:
+        others = [] if values is None else [asyncio.create_task(played(port, values, seconds)) for _ in range(2)]
+        took = await dragged(port, pid, seconds)
+        await asyncio.gather(*others)
+        return took
+
+    found = {}
+    with serving("watched") as (port, pid):
+        asyncio.run(at_rest(pid))
+        asyncio.run(dragged(port, pid, 1.0))
+        for name, values in {"nobody": None, **wild}.items():
+            longest(port)
+            found[name] = asyncio.run(beside(values)), longest(port)
+    return found
+
+
+def _endless(folder: Path) -> None:
+    while True:
+        (folder / "alive").write_text(str(os.getpid()))
+
+
+def cancelled(times: int = 5) -> list[float]:
+    """Return the seconds from `cancel` until the process that was at work is gone."""
+    from codim2_app.frame.workers import Workers
+
+    took = []
+    with Workers(1) as workers, TemporaryDirectory() as name:
+        for _ in range(times):
+            (Path(name) / "alive").unlink(missing_ok=True)
+            future = workers.submit(_endless, Path(name))
+            while not (Path(name) / "alive").exists():
+                time.sleep(0.01)
+            began, waited = time.perf_counter(), queued()
+            future.cancel()
+            try:
+                future.result()
+            except CancelledError:
+                took.append(time.perf_counter() - began - (queued() - waited))
+    return took
+
+
+def report(quick: bool = False) -> str:
+    """Return both as Markdown."""
+    names = ("an ordinary portrait", "b = 1e12", "sin(100 c + z), separatrices") if quick else WILD
+    found = waits({name: WILD[name] for name in names}, 3.0 if quick else SECONDS)
+    lines = [
+        "| beside the one who drags, two with | frames | median, ms | 99 % | worst | longest callback, ms | at work |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for name, (took, (held, worked, what)) in found.items():
+        middle, late, worst = 1e3 * np.quantile(took, (0.5, 0.99, 1.0))
+        cells = f"{len(took)} | {middle:.0f} | {late:.0f} | {worst:.0f} | {1e3 * held:.0f}, {what} | {1e3 * worked:.0f}"
+        lines.append(f"| {name} | {cells} |")
+    lines.append(f"\nCancelled work has ended after {1e3 * max(cancelled()):.0f} ms, the longest of five.")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(report())
