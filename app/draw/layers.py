@@ -42,6 +42,8 @@ class Part:
         Whether arrowheads tell the sense of time.
     sketch : str
         The layer of the scene that is drawn while the kernels of the other are compiled.
+    owners : callable, optional
+        Takes what the scene holds, and names the object that each curve is of: U1, L2, S3, O4.
     """
 
     name: str
@@ -52,6 +54,7 @@ class Part:
     dash: tuple[float, ...] = ()
     arrows: bool = False
     sketch: str = ""
+    owners: Callable[[Any], list[str]] | None = None
 
 
 @dataclass(frozen=True)
@@ -107,17 +110,30 @@ def _direction(direction: str) -> Callable[[Any], Pieces]:
     return lambda branches: glyphs.join([b.points for b in branches if b.inside and b.direction == direction])
 
 
+def _of_direction(direction: str) -> Callable[[Any], list[str]]:
+    return lambda branches: [f"S{i + 1}" for i, b in enumerate(branches) if b.inside and b.direction == direction]
+
+
 def _nullcline(name: str, colours: tuple[str, str], widths: tuple[float, float], *kinds: str) -> tuple[Part, Part]:
     """Return the two parts of a nullcline: on the hemisphere, and outside."""
+
+    def by_kind(branches: Any) -> list[str]:
+        return [branch.kind for branch in branches if branch.kind in kinds]
+
+    several = by_kind if len(kinds) > 1 else None
     return (
-        Part(f"{name}_inside", colours[0], widths[0], "nullclines_inside", _kinds(*kinds)),
-        Part(f"{name}_outside", colours[1], widths[1], "nullclines_outside", _kinds(*kinds)),
+        Part(f"{name}_inside", colours[0], widths[0], "nullclines_inside", _kinds(*kinds), owners=several),
+        Part(f"{name}_outside", colours[1], widths[1], "nullclines_outside", _kinds(*kinds), owners=several),
     )
 
 
 def _launched(k: int) -> Callable[[Any], Pieces]:
     """Return every orbit that has colour k: they take turns."""
     return lambda result: glyphs.join([line for i, line in enumerate(result.orbits.points) if i % LAUNCH_COLOURS == k])
+
+
+def _launched_owners(k: int) -> Callable[[Any], list[str]]:
+    return lambda result: [f"O{i + 1}" for i in range(len(result.orbits.points)) if i % LAUNCH_COLOURS == k]
 
 
 LAUNCH_COLOURS = 6
@@ -141,14 +157,17 @@ _ROWS = (
     Layer(
         "separatrices", "Separatrices", 80, compiled=True, hidden=True, colours={"separatrix": ("#6d28d9", "#b794ff")},
         parts=(
-            Part("separatrices_stable", "separatrix", 2.0, "separatrices", _direction("stable"), (7, 4), arrows=True),
-            Part("separatrices_unstable", "separatrix", 2.0, "separatrices", _direction("unstable"), arrows=True),
+            Part("separatrices_stable", "separatrix", 2.0, "separatrices", _direction("stable"), (7, 4), arrows=True,
+                 owners=_of_direction("stable")),
+            Part("separatrices_unstable", "separatrix", 2.0, "separatrices", _direction("unstable"), arrows=True,
+                 owners=_of_direction("unstable")),
         ),
         tip="Stable (dashed) and unstable (full) branches of saddles and half-saddles.",
     ),
     Layer(
         "cycles", "Limit cycles", 90, compiled=True, colours={"cycle": ("#e0121f", "#ff3b47")},
-        parts=(Part("cycles", "cycle", 2.8, "closed_orbits", _closed, arrows=True),),
+        parts=(Part("cycles", "cycle", 2.8, "closed_orbits", _closed, arrows=True,
+                    owners=lambda result: [f"L{i + 1}" for i in range(len(result.cycles))]),),
         tip="Isolated closed orbits of the layer problem.",
     ),
     # nullclines have the paper's colours (matlab1 to matlab4 of fig:sim_5cases), lighter on dark
@@ -179,7 +198,8 @@ _ROWS = (
                  "launch-3": ("#15803d", "#4ade80"), "launch-4": ("#a21caf", "#e879f9"),
                  "launch-5": ("#0f766e", "#2dd4bf"), "launch-6": ("#854d0e", "#facc15")},
         parts=tuple(
-            Part(f"launched_{k + 1}", f"launch-{k + 1}", 2.4, "launched", _launched(k), arrows=True)
+            Part(f"launched_{k + 1}", f"launch-{k + 1}", 2.4, "launched", _launched(k), arrows=True,
+                 owners=_launched_owners(k))
             for k in range(LAUNCH_COLOURS)
         ),
         tip="Orbits through points that you have clicked.",

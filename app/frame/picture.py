@@ -10,14 +10,17 @@ from numpy.typing import NDArray
 
 from codim2_core.layer_problem.equator import EquatorEquilibria, equator_equilibria
 from codim2_core.portrait.classification import NEARER, Classification
+from codim2_core.portrait.separatrix import Separatrices
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
+from codim2_core.words import named
 
 from ..draw import glyphs
 from ..draw.layers import LAYERS
 from ..draw.packing import Polylines
 from ..phrases import say
+from ..state.launches import read_launches
 from .budget import LeftOut, NotYet
 from .window import Window
 
@@ -86,12 +89,18 @@ def make_frame(
     """
     asked = Asked(scene) if asked is None else asked
     now = dict(sent)
-    blocks = _drawn(values["layers"], now, ready, window, asked)
     header: dict[str, Any] = {"ready": ready}
+    blocks = _drawn(values["layers"], now, ready, window, asked, header)
     if "cycles" in blocks and now["cycles"] is not NOTHING:
         header["cycles"] = glyphs.cycle_columns(scene["closed_orbits"])
     if "launched_1" in blocks and now["launched_1"] is not NOTHING:
-        header["launched"] = glyphs.launched_columns(scene.launch, scene["launched"])
+        header["launched"] = {
+            **glyphs.launched_columns(scene.launch, scene["launched"]),
+            **numbered(values["orbits"]),
+        }
+    if "separatrices_stable" in blocks and isinstance(now["separatrices_stable"], Separatrices):
+        branches = scene["separatrices"]
+        header["separatrices"] = [[named(branch.origin), named(branch.end), branch.status] for branch in branches]
     _tell_facts(header, now, asked)
     return header, blocks, now
 
@@ -104,8 +113,18 @@ def _fresh(now: dict[str, Any], key: str, result: Any) -> bool:
     return True
 
 
-def _drawn(layers: Sequence[str], now: dict[str, Any], ready: bool, window: Window | None, asked: Asked) -> Blocks:
-    """Return the layers that are seen and are others than those that the browser holds, as blocks."""
+def _drawn(
+    layers: Sequence[str],
+    now: dict[str, Any],
+    ready: bool,
+    window: Window | None,
+    asked: Asked,
+    header: dict[str, Any],
+) -> Blocks:
+    """Return the layers that are seen and are others than those that the browser holds, as blocks.
+
+    Of parts that draw several objects the header is told whose each piece is.
+    """
     blocks: Blocks = {}
     rectangle = None if window is None else window.rectangle
     moved = now.get("window") != rectangle  # what was cut to another window is not whole
@@ -127,9 +146,21 @@ def _drawn(layers: Sequence[str], now: dict[str, Any], ready: bool, window: Wind
             if layer.optional and part.name not in now and not len(result):
                 continue
             if _fresh(now, part.name, result) or moved:
-                pieces = part.pieces(result)
-                blocks[part.name] = Polylines(*(pieces if window is None else window.cut(*pieces)), part.arrows)
+                offsets, points = part.pieces(result)
+                names = part.owners(result) if part.owners else None
+                if window is not None:
+                    offsets, points, of = window.cut(offsets, points)
+                    names = names and [names[i] for i in of]
+                blocks[part.name] = Polylines(offsets, points, part.arrows)
+                if names is not None:
+                    header.setdefault("owners", {})[part.name] = names
     return blocks
+
+
+def numbered(orbits: str) -> dict[str, list[Any]]:
+    """Return the number in the list, and the name, of each launched orbit that is shown."""
+    rows = [(i + 1, orbit.name) for i, orbit in enumerate(read_launches(orbits)) if not orbit.hidden]
+    return {"number": [number for number, _ in rows], "called": [name for _, name in rows]}
 
 
 def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked) -> None:

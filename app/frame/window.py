@@ -53,10 +53,12 @@ class Window:
         x, y = MARGIN * (right - left), MARGIN * (top - bottom)
         return left - x, right + x, bottom - y, top + y
 
-    def cut(self, offsets: NDArray[np.int64], points: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Return the parts of curves that may be seen, as offsets and points."""
+    def cut(
+        self, offsets: NDArray[np.int64], points: NDArray[np.float64]
+    ) -> tuple[NDArray[Any], NDArray[Any], NDArray[np.int64]]:
+        """Return the parts of curves that may be seen, as offsets and points, and which curve each is a part of."""
         if len(points) < 2:
-            return offsets, points
+            return offsets, points, np.arange(len(offsets) - 1)
         left, right, bottom, top = self.around
         low, high = np.minimum(points[:-1], points[1:]), np.maximum(points[:-1], points[1:])
         seen = np.logical_and.reduce((high >= (left, bottom)) & (low <= (right, top)), axis=1)
@@ -66,7 +68,8 @@ class Window:
         begins, ends = edges[::2], edges[1::2] + 1  # a run of steps has one point more
         sizes = ends - begins
         cut = np.concatenate([[0], np.cumsum(sizes)])
-        return cut, points[np.repeat(begins - cut[:-1], sizes) + np.arange(cut[-1])]
+        of = np.searchsorted(offsets, begins, side="right") - 1
+        return cut, points[np.repeat(begins - cut[:-1], sizes) + np.arange(cut[-1])], of
 
 
 def inputs(window: Window | None, rest: bool) -> dict[str, Any]:

@@ -35,8 +35,18 @@ def policy(page: bytes, ancestors: str = "'self'", nonce: str = "") -> str:
     return POLICY.format(hashes="".join(allowed), ancestors=ancestors)
 
 
-def transform(ancestors: str) -> type[OutputTransform]:
+def embedders(sources: str) -> str:
+    """Return who may embed the pages: some sources, and always the server itself.
+
+    The second portrait is a frame of the same page, and opens it to nobody else.
+    """
+    others = [source for source in sources.split() if source.lower() not in ("'none'", "'self'")]
+    return " ".join(["'self'", *others])
+
+
+def transform(sources: str) -> type[OutputTransform]:
     """Return what Tornado applies to every answer, before it is compressed."""
+    ancestors = embedders(sources)
 
     class Headers(OutputTransform):
         """Adds the headers."""

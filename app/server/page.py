@@ -172,7 +172,7 @@ def make_server(
     prefix : str
         The path below which a proxy shows this server.
     frame_ancestors : str
-        Who may embed the pages, as Content-Security-Policy says it.
+        Who may embed the pages besides this server, as Content-Security-Policy says it.
     sessions : int
         Open pages of a process, beyond which a new one is asked to wait.
     told : callable, optional

@@ -52,7 +52,7 @@ SETTINGS = (
     Setting("allow-origin", (), "a host under which browsers reach this server; may be repeated", list, "HOST[:PORT]",
             "CODIM2_ORIGINS"),
     Setting("prefix", "", "the path below which a proxy shows this server", str, "/PATH"),
-    Setting("frame-ancestors", "'self'", "who may embed the pages, as in Content-Security-Policy", str, "SOURCES"),
+    Setting("frame-ancestors", "'self'", "who else may embed the pages, as in Content-Security-Policy", str, "SOURCES"),
     Setting("processes", 1, "server processes that share the port", int, "N"),
     Setting("workers", 0, "processes for long work, of each of these; 0 shares the processors", int, "N"),
     Setting("dask", "", "the scheduler of a Dask cluster that does the long work in place of these", str, "ADDRESS"),

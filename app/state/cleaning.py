@@ -24,7 +24,7 @@ from .portraits import portrait_keys
 MOST_ENTRIES = 16  # of a mapping that a browser sends
 LONGEST_TEXT = 2000
 MOST_OWN = 10_000  # characters of all that a second portrait has of its own
-PINNED = re.compile(r"(Q[1-9]\d{0,2}|C([1-9]\d{0,2})?|L[1-9]\d{0,2})?")
+PINNED = re.compile(r"([QLSO][1-9]\d{0,2}|C([1-9]\d{0,2})?|U[12]|R|T|H)?")
 
 
 class InputError(ValueError):

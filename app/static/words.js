@@ -62,7 +62,9 @@ export const SAYS = {
   removed: "Removed:",
   putBack: "Put back",
   orbit: "Launched orbit",
-  cycle: "Limit cycle",
+  cycles: "Limit cycle",
+  separatrices: "Separatrix",
+  basinUndecided: "undecided",
   along: "along the equator",
   up: "up the hemisphere",
   out: "outwards",
@@ -80,6 +82,9 @@ export const SAYS = {
   itsParameters: "its parameters",
   typed: "c and s are the components of e; the letter e alone is the number 2.718…",
 }
+
+// Curves that are one object, by its name.
+export const CURVES = {R: "ρ-nullcline, U·e = 0", T: "θ-nullcline, Θ = 0", U1: "Nullcline U₁ = 0", U2: "Nullcline U₂ = 0", H: "Hyperbola of the limit directions, Θ = 0"}
 
 // The slow flow on C by its parts: ⊙ and ⊗ are of the first slow variable, which is said where there are others.
 export function slowWords(flow, symbols = []) {

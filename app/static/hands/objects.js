@@ -1,39 +1,52 @@
-// What in the picture has a name: limit directions, critical sets, limit cycles, launched orbits; and the curves below
-// them. Where a pointer is on one, what is said of each, and which one it is after the sliders have moved.
+// What in the picture has a name: limit directions, critical sets, limit cycles, separatrices, nullclines, launched orbits.
+// Where a pointer is on one, what is said of each, and which one it is after the sliders have moved.
 
-import {unit} from "../picture/frames.js"
-import {SAYS, digits, eigen, pair, turned} from "../words.js"
+import {CURVES, SAYS, digits, eigen, pair, turned} from "../words.js"
+import {apart, curvesOf, firstOf, nearestOn} from "./curves.js"
 
 const NEAR = 0.7 // of the picture's unit: what is farther away after one frame is another object
-const CURVE = 0.6 // of a mark's reach is a curve's: it lies anywhere, and its ground is for launching
 
 /**
  * @typedef {object} Named
- * @property {string} name in the state and in links: Q2, C, C1, L1; of a launched orbit "" (its start is taken in hand)
- * @property {string} kind "equator", "critical", "cycles" or "launched"
+ * @property {string} name in the state and in links: Q2, C, C1, L1, S3, O2, U1, U2, R, T, H
+ * @property {string} kind "equator", "critical", "cycles", "separatrices", "launched" or "curve"
  * @property {number} i its place among those of its kind
- * @property {string} label as it is written in the picture
+ * @property {string} label as it is called
  * @property {number} x
  * @property {number} y
  * @property {string} sort what it must stay while it is followed
- * @property {{n: any, xy: any} | null} curve the packed points of a limit cycle
+ * @property {import("./curves.js").Pieces | null} curve of a curve
+ * @property {boolean} [mark] whether a curve has a mark at (x, y): a launched orbit where it starts
+ * @property {string} [colour] of a curve
  */
 
 /**
  * All objects that are shown.
  * @param {Record<string, any>} header the newest of each entry of the frames' headers
  * @param {Record<string, any>} blocks the newest of each array of the frames
- * @param {string[]} layers those that are shown
+ * @param {any[]} table the layers that are shown, from bottom to top
  * @returns {Named[]}
  */
-export function objectsOf(header, blocks, layers) {
+export function objectsOf(header, blocks, table) {
   const {equator: q, critical: c, cycles, launched} = header
-  const shown = (name) => layers.includes(name)
+  const shown = (name) => table.some((layer) => layer.name === name)
+  const curves = curvesOf(table, blocks, header.owners ?? {})
   const all = []
-  if (launched && shown("launched")) all.push(...launched.x.map((x, i) => ({name: "", kind: "launched", i, label: SAYS.orbit, x, y: launched.y[i], sort: "", curve: null})))
+  if (launched && shown("launched")) {
+    all.push(...launched.x.map((x, i) => ({
+      name: `O${launched.number[i]}`, kind: "launched", i, label: launched.called[i] || `${SAYS.orbit} ${launched.number[i]}`, x, y: launched.y[i], sort: "",
+      curve: curves[`O${i + 1}`]?.pieces ?? null, mark: true, colour: curves[`O${i + 1}`]?.part.colour,
+    })))
+  }
   if (c && shown("critical")) all.push(...c.label.map((label, i) => ({name: plainName(label), kind: "critical", i, label, x: c.x[i], y: c.y[i], sort: SORTS[c.kind[i]] ?? "turns", curve: null})))
   if (q && shown("equator")) all.push(...q.label.map((label, i) => ({name: plainName(label), kind: "equator", i, label, x: q.x[i], y: q.y[i], sort: q.multiplicity[i] > 1 ? "" : String(Math.sign(q.lambda_theta[i])), curve: null})))
-  if (cycles && shown("cycles") && blocks["cycles.n"]) all.push(...loops(cycles, blocks["cycles.n"], blocks["cycles.xy"]))
+  for (const {name, kind, part, pieces} of Object.values(curves)) {
+    if (kind === "launched") continue
+    const i = Number(name.slice(1)) - 1, many = kind === "cycles" ? cycles?.kind.length > 1 : true
+    const label = kind === "curve" ? CURVES[name] : `${SAYS[kind]}${many ? ` ${i + 1}` : ""}`
+    const sort = kind === "cycles" ? cycles?.kind[i] : kind === "separatrices" ? part.name : name
+    if (sort !== undefined) all.push({name, kind, i, label, ...firstOf(pieces), sort, curve: pieces, colour: part.colour})
+  }
   return all
 }
 
@@ -41,83 +54,50 @@ const SORTS = {saddle: "saddle", "saddle-node": "", degenerate: ""} // "" may be
 
 const plainName = (label) => label.replace(/[₀-₉]/g, (digit) => String("₀₁₂₃₄₅₆₇₈₉".indexOf(digit)))
 
-function loops(cycles, counts, points) {
-  let at = 0
-  return Array.from(counts, (n, i) => {
-    const xy = points.subarray(2 * at, 2 * (at + n)), scale = unit(points)
-    at += n
-    return {name: `L${i + 1}`, kind: "cycles", i, label: SAYS.cycle, x: xy[0] * scale, y: xy[1] * scale, sort: cycles.kind[i], curve: {n: [n], xy}}
-  })
-}
-
 /**
- * The object under a point of the picture, or null: marks first, then limit cycles.
- * @param {Named[]} objects @param {{x: number, y: number}} place @param {number} reach in the picture's unit
+ * The object under a point of the picture, or null: marks first, then curves.
+ * @param {Named[]} objects @param {{x: number, y: number}} place @param {number} reach of a mark, in the picture's unit
+ * @param {number} ofCurve of a curve
  * @returns {Named | null}
  */
-export function objectAt(objects, {x, y}, reach) {
+export function objectAt(objects, {x, y}, reach, ofCurve) {
   let found = null, least = reach
   for (const one of objects) {
-    if (one.curve) continue
+    if (one.curve && !one.mark) continue
     const gap = Math.hypot(one.x - x, one.y - y)
     if (gap <= least) { found = one; least = gap }
   }
   if (found) return found
-  least = CURVE * reach
+  least = ofCurve
   for (const one of objects) {
-    const near = one.curve && nearestOn(one.curve.n, one.curve.xy, x, y)
-    if (near && near.gap <= least) { found = {...one, x: near.x, y: near.y}; least = near.gap }
+    const near = one.curve && nearestOn(one.curve, x, y)
+    if (near && near.gap <= least) { found = one.mark ? one : {...one, x: near.x, y: near.y}; least = near.gap }
   }
   return found
 }
 
 /**
- * The layer of a curve under a point, or null; of two the upper one.
- * @param {{name: string, parts: {name: string}[]}[]} table layers from bottom to top, those that are shown
- * @param {Record<string, any>} blocks @param {{x: number, y: number}} place @param {number} reach
+ * Which object one is, after a frame: the nearest one of its kind that behaves alike; null where it has gone. Where there
+ * are fewer than before, those that were another one's are not its own.
+ * @param {Named} before @param {Named[]} objects @param {Named[]} last the objects before this frame
  */
-export function curveAt(table, blocks, {x, y}, reach) {
-  let found = null, least = CURVE * reach
-  for (const {name, parts} of table) {
-    for (const part of parts) {
-      const near = blocks[`${part.name}.n`] && nearestOn(blocks[`${part.name}.n`], blocks[`${part.name}.xy`], x, y)
-      if (near && near.gap <= least) { found = {name, x: near.x, y: near.y}; least = near.gap }
-    }
-  }
-  return found
-}
-
-// The point of packed polylines that is nearest to a point.
-function nearestOn(counts, points, px, py) {
-  const scale = unit(points)
-  let best = null, least = Infinity, at = 0
-  for (const n of counts) {
-    for (let k = 0; k + 1 < n; k++) {
-      const i = 2 * (at + k), ax = points[i] * scale, ay = points[i + 1] * scale
-      const dx = points[i + 2] * scale - ax, dy = points[i + 3] * scale - ay
-      const share = Math.max(0, Math.min(1, ((px - ax) * dx + (py - ay) * dy) / (dx * dx + dy * dy || 1)))
-      const x = ax + share * dx, y = ay + share * dy, gap = Math.hypot(px - x, py - y)
-      if (gap < least) { least = gap; best = {x, y, gap} }
-    }
-    at += n
-  }
-  return best
-}
-
-/**
- * Which object one is, after a frame: the nearest one of its kind that behaves alike; null where it has gone.
- * @param {Named} before @param {Named[]} objects
- */
-export function followed(before, objects) {
-  if (before.kind === "cycles") return objects.find((one) => one.kind === "cycles" && one.i === before.i && one.sort === before.sort) ?? null
+export function followed(before, objects, last = []) {
+  const alike = (/** @type {Named} */ one) => one.kind === before.kind && (one.kind !== "curve" || one.name === before.name) && (one.sort === before.sort || one.sort === "" || before.sort === "")
+  const there = objects.filter(alike), were = last.filter(alike)
+  const itself = were.find((one) => one.name === before.name && gapOf(one, before) < 1e-9)
+  const rivals = itself && there.length >= were.length ? [] : were.filter((one) => one !== itself)
   let found = null, least = NEAR
-  for (const one of objects) {
-    const alike = one.kind === before.kind && (one.sort === before.sort || one.sort === "" || before.sort === "")
-    const gap = Math.hypot(one.x - before.x, one.y - before.y)
-    if (alike && gap < least) { found = one; least = gap }
+  for (const one of there) {
+    const gap = gapOf(one, before)
+    if (gap < least && !rivals.some((rival) => gapOf(one, rival) < gap)) { found = one; least = gap }
   }
-  return found
+  if (!found || found.kind !== "curve" && found.kind !== "separatrices" && found.kind !== "cycles") return found
+  const {x, y} = nearestOn(found.curve, before.x, before.y)
+  return {...found, x, y} // the same place of it
 }
+
+// Closed orbits and separatrices by their shape, nullclines by their name alone, all else by its mark.
+const gapOf = (one, other) => one.kind === "curve" ? 0 : one.curve && other.curve && !one.mark ? apart(one.curve, other.curve) : Math.hypot(one.x - other.x, one.y - other.y)
 
 const WHERE = {equator: SAYS.along, up: SAYS.up, outside: SAYS.out, disc: ""}
 
@@ -155,8 +135,19 @@ export function factsOf(one, header, slowSymbols = []) {
     const {kind: kinds, period, multiplier, direction} = header.cycles
     return {title: `${label}, ${kinds[i]}`, rows: [["period", digits(period[i])], ["multiplier", digits(multiplier[i])]], notes: direction ? [turned(direction[i])] : []}
   }
+  if (kind === "separatrices") {
+    const [origin, end, status] = header.separatrices[i]
+    return {title: `${label}, ${one.sort.split("_")[1]}`, rows: [["of", origin], ["other end", end], ...placeOf(one)], notes: [status]}
+  }
+  if (kind === "curve") return {title: label, rows: placeOf(one), notes: []}
   const {goes, comes} = header.launched
   return {title: label, rows: [], notes: [goes[i], comes[i]].filter(Boolean)}
+}
+
+/** Where in the picture a point is: on the hemisphere, or outside. @param {{x: number, y: number}} point @returns {[string, string][]} */
+export function placeOf({x, y}) {
+  const radius = Math.hypot(x, y)
+  return [radius <= 1 ? ["(x̄, ȳ)", pair([x, y])] : ["|(x, y)|", digits(radius - 1)], ["θ", `${digits(Math.atan2(y, x) * 180 / Math.PI)}°`]]
 }
 
 // What the arrows show, and why there are none where there are none.
@@ -188,13 +179,13 @@ export const eigenWords = (where, value) => `${WHERE[where] ? `${WHERE[where]}: 
 export function pointedList(one, header, theme, pinned) {
   /** @type {any[]} */
   const list = []
-  if (one.curve) list.push({kind: "curves", layer: "pointed", counts: one.curve.n, points: one.curve.xy, colour: theme.cycle, width: 5, dash: []})
+  for (const {n, xy} of one.curve ?? []) list.push({kind: "curves", layer: "pointed", counts: n, points: xy, colour: theme[one.colour], width: 5, dash: []})
   for (const [dx, dy, value, where] of eigenvectorsOf(one, header)) {
     const {colour, dash, head} = styleOf(value)
     for (const way of where === "disc" || where === "equator" ? [1, -1] : [1]) {
       list.push({kind: "ray", layer: "pointed", x: one.x, y: one.y, angle: Math.atan2(way * dy, way * dx), from: 14, length: 46, colour: theme[colour], back: theme.page, width: 2.6, dash, head})
     }
   }
-  if (!one.curve) list.push({kind: "ring", layer: "pointed", x: one.x, y: one.y, radius: 12, colour: pinned ? theme.accent : theme.ink, width: pinned ? 2.6 : 1.6})
+  if (!one.curve || one.mark) list.push({kind: "ring", layer: "pointed", x: one.x, y: one.y, radius: 12, colour: pinned ? theme.accent : theme.ink, width: pinned ? 2.6 : 1.6})
   return list
 }

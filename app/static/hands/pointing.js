@@ -2,14 +2,19 @@
 // eigenvectors; the one that is pinned goes on doing so while the sliders move.
 
 import {put} from "../dom.js"
-import {curveAt, eigenWords, eigenvectorsOf, factsOf, followed, objectAt, objectsOf, pointedList, styleOf} from "./objects.js"
+import {areaAt, curveAt} from "./curves.js"
+import {eigenWords, eigenvectorsOf, factsOf, followed, objectAt, objectsOf, placeOf, pointedList, styleOf} from "./objects.js"
 import {SAYS, escape, formula} from "../words.js"
 
 const REACH = {mouse: 10, pen: 14, touch: 24} // px around a mark that count as on it
+const CURVE = {mouse: 6, pen: 7, touch: 8} // px around a curve: its ground is for launching
 const QUIET = 150 // ms after the last frame until what is read out follows
-const NAMELESS = ["inside", "outside", "launched", "cycles", "equator", "critical", "outcomes", "basins"] // curves that are everywhere, or are objects
+const NAMED = ["launched", "cycles", "separatrices", "rho", "theta", "lines", "conics", "equator", "critical"] // layers of objects
+const EVERYWHERE = ["inside", "outside"] // trajectories: pointed at from half as near
 
 const CORNERS = ["tl", "bl", "br"] // the tools are at the top on the right
+
+const listed = (/** @type {[string, string][]} */ rows) => rows.length ? `<dl>${rows.map(([name, value]) => `<dt>${formula(name)}</dt><dd>${escape(value)}</dd>`).join("")}</dl>` : ""
 
 const MARKUP = `<div class="objects" role="group" aria-label="Objects of the picture"></div>
   <div class="card" hidden></div><div class="card pinned" role="group" hidden></div>`
@@ -29,6 +34,7 @@ export class Pointing {
     this.choose = choose
     this.name = "" // of the pinned object
     this.pinned = this.over = this.place = null
+    this.last = [] // the objects of the frame before, while one is followed
     this.gone = this.byName = this.byKey = false
     const holder = document.createElement("div")
     holder.className = "pointing"
@@ -56,14 +62,19 @@ export class Pointing {
   }
 
   get objects() {
-    const {state: {header, blocks, layers, old}} = this.picture
-    return objectsOf(header, blocks, layers.filter((name) => !old.includes(name)))
+    const {header, blocks} = this.picture.state
+    return objectsOf(header, blocks, this.shown)
+  }
+
+  get shown() {
+    const {table, layers, old} = this.picture.state
+    return table.filter(({name}) => layers.includes(name) && !old.includes(name))
   }
 
   /** The object under a pointer that can be pinned; null if there is none. @param {any} event @returns {any} */
   under(event) {
     const place = this.picture.at(event.clientX, event.clientY)
-    const one = place && objectAt(this.objects, place, REACH[event.pointerType] * place.unit)
+    const one = place && objectAt(this.objects, place, REACH[event.pointerType] * place.unit, CURVE[event.pointerType] * place.unit)
     return one?.name ? one : null
   }
 
@@ -78,35 +89,43 @@ export class Pointing {
   look(event) {
     const {picture} = this, place = event.buttons ? null : picture.at(event.clientX, event.clientY)
     if (!place) { this.show(null); return }
-    const reach = REACH[event.pointerType] * place.unit, {table, layers, old, blocks} = picture.state
-    const one = objectAt(this.objects, place, reach)
+    const near = CURVE[event.pointerType] * place.unit, {blocks, header, measures} = picture.state, {shown} = this
+    const one = objectAt(this.objects, place, REACH[event.pointerType] * place.unit, near)
     if (one) { this.show(one); return }
-    const curves = table.filter(({name}) => layers.includes(name) && !old.includes(name) && !NAMELESS.includes(name))
-    const curve = curveAt(curves, blocks, place, reach)
-    this.show(curve && {...curve, kind: "curve", name: "", layer: curve.name})
+    const among = (wanted, reach) => curveAt(shown.filter(({name}) => wanted(name)), blocks, place, reach)
+    const curve = among((name) => !NAMED.includes(name) && !EVERYWHERE.includes(name), near) ?? among((name) => EVERYWHERE.includes(name), near / 2)
+    const other = curve ? {...curve, layer: curve.name} : areaAt(shown.map(({name}) => name), header, blocks, measures.ring, place)
+    this.show(other && {...other, kind: "nameless", name: ""})
   }
 
   /** Show what is pointed at; null shows nothing. @param {any} one @param {boolean} focus whether by the keyboard */
   show(one, focus = false) {
     if (!one && !this.over) return
     this.over = one
+    if (one) this.last = this.objects
     this.byKey = focus && one !== null
     this.draw()
   }
 
   /** Pin an object, or let it go if it is the one. @param {{name: string}} one */
-  toggle(one) { this.pin(this.name === one.name ? "" : one.name) }
+  toggle(one) { this.pin(this.name === one.name ? "" : one.name, one) }
 
-  pin(name) {
-    this.set(name)
+  pin(name, place = null) {
+    this.set(name, place)
     this.byName = false
     this.choose(name)
   }
 
-  /** What is pinned, by its name; of what a link or an undone step says. @param {string} name */
-  set(name) {
+  /**
+   * What is pinned, by its name; of what a link or an undone step says.
+   * @param {string} name @param {{x: number, y: number} | null} place of a curve that is told
+   */
+  set(name, place = null) {
     this.name = name
-    this.pinned = name ? this.objects.find((one) => one.name === name) ?? null : null
+    const objects = name ? this.objects : []
+    this.pinned = objects.find((one) => one.name === name) ?? null
+    if (this.pinned && place) this.pinned = {...this.pinned, x: place.x, y: place.y}
+    this.last = objects
     this.gone = false
     this.byName = true // the next frame may be of another setting
     this.draw()
@@ -123,11 +142,12 @@ export class Pointing {
     const {objects} = this
     if (this.byName && (header.equator || header.critical)) { this.byName = false; this.pinned = null }
     if (this.name && this.pinned) {
-      const now = followed(this.pinned, objects)
+      const now = followed(this.pinned, objects, this.last)
       this.gone = !now
       if (now) { this.pinned = now; this.name = now.name }
     } else if (this.name) this.pinned = objects.find((one) => one.name === this.name) ?? null
-    if (this.over && this.over.kind !== "curve") this.over = followed(this.over, objects)
+    if (this.over && this.over.kind !== "nameless") this.over = followed(this.over, objects, this.last)
+    this.last = objects
     this.draw()
     return this.name
   }
@@ -138,10 +158,10 @@ export class Pointing {
     const stays = pinned && !this.gone ? pinned : null
     if (stays) list.push(...pointedList(stays, header, theme, true))
     const other = over && !(stays && over.name && over.name === stays.name) ? over : null
-    if (other && other.kind !== "curve") list.push(...pointedList(other, header, theme, this.byKey))
+    if (other && other.kind !== "nameless") list.push(...pointedList(other, header, theme, this.byKey))
     picture.point(list)
     this.write(this.kept, pinned, this.name && pinned ? this.gone ? `<b>${escape(pinned.label)}</b> ${SAYS.gone}` : this.markup(pinned) : "")
-    this.write(this.card, other, other ? other.kind === "curve" ? this.curveWords(other.layer) : this.markup(other) : "")
+    this.write(this.card, other, other ? other.kind === "nameless" ? this.layerWords(other) : this.markup(other) : "")
   }
 
   markup(one) {
@@ -151,14 +171,15 @@ export class Pointing {
       const arrow = head === "in" ? "M13 4l6 4-6 4Z" : head === "out" ? "M20 4l6 4-6 4Z" : ""
       return `<li><svg viewBox="0 0 26 16" width="26" height="16" aria-hidden="true"><path d="M0 8H${head === "out" ? 20 : 26}" stroke="var(--${colour})" stroke-width="2.4" stroke-dasharray="${dash.join(" ")}"/><path d="${arrow}" fill="var(--${colour})"/></svg> ${escape(eigenWords(where, value))}</li>`
     })
-    return `<b>${escape(one.label)}</b>${escape(title.slice(one.label.length))}${rows.length ? `<dl>${rows.map(([name, value]) => `<dt>${formula(name)}</dt><dd>${escape(value)}</dd>`).join("")}</dl>` : ""}`
+    return `<b>${escape(one.label)}</b>${escape(title.slice(one.label.length))}${listed(rows)}`
       + (lines.length ? `<ul>${lines.join("")}</ul>` : "") + notes.map((note) => `<p>${escape(note)}</p>`).join("")
   }
 
-  // The legend knows the curves by name.
-  curveWords(layer) {
+  // The legend knows the layers by name, and what the colours of the ring mean.
+  layerWords({layer, of, x, y}) {
     const label = this.root.querySelector(`.layer[data-layer="${layer}"]`)
-    return `<b>${escape(label?.textContent.trim() ?? layer)}</b><p>${escape(label?.title ?? "")}</p>`
+    const means = layer === "outcomes" ? this.root.querySelector(`.outcome-key .${of}`)?.parentElement.textContent : of
+    return `<b>${escape(label?.textContent.trim() ?? layer)}</b>${means ? `: ${escape(means)}` : ""}${listed(placeOf({x, y}))}<p>${escape(label?.title ?? "")}</p>`
   }
 
   // In a corner of the picture, where it hides neither its object nor the disc.

@@ -141,7 +141,7 @@ class Orbits {
       const goes = one.hidden ? "hidden" : this.words.goes[at] ?? "", comes = one.hidden ? "" : this.words.comes[at] ?? ""
       const mine = i === chosen - 1
       return `<li data-orbit="${i}"${mine ? " class=\"chosen\"" : ""}><button type="button" class="choose" aria-pressed="${mine}" title="Show over time" aria-label="Show orbit ${i + 1} over time"><i class="orbit-colour" style="background: ${one.hidden ? "transparent" : `var(--launch-${colours[i]})`}"></i></button>
-        <input type="text" class="orbit-name" value="${escape(one.name)}" placeholder="${escape(pair([one.x, one.y]))}" aria-label="name of orbit ${i + 1}" maxlength="24">
+        <input type="text" class="text orbit-name" value="${escape(one.name)}" placeholder="${escape(pair([one.x, one.y]))}" aria-label="name of orbit ${i + 1}" maxlength="24">
         <button type="button" class="hide" aria-pressed="${one.hidden}" title="Hide or show" aria-label="Hide or show orbit ${i + 1}">${one.hidden ? "○" : "●"}</button>
         <button type="button" class="remove" title="Remove" aria-label="Remove orbit ${i + 1}">×</button>
         <p class="orbit-goes">${escape(goes)}</p><p class="note">${escape(comes)}</p></li>`

@@ -5,7 +5,7 @@ import {displayList, traceList} from "./display.js"
 import {makeRenderer, repaint} from "./painter.js"
 
 const DRAWN = ["launched", "equator", "critical", "sense", "all_directions", "outcomes", "basins"] // entries of a frame's header
-const TOLD = ["eigen", "cycles"] // others that are shown of an object
+const TOLD = ["eigen", "cycles", "separatrices"] // others that are shown of an object
 const REST = 150 // ms after the view has moved until it is asked for
 
 export class Picture {
@@ -39,6 +39,7 @@ export class Picture {
   apply({header, blocks}) {
     const {state} = this
     for (const name of TOLD) if (name in header) state.header[name] = header[name]
+    if (header.owners) state.header.owners = {...state.header.owners, ...header.owners}
     const old = header.late ?? []
     const aged = state.layers.some((name) => old.includes(name) !== state.old.includes(name))
     const words = DRAWN.filter((name) => name in header)

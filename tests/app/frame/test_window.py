@@ -41,13 +41,16 @@ def test_a_cut_keeps_all_that_is_seen_and_joins_nothing(sizes, seed):
     random = np.random.default_rng(seed)
     pieces = [random.uniform(-1, 1, (size, 2)) for size in sizes]
     window = Window.read([-0.2, 0.3, 0.1, 0.6, 0.001])
-    offsets, points = window.cut(*join(pieces))
+    offsets, points, of = window.cut(*join(pieces))
 
     def steps(found):
         joined = [np.column_stack([piece[:-1], piece[1:]]).tolist() for piece in found]
         return {tuple(step) for piece in joined for step in piece}
 
-    kept = steps(np.split(points, offsets[1:-1]) if len(points) else [])
+    whole = [{tuple(point) for point in piece.tolist()} for piece in pieces]
+    cuts = np.split(points, offsets[1:-1]) if len(points) else []
+    assert all({tuple(p) for p in cut.tolist()} <= whole[i] for cut, i in zip(cuts, of, strict=False))
+    kept = steps(cuts)
     assert kept <= steps(pieces)
     for x, y, u, v in steps(pieces) - kept:  # no point of what is left out lies in the window
         for share in np.linspace(0, 1, 30):

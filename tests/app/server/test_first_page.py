@@ -15,7 +15,7 @@ from codim2_app.draw.packing import unpack
 from codim2_app.server import first_page
 from codim2_app.server import scripts as scripts_module
 from codim2_app.server.first_page import MARKUP, TOKEN, skeleton_of
-from codim2_app.server.headers import policy
+from codim2_app.server.headers import embedders, policy
 from codim2_app.view.markup import script
 
 from tests.app.serving import serving
@@ -124,6 +124,20 @@ def test_a_probe_is_answered_without_the_page(address):
     with urlopen(Request(address, method="HEAD")) as answer:
         assert (answer.status, answer.read()) == (200, b"")
         assert answer.headers["Content-Type"].startswith("text/html")
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ("'self'", "'self'"),
+        ("https://course.example.org", "'self' https://course.example.org"),
+        ("'none'", "'self'"),
+        ("https://a.org 'self' *.b.org", "'self' https://a.org *.b.org"),
+        ("", "'self'"),
+    ],
+)
+def test_the_second_portrait_is_a_frame_of_the_same_page_whoever_else_may_embed_it(given, said):
+    assert embedders(given) == said
 
 
 def test_headers_allow_this_origin_and_tell_nothing(address):

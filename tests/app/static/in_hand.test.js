@@ -5,7 +5,7 @@ import test from "node:test"
 import {asked, click, hand, shows, type, wired} from "./wiring.js"
 
 const LAUNCHED = "0.1,0.2,-;0.3,0.4;0.5,0.6"
-const GOES = {launched: {x: [0.3, 0.5], y: [0.4, 0.6], goes: ["To C.", "To Q₂."], comes: ["", ""]}}
+const GOES = {launched: {x: [0.3, 0.5], number: [1, 2], called: ["", ""], y: [0.4, 0.6], goes: ["To C.", "To Q₂."], comes: ["", ""]}}
 const at = (x, y) => [185 + 100 * x, 195 - 100 * y]
 
 test("the orbit in hand says where it goes, and stops five seconds after", () => {

@@ -37,14 +37,26 @@ test("what is under the pointer tells its numbers and shows its eigenvectors, an
 })
 
 test("a curve under the pointer is called as in the legend", () => {
-  const one = wired({layers: [{name: "theta", parts: [{name: "stable", colour: "separatrix", width: 1.5, dash: []}]}], values: {...VALUES, layers: ["theta"]}})
+  const one = wired({layers: [{name: "mine", parts: [{name: "stable", colour: "separatrix", width: 1.5, dash: []}]}], values: {...VALUES, layers: ["mine"]}})
   const [x, y] = [2000, 3000].map((it) => it * STEP)
   hover(one, [185 + 100 * x, 195 - 100 * y]) // where the curve ends
-  assert.equal(hint(one), "theta")
-  one.find(".layer").dataset.layer = "theta"
+  assert.equal(hint(one), "mine")
+  one.find(".layer").dataset.layer = "mine"
   one.find(".layer").title = "Of the angle."
   hover(one, [185 + 100 * x, 195.5 - 100 * y])
   assert.deepEqual([hint(one), one.find(".card:not(.pinned) p").textContent], [one.find(".layer").textContent.trim(), "Of the angle."])
+})
+
+test("a click on a nullcline pins it, where it was clicked, and it is followed", () => {
+  const one = wired({layers: [{name: "theta", parts: [{name: "stable", colour: "separatrix", width: 1.5, dash: []}]}], values: {...VALUES, layers: ["theta"]}})
+  const [x, y] = [2000, 3000].map((it) => it * STEP), end = [185 + 100 * x, 195 - 100 * y]
+  hover(one, end)
+  assert.deepEqual([hint(one), drawn(one)], ["θ-nullcline, Θ = 0", ["curves"]])
+  press(one, end)
+  assert.deepEqual([card(one), query(one).pinned, one.root.explorer.values.orbits], ["θ-nullcline, Θ = 0", "T", ""])
+  assert.match(one.find(".card.pinned").textContent, /\(x̄, ȳ\)\(0\.244, 0\.366\)/)
+  one.answer()
+  assert.deepEqual([card(one), drawn(one)], ["θ-nullcline, Θ = 0", ["curves"]])
 })
 
 test("a click pins, the pin is in the link and is undone; a click beside launches", () => {
@@ -99,10 +111,10 @@ test("objects are buttons for the keyboard, with all that is said of them", () =
 
 test("a launched orbit that is shown is not pinned where nothing is", () => {
   const one = opened()
-  one.answer({launched: {x: [0.1], y: [0.3], goes: ["Tends to C."], comes: [""]}})
+  one.answer({launched: {x: [0.1], number: [1], called: [""], y: [0.3], goes: ["Tends to C."], comes: [""]}})
   one.root.explorer.picture.show(["launched", "equator"])
   press(one, Q1); escape(one)
   assert.deepEqual([card(one), drawn(one)], [null, []])
   hover(one, [195, 165])
-  assert.match(one.find(".card:not(.pinned)").textContent, /^Launched orbit\s*Tends to C\.$/)
+  assert.match(one.find(".card:not(.pinned)").textContent, /^Launched orbit 1\s*Tends to C\.$/)
 })

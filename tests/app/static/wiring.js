@@ -80,7 +80,7 @@ export const FIRST = {
   ready: true, late: [], errors: {}, portrait: {case: "I", name: "CM4", sentence: "Case I, CM4. Four limit directions.", degeneracies: [["Saddle-node", "Two <meet>."]], sides: {symbol: "f₁", below: "CM2", above: "CM4"}},
   equator: EQUATOR, critical: CRITICAL, sense: [[0, 1, 3.1416], [1, 0, 1.5708]], all_directions: false, slow_flow: [0.4], system: SYSTEM, cycle: null,
   outcomes: {start: [0, 1], end: [1, 2.5], kind: ["slide", "cross"], rows: [["0 to 1", "slide", "slides", "All slide.", [["n > 2", ["1"]]]]]},
-  basins: {cells: 4, box: [-1, 1, -1, 1], colours: ["", "basin-1"]}, launched: {x: [], y: [], goes: [], comes: []}, cycles: {kind: [], period: [], multiplier: [], reason: "None.", notes: []},
+  basins: {cells: 4, box: [-1, 1, -1, 1], colours: ["", "basin-1"]}, launched: {x: [], number: [], called: [], y: [], goes: [], comes: []}, cycles: {kind: [], period: [], multiplier: [], reason: "None.", notes: []},
 }
 
 /**
@@ -166,12 +166,12 @@ const STORY = [
   ["a coefficient is changed from it", (one) => pull(one, "#c2-a", "-1.5")],
   ["Ψ is typed", (one) => { type(one, "select.psi", "custom"); pull(one, ".for-custom input", "1/(1+s)") }],
   ["some time", (one) => one.tick(400)],
-  ["the answer", (one) => one.answer({launched: {x: [], y: [], goes: [], comes: []}})],
+  ["the answer", (one) => one.answer({launched: {x: [], number: [], called: [], y: [], goes: [], comes: []}})],
   ["Ψ has a parameter", (one) => type(one, "select.psi", "hill")],
   ["an orbit is launched", (one) => { hand(one, "pointerdown", 245, 155); one.tick(20) }],
-  ["the answer", (one) => one.answer({launched: {x: [0.6], y: [0.4], goes: ["Tends to C."], comes: ["From Q1."]}}, {"launched-1": {counts: [3], points: [0, 0, 500, 600, 700, 100], heads: [[500, 600, 3000]]}})],
+  ["the answer", (one) => one.answer({launched: {x: [0.6], number: [1], called: [""], y: [0.4], goes: ["Tends to C."], comes: ["From Q1."]}}, {"launched-1": {counts: [3], points: [0, 0, 500, 600, 700, 100], heads: [[500, 600, 3000]]}})],
   ["it is dragged", (one) => { hand(one, "pointermove", 195, 165); one.tick(20) }],
-  ["it is left", (one) => { hand(one, "pointerup", 195, 165); one.tick(20); one.answer({launched: {x: [0.1], y: [0.3], goes: ["Tends to C."], comes: [""]}}) }],
+  ["it is left", (one) => { hand(one, "pointerup", 195, 165); one.tick(20); one.answer({launched: {x: [0.1], number: [1], called: [""], y: [0.3], goes: ["Tends to C."], comes: [""]}}) }],
   ["five seconds", (one) => one.tick(5100)],
   ["its start is taken", (one) => { hand(one, "pointerdown", 197, 166); hand(one, "pointermove", 220, 166); hand(one, "pointercancel", 220, 166); one.tick(20); one.answer() }],
   ["with Shift nothing is launched", (one) => { hand(one, "pointerdown", 100, 100, {shiftKey: true}); hand(one, "pointerup", 100, 100) }],
@@ -200,7 +200,7 @@ const STORY = [
   ["and cleared", (one) => { one.root.explorer.picture.trace(null); one.root.explorer.picture.trace(null) }],
   ["tooltips follow", (one) => one.tick(400)],
   ["the compiler is not ready", (one) => { one.answer({ready: false}); one.tick(300); one.answer({ready: true, all_directions: true, sense: []}) }],
-  ["layers that are late are not drawn", (one) => one.answer({late: ["inside"], launched: {x: [0.5, -0.5], y: [0.25, 0], goes: [], comes: []}})],
+  ["layers that are late are not drawn", (one) => one.answer({late: ["inside"], launched: {x: [0.5, -0.5], number: [1, 2], called: ["", ""], y: [0.25, 0], goes: [], comes: []}})],
   ["the connection is lost", (one) => { one.connections.connection_lost(); one.connections.connection_lost(); pull(one, "#c2-f1", "1.5"); one.tick(300) }],
 ]
 
