@@ -223,8 +223,8 @@ def _extreme(field: _Field, theta: Array, n: Array) -> tuple[Array, Array, Array
             break
         theta = np.concatenate([theta, peaks[fresh]])
         weights = np.append(weights, np.zeros(int(fresh.sum())))
-    answer = _polished(field, n, *_merged(theta, weights), slope) or _balanced(field, theta, weights)
-    theta, weights = answer
+    # Newton's method may creep where the whole curve lies in the face: balancing afterwards leaves rounding only
+    theta, weights = _balanced(field, *(_polished(field, n, *_merged(theta, weights), slope) or (theta, weights)))
     used = weights > WEIGHTLESS  # balancing and polishing may leave one that combines nothing
     return weights @ field(theta)[1], theta[used], weights[used]
 

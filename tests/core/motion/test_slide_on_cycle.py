@@ -40,7 +40,7 @@ def exact(z, t):
     """Return z(t) of z' = M z + K."""
     values, vectors = np.linalg.eig(M)
     rest = -np.linalg.solve(M, K)
-    return rest + vectors @ (np.exp(values * t) * np.linalg.solve(vectors, z - rest))
+    return rest + (vectors @ (np.exp(values * t) * np.linalg.solve(vectors, z - rest))).real
 
 
 def test_the_mean_slow_flow_is_followed_beside_others(monkeypatch):

@@ -165,6 +165,15 @@ def test_a_point_is_one_candidate_in_any_number_of_slow_variables():
         assert "crossing" in none.sentence
 
 
+def test_no_linear_programme_decides_the_digits_where_the_whole_curve_lies_in_the_face():
+    """Which three directions it combines is its own choice, and Newton's method creeps from there."""
+    field = filippov._Field(c2.System(U=("c - 1/5", "s/100"), W=("2*c + s/7",)).at((0.0,)))
+    nudges = np.random.default_rng(1).normal(scale=0.02, size=(50, 3))
+    for theta in np.array([1.35, 4.79, 6.26]) + nudges:
+        vertex, _, _ = filippov._extreme(field, theta, np.array([1.0]))
+        assert vertex == pytest.approx([0.4], rel=0.0, abs=1e-14)
+
+
 def facing(theta, U, slope, level):
     """Text of a W whose W + slope.U touches `level` from below in just these directions, and the weights there.
 
