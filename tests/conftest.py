@@ -37,19 +37,18 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_collection(session: pytest.Session) -> Iterator[None]:
+def pytest_collection() -> Iterator[None]:
     """Import all that the tests need without searching it for garbage, then or later; share out what is compiled."""
-    if session.config.pluginmanager.hasplugin("dsession"):  # it hands the tests out, and runs none
-        return (yield)
-    from codim2_app.server import compiled_once
-
-    compiled_once.install()  # all processes begin with the same kernels
     gc.disable()
     try:
         return (yield)
     finally:
         gc.freeze()
         gc.enable()
+        if "numba" in sys.modules:
+            from codim2_app.view import compiled_once
+
+            compiled_once.install()  # all processes begin with the same kernels
 
 
 @pytest.hookimpl(tryfirst=True)

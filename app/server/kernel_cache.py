@@ -16,7 +16,7 @@ from numba.core import config as numba_config
 
 import codim2_core
 
-from . import compiled_once
+from ..view import compiled_once
 
 config: Any = numba_config  # its names are made at run time
 

@@ -12,6 +12,7 @@ from ..orbits.seeds import ring, structured_seeds, window_seeds
 from ..orbits.sketch import Sketch, sketch
 from ..orbits.trajectories import Trajectories, continuation, trajectories
 from ..orbits.whole import Orbits
+from ..portrait.endings import radially_neutral_ones
 from ..psi import constructors
 from .setting import Setting
 
@@ -90,5 +91,6 @@ def sketched(setting: Setting, outside: bool) -> Sketch:
 def continuations(setting: Setting) -> Trajectories:
     """From each limit direction along which an open set of trajectories arrives, up the hemisphere."""
     equator = setting.problem.equator
-    arriving = equator.theta[(equator.lambda_rho < 0.0) & (equator.lambda_theta < 0.0)]
+    decided = ~np.array(radially_neutral_ones(equator), bool)  # where it is not, what rises does so for ever
+    arriving = equator.theta[decided & (equator.lambda_rho < 0.0) & (equator.lambda_theta < 0.0)]
     return continuation(setting.coefficients, setting.psi, arriving, **_stepping(setting))

@@ -30,13 +30,22 @@ COMMANDS = {
 OPTIONAL = {"jupyterlab", "jupyter-bokeh", "nbclient", "nbconvert", "nbformat"}
 
 
+def statements(block):
+    """All statements of a module, at any depth."""
+    for part in ("body", "orelse", "finalbody", "handlers", "cases"):
+        inner = getattr(block, part, None)
+        for node in inner if isinstance(inner, list) else ():  # the body of a lambda is no list
+            yield node
+            yield from statements(node)
+
+
 def imported(folder):
     """Distributions that a folder imports anywhere, also on first use."""
     found = set()
     for path in (ROOT / folder).rglob("*.py"):
         if "node_modules" in path.parts:
             continue
-        for node in ast.walk(ast.parse(path.read_text())):
+        for node in statements(ast.parse(path.read_text())):
             if isinstance(node, ast.Import):
                 names = [alias.name for alias in node.names]
             elif isinstance(node, ast.ImportFrom) and not node.level:

@@ -39,16 +39,26 @@ def test_every_folder_of_slow_tests_is_left_out_unless_it_is_asked_for(tmp_path)
         (tmp_path / name).write_text((ROOT / name).read_text())
     (tests / "costly.txt").write_text("core/psi/test_it.py::test_two\n")
 
-    def passed(*arguments):
-        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments]
-        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-        return int(re.search(r"(\d+) passed", done.stdout)[1])
-
-    assert passed("-n0") == 4
-    assert passed("-n0", "-m", "fast") == 1
-    assert passed("-n0", "-m", "slow") == 2 * len(tiers.SLOW)
-    assert passed(f"tests/{tiers.SLOW[0]}") == 2
-    assert passed("-p", "no:xdist") == 4  # where pytest-xdist is not installed
+    asked = {
+        ("-n0",): 4,
+        ("-n0", "-m", "fast"): 1,
+        ("-n0", "-m", "slow"): 2 * len(tiers.SLOW),
+        (f"tests/{tiers.SLOW[0]}",): 2,
+        ("-p", "no:xdist"): 4,  # where pytest-xdist is not installed
+    }
+    # each in a child of one process, which has imported what all need
+    code = f"""
+import os, sys
+import hypothesis.stateful, pytest
+for arguments in {list(asked)!r}:
+    if not (child := os.fork()):
+        pytest.main(["-q", "-p", "no:cacheprovider", "-W", "ignore:Module already imported", *arguments])
+        sys.stdout.flush()
+        os._exit(0)
+    os.waitpid(child, 0)
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert list(map(int, re.findall(r"(\d+) passed", done.stdout))) == list(asked.values()), done.stdout
 
 
 def test_those_in_the_browser_come_first_and_all_else_keeps_its_order():

@@ -1,4 +1,4 @@
-"""Period, multiplier and means of limit cycles in 30 digits, by Gragg's extrapolation of the variational equation."""
+"""Period, multiplier and means of limit cycles in 30 digits, by Gragg's extrapolation and Liouville's formula."""
 
 import math
 
@@ -7,7 +7,7 @@ import pytest
 
 from codim2_core import ELinear, limit_cycles, psi
 
-from .reference import derivative, regularisation
+from .reference import regularisation
 
 CASES = [
     ((172.0, 186.0, -200.0, -86.0, -93.0), psi.hill(3), 40),
@@ -18,22 +18,19 @@ LEVELS = 11  # order 22
 
 
 def field(plane, family):
-    """(x, y, e-integrals, Y) -> derivatives: x2' = U(e_Psi(x2)), means of e_Psi, Y' = A D e_Psi Y."""
+    """x2' = U(e_Psi(x2)) of (x, y); with the integrals of e_Psi and of tr U D e_Psi beside them if there are five."""
     a, b, d, f1, f2 = map(mp.mpf, plane)
-    value, _ = regularisation(family)
+    value, slope = regularisation(family)
 
     def rates(u):
         x, y = u[0], u[1]
         s = x * x + y * y
-        r = mp.sqrt(s + value(s))
+        P = value(s)
+        r = mp.sqrt(s + P)
         c, e = x / r, y / r
-        D11, D12, D22 = derivative(family, x, y)
-        J = (a * D11 - b * D12, a * D12 - b * D22, b * D11 + d * D12, b * D12 + d * D22)
-        return [
-            a * c - b * e + f1, b * c + d * e + f2, c, e,
-            J[0] * u[4] + J[1] * u[6], J[0] * u[5] + J[1] * u[7],
-            J[2] * u[4] + J[3] * u[6], J[2] * u[5] + J[3] * u[7],
-        ]  # fmt: skip
+        velocity = [a * c - b * e + f1, b * c + d * e + f2]
+        # D e_Psi = 1/r - (1 + Psi') x2 x2^T/r^3, of which A takes the trace: the antisymmetric part b drops out
+        return velocity if len(u) == 2 else [*velocity, c, e, (a + d - (1 + slope(s)) * (a * c * c + d * e * e)) / r]
 
     return rates
 
@@ -57,11 +54,17 @@ def step(rates, u, H):
     return table[-1][-1]
 
 
-def around(rates, start, T, steps):
-    u = [*start, mp.mpf(0), mp.mpf(0), mp.mpf(1), mp.mpf(0), mp.mpf(0), mp.mpf(1)]
+def around(rates, start, T, steps, more=0):
+    u = [*start, *[mp.mpf(0)] * more]
     for _ in range(steps):
         u = step(rates, u, T / steps)
     return u
+
+
+def gap(end, start, velocity):
+    """How far from its start a turn ends: across the flow, and along it in time."""
+    x, y, (v, w) = end[0] - start[0], end[1] - start[1], velocity
+    return (v * y - w * x) / mp.hypot(v, w), (v * x + w * y) / (v * v + w * w)
 
 
 @pytest.mark.parametrize(("plane", "family", "steps"), CASES)
@@ -72,20 +75,18 @@ def test_cycle(plane, family, steps):
     with mp.workdps(30):
         rates = field(plane, family)
         x, y, T = mp.mpf(p[0] / h), mp.mpf(p[1] / h), mp.mpf(cycle.period)
-        # One step of Newton's method, for a closed orbit that starts across the flow from here: 1e-13 becomes 1e-25.
-        u = around(rates, (x, y), T, steps)
-        before, after = rates([x, y, *u[2:]]), rates(u)
-        gap = mp.matrix([x - u[0], y - u[1], 0])
-        M = mp.matrix([
-            [u[4] - 1, u[5], after[0]],
-            [u[6], u[7] - 1, after[1]],
-            [before[0], before[1], 0],
-        ])  # fmt: skip
-        move = mp.lu_solve(M, gap)
-        x, y, T = x + move[0], y + move[1], T + move[2]
-        u = around(rates, (x, y), T, steps)
-        assert abs(u[0] - x) + abs(u[1] - y) < mp.mpf(10) ** -17
-        multiplier = u[4] * u[7] - u[5] * u[6]  # the other one is 1
+        # One step of Newton's method across the flow, where a turn multiplies by the multiplier: 1e-13 becomes 1e-25.
+        across, _ = gap(around(rates, (x, y), T, steps), (x, y), rates([x, y]))
+        v, w = rates([x, y])
+        move = across / (1 - mp.mpf(cycle.multiplier)) / mp.hypot(v, w)
+        x, y = x - w * move, y + v * move
+        u = around(rates, (x, y), T, steps, 3)
+        across, late = gap(u, (x, y), rates([x, y]))
+        assert abs(across) < mp.mpf(10) ** -17
+        assert abs(late) < mp.mpf(10) ** -12
+        T -= late  # what is left of it is its square
+        c, e, trace = (end - late * rate for end, rate in zip(u[2:], rates(u)[2:], strict=True))
+        multiplier = mp.exp(trace)  # the other one is 1
         assert abs(cycle.period / T - 1) < 1e-13
         # an exponent of -30 (multiplier 5e-14) is as accurate as its size allows
         slack = 1e-12 * max(1, abs(mp.log(multiplier)))
@@ -95,5 +96,5 @@ def test_cycle(plane, family, steps):
         det = a * d + b * b
         mean = (-(d * f1 + b * f2) / det, -(a * f2 - b * f1) / det)
         for k in range(2):
-            assert abs(u[2 + k] / T - mean[k]) < mp.mpf(10) ** -15  # prop:LC itself
+            assert abs((c, e)[k] / T - mean[k]) < mp.mpf(10) ** -15  # prop:LC itself
             assert abs(cycle.mean_e[k] - mean[k]) < 1e-12

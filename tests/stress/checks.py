@@ -6,6 +6,7 @@ import dataclasses
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -52,6 +53,7 @@ def check_finite(value: Any, path: str) -> None:
             assert np.isfinite(number).all(), where
 
 
+@cache
 def check_plane(plane: Plane, psi: Psi, scale: float = 1.0) -> tuple[Any, ...]:
     """Counts against exact arithmetic, and invariants; return the class: (case, name, degeneracies, stability)."""
     at = system(plane, scale)

@@ -160,10 +160,10 @@ assert figure.xaxis[0].axis_label == axes.get_xlabel()
 
 def test_marks_and_layers_are_explained_beside_the_picture():
     markup = explorer_html(ExplorerState())
-    hero = markup[markup.index('<main class="hero">') : markup.index("</main>")]
+    hero = unescape(markup[markup.index('<main class="hero">') : markup.index("</main>")])
     for words in ("layer problem", "1 + ρ", "time", "filled", "hollow", "repels", "node", "saddle", "out of the page",
                   "into it", "dashed", "U₁ = 0, U₂ = 0 inside", "outside"):  # fmt: skip
         assert words in hero, words
     for layer in LAYERS.values():
         assert layer.tip.endswith(".")
-        assert f'title="{layer.tip}"' in unescape(hero)
+        assert f'title="{layer.tip}"' in hero

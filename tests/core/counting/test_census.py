@@ -57,7 +57,7 @@ KINDS = (
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_the_filter_decides_is_what_classify_says(kind):
-    plane = strata(np.random.default_rng(7), kind, 1500)
+    plane = strata(np.random.default_rng(7), kind, 600)
     plane = plane[np.abs(plane).max(axis=1) < 1e30]
     codes, _ = filtered(plane)
     for row, code in zip(plane.tolist(), codes, strict=True):

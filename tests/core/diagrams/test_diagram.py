@@ -168,7 +168,7 @@ def test_persistently_degenerate_systems_have_their_branches() -> None:
 coefficients = st.one_of(st.floats(-2, 2), st.sampled_from([-1.0, -0.5, 0.0, 0.5, 1.0]))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(
     st.tuples(*[coefficients] * 5),
     st.sampled_from(["a", "b", "d", "f1", "f2", "z1"]),
@@ -246,7 +246,7 @@ _PLANE = ("a", "b", "d", "f1", "f2")
 _TYPED = c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=dict.fromkeys(_PLANE, 0.0))
 
 
-@settings(max_examples=12)
+@settings(max_examples=6)
 @given(st.tuples(*5 * [st.integers(-200, 200)]), st.sampled_from(_PLANE))
 def test_typed_systems_have_the_special_values_of_their_e_linear_twins(hundredths, name) -> None:
     """Every special value of the equator, and none besides; det A = 0 outside the disc is nothing in general."""

@@ -42,7 +42,7 @@ def random_system(rng, m, general):
 @pytest.mark.parametrize("block", range(6))
 def test_random_systems_have_the_phases_of_the_limit(block):
     eps, compared, circling = 1e-7, 0, 0
-    for seed in range(50 * block, 50 * block + 50):
+    for seed in range(50 * block, 50 * block + 20):
         rng = np.random.default_rng(seed)
         m, general = int(rng.integers(0, 3)), bool(rng.random() < 0.3)
         system, psi = random_system(rng, m, general), PSI[rng.integers(4)]
@@ -62,8 +62,8 @@ def test_random_systems_have_the_phases_of_the_limit(block):
         for own, other in zip(run.phases, limit.phases, strict=True):
             assert own.t_start == pytest.approx(other.t_start, abs=0.02), seed
         compared += 1
-    assert compared >= 45
-    assert circling <= 2
+    assert compared >= 17
+    assert circling <= 1
 
 
 @pytest.mark.parametrize("eps", [1e-3, 1e-5])

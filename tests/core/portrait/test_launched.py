@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -195,7 +195,9 @@ def test_beside_the_ray_of_a_saddle_it_takes_the_time_of_the_ray(beside, backwar
     assert fate.label == ("Q2" if beside else "Q1")
 
 
+@settings(max_examples=40)
 @given(st.floats(-3, -0.5), st.floats(-3, -0.5), st.floats(-2, 2), st.floats(-2, 2), st.integers(1, 16))
+@example(-0.515625, -3.0, 1.0, 0.0, 16)  # beside the ray one rounding decides whether it comes to Sigma at all
 def test_the_time_beside_any_saddle_is_that_of_another_solver(a, d, f1, f2, digits):
     system = c2.ELinear(a, 0.4, d, (f1, f2))
     equator = c2.equator_equilibria(system)
@@ -210,9 +212,14 @@ def test_the_time_beside_any_saddle_is_that_of_another_solver(a, d, f1, f2, digi
         radial, turning = outside_flow(system.at(), y[1])
         return [radial, turning, math.exp(y[0])]
 
-    start = [math.log(math.hypot(*seed) - 1.0), math.atan2(seed[1], seed[0]), 0.0]
-    exact = solve_ivp(rate, (0.0, 400.0), start, method="LSODA", rtol=1e-10, atol=1e-12).y[2, -1]
-    assert fate.after == pytest.approx(exact, rel=2e-3)
+    def time_from(angle):
+        start = [math.log(math.hypot(*seed) - 1.0), angle, 0.0]
+        return solve_ivp(rate, (0.0, 400.0), start, method="LSODA", rtol=1e-10, atol=1e-12).y[2, -1]
+
+    # the angle of a seed is known to the rounding of its coordinates: about 2^-53 of it
+    roundings = [0.0] if digits < 15 else [0.0, -1e-15, 1e-15]
+    angle = math.atan2(seed[1], seed[0])
+    assert any(fate.after == pytest.approx(time_from(angle + turn), rel=2e-3) for turn in roundings)
 
 
 def test_an_orbit_on_the_equator_and_one_that_leaves_are_told():

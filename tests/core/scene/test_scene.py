@@ -146,6 +146,13 @@ def test_the_scene_shows_what_the_functions_say():
     assert fingerprint(drawn) == fingerprint(expected)
 
 
+@pytest.mark.parametrize("b", [4e-35, 1e-17, -4e-35])
+def test_nothing_is_drawn_up_from_where_rounding_decides_whether_it_arrives(b):
+    """At theta = 5 pi/3 lambda_rho = -b/sqrt(3) to first order, of terms of 1/4; at pi/3 it is b/sqrt(3)."""
+    scene = c2.Scene(c2.ELinear(-1.0, b, 0.0, (0.5, 0.0)), c2.psi.constant())
+    assert len(scene["continuations"]) == 0
+
+
 def test_unknown_layers_are_refused_with_the_list():
     with pytest.raises(ValueError, match="equator"):
         c2.Scene(typed(), z=0.5)["sky"]

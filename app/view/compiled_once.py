@@ -18,7 +18,7 @@ from numba.core import caching, compiler_lock
 from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher
 
-from ..view.alone import place
+from .alone import place
 
 _one_thread: Any = compiler_lock.global_compiler_lock
 
