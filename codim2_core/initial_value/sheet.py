@@ -68,7 +68,10 @@ class Sheet:
         if e is not None:
             D = self.slopes(e, z)
             self.e, self.z = e, np.array(z)
-            self.slope = -np.linalg.solve(D[:2, :2], D[:2, 4:])
+            (j11, j12), (j21, j22) = D[:2, :2].tolist()
+            det = j11 * j22 - j12 * j21
+            if det != 0.0:
+                self.slope = np.array([[-j22, j12], [j21, -j11]]) / det @ D[:2, 4:]
 
     def begin(self, e: Array, z: Array) -> None:
         """Continue from e at z from now on."""

@@ -111,7 +111,7 @@ def slide(
         )
 
     problem = sheet.problem(atol / rtol)
-    rate = problem.F(z)
+    rate = np.array(field.value(*sheet.e.tolist(), 0.0, 0.0, *z.tolist())[2:])
     h = 1e-2 / float(np.max(np.abs(rate) / problem.scale(z))) if rate.any() else math.inf
     shortest = SHORTEST * (t_end - t)
     if compiled is None or lives is not None:
