@@ -135,7 +135,8 @@ def test_a_click_on_an_object_pins_it_and_one_beside_launches(open_page):
 
 def test_objects_are_reached_by_the_keyboard(open_page):
     explorer = open_page().open("?b=0.3")
-    explorer.until("root.querySelectorAll('.objects button').length === 3")
+    names = "[...root.querySelectorAll('.objects button')].map((it) => it.dataset.object).join()"
+    explorer.until(f"{names} === 'C,Q1,Q2,U1,U2,R,T'")
     explorer.find(".objects button").nth(1).focus()
     hint = explorer.find(".card:not(.pinned)")
     assert hint.text_content().startswith("Q₁ ")
