@@ -50,14 +50,14 @@ def errors(plane, regularisation):
 @pytest.mark.parametrize("families", [FAMILIES, STEEP], ids=["menus", "steep"])
 def test_every_number_of_a_critical_set(families):
     count = 0
-    for plane, regularisation in with_critical_set(250, 1, families):
+    for plane, regularisation in with_critical_set(100, 1, families):
         found = errors(plane, regularisation)
         if found is None:  # the rounding of f carried it over the equator
             continue
         count += 1
         name = max(found, key=found.__getitem__)
         assert found[name] < bound(regularisation), (name, found[name], plane, regularisation.text)
-    assert count > 200
+    assert count > 80
 
 
 @pytest.mark.parametrize(("plane", "regularisation"), WORST)

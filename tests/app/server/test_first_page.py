@@ -22,10 +22,9 @@ from tests.app.serving import serving
 from tests.benchmarks.bokeh_wire import Wire
 
 
-@pytest.fixture(scope="module")
-def address():
-    with serving("--sessions", "2") as found:
-        yield found
+@pytest.fixture
+def address(served):
+    return served
 
 
 def opened(address, **headers):

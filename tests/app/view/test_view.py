@@ -13,14 +13,12 @@ from codim2_app.state.controls import ExplorerState
 from codim2_app.view.markup import explorer_html
 
 import codim2_core as c2
-from tests.app.serving import serving
 from tests.benchmarks.bokeh_wire import Wire
 
 
-@pytest.fixture(scope="module")
-def port():
-    with serving() as address:
-        yield int(address.rsplit(":", 1)[1])
+@pytest.fixture
+def port(served):
+    return served.port
 
 
 def test_one_patch_for_each_frame(port):
@@ -143,19 +141,18 @@ def test_the_page_says_which_paper_it_shows_and_what_its_words_mean():
 
 
 def test_both_backends_of_holoviews_draw_equal_axes_with_the_papers_names():
-    code = """
-import holoviews as hv
-hv.extension("bokeh", "matplotlib")
-import codim2_app, codim2_core as c2
-overlay = codim2_app.holoviews(c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0)), count=12))
-(axes,) = hv.render(overlay, backend="matplotlib").axes
-assert axes.get_aspect() == 1.0, axes.get_aspect()
-assert (axes.get_xlabel(), axes.get_ylabel()) == ("x\u0304", "\u0233"), axes.get_xlabel()
-figure = hv.render(overlay, backend="bokeh")
-assert figure.match_aspect
-assert figure.xaxis[0].axis_label == axes.get_xlabel()
-"""
-    subprocess.run([sys.executable, "-c", code], check=True)
+    import codim2_app
+    import holoviews as hv
+    import holoviews.plotting.bokeh
+    import holoviews.plotting.mpl
+
+    overlay = codim2_app.holoviews(c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0)), count=12))
+    (axes,) = hv.render(overlay, backend="matplotlib").axes
+    assert axes.get_aspect() == 1.0
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("x\u0304", "\u0233")
+    figure = hv.render(overlay, backend="bokeh")
+    assert figure.match_aspect
+    assert figure.xaxis[0].axis_label == axes.get_xlabel()
 
 
 def test_marks_and_layers_are_explained_beside_the_picture():

@@ -63,7 +63,7 @@ def test_counts_of_general_polynomials(q):
     check(real_zeros(*q), count_zeros(*q))
 
 
-@settings(max_examples=250, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(five)
 def test_counts_of_radial_zeros(q):
     a, d, f1, f2 = q[:4]
