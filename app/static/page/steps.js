@@ -112,6 +112,8 @@ export class Steps {
     if (!same(now, this.kept.present)) this.kept.add(now)
     this.told()
   }
+  /** The link of the present step is another. */
+  rewrite() { if (this.kept instanceof Browsed) this.kept.write("replaceState") }
   undo() { if (this.pending) this.settle(); this.kept.go(-1, this.put) }
   redo() { if (!this.pending) this.kept.go(1, this.put) }
   /** @param {any} state of a `popstate` event */

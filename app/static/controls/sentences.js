@@ -1,0 +1,31 @@
+// What is wrong: each sentence stands beside its control; what has no place there, or none that is seen, above the picture.
+
+export class Sentences {
+  /**
+   * @param {any} bar above the picture @param {Record<string, any>} controls
+   * @param {() => Record<string, any>} asked values by name that have not left yet
+   */
+  constructor(bar, controls, asked) {
+    this.bar = bar
+    this.controls = controls
+    this.asked = asked
+    this.told = /** @type {Record<string, string>} */ ({})
+  }
+
+  /** @param {Record<string, string>} errors by control; "" of none */
+  say(errors = this.told) {
+    for (const [name, control] of Object.entries(this.controls)) {
+      if (name in errors) control.say(errors[name])
+      else if (control.box.classList.contains("bad") && !(name in this.asked())) control.say(null)
+    }
+    this.told = errors
+    this.banner(Object.entries(errors).filter(([name]) => !this.seen(name)).map(([, sentence]) => sentence).join(" "))
+  }
+
+  seen(name) {
+    const error = this.controls[name]?.box.querySelector(".error")
+    return error && error.offsetParent !== null // else it is in a closed sheet
+  }
+
+  banner(sentence) { this.bar.hidden = !sentence; this.bar.textContent = sentence }
+}

@@ -1,0 +1,88 @@
+// Parts of an explorer that act on all of it: panels, hands on the picture, dialogs, the second portrait beside it.
+
+import {Panels} from "./beside/panels.js"
+import {slidersOf} from "./controls/controls.js"
+import {twoFingers} from "./hands/gestures.js"
+import {Hands} from "./hands/hands.js"
+import {Pointing} from "./hands/pointing.js"
+import {Beamer} from "./page/beamer.js"
+import {Help} from "./page/help.js"
+import {writeLink} from "./page/links.js"
+import {Second, Seconded} from "./page/second.js"
+import {Share} from "./page/share.js"
+
+/** @typedef {import("./explorer.js").Explorer} Explorer */
+
+/** The panels, and how each control is set that stands in one of them. @param {Explorer} explorer */
+export function panelsOf(explorer) {
+  const {root, values, rest, config, controls, slowSymbols} = explorer, setters = {}
+  const panels = new Panels(root, config.panels, {
+    root, values, rest, slowSymbols, symbols: config.symbols, docs: config.docs,
+    move: (wanted) => explorer.move(wanted),
+    choose: (name, value) => explorer.choose(name, value),
+    rangeOf: (name) => (name.startsWith("own:") ? explorer.systems.sliders[name.slice(4)] : controls[name])?.range ?? config.ranges[name] ?? [-4, 4],
+    valueOf: (name) => name.startsWith("own:") ? explorer.systems.value(name.slice(4)) : values[name],
+    follow: (name, set) => { setters[name] = set },
+    trace: (paths, place) => explorer.picture.trace(paths, place),
+    open: (wanted) => explorer.put(wanted),
+    hide: (layers) => { explorer.hidden = layers; explorer.showLayers() },
+  }, (name) => explorer.choose("panel", name))
+  return {panels, setters}
+}
+
+/** @param {Explorer} explorer */
+export function pointingOf(explorer) {
+  const {root, config, values, picture, controls, slowSymbols} = explorer
+  const pointing = new Pointing(root, picture, config.page ? document : root, slowSymbols, (name) => explorer.change("pinned", name))
+  pointing.set(values.pinned)
+  controls.pinned = {box: pointing.kept, say: () => {}, set: (name) => pointing.set(name)}
+  return pointing
+}
+
+/** @param {Explorer} explorer */
+export function handsOf(explorer) {
+  const {values, picture, pointing, spoken} = explorer, place = explorer.find(".bokeh")
+  const hands = new Hands(place, picture, {
+    get: () => values.orbits,
+    set: (launches) => {
+      if (!values.layers.includes("launched")) { explorer.change("layers", [...values.layers, "launched"]); explorer.showLayers() }
+      explorer.change("orbits", launches)
+      if (values.panel === "orbits") explorer.panels.draw(values)
+    },
+    begin: (i) => { spoken.begin(i); explorer.change("orbit", i + 1) },
+    end: () => spoken.end(),
+  }, pointing)
+  explorer.find(".home").addEventListener("click", () => picture.home())
+  twoFingers(place, explorer.plot, () => hands.held !== null)
+  return hands
+}
+
+/** @param {Explorer} explorer */
+export function addDialogs(explorer) {
+  const {root, config, picture, theme} = explorer
+  new Help(root, explorer.find("dialog.helping"))
+  const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer}})
+  const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film}))
+  explorer.find(".share").addEventListener("click", () => share.open())
+  explorer.find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
+}
+
+/** The second portrait, or in its frame the first, or none. @param {Explorer} explorer @returns {any} */
+export function besideOf(explorer) {
+  const {root, config, values, picture, theme} = explorer
+  if (explorer.inside) {
+    return new Seconded(root, {
+      put: (wanted) => { if (Object.keys(wanted).every((name) => explorer.numbers.has(name))) explorer.move(wanted); else explorer.put(wanted) },
+      look: ({seen, theme: name, times}) => { picture.seen = seen; picture.enlarge(times); theme.choose(name) },
+    }, values)
+  }
+  if (!explorer.alone) return null
+  const beside = new Second(root, config, {
+    values, set: (wanted) => explorer.put(wanted), keep: (own) => { values.beside = own; explorer.keepLink() },
+    look: () => ({seen: picture.seen, theme: theme.name, times: picture.times}),
+    address: (wanted, own) => writeLink(wanted, picture.window && picture.seen, {...config, look: own}),
+  })
+  picture.viewed(() => beside.look())
+  new Beamer(root, picture, config.look.beamer, (on) => { config.look.beamer = on; beside.look(); explorer.steps.rewrite() })
+  return beside
+}
