@@ -141,7 +141,10 @@ class Along {
     const most = Math.max(1e-12, ...arrows.map(([, , u, v]) => Math.hypot(u, v)))
     this.planeChart.draw([{
       x: {span: this.planeData.spans[0], word: first}, y: {span: this.planeData.spans[1]}, title: escape(second), zeros: true,
-      dots: arrows.map(([x, y, , , stable]) => ({name: stable ? "stable" : "unstable", x, y, r: 8})),
+      dots: arrows.map(([x, y, u, v, stable]) => ({
+        name: stable ? "stable" : "unstable", x, y, r: 8,
+        title: `${first} = ${digits(x)}, ${second} = ${digits(y)}: ${first}′ = ${digits(u)}, ${second}′ = ${digits(v)} on a critical set that ${stable ? "attracts" : "does not attract"}`,
+      })),
       arrows: arrows.map(([x, y, u, v]) => ({name: "drift", x, y, u, v, length: 16 * Math.sqrt(Math.hypot(u, v) / most)})).filter((one) => one.length > 1.5),
     }])
   }
