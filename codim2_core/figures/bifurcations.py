@@ -5,28 +5,13 @@ A walk of three presets changes f1 only: "-before", "-at" and "-after" can be re
 
 from __future__ import annotations
 
-from dataclasses import replace
-
-from .preset import Preset
+from .preset import Add, Preset, adding
 
 _BIFURCATIONS = "Bifurcations"
-_CONICS = "Conics and the ellipse"
+_PLANE_OF_F = "Conics and the ellipse"
 
 
-def bifurcation_presets() -> dict[str, Preset]:
-    """Presets of fig:SNBIF, fig:transcrit, D2, fig:intersections and fig:ellipse, by name.
-
-    The paper prints no numbers for these sketches: all values here are round ones that give the portrait sketched.
-
-    Returns
-    -------
-    dict of str to Preset
-    """
-    found: dict[str, Preset] = {}
-
-    def add(name: str, parent: Preset, **differences: object) -> None:
-        found[name] = replace(parent, name=name, **differences)  # type: ignore[arg-type]
-
+def _pitchfork(add: Add) -> None:
     pitchfork = Preset(
         group=_BIFURCATIONS, label="D2, sec:bifurcations", a=-1.0, b=0.0, d=-1.5, portrait=("I", "CM2", "stable node")
     )
@@ -44,6 +29,8 @@ def bifurcation_presets() -> dict[str, Preset]:
         note="θ = 0 has changed its angular stability, and ±arccos(f₁/(d − a)) have left it on either side.",
     )  # fmt: skip
 
+
+def _saddle_node(add: Add) -> None:
     saddle_node = Preset(
         group=_BIFURCATIONS,
         label="fig:SNBIF, D1",
@@ -68,6 +55,8 @@ def bifurcation_presets() -> dict[str, Preset]:
         note="Two limit directions, one angularly attracting, one repelling, each with an orbit to the critical set.",
     )  # fmt: skip
 
+
+def _transcritical(add: Add) -> None:
     transcritical = Preset(
         group=_BIFURCATIONS, label="fig:transcrit", a=-1.0, b=0.0, d=-1.0, portrait=("I", "NCM2", None)
     )
@@ -85,7 +74,9 @@ def bifurcation_presets() -> dict[str, Preset]:
         note="No critical set: θ = 0 is now radially repelling, and what reaches Σ leaves along it.",
     )  # fmt: skip
 
-    conics = Preset(group=_CONICS, label="fig:intersections", a=-1.0, d=-2.0, view="conics")
+
+def _conics(add: Add) -> None:
+    conics = Preset(group=_PLANE_OF_F, label="fig:intersections", a=-1.0, d=-2.0, view="conics")
     add(
         "conics-0", conics, title="Hyperbola and circle: no meeting point", b=1.2, f1=0.2, f2=0.1,
         portrait=("I", "CM0", "stable focus"),
@@ -102,7 +93,9 @@ def bifurcation_presets() -> dict[str, Preset]:
         note="Both branches of the hyperbola cross the unit circle: four limit directions, the most there can be.",
     )  # fmt: skip
 
-    ellipse = Preset(group=_CONICS, label="fig:ellipse", a=-2.0, b=0.5, d=-1.0)
+
+def _ellipse(add: Add) -> None:
+    ellipse = Preset(group=_PLANE_OF_F, label="fig:ellipse", a=-2.0, b=0.5, d=-1.0)
     add(
         "ellipse-in", ellipse, title="f inside the ellipse |A⁻¹h| = 1", f1=0.8, f2=0.4,
         portrait=("I", "CM2", "stable node"), note="|A⁻¹f| < 1: there is a critical set (Theorem 4.1).",
@@ -111,4 +104,18 @@ def bifurcation_presets() -> dict[str, Preset]:
         "ellipse-out", ellipse, title="f outside the ellipse |A⁻¹h| = 1", f1=2.0, f2=1.2,
         portrait=("I", "NCM2", None), note="|A⁻¹f| > 1: there is no critical set, nothing slides.",
     )  # fmt: skip
+
+
+def bifurcation_presets() -> dict[str, Preset]:
+    """Presets of fig:SNBIF, fig:transcrit, D2, fig:intersections and fig:ellipse, by name.
+
+    The paper prints no numbers for these sketches: all values here are round ones that give the portrait sketched.
+
+    Returns
+    -------
+    dict of str to Preset
+    """
+    found: dict[str, Preset] = {}
+    for group in (_pitchfork, _saddle_node, _transcritical, _conics, _ellipse):
+        group(adding(found))
     return found

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 
 from .. import drawing
 from ..examples import catalogue
@@ -86,3 +87,17 @@ class Preset:
     def psi(self) -> Psi:
         """The regularisation function."""
         return make(self.family, self.parameter)
+
+
+#: ``add(name, parent, **differences)``: list what a parent is, but for what differs, under a name.
+Add = Callable[..., Preset]
+
+
+def adding(found: dict[str, Preset]) -> Add:
+    """Return what adds presets to a list, and hands each on."""
+
+    def add(name: str, parent: Preset, **differences: object) -> Preset:
+        found[name] = replace(parent, name=name, **differences)  # type: ignore[arg-type]
+        return found[name]
+
+    return add

@@ -11,16 +11,10 @@ from types import MappingProxyType
 
 from .bifurcations import bifurcation_presets
 from .examples import example_presets
-from .preset import Preset
+from .preset import Add, Preset, adding
 
 
-def _all() -> dict[str, Preset]:
-    found: dict[str, Preset] = {}
-
-    def add(name: str, parent: Preset, **differences: object) -> Preset:
-        found[name] = replace(parent, name=name, **differences)  # type: ignore[arg-type]
-        return found[name]
-
+def _case_one(add: Add) -> None:
     one = Preset(group="Case I: a and d of one sign", degeneracy=None)
     add(
         "case1-cm0",
@@ -80,6 +74,8 @@ def _all() -> dict[str, Preset]:
         note="No critical set; three directions reach Σ, and all that arrives leaves along θ = 0.",
     )
 
+
+def _case_two(add: Add) -> None:
     two = Preset(group="Case II: det A < 0", a=1.0, b=0.3, d=-1.0)
     saddle = add(
         "case2-saddle",
@@ -116,6 +112,8 @@ def _all() -> dict[str, Preset]:
         note="No critical set, four limit directions.",
     )
 
+
+def _case_three(add: Add) -> None:
     three = Preset(
         group="Case III: a and d of opposite sign, det A > 0", label="fig:bad_sketches, fig:bads",
         a=172.0, b=186.0, d=-200.0, f1=-86.0, f2=-93.0,
@@ -136,6 +134,12 @@ def _all() -> dict[str, Preset]:
             portrait=("III", "CM4", kind), view="planes",
             note=f"Ψ = 3/(3 + (4s)ⁿ) with n = {n}. {note}",
         )  # fmt: skip
+
+
+def _all() -> dict[str, Preset]:
+    found: dict[str, Preset] = {}
+    for group in (_case_one, _case_two, _case_three):
+        group(adding(found))
     return found | bifurcation_presets() | example_presets()
 
 
