@@ -212,7 +212,7 @@ def _outcome(done: Future[Any]) -> tuple[Any, bool]:
         return Failed(str(error) or say("stopped")), False
     except (BrokenExecutor, CancelledError):
         return Failed(say("lost")), True
-    except Exception:
+    except Exception:  # of the host's executor: a panel says so, the picture stands, the log has the rest
         logging.getLogger(__name__).exception("work beside the frames failed")
         return Failed(FAULT), False
 

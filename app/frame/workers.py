@@ -228,12 +228,12 @@ def _work(pipe: Connection, most_grown: int) -> None:
             return
         try:
             answer = True, function(*args, **named)
-        except Exception as error:
+        except Exception as error:  # whoever asked has it as the future's; the worker goes on
             answer = False, error
         last = held() - before > most_grown
         try:
             data = pickle.dumps((*answer, last))
-        except Exception as error:
+        except Exception as error:  # of any kind: a result's own __reduce__ may raise whatever it likes
             data = pickle.dumps((False, RuntimeError(f"the result cannot be sent: {error}"), last))
         pipe.send_bytes(data)
 

@@ -104,7 +104,7 @@ class Frames:
         """Start from these values or, where they have no scene, from those of their portrait or the first ones."""
         try:
             self.scene, self.values = make_scene(wanted, self.own), dict(wanted)
-        except Exception as error:
+        except Exception as error:  # a link that cannot be drawn opens on what can, and the log has the rest
             sentence_of(error, "a first picture")
             self.values = preset_values(wanted["preset"]) or first_values()
             self.scene = make_scene(self.values, self.own)
@@ -167,7 +167,7 @@ class Frames:
         """Draw with all changes or, where that fails, with as many of them as can be had together."""
         try:
             return self._draw(good, sent, rest)
-        except Exception as error:
+        except Exception as error:  # one change must not take the others with it
             said = sentence_of(error, "a frame")
             if not good:
                 errors[_culprit(error, "")] = said
@@ -199,7 +199,7 @@ class Frames:
                 try:
                     attempt({**had, name: good[name]})
                     had[name] = good[name]
-                except Exception as error:
+                except Exception as error:  # told beside the control that it is of
                     failed[name] = error
             if len(failed) == len(left):
                 break
@@ -324,7 +324,7 @@ class Frames:
             wanted = {**preset_values(wanted.get("preset")), **wanted}
             good = {name: clean(name, value) for name, value in wanted.items() if name not in self.locked}
             header, blocks = self._draw(good, self._sent, rest=False)
-        except Exception as error:
+        except Exception as error:  # in a notebook: the widget keeps what it shows, the cell has the error
             self._unpublished.update({name: self.values[name] for name in changes})
             self.publish()
             raise ValueError(sentence_of(error, "a frame")) from error

@@ -103,7 +103,7 @@ def _first_scene(told: Told) -> None:
 
     try:
         warm_all(told, draw)
-    except Exception as error:
+    except Exception as error:  # in a thread of its own: /ready says why, and the server answers
         logging.getLogger(__name__).exception("the kernels cannot all be compiled")
         if not outcome:
             outcome = f"the first scene cannot be computed: {error}"

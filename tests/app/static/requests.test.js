@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import {test} from "node:test"
 
-import {Requests, Window, screenClock} from "../../../app/static/asking/requests.js"
+import {Requests} from "../../../app/static/asking/requests.js"
 
 // A network and a server, simulated: messages take `line` ms each way, the server one after the other `work` ms each,
 // and `others` ms for each frame between ours; a screen of 60 Hz; a slider that moves with every frame of it.
@@ -121,14 +121,6 @@ test("a server that becomes busy is left alone, and asked again when it is not",
   assert.ok(world.requests.window.size >= 4)
 })
 
-test("replies that take longer than the line does shrink the window", () => {
-  const window = new Window()
-  for (let t = 0; t < 2000; t += 17) window.measured(t, 80, 0.2)
-  assert.equal(window.size, 5)
-  for (let t = 2000; t < 3000; t += 17) window.measured(t, 140, 0.2)
-  assert.equal(window.size, 1)
-})
-
 test("the last value is asked for, in order, and in the end nothing is out", () => {
   for (const line of [1, 40, 100]) {
     const world = far(line)
@@ -139,33 +131,6 @@ test("the last value is asked for, in order, and in the end nothing is out", () 
     const numbers = world.applied.map(({id}) => id)
     assert.deepEqual(numbers, [...numbers].sort((a, b) => a - b))
   }
-})
-
-test("a line that has become longer is not held against its shortest trip for ever", () => {
-  const window = new Window()
-  window.measured(100000, 20, 0.2)
-  for (let t = 100000; t < 104900; t += 100) window.measured(t, 200, 0.2)
-  assert.equal(window.size, 1) // as if replies queued: the short trip may come back
-  for (let t = 104900; t < 108000; t += 17) window.measured(t, 200, 0.2)
-  assert.equal(window.size, 12) // one for each frame of the screen
-})
-
-test("however long the line, a dozen requests are the most", () => {
-  const window = new Window()
-  for (let t = 0; t < 4000; t += 17) window.measured(t, 900, 0.2)
-  assert.equal(window.size, 12)
-})
-
-test("after a step down the next one waits until its effect can be seen: a round trip", () => {
-  const window = new Window()
-  for (let t = 0; t < 2000; t += 17) window.measured(t, 80, 0.2)
-  const steps = []
-  for (let t = 2000; t < 2400; t += 10) {
-    const before = window.size
-    window.measured(t, 200, 0.2)
-    if (window.size < before) steps.push([t, window.size])
-  }
-  assert.deepEqual(steps, [[2000, 4], [2200, 3]])
 })
 
 test("values set while the window is full travel together, the newest of each", () => {
@@ -233,162 +198,4 @@ test("a change puts off what is late, and asks with patience again", () => {
   assert.equal(world.asked.length, 2)
   world.run(900)
   assert.equal(world.asked.length, 3)
-})
-
-test("round trips are smoothed as TCP does it: an eighth of what is new", () => {
-  const window = new Window()
-  window.measured(0, 40)
-  assert.deepEqual([window.mean, window.spread], [40, 0])
-  window.measured(17, 120)
-  assert.deepEqual([window.mean, window.spread], [50, 10])
-  for (let k = 1; k < 20; k++) window.measured(17 * k, 120)
-  assert.ok(Math.abs(window.mean - (120 - 80 * (7 / 8) ** 20)) < 1e-9)
-})
-
-test("the window grows by one for each frame of the screen, and not while replies queue", () => {
-  const window = new Window(), sizes = []
-  for (let t = 0; t < 60; t += 10) { window.measured(t, 80, 0.2); sizes.push(window.size) }
-  assert.deepEqual(sizes, [2, 2, 3, 3, 4, 4])
-  window.measured(70, 200, 0.2)
-  assert.equal(window.size, 3)
-})
-
-test("of round trips the shortest of the last five seconds counts", () => {
-  const window = new Window()
-  window.measured(1000, 30)
-  for (let t = 1100; t <= 6000; t += 100) window.measured(t, 60)
-  assert.equal(window.best[0][1], 30)
-  window.measured(6001, 60)
-  assert.equal(window.best[0][1], 60)
-  window.measured(6100, 45)
-  assert.deepEqual(window.best, [[6100, 45]])
-  window.measured(99999, 80) // the only one is kept, however old
-  assert.deepEqual(window.best, [[99999, 80]])
-})
-
-// Requests whose clock is turned by hand: `soon` notes what is to be done, `after` what would be done when.
-function byHand(size = 1) {
-  const soon = [], later = [], sent = [], asks = [0]
-  const requests = new Requests((request) => sent.push(request), () => { asks[0] += 1 }, {now: () => 0, soon: (go) => soon.push(go), after: (ms, go) => later.push({ms, go}), cancel() {}})
-  requests.window.size = size
-  return {requests, soon, later, sent, asks, frame: () => { for (const go of soon.splice(0)) go() }}
-}
-
-test("however much changes within a frame, one request leaves, and nothing more is scheduled", () => {
-  const {requests, soon, sent, asks, frame} = byHand(3)
-  requests.set("a", 1); requests.set("b", 2); requests.refresh()
-  assert.equal(soon.length, 1)
-  assert.deepEqual(asks, [3])
-  frame()
-  assert.deepEqual(sent.map(({set}) => set), [{a: 1, b: 2}])
-  requests.set("a", 2)
-  assert.equal(soon.length, 1)
-  frame()
-  assert.deepEqual(sent.map(({set, rest}) => [set, rest]), [[{a: 1, b: 2}, false], [{a: 2}, false]])
-  assert.equal(sent[1].id, sent[0].id + 1)
-  requests.schedule(); frame() // nothing is wanted
-  assert.equal(sent.length, 2)
-})
-
-test("it is idle when nothing is out and nothing wanted", () => {
-  const {requests, frame, sent} = byHand()
-  assert.equal(requests.idle, true)
-  requests.set("a", 1)
-  assert.equal(requests.idle, false) // wanted, not out
-  frame()
-  assert.equal(requests.idle, false) // out, not wanted
-  requests.arrived(sent[0].id, 0)
-  assert.equal(requests.idle, true)
-  requests.refresh()
-  assert.equal(requests.idle, false)
-  frame()
-  assert.deepEqual(sent[1].set, {})
-})
-
-test("what was lost is asked for again, but no value that a later request carries, and no empty request follows", () => {
-  const {requests, frame, sent, later} = byHand(2)
-  requests.set("a", 1); requests.set("b", 1); frame()
-  requests.set("a", 2); frame()
-  assert.deepEqual(later.map(({ms}) => ms), [20000, 20000])
-  later[0].go()
-  frame()
-  assert.deepEqual(sent.map(({set}) => set), [{a: 1, b: 1}, {a: 2}, {b: 1}])
-  requests.window.size = 3
-  requests.set("b", 2); frame()
-  later[2].go() // its value has been sent anew
-  frame()
-  assert.equal(sent.length, 4)
-  assert.deepEqual([requests.holds("b"), requests.holds("c")], [true, false])
-})
-
-test("a reply to a later request means that earlier ones are not to come", () => {
-  const {requests, frame, sent} = byHand(3)
-  for (const value of [1, 2, 3]) { requests.set("a", value); frame() }
-  requests.arrived(sent[1].id, 0)
-  assert.deepEqual([...requests.out.keys()], [sent[2].id])
-  requests.arrived(sent[0].id, 0) // unknown by now
-  requests.arrived(sent[2].id, 0)
-  assert.equal(requests.idle, true)
-})
-
-test("as many requests go out as frames of the screen pass in a round trip", () => {
-  for (const [trip, size] of [[1, 1], [17, 1], [18, 2], [34, 2], [35, 3], [84, 5], [85, 6]]) { // 1000/60 ms each, to a ms
-    const window = new Window()
-    for (let t = 0; t < 1000; t += 17) window.measured(t, trip)
-    assert.equal(window.size, size, `${trip} ms`)
-  }
-})
-
-// A screen whose frames are made one by one, with callbacks in the order in which they were asked for.
-class Screen {
-  time = 1000
-  asked = []
-  performance = {now: () => this.time}
-  setTimeout = () => 0
-  clearTimeout = () => {}
-  cancelAnimationFrame = () => {}
-  requestAnimationFrame = (call) => this.asked.push(call)
-
-  frame() {
-    this.time = 1000 * Math.ceil((this.time + 1) / 1000 * 60) / 60
-    const due = this.asked
-    this.asked = []
-    for (const call of due) call()
-  }
-}
-
-test("what is set in a frame of the screen leaves in it, also where the one before left late in its frame", async () => {
-  const screen = new Screen(), left = []
-  const requests = new Requests(({set}) => left.push(set.f1), () => {}, screenClock(screen))
-  const drag = (k) => { requests.set("f1", k); if (k < 6) screen.requestAnimationFrame(() => drag(k + 1)) }
-  drag(0)
-  await null
-  assert.deepEqual(left, [0])
-  screen.frame() // 1 waits, and leaves when the reply to 0 comes, late in this frame
-  await null
-  screen.time += 3
-  requests.arrived(requests.number, 0)
-  await null
-  assert.deepEqual(left, [0, 1])
-  for (let k = 2; k <= 6; k++) { // and from now on replies are there before the next frame
-    screen.time += 9
-    requests.arrived(requests.number, 0)
-    screen.frame()
-    await null
-    assert.equal(left.at(-1), k)
-  }
-})
-
-test("however often values are set, about one request leaves in a frame of the screen, with the newest", async () => {
-  const screen = new Screen(), left = []
-  const requests = new Requests(({set}) => left.push(set.f1), () => {}, screenClock(screen))
-  for (let k = 1; k <= 60; k++) {
-    requests.set("f1", k)
-    await null
-    if (requests.out.size) requests.arrived(requests.number, 0)
-    screen.time += 1000 / 600
-    if (k % 10 === 0) { screen.frame(); await null }
-  }
-  assert.ok(left.length <= 13, `${left}`)
-  assert.equal(left.at(-1), 60)
 })

@@ -15,7 +15,6 @@ from codim2_core import ELinear, System, examples, simulate_nonsmooth
 from codim2_core import psi as families
 from codim2_core.initial_value import compiled
 from codim2_core.initial_value.events import Event
-from codim2_core.initial_value.field import field
 from codim2_core.initial_value.problem import plane_problem
 from codim2_core.motion import regularised
 from codim2_core.motion.regularised import simulate
@@ -206,36 +205,6 @@ def test_formulas_with_corners_and_edges():
     run = simulate(system, families.constant(), 1e-3, (1.0, 0.0, 1.0), (0.0, 3.0))
     assert run.status is SimulationStatus.STEP_LIMIT
     assert run.times[-1] == pytest.approx(2.0, abs=1e-6)
-
-
-SYSTEMS = [
-    examples.ball_in_pool(),
-    examples.nonunique_sliding(),
-    examples.tilting_block(),
-    examples.ball_on_turntable(),
-    examples.unit_vector_control(),
-    ELinear.from_matrix([[1.0, 2.0], [0.5, -3.0]], (0.1, "z"), B=((1.0, 2.0),), g=("z**2",)),
-]
-
-
-@pytest.mark.parametrize("system", SYSTEMS)
-def test_fields_are_those_of_the_system_with_exact_slopes(system):
-    formulas, rng = field(system), np.random.default_rng(1)
-    for _ in range(5):
-        point = rng.uniform(-0.8, 0.8, 4 + system.m)
-        at = system.at(tuple(point[4:]))
-        expected = np.concatenate([at.U(point[:2], point[2:4]), at.W(point[:2], point[2:4])])
-        np.testing.assert_allclose(formulas.value(*point), expected, rtol=1e-13, atol=1e-13)
-        slopes = formulas.jacobian(*point[:4], point[4:])
-        for j in range(len(point)):
-            h = 1e-5 * np.eye(len(point))[j]
-            central = (np.array(formulas.value(*(point + h))) - formulas.value(*(point - h))) / 2e-5
-            np.testing.assert_allclose(slopes[:, j], central, rtol=1e-8, atol=1e-8)
-
-
-def test_axes_that_turn_with_z_are_refused():
-    with pytest.raises(ValueError, match="turn the axes"):
-        field(ELinear.from_matrix([["z", 1.0], [0.0, 1.0]], g=(1.0,)))
 
 
 @pytest.mark.parametrize(
