@@ -5,6 +5,7 @@ import subprocess
 import sys
 import time
 from contextlib import contextmanager, nullcontext
+from fcntl import LOCK_EX, LOCK_SH, LOCK_UN, flock
 from urllib.request import urlopen
 
 
@@ -46,3 +47,28 @@ def serving(*options, command=("-m", "codim2_app.server.cli"), environment=os.en
         process.terminate()
         process.wait(10)
         process.stdout.close()
+
+
+@contextmanager
+def serving_all(folder, serve=serving):
+    """Yield the address of one server for all processes that come to a folder: who starts it leaves last.
+
+    Each server loads its kernels, and has workers that do: ten seconds of processor time.
+    """
+    with open(folder / "server", "a+") as door, open(folder / "users", "a+") as users:
+        flock(door, LOCK_EX)
+        door.seek(0)
+        if known := door.read():
+            flock(users, LOCK_SH)
+            flock(door, LOCK_UN)
+            yield Address(known)
+            return
+        with serve() as address:
+            door.write(address)
+            door.flush()
+            flock(users, LOCK_SH)
+            flock(door, LOCK_UN)
+            yield address
+            flock(door, LOCK_EX)  # nobody comes any more,
+            flock(users, LOCK_EX)  # and the others have left
+            door.truncate(0)

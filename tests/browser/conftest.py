@@ -5,7 +5,7 @@ from contextlib import ExitStack, contextmanager
 import pytest
 from codim2_app.frame.workers import SECONDS
 
-from tests.app.serving import serving
+from tests.app.serving import serving_all
 
 from .asymmetric import SETTINGS
 
@@ -17,6 +17,12 @@ VISITED = "try { localStorage.setItem('codim2-welcome', 'seen') } catch { /* for
 EMPTIED = "() => { try { localStorage.clear(); sessionStorage.clear(); return true } catch { return false } }"
 
 
+#: The shell first: it paints no window around the page, which is a quarter of the processor time of opening a page.
+BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser")
+#: A page lives for a second or two, which does not win back the time in which its scripts are optimised.
+SWITCHES = ["--headless=new", "--no-sandbox", "--disable-gpu", "--js-flags=--no-opt --no-maglev"]
+
+
 def _no_browser(reason):
     if os.environ.get("CI"):
         pytest.fail(reason)
@@ -24,9 +30,10 @@ def _no_browser(reason):
 
 
 @pytest.fixture(scope="session")
-def server():
-    """The address of `codim2 serve`, running in its own process and warm."""
-    with serving() as address:
+def server(tmp_path_factory):
+    """The address of `codim2 serve`, running in its own process and warm; those who share the tests share it."""
+    folder = tmp_path_factory.getbasetemp()
+    with serving_all(folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder) as address:
         yield address
 
 
@@ -37,13 +44,11 @@ def chromium():
         if not os.environ.get("CI")
         else __import__("playwright.sync_api", fromlist=["sync_playwright"])
     )
-    path = os.environ.get("CODIM2_CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
+    path = os.environ.get("CODIM2_CHROMIUM") or next(filter(None, map(shutil.which, BROWSERS)), None)
     if path is None:
         _no_browser("no Chromium: install it, or set CODIM2_CHROMIUM to its path")
     with api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=path, args=["--headless=new", "--no-sandbox", "--disable-gpu"]
-        )
+        browser = playwright.chromium.launch(executable_path=path, args=SWITCHES)
         yield browser
         browser.close()
 
@@ -79,11 +84,14 @@ class Explorer:
 
     def until(self, condition):
         """Wait until a condition on `root`, the explorer's element, holds."""
-        self.page.wait_for_function(f"""() => {{
+        self.page.wait_for_function(
+            f"""() => {{
             const find = (root) => root.querySelector('.codim2') ?? [...root.querySelectorAll('*')].map(
                 (e) => e.shadowRoot && find(e.shadowRoot)).find(Boolean)
             const root = find(document)
-            return Boolean(root) && ({condition}) }}""")
+            return Boolean(root) && ({condition}) }}""",
+            polling=20,  # milliseconds; who waits for frames of the screen has them all made
+        )
         return self
 
     def settle(self):
@@ -130,7 +138,7 @@ class Tabs:
         self.browser, self.address, self.free = browser, address, {}
 
     @contextmanager
-    def page(self, viewport=WINDOW, first_visit=False, **options):
+    def page(self, viewport=WINDOW, first_visit=False, color_scheme="light", **options):
         """Yield a page of the explorer in an empty tab; then empty the tab, and what the page kept in the browser."""
         free = self.free.setdefault(repr((first_visit, options)), [])
         if free:
@@ -142,6 +150,7 @@ class Tabs:
                 context.add_init_script(VISITED)
             context.set_default_timeout(PATIENCE)
             tab = context.new_page()
+        tab.emulate_media(color_scheme=color_scheme)
         page = Explorer(tab, self.address)
         yield page
         page.leave()

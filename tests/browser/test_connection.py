@@ -16,10 +16,30 @@ def port():
         return str(probe.getsockname()[1])
 
 
-def test_a_lost_connection_is_said_and_the_page_returns_as_it_was(open_page, port):
+def stands_still(page, server):
+    """Stop the server for a while: it is waited for, the page tells so within two seconds, and both carry on."""
+    busy = page.find(".codim2 .busy")
+    frame = page.frame()
+    os.kill(server.pid, signal.SIGSTOP)
+    try:
+        box = page.find("[data-control=a] .number")
+        box.fill("-1.5")
+        box.press("Enter")
+        busy.wait_for(state="visible", timeout=2500)  # within 2 s, told when the page next looks
+        assert busy.text_content() == "Waiting for the server …"
+    finally:
+        os.kill(server.pid, signal.SIGCONT)
+    busy.wait_for(state="hidden")
+    page.settle()
+    assert page.frame() > frame
+    assert box.input_value() == "-1.5"
+
+
+def test_a_server_is_waited_for_and_when_it_was_lost_the_page_returns_as_it_was(open_page, port):
     page = open_page()
     with serving("--port", port) as page.address:
-        page.open("?psi=rational").type("a", "-1.5")
+        page.open("?psi=rational")
+        stands_still(page, page.address)
         assert not page.find(BANNER).is_visible()
     banner = page.find(BANNER)
     banner.wait_for(state="visible")
@@ -41,24 +61,3 @@ def test_a_lost_connection_is_said_and_the_page_returns_as_it_was(open_page, por
         page.type("a", "-1")
         assert page.frame() > frame
         assert page.find("[data-control=a] .number").input_value() == "-1"
-
-
-def test_a_server_that_stands_still_is_waited_for_and_carries_on(open_page):
-    page = open_page()
-    with serving() as page.address:
-        page.open()
-        busy = page.find(".codim2 .busy")
-        frame = page.frame()
-        os.kill(page.address.pid, signal.SIGSTOP)
-        try:
-            box = page.find("[data-control=a] .number")
-            box.fill("-1.5")
-            box.press("Enter")
-            busy.wait_for(state="visible", timeout=2500)  # within 2 s, told when the page next looks
-            assert busy.text_content() == "Waiting for the server …"
-        finally:
-            os.kill(page.address.pid, signal.SIGCONT)
-        busy.wait_for(state="hidden")
-        page.settle()
-        assert page.frame() > frame
-        assert box.input_value() == "-1.5"

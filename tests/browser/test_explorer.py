@@ -19,13 +19,12 @@ def test_page_asks_nobody_else_and_says_nothing(explorer):
 
 
 def test_pages_of_two_processes_ask_nobody_else(open_page):
-    with serving("--processes", "2") as address:
+    page = open_page()
+    with serving("--processes", "2") as page.address:
         for _ in range(4):
-            page = open_page()
-            page.address = address
             page.open()
             hosts = {urlparse(url).netloc for url in page.requests if not url.startswith(("data:", "blob:"))}
-            assert hosts == {urlparse(address).netloc}
+            assert hosts == {urlparse(page.address).netloc}
             assert page.complaints == []
             page.type("a", "-1.8")
             assert page.name() == "CM4"

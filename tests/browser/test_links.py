@@ -85,19 +85,15 @@ def test_a_portrait_is_the_same_whatever_was_open_before(open_page):
         walked = state(page, key)
         fresh.page.evaluate(EMPTIED)
         fresh.open(f"?preset={key}")
+        if key in WALK[-2:]:
+            for one in (page, fresh):
+                one.page.mouse.move(5, 5)
+                one.painted()
+            assert alike(fresh.picture(), page.picture())
         fresh.find("select.preset").select_option("case1-cm0")
         fresh.settle().find("select.preset").select_option(key)  # so that the address is written
         fresh.settle()
         assert state(fresh, key) == walked
-    for key in WALK[-2:]:
-        fresh.page.evaluate(EMPTIED)
-        fresh.open(f"?preset={key}")
-        page.find("select.preset").select_option(key)
-        page.settle()
-        for one in (page, fresh):
-            one.page.mouse.move(5, 5)
-            one.painted()
-        assert alike(fresh.picture(), page.picture())
 
 
 def test_one_owner_of_z(explorer):
