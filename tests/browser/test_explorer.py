@@ -160,8 +160,10 @@ def region_under_the_handle(explorer):
 
 
 @pytest.mark.parametrize("preset", ["case1-cm4", "case1-cm0", "case1-ncm4", "case2-saddle", "case1-ncm2"])
-def test_region_under_the_handle_is_the_portrait(explorer, preset):
-    explorer.find("select.preset").select_option(preset)
+def test_region_under_the_handle_is_the_portrait(walked, preset):
+    explorer = walked
+    explorer.find(".reset").click()  # to the panel that has the regions
+    explorer.settle().find("select.preset").select_option(preset)
     explorer.settle()
     explorer.page.wait_for_selector(".pad:not(.old)")
     assert region_under_the_handle(explorer) == [explorer.name()]
@@ -185,15 +187,18 @@ def test_reset_returns_to_the_first_setting(explorer):
     assert explorer.find("[data-control=b] .number").input_value() == "0"
 
 
-@pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (390, 844)])
-def test_no_width_scrolls_sideways(open_page, width, height, theme):
-    page = open_page(viewport={"width": width, "height": height}, color_scheme=theme).open()
-    assert page.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-    box = page.find(".picture").bounding_box()
-    assert box["width"] == pytest.approx(box["height"], abs=1)
-    assert box["x"] >= 0
-    assert box["x"] + box["width"] <= width
+def test_no_width_scrolls_sideways(open_page, width, height):
+    page = open_page(viewport={"width": width, "height": height}).open()
+    for theme in ("light", "dark"):
+        page.page.emulate_media(color_scheme=theme)
+        page.painted().settle()
+        assert page.find(".codim2.dark").count() == (theme == "dark")
+        assert page.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        box = page.find(".picture").bounding_box()
+        assert box["width"] == pytest.approx(box["height"], abs=1)
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= width
     assert page.complaints == []
 
 

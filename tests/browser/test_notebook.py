@@ -5,7 +5,7 @@ from urllib.parse import urlparse
 
 import pytest
 
-from tests.browser.conftest import PATIENCE, Explorer
+from tests.browser.conftest import EMPTIED, PATIENCE, Explorer
 from tests.browser.jupyterlab import jupyterlab, write_notebook
 
 pytestmark = pytest.mark.skipif(
@@ -89,14 +89,36 @@ def lab(tmp_path_factory):
         yield address, folder / "notebooks"
 
 
-@pytest.fixture
-def notebook(lab, chromium, request):
-    address, folder = lab
-    write_notebook(folder / f"{request.param}.ipynb", [START.format(request.param), SECOND, TELL, SET])
+@pytest.fixture(scope="module")
+def tab(chromium):
+    """One tab for all notebooks: it reads JupyterLab's scripts once."""
     context = chromium.new_context(viewport={"width": 1280, "height": 1000})
     context.set_default_timeout(PATIENCE)
-    yield Notebook(context.new_page(), address, folder / f"{request.param}.ipynb").open(f"{request.param}.ipynb")
+    yield context.new_page()
     context.close()
+
+
+@pytest.fixture
+def show_notebook(lab, tab):
+    """Write a notebook, and open it in JupyterLab."""
+    address, folder = lab
+    shown = []
+
+    def show(name, cells):
+        write_notebook(folder / name, cells)
+        shown.append(Notebook(tab, address, folder / name))
+        return shown[-1].open(name)
+
+    yield show
+    for notebook in shown:
+        notebook.leave()
+    tab.unroute_all()
+    tab.evaluate(EMPTIED)
+
+
+@pytest.fixture
+def notebook(show_notebook, request):
+    return show_notebook(f"{request.param}.ipynb", [START.format(request.param), SECOND, TELL, SET])
 
 
 @pytest.mark.parametrize("notebook", ["default", "ipywidgets"], indirect=True)
@@ -232,13 +254,8 @@ GIVE = "view.state.parameters = {'mu': 0.5, 'pull': 0.7}\nview.state.orbits = '1
 
 
 @pytest.fixture
-def own_system(lab, chromium):
-    address, folder = lab
-    write_notebook(folder / "own.ipynb", [OWN, GIVE, ASK])
-    context = chromium.new_context(viewport={"width": 1280, "height": 1000})
-    context.set_default_timeout(PATIENCE)
-    yield Notebook(context.new_page(), address, folder / "own.ipynb").open("own.ipynb")
-    context.close()
+def own_system(show_notebook):
+    return show_notebook("own.ipynb", [OWN, GIVE, ASK])
 
 
 def test_a_system_of_ones_own_goes_both_ways_and_is_live_after_reload_and_reopening(own_system):
