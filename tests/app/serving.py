@@ -27,11 +27,11 @@ def serving(*options, command=("-m", "codim2_app.server.cli"), environment=os.en
     with nullcontext(subprocess.STDOUT) if log is None else open(log, "w") as logged:
         process = subprocess.Popen(whole, stdout=subprocess.PIPE, stderr=logged, text=True, env=with_output, user=user)
     try:
-        said = process.stdout.readline()
-        while said and "http://" not in said:  # what it says before
-            said = process.stdout.readline()
-        assert "http://" in said, said + process.stdout.read()
-        shown = said.split("http://")[1].split()[0].rstrip("/")  # with its prefix
+        heard = [process.stdout.readline()]
+        while heard[-1] and "http://" not in heard[-1]:  # what it says before
+            heard.append(process.stdout.readline())
+        assert "http://" in heard[-1], "".join(heard)
+        shown = heard[-1].split("http://")[1].split()[0].rstrip("/")  # with its prefix
         address = Address("http://" + shown.split("/")[0])
         address.pid = process.pid
         for _ in range(600):
