@@ -51,15 +51,16 @@ def test_where_it_is_linear_it_is_the_matrix_exponential_as_far_out_as_it_is_fol
     rates[:3, :3] = [[0.0, -b, f[0]], [b, 0.0, f[1]], [*f, 0.0]]
     rates[3, 2] = 1.0
     x2 = found.xy[found.time == 0.0][0]
-    start, T = np.array([*x2, math.hypot(1.0, *x2), 0.0]), np.zeros(len(found))
-    for _ in range(30):  # Newton, for the T at which tau is the time that was told
+    some = np.unique([*range(0, len(found), 12), len(found) - 1])
+    time, xy = found.time[some], found.xy[some]
+    start, T = np.array([*x2, math.hypot(1.0, *x2), 0.0]), np.zeros(len(some))
+    for _ in range(15):  # Newton, for the T at which tau is the time that was told
         there = expm(T[:, None, None] * rates) @ start
-        T += np.clip((found.time - there[:, 3]) / there[:, 2], -0.5, 0.5)
-    there = expm(T[:, None, None] * rates) @ start
-    np.testing.assert_allclose(there[:, 3], found.time, rtol=1e-12, atol=1e-12)
-    assert np.hypot(*found.xy.T).max() > 8.0
+        T += np.clip((time - there[:, 3]) / there[:, 2], -0.5, 0.5)
+    np.testing.assert_allclose(there[:, 3], time, rtol=1e-12, atol=1e-12)
+    assert np.hypot(*xy.T).max() > 8.0
     # an error of 1e-7 in each of a hundred steps, as large as x2 is
-    np.testing.assert_allclose(found.xy, there[:, :2], rtol=0.0, atol=1e-6 * np.hypot(*found.xy.T).max())
+    np.testing.assert_allclose(xy, there[:, :2], rtol=0.0, atol=1e-6 * np.hypot(*xy.T).max())
 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=str)
