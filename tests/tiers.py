@@ -3,7 +3,7 @@
 ===========  =====================================================================================
 `fast`       the inner loop: the rooms and the presets, without what `costly.txt` lists
 `browser`    what drives a headless Chromium
-`slow`       faults, fuzz, containers, other versions; left out unless asked for: ``-m slow``
+`slow`       faults, fuzz, containers, other versions, Firefox; left out unless asked for: ``-m slow``
 ===========  =====================================================================================
 
 ``python -m pytest`` runs all but `slow`.
@@ -20,7 +20,7 @@ import pytest
 
 TESTS = Path(__file__).parent
 FAST = ("core", "app", "presets")
-SLOW = ("faults", "fuzz", "containers", "versions")
+SLOW = ("faults", "fuzz", "containers", "versions", "firefox")
 COSTLY = TESTS / "costly.txt"
 LIMIT = 0.25  # seconds of processor time, of a test that is fast
 ALTOGETHER = 2.0  # the same, of a function for all its parameters
