@@ -92,6 +92,13 @@ SENTENCES: dict[str, Sentence] = {
     "no time passes": Sentence("It follows the equator, where no time t passes.", "a launched orbit on the equator"),
     "no such parameter": Sentence("The system has no parameter {names} ({there}): left out.", "a link, or a cell"),
     "no such box": Sentence("The system has no box {names} ({there}): left out.", "a link, or a cell"),
+    "no rooms": Sentence("This server opens no rooms.", "a room asked for where there are none"),
+    "all rooms taken": Sentence(
+        "All {most} rooms of this server are open just now: try again when one has ended.", "a room too many"
+    ),
+    "no such room": Sentence("There is no room {code!r} now: its code has four letters.", "a code that is typed"),
+    "room full": Sentence("The room is full: it holds {most}.", "a phone too many"),
+    "too many codes": Sentence("Too many codes were tried: load the page again.", "codes that are guessed"),
     "no such lesson": Sentence("Lessons: there is no {name!r}; choose one such as {some}.", "a link"),
 }
 

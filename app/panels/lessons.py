@@ -103,6 +103,7 @@ def _add_quiz(draft: Draft, lesson: Lesson, quiz: Quiz) -> None:
         said = draft.slow("judgement", there, _judged, question, scene, choice)
         if said is not None:
             draft.now["judged"] = key
+            draft.now["answered"] = (lesson.key, quiz.question, said["right"])
             draft.header["judged"] = {"question": quiz.question, **said}
     if question.vary is not None and (draft.ready or not question.vary.goal.names & COMPILED):
         draft.header["goal"] = {"question": quiz.question, "reached": reached(question, draft.scene)}

@@ -135,6 +135,7 @@ def _serve(chosen: argparse.Namespace) -> None:
         prefix=chosen.prefix,
         frame_ancestors=chosen.frame_ancestors,
         sessions=chosen.sessions,
+        rooms=chosen.rooms,
         told=_say_if_compiled,
         **long,
     )

@@ -18,6 +18,7 @@ from bokeh.document import Document
 from panel.io.server import DocHandler, WSHandler
 from panel.io.state import set_curdoc
 from tornado.ioloop import IOLoop, PeriodicCallback
+from tornado.process import task_id
 from tornado.web import RequestHandler
 
 from ..docs.served import Docs, ToDocs
@@ -25,6 +26,9 @@ from ..frame.jobs import serve_with
 from ..frame.turns import Turns
 from ..frame.workers import Workers, processors
 from ..phrases import say
+from ..rooms.board import Board
+from ..rooms.rooms import EVERY, MOST_ROOMS, Rooms
+from ..rooms.rooms import serve_with as serve_rooms
 from ..state.cleaning import InputError
 from ..state.links import Link
 from ..view import warmup
@@ -116,6 +120,14 @@ def take_over(application: Any) -> None:
         logging.getLogger(__name__).warning("Panel's routes are others than known here: %s answers.", theirs.__name__)
 
 
+class ToRoom(RequestHandler):
+    """Answers ``/room`` with the explorer that opens one."""
+
+    def get(self) -> None:
+        """Send the browser there, below whatever prefix a proxy shows."""
+        self.redirect("./?room=new")
+
+
 class Health(RequestHandler):
     """Answers 200 while the process serves: a container that does not is started again."""
 
@@ -150,6 +162,7 @@ def make_server(
     prefix: str = "",
     frame_ancestors: str = "'self'",
     sessions: int = 400,
+    rooms: int = MOST_ROOMS,
     told: warmup.Told | None = None,
     executor: Executor | None = None,
     at_once: int = 1,
@@ -175,6 +188,8 @@ def make_server(
         Who may embed the pages besides this server, as Content-Security-Policy says it.
     sessions : int
         Open pages of a process, beyond which a new one is asked to wait.
+    rooms : int
+        Rooms that lecturers have open at once, of a process; 0 for none.
     told : callable, optional
         Told what has been compiled, see `warmup.warm_all`.
     executor : Executor, optional
@@ -189,9 +204,12 @@ def make_server(
     if warmup_now:
         begin()
     parent = os.getpid()
+    board = Board(processes)
     with shared(processes):
         server = _server(port, address, allow_origin, processes, prefix, options)
     listen_by_own(server, address)
+    board.belong(task_id() or 0)
+    _keep(Rooms(board, rooms))
     application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
     for context in application.applications.values():
         context.application.add(Ahead())
@@ -206,6 +224,22 @@ def make_server(
     if os.getpid() != parent:
         _stop_with(parent, server.io_loop)
     return server
+
+
+def _keep(rooms: Rooms) -> None:
+    """Keep these rooms in this process, and look after them while anybody is there."""
+
+    def look() -> None:
+        if not rooms.tick():
+            beat.stop()
+
+    def begin() -> None:
+        if not beat.is_running():
+            beat.start()
+
+    beat = PeriodicCallback(look, 1000 * EVERY)
+    rooms.beat_with(begin)
+    serve_rooms(rooms)
 
 
 def _log(handler: RequestHandler) -> None:
@@ -241,6 +275,7 @@ def _server(
         extra_patterns=[
             (r"/health", Health),
             (r"/ready", Ready),
+            (r"/room", ToRoom),
             (r"/docs", ToDocs),
             (r"/docs/(.*)", Docs),
         ],

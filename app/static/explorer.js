@@ -22,7 +22,7 @@ import {Theme} from "./page/theme.js"
 import {undoable} from "./page/undo.js"
 import {readFrame} from "./picture/frames.js"
 import {Picture} from "./picture/picture.js"
-import {addDialogs, besideOf, handsOf, panelsOf, pointingOf} from "./parts.js"
+import {addDialogs, besideOf, handsOf, panelsOf, pointingOf, roomOf} from "./parts.js"
 
 export class Explorer {
   /** @param {{model: any, view: any, root: any, plot: any}} given */
@@ -41,6 +41,7 @@ export class Explorer {
     this.beside = /** @type {any} */ (null) // the second portrait, or in it the first
     this.alone = config.page && !config.look.embed
     this.inside = config.page && config.look.embed && window.parent !== window && window.name === SECOND
+    this.asked = new URLSearchParams(window.location?.search).get("room") // steps write the address anew
     this.slowSymbols = () => config.slowSymbols ?? []
 
     const rest = this.rest = new Rest(root)
@@ -65,6 +66,7 @@ export class Explorer {
     new Sheets(root, () => this.sentences.say())
     this.theme = new Theme(root, config, (name) => { picture.paint(name); this.beside?.look?.() })
     if (config.look.seen.length) picture.seen = config.look.seen
+    this.room = this.alone ? roomOf(this) : null
     if (config.page) addDialogs(this)
     this.beside = besideOf(this)
     this.steps = undoable(root, plot, {browsed: config.page && !this.inside, page: config.page}, rest, {
@@ -106,7 +108,7 @@ export class Explorer {
     new Connection(view.model.document, {
       page: this.config.page, say: (sentence) => this.sentences.banner(sentence), leave: () => this.steps.settle(), lost: () => { this.requests.held = true },
     })
-    model.on("msg:custom", (event) => { const message = event.data ?? event; if (!this.takes.hear(message)) this.apply(message.frame) })
+    model.on("msg:custom", (event) => { const message = event.data ?? event; if (!this.takes.hear(message) && !this.room?.hear(message)) this.apply(message.frame) })
     if (model.first) this.apply(model.first instanceof ArrayBuffer ? model.first : model.first.buffer ?? model.first)
   }
 
@@ -124,6 +126,7 @@ export class Explorer {
       if (this.alone) welcome(root)
       this.beside?.sync?.()
       this.beside?.started?.()
+      this.room?.begin(this.asked)
       rest.note("opening", false)
       root.dataset.ready = "true"
     }, 0))

@@ -10,6 +10,7 @@ import {Help} from "./page/help.js"
 import {writeLink} from "./page/links.js"
 import {Second, Seconded} from "./page/second.js"
 import {Share} from "./page/share.js"
+import {Room} from "./room/room.js"
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
 
@@ -26,6 +27,8 @@ export function panelsOf(explorer) {
     trace: (paths, place) => explorer.picture.trace(paths, place),
     open: (wanted) => explorer.put(wanted),
     hide: (layers) => { explorer.hidden = layers; explorer.showLayers() },
+    crowd: () => explorer.room?.rows ?? null, first: config.defaults, setting: config.setting, families: config.families,
+    parameters: () => explorer.systems.all(),
   }, (name) => explorer.choose("panel", name))
   return {panels, setters}
 }
@@ -57,12 +60,22 @@ export function handsOf(explorer) {
   return hands
 }
 
+/** The room that is opened or entered here. @param {Explorer} explorer */
+export function roomOf(explorer) {
+  const {root, config, model} = explorer
+  return new Room(root, {
+    send: (message) => model.send_msg(message), version: config.link.version,
+    query: () => writeLink(explorer.values, null, {...config, look: {embed: false, controls: [], beamer: false}}), // a phone is no beamer
+    changed: () => explorer.panels.draw(explorer.values), opened: () => explorer.choose("panel", "atlas"),
+  })
+}
+
 /** @param {Explorer} explorer */
 export function addDialogs(explorer) {
   const {root, config, picture, theme} = explorer
   new Help(root, explorer.find("dialog.helping"))
   const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer}})
-  const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film}))
+  const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film}))
   explorer.find(".share").addEventListener("click", () => share.open())
   explorer.find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
 }

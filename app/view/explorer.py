@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any, ClassVar
@@ -31,6 +32,7 @@ from ..draw.still import page_of, still
 from ..frame.budget import Budget
 from ..frame.picture import make_frame
 from ..phrases import say
+from ..rooms.visitor import Visitor
 from ..state.chosen import System_
 from ..state.cleaning import InputError
 from ..state.controls import NAMES, ExplorerState
@@ -47,6 +49,12 @@ from .warmup import elsewhere, is_ready, is_ready_for_all
 PATIENCE = 0.25
 
 COMPILING = say("compiling")
+
+
+def _send(model: Any, message: dict[str, Any]) -> None:
+    """Send to the one page that shows a model, if it is still there."""
+    if model.document is not None:
+        model.document.callbacks.send_event(ESMEvent(model=model, data=message))
 
 
 def _is_static(doc: Any, comm: Any) -> bool:
@@ -114,6 +122,7 @@ class ExplorerView(JSComponent):
         ready, budget = (is_ready_for_all, Budget(elsewhere)) if page else (is_ready, None)
         self.frames = Frames(self.state, system, ready, errors, budget)
         self.taking = Taking(self.frames)
+        self.visitor = Visitor(self.frames)
         self._held: object = None
         self._cell: Cell | None = None
         self._first_values = self.state.values()
@@ -274,6 +283,9 @@ class ExplorerView(JSComponent):
         if isinstance(request, Mapping) and "take" in request:
             self._take(model, request["take"])
             return
+        if isinstance(request, Mapping) and "room" in request:
+            self._room(model, request["room"])
+            return
         frame = self.frames.answer(request)
         pending = self.frames.pending
         if pending is None:
@@ -284,18 +296,17 @@ class ExplorerView(JSComponent):
         self.frames.publish()
 
     def _take(self, model: Any, request: Any) -> None:
-        doc = model.document
+        self.taking.answer(request, partial(_send, model), model.document.add_next_tick_callback)
 
+    def _room(self, model: Any, request: Any) -> None:
         def reply(message: dict[str, Any]) -> None:
-            if model.document is not None:
-                doc.callbacks.send_event(ESMEvent(model=model, data=message))
+            _send(model, {"room": message})
 
-        self.taking.answer(request, reply, doc.add_next_tick_callback)
+        self.visitor.answer(request, reply, model.document.add_next_tick_callback)
 
     def _reply(self, model: Any, frame: bytes) -> None:
         self._held = None
-        if model.document is not None:
-            model.document.callbacks.send_event(ESMEvent(model=model, data={"frame": frame}))
+        _send(model, {"frame": frame})
 
     def _hold(self, model: Any, pending: Future[Any], request: dict[str, Any]) -> None:
         """Answer once the picture is there, or soon without it: the browser then asks again, with its newest values."""
@@ -317,6 +328,7 @@ class ExplorerView(JSComponent):
         """Stop what is computed for this view alone: its browser has gone."""
         self._held = None
         self.frames.jobs.leave()
+        self.visitor.leave()
 
     def _handle_msg(self, data: Any) -> None:
         """Answer a request of one browser with one frame to all that show this view."""

@@ -43,12 +43,12 @@ def _template(name: str) -> Template:
 
 def stylesheet() -> str:
     """Return all rules; they are scoped to `.codim2`, their colours are the table's, and small screens come last."""
-    own, sharing, second, charts, beamer, narrow = (
-        (STATIC / name).read_text(encoding="utf-8")
-        for name in ("explorer.css", "sharing.css", "second.css", "chart/chart.css", "beamer.css", "narrow.css")
+    names = ("explorer", "sharing", "second", "room/room", "chart/chart", "beamer", "narrow")
+    own, sharing, second, room, charts, beamer, narrow = (
+        (STATIC / f"{name}.css").read_text(encoding="utf-8") for name in names
     )
     panels = (panel.style for panel in PANELS.values())
-    return "\n".join((custom_properties(), own, sharing, second, swatches(), charts, *panels, beamer, narrow))
+    return "\n".join((custom_properties(), own, sharing, second, swatches(), charts, *panels, room, beamer, narrow))
 
 
 def _embedded(look: Look) -> str:

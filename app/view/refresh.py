@@ -12,6 +12,7 @@ from typing import Any
 
 from param.parameterized import batch_call_watchers
 
+from codim2_core.portrait.classification import Classification
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
@@ -273,6 +274,17 @@ class Frames:
             found = Layers({}, {}, dict.fromkeys(names, found.sentence.rstrip(".")))
         self.budget.told(scene, found)
         return True
+
+    @property
+    def named(self) -> str:
+        """Name of the portrait that the browser has; "" while it has none."""
+        name = self._sent.get("classification")
+        return name.name if isinstance(name, Classification) else ""
+
+    @property
+    def answered(self) -> tuple[Any, ...]:
+        """The lesson and the number of its question that was answered last, and whether rightly; () if none was."""
+        return self._sent.get("answered", ())
 
     @property
     def pending(self) -> Future[Any] | None:

@@ -241,6 +241,11 @@ ELSEWHERE = {
     "film stopped": "tests/app/view/test_taking.py",
     "compiling": "tests/app/view/test_notebook.py",
     "axis given": "tests/app/panels/parameters/test_axes.py",
+    "no rooms": "tests/app/rooms/test_rooms.py",
+    "all rooms taken": "tests/app/rooms/test_rooms.py",
+    "no such room": "tests/app/rooms/test_rooms.py",
+    "room full": "tests/app/rooms/test_rooms.py",
+    "too many codes": "tests/app/rooms/test_visitor.py",
 }
 
 

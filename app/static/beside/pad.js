@@ -9,13 +9,14 @@ export class Pad {
   // of the region pointed at, or -1.
   constructor(svg, onMove, onRegion) {
     this.svg = svg
+    this.redrawn = /** @type {(() => void) | null} */ (null) // called when all was drawn anew
     this.box = [[-1, 1], [-1, 1]]
     this.plot = new Chart(svg, {
       aspect: (width) => width,
       onMove: (x, y) => onMove([x, y].map((value, i) => this.rounded(value, i))),
       onEnd: () => onMove(null),
       onKey: (way, far) => onMove(this.chart.handle.map((value, i) => value + way[i] * (this.box[i][1] - this.box[i][0]) / (far ? 20 : 200))),
-      onRedraw: () => { if (this.chart) this.drawMoving() },
+      onRedraw: () => { if (this.chart) this.drawMoving(); this.redrawn?.() },
     })
     svg.addEventListener("pointerdown", () => svg.focus())
     svg.addEventListener("pointermove", (event) => { if (!this.dragging && this.chart) { const {x, y} = this.plot.under(event); onRegion(this.at([x, y])) } })

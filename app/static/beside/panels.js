@@ -17,6 +17,11 @@
  * @property {(name: string, set: (value: any) => void) => void} follow a control of the panel that the state may move
  * @property {(paths: any, place?: number[]) => void} trace a motion in the picture, or clear it with null
  * @property {(wanted: Record<string, any>) => void} open many values at once, as choosing a portrait does
+ * @property {() => import("../room/crowd.js").Row[] | null} crowd the phones in the lecturer's room; null without one
+ * @property {Record<string, any>} first values of all controls at first
+ * @property {string[]} setting names of the controls that say what is drawn
+ * @property {Record<string, any>} families of Psi
+ * @property {() => Record<string, number>} parameters of the present system, all of them
  * @property {(layers: string[]) => void} hide layers of the picture while a question is open; none shows all again
  */
 

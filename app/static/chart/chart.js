@@ -244,7 +244,7 @@ export class Chart {
     const begin = (event) => { svg.setPointerCapture(event.pointerId); this.dragging = true; move(event) }
     let finger = null // where one has come down that may be about to scroll the page
     svg.addEventListener("pointerdown", (event) => {
-      if (!this.frames.length) return
+      if (!this.frames.length || event.target.closest("[data-apart]")) return // what is laid over it has its own hands
       const mark = event.target.closest(".special")
       if (mark && onMark) { onMark(this.groups[mark.dataset.group]); return }
       if (!onMove) return

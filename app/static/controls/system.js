@@ -121,6 +121,9 @@ export class SystemChooser {
   // The value of a parameter of the system, and moving it from elsewhere.
   value(name) { return this.values.parameters[name] ?? this.defaults?.[name] ?? 0 }
 
+  // The values of all its parameters.
+  all() { return Object.fromEntries(Object.keys(this.defaults ?? {}).map((name) => [name, this.value(name)])) }
+
   move(name, value) {
     this.sliders[name]?.set(value)
     this.change("parameters", {...this.values.parameters, [name]: value})

@@ -9,6 +9,9 @@ const MARKUP = `
   <p class="note">It carries every value, what was typed, launched orbits, the lesson and the zoom.</p>
   <div class="row"><input type="text" class="address" readonly aria-label="Link of this view"><button type="button" data-copies="address">Copy</button></div>
   <img class="qr" alt="QR code of the link" hidden>
+  <div class="rooms"><h2>A room</h2>
+    <p class="note">Phones that enter your room are dots on your atlas: their present settings, without names.</p>
+    <div class="row"><button type="button" class="open-room">Open a room</button> <label>enter one <input type="text" class="code" maxlength="8" size="6" placeholder="code" spellcheck="false" autocomplete="off" autocapitalize="characters"></label><button type="button" class="enter-room">Enter</button></div></div>
   <h2>In another page</h2>
   <p class="note">A frame with the picture and the controls that you name: <label>controls <input type="text" class="names" value="f1,f2" spellcheck="false" autocomplete="off"></label></p>
   <div class="row"><input type="text" class="html" readonly aria-label="HTML of the frame"><button type="button" data-copies="html">Copy</button></div>
@@ -20,12 +23,14 @@ export class Share {
    * @param {HTMLDialogElement} dialog
    * @param {() => string} query of the present view
    * @param {number} version of links
+   * @param {{open: () => void, enter: (code: string) => void} | null} room null where there are none
    * @param {(box: HTMLElement) => Promise<void>} more fills what is below the links
    */
-  constructor(dialog, query, version, more) {
+  constructor(dialog, query, version, room, more) {
     this.dialog = dialog
     this.query = query
     this.version = version
+    this.room = room
     this.more = more
   }
   find(name) { return this.dialog.querySelector(name) }
@@ -56,6 +61,16 @@ export class Share {
 
   make() {
     this.dialog.innerHTML = MARKUP
+    this.find(".rooms").hidden = !this.room
+    const enter = () => {
+      const code = this.find(".code").value.trim()
+      if (!code) return
+      this.dialog.close()
+      this.room?.enter(code)
+    }
+    this.find(".open-room").addEventListener("click", () => { this.dialog.close(); this.room?.open() })
+    this.find(".enter-room").addEventListener("click", enter)
+    this.find(".code").addEventListener("keydown", (event) => { if (event.key === "Enter") { event.preventDefault(); enter() } })
     this.find(".names").addEventListener("input", () => this.frame())
     this.dialog.addEventListener("click", (event) => { if (event.target === this.dialog) this.dialog.close() })
     for (const button of /** @type {NodeListOf<HTMLElement>} */ (this.dialog.querySelectorAll("[data-copies]"))) {

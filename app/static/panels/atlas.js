@@ -5,6 +5,7 @@ import {axesMarkup, AxisChoice, ZoomButtons} from "../beside/axes.js"
 import {polygons} from "../picture/frames.js"
 import {Pad, regionClass} from "../beside/pad.js"
 import {register} from "../beside/panels.js"
+import {Dots} from "../room/dots.js"
 import {rangeFor, reachFor} from "../controls/ranges.js"
 
 const CURVE_NAMES = {
@@ -39,6 +40,7 @@ class Atlas {
     this.map = this.empty = {of: "", regions: [], curves: {}, points: []}
     this.of = "" // the axes that the server draws, and whether they are the plane of f
     this.tiles = []
+    this.dots = /** @type {Dots | null} */ (null)
     this.pad = new Pad(this.find(".pad"), (at) => this.move(at), (region) => this.point(region))
     this.find(".thumbnails").addEventListener("click", (event) => {
       const tile = event.target.closest("button")
@@ -130,6 +132,15 @@ class Atlas {
     this.find(".atlas-note").textContent = this.why ?? ""
     this.find(".thumbnails").hidden = Boolean(this.why)
     this.key(chart)
+    this.showCrowd(values)
+  }
+
+  // The phones of a room, while one is open.
+  showCrowd(values) {
+    const rows = this.tools.crowd()
+    if (!rows && !this.dots) return
+    this.dots ??= new Dots(this.box, this.pad, this.tools)
+    this.dots.show(rows, {...values, parameters: this.tools.parameters()}, this.axes, this.isPlane)
   }
 
   chartOfPlane(values) {

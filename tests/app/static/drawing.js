@@ -87,6 +87,7 @@ export function drawn(name) {
     rangeOf: (it) => tools.ranges[it] ?? [-4, 4], valueOf: (it) => it.startsWith("own:") ? own[it.slice(4)] ?? 0 : values[it], follow: (it) => said("follow")(it),
     move: (wanted) => { said("move")(wanted); Object.assign(values, wanted); panels.draw(values) },
     choose: (it, value) => { said("choose")(it, value); values[it] = value; panels.draw(values) },
+    crowd: () => null,
     trace: (paths, place) => said("trace")(paths && paths.map((path) => path && path.map((column) => column.length)), place?.map((v) => Number(v.toFixed(4)))),
     open: said("open"), hide: said("hide"),
   }, said("choose"))

@@ -1,0 +1,279 @@
+"""The rooms of one server process: who has opened one, who is in one, and what the one is told of the others.
+
+A room is a code of four letters. Its lecturer holds a key, of which the code is the digest, so that the room can be
+taken up again from another page or process. Who is in it shows a row: a number, the name of his portrait, his
+settings, and how far he is in a lesson. A room ends when it is closed, when nobody has held its key for a while, or
+after some hours; then nothing of it is left.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import secrets
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..phrases import say
+from .board import Board
+
+#: Without vowels no code is a word, and none of these is taken for another, or for a figure.
+LETTERS, LENGTH = "BCDFGHJKLMNPQRSTVWXZ", 4
+HOURS = 4.0  # that a room lasts
+LINGERS = 600.0  # seconds for which it waits for its lecturer to come back
+REMEMBERED = 120.0  # seconds for which it is known that it was closed
+MISSED = 60.0  # seconds for which a process that holds it may be gone
+MOST_ROOMS, MOST_GUESTS, LONGEST_ROW = 20, 300, 2000
+MOST_TRIES = 20  # of one page: codes are not to be guessed
+EVERY = 0.5  # seconds
+
+#: ``[number, name of the portrait, settings or None, [lesson, question, right] or None]``
+Row = list[Any]
+Tell = Callable[[dict[str, Any]], None]
+
+
+class RoomError(ValueError):
+    """A room that cannot be opened or entered; its text is a sentence for who asked."""
+
+
+@dataclass(slots=True)
+class Host:
+    """Who has opened a room."""
+
+    code: str
+    mark: str
+    opened: float
+    tell: Tell | None
+    left: float = 0.0
+    closed: float = 0.0
+    shown: Any = None
+
+    def there(self, now: float) -> bool:
+        """Say whether the room is open."""
+        waits = self.tell is not None or now - self.left < LINGERS
+        return not self.closed and waits and now - self.opened < 3600.0 * HOURS
+
+
+@dataclass(slots=True)
+class Guest:
+    """Who is in a room of any process."""
+
+    number: int
+    code: str
+    look: Callable[[], Row]
+    tell: Tell
+    missed: float = 0.0
+
+
+class Rooms:
+    """The rooms of one process.
+
+    Parameters
+    ----------
+    board : Board, optional
+        What all processes share; by default there is but this one.
+    most : int
+        Rooms that this process opens; 0 for none.
+    """
+
+    def __init__(self, board: Board | None = None, most: int = MOST_ROOMS) -> None:
+        self.board = board or Board()
+        self.most = most
+        self.hosts: dict[str, Host] = {}
+        self.guests: dict[int, Guest] = {}
+        self._count = 0
+        self._ticks: Callable[[], None] | None = None
+
+    def beat_with(self, begin: Callable[[], None]) -> None:
+        """Have `begin` called when somebody is here whom `tick` is to serve, every `EVERY` seconds while it is True."""
+        self._ticks = begin
+
+    # The lecturer ----------------------------------------------------------------------------------------------
+
+    def open(self, key: str, tell: Tell, now: float | None = None) -> tuple[str, str]:
+        """Open a room, or take up the one of this key; return its code and its key.
+
+        Raises
+        ------
+        RoomError
+            This server has no room left, or has none at all.
+        """
+        now = time.time() if now is None else now
+        if not self.most:
+            raise RoomError(say("no rooms"))
+        states = self._states(now)
+        code, mark = code_of(key), mark_of(key)
+        known = self._known(code, now)
+        if not key or states.get(code) == "closed" or any(other != mark for _, other in known):
+            known = []
+            while not key or code in states:
+                key = secrets.token_urlsafe(16)
+                code, mark = code_of(key), mark_of(key)
+        if code not in self.hosts and sum(host.there(now) for host in self.hosts.values()) >= self.most:
+            raise RoomError(say("all rooms taken", most=self.most))
+        self.hosts[code] = Host(code, mark, min((opened for opened, _ in known), default=now), tell)
+        self._begin(now)
+        return code, key
+
+    def leave_open(self, code: str, tell: Tell, now: float | None = None) -> None:
+        """Note that a lecturer's page has gone: he may come back."""
+        host = self.hosts.get(code)
+        if host is not None and host.tell is tell:  # else another page holds the room by now
+            host.tell, host.left = None, time.time() if now is None else now
+
+    def close(self, code: str, now: float | None = None) -> None:
+        """Close a room: all who are in it are told."""
+        now = time.time() if now is None else now
+        host = self.hosts.get(code)
+        if host is not None and not host.closed:
+            host.tell, host.closed = None, now
+            self.tick(now)
+
+    # Who is in it ----------------------------------------------------------------------------------------------
+
+    def join(self, code: str, look: Callable[[], Row], tell: Tell, now: float | None = None) -> Guest:
+        """Enter a room.
+
+        Parameters
+        ----------
+        code : str
+            As it was typed.
+        look : callable
+            Returns the row that the room shows, but for its number.
+        tell : callable
+            Told ``{"ended": code}`` when the room ends.
+
+        Raises
+        ------
+        RoomError
+            There is no such room, or it is full.
+        """
+        now = time.time() if now is None else now
+        code = code.strip().upper()
+        if self._states(now).get(code) != "open":
+            raise RoomError(say("no such room", code=code[:8]))
+        if len(self._rows(code, now)) >= MOST_GUESTS:
+            raise RoomError(say("room full", most=MOST_GUESTS))
+        self._count += 1
+        number = self._count * self.board.processes + self.board.mine  # no other process gives it
+        guest = self.guests[number] = Guest(number, code, look, tell)
+        self._begin(now)
+        return guest
+
+    def leave(self, guest: Guest) -> None:
+        """Take somebody out of his room."""
+        self.guests.pop(guest.number, None)
+
+    # All -------------------------------------------------------------------------------------------------------
+
+    def tick(self, now: float | None = None) -> bool:
+        """Tell all processes of who is here, the lecturers of who is in their rooms, and these of rooms that ended.
+
+        Returns
+        -------
+        bool
+            Whether anybody is here for whom to do so again.
+        """
+        now = time.time() if now is None else now
+        for code, host in list(self.hosts.items()):
+            if not host.closed and not host.there(now):
+                tell, host.closed, host.tell = host.tell, now, None
+                if tell is not None:
+                    tell({"ended": code})
+            if host.closed and now - host.closed > REMEMBERED:
+                del self.hosts[code]
+        self._write(now)
+        states = self._states(now)
+        for code, host in self.hosts.items():
+            if states.get(code) == "closed" and not host.closed:  # by another process
+                host.closed, host.tell = now, None
+        for guest in list(self.guests.values()):
+            state = states.get(guest.code)
+            guest.missed = 0.0 if state == "open" else guest.missed or now
+            if state == "closed" or (guest.missed and now - guest.missed > MISSED):
+                self.leave(guest)
+                guest.tell({"ended": guest.code})
+        for host in self.hosts.values():
+            if host.tell is not None:
+                rows = self._rows(host.code, now)
+                if rows != host.shown:
+                    host.shown = rows
+                    host.tell({"rows": rows})
+        return bool(self.hosts or self.guests)
+
+    def _begin(self, now: float) -> None:
+        self._write(now)
+        if self._ticks is not None:
+            self._ticks()
+
+    def _write(self, now: float) -> None:
+        rows: dict[str, list[Row]] = {}
+        for guest in self.guests.values():
+            rows.setdefault(guest.code, []).append(_row(guest))
+        hosts = {host.code: [host.opened, host.there(now), host.closed, host.mark] for host in self.hosts.values()}
+        if not self.board.write({"hosts": hosts, "rows": rows}, now):
+            bare = {code: [[row[0], row[1], None, row[3]] for row in all_] for code, all_ in rows.items()}
+            self.board.write({"hosts": hosts, "rows": bare}, now)
+
+    def _states(self, now: float) -> dict[str, str]:
+        """Return "open" or "closed" for each room that any process knows."""
+        found: dict[str, str] = {}
+        for _, _, told in self.board.read(now):
+            for code, (_, is_open, closed, _) in told["hosts"].items():
+                if closed:
+                    found[code] = "closed"
+                elif is_open:
+                    found.setdefault(code, "open")
+        return found
+
+    def _known(self, code: str, now: float) -> list[tuple[float, str]]:
+        """Return when a room was opened, and the mark of its key, by each process that knows it."""
+        told = [told["hosts"][code] for _, _, told in self.board.read(now) if code in told["hosts"]]
+        return [(opened, mark) for opened, _, _, mark in told]
+
+    def _rows(self, code: str, now: float) -> list[Row]:
+        return [row for _, _, told in self.board.read(now) for row in told["rows"].get(code, ())]
+
+
+def code_of(key: str) -> str:
+    """Return the code of the room of a key."""
+    number = int.from_bytes(hashlib.sha256(key.encode()).digest()[:8], "big")
+    letters = []
+    for _ in range(LENGTH):
+        number, at = divmod(number, len(LETTERS))
+        letters.append(LETTERS[at])
+    return "".join(letters)
+
+
+def mark_of(key: str) -> str:
+    """Return what tells the keys of one code apart, and does not give them away."""
+    return hashlib.sha256(b"mark " + key.encode()).hexdigest()[:24]
+
+
+def _row(guest: Guest) -> Row:
+    name, settings, lesson = guest.look()
+    if len(json.dumps(settings)) > LONGEST_ROW:
+        settings = None  # it is counted, but cannot be opened
+    return [guest.number, name, settings, lesson]
+
+
+def settings_of(values: Mapping[str, Any], first: Mapping[str, Any], names: tuple[str, ...]) -> dict[str, Any]:
+    """Return what of the values of controls is other than at first."""
+    return {name: values[name] for name in names if values[name] != first[name]}
+
+
+_served: list[Rooms] = []
+
+
+def serve_with(rooms: Rooms) -> None:
+    """From now on these are the rooms of this process."""
+    _served[:] = [rooms]
+
+
+def here() -> Rooms:
+    """Return the rooms of this process."""
+    if not _served:
+        serve_with(Rooms())
+    return _served[0]

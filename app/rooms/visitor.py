@@ -1,0 +1,127 @@
+"""One browser and its room: opened by a lecturer, or entered by a student; it is told over its own session."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cache
+from typing import Any, Protocol
+
+from codim2_core.scene import Scene
+from codim2_core.systems.elinear import ELinear
+from codim2_core.systems.typed import System
+
+from ..lessons.library import lessons
+from ..phrases import say
+from ..state.choices import SETTING
+from ..state.chosen import NORMAL
+from ..state.controls import first_values
+from .rooms import MOST_TRIES, Guest, RoomError, Row, here, settings_of
+
+LONGEST = 64  # characters of a key or a code
+_first = cache(first_values)
+
+
+class Shown(Protocol):
+    """What a browser shows, as far as a room is concerned."""
+
+    values: dict[str, Any]
+    scene: Scene
+
+    @property
+    def named(self) -> str:
+        """Name of the portrait; "" while it has none."""
+        ...
+
+    @property
+    def answered(self) -> tuple[Any, ...]:
+        """The lesson and the number of its question that was answered last, and whether rightly; () if none was."""
+        ...
+
+
+class Visitor:
+    """The room of one browser, if it has opened or entered one.
+
+    Parameters
+    ----------
+    frames : Shown
+        What it shows.
+    """
+
+    def __init__(self, frames: Shown) -> None:
+        self.frames = frames
+        self._tries = 0
+        self._opened: tuple[str, Callable[[dict[str, Any]], None]] | None = None
+        self._guest: Guest | None = None
+
+    def answer(
+        self, request: Any, reply: Callable[[dict[str, Any]], None], later: Callable[[Callable[[], None]], Any]
+    ) -> None:
+        """Answer a request.
+
+        Parameters
+        ----------
+        request : object
+            As a browser sent it: ``{"open": key}`` ("" for a new room), ``{"close": True}``, ``{"join": code}`` or
+            ``{"leave": True}``.
+        reply : callable
+            Sends ``{"open": code, "key": key}``, ``{"joined": code}``, ``{"ended": code}`` or ``{"error": sentence}``;
+            to a lecturer also ``{"rows": list}``, whenever they are others.
+        later : callable
+            Has a function called by the thread that answers, with the document's lock.
+        """
+        asked = request if isinstance(request, Mapping) else {}
+
+        def tell(message: dict[str, Any]) -> None:
+            later(lambda: reply(message))
+
+        try:
+            if isinstance(key := asked.get("open"), str):
+                self._leave_guest()
+                code, key = here().open(key if len(key) <= LONGEST else "", tell)
+                self._opened = code, tell
+                reply({"open": code, "key": key})
+            elif isinstance(code := asked.get("join"), str):
+                reply({"joined": self._join(code[:LONGEST], tell)})
+            elif asked.get("close") is True and self._opened is not None:
+                code, _ = self._opened
+                self._opened = None
+                here().close(code)
+                reply({"ended": code})
+            elif asked.get("leave") is True:
+                self._leave_guest()
+        except RoomError as error:
+            reply({"error": str(error)})
+
+    def _join(self, code: str, tell: Callable[[dict[str, Any]], None]) -> str:
+        self._tries += 1
+        if self._tries > MOST_TRIES:
+            raise RoomError(say("too many codes"))
+        guest = here().join(code, self._row, tell)
+        self._leave_guest()
+        self._guest = guest
+        return guest.code
+
+    def _row(self) -> Row:
+        """Return what the room shows of this browser, but for its number."""
+        frames = self.frames
+        values = dict(frames.values)
+        if values["system"] != NORMAL and isinstance(frames.scene.system, ELinear | System):
+            values["parameters"] = dict(frames.scene.system.parameters)  # all, also those as they are at first
+        open_one = lessons().get(values["lesson"])
+        key, question, right = frames.answered or ("", -1, False)
+        if open_one is None or key != open_one.key:
+            question, right = -1, False
+        lesson = None if open_one is None else [open_one.title, question, right]
+        return [frames.named, settings_of(values, _first(), SETTING), lesson]
+
+    def _leave_guest(self) -> None:
+        if self._guest is not None:
+            here().leave(self._guest)
+            self._guest = None
+
+    def leave(self) -> None:
+        """Its browser has gone."""
+        self._leave_guest()
+        if self._opened is not None:
+            here().leave_open(*self._opened)
+            self._opened = None

@@ -1,0 +1,207 @@
+"""Rooms: opened, entered, told, ended; in one process and in several; and their bounds."""
+
+import pytest
+from codim2_app.rooms import rooms as module
+from codim2_app.rooms.board import Board
+from codim2_app.rooms.rooms import (
+    EVERY,
+    HOURS,
+    LETTERS,
+    LINGERS,
+    LONGEST_ROW,
+    MISSED,
+    MOST_GUESTS,
+    REMEMBERED,
+    RoomError,
+    Rooms,
+    code_of,
+)
+
+
+class Page:
+    """What one page is told, and the row that it shows."""
+
+    def __init__(self, name="CM4", **settings):
+        self.row = [name, settings, None]
+        self.heard = []
+
+    def look(self):
+        return self.row
+
+    def tell(self, message):
+        self.heard.append(message)
+
+
+@pytest.fixture
+def two():
+    """The rooms of two processes."""
+    board = Board(2)
+    pair = []
+    for index in (0, 1):
+        own = Board(2)
+        own._memory = board._memory
+        own.belong(index)
+        pair.append(Rooms(own))
+    return pair
+
+
+def opened(rooms, now=0.0, key=""):
+    lecturer = Page()
+    lecturer.heard_by = lecturer.tell  # one and the same each time, as a page has it
+    return lecturer, *rooms.open(key, lecturer.heard_by, now)
+
+
+def rows(lecturer):
+    return [message["rows"] for message in lecturer.heard if "rows" in message]
+
+
+def test_a_lecturer_is_told_of_the_phones_of_all_processes_when_they_are_others(two):
+    here, there = two
+    lecturer, code, _ = opened(here)
+    assert len(code) == 4
+    assert set(code) <= set(LETTERS)
+    phones = [Page("CM4"), Page("CM2", f1=1.5)]
+    guests = [
+        rooms.join(typed, phone.look, phone.tell, 1.0)
+        for rooms, phone, typed in zip(two, phones, (code, f" {code.lower()} "), strict=True)
+    ]
+    assert guests[0].number != guests[1].number
+    assert there.tick(1.5)
+    assert here.tick(1.5)
+    assert [row[1:] for row in rows(lecturer)[-1]] == [["CM4", {}, None], ["CM2", {"f1": 1.5}, None]]
+    there.tick(2.0)
+    here.tick(2.0)
+    assert len(rows(lecturer)) == 1  # nothing has changed
+    phones[1].row = ["CM0", {"f1": 2.0}, ["Ball", 0, True]]
+    there.tick(2.5)
+    here.tick(2.5)
+    assert rows(lecturer)[-1][1][1:] == ["CM0", {"f1": 2.0}, ["Ball", 0, True]]
+    there.leave(guests[1])
+    there.tick(3.0)
+    here.tick(3.0)
+    assert [row[1] for row in rows(lecturer)[-1]] == ["CM4"]
+    assert phones[0].heard == phones[1].heard == []
+
+
+def test_all_are_told_when_a_room_is_closed_and_nothing_of_it_is_left(two):
+    here, there = two
+    _, code, key = opened(here)
+    phone = Page()
+    there.join(code, phone.look, phone.tell, 1.0)
+    here.close(code, 2.0)
+    there.tick(2.5)
+    assert phone.heard == [{"ended": code}]
+    with pytest.raises(RoomError, match="no room"):
+        there.join(code, phone.look, phone.tell, 3.0)
+    assert opened(here, 3.0, key)[1] != code  # it is not taken up again
+    assert here.tick(3.0)
+    assert not there.tick(3.0 + EVERY)
+    here.tick(2.0 + REMEMBERED + 1.0)
+    assert code not in here.hosts
+
+
+def test_a_lecturer_who_loads_the_page_again_has_his_room_also_from_another_process(two):
+    here, there = two
+    lecturer, code, key = opened(here)
+    phone = Page()
+    guest = here.join(code, phone.look, phone.tell, 0.5)
+    here.leave_open(code, lecturer.heard_by, 1.0)
+    here.tick(1.5)
+    again, same, _ = opened(there, 2.0, key)
+    assert same == code
+    there.tick(2.5)
+    assert [row[0] for row in rows(again)[-1]] == [guest.number]
+    there.close(code, 3.0)  # the first process still knows it as a room that waits
+    here.tick(3.5)
+    there.tick(3.5)
+    assert phone.heard == [{"ended": code}]
+    for now in (3.0 + REMEMBERED, 3.0 + REMEMBERED + 2.0):
+        here.tick(now)
+        there.tick(now)
+    assert code not in here._states(3.0 + REMEMBERED + 2.0)
+
+
+def test_the_first_page_of_a_room_that_is_open_twice_does_not_end_it():
+    rooms = Rooms()
+    first, code, key = opened(rooms)
+    second, same, _ = opened(rooms, 1.0, key)
+    assert same == code
+    rooms.leave_open(code, first.heard_by, 2.0)
+    rooms.tick(3.0 + LINGERS)
+    assert rows(second)
+
+
+@pytest.mark.parametrize(
+    ("leaves", "ends"), [(True, 1.0 + LINGERS), (False, 3600.0 * HOURS)], ids=["nobody holds it", "hours"]
+)
+def test_a_room_ends_by_itself(leaves, ends):
+    rooms = Rooms()
+    lecturer, code, _ = opened(rooms)
+    phone = Page()
+    rooms.join(code, phone.look, phone.tell, 0.5)
+    if leaves:
+        rooms.leave_open(code, lecturer.heard_by, 1.0)
+    rooms.tick(ends - 1.0)
+    assert phone.heard == []
+    rooms.tick(ends + 1.0)
+    assert phone.heard == [{"ended": code}]
+    assert ({"ended": code} in lecturer.heard) == (not leaves)
+
+
+def test_a_phone_waits_while_the_process_of_its_room_is_started_again(two):
+    here, there = two
+    _, code, _ = opened(here)
+    phone = Page()
+    there.join(code, phone.look, phone.tell, 0.0)
+    here.board.belong(0)  # begins with nothing
+    there.tick(1.0)
+    there.tick(1.0 + MISSED)
+    assert phone.heard == []
+    there.tick(1.0 + MISSED + 1.0)
+    assert phone.heard == [{"ended": code}]
+
+
+def test_another_key_of_the_same_code_does_not_take_a_room_over(monkeypatch):
+    rooms = Rooms()
+    _, code, _ = opened(rooms)
+    real = code_of
+    monkeypatch.setattr(module, "code_of", lambda key: code if key == "forged" else real(key))
+    _, other, given = opened(rooms, 1.0, "forged")
+    assert other != code
+    assert given != "forged"
+
+
+def test_rooms_and_phones_are_bounded():
+    rooms = Rooms(most=2)
+    _, code, _ = opened(rooms)
+    opened(rooms)
+    with pytest.raises(RoomError, match="All 2 rooms"):
+        opened(rooms)
+    rooms.close(code, 1.0)
+    code = opened(rooms, 2.0)[1]
+    phone = Page()
+    for _ in range(MOST_GUESTS):
+        rooms.join(code, phone.look, phone.tell, 3.0)
+    with pytest.raises(RoomError, match="full"):
+        rooms.join(code, phone.look, phone.tell, 3.0)
+    with pytest.raises(RoomError, match="no rooms"):
+        opened(Rooms(most=0))
+
+
+def test_settings_that_are_too_long_are_counted_but_not_sent():
+    rooms = Rooms()
+    lecturer, code, _ = opened(rooms)
+    phone = Page("CM4", texts={"U1": "c" * LONGEST_ROW})
+    rooms.join(code, phone.look, phone.tell, 1.0)
+    rooms.tick(1.5)
+    assert [row[1:] for row in rows(lecturer)[-1]] == [["CM4", None, None]]
+
+
+def test_without_anybody_nothing_goes_on():
+    begun = []
+    rooms = Rooms()
+    rooms.beat_with(lambda: begun.append(1))
+    assert not rooms.tick(0.0)
+    assert begun == []
+    opened(rooms)
+    assert begun == [1]

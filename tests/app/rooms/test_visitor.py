@@ -1,0 +1,86 @@
+"""The room of one page: what a browser may ask, and the row that its lecturer sees."""
+
+import pytest
+from codim2_app.lessons.library import lessons
+from codim2_app.rooms import rooms
+from codim2_app.rooms.rooms import MOST_TRIES, Rooms
+from codim2_app.rooms.visitor import Visitor
+from codim2_app.state.controls import ExplorerState
+from codim2_app.view.refresh import Frames
+
+
+class Page:
+    """A page without a browser."""
+
+    def __init__(self, **values):
+        self.frames = Frames(ExplorerState(**{"layers": [], "panel": "psi", "trajectories": 0, **values}))
+        self.frames.answer({"all": True})
+        self.visitor = Visitor(self.frames)
+        self.heard = []
+
+    def ask(self, request):
+        self.heard.clear()
+        self.visitor.answer(request, self.heard.append, lambda act: act())
+        return self.heard[-1] if self.heard else {}
+
+
+@pytest.fixture(autouse=True)
+def fresh():
+    kept = list(rooms._served)
+    rooms.serve_with(Rooms())
+    yield rooms.here()
+    rooms._served[:] = kept
+
+
+def test_what_a_lecturer_sees_of_a_phone(fresh):
+    lecturer, phone = Page(), Page(f1=1.5, launch="1,2,3", orbits="0.5,0.5")
+    code = lecturer.ask({"open": ""})["open"]
+    assert phone.ask({"join": code}) == {"joined": code}
+    fresh.tick()
+    [[number, name, settings, lesson]] = lecturer.heard[-1]["rows"]
+    assert (name, settings, lesson) == (phone.frames.scene["classification"].name, {"f1": 1.5}, None)
+    phone.frames.answer({"set": {"system": "own", "lesson": (key := next(iter(lessons())))}})
+    fresh.tick()
+    [[same, _, settings, lesson]] = lecturer.heard[-1]["rows"]
+    assert same == number
+    assert settings["system"] == "own"
+    assert settings["parameters"] == dict(phone.frames.scene.system.parameters) != {}
+    assert lesson == [lessons()[key].title, -1, False]
+    phone.visitor.leave()
+    fresh.tick()
+    assert lecturer.heard[-1] == {"rows": []}
+
+
+def test_a_lecturer_closes_his_room_and_nobody_elses(fresh):
+    lecturer, phone = Page(), Page()
+    code = lecturer.ask({"open": ""})["open"]
+    phone.ask({"join": code})
+    phone.ask({"close": True})
+    fresh.tick()
+    assert phone.heard == []
+    assert lecturer.ask({"close": True}) == {"ended": code}
+    assert phone.heard == [{"ended": code}]
+    assert "error" in phone.ask({"join": code})
+
+
+def test_a_page_that_goes_leaves_its_room_waiting(fresh):
+    lecturer = Page()
+    first = lecturer.ask({"open": ""})
+    lecturer.visitor.leave()
+    assert Page().ask({"open": first["key"]}) == first
+
+
+def test_codes_are_not_guessed():
+    phone = Page()
+    for _ in range(MOST_TRIES):
+        assert "no room" in phone.ask({"join": "BCDF"})["error"]
+    assert "Too many" in phone.ask({"join": "BCDF"})["error"]
+
+
+@pytest.mark.parametrize(
+    "odd", [None, [], "open", {"open": 3}, {"join": ["A"]}, {"close": "yes"}, {"leave": 1}, {"open": "x" * 10**5}]
+)
+def test_what_no_page_sends_changes_nothing(odd):
+    page = Page()
+    heard = page.ask(odd)
+    assert heard == {} or len(heard["key"]) < 64

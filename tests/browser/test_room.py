@@ -1,0 +1,33 @@
+"""A lecturer's page and a phone in one room."""
+
+import pytest
+
+pytestmark = pytest.mark.browser
+
+
+def test_a_phones_settings_are_a_dot_on_the_lecturers_atlas(open_page):
+    lecturer = open_page().open("room")
+    lecturer.until("root.querySelector('dialog.room .qr')?.src")
+    lecturer.find("dialog.room .qr").evaluate("(code) => code.decode()")
+    code = lecturer.find(".room-code").text_content()
+    lecturer.find(".room-go").click()
+    phone = open_page(viewport={"width": 390, "height": 844}).open(f"?room={code.lower()}")
+    phone.until("root.querySelector('.room-bar [data-room=leave]')")
+    assert code in phone.find(".room-bar").text_content()
+    lecturer.until("root.querySelectorAll('.crowd .phone').length === 1")
+    before = lecturer.find(".crowd .phone").get_attribute("transform")
+    phone.find("button[data-sheet=controls]").click()
+    phone.type("f1", "1.25")
+    lecturer.until(f"(root.querySelector('.crowd .phone')?.getAttribute('transform') ?? '{before}') !== '{before}'")
+    assert lecturer.find(".crowd-list b").all_text_contents() == ["1"]
+    assert phone.name() in lecturer.find(".crowd-list li").text_content()
+    lecturer.find(".crowd .phone").dispatch_event("pointerdown")
+    lecturer.settle()
+    assert lecturer.find("[data-control=f1] .number").input_value() == "1.25"
+    assert lecturer.name() == phone.name()
+    lecturer.page.reload()
+    lecturer.until("root.querySelectorAll('.crowd .phone').length === 1")  # the same room, with the phone in it
+    lecturer.find("[data-room=end]").click()
+    phone.until("root.querySelector('.room-bar [data-room=hide]')")
+    assert "has ended" in phone.find(".room-bar").text_content()
+    assert lecturer.complaints == phone.complaints == []
