@@ -100,7 +100,9 @@ def make_frame(
         }
     if "separatrices_stable" in blocks and isinstance(now["separatrices_stable"], Separatrices):
         branches = scene["separatrices"]
-        header["separatrices"] = [[named(branch.origin), named(branch.end), branch.status] for branch in branches]
+        header["separatrices"] = [
+            [named(b.origin), named(b.end), b.status if b.connection or b.end == "undecided" else ""] for b in branches
+        ]
     _tell_facts(header, now, asked)
     return header, blocks, now
 

@@ -36,8 +36,11 @@ export function curvesOf(table, blocks, owners) {
   return found
 }
 
-/** The first point of a curve. @param {Pieces} pieces */
-export function firstOf([{xy}]) { return {x: xy[0] * unit(xy), y: xy[1] * unit(xy)} }
+/** The middle of the first piece of a curve: where it is told, if nobody has pointed at it. @param {Pieces} pieces */
+export function middleOf([{n: [n], xy}]) {
+  const i = 2 * Math.floor((n - 1) / 2), at = (/** @type {number} */ k) => (xy[k] + (n % 2 ? xy[k] : xy[k + 2])) / 2 * unit(xy)
+  return {x: at(i), y: at(i + 1)}
+}
 
 /** The point of some pieces that is nearest to a point: {x, y, gap}, or null. @param {Pieces} pieces */
 export function nearestOn(pieces, px, py) {

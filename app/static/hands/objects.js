@@ -2,8 +2,9 @@
 // Where a pointer is on one, what is said of each, and which one it is after the sliders have moved.
 
 import {CURVES, SAYS, digits, eigen, pair, turned} from "../words.js"
-import {apart, curvesOf, firstOf, nearestOn} from "./curves.js"
+import {apart, curvesOf, middleOf, nearestOn} from "./curves.js"
 
+const EDGE = 5e-4 // of the radius: as far as a point of the equator may be packed from it
 const NEAR = 0.7 // of the picture's unit: what is farther away after one frame is another object
 
 /**
@@ -45,7 +46,7 @@ export function objectsOf(header, blocks, table) {
     const i = Number(name.slice(1)) - 1, many = kind === "cycles" ? cycles?.kind.length > 1 : true
     const label = kind === "curve" ? CURVES[name] : `${SAYS[kind]}${many ? ` ${i + 1}` : ""}`
     const sort = kind === "cycles" ? cycles?.kind[i] : kind === "separatrices" ? part.name : name
-    if (sort !== undefined) all.push({name, kind, i, label, ...firstOf(pieces), sort, curve: pieces, colour: part.colour})
+    if (sort !== undefined) all.push({name, kind, i, label, ...middleOf(pieces), sort, curve: pieces, colour: part.colour})
   }
   return all
 }
@@ -137,7 +138,7 @@ export function factsOf(one, header, slowSymbols = []) {
   }
   if (kind === "separatrices") {
     const [origin, end, status] = header.separatrices[i]
-    return {title: `${label}, ${one.sort.split("_")[1]}`, rows: [["of", origin], ["other end", end], ...placeOf(one)], notes: [status]}
+    return {title: `${label}, ${one.sort.split("_")[1]}`, rows: [["of", origin], ["other end", end], ...placeOf(one)], notes: [status].filter(Boolean)}
   }
   if (kind === "curve") return {title: label, rows: placeOf(one), notes: []}
   const {goes, comes} = header.launched
@@ -147,7 +148,7 @@ export function factsOf(one, header, slowSymbols = []) {
 /** Where in the picture a point is: on the hemisphere, or outside. @param {{x: number, y: number}} point @returns {[string, string][]} */
 export function placeOf({x, y}) {
   const radius = Math.hypot(x, y)
-  return [radius <= 1 ? ["(x̄, ȳ)", pair([x, y])] : ["|(x, y)|", digits(radius - 1)], ["θ", `${digits(Math.atan2(y, x) * 180 / Math.PI)}°`]]
+  return [radius <= 1 + EDGE ? ["(x̄, ȳ)", pair([x, y])] : ["|(x, y)|", digits(radius - 1)], ["θ", `${digits(Math.atan2(y, x) * 180 / Math.PI)}°`]]
 }
 
 // What the arrows show, and why there are none where there are none.

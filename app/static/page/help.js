@@ -5,9 +5,9 @@ import {escape} from "../words.js"
 /** @type {[string, string][]} what is pressed or done, and what it does */
 export const KEYS = [
   ["?", "this sheet"],
-  ["click, tap", "launches the orbit through that point; on Q, C or a limit cycle, pins its card"],
+  ["click, tap", "launches the orbit through that point; on a mark or a named curve, pins its card"],
   ["press and drag", "the orbit follows; from the start of one, moves it"],
-  ["hover, or Tab", "the name, numbers and eigenvectors of an object; Enter pins it"],
+  ["hover, or Tab", "the name, numbers and eigenvectors of what is there; Enter pins it"],
   ["Esc", "lets go of what is pinned; closes a sheet"],
   ["Shift and drag, Ctrl and wheel", "move and enlarge the picture; on a phone with two fingers"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo; also the browser’s Back and Forward"],

@@ -34,7 +34,7 @@ test("the nearest mark within reach is under the pointer, else a limit cycle, el
   assert.equal(under(0.2, 0.95), "O1") // a launched orbit: taken in hand
   assert.equal(under(0.55, 0), "L1")
   assert.equal(under(0.57, 0), null) // a curve is reached from nearer than a mark
-  assert.equal(objectAt(all, {x: 0.53, y: 0.2}, 0.1, 0.06)?.x, all[4].x + 0) // the side x = 1/2
+  assert.equal(objectAt(all, {x: 0.53, y: 0.2}, 0.1, 0.06)?.x, square[0] * STEP) // the side x = 1/2
   assert.equal(under(0.2, -0.4, 1), "C")
 })
 
