@@ -44,7 +44,7 @@ export function objectsOf(header, blocks, table) {
   for (const {name, kind, part, pieces} of Object.values(curves)) {
     if (kind === "launched") continue
     const i = Number(name.slice(1)) - 1, many = kind === "cycles" ? cycles?.kind.length > 1 : true
-    const label = kind === "curve" ? CURVES[name] : `${SAYS[kind]}${many ? ` ${i + 1}` : ""}`
+    const label = kind === "curve" ? CURVES[name] : `${kind === "cycles" ? SAYS.cycles : SAYS.separatrices}${many ? ` ${i + 1}` : ""}`
     const sort = kind === "cycles" ? cycles?.kind[i] : kind === "separatrices" ? part.name : name
     if (sort !== undefined) all.push({name, kind, i, label, ...middleOf(pieces), sort, curve: pieces, colour: part.colour})
   }
