@@ -85,6 +85,7 @@ def row(name: str, eps: float, turns: int) -> tuple[str, list[float]]:
             continue  # steps of length eps
         for fine in (True, False):
             run = scipy(field, start, motion.t_end, eps, method, fine)
+            field(0.0, np.array(start), eps)  # compiles
             theirs[method, fine] = costs(run, exact, 10.0 ** -np.arange(3.0, 13.1, 1.0), turns, longest)
     cells, ratios = [], []
     for asked in ERRORS:
