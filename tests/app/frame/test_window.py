@@ -104,3 +104,16 @@ def test_an_orbit_that_is_seen_from_near_lies_where_it_does_from_far():
     orbits = frames.scene["inside"].points
     assert min(np.hypot(*(orbit - point).T).min() for orbit in orbits if len(orbit)) < 1e-6
     assert far["inside"].shape != near["inside"].shape
+
+
+def test_each_piece_is_told_whose_it_is_also_where_a_zoom_cuts_it():
+    values = {"layers": ["lines", "launched", "separatrices"], "orbits": "0.3,0.2;0.1,0.1,-:b;1.3,0.2:slow"}
+    frames = Frames(ExplorerState(trajectories=0, panel="psi", **values))
+    header, _ = unpack(frames.answer({"all": True}))
+    assert (header["owners"]["lines_inside"], header["owners"]["launched_2"]) == (["U1", "U2"], ["O2"])
+    assert (header["launched"]["number"], header["launched"]["called"]) == ([1, 3], ["", "slow"])
+    assert [row[:2] for row in header["separatrices"]][:2] == [["Q₂", "C"], ["Q₄", "C"]]
+    near, blocks = unpack(frames.answer({"id": 1, "rest": True, "window": [-0.9, -0.1, -0.4, 0.4, 0.001]}))
+    assert set(near["owners"]["lines_inside"]) == {"U1", "U2"}
+    for part, names in near["owners"].items():
+        assert len(names) == len(blocks[f"{part}.n"])
