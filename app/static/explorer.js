@@ -41,7 +41,7 @@ export class Explorer {
     this.beside = /** @type {any} */ (null) // the second portrait, or in it the first
     this.alone = config.page && !config.look.embed
     this.inside = config.page && config.look.embed && window.parent !== window && window.name === SECOND
-    this.asked = new URLSearchParams(window.location?.search).get("room") // steps write the address anew
+    this.asked = new URLSearchParams(globalThis.location?.search).get("room") // steps write the address anew
     this.slowSymbols = () => config.slowSymbols ?? []
 
     const rest = this.rest = new Rest(root)

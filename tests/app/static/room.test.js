@@ -7,6 +7,7 @@ import {Room} from "../../../app/static/room/room.js"
 import "../../../app/static/panels/atlas.js"
 import {page} from "./page.js"
 import {near, opened} from "./reading.js"
+import {FIRST as HEADER, memory, wired} from "./wiring.js"
 
 const FIRST = {a: -2, b: 0, d: -1, f1: -0.5, f2: 0, system: "normal", texts: {}, parameters: {}, z: 0, z2: 0, z3: 0, z4: 0, k1: 0.5, k2: 0, B1: 1, psi: "constant", n: 2, psi_text: "1"}
 const NAMES = Object.keys(FIRST), FAMILIES = {constant: {}, hill: {parameter: "n"}, custom: {typed: true}}
@@ -148,4 +149,18 @@ test("a page that is loaded again while its server starts asks some times", () =
   const nobody = room("no JSON")
   nobody.room.begin(null)
   assert.deepEqual(nobody.said(), [])
+})
+
+test("the explorer enters the room of its address; an embedded one does not", () => {
+  const at = {location: {search: "?room=bcdf", origin: "http://h", pathname: "/", href: "http://h/", hostname: "h"}, sessionStorage: memory({})}
+  const asked = (one) => one.sent.filter((message) => "room" in message).map(({room: wish}) => wish)
+  const one = wired({}, HEADER, at)
+  assert.deepEqual(asked(one), [{join: "bcdf"}])
+  one.tell({room: {joined: "BCDF"}})
+  assert.match(one.find(".room-bar").textContent, /^You are in room BCDF/)
+  one.tell({room: {rows: [row(1, "CM4", {})]}})
+  assert.equal(one.root.explorer.room.rows.length, 1)
+  const embedded = wired({look: {embed: true, controls: [], seen: []}}, HEADER, at)
+  assert.deepEqual(asked(embedded), [])
+  assert.deepEqual(asked(wired({}, HEADER, {location: {...at.location, search: "?a=1"}, sessionStorage: memory({})})), [])
 })

@@ -130,6 +130,8 @@ export function wired(more = {}, first = FIRST, scope = {}) {
       const {requests} = root.explorer
       heard["msg:custom"]({data: {frame: packed({id: requests.number, load: 0.1, ready: true, errors: {}, ...header}, lines, arrays, exact)}})
     },
+    /** Another message of the server. @param {any} data */
+    tell(data) { heard["msg:custom"]({data}) },
     find: (selector) => root.querySelector(selector),
   }
 }
