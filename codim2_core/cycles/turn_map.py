@@ -43,6 +43,8 @@ def _swept(S, centre, k):
     return math.atan2(ax * by - ay * bx, ax * bx + ay * by)
 
 
+# In one piece: with the stages of a step, the search for the end and the judging of errors as inlined functions of
+# their own, results were the same and took 7 % longer (median of paired runs, process time).
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record):
     """Follow each state until it has gone once round a point.

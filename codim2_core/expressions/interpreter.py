@@ -99,6 +99,8 @@ def specialise(op, left, right, number, numbers):
                 op[i], number[i], right[i] = POWI, exponent, left[i]
 
 
+# In one piece: with the slopes of an operation as a function of their own, results were the same and took 4 to 7 %
+# longer (paired runs, process time).
 @njit(cache=True, nogil=True, error_model="numpy")
 def gradients(op, left, right, number, roots, seed, work, out):
     """Rows and their exact derivatives at one point, by the chain rule forwards.

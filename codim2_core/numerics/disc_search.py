@@ -1,6 +1,6 @@
 """All zeros of U in the disc |e| <= 1, by cutting boxes in four until each is decided; compiled.
 
-A box is dropped when an enclosure of U over it (`intervals`), plain or preconditioned by the inverse Jacobian
+A box is dropped when an enclosure of U over it (`enclosure`), plain or preconditioned by the inverse Jacobian
 at its middle, does not contain 0. A zero found by Newton's method is proven by Krawczyk's test, which also gives a box
 around it in which U is injective: what lies inside that box has no other zero. So the list is complete where no box
 is left over; boxes shrink for ever only at degenerate zeros.
@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit
 
 from ..expressions.interpreter import gradients
-from .intervals import enclose
+from .enclosure import enclose
 
 # A square around the disc, off centre so that zeros on the axes lie inside boxes and not on their borders.
 LEFT, BELOW, SIDE = -1.0137, -1.0211, 2.047
@@ -93,6 +93,47 @@ def _injective_radius(op, left, right, number, roots, c, s, rows, smallest, boxe
     return 0.0
 
 
+@njit(inline="always")
+def _cover(now):
+    """Write the middles of the boxes with which the search starts; their number and half-width."""
+    half = 0.5 * SIDE / START
+    count = 0
+    for i in range(START):
+        for j in range(START):
+            now[count, 0], now[count, 1] = LEFT + (2 * i + 1) * half, BELOW + (2 * j + 1) * half
+            count += 1
+    return count, half
+
+
+@njit(inline="always")
+def _quarter(rest, kept, half, now):
+    """Write the middles of the quarters, of this half-width, of the boxes that stay undecided; their number."""
+    count = 0
+    for k in range(kept):
+        for i in (-1.0, 1.0):
+            for j in (-1.0, 1.0):
+                now[count, 0], now[count, 1] = rest[k, 0] + i * half, rest[k, 1] + j * half
+                count += 1
+    return count
+
+
+@njit(inline="always")
+def _is_outside(c, s, half):
+    """Whether a box lies outside the disc."""
+    gap_c, gap_s = max(abs(c) - half, 0.0), max(abs(s) - half, 0.0)
+    return gap_c * gap_c + gap_s * gap_s > 1.0 + 1e-12
+
+
+@njit(inline="always")
+def _is_known(found, zeros, c, s, half):
+    """Whether all of a box lies where a zero that is found is the only one."""
+    known = False
+    for i in range(zeros):
+        distance = max(abs(found[i, 0] - c), abs(found[i, 1] - s))
+        known |= distance + half <= found[i, 2]
+    return known
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
 def search(op, left, right, number, roots, levels, most, budget, found, rest):
     """Find all zeros of U in the closed disc and a little beyond it.
@@ -128,25 +169,13 @@ def search(op, left, right, number, roots, levels, most, budget, found, rest):
     rows = np.empty((2, 3))
     at_zero = np.empty((2, 3))
     now = np.empty((4 * most, 2))
-    half = 0.5 * SIDE / START
-    count = 0
-    for i in range(START):
-        for j in range(START):
-            now[count, 0], now[count, 1] = LEFT + (2 * i + 1) * half, BELOW + (2 * j + 1) * half
-            count += 1
+    count, half = _cover(now)
     zeros, evaluated = 0, 0
     for level in range(levels):
         kept = 0
         for k in range(count):
             c, s = now[k, 0], now[k, 1]
-            gap_c, gap_s = max(abs(c) - half, 0.0), max(abs(s) - half, 0.0)
-            if gap_c * gap_c + gap_s * gap_s > 1.0 + 1e-12:
-                continue
-            known = False
-            for i in range(zeros):
-                distance = max(abs(found[i, 0] - c), abs(found[i, 1] - s))
-                known |= distance + half <= found[i, 2]
-            if known:
+            if _is_outside(c, s, half) or _is_known(found, zeros, c, s, half):
                 continue
             evaluated += 1
             wide = half * (1.0 + 1e-12)
@@ -174,10 +203,5 @@ def search(op, left, right, number, roots, levels, most, budget, found, rest):
         if kept == 0 or level == levels - 1:
             return zeros, kept, half, True
         half *= 0.5
-        count = 0
-        for k in range(kept):
-            for i in (-1.0, 1.0):
-                for j in (-1.0, 1.0):
-                    now[count, 0], now[count, 1] = rest[k, 0] + i * half, rest[k, 1] + j * half
-                    count += 1
+        count = _quarter(rest, kept, half, now)
     return zeros, 0, half, True

@@ -42,6 +42,7 @@ from .layout import (
 ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}  # NaN and infinity keep their meaning
 
 
+# `advance` and `interpolate` stand in one piece each: see `lanes.integrate`.
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def advance(S, P, field):
     """One trial step of every lane: from STATE, K0 and STEP to NEW and the two error estimates."""

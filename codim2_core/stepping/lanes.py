@@ -164,6 +164,8 @@ def _go_on(S, times, accepted):
             S[K0 + m] = S[K12 + m] if good else S[K0 + m]
 
 
+# In one piece: with the stages of a step, the drawing of a line and its end as inlined functions of their own, results
+# were the same and took 6 to 11 % longer (medians of paired runs, process time).
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, view, distance, longest):
     """Integrate every row of `states`; scaled so that |U| is about 1.
