@@ -15,7 +15,7 @@ from bokeh.server.views.static_handler import StaticHandler
 from tornado.web import HTTPError, RequestHandler, StaticFileHandler
 
 from ..draw.bundle import bundle
-from ..view.markup import STATIC, script
+from ..view.markup import STATIC, digest, script
 
 YEAR = 365 * 86400  # seconds
 LONGEST = 2000  # bytes; beyond it phones no longer read the code from a beamer
@@ -46,12 +46,12 @@ def _takes_packed(handler: RequestHandler) -> bool:
 
 
 class Script(RequestHandler):
-    """Answers with one of the explorer's own scripts; whoever asks for a version (``?v=``) may keep it."""
+    """Answers with one of the explorer's own scripts; whoever asks for this version (``?v=``) may keep it."""
 
     def get(self, name: str) -> None:
-        """Send the script; without a version a browser asks each time whether it is still the same."""
+        """Send the script, to be kept by who asks for this version of it; else a browser asks each time."""
         self.set_header("Content-Type", "text/javascript; charset=utf-8")
-        kept = f"public, max-age={YEAR}, immutable" if self.get_query_argument("v", "") else "no-cache"
+        kept = f"public, max-age={YEAR}, immutable" if self.get_query_argument("v", "") == digest() else "no-cache"
         self.set_header("Cache-Control", kept)
         if _takes_packed(self):
             self.set_header("Content-Encoding", "gzip")

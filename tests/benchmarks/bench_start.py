@@ -1,8 +1,10 @@
 """From the start of `codim2 serve` to its first trajectories: on a fresh install, where nothing is compiled, and again.
 
 ``python -m tests.benchmarks start [--quick]``. The clock starts with the process. The trajectories are those of the
-first frame of a page: sketched until the kernels are compiled. With --quick only one of each start; else also two
-processes that begin with the same empty folder: what they keep in it together, and how many kernels each compiled.
+first frame of a page: sketched until the kernels are compiled. Beside them a server of Panel's alone, with one empty
+figure: what no server can do without that imports it. Seconds of its processor are told too, as others may have it
+meanwhile. With --quick only one of each start; else also two processes that begin with the same empty folder: what they
+keep in it together, and how many kernels each compiled.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ from urllib.request import urlopen
 
 from codim2_app.draw.packing import unpack
 
-from .app_load import free_port
+from .app_load import cpu, free_port
 from .bokeh_wire import Wire
 
 LONGEST = 300.0  # seconds
@@ -32,15 +34,15 @@ LINES = ("inside", "outside")
 
 
 @contextmanager
-def started(cache: str, *options: str) -> Iterator[tuple[int, float]]:
-    """Start a server; yields its port, and when it was started."""
+def started(cache: str, *module: str) -> Iterator[tuple[int, float, int]]:
+    """Start a server; yields its port, when it was started, and its process."""
     port = free_port()
     environment = {**os.environ, "NUMBA_CACHE_DIR": cache}
-    command = [sys.executable, "-m", "codim2_app.server.cli", "serve", "--port", str(port), *options]
+    command = [sys.executable, "-m", *module, str(port)]
     begun = time.perf_counter()
     process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
-        yield port, begun
+        yield port, begun, process.pid
     finally:
         process.terminate()
         process.wait(20)
@@ -77,12 +79,18 @@ async def first_trajectories(port: int, begun: float) -> float:
 
 def start(cache: str) -> dict[str, float]:
     """Return the seconds of one start until each of what a visitor waits for."""
-    with started(cache) as (port, begun):
-        page = answers(port, "", begun)
+    with started(cache, "codim2_app.server.cli", "serve", "--port") as (port, begun, pid):
+        page, worked = answers(port, "", begun), cpu(pid)
         drawn = asyncio.run(first_trajectories(port, begun))
         ready = answers(port, "ready", begun)
         whole = compiled(port, begun)
-    return {"page": page, "drawn": drawn, "ready": ready, "whole": whole}
+    return {"page": page, "worked": worked, "drawn": drawn, "ready": ready, "whole": whole}
+
+
+def alone(cache: str) -> dict[str, float]:
+    """Return the seconds of one start of Panel alone."""
+    with started(cache, "tests.benchmarks.app_servers", "panel") as (port, begun, pid):
+        return {"page": answers(port, "", begun), "worked": cpu(pid)}
 
 
 def compiled(port: int, begun: float) -> float:
@@ -109,17 +117,19 @@ def together() -> str:
 
 def report(quick: bool = False) -> str:
     """Return the tables as Markdown."""
-    rows: dict[str, list[dict[str, Any]]] = {"first": [], "second": []}
+    kinds = {"first": start, "second": start, "Panel alone": alone}
+    rows: dict[str, list[dict[str, Any]]] = {name: [] for name in kinds}
     for _ in range(1 if quick else 3):
         with tempfile.TemporaryDirectory() as cache:
-            for name in rows:
-                rows[name].append(start(cache))
+            for name, begin in kinds.items():
+                rows[name].append(begin(cache))
     lines = [
-        "| start | page, s | first trajectories, s | first scene, s | all compiled, s |",
-        "|---|---|---|---|---|",
+        "| start | page, s | of it at work | first trajectories, s | first scene, s | all compiled, s |",
+        "|---|---|---|---|---|---|",
     ]
     for name, found in rows.items():
-        cells = [f"{median(row[key] for row in found):.1f}" for key in ("page", "drawn", "ready", "whole")]
+        keys = ("page", "worked", "drawn", "ready", "whole")
+        cells = [f"{median(row[key] for row in found):.1f}" if key in found[0] else "" for key in keys]
         lines.append(f"| {name} | {' | '.join(cells)} |")
     return "\n".join(lines if quick else [*lines, "", together()])
 

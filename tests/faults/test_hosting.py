@@ -2,24 +2,30 @@
 
 import asyncio
 import os
+import re
 import shutil
 import subprocess
+import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
+import yaml
 from codim2_app.draw.packing import unpack
+from codim2_app.server.settings import SETTINGS
 
 from tests.app.serving import serving
 from tests.benchmarks.app_load import free_port
 from tests.benchmarks.bokeh_wire import Wire
 
-CONFIGURATION = Path(__file__).parents[2] / "app" / "docs" / "text" / "hosting" / "nginx.conf"
+ROOT = Path(__file__).parents[2]
+CONFIGURATION = ROOT / "app" / "docs" / "text" / "hosting" / "nginx.conf"
+COMPOSE = CONFIGURATION.with_name("compose.yaml")
 NGINX = os.environ.get("CODIM2_NGINX") or shutil.which("nginx")
 
-pytestmark = pytest.mark.skipif(NGINX is None, reason="there is no nginx: install Debian's, or set CODIM2_NGINX")
+needs_nginx = pytest.mark.skipif(NGINX is None, reason="there is no nginx: install Debian's, or set CODIM2_NGINX")
 
 
 @contextmanager
@@ -48,19 +54,58 @@ async def frame(port):
     return header["slow_flow"]
 
 
-def test_two_replicas_behind_nginx(tmp_path):
-    port = free_port()
-    origin = ("--allow-origin", f"localhost:{port}", "--address", "127.0.0.1")
-    with serving(*origin) as one, serving(*origin) as two, ThreadPoolExecutor(1) as pool:
-        replicas = [address.rsplit(":", 1)[1] for address in (one, two)]
-        with proxy(tmp_path, port, replicas):
+def answers(port):
+    for _ in range(100):
+        try:
+            return urlopen(f"http://localhost:{port}/health").status == 200
+        except OSError:
+            time.sleep(0.1)
+    return False
+
+
+def environments():
+    """What the compose file sets for each replica."""
+    services = yaml.safe_load(COMPOSE.read_text())["services"]
+    return [service["environment"] for service in services.values() if "environment" in service]
+
+
+def test_the_compose_file_builds_this_and_sets_what_there_is():
+    services = yaml.safe_load(COMPOSE.read_text())["services"]
+    contexts = {service["build"]["context"] for service in services.values() if "build" in service}
+    assert {(COMPOSE.parent / context / "Dockerfile").resolve() for context in contexts} == {ROOT / "Dockerfile"}
+    (volume,) = services["proxy"]["volumes"]
+    assert (COMPOSE.parent / volume.split(":")[0]).resolve() == CONFIGURATION
+    assert f"-f {COMPOSE.relative_to(ROOT)} up" in COMPOSE.read_text()
+    known = {setting.env for setting in SETTINGS}
+    port = re.search(r"listen (\d+);", CONFIGURATION.read_text())[1]
+    for each in environments():
+        assert each.keys() <= known
+        assert f"server {each['CODIM2_ADDRESS']}:{each['CODIM2_PORT']} " in CONFIGURATION.read_text()
+        assert each["CODIM2_ORIGINS"] == f"localhost:{port}"
+
+
+@needs_nginx
+def test_a_rolling_restart_of_two_replicas_behind_nginx_loses_no_state(tmp_path):
+    """Each is ended and started again in its turn; an address opens as it was at any time."""
+    port, ports = free_port(), [str(free_port()) for _ in range(2)]
+    given = [{**os.environ, **{name: str(value) for name, value in each.items()}} for each in environments()]
+
+    def start(i):
+        own = {**given[i], "CODIM2_ORIGINS": f"localhost:{port}"}
+        return serving("--port", ports[i], environment=own)
+
+    with ThreadPoolExecutor(1) as pool, ExitStack() as one, ExitStack() as two:
+        running = (one, two)
+        for i in range(2):
+            running[i].enter_context(start(i))
+        with proxy(tmp_path, port, ports):
             talk = lambda: pool.submit(asyncio.run, frame(port)).result()  # noqa: E731
-            for _ in range(100):
-                try:
-                    urlopen(f"http://localhost:{port}/health")
-                    break
-                except OSError:
-                    asyncio.run(asyncio.sleep(0.1))
+            assert answers(port)
             page = urlopen(f"http://localhost:{port}/").read().decode()
             assert 'role="alert" style' not in page  # the name is allowed
+            assert talk() == [0.0]
+            for i in range(2):
+                running[i].close()
+                assert talk() == [0.0]
+                running[i].enter_context(start(i))
             assert talk() == [0.0]

@@ -16,7 +16,7 @@ from codim2_app.server import first_page
 from codim2_app.server import scripts as scripts_module
 from codim2_app.server.first_page import MARKUP, TOKEN, skeleton_of
 from codim2_app.server.headers import embedders, policy
-from codim2_app.view.markup import script
+from codim2_app.view.markup import digest, script
 
 from tests.app.serving import serving
 from tests.benchmarks.bokeh_wire import Wire
@@ -253,3 +253,9 @@ def test_below_a_prefix_page_scripts_and_websocket_are_there():
 
         with ThreadPoolExecutor(1) as pool:
             assert pool.submit(asyncio.run, talk()).result()["id"] == 1
+
+
+def test_only_who_asks_for_this_version_of_a_script_may_keep_it(address):
+    kept = [opened(f"{address}/explorer.js?v={v}")[1]["Cache-Control"] for v in (digest(), "0" * 16)]
+    assert "immutable" in kept[0]
+    assert kept[1] == "no-cache"
