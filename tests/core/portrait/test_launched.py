@@ -197,6 +197,7 @@ def test_beside_the_ray_of_a_saddle_it_takes_the_time_of_the_ray(beside, backwar
 
 @settings(max_examples=40)
 @given(st.floats(-3, -0.5), st.floats(-3, -0.5), st.floats(-2, 2), st.floats(-2, 2), st.integers(1, 16))
+@example(-1.9375, -2.625, -1.40625, 1.75, 1)  # ends at a node with lambda_rho = -0.009
 @example(-0.515625, -3.0, 1.0, 0.0, 16)  # beside the ray one rounding decides whether it comes to Sigma at all
 def test_the_time_beside_any_saddle_is_that_of_another_solver(a, d, f1, f2, digits):
     system = c2.ELinear(a, 0.4, d, (f1, f2))
@@ -212,9 +213,14 @@ def test_the_time_beside_any_saddle_is_that_of_another_solver(a, d, f1, f2, digi
         radial, turning = outside_flow(system.at(), y[1])
         return [radial, turning, math.exp(y[0])]
 
+    def arrived(_, y):  # what is left then is rho/lambda_rho, some 1e-13/lambda_rho
+        return y[0] + 30.0
+
+    arrived.terminal = True
+
     def time_from(angle):
         start = [math.log(math.hypot(*seed) - 1.0), angle, 0.0]
-        return solve_ivp(rate, (0.0, 400.0), start, method="LSODA", rtol=1e-10, atol=1e-12).y[2, -1]
+        return solve_ivp(rate, (0.0, 1e7), start, method="LSODA", rtol=1e-10, atol=1e-12, events=arrived).y[2, -1]
 
     # the angle of a seed is known to the rounding of its coordinates: about 2^-53 of it
     roundings = [0.0] if digits < 15 else [0.0, -1e-15, 1e-15]
