@@ -13,7 +13,7 @@ import pytest
 import codim2_core
 
 ROOT = Path(__file__).parents[2]
-PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 OWN = {"codim2_core", "codim2_app", "tests"}
 # Run as programs, or needed by a library that is imported.
 COMMANDS = {
@@ -45,7 +45,7 @@ def imported(folder):
     for path in (ROOT / folder).rglob("*.py"):
         if "node_modules" in path.parts:
             continue
-        for node in statements(ast.parse(path.read_text())):
+        for node in statements(ast.parse(path.read_text("utf-8"))):
             if isinstance(node, ast.Import):
                 names = [alias.name for alias in node.names]
             elif isinstance(node, ast.ImportFrom) and not node.level:
@@ -94,7 +94,7 @@ def test_the_version_stands_in_one_place():
     import codim2_app
 
     assert codim2_app.__version__ == codim2_core.__version__
-    log = (ROOT / "app" / "docs" / "text" / "changelog.md").read_text()
+    log = (ROOT / "app" / "docs" / "text" / "changelog.md").read_text("utf-8")
     assert f"\n## {codim2_core.__version__}" in log
 
 
