@@ -21,6 +21,10 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+#: Of rtol, asked of the steps of a slip: explicit ones use up what is allowed, implicit ones leave most of it. So a slip
+#: is as accurate as the same one in Python, for a tenth more steps.
+OF_SLIPS = 0.5
+
 
 @dataclass
 class CompiledPhases:
@@ -59,7 +63,7 @@ class CompiledPhases:
         from .compiled import Compiled  # loads the compiler
 
         own = (self.problem, self.field, constant(), 0.0, self.line)
-        motion = Compiled(*own, t, t_end, state, self.rtol, self.floor, h, most, farthest)
+        motion = Compiled(*own, t, t_end, state, OF_SLIPS * self.rtol, self.floor, h, most, farthest)
         self._begun.append(motion)
         for part in motion.chunks():
             yield from part

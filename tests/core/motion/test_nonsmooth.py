@@ -14,6 +14,7 @@ from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.sheet import Sheet
+from codim2_core.motion import nonsmooth
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.result import SimulationStatus
 from codim2_core.motion.slip import leave
@@ -130,7 +131,9 @@ def test_arrival_time_where_the_direction_turns():
     assert not run.states[-1].any()
 
 
-def test_arrival_by_a_spiral():
+@pytest.mark.parametrize("in_python", [True, False])
+def test_arrival_by_a_spiral(monkeypatch, in_python):
+    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: in_python)
     # f = 0, a = d: rho' = a, theta' = b/rho.
     run = simulate_nonsmooth(ELinear(-0.3, 1.0, -0.3), (0.6, 0.8), (0.0, 5.0))
     assert run.phases[0].t_end == pytest.approx(1.0 / 0.3, abs=1e-10)
