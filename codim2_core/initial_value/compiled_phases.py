@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Of rtol, asked of the steps of a slip: explicit ones use up what is allowed, implicit ones leave most of it. So a slip
-#: is as accurate as the same one in Python, for a tenth more steps.
+#: Of rtol, asked of the steps of a slip: explicit ones use up what is allowed, implicit ones leave most of it. So a
+#: slip is as accurate as the same one in Python, for a tenth more steps.
 OF_SLIPS = 0.5
 
 
