@@ -55,7 +55,7 @@ export const SAYS = {
   roomEmpty: "Each phone that enters is a dot on the chart.",
   roomLocal: "This page is open at localhost, which phones do not reach: open it at this machine’s own address (codim2 serve --address 0.0.0.0 --allow-origin ADDRESS:PORT).",
   drag: "Drag a slider: the picture follows at once.",
-  click: "Click or tap anywhere: the orbit through that point. On Q or C: its numbers and eigenvectors.",
+  click: "Click or tap: the orbit through that point. On Q, C or a curve: its name and numbers.",
   read: "Read here what the picture shows, and open a panel for more.",
   next: "Next",
   close: "Close",
