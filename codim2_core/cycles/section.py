@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -14,13 +15,14 @@ from ..layer_problem.critical import CriticalSet
 from ..layer_problem.location import Location, locate
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
+from .equator_pull import LEAST, LOST, SUNK, EquatorPull, equator_pull
 
 Array = NDArray[np.float64]
 SAMPLES = 64
 INNER, OUTER = 1e-4, 1e5  # of the reach R, and in zeta: how near C and the equator the section is sampled
 COARSE, FINE = 1e-9, 1e-13  # tolerances
 STEPS, LONGEST = 2000, 1e6  # steps tried, and T in units of 1/|(a, b, d, f1, f2)|
-SUNK_INWARD, SUNK_OUTWARD = 1e-3, 1e-9  # of the innermost sample, of the first ebar: gone, within one turn
+SUNK_INWARD = 1e-3  # of the innermost sample: gone, within one turn
 
 
 @dataclass(frozen=True)
@@ -77,6 +79,7 @@ class AnySection(Protocol):
         The unit of speed in which `field` and `derivative` are given.
     kernel : (module, function)
         The compiled return, and what keeps its field alive, with its address.
+    pull : EquatorPull
     """
 
     psi: Psi
@@ -84,6 +87,9 @@ class AnySection(Protocol):
 
     @property
     def kernel(self) -> Any: ...  # noqa: D102
+
+    @property
+    def pull(self) -> Any: ...  # noqa: D102
 
     def shared(self, backward: bool) -> Array:
         """Parameters of the compiled field."""
@@ -120,6 +126,22 @@ class AnySection(Protocol):
         ...
 
 
+def followed(
+    section: AnySection, follow: Callable[..., Any], states: Array, backward: bool, recorded: bool
+) -> tuple[Array, Array, Any, Any]:
+    """Follow one turn; those that the equator may not draw in are followed on, however close they come to it."""
+    lost = min(SUNK, max(LOST, LEAST / float(states[:, 2].min(initial=1.0))))
+    if recorded:
+        return follow(states, lost)
+    ends, times, codes, record = follow(states, SUNK)
+    close = np.flatnonzero(codes == section.kernel[0].OUTWARD)
+    if len(close):
+        again = close[section.pull.may_return(ends[close], section.field, backward)]
+        if len(again):
+            ends[again], times[again], codes[again], _ = follow(states[again], lost)
+    return ends, times, codes, record
+
+
 class Section:
     """The section of one system, and its return map (forward, or backward in time).
 
@@ -149,6 +171,7 @@ class Section:
         self.rate = size * math.hypot(*(plane / size).tolist())
         self.plane = plane / self.rate
         location = locate(coefficients) if location is None else location
+        self.location = location
         if location.e is None:
             raise ValueError("there is no critical set, so no section starts from it.")
         found = rays(coefficients.a, coefficients.d, location.e, location.complement)
@@ -156,6 +179,11 @@ class Section:
         self.reach, self.other, u = found[self.ray]
         self.u = np.array(u)
         self.e = np.array(location.e)
+
+    @cached_property
+    def pull(self) -> EquatorPull:
+        """What becomes of orbits that pass close to the equator."""
+        return equator_pull(self.coefficients, self.location)
 
     @property
     def matrix(self) -> Array:
@@ -220,21 +248,26 @@ class Section:
         module, function = self.kernel
         away = states[:, :2] / states[:, 2:] - self.critical.x2
         nearest = min(self.inner, float(np.hypot(away[:, 0], away[:, 1]).min()))
-        return module.returns(
-            states,
-            self.shared(backward),
-            function.address,
-            self.u,
-            self.critical.x2,
-            -self.plane[1] if backward else self.plane[1],
-            SUNK_INWARD * nearest,
-            SUNK_OUTWARD,
-            LONGEST,
-            rtol,
-            limit,
-            record,
-            elsewhere,
-        )
+        sense = -self.plane[1] if backward else self.plane[1]
+
+        def follow(states: Array, sunk: float) -> tuple[Array, Array, Any, Any]:
+            return module.returns(
+                states,
+                self.shared(backward),
+                function.address,
+                self.u,
+                self.critical.x2,
+                sense,
+                SUNK_INWARD * nearest,
+                sunk,
+                LONGEST,
+                rtol,
+                limit,
+                record,
+                elsewhere,
+            )
+
+        return followed(self, follow, states, backward, record > 0)
 
     def shared(self, backward: bool) -> Array:
         """Parameters of the compiled field."""

@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 from ..layer_problem.critical import CriticalSet
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
-from .section import COARSE
+from .equator_pull import EquatorPull, equator_pull
+from .section import COARSE, followed
 
 Array = NDArray[np.float64]
 INNER, OUTER, SPACING = 1e-4, 1e-5, 0.2  # of the reach; ebar of the last sample; of samples in ln(r/(reach - r))
 STEPS, LONGEST = 2000, 1e6  # steps tried, and T in units of 1/max |U|
-SUNK_INWARD, SUNK_OUTWARD = 1e-3, 1e-9  # of the innermost sample, of the first ebar: gone
+SUNK_INWARD = 1e-3  # of the innermost sample: gone
 AT_REST = 1e-4  # distance from a critical set, or ebar, at which an orbit that never turned has settled
 NOISE = 10.0  # times the tolerance: error in p of a turn
 DIRECTIONS = 16
@@ -65,6 +66,11 @@ class TurnSection:
 
         return turn_map, problem.problem(self.at, self.psi)
 
+    @cached_property
+    def pull(self) -> EquatorPull:
+        """What becomes of orbits that pass close to the equator."""
+        return equator_pull(self.at, None)
+
     def shared(self, backward: bool) -> Array:
         """Parameters of the compiled field that `kernel` keeps alive."""
         _, kept = self.kernel
@@ -94,18 +100,22 @@ class TurnSection:
     ) -> tuple[Array, Array, Any, Any]:
         """Follow one turn: ends (n, 3), times, codes and recorded steps of `turn_map.turns`."""
         module, function = self.kernel
-        return module.turns(
-            states,
-            self.shared(backward),
-            function.address,
-            np.array(self.critical.p),
-            SUNK_INWARD * INNER * self.reach,
-            SUNK_OUTWARD,
-            LONGEST,
-            rtol,
-            limit,
-            record,
-        )
+
+        def follow(states: Array, sunk: float) -> tuple[Array, Array, Any, Any]:
+            return module.turns(
+                states,
+                self.shared(backward),
+                function.address,
+                np.array(self.critical.p),
+                SUNK_INWARD * INNER * self.reach,
+                sunk,
+                LONGEST,
+                rtol,
+                limit,
+                record,
+            )
+
+        return followed(self, follow, states, backward, record > 0)
 
     def displacement(self, xi: Array, rtol: float = COARSE, backward: bool = False) -> Array:
         """Displacement of q over a turn (n,): -inf to the critical set, +inf elsewhere, NaN undecided."""

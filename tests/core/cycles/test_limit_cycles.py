@@ -15,6 +15,7 @@ from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibri
 from codim2_core.cycles import limit_cycles as module
 from codim2_core.cycles.limit_cycles import LimitCycles, limit_cycles, reason_for_none
 from codim2_core.cycles.section import COARSE, FINE, Section
+from codim2_core.layer_problem.hemisphere import e_psi
 
 CASE_III = ELinear(172, 186, -200, (-86, -93), B=[[1.0, -2.0], [0.5, 3.0]], g=[0.25, -1.0])
 HOPF = 284 / 129
@@ -242,6 +243,37 @@ def case_III(draw):
     f = -np.array([[a, -b], [b, d]]) @ e
     n = draw(st.sampled_from([0, 1, 2, 3, 4, 6, 10]))
     return ELinear(a, b, d, (float(f[0]), float(f[1]))), psi.hill(n) if n else psi.tanh(), e
+
+
+@pytest.mark.parametrize(
+    ("system", "lowest"),
+    [
+        (ELinear(-0.85546875, 1.0100829276286984, 0.55078125, (-0.922539607009262, 0.9247749793209779)), -23.4252),
+        (ELinear(-0.8515625, 1.011341516959763, 0.5546875, (-0.9334535569832111, 0.9306731018691708)), -32.9978),
+    ],
+)
+def test_a_cycle_that_passes_close_to_an_equator_on_which_nothing_attracts(system, lowest):
+    """C and the equator repel, so there is one; LSODA on (theta, ln ebar) closes it."""
+    [cycle] = limit_cycles(system, psi.tanh())
+    [C] = critical_sets(system, psi.tanh())
+    assert cycle.stable
+    assert cycle.mean_e == pytest.approx(C.e, abs=1e-9)  # prop:LC
+    assert cycle.multiplier == pytest.approx(cycle.divergence_multiplier, rel=1e-8)
+
+    def rate(_, state):
+        theta, height = state[0], math.exp(state[1])
+        n, r = np.array([math.cos(theta), math.sin(theta)]), math.sqrt((1.0 - height) * (1.0 + height))
+        U = system.at().U(e_psi(psi.tanh(), r * n))
+        return [(n[0] * U[1] - n[1] * U[0]) / r, -r * (n @ U)]
+
+    x, y = cycle.points[0]
+    start = [math.atan2(y, x), 0.5 * math.log1p(-x * x - y * y)]
+    run = solve_ivp(rate, (0.0, cycle.period_T), start, method="DOP853", rtol=1e-13, atol=1e-14)
+    assert math.remainder(run.y[0, -1] - start[0], 2.0 * math.pi) == pytest.approx(0.0, abs=1e-7)
+    assert run.y[1, -1] == pytest.approx(start[1], abs=1e-7)
+    assert run.y[1].min() == pytest.approx(lowest, abs=0.1)
+    backward = ELinear(-system.a, -system.b, -system.d, (-system.f[0], -system.f[1]))
+    assert [one.stable for one in limit_cycles(backward, psi.tanh())] == [False]
 
 
 @settings(max_examples=50)  # many more: tests/stress
