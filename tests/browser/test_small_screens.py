@@ -97,6 +97,7 @@ def test_a_slider_turns_sideways_only(touched):
     swipe(touched, (x, y), (x + 4, y - 120))
     assert slider.input_value() == before
     assert touched.find("[data-control=b] .number").input_value() == before
+    slider.scroll_into_view_if_needed()  # waits until the swipe no longer scrolls
     box = slider.bounding_box()
     middle, y = box["x"] + 0.5 * box["width"], box["y"] + box["height"] / 2
     swipe(touched, (middle, y), (middle + 0.3 * box["width"], y + 3))
