@@ -292,7 +292,8 @@ class ExplorerView(JSComponent):
             self._reply(model, frame)
         else:
             self.frames.keep()
-            self._hold(model, pending, {key: request.get(key) for key in ("id", "rest", "window")})
+            rest = request.get("rest", False) or request.get("all", False)  # who asks for all is at rest
+            self._hold(model, pending, {"id": request.get("id"), "rest": rest, "window": request.get("window")})
         self.frames.publish()
 
     def _take(self, model: Any, request: Any) -> None:
