@@ -61,10 +61,13 @@ def mutants(name: str) -> list[Mutant]:
 
 @cache
 def reached(path: Path) -> frozenset[Path]:
-    """All modules that a module imports, itself included."""
-    found = {path}
-    for target in IMPORTED.findall(path.read_text()):
-        found |= reached((path.parent / target).resolve())
+    """All modules that a module imports, itself included; a type may be imported in a circle."""
+    found, new = {path}, [path]
+    while new:
+        one = new.pop()
+        targets = {(one.parent / target).resolve() for target in IMPORTED.findall(one.read_text())}
+        new += targets - found
+        found |= targets
     return frozenset(found)
 
 
