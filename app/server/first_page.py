@@ -32,7 +32,10 @@ UNUSED = re.compile(r'<script[^>]* src="[^"]*/bokeh-gl\.min\.js[^"]*"></script>'
 #: Where a page gets its session from, written by Bokeh.
 ITEMS = re.compile(r"const render_items = (\[.*?\]);")
 REMEMBERED = 64  # addresses
-BUSY = "<!DOCTYPE html><meta charset=utf-8><title>Busy</title><p>All places are taken just now. The page tries again in {0} seconds.<meta http-equiv=refresh content={0}>"  # noqa: E501
+BUSY = (
+    "<!DOCTYPE html><meta charset=utf-8><title>Busy</title>"
+    "<p>All places are taken just now. The page tries again in {0} seconds.<meta http-equiv=refresh content={0}>"
+)
 RETRY = 20  # seconds
 
 _pages: OrderedDict[tuple[tuple[str, str], ...], str] = OrderedDict()

@@ -130,7 +130,7 @@ def followed(
     section: AnySection, follow: Callable[..., Any], states: Array, backward: bool, recorded: bool
 ) -> tuple[Array, Array, Any, Any]:
     """Follow one turn; those that the equator may not draw in are followed on, however close they come to it."""
-    lost = min(SUNK, max(LOST, LEAST / float(states[:, 2].min(initial=1.0))))
+    lost = min(SUNK, max(LOST, LEAST / max(LEAST, float(states[:, 2].min(initial=1.0)))))
     if recorded:
         return follow(states, lost)
     ends, times, codes, record = follow(states, SUNK)
