@@ -74,7 +74,7 @@ def reached(path: Path) -> frozenset[Path]:
 def tests_of(name: str) -> list[Path]:
     """The tests that import a module."""
     path = (STATIC.parent / name).resolve()
-    return [test for test in sorted(TESTS.glob("*.test.js")) if path in reached(test)]
+    return [test for test in sorted((*TESTS.glob("*.test.js"), *TESTS.glob("*/*.test.js"))) if path in reached(test)]
 
 
 def passes(test: str, folder: Path, only: str = "") -> bool:

@@ -133,7 +133,7 @@ def test_a_range_that_is_none_is_told(given):
     ],
 )  # fmt: skip
 def test_a_range_widens_to_hold_the_value_as_it_does_in_the_browser(low, high, value, held):
-    """The browser's rule is `rangeFor` of ranges.js, with the same rows in geometry.test.js."""
+    """The browser's rule is `rangeFor` of ranges.js, with the same rows in controls/ranges.test.js."""
     least, greatest, step = slider_range(low, high, value)
     assert (least, greatest) == pytest.approx(held)
     assert least <= value <= greatest

@@ -3,7 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 import {gzipSync} from "node:zlib"
 
-import {page} from "./page.js"
+import {page} from "./played/page.js"
 
 const global = /** @type {any} */ (globalThis)
 const real = {setTimeout: global.setTimeout, now: Date.now}

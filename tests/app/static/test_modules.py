@@ -31,15 +31,15 @@ def ended(command, folder, seconds):
 
 
 def in_a_document(path):
-    """Whether a module, or one beside it that it imports, needs a document to draw in."""
+    """Whether a test, or one of what it is played with, needs a document to draw in."""
     text = path.read_text()
-    beside = re.findall(r'from "\./([^"]+)"', text)
-    return '"linkedom"' in text or any(in_a_document(HERE / name) for name in beside)
+    played = ((path.parent / name).resolve() for name in re.findall(r'from "(\.[^"]+)"', text))
+    return '"linkedom"' in text or any(in_a_document(one) for one in played if one.is_relative_to(HERE))
 
 
 def test_node_tests(node):
     """Those of what is drawn in a document need `npm --prefix tests/app/static ci`, which the linters run in CI."""
-    files = sorted(path.name for path in HERE.glob("*.test.js"))
+    files = sorted(path.relative_to(HERE).as_posix() for path in (*HERE.glob("*.test.js"), *HERE.glob("*/*.test.js")))
     if not os.environ.get("CI") and not (HERE / "node_modules" / "linkedom").is_dir():
         files = [name for name in files if not in_a_document(HERE / name)]
     code, output = ended([node, "--test", "--test-reporter=tap", *files], HERE, LONGEST)
@@ -70,3 +70,8 @@ def test_every_module_is_reached():
             continue
         first = next(line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("// "))
         assert joined.count(first + "\n") == 1, path.name
+
+
+def test_tests_live_in_the_rooms_of_what_they_test():
+    rooms = {path.name for path in STATIC.iterdir() if path.is_dir()}
+    assert {path.parent.name for path in HERE.glob("*/*.test.js")} == rooms

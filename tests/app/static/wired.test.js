@@ -1,9 +1,9 @@
-// What an explorer does, one deed at a time: see wiring.js for the page, the plot and the server that are played.
+// What an explorer does, one deed at a time: see played/wiring.js for the page, the plot and the server that are played.
 import assert from "node:assert/strict"
 import test from "node:test"
 
 import {register} from "../../../app/static/beside/panels.js"
-import {asked, busy, click, CONFIG, FIRST, memory, OWN, pull, query, setBox, settled, shows, SYSTEM, type, wired} from "./wiring.js"
+import {asked, busy, click, CONFIG, FIRST, memory, OWN, pull, query, setBox, settled, shows, SYSTEM, type, wired} from "./played/wiring.js"
 
 let tools = /** @type {any} */ (null)
 register("numbers", (_box, given) => { tools = given; return {} }) // a panel that lets us do what panels do

@@ -1,0 +1,66 @@
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import {scale, spanOf, ticks, wordedTicks} from "../../../../app/static/chart/scale.js"
+
+test("a scale goes there and back, also upside down", () => {
+  const y = scale([-2, 6], [300, 20])
+  assert.equal(y.at(-2), 300)
+  assert.equal(y.at(6), 20)
+  assert.equal(y.at(0), 230)
+  assert.ok(Math.abs(y.back(y.at(1.2345)) - 1.2345) < 1e-12)
+  assert.ok(y.slope < 0)
+})
+
+test("a scale and its inverse, each end in its place", () => {
+  const {at, back, slope} = scale([2, 6], [100, 40])
+  assert.deepEqual([at(2), at(6), at(3), slope], [100, 40, 85, -15])
+  assert.deepEqual([back(100), back(40), back(85)], [2, 6, 3])
+})
+
+test("ticks are round, within the span, two or more, and not too many", () => {
+  for (const [low, high] of [[-4, 4], [0, 2 * Math.PI], [-0.003, 0.0051], [99.2, 101.7], [-2e7, 3e8], [1e-9, 2e-9], [5, 5.0001]]) {
+    for (const most of [3, 5, 9]) {
+      const {values, step} = ticks([low, high], most)
+      assert.ok(values.length >= 2 && values.length <= Math.max(most, 7), `${low} ${high} ${most}: ${values}`)
+      for (const value of values) assert.ok(value >= low - 1e-9 * step && value <= high + 1e-9 * step)
+      const mantissa = step / 10 ** Math.floor(Math.log10(step) + 1e-9)
+      assert.ok([1, 2, 5].some((v) => Math.abs(v - mantissa) < 1e-9), `${step}`)
+    }
+  }
+  assert.deepEqual(ticks([-4, 4], 5).values, [-4, -2, 0, 2, 4])
+  assert.deepEqual(ticks([1, 1], 5).values, [])
+  assert.deepEqual(ticks([0.05, 0.25], 2), {values: [0.1, 0.2], step: 0.1})
+})
+
+test("ticks are the round values of a span", () => {
+  assert.deepEqual(ticks([-1, 3], 5), {values: [-1, 0, 1, 2, 3], step: 1})
+  assert.deepEqual(ticks([3, 17], 8), {values: [4, 6, 8, 10, 12, 14, 16], step: 2})
+  assert.deepEqual(ticks([1, 1], 5), {values: [], step: 0})
+  assert.deepEqual(ticks([-Infinity, 1], 5), {values: [], step: 0})
+  assert.deepEqual(wordedTicks([0.5, 2], 4), [[0.5, "0.5"], [1, "1.0"], [1.5, "1.5"], [2, "2.0"]])
+  assert.deepEqual(wordedTicks([-2000000, 2000000], 3).map(([, word]) => word), ["−2e6", "0", "2e6"])
+  assert.deepEqual(wordedTicks([-20, 20], 3).map(([, word]) => word), ["−20", "0", "20"])
+})
+
+test("ticks are written with as many decimals as they need, and a real minus", () => {
+  assert.deepEqual(wordedTicks([-0.3, 0.3], 5).map(([, words]) => words), ["−0.2", "0", "0.2"])
+  assert.deepEqual(wordedTicks([-200, 200], 3).map(([, words]) => words), ["−200", "0", "200"])
+  for (const [value, words] of wordedTicks([0.00121, 0.00148], 4)) assert.equal(Number(words), Number(value.toPrecision(6)))
+})
+
+test("a span holds all values, and something more on both sides", () => {
+  assert.deepEqual(spanOf([2, 4], 0.5), [1, 5])
+  assert.deepEqual(spanOf([2, 4], 0, [0]), [0, 4])
+  const [low, high] = spanOf([3, 3])
+  assert.ok(low < 3 && high > 3)
+  assert.ok(spanOf([NaN, Infinity])[0] < spanOf([])[1])
+})
+
+test("a span holds its values and a little more", () => {
+  assert.deepEqual(spanOf([1, 3], 0.5), [0, 4])
+  assert.deepEqual(spanOf([1, 3], 0.5, [7]), [-2, 10])
+  assert.deepEqual(spanOf([NaN]), [-1, 1])
+  assert.deepEqual(spanOf([4], 0.25), [3, 5])
+  assert.deepEqual(spanOf([0, 100]), [-6, 106])
+})

@@ -1,0 +1,144 @@
+// Objects of the picture: which one is under a pointer, what is said and drawn of it, and which it is after a frame.
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import {STEP} from "../../../../app/static/picture/frames.js"
+import {apart, areaAt, curveAt} from "../../../../app/static/hands/curves.js"
+import {eigenWords, factsOf, followed, objectAt, objectsOf, pointedList, styleOf} from "../../../../app/static/hands/objects.js"
+import {CRITICAL, EQUATOR} from "../played/wiring.js"
+
+const square = Int16Array.from([[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5], [0.5, 0.5]].flat().map((v) => Math.round(v / STEP)))
+const line = (...points) => Int16Array.from(points.flat().map((v) => Math.round(v / STEP)))
+const BLOCKS = {"launched_1.n": Uint16Array.of(2), "launched_1.xy": line([0.2, 0.9], [0.3, 0.9]), "cycles.n": Uint16Array.of(5), "cycles.xy": square, "rho_inside.n": Uint16Array.of(2), "rho_inside.xy": Int16Array.from([-8000, 0, 8000, 0])}
+const EIGEN = {
+  equator: [{directions: [[0, 1, -0.3, "equator"], [-1, 0, 1.5, "up"], [1, 0, -1.5, "outside"]], turning: 0, every: false}, {directions: [], turning: 0, every: false}],
+  critical: [{directions: [[1, 0, -1, "disc"], [0, 1, 0, "disc"]], turning: 0, every: false}],
+}
+const HEADER = {equator: EQUATOR, critical: CRITICAL, eigen: EIGEN, owners: {cycles: ["L1"], launched_1: ["O1"]}, cycles: {kind: ["stable"], period: [2], multiplier: [0.5], direction: [-1]}, launched: {x: [0.2], number: [1], called: [""], y: [0.9], goes: ["Tends to C."], comes: [""]}}
+const layer = (name, ...parts) => ({name, parts: parts.map((part) => ({name: part, colour: "cycle"}))})
+const TABLE = [layer("cycles", "cycles"), layer("launched", "launched_1"), layer("equator"), layer("critical")]
+const all = objectsOf(HEADER, BLOCKS, TABLE)
+
+test("objects have the names of the picture, and only those that are shown are there", () => {
+  assert.deepEqual(all.map(({name, kind}) => `${kind} ${name}`), ["launched O1", "critical C", "equator Q1", "equator Q2", "cycles L1"])
+  assert.deepEqual(objectsOf(HEADER, BLOCKS, [layer("equator")]).map(({name}) => name), ["Q1", "Q2"])
+  assert.deepEqual(objectsOf({}, {}, TABLE), [])
+  assert.equal(objectsOf({critical: {...CRITICAL, label: ["C₁₂"]}}, {}, TABLE)[0].name, "C12")
+})
+
+test("the nearest mark within reach is under the pointer, else a limit cycle, else nothing", () => {
+  const under = (x, y, reach = 0.1) => objectAt(all, {x, y}, reach, 0.6 * reach)?.name ?? null
+  assert.equal(under(0.65, 0.85), "Q1")
+  assert.equal(under(0.6, 0.91), null)
+  assert.equal(under(0.2, -0.3), "C")
+  assert.equal(under(0.2, 0.95), "O1") // a launched orbit: taken in hand
+  assert.equal(under(0.55, 0), "L1")
+  assert.equal(under(0.57, 0), null) // a curve is reached from nearer than a mark
+  assert.equal(objectAt(all, {x: 0.53, y: 0.2}, 0.1, 0.06)?.x, square[0] * STEP) // the side x = 1/2
+  assert.equal(under(0.2, -0.4, 1), "C")
+})
+
+test("a curve is told by its layer", () => {
+  const table = [{name: "rho", parts: [{name: "rho_inside"}, {name: "rho_outside"}]}]
+  assert.equal(curveAt(table, BLOCKS, {x: 0.3, y: 0.05}, 0.06)?.name, "rho")
+  assert.equal(curveAt(table, BLOCKS, {x: 0.3, y: 0.07}, 0.06), null)
+  assert.equal(curveAt(table, BLOCKS, {x: 1.1, y: 0}, 0.06), null) // beyond its end
+  assert.equal(curveAt([], BLOCKS, {x: 0, y: 0}, 0.1), null)
+})
+
+test("after a frame it is the nearest of those that behave alike, whatever it is called then", () => {
+  const [, , q1, q2] = all
+  const moved = (x, y, turn, label) => objectsOf({equator: {...EQUATOR, x, y, lambda_theta: turn, label, multiplicity: x.map(() => 1)}}, {}, TABLE)
+  assert.equal(followed(q1, moved([0.55, 0.65], [0.83, 0.76], [2, -1], ["Q₁", "Q₂"]))?.name, "Q2") // the nearer one repels
+  assert.equal(followed(q1, moved([0.55], [0.83], [2], ["Q₁"])), null)
+  assert.equal(followed(q1, moved([-0.6], [-0.8], [-1], ["Q₁"])), null) // on the other side
+  assert.equal(followed(q2, moved([0.65], [0.76], [-1], ["Q₁"])), null)
+  assert.equal(followed({...q1, sort: ""}, moved([0.55], [0.83], [2], ["Q₁"]))?.name, "Q1") // where two meet it may become either
+  const [, c] = all, saddle = objectsOf({critical: {...CRITICAL, kind: ["saddle"]}}, {}, TABLE)
+  assert.equal(followed(c, saddle), null)
+  assert.equal(followed(all[4], all)?.name, "L1")
+  assert.equal(followed(all[4], objectsOf({...HEADER, cycles: {...HEADER.cycles, kind: ["unstable"]}}, BLOCKS, TABLE)), null)
+})
+
+test("an object says its name and numbers, and why it has no eigenvectors", () => {
+  const [launched, c, q1, q2, cycle] = all
+  const facts = factsOf(q1, HEADER)
+  assert.equal(facts.title, "Q₁ node")
+  assert.deepEqual(facts.rows, [["θ", "0.9273 (53.13°)"], ["λ_ρ", "−1.5000"], ["λ_θ", "−0.3000"]])
+  assert.deepEqual(facts.notes, [])
+  assert.deepEqual(factsOf(q2, HEADER).rows.at(-1), ["multiplicity", "2"])
+  assert.deepEqual(factsOf(q2, HEADER).notes, ["The linearisation does not decide: no eigenvectors are drawn."])
+  assert.equal(factsOf(c, HEADER, ["v"]).title, "C stable node")
+  assert.deepEqual(factsOf(c, HEADER, ["v"]).rows.map(([name, value]) => `${name} ${value}`), ["(c, s) (0.200, −0.300)", "(x₂, y₂) (0.210, −0.330)", "tr J −3.000", "det J 2.000", "eigenvalues −1.000, −2.000", "v′ 0.400"])
+  const of = (more) => factsOf(c, {...HEADER, eigen: {...EIGEN, critical: [{directions: [], turning: 0, every: false, ...more}]}}).notes
+  assert.deepEqual(of({turning: 1}), ["Orbits turn anticlockwise.", "A complex pair has no eigenvectors in the plane."])
+  assert.deepEqual(of({turning: -1})[0], "Orbits turn clockwise.")
+  assert.deepEqual(of({every: true}), ["Every direction is an eigenvector."])
+  assert.deepEqual(factsOf(c, {...HEADER, eigen: null}).notes, [])
+  assert.equal(factsOf(c, {...HEADER, critical: {...CRITICAL, slow_flow: [[]]}}).rows.length, 5)
+  assert.deepEqual(factsOf(cycle, HEADER), {title: "Limit cycle, stable", rows: [["period", "2.000"], ["multiplier", "0.500"]], notes: ["Orbits turn clockwise."]})
+  assert.deepEqual(factsOf(launched, HEADER).notes, ["Tends to C."])
+})
+
+test("stable and unstable eigenvectors differ in colour, stroke and arrowheads; half-lines are drawn one way", () => {
+  const looks = [-1, 1, 0].map(styleOf)
+  for (const key of ["colour", "head"]) assert.equal(new Set(looks.map((look) => look[key])).size, 3)
+  assert.equal(new Set(looks.map(({dash}) => dash.join())).size, 3)
+  assert.equal(eigenWords("equator", -0.3), "along the equator: −0.300, comes in")
+  assert.equal(eigenWords("disc", 2), "2.000, leaves")
+  assert.equal(eigenWords("disc", 0), "0, neutral")
+  const theme = {attr: "a", rep: "r", degenerate: "d", page: "p", ink: "i", accent: "x", cycle: "c"}
+  const list = pointedList(all[2], HEADER, theme, false)
+  assert.deepEqual(list.map(({kind, angle, colour, head}) => [kind, angle === undefined ? "" : Number(angle.toFixed(3)) + 0, colour, head]), [
+    ["ray", 1.571, "a", "in"], ["ray", -1.571, "a", "in"], ["ray", 3.142, "r", "out"], ["ray", 0, "a", "in"], ["ring", "", "i", undefined]])
+  assert.deepEqual(pointedList(all[1], HEADER, theme, true).map(({colour}) => colour), ["a", "a", "d", "d", "x"])
+  assert.deepEqual(pointedList(all[4], HEADER, theme, true).map(({kind, colour, width}) => [kind, colour, width]), [["curves", "c", 5]])
+})
+
+const circle = (r, n = 40) => line(...Array.from({length: n + 1}, (_, k) => [r * Math.cos(2 * Math.PI * k / n), r * Math.sin(2 * Math.PI * k / n)]))
+const cycles = (...wanted) => objectsOf({
+  owners: {cycles: wanted.map((_, i) => `L${i + 1}`)}, cycles: {kind: wanted.map(([, kind]) => kind), period: [], multiplier: []},
+}, {"cycles.n": Uint16Array.from(wanted.map(() => 41)), "cycles.xy": Int16Array.from(wanted.flatMap(([r]) => [...circle(r)]))}, TABLE)
+
+test("a limit cycle is followed by its shape and stability, whatever its number; where it has vanished no other takes its place", () => {
+  const [stable, unstable, outer] = cycles([0.3, "stable"], [0.5, "unstable"], [0.7, "stable"])
+  const before = [stable, unstable, outer]
+  assert.ok(Math.abs(apart(stable.curve, outer.curve) - 0.4) < 0.01)
+  assert.deepEqual([stable.label, outer.label], ["Limit cycle 1", "Limit cycle 3"])
+  assert.equal(followed(outer, cycles([0.2, "unstable"], [0.35, "stable"], [0.5, "unstable"], [0.72, "stable"]), before)?.name, "L4") // one is new within
+  assert.equal(followed(outer, cycles([0.68, "stable"]), before)?.name, "L1") // the two within met
+  assert.equal(followed(stable, cycles([0.68, "stable"]), before), null)
+  assert.equal(followed(stable, cycles([0.66, "stable"]), cycles([0.68, "stable"])), null) // and it stays away
+  assert.equal(followed(stable, cycles([0.32, "stable"], [0.45, "unstable"], [0.66, "stable"]), cycles([0.68, "stable"]))?.name, "L1") // until it is back
+})
+
+test("a limit direction that has met another leaves its pin to no third", () => {
+  const at = (angles) => objectsOf({equator: {...EQUATOR, x: angles.map(Math.cos), y: angles.map(Math.sin), label: angles.map((_, i) => `Q${"₁₂₃₄"[i]}`), multiplicity: angles.map(() => 1), lambda_theta: angles.map((_, i) => i % 2 ? 1 : -1)}}, {}, TABLE)
+  const before = at([0, 0.2, 0.4, 1])
+  assert.equal(followed(before[0], at([0.42, 1.05]), before), null) // it met the second
+  assert.equal(followed(before[2], at([0.42, 1.05]), before)?.name, "Q1")
+  assert.equal(followed(before[0], at([0.1, 0.25, 0.5, 1]), before)?.name, "Q1")
+})
+
+test("U₁ = 0 and U₂ = 0 are two objects of one layer, also where a zoom cuts them; a curve tells where it is pointed at", () => {
+  const table = [layer("lines", "lines_inside", "lines_outside"), layer("rho", "rho_inside"), layer("separatrices", "separatrices_stable")]
+  const blocks = {
+    "lines_inside.n": Uint16Array.of(2, 2, 2), "lines_inside.xy": line([0, -1], [0, 0], [0, 0.2], [0, 1], [-1, 0.5], [1, 0.5]), "lines_outside.n": Uint16Array.of(2), "lines_outside.xy": line([1, 0.5], [2, 0.5]),
+    "rho_inside.n": Uint16Array.of(2), "rho_inside.xy": line([-1, -0.5], [1, -0.5]), "separatrices_stable.n": Uint16Array.of(2), "separatrices_stable.xy": line([0, -0.8], [0.5, -0.8]),
+  }
+  const header = {owners: {lines_inside: ["U1", "U1", "U2"], lines_outside: ["U2"], separatrices_stable: ["S2"]}, separatrices: [[], ["C", "Q₂", "It comes from Q₂."]]}
+  const found = objectsOf(header, blocks, table), at = (x, y) => objectAt(found, {x, y}, 0.1, 0.06)
+  assert.deepEqual(found.map(({name, label, curve}) => [name, label, curve?.length]), [["U1", "Nullcline U₁ = 0", 2], ["U2", "Nullcline U₂ = 0", 2], ["R", "ρ-nullcline, U·e = 0", 1], ["S2", "Separatrix 2", 1]])
+  assert.deepEqual([at(0.01, -0.3)?.name, at(0.02, 0.1)?.name, at(0.4, 0.52)?.name, at(1.5, 0.51)?.name, at(0.4, -0.5)?.name, at(0.4, 0.2)], ["U1", undefined, "U2", "U2", "R", null])
+  assert.deepEqual(factsOf(at(1.5, 0.5), header), {title: "Nullcline U₂ = 0", rows: [["|(x, y)|", "0.581"], ["θ", "18.44°"]], notes: []})
+  assert.deepEqual(factsOf(at(0.3, -0.8), header), {title: "Separatrix 2, stable", rows: [["of", "C"], ["other end", "Q₂"], ["(x̄, ȳ)", "(0.300, −0.800)"], ["θ", "−69.44°"]], notes: ["It comes from Q₂."]})
+  assert.equal(followed(at(0.4, 0.5), found, found)?.name, "U2")
+  assert.equal(followed(at(0.4, 0.5), found.filter(({name}) => name !== "U2"), found), null)
+})
+
+test("the ring and the basins are told by what they are of", () => {
+  const header = {outcomes: {start: [-1, 3], end: [1, 4], kind: ["slide", "cross"]}, basins: {cells: 2, box: [-1, 1, -1, 1], destinations: ["C", "Q2"]}}, blocks = {basins: Uint16Array.of(1, 2, 2, 3, 1, 1)}
+  const at = (x, y, layers = ["outcomes", "basins"]) => areaAt(layers, header, blocks, [1.03, 1.075], {x, y})?.of ?? null
+  assert.deepEqual([at(1.05, 0), at(-1.05, -0.1), at(0, 1.05), at(1.2, 0), at(1.05, 0, [])], ["slide", "cross", null, null, null])
+  assert.deepEqual([at(-0.5, -0.5), at(0.5, -0.5), at(-0.5, 0.5), at(0.5, 0.5), at(0.5, 0.5, ["outcomes"])], ["C", "Q2", "Q2", "undecided", null])
+})

@@ -1,0 +1,120 @@
+// Pointing at objects of a whole explorer: hover, focus, pin, follow, let go. See wiring.js for what is played.
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import {STEP} from "../../../../app/static/picture/frames.js"
+import {CRITICAL, EQUATOR, FIRST, VALUES, click, hand, query, wired} from "../played/wiring.js"
+
+const EIGEN = {equator: [0, 1].map(() => ({directions: [[0, 1, -0.3, "equator"]], turning: 0, every: false})), critical: [{directions: [[1, 0, -1, "disc"]], turning: 0, every: false}]}
+const opened = (more = {}) => wired(more, {...FIRST, eigen: EIGEN})
+const C = [205, 230], Q1 = [245, 115] // px: the plot is at 185, 195, of 100 px a unit
+const drawn = (one) => one.root.explorer.picture.above.list.map(({kind}) => kind)
+const card = (one) => one.find(".card.pinned").hidden ? null : one.find(".card.pinned b").textContent
+const hint = (one) => one.find(".card:not(.pinned)").hidden ? null : one.find(".card:not(.pinned) b").textContent
+/** @param {any} one @param {number[]} place @param {any} more */
+const hover = (one, [x, y], more = {}) => { hand(one, "pointermove", x, y, more); one.tick(20) }
+/** @param {any} one @param {number[]} place */
+const press = (one, [x, y]) => { hand(one, "pointerdown", x, y); hand(one, "pointerup", x, y); one.tick(400) }
+const escape = (one) => { one.fire(one.document.body, "keydown", {key: "Escape"}); one.tick(400) }
+
+test("what is under the pointer tells its numbers and shows its eigenvectors, and nothing does elsewhere", () => {
+  const one = opened()
+  hover(one, C)
+  assert.equal(hint(one), "C")
+  assert.deepEqual(drawn(one), ["ray", "ray", "ring"])
+  assert.match(one.find(".card:not(.pinned)").innerHTML, /<dt>tr J<\/dt><dd>−3.000<\/dd>.*<li>.*−1.000, comes in<\/li>/)
+  hover(one, Q1)
+  assert.equal(hint(one), "Q₁")
+  assert.match(one.find(".card:not(.pinned)").innerHTML, /<dt>λ<sub>ρ<\/sub><\/dt>/)
+  hover(one, [20, 30])
+  assert.deepEqual([hint(one), drawn(one)], [null, []])
+  hover(one, C); hover(one, C, {buttons: 1}) // an orbit in hand is looked at, not what it passes
+  assert.equal(hint(one), null)
+  hover(one, C, {pointerType: "touch"})
+  assert.equal(hint(one), null)
+  hover(one, C); one.fire(one.find(".bokeh"), "pointerleave"); one.tick(20)
+  assert.equal(hint(one), null)
+})
+
+test("a curve under the pointer is called as in the legend", () => {
+  const one = wired({layers: [{name: "mine", parts: [{name: "stable", colour: "separatrix", width: 1.5, dash: []}]}], values: {...VALUES, layers: ["mine"]}})
+  const [x, y] = [2000, 3000].map((it) => it * STEP)
+  hover(one, [185 + 100 * x, 195 - 100 * y]) // where the curve ends
+  assert.equal(hint(one), "mine")
+  one.find(".layer").dataset.layer = "mine"
+  one.find(".layer").title = "Of the angle."
+  hover(one, [185 + 100 * x, 195.5 - 100 * y])
+  assert.deepEqual([hint(one), one.find(".card:not(.pinned) p").textContent], [one.find(".layer").textContent.trim(), "Of the angle."])
+})
+
+test("a click on a nullcline pins it, where it was clicked, and it is followed", () => {
+  const one = wired({layers: [{name: "theta", parts: [{name: "stable", colour: "separatrix", width: 1.5, dash: []}]}], values: {...VALUES, layers: ["theta"]}})
+  const [x, y] = [2000, 3000].map((it) => it * STEP), end = [185 + 100 * x, 195 - 100 * y]
+  hover(one, end)
+  assert.deepEqual([hint(one), drawn(one)], ["θ-nullcline, Θ = 0", ["curves"]])
+  press(one, end)
+  assert.deepEqual([card(one), query(one).pinned, one.root.explorer.values.orbits], ["θ-nullcline, Θ = 0", "T", ""])
+  assert.match(one.find(".card.pinned").textContent, /\(x̄, ȳ\)\(0\.244, 0\.366\)/)
+  one.answer()
+  assert.deepEqual([card(one), drawn(one)], ["θ-nullcline, Θ = 0", ["curves"]])
+})
+
+test("a click pins, the pin is in the link and is undone; a click beside launches", () => {
+  const one = opened()
+  press(one, C)
+  assert.deepEqual([card(one), query(one).pinned, one.root.explorer.values.orbits], ["C", "C", ""])
+  assert.equal(one.find(".card.pinned").getAttribute("aria-label"), "C, pinned")
+  press(one, Q1)
+  assert.deepEqual([card(one), query(one).pinned], ["Q₁", "Q1"])
+  click(one, ".undo"); for (const call of one.heard.popstate) call({state: one.window.history.state})
+  assert.deepEqual([card(one), query(one).pinned], ["C", "C"])
+  press(one, C)
+  assert.deepEqual([card(one), query(one).pinned], [null, undefined])
+  press(one, [150, 100])
+  assert.deepEqual([card(one), one.root.explorer.values.orbits], [null, "-0.35,0.95"])
+  press(one, C); escape(one)
+  assert.deepEqual([card(one), query(one).pinned, drawn(one)], [null, undefined, []])
+  press(one, C); click(one, ".card.pinned button"); one.tick(400)
+  assert.equal(card(one), null)
+})
+
+test("a pin of a link is there with the first picture, and stays with its object under another name", () => {
+  const one = opened({values: {...VALUES, pinned: "Q1"}})
+  assert.equal(card(one), "Q₁")
+  one.answer({equator: {...EQUATOR, x: [0.9, 0.63], y: [0.43, 0.77], lambda_theta: [2, -0.2], multiplicity: [1, 1]}, eigen: null})
+  assert.deepEqual([card(one), one.root.explorer.values.pinned], ["Q₂", "Q2"])
+  one.answer({equator: {...EQUATOR, x: [-0.91], y: [-0.41], lambda_theta: [2], multiplicity: [1], label: ["Q₁"]}, eigen: null})
+  assert.match(one.find(".card.pinned").textContent, /Q₂ is not there at this setting\.$/)
+  assert.deepEqual(drawn(one), [])
+  one.answer({equator: {...EQUATOR, x: [0.9, 0.63], y: [0.43, 0.77], lambda_theta: [2, -0.2], multiplicity: [1, 1]}, eigen: null})
+  assert.deepEqual([card(one), drawn(one)], ["Q₂", ["ring"]]) // it is back, and its eigenvectors have not come
+  assert.equal(opened({values: {...VALUES, pinned: "Q7"}}).find(".card.pinned").hidden, true)
+})
+
+test("objects are buttons for the keyboard, with all that is said of them", () => {
+  const one = opened()
+  one.tick(200)
+  const buttons = () => [...one.root.querySelectorAll(".objects button")]
+  assert.deepEqual(buttons().map((box) => box.dataset.object), ["C", "Q1", "Q2"])
+  assert.match(buttons()[0].getAttribute("aria-label"), /^C stable node; \(c, s\) = \(0.200, −0.300\); /)
+  one.fire(buttons()[1], "focusin")
+  assert.deepEqual([hint(one), drawn(one)], ["Q₁", ["ray", "ray", "ring"]])
+  one.fire(buttons()[1], "focusout")
+  assert.equal(hint(one), null)
+  one.fire(buttons()[1], "click"); one.tick(400)
+  assert.deepEqual([card(one), buttons().map((box) => box.getAttribute("aria-pressed"))], ["Q₁", ["false", "true", "false"]])
+  one.answer({critical: {...CRITICAL, kind: ["saddle"]}}); one.tick(200)
+  assert.match(buttons()[0].getAttribute("aria-label"), /^C saddle/)
+  one.root.explorer.picture.show(["inside"]); one.answer(); one.tick(200)
+  assert.deepEqual(buttons(), [])
+})
+
+test("a launched orbit that is shown is not pinned where nothing is", () => {
+  const one = opened()
+  one.answer({launched: {x: [0.1], number: [1], called: [""], y: [0.3], goes: ["Tends to C."], comes: [""]}})
+  one.root.explorer.picture.show(["launched", "equator"])
+  press(one, Q1); escape(one)
+  assert.deepEqual([card(one), drawn(one)], [null, []])
+  hover(one, [195, 165])
+  assert.match(one.find(".card:not(.pinned)").textContent, /^Launched orbit 1\s*Tends to C\.$/)
+})

@@ -1,0 +1,38 @@
+// The sheet "?": when it opens, and what is in it.
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import {KEYS} from "../../../../app/static/page/help.js"
+import {click, wired} from "../played/wiring.js"
+
+function opened(more = {}) {
+  const one = wired(more), dialog = one.find("dialog.helping")
+  dialog.showModal = () => { dialog.open = true }
+  dialog.close = () => { dialog.open = false }
+  const key = (name, of = {}) => one.fire(one.document.body, "keydown", {key: name, composedPath: () => [one.document.body], ...of})
+  return {one, dialog, key}
+}
+
+test("it opens on ? and on its button, but not while one types", () => {
+  const {one, dialog, key} = opened()
+  key("a")
+  key("?", {ctrlKey: true})
+  key("?", {composedPath: () => [one.find("#c2-f1")]})
+  assert.ok(!dialog.open)
+  key("?")
+  assert.ok(dialog.open)
+  one.fire(dialog, "click") // beside the sheet
+  assert.ok(!dialog.open)
+  click(one, ".help")
+  assert.ok(dialog.open)
+})
+
+test("it holds every key, and nothing of a page that it is not of", () => {
+  const {one, dialog} = opened()
+  click(one, ".help")
+  for (const [key, words] of KEYS) assert.ok(dialog.textContent.includes(key) && dialog.textContent.includes(words), key)
+  assert.equal(dialog.querySelectorAll(".marks span").length, 3)
+  const other = opened({page: false})
+  other.key("?")
+  assert.ok(!other.dialog.open)
+})

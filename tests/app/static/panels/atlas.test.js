@@ -1,0 +1,167 @@
+// What the panel atlas shows, read by its ticks, for data without any symmetry; and what a hand on it does.
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import {STEP} from "../../../../app/static/picture/frames.js"
+import "../../../../app/static/panels/atlas.js"
+import {named, near, opened, plots} from "../played/reading.js"
+
+const lines = (name, ...pieces) => ({
+  [`${name}.n`]: Uint16Array.from(pieces.map((piece) => piece.length)),
+  [`${name}.xy`]: Int16Array.from(pieces.flat(2).map((v) => Math.round(v / STEP))),
+})
+const PLANE = {
+  atlas_of: ["f1", "f2", true], atlas_size: 2, cycles_possible: true,
+  regions: {name: ["CM4", "CM2 x"], inside: [[0.25, 0.1], [-0.8, 0.9]], bounded: [true, false], loops: [1, 1], size: 2},
+  curves_of_psi: {size: 2, points: [["cusp", 1.2, -0.4, "A cusp."]]},
+  curves_of_cycles: {size: 2, points: [["fold", -0.6, -1.4, "They meet."]]},
+  thumbnails: [[1, "CM2 x", [-1.6, 1.8], "<svg></svg>"], [0, "CM4", [0.5, 0.2], "<svg></svg>"]],
+}
+const SQUARE = [[-0.25, -0.5], [0.75, -0.5], [0.75, 0.25], [-0.25, 0.25]]
+const BLOCKS = {
+  ...lines("transcritical", [[0.1, 0.2], [0.5, -0.3]]), ...lines("saddle_node", [[-0.4, 0.6], [-0.2, 0.9]], [[0.3, 0.3]]),
+  ...lines("regions", SQUARE, SQUARE), ...lines("hopf", [[0.1, -0.7], [0.2, -0.8]]), ...lines("node_focus", [[-0.6, -0.1], [-0.7, 0.1]]),
+  ...lines("cycle_folds", [[0.8, 0.1], [0.9, 0.3]]), ...lines("heteroclinic", [[0.8, -0.1], [0.9, -0.2]]), ...lines("closed_equator", [[-0.9, -0.9], [-0.8, -0.7]]),
+}
+const atlas = (more = {}) => opened("atlas", {across: "f1", up: "f2", f1: 0.6, f2: -0.3, k1: 0.5, k2: -0.25, z: 1.2, atlas_zoom: 0, cycle_curves: "hide", ...more})
+const twice = (points) => points.map((p) => p.map((v) => 2 * v))
+
+test("the panel atlas: the plane of f, its curves, f where z is 0, and f(z) on the line of k", () => {
+  const one = atlas()
+  one.frame(PLANE, BLOCKS)
+  const [plot] = plots(one.find(".pad"))
+  assert.deepEqual([plot.word, plot.title], ["f₁", "f₂"])
+  for (const [name, points] of /** @type {[string, number[][]][]} */ ([["transcritical", [[0.1, 0.2], [0.5, -0.3]]], ["saddle_node", [[-0.4, 0.6], [-0.2, 0.9]]], ["hopf", [[0.1, -0.7], [0.2, -0.8]]], ["node_focus", [[-0.6, -0.1], [-0.7, 0.1]]]])) {
+    near(named(plot.lines, name).map((line) => line.points), [twice(points)])
+  }
+  assert.equal(named(plot.lines, "cycle_folds").length, 0)
+  near(named(plot.dots, "point", "saddle_node").map((dot) => dot.at), [[0.6, 0.6]]) // a branch that is a point
+  near(plot.marks.map((mark) => mark.at), [[1.2, -0.4]])
+  assert.equal(plot.marks[0].title, "cusp. A cusp.")
+  near(plot.areas.map((area) => area.points), [twice(SQUARE), twice(SQUARE)])
+  assert.deepEqual(plot.areas.map((area) => [area.region, area.name.split(" ")[1]]), [["CM4", "CM4"], ["CM2 x", "CM2"]])
+  near(named(plot.moving, "handle").map((dot) => dot.at), [[0.6, -0.3]])
+  near(named(plot.moving, "here").map((dot) => dot.at), [[0.6 + 0.5 * 1.2, -0.3 - 0.25 * 1.2]])
+  const [[x0, y0], [x1, y1]] = plot.path
+  near([(y1 - y0) / (x1 - x0), y0 + (0.6 - x0) * (y1 - y0) / (x1 - x0)], [-0.5, -0.3])
+  assert.ok(x0 < -2 && x1 > 2)
+  assert.deepEqual([...one.find(".pad").querySelectorAll(".region")].map((region) => region.classList.contains("here")), [true, false])
+  assert.deepEqual(one.texts(".pad-names span"), ["CM2 x", "CM4"])
+  assert.deepEqual(one.texts(".pad-curves span"), ["|A⁻¹f| = 1", "saddle-node", "Hopf", "node–focus"])
+  assert.deepEqual(one.all(".pad-curves i").map((it) => it.className), ["transcritical", "saddle_node", "hopf", "node_focus"])
+  one.set({k1: 0, k2: 0})
+  assert.equal(plots(one.find(".pad"))[0].path, undefined)
+  assert.equal(named(plots(one.find(".pad"))[0].moving, "here").length, 0)
+  one.set({k2: 0.25})
+  near(plots(one.find(".pad"))[0].path.map(([x]) => x), [0.6, 0.6])
+})
+
+test("the panel atlas: curves of cycles are shown where they were asked for, those of another Ψ are not", () => {
+  const one = atlas({cycle_curves: "show"})
+  const shown = () => plots(one.find(".pad"))[0].lines.map(({name}) => name)
+  one.frame(PLANE, BLOCKS)
+  assert.deepEqual(shown(), ["transcritical", "saddle_node", "hopf", "node_focus", "cycle_folds", "heteroclinic", "closed_equator"])
+  assert.equal(one.find(".cycle-curves").hidden, false)
+  assert.equal(one.find(".cycle-curves input").checked, true)
+  near(plots(one.find(".pad"))[0].marks.map((mark) => mark.at), [[-0.6, -1.4], [1.2, -0.4]]) // in the order of x
+  one.frame({}, {}, ["curves of cycles"])
+  assert.deepEqual(shown(), ["transcritical", "saddle_node", "hopf", "node_focus"])
+  one.frame({}, {}, ["curves of psi"])
+  assert.deepEqual(shown(), ["transcritical", "saddle_node", "cycle_folds", "heteroclinic", "closed_equator"])
+  one.frame({cycles_possible: false})
+  assert.deepEqual(shown(), ["transcritical", "saddle_node", "hopf", "node_focus"])
+  assert.equal(one.find(".cycle-curves").hidden, true)
+  one.setters.cycle_curves("hide")
+  assert.equal(one.find(".cycle-curves input").checked, false)
+  one.setters.cycle_curves("show")
+  assert.equal(one.find(".cycle-curves input").checked, true)
+})
+
+test("the panel atlas: a hand moves f, a small portrait brings f(z) to its place", () => {
+  const one = atlas()
+  one.frame(PLANE, BLOCKS)
+  const pad = one.find(".pad"), [plot] = plots(pad)
+  one.fire(pad, "pointerdown", {clientX: plot.x.back(-1.4), clientY: plot.y.back(0.9)})
+  let [[, moved]] = one.said()
+  near([moved.f1, moved.f2], [-1.4, 0.9])
+  one.fire(pad, "pointerup")
+  one.fire(one.find(".thumbnails button"), "click")
+  ;[[, moved]] = one.said()
+  near([moved.f1, moved.f2], [-1.6 - 0.5 * 1.2, 1.8 + 0.25 * 1.2], 1e-6)
+  const before = {...one.values}
+  one.fire(pad, "keydown", {key: "ArrowUp"})
+  ;[[, moved]] = one.said()
+  assert.ok(moved.f1 === before.f1 && moved.f2 > before.f2 && moved.f2 < before.f2 + 0.1)
+  const tiles = () => one.all(".thumbnails button").map((tile) => tile.className)
+  one.fire(pad, "pointermove", {clientX: plot.x.back(0.5), clientY: plot.y.back(0.2)})
+  assert.deepEqual(tiles().map((name) => name.includes("pointed")), [false, true])
+  one.fire(pad, "pointermove", {clientX: plot.x.back(-1), clientY: plot.y.back(0.2)})
+  assert.deepEqual(tiles().map((name) => name.includes("pointed")), [true, false])
+  one.fire(pad, "pointerleave")
+  assert.deepEqual(tiles().map((name) => name.includes("pointed")), [false, false])
+  const pointed = () => [...pad.querySelectorAll(".region")].map((region) => region.classList.contains("pointed"))
+  for (const [on, off] of [["pointerover", "pointerout"], ["focusin", "focusout"]]) {
+    one.fire(one.find(".thumbnails button"), on)
+    assert.deepEqual(pointed(), [false, true])
+    one.fire(one.find(".thumbnails button"), off)
+    assert.deepEqual(pointed(), [false, false])
+  }
+})
+
+const MAP = {atlas_of: ["a", "f2", false], map: {spans: [[-2, 6], [1, 3]], name: ["CM2", "CM0"], inside: [[0, 2.5], [5, 1.5]], loops: [1, 1], curve: ["Hopf", "odd"], pieces: [2, 1]}}
+const OF_MAP = {...lines("map", [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.75]], [[0.6, -0.9], [0.9, -0.9], [0.9, 0.9]]), ...lines("map_curves", [[0, 0.5], [0.5, 0.25]], [[-0.5, -0.25], [-0.25, -0.75]], [[0.75, 0.5], [0.75, -0.5]])}
+
+test("the panel atlas: a map of two other parameters lies in their spans", () => {
+  const one = atlas({across: "a", a: 3, f2: 2.2})
+  one.frame(MAP, OF_MAP)
+  const read = () => plots(one.find(".pad"))[0], plot = read()
+  assert.deepEqual([plot.word, plot.title], ["a", "f₂"])
+  near(named(plot.lines, "hopf").map((line) => line.points), [[[2, 2.5], [4, 2.25]], [[0, 1.75], [1, 1.25]]])
+  near(named(plot.lines, "undefined").map((line) => line.points), [[[5, 2.5], [5, 1.5]]])
+  near(plot.areas.map((area) => area.points), [[[0, 1.5], [4, 1.5], [4, 2.75]], [[4.4, 1.1], [5.6, 1.1], [5.6, 2.9]]])
+  near(named(plot.moving, "handle").map((dot) => dot.at), [[3, 2.2]])
+  assert.equal(named(plot.moving, "here").length, 0)
+  one.frame({thumbnails: [[0, "CM2", [0.5, 2.75], "<svg></svg>"]]})
+  one.fire(one.find(".thumbnails button"), "click")
+  assert.deepEqual(one.said(), [["move", {a: 0.5, f2: 2.75}]])
+  assert.equal(one.find(".cycle-curves").hidden, true)
+  one.frame({unable: {map: "Choose two."}})
+  assert.deepEqual([one.find(".atlas-note").textContent, one.find(".thumbnails").hidden, read().lines.length], ["Choose two.", true, 0])
+  near([read().x.of(read().x.back(-4)), read().areas.length], [-4, 0])
+  one.frame({late: []})
+  assert.equal(one.find(".atlas-note").textContent, "Choose two.")
+  one.frame(MAP, OF_MAP)
+  assert.deepEqual([one.find(".atlas-note").textContent, read().lines.length], ["", 3])
+  one.frame({unable: {map: "Choose two."}})
+  one.frame({atlas_of: ["a", "f1", false]}) // other axes: what there is belongs to those before
+  assert.deepEqual([one.find(".atlas-note").textContent, read().lines.length], ["", 0])
+  one.frame({map: MAP.map}, OF_MAP, ["map"])
+  assert.ok(one.find(".thumbnails").classList.contains("old") && one.find(".pad").classList.contains("old"))
+  one.frame({}, {}, ["thumbnails"])
+  assert.ok(one.find(".thumbnails").classList.contains("old") && !one.find(".pad").classList.contains("old"))
+})
+
+test("the panel atlas: a finger that scrolls the page sets nothing, one that goes sideways or taps does", () => {
+  const one = atlas()
+  one.frame(PLANE, BLOCKS)
+  const pad = one.find(".pad"), [plot] = plots(pad)
+  const at = (x, y) => ({pointerType: "touch", clientX: plot.x.back(x), clientY: plot.y.back(y)})
+  const moved = () => one.said().filter(([what]) => what === "move").map(([, values]) => [values.f1, values.f2])
+  one.fire(pad, "pointerdown", at(-1.4, 0.9))
+  one.fire(pad, "pointermove", at(-1.38, 0.2))
+  one.fire(pad, "pointercancel")
+  one.fire(pad, "pointerdown", at(-1.4, 0.9))
+  one.fire(pad, "pointermove", at(-1.38, 0.2))
+  one.fire(pad, "pointerup", at(-1.38, 0.2))
+  assert.deepEqual(moved(), [])
+  one.fire(pad, "pointerdown", at(-1.4, 0.9))
+  one.fire(pad, "pointermove", at(-0.9, 0.85))
+  one.fire(pad, "pointermove", at(-0.5, 0.3))
+  one.fire(pad, "pointerup", at(-0.5, 0.3))
+  near(moved().flat(), [-0.9, 0.85, -0.5, 0.3])
+  one.fire(pad, "pointerdown", at(0.4, -0.6))
+  one.fire(pad, "pointerup", at(0.4, -0.6))
+  near(moved().flat(), [0.4, -0.6])
+  one.fire(pad.querySelector(".handle"), "pointerdown", at(0.2, 0.1))
+  near(moved().flat(), [0.2, 0.1])
+})

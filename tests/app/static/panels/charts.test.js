@@ -1,0 +1,179 @@
+// What the charts of the other panels show, read by their ticks, for data without any symmetry; and what a hand on them does.
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import "../../../../app/static/panels/along.js"
+import "../../../../app/static/panels/planes.js"
+import "../../../../app/static/panels/psi.js"
+import {named, near, opened, plots, wide} from "../played/reading.js"
+
+// --- along
+const ALONG = {
+  control: "z", m: 1, span: [-3, 5],
+  intervals: [{low: -3, high: 1, kind: "sliding", sentence: "It slides."}, {low: 1, high: 5, kind: "crossing", sentence: "It crosses."}],
+  branches: [{z: [-3, -2, -1, 0, 1], flow: [0.5, 0.75, 1, 1.5, 2], kind: "stable node", stable: true}, {z: [2, 3, 4, 4.5, 5], flow: [-1, -0.5, -0.25, -0.5, -2], kind: "saddle", stable: false}, {z: [3, 3.5, 4], flow: [0, 1, 0], kind: "unstable focus", stable: false}],
+  points: [{kind: "equilibrium", z: -0.5, stable: true, sentence: "At rest.", flow: 0}, {kind: "equator", z: 1, stable: false, sentence: "It leaves.", flow: 2}, {kind: "equilibrium", z: 4.5, stable: false, sentence: "At rest too.", flow: 0}, {kind: "node-focus", z: 0.5, stable: true, sentence: "Turns.", flow: 1.75}],
+}
+
+test("the panel along: slow flow, its sense and its rests, and where it slides", () => {
+  const one = opened("along", {z: -1.5, z2: 0, drift: "z"})
+  one.frame({along: ALONG})
+  const [plot] = plots(one.find(".along"))
+  assert.deepEqual([plot.word, plot.title], ["z", "slow flow z′"])
+  near(named(plot.lines, "stable").map(({points}) => points), [ALONG.branches[0].z.map((z, i) => [z, ALONG.branches[0].flow[i]])], 0.03)
+  near(named(plot.lines, "saddle").map(({points}) => points), [ALONG.branches[1].z.map((z, i) => [z, ALONG.branches[1].flow[i]])], 0.03)
+  assert.equal(named(plot.lines, "unstable").length, 1)
+  near(plot.bands.map(({from, to}) => [from, to]), [[-3, 1], [1, 5]], 0.03)
+  assert.deepEqual(plot.bands.map(({name, title}) => [name, title]), [["sliding", "It slides."], ["crossing", "It crosses."]])
+  near(plot.arrows.map(({at}) => at[0]), [-2, -1, 0, 3, 4, 4.5], 0.03) // at quarters of the wide branches, and not where z' = 0
+  assert.deepEqual(plot.arrows.map(({turn}) => Math.abs(turn)), [0, 0, 0, 180, 180, 180])
+  near(plot.marks.map(({at}) => at), [[-0.5, 0], [0.5, 1.75], [1, 2], [4.5, 0]], 0.03)
+  assert.deepEqual(plot.marks.map(({kind}) => kind), ["attracting rest", "node-focus", "transcritical", "rest"])
+  assert.equal(one.find(".along").getAttribute("aria-valuenow"), "-1.5")
+  near([plot.x.of(Number(one.find(".along .value").getAttribute("d").match(/M([\d.]+)/)[1]))], [-1.5], 0.03)
+  assert.deepEqual(one.texts(".along-points button span:first-of-type"), ["z = −0.50000", "z = 1.00000", "z = 4.50000"])
+  one.fire(one.all(".along-points button")[2], "click")
+  assert.deepEqual(one.said()[0], ["move", {z: 4.5}])
+  one.fire(one.find(".along"), "pointerdown", {clientX: plot.x.back(2.25), clientY: 50})
+  const [[, {z}]] = one.said()
+  near([z], [2.25], 0.03)
+  one.frame({unable: {along: "No z."}})
+  assert.deepEqual([one.find(".along-body").hidden, one.find(".along-note").textContent], [true, "No z."])
+})
+
+test("the panel along: what comes before it is opened is drawn when it is, no higher than 460 px", () => {
+  const one = opened("along", {z: -1.5, z2: 0, drift: "z"}, {}, null), svg = one.find(".along")
+  one.panels.apply({header: {along: ALONG}, blocks: {}}, [])
+  assert.equal(svg.getAttribute("aria-valuenow"), null)
+  one.panels.show("along", one.values)
+  assert.equal(svg.getAttribute("aria-valuenow"), "-1.5")
+  one.panels.show("elsewhere", one.values) // hidden, it is not kept up to date
+  one.values.z = 2
+  one.panels.apply({header: {along: ALONG}, blocks: {}}, [])
+  assert.equal(svg.getAttribute("aria-valuenow"), "-1.5")
+  one.panels.show("along", one.values)
+  assert.equal(svg.getAttribute("aria-valuenow"), "2")
+  const heights = [500, 690, 700, 2000].map((px) => { wide(svg, px); one.frame({along: ALONG}); return svg.style.height })
+  assert.deepEqual(heights, ["330px", "455px", "460px", "460px"])
+})
+
+test("the panel along: a dozen points are listed, not all that there may be", () => {
+  const one = opened("along", {z: -1.5, z2: 0, drift: "z"})
+  const points = Array.from({length: 15}, (_, i) => ({...ALONG.points[0], z: i / 4 - 2, kind: i === 3 ? "node-focus" : "equilibrium"}))
+  one.frame({along: {...ALONG, points}})
+  assert.equal(one.all(".along-points button").length, 12)
+  assert.deepEqual(one.texts(".along-points button span:first-of-type").slice(2, 4), ["z = −1.50000", "z = −1.00000"])
+})
+
+test("the panel along: play goes with the slow flow, to where it rests or the range ends", () => {
+  const one = opened("along", {z: -1.5, z2: 0, drift: "z"}), go = (ms, flow) => { one.tick(ms); one.frame({drift: {on: "C", flow: [flow]}}) }
+  one.frame({along: ALONG, drift: {on: "C", flow: [2]}})
+  one.find(".speed").value = "1"
+  one.fire(one.find(".play"), "click")
+  assert.deepEqual([one.find(".play").textContent, one.find(".play").getAttribute("aria-pressed")], ["❚❚ Pause", "true"])
+  one.tick(16) // the range is 8 wide, at the largest |z'| = 2 crossed in 10 s
+  near([one.values.z], [-1.5 + 0.016 * 0.8], 1e-9)
+  go(16, 2)
+  one.tick(16)
+  near([one.values.z], [-1.5 + 3 * 0.016 * 0.8], 1e-9) // all of the time that has passed
+  one.find(".speed").value = "2"
+  go(16, -1)
+  one.tick(16)
+  near([one.values.z], [-1.5 + 3 * 0.016 * 0.8 - 0.032 * 1.6 / 2], 1e-9) // half as fast back, at twice the speed
+  one.fire(one.find(".play"), "click")
+  assert.equal(one.find(".play").textContent, "▶ Play")
+  const still = one.values.z
+  go(100, 2)
+  one.tick(100)
+  assert.equal(one.values.z, still)
+  for (const [z, drift, words] of /** @type {[number, any, string][]} */ ([[4.9999, {on: "C", flow: [2]}, "The end of the range."], [-2.9999, {on: "C", flow: [-2]}, "The end of the range."], [0, {on: "C", flow: [1e-4]}, "The slow flow has come to rest: z′ = 0."], [0, null, "Sliding ends here: no critical set and no limit cycle attracts."]])) {
+    one.set({z})
+    one.frame({drift})
+    one.fire(one.find(".play"), "click")
+    one.tick(16)
+    assert.deepEqual([one.find(".along-note").textContent, one.find(".play").textContent, one.values.z], [words, "▶ Play", z])
+  }
+})
+
+test("the panel along: the plane of two slow variables", () => {
+  const arrows = [[-1, 2, 0.5, 0, 1], [0.5, 3, 0, 2, 0], [1, 2.5, -0.5, -0.5, 1], [1.5, 2.5, 1e-6, 0, 1]]
+  const one = opened("along", {z: 0.25, z2: 2.75, drift: "z2"}, {slowSymbols: () => ["v", "w"]})
+  one.frame({along: {...ALONG, control: "z2", m: 2}, slow_plane: {spans: [[-2, 2], [1, 4]], arrows}})
+  const [plot] = plots(one.find(".slow-plane"))
+  assert.deepEqual([plot.word, plot.title, one.find(".plane-box h2").textContent], ["v", "w", "Slow flow in the plane of v and w"])
+  near(named(plot.dots, "stable").map(({at}) => at), [[-1, 2], [1, 2.5], [1.5, 2.5]])
+  near(named(plot.dots, "unstable").map(({at}) => at), [[0.5, 3]])
+  near(plot.arrows.map(({at}) => at), [[-1, 2], [0.5, 3], [1, 2.5]])
+  const [first, second, third] = plot.arrows.map(({turn}) => turn)
+  assert.deepEqual([first, second], [0, -90]) // y of the page falls
+  assert.ok(third > 90 && third < 180)
+  near(named(plot.moving, "here").map(({at}) => at), [[0.25, 2.75]])
+  one.fire(one.find(".slow-plane"), "pointerdown", {clientX: plot.x.back(-1.5), clientY: plot.y.back(3.5)})
+  const [[, {z, z2}]] = one.said()
+  near([z, z2], [-1.5, 3.5])
+  assert.deepEqual([one.find(".which").hidden, one.texts(".drift option"), one.find(".drift").value], [false, ["v", "w"], "z2"])
+})
+
+// --- planes
+test("the panel planes: trace to the right, determinant upward, eigenvalues beside, each with its kind", () => {
+  const one = opened("planes", {})
+  const critical = {label: ["C₁", "C₂"], kind: ["stable focus", "saddle"], trace: [-1, 0.5], determinant: [1.25, -2], x2: [[0.6, 0.3], [-0.8, 1]]}
+  const s = [0, 0.25, 0.5, 0.75, 1]
+  one.frame({critical, planes: {line: true, sentence: "Over n.", text: ["n = 1", "", "n = 3"], kind: ["stable node", "stable node", "unstable focus"], trace: [-2, -1.5, 1], determinant: [0.5, 0.5, 1.5], s, psis: [["n = 1", [1, 0.9, 0.8, 0.7, 0.6]], ["n = 3", [1, 0.5, 0.25, 0.125, 0.1]]]}})
+  const [trace] = plots(one.find(".trace-plane")), [eigen] = plots(one.find(".eigen-plane")), [psi] = plots(one.find(".psi-plane"))
+  assert.deepEqual([trace.word, eigen.word, psi.word, psi.title], ["tr J", "Re λ", "r²", "Ψ(r²)"])
+  const now = named(trace.dots, "now")
+  near(now.map(({at}) => at), [[-1, 1.25], [0.5, -2]])
+  assert.deepEqual(now.map(({name, title}) => [name, title]), [["now filled", "C₁: stable focus"], ["now", "C₂: saddle"]])
+  near(named(trace.dots, "over-mark").map(({at}) => at), [[-2, 0.5], [1, 1.5]])
+  for (const [t, d] of named(trace.lines, "parabola")[0].points) near([d], [t * t / 4], 0.03)
+  near(named(eigen.dots, "now").map(({at}) => at), [[-0.5, 1], [-0.5, -1], [0.25 + Math.sqrt(0.0625 + 2), 0], [0.25 - Math.sqrt(0.0625 + 2), 0]], 0.03)
+  near(named(psi.lines, "s0").map(({points}) => points), [[[0, 1], [0.25, 0.9], [0.5, 0.8], [0.75, 0.7], [1, 0.6]]])
+  near(named(psi.lines, "s1").map(({points}) => points[4]), [[1, 0.1]])
+  near(named(psi.lines, "over").map(({points}) => points), [[[0.45, 0], [0.45, 1]]]) // the other is beyond
+  assert.deepEqual(one.texts(".plane-table tr:nth-of-type(3) td"), ["n = 3", "1.000", "1.500", "unstable focus"])
+  assert.equal(one.find(".plane-note").textContent, "Over n.")
+  const stable = trace.areas[0].points
+  assert.ok(stable.every(([x, y]) => x <= 0.02 && y >= -0.02) && stable.some(([x]) => x < -1) && stable.some(([, y]) => y > 1))
+  assert.ok(eigen.areas[0].points.every(([x]) => x <= 0.02) && eigen.areas[0].points.some(([, y]) => y < -1))
+  one.frame({critical: {label: [], kind: [], trace: [], determinant: [], x2: []}})
+  assert.equal(one.find(".plane-note").textContent, "No critical set is on the hemisphere.")
+  const bare = opened("planes", {})
+  for (const found of [{label: [], kind: [], trace: [], determinant: [], x2: []}, {label: ["C"], kind: ["degenerate"], trace: [0], determinant: [0], x2: [[0, 0]]}]) {
+    bare.frame({critical: found})
+    const values = bare.texts(".trace-plane text, .eigen-plane text").map((word) => Number(word.replace("−", "-"))).filter((value) => value)
+    assert.ok(values.length > 4 && values.every((value) => Math.abs(value) > 0.1 && Math.abs(value) < 3), `${values}`) // nothing to show, and no span of 1e-12
+  }
+})
+
+test("the panel planes: the trail goes from the oldest, faintest place to the newest, with a gap where nothing was", () => {
+  const one = opened("planes", {}), at = (trace, determinant, there = true) => one.frame({critical: there ? {label: ["C"], kind: ["stable node"], trace: [trace], determinant: [determinant], x2: [[0.1, 0]]} : {label: [], kind: [], trace: [], determinant: [], x2: []}})
+  at(-3, 1); at(-2, 0.5); at(-2, 0.25, false); at(-1.5, 0.25); at(-1, 0.125)
+  const trail = () => named(plots(one.find(".trace-plane"))[0].lines, "trail")
+  near(trail().map(({points}) => points), [[[-3, 1], [-2, 0.5]], [[-1.5, 0.25], [-1, 0.125]]])
+  assert.deepEqual(one.all(".trace-plane .trail").map((it) => it.getAttribute("stroke-opacity")), ["0.16", "0.64"])
+  one.panels.forget()
+  at(-1, 0.25)
+  assert.equal(trail().length, 0)
+  at(-2, 0.25)
+  assert.equal(trail().length, 1)
+  one.frame({system: {}, critical: {label: ["C"], kind: ["stable node"], trace: [-1], determinant: [0.25], x2: [[0, 0]]}})
+  assert.equal(trail().length, 0)
+})
+
+// --- Psi
+test("the panel psi: Ψ itself, and the step of each ε at its scale", () => {
+  const one = opened("psi", {log_eps: -0.5})
+  one.frame({psi_curves: {s: [0, 1, 4], psi: [1, 0.25, 0.0625], zeta: [0, 1, 2, 4], modulus: [0, 0.5, 0.75, 0.9], text: "1/(1 + s)²"}})
+  const [upper, lower] = plots(one.find(".psi-curves"))
+  assert.deepEqual([upper.title, upper.word, lower.word], ["Ψ(s) = 1/(1 + s)²", "s", "l"])
+  near(upper.lines[0].points, [[0, 1], [1, 0.25], [4, 0.0625]])
+  const modulus = (zeta) => zeta >= 4 ? 1 - 0.1 * 16 / zeta ** 2 : zeta <= 1 ? 0.5 * zeta : zeta <= 2 ? 0.5 + 0.25 * (zeta - 1) : 0.75 + 0.075 * (zeta - 2)
+  for (const [name, eps] of /** @type {[string, number][]} */ ([["s3", 1], ["s1", 0.3], ["s0", 0.1], ["present", 10 ** -0.5]])) {
+    const [{points}] = named(lower.lines, name)
+    near(points, Array.from({length: 121}, (_, i) => { const l = (i - 60) / 60; return [l, Math.sign(l) * modulus(Math.abs(l) / eps)] }))
+  }
+  near(named(lower.lines, "limit")[0].points, [[-1, -1], [0, -1], [0, 1], [1, 1]])
+  assert.deepEqual(one.texts(".psi-key span"), [" ε = 1", " ε = 0.3", " ε = 0.1", " ε = 0.316228", " ε → 0: sign l"])
+  assert.deepEqual(one.all(".psi-key path").map((it) => it.getAttribute("class")), ["series-line s3", "series-line s1", "series-line s0", "series-line present", "series-line limit"])
+})

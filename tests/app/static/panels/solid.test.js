@@ -1,0 +1,166 @@
+// The panel of pictures in space: what was drawn, in the space's own coordinates, and what a hand on it does.
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import "../../../../app/static/panels/solid.js"
+import {seen} from "../../../../app/static/chart/projection.js"
+import {opened} from "../played/reading.js"
+
+const WIDTH = 360, HEIGHT = 240
+const solid = (header, values = {}) => {
+  const one = opened("solid", {solid: "sphere", z: 1.5, ...values}, {settings: {views: {sphere: "Sphere", stack: "Stack", filippov: "Filippov"}}})
+  one.frame(header)
+  const [canvas] = one.all("canvas")
+  return {...one, canvas, drawn: () => { canvas.recorder.drawn.splice(0); one.panels.draw(one.values); return canvas.recorder.drawn }}
+}
+// Paths with the style in which they were stroked or filled.
+function paths(drawn) {
+  const found = [], style = {}
+  let points = []
+  for (const [name, ...all] of drawn) {
+    if (name === "=") style[all[0]] = all[1]
+    else if (name === "beginPath") points = []
+    else if (name === "moveTo" || name === "lineTo") points.push(all)
+    else if (name === "rect" || name === "arc" || name === "ellipse") points.push([name, ...all])
+    else if (name === "stroke") found.push({how: "stroke", colour: style.strokeStyle, width: style.lineWidth, alpha: style.globalAlpha, points})
+    else if (name === "fill" || name === "fillRect") found.push({how: name, colour: style.fillStyle, alpha: style.globalAlpha, points: name === "fill" ? points : [all]})
+    else if (name === "fillText") found.push({how: "text", colour: style.fillStyle, points: [all]})
+  }
+  return found
+}
+const near = (one, other, most = 0.02) => assert.ok(one.length === other.length && one.every((v, i) => Math.abs(v - other[i]) <= most), `${one} is not ${other}`)
+const MARKS = {equator: {x: [0.6, -0.8], y: [0.8, 0.6], filled: [1, 0], label: ["Q₁", "Q₂"]}, critical: {x: [0.3, -0.1], y: [0.4, 0.2], kind: ["stable focus", "saddle"], label: ["C₁", "C₂"]}}
+
+test("the panel solid: the hemisphere, marks lifted onto it, in front strong and behind faint", () => {
+  const one = solid({sphere: {inside: [[[0.1, -0.9, 0.42], [0.1, -0.8, 0.59]], [[0, 0.99, 0.1], [0.1, 0.99, 0.1]]], outside: [[[1.2, 0.2], [1.3, 0.1], [2, 2], [1.1, -0.5], [1.2, -0.6]]]}, ...MARKS})
+  const all = paths(one.drawn()), elevation = 0.5
+  const scale = Math.min(WIDTH / 2.84, HEIGHT / (Math.cos(elevation) + 2.84 * Math.sin(elevation))), cy = HEIGHT / 2 + scale * Math.cos(elevation) * 0.3
+  const at = (point) => { const [right, up] = seen(point, -0.6, elevation); return [WIDTH / 2 + scale * right, cy - scale * up] }
+  const [front, back] = all.filter(({how, colour}) => how === "stroke" && colour === "orbit")
+  near(front.points.flat(), [...at([0.1, -0.9, 0.42]), ...at([0.1, -0.8, 0.59])])
+  assert.deepEqual([front.alpha, back.alpha], [0.9, 0.22]) // what faces the eye, and what does not
+  const outside = all.filter(({how, colour}) => how === "stroke" && colour === "outside")
+  near(outside[0].points.flat(), [...at([1.2, 0.2, 0]), ...at([1.3, 0.1, 0])]) // only what is near
+  assert.equal(outside.length, 2)
+  const dots = all.filter(({how, points}) => how === "fill" && points.length === 1 && (points[0][0] === "arc" || points[0][0] === "rect"))
+  assert.deepEqual(dots.map(({colour, points}) => [colour, points[0][0]]), [["attr", "arc"], ["page", "arc"], ["crit", "rect"], ["page", "rect"]])
+  near(dots[0].points[0].slice(1, 3), at([0.6, 0.8, 0]))
+  near(dots[1].points[0].slice(1, 3), at([-0.8, 0.6, 0]))
+  near(dots[2].points[0].slice(1, 3).map((v) => v + 4), at([0.3, 0.4, Math.sqrt(0.75)]))
+  near(dots[3].points[0].slice(1, 3).map((v) => v + 4), at([-0.1, 0.2, Math.sqrt(0.95)]))
+  const words = Object.fromEntries(all.filter(({how}) => how === "text").map(({points: [[text, ...place]]}) => [text, place]))
+  near(words["x̄"], [at([1.34, 0, 0])[0] + 6, at([1.34, 0, 0])[1] + 10])
+  near(words["ȳ"], [at([0, 1.34, 0])[0] + 6, at([0, 1.34, 0])[1] - 4])
+  near(words["ε̄"], [at([0, 0, 1.3])[0] + 9, at([0, 0, 1.3])[1] + 4])
+  assert.ok(words["Q₁"] && words["C₂"])
+})
+
+test("the panel solid: a hand turns it, and so do keys, never from below", () => {
+  const one = solid({sphere: {inside: [], outside: []}, equator: {x: [1], y: [0], filled: [1], label: ["Q"]}, critical: {}})
+  const place = (drawn) => { const [[, x, y]] = paths(drawn).filter(({how, points}) => how === "fill" && points.length === 1 && points[0][0] === "arc").map(({points}) => points[0]); return [x, y] }
+  const turned = (act) => { one.canvas.recorder.drawn.splice(0); act(); one.tick(20); return place(one.canvas.recorder.drawn) }
+  const at = (azimuth, elevation) => {
+    const scale = Math.min(WIDTH / 2.84, HEIGHT / (Math.cos(elevation) + 2.84 * Math.sin(elevation))), [right, up] = seen([1, 0, 0], azimuth, elevation)
+    return [WIDTH / 2 + scale * right, HEIGHT / 2 + scale * Math.cos(elevation) * 0.3 - scale * up]
+  }
+  near(place(one.drawn()), at(-0.6, 0.5))
+  near(turned(() => one.fire(one.canvas, "keydown", {key: "ArrowRight"})), at(-0.7, 0.5))
+  near(turned(() => one.fire(one.canvas, "keydown", {key: "ArrowLeft"})), at(-0.6, 0.5))
+  near(turned(() => one.fire(one.canvas, "keydown", {key: "ArrowUp"})), at(-0.6, 0.58))
+  near(turned(() => one.fire(one.canvas, "keydown", {key: "ArrowDown"})), at(-0.6, 0.5))
+  near(turned(() => { one.fire(one.canvas, "pointerdown", {clientX: 10, clientY: 10}); one.fire(one.canvas, "pointermove", {clientX: 22, clientY: 26}) }), at(-0.7, 0.6))
+  near(turned(() => { one.fire(one.canvas, "pointermove", {clientX: 22, clientY: -900}) }), at(-0.7, 0.02))
+  near(turned(() => { one.fire(one.canvas, "pointermove", {clientX: 22, clientY: 900}) }), at(-0.7, 1.56))
+  one.fire(one.canvas, "pointerup")
+  one.canvas.recorder.drawn.splice(0)
+  one.fire(one.canvas, "pointermove", {clientX: 90, clientY: 0})
+  one.tick(20)
+  assert.deepEqual(one.canvas.recorder.drawn, [])
+})
+
+test("the panel solid: discs stacked upward along z, directions on the cylinder, the present z in its place", () => {
+  const one = solid({stack: {control: "z", span: [-1, 3], discs: [{z: -1, lines: [[[0.1, 0.2], [0.3, 0.1]]]}, {z: 3, lines: []}], directions: [[0.25, 0.5, 1, 0], [0.75, 2, 0, 1], [0.5, -1.2, 0, 1]], sets: [{points: [[0.1, 0, 0], [0.2, 0.1, 0.25], [0.3, 0, 0.5], [0.4, 0, 0.75], [0.5, 0, 1]], stable: true, flow: 1}, {points: [[-0.5, 0.1, 0.2], [-0.4, 0.2, 0.6]], stable: false, flow: -1}]}, ...MARKS}, {solid: "stack"})
+  const all = paths(one.drawn()), e = 0.5, tall = 2.6
+  const scale = Math.min(WIDTH / 2.5, HEIGHT / (tall * Math.cos(e) + 2.3 * Math.sin(e) + 0.5)), cy = HEIGHT / 2 + scale * Math.cos(e) * tall / 2
+  const at = (x, y, share) => { const [right, up] = seen([x, y, tall * share], -0.6, e); return [WIDTH / 2 + scale * right, cy - scale * up] }
+  const discs = all.filter(({how, colour}) => how === "fill" && colour === "panel").map(({points}) => points[0].slice(1, 3))
+  near(discs.flat(), [...at(0, 0, 0), ...at(0, 0, 1)])
+  const orbit = all.find(({how, colour}) => how === "stroke" && colour === "orbit")
+  near(orbit.points.flat(), [...at(0.1, 0.2, 0), ...at(0.3, 0.1, 0)])
+  const dots = all.filter(({how}) => how === "fillRect")
+  const place = (theta, share) => at(Math.cos(theta), Math.sin(theta), share)
+  // behind the discs first, then in front of them; where they arrive in the colour of attracting
+  assert.deepEqual(dots.map(({colour, alpha}) => [colour, alpha]), [["rep", 0.4], ["attr", 1], ["rep", 1]])
+  near(dots.flatMap(({points: [[x, y]]}) => [x + 1.2, y + 1.2]), [...place(2, 0.75), ...place(0.5, 0.25), ...place(-1.2, 0.5)])
+  const sets = all.filter(({how, colour}) => how === "stroke" && colour === "crit" && how === "stroke").filter(({points}) => points.length === 5 || points.length === 2)
+  assert.deepEqual(sets.map(({width, alpha}) => [width, alpha]), [[2.6, 1], [1.6, 0.5]])
+  near(sets[0].points.flat(), [at(0.1, 0, 0), at(0.2, 0.1, 0.25), at(0.3, 0, 0.5), at(0.4, 0, 0.75), at(0.5, 0, 1)].flat())
+  const here = all.find(({how, colour, width}) => how === "stroke" && colour === "accent" && width === 2.4)
+  near(here.points[0], at(1, 0, 0.625)) // z = 1.5 of −1 to 3
+  const moved = one.canvas.recorder.drawn.filter(([name]) => name === "translate" || name === "rotate").map(([, ...v]) => v)
+  near(moved[0], at(0.4, 0, 0.75)) // the arrow of the first set, upward
+  const [p, q] = [at(0.3, 0, 0.5), at(0.4, 0, 0.75)]
+  near(moved[1], [Math.atan2(q[1] - p[1], q[0] - p[0])])
+  const words = Object.fromEntries(all.filter(({how}) => how === "text").map(({points: [[text, ...where]]}) => [text, where]))
+  assert.ok(words["z = −1"][1] > words["z = 3"][1]) // low is below
+  one.values.z = 5
+  assert.ok(!paths(one.drawn()).some(({colour, width}) => colour === "accent" && width === 2.4))
+})
+
+const FILIPPOV = {
+  plane: [[2, 1, 1.5], [-2, 1, 0.5], [-2, -1, -0.5], [2, -1, 0.25]], cross: 0.75, curve: [[1, 0.5, 2], [-0.5, 1, 1], [-1, -0.75, -1], [1, 0.5, 2]],
+  candidates: [-0.25, 1.25], combined: [[[1, 0.5, 2], [-1, -0.75, -1]], [[-0.5, 1, 1]]], selected: [[0.5, "stable node"], [1, "saddle"]], sentence: "Between.",
+}
+
+test("the panel solid: limit vectors, Σ upright with z′ growing upward, what the blowup selects filled if it is stable", () => {
+  const one = solid({filippov: FILIPPOV}, {solid: "filippov"}), all = paths(one.drawn()), e = 0.5
+  const scale = Math.min(WIDTH / 2.3, HEIGHT / (1.9 * Math.cos(e) + 2 * Math.sin(e)))
+  const at = ([u, v, w]) => { const [right, up] = seen([u / 2, v / 2, 1.5 * ((w + 1) / 3 - 0.5)], -0.6, e); return [WIDTH / 2 + scale * right, HEIGHT / 2 - scale * up] }
+  const strokes = (colour, width) => all.filter((path) => path.how === "stroke" && path.colour === colour && path.width === width).map(({points}) => points.flat())
+  const ends = (points) => points.slice(1).flatMap((to, i) => [...at(points[i]), ...at(to)]) // a stroke for each step
+  near(strokes("attr", 2.2).flat(), ends(FILIPPOV.curve))
+  near(strokes("crit", 1).flat(), ends([...FILIPPOV.plane, FILIPPOV.plane[0]]))
+  near(strokes("accent", 5)[0], [...at([0, 0, -0.25]), ...at([0, 0, 1.25])])
+  near(strokes("soft", 1).flat(), /** @type {any[]} */ ([[[1, 0.5, 2], -0.25], [[-1, -0.75, -1], -0.25], [[-0.5, 1, 1], 1.25]]).flatMap(([from, to]) => [...at(from), ...at([0, 0, to])]))
+  const dots = all.filter(({how, points}) => how === "fill" && points.length === 1)
+  assert.deepEqual(dots.map(({colour, points}) => [points[0][0], colour]), [["arc", "page"], ["arc", "page"], ["rect", "crit"], ["rect", "page"]])
+  near(dots.flatMap(({points: [[shape, x, y, wide]]}) => shape === "rect" ? [x + wide / 2, y + wide / 2] : [x, y]), [-0.25, 1.25, 0.5, 1].flatMap((w) => at([0, 0, w])))
+  const [cx, cy] = at([0, 0, 0.75])
+  near(strokes("ink", 2.6)[0], [cx - 7, cy - 7, cx + 7, cy + 7, cx - 7, cy + 7, cx + 7, cy - 7])
+  const words = Object.fromEntries(all.filter(({how}) => how === "text").map(({points: [[text, ...place]]}) => [text, place]))
+  near(words["z′ = 0.50"], [at([0, 0, 0.5])[0] + 7, at([0, 0, 0.5])[1] - 4])
+  assert.ok(words["z′ = 1.00"] && words["Σ"] && words["F"] && words["F*(θ)"])
+  const bare = solid({filippov: {...FILIPPOV, plane: [], cross: null, candidates: [0.5]}}, {solid: "filippov"})
+  const left = paths(bare.drawn())
+  assert.ok(!left.some(({points}) => points[0][0] === "F") && !left.some(({colour, width}) => colour === "ink" && width === 2.6) && !left.some(({width}) => width === 5))
+})
+
+test("the panel solid: two candidates that combine a pair each are named with their limit vectors, others are not", () => {
+  const combined = [[[1, 0.5, 2], [-1, -0.75, -1]], [[-0.5, 1, 1], [0.5, -1, 1]]]
+  const names = (data) => paths(solid({filippov: {...FILIPPOV, ...data}}, {solid: "filippov"}).drawn()).filter(({how, points}) => how === "text" && /^v/.test(points[0][0])).map(({points: [[text]]}) => text)
+  assert.deepEqual([...new Set(names({combined}))], ["v₁", "v₃", "v₂", "v₄", "v₁₃", "v₂₄"])
+  assert.deepEqual(names({}), [])
+  assert.match(solid({filippov: {...FILIPPOV, combined}}, {solid: "filippov"}).find(".solid-note").textContent, /^Between\. v₁₃ combines/)
+})
+
+test("the panel solid: a fine screen has a finer canvas, a closed panel none, and what is not known is said", () => {
+  const one = solid({sphere: {inside: [], outside: [], sentence: "A ball."}, ...MARKS})
+  assert.deepEqual([one.canvas.width, one.canvas.height, one.find(".solid-note").textContent], [360, 240, "A ball."])
+  globalThis.devicePixelRatio = 2
+  one.panels.draw(one.values)
+  assert.deepEqual([one.canvas.width, one.canvas.height], [720, 480])
+  assert.ok(one.canvas.recorder.drawn.some(([name, ...all]) => name === "setTransform" && String(all) === "2,0,0,2,0,0"))
+  const paints = (header) => { one.canvas.recorder.drawn.splice(0); one.panels.apply({header, blocks: {}}, []); return one.canvas.recorder.drawn.length > 0 }
+  assert.deepEqual([{}, {sphere: {inside: [], outside: []}}, {stack: {}}, {filippov: FILIPPOV}, {critical: MARKS.critical}, {equator: MARKS.equator}, {unable: {}}].map(paints), [false, true, true, true, true, true, true])
+  one.box.hidden = true
+  assert.equal(paints({equator: MARKS.equator}), false)
+  one.box.hidden = false
+  one.frame({unable: {stack: "No z."}})
+  one.set({solid: "stack"})
+  assert.equal(one.find(".solid-note").textContent, "No z.")
+  assert.deepEqual(one.all("[data-view]").map((button) => button.getAttribute("aria-pressed")), ["false", "true", "false"])
+  one.fire(one.all("[data-view]")[2], "click")
+  assert.deepEqual(one.said(), [["choose", "solid", "filippov"]])
+  one.frame({}, {}, ["filippov"])
+  assert.ok(one.canvas.classList.contains("old"))
+})

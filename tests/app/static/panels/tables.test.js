@@ -1,0 +1,235 @@
+// Panels of words and tables: what they say, and what a hand on them does.
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import "../../../../app/static/panels/lessons.js"
+import "../../../../app/static/panels/numbers.js"
+import "../../../../app/static/panels/orbits.js"
+import {Panels, register} from "../../../../app/static/beside/panels.js"
+import {page} from "../played/page.js"
+import {opened} from "../played/reading.js"
+
+const cells = (one, selector) => one.all(`${selector} tr`).map((row) => [...row.children].map((cell) => cell.textContent))
+const Q = {label: ["Q₁", "Q₂"], theta: [0.5, 2.25], lambda_rho: [-1.5, 0.75], lambda_theta: [0.25, -3], type: ["attracting", "repelling"], multiplicity: [1, 2]}
+const C = {label: ["C₁", "C₂"], kind: ["saddle", "stable node"], e: [[0.1, -0.2], [0.3, 0.4]], x2: [[0.11, -0.22], [0.33, 0.44]], trace: [1, -3], determinant: [-2, 2], discriminant: [9, 1], eigenvalues: [[[2, 0], [-1, 0]], [[-1, 0.5], [-1, -0.5]]], slow_flow: [[0.5], []]}
+
+test("the panel numbers: each number under its head", () => {
+  const one = opened("numbers", {z: 0.5})
+  one.frame({equator: Q, cycle: null, critical: C, all_directions: false})
+  assert.deepEqual(cells(one, ".equator-table"), [["", "θ", "λρ", "λθ"], ["Q₁", "0.500", "−1.500", "0.250"], ["", "attracting"], ["Q₂", "2.250", "0.750", "−3.000"], ["", "repelling, multiplicity 2"]])
+  assert.deepEqual(cells(one, ".critical-table"), [
+    ["C₁", "saddle"], ["(c, s)", "(0.100, −0.200)"], ["(x₂, y₂)", "(0.110, −0.220)"], ["tr J", "1.000"], ["det J", "−2.000"], ["Δ(J)", "9.000"], ["eigenvalues", "2.000, −1.000"], ["z′", "0.500"],
+    ["C₂", "stable node"], ["(c, s)", "(0.300, 0.400)"], ["(x₂, y₂)", "(0.330, 0.440)"], ["tr J", "−3.000"], ["det J", "2.000"], ["Δ(J)", "1.000"], ["eigenvalues", "−1.000 ± 0.500 i"],
+  ])
+  assert.equal(one.find(".critical-table h2").textContent, "Critical sets")
+  const alone = Object.fromEntries(Object.entries(C).map(([name, all]) => [name, all.slice(0, 1)]))
+  one.frame({critical: alone})
+  assert.equal(one.find(".critical-table h2").textContent, "Critical set")
+  assert.ok(!cells(one, ".critical-table").some(([name]) => name === "z′")) // it stands below
+  one.frame({critical: Object.fromEntries(Object.keys(C).map((name) => [name, []]))})
+  assert.equal(one.find(".critical-table .note").textContent, "No critical set is on the hemisphere.")
+})
+
+test("the panel numbers: an equator without directions says how it is run through", () => {
+  const one = opened("numbers", {z: 0.5}), none = {...Q, theta: [], label: []}
+  const words = (header) => { one.frame({equator: none, all_directions: false, ...header}); return one.find(".equator-table .note").textContent }
+  assert.equal(words({cycle: null}), "None.")
+  assert.equal(words({cycle: -0.5}), "None: the equator is a closed orbit, attracting outside (exponent −0.500).")
+  assert.equal(words({cycle: 0.5}), "None: the equator is a closed orbit, repelling outside (exponent 0.500).")
+  assert.equal(words({cycle: 0}), "None: the equator is a closed orbit, neutral to first order (exponent 0).")
+  assert.equal(words({cycle: null, all_directions: true}), "Every direction is a limit direction.")
+})
+
+test("the panel numbers: limit cycles are told while they are shown", () => {
+  const one = opened("numbers", {z: 0, layers: ["cycles"]}), box = one.find(".cycle-table")
+  assert.equal(box.hidden, false)
+  one.panels.draw({layers: ["inside"]}) // where none are computed, and those of another setting are left
+  assert.equal(box.hidden, true)
+  one.panels.draw({layers: ["inside", "cycles"]})
+  assert.equal(box.hidden, false)
+})
+
+test("the panel numbers: cycles and outcomes", () => {
+  const one = opened("numbers", {z: 0.5})
+  one.frame({cycles: {kind: ["stable", "unstable"], period: [7.5, 12], multiplier: [0.25, 3], reason: "", notes: ["More <may> be."]}, outcomes: {rows: [["Q₁", "slide", "slide", "All slide.", [["slides on C", ["1", "3/(3+s)"]]]]]}})
+  assert.deepEqual(cells(one, ".cycle-table"), [["Limit cycle", "stable"], ["period (fast time τ)", "7.500"], ["multiplier", "0.250"], ["Limit cycle", "unstable"], ["period (fast time τ)", "12.00"], ["multiplier", "3.000"]])
+  assert.deepEqual(one.texts(".cycle-table .note"), ["More <may> be."])
+  assert.deepEqual([one.find(".outcome-table i").className, ...one.texts(".outcome-table .note")], ["outcome slide", "All slide.", "slides on C with Ψ = 1; 3/(3+s)"])
+  one.frame({cycles: {kind: [], period: [], multiplier: [], reason: "Case I has none.", notes: []}}, {}, ["outcomes"])
+  assert.deepEqual(one.texts(".cycle-table .note"), ["Case I has none."])
+  assert.ok(one.find(".outcome-table").classList.contains("old"))
+  one.frame({unable: {outcomes: "Too <wild>."}})
+  assert.equal(one.find(".outcome-table .note").textContent, "Too <wild>.")
+})
+
+test("the panel numbers: the arrow along z starts at z and points as z′ does", () => {
+  const one = opened("numbers", {z: 2})
+  const read = (flow, z = 2) => {
+    one.values.z = z
+    one.frame({slow_flow: flow})
+    const numbers = (selector, name) => (one.find(selector)?.getAttribute(name).match(/-?[\d.]+/g) ?? []).map(Number)
+    const [, from, to] = numbers(".z-arrow", "d"), [, tip] = numbers(".z-head", "d")
+    return {from, to, tip, dot: Number(one.find(".z-dot")?.getAttribute("cy")), words: one.find(".slow").textContent.replaceAll(/\s+/g, " ")}
+  }
+  const at = (v) => 75 - 58 * v / 5 // the axis shows −5 to 5, z upward
+  let now = read([0.5, -1])
+  assert.deepEqual([now.from, now.dot], [at(2), at(2)])
+  assert.ok(Math.abs(now.tip - (at(2) - 14 - 44 / 3)) < 1e-9 && now.tip < now.to && now.to < now.from)
+  assert.match(now.words, /z₁′ = 0\.500, z₂′ = −1\.000⊙ out of the page, of z₁ only: z₁ grows/)
+  now = read([-1, 1])
+  assert.ok(Math.abs(now.tip - (at(2) + 36)) < 1e-9 && now.tip > now.to && now.to > now.from)
+  assert.match(now.words, /⊗ into the page/)
+  now = read([9], 4)
+  assert.equal(now.tip, 8) // it stays within the drawing
+  assert.equal(read([-9], -4).tip, 142)
+  now = read([0])
+  assert.deepEqual([now.from, now.words.includes("at rest")], [undefined, true])
+  assert.match(read([1], 7.3).words, /10.*0.*−10/)
+  assert.equal(read([]).words, "")
+  assert.equal(read(null).words, "")
+})
+
+test("the panel numbers: while it is closed its tables wait until nothing moves", () => {
+  const one = opened("numbers", {z: 0})
+  one.panels.show("", one.values)
+  one.panels.apply({header: {equator: Q, cycle: null}, blocks: {}}, [])
+  assert.equal(one.root.dataset.settled, "false")
+  one.tick(40)
+  one.panels.apply({header: {slow_flow: [1]}, blocks: {}}, [])
+  one.tick(59)
+  assert.equal(one.find(".equator-table").innerHTML, "")
+  one.tick(1)
+  assert.equal(cells(one, ".equator-table").length, 5)
+  assert.ok(one.find(".slow").textContent.includes("1.000"))
+  assert.equal(one.root.dataset.settled, "true")
+})
+
+test("the panel orbits: each orbit has its colour and its words, hidden ones none", () => {
+  const one = opened("orbits", {orbit: 1, log_eps: -2, orbits: "0.1,0.2:slow;0.3,0.4,-;0.5,-0.6;1,1;2,1;2,2;3,1;3,2;3,3"})
+  one.frame({launched: {goes: ["To C.", "To Q₁.", "Away."], comes: ["From Q₂.", "", "From far."]}})
+  assert.deepEqual(one.all(".orbit-list .orbit-colour").map((it) => it.getAttribute("style").replace("background: ", "")),
+    [1, 0, 2, 3, 4, 5, 6, 1, 2].map((k) => k ? `var(--launch-${k})` : "transparent"))
+  assert.deepEqual(one.texts(".orbit-goes").slice(0, 5), ["To C.", "hidden", "To Q₁.", "Away.", ""])
+  assert.deepEqual(one.texts("li .note").slice(0, 5), ["From Q₂.", "", "", "From far.", ""])
+  assert.deepEqual(one.all(".orbit-name").slice(0, 3).map((it) => [it.getAttribute("value"), it.getAttribute("placeholder")]), [["slow", "(0.100, 0.200)"], ["", "(0.300, 0.400)"], ["", "(0.500, −0.600)"]])
+  assert.deepEqual(one.texts(".hide").slice(0, 3), ["●", "○", "●"])
+  assert.equal(one.find(".clear").hidden, false)
+  one.set({orbits: "0.1,0.2;0.3,0.4"})
+  one.fire(one.all(".hide")[1], "click")
+  assert.deepEqual(one.said(), [["choose", "orbits", "0.1,0.2;0.3,0.4,-"]])
+  one.fire(one.all(".hide")[1], "click")
+  one.fire(one.all(".remove")[0], "click")
+  assert.deepEqual(one.said(), [["choose", "orbits", "0.1,0.2;0.3,0.4"], ["choose", "orbits", "0.3,0.4"]])
+  const name = one.find(".orbit-name")
+  name.value = "a;b"
+  one.fire(name, "change")
+  assert.deepEqual(one.said(), [["choose", "orbits", "0.3,0.4:a b"]])
+  one.fire(one.find(".orbit-list"), "click")
+  assert.deepEqual(one.said(), [])
+  one.fire(one.find(".clear"), "click")
+  assert.deepEqual([one.said(), one.find(".clear").hidden], [[["choose", "orbits", ""]], true])
+})
+
+test("the panel orbits: a name that is being typed is not written over, a button that was pressed is", () => {
+  const one = opened("orbits", {orbit: 1, log_eps: -2, orbits: "0.1,0.2"}), root = one.find(".orbit-list").getRootNode()
+  const active = (element) => Object.defineProperty(root, "activeElement", {value: element, configurable: true})
+  one.frame({launched: {goes: ["To C."], comes: [""]}})
+  const name = one.find(".orbit-name")
+  active(name)
+  one.frame({launched: {goes: ["Away."], comes: [""]}})
+  assert.deepEqual(one.texts(".orbit-goes"), ["To C."])
+  active(one.find(".hide"))
+  one.frame({launched: {goes: ["Away."], comes: [""]}})
+  assert.deepEqual(one.texts(".orbit-goes"), ["Away."])
+  const elsewhere = one.document.createElement("input")
+  one.box.append(elsewhere)
+  active(elsewhere)
+  one.frame({launched: {goes: ["To Q₁."], comes: [""]}})
+  assert.deepEqual(one.texts(".orbit-goes"), ["To Q₁."])
+  const row = one.find("li")
+  one.frame({})
+  one.frame({launched: {goes: ["To Q₁."], comes: [""]}})
+  assert.equal(one.find("li"), row) // nothing has changed: nothing is written
+})
+
+const LESSON = {key: "03-x", title: "Three", parts: [{html: '<button data-drag="f1" role="slider">f₁ = <b></b></button> <i data-fact="name"></i>'}, {ask: "What?", options: ["a", "b", "c"], hide: ["critical"], vary: {html: "Make it <i>b</i>."}}, {ask: "And?", options: ["d", "e"], hide: []}]}
+
+test("the panel lessons: a number is dragged by the range of its slider over 400 px, or stepped by keys", () => {
+  const one = opened("lessons", {quiz: "", lesson: "03-x", f1: 0.123})
+  one.frame({lesson: LESSON, facts: {name: "CM2"}})
+  assert.deepEqual([one.find("[data-drag] b").textContent, one.find("[data-fact]").textContent], ["0.123", "CM2"])
+  one.said()
+  const place = one.find("[data-drag]"), keys = (key) => { one.fire(place, "keydown", {key}); return one.said() }
+  for (const [key, value] of /** @type {[string, number][]} */ ([["ArrowRight", 0.15], ["ArrowUp", 0.18], ["ArrowLeft", 0.15], ["ArrowDown", 0.12]])) assert.deepEqual(keys(key), [["move", {f1: value}]])
+  assert.deepEqual(keys("x"), [])
+  one.fire(place, "pointerdown", {clientX: 50})
+  one.fire(place, "pointermove", {clientX: 70})
+  one.fire(place, "pointermove", {clientX: 30})
+  assert.deepEqual(one.said(), [["move", {f1: 0.42}], ["move", {f1: -0.18}]])
+  one.fire(place, "pointerup")
+  one.fire(place, "pointermove", {clientX: 90})
+  assert.deepEqual(one.said(), [])
+  assert.equal(place.getAttribute("aria-valuenow"), "-0.18")
+})
+
+test("the panel lessons: a question hides, asks, judges and remembers", () => {
+  const kept = {}
+  const one = opened("lessons", {quiz: "", lesson: "03-x", f1: 0})
+  Object.assign(globalThis.localStorage, {getItem: (name) => kept[name] ?? null, setItem: (name, value) => { kept[name] = value }})
+  one.frame({lesson: LESSON})
+  one.said()
+  const section = (i) => one.find(`[data-question="${i}"]`)
+  one.fire(section(1).querySelector(".begin"), "click")
+  assert.deepEqual(one.said(), [["choose", "quiz", "1.250000"], ["hide", []]])
+  one.fire(section(0).querySelector(".begin"), "click")
+  assert.deepEqual(one.said(), [["choose", "quiz", "0.250000"], ["hide", ["critical"]]])
+  assert.deepEqual([section(0).querySelector(".options").hidden, section(0).querySelector(".vary").hidden, section(0).querySelector(".begin").textContent], [false, true, "Another one"])
+  one.frame({pose: {values: {a: 1}}})
+  assert.deepEqual(one.said(), [["open", {a: 1}]])
+  one.fire(section(1).querySelector("[data-choice]"), "click") // of another question than the one that was asked
+  assert.deepEqual(one.said(), [])
+  one.fire(section(0).querySelectorAll("[data-choice]")[2], "click")
+  assert.deepEqual(one.said(), [["choose", "quiz", "0.250000.2"]])
+  one.frame({judged: {question: 0, right: false, truth: 1, explain: "Because."}})
+  assert.deepEqual(one.said(), [["hide", []]])
+  const marked = () => [...section(0).querySelectorAll("[data-choice]")].map((it) => it.className)
+  assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent, section(0).querySelector(".vary").hidden, kept], [["", "right", "wrong"], "Not so. Because.", false, {}])
+  one.set({quiz: "0.250000.1"})
+  one.frame({judged: {question: 0, right: true, truth: 1, explain: "Yes."}})
+  assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent], [["", "right", ""], "Right. Yes."])
+  assert.deepEqual(JSON.parse(kept["codim2-lessons"]), {"03-x": {0: ["answer"]}})
+  one.frame({goal: {question: 0, reached: false}})
+  assert.equal(section(0).querySelector(".goal").textContent, "")
+  one.frame({goal: {question: 0, reached: true}})
+  assert.equal(section(0).querySelector(".goal").textContent, "Done ✓")
+  assert.deepEqual(JSON.parse(kept["codim2-lessons"]), {"03-x": {0: ["answer", "goal"]}})
+  one.frame({unable: {pose: "Not found."}})
+  assert.equal(section(0).querySelector(".verdict").textContent, "Not found.")
+  one.said()
+  one.frame({lesson: LESSON}) // loaded again: what was answered hides nothing
+  assert.deepEqual(one.said(), [["hide", []]])
+  assert.equal(section(0).querySelector(".options").hidden, false)
+  one.fire(one.find(".lesson-head button"), "click")
+  assert.deepEqual(one.said(), [["choose", "quiz", ""], ["choose", "lesson", ""]])
+  one.frame({lesson: {key: "", list: [{key: "03-x", title: "Three", summary: "S.", questions: 2, values: {lesson: "03-x"}}, {key: "04-y", title: "Four", summary: "T.", questions: 1, values: {}}]}})
+  assert.deepEqual(one.texts(".lesson-done"), ["1/2", ""])
+  kept["codim2-lessons"] = '{"04-y": {"0": ["answer"]}}'
+  one.frame({lesson: {key: "", list: [{key: "04-y", title: "Four", summary: "T.", questions: 1, values: {lesson: "04-y", f1: 1}}]}})
+  assert.deepEqual(one.texts(".lesson-done"), ["✓"])
+  one.said()
+  one.fire(one.find("[data-open]"), "click")
+  assert.deepEqual(one.said(), [["open", {lesson: "04-y", f1: 1}]])
+})
+
+test("arrows go along the strip of tabs to both sides, and round", () => {
+  const keys = ["one", "two", "three"]
+  for (const key of keys) register(key, () => ({}))
+  const there = page(`<div class="codim2"><div class="portrait"></div><div class="tabs">${keys.map((key) => `<button role="tab" data-panel="${key}"></button>`).join("")}</div>${keys.map((key) => `<section role="tabpanel" data-panel="${key}"></section>`).join("")}</div>`)
+  const root = /** @type {any} */ (there.document.querySelector(".codim2"))
+  const panels = new Panels(root, {}, {}, (key) => panels.show(key, {}))
+  panels.show("two", {})
+  for (const [key, name] of [["ArrowLeft", "one"], ["ArrowLeft", "three"], ["ArrowRight", "one"], ["ArrowRight", "two"], ["End", "three"], ["Home", "one"]]) {
+    there.fire(root.querySelector(".tabs"), "keydown", {key})
+    assert.equal(panels.open, name, key)
+  }
+})

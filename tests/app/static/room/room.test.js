@@ -1,0 +1,166 @@
+// A room: what a lecturer's atlas makes of the phones in it, and what both sides are told.
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import {lessons, placed, settings, tally} from "../../../../app/static/room/crowd.js"
+import {Room} from "../../../../app/static/room/room.js"
+import "../../../../app/static/panels/atlas.js"
+import {page} from "../played/page.js"
+import {near, opened} from "../played/reading.js"
+import {FIRST as HEADER, memory, wired} from "../played/wiring.js"
+
+const FIRST = {a: -2, b: 0, d: -1, f1: -0.5, f2: 0, system: "normal", texts: {}, parameters: {}, z: 0, z2: 0, z3: 0, z4: 0, k1: 0.5, k2: 0, B1: 1, psi: "constant", n: 2, psi_text: "1"}
+const NAMES = Object.keys(FIRST), FAMILIES = {constant: {}, hill: {parameter: "n"}, custom: {typed: true}}
+const row = (number, name, own, lesson = null) => /** @type {import("../../../../app/static/room/crowd.js").Row} */ ([number, name, own, lesson])
+const on = (axes, plane = false) => ({axes, plane, first: FIRST, names: NAMES, families: FAMILIES})
+const spots = (rows, mine, chart) => placed(rows, {...FIRST, ...mine}, chart).map(({x, y, alike}) => [x, y, alike])
+
+test("in the plane of f a phone is at its f(z), and hollow where A or Ψ is another", () => {
+  const rows = [row(1, "CM4", {}), row(2, "CM2", {f1: 1, f2: -0.5, z: 2, k2: 0.25}), row(3, "CM0", {a: 1}), row(4, "CM4", {psi: "hill"}), row(5, "CM4", {B1: 3, n: 4})]
+  near(spots(rows, {f1: 9, z: 0.5}, on(["f1", "f2"], true)).map(([x, y]) => [x, y]), [[-0.5, 0], [2, 0], [-0.5, 0], [-0.5, 0], [-0.5, 0]])
+  assert.deepEqual(spots(rows, {f1: 9, z: 0.5}, on(["f1", "f2"], true)).map(([, , alike]) => alike), [true, true, false, false, true])
+  assert.deepEqual(spots(rows, {psi: "hill"}, on(["f1", "f2"], true)).map(([, , alike]) => alike), [false, false, false, true, false])
+})
+
+test("over two other parameters all else is compared, and f as f(z)", () => {
+  const rows = [row(1, "CM4", {}), row(2, "CM4", {a: 1, d: 2}), row(3, "CM4", {f1: 0}), row(4, "CM4", {f1: -1, z: 1})]
+  assert.deepEqual(spots(rows, {a: 3}, on(["a", "d"])), [[-2, -1, true], [1, 2, true], [-2, -1, false], [-2, -1, true]])
+  assert.deepEqual(spots(rows, {z: 1}, on(["f1", "a"])), [[-1, -2, true], [-1, 1, false], [-0.5, -2, true], [-1, -2, true]])
+  assert.deepEqual(spots(rows, {}, on(["z", "f1"])), [[0, -0.5, true], [0, -0.5, false], [0, 0, true], [1, -1, true]])
+  assert.deepEqual(spots([row(1, "CM4", {psi: "hill", n: 3})], {psi: "hill"}, on(["n", "a"])), [[3, -2, true]])
+})
+
+test("a system of one's own is compared by its texts and parameters; another system is on no chart", () => {
+  const own = (mu, more = {}) => ({system: "own", texts: {U1: "c"}, parameters: {mu, k: 1}, ...more})
+  const rows = [row(1, "CM4", own(0.5)), row(2, "CM4", own(0.5, {z: 1, z2: 3})), row(3, "CM4", own(2, {texts: {}})), row(4, "CM4", {}), row(5, "CM4", null)]
+  assert.deepEqual(spots(rows, own(9), on(["z", "own:mu"])), [[0, 0.5, true], [1, 0.5, false], [0, 2, false]])
+  assert.deepEqual(spots([row(1, "CM4", {...own(0.5), parameters: {k: 1}})], own(9), on(["z", "own:mu"])), [])
+  assert.deepEqual(spots([row(1, "CM4", {...own(0.5), parameters: {mu: 1, k: 2}})], own(9), on(["z", "own:mu"])), [[0, 1, false]])
+})
+
+test("all settings of a phone, and how many show what", () => {
+  assert.deepEqual(settings(row(1, "CM4", {a: 3}), {...FIRST, panel: "atlas"}, NAMES), {...FIRST, a: 3})
+  assert.equal(settings(row(1, "CM4", null), FIRST, NAMES), null)
+  const rows = [row(1, "CM2", {}, ["Ball", -1, false]), row(2, "CM4", {}, ["Ball", 1, true]), row(3, "CM4", {}, ["Ball", 1, false]), row(4, "CM0", {}, ["A", 0, true])]
+  assert.deepEqual(tally(rows).map(([name, some]) => [name, some.length]), [["CM4", 2], ["CM0", 1], ["CM2", 1]])
+  assert.deepEqual(lessons(rows), ["A: 1 there; question 1: 1 of 1 right", "Ball: 3 there; question 2: 1 of 2 right"])
+})
+
+const REGIONS = {atlas_of: ["f1", "f2", true], atlas_size: 2, regions: {name: ["CM4"], inside: [[0, 0]], bounded: [false], loops: [0], size: 2}}
+const BLOCKS = Object.fromEntries(["transcritical", "saddle_node", "regions"].flatMap((name) => [[`${name}.n`, new Uint16Array()], [`${name}.xy`, new Int16Array()]]))
+
+test("in the atlas: dots, those that meet as one with their number; a click opens the settings of the next of them", () => {
+  let rows = /** @type {any} */ (null)
+  const one = opened("atlas", {...FIRST, f1: 0.75, across: "f1", up: "f2", atlas_zoom: 0, cycle_curves: "hide", panel: "atlas"}, {crowd: () => rows, first: FIRST, setting: NAMES, families: FAMILIES, parameters: () => ({})})
+  one.frame(REGIONS, BLOCKS)
+  assert.equal(one.find(".crowd"), null)
+  assert.equal(one.find(".crowd-list"), null)
+  rows = [row(1, "CM4", {}), row(2, "CM4", {f1: -0.49}), row(3, "CM2", {f1: 1, a: 4}), row(4, "<CM0>", {system: "ball"})]
+  one.set({})
+  const shown = () => one.all(".crowd .phone").map((it) => [it.getAttribute("class"), it.querySelector("text")?.textContent ?? "1"])
+  assert.deepEqual(shown(), [["phone", "2"], ["phone other", "1"]])
+  one.set({f1: -0.495}) // the handle is there: it can be taken, and the dots are seen on it
+  assert.deepEqual(shown(), [["phone held", "2"], ["phone other", "1"]])
+  one.set({f1: 0.75})
+  const first = one.find(".crowd .phone").getAttribute("transform")
+  assert.equal(one.find(".crowd-list h2").textContent, "4 phones in the room")
+  assert.deepEqual(one.texts(".crowd-list li button"), ["CM42", "<CM0>1", "CM21"])
+  assert.match(one.find(".crowd-list .note").textContent, / 1 not on this chart/)
+  one.set({f1: 0.25}) // the lecturer's own slider moves none of them
+  assert.equal(one.find(".crowd .phone").getAttribute("transform"), first)
+  one.said()
+  const press = (it) => one.fire(it, "pointerdown", {button: 0, pointerId: 1, clientX: 5, clientY: 5})
+  for (const f1 of [-0.5, -0.49, -0.5]) {
+    press(one.find(".crowd .phone"))
+    const said = one.said()
+    assert.deepEqual(said, [["open", {...FIRST, f1, preset: ""}]]) // and no handle is moved
+  }
+  one.fire(one.all(".crowd-list li button")[2], "click")
+  assert.deepEqual(one.said(), [["open", {...FIRST, f1: 1, a: 4, preset: ""}]])
+  one.set({a: 4})
+  assert.deepEqual(shown(), [["phone", "1"], ["phone other", "2"]])
+  one.frame({...REGIONS, atlas_size: 3}, BLOCKS) // the chart is drawn anew
+  assert.equal(shown().length, 2)
+  rows = null
+  one.set({})
+  assert.equal(one.find(".crowd-list").hidden, true)
+  assert.deepEqual(shown(), [])
+})
+
+function room(kept = "{}") {
+  const said = []
+  const there = page('<div class="codim2"><div class="room-bar" hidden></div><dialog class="room"></dialog></div>', {location: {origin: "http://h", pathname: "/x/", href: "http://h/x/", hostname: "h"}, sessionStorage: {value: kept, getItem() { return this.value }, setItem(_, text) { this.value = text }}})
+  const root = /** @type {any} */ (there.document.querySelector(".codim2")), dialog = root.querySelector("dialog")
+  dialog.showModal = () => { dialog.open = true }
+  dialog.close = () => { dialog.open = false }
+  const made = new Room(root, {send: ({room: wish}) => said.push(wish), query: () => "v=1&f1=1", version: 1, changed: () => said.push("changed"), opened: () => said.push("opened")})
+  return {...there, root, dialog, room: made, bar: root.querySelector(".room-bar"), said: () => said.splice(0), kept: () => JSON.parse(sessionStorage.getItem("")), press: (act) => there.fire(root.querySelector(`[data-room=${act}]`), "click")}
+}
+
+test("a lecturer opens a room, is told of the phones, and closes it", async () => {
+  const one = room()
+  one.room.begin("new")
+  assert.deepEqual(one.said(), [{open: ""}])
+  assert.equal(one.room.hear({frame: 1}), false)
+  assert.equal(one.room.hear({room: {open: "BCDF", key: "secret"}}), true)
+  assert.deepEqual([one.said(), one.kept(), one.dialog.open], [["changed", "opened"], {key: "secret"}, true])
+  for (let i = 0; i < 1000 && !one.dialog.querySelector(".qr").src; i++) await new Promise((done) => { setImmediate(done) })
+  assert.equal(decodeURIComponent(one.dialog.querySelector(".qr").src), "http://h/qr.svg?text=http://h/x/?room=BCDF&v=1&f1=1".replace("/qr", "/x/qr"))
+  assert.deepEqual([".room-code", ".room-address", ".room-count"].map((it) => one.dialog.querySelector(it).textContent), ["BCDF", "h/x/?room=BCDF", "0 phones"])
+  one.room.hear({room: {rows: [row(1, "CM4", {})]}})
+  assert.deepEqual([one.room.rows?.length, one.said(), one.dialog.querySelector(".room-count").textContent], [1, ["changed"], "1 phone"])
+  assert.match(one.bar.textContent, /^Room BCDF · 1 phone/)
+  one.fire(one.dialog.querySelector(".room-go"), "click")
+  assert.equal(one.dialog.open, false)
+  one.press("show")
+  assert.equal(one.dialog.open, true)
+  one.fire(one.dialog.querySelector(".room-end"), "click")
+  assert.deepEqual(one.said(), [{close: true}])
+  one.room.hear({room: {ended: "BCDF"}})
+  assert.deepEqual([one.room.rows, one.kept(), one.dialog.open, one.bar.textContent], [null, {}, false, "You have closed room BCDF.OK"])
+  one.press("hide")
+  assert.equal(one.bar.hidden, true)
+  const again = room('{"key": "secret"}')
+  again.room.begin(null)
+  assert.deepEqual(again.said(), [{open: "secret"}])
+  again.room.hear({room: {open: "BCDF", key: "secret"}})
+  assert.deepEqual([again.said(), Boolean(again.dialog.open)], [["changed"], false]) // the lecturer goes on where he was
+})
+
+test("a student is told that he is in a room, and leaves it", () => {
+  const one = room()
+  one.room.begin("bcdf")
+  assert.deepEqual(one.said(), [{join: "bcdf"}])
+  one.room.hear({room: {joined: "BCDF"}})
+  assert.match(one.bar.textContent, /^You are in room BCDF: the lecturer sees your settings as a dot, no name\.Leave$/)
+  assert.deepEqual(one.kept(), {in: "BCDF"})
+  one.press("leave")
+  assert.deepEqual([one.said(), one.kept(), one.bar.hidden], [[{leave: true}], {}, true])
+  one.room.begin("zzzz")
+  one.room.hear({room: {error: "There is no <room>."}})
+  assert.deepEqual([one.bar.textContent, one.bar.hidden, one.kept()], ["There is no <room>.OK", false, {}])
+})
+
+test("a page that is loaded again while its server starts asks some times", () => {
+  const one = room('{"in": "BCDF"}')
+  one.room.begin(null)
+  for (let i = 0; i < 8; i++) { one.room.hear({room: {error: "There is none."}}); one.tick(3001) }
+  assert.deepEqual([one.said().length, one.kept()], [6, {}])
+  const nobody = room("no JSON")
+  nobody.room.begin(null)
+  assert.deepEqual(nobody.said(), [])
+})
+
+test("the explorer enters the room of its address; an embedded one does not", () => {
+  const at = {location: {search: "?room=bcdf", origin: "http://h", pathname: "/", href: "http://h/", hostname: "h"}, sessionStorage: memory({})}
+  const asked = (one) => one.sent.filter((message) => "room" in message).map(({room: wish}) => wish)
+  const one = wired({}, HEADER, at)
+  assert.deepEqual(asked(one), [{join: "bcdf"}])
+  one.tell({room: {joined: "BCDF"}})
+  assert.match(one.find(".room-bar").textContent, /^You are in room BCDF/)
+  one.tell({room: {rows: [row(1, "CM4", {})]}})
+  assert.equal(one.root.explorer.room.rows.length, 1)
+  const embedded = wired({look: {embed: true, controls: [], seen: []}}, HEADER, at)
+  assert.deepEqual(asked(embedded), [])
+  assert.deepEqual(asked(wired({}, HEADER, {location: {...at.location, search: "?a=1"}, sessionStorage: memory({})})), [])
+})
