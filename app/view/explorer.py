@@ -8,8 +8,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from concurrent.futures import Future
-from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any, ClassVar
@@ -23,8 +21,8 @@ from panel.models.esm import DataEvent, ESMEvent
 from panel.viewable import Child
 from param.parameterized import resolve_value
 
-from codim2_core.portrait.launched import Launched
 from codim2_core.scene import Scene
+from codim2_core.scene.launched import Launched
 
 from ..draw.figure import make_figure
 from ..draw.packing import pack, unpack
@@ -32,29 +30,19 @@ from ..draw.still import page_of, still
 from ..frame.budget import Budget
 from ..frame.picture import make_frame
 from ..phrases import say
-from ..rooms.visitor import Visitor
 from ..state.chosen import System_
 from ..state.cleaning import InputError
 from ..state.controls import NAMES, ExplorerState
 from ..state.links import Look
+from .answers import Answers
 from .cell import Cell, kernel
 from .first_markup import first_words
 from .markup import STATIC, address_of_script, digest, explorer_html, offered_text, script, settings
 from .refresh import Frames
 from .shared import SHARED, declare, join
-from .taking import Taking
 from .warmup import elsewhere, is_ready, is_ready_for_all
 
-#: Seconds for which an answer waits for a picture that is computed beside the frames.
-PATIENCE = 0.25
-
 COMPILING = say("compiling")
-
-
-def _send(model: Any, message: dict[str, Any]) -> None:
-    """Send to the one page that shows a model, if it is still there."""
-    if model.document is not None:
-        model.document.callbacks.send_event(ESMEvent(model=model, data=message))
 
 
 def _is_static(doc: Any, comm: Any) -> bool:
@@ -121,9 +109,7 @@ class ExplorerView(JSComponent):
         # a page is answered by the thread that answers all pages; a notebook is one person's
         ready, budget = (is_ready_for_all, Budget(elsewhere)) if page else (is_ready, None)
         self.frames = Frames(self.state, system, ready, errors, budget)
-        self.taking = Taking(self.frames)
-        self.visitor = Visitor(self.frames)
-        self._held: object = None
+        self.answers = Answers(self.frames)
         self._cell: Cell | None = None
         self._first_values = self.state.values()
         own = [] if page else [(STATIC / "notebook.css").read_text(encoding="utf-8")]
@@ -278,58 +264,12 @@ class ExplorerView(JSComponent):
         model = event.model
         if len(self._models) > 1 or model is None or model.document is None:
             self._handle_msg(event.data)
-            return
-        request = event.data or {}
-        if isinstance(request, Mapping) and "take" in request:
-            self._take(model, request["take"])
-            return
-        if isinstance(request, Mapping) and "room" in request:
-            self._room(model, request["room"])
-            return
-        frame = self.frames.answer(request)
-        pending = self.frames.pending
-        if pending is None:
-            self._reply(model, frame)
         else:
-            self.frames.keep()
-            rest = request.get("rest", False) or request.get("all", False)  # who asks for all is at rest
-            self._hold(model, pending, {"id": request.get("id"), "rest": rest, "window": request.get("window")})
-        self.frames.publish()
-
-    def _take(self, model: Any, request: Any) -> None:
-        self.taking.answer(request, partial(_send, model), model.document.add_next_tick_callback)
-
-    def _room(self, model: Any, request: Any) -> None:
-        def reply(message: dict[str, Any]) -> None:
-            _send(model, {"room": message})
-
-        self.visitor.answer(request, reply, model.document.add_next_tick_callback)
-
-    def _reply(self, model: Any, frame: bytes) -> None:
-        self._held = None
-        _send(model, {"frame": frame})
-
-    def _hold(self, model: Any, pending: Future[Any], request: dict[str, Any]) -> None:
-        """Answer once the picture is there, or soon without it: the browser then asks again, with its newest values."""
-        doc = model.document
-        held = self._held = object()
-
-        def answer(_: object = None) -> None:
-            if self._held is held and doc.session_context is not None:
-                self._reply(model, self.frames.answer(request))
-                self.frames.publish()
-
-        def there(_: Future[Any]) -> None:
-            doc.add_next_tick_callback(answer)  # the one thing that any thread may ask of a document
-
-        doc.add_timeout_callback(answer, int(1000 * PATIENCE))
-        pending.add_done_callback(there)
+            self.answers.answer(model, event.data or {})
 
     def leave(self) -> None:
         """Stop what is computed for this view alone: its browser has gone."""
-        self._held = None
-        self.frames.jobs.leave()
-        self.visitor.leave()
+        self.answers.leave()
 
     def _handle_msg(self, data: Any) -> None:
         """Answer a request of one browser with one frame to all that show this view."""

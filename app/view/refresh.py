@@ -24,6 +24,7 @@ from ..frame.budget import Budget, Layers, LeftOut, layers_of
 from ..frame.draft import Draft
 from ..frame.faults import sentence_of
 from ..frame.jobs import Jobs
+from ..frame.load import load
 from ..frame.picture import Asked, Blocks, make_frame
 from ..frame.scenes import evolved, locked_controls, make_scene, settled
 from ..frame.sides import sides
@@ -32,12 +33,12 @@ from ..frame.window import Window, inputs, seen
 from ..panels import registry
 from ..panels.parameters.axes import opening_axes
 from ..state.asked import read_request
+from ..state.changes import culprit, together
 from ..state.choices import AXES
-from ..state.chosen import BOXES, GIVEN, System_, describe
+from ..state.chosen import GIVEN, System_, describe
 from ..state.cleaning import InputError, clean
-from ..state.controls import NAMES, TYPED_IN, ExplorerState, first_values, preset_values
+from ..state.controls import TYPED_IN, ExplorerState, first_values, preset_values
 from . import warmup
-from .load import load
 from .notices import left_out
 
 #: Controls that are axes of the picture's parameters.
@@ -48,7 +49,6 @@ FIRST_MOVED = "f1"
 AXES_OF = frozenset({"system", "texts", "psi"})
 #: Layers that others start from, and that are small: whoever computes those is given these.
 STANDING = frozenset({"equator", "equator_cycle", "location", "critical", "classification", "slow_flow"})
-_TYPED_BOXES = frozenset(box.name for boxes in BOXES.values() for box in boxes)
 #: How often a frame is begun anew because what it lacked is there.
 MOST_ROUNDS = 4
 
@@ -171,41 +171,21 @@ class Frames:
         except Exception as error:  # one change must not take the others with it
             said = sentence_of(error, "a frame")
             if not good:
-                errors[_culprit(error, "")] = said
+                errors[culprit(error, "")] = said
                 return None
-        had, failed = self._together(good, self._reach)
+        had, failed = together(good, self._reach)
         try:
             drawn = self._draw(had, sent, rest)
         except Exception:  # a scene there is, but it cannot be drawn: so each is tried to the end
-            had, failed = self._together(good, lambda changes: self._draw(changes, sent, False))
+            had, failed = together(good, lambda changes: self._draw(changes, sent, False))
             try:
                 drawn = self._draw({}, sent, rest)
             except Exception as error:  # what was drawn before cannot be drawn again: the browser keeps what it has
                 errors[""] = sentence_of(error, "a frame")
                 return None
         self.refused |= {name: good[name] for name in failed}
-        errors |= {_culprit(error, name): sentence_of(error, f"the control {name}") for name, error in failed.items()}
+        errors |= {culprit(error, name): sentence_of(error, f"the control {name}") for name, error in failed.items()}
         return drawn
-
-    def _together(
-        self, good: Mapping[str, Any], attempt: Callable[[Mapping[str, Any]], Any]
-    ) -> tuple[dict[str, Any], dict[str, Exception]]:
-        """Return the changes that can be had together, and why not the others: one may need another to come first."""
-        had: dict[str, Any] = {}
-        failed: dict[str, Exception] = {}
-        left = sorted(good, key=NAMES.index)
-        while left:
-            failed = {}
-            for name in left:
-                try:
-                    attempt({**had, name: good[name]})
-                    had[name] = good[name]
-                except Exception as error:  # told beside the control that it is of
-                    failed[name] = error
-            if len(failed) == len(left):
-                break
-            left = list(failed)
-        return had, failed
 
     def _reach(self, changes: Mapping[str, Any]) -> tuple[dict[str, Any], list[str], Scene]:
         """Return the values after some changes, the names of those that are other than before, and their scene."""
@@ -344,14 +324,6 @@ class Frames:
         header["set"] = {name: value for name, value in self.values.items() if value != before[name]}
         self._unpublished.update(header["set"])
         return self._packed({"errors": {}, **header}, blocks)
-
-
-def _culprit(error: Exception, name: str) -> str:
-    if isinstance(error, InputError):
-        return error.control
-    word = str(error).partition(" ")[0]  # what is wrong with one formula begins with its name; W holds W1, W2, …
-    box = "W" if word[:1] == "W" else word
-    return f"text:{box}" if name == "texts" and box in _TYPED_BOXES else name
 
 
 def _sides_of(scene: Scene, values: Mapping[str, Any], control: str) -> tuple[dict[str, Any] | None]:

@@ -1,7 +1,7 @@
 """Zeros of Theta at many parameter values at once, and where along the parameter they meet.
 
 ``Theta = b + f2 cos - f1 sin + (d - a) sin cos`` (eq:equator_zeros) is a product of two factors
-``h cos(theta - nu) + g``, as in `numerics.trigonometric.line_pair`.
+``h cos(theta - nu) + g``, as in `numerics.line_pair`.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ def _factored(plane: Plane) -> Array:
 
 
 def _pencil_root(b: Array, c: Array, d: Array) -> Array:
-    """Return the steepest root in [0, 1] of y^3 + b y^2 + c y + d, as `numerics.trigonometric` does for one."""
+    """Return the steepest root in [0, 1] of y^3 + b y^2 + c y + d, as `numerics.line_pair` does for one."""
     third = b / 3.0
     p, q = third * third - c / 3.0, third * (third * third - 0.5 * c) + 0.5 * d
     three = q * q < p * p * p

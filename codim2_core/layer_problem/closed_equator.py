@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..numerics.trigonometric import line_pair, tangential_zeros
+from ..numerics.line_pair import line_pair
+from ..numerics.trigonometric import tangential_zeros
 from ..numerics.trigonometric_exact import to_integers
 from ..tables import number, paragraphs, table
 from ..words import say

@@ -105,6 +105,7 @@ def of_critical_set(C: CriticalSet) -> Linearised:
 
 def to_disc(x2: Array, vector: Array) -> Array:
     """Carry a tangent (2,) at x2 (2,) of kappa_2 to the disc, ``p = x2/sqrt(1 + |x2|^2)``, with length 1."""
+    vector = vector / np.abs(vector).max()  # the square of its length may be too small to be told from 0
     image = vector - x2 * float(x2 @ vector) / (1.0 + float(x2 @ x2))
     return image / np.linalg.norm(image)
 

@@ -12,7 +12,7 @@ from ..cycles.limit_cycles import limit_cycles
 from ..layer_problem.critical import CriticalSet, critical_sets
 from ..layer_problem.equator import EquatorEquilibria, equator_equilibria
 from ..layer_problem.problem import LayerProblem
-from ..portrait.outcomes import outcome_towards
+from ..portrait.approach import outcome_towards
 from ..portrait.verdicts import ends, followed, judge
 from ..psi.constructors import compared, constant
 from ..psi.function import Psi

@@ -14,14 +14,14 @@ from ..layer_problem.problem import find_critical, find_equator, find_equator_cy
 from ..nullcline.meeting import Conics, conics_of
 from ..nullcline.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
 from ..nullcline.refining import Seen
+from ..portrait.approach import outcomes_of
 from ..portrait.classify import portrait
-from ..portrait.launched import Launched, launched
-from ..portrait.outcomes import outcomes_of
 from ..portrait.separatrices import Separatrices, separatrices_of
 from ..sliding.flow import sliding_flow
 from ..systems.bounds import SMALLEST
 from ..theorems.certificates import Certificate, certificates_of
 from .drawn_orbits import continuations, orbits, seeds_of, sketched
+from .launched import Launched, launched
 from .setting import Setting
 
 

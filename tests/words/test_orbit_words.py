@@ -8,7 +8,7 @@ import pytest
 import codim2_core as c2
 from codim2_core import ELinear, System, examples, psi
 from codim2_core.layer_problem.problem import LayerProblem
-from codim2_core.portrait.launched import launched
+from codim2_core.scene.launched import launched
 from codim2_core.sliding.along import slow_portrait
 from codim2_core.words import ROOMS, named, recognise
 

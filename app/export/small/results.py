@@ -21,10 +21,10 @@ from codim2_core.motion.result import Simulation
 from codim2_core.nullcline.nullclines import Nullclines
 from codim2_core.orbits.trajectories import Trajectories
 from codim2_core.portrait.basins import Basins
-from codim2_core.portrait.launched import Launched
 from codim2_core.portrait.separatrix import Separatrices
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
+from codim2_core.scene.launched import Launched
 from codim2_core.sliding.slow_portrait_result import SlowPortrait
 
 from ...draw import glyphs

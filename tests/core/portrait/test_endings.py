@@ -111,7 +111,8 @@ def test_tangents_are_carried_to_the_disc(x2):
         v = 3.0 * np.array([math.cos(angle), math.sin(angle)])
         p = [y / math.sqrt(1.0 + y @ y) for y in (x2 - step * v, x2 + step * v)]
         expected = (p[1] - p[0]) / np.linalg.norm(p[1] - p[0])
-        np.testing.assert_allclose(to_disc(x2, v), expected, rtol=0.0, atol=1e-8)
+        for size in (1.0, 1e-198, 1e198):
+            np.testing.assert_allclose(to_disc(x2, size * v), expected, rtol=0.0, atol=1e-8)
 
 
 @pytest.mark.parametrize("f", [(0.0, 0.0), (0.3, -0.6)])

@@ -1,301 +1,99 @@
-"""Approach outcomes: the paper's portraits, the basins outside, and agreement with the regularised system."""
+"""From an angle of approach to the limit direction that decides, on equators made up so that every answer is known."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
-from scipy.integrate import solve_ivp
 
-from codim2_core import (
-    ELinear,
-    Scene,
-    System,
-    critical_sets,
-    equator_cycle,
-    equator_equilibria,
-    presets,
-    psi,
-    trajectories,
-)
-from codim2_core.layer_problem.problem import LayerProblem
-from codim2_core.portrait import outcomes, verdicts
-from codim2_core.portrait.outcomes import approach_outcomes
-from codim2_core.portrait.separatrices import separatrices
-from codim2_core.words import say
-from tests.core.strategies import regularisations, systems
+import codim2_core as c2
+from codim2_core.portrait.outcomes import Outcomes
 
-VERDICTS = {"slide", "cycle", "cross", "undecided", "misses"}
+from .test_endings import equator
+
+PSI = c2.psi.constant()
 
 
-def of(name):
-    return approach_outcomes(presets[name].system, presets[name].psi)
+def on_circle(theta, multiplicity):
+    """Outcomes of Theta = product of sin((t - theta_i)/2)^m_i, and Theta."""
+    limits, _ = equator(theta, multiplicity)
+
+    def U(e):
+        t = math.atan2(e[1], e[0])
+        Theta = float(np.prod(np.sin(0.5 * (t - limits.theta)) ** limits.multiplicity))
+        return Theta * np.array([-e[1], e[0]]) + 0.7 * e
+
+    directions = tuple(SimpleNamespace(label=f"Q{i + 1}") for i in range(len(theta)))
+    return Outcomes((), directions, limits, None, SimpleNamespace(U=U)), U
 
 
-# ---- the paper's portraits ----------------------------------------------------------------------------------------
-
-
-def test_case_I_with_a_critical_set_slides():
-    for name in ("case1-cm0", "case1-cm2", "case1-cm4"):
-        found = of(name)
-        assert len(found) > 0
-        for outcome in found:
-            assert (outcome.verdict, outcome.onto, outcome.depends_on_psi) == ("slide", "C", False)
-    assert of("case1-cm0").whole is of("case1-cm0").outcome(1.0) or of("case1-cm0").outcome(1.0).label == "equator"
-    assert [outcome.arrives for outcome in of("case1-cm4")] == ["open set"] * 2 + ["single direction"] * 2
-
-
-def test_case_I_without_one_crosses():
-    (outcome,) = of("case1-ncm2")
-    assert (outcome.verdict, outcome.onto, outcome.leaving) == ("cross", "Q1", 0.0)
-    found = of("case1-ncm4")
-    assert {outcome.verdict for outcome in found} == {"cross"}
-    assert {outcome.leaving for outcome in found} == {0.0}
-    assert found.outcome(math.pi - 0.1).verdict == "cross"
-    assert found.outcome(0.1).verdict == "misses"
-
-
-def test_case_II_saddle_leaves_it_to_chance():
-    found = of("case2-saddle")
-    assert [outcome.verdict for outcome in found] == ["undecided", "undecided"]
-    assert all("different places: " in outcome.reason for outcome in found)
-
-
-@pytest.mark.parametrize(("n", "verdict"), [(1, "slide"), (2, "slide"), (3, "cycle"), (4, "cycle")])
-def test_case_III_depends_on_psi(n, verdict):
-    p = psi.hill(n)
-    system = ELinear(172, 186, -200, (-86, -93), B=[[1.0, 2.0]], g=[0.5])
-    found = approach_outcomes(system, p, compare=[psi.constant(), psi.hill(2), psi.hill(3)])
-    first = found[0]
-    assert (first.label, first.arrives, first.verdict) == ("Q1", "open set", verdict)
-    assert first.slow_flow == pytest.approx([1.0], abs=1e-9)  # (1/2, 0) B + g, on C and on the cycle
-    assert first.depends_on_psi
-    assert [words for words, _, _ in first.families] == ["1", *(f"3/(3 + (4s)ⁿ), n = {k}" for k in (2, 3))]
-    assert [given for _, given, _ in first.families] == ["slide", "slide", "cycle"]
-    assert approach_outcomes(system, p, compare=())[0].depends_on_psi is None
-    # "Whether trajectories slide or cross depends upon their initial conditions."
-    assert {outcome.verdict for _, _, outcome in found.arcs} == {verdict, "misses"}
-
-
-# ---- degenerate ---------------------------------------------------------------------------------------------------
-
-
-def test_every_direction():
-    found = approach_outcomes(ELinear(-1, 0, -1), psi.tanh())
-    assert found.whole is not None
-    assert found.outcome(2.0).verdict == "slide"
-    assert found.arcs == ((0.0, 2 * math.pi, found.whole),)
-    assert approach_outcomes(ELinear(1, 0, 1), psi.tanh()).outcome(0.0).verdict == "misses"
-    assert approach_outcomes(ELinear(0, 0, 0), psi.tanh()).outcome(0.0).verdict == "undecided"
-
-
-def test_closed_equator():
-    assert approach_outcomes(ELinear(1, 2, 1), psi.tanh()).outcome(1.0).verdict == "misses"
-    assert approach_outcomes(ELinear(0, 2, 0), psi.tanh()).outcome(1.0).verdict == "undecided"
-    assert approach_outcomes(ELinear(-1, 2, -1), psi.tanh()).outcome(1.0).verdict == "slide"
-
-
-def test_critical_set_on_the_equator_is_named():
-    found = approach_outcomes(ELinear(-1, 0, -1, (1.0, 0.0)), psi.constant())
-    assert any("radially neutral" in outcome.reason for outcome in found.directions)
-    # what arrives at the other direction comes to it like 1/T: neutral, and no computation that gave up
-    assert {outcome.why for outcome in found.directions if outcome.verdict == "undecided"} == {"neutral"}
-
-
-def test_three_ways_to_be_undecided_have_three_names():
-    families = approach_outcomes(ELinear(-1, 0, -1), psi.constant())
-    assert (families.whole.verdict, families.whole.why) == ("slide", "")
-    several = approach_outcomes(ELinear(-1, 0, 1), psi.constant())
-    assert {o.why for o in several.directions} <= {"", "several", "neutral"}
-    neutral = approach_outcomes(ELinear(0, 2, 0), psi.constant())
-    assert (neutral.whole.verdict, neutral.whole.why) == ("undecided", "neutral")
-
-
-@pytest.mark.parametrize("n", [1, 2, 3, 4])
-def test_in_case_three_psi_changes_what_it_slides_on_and_not_how(n):
-    found = of(f"case3-n{n}")
-    (first, *_) = [o for o in found if o.arrives == "open set"]
-    assert first.depends_on_psi
-    assert first.slides_alike
-    C = critical_sets(presets[f"case3-n{n}"].system, psi.hill(n))[0]
-    assert first.slow_flow == pytest.approx(C.slow_flow)
-
-
-@pytest.mark.parametrize("turning", ["s**3", "-s**3", "s**5", "s*abs(s)", "-s*abs(s)", "s**3*(1 - c)"])
-@pytest.mark.parametrize("radial", ["-", "+"])
-def test_where_all_directions_are_multiple_zeros_the_attracting_one_is_arrived_at(turning, radial):
-    """Theta = ±sin^3 and its like: no slope tells which of 0 and pi attracts; orbits from all other angles go there."""
-    system = System(U=(f"-s*({turning}) {radial} c", f"c*({turning}) {radial} s"))
-    limits = equator_equilibria(system)
-    assert len(limits) == 2
-    assert (limits.multiplicity > 1).all()
-    found = approach_outcomes(system, psi.constant(), compare=())
-    sink = 0 if turning.startswith("-") else 1  # Theta > 0 above: to pi
-    assert math.cos(limits.theta[sink]) == pytest.approx(1.0 - 2.0 * sink)
-    for angle in (0.5, 2.5, 4.0, 6.0):
-        assert found.destination(angle) == sink
-    assert "attracting" in limits.kind(sink).split("ally")[-1] or limits.multiplicity[sink] > 4
-    assert "repelling" in limits.kind(1 - sink).split("ally")[-1] or limits.multiplicity[1 - sink] > 4
-    arrives = [direction.arrives for direction in found.directions]
-    if radial == "-":
-        assert (arrives[sink], arrives[1 - sink]) == ("open set", "single direction")
-    else:
-        assert arrives == ["nothing", "nothing"]
-        assert found.directions[1 - sink].reason == say("repels", Q=f"Q{'₁₂'[1 - sink]}")
-    # orbits go up where others come along the equator, and come down where others leave along it: a half-saddle
-    inside = [one.origin for one in separatrices(system, psi.constant()) if one.inside]
-    assert inside == [f"Q{(sink if radial == '-' else 1 - sink) + 1}"]
-
-
-def test_angle_must_be_finite():
-    with pytest.raises(ValueError, match="finite angle"):
-        of("case1-cm2").outcome(math.nan)
-
-
-# ---- random systems -----------------------------------------------------------------------------------------------
-
-
-def robust(system):
-    plane = np.array(system.at(()).plane)
-    size = np.abs(plane).max()
-    assume(size > 0.1)
-    equator = equator_equilibria(system)
-    assume(len(equator) and (equator.multiplicity == 1).all() and not equator.radially_degenerate.any())
-    assume((np.abs(equator.lambda_rho) > 0.02 * size).all() and (np.abs(equator.lambda_theta) > 0.02 * size).all())
-    return equator
-
-
-@settings(max_examples=80)
-@given(systems, st.floats(0.0, 6.28))
-def test_destination_is_where_trajectories_outside_go(system, theta):
-    equator = robust(system)
-    assume(np.abs(np.angle(np.exp(1j * (equator.theta - theta)))).min() > 1e-3)
-    found = approach_outcomes(system, psi.constant(), compare=())
-    i = found.destination(theta)
-    assert i is not None
-    assert equator.lambda_theta[i] < 0.0
-    # On the equator itself theta' = Theta, whatever the distance.
-    line = trajectories(system, psi.constant(), [(math.cos(theta), math.sin(theta))], t_max=1e3, samples="ends")
-    end = math.atan2(line.ends[0, 1], line.ends[0, 0])
-    assert abs(math.remainder(end - equator.theta[i], 2 * math.pi)) < 1e-4
-    outcome = found.outcome(theta)
-    assert (outcome.verdict == "misses") == (equator.lambda_rho[i] > 0.0)
-
-
-@settings(max_examples=60)
-@given(systems, regularisations)
-def test_outcomes_are_consistent(system, p):
-    equator = robust(system)
-    critical = critical_sets(system, p)
-    for C in critical:
-        assume(np.abs(C.eigenvalues.real).min() > 0.02 * np.abs(system.at(()).plane).max())
-    found = approach_outcomes(system, p, compare=())
-    assert len(found) == (equator.lambda_rho < 0.0).sum()
-    for outcome in found:
-        assert outcome.verdict in VERDICTS
-        assert outcome.reason.endswith(".")
-        if outcome.verdict == "slide":
-            assert critical[0].kind.startswith("stable")
-        if outcome.verdict == "cross":
-            i = int(outcome.onto[1]) - 1
-            assert equator.lambda_rho[i] > 0.0
-            assert equator.lambda_theta[i] < 0.0
-            assert outcome.leaving == equator.theta[i]
-        if outcome.arrives == "open set":
-            assert outcome.verdict != "undecided", outcome.reason
+@pytest.mark.parametrize("multiplicity", [(1, 1, 1, 1), (1, 2, 1), (2,), (2, 3, 1), (1, 1)])
+@pytest.mark.parametrize("theta", [(0.4, 0.6, 3.9, 4.2), (0.1, 2.0, 4.9, 6.2), (0.1, 6.2, 6.23, 6.26)])
+def test_a_trajectory_outside_tends_to_the_next_direction_the_way_it_turns(theta, multiplicity):
+    theta = theta[: len(multiplicity)]
+    found, U = on_circle(theta, multiplicity)
+    for i, t in enumerate(theta):
+        for near in (t, t + 3e-10, t - 3e-10, t + 2.0 * math.pi, t - 4.0 * math.pi):
+            assert found.destination(near) == i
+    ends = [*theta, theta[0] + 2.0 * math.pi]
+    for i in range(len(theta)):
+        middle = 0.5 * (ends[i] + ends[i + 1])
+        e = np.array([math.cos(middle), math.sin(middle)])
+        expected = (i + 1) % len(theta) if e[0] * U(e)[1] > e[1] * U(e)[0] else i
+        for part in (1e-7, 1e-6, 0.3, 0.9, 1.0 - 1e-6):  # Theta is 1e-24 beside a triple zero
+            angle = ends[i] + part * (ends[i + 1] - ends[i])
+            for turn in (-1, 0, 2):
+                assert found.destination(angle + 2.0 * math.pi * turn) == expected
+                assert found.outcome(angle + 2.0 * math.pi * turn) is found.directions[expected]
     arcs = found.arcs
-    assert arcs[-1][1] - arcs[0][0] == pytest.approx(2 * math.pi)
+    assert [(begin, end) for begin, end, _ in arcs] == [(ends[i], ends[i + 1]) for i in range(len(theta))]
+    for begin, end, outcome in arcs:
+        assert outcome is found.outcome(begin + 0.2 * (end - begin)) is found.outcome(begin + 0.7 * (end - begin))
 
 
-def test_the_regularised_system_does_as_foretold():
-    """The layer problem from |x2| = 1e4, that is eps = 1e-4 of |(x, y)|, for random systems and angles."""
-    random, tried = np.random.default_rng(3), {"slide": 0, "cross": 0}
-    while min(tried.values()) < 8:
-        a, b, d, f1, f2 = random.uniform(-3.0, 3.0, 5)
-        system, p = ELinear(a, b, d, (f1, f2)), (psi.constant(), psi.rational())[random.integers(2)]
-        theta = random.uniform(0.0, 2.0 * math.pi)
-        equator = equator_equilibria(system)
-        sharp = (
-            np.abs(equator.lambda_rho).min(initial=3.0) > 0.1 and np.abs(equator.lambda_theta).min(initial=3.0) > 0.1
-        )
-        near = len(equator) and np.abs(np.angle(np.exp(1j * (equator.theta - theta)))).min() < 0.2
-        slow = any(np.abs(C.eigenvalues.real).min() < 0.2 for C in critical_sets(system, p))
-        outcome = approach_outcomes(system, p, compare=()).outcome(theta)
-        if not sharp or near or slow or tried.get(outcome.verdict, 8) >= 8:
-            continue
-        tried[outcome.verdict] += 1
-        q, far = system.at(()), 1e4
-
-        def field(_, x, q=q, p=p):
-            zeta = max(math.hypot(*x), 1e-300)
-            return q.U(np.array(x) * (float(p.modulus(zeta)) / zeta))
-
-        start = [far * math.cos(theta), far * math.sin(theta)]
-        # Sigma is reached by 10 far; beyond |x2| = 100 far an orbit has left for good.
-        path = solve_ivp(field, (0.0, 300.0 * far), start, method="LSODA", rtol=1e-8, atol=1e-6)
-        x = path.y[:, -1]
-        if outcome.verdict == "slide":
-            assert x == pytest.approx(critical_sets(system, p)[0].x2, abs=1e-3)
-        else:
-            assert math.hypot(*x) > 10.0 * far
-            # The angle closes in on the direction like a power of the distance.
-            assert abs(math.remainder(math.atan2(x[1], x[0]) - outcome.leaving, 2 * math.pi)) < 0.5
+def test_where_no_direction_decides_all_angles_have_one_outcome():
+    limits, _ = equator([], [])
+    whole = SimpleNamespace(label="equator")
+    found = Outcomes((), (), limits, whole, None)
+    assert found.destination(1.0) is None
+    assert found.outcome(1.0) is whole
+    assert found.arcs == ((0.0, 2.0 * math.pi, whole),)
 
 
-@pytest.mark.parametrize("name", ["case1-cm0", "case1-cm4", "case2-saddle", "case3-n3"])
-def test_one_angle_of_approach_is_told_as_all_are(name):
-    preset = presets[name]
-    found = approach_outcomes(preset.system, preset.psi, compare=())
-    for theta in (0.1, 1.3, 2.9, 4.4):
-        one = outcomes.outcome_towards(LayerProblem(preset.system.at(), preset.psi), theta, ())
-        told = found.outcome(theta)
-        for attribute in ("theta", "label", "arrives", "verdict", "onto", "leaving", "reason", "depends_on_psi", "why"):
-            assert getattr(one, attribute) == getattr(told, attribute)
+def on_arc(turn, sign):
+    """Outcomes of Theta = sign max(sin(theta - turn), 0) cos(theta - turn): rests on half the circle."""
+    limits, _ = equator([(0.5 * math.pi + turn) % (2.0 * math.pi)], [1])
+    limits.arcs = np.remainder([(math.pi + turn, 2.0 * math.pi + turn)], 2.0 * math.pi)
+
+    def U(e):
+        t = math.atan2(e[1], e[0]) - turn
+        return sign * max(math.sin(t), 0.0) * math.cos(t) * np.array([-e[1], e[0]]) - e
+
+    return Outcomes((), (SimpleNamespace(label="Q1"),), limits, None, SimpleNamespace(U=U))
 
 
-@given(
-    *(st.floats(low, high) for low, high in ((-3.0, -0.1), (-0.3, 0.3), (-3.0, -0.1), (0.0, 0.9), (0.0, 6.3))),
-    regularisations,
+def typed_arc():
+    turning = "max(s, 0)*c"
+    return c2.approach_outcomes(c2.System(U=(f"-s*{turning} - c", f"c*{turning} - s")), PSI, compare=())
+
+
+@pytest.mark.parametrize(
+    ("made", "turn", "sign"),
+    [(typed_arc, 0.0, 1), *((None, turn, sign) for turn in (0.3, 1.9, 2.8, -1.2) for sign in (1, -1))],
 )
-@settings(max_examples=25)
-def test_where_all_must_end_on_C_they_are_followed_there(a, b, d, r, angle, shape):
-    c, s = r * math.cos(angle), r * math.sin(angle)
-    problem = LayerProblem(ELinear(a, b, d, (b * s - a * c, -b * c - d * s)).at(), shape)
-    assert verdicts._all_end_on_C(problem) or len(problem.equator.arcs)
-    which = list(range(len(problem.equator)))
-    assume(which)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(verdicts, "_all_end_on_C", lambda problem: False)
-        followed = verdicts.arriving(problem, which)
-    for told, found in zip(verdicts.arriving(problem, which), followed, strict=True):
-        if found.why != "unfollowed":  # which a theorem need not be
-            assert (told.verdict, told.onto, told.reason) == (found.verdict, found.onto, found.reason)
-
-
-def test_scene_coefficients_are_accepted():
-    scene = Scene(presets["case1-cm4"].system, psi.tanh())
-    assert len(approach_outcomes(scene.coefficients, scene.psi)) == 4
-    assert equator_cycle(scene.coefficients) is None
-
-
-def test_no_psi_is_followed_twice(monkeypatch):
-    """The own one is among those compared."""
-    followed = []
-    real = outcomes.arriving
-    monkeypatch.setattr(outcomes, "arriving", lambda problem, which: followed.append(problem) or real(problem, which))
-    own = psi.hill(2)
-    found = approach_outcomes(presets["case3-n2"].system, own)
-    assert own.words in [text for text, *_ in found[0].families]
-    assert len(followed) == len({problem.psi for problem in followed}) == len(found[0].families)
-
-
-@pytest.mark.parametrize("system", [ELinear(-1.0, 0.0, -1.5, (2.0, 0.3)), ELinear(1.0, 0.2, 1.5, (0.1, 0.2))])
-def test_where_nothing_slides_no_psi_is_asked(system):
-    """No critical set: all that arrives crosses; and a repelling Sigma, at which nothing arrives."""
-    found = approach_outcomes(system, psi.constant())
-    for outcome in (*found, *found.directions):
-        assert outcome.verdict in ("cross", "misses")
-        assert (outcome.depends_on_psi, outcome.families, outcome.slides_alike, outcome.why) == (False, (), False, "")
-        assert outcome.slow_flow is None
-    assert any(outcome.verdict == "cross" for outcome in found) == (system.at().a < 0.0)
+def test_on_a_whole_arc_of_limit_directions_none_is_tended_to(made, turn, sign):
+    """On the other half all turn to Q in its middle, or from it to the ends of the arc."""
+    found = made() if made else on_arc(turn, sign)
+    (Q,) = found.directions
+    for angle in (3.2, 4.5, 6.2, -0.1, 4.0 * math.pi - 1.0):
+        assert found.destination(angle + turn) is None
+        assert found.outcome(angle + turn).verdict == "undecided"
+        assert "a limit direction" in found.outcome(angle + turn).reason
+    for angle in (0.01, 1.5, 1.6, 3.0):
+        assert found.destination(angle + turn) == (0 if sign > 0 else None)
+    assert found.outcome(0.5 * math.pi + turn) is Q
+    cuts = np.array([(begin, end) for begin, end, _ in found.arcs])
+    np.testing.assert_allclose(cuts[1:, 0], cuts[:-1, 1])
+    assert cuts[-1, 1] - cuts[0, 0] == pytest.approx(2.0 * math.pi)
+    on = sum(end - begin for begin, end, outcome in found.arcs if outcome is not Q)
+    assert on == pytest.approx(math.pi if sign > 0 else 2.0 * math.pi, abs=1e-5)

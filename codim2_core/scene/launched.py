@@ -16,11 +16,12 @@ from ..layer_problem.problem import LayerProblem
 from ..orbits.result import Status, Trajectories
 from ..orbits.trajectories import joined, trajectories
 from ..orbits.whole import Orbits
+from ..portrait.approach import outcomes_of
+from ..portrait.endings import AT_SADDLE, CAPTURE, Ending, critical_label, drawn_time, endings, nearest
+from ..portrait.outcomes import Outcome
 from ..systems.frozen import AtZ
 from ..tables import point, table
 from ..words import say
-from .endings import AT_SADDLE, CAPTURE, Ending, critical_label, drawn_time, endings, nearest
-from .outcomes import Outcome, outcomes_of
 
 Array = NDArray[np.float64]
 

@@ -7,102 +7,14 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.portrait import outcomes
-from codim2_core.portrait.outcomes import Outcome, Outcomes
+from codim2_core.portrait import approach
+from codim2_core.portrait.outcomes import Outcome
 from codim2_core.portrait.verdicts import Judged
 from codim2_core.words import say
 
 from .test_endings import equator
 
 PSI = c2.psi.constant()
-
-
-# ---- from an angle to its limit direction ---------------------------------------------------------------------------
-
-
-def on_circle(theta, multiplicity):
-    """Outcomes of Theta = product of sin((t - theta_i)/2)^m_i, and Theta."""
-    limits, _ = equator(theta, multiplicity)
-
-    def U(e):
-        t = math.atan2(e[1], e[0])
-        Theta = float(np.prod(np.sin(0.5 * (t - limits.theta)) ** limits.multiplicity))
-        return Theta * np.array([-e[1], e[0]]) + 0.7 * e
-
-    directions = tuple(SimpleNamespace(label=f"Q{i + 1}") for i in range(len(theta)))
-    return Outcomes((), directions, limits, None, SimpleNamespace(U=U)), U
-
-
-@pytest.mark.parametrize("multiplicity", [(1, 1, 1, 1), (1, 2, 1), (2,), (2, 3, 1), (1, 1)])
-@pytest.mark.parametrize("theta", [(0.4, 0.6, 3.9, 4.2), (0.1, 2.0, 4.9, 6.2), (0.1, 6.2, 6.23, 6.26)])
-def test_a_trajectory_outside_tends_to_the_next_direction_the_way_it_turns(theta, multiplicity):
-    theta = theta[: len(multiplicity)]
-    found, U = on_circle(theta, multiplicity)
-    for i, t in enumerate(theta):
-        for near in (t, t + 3e-10, t - 3e-10, t + 2.0 * math.pi, t - 4.0 * math.pi):
-            assert found.destination(near) == i
-    ends = [*theta, theta[0] + 2.0 * math.pi]
-    for i in range(len(theta)):
-        middle = 0.5 * (ends[i] + ends[i + 1])
-        e = np.array([math.cos(middle), math.sin(middle)])
-        expected = (i + 1) % len(theta) if e[0] * U(e)[1] > e[1] * U(e)[0] else i
-        for part in (1e-7, 1e-6, 0.3, 0.9, 1.0 - 1e-6):  # Theta is 1e-24 beside a triple zero
-            angle = ends[i] + part * (ends[i + 1] - ends[i])
-            for turn in (-1, 0, 2):
-                assert found.destination(angle + 2.0 * math.pi * turn) == expected
-                assert found.outcome(angle + 2.0 * math.pi * turn) is found.directions[expected]
-    arcs = found.arcs
-    assert [(begin, end) for begin, end, _ in arcs] == [(ends[i], ends[i + 1]) for i in range(len(theta))]
-    for begin, end, outcome in arcs:
-        assert outcome is found.outcome(begin + 0.2 * (end - begin)) is found.outcome(begin + 0.7 * (end - begin))
-
-
-def test_where_no_direction_decides_all_angles_have_one_outcome():
-    limits, _ = equator([], [])
-    whole = SimpleNamespace(label="equator")
-    found = Outcomes((), (), limits, whole, None)
-    assert found.destination(1.0) is None
-    assert found.outcome(1.0) is whole
-    assert found.arcs == ((0.0, 2.0 * math.pi, whole),)
-
-
-def on_arc(turn, sign):
-    """Outcomes of Theta = sign max(sin(theta - turn), 0) cos(theta - turn): rests on half the circle."""
-    limits, _ = equator([(0.5 * math.pi + turn) % (2.0 * math.pi)], [1])
-    limits.arcs = np.remainder([(math.pi + turn, 2.0 * math.pi + turn)], 2.0 * math.pi)
-
-    def U(e):
-        t = math.atan2(e[1], e[0]) - turn
-        return sign * max(math.sin(t), 0.0) * math.cos(t) * np.array([-e[1], e[0]]) - e
-
-    return Outcomes((), (SimpleNamespace(label="Q1"),), limits, None, SimpleNamespace(U=U))
-
-
-def typed_arc():
-    turning = "max(s, 0)*c"
-    return c2.approach_outcomes(c2.System(U=(f"-s*{turning} - c", f"c*{turning} - s")), PSI, compare=())
-
-
-@pytest.mark.parametrize(
-    ("made", "turn", "sign"),
-    [(typed_arc, 0.0, 1), *((None, turn, sign) for turn in (0.3, 1.9, 2.8, -1.2) for sign in (1, -1))],
-)
-def test_on_a_whole_arc_of_limit_directions_none_is_tended_to(made, turn, sign):
-    """On the other half all turn to Q in its middle, or from it to the ends of the arc."""
-    found = made() if made else on_arc(turn, sign)
-    (Q,) = found.directions
-    for angle in (3.2, 4.5, 6.2, -0.1, 4.0 * math.pi - 1.0):
-        assert found.destination(angle + turn) is None
-        assert found.outcome(angle + turn).verdict == "undecided"
-        assert "a limit direction" in found.outcome(angle + turn).reason
-    for angle in (0.01, 1.5, 1.6, 3.0):
-        assert found.destination(angle + turn) == (0 if sign > 0 else None)
-    assert found.outcome(0.5 * math.pi + turn) is Q
-    cuts = np.array([(begin, end) for begin, end, _ in found.arcs])
-    np.testing.assert_allclose(cuts[1:, 0], cuts[:-1, 1])
-    assert cuts[-1, 1] - cuts[0, 0] == pytest.approx(2.0 * math.pi)
-    on = sum(end - begin for begin, end, outcome in found.arcs if outcome is not Q)
-    assert on == pytest.approx(math.pi if sign > 0 else 2.0 * math.pi, abs=1e-5)
 
 
 # ---- other regularisations ------------------------------------------------------------------------------------------
@@ -129,13 +41,13 @@ def outcome(verdict="slide", onto="C"):
 )
 def test_other_regularisations_give_another_outcome_or_the_same(own, others, elinear, depends, alike):
     verdicts = [(f"psi {k}", *other) for k, other in enumerate(others)]
-    found = outcomes._compared(outcome(*own), verdicts, True, elinear)
+    found = approach._compared(outcome(*own), verdicts, True, elinear)
     assert (found.depends_on_psi, found.slides_alike) == (depends, alike)
     assert found.families == tuple(verdicts)
     assert found.reason == ("As it is. " + say("alike") if alike else "As it is.")
-    theorem = outcomes._compared(outcome(*own), verdicts, False, elinear)
+    theorem = approach._compared(outcome(*own), verdicts, False, elinear)
     assert (theorem.depends_on_psi, theorem.families, theorem.slides_alike) == (False, (), False)
-    nobody = outcomes._compared(outcome(*own), [], True, elinear)
+    nobody = approach._compared(outcome(*own), [], True, elinear)
     assert (nobody.depends_on_psi, nobody.families, nobody.slides_alike) == (None, (), False)
 
 
@@ -153,19 +65,19 @@ def test_other_regularisations_give_another_outcome_or_the_same(own, others, eli
 )
 def test_with_a_critical_set_only_case_III_asks_for_psi(a, d, kind, expected):
     at = SimpleNamespace(normal_form=SimpleNamespace(a=a, d=d))
-    assert outcomes._sensitive(at, equator([0.3, 2.0], [1, 1])[0], (SimpleNamespace(kind=kind),)) is expected
-    assert outcomes._sensitive(SimpleNamespace(normal_form=None), equator([], [])[0], ()) is True
+    assert approach._sensitive(at, equator([0.3, 2.0], [1, 1])[0], (SimpleNamespace(kind=kind),)) is expected
+    assert approach._sensitive(SimpleNamespace(normal_form=None), equator([], [])[0], ()) is True
 
 
 def test_without_one_several_ways_out_ask_for_psi():
     at = SimpleNamespace(normal_form=SimpleNamespace(a=-1.0, d=-2.0))
     limits, beyond = equator([0.3, 2.0, 3.5, 5.0], [1, 1, 1, 1])
     out = [i for i in range(4) if beyond[i] < 0]  # angularly attracting, and lambda_rho > 0: ways out
-    assert outcomes._sensitive(at, limits, ()) is True
+    assert approach._sensitive(at, limits, ()) is True
     limits.lambda_rho[out[0]] = -1.0
-    assert outcomes._sensitive(at, limits, ()) is False
+    assert approach._sensitive(at, limits, ()) is False
     limits.lambda_rho[:] = [-1.0 if i in out else 1.0 for i in range(4)]
-    assert outcomes._sensitive(at, limits, ()) is False
+    assert approach._sensitive(at, limits, ()) is False
 
 
 def test_others_are_asked_unless_there_are_too_many_sets(monkeypatch):
@@ -173,9 +85,9 @@ def test_others_are_asked_unless_there_are_too_many_sets(monkeypatch):
         asked.append((len(judged), len(texts), sensitive))
         return SimpleNamespace(arrives="open set")
 
-    monkeypatch.setattr(outcomes, "_direction", direction)
+    monkeypatch.setattr(approach, "_direction", direction)
     monkeypatch.setattr(
-        outcomes, "arriving", lambda problem, which: followed.append(which) or [problem.psi] * len(which)
+        approach, "arriving", lambda problem, which: followed.append(which) or [problem.psi] * len(which)
     )
     limits, _ = equator([0.3, 1.0, 2.0, 3.0], [1, 1, 1, 1], lambda_rho=[-0.5, 0.5, 1.0, -1e-17])
     for count, compare, expected in ((8, None, None), (9, None, 0), (9, [PSI], 1), (8, (), 0), (8, [PSI] * 2, 2)):
@@ -188,9 +100,9 @@ def test_others_are_asked_unless_there_are_too_many_sets(monkeypatch):
             under=lambda other: SimpleNamespace(psi=other),
         )
         asked, followed = [], []
-        found = outcomes.outcomes_of(own, compare)
-        others = len(outcomes.compared()) if expected is None else expected
-        different = {PSI, *(outcomes.compared() if compare is None and others else compare or ())}
+        found = approach.outcomes_of(own, compare)
+        others = len(approach.compared()) if expected is None else expected
+        different = {PSI, *(approach.compared() if compare is None and others else compare or ())}
         # what leads away, and what is neutral, is judged under none
         assert asked == [(1 + others, others, True), *[(0, others, True)] * 3]
         assert followed == [[0]] * len(different)
@@ -202,7 +114,7 @@ def test_others_are_asked_unless_there_are_too_many_sets(monkeypatch):
 
 def said(limits, i, judged=(), sensitive=False, texts=()):
     own = SimpleNamespace(equator=limits, at=SimpleNamespace(normal_form="there"))
-    return outcomes._direction(own, judged, list(texts), sensitive, i)
+    return approach._direction(own, judged, list(texts), sensitive, i)
 
 
 def test_directions_that_nothing_arrives_along():
@@ -270,7 +182,7 @@ def test_what_arrives_and_what_becomes_of_it(multiplicity, i, arrives, words):
 @pytest.mark.parametrize("mean", [1.2, 0.95, 0.0, -0.95, -1.2])
 def test_along_every_direction_it_is_the_sign_of_U_along_it_that_counts(monkeypatch, mean, turn):
     """U = (mean + cos(theta - turn)) e: all away, all towards, or some of either, wherever they are."""
-    monkeypatch.setattr(outcomes, "spiralling", lambda *_: Judged("slide", "C", None, None, "They slide.", ""))
+    monkeypatch.setattr(approach, "spiralling", lambda *_: Judged("slide", "C", None, None, "They slide.", ""))
     c, s = math.cos(turn), math.sin(turn)
     radial = f"({mean!r} + {c!r}*c + {s!r}*s)"
     found = c2.approach_outcomes(c2.System(U=(f"c*{radial}", f"s*{radial}")), PSI, compare=())
@@ -291,11 +203,11 @@ def whole(monkeypatch, cycle, arcs=(), proven=True, others=()):
         asked.append(problem)
         return problem.judged
 
-    monkeypatch.setattr(outcomes, "spiralling", spiralling)
+    monkeypatch.setattr(approach, "spiralling", spiralling)
     on = SimpleNamespace(all_directions=False, proven=proven, arcs=np.array(arcs, float).reshape(-1, 2))
     judged = Judged("cycle", "cycle 1", None, np.ones(1), "Round.", "")
     own = SimpleNamespace(at=SimpleNamespace(normal_form="there"), equator=on, equator_cycle=cycle, judged=judged)
-    return outcomes._whole(outcomes._Asked(own, list(others), True)), asked
+    return approach._whole(approach._Asked(own, list(others), True)), asked
 
 
 def test_what_spirals_onto_the_closed_equator(monkeypatch):

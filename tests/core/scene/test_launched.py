@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 import codim2_core as c2
 from codim2_core.layer_problem.hemisphere import outside_flow
 from codim2_core.orbits.result import Status
-from codim2_core.portrait import launched as module
 from codim2_core.portrait.endings import Ending
+from codim2_core.scene import launched as module
 
 PSI = c2.psi.constant()
 

@@ -4,8 +4,8 @@ from concurrent.futures import Future
 from types import SimpleNamespace
 
 import pytest
-from codim2_app.view import explorer
-from codim2_app.view.explorer import ExplorerView
+from codim2_app.view import answers
+from codim2_app.view.answers import Answers
 
 
 class Frames:
@@ -30,16 +30,13 @@ class Frames:
 def test_who_asks_for_all_is_at_rest_when_it_is_answered(monkeypatch, asked, rest):
     """A link that opened on the Atlas, with a formula yet to be compiled, had no regions until something moved."""
     sent, soon = [], []
-    monkeypatch.setattr(explorer, "_send", lambda model, message: sent.append(message))
+    monkeypatch.setattr(answers, "send", lambda model, message: sent.append(message))
     document = SimpleNamespace(
         session_context=True, add_next_tick_callback=soon.append, add_timeout_callback=lambda call, after: None
     )
     frames = Frames()
-    view = SimpleNamespace(frames=frames, _models=[1], _held=None)
-    view._reply = lambda model, frame: ExplorerView._reply(view, model, frame)
-    view._hold = lambda *given: ExplorerView._hold(view, *given)
     data = {"id": 7, "window": [1.0], **asked}
-    ExplorerView._answer(view, SimpleNamespace(model=SimpleNamespace(document=document), data=data))
+    Answers(frames).answer(SimpleNamespace(document=document), data)
     assert sent == []
     frames.pending.set_result(None)
     [answer] = soon

@@ -1,0 +1,86 @@
+"""What one browser is answered with, message by message: a frame now or once its picture is there, a file, a room."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from concurrent.futures import Future
+from functools import partial
+from typing import Any
+
+from panel.models.esm import ESMEvent
+
+from ..rooms.visitor import Visitor
+from .refresh import Frames
+from .taking import Taking
+
+#: Seconds for which an answer waits for a picture that is computed beside the frames.
+PATIENCE = 0.25
+
+
+def send(model: Any, message: dict[str, Any]) -> None:
+    """Send to the one page that shows a model, if it is still there."""
+    if model.document is not None:
+        model.document.callbacks.send_event(ESMEvent(model=model, data=message))
+
+
+class Answers:
+    """The answers to one browser, whose page shows one model.
+
+    Parameters
+    ----------
+    frames : Frames
+        What it shows.
+    """
+
+    def __init__(self, frames: Frames) -> None:
+        self.frames = frames
+        self.taking = Taking(frames)
+        self.visitor = Visitor(frames)
+        self._held: object = None  # the frame that waits; a newer one replaces it
+
+    def answer(self, model: Any, request: Any) -> None:
+        """Answer a request: for a file (``take``), of a room (``room``), else for a frame; see `Frames.answer`."""
+        later = model.document.add_next_tick_callback  # the one thing that any thread may ask of a document
+        if isinstance(request, Mapping) and "take" in request:
+            self.taking.answer(request["take"], partial(send, model), later)
+        elif isinstance(request, Mapping) and "room" in request:
+            self.visitor.answer(request["room"], lambda message: send(model, {"room": message}), later)
+        else:
+            self._draw(model, request)
+
+    def _draw(self, model: Any, request: Any) -> None:
+        frame = self.frames.answer(request)
+        pending = self.frames.pending
+        if pending is None:
+            self._reply(model, frame)
+        else:
+            self.frames.keep()
+            rest = request.get("rest", False) or request.get("all", False)  # who asks for all is at rest
+            self._hold(model, pending, {"id": request.get("id"), "rest": rest, "window": request.get("window")})
+        self.frames.publish()
+
+    def _reply(self, model: Any, frame: bytes) -> None:
+        self._held = None
+        send(model, {"frame": frame})
+
+    def _hold(self, model: Any, pending: Future[Any], request: dict[str, Any]) -> None:
+        """Answer once the picture is there, or soon without it: the browser then asks again, with its newest values."""
+        doc = model.document
+        held = self._held = object()
+
+        def answer(_: object = None) -> None:
+            if self._held is held and doc.session_context is not None:
+                self._reply(model, self.frames.answer(request))
+                self.frames.publish()
+
+        def there(_: Future[Any]) -> None:
+            doc.add_next_tick_callback(answer)
+
+        doc.add_timeout_callback(answer, int(1000 * PATIENCE))
+        pending.add_done_callback(there)
+
+    def leave(self) -> None:
+        """Stop what is computed for this browser alone: it has gone."""
+        self._held = None
+        self.frames.jobs.leave()
+        self.visitor.leave()

@@ -1,0 +1,195 @@
+"""Approach outcomes: what becomes of trajectories that reach the discontinuity set, for every angle of approach.
+
+Outside, a system that does not depend on x, y is the same at every distance, so the angle alone decides which limit
+direction a trajectory tends to; otherwise it does so near Sigma, and that is what is said here. Where lambda_rho < 0
+there it reaches Sigma, goes up the hemisphere from Q (thm:geneps0(b), fig:side_of_sphere), and what attracts it there
+is the outcome: a critical set or a limit cycle means sliding (thm:geneps1, prop:LC), another limit direction means
+crossing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..layer_problem.critical import CriticalSet
+from ..layer_problem.equator import EquatorEquilibria
+from ..layer_problem.problem import LayerProblem
+from ..psi.constructors import compared
+from ..psi.function import Psi
+from ..systems.frozen import AtZ
+from ..systems.kinds import AnySystem
+from ..words import named, say
+from .endings import angular_sign, radially_neutral
+from .outcomes import Outcome, Outcomes, on_arcs
+from .verdicts import Array, Judged, arriving, spiralling
+
+__all__ = ["approach_outcomes"]
+
+MOST_COMPARED = 8  # critical sets: with more, other regularisations are asked only on request
+
+
+def _sensitive(at: AtZ, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...]) -> bool:
+    """Whether no theorem fixes the outcome for every Psi: Case III, crossing with several ways out, any general U."""
+    form = at.normal_form
+    if form is None:
+        return True
+    if critical:
+        return form.a * form.d < 0.0 and critical[0].kind != "saddle"
+    return int(((equator.lambda_rho > 0.0) & (equator.lambda_theta < 0.0)).sum()) > 1
+
+
+def _radial(at: AtZ) -> Array:
+    """lambda_rho in many directions, where Theta vanishes identically."""
+    angle = 2.0 * np.pi * np.arange(64) / 64.0
+    e = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return (e * at.U(e)).sum(axis=-1)
+
+
+def _arrival(equator: EquatorEquilibria, i: int) -> str:
+    if equator.multiplicity[i] % 2 == 0:
+        return "one side"
+    return "open set" if angular_sign(equator, i) < 0 else "single direction"
+
+
+def approach_outcomes(
+    system: AnySystem,
+    psi: Psi,
+    z: ArrayLike = (),
+    *,
+    compare: Sequence[Psi] | None = None,
+) -> Outcomes:
+    """Say of every limit direction whether what arrives there slides, and on what, or crosses, and where to.
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+    psi : Psi
+    z : (m,) floats
+    compare : sequence of Psi, optional
+        Regularisations asked for `Outcome.depends_on_psi`, where no theorem answers; default the built-in families
+        with n = 1 to 4 of the Hill family (none if there are more than 8 critical sets). An empty sequence asks none.
+
+    Returns
+    -------
+    Outcomes
+    """
+    return outcomes_of(LayerProblem(system.at(z), psi), compare)
+
+
+def outcomes_of(own: LayerProblem, compare: Sequence[Psi] | None = None) -> Outcomes:
+    """Say of every limit direction of a layer problem what becomes of what arrives there."""
+    equator, asked = own.equator, _asked(own, compare)
+    if not len(equator):
+        whole = _whole(asked)
+        found = () if whole.verdict == "misses" else (whole,)
+        return Outcomes(found, (), equator, whole, own.at)
+    directions = _directions(asked, range(len(equator)))
+    order = ("open set", "one side", "single direction")
+    found = sorted((o for o in directions if o.arrives in order), key=lambda o: order.index(o.arrives))
+    return Outcomes(tuple(found), directions, equator, None, own.at)
+
+
+def outcome_towards(own: LayerProblem, theta: float, compare: Sequence[Psi] | None = None) -> Outcome:
+    """Say what `outcomes_of` says of one angle of approach, at the cost of that one."""
+    equator, asked = own.equator, _asked(own, compare)
+    if not len(equator):
+        return _whole(asked)
+    i = Outcomes((), (), equator, None, own.at).destination(theta)
+    return on_arcs(equator) if i is None else _directions(asked, (i,))[0]
+
+
+class _Asked(NamedTuple):
+    """A layer problem, the same under other regularisations that are asked, and whether these may say otherwise."""
+
+    own: LayerProblem
+    others: list[LayerProblem]
+    sensitive: bool
+
+
+def _asked(own: LayerProblem, compare: Sequence[Psi] | None) -> _Asked:
+    if not _sensitive(own.at, own.equator, own.critical):
+        return _Asked(own, [], False)
+    if compare is None:
+        compare = () if len(own.critical) > MOST_COMPARED else compared()
+    return _Asked(own, [own.under(other) for other in compare], True)
+
+
+def _directions(asked: _Asked, indices: Sequence[int]) -> tuple[Outcome, ...]:
+    """Say of some limit directions (from 0) what becomes of what arrives there."""
+    own, others, sensitive = asked
+    equator = own.equator
+    which = [i for i in indices if not radially_neutral(equator, i) and equator.lambda_rho[i] < 0.0]
+    problems = {problem.psi: problem for problem in (own, *others)}  # the own Psi may be one of the others
+    arrivals = {psi: arriving(problem, which) for psi, problem in problems.items()}
+    judged = {i: [arrivals[problem.psi][k] for problem in (own, *others)] for k, i in enumerate(which)}
+    texts = [other.psi.words for other in others]
+    return tuple(_direction(own, judged.get(i, ()), texts, sensitive, i) for i in indices)
+
+
+def _compared(outcome: Outcome, verdicts: list[tuple[str, str, str | None]], sensitive: bool, elinear: bool) -> Outcome:
+    if not sensitive:
+        return outcome
+    if not verdicts:
+        return replace(outcome, depends_on_psi=None)
+    depends = any((verdict, onto) != (outcome.verdict, outcome.onto) for _, verdict, onto in verdicts)
+    # in the e-linear system C is where it is for every Ψ, and prop:LC gives its slow flow to every cycle around it
+    alike = depends and elinear and {outcome.verdict, *(verdict for _, verdict, _ in verdicts)} <= {"slide", "cycle"}
+    reason = f"{outcome.reason} {say('alike')}" if alike else outcome.reason
+    return replace(outcome, depends_on_psi=depends, families=tuple(verdicts), slides_alike=alike, reason=reason)
+
+
+def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], sensitive: bool, i: int) -> Outcome:
+    """Say what becomes of what arrives at Q_{i+1}, judged under its own Psi and then under those with these texts."""
+    equator, label = own.equator, f"Q{i + 1}"
+    theta = float(equator.theta[i])
+    if radially_neutral(equator, i):
+        reason = say("neutral approach", Q=named(label))
+        return Outcome(theta, label, "nothing", "undecided", None, None, None, reason, why="neutral")
+    if equator.lambda_rho[i] > 0.0:
+        reason = say("repels" if angular_sign(equator, i) > 0 else "leads away", Q=named(label))
+        beside = equator.lambda_rho[[i - 1, (i + 1) % len(equator)]]
+        if angular_sign(equator, i) < 0 and (beside < 0.0).any():
+            reason = f"{reason} {say('turns away')}"
+        return Outcome(theta, label, "nothing", "misses", None, None, None, reason)
+    arrives = _arrival(equator, i)
+    (verdict, onto, leaving, slow, reason, why), *others = judged
+    # a single direction is an even zero of Theta
+    reason = f"{say('one side, all angles' if len(equator) == 1 else arrives, Q=named(label))} {reason}"
+    outcome = Outcome(theta, label, arrives, verdict, onto, leaving, slow, reason, why=why)
+    verdicts = [(text, *other[:2]) for text, other in zip(texts, others, strict=True)]
+    return _compared(outcome, verdicts, sensitive, own.at.normal_form is not None)
+
+
+def _whole(asked: _Asked) -> Outcome:
+    own, others, sensitive = asked
+    elinear, cycle = own.at.normal_form is not None, own.equator_cycle
+    if own.equator.all_directions:
+        label, radial = "every direction", _radial(own.at)
+        if radial.max() < 0.0:
+            verdict, onto, leaving, slow, reason, why = spiralling(own, "Orbits leave the equator at all angles")
+            reason = f"{say('all directions')} {reason}"
+            outcome = Outcome(None, label, "open set", verdict, onto, leaving, slow, reason, why=why)
+            return _compared(
+                outcome, [(other.psi.words, *spiralling(other)[:2]) for other in others], sensitive, elinear
+            )
+        if radial.min() > 0.0:
+            return Outcome(None, label, "nothing", "misses", None, None, None, say("all lead away"))
+        rest = not radial.any()
+        reason, why = (say("at rest"), "neutral") if rest else (say("some lead"), "several")
+        return Outcome(None, label, "nothing", "undecided", None, None, None, reason, why=why)
+    if not own.equator.proven:
+        return on_arcs(own.equator)
+    if cycle is None or cycle.neutral:
+        reason = say("neutral equator")
+        return Outcome(None, "equator", "nothing", "undecided", None, None, None, reason, why="neutral")
+    if not cycle.stable_outside:
+        reason = say("equator repels")
+        return Outcome(None, "equator", "nothing", "misses", None, None, None, reason)
+    verdict, onto, leaving, slow, reason, why = spiralling(own)
+    outcome = Outcome(None, "equator", "open set", verdict, onto, leaving, slow, f"{say('spiral')} {reason}", why=why)
+    return _compared(outcome, [(other.psi.words, *spiralling(other)[:2]) for other in others], sensitive, elinear)
