@@ -33,7 +33,7 @@ from ..state.cleaning import InputError
 from ..state.links import Link
 from ..view import warmup
 from ..view.explorer import ExplorerView
-from ..view.markup import address_of_script, page_template
+from ..view.markup import address_of_script, edition, page_template
 from .first_page import Page, markup_of, opening
 from .headers import transform
 from .ports import listen_by_own, shared
@@ -132,9 +132,9 @@ class Health(RequestHandler):
     """Answers 200 while the process serves: a container that does not is started again."""
 
     def get(self) -> None:
-        """Say that it is there, and which version it is."""
+        """Say that it is there, and which version it is; pages that come back look whether it is still theirs."""
         self.set_header("Cache-Control", "no-store")
-        self.write({"status": "ok", "version": version("codim2")})
+        self.write({"status": "ok", "version": version("codim2"), "edition": edition()})
 
     head = get
 

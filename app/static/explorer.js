@@ -6,7 +6,7 @@ import {Rest} from "./asking/rest.js"
 import {Waiting} from "./asking/waiting.js"
 import {NumberControl, sayAt} from "./controls/controls.js"
 import {PsiChooser} from "./controls/psi.js"
-import {Sentences} from "./controls/sentences.js"
+import {notice, Sentences} from "./controls/sentences.js"
 import {SystemChooser, TYPED} from "./controls/system.js"
 import {YoursList} from "./controls/yours_list.js"
 import {letScroll} from "./hands/gestures.js"
@@ -22,6 +22,7 @@ import {Theme} from "./page/theme.js"
 import {undoable} from "./page/undo.js"
 import {readFrame} from "./picture/frames.js"
 import {Picture} from "./picture/picture.js"
+import {SAYS} from "./words.js"
 import {addDialogs, besideOf, handsOf, panelsOf, pointingOf, roomOf} from "./parts.js"
 
 export class Explorer {
@@ -69,6 +70,7 @@ export class Explorer {
     this.room = this.alone ? roomOf(this) : null
     if (config.page) addDialogs(this)
     this.beside = besideOf(this)
+    this.showRefused()
     this.steps = undoable(root, plot, {browsed: config.page && !this.inside, page: config.page}, rest, {
       look: () => structuredClone({values, seen: picture.seen}),
       restore: (snapshot) => { this.forget(); this.put(structuredClone(snapshot.values)); picture.seen = snapshot.seen },
@@ -106,18 +108,23 @@ export class Explorer {
   connect(view) {
     const {model} = this
     new Connection(view.model.document, {
-      page: this.config.page, say: (sentence) => this.sentences.banner(sentence), leave: () => this.steps.settle(), lost: () => { this.requests.held = true },
+      page: this.config.page, edition: this.config.edition, say: (sentence, reload) => this.sentences.notice(sentence, reload), leave: () => this.steps.settle(), lost: () => { this.requests.held = true },
     })
     model.on("msg:custom", (event) => { const message = event.data ?? event; if (!this.takes.hear(message) && !this.room?.hear(message)) this.apply(message.frame) })
     if (model.first) this.apply(model.first instanceof ArrayBuffer ? model.first : model.first.buffer ?? model.first)
   }
 
-  begin() {
-    const {root, config, values, controls, rest} = this
+  // What the address has and the server could not use stays to be mended, in the address too.
+  showRefused() {
+    const {config, values, controls} = this
     for (const [name, given] of Object.entries(config.refused)) {
       if (this.numbers.has(name) || name === "trajectories") controls[name].show(given)
       else { values[name] = given; controls[name].set(given); this.systems.set(values) }
     }
+  }
+
+  begin() {
+    const {root, values, rest} = this
     this.showRanges()
     this.theme.paint(); this.showLayers(); this.psi.show(values.psi); this.portraits.tell()
     rest.note("opening", true)
@@ -274,6 +281,10 @@ export function render({model, view, el}) {
     root = holder.querySelector(".codim2")
     root.classList.add("notebook")
     keepKeys(root)
+  }
+  if (/** @type {HTMLElement} */ (root).dataset.edition !== model.config.edition) { // the page was answered by one server, its session by a newer one
+    notice(root.querySelector(".banner"), SAYS.renewed, () => location.reload())
+    return
   }
   root.querySelector(".bokeh").append(model.get_child("picture"))
   Object.assign(root, {explorer: new Explorer({model, view, root, plot: view.model.data.picture})}) // for tests, and for whoever looks

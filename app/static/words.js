@@ -46,6 +46,8 @@ export const SAYS = {
   rangeHere: "The range of its slider",
   lost: "Connection lost. Reload the page, or run the cell again.",
   trying: "Connection lost. Trying again …",
+  renewed: "There is a new version of the explorer. Reload the page to have it: what is set here stays.",
+  reload: "Reload",
   noFiles: "The server does not answer: there are no files now.",
   waiting: "Waiting for the server …",
   follows: "This system takes longer than a frame; its picture follows …",

@@ -7,6 +7,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import asdict
 from functools import cache, lru_cache
+from importlib.metadata import version
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -73,6 +74,14 @@ def digest() -> str:
     return hashlib.sha256(script().encode()).hexdigest()[:16]
 
 
+@cache
+def edition() -> str:
+    """Return what stands for the explorer as a page has it: a page of one is not driven by a server of another."""
+    written = [(STATIC / name).read_text(encoding="utf-8") for name in ("explorer.html", "page.html")]
+    versions = [version(name) for name in ("codim2", "bokeh", "panel")]
+    return hashlib.sha256("\n".join((*versions, digest(), stylesheet(), *written)).encode()).hexdigest()[:16]
+
+
 def address_of_script() -> str:
     """Return where a page of the explorer's server finds the front end, from where the page is."""
     return f"./explorer.js?v={digest()}"
@@ -125,6 +134,7 @@ def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | No
         "locked": list(locked),
         "film": there(),
         "look": asdict(look or Look()),
+        "edition": edition(),
     }
 
 
@@ -187,6 +197,7 @@ def explorer_html(
         most=MAX_TRAJECTORIES,
         first=first or {},
         look=look or Look(),
+        edition=edition(),
     )
 
 

@@ -7,6 +7,7 @@ import pytest
 from tests.app.serving import serving
 
 BANNER = ".codim2 .banner"
+RENEWED = "There is a new version of the explorer. Reload the page to have it: what is set here stays. Reload"
 
 
 @pytest.fixture
@@ -61,3 +62,16 @@ def test_a_server_is_waited_for_and_when_it_was_lost_the_page_returns_as_it_was(
         page.type("a", "-1")
         assert page.frame() > frame
         assert page.find("[data-control=a] .number").input_value() == "-1"
+        page.type("a", "-0.75").kept()
+    is_renewed(page)
+
+
+def is_renewed(page):
+    """A server of another version comes in place of a page's own: nothing is loaded before a person says so."""
+    page.page.route("**/health", lambda route: route.fulfill(json={"status": "ok", "edition": "after"}))
+    page.find(f"{BANNER} button").wait_for(state="visible")
+    assert page.find(BANNER).text_content() == RENEWED
+    page.find("[data-control=d] .number").fill("-0.25")  # what is set meanwhile is in the address that is asked for
+    with page.page.expect_event("requestfailed", lambda request: request.is_navigation_request()) as asked:
+        page.find(f"{BANNER} button").click()
+    assert {"a=-0.75", "d=-0.25"} <= set(asked.value.url.partition("?")[2].split("&"))

@@ -1,21 +1,28 @@
 // The page's connection to its server: says when it is lost, and loads the page again, with the state that is in its
-// address, as soon as a server answers. (The server keeps a session only for seconds after its socket has closed.)
+// address, as soon as a server answers. (The server keeps a session only for seconds after its socket has closed.) A
+// server of another version may show something else, so there the page asks first.
 
 import {SAYS} from "../words.js"
 
 const RETRY = [500, 1000, 2000, 3000, 5000] // ms between attempts; the last one goes on
 
 export class Connection {
-  // `say` shows a sentence; `leave` is called before the page is loaded again.
-  constructor(document, {page, lost, say, leave}) {
+  /**
+   * @param {any} document of Bokeh's
+   * @param {{page: boolean, edition: string, lost: () => void, say: (sentence: string, reload?: () => void) => void, leave: () => void}} given
+   *   `say` shows a sentence, with a button if there is something to be done; `leave` is called before the page is loaded again
+   */
+  constructor(document, {page, edition, lost, say, leave}) {
     this.attempts = 0
+    this.edition = edition
+    this.say = say
+    this.leave = leave
     document?.on_event("connection_lost", () => {
       if (this.attempts) return
       lost()
       this.attempts = 1
       if (!page) { say(SAYS.lost); return }
       say(SAYS.trying)
-      this.leave = leave
       this.wait()
     })
   }
@@ -25,8 +32,19 @@ export class Connection {
   async attempt() {
     try {
       const answer = await fetch(new URL("health", location.href), {cache: "no-store", signal: AbortSignal.timeout(5000)})
-      if (answer.status < 500) { this.leave(); location.reload(); return } // 5xx: a proxy whose server is down
+      if (answer.status < 500) { this.returned(await answer.text()); return } // 5xx: a proxy whose server is down
     } catch { /* no server yet */ }
     this.wait()
   }
+
+  returned(text) {
+    const reload = () => { this.leave(); location.reload() }
+    const edition = editionOf(text)
+    if (edition && edition !== this.edition) this.say(SAYS.renewed, reload); else reload()
+  }
+}
+
+/** What a server calls its edition; "" if something else has answered. @param {string} text */
+function editionOf(text) {
+  try { return JSON.parse(text).edition ?? "" } catch { return "" }
 }

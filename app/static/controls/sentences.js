@@ -1,5 +1,7 @@
 // What is wrong: each sentence stands beside its control; what has no place there, or none that is seen, above the picture.
 
+import {SAYS} from "../words.js"
+
 export class Sentences {
   /**
    * @param {any} bar above the picture @param {Record<string, any>} controls
@@ -10,6 +12,7 @@ export class Sentences {
     this.controls = controls
     this.asked = asked
     this.told = /** @type {Record<string, string>} */ ({})
+    this.noticed = false
   }
 
   /** @param {Record<string, string>} errors by control; "" of none */
@@ -27,5 +30,27 @@ export class Sentences {
     return error && error.offsetParent !== null // else it is in a closed sheet
   }
 
-  banner(sentence) { this.bar.hidden = !sentence; this.bar.textContent = sentence }
+  banner(sentence) {
+    if (this.noticed) return
+    this.bar.hidden = !sentence
+    this.bar.textContent = sentence
+  }
+
+  /** What is said of the whole page stays. @param {string} sentence @param {(() => void) | null} reload */
+  notice(sentence, reload = null) {
+    this.noticed = true
+    notice(this.bar, sentence, reload)
+  }
+}
+
+/** Say a sentence of the whole page, with a button that loads it again. @param {any} bar @param {string} sentence @param {(() => void) | null} reload */
+export function notice(bar, sentence, reload) {
+  bar.hidden = false
+  bar.textContent = sentence
+  if (!reload) return
+  const button = bar.ownerDocument.createElement("button")
+  button.type = "button"
+  button.textContent = SAYS.reload
+  button.addEventListener("click", reload)
+  bar.append(" ", button)
 }

@@ -171,6 +171,19 @@ def test_health_is_of_the_process_and_ready_of_a_scene(address):
     assert json.loads(opened(address + "/ready")[0])["status"] == "ready"
 
 
+def test_a_page_its_session_and_the_health_of_its_server_are_of_one_edition(address):
+    page, _ = opened(address)
+    (edition,) = re.findall(r'data-edition="(\w+)"', page)
+
+    async def talk():
+        wire = await Wire.connect(int(address.rsplit(":", 1)[1]), page=page)
+        await wire.close()
+        return json.dumps(wire.document).replace(" ", "")
+
+    assert f'["edition","{edition}"]' in asyncio.run(talk())
+    assert json.loads(opened(address + "/health")[0])["edition"] == edition
+
+
 def test_more_pages_than_places_are_asked_to_wait(address):
     port = int(address.rsplit(":", 1)[1])
 

@@ -208,6 +208,14 @@ test("the page's own markup is used, and the server's drawing stays until Bokeh 
   assert.ok(note.root.classList.contains("notebook") && !one.root.classList.contains("notebook"))
 })
 
+test("a page that a server of another version wrote is left as it is, and says so", () => {
+  const one = wired({edition: "after"}), bar = /** @type {any} */ (one.document.querySelector(".banner"))
+  assert.equal(one.root, null)
+  assert.match(bar.textContent, /^There is a new version .* Reload$/)
+  assert.deepEqual([bar.hidden, Object.keys(one.connections)], [false, []])
+  assert.ok(one.document.querySelector(".first"))
+})
+
 test("in a notebook JupyterLab's keys rest while the view has the focus, those with Ctrl do not", () => {
   const one = wired({page: false})
   one.find(".theme").focus()
@@ -228,6 +236,7 @@ test("values that a link gave and the server refused are shown with their senten
   assert.equal(one.find("[data-control=f1] .number").value, "much")
   assert.equal(one.find(".for-custom input").value, "1/(")
   assert.equal(one.root.explorer.values.psi_text, "1/(")
+  assert.match(decodeURIComponent(one.window.history.url), /psi_text=1\/\(/, "loaded again, it is there still")
   assert.equal(one.root.explorer.values.f1, 0.5)
 })
 

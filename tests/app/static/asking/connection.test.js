@@ -8,10 +8,11 @@ const global = /** @type {any} */ (globalThis)
 /**
  * A page whose connection can be lost, and whose server answers as told: a status, or null for nobody.
  * @param {(number | null)[]} answers
+ * @param {string} text of its answers
  */
-async function lost(answers, page = true, times = 1) {
+async function lost(answers, page = true, times = 1, text = "") {
   const waits = [], asked = [], said = []
-  let lose = /** @type {any} */ (null), go = /** @type {any} */ (null)
+  let lose = /** @type {any} */ (null), go = /** @type {any} */ (null), again = /** @type {any} */ (null)
   const kept = {setTimeout: global.setTimeout, fetch: global.fetch, location: global.location, timeout: AbortSignal.timeout}
   global.setTimeout = (call, ms) => { waits.push(ms); go = call; return waits.length }
   global.location = {href: "http://h/codim2/?f1=1", reload: () => said.push("reload")}
@@ -19,11 +20,11 @@ async function lost(answers, page = true, times = 1) {
   global.fetch = (url, {cache, signal}) => {
     asked.push(`${url} ${cache} ${signal}`)
     const status = answers[asked.length - 1]
-    return status === null ? Promise.reject(new Error("no server")) : Promise.resolve({status})
+    return status === null ? Promise.reject(new Error("no server")) : Promise.resolve({status, text: () => Promise.resolve(text)})
   }
   try {
     new Connection({on_event: (name, call) => { assert.equal(name, "connection_lost"); lose = call }},
-      {page, lost: () => said.push("lost"), say: (words) => said.push(words), leave: () => said.push("leave")})
+      {page, edition: "one", lost: () => said.push("lost"), say: (words, reload) => { said.push(words); again = reload }, leave: () => said.push("leave")})
     assert.deepEqual(said, [])
     for (let i = 0; i < times; i++) lose()
     for (let i = 0; i < answers.length && go; i++) { const call = go; go = null; await call() }
@@ -31,7 +32,7 @@ async function lost(answers, page = true, times = 1) {
     Object.assign(global, kept)
     AbortSignal.timeout = kept.timeout
   }
-  return {waits, asked, said, waiting: Boolean(go)}
+  return {waits, asked, said, waiting: Boolean(go), again}
 }
 
 test("a page is loaded again, with what was kept, as soon as a server answers, however it answers", async () => {
@@ -51,6 +52,19 @@ test("a proxy whose server is down is no server, nor is silence: it is tried aga
   assert.equal((await lost([null, 500])).waiting, true)
 })
 
+test("a server of another version is not gone to before a person says so", async () => {
+  const kept = global.location
+  const {said, waiting, again} = await lost([null, 200], true, 1, '{"edition": "two"}')
+  assert.deepEqual(said.splice(0), ["lost", "Connection lost. Trying again …", "There is a new version of the explorer. Reload the page to have it: what is set here stays."])
+  assert.equal(waiting, false)
+  global.location = {reload: () => said.push("reload")}
+  try { again() } finally { global.location = kept }
+  assert.deepEqual(said, ["leave", "reload"])
+  for (const text of ['{"edition": "one"}', '{"status": "ok"}', "<p>of a proxy", "null"]) {
+    assert.deepEqual((await lost([200], true, 1, text)).said.slice(2), ["leave", "reload"])
+  }
+})
+
 test("a connection is lost once", async () => {
   const {said, asked} = await lost([200], true, 3)
   assert.deepEqual(said.filter((words) => words === "lost").length, 1)
@@ -63,4 +77,4 @@ test("in a notebook it is said, and nothing is loaded again", async () => {
   assert.deepEqual(waits, [])
 })
 
-test("without a document there is nothing to lose", () => { new Connection(undefined, {page: true, lost: assert.fail, say: assert.fail, leave: assert.fail}) })
+test("without a document there is nothing to lose", () => { new Connection(undefined, {page: true, edition: "one", lost: assert.fail, say: assert.fail, leave: assert.fail}) })

@@ -1,0 +1,23 @@
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import {page} from "./page.js"
+import {Sentences} from "../../../app/static/controls/sentences.js"
+
+test("what is said of the whole page stays above what is wrong with a control, and its button does what it says", () => {
+  const {document} = page('<div class="banner" hidden></div>')
+  const bar = /** @type {any} */ (document.querySelector(".banner")), done = []
+  const sentences = new Sentences(bar, {}, () => ({}))
+  sentences.say({a: "a is wrong."})
+  assert.deepEqual([bar.hidden, bar.textContent], [false, "a is wrong."])
+  sentences.say({})
+  assert.equal(bar.hidden, true)
+  sentences.notice("Trying again …")
+  sentences.say({a: "a is wrong."})
+  assert.deepEqual([bar.hidden, bar.textContent, bar.querySelector("button")], [false, "Trying again …", null])
+  sentences.notice("A new version.", () => done.push("reload"))
+  sentences.say()
+  assert.equal(bar.textContent, "A new version. Reload")
+  bar.querySelector("button").click()
+  assert.deepEqual(done, ["reload"])
+})
