@@ -17,7 +17,8 @@ from .targets import ROOT
 
 STATIC, TESTS = ROOT / "app" / "static", ROOT / "tests" / "app" / "static"
 IMPORTED = re.compile(r"""(?:from\s|import\s|import\()\s*["'](\.[^"'?]+)["'?]""")
-LIMIT = 60.0  # seconds; a mutant that loops for ever has been noticed
+LIMIT = 60.0  # seconds of a file of tests as it is
+LOOPS = 5.0, 10.0  # seconds, and times what it takes as it is: a mutant that loops for ever has been noticed
 
 
 class Mutant(NamedTuple):
@@ -77,12 +78,12 @@ def tests_of(name: str) -> list[Path]:
     return [test for test in sorted((*TESTS.glob("*.test.js"), *TESTS.glob("*/*.test.js"))) if path in reached(test)]
 
 
-def passes(test: str, folder: Path, only: str = "") -> bool:
-    """Run a file of tests, or those of some names in it, up to the first that fails."""
+def passes(test: str, folder: Path, only: str = "", limit: float = LIMIT) -> bool:
+    """Run a file of tests, or those of some names in it, up to the first that fails or to the limit in seconds."""
     command = ["node", "--test-reporter=tap", *(["--test-name-pattern", only] if only else []), test]
     process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     assert process.stdout is not None
-    timer = Timer(LIMIT, process.kill)
+    timer = Timer(limit, process.kill)
     timer.start()
     try:
         if any(line.startswith("not ok") for line in process.stdout):
@@ -95,7 +96,9 @@ def passes(test: str, folder: Path, only: str = "") -> bool:
 
 
 def run(name: str, tried: list[Mutant]) -> list[str]:
-    """What becomes of each: "failed", "passed", or "unreached" where no test imports the module; quick tests first."""
+    """What becomes of each: "failed", "passed", or "unreached" where no test imports the module; quick tests first,
+    and the one that failed last before them.
+    """
     tests = [str(path.relative_to(ROOT)) for path in tests_of(name)]
     if not tests:
         return ["unreached"] * len(tried)
@@ -109,8 +112,8 @@ def run(name: str, tried: list[Mutant]) -> list[str]:
         path = copy / "app" / name
         source = path.read_text()
 
-        # of the tests of panels, a panel's own
-        only = f"panel {path.stem}[-:]" if path.parent.name == "panels" else ""
+        # of the tests of panels, and of their kept pictures, a panel's own
+        only = rf"panel {path.stem}\b" if path.parent.name == "panels" else ""
         took = {}
         for test in tests:
             start = time.monotonic()
@@ -118,8 +121,12 @@ def run(name: str, tried: list[Mutant]) -> list[str]:
                 raise SystemExit(f"{name}: its tests fail as they are; mend that first.")
             took[test] = time.monotonic() - start
         tests.sort(key=lambda test: took[test])
+        limit = {test: LOOPS[0] + LOOPS[1] * took[test] for test in tests}
         for mutant in tried:
             path.write_text(mutant.source)
-            outcomes.append("passed" if all(passes(test, copy, only) for test in tests) else "failed")
+            failed = next((test for test in tests if not passes(test, copy, only, limit[test])), None)
+            outcomes.append("passed" if failed is None else "failed")
+            if failed is not None:  # likely to notice the next one too
+                tests.insert(0, tests.pop(tests.index(failed)))
         path.write_text(source)
     return outcomes
