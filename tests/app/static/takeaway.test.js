@@ -90,7 +90,7 @@ test("while a film is drawn it says how far it is, can be stopped, and nothing e
   assert.deepEqual([one.told(), one.find(".stop-making").hidden, one.disabled().length], ["Making Film …", false, 9])
   one.progress[0](4, 41)
   assert.equal(one.told(), "Drawing the film: 4 of 41 pictures …")
-  one.fire(one.find(".stop-making"), "click")
+  one.find(".stop-making").onclick()
   assert.deepEqual(one.stopped, [true])
   done({error: "The film was stopped."})
   await film
