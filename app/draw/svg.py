@@ -16,10 +16,10 @@ from .layers import LAYERS, painted
 from .packing import unpack
 from .theme import DISCS
 from .vector import parts as vector
-from .vector.parts import SIDE, Place
+from .vector.parts import SIDE, Placement
 
 #: The whole picture; lines and marks have the size that they have in a picture of 700 px.
-FIRST = Place()
+FIRST = Placement()
 
 
 def draw(buffer: bytes, layers: Collection[str]) -> str:
@@ -38,7 +38,7 @@ def draw(buffer: bytes, layers: Collection[str]) -> str:
     return whole + content(buffer, layers, FIRST) + "</svg>"
 
 
-def content(buffer: bytes, layers: Collection[str], place: Place, labelled: bool = True) -> str:
+def content(buffer: bytes, layers: Collection[str], place: Placement, labelled: bool = True) -> str:
     """Return what is drawn of one packed frame, from bottom to top, as elements of an SVG.
 
     Parameters
@@ -47,7 +47,7 @@ def content(buffer: bytes, layers: Collection[str], place: Place, labelled: bool
         A frame that holds everything.
     layers : collection of str
         Those that are shown.
-    place : Place
+    place : Placement
         What of the picture, and where in the drawing.
     labelled : bool
         Whether marks have labels.
@@ -66,7 +66,7 @@ def content(buffer: bytes, layers: Collection[str], place: Place, labelled: bool
     parts += vector.equator(header, place)
     if "launched" in layers:
         parts += vector.starts(header.get("launched"), LAYERS["launched"].parts, place)
-    taken: list[vector.Box] = []
+    taken: list[vector.LabelBox] = []
     marked = [header[name] for name in ("equator", "critical") if name in layers and header.get(name)]
     for columns in marked:
         parts += vector.marks(columns, place, taken)
@@ -94,7 +94,7 @@ def small(scene: Scene, view: float) -> str:
     str
         An ``<svg>`` element of some 5 kB, in the style sheet's colours.
     """
-    place = Place((-view, view, -view, view), SMALL_SIDE, SMALL_SIDE / 80)
+    place = Placement((-view, view, -view, view), SMALL_SIDE, SMALL_SIDE / 80)
     parts = [f'<svg viewBox="0 0 {SMALL_SIDE} {SMALL_SIDE}" fill="none" stroke-linejoin="round" aria-hidden="true">']
     for name, width in SMALL.items():
         for part in LAYERS[name].parts:

@@ -17,7 +17,7 @@ from ..draw.theme import themes
 from ..draw.vector import parts as vector
 from ..draw.vector.labels import width_of
 from ..draw.vector.paper import DASHES, paper
-from ..draw.vector.parts import Place
+from ..draw.vector.parts import Placement
 from .describe import caption_of
 from .legend import Entry, entries
 from .view import View
@@ -80,7 +80,7 @@ def figure(view: View, style: Style | None = None, heading: str = "") -> str:
     buffer, layers = view.frame(), view.values["layers"]
     header, blocks = unpack(buffer)
     side = style.size * MM
-    place = Place(view.seen, side, PX, LABEL, 2, DASHES if style.theme == "paper" else {}, BEYOND)
+    place = Placement(view.seen, side, PX, LABEL, 2, DASHES if style.theme == "paper" else {}, BEYOND)
     left, right = (30.0, 8.0) if style.ticks else (0.0, 0.0)
     parts: list[str] = []
     y = 0.0
@@ -151,7 +151,7 @@ def _columns(shown: list[Entry], side: float) -> list[tuple[float, list[Entry]]]
 
 
 def _legend(
-    columns: list[tuple[float, list[Entry]]], place: Place, left: float, y: float, side: float
+    columns: list[tuple[float, list[Entry]]], place: Placement, left: float, y: float, side: float
 ) -> Iterator[str]:
     for k, (x, column) in enumerate(columns):
         end = columns[k + 1][0] - GUTTER if k + 1 < len(columns) else side
@@ -164,7 +164,7 @@ def _legend(
             yield vector.words(left + begin, foot, escape(entry.words), SMALL, room=0.0 if tight else math.inf)
 
 
-def _ticks(place: Place) -> Iterator[str]:
+def _ticks(place: Placement) -> Iterator[str]:
     """Return a frame with ticks, their numbers, and the names of both axes."""
     left, right, bottom, top = place.seen
     line = vector.stroke("soft", 1.2, (), place)

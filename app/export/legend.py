@@ -10,7 +10,7 @@ from codim2_core.words import named
 
 from ..draw.layers import Part, painted
 from ..draw.vector import parts as vector
-from ..draw.vector.parts import Place
+from ..draw.vector.parts import Placement
 from ..slow_layers.outcomes import WORDS as OUTCOMES
 
 #: What a part of a layer is, where it is not the whole layer.
@@ -47,7 +47,7 @@ class Entry:
     area: str = ""
     sign: str = ""
 
-    def drawn(self, place: Place, x: float, y: float, width: float) -> str:
+    def drawn(self, place: Placement, x: float, y: float, width: float) -> str:
         """Return its sample, `width` wide, with its middle height at y."""
         if self.part is not None:
             dashes = self.part.dash or place.dashes.get(self.part.colour, ())

@@ -23,7 +23,7 @@ from codim2_core.scene import Scene
 from ..phrases import say
 from .faults import FAULT, sentence_of
 
-#: Results kept for all browsers of a process, and what they may hold together, in bytes.
+#: KeptResults kept for all browsers of a process, and what they may hold together, in bytes.
 KEPT = 128
 KEPT_BYTES = 64_000_000
 
@@ -35,7 +35,7 @@ class Failed:
     sentence: str
 
 
-class Results:
+class KeptResults:
     """Results by key, the most recently used last; bounded in number and in size."""
 
     def __init__(self, most: int = KEPT, most_bytes: int = KEPT_BYTES) -> None:
@@ -74,7 +74,7 @@ def _size(result: Any) -> int | None:
 
 
 @dataclass(eq=False)
-class Work:
+class Wanted:
     """One thing to compute: its call, those who want it, and the future that they wait for."""
 
     key: Hashable
@@ -100,12 +100,12 @@ class Turns:
 
     def __init__(self, executor: Executor, at_once: int = 1) -> None:
         self.executor, self.at_once = executor, at_once
-        self.results = Results()
+        self.results = KeptResults()
         self._lock = RLock()
-        self._works: dict[Hashable, Work] = {}
-        self._queues: OrderedDict[Hashable, deque[Work]] = OrderedDict()
+        self._works: dict[Hashable, Wanted] = {}
+        self._queues: OrderedDict[Hashable, deque[Wanted]] = OrderedDict()
         self._used: dict[Hashable, float] = {}
-        self._running: dict[Work, Hashable] = {}
+        self._running: dict[Wanted, Hashable] = {}
 
     def result(self, key: Hashable) -> Any:
         """Return a result that is kept, or None."""
@@ -117,7 +117,7 @@ class Turns:
         with self._lock:
             work = self._works.get(key)
             if work is None:
-                work = self._works[key] = Work(key, (function, *args), {owner})
+                work = self._works[key] = Wanted(key, (function, *args), {owner})
                 if owner not in self._queues:
                     self._queues[owner] = deque()
                     least = min((self._used[one] for one in self._queues if one in self._used), default=0.0)
@@ -185,7 +185,7 @@ class Turns:
                 return
             work.under_way.add_done_callback(lambda done, work=work: self._done(work, done))
 
-    def _done(self, work: Work, done: Future[Any]) -> None:
+    def _done(self, work: Wanted, done: Future[Any]) -> None:
         result, lost = _outcome(done)
         with self._lock:
             owner = self._running.pop(work, None)

@@ -9,7 +9,7 @@ from typing import Any
 from codim2_core.scene import Scene
 
 from ..frame.scenes import make_scene
-from .condition import Condition
+from .condition import FactCondition
 from .facts import Fact, facts_of
 from .lesson import Question, portrait_of
 from .words import filled
@@ -52,7 +52,7 @@ def pose(question: Question, values: Mapping[str, Any], seed: int) -> dict[str, 
     return admitted
 
 
-def _holds(condition: Condition | None, scene: Scene, default: bool = False) -> bool:
+def _holds(condition: FactCondition | None, scene: Scene, default: bool = False) -> bool:
     return default if condition is None else condition(facts_of(scene, condition.names))
 
 

@@ -22,7 +22,7 @@ _COMPUTE: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
 
 
 @dataclass(frozen=True)
-class Condition:
+class FactCondition:
     """A condition on facts.
 
     Attributes
@@ -41,7 +41,7 @@ class Condition:
         return bool(_value(self._tree, facts))
 
 
-def condition(text: str, known: frozenset[str]) -> Condition:
+def condition(text: str, known: frozenset[str]) -> FactCondition:
     """Read a condition.
 
     Parameters
@@ -64,7 +64,7 @@ def condition(text: str, known: frozenset[str]) -> Condition:
         raise ValueError(f"the condition {text!r} cannot be read: {error.msg}.") from error
     names: set[str] = set()
     _check(tree, text, known, names)
-    return Condition(text, frozenset(names), tree)
+    return FactCondition(text, frozenset(names), tree)
 
 
 def _check(node: ast.expr, text: str, known: frozenset[str], names: set[str]) -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..state.controls import preset_values
-from .condition import Condition
+from .condition import FactCondition
 from .words import fields
 
 SHOWN = re.compile(r'data-fact="(\w+)"')
@@ -33,7 +33,7 @@ class Option:
     """One possible answer: its words, and when it is the right one."""
 
     html: str
-    when: Condition
+    when: FactCondition
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Vary:
     """A goal to reach with the controls: what to do, when it is reached, and a hint."""
 
     html: str
-    goal: Condition
+    goal: FactCondition
     hint: str = ""
 
 
@@ -59,7 +59,7 @@ class Question:
         HTML, shown once an answer is given; ``{limit_directions}`` stands for a fact.
     draw : mapping
         Values of controls that the question starts from; a pair of numbers is a range to draw from.
-    require : Condition or None
+    require : FactCondition or None
         What the drawn system must fulfil; it is drawn again until it does.
     hide : tuple of str
         Layers hidden until the answer is given.
@@ -71,7 +71,7 @@ class Question:
     options: tuple[Option, ...]
     explain: str
     draw: Mapping[str, Any] = field(default_factory=dict)
-    require: Condition | None = None
+    require: FactCondition | None = None
     hide: tuple[str, ...] = ()
     hint: str = ""
     vary: Vary | None = None

@@ -13,7 +13,7 @@ from markdown_it.token import Token
 from ..draw.layers import LAYERS
 from ..state.cleaning import InputError, clean
 from ..state.controls import NAMES
-from .condition import Condition, condition
+from .condition import FactCondition, condition
 from .facts import COMPILED, KNOWN
 from .lesson import Lesson, Option, Prose, Question, Vary, portrait_of
 from .markdown import LinkError, button, draggable, inline, live, parser, rendered
@@ -176,7 +176,7 @@ def _vary(path: Path, line: int, found: Any) -> Vary:
     return Vary(_line(path, line, words["say"]), _condition(path, line, words["goal"]), hint)
 
 
-def _condition(path: Path, line: int, text: Any) -> Condition:
+def _condition(path: Path, line: int, text: Any) -> FactCondition:
     try:
         return condition(str(text), KNOWN)
     except ValueError as error:

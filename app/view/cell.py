@@ -36,7 +36,7 @@ MOST_PAGES = 8
 REST = 1.0
 
 
-class View(Protocol):
+class CellView(Protocol):
     """What a cell asks of an explorer."""
 
     def still(self, patient: bool) -> tuple[str, str, bool]:
@@ -76,7 +76,7 @@ def libraries() -> dict[str, Path]:
 class Cell:
     """One explorer in the cells of this kernel's notebook, and in the pages that show them."""
 
-    def __init__(self, view: View) -> None:
+    def __init__(self, view: CellView) -> None:
         self.view = view
         self.name = uuid4().hex[:12]
         self._pages: list[Any] = []

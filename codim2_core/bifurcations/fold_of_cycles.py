@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..continuation.turn import Family, Turn
+from ..continuation.turn import Turn, VariedSystem
 from ..cycles.section import Section
 from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi
@@ -83,7 +83,7 @@ class Folds:
         def at(value: float) -> tuple[Coefficients, Psi]:
             return coefficients_at(self.a, self.b, self.d, -self.A @ (e + value * unit)), self.psi
 
-        family = Family(at, 1.0)
+        family = VariedSystem(at, 1.0)
         family.ray = self.ray
         self.turns += 1
         return family.turn(xi, 0.0) if -700.0 < xi < 690.0 else None

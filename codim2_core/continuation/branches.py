@@ -29,7 +29,7 @@ from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_en
 from .result import CycleBranch, CycleBranches, CyclePoint
 from .sought import sought
 from .trace import LEVEL, Trace, Tracer, reversed_trace
-from .turn import Family, Turn
+from .turn import Turn, VariedSystem
 
 __all__ = ["CycleBranch", "CycleBranches", "CyclePoint", "continue_cycles"]
 
@@ -95,8 +95,8 @@ def continue_cycles(
     for value in (low, high):
         at(value)
     bounds = limits(system, psi, name)
-    part = sought(Family(at, high - low, bounds), low, high)
-    family = Family(at, part[1] - part[0], bounds)
+    part = sought(VariedSystem(at, high - low, bounds), low, high)
+    family = VariedSystem(at, part[1] - part[0], bounds)
     allowed = [v for v in values(*part) if family.allows(v)]
     if all(reversible(at(v)[0]) for v in allowed):
         settings = (at(float(v)) for v in values(low, high))
@@ -121,7 +121,7 @@ def folds_along(at: Callable[[float], tuple[Coefficients, Psi]], low: float, hig
     -------
     list of Turn
     """
-    family = Family(at, high - low)
+    family = VariedSystem(at, high - low)
     allowed = [v for v in values(low, high) if family.allows(v)]
     if all(reversible(at(v)[0]) for v in allowed):
         return []
@@ -134,7 +134,7 @@ def folds_along(at: Callable[[float], tuple[Coefficients, Psi]], low: float, hig
 class _Search:
     """One call of `continue_cycles`."""
 
-    def __init__(self, family: Family, name: str, part: tuple[float, float], span: tuple[float, float]) -> None:
+    def __init__(self, family: VariedSystem, name: str, part: tuple[float, float], span: tuple[float, float]) -> None:
         self.family, self.name, self.span = family, name, span
         low, high = self.low, self.high = part
         self.tracer = Tracer(family, low, high)

@@ -19,7 +19,7 @@ from ..layer_problem.equator import equator_cycle, equator_equilibria
 from ..layer_problem.lyapunov import first_lyapunov
 from ..numerics.root_between import root_between
 from ..systems.coefficients import Coefficients
-from .turn import Family
+from .turn import VariedSystem
 
 SAMPLES = 129  # values at which traces and exponents are looked at
 COLUMNS = 9  # and gaps of loops
@@ -54,12 +54,12 @@ def values(low: float, high: float, count: int = SAMPLES) -> list[float]:
     return [low + (high - low) * i / (count - 1) for i in range(count)]
 
 
-def hopf_ends(family: Family, low: float, high: float) -> list[End]:
+def hopf_ends(family: VariedSystem, low: float, high: float) -> list[End]:
     """All Hopf points: tr J = 0 < det J.
 
     Parameters
     ----------
-    family : Family
+    family : VariedSystem
     low, high : float
     """
 
@@ -77,19 +77,19 @@ def hopf_ends(family: Family, low: float, high: float) -> list[End]:
     return ends
 
 
-def equator_ends(family: Family, low: float, high: float) -> list[End]:
+def equator_ends(family: VariedSystem, low: float, high: float) -> list[End]:
     """All values at which the closed equator has the exponent zero.
 
     Parameters
     ----------
-    family : Family
+    family : VariedSystem
     low, high : float
     """
     exponent = _exponent(family)
     return [_on_equator(family, "equator", value) for value in _roots(exponent, values(low, high))]
 
 
-def _exponent(family: Family) -> Callable[[float], float | None]:
+def _exponent(family: VariedSystem) -> Callable[[float], float | None]:
     def exponent(value: float) -> float | None:
         found = equator_cycle(family.at(value)[0]) if family.allows(value) else None
         return None if found is None else math.atan(found.exponent)
@@ -97,7 +97,9 @@ def _exponent(family: Family) -> Callable[[float], float | None]:
     return exponent
 
 
-def _exchange_near(family: Family, value: float, direction: float, width: float, ahead: float | None) -> End | None:
+def _exchange_near(
+    family: VariedSystem, value: float, direction: float, width: float, ahead: float | None
+) -> End | None:
     """Find the zero of the closed equator's exponent nearest to a value, ahead of it or just behind."""
     exponent = _exponent(family)
     here = exponent(value)
@@ -113,18 +115,18 @@ def _exchange_near(family: Family, value: float, direction: float, width: float,
     return None
 
 
-def _on_equator(family: Family, kind: str, value: float, measure: float = 0.0) -> End:
+def _on_equator(family: VariedSystem, kind: str, value: float, measure: float = 0.0) -> End:
     found = family.problem(value).critical
     away = 1.0 + float(np.hypot(*found[0].p)) if found else 2.0
     return End(kind, value, math.inf, away, measure)
 
 
-def loop_ends(family: Family, low: float, high: float) -> list[End]:
+def loop_ends(family: VariedSystem, low: float, high: float) -> list[End]:
     """All values found at which a loop closes: gaps that change sign between `COLUMNS` values.
 
     Parameters
     ----------
-    family : Family
+    family : VariedSystem
     low, high : float
     """
     columns = values(low, high, COLUMNS)
@@ -143,12 +145,12 @@ def loop_ends(family: Family, low: float, high: float) -> list[End]:
     return ends
 
 
-def loop_end(family: Family, low: float, high: float, loop: Loop) -> End | None:
+def loop_end(family: VariedSystem, low: float, high: float, loop: Loop) -> End | None:
     """Find the value between two at which a loop closes, or None if the gap is not seen to change sign.
 
     Parameters
     ----------
-    family : Family
+    family : VariedSystem
     low, high : float
     loop : Loop
         At, or near, one of them.
@@ -180,12 +182,12 @@ def _nearest(arcs: tuple[Loop, ...], loop: Loop, ray: int | None = None) -> Loop
     return found if ray is None else Loop(found.source, found.sink, found.ratio, ray)
 
 
-def at_equator(family: Family, value: float, direction: float, width: float, known: list[End]) -> End | None:
+def at_equator(family: VariedSystem, value: float, direction: float, width: float, known: list[End]) -> End | None:
     """How a branch ends that has come to the equator near a value.
 
     Parameters
     ----------
-    family : Family
+    family : VariedSystem
     value : float
         Of the last cycle.
     direction : float
@@ -221,7 +223,7 @@ def at_equator(family: Family, value: float, direction: float, width: float, kno
     return None if ahead is None else _on_equator(family, "saddle-node on the equator", ahead)
 
 
-def at_singular(family: Family, value: float, direction: float, width: float) -> End | None:
+def at_singular(family: VariedSystem, value: float, direction: float, width: float) -> End | None:
     """Find det A = 0 close ahead, with a whole line of equilibria through the cycle, or None."""
 
     def determinant(v: float) -> float:
@@ -241,7 +243,7 @@ def reversible(coefficients: Coefficients) -> bool:
     return abs(a + d) <= 1e-9 * abs(a - d) and abs(abs(f1) - abs(f2)) <= 1e-9 * (abs(f1) + abs(f2))
 
 
-def _saddle_node_ahead(family: Family, value: float, direction: float, width: float) -> float | None:
+def _saddle_node_ahead(family: VariedSystem, value: float, direction: float, width: float) -> float | None:
     """Find the first value ahead at which the number of limit directions changes, within `AHEAD` of the span."""
     count = len(equator_equilibria(family.at(value)[0]))
     near = value

@@ -7,14 +7,14 @@ from collections.abc import Callable
 
 from ..numerics.root_between import root_between
 from .ends import values
-from .turn import Family
+from .turn import VariedSystem
 
 NARROW = 0.25  # of the span: a part narrower than this is looked at by itself
 BESIDE = 0.05  # of the part: how far it is looked beyond its ends
 STEPS, GOLDEN = 48, 0.5 * (math.sqrt(5.0) - 1.0)
 
 
-def sought(family: Family, low: float, high: float) -> tuple[float, float]:
+def sought(family: VariedSystem, low: float, high: float) -> tuple[float, float]:
     """Return the part of a span on which cycles are to be looked for: the whole span where it is no narrow part.
 
     C with det A > 0 is on the hemisphere where |adj(A) f| < det A. Along f this margin is concave, so that its
@@ -22,7 +22,7 @@ def sought(family: Family, low: float, high: float) -> tuple[float, float]:
 
     Parameters
     ----------
-    family : Family
+    family : VariedSystem
     low, high : float
     """
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from .turn import Family, Turn
+from .turn import Turn, VariedSystem
 
 STEP = 0.03  # the longest step
 SMALLEST = 1e-7  # below this the branch is said to end
@@ -59,11 +59,11 @@ class Tracer:
 
     Parameters
     ----------
-    family : Family
+    family : VariedSystem
     low, high : float
     """
 
-    def __init__(self, family: Family, low: float, high: float) -> None:
+    def __init__(self, family: VariedSystem, low: float, high: float) -> None:
         self.family, self.low, self.width = family, low, high - low
 
     def turn(self, xi: float, nu: float, backward: bool) -> Turn | None:

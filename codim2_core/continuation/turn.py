@@ -81,7 +81,7 @@ class Turn:
     p: tuple[float, float]
 
 
-class Family:
+class VariedSystem:
     """A system in which one parameter varies, and the section that goes with it.
 
     Parameters

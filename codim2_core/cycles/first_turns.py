@@ -19,7 +19,7 @@ from ..systems.frozen import AtZ
 from ..words import say
 from .orbit import Orbit, orbit
 from .resolution import NEAR_FOLD, UNRESOLVED, Samples, counted, near_fold, zeros
-from .section import FINE, Crossing
+from .section import FINE, FixedPoint
 from .turn_section import Array, TurnSection
 
 BAND = 1e-9  # |ln multiplier| at which a closed orbit is one of a band
@@ -38,7 +38,7 @@ ONLY_SADDLES = say("only saddles")
 
 def find(
     at: AtZ, psi: Psi, critical: tuple[CriticalSet, ...]
-) -> tuple[list[tuple[Crossing, Orbit, int]], str, tuple[str, ...]]:
+) -> tuple[list[tuple[FixedPoint, Orbit, int]], str, tuple[str, ...]]:
     """Search for limit cycles.
 
     Parameters
@@ -50,7 +50,7 @@ def find(
 
     Returns
     -------
-    cycles : list of (Crossing, Orbit, sense)
+    cycles : list of (FixedPoint, Orbit, sense)
         sense is +1 anticlockwise, -1 clockwise.
     reason : str
         Why there is none, or how those there are were found.
@@ -61,7 +61,7 @@ def find(
     feet = [C for C in critical if C.kind != "saddle"]
     if not feet:
         return [], ONLY_SADDLES, ()
-    found: list[tuple[Crossing, Orbit, int]] = []
+    found: list[tuple[FixedPoint, Orbit, int]] = []
     notes: list[str] = []
     if len(feet) > MOST_FEET:
         notes.append(say("searched about some", searched=MOST_FEET, count=len(feet)))
@@ -84,10 +84,10 @@ def find(
     return found, counted(len(found), "turn", about=names), tuple(dict.fromkeys(notes))
 
 
-def _searched(section: TurnSection) -> tuple[list[Crossing], list[str]]:
+def _searched(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
     """Find fixed points on one ray, innermost first, and what is nearly degenerate."""
     notes: list[str] = []
-    out: list[Crossing] = []
+    out: list[FixedPoint] = []
     for backward in (False, True):
         samples = Samples(section, section.grid(), backward)
         finite = np.isfinite(samples.shift)
@@ -109,10 +109,10 @@ def _searched(section: TurnSection) -> tuple[list[Crossing], list[str]]:
             gap = near_fold(samples.q, shift, samples.noise)
             if gap < NEAR_FOLD:
                 notes.append(say("near a fold", gap=gap))
-            out += [Crossing(float(xi[i]), touching=True) for i in touching]
+            out += [FixedPoint(float(xi[i]), touching=True) for i in touching]
         for i, j in changes:
             if shift[i] > 0.0 and np.isfinite(shift[[i, j]]).all():  # attracting
-                out += [Crossing(at, backward) for at in _narrowed(section, float(xi[i]), float(xi[j]), backward)]
+                out += [FixedPoint(at, backward) for at in _narrowed(section, float(xi[i]), float(xi[j]), backward)]
     return sorted(out, key=lambda crossing: crossing.xi), notes
 
 
@@ -150,7 +150,7 @@ def _narrowed(section: TurnSection, low: float, high: float, backward: bool) -> 
     return found
 
 
-def _on(section: TurnSection, crossing: Crossing, other: Orbit) -> bool:
+def _on(section: TurnSection, crossing: FixedPoint, other: Orbit) -> bool:
     """Whether a fixed point lies on a cycle that is known."""
     p = section.states(np.array([crossing.xi]))[0][0, :2]
     start, along = other.points[:-1], np.diff(other.points, axis=0)

@@ -33,7 +33,7 @@ from ..words import say
 from .orbit import Orbit, orbit
 from .resolution import counted
 from .search import search
-from .section import Crossing, Section
+from .section import FixedPoint, Section
 
 __all__ = ["LimitCycle", "LimitCycles", "limit_cycles", "reason_for_none"]
 
@@ -250,7 +250,7 @@ def _general(problem: LayerProblem) -> ClosedOrbits:
     return ClosedOrbits(cycles, tuple(closed for _, closed, _ in found), reason, notes)
 
 
-def _cycle(crossing: Crossing, found: Orbit, sense: int) -> LimitCycle:
+def _cycle(crossing: FixedPoint, found: Orbit, sense: int) -> LimitCycle:
     exponent = found.divergence
     small = abs(exponent) < SEMISTABLE and not crossing.born
     kind = "semistable" if small or crossing.touching else "stable" if exponent < 0.0 else "unstable"

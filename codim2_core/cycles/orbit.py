@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from .section import FINE, AnySection, Crossing
+from .section import FINE, AnySection, FixedPoint
 
 Array = NDArray[np.float64]
 
@@ -136,13 +136,13 @@ def _normal_growth(J: Array, h: Array, across: Array) -> float:
     return float(np.prod(np.sum(np.roll(across, -1, axis=0) * after, axis=1)))
 
 
-def orbit(section: AnySection, crossing: Crossing) -> Orbit | None:
+def orbit(section: AnySection, crossing: FixedPoint) -> Orbit | None:
     """Follow the cycle through a fixed point of the return map once round.
 
     Parameters
     ----------
     section : Section or TurnSection
-    crossing : Crossing
+    crossing : FixedPoint
 
     Returns
     -------

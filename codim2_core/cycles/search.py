@@ -13,7 +13,7 @@ import numpy as np
 
 from ..words import say
 from .resolution import NEAR_FOLD, UNRESOLVED, Samples, near_fold, zeros
-from .section import COARSE, FINE, INNER, Array, Crossing, Section
+from .section import COARSE, FINE, INNER, Array, FixedPoint, Section
 
 TOUCHING = 1e-9  # noise with which a fold can be told: not so near C that all displacements are small
 CLOSE = 1e-3  # width at which a jump from -inf to +inf is left to the map backward in time
@@ -113,7 +113,7 @@ def _polished(section: Section, xi: Array, shift: Array, i: int, j: int, backwar
     return _bracketed(section, low, high, backward) if found is None else found
 
 
-def _newborn(section: Section) -> Crossing | None:
+def _newborn(section: Section) -> FixedPoint | None:
     """Place a cycle below the innermost sample: ``displacement = 2 pi mu/omega + c r^2``, its first term exact.
 
     c is measured well outside the cycle, where rounding (1e-16/r) does not matter yet; what is left is of order r^2.
@@ -129,10 +129,10 @@ def _newborn(section: Section) -> Crossing | None:
     size = math.sqrt(-linear / square)
     if not SMALLEST <= size < 2.0 * INNER:
         return None
-    return Crossing(math.log(size / (1.0 - size)), square > 0.0, born=True)
+    return FixedPoint(math.log(size / (1.0 - size)), square > 0.0, born=True)
 
 
-def _crossed(section: Section, xi: Array, shift: Array, changes: list[tuple[int, int]]) -> list[Crossing]:
+def _crossed(section: Section, xi: Array, shift: Array, changes: list[tuple[int, int]]) -> list[FixedPoint]:
     """Place the fixed points at the changes of sign (i, j) of the displacement.
 
     One that repels attracts backward in time: it is found and followed backward. It may repel so strongly that forward
@@ -146,7 +146,7 @@ def _crossed(section: Section, xi: Array, shift: Array, changes: list[tuple[int,
             back = section.displacement(xi[[i, j]], backward=True)
             shown = bool(back[0] > 0.0 > back[1])
         if shown:
-            found.append(Crossing(_polished(section, xi, shift, i, j, repelling), repelling))
+            found.append(FixedPoint(_polished(section, xi, shift, i, j, repelling), repelling))
     return found
 
 
@@ -158,7 +158,7 @@ def _nearly_degenerate(q: Array, shift: Array, noise: Array) -> list[str]:
     return [*said, say("near a fold", gap=gap)] if gap < NEAR_FOLD else said
 
 
-def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
+def search(section: Section) -> tuple[tuple[FixedPoint, ...], tuple[str, ...]]:
     """Find the fixed points that the samples show, innermost first, and notes on what is nearly degenerate.
 
     Parameters
@@ -180,7 +180,7 @@ def search(section: Section) -> tuple[tuple[Crossing, ...], tuple[str, ...]]:
     if band:
         notes.append(say("band"))
     found = _crossed(section, xi, shift, changes)
-    found += [Crossing(float(xi[i]), touching=True) for i in touching if noise[i] < TOUCHING]
+    found += [FixedPoint(float(xi[i]), touching=True) for i in touching if noise[i] < TOUCHING]
     notes += _nearly_degenerate(q, shift, noise)
     C = section.critical
     if shift.size and np.isfinite(shift[0]) and C.discriminant < 0.0 and shift[0] * C.trace < 0.0:

@@ -26,7 +26,7 @@ SUNK_INWARD = 1e-3  # of the innermost sample: gone, within one turn
 
 
 @dataclass(frozen=True)
-class Crossing:
+class FixedPoint:
     """A fixed point of the return map: its parameter, and how the displacement meets zero there.
 
     `born`: just born in a Hopf bifurcation, too small for the sampled map and placed by its expansion at C.

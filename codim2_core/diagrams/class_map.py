@@ -13,7 +13,7 @@ from .. import drawing
 from ..psi.function import Psi
 from ..tables import Tabled, number, point, rows, table
 from .class_map_grid import THIN, Spans, Tree, happening, tree
-from .class_map_trace import Regions, chains, rings, traced
+from .class_map_trace import Boundaries, chains, rings, traced
 from .sweep import Plane, class_name, family
 
 __all__ = ["ClassMap", "MapBoundary", "MapRegion", "class_map"]
@@ -88,7 +88,7 @@ class ClassMap:
         Points of boundaries are as near as this to the change of class, where both spans are counted as 1; at
         junctions of three regions, and between points, they are as near as a part of a cell.
     step : float
-        Side of the smallest cell, where both spans are counted as 1. Regions that hold no whole cell are not drawn.
+        Side of the smallest cell, where both spans are counted as 1. Boundaries that hold no whole cell are not drawn.
     thin : tuple of (str, (x, y))
         Classes that were seen, but only in places too thin to be drawn, and one such place.
     evaluated : int
@@ -188,14 +188,14 @@ def _symmetric(plane: Plane) -> bool:
     return bool(not plane.b.any() and (not plane.f1.any() or not plane.f2.any()))
 
 
-def _codes(found: Regions) -> NDArray[np.int64]:
+def _codes(found: Boundaries) -> NDArray[np.int64]:
     """Class of each region."""
     out = np.zeros(int(found.region.max()) + 1, np.int64)
     out[found.region] = found.codes
     return out
 
 
-def _regions(leaves: Tree, found: Regions, spans: Spans) -> tuple[MapRegion, ...]:
+def _regions(leaves: Tree, found: Boundaries, spans: Spans) -> tuple[MapRegion, ...]:
     codes = _codes(found)
     bounds = np.arange(len(codes) + 1)
     inner = found.pieces[found.pieces[:, 3] >= 0]
@@ -244,7 +244,7 @@ def _inside(points: Array, polygons: list[Array], spans: Spans) -> tuple[tuple[f
     return (float(best[0]), float(best[1])), 2.0 * least
 
 
-def _boundaries(found: Regions, symmetric: bool) -> tuple[MapBoundary, ...]:
+def _boundaries(found: Boundaries, symmetric: bool) -> tuple[MapBoundary, ...]:
     codes = _codes(found)
     inner = found.pieces[found.pieces[:, 3] >= 0]
     low, high = np.sort(codes[inner[:, 2:]], axis=1).T

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .class_map_grid import Spans, Tree, crossings
 from .sweep import Sweep
 
-__all__ = ["Regions", "chains", "rings", "traced"]
+__all__ = ["Boundaries", "chains", "rings", "traced"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -22,7 +22,7 @@ Indices = NDArray[np.intp]
 _ROUNDS = 8  # slivers beside slivers vanish one after the other
 
 
-class Regions(NamedTuple):
+class Boundaries(NamedTuple):
     """Pieces of the boundaries.
 
     Attributes
@@ -96,7 +96,7 @@ def _without_slivers(tree: Tree, edges: Indices) -> tuple[NDArray[np.int64], Ind
     return codes, region, [i for code, i in lost.items() if not (codes == code).any()]
 
 
-def traced(family: Sweep, tree: Tree, spans: Spans, halvings: int) -> Regions:
+def traced(family: Sweep, tree: Tree, spans: Spans, halvings: int) -> Boundaries:
     """March through all triangles in which the class changes."""
     sides = _sides(tree)
     spokes = np.stack([tree.centres[sides[:, 0]], sides[:, 1]], axis=1)
@@ -125,7 +125,7 @@ def traced(family: Sweep, tree: Tree, spans: Spans, halvings: int) -> Regions:
     points = np.concatenate([points, junctions])
     table = dict(zip(unique[crossed].tolist(), range(len(crossed)), strict=True))
     frame, corners = _frame(tree, sides, region, table, spans, len(points))
-    return Regions(np.concatenate([points, corners]), np.concatenate([pieces, frame]), codes, region, seen)
+    return Boundaries(np.concatenate([points, corners]), np.concatenate([pieces, frame]), codes, region, seen)
 
 
 def _march(region: Indices, on: Indices, points: Array) -> tuple[Indices, Array]:

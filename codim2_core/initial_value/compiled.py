@@ -37,7 +37,7 @@ from .compiled_motion import AHEAD, BLOWN_UP, CONTROL, FULL, LIMIT, SHORT, SHORT
 from .compiled_rate import Motion
 from .compiled_stages import tableau_of, workspace
 from .field import Field
-from .line import Line
+from .line import InvariantLine
 
 Array = NDArray[np.float64]
 
@@ -124,7 +124,7 @@ def failure(problem: Problem, code: int, t: float, state: Array) -> TooManySteps
     return too_short(problem, t, state) if code == SHORT else None
 
 
-class Compiled:
+class CompiledMotion:
     """One motion under way, compiled.
 
     Parameters
@@ -134,7 +134,7 @@ class Compiled:
     field : Field
     psi : Psi
     eps : float
-    line : Line or None
+    line : InvariantLine or None
         The invariant line it stays in.
     t_start, t_end, first, rtol, h, most
         As in `numerics.radau.steps`.
@@ -152,7 +152,7 @@ class Compiled:
         field: Field,
         psi: Psi,
         eps: float,
-        line: Line | None,
+        line: InvariantLine | None,
         t_start: float,
         t_end: float,
         first: Array,
@@ -224,7 +224,7 @@ def followed(
     field: Field,
     psi: Psi,
     eps: float,
-    lines: Sequence[Line | None],
+    lines: Sequence[InvariantLine | None],
     first: Array,
     span: tuple[float, float],
     rtol: float,
@@ -238,11 +238,11 @@ def followed(
     field : Field
     psi : Psi
     eps : float
-    lines : sequence of k Line or None
+    lines : sequence of k InvariantLine or None
     first : ndarray (k, n)
     span : (t_start, t_end)
     rtol, floor, most
-        As in `Compiled`.
+        As in `CompiledMotion`.
 
     Raises
     ------

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from ..numerics.radau import Problem, Step
 from ..psi.constructors import constant
 from .field import Field
-from .line import Line
+from .line import InvariantLine
 
 if TYPE_CHECKING:
-    from .compiled import Compiled
+    from .compiled import CompiledMotion
     from .compiled_slow import CompiledSlow
 
 Array = NDArray[np.float64]
@@ -35,17 +35,17 @@ class CompiledPhases:
     problem : Problem
         `plane_problem` with eps = 0, in Python.
     field : Field
-    line : Line or None
+    line : InvariantLine or None
     rtol, floor : float
-        As in `initial_value.compiled.Compiled`.
+        As in `initial_value.compiled.CompiledMotion`.
     """
 
     problem: Problem
     field: Field
-    line: Line | None
+    line: InvariantLine | None
     rtol: float
     floor: float
-    _begun: list[Compiled] = made_with(default_factory=list)
+    _begun: list[CompiledMotion] = made_with(default_factory=list)
 
     @property
     def evaluations(self) -> int:
@@ -60,10 +60,10 @@ class CompiledPhases:
         BlowUpError, TooManyStepsError
             As `bounded` does.
         """
-        from .compiled import Compiled  # loads the compiler
+        from .compiled import CompiledMotion  # loads the compiler
 
         own = (self.problem, self.field, constant(), 0.0, self.line)
-        motion = Compiled(*own, t, t_end, state, OF_SLIPS * self.rtol, self.floor, h, most, farthest)
+        motion = CompiledMotion(*own, t, t_end, state, OF_SLIPS * self.rtol, self.floor, h, most, farthest)
         self._begun.append(motion)
         for part in motion.chunks():
             yield from part

@@ -26,11 +26,11 @@ from ..numerics.radau import Problem, TooManyStepsError
 from ..psi.constructors import constant
 from ..stepping.compiling import compiled
 from ..stepping.layout import bits_of_double, call_field
-from .compiled import Compiled, failure
+from .compiled import CompiledMotion, failure
 from .compiled_explicit import ROOM
 from .compiled_motion import LEAST, SHORT
 from .field import Field
-from .line import Line
+from .line import InvariantLine
 
 Array = NDArray[np.float64]
 
@@ -168,7 +168,7 @@ def _flow() -> tuple[Any, Any]:
     return compiled(_slow, cache=True), compiled(_slow_slopes, cache=True)
 
 
-class CompiledSlow(Compiled):
+class CompiledSlow(CompiledMotion):
     """One slide under way, compiled: its steps are of (e, z).
 
     Parameters
@@ -179,7 +179,7 @@ class CompiledSlow(Compiled):
     e : ndarray (2,)
         On the set at z.
     line, t_start, t_end, z, rtol, floor, h, most
-        As in `Compiled`.
+        As in `CompiledMotion`.
     shortest : float
         A shorter step ends it.
     """
@@ -191,7 +191,7 @@ class CompiledSlow(Compiled):
         problem: Problem,
         field: Field,
         e: Array,
-        line: Line | None,
+        line: InvariantLine | None,
         t_start: float,
         t_end: float,
         z: Array,

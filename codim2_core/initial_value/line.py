@@ -25,7 +25,7 @@ NET = 400  # of q, on which zeros are looked for
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class InvariantLine:
     """An invariant line.
 
     Attributes
@@ -80,7 +80,7 @@ class Line:
         return end
 
 
-def invariant_line(field: Field, state: Array) -> Line | None:
+def invariant_line(field: Field, state: Array) -> InvariantLine | None:
     """Return the invariant line that a motion lies in; None if it lies in none.
 
     z may lie in an invariant subspace: the line is asked for z in the span of z and W there.
@@ -100,7 +100,7 @@ def invariant_line(field: Field, state: Array) -> Line | None:
         if np.isfinite(at_rest).all() and at_rest.any():  # it leaves e = 0 that way, and no other
             directions = [at_rest / math.hypot(*at_rest.tolist())]
     found = [n for n in directions if _invariant(field, n, max(r, 1.0), state[2:])]
-    return Line(field, found[0]) if len(found) == 1 or (found and r > 0.0) else None
+    return InvariantLine(field, found[0]) if len(found) == 1 or (found and r > 0.0) else None
 
 
 def _invariant(field: Field, n: Array, r: float, z: Array) -> bool:

@@ -14,7 +14,7 @@ from ..cycles.limit_cycles import limit_cycles
 from ..initial_value.compiled_phases import CompiledPhases
 from ..initial_value.events import Watch
 from ..initial_value.field import Field
-from ..initial_value.line import Line
+from ..initial_value.line import InvariantLine
 from ..layer_problem.equator import equator_equilibria
 from ..numerics.radau import Problem, Step, TooManyStepsError
 from ..psi import constructors
@@ -23,7 +23,7 @@ from ..systems.kinds import AnySystem
 from ..words import say
 from .decide import Decision, arriving, critical_name, from_hemisphere, starting
 from .followed import in_disc
-from .part import Part
+from .part import MotionPart
 from .places import Ascent
 from .result import Phase
 from .slide import slide
@@ -54,7 +54,7 @@ class Course:
     psi: Psi | None
     formulas: Field
     problem: Problem
-    line: Line | None
+    line: InvariantLine | None
     watch: Watch
     t: float
     state: Array
@@ -63,7 +63,7 @@ class Course:
     atol: float
     most: int
     taken: list[Step] = made_with(default_factory=list)
-    parts: list[Part] = made_with(default_factory=list)
+    parts: list[MotionPart] = made_with(default_factory=list)
     ascent: Ascent | None = None  # of the phase to come
     compiled: CompiledPhases | None = None
 
@@ -97,7 +97,7 @@ class Course:
         if kept:
             self.taken += kept
             self.t, self.state = max(kept[-1].end, start), kept[-1].last
-        self.parts.append(Part(Phase(kind, start, self.t, reason, onto), times, self.ascent, e, p))
+        self.parts.append(MotionPart(Phase(kind, start, self.t, reason, onto), times, self.ascent, e, p))
         self.ascent = None
         if stopped:
             raise AtEventError
@@ -180,7 +180,7 @@ class Course:
         """Name the crossing, where what follows an arrival is to leave."""
         if decision.kind == "leave":
             phase = Phase("cross", self.t, self.t, decision.reason)
-            self.parts.append(Part(phase, [self.t], self.ascent, theta=decision.theta))
+            self.parts.append(MotionPart(phase, [self.t], self.ascent, theta=decision.theta))
             self.ascent = None
         return decision
 
@@ -255,7 +255,7 @@ class Course:
         flow = self.formulas.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:]
         return z + part * (self.t_end - self.t) * np.array(flow)
 
-    def past_fold_in_line(self, line: Line, e: Array, C: str | None) -> Decision:
+    def past_fold_in_line(self, line: InvariantLine, e: Array, C: str | None) -> Decision:
         """C has met another critical set in the line: the layer problem leads on from there, just past the fold."""
         here, q = self.state.copy(), float(line.n @ e)
         self.state[2:] = self.ahead(e, PAST)

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Part:
+class MotionPart:
     """A phase whose motion is under way: made a `Phase` when all of it is known."""
 
     phase: Phase

@@ -52,7 +52,7 @@ class _Run:
 
 
 @dataclass(frozen=True)
-class _Reader:
+class _ReadMotion:
     """A motion that is read."""
 
     system: AnySystem
@@ -264,7 +264,7 @@ def phases_of(system: AnySystem, psi: Psi, eps: float, motion: Dense) -> tuple[P
     tuple of Phase
         Consecutive, from the first to the last time.
     """
-    reader = _Reader(system, psi, eps, motion, field(system))
+    reader = _ReadMotion(system, psi, eps, motion, field(system))
     phases = list(reader.phases())
     return tuple(replace(one, _place=OfState(motion, psi, eps, one.t_start, one.t_end)) for one in phases)
 

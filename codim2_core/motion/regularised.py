@@ -26,7 +26,7 @@ from .phases import phases_of
 from .result import Simulation, SimulationStatus, simulation
 
 if TYPE_CHECKING:
-    from ..initial_value.compiled import Compiled
+    from ..initial_value.compiled import CompiledMotion
 
 __all__ = ["simulate"]
 
@@ -268,7 +268,7 @@ def _followed(
     taken: list[Step] = []
     parts: list[Steps] = []
     t, state, h = span[0], first, first_step(problem, first, rate)
-    motion: Compiled | None = None
+    motion: CompiledMotion | None = None
     patience = waited_for(formulas)
     status, detail = SimulationStatus.T_END, ""
     try:
@@ -282,9 +282,9 @@ def _followed(
                     t, state, h = step.end, step.last, step.h
                     break
         if t < span[1] and len(taken) == max(0, patience):
-            from ..initial_value.compiled import Compiled  # loads the compiler, which most motions do without
+            from ..initial_value.compiled import CompiledMotion  # loads the compiler, which most motions do without
 
-            motion = Compiled(
+            motion = CompiledMotion(
                 problem, formulas, psi, eps, line, t, span[1], state, rtol, atol / rtol, h, max_steps - len(taken)
             )
             for part in motion.chunks():

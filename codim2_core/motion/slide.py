@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..initial_value.compiled_phases import CompiledPhases
 from ..initial_value.events import DEGREES, turns
 from ..initial_value.field import Field
-from ..initial_value.line import Line
+from ..initial_value.line import InvariantLine
 from ..initial_value.safe_steps import NODES, Safe
 from ..initial_value.sheet import Sheet, complement, determinant, trace
 from ..numerics.dense import Steps
@@ -74,7 +74,7 @@ def slide(
     atol: float,
     most: int,
     lives: Callable[[Array], bool] | None = None,
-    line: Line | None = None,
+    line: InvariantLine | None = None,
     compiled: CompiledPhases | None = None,
 ) -> Slide:
     """Follow the slow flow until the critical set reaches the equator, folds, or changes stability.
@@ -92,7 +92,7 @@ def slide(
         Steps.
     lives : callable, optional
         For sliding on a limit cycle: whether it is still there at z.
-    line : Line, optional
+    line : InvariantLine, optional
         The invariant line that the motion stays in, stable across it or not.
     compiled : CompiledPhases, optional
         Takes the steps instead.
@@ -197,7 +197,9 @@ def _ends(
     return found
 
 
-def _gauges(sheet: Sheet, psi: Psi, on_cycle: bool, line: Line | None) -> dict[str, Callable[[Array, Array], float]]:
+def _gauges(
+    sheet: Sheet, psi: Psi, on_cycle: bool, line: InvariantLine | None
+) -> dict[str, Callable[[Array, Array], float]]:
     """Return what turns negative, as functions of e and z, where the sliding ends, by the name of the end."""
     found: dict[str, Callable[[Array, Array], float]] = {
         "equator": lambda e, z: complement(e),  # noqa: ARG005 (all gauges are called alike)

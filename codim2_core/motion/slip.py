@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..initial_value.compiled_phases import CompiledPhases
 from ..initial_value.field import Field
-from ..initial_value.line import Line
+from ..initial_value.line import InvariantLine
 from ..numerics.growth import bounded
 from ..numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
 from ..words import say
@@ -116,7 +116,9 @@ def _polynomial(*terms: Array) -> Array:
     return polynomial
 
 
-def leave(field: Field, theta: float, t: float, z: Array, t_end: float, line: Line | None = None) -> Step | str:
+def leave(
+    field: Field, theta: float, t: float, z: Array, t_end: float, line: InvariantLine | None = None
+) -> Step | str:
     """Leave Sigma along a limit direction with lambda_rho > 0, or one whose lambda_rho just turns positive.
 
     Where lambda_rho > 0 the way out is the unstable manifold of Q in (rho, theta, z): rho = lambda_rho t + O(t^2), with
@@ -130,7 +132,7 @@ def leave(field: Field, theta: float, t: float, z: Array, t_end: float, line: Li
         Near a zero of Theta at z.
     t, t_end : float
     z : ndarray (m,)
-    line : Line, optional
+    line : InvariantLine, optional
         The invariant line that the motion stays in.
 
     Returns

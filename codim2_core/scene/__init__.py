@@ -1,6 +1,6 @@
 """A scene: all that is drawn at one setting, each layer computed when it is asked for."""
 
-from .layer_table import ELINEAR_ONLY, Layer, layers
+from .layer_table import ELINEAR_ONLY, Recipe, layers
 from .scene import Scene
 
-__all__ = ["ELINEAR_ONLY", "Layer", "Scene", "layers"]
+__all__ = ["ELINEAR_ONLY", "Recipe", "Scene", "layers"]

@@ -14,14 +14,14 @@ from ..orbits.trajectories import Trajectories, continuation, trajectories
 from ..orbits.whole import Orbits
 from ..portrait.endings import radially_neutral_ones
 from ..psi import constructors
-from .setting import Setting
+from .setting import SceneSetting
 
 AROUND = 0.05  # radius of the seeds around an unstable critical set
 STEPS = 780  # of half a drawn orbit: one that goes round a weak focus for longer is not waited for
 CAPTURE = 0.25  # of a pixel: where a drawn trajectory ends, so near its equilibrium that nobody can see the rest
 
 
-def seeds_of(setting: Setting, outside: bool) -> np.ndarray:
+def seeds_of(setting: SceneSetting, outside: bool) -> np.ndarray:
     """Seeds on the hemisphere, or outside: those that are given, or the usual ones and more in the window."""
     if setting.seeds is not None:
         return _sides(setting.seeds)[outside]
@@ -42,7 +42,7 @@ def _structured(count: int, view: float) -> tuple[np.ndarray, np.ndarray]:
     return _sides(structured_seeds(count, view))
 
 
-def _stepping(setting: Setting, outside: bool = False) -> dict[str, Any]:
+def _stepping(setting: SceneSetting, outside: bool = False) -> dict[str, Any]:
     longest, problem = setting.t_max, setting.problem
     critical = () if outside else problem.critical
     if longest is None:
@@ -60,7 +60,7 @@ def _stepping(setting: Setting, outside: bool = False) -> dict[str, Any]:
     }
 
 
-def starts(setting: Setting, outside: bool) -> np.ndarray:
+def starts(setting: SceneSetting, outside: bool) -> np.ndarray:
     """Where drawn orbits start: at the seeds, and around what they would not leave."""
     seeds = seeds_of(setting, outside)
     if outside or setting.seeds is not None or not setting.count:
@@ -71,7 +71,7 @@ def starts(setting: Setting, outside: bool) -> np.ndarray:
     return np.concatenate([seeds, *(r for r in rings if np.hypot(r[:, 0], r[:, 1]).max() < 1.0)])
 
 
-def orbits(setting: Setting, outside: bool) -> Orbits:
+def orbits(setting: SceneSetting, outside: bool) -> Orbits:
     """Whole orbits through the seeds, on the hemisphere or outside."""
     seeds, options = starts(setting, outside), _stepping(setting, outside)
     # Outside, e is the direction itself: Psi has no say. E-linear systems have a field that is cheapest for Psi = 1.
@@ -81,14 +81,14 @@ def orbits(setting: Setting, outside: bool) -> Orbits:
     return Orbits(*halves)
 
 
-def sketched(setting: Setting, outside: bool) -> Sketch:
+def sketched(setting: SceneSetting, outside: bool) -> Sketch:
     """Sketch the same orbits, without the kernels."""
     options = _stepping(setting, outside)
     wanted = {name: options[name] for name in ("t_max", "length", "view")}
     return sketch(setting.coefficients, setting.psi, starts(setting, outside), **wanted)
 
 
-def continuations(setting: Setting) -> Trajectories:
+def continuations(setting: SceneSetting) -> Trajectories:
     """From each limit direction along which an open set of trajectories arrives, up the hemisphere."""
     equator = setting.problem.equator
     decided = ~np.array(radially_neutral_ones(equator), bool)  # where it is not, what rises does so for ever

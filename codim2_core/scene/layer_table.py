@@ -22,23 +22,23 @@ from ..systems.bounds import SMALLEST
 from ..theorems.certificates import Certificate, certificates_of
 from .drawn_orbits import continuations, orbits, seeds_of, sketched
 from .launched import Launched, launched
-from .setting import Setting
+from .setting import SceneSetting
 
 
 @dataclass(frozen=True, slots=True)
-class Layer:
+class Recipe:
     """One layer: the names of the inputs it reads, and how it is made.
 
     What a layer finds in ``setting.problem`` is kept for the others: it is computed once.
     """
 
     inputs: tuple[str, ...]
-    compute: Callable[[Setting], Any]
+    compute: Callable[[SceneSetting], Any]
 
 
 # The values that layers read, as keys: `plane` is (a, b, d, f1, f2) at z, or the formulas of U and the numbers that
 # they read, and `matrix` is (a, b, d), so z itself reaches nothing but what looks along z: `place`.
-INPUTS: Mapping[str, Callable[[Setting], Hashable]] = {
+INPUTS: Mapping[str, Callable[[SceneSetting], Hashable]] = {
     "plane": lambda s: s.coefficients.key,
     "matrix": lambda s: _matrix(s),
     "slow": lambda s: s.coefficients.slow_key,
@@ -58,7 +58,7 @@ ACROSS = 720
 _STEPPED = ("time", "tolerance", "pixel")
 
 
-def seen_closely(setting: Setting) -> Seen | None:
+def seen_closely(setting: SceneSetting) -> Seen | None:
     """Return what is looked at more closely than the whole picture, whether something moves or not."""
     if setting.window is None:
         return None
@@ -67,7 +67,7 @@ def seen_closely(setting: Setting) -> Seen | None:
     return Seen(setting.window, pixel) if pixel < 2.0 * setting.view / ACROSS else None
 
 
-def _matrix(setting: Setting) -> tuple[float, float, float] | None:
+def _matrix(setting: SceneSetting) -> tuple[float, float, float] | None:
     """Return a, b, d: zeros where they are so small beside f that they alone are refused, None for a typed system."""
     at = setting.coefficients
     if at.typed is not None or at.as_given is None:
@@ -76,70 +76,70 @@ def _matrix(setting: Setting) -> tuple[float, float, float] | None:
     return (a, b, d) if max(abs(a), abs(b), abs(d)) >= SMALLEST else (0.0, 0.0, 0.0)
 
 
-def _atlas_curves(setting: Setting) -> tuple[BifurcationCurve, BifurcationCurve] | None:
+def _atlas_curves(setting: SceneSetting) -> tuple[BifurcationCurve, BifurcationCurve] | None:
     """Return the saddle-node curve and the ellipse |A^-1 f| = 1 of the plane (f1, f2)."""
     matrix = _matrix(setting)
     return None if matrix is None else (saddle_node(*matrix), critical_boundary(*matrix))
 
 
-def _regions(setting: Setting) -> tuple[Region, ...] | None:
+def _regions(setting: SceneSetting) -> tuple[Region, ...] | None:
     matrix = _matrix(setting)
     return None if matrix is None else regions(*matrix)
 
 
-def _launched(setting: Setting) -> Launched:
+def _launched(setting: SceneSetting) -> Launched:
     return launched(setting.problem, setting.launch, view=setting.view, pixel=setting.pixel)
 
 
-def _separatrices(setting: Setting) -> Separatrices:
+def _separatrices(setting: SceneSetting) -> Separatrices:
     return separatrices_of(setting.problem, rtol=setting.rtol, pixel=setting.pixel)
 
 
-def _certificates(setting: Setting) -> tuple[Certificate, ...]:
+def _certificates(setting: SceneSetting) -> tuple[Certificate, ...]:
     system = None if setting.system.frozen else setting.system
     return certificates_of(setting.problem, setting.problem.keep(cycles_of), system, setting.z)
 
 
-def _inside_nullclines(setting: Setting) -> tuple[NullclineBranch, ...]:
+def _inside_nullclines(setting: SceneSetting) -> tuple[NullclineBranch, ...]:
     directions = setting.problem.equator.theta.tolist()
     return inside_nullclines(setting.coefficients, setting.psi, directions, seen_closely(setting))
 
 
-def _outside_nullclines(setting: Setting) -> tuple[NullclineBranch, ...]:
+def _outside_nullclines(setting: SceneSetting) -> tuple[NullclineBranch, ...]:
     directions = setting.problem.equator.theta.tolist()
     return outside_nullclines(setting.coefficients, directions, setting.view, seen_closely(setting))
 
 
-def _conics(setting: Setting) -> Conics:
+def _conics(setting: SceneSetting) -> Conics:
     closely = seen_closely(setting)
     return conics_of(setting.problem, setting.view, None if closely is None else closely.pixel)
 
 
-layers: Mapping[str, Layer] = MappingProxyType(
+layers: Mapping[str, Recipe] = MappingProxyType(
     {
-        "equator": Layer(("plane",), lambda s: find_equator(s.problem)),
-        "equator_cycle": Layer(("plane",), lambda s: find_equator_cycle(s.problem)),
-        "location": Layer(("plane",), lambda s: find_location(s.problem)),
-        "critical": Layer(("plane", "slow", "psi"), lambda s: find_critical(s.problem)),
-        "slow_flow": Layer(("plane", "slow"), lambda s: sliding_flow(s.coefficients)),
-        "classification": Layer(("plane", "slow", "psi"), lambda s: portrait(s.problem)),
-        "eigendirections": Layer(("plane", "psi"), lambda s: find_eigendirections(s.problem)),
-        "nullclines_inside": Layer(("plane", "psi", "closely"), _inside_nullclines),
-        "nullclines_outside": Layer(("plane", "view", "closely"), _outside_nullclines),
-        "conics": Layer(("plane", "view", "closely"), _conics),
-        "inside": Layer(("plane", "psi", "inner seeds", *_STEPPED), lambda s: orbits(s, outside=False)),
-        "outside": Layer(("plane", "outer seeds", "view", *_STEPPED), lambda s: orbits(s, outside=True)),
-        "inside_sketch": Layer(("plane", "psi", "inner seeds", "time"), lambda s: sketched(s, outside=False)),
-        "outside_sketch": Layer(("plane", "outer seeds", "view", "time"), lambda s: sketched(s, outside=True)),
-        "continuations": Layer(("plane", "psi", *_STEPPED), continuations),
-        "closed_orbits": Layer(("plane", "psi"), lambda s: closed_orbits(s.problem)),
-        "cycles": Layer(("plane", "slow", "psi"), lambda s: cycles_of(s.problem)),
-        "launched": Layer(("plane", "psi", "launch", "view", "pixel"), _launched),
-        "separatrices": Layer(("plane", "psi", "tolerance", "pixel"), _separatrices),
-        "outcomes": Layer(("plane", "slow", "psi"), lambda s: outcomes_of(s.problem)),
-        "certificates": Layer(("plane", "slow", "psi", "place"), _certificates),
-        "atlas_curves": Layer(("matrix",), _atlas_curves),
-        "regions": Layer(("matrix",), _regions),
+        "equator": Recipe(("plane",), lambda s: find_equator(s.problem)),
+        "equator_cycle": Recipe(("plane",), lambda s: find_equator_cycle(s.problem)),
+        "location": Recipe(("plane",), lambda s: find_location(s.problem)),
+        "critical": Recipe(("plane", "slow", "psi"), lambda s: find_critical(s.problem)),
+        "slow_flow": Recipe(("plane", "slow"), lambda s: sliding_flow(s.coefficients)),
+        "classification": Recipe(("plane", "slow", "psi"), lambda s: portrait(s.problem)),
+        "eigendirections": Recipe(("plane", "psi"), lambda s: find_eigendirections(s.problem)),
+        "nullclines_inside": Recipe(("plane", "psi", "closely"), _inside_nullclines),
+        "nullclines_outside": Recipe(("plane", "view", "closely"), _outside_nullclines),
+        "conics": Recipe(("plane", "view", "closely"), _conics),
+        "inside": Recipe(("plane", "psi", "inner seeds", *_STEPPED), lambda s: orbits(s, outside=False)),
+        "outside": Recipe(("plane", "outer seeds", "view", *_STEPPED), lambda s: orbits(s, outside=True)),
+        "inside_sketch": Recipe(("plane", "psi", "inner seeds", "time"), lambda s: sketched(s, outside=False)),
+        "outside_sketch": Recipe(("plane", "outer seeds", "view", "time"), lambda s: sketched(s, outside=True)),
+        "continuations": Recipe(("plane", "psi", *_STEPPED), continuations),
+        "closed_orbits": Recipe(("plane", "psi"), lambda s: closed_orbits(s.problem)),
+        "cycles": Recipe(("plane", "slow", "psi"), lambda s: cycles_of(s.problem)),
+        "launched": Recipe(("plane", "psi", "launch", "view", "pixel"), _launched),
+        "separatrices": Recipe(("plane", "psi", "tolerance", "pixel"), _separatrices),
+        "outcomes": Recipe(("plane", "slow", "psi"), lambda s: outcomes_of(s.problem)),
+        "certificates": Recipe(("plane", "slow", "psi", "place"), _certificates),
+        "atlas_curves": Recipe(("matrix",), _atlas_curves),
+        "regions": Recipe(("matrix",), _regions),
     }
 )
 

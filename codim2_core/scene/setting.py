@@ -13,7 +13,7 @@ from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 
 
-class Setting(Protocol):
+class SceneSetting(Protocol):
     """The checked parameters of a `Scene`, of which each layer reads some.
 
     Attributes

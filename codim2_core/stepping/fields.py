@@ -17,7 +17,7 @@ from numba import (
 
 from ..psi.function import Psi
 from .compiling import ARITHMETIC
-from .gains import Compiled, arguments, gain, kind, variant
+from .gains import Variants, arguments, gain, kind, variant
 from .layout import LANES, PARAMETERS, SIGN, WIDTH
 from .numbers import PSI
 
@@ -43,7 +43,7 @@ def _field(state, out, parameters):
         put(S, D, P, lane, gain(r2, w, parameter))
 
 
-_compiled = Compiled(_field)
+_compiled = Variants(_field)
 
 
 def is_compiled(psi: Psi) -> bool:

@@ -172,7 +172,7 @@ def variant(psi: Psi, smooth: bool) -> Variant:
     return Variant(key, whole, cached=key.__module__.startswith(__name__.split(".")[0] + "."))
 
 
-class Compiled:
+class Variants:
     """The compiled variants of a function of all lanes: those of the families for good, the last typed ones."""
 
     def __init__(self, lanes: Callable[..., None]) -> None:
@@ -200,7 +200,7 @@ def _gains(state, out, parameters):
         D[lane] = gain(r2, w, parameter)
 
 
-_compiled = Compiled(_gains)
+_compiled = Variants(_gains)
 
 
 def gains(psi: Psi, smooth: bool) -> Any:
@@ -226,7 +226,7 @@ def _one_gain(state, out, parameters):
     D[0] = gain(S[0], S[1], kind(P[PSI]))
 
 
-_compiled_one = Compiled(_one_gain)
+_compiled_one = Variants(_one_gain)
 
 
 def one_gain(psi: Psi) -> Any:

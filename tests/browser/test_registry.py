@@ -35,7 +35,7 @@ registry.register(Panel("twice", "Twice", add, "Twice the entry a.", {"unit": "o
 
 from codim2_core import examples, psi
 from codim2_core.figures.presets import register
-from codim2_core.scene import Layer as Row, scene
+from codim2_core.scene import Recipe as Row, scene
 from codim2_app.draw.layers import LAYERS, Layer, Part
 from tests.core.additions import EXAMPLE, FROM_FORMULA, PRESET, module
 

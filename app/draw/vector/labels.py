@@ -20,7 +20,7 @@ TRIED = tuple(
 
 
 @dataclass(frozen=True)
-class Box:
+class LabelBox:
     """A rectangle of the drawing: its corner, y downward, and its size."""
 
     x: float
@@ -28,7 +28,7 @@ class Box:
     width: float
     height: float
 
-    def meets(self, other: Box) -> bool:
+    def meets(self, other: LabelBox) -> bool:
         """Whether both have points in common."""
         return (
             self.x < other.x + other.width
@@ -58,13 +58,13 @@ def _width(letter: str) -> float:
 
 
 def clear_of(
-    taken: Sequence[Box], text: str, x: float, y: float, anchor: str, size: float, width: float, height: float
-) -> Box:
+    taken: Sequence[LabelBox], text: str, x: float, y: float, anchor: str, size: float, width: float, height: float
+) -> LabelBox:
     """Return the box of a label whose middle height is at y, as near to (x, y) as there is room.
 
     Parameters
     ----------
-    taken : sequence of Box
+    taken : sequence of LabelBox
         What it must not stand over.
     anchor : {"start", "middle"}
         What of it is at x.
@@ -76,6 +76,8 @@ def clear_of(
     wide, high = width_of(text, size), 1.1 * size
     # a label beside its mark may also stand on the mark's other side
     lefts = (x - wide / 2,) if anchor == "middle" else (x, x - wide - 2 * size)
-    boxes = [Box(left + across * size, y - high / 2 + up * size, wide, high) for across, up in TRIED for left in lefts]
+    boxes = [
+        LabelBox(left + across * size, y - high / 2 + up * size, wide, high) for across, up in TRIED for left in lefts
+    ]
     free = (box for box in boxes if box.within(width, height) and not any(box.meets(other) for other in taken))
     return next(free, boxes[0])

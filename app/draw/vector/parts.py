@@ -16,7 +16,7 @@ from ..layers import Part
 from ..packing import ANGLE_STEP, STEP, Rectangle
 from ..shapes import OPEN, shape
 from ..theme import HATCHES, RING, VIEW
-from .labels import Box, clear_of, width_of
+from .labels import LabelBox, clear_of, width_of
 
 SIDE = 1000
 #: A hatch's strokes are so far apart, in px of the screen.
@@ -28,7 +28,7 @@ CORE = 0.8
 
 
 @dataclass(frozen=True)
-class Place:
+class Placement:
     """How the picture lies in a drawing.
 
     Attributes
@@ -96,13 +96,13 @@ def steps(blocks: Mapping[str, Any], name: str) -> Any:
     return values * STEP if values.dtype == np.int16 else values
 
 
-def disc(radius: float, place: Place) -> str:
+def disc(radius: float, place: Placement) -> str:
     """Return a disc around the centre of the hemisphere."""
     [[x, y]] = place.points((0.0, 0.0)).tolist()
     return f'<circle cx="{x}" cy="{y}" r="{radius * place.scale:.{place.decimals}f}"/>'
 
 
-def curves(part: Part, blocks: Mapping[str, Any], place: Place) -> str:
+def curves(part: Part, blocks: Mapping[str, Any], place: Placement) -> str:
     """Return the strokes of one part; "" if there are none."""
     if f"{part.name}.n" not in blocks:
         return ""
@@ -112,13 +112,13 @@ def curves(part: Part, blocks: Mapping[str, Any], place: Place) -> str:
     return f'<path d="{path}" {stroke(part.colour, part.width, dashes, place)}/>'
 
 
-def stroke(colour: str, width: float, dashes: Sequence[float], place: Place) -> str:
+def stroke(colour: str, width: float, dashes: Sequence[float], place: Placement) -> str:
     """Return the attributes of a line."""
     dash = f' stroke-dasharray="{" ".join(f"{v * place.unit:.{place.decimals}f}" for v in dashes)}"' if dashes else ""
     return f'stroke="var(--{colour})" stroke-width="{width * place.unit:.{max(1, place.decimals)}f}"{dash}'
 
 
-def heads(part: Part, blocks: Mapping[str, Any], place: Place) -> str:
+def heads(part: Part, blocks: Mapping[str, Any], place: Placement) -> str:
     """Return the arrowheads of one part; "" if there are none."""
     if f"{part.name}.at" not in blocks:
         return ""
@@ -126,7 +126,7 @@ def heads(part: Part, blocks: Mapping[str, Any], place: Place) -> str:
     return arrows(places, blocks[f"{part.name}.angle"] * ANGLE_STEP, 5.6, part.colour, place)
 
 
-def arrows(places: Any, angles: Any, size: float, colour: str, place: Place) -> str:
+def arrows(places: Any, angles: Any, size: float, colour: str, place: Placement) -> str:
     """Return filled triangles; `size` is from the middle to a corner."""
     corners = -np.asarray(angles)[:, None] + (0, 2.4, -2.4)
     u = places[:, :1] + size * place.unit * np.cos(corners)
@@ -135,7 +135,7 @@ def arrows(places: Any, angles: Any, size: float, colour: str, place: Place) -> 
     return f'<path d="{found.replace("M", "ZM")[1:]}Z" fill="var(--{colour})"/>' if found else ""
 
 
-def equator(header: Mapping[str, Any], place: Place) -> list[str]:
+def equator(header: Mapping[str, Any], place: Placement) -> list[str]:
     """Return the circle |p| = 1, and arrowheads in the sense of theta'."""
     colour, width = ("degenerate", 6) if header.get("all_directions") else ("ink", 2)
     circle = disc(1.0, place).replace("/>", f" {stroke(colour, width, (), place)}/>")
@@ -143,7 +143,7 @@ def equator(header: Mapping[str, Any], place: Place) -> list[str]:
     return [circle, arrows(place.points(sense[:, :2]), sense[:, 2], 7.7, "ink", place) if len(sense) else ""]
 
 
-def starts(launched: Mapping[str, Any] | None, parts: Sequence[Part], place: Place) -> list[str]:
+def starts(launched: Mapping[str, Any] | None, parts: Sequence[Part], place: Placement) -> list[str]:
     """Return where launched orbits start."""
     if not launched:
         return []
@@ -155,18 +155,18 @@ def starts(launched: Mapping[str, Any] | None, parts: Sequence[Part], place: Pla
     ]
 
 
-def marks(columns: Mapping[str, Any], place: Place, taken: list[Box]) -> list[str]:
+def marks(columns: Mapping[str, Any], place: Placement, taken: list[LabelBox]) -> list[str]:
     """Return the marks of equator equilibria or critical sets; their boxes are added to `taken`."""
     drawn = []
     for i, (u, v) in enumerate(place.points(np.column_stack([columns["x"], columns["y"]])).tolist()):
         if place.holds(u, v):
             drawn.append(mark(columns, i, u, v, place.unit, 2.1 * place.unit))
             size = CORE * columns["size"][i] * place.unit
-            taken.append(Box(u - size / 2, v - size / 2, size, size))
+            taken.append(LabelBox(u - size / 2, v - size / 2, size, size))
     return drawn
 
 
-def labels(columns: Mapping[str, Any], place: Place, taken: list[Box], ringed: bool) -> list[str]:
+def labels(columns: Mapping[str, Any], place: Placement, taken: list[LabelBox], ringed: bool) -> list[str]:
     """Return the labels of marks: none stands over what is in `taken`, to which their boxes are added.
 
     `ringed`: there is a ring around the equator.
@@ -194,7 +194,7 @@ def mark(columns: Mapping[str, Any], i: int, u: float, v: float, unit: float, wi
     return f'<path transform="translate({u} {v})" d="{shape(name, columns["size"][i] * unit)}" {look}/>'
 
 
-def label(text: str, x: float, y: float, anchor: str, place: Place, taken: list[Box]) -> str:
+def label(text: str, x: float, y: float, anchor: str, place: Placement, taken: list[LabelBox]) -> str:
     """Return a label beside (x, y), the middle of its height, or where it stands over no other."""
     box = clear_of(taken, text, x, y, anchor, place.text, place.side, place.height)
     taken.append(box)
@@ -213,7 +213,7 @@ def words(
     return f'<text x="{round(x, 1):g}" y="{round(y, 1):g}" {look}{aligned}>{text}</text>'
 
 
-def arcs(outcomes: Mapping[str, Any] | None, place: Place) -> list[str]:
+def arcs(outcomes: Mapping[str, Any] | None, place: Placement) -> list[str]:
     """Return the ring of approach outcomes: colours, and hatches over them."""
     if not outcomes:
         return []
@@ -234,7 +234,7 @@ def _ring(start: float, end: float, inner: float, outer: float) -> list[tuple[fl
     return there + [(inner * math.cos(t), inner * math.sin(t)) for t in reversed(angles)]
 
 
-def _hatching(start: float, end: float, hatch: str, place: Place) -> list[Any]:
+def _hatching(start: float, end: float, hatch: str, place: Placement) -> list[Any]:
     """Return strokes across an arc of the ring: "/" one way, "x" both ways, "." short ones along its middle."""
     inner, outer = RING
     middle = (inner + outer) / 2
@@ -249,7 +249,7 @@ def _hatching(start: float, end: float, hatch: str, place: Place) -> list[Any]:
     ]
 
 
-def basins(found: Mapping[str, Any] | None, blocks: Mapping[str, Any], place: Place) -> list[str]:
+def basins(found: Mapping[str, Any] | None, blocks: Mapping[str, Any], place: Placement) -> list[str]:
     """Return the basins, a rectangle for each run of cells in a row; rows rise with y."""
     if not found:
         return []

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...draw.still import coloured
 from ...draw.theme import themes
-from ...draw.vector.parts import Place, stroke, words
+from ...draw.vector.parts import Placement, stroke, words
 
 COLOURS = ("rho", "theta", "separatrix", "continuation", "node-focus", "soft")
 WIDTH, HEIGHT, LEFT, BOTTOM = 360.0, 220.0, 44.0, 34.0
@@ -40,7 +40,7 @@ def chart(lines: Sequence[tuple[str, Any, Any]], across: str, up: str) -> str:
     beside = all(LETTER * len(name) <= wide / len(named) for name, _ in named)  # else each has a row of its own
     top = 18 + (0 if beside else ROW * (len(named) - 1))
     scale = wide / ((right - left) or 1.0), -tall / ((high - low) or 1.0)
-    place = Place(side=WIDTH, unit=1.0, decimals=1)
+    place = Placement(side=WIDTH, unit=1.0, decimals=1)
     floor = top + tall + 4
     parts = [f'<rect x="{LEFT}" y="{top}" width="{wide}" height="{tall + 4}" stroke="var(--line)"/>']
     for name, points in kept:
@@ -75,7 +75,7 @@ def regions(
     """
     (left, right), (low, high) = spans
     wide, tall = SQUARE - LEFT - 8, SQUARE - LEFT - 8
-    scale, place = (wide / (right - left), -tall / (high - low)), Place(side=SQUARE, unit=1.0, decimals=1)
+    scale, place = (wide / (right - left), -tall / (high - low)), Placement(side=SQUARE, unit=1.0, decimals=1)
     floor = 8 + tall
     each = POINTS // max(1, sum(len(polygons) for _, polygons in areas))
     parts, names = [], []

@@ -31,7 +31,7 @@ from ...draw import glyphs
 from ...draw.layers import painted
 from ...draw.packing import Polylines, pack
 from ...draw.svg import content
-from ...draw.vector.parts import Place, disc, stroke, words
+from ...draw.vector.parts import Placement, disc, stroke, words
 from .chart import chart, finished, regions, thinned
 
 #: px of the screen.
@@ -78,7 +78,7 @@ def portrait(result: Scene) -> str:
             "all_directions": bool(equator.all_directions),
             "critical": glyphs.critical_columns(scene["critical"]),
         }
-        made = content(pack(header, blocks), [layer.name for layer in layers], Place(text=32.0))
+        made = content(pack(header, blocks), [layer.name for layer in layers], Placement(text=32.0))
         if len(made) < MOST:
             break
     return finished(made, 1000, 1000, SIDE, SIDE)
@@ -173,7 +173,7 @@ def _launched(result: Launched) -> str:
     halves = (result.orbits.backward.points, result.orbits.forward.points)
     seeds = "".join(
         f'<circle cx="{x}" cy="{y}" r="11" fill="var(--orbit)"/>'
-        for x, y in Place().points([line[0] for line in halves[1]]).tolist()
+        for x, y in Placement().points([line[0] for line in halves[1]]).tolist()
     )
     return _pictured([("orbit", line) for half in halves for line in half], seeds)
 
@@ -183,7 +183,7 @@ def _basins(result: Basins) -> str:
     cells, (left, right, bottom, top) = result.cells, result.box
     while len(cells) > MOST_CELLS:  # each of four stands for all: the picture is small
         cells = cells[::2, ::2]
-    place = Place((left, right, bottom, top), decimals=1)
+    place = Placement((left, right, bottom, top), decimals=1)
     side = place.side / len(cells)
     paths: dict[int, list[str]] = {}
     for row, line in enumerate(cells):
@@ -216,7 +216,7 @@ def _curves(pieces: Sequence[Any], colour: str) -> str:
 
 def _pictured(pieces: Sequence[tuple[str, Any]], over: str = "") -> str:
     """Return curves of the picture over the hemisphere, each in a colour, the first `PIECES` of them."""
-    place = Place()
+    place = Placement()
     each = POINTS // min(max(1, len(pieces)), PIECES)
     lines = ""
     for colour in dict.fromkeys(colour for colour, _ in pieces):

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from codim2_app.draw.vector.labels import TRIED, Box, clear_of, width_of
+from codim2_app.draw.vector.labels import TRIED, LabelBox, clear_of, width_of
 
 SIZE = 10.0
 
@@ -14,7 +14,7 @@ def test_boxes_meet_where_they_have_points_in_common():
     seen = set()
     for _ in range(400):
         x, y, width, height = rng.integers(0, 6, (4, 2)).astype(float)
-        one, other = (Box(x[i], y[i], width[i] + 1.0, height[i] + 1.0) for i in (0, 1))
+        one, other = (LabelBox(x[i], y[i], width[i] + 1.0, height[i] + 1.0) for i in (0, 1))
         middles = np.arange(0.5, 13.0)
         common = any(
             one.x < u < one.x + one.width
@@ -30,10 +30,10 @@ def test_boxes_meet_where_they_have_points_in_common():
 
 
 def test_a_box_is_within_a_drawing_up_to_its_edges():
-    assert Box(0.0, 0.0, 30.0, 20.0).within(30.0, 20.0)
-    assert Box(0.5, 0.5, 1.0, 1.0).within(30.0, 20.0)
+    assert LabelBox(0.0, 0.0, 30.0, 20.0).within(30.0, 20.0)
+    assert LabelBox(0.5, 0.5, 1.0, 1.0).within(30.0, 20.0)
     for x, y in ((-0.1, 0.0), (0.0, -0.1), (10.1, 0.0), (0.0, 10.1)):
-        assert not Box(x, y, 20.0, 10.0).within(30.0, 20.0)
+        assert not LabelBox(x, y, 20.0, 10.0).within(30.0, 20.0)
 
 
 def test_widths_of_texts():
@@ -65,27 +65,29 @@ def test_a_label_stands_where_it_would_if_there_is_room(anchor):
 def test_a_label_beside_its_mark_may_stand_on_the_other_side():
     """To the right all is taken: it ends left of the mark, as far from it as it would begin right of it."""
     wide = width_of("C ⊙", SIZE)
-    box = clear_of([Box(45.0, 0.0, 55.0, 80.0)], "C ⊙", 60.0, 40.0, "start", SIZE, 100.0, 80.0)
+    box = clear_of([LabelBox(45.0, 0.0, 55.0, 80.0)], "C ⊙", 60.0, 40.0, "start", SIZE, 100.0, 80.0)
     assert box.x + wide == pytest.approx(60.0 - 2.0 * SIZE)
     assert box.y + box.height / 2 == pytest.approx(40.0)
-    in_the_middle = clear_of([Box(45.0, 0.0, 55.0, 80.0)], "C ⊙", 60.0, 40.0, "middle", SIZE, 100.0, 80.0)
+    in_the_middle = clear_of([LabelBox(45.0, 0.0, 55.0, 80.0)], "C ⊙", 60.0, 40.0, "middle", SIZE, 100.0, 80.0)
     assert in_the_middle.x + wide <= 45.0
 
 
 def test_labels_avoid_what_is_taken_and_stay_in_the_drawing():
     rng = np.random.default_rng(8)
     for _ in range(60):
-        taken = [Box(*rng.uniform((0, 0), (180, 130)), *rng.uniform(5, 25, 2)) for _ in range(6)]
+        taken = [LabelBox(*rng.uniform((0, 0), (180, 130)), *rng.uniform(5, 25, 2)) for _ in range(6)]
         x, y = rng.uniform((0, 0), (200, 150))
         box = clear_of(taken, "Q₁", x, y, "middle", SIZE, 200.0, 150.0)
         wide, high = width_of("Q₁", SIZE), 1.1 * SIZE
         free = [
             (across, up)
             for across, up in TRIED
-            if (one := Box(x - wide / 2 + across * SIZE, y - high / 2 + up * SIZE, wide, high)).within(200.0, 150.0)
+            if (one := LabelBox(x - wide / 2 + across * SIZE, y - high / 2 + up * SIZE, wide, high)).within(
+                200.0, 150.0
+            )
             and not any(one.meets(other) for other in taken)
         ]
         assert free
         assert (box.x, box.y) == pytest.approx((x - wide / 2 + free[0][0] * SIZE, y - high / 2 + free[0][1] * SIZE))
-    full = clear_of([Box(0.0, 0.0, 200.0, 150.0)], "Q₁", 70.0, 40.0, "start", SIZE, 200.0, 150.0)
+    full = clear_of([LabelBox(0.0, 0.0, 200.0, 150.0)], "Q₁", 70.0, 40.0, "start", SIZE, 200.0, 150.0)
     assert (full.x, full.y) == pytest.approx((70.0, 40.0 - 0.55 * SIZE))  # nowhere: it stands where it would

@@ -10,7 +10,7 @@ from codim2_app.draw.layers import Layer, Part
 from codim2_app.draw.overlay import elements, holoviews
 from codim2_app.draw.svg import SMALL_SIDE, content, draw, small
 from codim2_app.draw.theme import VIEW, custom_properties, themes
-from codim2_app.draw.vector.parts import SIDE, Place
+from codim2_app.draw.vector.parts import SIDE, Placement
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.markup import config, stylesheet
 from codim2_app.view.refresh import Frames
@@ -221,7 +221,7 @@ def test_labels_stand_farther_out_only_where_the_ring_is_shown():
     buffer = frames.answer({"all": True})
 
     def radii(shown, beyond):
-        texts = attributes(content(buffer, shown, Place(beyond=beyond)), "text")
+        texts = attributes(content(buffer, shown, Placement(beyond=beyond)), "text")
         return [math.hypot(float(one["x"]) - SIDE / 2, float(one["y"]) - SIDE / 2) for one in texts]
 
     plain = radii(["equator"], 1.0)
@@ -236,7 +236,7 @@ def test_a_new_layer_is_one_row(monkeypatch):
     """And the scene's row, where the core does not have it yet: a spiral, drawn in the frame, the SVG and HoloViews."""
     angle = np.linspace(0, 6, 40)
     curve = type("Curve", (), {"points": np.column_stack([angle / 9 * np.cos(angle), angle / 9 * np.sin(angle)])})()
-    rows = {**core_scene.layers, "spiral": core_scene.Layer(("plane",), lambda _scene: (curve,))}
+    rows = {**core_scene.layers, "spiral": core_scene.Recipe(("plane",), lambda _scene: (curve,))}
     monkeypatch.setattr(scene_module, "layers", rows)
     part = Part("spiral", "spiral", 2.0, "spiral", arrows=True)
     row = Layer("spiral", "A spiral", 65, (part,), {"spiral": ("#123456", "#abcdef")})

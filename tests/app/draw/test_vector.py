@@ -6,14 +6,14 @@ import re
 import pytest
 from codim2_app.draw.theme import RING, VIEW
 from codim2_app.draw.vector import parts as vector
-from codim2_app.draw.vector.parts import SIDE, Place
+from codim2_app.draw.vector.parts import SIDE, Placement
 
 
 @pytest.mark.parametrize(("hatch", "strokes"), [("/", 1), ("x", 2), (".", 1), ("", 0)])
 def test_hatches_lie_on_the_ring_as_far_apart_on_any_screen(hatch, strokes):
     inner, outer = RING
     middle = (inner + outer) / 2
-    for place in (Place(), Place(side=500.0, unit=500 / 700), Place(unit=SIDE / 350)):
+    for place in (Placement(), Placement(side=500.0, unit=500 / 700), Placement(unit=SIDE / 350)):
         found = vector._hatching(0.5, 2.0, hatch, place)
         step = vector.HATCH * place.unit / (middle * place.scale)  # of the angle
         assert len(found) == strokes * math.floor(1.5 / step + 0.5)
@@ -35,7 +35,7 @@ def test_no_label_stands_over_the_core_of_a_mark():
         "x": [0.5, 9.0], "y": [-0.25, 0.0], "shape": ["circle"] * 2, "size": [14, 14], "colour": ["attr"] * 2,
         "filled": [1, 1],
     }  # fmt: skip
-    for place in (Place(), Place(unit=3.0)):
+    for place in (Placement(), Placement(unit=3.0)):
         taken = []
         assert len(vector.marks(columns, place, taken)) == 1  # the other is not seen
         [box] = taken
@@ -49,7 +49,7 @@ def test_zoomed_in_a_label_stands_as_near_to_its_mark():
     columns = {"x": [0.6], "y": [0.8], "label": ["Q₁"], "label_x": [0.75], "label_y": [0.95]}
     offsets = []
     for seen in ((-VIEW, VIEW, -VIEW, VIEW), (0.1, 1.1, 0.3, 1.3), (-7.0, 7.0, -7.0, 7.0)):
-        place = Place(seen)
+        place = Placement(seen)
         [text] = vector.labels(columns, place, [], False)
         [(u, v)] = place.points([(0.6, 0.8)]).tolist()
         x, y = (float(re.search(rf' {name}="([^"]*)"', text)[1]) for name in "xy")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.theme import themes
-from codim2_app.draw.vector.labels import Box, clear_of, width_of
+from codim2_app.draw.vector.labels import LabelBox, clear_of, width_of
 from codim2_app.draw.vector.paper import DASHES, paper
 from codim2_app.export.figure import MM, Style, figure
 from codim2_app.export.view import WHOLE, view_of
@@ -78,7 +78,9 @@ def boxes(svg):
         r'<text [^>]*?x="([\d.]+)" y="([\d.]+)" font-size="([\d.]+)"[^>]*?(text-anchor="middle")?>([^<]*)<', inside
     ):
         wide = width_of(text, float(size))
-        found.append(Box(float(x) - (wide / 2 if anchor else 0), float(y) - 0.8 * float(size), wide, 0.9 * float(size)))
+        found.append(
+            LabelBox(float(x) - (wide / 2 if anchor else 0), float(y) - 0.8 * float(size), wide, 0.9 * float(size))
+        )
     return found
 
 

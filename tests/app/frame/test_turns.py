@@ -3,7 +3,7 @@
 from concurrent.futures import BrokenExecutor, Executor, Future
 
 import pytest
-from codim2_app.frame.turns import KEPT, Failed, Results, Turns
+from codim2_app.frame.turns import KEPT, Failed, KeptResults, Turns
 
 
 class Held(Executor):
@@ -108,7 +108,7 @@ def test_what_fails_is_a_sentence(error):
 
 
 def test_results_are_bounded_in_number_and_in_size():
-    kept = Results(most_bytes=10_000)
+    kept = KeptResults(most_bytes=10_000)
     for i in range(3 * KEPT):
         kept.put(i, "x")
     assert len(kept) == KEPT

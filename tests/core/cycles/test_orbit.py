@@ -12,7 +12,7 @@ import pytest
 import codim2_core as c2
 from codim2_core.cycles import orbit as module
 from codim2_core.cycles.orbit import orbit, path
-from codim2_core.cycles.section import FINE, Crossing
+from codim2_core.cycles.section import FINE, FixedPoint
 from codim2_core.cycles.turn_section import TurnSection
 
 H = 0.36
@@ -31,7 +31,7 @@ def circle(sign, turn):
 @pytest.mark.parametrize("turn", [1.3, -0.8])
 def test_a_circle_has_the_period_and_the_multiplier_that_it_must(sign, turn):
     section, xi = circle(sign, turn)
-    found = orbit(section, Crossing(xi, repelling=sign < 0))
+    found = orbit(section, FixedPoint(xi, repelling=sign < 0))
     assert found is not None
     tau = 2.0 * math.pi / abs(turn) / math.sqrt(1.0 - H)
     exponent = -2.0 * sign * H * (1.0 - H) * 2.0 * math.pi / abs(turn)
@@ -59,7 +59,7 @@ def test_an_orbit_that_closes_is_followed_once(monkeypatch):
     monkeypatch.setattr(module, "path", lambda *given: turns.append(given[1]) or path(*given))
     for off, count in ((0.0, 1), (1e-6, 2)):
         turns.clear()
-        assert orbit(section, Crossing(xi + off)) is not None
+        assert orbit(section, FixedPoint(xi + off)) is not None
         assert len(turns) == count
 
 
@@ -67,7 +67,7 @@ def test_an_orbit_that_closes_is_followed_once(monkeypatch):
 def test_the_orbit_is_followed_from_where_it_is_drawn_to(sign):
     """A fixed point off by 1e-6: the second time round, the way it attracts, it closes better than the first."""
     section, xi = circle(sign, 1.3)
-    exact, found = (orbit(section, Crossing(xi + off, repelling=sign < 0)) for off in (0.0, 1e-6))
+    exact, found = (orbit(section, FixedPoint(xi + off, repelling=sign < 0)) for off in (0.0, 1e-6))
     assert exact is not None
     assert found is not None
     contraction = math.exp(-2.0 * H * (1.0 - H) * 2.0 * math.pi / 1.3)
@@ -94,13 +94,13 @@ def test_the_nodes_of_a_path_lie_on_it():
 def test_what_does_not_come_round_is_no_orbit(monkeypatch):
     section, xi = circle(1, 1.3)
     monkeypatch.setattr(module, "MOST_STEPS", 5)
-    assert orbit(section, Crossing(xi)) is None
+    assert orbit(section, FixedPoint(xi)) is None
 
 
 def test_a_cycle_that_repels_beyond_all_numbers_has_a_multiplier(monkeypatch):
     section, xi = circle(-1, 1.3)
     monkeypatch.setattr(module, "_normal_growth", lambda *_: 0.0)
-    found = orbit(section, Crossing(xi, repelling=True))
+    found = orbit(section, FixedPoint(xi, repelling=True))
     assert found is not None
     assert 1e250 < found.multiplier < math.inf
 

@@ -8,7 +8,7 @@ import pytest
 
 from codim2_core.cycles import search
 from codim2_core.cycles.limit_cycles import _cycle
-from codim2_core.cycles.section import COARSE, Crossing
+from codim2_core.cycles.section import COARSE, FixedPoint
 from codim2_core.words import recognise
 
 from .sections import Line, circle
@@ -156,7 +156,7 @@ def test_a_cycle_just_born_is_where_its_expansion_vanishes(sign):
     ],
 )
 def test_the_kind_of_a_cycle(divergence, crossing, kind):
-    cycle = _cycle(search.Crossing(0.0, **crossing), circle(divergence=divergence), -1)
+    cycle = _cycle(search.FixedPoint(0.0, **crossing), circle(divergence=divergence), -1)
     assert (cycle.kind, cycle.direction) == (kind, -1)
     assert math.log(cycle.divergence_multiplier) == pytest.approx(max(min(divergence, 700.0), -700.0))
 
@@ -279,7 +279,7 @@ def test_a_whole_interval_of_fixed_points_is_a_band():
     assert "identity" not in few[1]
 
 
-@pytest.mark.parametrize("newborn", [Crossing(-20.0, born=True), None])
+@pytest.mark.parametrize("newborn", [FixedPoint(-20.0, born=True), None])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_cycle_is_born_between_the_critical_set_and_the_samples(monkeypatch, newborn, sign):
     """C attracts, and beside it orbits go away from it: there is one too small to be sampled."""

@@ -10,7 +10,7 @@ import pytest
 from codim2_core import ELinear, Event, System, examples, simulate, simulate_nonsmooth
 from codim2_core import psi as families
 from codim2_core.initial_value import compiled
-from codim2_core.initial_value.compiled import Compiled, is_compiled
+from codim2_core.initial_value.compiled import CompiledMotion, is_compiled
 from codim2_core.initial_value.compiled_explicit import DEGREE
 from codim2_core.initial_value.compiled_motion import COUNT, IMPLICIT
 from codim2_core.initial_value.field import field
@@ -49,18 +49,18 @@ def test_it_is_the_motion_in_python(monkeypatch, psi, eps):
 @pytest.mark.parametrize("eps", [1e-1, 1e-5, 1e-11])
 def test_implicit_alone_it_takes_the_steps_of_python(monkeypatch, eps):
     def implicit(*arguments):
-        motion = Compiled(*arguments)
+        motion = CompiledMotion(*arguments)
         motion.control[IMPLICIT], motion.control[COUNT] = 1.0, -math.inf  # no count of signs turns it explicit
         return motion
 
     def run(chosen, is_compiled):
         monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: is_compiled)
-        monkeypatch.setattr(compiled, "Compiled", chosen)
+        monkeypatch.setattr(compiled, "CompiledMotion", chosen)
         never = Event(lambda t, state: 1.0)  # a motion under watch is stepped part by part
         return simulate(BALL, families.rational(), eps, (-1.0, 0.3, 10.0, 0.0), (0.0, 3.0), rtol=1e-9, events=never)
 
     monkeypatch.setattr(regularised, "PATIENCE", 10**9)
-    own, found = run(Compiled, False), run(implicit, True)
+    own, found = run(CompiledMotion, False), run(implicit, True)
     # Newton's method takes a slope by differences, so that a step may be taken or not.
     assert len(found.times) == pytest.approx(len(own.times), abs=6)
     assert found.evaluations == pytest.approx(own.evaluations, rel=0.1)

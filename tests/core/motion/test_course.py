@@ -20,7 +20,7 @@ from codim2_core.motion.agreement import agreement
 from codim2_core.motion.course import PAST, Course, StopError
 from codim2_core.motion.decide import Decision
 from codim2_core.motion.followed import in_disc
-from codim2_core.motion.part import Part
+from codim2_core.motion.part import MotionPart
 from codim2_core.motion.result import Phase
 from codim2_core.motion.slide_on_cycle import CycleSlide
 from codim2_core.numerics.radau import STAGES, Step, TooManyStepsError
@@ -287,7 +287,7 @@ def test_a_part_knows_its_place_in_the_end():
     np.testing.assert_allclose(slip.p(0.05), xy / np.hypot(*xy))
     np.testing.assert_allclose(slide.e(0.9), c2.critical_sets(c2.ELinear(-1.0, 0.5, -2.0, (0.1, 0.3)), PSI)[0].e)
     means = [np.array((0.1, 0.2)), np.array((0.3, 0.4))]
-    part = Part(Phase("slide", 0.0, 1.0, "", "cycle 1"), [0.0, 1.0], None, means, [2.0 * one for one in means])
+    part = MotionPart(Phase("slide", 0.0, 1.0, "", "cycle 1"), [0.0, 1.0], None, means, [2.0 * one for one in means])
     on_cycle = part.placed(TYPED, PSI, limit.motion)
     np.testing.assert_allclose(on_cycle.e(0.5), (0.2, 0.3))
     np.testing.assert_allclose(on_cycle.p(0.5), (0.4, 0.6))

@@ -9,7 +9,7 @@ import pytest
 import codim2_core as c2
 from codim2_core.initial_value.compiled_phases import CompiledPhases
 from codim2_core.initial_value.field import field
-from codim2_core.initial_value.line import Line
+from codim2_core.initial_value.line import InvariantLine
 from codim2_core.initial_value.problem import plane_problem
 from codim2_core.initial_value.safe_steps import _positive
 from codim2_core.initial_value.sheet import Sheet, complement, determinant, trace
@@ -216,7 +216,7 @@ def test_the_first_step_away_along_a_limit_direction(turn):
 def test_in_a_line_the_first_step_stays_in_it_though_what_lies_beside_turns(side):
     """U = (2 side + z, -s + z): without the line z turns the direction; in it the step is as long as it may be."""
     system = c2.System(U=(f"{2 * side} + 0*z", "-s + z"), W=("3",))
-    line = Line(field(system), np.array([1.0, 0.0]))
+    line = InvariantLine(field(system), np.array([1.0, 0.0]))
     theta = 0.0 if side > 0 else math.pi
     free, kept = (leave(field(system), theta, 5.0, np.array([0.0]), 6.0, one) for one in (None, line))
     assert isinstance(kept, Step)
@@ -227,7 +227,9 @@ def test_in_a_line_the_first_step_stays_in_it_though_what_lies_beside_turns(side
     long = leave(field(system), theta, 5.0, np.array([0.0]), 1e7, line)
     assert long.h == pytest.approx(1e-2, rel=1e-5)  # nothing turns, that would have to be resolved
     quadratic = c2.System(U=(f"c - {side} + {side}*z", "-s + z"), W=("2",))
-    kept = leave(field(quadratic), theta, 0.0, np.array([0.0]), 1.0, Line(field(quadratic), np.array([1.0, 0.0])))
+    kept = leave(
+        field(quadratic), theta, 0.0, np.array([0.0]), 1.0, InvariantLine(field(quadratic), np.array([1.0, 0.0]))
+    )
     assert kept.last == pytest.approx([side * kept.h**2, 0.0, 2.0 * kept.h], rel=1e-6)
     assert kept.last[1] == 0.0
 
