@@ -9,7 +9,7 @@ A public name is imported when it is first asked for (PEP 562): a program loads 
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Python the same
-    from . import bifurcations, examples, psi
+    from . import bifurcations, examples, mechanics, psi
     from .counting.census import census
     from .counting.table import Census
     from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
@@ -82,6 +82,7 @@ __all__ = [
     "filippov_sliding",
     "hemisphere",
     "limit_cycles",
+    "mechanics",
     "nullclines",
     "presets",
     "psi",
@@ -97,6 +98,7 @@ _MODULES = {
     "bifurcations": "bifurcations",
     "examples": "examples",
     "hemisphere": "layer_problem.hemisphere",
+    "mechanics": "mechanics",
     "psi": "psi",
 }
 _HOMES = {

@@ -22,6 +22,7 @@ MODULES = {
     "bifurcations": "Bifurcations in the plane (f₁, f₂)",
     "examples": "Example systems",
     "hemisphere": "Charts of the hemisphere",
+    "mechanics": "From a mechanism to its system",
 }
 
 

@@ -6,7 +6,7 @@ import re
 from functools import cache
 from string import Formatter
 
-from . import changes, claims, cycles, degenerate, equator, motion, orbits, portrait, slow_flow
+from . import changes, claims, cycles, degenerate, equator, mechanics, motion, orbits, portrait, slow_flow
 from .sentence import Sentence
 from .written import named, number, power
 
@@ -21,6 +21,7 @@ ROOMS: dict[str, dict[str, Sentence]] = {
     "cycles": cycles.SENTENCES,
     "changes": changes.SENTENCES,
     "claims": claims.SENTENCES,
+    "mechanics": mechanics.SENTENCES,
 }
 
 SENTENCES: dict[str, Sentence] = {key: one for room in ROOMS.values() for key, one in room.items()}

@@ -1,0 +1,69 @@
+"""Whether a contact grips: the friction that sticking needs, beside what there is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..words import say
+
+
+@dataclass(frozen=True, eq=False)
+class Grip:
+    """The friction that sticking needs, and that there is; in the units of the mechanism's forces.
+
+    Attributes
+    ----------
+    needed : ndarray (2,)
+        Friction with which the point of contact would stick.
+    normal : float
+        The normal force then.
+    mu : ndarray (2, 2)
+        Coulomb's coefficient: there is friction up to N mu e, |e| = 1.
+    held : bool
+        Whether the normal force is that of a constraint.
+    """
+
+    needed: NDArray[np.float64]
+    normal: float
+    mu: NDArray[np.float64]
+    held: bool = False
+
+    @cached_property
+    def e(self) -> NDArray[np.float64]:
+        """Point e (2,) at which friction -N mu e sticks: the critical set, inside. Infinite where mu has no inverse."""
+        available = self.normal * self.mu
+        if abs(np.linalg.det(available)) == 0.0:
+            return np.full(2, np.inf) if self.needed.any() else np.zeros(2)
+        return np.asarray(-np.linalg.solve(available, self.needed), np.float64)
+
+    @property
+    def share(self) -> float:
+        """|e|: the share of the friction that there is, which sticking needs; it is enough below 1."""
+        return float(np.hypot(*self.e))
+
+    @property
+    def sticks(self) -> bool:
+        """Whether it can stick: the normal force presses, and the friction that there is is enough."""
+        return self.normal > 0.0 and self.share < 1.0
+
+    def edge(self, count: int = 96) -> NDArray[np.float64]:
+        """Return the friction cone at this normal force: points N mu e (count, 2), by direction of e."""
+        theta = np.arange(count) * (2.0 * np.pi / count)
+        return self.normal * np.stack([np.cos(theta), np.sin(theta)], axis=-1) @ self.mu.T
+
+    @property
+    def sentence(self) -> str:
+        """What an engineer wants to know."""
+        needed = float(np.hypot(*self.needed))
+        if not self.normal > 0.0:
+            return say("contact opens", normal=self.normal)
+        there = needed / self.share if 0.0 < self.share < np.inf else self.normal * float(np.linalg.norm(self.mu, 2))
+        if not self.sticks:
+            return say("grip lost", needed=needed, there=0.0 if self.share == np.inf else there)
+        # Coulomb's law with one mu: the matrix A = -N mu J M^-1 J^T is negative definite, so the set is stable
+        certain = not self.held and self.mu[0, 0] == self.mu[1, 1] and not self.mu[0, 1] and not self.mu[1, 0]
+        return say("grips" if certain else "can grip", needed=needed, there=there)

@@ -1,0 +1,24 @@
+"""What is said of a mechanism: whether its contact grips."""
+
+from __future__ import annotations
+
+from .sentence import Sentence
+
+SENTENCES: dict[str, Sentence] = {
+    "grips": Sentence(
+        "It cannot start to slip: sticking needs a friction of {needed:.4g}, and there is {there:.4g} that way.",
+        "Coulomb's law with one coefficient, a critical set inside",
+    ),
+    "can grip": Sentence(
+        "It can stick: that needs a friction of {needed:.4g}, and there is {there:.4g} that way.",
+        "a critical set inside, friction by a matrix or a constraint",
+    ),
+    "grip lost": Sentence(
+        "It cannot stick: that needs a friction of {needed:.4g}, and there is {there:.4g} that way.",
+        "no critical set inside",
+    ),
+    "contact opens": Sentence(
+        "The contact opens: to stick, the normal force would have to be {normal:.4g}.", "N is not positive"
+    ),
+    "motion of a mechanism": Sentence("It {course}.", "a motion in an engineer's words, times in seconds"),
+}
