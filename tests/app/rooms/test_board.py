@@ -1,8 +1,11 @@
 """Memory that processes share: each writes its part, all read all."""
 
 import os
+import random
+import string
 
 import pytest
+from codim2_app.rooms import board as module
 from codim2_app.rooms.board import HEAD, PART, SILENT, Board
 
 
@@ -49,3 +52,17 @@ def test_what_is_too_long_is_refused_and_one_that_is_started_again_begins_with_n
     assert board.write({"short": 1}, 1.0)
     board.belong(1)
     assert told(board) == {}
+
+
+def test_what_fits_is_read_by_all_and_writes_over_nobody(monkeypatch):
+    monkeypatch.setattr(module, "PART", 100)
+    board, fits = Board(2), []
+    words = "".join(random.Random(1).choices(string.ascii_letters, k=200))  # which cannot be packed by much
+    for length in range(40, 140):
+        board.belong(1)
+        board.write({"next": 1}, 1.0)
+        board.belong(0)
+        fits.append(board.write({"a": words[:length]}, 1.0))
+        assert told(board) == {1: {"next": 1}} | ({0: {"a": words[:length]}} if fits[-1] else {})
+    assert fits[0]
+    assert not fits[-1]

@@ -15,6 +15,7 @@ from codim2_app.rooms.rooms import (
     RoomError,
     Rooms,
     code_of,
+    settings_of,
 )
 
 
@@ -205,3 +206,32 @@ def test_without_anybody_nothing_goes_on():
     assert begun == []
     opened(rooms)
     assert begun == [1]
+
+
+def test_no_two_phones_have_one_number(two):
+    _, code, _ = opened(two[0])
+    phone = Page()
+    numbers = [rooms.join(code, phone.look, phone.tell, 1.0).number for rooms in (*two, *two, two[0])]
+    assert len(set(numbers)) == 5
+    alone = Rooms()
+    code = opened(alone)[1]
+    assert [alone.join(code, phone.look, phone.tell, 1.0).number for _ in range(3)] == [1, 2, 3]
+
+
+def test_a_lecturer_takes_up_his_room_though_all_are_taken():
+    rooms = Rooms(most=1)
+    _, code, key = opened(rooms)
+    assert opened(rooms, 1.0, key)[1] == code
+
+
+def test_a_page_may_go_after_its_room_has_ended():
+    rooms = Rooms()
+    lecturer, code, _ = opened(rooms)
+    rooms.close(code, 1.0)
+    rooms.tick(1.0 + REMEMBERED + 1.0)
+    rooms.leave_open(code, lecturer.heard_by, 200.0)
+    assert not rooms.tick(200.0)
+
+
+def test_settings_are_those_that_are_other_than_at_first():
+    assert settings_of({"a": 1, "b": 2, "c": 3}, {"a": 1, "b": 5, "c": 4}, ("a", "b")) == {"b": 2}

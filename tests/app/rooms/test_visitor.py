@@ -1,12 +1,17 @@
 """The room of one page: what a browser may ask, and the row that its lecturer sees."""
 
+from types import SimpleNamespace
+
 import pytest
 from codim2_app.lessons.library import lessons
 from codim2_app.rooms import rooms
 from codim2_app.rooms.rooms import MOST_TRIES, Rooms
 from codim2_app.rooms.visitor import Visitor
-from codim2_app.state.controls import ExplorerState
+from codim2_app.state.chosen import NORMAL
+from codim2_app.state.controls import ExplorerState, first_values
 from codim2_app.view.refresh import Frames
+
+from codim2_core import System
 
 
 class Page:
@@ -49,6 +54,53 @@ def test_what_a_lecturer_sees_of_a_phone(fresh):
     phone.visitor.leave()
     fresh.tick()
     assert lecturer.heard[-1] == {"rows": []}
+
+
+def row_of(fresh, answered=(), scene=None, **values):
+    """What a lecturer is told of a page that shows this."""
+    frames = SimpleNamespace(values={**first_values(), **values}, scene=scene, named="CM4", answered=answered)
+    heard = []
+    code, _ = fresh.open("", heard.append)
+    visitor = Visitor(frames)
+    visitor.answer({"join": code}, lambda message: None, lambda act: act())
+    fresh.tick()
+    visitor.leave()
+    return heard[-1]["rows"][0][1:]
+
+
+def test_a_row_is_the_name_the_settings_and_the_lesson(fresh):
+    key, other = list(lessons())[:2]
+    title = lessons()[key].title
+    assert row_of(fresh) == ["CM4", {}, None]
+    assert row_of(fresh, lesson=key) == ["CM4", {}, [title, -1, False]]
+    assert row_of(fresh, (key, 2, True), lesson=key)[2] == [title, 2, True]
+    assert row_of(fresh, (key, 0, False), lesson=key)[2] == [title, 0, False]
+    assert row_of(fresh, (other, 2, True), lesson=key)[2] == [title, -1, False]
+    assert row_of(fresh, (key, 2, True))[2] is None
+
+
+def test_of_a_system_with_formulas_all_parameters_are_told(fresh):
+    typed = SimpleNamespace(system=System(U=("k*c", "s"), parameters={"k": 3.0}))
+    assert row_of(fresh, scene=typed, system="own")[1]["parameters"] == {"k": 3.0}
+    assert "parameters" not in row_of(fresh, scene=typed, system=NORMAL)[1]
+    assert "parameters" not in row_of(fresh, scene=SimpleNamespace(system=None), system="own")[1]
+
+
+def test_only_who_says_so_leaves_or_closes(fresh):
+    lecturer, phone = Page(), Page()
+    code = lecturer.ask({"open": ""})["open"]
+    phone.ask({"join": code})
+    for odd in ({"leave": True}, {"close": 1}, {}):
+        assert lecturer.ask(odd) == {}
+    assert phone.ask({"leave": 1}) == {}
+    fresh.tick()
+    assert len(fresh.guests) == 1
+    assert fresh.hosts[code].there(fresh.hosts[code].opened)
+    phone.ask({"leave": True})
+    assert fresh.guests == {}
+    Page().visitor.leave()  # who is in no room
+    lecturer.visitor.leave()
+    assert fresh.hosts[code].tell is None
 
 
 def test_a_lecturer_closes_his_room_and_nobody_elses(fresh):
