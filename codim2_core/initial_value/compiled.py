@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -33,7 +33,7 @@ from ..stepping.gains import one_gain
 from ..stepping.layout import FIELD
 from ..words import say
 from .compiled_explicit import DEGREE, WIDTH
-from .compiled_motion import AHEAD, BLOWN_UP, CONTROL, FULL, LIMIT, SHORT, SHORTEST, follow, follow_all, price
+from .compiled_motion import AHEAD, ARRIVED, BLOWN_UP, CONTROL, FULL, LIMIT, SHORT, SHORTEST, follow, follow_all, price
 from .compiled_rate import Motion
 from .compiled_stages import tableau_of, workspace
 from .field import Field
@@ -75,18 +75,19 @@ def _function(rows: Any, names: tuple[str, ...]) -> Any:
 
 
 @lru_cache(maxsize=1)
-def _numbers_of_tableau() -> Array:
+def numbers_of_tableau() -> Array:
+    """Return the numbers of Radau IIA as `compiled_stages.tableau_of` reads them."""
     table = tableau()
     return np.concatenate([[table.gamma], table.nodes, table.A.ravel(), table.error, table.fit.ravel()])
 
 
 @lru_cache(maxsize=1)
 def _table() -> Any:
-    return tableau_of(_numbers_of_tableau())
+    return tableau_of(numbers_of_tableau())
 
 
 @dataclass(frozen=True)
-class _Functions:
+class Functions:
     """The compiled functions of a field and a Psi: they must outlive the use of their addresses."""
 
     functions: tuple[Any, ...]
@@ -96,10 +97,12 @@ class _Functions:
 _last = Kept(MOST_SYSTEMS)
 
 
-def _functions(field: Field, psi: Psi) -> _Functions:
-    def make() -> _Functions:
+def functions_of(field: Field, psi: Psi) -> Functions:
+    """Return the compiled functions of a field and a Psi; they are compiled when they are first asked for."""
+
+    def make() -> Functions:
         functions = (*_fields.get(field.rows, lambda: _made(field)), one_gain(psi))
-        return _Functions(functions, np.array([function.address for function in functions], np.int64))
+        return Functions(functions, np.array([function.address for function in functions], np.int64))
 
     return _last.get((field.rows, psi), make)
 
@@ -163,7 +166,7 @@ class CompiledMotion:
         farthest: float = 0.0,
     ) -> None:
         self.problem, n = problem, len(first)
-        self.functions, self.parameter = _functions(field, psi), psi.parameter
+        self.functions, self.parameter = functions_of(field, psi), psi.parameter
         along = (0.0, 0.0) if line is None else line.vector
         value, slopes, gain = self.functions.addresses.tolist()
         self.motion = Motion(value, slopes, gain, n, eps, rtol, floor, along[0], along[1])
@@ -189,7 +192,7 @@ class CompiledMotion:
         """
         n, count = len(self.y), self.chunk
         table, work, code = _table(), self.work(), FULL
-        while code == FULL:
+        while code in (FULL, ARRIVED):  # who has arrived asks for no more
             starts, lengths = np.empty(count), np.empty(count)
             ends, polynomials = np.empty((count, n)), np.empty((count, n, DEGREE))
             begin = self.y.copy()
@@ -249,16 +252,21 @@ def followed(
     ValueError
         The rate is not finite at one of the states; the message names the first.
     """
-    made, count = _functions(field, psi), len(first)
+    made, count = functions_of(field, psi), len(first)
     numbers, along = np.array([eps, rtol, floor, *span, psi.parameter]), np.zeros((count, 2))
     for i, line in enumerate(lines):
         if line is not None:
             along[i] = line.n
 
     def part(cut: slice) -> list[Ended]:
-        found = follow_all(made.addresses, numbers, _numbers_of_tableau(), along[cut], first[cut], float(most))
+        found = follow_all(made.addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most))
         return _apart(*found, first.shape[1])
 
+    return shared_out(part, count)
+
+
+def shared_out(part: Callable[[slice], list[Any]], count: int) -> list[Any]:
+    """Return what `part` returns for `count` motions, slice by slice: few at once, many on all cores."""
     if count < SHARED_OUT:
         return part(slice(0, count))
     from concurrent.futures import ThreadPoolExecutor  # imported late: one motion does without

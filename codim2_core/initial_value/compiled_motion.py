@@ -182,7 +182,7 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _prepared(motion, y, clock, control, t_start, t_end, most, work):
+def prepared(motion, y, clock, control, t_start, t_end, most, work):
     """Set the clock and the control for a motion from its start; say whether the rate is finite there."""
     clock[0], clock[1], clock[2], clock[3] = t_start, 0.0, t_end, 1.0
     explicit_first = motion.n <= explicit.WIDTH
@@ -202,7 +202,7 @@ def _prepared(motion, y, clock, control, t_start, t_end, most, work):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _longer(array, length):
+def longer(array, length):
     """Return an array of numbers that begins with another's: a plain loop, which compiles fast."""
     found = np.empty(length)
     for i in range(len(array)):
@@ -248,13 +248,13 @@ def follow_all(fields, numbers, coefficients, lines, first, most):
         motion = Motion(fields[0], fields[1], fields[2], n, numbers[0], numbers[1], numbers[2], line1, line2)
         for j in range(n):
             y[j] = first[i, j]
-        code = FULL if _prepared(motion, y, clock, control, numbers[3], numbers[4], most, work) else UNDEFINED
+        code = FULL if prepared(motion, y, clock, control, numbers[3], numbers[4], most, work) else UNDEFINED
         begun = row
         while True:
             if row + CHUNK >= room:
                 room = 2 * room + CHUNK
-                times, lengths = _longer(times, room), _longer(lengths, room)
-                states, polynomials = _longer(states, room * n), _longer(polynomials, room * each)
+                times, lengths = longer(times, room), longer(lengths, room)
+                states, polynomials = longer(states, room * n), longer(polynomials, room * each)
             if row == begun:
                 times[row] = numbers[3]
                 for j in range(n):

@@ -49,7 +49,7 @@ EXTENT = TABLE + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _write_slopes(S, m):
+def write_slopes(S, m):
     """Write the slopes at a place; where they are undefined those just beside, or 0."""
     slopes, count, whole = bits_of_double(S[SLOPES]), (2 + m) * (4 + m), True
     call_field(slopes, S, PLACE, TABLE, S)
@@ -68,12 +68,12 @@ def _write_slopes(S, m):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _found(S, m):
+def found_set(S, m):
     """Find the critical set near the e in place, by Newton's method, and its rates; say whether there is one."""
     value, width = bits_of_double(S[VALUE]), 4 + m
     S[PLACE + 2] = S[PLACE + 3] = 0.0
     for _ in range(NEWTON):
-        _write_slopes(S, m)
+        write_slopes(S, m)
         call_field(value, S, PLACE, RATES, S)
         u, v = S[RATES], S[RATES + 1]
         j11, j12, j21, j22 = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
@@ -107,7 +107,7 @@ def _slow(state, out, parameters):
     S[PLACE], S[PLACE + 1] = A[2], A[3]  # the motion's own (x, y)
     for i in range(m):
         S[PLACE + 4 + i] = A[4 + i]
-    if not _found(S, m):
+    if not found_set(S, m):
         for i in range(2 + m):
             D[i] = math.nan
         return
@@ -128,7 +128,7 @@ def _slow_slopes(state, out, parameters):
     S[PLACE], S[PLACE + 1] = A[2], A[3]
     for i in range(m):
         S[PLACE + 4 + i] = A[4 + i]
-    there = _found(S, m)
+    there = found_set(S, m)
     for i in range((2 + m) * width):
         D[i] = 0.0
     if not there:
@@ -154,7 +154,7 @@ def _sets(addresses, points):
         S[PLACE], S[PLACE + 1] = points[i, 0], points[i, 1]
         for j in range(2, n):
             S[PLACE + 2 + j] = points[i, j]
-        there = _found(S, n - 2)
+        there = found_set(S, n - 2)
         for a in range(2):
             e[i, a] = S[PLACE + a] if there else math.nan
             for b in range(2):
@@ -163,7 +163,7 @@ def _sets(addresses, points):
 
 
 @lru_cache(maxsize=1)
-def _flow() -> tuple[Any, Any]:
+def flow() -> tuple[Any, Any]:
     """Return the slow flow and its slopes, the same for all systems."""
     return compiled(_slow, cache=True), compiled(_slow_slopes, cache=True)
 
@@ -205,7 +205,7 @@ class CompiledSlow(CompiledMotion):
         # eps is read as the size by which errors of e are measured: 1 and more.
         super().__init__(problem, field, constant(), 1.0, line, t_start, t_end, first, rtol, floor, h, most)
         self.addresses = self.functions.addresses[:2].view(float)
-        value, slopes = _flow()
+        value, slopes = flow()
         self.motion = self.motion._replace(value=value.address, slopes=slopes.address)
         self.control[LEAST] = shortest
 

@@ -40,8 +40,15 @@ class Work(NamedTuple):
 @njit(cache=True, nogil=True, error_model="numpy")
 def workspace(n, parameter):
     """Return the arrays for a state of n components, and a parameter of Psi."""
-    N, S = STAGES * n, np.zeros(ROOM)
+    S = np.zeros(ROOM)
     S[PSI] = parameter
+    return work_on(S, n)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def work_on(S, n):
+    """Return the arrays for a state of n components, with a workspace S that is there already."""
+    N = STAGES * n
     return Work(
         S, np.zeros(n), np.zeros(n), np.zeros(n), np.zeros((n, n)), np.zeros((N, N)), np.zeros((n, n)),
         np.zeros(N, np.int64), np.zeros(n, np.int64), np.zeros((STAGES, n)), np.zeros((STAGES, n)), np.zeros(N),

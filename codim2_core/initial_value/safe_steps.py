@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 DEGREE = 4
 LEFT_OUT = 8.0
 NODES = 0.5 - 0.5 * np.cos(math.pi * np.arange(DEGREE + 1) / DEGREE)
-_COEFFICIENTS = np.array([interpolated(row) for row in np.eye(DEGREE + 1)])
+COEFFICIENTS = np.array([interpolated(row) for row in np.eye(DEGREE + 1)])
 
 
 def _positive(values: Array) -> NDArray[np.bool_]:
@@ -29,7 +29,7 @@ def _positive(values: Array) -> NDArray[np.bool_]:
     The polynomial is at least its mean less all its other coefficients; what it leaves out is less than a few times its
     last two, as the gauge is smooth along a step that has been accepted.
     """
-    of = values @ _COEFFICIENTS
+    of = values @ COEFFICIENTS
     sizes = np.abs(of[:, 1:])
     return of[:, 0] > sizes.sum(axis=1) + LEFT_OUT * sizes[:, -2:].sum(axis=1)  # not for NaN
 

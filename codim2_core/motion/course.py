@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from dataclasses import field as made_with
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +15,10 @@ from ..cycles.limit_cycles import limit_cycles
 from ..initial_value.compiled_phases import CompiledPhases
 from ..initial_value.events import Watch
 from ..initial_value.field import Field
+from ..initial_value.leaving import leave
 from ..initial_value.line import InvariantLine
 from ..layer_problem.equator import equator_equilibria
+from ..numerics.dense import Steps
 from ..numerics.radau import Problem, Step, TooManyStepsError
 from ..psi import constructors
 from ..psi.function import Psi
@@ -28,7 +31,10 @@ from .places import Ascent
 from .result import Phase
 from .slide import slide
 from .slide_on_cycle import slide_on_cycle
-from .slip import leave, slip
+from .slip import slip
+
+if TYPE_CHECKING:
+    from .legs import Legs
 
 Array = NDArray[np.float64]
 
@@ -66,6 +72,7 @@ class Course:
     parts: list[MotionPart] = made_with(default_factory=list)
     ascent: Ascent | None = None  # of the phase to come
     compiled: CompiledPhases | None = None
+    decided: Decision | None = None  # what follows at first, where that is known
 
     @property
     def own(self) -> Psi:
@@ -102,6 +109,15 @@ class Course:
         if stopped:
             raise AtEventError
 
+    def go_on(self, legs: Legs) -> None:
+        """Begin where a motion that was followed compiled was handed over."""
+        motion = legs.found.motion
+        before = Steps(motion.states[0], motion.times[:-1], motion.lengths, motion.states[1:], motion.polynomials)
+        self.taken, self.parts, self.decided = list(before), list(legs.parts), legs.onward()
+        self.t, self.state = float(motion.times[-1]), motion.states[-1].copy()
+        if self.decided.kind == "slide":
+            self.ascent = legs.ascent(len(motion.lengths), legs.found.theta)
+
     def run(self) -> None:
         """Follow the motion to the end of its time.
 
@@ -110,8 +126,10 @@ class Course:
         AtEventError, StopError, BlowUpError, TooManyStepsError
             It ends before; what has been followed is kept.
         """
-        on = not self.state[:2].any()
-        decision = self.first() if on else self.slip([], say("starts outside"))
+        decision = self.decided
+        if decision is None:
+            on = not self.state[:2].any()
+            decision = self.first() if on else self.slip([], say("starts outside"))
         while decision is not None and self.t < self.t_end:
             if self.left <= 0:
                 raise TooManyStepsError

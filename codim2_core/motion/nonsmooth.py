@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..initial_value.compiled_phases import CompiledPhases
-from ..initial_value.events import Events, Watch, checked_events
+from ..initial_value.events import Event, Events, Watch, checked_events
 from ..initial_value.field import Field, field
 from ..initial_value.line import invariant_line
 from ..initial_value.problem import plane_problem
@@ -19,14 +22,45 @@ from ..numerics.radau import TooManyStepsError
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .course import AtEventError, Course, StopError
-from .regularised import MAX_STEPS, checked_span, checked_state, checked_tolerances, count_steps, waited_for
+from .regularised import MANY, MAX_STEPS, checked_span, checked_states, checked_tolerances, count_steps, waited_for
 from .result import Simulation, SimulationStatus, simulation
+
+if TYPE_CHECKING:
+    from .legs import Legs
 
 __all__ = ["simulate_nonsmooth"]
 
 Array = NDArray[np.float64]
 
 ON_SIGMA = 1e-200  # rho below which a state is on Sigma
+
+
+@overload
+def simulate_nonsmooth(  # pyright: ignore[reportOverlappingOverload] (rows are told from a row by their own entries)
+    system: AnySystem,
+    state0: Sequence[Sequence[float]],
+    t_span: ArrayLike,
+    psi: Psi | None = ...,
+    *,
+    rtol: float = ...,
+    atol: float = ...,
+    events: Events = ...,
+    max_steps: int = ...,
+) -> tuple[Simulation, ...]: ...
+
+
+@overload
+def simulate_nonsmooth(
+    system: AnySystem,
+    state0: ArrayLike,
+    t_span: ArrayLike,
+    psi: Psi | None = ...,
+    *,
+    rtol: float = ...,
+    atol: float = ...,
+    events: Events = ...,
+    max_steps: int = ...,
+) -> Simulation: ...
 
 
 def simulate_nonsmooth(
@@ -39,7 +73,7 @@ def simulate_nonsmooth(
     atol: float = 1e-12,
     events: Events = (),
     max_steps: int = MAX_STEPS,
-) -> Simulation:
+) -> Simulation | tuple[Simulation, ...]:
     """Follow one motion of eq:vf itself, as the limit eps -> 0 of the regularised system.
 
     Outside Sigma the system slips; it arrives at Sigma in finite time along a limit direction; the orbit that continues
@@ -54,9 +88,10 @@ def simulate_nonsmooth(
     Parameters
     ----------
     system : ELinear, System, or one of them frozen at a z
-    state0 : (2 + m,)
+    state0 : (2 + m,), or (k, 2 + m)
         (x, y, z1, ..., zm). On Sigma x = y = 0 is p = 0 for every eps: the orbit of the layer problem through it
-        decides. Without psi: slides if one critical set attracts, else leaves along the one way out.
+        decides. Without psi: slides if one critical set attracts, else leaves along the one way out. Rows are as many
+        motions, followed compiled on all cores.
     t_span : (t_start, t_end)
         Increasing.
     psi : Psi, optional
@@ -70,7 +105,7 @@ def simulate_nonsmooth(
 
     Returns
     -------
-    Simulation
+    Simulation, or tuple of k Simulation
         Its status is NOT_UNIQUE, with a reason, where the limit is not unique or not known; the motion ends there.
 
     Raises
@@ -88,36 +123,90 @@ def simulate_nonsmooth(
     t_start, t_end = checked_span(t_span)
     checked_tolerances(rtol, atol, max_steps)
     formulas = field(system)
-    first = checked_state(state0, formulas.m)
-    if math.hypot(first[0], first[1]) < ON_SIGMA:
-        first[:2] = 0.0
-    count = [0]
-    value = formulas.value
+    watched = checked_events(events)
+    states = checked_states(state0, formulas.m)
+    for first in states:
+        if math.hypot(first[0], first[1]) < ON_SIGMA:
+            first[:2] = 0.0
+    asked = _Asked(system, psi, formulas, watched, (t_start, t_end), rtol, atol, max_steps)
+    runs = _followed(asked, states) if len(states) >= MANY or not waited_for(formulas) else map(asked.one, states)
+    return next(iter(runs)) if np.ndim(state0) < 2 else tuple(runs)
 
-    def counted(*arguments: float) -> tuple[float, ...]:
-        count[0] += 1
-        return value(*arguments)
 
-    formulas = Field(formulas.m, formulas.rows, counted, formulas.slope)
-    line = invariant_line(formulas, first)
-    problem = plane_problem(formulas, None, 0.0, rtol, atol, None if line is None else line.vector)
-    watch = Watch(checked_events(events), t_start, first)
-    course = Course(system, psi, formulas, problem, line, watch, t_start, first, t_end, rtol, atol, max_steps)
-    if not waited_for(formulas):
-        course.compiled = CompiledPhases(problem, formulas, line, rtol, atol / rtol)
-    status, detail = SimulationStatus.T_END, ""
-    try:
-        course.run()
-    except AtEventError:
-        status = SimulationStatus.EVENT
-    except StopError as stop:
-        status, detail = SimulationStatus.NOT_UNIQUE, str(stop)
-    except BlowUpError as error:
-        status, detail = SimulationStatus.BLOW_UP, str(error)
-    except TooManyStepsError as error:
-        status, detail = SimulationStatus.STEP_LIMIT, str(error)
-    count_steps(formulas, len(course.taken))
-    evaluations = count[0] + (course.compiled.evaluations if course.compiled else 0)
-    motion = dense(t_start, first, [gathered(course.taken, len(first))])
-    phases = partial(tuple, [part.placed(system, course.own, motion) for part in course.parts])
-    return simulation(motion, phases, status, detail=detail, evaluations=evaluations, events=watch.times)
+@dataclass(frozen=True, eq=False)
+class _Asked:
+    """What is asked of each motion."""
+
+    system: AnySystem
+    psi: Psi | None
+    formulas: Field
+    watched: tuple[Event, ...]
+    span: tuple[float, float]
+    rtol: float
+    atol: float
+    max_steps: int
+
+    def one(self, first: Array, compiled: bool = False, begun: Legs | None = None) -> Simulation:
+        """Follow one motion from a state, or from where it was handed over, phase by phase."""
+        (t_start, t_end), rtol, atol, count = self.span, self.rtol, self.atol, [0]
+        value = self.formulas.value
+
+        def counted(*arguments: float) -> tuple[float, ...]:
+            count[0] += 1
+            return value(*arguments)
+
+        formulas = Field(self.formulas.m, self.formulas.rows, counted, self.formulas.slope)
+        line = invariant_line(formulas, first)
+        problem = plane_problem(formulas, None, 0.0, rtol, atol, None if line is None else line.vector)
+        watch = Watch(self.watched, t_start, first)
+        course = Course(
+            self.system, self.psi, formulas, problem, line, watch, t_start, first, t_end, rtol, atol, self.max_steps
+        )
+        if compiled or not waited_for(formulas):
+            course.compiled = CompiledPhases(problem, formulas, line, rtol, atol / rtol)
+        if begun is not None:
+            course.go_on(begun)
+            count[0] += begun.found.evaluations
+        status, detail = SimulationStatus.T_END, ""
+        try:
+            course.run()
+        except AtEventError:
+            status = SimulationStatus.EVENT
+        except StopError as stop:
+            status, detail = SimulationStatus.NOT_UNIQUE, str(stop)
+        except BlowUpError as error:
+            status, detail = SimulationStatus.BLOW_UP, str(error)
+        except TooManyStepsError as error:
+            status, detail = SimulationStatus.STEP_LIMIT, str(error)
+        count_steps(formulas, len(course.taken))
+        evaluations = count[0] + (course.compiled.evaluations if course.compiled else 0)
+        motion = dense(t_start, first, [gathered(course.taken, len(first))])
+        phases = partial(tuple, [part.placed(self.system, course.own, motion) for part in course.parts])
+        return simulation(motion, phases, status, detail=detail, evaluations=evaluations, events=watch.times)
+
+
+def _followed(asked: _Asked, states: Array) -> Iterator[Simulation]:
+    """Follow motions compiled as far as safe signs decide what comes next, all at once, and phase by phase from there.
+
+    What starts on Sigma, and what is under watch, is followed phase by phase from the start.
+    """
+    outside = [i for i, first in enumerate(states) if first[:2].any()] if not asked.watched else []
+    legs: dict[int, Legs] = {}
+    if outside:
+        from ..initial_value.courses import followed  # loads the compiler
+        from .legs import Legs
+
+        lines = [invariant_line(asked.formulas, states[i]) for i in outside]
+        own = (asked.rtol, asked.atol / asked.rtol, asked.max_steps)
+        found = followed(asked.formulas, asked.psi, lines, states[outside], asked.span, *own)
+        legs = {i: Legs(asked.system, asked.psi, line, one) for i, line, one in zip(outside, lines, found, strict=True)}
+    for i, first in enumerate(states):
+        begun = legs.get(i)
+        if begun is None or not begun.found.legs:
+            yield asked.one(first, compiled=True)
+        elif not begun.whole:
+            yield asked.one(first, True, begun)
+        else:
+            found = begun.found
+            phases = partial(begun.phases, found.motion)
+            yield simulation(found.motion, phases, SimulationStatus.T_END, evaluations=found.evaluations)

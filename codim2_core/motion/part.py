@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,4 +42,4 @@ class MotionPart:
             where = OnCycle(times, e, p)
         else:
             where = OnSet(system, psi, motion, times, e)
-        return replace(phase, _place=where, _ascent=self.ascent)
+        return phase.placed(where, self.ascent)

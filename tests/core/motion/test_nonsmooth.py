@@ -13,11 +13,11 @@ from scipy.integrate import quad
 from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
 from codim2_core.initial_value.field import field
+from codim2_core.initial_value.leaving import leave
 from codim2_core.initial_value.sheet import Sheet
 from codim2_core.motion import nonsmooth
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.result import SimulationStatus
-from codim2_core.motion.slip import leave
 
 G = 9.81
 CASE_3 = ELinear(172.0, 186.0, -200.0, ("-172*z", "-186*z"), B=((0.5, 0.0),))  # C at e = (z, 0), z' = e_1/2
