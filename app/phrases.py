@@ -22,6 +22,10 @@ SENTENCES: dict[str, Sentence] = {
     "stopped after": Sentence("This takes longer than {seconds:g} s, and was stopped.", "work beside the frames"),
     "lost": Sentence("The process that computed this has ended: move a control to try again.", "a worker that ended"),
     "memory": Sentence("This needs more memory than the server gives it.", "a worker at its bound"),
+    "no such place": Sentence("There is none here.", "a place was marked where a question has none"),
+    "mark away": Sentence(
+        "Your mark is {away} radii of the disc from it.", "a mark in a lesson, farther than lessons.marks.NEAR"
+    ),
     "film stopped": Sentence("The film was stopped; nothing was made.", "a click on Stop while a film is drawn"),
     "address failed": Sentence(
         "This address could not be opened, a fault of the program: here is the first portrait instead.",

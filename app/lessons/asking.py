@@ -9,9 +9,11 @@ from typing import Any
 from codim2_core.scene import Scene
 
 from ..frame.scenes import make_scene
+from ..phrases import say
 from .condition import FactCondition
-from .facts import Fact, facts_of
+from .facts import FACTS, Fact, facts_of
 from .lesson import Question, portrait_of
+from .marks import NEAR, Point, gap
 from .words import filled
 
 MOST_DRAWN = 60  # tries to fulfil what a question requires
@@ -37,14 +39,14 @@ def pose(question: Question, values: Mapping[str, Any], seed: int) -> dict[str, 
         Nothing that was drawn fulfils what the question requires.
     """
     chance = random.Random(seed)
-    wanted = chance.randrange(len(question.options))
+    wanted = chance.randrange(len(question.options) + bool(question.mark))  # the last: there is a place to mark
     admitted: dict[str, Any] | None = None
     for _ in range(MOST_DRAWN):
         drawn = {name: _drawn(chance, value) for name, value in question.draw.items()}
         scene = make_scene({**values, **portrait_of(drawn.get("preset")), **drawn})
         if _holds(question.require, scene, default=True) and not reached(question, scene):
             admitted = drawn
-            if not _varies(question) or _holds(question.options[wanted].when, scene):
+            if not _varies(question) or wanted == _answer(question, scene):
                 return drawn
     if admitted is None:
         needed = "what it asks for" if question.require is None else repr(question.require.text)
@@ -56,6 +58,12 @@ def _holds(condition: FactCondition | None, scene: Scene, default: bool = False)
     return default if condition is None else condition(facts_of(scene, condition.names))
 
 
+def _answer(question: Question, scene: Scene) -> int | None:
+    """Return the index of the option that holds, one more where a place is to be marked instead."""
+    holding = [i for i, option in enumerate(question.options) if _holds(option.when, scene)]
+    return holding[0] if holding else len(question.options) if question.mark else None
+
+
 def _varies(question: Question) -> bool:
     return any(isinstance(value, tuple) for value in question.draw.values())
 
@@ -64,24 +72,32 @@ def _drawn(chance: random.Random, value: Any) -> Any:
     return round(chance.uniform(*value), DIGITS) if isinstance(value, tuple) else value
 
 
-def judge(question: Question, scene: Scene, choice: int) -> dict[str, Any]:
+def judge(question: Question, scene: Scene, answer: int | Point) -> dict[str, Any]:
     """Return what the present scene says of an answer.
 
     Parameters
     ----------
     question : Question
     scene : Scene
-    choice : int
-        Index of the chosen option.
+    answer : int or tuple of float
+        Index of the chosen option, or the point of the picture that was marked.
 
     Returns
     -------
     dict
-        "right" : bool; "truth" : index of the option that holds, or None; "explain" : HTML.
+        "right" : bool; "truth" : index of the option that holds, or None; "why" : HTML, the reason of a wrong answer;
+        "explain" : HTML.
     """
     facts = facts_of(scene, question.facts)
     truth = right_option(question, facts)
-    return {"right": choice == truth, "truth": truth, "explain": filled(question.explain, facts)}
+    if isinstance(answer, int):
+        right = answer == truth
+        why = "" if right else filled(question.options[answer].wrong, facts)
+    else:
+        away = gap(question.mark, scene, answer)
+        right = away is not None and away <= NEAR
+        why = say("no such place") if away is None else "" if right else say("mark away", away=f"{away:.2f}")
+    return {"right": right, "truth": truth, "why": why, "explain": filled(question.explain, facts)}
 
 
 def right_option(question: Question, facts: Mapping[str, Fact]) -> int | None:
@@ -93,3 +109,10 @@ def right_option(question: Question, facts: Mapping[str, Fact]) -> int | None:
 def reached(question: Question, scene: Scene) -> bool:
     """Say whether the present scene reaches the goal of `vary`."""
     return question.vary is not None and _holds(question.vary.goal, scene)
+
+
+def stands(question: Question, scene: Scene) -> str:
+    """Return where the present scene stands with what the goal of `vary` reads."""
+    names = sorted(question.vary.goal.names) if question.vary else []
+    facts = facts_of(scene, names)
+    return ", ".join(f"{FACTS[name][0]}: {filled(f'{{{name}}}', facts)}" for name in names)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from codim2_core.scene import Scene
+from codim2_core.systems.coefficients import Coefficients
 
 Fact = str | float | int | bool | tuple[str, ...] | None
 
@@ -42,6 +43,21 @@ def _slow(scene: Scene) -> float | None:
     return float(C.slow_flow[0]) if C is not None and len(C.slow_flow) else None
 
 
+def _fastest(scene: Scene) -> float | None:
+    return max((float(C.slow_flow[0]) for C in scene["critical"] if _slides(C)), default=None)
+
+
+def _slides(C: Any) -> bool:
+    return C.kind.startswith("stable") and len(C.slow_flow) > 0
+
+
+def _force_ratio(scene: Scene) -> float | None:
+    at = scene.coefficients
+    if not isinstance(at, Coefficients) or at.a * at.d + at.b * at.b == 0.0:
+        return None
+    return float(np.hypot(*np.linalg.solve(at.A, at.f)))
+
+
 def _equator(scene: Scene) -> str:
     if scene["equator"].all_directions:
         return "every direction"
@@ -55,35 +71,51 @@ def _verdicts(scene: Scene) -> tuple[str, ...]:
     return tuple(sorted({outcome.verdict for outcome in scene["outcomes"]}))
 
 
-#: Every fact: what it says (for the authors of lessons), and how it is read off a scene.
-FACTS: dict[str, tuple[str, Callable[[Scene], Fact]]] = {
-    "case": ("the case of the e-linear system: I, II, III, or None", lambda s: s["classification"].case),
-    "name": ("the name of the portrait, such as CM4", lambda s: s["classification"].name),
+#: Every fact: how a student reads it, what it says (for the authors of lessons), and how it is read off a scene.
+FACTS: dict[str, tuple[str, str, Callable[[Scene], Fact]]] = {
+    "case": ("case", "the case of the e-linear system: I, II, III, or None", lambda s: s["classification"].case),
+    "name": ("portrait", "the name of the portrait, such as CM4", lambda s: s["classification"].name),
     "degenerate": (
+        "degenerate",
         "names of what a small change would destroy",
         lambda s: tuple(item.name for item in s["classification"].degeneracies),
     ),
-    "limit_directions": ("number of limit directions", lambda s: len(s["equator"].theta)),
-    "equator": ("limit directions, every direction, attracting, repelling, neutral (a closed orbit)", _equator),
-    "arriving": ("limit directions with λ_ρ < 0", lambda s: _count(s["equator"].lambda_rho < 0.0)),
-    "leaving": ("limit directions with λ_ρ > 0", lambda s: _count(s["equator"].lambda_rho > 0.0)),
-    "angularly_attracting": ("limit directions with λ_θ < 0", lambda s: _count(s["equator"].lambda_theta < 0.0)),
+    "limit_directions": ("limit directions", "number of limit directions", lambda s: len(s["equator"].theta)),
+    "equator": (
+        "equator",
+        "limit directions, every direction, attracting, repelling, neutral (a closed orbit)",
+        _equator,
+    ),
+    "arriving": ("with λ_ρ < 0", "limit directions with λ_ρ < 0", lambda s: _count(s["equator"].lambda_rho < 0.0)),
+    "leaving": ("with λ_ρ > 0", "limit directions with λ_ρ > 0", lambda s: _count(s["equator"].lambda_rho > 0.0)),
+    "angularly_attracting": (
+        "with λ_θ < 0",
+        "limit directions with λ_θ < 0",
+        lambda s: _count(s["equator"].lambda_theta < 0.0),
+    ),
     "along_an_open_set": (
+        "with both negative",
         "limit directions along which an open set of trajectories arrives",
         lambda s: _count((s["equator"].lambda_rho < 0.0) & (s["equator"].lambda_theta < 0.0)),
     ),
-    "critical_sets": ("number of critical sets", lambda s: len(s["critical"])),
-    "stable": ("number of stable critical sets", lambda s: _kinds(s, "stable")),
-    "unstable": ("number of unstable nodes and foci", lambda s: _kinds(s, "unstable")),
-    "saddles": ("number of critical sets that are saddles", lambda s: _kinds(s, "saddle")),
-    "kind": ("the kind of the only critical set", _of_only(lambda C: C.kind)),
-    "trace": ("tr J of the only critical set", _of_only(lambda C: float(C.trace))),
-    "determinant": ("det J of the only critical set", _of_only(lambda C: float(C.determinant))),
-    "radius": ("|e| of the only critical set", _of_only(lambda C: float(np.hypot(*C.e)))),
-    "slow_flow": ("z' on the only critical set", _slow),
-    "cycles": ("number of limit cycles found", lambda s: len(s["cycles"])),
-    "stable_cycles": ("number of stable limit cycles found", lambda s: sum(bool(c.stable) for c in s["cycles"])),
-    "verdicts": ("what becomes of approaches: slide, cycle, cross, misses, undecided", _verdicts),
+    "critical_sets": ("critical sets", "number of critical sets", lambda s: len(s["critical"])),
+    "stable": ("stable critical sets", "number of stable critical sets", lambda s: _kinds(s, "stable")),
+    "unstable": ("unstable nodes and foci", "number of unstable nodes and foci", lambda s: _kinds(s, "unstable")),
+    "saddles": ("saddles", "number of critical sets that are saddles", lambda s: _kinds(s, "saddle")),
+    "kind": ("kind of C", "the kind of the only critical set", _of_only(lambda C: C.kind)),
+    "trace": ("tr J", "tr J of the only critical set", _of_only(lambda C: float(C.trace))),
+    "determinant": ("det J", "det J of the only critical set", _of_only(lambda C: float(C.determinant))),
+    "radius": ("|e| on C", "|e| of the only critical set", _of_only(lambda C: float(np.hypot(*C.e)))),
+    "slow_flow": ("z′ on C", "z' on the only critical set", _slow),
+    "fastest": ("fastest z′ of stable sliding", "the largest z' on a stable critical set", _fastest),
+    "force_ratio": ("|A⁻¹f|", "|A^-1 f| of the e-linear system: it slides below 1", _force_ratio),
+    "cycles": ("limit cycles", "number of limit cycles found", lambda s: len(s["cycles"])),
+    "stable_cycles": (
+        "stable limit cycles",
+        "number of stable limit cycles found",
+        lambda s: sum(bool(c.stable) for c in s["cycles"]),
+    ),
+    "verdicts": ("approaches", "what becomes of approaches: slide, cycle, cross, misses, undecided", _verdicts),
 }
 KNOWN = frozenset(FACTS)
 #: Facts that need compiled trajectories.
@@ -99,4 +131,4 @@ def facts_of(scene: Scene, names: Iterable[str]) -> dict[str, Fact]:
     names : iterable of str
         Keys of `FACTS`.
     """
-    return {name: FACTS[name][1](scene) for name in sorted(set(names))}
+    return {name: FACTS[name][2](scene) for name in sorted(set(names))}

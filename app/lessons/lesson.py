@@ -30,10 +30,11 @@ class Prose:
 
 @dataclass(frozen=True)
 class Option:
-    """One possible answer: its words, and when it is the right one."""
+    """One possible answer: its words, when it is the right one, and why it is wrong where it is ("" says nothing)."""
 
     html: str
     when: FactCondition
+    wrong: str = ""
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,10 @@ class Question:
     html : str
         What is asked about the system on the sliders.
     options : tuple of Option
-        Exactly one is right at every setting that `require` admits; which one, the scene decides.
+        Exactly one is right at every setting that `require` admits; which one, the scene decides. Where a place is to
+        be marked there may be one, that there is none.
+    mark : str
+        What is to be marked on the picture, a key of `marks.MARKS`; "" where an option is to be chosen.
     explain : str
         HTML, shown once an answer is given; ``{limit_directions}`` stands for a fact.
     draw : mapping
@@ -75,13 +79,14 @@ class Question:
     hide: tuple[str, ...] = ()
     hint: str = ""
     vary: Vary | None = None
+    mark: str = ""
 
     @property
     def facts(self) -> frozenset[str]:
         """Names of the facts that answering and explaining it needs."""
         needed = set(fields(self.explain))
         for option in self.options:
-            needed |= option.when.names
+            needed |= option.when.names | set(fields(option.wrong))
         if self.vary is not None:
             needed |= self.vary.goal.names
         return frozenset(needed)

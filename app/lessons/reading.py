@@ -17,11 +17,12 @@ from .condition import FactCondition, condition
 from .facts import COMPILED, KNOWN
 from .lesson import Lesson, Option, Prose, Question, Vary, portrait_of
 from .markdown import LinkError, button, draggable, inline, live, parser, rendered
+from .marks import MARKS
 from .words import fields
 
 HEAD = frozenset({"title", "summary", "portrait", "set"})
-OF_QUESTION = frozenset({"ask", "options", "explain", "draw", "require", "hide", "hint", "vary"})
-OF_OPTION = frozenset({"say", "when"})
+OF_QUESTION = frozenset({"ask", "options", "mark", "explain", "draw", "require", "hide", "hint", "vary"})
+OF_OPTION = frozenset({"say", "when", "wrong"})
 OF_VARY = frozenset({"say", "goal", "hint"})
 
 
@@ -143,20 +144,18 @@ def _keys(path: Path, line: int, found: Any, known: frozenset[str], needed: tupl
 
 
 def _question(path: Path, line: int, text: str) -> Question:
-    found = _mapping(path, line, text, OF_QUESTION, ("ask", "options", "explain"))
-    options = found["options"]
-    if not isinstance(options, list) or len(options) < 2:
-        raise LessonError(path, line, "options: give two or more, each with say: and when:.")
-    made = []
-    for option in options:
-        words = _keys(path, line, option, OF_OPTION, ("say", "when"))
-        made.append(Option(_line(path, line, words["say"]), _condition(path, line, words["when"])))
+    found = _mapping(path, line, text, OF_QUESTION, ("ask", "explain"))
+    mark, options = found.get("mark") or "", found.get("options") or []
+    if mark and mark not in MARKS:
+        raise LessonError(path, line, f"mark: no {mark!r}; on the picture can be marked {', '.join(MARKS)}.")
+    if not isinstance(options, list) or (len(options) > 1 if mark else len(options) < 2):
+        few = "at most one, that there is none," if mark else "two or more, or mark:,"
+        raise LessonError(path, line, f"options: give {few} each with say: and when:.")
+    made = [_option(path, line, option) for option in options]
     hide = tuple(found.get("hide") or ())
     if unknown := [layer for layer in hide if layer not in LAYERS]:
         raise LessonError(path, line, f"hide: no layer {unknown[0]!r}; they are {', '.join(LAYERS)}.")
-    explain = _line(path, line, found["explain"])
-    if unknown := [name for name in fields(explain) if name not in KNOWN]:
-        raise LessonError(path, line, f"explain: no fact {unknown[0]!r}; facts are {', '.join(sorted(KNOWN))}.")
+    explain = _explained(path, line, "explain", found["explain"])
     require = found.get("require")
     return Question(
         html=_line(path, line, found["ask"]),
@@ -167,7 +166,22 @@ def _question(path: Path, line: int, text: str) -> Question:
         hide=hide,
         hint=_line(path, line, found.get("hint") or ""),
         vary=_vary(path, line, found["vary"]) if found.get("vary") else None,
+        mark=mark,
     )
+
+
+def _option(path: Path, line: int, given: Any) -> Option:
+    words = _keys(path, line, given, OF_OPTION, ("say", "when"))
+    wrong = _explained(path, line, "wrong", words.get("wrong") or "")
+    return Option(_line(path, line, words["say"]), _condition(path, line, words["when"]), wrong)
+
+
+def _explained(path: Path, line: int, key: str, text: Any) -> str:
+    """Return the HTML of words with facts in them."""
+    html = _line(path, line, text)
+    if unknown := [name for name in fields(html) if name not in KNOWN]:
+        raise LessonError(path, line, f"{key}: no fact {unknown[0]!r}; facts are {', '.join(sorted(KNOWN))}.")
+    return html
 
 
 def _vary(path: Path, line: int, found: Any) -> Vary:

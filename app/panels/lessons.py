@@ -7,21 +7,25 @@ from typing import Any, NamedTuple
 from codim2_core.scene import Scene
 
 from ..frame.draft import Draft
-from ..lessons.asking import judge, pose, reached
+from ..lessons.asking import judge, pose, reached, stands
 from ..lessons.facts import COMPILED, facts_of
 from ..lessons.lesson import Lesson, Prose, Question, portrait_of
 from ..lessons.library import lessons
+from ..lessons.marks import Point
 from ..lessons.words import filled
 from ..state.controls import ExplorerState
 from .panel import Panel
 
+#: From the middle of the picture, as far as a mark may be.
+FAR = 4.0
+
 
 class Quiz(NamedTuple):
-    """Which question is open, the seed of its system, and the chosen option (None before there is one)."""
+    """Which question is open, the seed of its system, and the answer: an option, or the point that is marked."""
 
     question: int
     seed: int
-    choice: int | None
+    answer: int | Point | None
 
 
 def add(draft: Draft) -> None:
@@ -41,17 +45,23 @@ def add(draft: Draft) -> None:
 
 
 def read_quiz(text: str, lesson: Lesson) -> Quiz | None:
-    """Return the quiz written as QUESTION.SEED or QUESTION.SEED.CHOICE; None if the lesson has no such question."""
+    """Return the quiz written as QUESTION.SEED, QUESTION.SEED.CHOICE or QUESTION.SEED.X.Y; None if there is none such.
+
+    X and Y are a point of the picture in thousandths, counted from (-`FAR`, -`FAR`): a link has no signs.
+    """
     parts = text.split(".")
-    if len(parts) not in (2, 3) or not all(part.isascii() and part.isdigit() and len(part) < 10 for part in parts):
+    if not 2 <= len(parts) <= 4 or not all(part.isascii() and part.isdigit() and len(part) < 10 for part in parts):
         return None
     question, seed, *rest = map(int, parts)
-    choice = rest[0] if rest else None
     if question >= len(lesson.questions):
         return None
-    if choice is not None and choice >= len(lesson.questions[question].options):
+    asked = lesson.questions[question]
+    if len(rest) == 2:
+        x, y = (v / 1000 - FAR for v in rest)
+        return Quiz(question, seed, (x, y)) if asked.mark and max(abs(x), abs(y)) <= FAR else None
+    if rest and rest[0] >= len(asked.options):
         return None
-    return Quiz(question, seed, choice)
+    return Quiz(question, seed, rest[0] if rest else None)
 
 
 def opening_values(lesson: Lesson) -> dict[str, Any]:
@@ -75,6 +85,7 @@ def _part(part: Prose | Question) -> dict[str, Any]:
     return {
         "ask": part.html,
         "options": [option.html for option in part.options],
+        "mark": bool(part.mark),
         "hint": part.hint,
         "hide": list(part.hide),
         "vary": None if part.vary is None else {"html": part.vary.html, "hint": part.vary.hint},
@@ -92,21 +103,23 @@ def _add_facts(draft: Draft, lesson: Lesson) -> None:
 def _add_quiz(draft: Draft, lesson: Lesson, quiz: Quiz) -> None:
     question = lesson.questions[quiz.question]
     key = (lesson.key, *quiz)
-    if quiz.choice is None:
+    answer = quiz.answer
+    if answer is None:
         drawn = draft.slow("pose", key, _posed, lesson, question, quiz.seed)
         if drawn is not None:
             draft.header["pose"] = {"question": quiz.question, "values": drawn}
         return
     if draft.now.get("judged") != key:  # an answer is judged once; what moves after it is another system
-        scene, choice = draft.scene, quiz.choice
+        scene = draft.scene
         there = (*key, *scene.key("plane", "slow", "psi"))
-        said = draft.slow("judgement", there, _judged, question, scene, choice)
+        said = draft.slow("judgement", there, _judged, question, scene, answer)
         if said is not None:
             draft.now["judged"] = key
             draft.now["answered"] = (lesson.key, quiz.question, said["right"])
             draft.header["judged"] = {"question": quiz.question, **said}
     if question.vary is not None and (draft.ready or not question.vary.goal.names & COMPILED):
-        draft.header["goal"] = {"question": quiz.question, "reached": reached(question, draft.scene)}
+        now = stands(question, draft.scene)
+        draft.header["goal"] = {"question": quiz.question, "reached": reached(question, draft.scene), "now": now}
 
 
 def _posed(lesson: Lesson, question: Question, seed: int) -> dict[str, Any]:
@@ -116,9 +129,9 @@ def _posed(lesson: Lesson, question: Question, seed: int) -> dict[str, Any]:
     return {**lesson.values, **portrait_of(drawn.get("preset")), **drawn}
 
 
-def _judged(question: Question, scene: Scene, choice: int) -> dict[str, Any]:
+def _judged(question: Question, scene: Scene, answer: int | Point) -> dict[str, Any]:
     """Judge an answer in a scene of its own, without what others compute meanwhile: jobs run beside the frames."""
-    return judge(question, Scene(scene.system, scene.psi, scene.z), choice)
+    return judge(question, Scene(scene.system, scene.psi, scene.z), answer)
 
 
 PANEL = Panel("lessons", "Lessons", add, "A course through the paper, with questions that the present system answers.")

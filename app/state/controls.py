@@ -97,7 +97,7 @@ class ExplorerState(param.Parameterized):
         default="hide", objects=["hide", "show"], label="ε > 0", doc="The motion for ε > 0 beside that orbit."
     )
     lesson = param.String("", label="Lesson", doc="The lesson that is open.")
-    quiz = param.String("", label="Question", doc="QUESTION.SEED or QUESTION.SEED.ANSWER of the open lesson.")
+    quiz = param.String("", label="Question", doc="QUESTION.SEED or QUESTION.SEED.ANSWER of the lesson; a mark is X.Y.")
     t_end = _number(8.0, 0, 40, "until t", "How long a motion is followed.")
     ranges = param.Dict({}, label="Ranges", doc="Ranges of sliders, by name: [low, high].")
     beside = param.String(

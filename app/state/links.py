@@ -93,7 +93,7 @@ def read_link(query: str | Mapping[str, str]) -> Link:
     ----------
     query : str or mapping
         ``v`` is the version; ``s`` holds a whole query squeezed (deflate, base64), over which the others stand;
-        ``seen``, ``embed``, ``controls``, ``beamer`` and ``room`` are of the page; all else are values of controls.
+        ``seen``, ``embed``, ``controls``, ``beamer``, ``room`` and ``done`` are of the page; all else are values of controls.
 
     Returns
     -------
@@ -107,7 +107,11 @@ def read_link(query: str | Mapping[str, str]) -> Link:
             given = {**dict(parse_qsl(unsqueezed(given.pop("s")), keep_blank_values=True)), **given}
         except ValueError as error:
             errors.append(InputError("", str(error)))
-    given.pop("room", None)  # the page enters it: see static/room
+    for name in (
+        "room",
+        "done",
+    ):  # the page enters it, adds it to what is done: see static/room and static/panels/lessons.js
+        given.pop(name, None)
     first = _first(given.pop("v", ""), errors)
     look = _look(given, errors)
     for (name, text), now in SAID_BEFORE.items():

@@ -14,6 +14,13 @@ export function say(element, text) {
   if (element.textContent !== text) element.textContent = text
 }
 
+/** Copy what a box holds. @param {any} box */
+export async function copied(box) {
+  box.select()
+  // the clipboard is there on https and localhost only; the older way works on a lecturer's plain LAN address
+  try { await navigator.clipboard.writeText(box.value) } catch { document.execCommand("copy") }
+}
+
 const above = (/** @type {any} */ it) => it.parentElement ?? it.getRootNode().host
 
 /** Whether an element stands on something dark: the first background around it, if that is named by red, green and blue. */

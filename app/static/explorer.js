@@ -187,6 +187,17 @@ export class Explorer {
   // And say of which portrait they are.
   put(wanted) { this.setAll(wanted); this.portraits.tell() }
 
+  // A question of a lesson waits for its answer, or none does.
+  ask(question) {
+    const hidden = question?.hide ?? []
+    this.root.classList.toggle("asked", Boolean(question))
+    this.hands.marks = question?.mark ?? null
+    this.root.classList.toggle("marking", Boolean(question?.mark))
+    if (String(hidden) === String(this.hidden)) return
+    this.hidden = hidden
+    this.showLayers()
+  }
+
   // A portrait is every value, as is the first setting: nothing is left over from what was open before.
   open(wanted) {
     this.forget()

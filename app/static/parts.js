@@ -26,7 +26,8 @@ export function panelsOf(explorer) {
     follow: (name, set) => { setters[name] = set },
     trace: (paths, place) => explorer.picture.trace(paths, place),
     open: (wanted) => explorer.put(wanted),
-    hide: (layers) => { explorer.hidden = layers; explorer.showLayers() },
+    ask: (question) => explorer.ask(question),
+    cross: (place) => explorer.picture.cross(place),
     crowd: () => explorer.room?.rows ?? null, first: config.defaults, setting: config.setting, families: config.families,
     parameters: () => explorer.systems.all(),
   }, (name) => explorer.choose("panel", name))

@@ -67,6 +67,8 @@ export const SAYS = {
   removed: "Removed:",
   putBack: "Put back",
   orbit: "Launched orbit",
+  carried: "Copied: opened in another browser, it adds what you have done to what was done there.",
+  aim: "Click or tap the place in the picture; or move the cross with the arrow keys and press Enter.",
   cycles: "Limit cycle",
   separatrices: "Separatrix",
   basinUndecided: "undecided",

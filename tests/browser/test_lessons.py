@@ -13,22 +13,35 @@ def test_a_lesson_from_the_list_to_its_goal(open_page):
     explorer.settle()
     assert explorer.find(".lesson-text math").count() > 5
     assert explorer.find("[data-fact=limit_directions]").first.text_content() == "4"
-    explorer.find(".begin").click()
-    explorer.find(".options").wait_for()
+    predict, mark = (explorer.find(f"[data-question='{i}']") for i in (0, 1))
+    predict.locator(".begin").click()
+    predict.locator(".options").wait_for()
     explorer.settle()
-    count = int(explorer.find("[data-fact=limit_directions]").first.text_content())
-    explorer.find(f"[data-choice='{count // 2}']").click()
-    explorer.find(".verdict b").wait_for()
-    assert explorer.find(".verdict b").text_content() == "Right."
+    assert explorer.find("[data-fact=limit_directions]").first.text_content() == "?"
+    assert not explorer.find(".portrait-name").is_visible()
+    count = int(explorer.name()[-1])  # CM4
+    predict.locator(f"[data-choice='{count // 2}']").click()
+    predict.locator(".verdict b").wait_for()
+    assert predict.locator(".verdict b").text_content() == "Right."
+    assert explorer.find(".portrait-name").is_visible()
+    predict.locator(".vary .clue summary").click()
+    assert predict.locator(".vary .clue p").is_visible()
     for name, value in {"a": -0.3, "b": 0, "d": -1, "f1": 0.5, "f2": 0}.items():
         explorer.type(name, str(value))
     assert explorer.name() == "NCM4"
-    assert explorer.find(".goal").text_content() == "Done ✓"
+    assert predict.locator(".goal").text_content() == "Done ✓"
+    mark.locator(".begin").click()
+    mark.locator(".options").wait_for()
+    explorer.settle()
+    box = explorer.find(".bokeh").bounding_box()
+    explorer.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)  # it has no angle
+    mark.locator(".verdict b").wait_for()
+    assert mark.locator(".verdict").text_content().startswith("Not so. Your mark is 1.00 radii")
     kept = json.loads(explorer.page.evaluate("localStorage.getItem('codim2-lessons')"))
     assert kept == {"03-limit-directions": {"0": ["answer", "goal"]}}
     explorer.find("[data-open='']").click()
     explorer.settle()
-    assert explorer.find("[data-open='03-limit-directions'] .lesson-done").text_content() == "✓"
+    assert explorer.find("[data-open='03-limit-directions'] .lesson-done").text_content() == "1/2"
     assert explorer.complaints == []
 
 

@@ -238,6 +238,8 @@ ELSEWHERE = {
     "stopped": "tests/app/frame/test_turns.py",
     "stopped after": "tests/app/frame/test_workers.py",
     "lost": "tests/app/frame/test_turns.py",
+    "no such place": "tests/app/lessons/test_lessons.py",
+    "mark away": "tests/app/lessons/test_lessons.py",
     "film stopped": "tests/app/view/test_taking.py",
     "compiling": "tests/app/view/test_notebook.py",
     "axis given": "tests/app/panels/parameters/test_axes.py",

@@ -22,7 +22,10 @@
  * @property {string[]} setting names of the controls that say what is drawn
  * @property {Record<string, any>} families of Psi
  * @property {() => Record<string, number>} parameters of the present system, all of them
- * @property {(layers: string[]) => void} hide layers of the picture while a question is open; none shows all again
+ * @property {(question: {hide: string[], mark: ((place: {x: number, y: number}) => void) | null} | null) => void} ask a
+ *   question: layers and words that would tell its answer are hidden, and `mark` is called for a click on the picture; null
+ *   shows all again
+ * @property {(place: {x: number, y: number, right?: boolean} | null) => void} cross a place of the picture, or none
  */
 
 /**

@@ -21,6 +21,8 @@ export class Hands {
     this.objects = objects
     this.held = null // {id, i}: the pointer that holds an orbit's start
     this.tap = null // {id, x, y, since, one}: a pointer that may be lifted where it came down; `one` is the object there
+    /** @type {((place: {x: number, y: number}) => void) | null} */
+    this.marks = null // is called with a place that is clicked, while a question asks for one: nothing is launched then
     const on = (kind, call) => element.addEventListener(kind, call, {capture: true})
     on("pointerdown", (event) => this.down(event, element))
     on("pointermove", (event) => this.move(event))
@@ -31,6 +33,13 @@ export class Hands {
     if (event.button !== 0 || event.shiftKey || event.ctrlKey || event.metaKey || !event.isPrimary) { this.tap = null; return }
     const place = this.picture.at(event.clientX, event.clientY)
     if (!place) return
+    if (this.marks) {
+      this.tap = {id: event.pointerId, x: event.clientX, y: event.clientY, since: event.timeStamp, one: null}
+      if (event.pointerType === "touch") return
+      event.preventDefault()
+      event.stopPropagation()
+      return
+    }
     const launches = readLaunches(this.orbits.get())
     const i = nearest(launches, place.x, place.y, REACH[event.pointerType] * place.unit)
     const one = i < 0 ? this.objects.under(event) : null
@@ -79,9 +88,10 @@ export class Hands {
       if (done && near) this.objects.toggle(tap.one)
       return
     }
-    const still = near && event.timeStamp - tap.since <= TAP
+    const still = near && (event.timeStamp - tap.since <= TAP || this.marks !== null)
     const place = done && still ? this.picture.at(event.clientX, event.clientY) : null
     if (!place) return
+    if (this.marks) { this.marks(place); return }
     const launches = launchedAt(readLaunches(this.orbits.get()), place.x, place.y)
     this.orbits.begin(launches.length - 1)
     this.orbits.set(writeLaunches(launches))

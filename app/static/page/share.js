@@ -1,5 +1,6 @@
 // The dialog "Share": the link of the present view, its QR code for the phones in the room, and a frame for another page.
 
+import {copied} from "../dom.js"
 import {squeezed} from "./links.js"
 import {SAYS, escape} from "../words.js"
 
@@ -76,9 +77,7 @@ export class Share {
     for (const button of /** @type {NodeListOf<HTMLElement>} */ (this.dialog.querySelectorAll("[data-copies]"))) {
       button.addEventListener("click", async () => {
         const box = this.find(`.${button.dataset.copies}`)
-        box.select()
-        // the clipboard is there on https and localhost only; the older way works on a lecturer's plain LAN address
-        try { await navigator.clipboard.writeText(box.value) } catch { document.execCommand("copy") }
+        await copied(box)
         this.find(".told").textContent = "Copied."
       })
     }

@@ -1,10 +1,13 @@
 // The panel "Lessons": the course as a list, or one lesson: text with live numbers, and questions in four steps.
 
 import {register} from "../beside/panels.js"
-import {progressOf, withStep} from "../beside/progress.js"
-import {escape, lowered, plain} from "../words.js"
+import {joined, packed, progressOf, unpacked, withStep} from "../beside/progress.js"
+import {copied, put} from "../dom.js"
+import {SAYS, escape, formula, lowered, plain} from "../words.js"
 
 const STORE = "codim2-lessons"
+const FAR = 4, STEP = 0.05 // from the middle, a mark is nearer; as far does the cross go with one key
+const WAYS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}
 
 class Lessons {
   constructor(box, tools) {
@@ -12,14 +15,17 @@ class Lessons {
     this.tools = tools
     this.lesson = null
     this.facts = {}
-    this.posed = this.judged = this.goal = null
+    this.asked = "" // which question waits for its answer, as in a link
+    this.aimed = null // where the arrow keys have moved the cross
+    const brought = new URLSearchParams(globalThis.location?.search).get("done")
+    if (brought) this.store(joined(this.progress(), unpacked(brought)))
     box.addEventListener("click", (event) => this.click(event))
     box.addEventListener("pointerdown", (event) => this.grab(event))
     box.addEventListener("keydown", (event) => this.key(event))
   }
 
   apply({header}) {
-    if (header.lesson) { this.lesson = header.lesson; this.posed = this.judged = this.goal = null; this.show() }
+    if (header.lesson) { this.lesson = header.lesson; this.show() }
     if (header.facts) { this.facts = header.facts; this.showFacts() }
     if (header.pose) this.pose(header.pose)
     if (header.judged) this.judge(header.judged)
@@ -27,18 +33,24 @@ class Lessons {
     if (header.unable?.pose) this.say(header.unable.pose)
   }
 
-  draw() { this.showNumbers() }
-  close() { this.tools.hide([]) }
+  draw() {
+    this.showNumbers()
+    this.asks()
+  }
+
+  close() { this.ask() }
 
   // --- the two views
   show() {
     const {lesson} = this
     this.box.innerHTML = lesson.key ? this.page(lesson) : this.list(lesson.list)
-    this.tools.hide([])
+    this.ask()
+    this.tools.cross(null)
     this.box.scrollTop = 0
-    this.showFacts(); this.showNumbers()
-    const quiz = this.tools.values.quiz
+    this.showNumbers()
+    const {quiz} = this.tools.values
     if (quiz) this.openQuestion(Number(quiz.split(".")[0]))
+    this.showFacts()
   }
 
   list(entries) {
@@ -48,7 +60,7 @@ class Lessons {
       return `<li><button type="button" data-open="${escape(one.key)}" data-values="${escape(JSON.stringify(one.values))}"><b>${escape(one.title)}</b>
         <span class="lesson-done" aria-label="${answered} of ${one.questions} answered">${complete ? "✓" : answered ? `${answered}/${one.questions}` : ""}</span>
         <span class="note">${escape(one.summary)}</span></button></li>`
-    }).join("")}</ol>`
+    }).join("")}</ol><div class="row"><button type="button" class="carry">Copy a link with your progress</button><input type="text" class="text carried-link" readonly aria-label="Link with your progress" hidden></div><p class="note carried" role="status"></p>`
   }
 
   page(lesson) {
@@ -60,10 +72,10 @@ class Lessons {
   card(part, i) {
     return `<section class="question" data-question="${i}"><p class="ask"><b>Predict.</b> ${part.ask}</p>
       <button type="button" class="begin">Ask me</button>
-      <div class="options" role="group" aria-label="Answers" hidden>${part.options.map((words, k) => `<button type="button" data-choice="${k}">${words}</button>`).join("")}</div>
-      ${part.hint ? `<details class="hint"><summary>Hint</summary><p>${part.hint}</p></details>` : ""}
+      <div class="options" role="group" aria-label="Answers" hidden>${part.mark ? `<button type="button" class="aim" title="${SAYS.aim}">Mark it on the picture</button>` : ""}${part.options.map((words, k) => `<button type="button" data-choice="${k}">${words}</button>`).join("")}</div>
+      ${part.hint ? `<details class="clue"><summary>Hint</summary><p>${part.hint}</p></details>` : ""}
       <div class="verdict" role="status" aria-live="polite"></div>
-      ${part.vary ? `<div class="vary" hidden><p><b>Vary.</b> ${part.vary.html} <b class="goal"></b></p>${part.vary.hint ? `<details class="hint"><summary>Hint</summary><p>${part.vary.hint}</p></details>` : ""}</div>` : ""}</section>`
+      ${part.vary ? `<div class="vary" hidden><p><b>Vary.</b> ${part.vary.html} <span class="goal" role="status"></span></p>${part.vary.hint ? `<details class="clue"><summary>Hint</summary><p>${part.vary.hint}</p></details>` : ""}</div>` : ""}</section>`
   }
 
   // --- questions
@@ -71,7 +83,7 @@ class Lessons {
   section(i) { return this.box.querySelector(`[data-question="${i}"]`) }
 
   begin(i) {
-    this.judged = this.goal = null
+    this.aimed = null
     const seed = Math.floor(Math.random() * 1e6)
     this.tools.choose("quiz", `${i}.${seed}`)
     this.openQuestion(i)
@@ -86,38 +98,58 @@ class Lessons {
     const vary = section.querySelector(".vary")
     if (vary) vary.hidden = true
     for (const option of section.querySelectorAll("[data-choice]")) option.classList.remove("right", "wrong")
-    const answered = this.tools.values.quiz.split(".").length > 2
-    if (!answered) this.tools.hide(this.questions()[i].hide)
+    this.tools.cross(null)
+    this.asks()
+  }
+
+  // The question that waits for its answer is asked: what would tell it is hidden, and a click marks a place if it is one.
+  asks() {
+    const {quiz} = this.tools.values, [i, , ...answer] = quiz.split(".")
+    const part = i && !answer.length && this.lesson?.key ? this.questions()[Number(i)] : undefined
+    if (part) this.ask(quiz, {hide: part.hide, mark: part.mark ? (place) => this.mark(Number(i), place) : null})
+    else this.ask()
+  }
+
+  ask(quiz = "", question = null) {
+    if (quiz === this.asked) return
+    this.asked = quiz
+    this.tools.ask(question)
+    this.showFacts()
   }
 
   pose({values}) { this.tools.open(values) }
 
-  answer(i, choice) {
+  answer(i, words) {
     const [question, seed] = this.tools.values.quiz.split(".")
-    if (Number(question) === i) this.tools.choose("quiz", `${i}.${seed}.${choice}`)
+    if (Number(question) === i) this.tools.choose("quiz", `${i}.${seed}.${words}`)
   }
 
-  judge({question: i, right, truth, explain}) {
+  mark(i, place) {
+    if (Math.max(Math.abs(place.x), Math.abs(place.y)) < FAR) this.answer(i, [place.x, place.y].map((v) => Math.round(1000 * (v + FAR))).join("."))
+  }
+
+  judge({question: i, right, truth, why, explain}) {
     const section = this.section(i)
     if (!section) return
-    this.tools.hide([])
+    this.ask()
     section.querySelector(".options").hidden = false
-    const choice = Number(this.tools.values.quiz.split(".")[2])
+    const answer = this.tools.values.quiz.split(".").slice(2).map(Number), choice = answer.length > 1 ? -1 : answer[0]
+    this.tools.cross(answer.length > 1 ? {x: answer[0] / 1000 - FAR, y: answer[1] / 1000 - FAR, right} : null)
     for (const option of section.querySelectorAll("[data-choice]")) {
       const k = Number(option.dataset.choice)
       option.classList.toggle("right", k === truth)
       option.classList.toggle("wrong", k === choice && k !== truth)
     }
-    section.querySelector(".verdict").innerHTML = `<p><b>${right ? "Right." : "Not so."}</b> ${lowered(explain)}</p>`
+    section.querySelector(".verdict").innerHTML = `<p><b>${right ? "Right." : "Not so."}</b> ${lowered([why, explain].filter(Boolean).join(" "))}</p>`
     const vary = section.querySelector(".vary")
     if (vary) vary.hidden = false
     if (right) this.keep(i, "answer")
   }
 
-  showGoal({question: i, reached}) {
+  showGoal({question: i, reached, now}) {
     const goal = this.section(i)?.querySelector(".goal")
     if (!goal) return
-    goal.textContent = reached ? "Done ✓" : ""
+    put(goal, reached ? "<b>Done ✓</b>" : `<b>Not yet.</b> ${formula(`Now ${now}.`)}`)
     if (reached) this.keep(i, "goal")
   }
 
@@ -127,16 +159,26 @@ class Lessons {
     if (verdict) verdict.textContent = sentence
   }
 
-  // --- progress, in this browser only
+  // --- progress: in this browser, and in a link that is asked for
   progress() { try { return JSON.parse(localStorage.getItem(STORE) ?? "{}") } catch { return {} } }
   keep(i, step) {
-    try { localStorage.setItem(STORE, JSON.stringify(withStep(this.progress(), this.lesson.key, i, step))) } catch { /* storage may be forbidden */ }
+    this.store(withStep(this.progress(), this.lesson.key, i, step))
+  }
+
+  store(progress) { try { localStorage.setItem(STORE, JSON.stringify(progress)) } catch { /* storage may be forbidden */ } }
+
+  async carry() {
+    const box = this.box.querySelector(".carried-link")
+    box.value = `${location.origin}${location.pathname}?${new URLSearchParams({panel: "lessons", done: packed(this.progress())})}`
+    box.hidden = false
+    await copied(box)
+    this.box.querySelector(".carried").textContent = SAYS.carried
   }
 
   // --- live numbers
   showFacts() {
     for (const place of this.box.querySelectorAll("[data-fact]")) {
-      const words = this.facts[place.dataset.fact] ?? ""
+      const words = this.asked ? "?" : this.facts[place.dataset.fact] ?? ""
       if (place.textContent !== words) place.textContent = words
     }
   }
@@ -164,12 +206,25 @@ class Lessons {
   }
 
   key(event) {
+    if (event.target.closest(".aim")) { this.aim(event); return }
     const place = event.target.closest("[data-drag]")
     const sense = {ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1}[event.key]
     if (!place || !sense) return
     event.preventDefault()
     const name = place.dataset.drag, [low, high] = this.tools.rangeOf(name)
     this.tools.move({[name]: Number((this.tools.valueOf(name) + sense * (high - low) / 200).toFixed(2))})
+  }
+
+  // Arrow keys move a cross over the picture, Enter marks where it is.
+  aim(event) {
+    const way = WAYS[event.key]
+    if (!way && event.key !== "Enter" || !this.asked) return
+    event.preventDefault()
+    const [x, y] = this.aimed ?? [0, 0], step = event.shiftKey ? 4 * STEP : STEP
+    if (way) {
+      this.aimed = [x + way[0] * step, y + way[1] * step]
+      this.tools.cross({x: this.aimed[0], y: this.aimed[1]})
+    } else this.mark(Number(event.target.closest("[data-question]").dataset.question), {x, y})
   }
 
   click(event) {
@@ -182,7 +237,9 @@ class Lessons {
       else { this.tools.choose("quiz", ""); this.tools.choose("lesson", "") }
     } else if ("set" in button.dataset) this.tools.open({...JSON.parse(button.dataset.set), panel: "lessons"})
     else if ("choice" in button.dataset) this.answer(i, Number(button.dataset.choice))
+    else if (button.classList.contains("carry")) this.carry()
     else if (button.classList.contains("begin")) this.begin(i)
+    else if (button.classList.contains("aim")) this.section(i).querySelector(".verdict").textContent = SAYS.aim
   }
 }
 

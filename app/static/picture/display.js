@@ -48,6 +48,16 @@ export function traceList(parts, paths, place, theme) {
   return list
 }
 
+/** A place that a student has marked. @param {{x: number, y: number, right?: boolean} | null} place @param {Record<string, string>} theme */
+export function crossList(place, theme) {
+  if (!place) return []
+  const {x, y, right} = place, colour = right === undefined ? theme.accent : right ? theme.attr : theme.rep
+  return [
+    {kind: "ring", layer: "crossed", x, y, radius: 15, colour, width: 2.4},
+    {kind: "mark", layer: "crossed", shape: "x", x, y, size: 14, width: 3, colour, fill: colour},
+  ]
+}
+
 // Where each launched orbit starts: what a hand can take hold of.
 function starts({x, y}, theme, parts) {
   return x.map((_, i) => ({kind: "mark", layer: "launched", shape: "circle", x: x[i], y: y[i], size: 11, width: 2.4, colour: theme.page, fill: theme[parts[i % parts.length].colour]}))

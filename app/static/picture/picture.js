@@ -1,7 +1,7 @@
 // The picture: keeps the newest of what the frames bring, and draws it in the task that brings it.
 
 import {enlarged} from "../page/beamer.js"
-import {displayList, traceList} from "./display.js"
+import {crossList, displayList, traceList} from "./display.js"
 import {makeRenderer, repaint} from "./painter.js"
 
 const DRAWN = ["launched", "equator", "critical", "sense", "all_directions", "outcomes", "basins"] // entries of a frame's header
@@ -19,6 +19,7 @@ export class Picture {
     this.parts = new Set(["basins", ...layers.flatMap((layer) => layer.parts.map((part) => part.name))])
     this.paths = this.place = null
     this.pointed = []
+    this.crossed = /** @type {{x: number, y: number, right?: boolean} | null} */ (null)
     this.times = 1 // as large are letters, marks and lines
     this.drawn = makeRenderer("glyph")
     this.above = makeRenderer("overlay")
@@ -75,7 +76,7 @@ export class Picture {
   }
 
   drawTrace() {
-    this.above.list = enlarged([...this.pointed, ...traceList(this.traces, this.paths, this.place, this.state.theme)], this.times)
+    this.above.list = enlarged([...this.pointed, ...crossList(this.crossed, this.state.theme), ...traceList(this.traces, this.paths, this.place, this.state.theme)], this.times)
     repaint(this.above)
   }
 
@@ -91,6 +92,13 @@ export class Picture {
   point(list) {
     if (!list.length && !this.pointed.length) return
     this.pointed = list
+    this.drawTrace()
+  }
+
+  // What a student has marked, and whether it is right where that is known; null clears it.
+  cross(place) {
+    if (!place && !this.crossed) return
+    this.crossed = place
     this.drawTrace()
   }
 

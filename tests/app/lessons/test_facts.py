@@ -37,4 +37,4 @@ def test_only_what_is_asked_for_is_computed():
 
 
 def test_every_fact_has_words_for_authors():
-    assert all(len(words) > 5 for words, _ in FACTS.values())
+    assert all(label and len(words) > 5 for label, words, _ in FACTS.values())

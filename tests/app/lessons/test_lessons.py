@@ -1,12 +1,15 @@
 """The course, file by file: everything in it can be opened, drawn, answered and reached."""
 
 import json
+import math
 import re
 
 import pytest
 from codim2_app.frame.scenes import make_scene
-from codim2_app.lessons.asking import judge, pose, reached
+from codim2_app.lessons.asking import judge, pose, reached, right_option, stands
+from codim2_app.lessons.facts import facts_of
 from codim2_app.lessons.library import TEXT, built_in, from_folder
+from codim2_app.lessons.marks import MARKS, NEAR, gap
 from codim2_app.lessons.reading import LessonError, read_lesson
 from codim2_app.state.controls import ExplorerState, preset_values
 
@@ -35,19 +38,58 @@ def test_a_lesson_opens_on_a_picture(key):
 
 
 @pytest.mark.parametrize(("key", "i"), QUESTIONS)
-def test_exactly_one_option_is_right_whatever_is_drawn(key, i):
+def test_exactly_one_answer_is_right_whatever_is_drawn(key, i):
     lesson = COURSE[key]
     question = lesson.questions[i]
     for seed in range(8):
         drawn = pose(question, values_of(lesson, {}), seed)
         assert drawn == pose(question, values_of(lesson, {}), seed)
         scene = make_scene(values_of(lesson, drawn))
-        said = judge(question, scene, 0)
-        assert said["truth"] is not None, (seed, drawn)
-        assert judge(question, scene, said["truth"])["right"]
-        assert not judge(question, scene, (said["truth"] + 1) % len(question.options))["right"]
-        assert "{" not in said["explain"]
         assert not reached(question, scene)
+        answers = [*range(len(question.options)), *there(question, scene)]
+        right = [answer for answer in answers if judge(question, scene, answer)["right"]]
+        assert right, (seed, drawn)
+        assert right == there(question, scene) or len(right) == 1, (seed, drawn)
+        for answer in answers:
+            said = judge(question, scene, answer)
+            assert "{" not in said["explain"] + said["why"]
+            assert bool(said["why"]) is not said["right"]  # who is wrong is told why
+
+
+def there(question, scene):
+    return MARKS[question.mark][1](scene) if question.mark else []
+
+
+def test_a_mark_is_right_near_its_place_and_told_how_far_it_is():
+    question = COURSE["04-sliding"].questions[0]
+    scene = make_scene(values_of(COURSE["04-sliding"], {"a": -1.0, "d": -1.0, "b": 0.0, "f1": 0.5, "f2": 0.0}))
+    assert judge(question, scene, (0.5 + NEAR - 0.01, 0.0))["right"]
+    far = judge(question, scene, (0.5, 0.41))
+    assert (far["right"], far["why"]) == (False, "Your mark is 0.41 radii of the disc from it.")
+    assert judge(question, scene, 0)["why"]  # there is one
+    none = make_scene(values_of(COURSE["04-sliding"], {"a": -1.0, "d": -1.0, "b": 0.0, "f1": 1.5, "f2": 0.0}))
+    assert judge(question, none, 0)["right"]
+    assert judge(question, none, (0.0, 0.0))["why"] == "There is none here."
+
+
+def test_a_mark_beside_the_equator_counts_by_its_angle():
+    scene = make_scene(
+        values_of(COURSE["03-limit-directions"], {"f1": -0.5, "a": -2.0, "b": 0.0, "d": -1.0, "f2": 0.0})
+    )
+    angle = 2 * math.pi / 3  # Q2: both eigenvalues are negative
+    for radius in (0.5, 1.0, 1.7):
+        place = (radius * math.cos(angle), radius * math.sin(angle))
+        assert gap("along_an_open_set", scene, place) == pytest.approx(0.0, abs=1e-12)
+    assert gap("limit_directions", scene, (1.0, 0.0)) == pytest.approx(0.0, abs=1e-12)
+    assert gap("along_an_open_set", scene, (1.0, 0.0)) == pytest.approx(math.sqrt(3.0))
+    assert gap("limit_directions", scene, (0.01, 0.0)) == pytest.approx(1.0)  # the middle has no angle
+    assert gap("leaving", scene, (1.0, 0.0)) is None
+
+
+def test_a_goal_that_is_missed_is_told_where_it_stands():
+    lesson = COURSE["06-case-two"]
+    assert stands(lesson.questions[0], make_scene(values_of(lesson, {}))) == "case: II, critical sets: 1"
+    assert stands(COURSE["08-approach"].questions[0], make_scene(values_of(lesson, {}))) == ""
 
 
 def test_questions_that_draw_have_different_answers():
@@ -56,23 +98,26 @@ def test_questions_that_draw_have_different_answers():
     for key, i in QUESTIONS:
         question = COURSE[key].questions[i]
         base = values_of(COURSE[key], {})
-        truths = {
-            judge(question, make_scene(values_of(COURSE[key], pose(question, base, seed))), 0)["truth"]
-            for seed in range(12)
-        }
-        varied += len(truths) > 1
-    assert varied >= len(QUESTIONS) // 2
+        scenes = [make_scene(values_of(COURSE[key], pose(question, base, seed))) for seed in range(12)]
+        facts = [right_option(question, facts_of(scene, question.facts)) for scene in scenes]
+        varied += len({(truth, *there(question, scene)) for truth, scene in zip(facts, scenes, strict=True)}) > 1
+    assert varied == len(QUESTIONS) - 1  # the paper's system of attracting and repelling directions has no slider
 
 
 #: What a student would set to reach each goal: the hints lead there.
 SOLUTIONS = {
-    "01-friction": {"a": -1, "d": -1, "b": 0.5, "f1": 0.8},
+    "01-friction": {"b": 0.3, "f1": 1.2},
+    "02-blowing-up": {"a": -2, "d": -1, "b": 0, "f1": -2.2, "f2": 0},
     "03-limit-directions": {"a": -0.3, "b": 0, "d": -1, "f1": 0.5, "f2": 0},
     "04-sliding": {"a": -1, "d": -1, "b": 0, "f1": 0.2, "f2": 0, "B1": -1, "g0": 0},
     "05-case-one": {"a": -1, "d": -1, "b": 2, "f1": 0.1, "f2": 0},
     "06-case-two": {"a": 1, "b": 0.3, "d": -1, "f1": 1.2, "f2": 0.8},
     "07-psi-matters": {"n": 4},
+    "08-approach": {"a": -0.3, "b": 0, "d": -1, "f1": 0.5, "f2": 0},
+    "09-ball": {"z": 3.43},
+    "10-nonunique": {"z": 1.5},
     "11-bifurcations": {"a": -1, "d": -1, "b": 0.3, "f1": 1.2, "f2": 0},
+    "12-your-own": {"texts": {"U1": "-c*(c - 1/2)*(c + 1/2)", "U2": "-2*s", "W": "0", "where": ""}},
 }
 
 
@@ -126,6 +171,14 @@ QUESTION = "```question\nask: What?\noptions:\n- {say: a, when: 'stable == 1'}\n
         (GOOD + "\n" + QUESTION + "```\n", 7, "'explain' is missing"),
         (GOOD + "\n" + QUESTION + "explain: '{nonsense}'\n```\n", 7, "no fact 'nonsense'"),
         (GOOD + "\n" + QUESTION + "explain: e\nrequire: import os\n```\n", 7, "cannot be read"),
+        (GOOD + "\n" + QUESTION + "explain: e\nmark: all\n```\n", 7, "no 'all'"),
+        (GOOD + "\n" + QUESTION + "explain: e\nmark: stable\n```\n", 7, "at most one"),
+        (GOOD + "\n```question\nask: W\nexplain: e\n```\n", 7, "two or more, or mark:"),
+        (
+            GOOD + "\n" + QUESTION.replace("stable == 0'", "stable == 0', wrong: '{no}'") + "explain: e\n```\n",
+            7,
+            "wrong: no fact",
+        ),
         (GOOD + "\n" + QUESTION + "explain: e\nhide: [all]\n```\n", 7, "no layer 'all'"),
         (GOOD + "\n" + QUESTION + "explain: e\ndraw: {a: [2, 1]}\n```\n", 7, "low < high"),
     ],

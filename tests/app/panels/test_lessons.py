@@ -65,7 +65,8 @@ def test_predict_reveal_explain_vary():
     assert said["judged"]["right"] is True
     assert said["judged"]["truth"] == truth
     assert said["judged"]["explain"].startswith(f"There are {count}:")
-    assert said["goal"] == {"question": 0, "reached": False}
+    name = frames.scene["classification"].name
+    assert said["goal"] == {"question": 0, "reached": False, "now": f"portrait: {name}"}
     there = settled(frames, set={"a": -0.3, "b": 0.0, "d": -1.0, "f1": 0.5, "f2": 0.0})
     assert there["goal"]["reached"] is True
     assert "judged" not in there  # what was answered stays answered
@@ -86,7 +87,9 @@ def test_the_same_seed_poses_the_same_system_whatever_the_sliders_are():
     assert settled(one, set={"quiz": "0.99"})["pose"] == settled(other, set={"quiz": "0.99"})["pose"]
 
 
-@pytest.mark.parametrize("text", ["", "0", "9.1", "0.x", "0.1.9", "0.1.2.3", "-1.2", "0.12345678901", "٣.1"])
+@pytest.mark.parametrize(
+    "text", ["", "0", "9.1", "0.x", "0.1.9", "0.1.2.3", "1.1.9.8.7", "1.1.8001.0", "-1.2", "0.12345678901", "٣.1"]
+)
 def test_a_quiz_that_is_none_is_passed_over(text):
     assert read_quiz(text, lessons()[LIMITS]) is None
     frames, _ = opened(LIMITS)
@@ -96,6 +99,7 @@ def test_a_quiz_that_is_none_is_passed_over(text):
 def test_a_quiz_is_read():
     assert read_quiz("0.12", lessons()[LIMITS]) == Quiz(0, 12, None)
     assert read_quiz("0.12.2", lessons()[LIMITS]) == Quiz(0, 12, 2)
+    assert read_quiz("1.12.3500.4250", lessons()[LIMITS]) == Quiz(1, 12, (-0.5, 0.25))
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import {register} from "../../../app/static/beside/panels.js"
-import {asked, busy, click, CONFIG, FIRST, memory, OWN, pull, query, setBox, settled, shows, SYSTEM, type, wired} from "./played/wiring.js"
+import {asked, busy, click, CONFIG, FIRST, hand, memory, OWN, pull, query, setBox, settled, shows, SYSTEM, type, wired} from "./played/wiring.js"
 
 let tools = /** @type {any} */ (null)
 register("numbers", (_box, given) => { tools = given; return {} }) // a panel that lets us do what panels do
@@ -40,12 +40,16 @@ test("what is set to what it is asks nothing, unless the server has refused some
   assert.deepEqual(asked(one), [{f1: 0.5}])
 })
 
-test("a question hides layers, whose boxes stay as they are", () => {
-  const one = wired()
-  tools.hide(["equator", "basins"])
+test("a question hides layers, whose boxes stay as they are, and all words that would tell its answer", () => {
+  const one = wired(), places = []
+  tools.ask({hide: ["equator", "basins"], mark: (place) => places.push(place)})
   assert.deepEqual(shows(one), ["inside", "critical"])
+  assert.deepEqual(["asked", "marking"].map((name) => one.root.classList.contains(name)), [true, true])
+  for (const kind of ["pointerdown", "pointerup"]) hand(one, kind, 285, 95)
+  assert.deepEqual([places.length, one.root.explorer.values.orbits], [1, ""])
   assert.equal(one.find(".layer input[value=inside]").checked, true)
-  tools.hide([])
+  tools.ask(null)
+  assert.deepEqual(["asked", "marking"].map((name) => one.root.classList.contains(name)), [false, false])
   assert.deepEqual(shows(one), ["inside", "equator", "critical", "basins"])
   assert.equal(one.find(".outcome-key").hidden, true)
   setBox(one, "outcomes", true)

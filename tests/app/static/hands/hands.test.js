@@ -187,3 +187,16 @@ test("a motion is drawn with its limit, and the point on it only while it moves"
   const {x, y, fill} = traceList(parts, paths, [0.5, 0.25], THEME).at(-1)
   assert.deepEqual([x, y, fill], [0.5, 0.25, "m"])
 })
+
+test("while a question asks for a place, a click marks it: nothing is launched, moved or pinned", () => {
+  for (const pointerType of ["mouse", "touch"]) {
+    const one = played("1,0", 300, [[200, 0]]), places = []
+    one.hands.marks = ({x, y}) => places.push([x, y])
+    for (const x of [100, 200, 250]) { one.tell("pointerdown", x, 0, {pointerType}); one.tell("pointerup", x, 0, {pointerType, timeStamp: 900}) }
+    one.tell("pointerdown", 50, 0, {pointerType}); one.tell("pointermove", 90, 0, {pointerType}); one.tell("pointerup", 90, 0, {pointerType}) // a drag is no mark
+    assert.deepEqual([places.map(([x]) => x), one.log()], [[1, 2, 2.5], []], pointerType)
+    one.hands.marks = null
+    one.tell("pointerdown", 50, 0, {pointerType}); one.tell("pointerup", 50, 0, {pointerType})
+    assert.ok(one.log().includes("1,0;0.5,0"), pointerType)
+  }
+})

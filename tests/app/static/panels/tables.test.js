@@ -180,26 +180,29 @@ test("the panel lessons: a question hides, asks, judges and remembers", () => {
   one.said()
   const section = (i) => one.find(`[data-question="${i}"]`)
   one.fire(section(1).querySelector(".begin"), "click")
-  assert.deepEqual(one.said(), [["choose", "quiz", "1.250000"], ["hide", []]])
+  assert.deepEqual(one.said(), [["choose", "quiz", "1.250000"], ["ask", []], ["cross", null]])
   one.fire(section(0).querySelector(".begin"), "click")
-  assert.deepEqual(one.said(), [["choose", "quiz", "0.250000"], ["hide", ["critical"]]])
+  assert.deepEqual(one.said(), [["choose", "quiz", "0.250000"], ["ask", ["critical"]], ["cross", null]])
+  one.frame({facts: {name: "CM2"}})
+  assert.equal(one.find("[data-fact]").textContent, "?") // it would tell the answer
   assert.deepEqual([section(0).querySelector(".options").hidden, section(0).querySelector(".vary").hidden, section(0).querySelector(".begin").textContent], [false, true, "Another one"])
   one.frame({pose: {values: {a: 1}}})
   assert.deepEqual(one.said(), [["open", {a: 1}]])
   one.fire(section(1).querySelector("[data-choice]"), "click") // of another question than the one that was asked
   assert.deepEqual(one.said(), [])
   one.fire(section(0).querySelectorAll("[data-choice]")[2], "click")
-  assert.deepEqual(one.said(), [["choose", "quiz", "0.250000.2"]])
-  one.frame({judged: {question: 0, right: false, truth: 1, explain: "Because."}})
-  assert.deepEqual(one.said(), [["hide", []]])
+  assert.deepEqual(one.said(), [["choose", "quiz", "0.250000.2"], ["ask", null]])
+  assert.equal(one.find("[data-fact]").textContent, "CM2")
+  one.frame({judged: {question: 0, right: false, truth: 1, why: "No.", explain: "Because."}})
+  assert.deepEqual(one.said(), [["cross", null]])
   const marked = () => [...section(0).querySelectorAll("[data-choice]")].map((it) => it.className)
-  assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent, section(0).querySelector(".vary").hidden, kept], [["", "right", "wrong"], "Not so. Because.", false, {}])
+  assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent, section(0).querySelector(".vary").hidden, kept], [["", "right", "wrong"], "Not so. No. Because.", false, {}])
   one.set({quiz: "0.250000.1"})
   one.frame({judged: {question: 0, right: true, truth: 1, explain: "Yes."}})
   assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent], [["", "right", ""], "Right. Yes."])
   assert.deepEqual(JSON.parse(kept["codim2-lessons"]), {"03-x": {0: ["answer"]}})
-  one.frame({goal: {question: 0, reached: false}})
-  assert.equal(section(0).querySelector(".goal").textContent, "")
+  one.frame({goal: {question: 0, reached: false, now: "portrait: CM2, λ_ρ: 1"}})
+  assert.equal(section(0).querySelector(".goal").textContent, "Not yet. Now portrait: CM2, λρ: 1.")
   one.frame({goal: {question: 0, reached: true}})
   assert.equal(section(0).querySelector(".goal").textContent, "Done ✓")
   assert.deepEqual(JSON.parse(kept["codim2-lessons"]), {"03-x": {0: ["answer", "goal"]}})
@@ -207,7 +210,7 @@ test("the panel lessons: a question hides, asks, judges and remembers", () => {
   assert.equal(section(0).querySelector(".verdict").textContent, "Not found.")
   one.said()
   one.frame({lesson: LESSON}) // loaded again: what was answered hides nothing
-  assert.deepEqual(one.said(), [["hide", []]])
+  assert.deepEqual(one.said(), [["cross", null], ["cross", null]])
   assert.equal(section(0).querySelector(".options").hidden, false)
   one.fire(one.find(".lesson-head button"), "click")
   assert.deepEqual(one.said(), [["choose", "quiz", ""], ["choose", "lesson", ""]])
@@ -219,6 +222,48 @@ test("the panel lessons: a question hides, asks, judges and remembers", () => {
   one.said()
   one.fire(one.find("[data-open]"), "click")
   assert.deepEqual(one.said(), [["open", {lesson: "04-y", f1: 1}]])
+})
+
+test("the panel lessons: a place is marked by a click on the picture, or by arrow keys and Enter", () => {
+  let asked = /** @type {any} */ (null)
+  const lesson = {key: "04-x", title: "Four", parts: [{ask: "Where?", options: ["nowhere"], mark: true, hide: ["critical"]}]}
+  const one = opened("lessons", {quiz: "", lesson: "04-x"}, {ask: (it) => { asked = it }})
+  one.frame({lesson})
+  one.fire(one.find(".begin"), "click")
+  one.said()
+  asked.mark({x: -0.5, y: 0.25})
+  assert.deepEqual([one.said(), asked], [[["choose", "quiz", "0.250000.3500.4250"]], null])
+  one.frame({judged: {question: 0, right: false, truth: null, why: "Far.", explain: "There."}})
+  assert.deepEqual([one.said(), one.find(".verdict").textContent], [[["cross", {x: -0.5, y: 0.25, right: false}]], "Not so. Far. There."])
+  one.fire(one.find(".begin"), "click")
+  one.said()
+  asked.mark({x: 4.1, y: 0}) // as far as no link says
+  const key = (name, more = {}) => one.fire(one.find(".aim"), "keydown", {key: name, ...more})
+  for (const name of ["ArrowLeft", "ArrowUp", "ArrowUp", "x"]) key(name)
+  key("ArrowRight", {shiftKey: true})
+  assert.deepEqual(one.said().map(([, place]) => [place.x, place.y].map((v) => Math.round(100 * v))), [[-5, 0], [-5, 5], [-5, 10], [15, 10]])
+  one.fire(one.find(".aim"), "click")
+  assert.match(one.find(".verdict").textContent, /arrow keys/)
+  key("Enter")
+  assert.deepEqual(one.said(), [["choose", "quiz", "0.250000.4150.4100"]])
+  key("Enter")
+  assert.deepEqual(one.said(), []) // it is answered
+})
+
+test("the panel lessons: progress that a link brings is added to what was done here, and a link carries all", async () => {
+  const before = globalThis.location
+  Object.assign(globalThis, {location: {search: "?panel=lessons&done=03-x:0g;04-y:1ag", origin: "http://it", pathname: "/c/"}})
+  try {
+    const one = opened("lessons", {quiz: "", lesson: ""})
+    assert.deepEqual(JSON.parse(globalThis.localStorage.getItem("codim2-lessons") ?? ""), {"03-x": {0: ["goal"]}, "04-y": {1: ["answer", "goal"]}})
+    one.frame({lesson: {key: "", list: []}})
+    const box = one.find(".carried-link")
+    box.select = () => {}
+    Object.assign(one.document, {execCommand: () => true})
+    one.fire(one.find(".carry"), "click")
+    await Promise.resolve()
+    assert.deepEqual([box.value, box.hidden], ["http://it/c/?panel=lessons&done=03-x%3A0g%3B04-y%3A1ag", false])
+  } finally { Object.assign(globalThis, {location: before}) }
 })
 
 test("arrows go along the strip of tabs to both sides, and round", () => {

@@ -89,7 +89,7 @@ export function drawn(name) {
     choose: (it, value) => { said("choose")(it, value); values[it] = value; panels.draw(values) },
     crowd: () => null,
     trace: (paths, place) => said("trace")(paths && paths.map((path) => path && path.map((column) => column.length)), place?.map((v) => Number(v.toFixed(4)))),
-    open: said("open"), hide: said("hide"),
+    open: said("open"), ask: said("ask"), cross: said("cross"),
   }, said("choose"))
   const blocks = Object.fromEntries(Object.entries(given.blocks).map(([block, all]) => [block, block.endsWith(".n") ? Uint16Array.from(all) : Int16Array.from(all)]))
   let before = ""
