@@ -93,7 +93,8 @@ def read_link(query: str | Mapping[str, str]) -> Link:
     ----------
     query : str or mapping
         ``v`` is the version; ``s`` holds a whole query squeezed (deflate, base64), over which the others stand;
-        ``seen``, ``embed``, ``controls``, ``beamer``, ``room`` and ``done`` are of the page; all else are values of controls.
+        ``seen``, ``embed``, ``controls``, ``beamer``, ``room`` and ``done`` are of the page; all else are values of
+        controls.
 
     Returns
     -------
