@@ -39,6 +39,8 @@ def _velocity(S, state, slope, k):
     return S[slope + k] - S[state + k] * q, S[slope + LANES + k] - S[state + LANES + k] * q
 
 
+# In one piece: with the judging of errors, the search for the end and the halves of a turn as functions of their own it
+# took no longer (0.96 of the time, paired runs), but the compiler then rounds otherwise (states by 5e-15).
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, limit, record, elsewhere):
     """First return of each state to the section ``u.U = 0``, ``sense (-u2, u1).U > 0`` on which it starts.

@@ -179,6 +179,42 @@ def _entered(crossings, X, Y):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _short_of(crossings, X, Y, h):
+    """Return a step, at most h, that does not leap over the circle around a crossing."""
+    for i in range(len(crossings)):
+        gap = math.hypot(X - crossings[i, 0], Y - crossings[i, 1]) - crossings[i, 2]
+        h = min(h, max(gap, 0.0) + crossings[i, 2])
+    return h
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _tangent(gx, gy, tx, ty):
+    """Return the unit vector across a gradient, in the sense of a tangent before, and the angle from that to it."""
+    length = math.hypot(gx, gy)
+    if length == 0.0:
+        return tx, ty, 0.0
+    nx, ny = -gy / length, gx / length
+    if nx * tx + ny * ty < 0.0:
+        nx, ny = -nx, -ny
+    return nx, ny, math.atan2(tx * ny - ty * nx, tx * nx + ty * ny)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _leaps(gx, gy, slope_X, slope_Y):
+    """Whether a gradient has changed so much that another branch is close by."""
+    change = math.hypot(gx - slope_X, gy - slope_Y)
+    return change > 0.5 * min(math.hypot(gx, gy), math.hypot(slope_X, slope_Y))
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _home_ahead(home, X, Y, tx, ty, h):
+    """Whether the curve, at a point with that tangent, closes within a step at `home`; and how far ahead that is."""
+    away_X, away_Y = home[0] - X, home[1] - Y
+    near = math.hypot(away_X, away_Y) < h and tx * home[2] + ty * home[3] > 0.8
+    return near and abs(away_X * ty - away_Y * tx) < 0.3 * h, away_X * tx + away_Y * ty
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def follow(op, left, right, number, roots, kind, outside, start, home, crossings, largest, size, out):
     """Follow a curve from a point on it.
 
@@ -215,24 +251,13 @@ def follow(op, left, right, number, roots, kind, outside, start, home, crossings
     count, h, bend = 1, 0.25 * LONGEST, 0.0
     from_home = home[0] == start[0] and home[1] == start[1]
     while count < len(out) - 1:
-        for i in range(len(crossings)):  # do not step over a circle
-            gap = math.hypot(X - crossings[i, 0], Y - crossings[i, 1]) - crossings[i, 2]
-            h = min(h, max(gap, 0.0) + crossings[i, 2])
+        h = _short_of(crossings, X, Y, h)
         ok, nX, nY, gx, gy = _corrected(
             op, left, right, number, roots, kind, outside, X + h * tx, Y + h * ty, 0.3 * h, floor, seed, work, rows
         )
-        length = math.hypot(gx, gy)
-        nx, ny, turn = tx, ty, 0.0
-        if ok and length > 0.0:
-            nx, ny = -gy / length, gx / length
-            if nx * tx + ny * ty < 0.0:
-                nx, ny = -nx, -ny
-            turn = math.atan2(tx * ny - ty * nx, tx * nx + ty * ny)
-        # a gradient that changes much tells of another branch close by
-        change = math.hypot(gx - slope_X, gy - slope_Y)
-        leap = change > 0.5 * min(length, math.hypot(slope_X, slope_Y))
+        nx, ny, turn = _tangent(gx, gy, tx, ty)
         uneven = count > 1 and abs(turn - bend * h) * h > UNEVEN
-        if not ok or abs(turn) > BEND or leap or uneven:
+        if not ok or abs(turn) > BEND or _leaps(gx, gy, slope_X, slope_Y) or uneven:
             h *= 0.5
             if h < SHORTEST:
                 return count, STUCK, -1
@@ -254,15 +279,12 @@ def follow(op, left, right, number, roots, kind, outside, start, home, crossings
         X, Y, tx, ty, slope_X, slope_Y = nX, nY, nx, ny, gx, gy
         out[count, 0], out[count, 1], out[count, 2], out[count, 3] = X, Y, tx, ty
         count += 1
-        home_X, home_Y = home[0] - X, home[1] - Y
-        near = math.hypot(home_X, home_Y) < h and tx * home[2] + ty * home[3] > 0.8
-        if near and (count > 3 or not from_home):
-            ahead = home_X * tx + home_Y * ty
-            if abs(home_X * ty - home_Y * tx) < 0.3 * h:
-                if ahead < 0.25 * h and count > 1:  # the last point is at home or past it
-                    count -= 1
-                out[count] = home
-                return count + 1, CLOSED, -1
+        closes, ahead = _home_ahead(home, X, Y, tx, ty, h)
+        if closes and (count > 3 or not from_home):
+            if ahead < 0.25 * h and count > 1:  # the last point is at home or past it
+                count -= 1
+            out[count] = home
+            return count + 1, CLOSED, -1
         bend = turn / h
         if abs(turn) < 0.4 * BEND:
             h = min(1.5 * h, LONGEST)
@@ -304,10 +326,5 @@ def _to_circle(op, left, right, number, roots, kind, outside, h, cX, cY, radius,
                 high = middle
             else:
                 low, pX, pY, gx, gy = middle, nX, nY, ax, ay
-    length = math.hypot(gx, gy)
     last[0], last[1] = pX, pY
-    if length > 0.0:
-        bx, by = -gy / length, gx / length
-        if bx * tx + by * ty < 0.0:
-            bx, by = -bx, -by
-        last[2], last[3] = bx, by
+    last[2], last[3], _ = _tangent(gx, gy, tx, ty)

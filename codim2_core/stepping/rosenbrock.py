@@ -41,7 +41,7 @@ from .layout import (
     WORKSPACE,
     call_field,
 )
-from .lines import keep_line, longer
+from .lines import end_line, keep_line, length_of, longer
 from .polyline import CURSOR, X, Y, follow, start
 
 # As in `lanes`
@@ -218,6 +218,21 @@ def _go_on(S, k, fraction):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def _begin(S, P, states, signs, t_max, field, base, many, cursor, lines, times, travelled, counts, h):
+    """Give the lanes the trajectories from `base` on, at their starts; those too many repeat the last."""
+    for k in range(LANES):
+        i = base + min(k, many - 1)
+        for c in range(3):
+            S[STATE + c * LANES + k] = states[i, c]
+        P[SIGN + k] = signs[i]
+        times[k], travelled[k], counts[k], h[k] = 0.0, 0.0, 1, min(FIRST_STEP, t_max[i])
+    call_field(field, S, STATE, K0, P)
+    for k in range(many):
+        start(S, P, k, cursor)
+        lines[k, 0, 0], lines[k, 0, 1], lines[k, 0, 2] = cursor[X, k], cursor[Y, k], 0.0
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, capture, view, distance):
     """Follow every row of `states` implicitly.
 
@@ -238,16 +253,7 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
     for base in range(0, n, LANES):
         lines = np.empty((LANES, 64, 3))
         many = min(LANES, n - base)
-        for k in range(LANES):
-            i = base + min(k, many - 1)
-            for c in range(3):
-                S[STATE + c * LANES + k] = states[i, c]
-            P[SIGN + k] = signs[i]
-            times[k], travelled[k], counts[k], h[k] = 0.0, 0.0, 1, min(FIRST_STEP, t_max[i])
-        call_field(field, S, STATE, K0, P)
-        for k in range(many):
-            start(S, P, k, cursor)
-            lines[k, 0, 0], lines[k, 0, 1], lines[k, 0, 2] = cursor[X, k], cursor[Y, k], 0.0
+        _begin(S, P, states, signs, t_max, field, base, many, cursor, lines, times, travelled, counts, h)
         left = many
         for _ in range(limit):
             if left == 0:
@@ -277,10 +283,7 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
                     while count < 0:
                         lines = longer(lines)
                         count = follow(S, P, k, cursor, lines, -1 - count, times[k], taken, stop, distance)
-                    for j in range(counts[k], count):
-                        travelled[k] += math.hypot(
-                            lines[k, j, 0] - lines[k, j - 1, 0], lines[k, j, 1] - lines[k, j - 1, 1]
-                        )
+                    travelled[k] += length_of(lines, k, counts[k] - 1, count - 1)
                     counts[k] = count
                     if code == RUNNING and travelled[k] >= longest[i]:
                         code = LENGTH
@@ -297,11 +300,7 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
                 ends[i, c] = S[STATE + c * LANES + k]
             if counts[k] == lines.shape[1]:
                 lines = longer(lines)
-            scale = 1.0 + ends[i, 2] if P[SIGN + k] > 0.0 else 1.0
-            if times[k] > lines[k, counts[k] - 1, 2] or counts[k] == 1:
-                lines[k, counts[k], 0], lines[k, counts[k], 1] = scale * ends[i, 0], scale * ends[i, 1]
-                lines[k, counts[k], 2] = times[k]
-                counts[k] += 1
+            end_line(lines, counts, k, P[SIGN + k], ends, i, times[k])
             while stored + counts[k] > store.shape[1]:
                 store = longer(store)
             stored = keep_line(store, stored, lines, counts, k)

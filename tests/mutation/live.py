@@ -31,7 +31,7 @@ def caches(packages: tuple[str, ...]) -> list[functools._lru_cache_wrapper]:
     return [
         thing
         for thing in gc.get_objects()
-        if isinstance(thing, functools._lru_cache_wrapper) and (thing.__module__ or "").split(".")[0] in packages
+        if type(thing) is functools._lru_cache_wrapper and (thing.__module__ or "").split(".")[0] in packages
     ]
 
 

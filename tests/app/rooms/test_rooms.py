@@ -230,6 +230,7 @@ def test_a_page_may_go_after_its_room_has_ended():
     rooms.close(code, 1.0)
     rooms.tick(1.0 + REMEMBERED + 1.0)
     rooms.leave_open(code, lecturer.heard_by, 200.0)
+    rooms.close(code, 200.0)
     assert not rooms.tick(200.0)
 
 

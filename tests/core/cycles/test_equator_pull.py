@@ -50,17 +50,17 @@ def test_an_orbit_comes_to_the_next_equilibrium_on_its_way(first, backward):
     assert pull.may_return(states(THETA), field(first, lambda theta: np.full_like(theta, rate)), not backward).all()
 
 
-def test_one_that_rises_on_its_way_may_come_back():
-    """lambda_rho < 0 for theta in (0.2, 1.2): passed on the way from 0.1 to pi/2, but not from 1.4."""
+@pytest.mark.parametrize(("low", "high", "rise"), [(0.2, 1.2, [0]), (1.8, 2.6, [3]), (4.75, 5.5, [6, 7])])
+def test_one_that_rises_on_its_way_may_come_back(low, high, rise):
+    """lambda_rho < 0 in one range of theta, which some pass on their way to pi/2 or 3 pi/2, and others beyond it."""
     pull = EquatorPull(QUARTERS, (np.array([False, True, False, True]), np.zeros(4, bool)), False)
 
     def radial(theta):
-        return np.where((theta > 0.2) & (theta < 1.2), -1.0, 1.0)
+        theta = theta % (2.0 * np.pi)
+        return np.where((theta > low) & (theta < high), -1.0, 1.0)
 
     found = pull.may_return(states(THETA), field(0.0, radial), False)
-    assert np.flatnonzero(found).tolist() == [0]
-    twice = pull.may_return(states(THETA), lambda e: 2.0 * field(0.0, radial)(e), False)
-    assert twice.tolist() == found.tolist()
+    assert np.flatnonzero(found).tolist() == rise
 
 
 @pytest.mark.parametrize(
