@@ -83,7 +83,7 @@ def test_orbits_are_told_apart_and_have_a_sense():
             return np.stack([xi, 0.0 * xi, 0.0 * xi], axis=-1), xi
 
     def crossing(x):
-        return first_turns.Crossing(x)
+        return first_turns.FixedPoint(x)
 
     assert first_turns._on(Ray(), crossing(1.0), circle())
     between = math.cos(math.pi / 50)  # of two of its points, on the chord
@@ -107,7 +107,7 @@ def sought(monkeypatch, orbits, kinds=("stable focus",), touching=False):
         def states(self, xi):
             return np.stack([xi, 0.0 * xi, 0.0 * xi], axis=-1), xi
 
-    crossings = [first_turns.Crossing(7.0, touching=touching)]  # on none of the circles
+    crossings = [first_turns.FixedPoint(7.0, touching=touching)]  # on none of the circles
     monkeypatch.setattr(first_turns, "TurnSection", Ray)
     monkeypatch.setattr(first_turns, "_searched", lambda _: (crossings, []))
     monkeypatch.setattr(first_turns, "orbit", lambda *_: next(given))

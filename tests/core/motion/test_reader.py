@@ -36,7 +36,7 @@ def on(e, attracts=True, rate=1.0):
 
 
 @dataclass(frozen=True)
-class Reader(module._Reader):
+class Reader(module._ReadMotion):
     """Follows what a table says, by the state's z."""
 
     table: dict = field(default_factory=dict)

@@ -305,7 +305,7 @@ def test_what_is_handed_over_to_be_compiled(monkeypatch):
     """A motion goes on compiled from where it is, with its own tolerances and the steps that are left."""
     given = []
 
-    class Compiled:
+    class CompiledMotion:
         evaluations = 7
 
         def __init__(self, problem, formulas, psi, eps, line, t, t_end, state, rtol, floor, h, most):
@@ -315,7 +315,7 @@ def test_what_is_handed_over_to_be_compiled(monkeypatch):
         def chunks(self):
             return iter(())
 
-    monkeypatch.setattr(compiled, "Compiled", Compiled)
+    monkeypatch.setattr(compiled, "CompiledMotion", CompiledMotion)
     monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
     monkeypatch.setattr(regularised, "PATIENCE", 3)
     psi, system = families.rational(), ELinear(-1.0, 0.25, -1.75, g=(1.0,), B=((0.0, 0.0),))
