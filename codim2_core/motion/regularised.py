@@ -288,17 +288,11 @@ def _followed(
                 problem, formulas, psi, eps, line, t, span[1], state, rtol, atol / rtol, h, max_steps - len(taken)
             )
             for part in motion.chunks():
-                watched = list[Step]()
-                for step in part if watch.events else ():
-                    last = watch.step(step)
-                    watched.append(step if last is None else last)
-                    if last is not None:
-                        parts.append(gathered(watched, len(first)))
-                        status = SimulationStatus.EVENT
-                        break
-                if status is SimulationStatus.EVENT:
+                ended = _ended(part, watch, len(first))
+                parts.append(part if ended is None else ended)
+                if ended is not None:
+                    status = SimulationStatus.EVENT
                     break
-                parts.append(part)
     except BlowUpError as error:
         status, detail = SimulationStatus.BLOW_UP, str(error)
     except TooManyStepsError as error:
@@ -307,6 +301,17 @@ def _followed(
         count_steps(formulas, len(taken))
     evaluations = count[0] + (0 if motion is None else motion.evaluations)
     return [gathered(taken, len(first)), *parts], status, detail, evaluations
+
+
+def _ended(part: Steps, watch: Watch, n: int) -> Steps | None:
+    """Return the steps of a part, of n variables, up to an event that ends the motion; None where there is none."""
+    taken: list[Step] = []
+    for step in part if watch.events else ():
+        last = watch.step(step)
+        taken.append(step if last is None else last)
+        if last is not None:
+            return gathered(taken, n)
+    return None
 
 
 def waited_for(formulas: Field) -> int:
