@@ -39,6 +39,11 @@ def arrowheads(
     return _place(offsets, points, CLEARANCE * pixel, STRETCH * pixel, SHORTEST * pixel, TRIED, *map(float, window))
 
 
+def is_warm() -> bool:
+    """Whether arrowheads are placed at once, without compiling or loading what places them."""
+    return bool(_place.signatures)
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
 def _place(offsets, points, clearance, stretch, shortest, tried, left, right, bottom, top):
     """Try places one after the other; a grid of cells as wide as the clearance tells which arrowheads are near."""

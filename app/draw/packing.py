@@ -64,11 +64,19 @@ def quantise(points: NDArray[np.float64]) -> NDArray[np.int16]:
     return np.rint(scaled, out=scaled).astype(np.int16)
 
 
+#: No arrowheads.
+NONE = np.zeros((0, 3))
 #: Names of the types in use (`dtype.name` takes 3 µs).
 _NAMES = {np.dtype(name).char: name for name in ("int16", "uint16", "float32", "float64")}
 
 
-def pack(header: Mapping[str, Any], blocks: Blocks, window: Rectangle | None = None, pixel: float = PIXEL) -> bytes:
+def pack(
+    header: Mapping[str, Any],
+    blocks: Blocks,
+    window: Rectangle | None = None,
+    pixel: float = PIXEL,
+    heads: bool = True,
+) -> bytes:
     """Return header and arrays as one buffer.
 
     Parameters
@@ -79,6 +87,8 @@ def pack(header: Mapping[str, Any], blocks: Blocks, window: Rectangle | None = N
         What is seen, and the size of a pixel there. Coordinates are then float32: 65536 steps are not enough for every
         window.
     pixel : float
+    heads : bool
+        Whether curves carry the arrowheads that they may have.
 
     Raises
     ------
@@ -90,7 +100,7 @@ def pack(header: Mapping[str, Any], blocks: Blocks, window: Rectangle | None = N
     listing: dict[str, Any] = {}
     parts = [b"", b""]
     if lines:
-        listing["lines"], data = _run(lines, window, pixel)
+        listing["lines"], data = _run(lines, window, pixel, heads)
         if window is not None:
             listing["exact"] = True
         parts += (data, b"\0" * (-len(data) % 4))
@@ -106,7 +116,7 @@ def pack(header: Mapping[str, Any], blocks: Blocks, window: Rectangle | None = N
 
 
 def _run(
-    lines: Mapping[str, Polylines], window: Rectangle | None, pixel: float
+    lines: Mapping[str, Polylines], window: Rectangle | None, pixel: float, may: bool
 ) -> tuple[list[tuple[str, int, int, int | None]], bytes]:
     """Return [name, pieces, points, arrowheads] of each layer, and the data of all.
 
@@ -114,11 +124,11 @@ def _run(
     """
     rows, heads = [], []
     for name, (offsets, points, arrows) in lines.items():
-        placed = arrowheads(offsets, points, pixel, window or WINDOW) if arrows else None
+        placed = None if not arrows else arrowheads(offsets, points, pixel, window or WINDOW) if may else NONE
         if placed is not None:
             heads.append(placed)
         rows.append((name, len(offsets) - 1, len(points), None if placed is None else len(placed)))
-    all_heads = np.concatenate(heads) if heads else np.zeros((0, 3))
+    all_heads = np.concatenate(heads) if heads else NONE
     places = np.concatenate([*(layer.points for layer in lines.values()), all_heads[:, :2]])
     counts = np.concatenate([np.diff(layer.offsets) for layer in lines.values()]).astype(np.uint16).tobytes()
     data = (

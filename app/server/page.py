@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 import os
+import sys
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from functools import partial
@@ -42,6 +43,10 @@ from .sockets import MOST_SENT, PromptSocket, untraced, views
 
 #: What the workers find imported.
 PRELOAD = ("codim2_app.server.worker",)
+
+#: Seconds for which a thread that compiles keeps the interpreter from a frame that asks for it, which a frame does
+#: after each of its kernels; by default they are 5 ms.
+SWITCH = 0.0005
 
 TITLE = "Isolated codimension-2 discontinuity: explorer"
 
@@ -195,6 +200,7 @@ def make_server(
     executor : Executor, optional
         Does the long work in place of `workers`, `at_once` at a time; with one process only, as it cannot be forked.
     """
+    sys.setswitchinterval(SWITCH)
     if executor is None:
         at_once = workers or max(1, processors() // processes)
         executor = Workers(at_once, preload=PRELOAD, first=warmup.wait)

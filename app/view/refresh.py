@@ -19,6 +19,7 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 from codim2_core.words import printed
 
+from ..draw import arrowheads
 from ..draw.packing import pack
 from ..frame.budget import Budget, Layers, LeftOut, layers_of
 from ..frame.draft import Draft
@@ -158,9 +159,10 @@ class Frames:
             self._notices.append(left)
 
     def _packed(self, header: dict[str, Any], blocks: Blocks) -> bytes:
+        heads = header.get("ready", True) or arrowheads.is_warm()  # no frame waits for the compiler
         if self.window is None:
-            return pack(header, blocks)
-        return pack(header, blocks, self.window.rectangle, self.window.pixel)
+            return pack(header, blocks, heads=heads)
+        return pack(header, blocks, self.window.rectangle, self.window.pixel, heads)
 
     def _accept(
         self, good: Mapping[str, Any], sent: Mapping[str, Any], errors: dict[str, str], rest: bool

@@ -45,12 +45,12 @@ def _steps() -> list[tuple[str, Callable[[], object]]]:
     """Return what is compiled beforehand, by what it is called, in the order in which it is asked for."""
     families = [family for family in FAMILIES.values() if not family.typed]
     first, *others = ((f"trajectories for Ψ = {family.title}", partial(warm, make(family.name))) for family in families)
-    last = [("arrowheads", _warm_arrowheads), (GENERAL, warm_general), ("motions in time", _warm_motions)]
-    return [first, ("limit cycles", _warm_cycles), *others, *last]
+    last = [(GENERAL, warm_general), ("motions in time", _warm_motions)]
+    return [("arrowheads", _warm_arrowheads), first, ("limit cycles", _warm_cycles), *others, *last]
 
 
 #: Of `_steps`, those after which the first scene is drawn, and those that pictures need: all but the last.
-FIRST, PICTURES = 2, -1
+FIRST, PICTURES = 3, -1
 
 
 def _nobody(*_: object) -> None:
@@ -107,6 +107,8 @@ def _first_scene(told: Told) -> None:
         logging.getLogger(__name__).exception("the kernels cannot all be compiled")
         if not outcome:
             outcome = f"the first scene cannot be computed: {error}"
+    finally:
+        _pictures.set()  # nobody waits for what does not come
 
 
 def _warm_cycles() -> None:
@@ -155,8 +157,8 @@ def wait() -> None:
     """Wait until the kernels that pictures need are there: whoever loads them then finds them in the cache."""
     with _lock:
         thread = _threads.get(constant())
-    while thread is not None and thread.is_alive() and not _pictures.wait(0.1):
-        pass
+    if thread is not None:
+        _pictures.wait()
 
 
 def _begin(key: Hashable, target: Callable[..., None], *arguments: Any) -> None:

@@ -36,7 +36,7 @@ DRAWN = {
 TABLES = {
     "scene": "A cold scene", "general": "Typed systems", "simulate": "Simulated motions against eps",
     "app": "The server", "browser": "Painted frames", "page": "The first page", "start": "The first start",
-    "sessions": "Many sessions", "wild": "Wild requests",
+    "sessions": "Many sessions", "load": "A day in public", "wild": "Wild requests",
     "equator": "Counts of limit directions",
     "census": "A census of portraits", "cycles": "Case III and its cycles",
     "compiled": "Motions against SciPy with a compiled right-hand side",

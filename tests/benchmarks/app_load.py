@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import pairwise
 from urllib.request import urlopen
 
 import numpy as np
@@ -20,6 +21,7 @@ from .bokeh_wire import Wire
 RATE = 10.0  # requests a second of each session
 SECONDS = 4.0
 CROWDS = (1, 2, 4, 8, 16)
+MANY, WITHIN = 40, 2.0  # pages that are opened together, and the seconds in which they are
 
 
 def free_port() -> int:
@@ -68,8 +70,16 @@ def family(pid: int) -> list[int]:
     """Return a process and those that it has forked, such as the server processes that share a port."""
     found = [pid]
     for one in found:
-        with open(f"/proc/{one}/task/{one}/children") as children:
-            found += [int(child) for child in children.read().split()]
+        found += children(one)
+    return found
+
+
+def children(pid: int) -> list[int]:
+    """Return the processes that the threads of one have forked."""
+    found = []
+    for thread in sorted(os.listdir(f"/proc/{pid}/task"), key=int):
+        with open(f"/proc/{pid}/task/{thread}/children") as forked:
+            found += [int(child) for child in forked.read().split()]
     return found
 
 
@@ -123,9 +133,45 @@ def load(processes: int) -> dict[int, dict[str, float]]:
     return found
 
 
+async def burst(port: int) -> list[float]:
+    """Open `MANY` pages evenly over `WITHIN` seconds; return how long each waits for its picture, in their order."""
+
+    async def visit(i: int) -> float:
+        await asyncio.sleep(i * WITHIN / MANY)
+        start = time.perf_counter()
+        page = await asyncio.to_thread(_read, port)
+        wires.append(await Wire.connect(port, page=page))
+        return time.perf_counter() - start
+
+    wires: list[Wire] = []
+    waits = await asyncio.gather(*(visit(i) for i in range(MANY)))
+    await asyncio.gather(*(wire.close() for wire in wires))
+    return list(waits)
+
+
+def _read(port: int) -> str:
+    with urlopen(f"http://localhost:{port}/") as answer:
+        return answer.read().decode()
+
+
+def overtaken(waits: list[float]) -> int:
+    """Count the pairs of neighbours of which the one who came later was served first."""
+    done = [i * WITHIN / len(waits) + wait for i, wait in enumerate(waits)]
+    return sum(later < earlier for earlier, later in pairwise(done))
+
+
 def left(port: int) -> dict[str, float]:
     """Return what a `forgetful` server holds: resident bytes, and living objects by kind."""
     return json.loads(urlopen(f"http://localhost:{port}/left").read())
+
+
+async def forgotten(port: int) -> dict[str, float]:
+    """Wait until a `forgetful` server has forgotten its last page; return what it holds then."""
+    for _ in range(60):
+        await asyncio.sleep(0.5)
+        if not (held := left(port))["ExplorerView"]:
+            break
+    return held
 
 
 def memory(warm: int = 100, sessions: int = 200) -> tuple[dict[str, float], dict[str, float]]:
@@ -137,10 +183,7 @@ def memory(warm: int = 100, sessions: int = 200) -> tuple[dict[str, float], dict
             for tick in range(3):
                 await wire.frame(tick, a=value(3 * i + tick))
             await wire.close()
-        for _ in range(60):  # until the last one is forgotten
-            await asyncio.sleep(0.5)
-            if not left(port)["ExplorerView"]:
-                return
+        await forgotten(port)
 
     with serving("forgetful") as (port, pid):
         asyncio.run(visit(warm))

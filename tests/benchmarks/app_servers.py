@@ -11,11 +11,11 @@ from collections.abc import Callable
 from typing import Any
 
 
-def explorer(port: int, processes: str = "1") -> None:
+def explorer(port: int, processes: str = "1", *flags: str) -> None:
     """Serve the explorer as `codim2 serve` does."""
     from codim2_app.server.cli import main
 
-    main(["serve", "--port", str(port), "--processes", processes])
+    main(["serve", "--port", str(port), "--processes", processes, *flags])
 
 
 def forgetful(port: int) -> None:

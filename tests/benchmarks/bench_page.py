@@ -11,18 +11,16 @@ import os
 import shutil
 import time
 from contextlib import ExitStack
-from itertools import pairwise
 from statistics import median
 from typing import Any
 from urllib.request import urlopen
 
 from playwright.sync_api import Browser, sync_playwright
 
-from .app_load import at_rest, cpu, serving
+from .app_load import MANY, WITHIN, at_rest, burst, cpu, overtaken, serving
 from .bokeh_wire import Wire
 
 KINDS = {"panel": "bare Panel page, empty Bokeh figure", "explorer": "explorer"}
-MANY, WITHIN = 40, 2.0  # pages that are opened together, and the seconds in which they are
 BYTES = 10  # first bytes measured in each turn, one after the other
 
 #: Notes when something is first drawn on a canvas: milliseconds since the page was asked for.
@@ -67,33 +65,6 @@ async def arrivals(port: int, pid: int, count: int) -> float:
     for _ in range(count):
         await (await Wire.connect(port)).close()
     return (cpu(pid) - before) / count
-
-
-async def burst(port: int) -> list[float]:
-    """Open `MANY` pages evenly over `WITHIN` seconds; return how long each waits for its picture, in their order."""
-
-    async def visit(i: int) -> float:
-        await asyncio.sleep(i * WITHIN / MANY)
-        start = time.perf_counter()
-        page = await asyncio.to_thread(_read, port)
-        wires.append(await Wire.connect(port, page=page))
-        return time.perf_counter() - start
-
-    wires: list[Wire] = []
-    waits = await asyncio.gather(*(visit(i) for i in range(MANY)))
-    await asyncio.gather(*(wire.close() for wire in wires))
-    return list(waits)
-
-
-def _read(port: int) -> str:
-    with urlopen(f"http://localhost:{port}/") as answer:
-        return answer.read().decode()
-
-
-def overtaken(waits: list[float]) -> int:
-    """Count the pairs of neighbours of which the one who came later was served first."""
-    done = [i * WITHIN / len(waits) + wait for i, wait in enumerate(waits)]
-    return sum(later < earlier for earlier, later in pairwise(done))
 
 
 def run(turns: int) -> dict[str, list[dict[str, Any]]]:

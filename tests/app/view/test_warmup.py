@@ -5,6 +5,7 @@ import sys
 import threading
 
 import pytest
+from codim2_app.draw import arrowheads, packing
 from codim2_app.draw.packing import unpack
 from codim2_app.server import cli
 from codim2_app.state.controls import ExplorerState
@@ -84,7 +85,7 @@ def test_each_step_is_told_and_held_by_one_process(folder, monkeypatch):
 
 def test_the_first_scene_is_computed_as_soon_as_it_can_be():
     names = [what for what, _ in warmup._steps()]
-    assert names[: warmup.FIRST] == ["trajectories for Ψ = 1", "limit cycles"]
+    assert names[: warmup.FIRST] == ["arrowheads", "trajectories for Ψ = 1", "limit cycles"]
     assert len(names) == len(set(names)) > warmup.FIRST
 
 
@@ -96,6 +97,18 @@ def test_a_page_is_told_how_far_the_compiler_is(monkeypatch, done, shown):
     assert header.get("compiled") == shown
     header, _ = unpack(Frames(ExplorerState()).answer({"all": True}))
     assert "compiled" not in header
+
+
+@pytest.mark.parametrize(("ready", "warm", "heads"), [(False, False, False), (False, True, True), (True, False, True)])
+def test_no_frame_waits_for_the_compiler_of_arrowheads(monkeypatch, ready, warm, heads):
+    placed = []
+    monkeypatch.setattr(arrowheads, "is_warm", lambda: warm)
+    monkeypatch.setattr(packing, "arrowheads", lambda *given: (placed.append(1), arrowheads.arrowheads(*given))[1])
+    frame = Frames(ExplorerState(), ready=lambda *_: ready).answer({"all": True})
+    assert bool(placed) == heads
+    header, blocks = unpack(frame)
+    assert header["ready"] is ready
+    assert (len(blocks["inside.at"]) > 0) == heads
 
 
 def test_a_terminal_is_told_what_had_to_be_compiled(capsys):
@@ -141,6 +154,19 @@ def test_a_process_compiles_so_many_formulas_in_its_life_and_keeps_them_all(monk
     assert made == [1, 1]
     assert stepping.MOST_EXPRESSIONS >= MOST_COMPILED
     assert typed_fields.MOST_SYSTEMS >= MOST_COMPILED
+
+
+def test_who_waits_for_pictures_does_not_wait_for_what_cannot_be_compiled(folder, monkeypatch, caplog):
+    def fails():
+        raise RuntimeError("no compiler")
+
+    monkeypatch.setattr(warmup, "_steps", lambda: [("one", fails), ("two", fails), ("three", fails)])
+    monkeypatch.setattr(warmup, "_threads", {})
+    monkeypatch.setattr(warmup, "_pictures", threading.Event())
+    monkeypatch.setattr(warmup, "outcome", "")
+    warmup.start()
+    warmup.wait()
+    assert warmup.outcome == "the first scene cannot be computed: no compiler"
 
 
 def test_who_waits_for_pictures_does_not_wait_for_motions(folder, monkeypatch):

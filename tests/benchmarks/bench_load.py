@@ -1,0 +1,222 @@
+"""A server in public: who comes drags, opens portraits, launches, types and is gone without a goodbye.
+
+``python -m tests.benchmarks load [--quick]``. How many sessions a process carries (one core each) while the p95 of all
+frames stays below 100 ms, what is then at its limit, and how unequally the chairs are served; forty pages in two
+seconds; a page beyond the limit; and the memory over an hour's worth of visits. The visitors are played by another
+process on the same machine, which needs a processor too.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import resource
+import sys
+import time
+from dataclasses import dataclass
+from urllib.error import HTTPError
+
+import numpy as np
+
+from .app_load import MANY, RATE, WITHIN, at_rest, burst, children, cpu, family, forgotten, overtaken, serving
+from .app_servers import queued
+from .bench_sessions import LONGEST
+from .bokeh_wire import Wire
+from .visits import TICKS, Chair, page, seated, visit
+
+CHAIRS = (1, 8, 16, 24, 32, 40)
+SECONDS = 12.0
+#: An hour of forty phones that stay for three minutes each.
+HOUR = 800
+AT_ONCE = 8  # of these
+
+
+@dataclass(frozen=True)
+class Load:
+    """What a crowd has met, the shares of a processor used meanwhile, and the server's processor time of a frame.
+
+    `queued` is the share of the time in which the server waited for a processor that others had: of a machine that has
+    other work, the delays say nothing, and the processor time of a frame still does.
+    """
+
+    chairs: list[Chair]
+    shares: dict[str, float]
+    frame: float
+    queued: float
+
+    def delays(self, *kinds: str) -> list[float]:
+        """Return the delays of some kinds of asking; of all frames if none is named."""
+        wanted = kinds or tuple(TICKS)
+        return [delay for chair in self.chairs for what in wanted for delay in chair.delays[what]]
+
+    def p95(self) -> float:
+        """Return the delay in seconds below which 95 of 100 frames stayed."""
+        return float(np.quantile(self.delays(), 0.95))
+
+    def rates(self) -> tuple[float, float]:
+        """Return the frames a second of the least and of the most served chair."""
+        each = [chair.answered / chair.seconds for chair in self.chairs if chair.seconds]
+        return min(each), max(each)
+
+
+def own() -> float:
+    """Return the seconds of processor time that this process has used."""
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    return used.ru_utime + used.ru_stime
+
+
+def served(pid: int, servers: int) -> list[int]:
+    """Return the processes that answer: the one that was started, or those that it has forked."""
+    return [pid] if servers == 1 else children(pid)[:servers]
+
+
+def spent(pid: int, servers: int) -> dict[str, float]:
+    """Return the processor time used so far: by those that answer, all that work for them, and here."""
+    times = {one: cpu(one) for one in family(pid)}
+    answers = sum(times[one] for one in served(pid, servers))
+    return {"server processes": answers, "their workers": sum(times.values()) - answers, "visitors": own()}
+
+
+def crowds(processes: int, chairs: tuple[int, ...], seconds: float) -> dict[int, Load]:
+    """Return what crowds have met, by their size."""
+    found = {}
+    with serving("explorer", str(processes)) as (port, pid):
+        asyncio.run(seated(port, 4, 4.0))
+        asyncio.run(at_rest(pid))
+        for size in chairs:
+            one = served(pid, processes)[0]
+            before, began, waited = spent(pid, processes), time.perf_counter(), queued(f"/proc/{one}/schedstat")
+            seats = asyncio.run(seated(port, size, seconds))
+            took, after = time.perf_counter() - began, spent(pid, processes)
+            waited = queued(f"/proc/{one}/schedstat") - waited
+            used = {what: after[what] - before[what] for what in after}
+            frames = max(1, sum(chair.answered for chair in seats))
+            shares = {what: share / took for what, share in used.items()}
+            found[size] = Load(seats, shares, used["server processes"] / frames, waited / took)
+            asyncio.run(at_rest(pid))
+    return found
+
+
+def carried(found: dict[int, Load]) -> int:
+    """Return the largest crowd whose p95 is borne, as are those of all smaller ones."""
+    most = 0
+    for size, load in sorted(found.items()):
+        if load.p95() >= LONGEST:
+            break
+        most = size
+    return most
+
+
+def crowds_table(found: dict[int, Load]) -> list[str]:
+    """Return the rows of one server."""
+    rows = []
+    for size, load in found.items():
+        kinds = ("open", *TICKS)
+        late = ", ".join(
+            f"{1e3 * np.quantile(load.delays(kind), 0.95):.0f}" if load.delays(kind) else "–" for kind in kinds
+        )
+        least, most = load.rates()
+        used = ", ".join(f"{what} {share:.0%}" for what, share in load.shares.items())
+        visits = sum(chair.visits for chair in load.chairs)
+        cells = (
+            str(size), str(visits), f"{1e3 * np.median(load.delays()):.0f}, {1e3 * load.p95():.0f}", late,
+            f"{least:.1f}, {most:.1f}", f"{1e3 * load.frame:.1f}, {1.0 / (RATE * load.frame):.0f}", used,
+            f"{load.queued:.0%}",
+        )  # fmt: skip
+        rows.append(f"| {' | '.join(cells)} |")
+    return rows
+
+
+def first_come(quick: bool) -> str:
+    """Say how long forty wait who come within two seconds."""
+    with serving("explorer") as (port, pid):
+        asyncio.run(seated(port, 2, 2.0))
+        asyncio.run(at_rest(pid))
+        rows = []
+        for _ in range(1 if quick else 3):
+            rows.append(asyncio.run(burst(port)))
+            asyncio.run(at_rest(pid))
+    waits = sorted(rows, key=max)[len(rows) // 2]
+    last = max(i * WITHIN / MANY + wait for i, wait in enumerate(waits))
+    return (
+        f"{MANY} pages in {WITHIN:g} s: the longest wait for a session is {max(waits):.2f} s, the last one is there "
+        f"after {last:.2f} s; {overtaken(waits)} of {MANY - 1} neighbours are overtaken."
+    )
+
+
+def refused(places: int = 2) -> str:
+    """Say what a page beyond the limit is answered."""
+
+    async def come(port: int) -> str:
+        wires = [await Wire.connect(port) for _ in range(places)]
+        try:
+            page(port)
+        except HTTPError as error:
+            return f"answered {error.code}, Retry-After {error.headers['Retry-After']} s"
+        finally:
+            for wire in wires:
+                await wire.vanish()
+        return "let in"
+
+    with serving("explorer", "1", "--sessions", str(places)) as (port, _):
+        return f"With {places} places, a page more is {asyncio.run(come(port))}."
+
+
+def memory(visits: int) -> str:
+    """Say what is held after each quarter of an hour's worth of visits."""
+
+    async def quarter(port: int, first: int) -> None:
+        for number in range(first, first + visits // 4, AT_ONCE):
+            await asyncio.gather(*(visit(port, number + i, Chair()) for i in range(AT_ONCE)))
+
+    with serving("forgetful") as (port, pid):
+        asyncio.run(quarter(port, 0))  # what is compiled and kept for all
+        asyncio.run(at_rest(pid))
+        held = [asyncio.run(forgotten(port))]
+        for part in range(4):
+            asyncio.run(quarter(port, part * visits // 4))
+            asyncio.run(at_rest(pid))
+            held.append(asyncio.run(forgotten(port)))
+    sizes = ", ".join(f"{1e-6 * one['resident']:.0f}" for one in held)
+    last = held[-1]
+    return (
+        f"Memory over {visits} visits ({visits / HOUR:.2g} of an hour of forty phones), MB before and after each "
+        f"quarter: {sizes}; {last['ExplorerView']} explorers and {last['Frames']} sessions' frames are left, "
+        f"{last['formulas']} formulas are compiled."
+    )
+
+
+def report(quick: bool = False) -> str:
+    """Return the tables as Markdown."""
+    chairs, seconds = ((8, 24), 5.0) if quick else (CHAIRS, SECONDS)
+    lines = []
+    for processes in (1,) if quick else (1, 2):
+        found = crowds(processes, chairs, seconds)
+        most = carried(found)
+        lines += [
+            f"| {processes} process{'es' * (processes > 1)}: sessions | visits | frames: median, p95, ms "
+            "| p95, ms: open, drag, portrait, launch, type | frames/s of the least and the most served "
+            f"| server's processor time a frame, ms; sessions a core at {RATE:.0f} Hz by it | processors used "
+            "| waited for a processor |",
+            "|---|---|---|---|---|---|---|---|",
+            *crowds_table(found),
+            "",
+            f"{most}{' or more' * (most == chairs[-1])} sessions are carried with p95 < {1e3 * LONGEST:.0f} ms; "
+            f"{saturated(found[chairs[-1]], processes)}",
+            "",
+        ]
+    lines += [first_come(quick), refused(), memory(HOUR // 10 if quick else HOUR)]
+    return "\n".join(lines)
+
+
+def saturated(load: Load, processes: int) -> str:
+    """Say what is nearest to its limit with the largest crowd."""
+    limits = {"server processes": processes, "visitors": 1, "their workers": os.cpu_count() or 1}
+    what = max(limits, key=lambda name: load.shares[name] / limits[name])
+    share = load.shares[what] / limits[what]
+    bound = "are at their limit" if share > 0.9 else "work most"
+    return f"with {len(load.chairs)}, the {what} {bound}: {share:.0%} of the processors that they can use."
+
+
+if __name__ == "__main__":
+    print(report("--quick" in sys.argv))
