@@ -2,7 +2,8 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {enlarged} from "../../../../app/static/page/beamer.js"
+import {Beamer, enlarged} from "../../../../app/static/page/beamer.js"
+import {page} from "../played/page.js"
 
 test("all that is in pixels is larger; what is in the picture stays, but for names outside the equator", () => {
   const list = [{kind: "circle", radius: 1, width: 2}, {kind: "mark", layer: "critical", x: 0.2, y: 0.3, size: 12, width: 2.5}, {kind: "label", layer: "critical", x: 0.2, y: 0.3, dx: 13, dy: -11, size: 16}, {kind: "label", layer: "equator", x: 0, y: -1.25, dx: 0, dy: 0, size: 15}]
@@ -13,4 +14,78 @@ test("all that is in pixels is larger; what is in the picture stays, but for nam
   assert.deepEqual([own.x, own.dx, own.dy, own.size], [0.2, 26, -22, 32])
   assert.deepEqual([outside.x, outside.size], [0, 30])
   assert.ok(Math.abs(outside.y + 1.35) < 1e-12)
+})
+
+test("a name of a limit direction stands a tenth of the disc further out for each time, wherever it is", () => {
+  const [name] = enlarged([{kind: "label", layer: "equator", x: 0.75, y: -1, dx: 0, dy: 0, size: 15}], 1.5)
+  assert.ok(Math.abs(name.x - 0.75 * 1.04) < 1e-12 && Math.abs(name.y + 1.04) < 1e-12, `${name.x}, ${name.y}`) // 1.25 and 0.05
+})
+
+/** A page with a beamer; `screen`: whether the browser gives it the whole screen. */
+function beamer({on = false, screen = true} = {}) {
+  const there = page('<div class="codim2"><button class="beam"></button><input type="text"><dialog></dialog></div>')
+  const root = /** @type {any} */ (there.document.querySelector(".codim2")), said = [], times = [], left = []
+  const document = /** @type {any} */ (there.document)
+  const whole = (element) => { document.fullscreenElement = element; there.fire(document, "fullscreenchange") }
+  document.documentElement.requestFullscreen = screen ? () => { whole(document.documentElement); return Promise.resolve() } : () => Promise.reject(new Error("no"))
+  document.exitFullscreen = () => { left.push(true); whole(null) }
+  const made = new Beamer(root, {enlarge: (by) => times.push(by)}, on, (is) => said.push(is))
+  const key = (name, of = {}) => there.fire(document, "keydown", {key: name, composedPath: () => [root], ...of})
+  return {...there, made, root, key, whole, said: () => said.splice(0), times: () => times.splice(0), left, has: (name) => root.classList.contains(name), button: root.querySelector(".beam")}
+}
+
+test("the button and the key b begin and end it: the picture 1.7 times as large, over the whole screen", async () => {
+  const one = beamer()
+  assert.deepEqual([one.has("beamer"), one.times()], [false, []])
+  one.fire(one.button, "click")
+  await null
+  assert.deepEqual([one.has("beamer"), one.button.getAttribute("aria-pressed"), one.said(), one.times()], [true, "true", [true], [1.7]])
+  one.key("b")
+  assert.deepEqual([one.has("beamer"), one.button.getAttribute("aria-pressed"), one.said()[0], one.times()[0], one.left.length], [false, "false", false, 1, 1])
+  one.key("b")
+  assert.ok(one.has("beamer"))
+})
+
+test("Esc ends it, and so does the browser's own way out of the full screen; where nothing is large Esc does nothing", async () => {
+  const one = beamer()
+  one.key("Escape")
+  one.whole(null)
+  assert.deepEqual([one.said(), one.times()], [[], []])
+  one.key("b")
+  await null
+  one.whole(null)
+  assert.deepEqual([one.has("beamer"), one.said()], [false, [true, false]])
+  const filled = beamer({screen: false}) // a frame gets no screen: the picture fills the page, which no other screen ends
+  filled.key("b")
+  await null
+  await null
+  filled.whole(null)
+  assert.ok(filled.has("beamer"))
+  filled.key("Escape")
+  assert.deepEqual([filled.has("beamer"), filled.said(), filled.left], [false, [true, false], []])
+})
+
+test("keys are left alone while one types, with other keys held, and under a dialog", () => {
+  const one = beamer()
+  for (const held of ["ctrlKey", "metaKey", "altKey"]) one.key("b", {[held]: true})
+  one.key("b", {composedPath: () => [one.document.querySelector("input")]})
+  one.key("c")
+  one.document.querySelector("dialog").setAttribute("open", "")
+  one.key("b")
+  assert.deepEqual([one.has("beamer"), one.said()], [false, []])
+})
+
+test("controls come with the pointer, and fade three seconds after its last move", () => {
+  const one = beamer({on: true}) // a link begins it without the screen, which only a hand may ask for
+  assert.deepEqual([one.has("beamer"), one.has("awake"), one.said(), one.times()], [true, true, [], [1.7]])
+  one.tick(2999)
+  assert.ok(one.has("awake"))
+  one.fire(one.document, "pointermove")
+  one.tick(2999)
+  assert.ok(one.has("awake"))
+  one.tick(2)
+  assert.ok(!one.has("awake"))
+  const quiet = beamer()
+  quiet.fire(quiet.document, "pointermove")
+  assert.ok(!quiet.has("awake"))
 })

@@ -15,7 +15,7 @@ test("the dialog writes a frame with the controls that are named, and copies", a
   Object.defineProperty(globalThis, "navigator", {value: {clipboard}, configurable: true, writable: true})
   const dialog = one.find("dialog"), opened = []
   dialog.showModal = () => { dialog.querySelector(".address").select = dialog.querySelector(".html").select = () => opened.push("select"); opened.push("show") }
-  const wait = async (holds) => { for (let i = 0; i < 10000 && !holds(); i++) await new Promise((done) => { setImmediate(done) }) }
+  const wait = async (holds) => { for (const end = Date.now() + 1e4; !holds() && Date.now() < end;) await new Promise((done) => { setImmediate(done) }) }
   click(one, ".share")
   await wait(() => opened.length > 1)
   const html = () => dialog.querySelector(".html").value

@@ -32,6 +32,11 @@ test("it holds every key, and nothing of a page that it is not of", () => {
   click(one, ".help")
   for (const [key, words] of KEYS) assert.ok(dialog.textContent.includes(key) && dialog.textContent.includes(words), key)
   assert.equal(dialog.querySelectorAll(".marks span").length, 3)
+  // eigenvectors as the picture draws them: stable ones broken and inward, unstable ones full and outward
+  const arrow = (it) => { const [line, head] = it.querySelectorAll("path"); return [it.textContent.trim().split(":")[0], line.getAttribute("stroke"), line.getAttribute("stroke-dasharray"), line.getAttribute("d"), head.getAttribute("d")] }
+  assert.deepEqual([...dialog.querySelectorAll(".marks span")].map(arrow), [
+    ["eigenvector, stable", "var(--attr)", "6 4", "M0 8H26", "M13 4l6 4-6 4Z"], ["unstable", "var(--rep)", "", "M0 8H20", "M20 4l6 4-6 4Z"], ["neutral", "var(--degenerate)", "2 3", "M0 8H26", ""],
+  ])
   const other = opened({page: false})
   other.key("?")
   assert.ok(!other.dialog.open)

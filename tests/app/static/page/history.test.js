@@ -35,7 +35,7 @@ test("what is shared is the present view, as a page of its own", async () => {
   const address = async () => {
     click(one, ".share")
     const box = () => dialog.querySelector(".address")
-    for (let i = 0; i < 10000 && opened.length === 0; i++) { await new Promise((done) => { setImmediate(done) }); if (box()) box().select ??= () => {} }
+    for (const end = Date.now() + 1e4; opened.length === 0 && Date.now() < end;) { await new Promise((done) => { setImmediate(done) }); if (box()) box().select ??= () => {} }
     opened.length = 0
     const given = new URL(box().value).searchParams
     return Object.fromEntries(new URLSearchParams(given.has("s") ? inflateRawSync(Buffer.from(given.get("s"), "base64url")).toString() : given))

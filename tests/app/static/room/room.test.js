@@ -94,7 +94,9 @@ function room(kept = "{}") {
   dialog.showModal = () => { dialog.open = true }
   dialog.close = () => { dialog.open = false }
   const made = new Room(root, {send: ({room: wish}) => said.push(wish), query: () => "v=1&f1=1", version: 1, changed: () => said.push("changed"), opened: () => said.push("opened")})
-  return {...there, root, dialog, room: made, bar: root.querySelector(".room-bar"), said: () => said.splice(0), kept: () => JSON.parse(sessionStorage.getItem("")), press: (act) => there.fire(root.querySelector(`[data-room=${act}]`), "click")}
+  const show = made.show.bind(made), showing = []
+  made.show = () => { showing.push(show()); return showing[0] }
+  return {...there, root, dialog, room: made, shown: () => Promise.all(showing), bar: root.querySelector(".room-bar"), said: () => said.splice(0), kept: () => JSON.parse(sessionStorage.getItem("")), press: (act) => there.fire(root.querySelector(`[data-room=${act}]`), "click")}
 }
 
 test("a lecturer opens a room, is told of the phones, and closes it", async () => {
@@ -104,7 +106,7 @@ test("a lecturer opens a room, is told of the phones, and closes it", async () =
   assert.equal(one.room.hear({frame: 1}), false)
   assert.equal(one.room.hear({room: {open: "BCDF", key: "secret"}}), true)
   assert.deepEqual([one.said(), one.kept(), one.dialog.open], [["changed", "opened"], {key: "secret"}, true])
-  for (let i = 0; i < 1000 && !one.dialog.querySelector(".qr").src; i++) await new Promise((done) => { setImmediate(done) })
+  await one.shown()
   assert.equal(decodeURIComponent(one.dialog.querySelector(".qr").src), "http://h/qr.svg?text=http://h/x/?room=BCDF&v=1&f1=1".replace("/qr", "/x/qr"))
   assert.deepEqual([".room-code", ".room-address", ".room-count"].map((it) => one.dialog.querySelector(it).textContent), ["BCDF", "h/x/?room=BCDF", "0 phones"])
   one.room.hear({room: {rows: [row(1, "CM4", {})]}})
@@ -114,6 +116,7 @@ test("a lecturer opens a room, is told of the phones, and closes it", async () =
   assert.equal(one.dialog.open, false)
   one.press("show")
   assert.equal(one.dialog.open, true)
+  await one.shown()
   one.fire(one.dialog.querySelector(".room-end"), "click")
   assert.deepEqual(one.said(), [{close: true}])
   one.room.hear({room: {ended: "BCDF"}})
@@ -145,7 +148,12 @@ test("a page that is loaded again while its server starts asks some times", () =
   const one = room('{"in": "BCDF"}')
   one.room.begin(null)
   for (let i = 0; i < 8; i++) { one.room.hear({room: {error: "There is none."}}); one.tick(3001) }
-  assert.deepEqual([one.said().length, one.kept()], [6, {}])
+  assert.deepEqual([one.said(), one.kept()], [Array(6).fill({join: "BCDF"}), {}])
+  const back = room('{"in": "BCDF"}')
+  back.room.begin(null)
+  back.room.hear({room: {joined: "BCDF"}})
+  back.room.hear({room: {error: "It is full."}}) // once it is in, what is refused is said
+  assert.match(back.bar.textContent, /^It is full\./)
   const nobody = room("no JSON")
   nobody.room.begin(null)
   assert.deepEqual(nobody.said(), [])
