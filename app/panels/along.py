@@ -37,7 +37,7 @@ def add(draft: Draft) -> None:
     _add_drift(draft)
     m = system.m
     axis = min(SLOW_CONTROLS.index(values["drift"]), m - 1, len(SLOW_CONTROLS) - 1)
-    spans = spans_of(system, values)
+    spans = slow_spans(system, values)
     others = tuple(0.0 if i == axis else v for i, v in enumerate(z))
     found = draft.slow("along", (system, psi, others, axis, spans), line, system, psi, others, axis, spans)
     if found is not None:
@@ -61,7 +61,7 @@ def _add_drift(draft: Draft) -> None:
         draft.now["drift"] = draft.header["drift"] = told
 
 
-def spans_of(system: System_, values: Mapping[str, Any]) -> tuple[tuple[float, float], ...]:
+def slow_spans(system: System_, values: Mapping[str, Any]) -> tuple[tuple[float, float], ...]:
     """Return the range of the slider of each slow variable."""
     ranges = slow_ranges(values["system"], system.m)
     return tuple(

@@ -23,7 +23,7 @@ from ..frame.draft import Draft
 from ..state.choices import SLOW_CONTROLS, SOLIDS
 from ..state.chosen import System_
 from . import filippov
-from .along import NONE, spans_of
+from .along import NONE, slow_spans
 from .panel import Panel
 
 SLICES = 5  # hemispheres along z
@@ -47,7 +47,7 @@ def add(draft: Draft) -> None:
     if draft.values["solid"] == "filippov":
         filippov.add(draft, system)
     axis = min(SLOW_CONTROLS.index(draft.values["drift"]), system.m - 1, len(SLOW_CONTROLS) - 1)
-    span = spans_of(system, draft.values)[axis]
+    span = slow_spans(system, draft.values)[axis]
     others = tuple(0.0 if i == axis else v for i, v in enumerate(scene.z))
     if draft.ready:
         key = (system, scene.psi, others, axis, span)

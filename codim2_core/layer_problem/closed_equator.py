@@ -14,7 +14,7 @@ from ..numerics.trigonometric import tangential_zeros
 from ..numerics.trigonometric_exact import to_integers
 from ..tables import number, paragraphs, table
 from ..words import say
-from .equator_zeros import closed_equator
+from .equator_zeros import equator_as_orbit
 
 __all__ = ["NEUTRAL_EQUATOR", "EquatorCycle", "equator_cycle"]
 
@@ -89,7 +89,7 @@ def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
     at = system.at(z)
     q = at.normal_form
     if q is None:
-        found = closed_equator(at.key)
+        found = equator_as_orbit(at.key)
         return None if found is None else EquatorCycle(*found)
     a, b, d, f1, f2 = q.a, q.b, q.d, q.f1, q.f2
     zeros = tangential_zeros(a, b, d, f1, f2)

@@ -323,7 +323,7 @@ def _on(theta: Array, arcs: Array) -> NDArray[np.bool_]:
 
 
 @lru_cache(maxsize=128)
-def closed_equator(key: Hashable) -> tuple[int, float, float, bool] | None:
+def equator_as_orbit(key: Hashable) -> tuple[int, float, float, bool] | None:
     """Direction, period, exponent and neutrality of the equator as a closed orbit; None where Theta has a zero.
 
     The integrals of 1/|Theta| and lambda_rho/|Theta| over a turn are means over equally spaced angles, which converge

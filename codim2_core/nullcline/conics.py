@@ -40,7 +40,7 @@ def _radial_angles(coefficients: Coefficients) -> list[float]:
 Affine = tuple[float, float, float, float, float, float]  # U = (A11 c + A12 s + f1, A21 c + A22 s + f2), row by row
 
 
-def affine_plane(at: AtZ) -> tuple[Affine, list[float]] | None:
+def affine_field(at: AtZ) -> tuple[Affine, list[float]] | None:
     """U where it is affine in (c, s), and the angles at which lambda_rho vanishes; None where it is not."""
     normal = at.normal_form
     if normal is None:

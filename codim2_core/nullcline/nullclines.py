@@ -16,7 +16,7 @@ from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from ..tables import Results, Tabled, point
-from .conics import Curve, Straight, affine_plane, chord_ends, conic, lines
+from .conics import Curve, Straight, affine_field, chord_ends, conic, lines
 from .polylines import drawn
 from .refining import Seen, on_component
 from .typed import Kind, inside_curves, outside_curves
@@ -70,7 +70,7 @@ def inside_nullclines(
     coefficients: AtZ, psi: Psi, limit_directions: list[float], seen: Seen | None = None
 ) -> tuple[NullclineBranch, ...]:
     """Nullclines on the hemisphere; `limit_directions` are the zeros of Theta (where theta-nullclines end)."""
-    affine = affine_plane(coefficients)
+    affine = affine_field(coefficients)
     if affine is None:
         return tuple(
             _branch(kind, True, drawn(curve, psi, seen, on_component(coefficients, kind, inside=True)))
@@ -105,7 +105,7 @@ def outside_nullclines(
     Where U is not affine in (c, s), U1 = 0 and U2 = 0 are rays too, and none is straight if U reads x or y.
     """
     reach = math.sqrt(2.0) * view
-    affine = affine_plane(coefficients)
+    affine = affine_field(coefficients)
     if affine is None:
         one = constant()
         return tuple(
