@@ -1,0 +1,31 @@
+"""What a browser sends is of its control's kind, or is told to be otherwise."""
+
+import pytest
+from codim2_app.state import cleaning
+from codim2_app.state.cleaning import InputError, clean
+from codim2_app.state.controls import ExplorerState
+
+
+def test_a_count_is_a_whole_number_within_its_bounds():
+    low, high = ExplorerState.param["trajectories"].bounds
+    assert [clean("trajectories", value) for value in (low, 3, 3.0, "3", high)] == [low, 3, 3, 3, high]
+    for wrong in (2.5, low - 1, high + 1, "many", None):
+        with pytest.raises(InputError):
+            clean("trajectories", wrong)
+
+
+def test_layers_are_names_each_once_from_a_list_or_a_text():
+    for given in (["inside", "cycles", "inside"], ("inside", "cycles"), "inside,,cycles"):
+        assert clean("layers", given) == ["inside", "cycles"]
+    for wrong in (3, ["inside", 4], [None], ["nothing"], "nothing", {"inside": 1}):
+        with pytest.raises(InputError, match="Layers"):
+            clean("layers", wrong)
+
+
+def test_a_text_of_no_kind_of_its_own_is_short():
+    name = "lesson"
+    assert name not in cleaning._READ
+    assert clean(name, "x" * 200) == "x" * 200
+    for wrong in ("x" * 201, 7, None, ["x"]):
+        with pytest.raises(InputError, match="200 characters"):
+            clean(name, wrong)
