@@ -86,15 +86,23 @@ FACTS: dict[str, tuple[str, str, Callable[[Scene], Fact]]] = {
         "limit directions, every direction, attracting, repelling, neutral (a closed orbit)",
         _equator,
     ),
-    "arriving": ("with λ_ρ < 0", "limit directions with λ_ρ < 0", lambda s: _count(s["equator"].lambda_rho < 0.0)),
-    "leaving": ("with λ_ρ > 0", "limit directions with λ_ρ > 0", lambda s: _count(s["equator"].lambda_rho > 0.0)),
+    "arriving": (
+        "limit directions with λ_ρ < 0",
+        "limit directions with λ_ρ < 0",
+        lambda s: _count(s["equator"].lambda_rho < 0.0),
+    ),
+    "leaving": (
+        "limit directions with λ_ρ > 0",
+        "limit directions with λ_ρ > 0",
+        lambda s: _count(s["equator"].lambda_rho > 0.0),
+    ),
     "angularly_attracting": (
-        "with λ_θ < 0",
+        "limit directions with λ_θ < 0",
         "limit directions with λ_θ < 0",
         lambda s: _count(s["equator"].lambda_theta < 0.0),
     ),
     "along_an_open_set": (
-        "with both negative",
+        "limit directions with both negative",
         "limit directions along which an open set of trajectories arrives",
         lambda s: _count((s["equator"].lambda_rho < 0.0) & (s["equator"].lambda_theta < 0.0)),
     ),

@@ -24,7 +24,8 @@ from .portraits import portrait_keys
 MOST_ENTRIES = 16  # of a mapping that a browser sends
 LONGEST_TEXT = 2000
 MOST_OWN = 10_000  # characters of all that a second portrait has of its own
-PINNED = re.compile(r"([QLSO][1-9]\d{0,2}|C([1-9]\d{0,2})?|U[12]|R|T|H)?")
+_PLACE = r"-?\d{1,2}(\.\d{1,3})?"  # of the picture
+PINNED = re.compile(rf"([QLO][1-9]\d{{0,2}}|C([1-9]\d{{0,2}})?|(S[1-9]\d{{0,2}}|U[12]|R|T|H)(@{_PLACE},{_PLACE})?)?")
 
 
 class InputError(ValueError):

@@ -92,7 +92,9 @@ class ExplorerState(param.Parameterized):
         label="Orbit",
         doc="Number of the launched orbit that is shown in time; 0 is the typed start.",
     )
-    pinned = param.String("", label="Pinned", doc="The object whose card stays, such as 'Q2', 'C' or 'L1'; or none.")
+    pinned = param.String(
+        "", label="Pinned", doc="The object whose card stays, such as 'Q2', 'C' or 'T@0.5,0.25'; or none."
+    )
     orbit_eps = param.Selector(
         default="hide", objects=["hide", "show"], label="ε > 0", doc="The motion for ε > 0 beside that orbit."
     )

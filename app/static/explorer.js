@@ -228,7 +228,7 @@ export class Explorer {
   showLayers() {
     const {layers} = this.values
     for (const box of this.boxes) box.checked = layers.includes(box.value)
-    this.picture.show(layers.filter((layer) => !this.hidden.includes(layer)))
+    this.picture.show(layers.filter((layer) => !this.hidden.includes(layer)), !this.hidden.includes("equator"))
     this.pointing.frame()
     this.find(".outcome-key").hidden = !layers.includes("outcomes")
   }

@@ -37,6 +37,7 @@ TABLES = {
     "scene": "A cold scene", "general": "Typed systems", "simulate": "Simulated motions against eps",
     "app": "The server", "browser": "Painted frames", "page": "The first page", "start": "The first start",
     "sessions": "Many sessions", "load": "A day in public", "wild": "Wild requests",
+    "room": "A room of phones",
     "equator": "Counts of limit directions",
     "census": "A census of portraits", "cycles": "Case III and its cycles",
     "compiled": "Motions against SciPy with a compiled right-hand side",

@@ -19,6 +19,13 @@ def encoded(value: Any) -> Any:
     return value
 
 
+def decoded(value: Any) -> Any:
+    """Read nested dicts and lists as Bokeh's protocol writes them."""
+    if isinstance(value, dict) and value.get("type") == "map":
+        return {key: decoded(item) for key, item in value["entries"]}
+    return [decoded(item) for item in value] if isinstance(value, list) else value
+
+
 class Wire:
     """One page's connection. `patches` counts the patches that arrived, `bytes` the size of everything."""
 
@@ -94,6 +101,20 @@ class Wire:
                 return buffers[0] if buffers else b""
             if kind == "ERROR":
                 raise RuntimeError(f"the server reports an error: {content['text']}")
+
+    async def ask(self, name: str, request: Any) -> Any:
+        """Send a request that is no frame, and return the answer to it."""
+        await self.event("data_event", self.root, data={name: request})
+        return await self.heard(name)
+
+    async def heard(self, name: str) -> Any:
+        """Return what the server says next under a name, past all else."""
+        while True:
+            kind, content, _ = await self.read()
+            for event in content["events"] if kind == "PATCH-DOC" else ():
+                said = decoded(event.get("msg_data", {}).get("values", {})).get("data", {})
+                if name in said:
+                    return said[name]
 
     async def close(self) -> None:
         """Close the connection and wait until it is closed."""

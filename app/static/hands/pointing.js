@@ -2,7 +2,7 @@
 // eigenvectors; the one that is pinned goes on doing so while the sliders move.
 
 import {put} from "../dom.js"
-import {areaAt, curveAt} from "./curves.js"
+import {areaAt, curveAt, nearestOn} from "./curves.js"
 import {eigenWords, eigenvectorsOf, factsOf, followed, objectAt, objectsOf, placeOf, pointedList, styleOf} from "./objects.js"
 import {SAYS, escape, formula} from "../words.js"
 
@@ -11,6 +11,9 @@ const CURVE = {mouse: 6, pen: 7, touch: 8} // px around a curve: its ground is f
 const QUIET = 150 // ms after the last frame until what is read out follows
 const NAMED = ["launched", "cycles", "separatrices", "rho", "theta", "lines", "conics", "equator", "critical"] // layers of objects
 const EVERYWHERE = ["inside", "outside"] // trajectories: pointed at from half as near
+
+const PLACED = ["curve", "separatrices"] // of these the place is told
+const round = (/** @type {number} */ v) => Number(v.toFixed(3))
 
 const CORNERS = ["tl", "bl", "br"] // the tools are at the top on the right
 
@@ -33,6 +36,7 @@ export class Pointing {
     this.slowSymbols = slowSymbols
     this.choose = choose
     this.name = "" // of the pinned object
+    this.at = /** @type {{x: number, y: number} | null} */ (null) // where on a curve it is told, as a link says
     this.pinned = this.over = this.place = null
     this.last = [] // the objects of the frame before, while one is followed
     this.gone = this.byName = this.byKey = false
@@ -111,20 +115,29 @@ export class Pointing {
   toggle(one) { this.pin(this.name === one.name ? "" : one.name, one) }
 
   pin(name, place = null) {
-    this.set(name, place)
+    this.put(name, place)
     this.byName = false
-    this.choose(name)
+    this.choose(this.text)
   }
 
-  /**
-   * What is pinned, by its name; of what a link or an undone step says.
-   * @param {string} name @param {{x: number, y: number} | null} place of a curve that is told
-   */
-  set(name, place = null) {
+  /** What is pinned, as a link or an undone step says. @param {string} text a name, of a curve with the place that is told */
+  set(text) {
+    const [name, place] = text.split("@"), [x, y] = place?.split(",").map(Number) ?? []
+    this.put(name, place ? {x, y} : null)
+  }
+
+  /** What is pinned, as a link says. */
+  get text() {
+    const {name, pinned, at} = this, place = pinned ? PLACED.includes(pinned.kind) && pinned : at
+    return name && place ? `${name}@${round(place.x)},${round(place.y)}` : name
+  }
+
+  /** @param {string} name @param {{x: number, y: number} | null} place of a curve that is told */
+  put(name, place) {
     this.name = name
+    this.at = place
     const objects = name ? this.objects : []
-    this.pinned = objects.find((one) => one.name === name) ?? null
-    if (this.pinned && place) this.pinned = {...this.pinned, x: place.x, y: place.y}
+    this.pinned = this.called(objects)
     this.last = objects
     this.gone = false
     this.byName = true // the next frame may be of another setting
@@ -133,7 +146,7 @@ export class Pointing {
   }
 
   /**
-   * A frame has come, or other layers are shown: what is pinned follows its object. Returns its name.
+   * A frame has come, or other layers are shown: what is pinned follows its object. Returns it as a link says it.
    * @param {Record<string, any>} header of the frame
    */
   frame(header = {}) {
@@ -145,11 +158,17 @@ export class Pointing {
       const now = followed(this.pinned, objects, this.last)
       this.gone = !now
       if (now) { this.pinned = now; this.name = now.name }
-    } else if (this.name) this.pinned = objects.find((one) => one.name === this.name) ?? null
+    } else if (this.name) this.pinned = this.called(objects)
     if (this.over && this.over.kind !== "nameless") this.over = followed(this.over, objects, this.last)
     this.last = objects
     this.draw()
-    return this.name
+    return this.text
+  }
+
+  // The object that is pinned, by its name: a curve is told where it was, or as near to that as it is now.
+  called(objects) {
+    const one = objects.find(({name}) => name === this.name) ?? null
+    return one?.curve && !one.mark && this.at ? {...one, ...nearestOn(one.curve, this.at.x, this.at.y)} : one
   }
 
   draw() {

@@ -1,18 +1,21 @@
 // The panel "3-D": the hemisphere of the blowup, or hemispheres stacked along z. Turned here, without asking the server.
 
 import {register} from "../beside/panels.js"
+import {say} from "../dom.js"
 import {seen} from "../chart/projection.js"
 import {SAYS, digits, minus, plain} from "../words.js"
 
 /** Whether the two ends of what slides combine two limit vectors each. @param {{candidates: number[], combined: number[][][]}} data */
 const inPairs = ({candidates, combined}) => candidates.length === 2 && combined.every((ends) => ends.length === 2)
 
+const REACH = {mouse: 12, pen: 14, touch: 24} // px around what is told
+
 class Stack {
   constructor(box, tools) {
     const buttons = Object.entries(tools.settings.views).map(([view, words]) => `<button type="button" data-view="${view}">${words}</button>`)
     box.innerHTML = `<div class="row">${buttons.join("")}</div>
       <canvas class="solid" tabindex="0" role="application" aria-label="The blowup in three dimensions: drag to turn, or use the arrow keys"></canvas>
-      <p class="note solid-note"></p>`
+      <p class="note solid-told" role="status" hidden></p><p class="note solid-note"></p>`
     this.box = box
     this.tools = tools
     this.find = (name) => box.querySelector(name)
@@ -24,8 +27,11 @@ class Stack {
     this.why = {}
     for (const button of this.box.querySelectorAll("[data-view]")) button.addEventListener("click", () => tools.choose("solid", button.dataset.view))
     this.canvas.addEventListener("pointerdown", (event) => { this.canvas.setPointerCapture(event.pointerId); this.from = [event.clientX, event.clientY] })
+    this.places = [] // what can be pointed at: where on the canvas, and what is said of it
+    this.canvas.addEventListener("pointerdown", (event) => this.tell(event))
+    this.canvas.addEventListener("pointerleave", () => say(this.find(".solid-told"), ""))
     this.canvas.addEventListener("pointermove", (event) => {
-      if (!this.from) return
+      if (!this.from) { this.tell(event); return }
       this.turn((event.clientX - this.from[0]) / 120, (event.clientY - this.from[1]) / 160)
       this.from = [event.clientX, event.clientY]
     })
@@ -57,6 +63,21 @@ class Stack {
 
   draw(values) { this.values = values; this.view = values.solid; this.paint() }
 
+  // Say what is under the pointer: of two the one that was drawn last.
+  tell(event) {
+    const box = this.canvas.getBoundingClientRect(), told = this.find(".solid-told")
+    const reach = REACH[event.pointerType] ?? REACH.mouse
+    let least = reach, words = ""
+    for (const {at: [x, y], said} of this.places) {
+      const gap = Math.hypot(event.clientX - box.left - x, event.clientY - box.top - y)
+      if (gap <= least) { least = gap; words = said }
+    }
+    told.hidden = !this.places.length
+    say(told, words || (this.places.length ? SAYS.pointAt : ""))
+  }
+
+  place(point, said) { this.places.push({at: this.project(point), said}) }
+
   // From space to the canvas, in px, with the depth.
   project(point) {
     const [right, up, depth] = seen(point, this.azimuth, this.elevation)
@@ -75,6 +96,7 @@ class Stack {
     const style = getComputedStyle(this.tools.root)
     this.colour = (name) => style.getPropertyValue(`--${name}`).trim()
     for (const button of this.box.querySelectorAll("[data-view]")) button.setAttribute("aria-pressed", button.dataset.view === this.view)
+    this.places = []
     const data = this.data[this.view]
     this.find(".solid-note").textContent = data ? [data.sentence, this.view === "filippov" && inPairs(data) && SAYS.ends].filter(Boolean).join(" ") : this.why[this.view] || "…"
     if (!data) return
@@ -167,16 +189,16 @@ class Stack {
       this.line([from, end], () => thin)
     }
     g.font = "12px system-ui, sans-serif"; g.textAlign = "center"
-    const say = (words, point, dx, dy, colour = "ink") => {
+    const write = (words, point, dx, dy, colour = "ink") => {
       const [x, y] = this.project(point)
       g.lineWidth = 3; g.strokeStyle = this.colour("page"); g.strokeText(words, x + dx, y + dy)
       g.fillStyle = this.colour(colour); g.fillText(words, x + dx, y + dy)
     }
-    say("x̄", [1.34, 0, 0], 6, 10); say("ȳ", [0, 1.34, 0], 6, -4); say("ε̄", [0, 0, 1.3], 9, 4)
+    write("x̄", [1.34, 0, 0], 6, 10); write("ȳ", [0, 1.34, 0], 6, -4); write("ε̄", [0, 0, 1.3], 9, 4)
     const near = corners.map((corner) => this.project(corner)).map(([x, y], i) => [x, y, i]).sort((one, other) => other[0] - one[0])[0][2]
-    say("κ₂: (x₂, y₂), ε̄ = 1", corners[near], -20, -8, "accent")
+    write("κ₂: (x₂, y₂), ε̄ = 1", corners[near], -20, -8, "accent")
     const front = [-Math.sin(this.azimuth), -Math.cos(this.azimuth), 0] // the point of the equator that is nearest to the eye
-    say("equator, ε̄ = 0", front, 0, 17)
+    write("equator, ε̄ = 0", front, 0, 17)
     g.textAlign = "left"
   }
 
@@ -283,6 +305,7 @@ class Stack {
     }
     for (const [value, kind] of selected) this.dot([0, 0, lift(value)], {shape: "square", fill: kind.startsWith("stable") ? this.colour("crit") : this.colour("page"), stroke: this.colour("crit"), text: `z′ = ${digits(value, 3)}`})
     if (cross !== null) this.cross([0, 0, lift(cross)])
+    this.tellOf({cross, curve, candidates, selected}, at, lift)
     g.font = "12px system-ui, sans-serif"; g.fillStyle = this.colour("soft")
     // names stand beyond what they name: the plane's at its highest corner, the curve's below its lowest point
     const ends = (points) => points.map((v) => this.project(at(v))).sort((one, other) => one[1] - other[1])
@@ -294,6 +317,16 @@ class Stack {
     const [sx, sy] = this.project([0, 0, 0.95]); g.fillText("Σ", sx + 5, sy + 4)
     const [fx, fy] = ends(curve).at(-1)
     g.fillStyle = this.colour("attr"); g.fillText("F*(θ)", fx - 12, fy + 16)
+  }
+
+  // What is told of the limit vectors under a pointer: the curve first, above it what lies on Σ.
+  tellOf({cross, curve, candidates, selected}, at, lift) {
+    const on = (value) => [0, 0, lift(value)], z = (value) => `z′ = ${digits(value, 4)}`
+    curve.forEach((v, i) => this.place(at(v), `F*(θ), θ = ${digits(360 * i / (curve.length - 1))}°: ${SAYS.limitVector} (U₁, U₂, W) = (${v.map((u) => digits(u)).join(", ")})`))
+    for (const value of candidates) this.place(on(value), `${SAYS.candidate}, ${z(value)}`)
+    if (cross !== null) this.place(on(cross), `${SAYS.affine}, ${z(cross)}`)
+    for (const [value, kind] of selected) this.place(on(value), `${SAYS.selected} (${kind}), ${z(value)}`)
+    this.find(".solid-told").hidden = false
   }
 
   cross(point) {

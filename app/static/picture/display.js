@@ -9,11 +9,12 @@
  * @property {Record<string, any>} header  the newest of each entry of the frames' headers
  * @property {Record<string, any>} blocks  the newest of each array of the frames
  * @property {Record<string, string>} theme  colours by name
+ * @property {boolean} [sense]  whether the equator tells which way it is run through
  * @property {{discs: number[], ring: [number, number], hatches: Record<string, string>}} measures
  */
 
 /** @param {State} state */
-export function displayList({table, layers, old, header, blocks, theme, measures}) {
+export function displayList({table, layers, old, header, blocks, theme, measures, sense = true}) {
   /** @type {any[]} */
   const list = [
     {kind: "page", colour: theme.page},
@@ -29,7 +30,7 @@ export function displayList({table, layers, old, header, blocks, theme, measures
   for (const {name, parts} of shown) {
     for (const part of parts) if (blocks[`${part.name}.at`]?.length) list.push(heads(name, part, blocks, theme))
   }
-  list.push(...circle(header, theme))
+  list.push(...circle(header, theme, sense))
   if (header.launched && shown.some((layer) => layer.name === "launched")) list.push(...starts(header.launched, theme, table.find(({name}) => name === "launched").parts))
   for (const name of ["equator", "critical"]) {
     if (header[name] && shown.some((layer) => layer.name === name)) list.push(...marks(name, header[name], theme))
@@ -83,11 +84,11 @@ function arcs({start, end, kind}, theme, {ring: [inner, outer], hatches}) {
 }
 
 // The equator, thick where every direction is a limit direction, and the sense of theta' along it.
-function circle(header, theme) {
+function circle(header, theme, sense) {
   const all = header.all_directions
   /** @type {any[]} */
   const list = [{kind: "circle", radius: 1, colour: all ? theme.degenerate : theme.ink, width: all ? 6 : 2}]
-  for (const [x, y, angle] of header.sense ?? []) list.push({kind: "head", layer: "sense", x, y, angle, colour: theme.ink, size: 10})
+  for (const [x, y, angle] of sense && header.sense || []) list.push({kind: "head", layer: "sense", x, y, angle, colour: theme.ink, size: 10})
   return list
 }
 

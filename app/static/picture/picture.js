@@ -15,7 +15,7 @@ export class Picture {
     this.plot = plot
     this.themes = themes
     this.traces = traces
-    this.state = {table: layers, layers: [], old: [], header: {}, blocks: {}, theme: themes.light, measures}
+    this.state = {table: layers, layers: [], old: [], header: {}, blocks: {}, theme: themes.light, measures, sense: true}
     this.parts = new Set(["basins", ...layers.flatMap((layer) => layer.parts.map((part) => part.name))])
     this.paths = this.place = null
     this.pointed = []
@@ -102,8 +102,10 @@ export class Picture {
     this.drawTrace()
   }
 
-  show(layers) {
+  /** @param {string[]} layers @param {boolean} sense whether the equator tells which way it is run through */
+  show(layers, sense = true) {
     this.state.layers = layers
+    this.state.sense = sense
     this.draw()
   }
 

@@ -75,12 +75,33 @@ def test_what_is_taken_from_a_portrait_is_nobody_elses():
     assert "separatrices" not in preset_values("attracting-repelling")["layers"]
 
 
-@pytest.mark.parametrize("name", ["", "Q1", "Q12", "C", "C3", "L2"])
+@pytest.mark.parametrize("name", ["", "Q1", "Q12", "C", "C3", "L2", "T", "T@0.244,-1.366", "U2@-12,0", "S3@0.5,1"])
 def test_an_object_is_pinned_by_its_name(name):
     assert clean("pinned", name) == name
 
 
-@pytest.mark.parametrize("bad", ["Q", "Q0", "L", "C01", "Q1,Q2", "q1", "Q1234", " C", 3, None, ["C"]])
+@pytest.mark.parametrize(
+    "bad",
+    [
+        "Q",
+        "Q0",
+        "L",
+        "C01",
+        "Q1,Q2",
+        "q1",
+        "Q1234",
+        " C",
+        "C@0,0",
+        "T@",
+        "T@1",
+        "T@a,b",
+        "T@1e9,0",
+        "T@0.1234,0",
+        3,
+        None,
+        ["C"],
+    ],
+)
 def test_what_names_no_object_is_not_pinned(bad):
     with pytest.raises(InputError, match="give an object such as Q2") as caught:
         clean("pinned", bad)

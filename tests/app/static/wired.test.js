@@ -44,6 +44,7 @@ test("a question hides layers, whose boxes stay as they are, and all words that 
   const one = wired(), places = []
   tools.ask({hide: ["equator", "basins"], mark: (place) => places.push(place)})
   assert.deepEqual(shows(one), ["inside", "critical"])
+  assert.equal(one.root.explorer.picture.state.sense, false) // arrows would tell where limit directions are
   assert.deepEqual(["asked", "marking"].map((name) => one.root.classList.contains(name)), [true, true])
   for (const kind of ["pointerdown", "pointerup"]) hand(one, kind, 285, 95)
   assert.deepEqual([places.length, one.root.explorer.values.orbits], [1, ""])

@@ -53,10 +53,23 @@ test("a click on a nullcline pins it, where it was clicked, and it is followed",
   hover(one, end)
   assert.deepEqual([hint(one), drawn(one)], ["θ-nullcline, Θ = 0", ["curves"]])
   press(one, end)
-  assert.deepEqual([card(one), query(one).pinned, one.root.explorer.values.orbits], ["θ-nullcline, Θ = 0", "T", ""])
+  assert.deepEqual([card(one), query(one).pinned, one.root.explorer.values.orbits], ["θ-nullcline, Θ = 0", "T@0.244,0.366", ""])
   assert.match(one.find(".card.pinned").textContent, /\(x̄, ȳ\)\(0\.244, 0\.366\)/)
   one.answer()
   assert.deepEqual([card(one), drawn(one)], ["θ-nullcline, Θ = 0", ["curves"]])
+})
+
+test("a link brings a pinned nullcline to its place, one without a place to its middle, and it stays there", () => {
+  const layers = {layers: [{name: "theta", parts: [{name: "stable", colour: "separatrix", width: 1.5, dash: []}]}]}
+  const told = (pinned) => {
+    const one = wired({...layers, values: {...VALUES, layers: ["theta"], pinned}})
+    one.answer(); one.tick(400)
+    return [one.root.explorer.values.pinned, ...[...one.root.querySelectorAll(".card.pinned dd")].map((it) => it.textContent), one.sent.length]
+  }
+  const [text, place, angle, sent] = told("T@0.244,0.366")
+  assert.deepEqual([text, place, angle], ["T@0.244,0.366", "(0.244, 0.366)", "56.31°"])
+  assert.deepEqual(told("T@0.3,0.4"), ["T@0.24,0.391", "(0.240, 0.391)", "58.42°", sent + 1]) // as near as it is now, and noted once
+  assert.match(told("T")[0], /^T@-?[0-9.]+,-?[0-9.]+$/)
 })
 
 test("a click pins, the pin is in the link and is undone; a click beside launches", () => {

@@ -55,6 +55,26 @@ test("the panel solid: the hemisphere, marks lifted onto it, in front strong and
   assert.ok(words["Q₁"] && words["C₂"])
 })
 
+test("the panel solid: what the Filippov view shows is told under the pointer, and nothing beside it", () => {
+  const curve = [[1, 0, 0.5], [0, 1, 0], [-1, 0, -0.5], [0, -1, 0], [1, 0, 0.5]]
+  const data = {plane: [], cross: null, curve, candidates: [-0.25, 0.25], combined: [[], []], selected: [[0.125, "stable node"]], sentence: "All."}
+  const one = solid({filippov: data}, {solid: "filippov"}), told = () => one.find(".solid-told")
+  one.drawn()
+  assert.equal(told().hidden, false)
+  const lift = (value) => 1.5 * (value + 0.5 - 0.5), scale = Math.min(WIDTH / 2.3, HEIGHT / (1.9 * Math.cos(0.5) + 2 * Math.sin(0.5)))
+  const at = (point) => { const [right, up] = seen(point, -0.6, 0.5); return {clientX: WIDTH / 2 + scale * right, clientY: HEIGHT / 2 - scale * up} }
+  const hover = (point, more = {}) => { one.fire(one.canvas, "pointermove", {...at(point), ...more}); return told().textContent }
+  assert.equal(hover([0, 1, lift(0)]), "F*(θ), θ = 90.00°: the limit vector (U₁, U₂, W) = (0, 1.000, 0)")
+  assert.match(hover([0, 0, lift(0.125)]), /critical set.*\(stable node\), z′ = 0\.1250*$/)
+  assert.match(hover([0, 0, lift(-0.25)]), /^An end.*z′ = −0\.250*$/)
+  assert.match(hover([9, 9, 9]), /^Point at/)
+  one.fire(one.canvas, "pointerdown", {...at([0, 0, lift(0.25)]), pointerType: "touch"}) // a finger has no hover
+  assert.match(told().textContent, /z′ = 0\.250*$/)
+  one.set({solid: "sphere"})
+  one.fire(one.canvas, "pointerup"); one.fire(one.canvas, "pointermove", at([0, 0, 0]))
+  assert.deepEqual([told().textContent, told().hidden], ["", true])
+})
+
 test("the panel solid: a hand turns it, and so do keys, never from below", () => {
   const one = solid({sphere: {inside: [], outside: []}, equator: {x: [1], y: [0], filled: [1], label: ["Q"]}, critical: {}})
   const place = (drawn) => { const [[, x, y]] = paths(drawn).filter(({how, points}) => how === "fill" && points.length === 1 && points[0][0] === "arc").map(({points}) => points[0]); return [x, y] }
