@@ -148,8 +148,9 @@ export class Second {
       if (name in this.told) this.told = {...this.told, [name]: value}
     }
     const theirs = others(shared, page.values)
+    if (Object.keys(others(mine, own)).length) page.keep(writeOwn({...own, ...mine})) // before the two are compared again
     if (Object.keys(theirs).length) page.set(theirs)
-    if (Object.keys(others(mine, own)).length) this.keep({...own, ...mine})
+    this.sync()
   }
 
   /** A frame of the first: its name stands below its picture. */

@@ -100,7 +100,8 @@ function dress(window, document) {
   for (let of = Object.getPrototypeOf(document.createElementNS("http://www.w3.org/2000/svg", "svg")); of; of = Object.getPrototypeOf(of)) {
     const own = Object.getOwnPropertyDescriptor(of, "innerHTML")
     if (!own) continue
-    Object.defineProperty(of, "innerHTML", {...own, set(markup) { own.set.call(this, String(markup).replace(/<(\w+)((?:[^<>"]|"[^"]*")*)\/>/g, "<$1$2></$1>")) }})
+    if (own.set.name === "closed") break // by an earlier page
+    Object.defineProperty(of, "innerHTML", {...own, set: function closed(markup) { own.set.call(this, String(markup).replace(/<(\w+)((?:[^<>"]|"[^"]*")*)\/>/g, "<$1$2></$1>")) }})
     break
   }
   let active = document.body
