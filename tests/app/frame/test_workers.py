@@ -14,7 +14,7 @@ from codim2_app.frame.workers import Stopped, Workers
 
 @pytest.fixture(scope="module")
 def workers():
-    with Workers(1, seconds=20.0) as made:
+    with Workers(1, seconds=300.0) as made:
         yield made
 
 
@@ -56,7 +56,7 @@ def grow(size):
 
 
 def test_a_worker_that_has_grown_too_large_is_replaced():
-    with Workers(1, seconds=20.0, most_grown=30_000_000) as some:
+    with Workers(1, seconds=300.0, most_grown=30_000_000) as some:
         (one, first), (two, second), (three, third) = (some.submit(grow, size).result() for size in (10, 10**8, 10))
     assert (one, first) == (two, second - 1)  # what is small stays, and what is large is answered
     assert three != two

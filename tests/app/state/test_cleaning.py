@@ -2,7 +2,8 @@
 
 import pytest
 from codim2_app.state import cleaning
-from codim2_app.state.cleaning import InputError, clean
+from codim2_app.state.choices import OWN_AXIS
+from codim2_app.state.cleaning import MOST_ENTRIES, MOST_OWN, InputError, clean
 from codim2_app.state.controls import ExplorerState
 
 
@@ -29,3 +30,26 @@ def test_a_text_of_no_kind_of_its_own_is_short():
     for wrong in ("x" * 201, 7, None, ["x"]):
         with pytest.raises(InputError, match="200 characters"):
             clean(name, wrong)
+
+
+def test_ranges_are_so_many_pairs_by_name():
+    many = {f"{OWN_AXIS}p{k}": [0.0, 1.0] for k in range(2 * MOST_ENTRIES)}
+    assert clean("ranges", many) == many
+    for wrong in ({**many, "a": [0.0, 1.0]}, {1: [0.0, 1.0]}, {"psi": [0.0, 1.0]}, {"a": [1.0, 1.0]}, {"a": [0.0]}):
+        with pytest.raises(InputError):
+            clean("ranges", wrong)
+
+
+def test_parameters_are_so_many_numbers_by_name():
+    many = {f"p{k}": float(k) for k in range(MOST_ENTRIES)}
+    assert clean("parameters", many) == many
+    for wrong in ({**many, "q": 1.0}, {1: 2.0}, [1.0], {"p": "c"}):
+        with pytest.raises(InputError):
+            clean("parameters", wrong)
+
+
+def test_own_values_of_a_second_portrait_may_be_empty_and_are_named():
+    assert clean("beside", "f1=0.3&b=2") == "f1=0.3&b=2"
+    for wrong in ("f1=", "layers=inside", "f1=x", 3, "f1=" + "1" * MOST_OWN):
+        with pytest.raises(InputError):
+            clean("beside", wrong)

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.portrait.outcomes import Outcomes
+from codim2_core.portrait.outcomes import Outcome, Outcomes
+from codim2_core.tables import point
 
 from .test_endings import equator
 
@@ -97,3 +98,10 @@ def test_on_a_whole_arc_of_limit_directions_none_is_tended_to(made, turn, sign):
     assert cuts[-1, 1] - cuts[0, 0] == pytest.approx(2.0 * math.pi)
     on = sum(end - begin for begin, end, outcome in found.arcs if outcome is not Q)
     assert on == pytest.approx(math.pi if sign > 0 else 2.0 * math.pi, abs=1e-5)
+
+
+def test_a_row_has_a_dash_for_what_is_not_there():
+    told = Outcome(1.25, "Q1", "open set", "cross", "Q2", 2.5, np.array([0.5]), "Away.")
+    assert told._row_() == ("Q1", "1.25", "open set", "cross", "Q2", "2.5", point(np.array([0.5])), "Away.")
+    bare = Outcome(None, "equator", "nothing", "misses", None, None, None, "Away.")
+    assert bare._row_() == ("equator", "–", "nothing", "misses", "–", "–", "–", "Away.")
