@@ -232,6 +232,8 @@ def _begin(S, P, states, signs, t_max, field, base, many, cursor, lines, times, 
         lines[k, 0, 0], lines[k, 0, 1], lines[k, 0, 2] = cursor[X, k], cursor[Y, k], 0.0
 
 
+# The rest in one piece: with the drawing of a step as a function of its own, results were the same and took 6 % longer
+# (median of paired runs, process time).
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, capture, view, distance):
     """Follow every row of `states` implicitly.
