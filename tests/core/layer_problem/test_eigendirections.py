@@ -95,7 +95,8 @@ def test_orbits_leave_up_the_hemisphere_along_that_direction(family):
 
 
 def test_outside_a_system_that_reads_position_leans():
-    system = System(U=("-c", "2*s + y + x*2"))  # Theta = 3 c s + rho (2 c^2 + c s), lambda_rho(0) = -1
+    # Theta = 3 c s + rho (2 c^2 + c s) + O(rho^2), lambda_rho(0) = -1
+    system = System(U=("-c", "2*s + y + x*2 + x**2 - x*y**2"))
     problem = LayerProblem(system.at(), psi.constant())
     found = of_limit_directions(problem)
     assert problem.equator.theta[0] == pytest.approx(0.0)
