@@ -25,6 +25,7 @@ from ..state.cleaning import InputError
 from ..state.controls import ExplorerState
 from ..state.links import Link, read_link
 from ..view.first_markup import page_markup
+from .garbage import asked
 
 TOKEN, MARKUP = "codim2-token", "<!-- codim2 markup -->"
 #: A script of Bokeh's that draws with WebGL, which the picture does not.
@@ -92,6 +93,7 @@ class Page(DocHandler):
 
     async def get(self, *args: Any, **kwargs: Any) -> None:
         """Answer; a session is made only where Bokeh is asked for one by name."""
+        asked()
         app: Any = self.application
         own = {"bokeh-token", "bokeh-session-id"} & self.request.arguments.keys()
         if own or "Bokeh-Session-Id" in self.request.headers or self.request.path == app.prefix != "":

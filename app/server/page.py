@@ -35,6 +35,7 @@ from ..state.links import Link
 from ..view import warmup
 from ..view.explorer import ExplorerView
 from ..view.markup import address_of_script, edition, page_template
+from . import garbage
 from .first_page import Page, markup_of, opening
 from .headers import transform
 from .ports import listen_by_own, shared
@@ -227,6 +228,9 @@ def make_server(
     logging.getLogger("bokeh.server.protocol_handler").addFilter(untraced)
     if not warmup_now:
         server.io_loop.add_callback(begin)
+    server.io_loop.add_callback(garbage.keep_to_the_young)
+    look = partial(garbage.look, lambda: len(server.get_sessions()))
+    server.io_loop.add_callback(PeriodicCallback(look, 1000 * garbage.EVERY).start)
     if os.getpid() != parent:
         _stop_with(parent, server.io_loop)
     return server

@@ -21,6 +21,7 @@ from tornado.locks import Lock
 from tornado.websocket import WebSocketClosedError
 
 from ..phrases import say
+from .garbage import asked
 
 #: Bytes of one message from a browser, over all its parts: a request is a few hundred.
 MOST_SENT = 200_000
@@ -82,6 +83,7 @@ class PromptSocket(WSHandler):
 
     async def on_message(self, fragment: str | bytes) -> None:
         """Take one part of a message, unless the message has grown beyond what a page sends."""
+        asked()
         self._held += len(fragment) + PART
         if self._held > MOST_SENT:
             self._refuse(f"a message is larger than {MOST_SENT} bytes")
