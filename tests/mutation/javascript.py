@@ -161,7 +161,7 @@ def run(name: str, tried: list[Mutant]) -> list[str]:
         shutil.copytree(STATIC, copy / "app" / "static")
         shutil.copytree(TESTS, copy / "tests" / "app" / "static", ignore=shutil.ignore_patterns("node_modules"))
         (copy / "tests" / "app" / "static" / "node_modules").symlink_to(TESTS / "node_modules")
-        (copy / "tests" / "pictures").symlink_to(ROOT / "tests" / "pictures")
+        shutil.copytree(ROOT / "tests" / "pictures" / "kept", copy / "tests" / "pictures" / "kept")
         path = copy / "app" / name
         source = path.read_text()
 

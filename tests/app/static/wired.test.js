@@ -13,6 +13,7 @@ test("a panel moves sliders and the system's own parameters, but nothing that is
   one.answer({system: OWN})
   assert.equal(tools.valueOf("own:mu"), 0.3)
   assert.equal(tools.valueOf("f1"), 0.5)
+  assert.deepEqual(["own:mu", "f1", "z", "elsewhere"].map(tools.rangeOf), [[0, 1], [-4, 4], [-9, 9], [-4, 4]])
   tools.move({"own:mu": 0.75, a: 3, f1: 1.5})
   one.tick(20)
   assert.deepEqual(asked(one), [{parameters: {mu: 0.75}, f1: 1.5}])
