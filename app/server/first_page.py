@@ -24,6 +24,7 @@ from ..phrases import say
 from ..state.cleaning import InputError
 from ..state.controls import ExplorerState
 from ..state.links import Link, read_link
+from ..view import warmup
 from ..view.first_markup import page_markup
 from .garbage import asked
 
@@ -124,6 +125,16 @@ class Page(DocHandler):
         self.set_header("Content-Type", "text/html")
         before, after = skeleton.replace(TOKEN, token).split(MARKUP)
         self.finish(before + self._notice() + markup_of(query) + after)
+
+    async def prepare(self) -> None:
+        """Let what can wait stand back for the first page."""
+        warmup.page_asked()
+        await super().prepare()
+
+    def on_finish(self) -> None:
+        """Let go on what stands back for the first page."""
+        warmup.page_sent()
+        super().on_finish()
 
     async def head(self, *args: Any, **kwargs: Any) -> None:
         """Answer a probe as `get` does, without the page."""

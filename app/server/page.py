@@ -207,7 +207,7 @@ def make_server(
         executor = Workers(at_once, preload=PRELOAD, first=warmup.wait)
     serve_with(Turns(executor, at_once))
     warmup_now = processes == 1
-    begin = warmup.start if told is None else partial(warmup.start, told)
+    begin = partial(warmup.start, *(() if told is None else (told,)), patience=warmup.PATIENCE)
     if warmup_now:
         begin()
     parent = os.getpid()

@@ -20,7 +20,7 @@ from .choices import MAX_TRAJECTORIES, PANELS, SLOW_CONTROLS, SOLIDS
 from .chosen import NORMAL, titles
 from .launches import MOST
 from .opening import opening
-from .portraits import portrait_keys, portraits
+from .portraits import portrait_keys, portrait_values
 
 
 def _number(default: float, low: float, high: float, symbol: str, doc: str) -> Any:
@@ -125,7 +125,7 @@ class ExplorerState(param.Parameterized):
 
 @lru_cache(maxsize=256)
 def _complete(key: str) -> dict[str, Any]:
-    own = next(portrait["values"] for portrait in portraits() if portrait["key"] == key)
+    own = portrait_values(key)
     return {**first_values(), **opening(own["system"]), **own, "preset": key}
 
 

@@ -52,6 +52,11 @@ def portraits() -> list[dict[str, Any]]:
     ]
 
 
+def portrait_values(key: str) -> dict[str, Any]:
+    """Return the own values of one of them."""
+    return _values(presets[key])
+
+
 def portrait_keys() -> KeysView[str]:
     """Return the keys of all portraits."""
     return presets.keys()

@@ -32,12 +32,17 @@ GENERAL = "kernels of general systems"
 #: 2.5 MB each. The core keeps all of these, so that no frame compiles one again. Later ones are for the workers.
 MOST_COMPILED = 48
 
+#: Seconds for which a server's kernels wait for somebody to ask for the first page, and, if so, at most for it to be
+#: sent: it needs none of them, and is half as fast beside them.
+PATIENCE, LONGEST = 1.0, 20.0
+
 #: Is told what has been compiled, in how many seconds, and how many steps are done of how many.
 Told = Callable[[str, float, int, int], None]
 
 _lock = threading.Lock()
 _threads: dict[Hashable, threading.Thread] = {}
 _pictures = threading.Event()
+_page_asked, _page_sent = threading.Event(), threading.Event()
 _formulas: set[Hashable] = set()  # that this process has begun to compile
 
 
@@ -86,9 +91,21 @@ outcome = ""
 done: tuple[int, int] | None = None
 
 
-def _first_scene(told: Told) -> None:
+def page_asked() -> None:
+    """Say that a page has been asked for: for the first one, kernels that are not begun yet stand back."""
+    _page_asked.set()
+
+
+def page_sent() -> None:
+    """Say that a page has been sent: nothing stands back for it any longer."""
+    _page_sent.set()
+
+
+def _first_scene(told: Told, patience: float) -> None:
     """Compile what the scene needs that the explorer opens with, and compute it; then compile the rest."""
     global outcome
+    if patience and _page_asked.wait(patience):
+        _page_sent.wait(LONGEST)
 
     def draw(number: int) -> None:
         global outcome
@@ -132,13 +149,16 @@ def warm_general() -> None:
 
 def _warm_motions() -> None:
     """Compile, or load, what follows motions, also in the limit: once for all systems, but for their formulas."""
+    from codim2_core.initial_value.events import Event
     from codim2_core.motion.nonsmooth import simulate_nonsmooth  # late: both bring SciPy along
     from codim2_core.motion.regularised import simulate
 
     example = presets["nonunique-sliding"]
     several = [(0.02, 0.01, 0.1)] * 8  # so many are compiled at once
     simulate(example.system, example.psi, 0.01, several, (0.0, 0.2))
-    simulate_nonsmooth(example.system, several[0], (0.0, 0.2), example.psi)  # the same formulas: compiled too
+    never = Event(lambda t, state: 1.0)  # noqa: ARG005 (an event is of both)
+    for events in ((), (never,)):  # whole, and phase by phase; the same formulas: compiled too
+        simulate_nonsmooth(example.system, several[0], (0.0, 0.2), example.psi, events=events)
 
 
 def _warm_general_alone() -> None:
@@ -146,11 +166,19 @@ def _warm_general_alone() -> None:
         warm_general()
 
 
-def start(told: Told = _nobody) -> None:
-    """Begin compiling (or loading from the cache) in a background thread, see `warm_all`; further calls do nothing."""
+def start(told: Told = _nobody, patience: float = 0.0) -> None:
+    """Begin compiling (or loading from the cache) in a background thread, see `warm_all`; further calls do nothing.
+
+    Parameters
+    ----------
+    told : callable
+        As in `warm_all`.
+    patience : float
+        Seconds for which it waits for `page_asked`, and then for `page_sent`.
+    """
     with _lock:
         if constant() not in _threads:
-            _begin(constant(), _first_scene, told)
+            _begin(constant(), _first_scene, told, patience)
 
 
 def wait() -> None:

@@ -144,7 +144,7 @@ class CompiledMotion:
     floor : float
         atol/rtol.
     farthest : float
-        The largest rho so far, of a nonsmooth motion: eps = 0. It ends where rho is 1e-13 of the largest.
+        The largest rho so far, of a nonsmooth motion: eps = 0. It ends where rho is `problem.arrived` of the largest.
     """
 
     chunk = CHUNK

@@ -15,13 +15,13 @@ from numba import njit
 from ..numerics.radau import CAREFUL, FAILED, GROW, GROWTH_AFTER_FAILURE
 from . import compiled_explicit as explicit
 from . import compiled_radau as radau
+from . import problem
 from .compiled_rate import Motion, inward_bound, rate, sizes
 from .compiled_stages import tableau_of, workspace
 
 FINISHED, LIMIT, SHORT, FULL, BLOWN_UP, UNDEFINED, ARRIVED = range(7)
 FIRST = 1e-2  # of rho/|U|: the first step tried
 SHORTEST = 1e-290
-CLOSE = 1e-13
 CHUNK = 256  # steps that are filled in at once
 LARGEST, GROWN = 1e200, 8.0  # as in `numerics.growth`
 
@@ -32,6 +32,9 @@ CONTROL = 11
 STABLE = 4.0  # h times a growth rate of an explicit step in a slide
 SIGNS, SIGNS_BACK = 6.0, 3.0  # steps in a row that ask for the other method
 AHEAD = 20.0  # implicit steps that a slide takes at least, about: as many have to be saved
+
+
+arrived = njit(cache=True, nogil=True, error_model="numpy")(problem.arrived)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -110,7 +113,7 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
         NEXT: the next step. REFINED: 1 where the last one was not accepted. WARY: careful steps left. LEFT: steps
         left to try. TRIED: how many were. EXTENT: the largest size of the state so far. IMPLICIT: 1 in a slide. COUNT:
         signs so far that the other method costs less. WORTH: explicit steps that have to lie ahead. FARTHEST: the
-        largest rho so far, of a nonsmooth motion (eps = 0), which has arrived at Sigma where rho is `CLOSE` of that.
+        largest rho so far, of a nonsmooth motion (eps = 0), which has arrived at Sigma where rho is `arrived` of that.
         LEAST: a shorter step ends the motion.
     starts, lengths (k,), ends (k, n), polynomials (k, n, 7)
         Filled with steps.
@@ -170,7 +173,7 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
         if motion.eps == 0.0:
             rho = math.hypot(y[0], y[1])
             control[FARTHEST] = max(control[FARTHEST], rho)
-            if rho <= CLOSE * control[FARTHEST]:
+            if rho <= arrived(motion.rtol) * control[FARTHEST]:
                 return ARRIVED, filled
         most = GROW
         if control[REFINED] > 0.0 and control[TRIED] > 1.0:

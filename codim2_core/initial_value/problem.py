@@ -20,7 +20,16 @@ Array = NDArray[np.float64]
 
 INWARD = 0.9  # of rho: how far towards Sigma one step may go
 CONTACT = 20.0  # times eps: so near, what looks like a way inward may be the rounding of a slide, eps times 1/rtol
+ARRIVED, ENOUGH = 1e-13, 5e-5  # of the largest rho of a slip; of that times rtol
 GROWTH = 1.0  # longest step times a growth rate: an L-stable method damps faster growth away
+
+
+def arrived(rtol: float) -> float:
+    """Part of the largest rho of a slip at which it has arrived at Sigma: the rest of the way is straight.
+
+    What is left to turn on it, to a limit direction that attracts, is a small part of 1: rtol has room for it.
+    """
+    return max(ARRIVED, ENOUGH * rtol)
 
 
 def growth_bound(jacobian: Array) -> float:

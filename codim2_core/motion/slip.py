@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from ..initial_value.compiled_phases import CompiledPhases
 from ..initial_value.leaving import polynomial_of
+from ..initial_value.problem import arrived
 from ..numerics.growth import bounded
 from ..numerics.radau import Problem, Step, TooManyStepsError, steps
 
 Array = NDArray[np.float64]
 
-ARRIVED = 1e-13  # of the largest rho of the phase
 FIRST = 1e-2
 
 
@@ -65,7 +65,7 @@ def slip(
     most : int
         Steps.
     largest : float
-        The scale of rho: it has arrived where rho is 1e-13 of that (or of a larger rho met on the way).
+        The scale of rho: it has arrived where rho is `arrived` of that (or of a larger rho met on the way).
     compiled : CompiledPhases, optional
         Takes the steps instead.
     """
@@ -83,7 +83,7 @@ def slip(
             x, y = float(step.last[0]), float(step.last[1])
             rho = math.hypot(x, y)
             largest = max(largest, rho)
-            if rho <= ARRIVED * largest:
+            if rho <= arrived(rtol) * largest:
                 u, v = problem.F(step.last)[:2].tolist()
                 inward = -(x * u + y * v) / rho
                 if inward > 0.0 and step.end + rho / inward < t_end:

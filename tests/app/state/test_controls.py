@@ -1,6 +1,7 @@
 import math
 
 import pytest
+from codim2_app.state import portraits as state_portraits
 from codim2_app.state.chosen_psi import build_psi
 from codim2_app.state.cleaning import InputError, clean
 from codim2_app.state.controls import NAMES, NUMBERS, ExplorerState, preset_values
@@ -159,3 +160,12 @@ def test_a_range_widens_to_hold_the_value_as_it_does_in_the_browser(low, high, v
     assert (least, greatest) == pytest.approx(held)
     assert least <= value <= greatest
     assert 1e-4 <= step / (greatest - least) <= 1e-3 * (1 + 1e-9)
+
+
+def test_the_values_of_a_portrait_are_read_off_its_own_preset(monkeypatch):
+    asked = []
+    monkeypatch.setattr(
+        state_portraits, "_values", lambda preset: asked.append(preset.name) or {"system": "normal form"}
+    )
+    assert state_portraits.portrait_values("case1-cm0") == {"system": "normal form"}
+    assert asked == ["case1-cm0"]

@@ -180,3 +180,19 @@ def test_who_waits_for_pictures_does_not_wait_for_motions(folder, monkeypatch):
     assert thread.is_alive()
     going_on.set()
     thread.join()
+
+
+def test_kernels_stand_back_for_the_first_page(monkeypatch):
+    order, loaded = [], threading.Event()
+    monkeypatch.setattr(warmup, "_threads", {})
+    for name in ("_page_asked", "_page_sent"):
+        monkeypatch.setattr(warmup, name, threading.Event())
+    monkeypatch.setattr(warmup, "warm_all", lambda *given: (order.append("kernels"), loaded.set()))
+    warmup.start(patience=60.0)
+    warmup.page_asked()
+    assert not loaded.wait(0.05)
+    assert not warmup.is_ready()  # what is drawn meanwhile is sketched
+    order.append("page")
+    warmup.page_sent()
+    assert loaded.wait(60.0)
+    assert order == ["page", "kernels"]

@@ -22,12 +22,14 @@ CASES = {
     "ball in a line": (examples.ball_in_pool(K=2.0), (1.0, 0.0, 3.0, 0.0), True),
     "slides that end": (PUSHED, (0.3, 0.2, 0.0), True),
     "typed": (TYPED, (0.3, 0.2, 0.0), True),
-    "no z": (WITHOUT_Z, (0.3, 0.2), True),
-    "spirals": (ELinear(-1.0, 3.0, -1.5, f=(0.1, 0.2), B=((0.0, 0.0),), g=(1.0,)), (0.3, 0.2, 0.0), True),
+    "no z, round and round": (WITHOUT_Z, (0.3, 0.2), True),
+    "round and round": (ELinear(-1.0, 3.0, -1.5, f=(0.1, 0.2), B=((0.0, 0.0),), g=(1.0,)), (0.3, 0.2, 0.0), True),
     "crosses": (ELinear(-1.0, 0.0, -4.0, f=(-1.5, 0.2)), (0.3, 0.05), False),
     "starts on Sigma": (PUSHED, (0.0, 0.0, 0.0), False),
     "Case III": (ELinear(-2.0, 1.5, 0.4, f=(0.1, 0.3), B=((0.3, 0.1),), g=(0.5,)), (0.3, 0.2, 0.0), False),
 }
+
+ROUND = "round and round"  # onto the closed equator
 
 
 @pytest.fixture
@@ -70,7 +72,9 @@ def test_it_is_the_motion_phase_by_phase(monkeypatch, by_phase, case, own):
     for phase, same in zip(found.phases, other.phases, strict=True):
         middle = 0.5 * (phase.t_start + phase.t_end)
         np.testing.assert_allclose(phase.p(middle), same.p(middle), atol=1e-6)
-        assert phase.ascent.shape == same.ascent.shape
+        assert bool(len(phase.ascent)) is bool(len(same.ascent))
+        if not case.endswith(ROUND):  # at which angle it is said to arrive is then a matter of the last steps
+            np.testing.assert_allclose(phase.ascent[-1:], same.ascent[-1:], atol=0.01)
 
 
 def test_it_is_handed_over_where_the_next_phase_is_not_sure(monkeypatch, by_phase):
