@@ -26,6 +26,10 @@ SENTENCES: dict[str, Sentence] = {
     "mark away": Sentence(
         "Your mark is {away} radii of the disc from it.", "a mark in a lesson, farther than lessons.marks.NEAR"
     ),
+    "nothing to play": Sentence(
+        "A film of play follows the chosen launched orbit: click the picture to launch one, or choose one shown.",
+        "codim2 film --play of a view without one, or the button",
+    ),
     "film stopped": Sentence("The film was stopped; nothing was made.", "a click on Stop while a film is drawn"),
     "address failed": Sentence(
         "This address could not be opened, a fault of the program: here is the first portrait instead.",

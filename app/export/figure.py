@@ -28,6 +28,8 @@ FONTS = "Libertinus Serif, Linux Libertine O, STIX Two Text, Times New Roman, Li
 #: Points to a millimetre; to a px of the screen, for widths of lines and sizes of marks.
 MM, PX = 72 / 25.4, 0.55
 LABEL, SMALL = 11.0, 8.0
+#: Height of a title.
+TITLE = 22.0
 #: The sample of a legend's entry, what is between it and the words, between columns, and between lines.
 SAMPLE, GAP, GUTTER, LINE = 22.0, 5.0, 12.0, 12.0
 #: Between ticks: about so many on an axis.
@@ -88,7 +90,7 @@ def figure(view: View, style: Style | None = None, heading: str = "") -> str:
         name = header["portrait"]["name"]
         title = f"{heading}: {name}" if heading else view.title or name
         parts.append(vector.words(left + side / 2, 14.0, escape(title), 12.0, "middle", bold=True))
-        y = 22.0
+        y = TITLE
     drawn = content(buffer, layers, place, style.labels)
     frame = f'x="0" y="0" width="{side:.2f}" height="{place.height:.2f}"'
     parts.append(

@@ -1,4 +1,4 @@
-"""A film of a sweep: the figure while one slider moves there and back, as an animated GIF or WebP.
+"""A film of a sweep, or of play: the figure while one slider moves there and back, as an animated GIF or WebP.
 
 Each picture is the figure for print, drawn by Typst as a PNG is; Pillow, which Bokeh needs anyhow, puts them together.
 """
@@ -12,6 +12,8 @@ from PIL import Image
 
 from .figure import Style, figure
 from .live import Slider
+from .play import PICTURES, PLAY
+from .play import pictures as played
 from .printing import png
 from .view import View
 
@@ -21,7 +23,7 @@ POSITIONS, MOST_POSITIONS, PACE, REST = 41, 121, 60, 8
 #: Width of the picture in mm, and dots to those of the screen: 567 px.
 STYLE = Style(size=120.0, legend=False, title=True)
 DENSITY = 1.25
-COLOURS, MOST = 128, 24_000_000  # of a GIF's picture; bytes of a film
+COLOURS, MOST = 256, 24_000_000  # of a GIF's picture; bytes of a film
 
 
 def film(
@@ -29,7 +31,7 @@ def film(
     slider: str,
     kind: str = ".gif",
     style: Style = STYLE,
-    positions: int = POSITIONS,
+    positions: int = 0,
     progress: Callable[[int, int], None] | None = None,
 ) -> bytes:
     """Return the film: from the low end of the slider to the high one and back, without end.
@@ -38,11 +40,11 @@ def film(
     ----------
     view : View
     slider : str
-        ``NAME`` or ``NAME=LOW,HIGH``.
+        ``NAME`` or ``NAME=LOW,HIGH``, or `play.PLAY`: then the chosen launched orbit is run along.
     kind : {".gif", ".webp"}
     style : Style
     positions : int
-        Of the slider, 2 to 121: pictures that are drawn.
+        Pictures that are drawn, 2 to 121; 0 for as many as `count_of` says.
     progress : callable, optional
         Called with (pictures drawn, all of them).
 
@@ -53,18 +55,31 @@ def film(
     """
     if kind not in KINDS:
         raise ValueError(f"a film ends in {kind[:20]!r}; give one of {', '.join(KINDS)}.")
+    positions = positions or count_of(slider)
     if not 2 <= positions <= MOST_POSITIONS:
         raise ValueError(f"{positions} positions given; allowed is 2 to {MOST_POSITIONS}.")
     drawn: list[bytes] = []
-    for i in range(positions):
-        drawn += pictures(view, slider, style, positions, i, i + 1)
+    while len(drawn) < positions:
+        drawn += pictures(view, slider, style, positions, len(drawn), min(len(drawn) + part_of(slider), positions))
         if progress is not None:
-            progress(i + 1, positions)
-    return joined(drawn, kind)
+            progress(len(drawn), positions)
+    return joined(drawn, kind, back=slider != PLAY)
+
+
+def count_of(slider: str) -> int:
+    """Return of how many pictures a film is."""
+    return PICTURES if slider == PLAY else POSITIONS
+
+
+def part_of(slider: str) -> int:
+    """Return how many pictures are drawn in one turn: those of play are cheap, once what stands still is drawn."""
+    return 26 if slider == PLAY else 1
 
 
 def pictures(view: View, slider: str, style: Style, positions: int, first: int, last: int) -> list[bytes]:
     """Return the pictures of a film from one position on and up to another, as PNG: a film can be drawn in parts."""
+    if slider == PLAY:
+        return played(view, style, positions, first, last)
     chosen = Slider.of(view, slider)
     places = chosen.values(positions, view.number(chosen.name))
     return [picture(view, slider, value, style) for value in places[first:last]]
@@ -81,8 +96,8 @@ def picture(view: View, slider: str, value: float, style: Style = STYLE) -> byte
     return png(drawn, DENSITY)
 
 
-def joined(pictures: Sequence[bytes], kind: str = ".gif") -> bytes:
-    """Return pictures of one size as a film, there and back.
+def joined(pictures: Sequence[bytes], kind: str = ".gif", back: bool = True) -> bytes:
+    """Return pictures of one size as a film without end: there and back, or there alone.
 
     Raises
     ------
@@ -92,7 +107,7 @@ def joined(pictures: Sequence[bytes], kind: str = ".gif") -> bytes:
     shown = [Image.open(io.BytesIO(one)).convert("RGB") for one in pictures]
     if kind == ".gif":  # by what they cover of all colours: a small mark keeps its own, which the median cut mixes
         shown = [one.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE) for one in shown]
-    order = [*range(len(shown)), *range(len(shown) - 2, 0, -1)]
+    order = [*range(len(shown)), *(range(len(shown) - 2, 0, -1) if back else ())]
     durations = [PACE * (REST if i in (0, len(shown) - 1) else 1) for i in order]
     film = io.BytesIO()
     first, *others = (shown[i] for i in order)

@@ -54,12 +54,17 @@ def add_live(commands: Any) -> None:
 
 def add_film(commands: Any) -> None:
     """Add `codim2 film`."""
-    command = commands.add_parser("film", help="write a film of a slider that moves: an animated GIF or WebP")
+    command = commands.add_parser(
+        "film", help="write a film of a slider that moves, or of an orbit that is run along: an animated GIF or WebP"
+    )
     command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
     words = "'f1', 'n', 'mu', …, or with a range: 'f1=-1,1'"
-    command.add_argument("--slider", required=True, metavar="NAME[=LOW,HIGH]", help=words)
+    moves = command.add_mutually_exclusive_group(required=True)
+    moves.add_argument("--slider", metavar="NAME[=LOW,HIGH]", help=words)
+    moves.add_argument("--play", action="store_true", help="run along the chosen launched orbit of a link instead")
     command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="ends in .gif or .webp")
-    command.add_argument("--positions", type=int, default=41, metavar="N", help="of the slider, 2 to 121; default 41")
+    words = "pictures, 2 to 121; default 41 of a slider, 101 of play"
+    command.add_argument("--positions", type=int, default=0, metavar="N", help=words)
     command.add_argument("--theme", default="light", help="light, dark or paper (black and white); default light")
     command.set_defaults(run=lambda chosen: _written(chosen.output, lambda: _film(chosen)))
 
@@ -68,6 +73,7 @@ def _film(chosen: argparse.Namespace) -> bytes:
     from dataclasses import replace
 
     from ..export.film import KINDS, STYLE, film
+    from ..export.play import PLAY
     from ..export.view import suffix_of, view_of
 
     def progress(done: int, count: int) -> None:
@@ -75,7 +81,7 @@ def _film(chosen: argparse.Namespace) -> bytes:
             print(f"\r{done} of {count}", end="\n" if done == count else "", file=sys.stderr, flush=True)
 
     kind, style = suffix_of(chosen.output, tuple(KINDS)), replace(STYLE, theme=chosen.theme)
-    return film(view_of(chosen.view), chosen.slider, kind, style, chosen.positions, progress)
+    return film(view_of(chosen.view), PLAY if chosen.play else chosen.slider, kind, style, chosen.positions, progress)
 
 
 def _live(chosen: argparse.Namespace) -> bytes:

@@ -9,9 +9,10 @@ const MARKUP = `
     <label><input type="checkbox" class="legend-too" checked> legend</label></div>
   <div class="row"><button type="button" data-kind="png">PNG</button><label>at <select class="scale" aria-label="Scale of the PNG"><option value="1">×1</option><option value="2" selected>×2</option><option value="4">×4</option><option value="8">×8</option></select></label><button type="button" data-kind="svg">SVG</button></div>
   <div class="row"><button type="button" data-kind="zip" title="All that is drawn as tables, CSV files in a zip">CSV</button><button type="button" data-kind="json" title="All that is drawn as JSON">JSON</button><button type="button" data-kind="npz" title="All that is drawn as NumPy arrays">NPZ</button><button type="button" data-kind="py" title="Code that rebuilds this view">Python</button><button type="button" data-kind="tex" title="A table of limit directions and critical sets">LaTeX</button></div>
-  <div class="row"><button type="button" data-kind="html" title="One file that moves these sliders with no server">Live file</button><button type="button" data-kind="gif" title="A film in which the first of these sliders moves there and back">Film</button><label>moves <select class="first-slider" aria-label="First slider of the live file"></select></label><label>and <select class="second-slider" aria-label="Second slider of the live file"></select></label></div>
+  <div class="row"><button type="button" data-kind="html" title="One file that moves these sliders with no server">Live file</button><button type="button" data-kind="gif" title="A film in which the first of these sliders moves there and back">Film</button><button type="button" data-kind="play" title="A film in which a dot runs along the chosen launched orbit, beside x and y over time">Film of play</button><label>moves <select class="first-slider" aria-label="First slider of the live file"></select></label><label>and <select class="second-slider" aria-label="Second slider of the live file"></select></label></div>
   <p class="note making" role="status"></p><button type="button" class="stop-making" hidden>Stop</button>`
 const PX = 96 / 72 // to a point
+const FILMS = ["gif", "play"]
 
 /**
  * @param {HTMLElement} box
@@ -30,7 +31,7 @@ export function menu(box, {ask, stop, film, theme, sliders}) {
   }
   const moving = ["html", "gif"]
   for (const kind of moving) find(`[data-kind=${kind}]`).disabled = !there.length
-  find("[data-kind=gif]").hidden = !film
+  for (const kind of FILMS) find(`[data-kind=${kind}]`).hidden = !film
   find(".stop-making").onclick = stop
   const buttons = /** @type {HTMLButtonElement[]} */ ([...box.querySelectorAll("button[data-kind]")])
   const told = find(".making")
@@ -40,7 +41,7 @@ export function menu(box, {ask, stop, film, theme, sliders}) {
   const make = async (kind) => {
     const chosen = [...new Set([find(".first-slider").value, find(".second-slider").value])].filter(Boolean)
     const look = find(".look").value || theme()
-    const answer = await ask({kind: kind === "png" ? "svg" : kind, theme: look, legend: find(".legend-too").checked, sliders: moving.includes(kind) ? chosen.map(ranged) : []}, (done, all) => { told.textContent = `Drawing the film: ${done} of ${all} pictures …` })
+    const answer = await ask({kind: {png: "svg", play: "gif"}[kind] ?? kind, theme: look, legend: find(".legend-too").checked, sliders: kind === "play" ? ["play"] : moving.includes(kind) ? chosen.map(ranged) : []}, (done, all) => { told.textContent = `Drawing the film: ${done} of ${all} pictures …` })
     if (answer.error) return answer.error
     const {file} = answer
     const blob = new Blob([file instanceof ArrayBuffer ? file : file.buffer ?? file], {type: answer.type})
@@ -51,7 +52,7 @@ export function menu(box, {ask, stop, film, theme, sliders}) {
     button.onclick = async () => {
       for (const one of buttons) one.disabled = true
       told.textContent = `Making ${button.textContent} …`
-      find(".stop-making").hidden = button.dataset.kind !== "gif"
+      find(".stop-making").hidden = !FILMS.includes(button.dataset.kind ?? "")
       try { told.textContent = await make(button.dataset.kind) } catch (error) { told.textContent = `It could not be made: ${error.message}.` }
       find(".stop-making").hidden = true
       for (const one of buttons) one.disabled = moving.includes(one.dataset.kind ?? "") && !there.length

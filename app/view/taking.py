@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ..export.film import POSITIONS, joined, pictures
+from ..export.film import count_of, joined, part_of, pictures
+from ..export.play import PLAY
 from ..export.taking import TYPES, Wish, named, seen_by, taken
 from ..export.view import View
 from ..frame.turns import Failed
@@ -87,25 +88,26 @@ class Taking:
         """Answer with a film, drawn a part at a time: others have their turns between, and it can be stopped."""
         mine = self._film = object()
         drawn: list[bytes] = []
+        count, part = count_of(wish.slider), max(PART, part_of(wish.slider))
 
         def look() -> None:
             if self._film is not mine:
                 return
             jobs, first = self.frames.jobs, len(drawn)
-            if first < POSITIONS:
-                last = min(first + PART, POSITIONS)
-                result = jobs.ask(JOB, (key, first), pictures, view, wish.slider, wish.moving, POSITIONS, first, last)
+            if first < count:
+                last = min(first + part, count)
+                result = jobs.ask(JOB, (key, first), pictures, view, wish.slider, wish.moving, count, first, last)
             else:
-                result = jobs.ask(JOB, (key, "film"), joined, tuple(drawn))
+                result = jobs.ask(JOB, (key, "film"), joined, tuple(drawn), ".gif", wish.slider != PLAY)
             if isinstance(result, Failed):
                 reply({**about, "error": result.sentence})
             elif result is None:
                 future = jobs.future(JOB)
                 if future is not None:
                     future.add_done_callback(lambda _: later(look))
-            elif first < POSITIONS:
+            elif first < count:
                 drawn.extend(result)
-                reply({**about, "done": len(drawn), "all": POSITIONS})
+                reply({**about, "done": len(drawn), "all": count})
                 later(look)
             else:
                 reply({**about, "name": named(view, wish), "type": TYPES[wish.kind], "file": result})

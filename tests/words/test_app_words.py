@@ -240,6 +240,7 @@ ELSEWHERE = {
     "lost": "tests/app/frame/test_turns.py",
     "no such place": "tests/app/lessons/test_lessons.py",
     "mark away": "tests/app/lessons/test_lessons.py",
+    "nothing to play": "tests/app/export/test_film.py",
     "film stopped": "tests/app/view/test_taking.py",
     "compiling": "tests/app/view/test_notebook.py",
     "axis given": "tests/app/panels/parameters/test_axes.py",

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from html import escape
 from itertools import pairwise
 from typing import Any
@@ -21,8 +22,31 @@ POINTS = 3000  # of all lines together
 NAMED, LETTER, ROW = 4, 6.2, 13
 
 
+@dataclass(frozen=True)
+class Frame:
+    """Where values are in a chart: its lower left corner is (left, low), as far as (right, high) is (wide, tall) px."""
+
+    corner: tuple[float, float]
+    foot: tuple[float, float]
+    scale: tuple[float, float]
+
+    def place(self, x: Any, y: Any) -> tuple[float, float]:
+        """Return the place of a point, in px."""
+        return tuple(
+            float((value - low) * scale + foot)
+            for value, low, scale, foot in zip((x, y), self.corner, self.scale, self.foot, strict=True)
+        )  # type: ignore[return-value]
+
+
 def chart(lines: Sequence[tuple[str, Any, Any]], across: str, up: str) -> str:
-    """Return lines over a parameter or time, with the ends of both axes and a word for each kind of line.
+    """Return lines over a parameter or time, as `framed` does."""
+    return framed(lines, across, up)[0]
+
+
+def framed(
+    lines: Sequence[tuple[str, Any, Any]], across: str, up: str, colours: Mapping[str, str] | None = None
+) -> tuple[str, Frame]:
+    """Return lines over a parameter or time, with the ends of both axes and a word for each kind, and where values are.
 
     Parameters
     ----------
@@ -30,23 +54,26 @@ def chart(lines: Sequence[tuple[str, Any, Any]], across: str, up: str) -> str:
         Those of one name have one colour.
     across, up : str
         Names of the axes.
+    colours : mapping, optional
+        By name; by default those of the light theme.
     """
     kept = [(name, thinned(np.column_stack([x, y]), max(2, POINTS // len(lines)))) for name, x, y in lines if len(x)]
     every = np.concatenate([points for _, points in kept]) if kept else np.zeros((1, 2))
     (left, low), (right, high) = every.min(axis=0), every.max(axis=0)
-    colours = dict(zip(dict.fromkeys(name for name, _ in kept), COLOURS * 9, strict=False))
-    named = list(colours.items())[:NAMED]
+    kinds = dict(zip(dict.fromkeys(name for name, _ in kept), COLOURS * 9, strict=False))
+    named = list(kinds.items())[:NAMED]
     wide, tall = WIDTH - LEFT - 8, HEIGHT - BOTTOM - 22
     beside = all(LETTER * len(name) <= wide / len(named) for name, _ in named)  # else each has a row of its own
     top = 18 + (0 if beside else ROW * (len(named) - 1))
     scale = wide / ((right - left) or 1.0), -tall / ((high - low) or 1.0)
     place = Placement(side=WIDTH, unit=1.0, decimals=1)
     floor = top + tall + 4
+    frame = Frame((float(left), float(low)), (LEFT, floor - 2), scale)
     parts = [f'<rect x="{LEFT}" y="{top}" width="{wide}" height="{tall + 4}" stroke="var(--line)"/>']
     for name, points in kept:
         placed = (points - (left, low)) * scale + (LEFT, floor - 2)
         path = place.path([np.round(placed, 1)])
-        parts.append(f'<path d="{path}" {stroke(colours[name], 1.6, (), place)}/>')
+        parts.append(f'<path d="{path}" {stroke(kinds[name], 1.6, (), place)}/>')
     for i, (name, colour) in enumerate(named):
         x, y = (i * wide / len(named), 12) if beside else (0, 12 + ROW * i)
         parts.append(words(LEFT + 4 + x, y, escape(name), 11.0).replace("--ink", f"--{colour}"))
@@ -57,7 +84,7 @@ def chart(lines: Sequence[tuple[str, Any, Any]], across: str, up: str) -> str:
         words((LEFT + WIDTH) / 2, foot, across, 12.0, "middle"),
         words(LEFT - 12, (top + floor) / 2, up, 12.0, "end"),
     ]
-    return finished("".join(parts), WIDTH, foot + 8, WIDTH, foot + 8)
+    return finished("".join(parts), WIDTH, foot + 8, WIDTH, foot + 8, colours), frame
 
 
 def regions(
@@ -127,11 +154,13 @@ def _short(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-12 else value:.3g}".replace("-", "−")
 
 
-def finished(inner: str, width: float, height: float, wide: float, high: float) -> str:
+def finished(
+    inner: str, width: float, height: float, wide: float, high: float, colours: Mapping[str, str] | None = None
+) -> str:
     """Return elements as an SVG that needs nothing else."""
     whole = (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" width="{wide:g}" '
         f'height="{high:g}" fill="none" stroke-linejoin="round" font-family="sans-serif">'
         f'<rect width="{width:g}" height="{height:g}" fill="var(--page)"/>{inner}</svg>'
     )
-    return coloured(whole, themes()["light"])
+    return coloured(whole, themes()["light"] if colours is None else colours)

@@ -5,7 +5,10 @@ import io
 import numpy as np
 import pytest
 from codim2_app.export import film as films
-from codim2_app.export.film import POSITIONS, film, joined, picture
+from codim2_app.export.figure import TITLE
+from codim2_app.export.film import POSITIONS, STYLE, film, joined, picture
+from codim2_app.export.play import CHART, PLAY, SCALE, scenery
+from codim2_app.export.small.chart import LEFT
 from codim2_app.export.view import view_of
 from codim2_app.server.cli import main
 from PIL import Image, ImageSequence
@@ -101,3 +104,51 @@ def test_the_command_writes_it_and_says_what_is_wrong(tmp_path, capsys, monkeypa
     assert main(command) == 130
     assert "nothing was written" in capsys.readouterr().err
     assert not output.exists()
+
+
+PLAYED = view_of("preset=case1-cm4&orbits=0.3,0.4;1.4,0.5")
+
+
+@pytest.mark.parametrize(("number", "fast"), [(1, True), (2, False)])
+def test_a_film_of_play_has_its_dots_on_the_orbit_and_on_both_lines(number, fast):
+    still = scenery(PLAYED.changed({"orbit": number}), STYLE)
+    assert still.orbit.fast is fast
+    time, bare = still.orbit.time, np.asarray(still.drawn, int)
+    for share in (0.35, 0.8):
+        shown = np.asarray(Image.open(io.BytesIO(still.at(share))), int)
+        v, u = np.nonzero(np.abs(shown - bare).sum(axis=2))
+        now = time[0] + share * (time[-1] - time[0])
+        [k] = np.nonzero(np.diff(np.sign(time - now)))
+        inside = u < still.corner[0]
+        point = still.orbit.points[k[0]]
+        if np.abs(point).max() > 1.75:  # the dot is beyond the picture
+            assert not inside.any()
+            continue
+        [[x, y]] = still.place.points(point)
+        assert np.hypot(u[inside].mean() - SCALE * x, v[inside].mean() - SCALE * (y + TITLE)) < 12
+        assert abs(u[~inside].mean() - still.corner[0] - CHART * still.chart.place(now, 0.0)[0]) < 1
+
+
+def test_a_dot_beyond_the_picture_is_not_drawn_on_the_chart():
+    still = scenery(PLAYED.changed({"orbit": 2}), STYLE)
+    assert np.hypot(*still.orbit.points[0]) > 1.75
+    apart = np.abs(np.asarray(Image.open(io.BytesIO(still.at(0.0))), int) - np.asarray(still.drawn, int)).sum(axis=2)
+    assert np.nonzero(apart)[1].min() > still.corner[0] + CHART * LEFT / 2
+
+
+def test_a_film_of_play_runs_once_and_begins_anew(tmp_path):
+    output = tmp_path / "play.gif"
+    command = ["film", "?preset=case1-cm4&orbits=0.3,0.4", "--play", "--positions", "4", "-o", str(output)]
+    assert main(command) == 0
+    assert [frame.info["duration"] for frame in frames(output.read_bytes())] == [480, 60, 60, 480]
+
+
+@pytest.mark.parametrize("query", ["v=1", "orbits=0.3,0.4&orbit=0", "orbits=0.3,0.4,-"])
+def test_without_a_launched_orbit_there_is_no_play(query):
+    with pytest.raises(ValueError, match="click the picture to launch one"):
+        film(view_of(query), PLAY)
+
+
+def test_on_the_equator_no_time_passes():
+    with pytest.raises(ValueError, match="no time"):
+        film(view_of("orbits=1,0"), PLAY)

@@ -79,7 +79,9 @@ test("where nothing moves there is neither a live file nor a film; a film only w
   await one.press("svg")
   assert.deepEqual(one.disabled(), ["html", "gif"])
   const other = opened({film: false})
-  assert.deepEqual([other.disabled(), other.button("gif").hidden, opened().button("gif").hidden], [[], true, false])
+  assert.deepEqual([other.disabled(), other.button("gif").hidden, other.button("play").hidden, opened().button("gif").hidden], [[], true, true, false])
+  await one.press("play") // it moves no slider
+  assert.deepEqual(one.asked.at(-1), {kind: "gif", theme: "dark", legend: true, sliders: ["play"]})
 })
 
 test("while a film is drawn it says how far it is, can be stopped, and nothing else can be asked for", async () => {
@@ -87,7 +89,7 @@ test("while a film is drawn it says how far it is, can be stopped, and nothing e
   const one = opened({answer: () => new Promise((go) => { done = go })})
   assert.equal(one.find(".stop-making").hidden, true)
   const film = one.press("gif")
-  assert.deepEqual([one.told(), one.find(".stop-making").hidden, one.disabled().length], ["Making Film …", false, 9])
+  assert.deepEqual([one.told(), one.find(".stop-making").hidden, one.disabled().length], ["Making Film …", false, 10])
   one.progress[0](4, 41)
   assert.equal(one.told(), "Drawing the film: 4 of 41 pictures …")
   one.find(".stop-making").onclick()

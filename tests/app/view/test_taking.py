@@ -112,9 +112,9 @@ def test_a_newer_wish_replaces_an_older(executor):
 FILM = {"id": 3, "kind": "gif", "theme": "dark", "sliders": ["f1=-1,1"]}
 
 
-def conversation(executor, request, stop_after=None):
+def conversation(executor, request, query="preset=case1-cm4", stop_after=None):
     """All answers to the wish for a film; after some of them it is stopped."""
-    frames = Frames(read_link("preset=case1-cm4").state)
+    frames = Frames(read_link(query).state)
     frames.jobs = Jobs(executor)
     taking, answers, later = Taking(frames), [], Queue()
     taking.answer(request, answers.append, later.put)
@@ -129,13 +129,22 @@ def conversation(executor, request, stop_after=None):
 
 
 def test_a_film_is_drawn_in_parts_and_is_that_of_the_command_line(executor, monkeypatch):
-    monkeypatch.setattr(takings, "POSITIONS", 6)
+    monkeypatch.setattr(takings, "count_of", lambda slider: 6)
     *progress, film = conversation(executor, FILM)
     assert [(one["taken"], one["done"], one["all"]) for one in progress] == [(3, 4, 6), (3, 6, 6)]
     assert (film["name"], film["type"]) == ("codim2-case1-cm4.gif", "image/gif")
     assert film["file"] == films.film(
         view_of("case1-cm4"), "f1=-1,1", style=replace(films.STYLE, theme="dark"), positions=6
     )
+
+
+def test_a_film_of_play_is_drawn_in_larger_parts_and_refused_where_nothing_was_launched(executor, monkeypatch):
+    monkeypatch.setattr(takings, "count_of", lambda slider: 5)
+    [progress, film] = conversation(executor, {**FILM, "sliders": ["play"]}, "preset=case1-cm4&orbits=0.3,0.4")
+    assert (progress["done"], progress["all"]) == (5, 5)
+    assert film["file"][:3] == b"GIF"
+    [answer] = conversation(executor, {**FILM, "sliders": ["play"]})
+    assert "click the picture" in answer["error"]
 
 
 def test_a_film_that_is_stopped_draws_no_more(executor, monkeypatch):

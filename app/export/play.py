@@ -1,0 +1,131 @@
+"""A film of play: the dot of a launched orbit runs along it, the portrait beside x and y over time.
+
+The portrait and the chart are drawn once, by Typst; the dots are put on by Pillow.
+"""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+
+import numpy as np
+from PIL import Image, ImageDraw
+
+from codim2_core.orbits.in_time import InTime, in_time
+
+from ..draw.theme import themes
+from ..draw.vector.paper import paper
+from ..draw.vector.parts import Placement
+from ..phrases import say
+from ..state.launches import TYPED, chosen, read_launches
+from .figure import MM, PX, TITLE, Style, figure
+from .printing import DPI, png
+from .small.chart import Frame, framed
+from .view import View
+
+#: What stands in the place of a slider's name.
+PLAY = "play"
+#: Pictures of a film; dots to those of the screen; radius of a dot, of its rim, in px; so finer it is drawn and shrunk.
+PICTURES, DENSITY, DOT, RIM, FINER = 101, 1.25, 6.0, 2.0, 4
+#: Points of an SVG to px of the film; the chart's own px to those of the film.
+SCALE, CHART = DPI * DENSITY / 72, 1.15
+
+
+@dataclass(frozen=True)
+class Scenery:
+    """What stands still in a film of play.
+
+    Attributes
+    ----------
+    drawn : PIL.Image.Image
+    orbit : InTime
+    place : Placement
+        Of the portrait in it, in points, from its upper edge.
+    chart : Frame
+        Of x and y over time.
+    corner : (float, float)
+        Of the chart, in px.
+    colours : tuple of str
+        Of a dot and of its rim.
+    """
+
+    drawn: Image.Image
+    orbit: InTime
+    place: Placement
+    chart: Frame
+    corner: tuple[float, float]
+    colours: tuple[str, str]
+
+    def at(self, share: float) -> bytes:
+        """Return the picture at a share of the orbit's time, 0 to 1, as PNG."""
+        time, points = self.orbit.time, self.orbit.points
+        now = time[0] + share * (time[-1] - time[0])
+        x, y = (float(np.interp(now, time, column)) for column in points.T)
+        left, right, bottom, top = self.place.seen
+        dots = []
+        if left <= x <= right and bottom <= y <= top:
+            [[u, v]] = self.place.points((x, y)).tolist()
+            dots = [(SCALE * u, SCALE * (v + TITLE))]
+        for values in self.orbit.xy.T:
+            x, y = self.chart.place(now, np.interp(now, time, values))
+            dots.append((self.corner[0] + CHART * x, self.corner[1] + CHART * y))
+        shown = self.drawn.copy()
+        for dot in dots:
+            _put(shown, dot, self.colours)
+        file = io.BytesIO()
+        shown.save(file, "PNG", compress_level=1)
+        return file.getvalue()
+
+
+def pictures(view: View, style: Style, positions: int, first: int, last: int) -> list[bytes]:
+    """Return the pictures of a film of play from one on and up to another, as PNG.
+
+    Raises
+    ------
+    ValueError
+        No launched orbit is chosen, or no time passes on it; a picture cannot be had.
+    """
+    still = scenery(view, style)
+    return [still.at(k / (positions - 1)) for k in range(first, last)]
+
+
+def scenery(view: View, style: Style) -> Scenery:
+    """Return what stands still in the film of a view."""
+    i = chosen(read_launches(view.values["orbits"]), view.values["orbit"])
+    if i is None or i == TYPED:
+        raise ValueError(say("nothing to play"))
+    scene = view.scene()
+    seed, clock = scene.launch[i], scene["launched"].orbits.times[i]
+    if np.hypot(*seed) == 1.0:
+        raise ValueError(say("no time passes"))
+    orbit = in_time(scene.coefficients, scene.psi, seed, (float(clock[0]), float(clock[-1])))
+    portrait = _opened(png(figure(view, style), DENSITY))
+    names, time = (("x/ε", "y/ε"), "τ = t/ε") if orbit.fast else (("x", "y"), "t")
+    lines = [(name, orbit.time, values) for name, values in zip(names, orbit.xy.T, strict=True)]
+    colours = paper() if style.theme == "paper" else themes()[style.theme]
+    over_time, frame = framed(lines, time, "", colours)
+    beside = _opened(png(over_time, CHART))
+    drawn = Image.new("RGB", (portrait.width + beside.width, max(portrait.height, beside.height)), colours["page"])
+    corner = portrait.width, (drawn.height - beside.height) // 2
+    drawn.paste(portrait, (0, 0))
+    drawn.paste(beside, corner)
+    place = Placement(view.seen, style.size * MM, PX, decimals=2)
+    return Scenery(drawn, orbit, place, frame, corner, (colours["motion"], colours["page"]))
+
+
+def _opened(drawn: bytes) -> Image.Image:
+    return Image.open(io.BytesIO(drawn)).convert("RGB")
+
+
+def _put(shown: Image.Image, place: tuple[float, float], colours: tuple[str, str]) -> None:
+    """Put a dot on a picture, where it is to parts of a px."""
+    reach = int(DOT + RIM) + 2
+    x, y = (round(v) for v in place)
+    box = x - reach, y - reach, x + reach, y + reach
+    side, fine = 2 * reach, 2 * reach * FINER
+    patch = shown.crop(box).resize((fine, fine), Image.Resampling.NEAREST)
+    pen = ImageDraw.Draw(patch)
+    u, v = (FINER * (reach + value - whole) for value, whole in zip(place, (x, y), strict=True))
+    for radius, colour in zip((DOT + RIM, DOT), reversed(colours), strict=True):
+        pen.ellipse([u - FINER * radius, v - FINER * radius, u + FINER * radius, v + FINER * radius], fill=colour)
+    shown.paste(patch.resize((side, side), Image.Resampling.BOX), box[:2])
