@@ -42,15 +42,19 @@ SENTENCES: dict[str, Sentence] = {
         "This Ψ does not meet {which} of Definition 2.3, which the paper’s results assume.", "Ψ breaks a condition"
     ),
     "no slow variable": Sentence("There is no slow variable: m = 0.", "a panel along z"),
-    "no atlas of equations": Sentence(
-        "The atlas needs the coefficients A and f: choose an e-linear system, or type them as formulas. This system is "
-        "given by its equations.",
-        "equations typed whole",
+    "no parameter to map": Sentence(
+        "An atlas needs a parameter; this system has none. Write a line such as k = 0.3 in [0, 1] under “where”, and k "
+        "in a formula; or choose Ψ = 3/(3 + (4s)ⁿ), which has n.",
+        "numbers only, and m = 0",
     ),
-    "too few parameters": Sentence(
-        "An atlas needs two parameters; this system has {names}. A name typed in a formula becomes one, and Ψ = 3/(3 + "
-        "(4s)ⁿ) has n.",
-        "typed coefficients without names",
+    "one parameter": Sentence(
+        "Along {name}, the only parameter. A second one makes a plane: write a line such as k = 0.3 in [0, 1] under "
+        "“where”, and k in a formula; or choose Ψ = 3/(3 + (4s)ⁿ), which has n.",
+        "a system with one parameter",
+    ),
+    "points unproved": Sentence(
+        "At {few} of {all} points it is not proved that no limit direction and no critical set is missed.",
+        "a map of typed formulas with doubts",
     ),
     "no parameter": Sentence(
         "A diagram needs a parameter; this system has none. A name typed in a formula becomes one, and Ψ = 3/(3 + "

@@ -12,14 +12,18 @@ from numpy.typing import ArrayLike, NDArray
 from .. import drawing
 from ..psi.function import Psi
 from ..tables import Tabled, number, point, rows, table
-from .class_map_grid import THIN, Spans, Tree, happening, tree
+from .class_map_grid import THIN, Spans, Tree, tree
 from .class_map_trace import Boundaries, chains, rings, traced
-from .sweep import Plane, class_name, family
+from .classes import Classes
+from .families import classes_over
+from .typed.classes import Samples, TypedClasses
 
 __all__ = ["ClassMap", "MapBoundary", "MapRegion", "class_map"]
 
 Array = NDArray[np.float64]
 
+_PLAIN = 2  # levels of halving at every change of class of e-linear systems, which are cheap
+_COARSE = 16  # cells to a side at first, of general systems
 _CANDIDATES = 48  # points of a region among which the one farthest from as many points of its border is chosen
 
 
@@ -31,7 +35,9 @@ class MapRegion(Tabled):
     ----------
     name : str
         Such as "CM4, saddle", "CM0, stable focus" or "NCM2": name of the portrait (`Classification.name`) and kind of
-        the critical set; "undefined" where a coefficient is not finite.
+        the critical set; "undefined" where a coefficient is not finite. Of a general system as "2CM6, saddle, stable
+        node; 4 arrive, 2 leave": how many critical sets and limit directions there are, the kinds of the former, and
+        how many of the latter are radially attracting and repelling.
     inside : (x, y)
         A point of the region, far from its border.
     area : float
@@ -61,7 +67,8 @@ class MapBoundary:
     ----------
     happening : tuple of str
         What happens across it: "saddle-node", "pitchfork", "transcritical", "det A = 0", "Hopf", "node-focus",
-        "undefined"; several where curves coincide.
+        "undefined"; several where curves coincide. Of general systems also "fold" (two critical sets meet), "neutral
+        equator" (a closed one changes its stability), and "change" of what is degenerate throughout.
     between : (str, str)
         Names of the regions.
     lines : tuple of ndarray (m, 2)
@@ -93,6 +100,10 @@ class ClassMap:
         Classes that were seen, but only in places too thin to be drawn, and one such place.
     evaluated : int
         At how many points the class was computed, before the bisections.
+    unproved : int
+        At so many of them it is not proved that no limit direction and no critical set is missed.
+    samples : Samples or None
+        Of a general system these points: a finer map (`class_map`, `start`) does not compute them again.
     """
 
     names: tuple[str, str]
@@ -103,6 +114,8 @@ class ClassMap:
     step: float
     thin: tuple[tuple[str, tuple[float, float]], ...]
     evaluated: int
+    unproved: int = 0
+    samples: Samples | None = None
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
@@ -127,27 +140,33 @@ def class_map(
     steps: int = 128,
     thin: int = THIN,
     accuracy: float = 1e-5,
+    start: ClassMap | None = None,
 ) -> ClassMap:
     """Regions of equal class over two parameters, and the curves between them (sec:bifurcations).
 
-    The class is computed at the vertices of a quadtree: coarse cells are halved twice where it changes or may change
+    The class is computed at the vertices of a quadtree: coarse cells are halved where it changes or may change
     unseen, and once or twice more where something thinner than a cell shows. Points of the boundaries are then
     found by bisection along the edges of the triangles into which the cells are cut.
 
     Parameters
     ----------
-    system : ELinear or Coefficients
+    system : ELinear, System, Coefficients or Frozen
+        Where U of a System is affine in (c, s) it is mapped as the e-linear system that it is (lem:normalform). Any
+        other is classified point by point, in seconds: begin with few steps, and give each map to the next as `start`.
     psi : Psi
     names : (str, str)
         Two of `layer_problem.vary.names`.
     spans : ((low, high), (low, high))
     z : (m,) floats
     steps : int
-        1/steps of the spans is the cell at boundaries, 8 to 512; rounded up to a multiple of 4.
+        1/steps of the spans is the cell at boundaries, 8 to 512; rounded up to a multiple of 4 (a general system's
+        beyond 16: to 16 times a power of two).
     thin : int
         How often cells are halved again at thin places, 0 to 2: 0 while a picture moves.
     accuracy : float
         Of the points of boundaries, where both spans are counted as 1; 1e-12 to 1e-2.
+    start : ClassMap, optional
+        A coarser map with the same system, psi, names, spans and z.
 
     Returns
     -------
@@ -170,22 +189,21 @@ def class_map(
     if not (np.isfinite([x0, x1, y0, y1]).all() and x0 < x1 and y0 < y1):
         raise ValueError(f"spans are {spans!r}; give (low, high) with low < high for each.")
     both = (x0, x1), (y0, y1)
-    systems = family(system, psi, z, *names, spans=both)
-    steps = 4 * -(-steps // 4)
-    leaves = tree(systems, both, steps, thin)
-    halvings = max(1, int(np.ceil(np.log2(1.0 / (steps * accuracy)))))
-    found = traced(systems, leaves, both, halvings)
-    corner = systems(**{name: np.array(span) for name, span in zip(systems.names, both, strict=True)})
-    unresolved = tuple((class_name(code), at) for code, at in found.seen.items())
-    first, second = systems.names
+    classes = classes_over(system, psi, z, names, both, None if start is None else start.samples)
+    typed = isinstance(classes, TypedClasses)
+    plain = max(0, int(np.ceil(np.log2(steps / _COARSE)))) if typed else _PLAIN
+    coarse = min(_COARSE, -(-steps // 4) * 4) if typed else -(-steps // 4)
+    leaves = tree(classes, both, coarse, plain, thin)
+    halvings = max(1, int(np.ceil(np.log2(1.0 / ((coarse << plain) * accuracy)))))
+    found = traced(classes, leaves, both, halvings)
+    unresolved = tuple((classes.name(code), at) for code, at in found.seen.items())
+    first, second = classes.names
+    samples = classes.samples if isinstance(classes, TypedClasses) else None
     return ClassMap(
-        (first, second), both, _regions(leaves, found, both), _boundaries(found, _symmetric(corner)),
+        (first, second), both, _regions(classes, leaves, found, both), _boundaries(classes, found),
         accuracy, float(leaves.size.min()), unresolved, len(leaves.codes),
+        0 if samples is None else len(samples.unproved), samples,
     )  # fmt: skip
-
-
-def _symmetric(plane: Plane) -> bool:
-    return bool(not plane.b.any() and (not plane.f1.any() or not plane.f2.any()))
 
 
 def _codes(found: Boundaries) -> NDArray[np.int64]:
@@ -195,7 +213,7 @@ def _codes(found: Boundaries) -> NDArray[np.int64]:
     return out
 
 
-def _regions(leaves: Tree, found: Boundaries, spans: Spans) -> tuple[MapRegion, ...]:
+def _regions(classes: Classes, leaves: Tree, found: Boundaries, spans: Spans) -> tuple[MapRegion, ...]:
     codes = _codes(found)
     bounds = np.arange(len(codes) + 1)
     inner = found.pieces[found.pieces[:, 3] >= 0]
@@ -219,7 +237,7 @@ def _regions(leaves: Tree, found: Boundaries, spans: Spans) -> tuple[MapRegion, 
         for ring in polygons:
             ring.flags.writeable = False
         boundary = tuple(ring for _, ring in sorted(zip(areas, polygons, strict=True), key=lambda pair: -pair[0]))
-        out.append(MapRegion(class_name(codes[k]), inside, sum(areas), width, boundary))
+        out.append(MapRegion(classes.name(int(codes[k])), inside, sum(areas), width, boundary))
     return tuple(sorted(out, key=lambda region: -region.area))
 
 
@@ -244,11 +262,11 @@ def _inside(points: Array, polygons: list[Array], spans: Spans) -> tuple[tuple[f
     return (float(best[0]), float(best[1])), 2.0 * least
 
 
-def _boundaries(found: Boundaries, symmetric: bool) -> tuple[MapBoundary, ...]:
+def _boundaries(classes: Classes, found: Boundaries) -> tuple[MapBoundary, ...]:
     codes = _codes(found)
     inner = found.pieces[found.pieces[:, 3] >= 0]
     low, high = np.sort(codes[inner[:, 2:]], axis=1).T
-    key = low * 1024 + high
+    key = low * (int(codes.max()) + 2) + high
     out = []
     for value in np.unique(key):
         here = np.flatnonzero(key == value)
@@ -256,5 +274,5 @@ def _boundaries(found: Boundaries, symmetric: bool) -> tuple[MapBoundary, ...]:
         for line in lines:
             line.flags.writeable = False
         u, v = int(low[here[0]]), int(high[here[0]])
-        out.append(MapBoundary(happening(u, v, symmetric), (class_name(u), class_name(v)), tuple(lines)))
+        out.append(MapBoundary(classes.happening(u, v), (classes.name(u), classes.name(v)), tuple(lines)))
     return tuple(out)

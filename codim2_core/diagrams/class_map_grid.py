@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .sweep import UNDEFINED, Sweep, border_functions, classes, discriminant, linearise, scale
+from .classes import UNKNOWN, Classes
 
-__all__ = ["THIN", "Spans", "Tree", "crossings", "happening", "tree"]
+__all__ = ["THIN", "Spans", "Tree", "crossings", "tree"]
 
 Array = NDArray[np.float64]
 Codes = NDArray[np.int64]
@@ -17,9 +17,7 @@ Flags = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 Spans = tuple[tuple[float, float], tuple[float, float]]
 
-_PLAIN = 2  # levels of halving at every change of class
 THIN = 2  # further ones, at most, where something thinner than a cell shows
-_MOST = 60_000  # cells
 _INSET = 1e-7  # of the span: what lies on its very edge is decided just inside
 
 
@@ -58,12 +56,12 @@ class Tree:
 class _Vertices:
     """Points of a fine lattice with their classes and the functions that decide them, computed when first asked for."""
 
-    def __init__(self, family: Sweep, spans: Spans, last: int) -> None:
-        self.family, self.spans, self.last = family, spans, last
+    def __init__(self, classes: Classes, spans: Spans, last: int) -> None:
+        self.classes, self.spans, self.last = classes, spans, last
         self.table = np.full((last + 1) ** 2, -1, np.int32)
         self.keys = np.zeros(0, np.intp)
         self.codes = np.zeros(0, np.int64)
-        self.functions = np.zeros((4, 0))
+        self.functions = np.zeros((0, 0))
 
     def place(self, keys: Indices) -> Array:
         """Points; slightly off an even lattice, as degenerate systems like to lie on round numbers and diagonals."""
@@ -83,65 +81,52 @@ class _Vertices:
             self.table[new] = count  # of equal keys the last one stays
             new = new[self.table[new] == count]
             self.table[new] = len(self.keys) + np.arange(len(new), dtype=np.int32)
-            at = self.place(new)
-            first, second = self.family.names
-            codes, functions = _decided(self.family, {first: at[:, 0], second: at[:, 1]})
+            codes, functions = self.classes.decided(self.place(new))
             self.keys = np.concatenate([self.keys, new])
             self.codes = np.concatenate([self.codes, codes])
-            self.functions = np.concatenate([self.functions, functions], axis=1)
+            known = self.functions if self.functions.shape[1] else functions[:, :0]
+            self.functions = np.concatenate([known, functions], axis=1)
         return self.table[keys].astype(np.intp)
 
 
-def _decided(family: Sweep, values: dict[str, Array]) -> tuple[Codes, Array]:
-    """Classes, and the four functions whose signs decide them (nan where one has no meaning)."""
-    plane = family(**values)
-    exponent = scale(plane)
-    gap, det = border_functions(plane, exponent)
-    found = linearise(plane, exponent)
-    size = found.trace**2 + 4.0 * abs(found.determinant)
-    turning = found.exists & (det > 0.0)
-    share = np.where(turning, found.share, np.nan)
-    focus = np.where(turning, found.discriminant / np.where(size > 0.0, size, 1.0), np.nan)
-    known = discriminant(plane, exponent)
-    return classes(plane, found, known), np.stack([known, gap, share, focus])
-
-
-def tree(family: Sweep, spans: Spans, steps: int, thin: int) -> Tree:
-    """Quadtree with cells of 1/steps of the spans where the class changes, and smaller ones where these are not enough.
+def tree(classes: Classes, spans: Spans, coarse: int, plain: int, thin: int) -> Tree:
+    """Quadtree with smaller cells where the class changes, and still smaller ones where these are not enough.
 
     Parameters
     ----------
-    family : Sweep
-        With two names.
+    classes : Classes
+        Over two names.
     spans : ((low, high), (low, high))
-    steps : int
-        A multiple of 4; the coarsest cells are four times as large.
+    coarse : int
+        The largest cells are so many to a side.
+    plain : int
+        How often those are halved in which the class changes or may change unseen.
     thin : int
-        Further halvings, 0 to `THIN`.
+        Further halvings at thin places, 0 to `THIN`.
 
     Returns
     -------
     Tree
         Neighbouring leaves differ by one halving at most.
     """
-    coarse, depth = steps // 4, _PLAIN + thin
+    depth = plain + thin
     unit = [2 << (depth - level) for level in range(depth + 1)]  # index units of a cell of each level
-    vertices = _Vertices(family, spans, coarse * unit[0])
+    vertices = _Vertices(classes, spans, coarse * unit[0])
     refined = [np.zeros((coarse << level, coarse << level), bool) for level in range(depth + 1)]
     exists = [np.ones((coarse, coarse), bool)]
     total = coarse * coarse
     for level in range(depth):
         cells = np.nonzero(exists[level])
-        refined[level][cells] = _flagged(vertices, cells, unit[level], level < _PLAIN)
+        refined[level][cells] = _flagged(vertices, cells, unit[level], level < plain)
         total += 4 * int(refined[level].sum())
         exists.append(_children(refined[level]))
-        if total > _MOST or not refined[level].any():
+        if total > classes.most_cells or not refined[level].any():
             break
     while True:
         _balance(refined)
         exists = [exists[0], *(_children(r) for r in refined[:-1])]
         again = False
-        for level in range(_PLAIN):  # a new corner may have shown another class
+        for level in range(plain):  # a new corner may have shown another class
             cells = np.nonzero(exists[level] & ~refined[level])
             at = vertices.ask(_lattice(cells, unit[level], vertices.last))
             around = vertices.codes[at]
@@ -185,7 +170,7 @@ def _flagged(vertices: _Vertices, cells: tuple[Indices, ...], unit: int, plain: 
     for i in np.flatnonzero(mixed & ~near).tolist():
         found = {int(c) for c in codes[i]}
         one = found.pop()
-        near[i] = any(len(happening(one, other, False)) > 1 for other in found)
+        near[i] = any(len(vertices.classes.happening(one, other)) > 1 for other in found)
     return near
 
 
@@ -229,13 +214,13 @@ def _leaves(vertices: _Vertices, exists: list[Flags], refined: list[Flags], unit
 
 
 def crossings(
-    family: Sweep, start: Array, end: Array, before: Codes, after: Codes, halvings: int
+    classes: Classes, start: Array, end: Array, before: Codes, after: Codes, halvings: int
 ) -> tuple[Array, Codes]:
     """Where the class changes along edges, by bisection of all of them at once.
 
     Parameters
     ----------
-    family : Sweep
+    classes : Classes
     start, end : ndarray (k, 2)
     before, after : ndarray of int (k,)
         Different classes at the ends.
@@ -248,54 +233,17 @@ def crossings(
     beyond : ndarray of int (k,)
         The class just behind it: not `after` where an edge crosses something thinner than itself.
     """
-    first, second = family.names
     low, high = np.zeros(len(start)), np.ones(len(start))
     beyond = after.copy()
     for _ in range(halvings):
         t = 0.5 * (low + high)
-        at = start + t[:, None] * (end - start)
-        here = classes(family(**{first: at[:, 0], second: at[:, 1]}))
+        here = classes.beside(start + t[:, None] * (end - start), before, after)
         same = here == before
         low, high = np.where(same, t, low), np.where(same, high, t)
         beyond = np.where(same, beyond, here)
     t = 0.5 * (low + high)
+    unknown = np.flatnonzero(beyond == UNKNOWN)
+    if len(unknown):
+        behind = start[unknown] + high[unknown, None] * (end[unknown] - start[unknown])
+        beyond[unknown] = classes.decided(behind)[0]
     return start + t[:, None] * (end - start), beyond
-
-
-def happening(before: int, after: int, symmetric: bool) -> tuple[str, ...]:
-    """Name what happens between two classes.
-
-    Parameters
-    ----------
-    before, after : int
-    symmetric : bool
-        b = 0 and f1 = 0 or f2 = 0 everywhere: limit directions split in pitchforks.
-
-    Returns
-    -------
-    tuple of str
-        Of "saddle-node", "pitchfork", "transcritical", "det A = 0", "Hopf", "node-focus", "undefined".
-    """
-    if before == after:
-        return ()
-    if UNDEFINED in (before, after):
-        return ("undefined",)
-    found = []
-    (count, kind), (count_, kind_) = divmod(before, 8), divmod(after, 8)
-    if count != count_:
-        found.append("pitchfork" if symmetric else "saddle-node")
-    if kind != kind_:
-        if not kind or not kind_:
-            found.append("transcritical")
-        elif 1 in (kind, kind_):
-            found.append("det A = 0")
-        elif 6 in (kind, kind_):
-            found.append("Hopf")
-        else:
-            if (kind <= 3) != (kind_ <= 3):
-                found.append("Hopf")
-            if kind % 2 != kind_ % 2:
-                found.append("node-focus")
-            if kind % 2 == kind_ % 2 == 0:
-                found.append("node-focus")  # from a stable to an unstable node: through a thin strip of foci
-    return tuple(found)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .class_map_grid import Spans, Tree, crossings
-from .sweep import Sweep
+from .classes import Classes
 
 __all__ = ["Boundaries", "chains", "rings", "traced"]
 
@@ -75,6 +75,7 @@ def _without_slivers(tree: Tree, edges: Indices) -> tuple[NDArray[np.int64], Ind
     codes = tree.codes
     region = _regions(codes, edges)
     lost: dict[int, int] = {}
+    least, many = int(codes.min()), int(codes.max() - codes.min()) + 1
     for _ in range(_ROUNDS):
         whole = (region[tree.corners] == region[tree.centres][:, None]).all(axis=1)
         wide = np.zeros(int(region.max()) + 1, bool)
@@ -87,16 +88,16 @@ def _without_slivers(tree: Tree, edges: Indices) -> tuple[NDArray[np.int64], Ind
         for i in thin.tolist():
             lost.setdefault(int(tree.codes[i]), i)
         # the class that most of the sliver's neighbours have
-        votes, count = np.unique(region[thin] * 1024 + codes[beside], return_counts=True)
+        votes, count = np.unique(region[thin] * many + codes[beside] - least, return_counts=True)
         order = np.argsort(count, kind="stable")
-        given = np.full(len(wide), -2)
-        given[votes[order] // 1024] = votes[order] % 1024
-        codes = np.where(given[region] >= -1, given[region], codes)
+        given = np.full(len(wide), least - 1)
+        given[votes[order] // many] = votes[order] % many + least
+        codes = np.where(given[region] >= least, given[region], codes)
         region = _regions(codes, edges)
     return codes, region, [i for code, i in lost.items() if not (codes == code).any()]
 
 
-def traced(family: Sweep, tree: Tree, spans: Spans, halvings: int) -> Boundaries:
+def traced(classes: Classes, tree: Tree, spans: Spans, halvings: int) -> Boundaries:
     """March through all triangles in which the class changes."""
     sides = _sides(tree)
     spokes = np.stack([tree.centres[sides[:, 0]], sides[:, 1]], axis=1)
@@ -112,7 +113,7 @@ def traced(family: Sweep, tree: Tree, spans: Spans, halvings: int) -> Boundaries
     start, end = np.divmod(unique, k)
     crossed = np.flatnonzero(codes[start] != codes[end])
     start, end = start[crossed], end[crossed]
-    points, beyond = crossings(family, tree.place[start], tree.place[end], codes[start], codes[end], halvings)
+    points, beyond = crossings(classes, tree.place[start], tree.place[end], codes[start], codes[end], halvings)
     strange = np.flatnonzero((beyond != codes[end]) & ~np.isin(beyond, codes))
     seen = {int(beyond[i]): (float(points[i, 0]), float(points[i, 1])) for i in strange}
     for axis in (0, 1):  # points on the outermost lines are put on the edge of the spans

@@ -80,6 +80,8 @@ def equator_counts(plane: Plane, exponent: int = 0, known: Array | None = None) 
     four = (hessian > 0.0) & (12.0 * hessian * hessian > lead * lead * i)
     known = discriminant(plane, exponent) if known is None else known
     found = np.where(known < 0.0, 2, np.where(four, 4, 0))
+    # b outweighs all else: none, where double complex zeros (a = d, f = 0) leave the discriminant to rounding
+    found[abs(b) > 0.5 * abs(k) + np.hypot(f1, f2)] = 0
     if len(plane) and plane.rigid:  # one system: it may well lie on a border, where only the exact answer will do
         zeros = tangential_zeros(*(float(v[0]) for v in plane.arrays))
         found[:] = len(zeros.theta)

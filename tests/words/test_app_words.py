@@ -1,19 +1,22 @@
 """What the explorer says of itself is so: what is left out is not there, and what it advises helps."""
 
 import re
+from dataclasses import replace
 from string import Formatter
 
 import pytest
 from codim2_app import phrases
 from codim2_app.draw.packing import unpack
 from codim2_app.frame import budget, faults, turns
+from codim2_app.panels.parameters.atlas import map_columns
 from codim2_app.server.first_page import opening
 from codim2_app.state import asked, links
 from codim2_app.state.controls import ExplorerState
 from codim2_app.state.links import read_link, squeezed, unsqueezed, write_link
 from codim2_app.view.refresh import Frames
 
-from codim2_core import System, psi
+from codim2_core import ELinear, System, psi
+from codim2_core.diagrams.class_map import class_map
 from codim2_core.scene import Scene
 
 CASE_3 = {"a": 172.0, "b": 186.0, "d": -200.0, "f1": -86.0, "f2": -93.0, "k1": 0.0}
@@ -102,15 +105,22 @@ def axes(key):
     return unable("atlas", "map", across=across, up="f1" if key == "one axis twice" else "f2")(key)
 
 
-def too_few(key):
-    """As it advises: with a name in a formula, or n, there is a map."""
-    values = {"system": "typed", "texts": {}, "across": "z", "up": "n"}
-    told = unable("atlas", "map", **values)(key)
-    assert told["names"] == "z"
-    _, header = frame({"panel": "atlas", **values, "texts": {"d": "-1 + q"}, "up": "own:q"}, all=True)
-    assert "map" not in header.get("unable", {})
-    _, header = frame({"panel": "atlas", **values, "psi": "hill"}, all=True)
-    assert "map" not in header.get("unable", {})
+def unproved(key):
+    plain = class_map(ELinear(-2, 0, -1), psi.constant(), ("f1", "f2"), ((-1, 1), (-1, 1)), steps=8, thin=0)
+    header, _ = map_columns(replace(plain, unproved=3))
+    assert fields(key, header["note"]) == {"few": "3", "all": str(plain.evaluated)}
+    assert not map_columns(plain)[0]["note"]
+
+
+def one_parameter(key):
+    """As it advises: with a second name in a formula, or n, there is a plane."""
+    values = {"panel": "atlas", "system": "typed", "texts": {}}
+    _, header = frame(values, all=True)
+    assert header["atlas_of"] == ["z", "", False]
+    assert "map" in header["late"]  # whose note this is
+    for more in ({"texts": {"d": "-1 + q"}}, {"psi": "hill"}):
+        _, header = frame({**values, **more}, all=True)
+        assert header["atlas_of"][1]
 
 
 def planes(psi_name):
@@ -205,8 +215,9 @@ CHECKS = {
     "address failed": address_failed,
     "outside the class": outside_the_class,
     "no slow variable": unable("along", "along", system="own", texts={"U1": "-c", "U2": "-s", "W": ""}),
-    "no atlas of equations": unable("atlas", "map", system="own", across="z", up="n"),
-    "too few parameters": too_few,
+    "no parameter to map": unable("atlas", "map", system="own", texts={"U1": "-c", "U2": "-s", "W": "", "where": ""}),
+    "one parameter": one_parameter,
+    "points unproved": unproved,
     "no parameter": unable("diagram", "diagram", system="own", texts={"U1": "-c", "U2": "-s", "W": "", "where": ""}),
     "one axis twice": axes,
     "n of another Ψ": unable("atlas", "map", across="f1", up="n"),

@@ -108,7 +108,7 @@ def regions(
     parts, names = [], []
     for name, polygons in areas:
         placed = [np.round((thinned(one, each) - (left, low)) * scale + (LEFT, floor), 1) for one in polygons]
-        colour = name.partition(",")[0].lower()
+        colour = name.partition(";")[0].partition(",")[0].lower()
         fill = f"r-{colour}" if f"r-{colour}" in themes()["light"] else "r-other"
         path = place.path(placed).replace("M", "ZM")[1:] + "Z"
         parts.append(f'<path d="{path}" fill="var(--{fill})" fill-opacity=".45" fill-rule="evenodd" {EDGE}/>')

@@ -1,7 +1,8 @@
 """The panel "Atlas": two parameters as a plane, cut into regions of one portrait each, with a small portrait of each.
 
 The plane (f1, f2) is known in closed form: its curves go with every frame. Any other pair of axes, and a part of that
-plane, by zoom or by the ranges of its sliders, is mapped by the core's `class_map` once nothing moves.
+plane, by zoom or by the ranges of its sliders, is mapped by the core's `class_map` once nothing moves: that of a system
+that is not e-linear coarsely first, then finer. A system with one parameter only has a strip along that.
 """
 
 from __future__ import annotations
@@ -14,12 +15,14 @@ from numpy.typing import NDArray
 
 from codim2_core import bifurcations
 from codim2_core.bifurcations import BifurcationCurve
+from codim2_core.diagrams.class_line import Stretch, class_line
 from codim2_core.diagrams.class_map import ClassMap, class_map
 from codim2_core.psi.function import Psi
+from codim2_core.systems.affine import as_elinear
 from codim2_core.systems.coefficients import Coefficients
-from codim2_core.systems.elinear import ELinear
 
 from ...draw import plane_curves
+from ...draw.glyphs import join
 from ...draw.packing import Polylines
 from ...draw.thumbnails import thumbnails
 from ...frame.draft import Draft
@@ -31,8 +34,10 @@ from .axes import Axis, available, missing, spans_of, without
 PLANE = ("a", "b", "d", "f1", "f2")
 #: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
 CURVES = ("saddle_node", "transcritical")
-#: Of equations typed whole, also where they are e-linear at the present z: whether they are at others is not known.
-EQUATIONS = say("no atlas of equations")
+#: Cells to a side at boundaries of a system that is classified point by point: one map after the other.
+STEPS = (16, 32, 64)
+#: How near the points of such a boundary are to the change of class, of the span: less than a pixel.
+ACCURACY = 1e-3
 #: A region narrower than this, of the width of the map, gets no small portrait.
 THINNEST = 0.012
 
@@ -44,18 +49,20 @@ def add(draft: Draft) -> None:
     reason = missing(draft, there, *axes)
     closed_form = axes == ("f1", "f2") and set(PLANE) <= there.keys()
     plane = closed_form and draft.values["atlas_zoom"] == 0 and not {"f1", "f2"} & draft.values["ranges"].keys()
-    if draft.now.get("atlas of") != (axes, plane):
-        draft.now["atlas of"] = (axes, plane)
-        draft.header["atlas_of"] = [*axes, plane]
+    shown = (next(iter(there)), "") if len(there) == 1 else axes
+    if draft.now.get("atlas of") != (shown, plane):
+        draft.now["atlas of"] = (shown, plane)
+        draft.header["atlas_of"] = [*shown, plane]
     if plane:
         _plane_of_f(draft)
         return
-    if reason and len(there) < 2:
-        reason = say("too few parameters", names=", ".join(axis.symbol for axis in there.values()) or "none")
-    if axes[0] == axes[1]:
+    if len(there) == 1:
+        _strip(draft, *there.values())
+        return
+    if not there:
+        reason = say("no parameter to map")
+    elif axes[0] == axes[1]:
         reason = say("one axis twice")
-    elif not isinstance(draft.scene.system, (ELinear, Coefficients)):
-        reason = EQUATIONS
     if reason:
         if draft.now.get("map") != reason:
             draft.now["map"] = reason
@@ -159,17 +166,91 @@ def _map(draft: Draft, axes: tuple[Axis, Axis]) -> None:
     spans = spans_of(draft, "map", axes, draft.values["atlas_zoom"])
     names = axes[0].core, axes[1].core
     key = (system, psi, z, names, spans)
-    found: ClassMap | None = draft.slow("map", key, class_map, system, psi, names, spans, z)
+    of = system, psi, names, spans, z
+    found: ClassMap | None
+    if as_elinear(system) is not None:
+        found = draft.slow("map", key, class_map, *of)
+    elif draft.now.get("map") != key:
+        found = draft.slow("map", key, _by_points, *of, STEPS[0], None)
+        draft.now["coarser"] = (key, found, STEPS[1:])
+    else:
+        found = _finer(draft, key, of)
     if found is not None:
         draft.header["map"], lines = map_columns(found)
         draft.blocks.update(lines)
-        wide = [(i, r.name, r.inside) for i, r in enumerate(found.regions) if r.width >= THINNEST]
-        draft.now["places"] = (key, wide)
-    of, places = draft.now.get("places", (None, ()))
+        if draft.now.get("coarser", (None,))[0] == key and draft.now["coarser"][2]:
+            draft.late("finer map")
+        wide = [(i, short(r.name), r.inside) for i, r in enumerate(found.regions) if r.width >= THINNEST]
+        draft.now["places"] = (key, wide, found.step)
+    _portraits(draft, key, system, psi, z, names)
+
+
+def _finer(draft: Draft, key: tuple[Any, ...], of: tuple[Any, ...]) -> ClassMap | None:
+    """Return the next finer map than the browser has, once it is there; by another name: what is there is not old."""
+    kept, coarser, steps = draft.now["coarser"]
+    if kept != key or coarser is None or not steps:
+        return None
+    found: ClassMap | None = draft.slow("finer map", (key, steps[0]), _by_points, *of, steps[0], coarser)
+    if found is not None:
+        draft.now["coarser"] = (key, found, steps[1:])
+    return found
+
+
+def _portraits(draft: Draft, key: tuple[Any, ...], system: Any, psi: Psi, z: Any, names: Sequence[str]) -> None:
+    """Add a small portrait of each region of the map that the browser has, once it is the finest that there will be."""
+    of, places, step = draft.now.get("places", (None, (), 0.0))
+    if draft.now.get("coarser", (None,))[0] == key and draft.now["coarser"][2]:
+        return
     if draft.ready and of == key:
-        tiles = draft.slow("thumbnails", key, thumbnails, system, psi, z, names, places)
+        tiles = draft.slow("thumbnails", (key, step), thumbnails, system, psi, z, names, places)
         if tiles is not None:
             draft.header["thumbnails"] = tiles
+
+
+def _by_points(
+    system: Any, psi: Psi, names: Sequence[str], spans: Any, z: Any, steps: int, start: ClassMap | None
+) -> ClassMap:
+    return class_map(system, psi, names, spans, z, steps=steps, thin=0, accuracy=ACCURACY, start=start)
+
+
+def short(name: str) -> str:
+    """Return a class without what its limit directions do: a region has little room."""
+    return name.partition(";")[0]
+
+
+def _strip(draft: Draft, axis: Axis) -> None:
+    """Add the stretches of one class along the only parameter, as a plane of which the other axis means nothing."""
+    system, psi, z = without(draft.scene, axis)
+    (span,) = spans_of(draft, "map", (axis,), draft.values["atlas_zoom"])
+    key = (system, psi, z, (axis.core,), span)
+    found: tuple[Stretch, ...] | None = draft.slow("map", key, class_line, system, psi, axis.core, span, z)
+    if found is not None:
+        draft.header["map"], lines = strip_columns(found, span, say("one parameter", name=axis.symbol))
+        draft.blocks.update(lines)
+        wide = [(i, short(s.name), (0.5 * (s.low + s.high),)) for i, s in enumerate(found)
+                if s.high - s.low >= THINNEST * (span[1] - span[0])]  # fmt: skip
+        draft.now["places"] = (key, wide, 0.0)
+    _portraits(draft, key, system, psi, z, (axis.core,))
+
+
+def strip_columns(
+    found: Sequence[Stretch], span: tuple[float, float], note: str
+) -> tuple[dict[str, Any], dict[str, Polylines]]:
+    """Return stretches as the regions of a plane that is as high as it is wide, and their ends as its curves."""
+    middle, half = 0.5 * (span[0] + span[1]), 0.5 * (span[1] - span[0])
+    ends = [[(v - middle) / half for v in (s.low, s.high)] for s in found]
+    loops = [np.array([(u, -1.0), (v, -1.0), (v, 1.0), (u, 1.0)]) for u, v in ends]
+    between = [np.array([(v, -1.0), (v, 1.0)]) for _, v in ends[:-1]]
+    header = {
+        "spans": [list(span), [0.0, 1.0]],
+        "name": [s.name for s in found],
+        "inside": [[0.5 * (s.low + s.high), 0.5] for s in found],
+        "loops": [1] * len(found),
+        "curve": [s.happening[0] for s in found[:-1]],
+        "pieces": [1] * len(between),
+        "note": note,
+    }
+    return header, {"map": Polylines(*join(loops)), "map_curves": Polylines(*join(between))}
 
 
 def map_columns(found: ClassMap) -> tuple[dict[str, Any], dict[str, Polylines]]:
@@ -187,6 +268,7 @@ def map_columns(found: ClassMap) -> tuple[dict[str, Any], dict[str, Polylines]]:
         "loops": [len(region.boundary) for region in found.regions],
         "curve": [boundary.happening[0] for boundary in found.boundaries],
         "pieces": [len(boundary.lines) for boundary in found.boundaries],
+        "note": say("points unproved", few=found.unproved, all=found.evaluated) if found.unproved else "",
     }
     loops = [unit(loop) for region in found.regions for loop in region.boundary]
     curves = [unit(line) for boundary in found.boundaries for line in boundary.lines]

@@ -92,17 +92,19 @@ def axes_there(scene: Scene, values: Mapping[str, Any], locked: Collection[str] 
 def opening_axes(scene: Scene, values: Mapping[str, Any], locked: Collection[str] = ()) -> dict[str, str]:
     """Return other axes for those with which a choice of system opens, where the system at hand lacks them.
 
-    What a choice opens with is the same whatever is typed, and whichever Psi is chosen. An axis that was chosen stays:
-    a sentence says that it is not there.
+    What a choice opens with is the same whatever is typed, and whichever Psi is chosen; typed equations may
+    have it and not read it in U. An axis that was chosen stays: a sentence says that it is not there.
     """
     choice = values["system"]
     across, up = axes_of(OWN if choice == NORMAL and not isinstance(scene.system, ELinear) else choice)
     there = axes_there(scene, values, locked)
+    read = {name for name, axis in there.items() if name == "n" or axis.core in getattr(scene.system, "numbers", there)}
+    read = read or there.keys()
     # along Sigma, then over what the system's author named
-    order = sorted(there, key=lambda name: (name not in SLOW_CONTROLS, not name.startswith(OWN_AXIS)))
+    order = sorted(there, key=lambda name: (name not in read, name not in SLOW_CONTROLS, not name.startswith(OWN_AXIS)))
     found: dict[str, str] = {}
     for control, first in (("across", across), ("up", up), ("along", across)):
-        if values[control] == first and first not in there:
+        if values[control] == first and first not in read:
             other = {"across": values["up"], "up": found.get("across", values["across"]), "along": None}[control]
             free = [name for name in order if name != other]
             if free:

@@ -12,7 +12,7 @@ export class Pad {
     this.redrawn = /** @type {(() => void) | null} */ (null) // called when all was drawn anew
     this.box = [[-1, 1], [-1, 1]]
     this.plot = new Chart(svg, {
-      aspect: (width) => width,
+      aspect: (width) => (this.chart?.flat ? Math.min(width, 130) : width),
       onMove: (x, y) => onMove([x, y].map((value, i) => this.rounded(value, i))),
       onEnd: () => onMove(null),
       onKey: (way, far) => onMove(this.chart.handle.map((value, i) => value + way[i] * (this.box[i][1] - this.box[i][0]) / (far ? 20 : 200))),
@@ -37,7 +37,7 @@ export class Pad {
   }
 
   // Draw a chart: `box`; `regions` (name, bounded, inside, loops), `curves` by name, `points` [type, x, y, sentence];
-  // `handle` and `here` (where the portrait is); `path` through the handle or null; `old`; the axes' `words`.
+  // `handle` and `here` (where the portrait is); `path` through the handle or null; `old`; the axes' `words`; `flat` where there is one axis only.
   draw(chart) {
     const old = this.chart
     this.chart = chart
@@ -50,18 +50,18 @@ export class Pad {
   }
 
   drawBase() {
-    const {regions, curves, points, words, box: [across, up]} = this.chart
+    const {regions, curves, points, words, flat, box: [across, up]} = this.chart
     const lines = Object.entries(curves).flatMap(([name, all]) => all.map((line) => ({name, line})))
     // a branch that is a point, or that nobody could tell from one, is drawn as a dot
     const small = [across, up].map(([low, high]) => 0.0025 * (high - low))
     const isPoint = (line) => line.every((p) => p.every((value, i) => Math.abs(value - line[0][i]) < small[i]))
     this.plot.draw([{
-      x: {span: across, word: words[0]}, y: {span: up}, title: escape(words[1]), zeros: true,
-      areas: regions.map(({name, bounded, loops}) => ({name: `region ${regionClass(name)}`, label: name, loops, whole: !bounded})),
+      x: {span: across, word: words[0]}, y: {span: up, ...(flat ? {ticks: []} : {})}, title: escape(words[1] ?? ""), zeros: !flat,
+      areas: regions.map(({name, bounded, loops}) => ({name: `region ${colours(regions)(name)}`, label: name, title: name, loops, whole: !bounded})),
       lines: lines.filter(({line}) => !isPoint(line)).map(({name, line}) => ({name, silent: true, x: line.map(([x]) => x), y: line.map(([, y]) => y)})),
       dots: lines.filter(({line}) => isPoint(line)).map(({name, line: [[x, y]]}) => ({name: `point ${name}`, x, y, r: 3})),
       marks: points.map(([type, x, y, sentence]) => ({kind: "codimension two", x, y, title: `${type}. ${sentence}`})),
-      labels: regions.map((region) => ({text: region.name, name: "name", near: region.inside, allowed: (x, y) => holds(region, [x, y])})),
+      labels: regions.map((region) => ({text: shortName(region.name), name: "name", near: region.inside, allowed: (x, y) => holds(region, [x, y])})),
     }])
   }
 
@@ -73,9 +73,23 @@ export class Pad {
     const moved = here[0] !== handle[0] || here[1] !== handle[1]
     const region = regions[around.indexOf(true)]
     this.plot.over([...(moved ? [{name: "here", x: here[0], y: here[1], r: 4.5}] : []), {name: "handle", x: handle[0], y: handle[1], r: 8}],
-      path, region && !old ? {text: region.name, at: here, name: "name tag"} : null)
+      path, region && !old ? {text: shortName(region.name), at: here, name: "name tag"} : null)
   }
 }
 
 // The class of a region's colour: that of its portrait's name, up to the first space.
 export function regionClass(name) { return name.split(" ")[0].replace(/[^\w-]/g, "") }
+
+// What a region has room for: a name without what its limit directions do, and without the kinds of several critical sets.
+export function shortName(name) { return /^\d/.test(name) ? name.split(",")[0] : name.split(";")[0] }
+
+const PAPERS = ["CM0", "CM2", "CM4", "NCM2", "NCM4"], MORE = 6
+
+/**
+ * The class of the colour of each of some regions: the paper's portraits have their own, the others what is left.
+ * @param {{name: string}[]} regions
+ */
+export function colours(regions) {
+  const others = [...new Set(regions.map(({name}) => regionClass(name)))].filter((one) => !PAPERS.includes(one)).sort()
+  return (/** @type {string} */ name) => PAPERS.includes(regionClass(name)) ? regionClass(name) : `more${others.indexOf(regionClass(name)) % MORE}`
+}

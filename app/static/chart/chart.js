@@ -19,7 +19,7 @@ import {beside, Space, TEXT, textSize} from "./space.js"
  * @typedef {{from: number, to: number, name: string, title?: string, word?: string}} Band
  * @typedef {{text: string, at?: number[], near?: number[], name?: string, allowed?: (x: number, y: number) => boolean}} Label
  *   beside a point, or as near to a place as it is allowed by all of its corners
- * @typedef {{name: string, points?: number[][], loops?: number[][][], whole?: boolean, label?: string}} Area by its border, or
+ * @typedef {{name: string, points?: number[][], loops?: number[][][], whole?: boolean, label?: string, title?: string}} Area by its border, or
  *   by several loops (even-odd), of which the whole chart may be one
  * @typedef {object} Plot
  * @property {string} [title]
@@ -113,9 +113,9 @@ export class Chart {
       const [a, b] = [from, to].map((v) => Math.max(left, Math.min(right, x.at(v))))
       parts.push(`<rect class="band ${name}" x="${fixed(a)}" y="${fixed(top)}" width="${fixed(Math.max(0, b - a))}" height="${fixed(bottom - top)}">${title ? `<title>${escape(title)}</title>` : ""}</rect>`)
     }
-    for (const {name, points, loops = [points], whole, label} of plot.areas ?? []) {
+    for (const {name, points, loops = [points], whole, label, title} of plot.areas ?? []) {
       const all = whole ? `M${fixed(left)} ${fixed(top)}H${fixed(right)}V${fixed(bottom)}H${fixed(left)}Z` : ""
-      parts.push(`<path class="area ${name}"${label ? ` data-region="${escape(label)}"` : ""} fill-rule="evenodd" d="${all}${loops.map((loop) => `${polyline(loop.map(place))}Z`).join("")}"/>`)
+      parts.push(`<path class="area ${name}"${label ? ` data-region="${escape(label)}"` : ""} fill-rule="evenodd" d="${all}${loops.map((loop) => `${polyline(loop.map(place))}Z`).join("")}">${title ? `<title>${escape(title)}</title>` : ""}</path>`)
     }
     if (plot.zeros) {
       const [x0, y0] = [x.at(0), y.at(0)]

@@ -3,16 +3,17 @@
 
 import {axesMarkup, AxisChoice, ZoomButtons} from "../beside/axes.js"
 import {polygons} from "../picture/frames.js"
-import {Pad, regionClass} from "../beside/pad.js"
+import {colours, Pad} from "../beside/pad.js"
 import {register} from "../beside/panels.js"
 import {Dots} from "../room/dots.js"
 import {rangeFor, reachFor} from "../controls/ranges.js"
 
 const CURVE_NAMES = {
-  transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", closed_equator: "cycle at the equator", determinant: "det A = 0", undefined: "undefined",
+  transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", closed_equator: "cycle at the equator", determinant: "det A = 0", fold: "fold of critical sets", undefined: "undefined",
 }
+const OF_EQUATIONS = {transcritical: "a critical set at the equator", closed_equator: "closed equator neutral"}
 const CURVE_OF = {
-  transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "saddle_node", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant",
+  transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "saddle_node", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant", fold: "fold", "neutral equator": "closed_equator",
 }
 
 const MARKUP = `${axesMarkup({across: "across", up: "up"}, "atlas_zoom")}
@@ -54,14 +55,16 @@ class Atlas {
     }
   }
 
-  get axes() { return [this.values.across, this.values.up] }
+  // The second axis of a strip means nothing.
+  get axes() { return this.isStrip ? [this.of.split(",")[0]] : [this.values.across, this.values.up] }
+
+  get isStrip() { return this.of.split(",")[1] === "" }
 
   get isPlane() { return this.of === "f1,f2,true" }
 
   move(at) {
     if (at === null) { this.draw(this.values); return }
-    const [x, y] = this.axes
-    this.setControls({[x]: at[0], [y]: at[1]})
+    this.setControls(Object.fromEntries(this.axes.map((name, i) => [name, at[i]])))
   }
 
   // Bring the portrait to a place of the plane: in that of f it is f(z) that goes there.
@@ -108,7 +111,7 @@ class Atlas {
       const all = scaled("map"), between = scaled("map_curves"), curves = {}
       for (const [i, kind] of curve.entries()) (curves[CURVE_OF[kind] ?? "undefined"] ??= []).push(...between.splice(0, pieces[i]))
       const regions = name.map((words, i) => ({name: words, bounded: true, inside: inside[i], loops: all.splice(0, loops[i])}))
-      this.map = {of: this.of, spans, regions, curves, points: []}
+      this.map = {of: this.of, spans, regions, curves, points: [], note: header.map.note}
     }
     this.why = header.unable?.map ?? (header.map || header.atlas_of ? "" : this.why)
     if (header.unable?.map) this.map = this.empty
@@ -129,15 +132,17 @@ class Atlas {
     if (here !== this.here) { this.here = here; this.markTiles("here", here) }
     this.zoom.draw(values)
     this.find(".cycle-curves").hidden = !this.isPlane || !this.possible
-    this.find(".atlas-note").textContent = this.why ?? ""
+    this.find(".atlas-note").textContent = this.why || chart.note || ""
     this.find(".thumbnails").hidden = Boolean(this.why)
+    this.find(".pad").classList.toggle("strip", this.isStrip)
+    for (const label of this.find(".axes").querySelectorAll("label")) /** @type {any} */ (label).hidden = this.isStrip
     this.key(chart)
     this.showCrowd(values)
   }
 
   // The phones of a room, while one is open.
   showCrowd(values) {
-    const rows = this.tools.crowd()
+    const rows = this.isStrip ? null : this.tools.crowd()
     if (!rows && !this.dots) return
     this.dots ??= new Dots(this.box, this.pad, this.tools)
     this.dots.show(rows, {...values, parameters: this.tools.parameters()}, this.axes, this.isPlane)
@@ -164,19 +169,21 @@ class Atlas {
 
   chartOfMap() {
     const handle = this.axes.map((name) => this.tools.valueOf(name))
-    const {of, spans, regions, curves, points} = this.map.of === this.of ? this.map : this.empty
+    const {of, spans, regions, curves, points, note} = this.map.of === this.of ? this.map : this.empty
     const box = of ? spans : this.axes.map((name, i) => rangeFor(this.tools.rangeOf(name), handle[i]))
-    return {box, regions, curves, points, handle, here: handle, path: null}
+    if (this.isStrip) { handle[1] = 0.5; box[1] = [0, 1] }
+    return {box, regions, curves, points, handle, here: handle, path: null, note, flat: this.isStrip}
   }
 
   // A region may be too small for its name: the key has them all, and the curves that are there.
   key({regions, curves}) {
     if (this.keyOf?.[0] === regions && this.keyOf[1] === curves) return
     this.keyOf = [regions, curves]
-    const found = [...new Set(regions.map((region) => region.name))].sort()
-    this.find(".pad-names").innerHTML = found.map((name) => `<span><i class="${regionClass(name)}"></i>${name}</span>`).join("")
+    const found = [...new Set(regions.map((region) => region.name))].sort(), colour = colours(regions)
+    const words = {...CURVE_NAMES, ...(found.some((name) => name.includes(";")) ? OF_EQUATIONS : {})}
+    this.find(".pad-names").innerHTML = found.map((name) => `<span><i class="${colour(name)}"></i>${name}</span>`).join("")
     this.find(".pad-curves").innerHTML = Object.entries(curves).filter(([, lines]) => lines.length)
-      .map(([name]) => `<span><i class="${name}"></i>${CURVE_NAMES[name]}</span>`).join("")
+      .map(([name]) => `<span><i class="${name}"></i>${words[name]}</span>`).join("")
   }
 
   showTiles(tiles) {

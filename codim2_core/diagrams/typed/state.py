@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...layer_problem.critical import CriticalSet
+from ...layer_problem.disc_zeros import disc_zeros
 from ...layer_problem.equator import EquatorEquilibria
 from ...layer_problem.problem import LayerProblem
 from ...layer_problem.vary import varied
@@ -93,6 +94,11 @@ class State:
             self.equator.radially_degenerate.any() or (self.equator.multiplicity > 1).any()
         )
         return firm and all(C.kind.split()[0] in ("stable", "unstable", "saddle") for C in self.critical)
+
+    @property
+    def proven(self) -> bool:
+        """Whether no limit direction and no critical set is missed, for certain."""
+        return self.equator.proven and disc_zeros(self._problem.at.key).proven
 
     def part(self, i: int) -> Any:
         """Return what does not change along a piece: of the equator (0), critical sets (1), a closed equator (2)."""

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from itertools import pairwise
+
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import codim2_core as c2
+from codim2_core.diagrams.class_line import class_line
 from codim2_core.diagrams.class_map import ClassMap, class_map
+from codim2_core.diagrams.families import classes_over
+from codim2_core.diagrams.plane_classes import PlaneClasses
 from codim2_core.diagrams.sweep import class_name, classes, family
+from codim2_core.diagrams.typed.classes import TypedClasses
 from codim2_core.layer_problem.vary import varied
 
 BAD = c2.ELinear(172, 186, -200, f=(-86, -93))
@@ -42,6 +49,7 @@ def area(M: ClassMap) -> float:
 
 @settings(max_examples=200, deadline=None)
 @given(st.tuples(*[numbers] * 5), st.sampled_from(PSIS))
+@example((0.219, 0.219, 0.219, 0.0, 0.0), PSIS[0])  # the zeros of Theta are complex, and double
 def test_vectorised_classes_agree_with_the_exact_ones(plane: tuple[float, ...], psi: c2.Psi) -> None:
     a, b, d, f1, f2 = plane
     frozen = c2.ELinear(a, b, d, f=(f1, f2)).at()
@@ -187,3 +195,81 @@ def test_wrong_input_is_explained(changes: dict, message: str) -> None:
     names, spans = arguments.pop("names"), arguments.pop("spans")
     with pytest.raises(ValueError, match=message):
         class_map(c2.ELinear(1, 2, 3), c2.psi.tanh(), names, spans, **arguments)
+
+
+FOLDING = c2.System(U=("2*c**2 - c - mu", "-s + k*c*s"), parameters={"mu": 0.5, "k": 0.3})
+
+
+def of_general(system: c2.System, psi: c2.Psi) -> str:
+    """The class of a general system, from the public functions."""
+    equator, sets = c2.equator_equilibria(system), c2.critical_sets(system, psi)
+    kinds = Counter(C.kind for C in sets)
+    words = [kind if many == 1 else f"{many} {kind}s" for kind, many in sorted(kinds.items())]
+    head = "NCM" if not sets else "CM" if len(sets) == 1 else f"{len(sets)}CM"
+    ways = [(int((equator.lambda_rho < 0.0).sum()), "arrive"), (int((equator.lambda_rho > 0.0).sum()), "leave")]
+    moves = ", ".join(f"{many} {verb}{'s' * (many == 1)}" for many, verb in ways if many)
+    return ", ".join([f"{head}{len(equator)}", *words]) + f"; {moves}"
+
+
+def test_classes_point_by_point_are_those_of_the_e_linear_system() -> None:
+    rng = np.random.default_rng(4)
+    system = c2.System(U=("a*c - b*s + f", "b*c - s + 0.2"), parameters={"a": 1.0, "b": 0.0, "f": 0.3})
+    for psi in (c2.psi.tanh(), c2.psi.hill(3)):
+        at = rng.uniform(-2, 2, (60, 2))
+        linear = classes_over(system, psi, (), ("a", "b"), ((-2, 2), (-2, 2)))
+        general = TypedClasses(system, psi, (), ("a", "b"))
+        assert isinstance(linear, PlaneClasses)
+        names = [general.name(code).partition(";")[0] for code in general.decided(at)[0].tolist()]
+        assert names == [linear.name(code) for code in linear.decided(at)[0].tolist()]
+
+
+def test_equations_that_are_e_linear_have_the_map_of_their_coefficients() -> None:
+    spans = ((-2, 2), (-2, 2))
+    typed = c2.System(U=("-2*c - k*s + q", "k*c - s"), W=("c",), parameters={"k": 0.3, "q": 0.1})
+    plain = c2.ELinear(-2, "k", -1, f=("q", 0.0), parameters={"k": 0.3, "q": 0.1})
+    mine, theirs = (class_map(s, c2.psi.tanh(), ("k", "q"), spans, z, steps=64) for s, z in ((typed, 0.5), (plain, ())))
+    assert [r.name for r in mine.regions] == [r.name for r in theirs.regions]
+    assert [r.area for r in mine.regions] == pytest.approx([r.area for r in theirs.regions], rel=1e-9)
+
+
+def test_a_map_of_equations_has_their_classes_and_a_finer_one_goes_on_from_it() -> None:
+    psi, names, spans = c2.psi.tanh(), ("mu", "k"), ((-0.4, 0.4), (-1.0, 1.0))
+    coarse = class_map(FOLDING, psi, names, spans, steps=8, thin=0, accuracy=1e-2)
+    fine = class_map(FOLDING, psi, names, spans, steps=16, thin=0, accuracy=1e-3, start=coarse)
+    assert coarse.samples is not None
+    assert fine.samples is not None
+    assert set(coarse.samples.places) < set(fine.samples.places)
+    for r in fine.regions:
+        mu, k = r.inside
+        assert r.name == of_general(FOLDING.evolve(mu=mu, k=k), psi)
+    # two critical sets, c = (1 ± sqrt(1 + 8 mu))/4, are born at mu = -1/8
+    borders = {b.happening[0]: b for b in fine.boundaries}
+    assert_allclose(np.concatenate(borders["fold"].lines)[:, 0], -0.125, atol=1e-3)
+    assert fine.unproved == 0
+    rng = np.random.default_rng(1)
+    lines = np.concatenate([line for b in fine.boundaries for line in b.lines])
+    for x, y in zip(rng.uniform(-0.4, 0.4, 40).tolist(), rng.uniform(-1, 1, 40).tolist(), strict=True):
+        (region,) = [r for r in fine.regions if holds(r.boundary, x, y)]
+        if np.hypot(*(lines - (x, y)).T).min() > 0.16:
+            assert region.name == of_general(FOLDING.evolve(mu=x, k=y), psi)
+
+
+def test_where_equations_have_no_value_is_a_region_of_its_own() -> None:
+    system = c2.System(U=("c**2 - mu", "-s + log(k)"), parameters={"mu": 0.5, "k": 0.3})
+    M = class_map(system, c2.psi.tanh(), ("mu", "k"), ((-2, 2), (-1, 1)), steps=8, thin=0, accuracy=1e-2)
+    below = next(r for r in M.regions if r.name == "undefined")
+    assert below.area == pytest.approx(4, abs=0.1)
+    assert ("undefined",) in {b.happening for b in M.boundaries}
+
+
+def test_stretches_along_one_parameter() -> None:
+    found = class_line(FOLDING.evolve(k=1 / 3), c2.psi.tanh(), "mu", (-2, 2))
+    assert [s.happening for s in found] == [("fold",), ("saddle-node",), ("transcritical",), ("saddle-node",), ()]
+    assert_allclose([s.high for s in found], [-1 / 8, 0, 1, 5 / 3, 2], atol=1e-7)
+    assert found[0].low == -2
+    assert all(one.high == other.low for one, other in pairwise(found))
+    for s in found:
+        middle = 0.5 * (s.low + s.high)
+        assert s.name == of_general(FOLDING.evolve(k=1 / 3, mu=middle), c2.psi.tanh())
+    linear = class_line(c2.ELinear(-2, 0, -1, f=("k", 0.1), parameters={"k": 0.3}), c2.psi.tanh(), "k", (-2, 2))
+    assert [s.name for s in linear] == [*(outer := ["NCM2", "CM2, stable node"]), "CM4, stable node", *outer[::-1]]

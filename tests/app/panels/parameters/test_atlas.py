@@ -1,14 +1,19 @@
 """The plane of f in the frames: curves with each change of A, regions when nothing moves."""
 
+import time
+
 import numpy as np
 import pytest
 from codim2_app.draw import plane_curves
 from codim2_app.draw.packing import STEP, unpack
+from codim2_app.panels.parameters import atlas
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
 from codim2_core import bifurcations
+
+from ..opening import settled
 
 MATRICES = [(-2, 0, -1), (1, 0.3, -1), (172, 186, -200), (-1, 1, -1), (-0.3, 0, -1), (-1, 0.2, -2)]
 DEGENERATE = [(0, 0, 0), (1, 0, 1), (1, 0, 0), (0, 0, -1), (1, 1, -1), (-1, 0, 1e-9), (0, 2, 0), (1e-300, 0, 0)]
@@ -142,17 +147,44 @@ def furthest(points, line):
     return float(np.hypot(gap[..., 0], gap[..., 1]).min(1).max())
 
 
+EQUATIONS = {"U1": "2*c^2 - c - mu", "U2": "-s + k*c*s", "W": "", "where": "mu = 0.5 in [-1, 1]\nk = 0.3 in [-1, 1]"}
+
+
+def test_equations_typed_whole_have_a_map_that_becomes_finer(monkeypatch):
+    monkeypatch.setattr(atlas, "STEPS", (8, 16))
+    frames = Frames(ExplorerState.of({"system": "own", "texts": EQUATIONS, "panel": "atlas"}))
+    maps, late = [], ["map"]
+    request = {"all": True}
+    while late:
+        header, _ = unpack(frames.answer(request))
+        late, request = header.get("late", []), {"rest": True}
+        if "map" in header:
+            maps.append(header["map"])
+            assert "map" not in late  # coarse, not old
+            assert ("finer map" in late) == (len(maps) < len(atlas.STEPS))
+        if "thumbnails" in header:
+            assert len(maps) == len(atlas.STEPS)
+            assert [tile[1] for tile in header["thumbnails"]] == [atlas.short(name) for name in maps[-1]["name"]]
+        time.sleep(0.01)
+    assert len(maps) == len(atlas.STEPS)
+    assert maps[-1]["spans"] == [[-1.0, 1.0], [-1.0, 1.0]]
+    assert {"2CM6, saddle, stable node; 5 arrive, 1 leaves", "NCM2; 1 arrives, 1 leaves"} <= set(maps[-1]["name"])
+    assert "saddle-node" in maps[-1]["curve"]
+    # moving along its axes asks for no other map
+    assert "late" not in unpack(frames.answer({"set": {"parameters": {"mu": 0.4}}}))[0]
+    assert "map" in unpack(frames.answer({"set": {"texts": {**EQUATIONS, "U2": "-s - k*c*s"}}}))[0]["late"]
+
+
 @pytest.mark.parametrize(
-    "values",
-    [
-        {"system": "unit_vector_control"},
-        {"system": "own", "texts": {"U1": "-2*c + 1/4", "U2": "-s"}},
-        {"system": "own"},
-        {"system": "attracting_repelling"},
-    ],
+    ("texts", "axis"),
+    [({**EQUATIONS, "U2": "-s", "where": "mu = 0.5 in [-1, 1]"}, "own:mu"), ({"U1": "c^2 - z", "U2": "-s"}, "z")],
 )
-def test_a_system_given_by_equations_is_not_called_other_than_e_linear(frames, values):
-    header, _ = unpack(frames.answer({"id": 1, "set": {**values, "panel": "atlas"}, "rest": True}))
-    said = header["unable"]["map"]
-    assert "coefficients" in said
-    assert "is not" not in said  # the first two are e-linear, and are named by their Case beside it
+def test_one_parameter_has_a_strip_and_none_says_what_to_do(texts, axis):
+    frames = Frames(ExplorerState.of({"system": "own", "texts": texts, "panel": "atlas"}))
+    header = settled(frames, all=True)
+    assert header["atlas_of"] == [axis, "", False]
+    assert header["map"]["spans"][1] == [0.0, 1.0]
+    assert len(header["thumbnails"]) == len(header["map"]["name"]) > 1
+    assert "plane" in header["map"]["note"]
+    header = settled(frames, set={"texts": {"U1": "c^2 - 1/4", "U2": "-s", "W": "", "where": ""}})
+    assert "parameter" in header["unable"]["map"]

@@ -165,3 +165,27 @@ test("the panel atlas: a finger that scrolls the page sets nothing, one that goe
   one.fire(pad.querySelector(".handle"), "pointerdown", at(0.2, 0.1))
   near(moved().flat(), [0.2, 0.1])
 })
+
+test("the panel atlas: a strip along the only parameter has one axis, and a hand on it moves that one", () => {
+  const one = atlas({across: "f1", up: "f2"})
+  one.frame({
+    atlas_of: ["z", "", false],
+    map: {
+      spans: [[-1, 3], [0, 1]], name: ["NCM2; 1 arrives, 1 leaves", "2CM6, saddle, stable node; 5 arrive, 1 leaves"], inside: [[0, 0.5], [2, 0.5]],
+      loops: [1, 1], curve: ["fold"], pieces: [1], note: "Along z.",
+    },
+  }, {...lines("map", [[-1, -1], [0, -1], [0, 1], [-1, 1]], [[0, -1], [1, -1], [1, 1], [0, 1]]), ...lines("map_curves", [[0, -1], [0, 1]])})
+  assert.equal(one.all(".pad .line.fold").length, 1)
+  assert.equal(one.all(".pad .tick-y").length, 0) // the other axis means nothing
+  assert.deepEqual(one.all(".pad .region").map((it) => it.getAttribute("class").split(" ")[2]), ["NCM2", "more0"])
+  assert.deepEqual(one.all(".pad .region").map((it) => it.classList.contains("here")), [false, true])
+  assert.equal(one.all(".pad .region title")[1].textContent, "2CM6, saddle, stable node; 5 arrive, 1 leaves")
+  assert.deepEqual(one.texts(".pad text.name.tag"), ["2CM6"])
+  assert.deepEqual(one.all(".pad-names i").map((it) => it.className), ["more0", "NCM2"])
+  assert.deepEqual(one.texts(".pad-curves span"), ["fold of critical sets"])
+  assert.deepEqual(one.texts(".atlas-note"), ["Along z."])
+  assert.ok(one.all(".axes label").every((label) => label.hidden))
+  one.said()
+  one.panels.made.atlas.move([0.5, 0.2])
+  assert.deepEqual(one.said(), [["move", {z: 0.5}]])
+})

@@ -1,0 +1,91 @@
+"""The classes along one parameter: where there is no second one, what a class map is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..psi.function import Psi
+from ..tables import Tabled, number
+from .critical import OFF_CENTRE
+from .diagram import diagram
+from .families import classes_over
+
+__all__ = ["Stretch", "class_line"]
+
+_APART = 1e-9  # of the span: special values nearer to each other than this are one
+
+
+@dataclass(frozen=True)
+class Stretch(Tabled):
+    """A stretch of a parameter on which the portrait has one class.
+
+    Attributes
+    ----------
+    name : str
+        As `MapRegion.name`.
+    low, high : float
+    happening : tuple of str
+        What happens where it ends above, as `MapBoundary.happening`; empty at the end of the span.
+    """
+
+    _head_ = ("portrait", "from", "to", "what happens there")
+
+    name: str
+    low: float
+    high: float
+    happening: tuple[str, ...]
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.name, number(self.low), number(self.high), ", ".join(self.happening)
+
+
+def class_line(system: Any, psi: Psi, name: str, span: Sequence[float], z: ArrayLike = ()) -> tuple[Stretch, ...]:
+    """Stretches of equal class along one parameter (sec:bifurcations).
+
+    They end at the special values of `diagram`; in between, the class is computed once.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    name : str
+        One of `layer_problem.vary.names`.
+    span : (low, high)
+    z : (m,) floats
+
+    Returns
+    -------
+    tuple of Stretch
+        By rising values; neighbours differ.
+
+    Raises
+    ------
+    ValueError
+        The name cannot be varied, the span is empty, or z does not fit.
+    """
+    found = diagram(system, psi, name, span, z)
+    low, high = found.span
+    values = [one.value for one in found.special] + [v for gap in found.gaps for v in gap]
+    ends = [low]
+    for value in sorted(values):
+        if value - ends[-1] > _APART * (high - low) and high - value > _APART * (high - low):
+            ends.append(value)
+    ends.append(high)
+    classes = classes_over(system, psi, z, (name,), (found.span,))
+    middles = np.array([[u + OFF_CENTRE * (v - u)] for u, v in pairwise(ends)])
+    codes = classes.decided(middles)[0].tolist()
+    stretches: list[Stretch] = []
+    start = low
+    for i, (code, end) in enumerate(zip(codes, ends[1:], strict=True)):
+        after = codes[i + 1] if i + 1 < len(codes) else None
+        if after != code:
+            what = () if after is None else classes.happening(code, after)
+            stretches.append(Stretch(classes.name(code), start, end, what))
+            start = end
+    return tuple(stretches)

@@ -1,0 +1,120 @@
+"""The classes of e-linear systems over one or two parameters: signs of smooth functions, many points at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .classes import Array, Codes
+from .sweep import (
+    UNDEFINED,
+    Plane,
+    Sweep,
+    border_functions,
+    class_name,
+    classes,
+    discriminant,
+    linearise,
+    scale,
+)
+
+__all__ = ["PlaneClasses", "happening"]
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneClasses:
+    """Classes of an e-linear family, see `classes.Classes`.
+
+    Attributes
+    ----------
+    family : Sweep
+    symmetric : bool
+        b = 0 and f1 = 0 or f2 = 0 everywhere: limit directions split in pitchforks.
+    """
+
+    family: Sweep
+    symmetric: bool
+
+    @classmethod
+    def over(cls, family: Sweep, spans: tuple[tuple[float, float], ...]) -> PlaneClasses:
+        """Look at the corners of the spans for a symmetry."""
+        corner = family(**{name: np.array(span) for name, span in zip(family.names, spans, strict=True)})
+        return cls(family, bool(not corner.b.any() and (not corner.f1.any() or not corner.f2.any())))
+
+    @property
+    def most_cells(self) -> int:
+        """Cells of a map, at most."""
+        return 60_000
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The parameters."""
+        return self.family.names
+
+    def _plane(self, at: Array) -> Plane:
+        return self.family(**dict(zip(self.names, at.T, strict=True)))
+
+    def decided(self, at: Array) -> tuple[Codes, Array]:
+        """Classes, and the four functions whose signs decide them (nan where one has no meaning)."""
+        plane = self._plane(at)
+        exponent = scale(plane)
+        gap, det = border_functions(plane, exponent)
+        found = linearise(plane, exponent)
+        size = found.trace**2 + 4.0 * abs(found.determinant)
+        turning = found.exists & (det > 0.0)
+        share = np.where(turning, found.share, np.nan)
+        focus = np.where(turning, found.discriminant / np.where(size > 0.0, size, 1.0), np.nan)
+        known = discriminant(plane, exponent)
+        return classes(plane, found, known), np.stack([known, gap, share, focus])
+
+    def beside(self, at: Array, before: Codes, after: Codes) -> Codes:  # noqa: ARG002 (all cost the same)
+        """Classes at points."""
+        return classes(self._plane(at))
+
+    def happening(self, before: int, after: int) -> tuple[str, ...]:
+        """Name what happens between two classes."""
+        return happening(before, after, self.symmetric)
+
+    def name(self, code: int) -> str:
+        """Name a class."""
+        return class_name(code)
+
+
+def happening(before: int, after: int, symmetric: bool) -> tuple[str, ...]:
+    """Name what happens between two classes.
+
+    Parameters
+    ----------
+    before, after : int
+    symmetric : bool
+        b = 0 and f1 = 0 or f2 = 0 everywhere: limit directions split in pitchforks.
+
+    Returns
+    -------
+    tuple of str
+        Of "saddle-node", "pitchfork", "transcritical", "det A = 0", "Hopf", "node-focus", "undefined".
+    """
+    if before == after:
+        return ()
+    if UNDEFINED in (before, after):
+        return ("undefined",)
+    found = []
+    (count, kind), (count_, kind_) = divmod(before, 8), divmod(after, 8)
+    if count != count_:
+        found.append("pitchfork" if symmetric else "saddle-node")
+    if kind != kind_:
+        if not kind or not kind_:
+            found.append("transcritical")
+        elif 1 in (kind, kind_):
+            found.append("det A = 0")
+        elif 6 in (kind, kind_):
+            found.append("Hopf")
+        else:
+            if (kind <= 3) != (kind_ <= 3):
+                found.append("Hopf")
+            if kind % 2 != kind_ % 2:
+                found.append("node-focus")
+            if kind % 2 == kind_ % 2 == 0:
+                found.append("node-focus")  # from a stable to an unstable node: through a thin strip of foci
+    return tuple(found)

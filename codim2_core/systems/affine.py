@@ -1,0 +1,34 @@
+"""A typed system whose U is affine in (c, s) for all parameters, as the e-linear system that it is (lem:normalform)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..expressions.expression import parse
+from ..expressions.names import PLANE
+from .coefficients import Coefficients
+from .elinear import ELinear
+
+__all__ = ["as_elinear"]
+
+
+def as_elinear(system: Any) -> ELinear | Coefficients | None:
+    """Return the e-linear system with the same U, without a slow flow; None if U is not affine in (c, s) throughout.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+        The first and the third are returned as they are. A system frozen at one z has no formulas of z any more: only
+        its normal form (`Frozen.normal_form`).
+    """
+    typed = system.typed
+    if typed is None:
+        return system
+    if system.frozen:
+        return system.normal_form
+    if typed.reads_position or any(name in PLANE for row in typed.jacobian for entry in row for name in entry.names):
+        return None
+    zero = parse("0", ())
+    f = tuple(u.substitute("c", zero).substitute("s", zero) for u in typed.U)
+    A: Any = typed.jacobian
+    return ELinear.from_matrix(A, f, g=(0.0,) * typed.m or None, parameters=dict(typed.parameters))
