@@ -37,7 +37,8 @@ def forgetful(port: int) -> None:
             with open("/proc/self/statm") as pages:
                 resident = int(pages.read().split()[1]) * 4096
             kinds = (ExplorerView, Frames, Scene, Psi, System)
-            counts = {kind.__name__: sum(isinstance(one, kind) for one in living) for kind in kinds}
+            # the type, as a weak reference whose object is gone cannot be asked for its class
+            counts = {kind.__name__: sum(issubclass(type(one), kind) for one in living) for kind in kinds}
             formulas = len(warmup._formulas)  # that are compiled here
             self.write({"resident": resident, "objects": len(living), "formulas": formulas, **counts})
 

@@ -9,6 +9,7 @@ process on the same machine, which needs a processor too.
 from __future__ import annotations
 
 import asyncio
+import math
 import os
 import resource
 import sys
@@ -51,12 +52,13 @@ class Load:
 
     def p95(self) -> float:
         """Return the delay in seconds below which 95 of 100 frames stayed."""
-        return float(np.quantile(self.delays(), 0.95))
+        found = self.delays()
+        return float(np.quantile(found, 0.95)) if found else math.inf
 
     def rates(self) -> tuple[float, float]:
         """Return the frames a second of the least and of the most served chair."""
         each = [chair.answered / chair.seconds for chair in self.chairs if chair.seconds]
-        return min(each), max(each)
+        return min(each, default=0.0), max(each, default=0.0)
 
 
 def own() -> float:
@@ -117,10 +119,10 @@ def crowds_table(found: dict[int, Load]) -> list[str]:
         )
         least, most = load.rates()
         used = ", ".join(f"{what} {share:.0%}" for what, share in load.shares.items())
-        visits = sum(chair.visits for chair in load.chairs)
+        visits, lost = (sum(getattr(chair, what) for chair in load.chairs) for what in ("visits", "lost"))
         cells = (
-            str(size), str(visits), f"{1e3 * np.median(load.delays()):.0f}, {1e3 * load.p95():.0f}", late,
-            f"{least:.1f}, {most:.1f}", f"{1e3 * load.frame:.1f}, {1.0 / (RATE * load.frame):.0f}", used,
+            str(size), f"{visits}, {lost}", f"{1e3 * np.median(load.delays() or math.inf):.0f}, {1e3 * load.p95():.0f}",
+            late, f"{least:.1f}, {most:.1f}", f"{1e3 * load.frame:.1f}, {1.0 / (RATE * load.frame):.0f}", used,
             f"{load.queued:.0%}",
         )  # fmt: skip
         rows.append(f"| {' | '.join(cells)} |")
@@ -194,7 +196,7 @@ def report(quick: bool = False) -> str:
         found = crowds(processes, chairs, seconds)
         most = carried(found)
         lines += [
-            f"| {processes} process{'es' * (processes > 1)}: sessions | visits | frames: median, p95, ms "
+            f"| {processes} process{'es' * (processes > 1)}: sessions | visits, lost | frames: median, p95, ms "
             "| p95, ms: open, drag, portrait, launch, type | frames/s of the least and the most served "
             f"| server's processor time a frame, ms; sessions a core at {RATE:.0f} Hz by it | processors used "
             "| waited for a processor |",

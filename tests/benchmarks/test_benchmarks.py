@@ -3,16 +3,19 @@
 import math
 import re
 import socket
+from collections import Counter, defaultdict
 
 import numpy as np
 import pytest
 
+from .bench_load import Load, carried, saturated
 from .methods import ours
 from .page import html_of
 from .pictures import plot, svg
 from .problems import condition, problems
 from .race import Curve, ratio
 from .slow_line import slow_line
+from .visits import TICKS, TYPISTS, Chair, asked
 
 
 @pytest.mark.parametrize("problem", problems(), ids=lambda problem: problem.name)
@@ -78,3 +81,30 @@ def _read(one, size):
     while len(data) < size:
         data += one.recv(size)
     return data
+
+
+def test_visitors_do_all_that_visitors_do_and_some_type_a_formula_of_their_own():
+    done = [Counter(what for what, _ in asked(number)) for number in range(2 * TYPISTS)]
+    assert done[0] == done[TYPISTS] == TICKS
+    assert [set(TICKS) - set(each) for each in done].count({"type"}) == 2 * (TYPISTS - 1)
+    formulas = {list(asked(number))[-1][1]["texts"]["U1"] for number in (0, TYPISTS)}
+    assert formulas == {"-c+0.0*z", f"-c+0.{TYPISTS}*z"}
+
+
+def loaded(late, seconds=(2.0, 4.0)):
+    chairs = [Chair(1, 0, 20, one, {"drag": [0.01] * 18 + [late] * 2}) for one in seconds]
+    for chair in chairs:
+        chair.delays = defaultdict(list, chair.delays)
+    return Load(chairs, {"server processes": 0.95, "their workers": 0.5, "visitors": 0.2}, 0.01, 0.0)
+
+
+def test_a_crowd_is_carried_if_all_smaller_ones_are():
+    quick, slow = loaded(0.02), loaded(0.2)
+    assert quick.p95() == pytest.approx(0.02)
+    assert quick.rates() == (5.0, 10.0)
+    assert carried({1: quick, 8: quick, 16: slow, 24: quick}) == 8
+    assert carried({1: slow}) == 0
+    assert (
+        saturated(slow, 1)
+        == "with 2, the server processes are at their limit: 95% of the processors that they can use."
+    )

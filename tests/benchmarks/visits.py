@@ -15,6 +15,7 @@ from urllib.request import urlopen
 
 from codim2_app.state.controls import preset_values
 from codim2_app.state.portraits import portrait_keys
+from tornado.httpclient import HTTPClientError
 
 from .app_load import RATE, value
 from .bokeh_wire import Wire
@@ -48,13 +49,22 @@ class Chair:
     """What one chair's visitors, one after the other, have seen."""
 
     visits: int = 0
+    lost: int = 0  # visits that ended before their end: nobody answered, or the connection was closed
     answered: int = 0
     seconds: float = 0.0  # for which somebody moved something
     delays: dict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
 
 
 async def visit(port: int, number: int, chair: Chair, goes_on: Callable[[], bool] = lambda: True) -> None:
-    """Play one visitor: one frame in flight, at most `RATE` a second; none says goodbye."""
+    """Play one visitor, or note that he was lost."""
+    try:
+        await _played(port, number, chair, goes_on)
+    except (OSError, HTTPClientError):
+        chair.lost += 1
+
+
+async def _played(port: int, number: int, chair: Chair, goes_on: Callable[[], bool]) -> None:
+    """One frame in flight, at most `RATE` a second, and no goodbye."""
     began = time.perf_counter()
     wire = await Wire.connect(port, page=await asyncio.to_thread(page, port))
     chair.delays["open"].append(time.perf_counter() - began)

@@ -110,7 +110,7 @@ def test_a_thousand_visits_hold_no_more_than_a_hundred():
     with app_load.serving("forgetful") as (port, pid):
         for kinds in (first, others):
             asyncio.run(visits(kinds))
-            assert until(lambda: not app_load.left(port)["ExplorerView"]), "pages that are gone are not forgotten"
+            assert until(lambda: not app_load.left(port)["ExplorerView"]), app_load.left(port)
             asyncio.run(app_load.at_rest(pid))
             held.append(app_load.left(port))
     before, after = held

@@ -201,7 +201,8 @@ def test_more_pages_than_places_are_asked_to_wait(address):
         code, after, words = pool.submit(asyncio.run, talk()).result()
     assert code == 503
     assert int(after) > 0
-    assert "All places are taken" in words
+    assert "All places are taken just now." in words
+    assert f'http-equiv="refresh" content="{after}"' in words
 
 
 HTML = (
