@@ -4,6 +4,7 @@ import test from "node:test"
 
 import {readOwn, Second, Seconded, writeOwn} from "../../../../app/static/page/second.js"
 import {page} from "../played/page.js"
+import {FIRST as HEADER, VALUES, wired} from "../played/wiring.js"
 
 const DEFAULTS = {a: -2, psi: "constant", texts: {}, parameters: {}, n: 2}
 
@@ -172,4 +173,13 @@ test("inside the frame: what the first tells is put, what a person moves is told
   assert.deepEqual(sent.splice(0), [[{moved: {a: 1, texts: {U1: "c"}}}, "http://h"]])
   feet[0]()
   assert.deepEqual(sent, [[{foot: 480}, "http://h"]]) // two parts of 240 px
+})
+
+test("the second shows the part of the picture that the first shows, and all of it where that is seen", () => {
+  const opens = (look) => {
+    const one = wired({values: {...VALUES, beside: "a=1"}, ...look}, HEADER, {matchMedia: () => ({matches: true, addEventListener() {}})})
+    return new URLSearchParams(one.find(".second iframe").src)
+  }
+  assert.deepEqual([opens({}).get("embed"), opens({}).get("seen")], ["1", null])
+  assert.equal(opens({look: {embed: false, controls: [], seen: [0, 1, -0.5, 0.5]}}).get("seen"), "0,1,-0.5,0.5")
 })
