@@ -16,6 +16,15 @@ test("a bubble stands beside what it points at, within the window", () => {
   assert.deepEqual(of(14, 260, 0, 10), ["right", 272, 8]) // not above the window
 })
 
+test("each side is taken as long as a bubble of 250 px has room there, 12 px apart", () => {
+  const side = (left, right, top, bottom) => beside({left, right, top, bottom}, 1440, 900, 90).side
+  assert.deepEqual([side(900, 1178, 10, 60), side(900, 1179, 10, 60)], ["right", "left"])
+  assert.deepEqual([side(262, 1200, 10, 60), side(261, 1200, 10, 60)], ["left", "below"])
+  assert.deepEqual([side(200, 1300, 748, 798), side(200, 1300, 749, 799)], ["below", "above"])
+  // within what is more than half as wide again, and more than twice as high, as the bubble
+  assert.deepEqual([side(200, 576, 100, 281), side(200, 575, 100, 281), side(200, 576, 100, 280), side(200, 576, 400, 480)], ["inside", "right", "right", "right"])
+})
+
 const visit = (kept, more = {}) => {
   const one = wired({...more}, FIRST, {localStorage: memory(kept)})
   return one
