@@ -56,6 +56,8 @@ PLACES = {
     "a card": ("?v=1&pinned=C&panel=numbers", []),
     "help": ("?v=1", [".help"]),
     "share": ("?v=1", [".share"]),
+    "a room": ("room", []),
+    "a question": ("?panel=lessons&lesson=04-sliding&quiz=0.3", [".question > .clue summary"]),
 }
 
 
@@ -63,6 +65,8 @@ PLACES = {
 def test_nothing_serious_elsewhere(open_page, axe, place):
     query, pressed = PLACES[place]
     page = open_page(**STATES["desktop"]).open(query)
+    if place == "a room":
+        page.until("root.querySelector('dialog.room .qr')?.src")
     if place == "two portraits":
         page.page.wait_for_selector(".second-place iframe").content_frame().wait_for_selector(".codim2[data-ready]")
     for selector in pressed:

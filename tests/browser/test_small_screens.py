@@ -5,8 +5,9 @@ import pytest
 PHONES = [(360, 640), (390, 844), (740, 360)]
 
 #: What can be pressed and is lower or narrower than a finger needs.
-SMALL = """(root) => [...root.querySelectorAll(':is(button, select, input:not([type=checkbox]), .layer)')]
-    .filter((it) => it.offsetParent && it.checkVisibility() && !it.closest('details:not([open])'))
+SMALL = """(root) => [...root.querySelectorAll(':is(button, select, input:not([type=checkbox]), .layer, summary, .drag)')]
+    .filter((it) => it.offsetParent && it.checkVisibility()
+        && !(it.tagName === 'SUMMARY' ? it.parentElement.parentElement : it).closest('details:not([open])'))
     .map((it) => [it.className || it.id || it.textContent, it.offsetWidth, it.offsetHeight])
     .filter(([, width, height]) => height < 39.5 || width < 39.5)"""
 
