@@ -25,6 +25,7 @@ HOURS = 4.0  # that a room lasts
 LINGERS = 600.0  # seconds for which it waits for its lecturer to come back
 REMEMBERED = 120.0  # seconds for which it is known that it was closed
 MISSED = 60.0  # seconds for which a process that holds it may be gone
+# (They are counted by the clock of the machine's start, which all its processes share and nobody sets.)
 MOST_ROOMS, MOST_GUESTS, LONGEST_ROW = 20, 300, 2000
 MOST_TRIES = 20  # of one page: codes are not to be guessed
 EVERY = 0.5  # seconds
@@ -100,7 +101,7 @@ class Rooms:
         RoomError
             This server has no room left, or has none at all.
         """
-        now = time.time() if now is None else now
+        now = time.monotonic() if now is None else now
         if not self.most:
             raise RoomError(say("no rooms"))
         states = self._states(now)
@@ -121,11 +122,11 @@ class Rooms:
         """Note that a lecturer's page has gone: he may come back."""
         host = self.hosts.get(code)
         if host is not None and host.tell is tell:  # else another page holds the room by now
-            host.tell, host.left = None, time.time() if now is None else now
+            host.tell, host.left = None, time.monotonic() if now is None else now
 
     def close(self, code: str, now: float | None = None) -> None:
         """Close a room: all who are in it are told."""
-        now = time.time() if now is None else now
+        now = time.monotonic() if now is None else now
         host = self.hosts.get(code)
         if host is not None and not host.closed:
             host.tell, host.closed = None, now
@@ -150,7 +151,7 @@ class Rooms:
         RoomError
             There is no such room, or it is full.
         """
-        now = time.time() if now is None else now
+        now = time.monotonic() if now is None else now
         code = code.strip().upper()
         if self._states(now).get(code) != "open":
             raise RoomError(say("no such room", code=code[:8]))
@@ -176,7 +177,7 @@ class Rooms:
         bool
             Whether anybody is here for whom to do so again.
         """
-        now = time.time() if now is None else now
+        now = time.monotonic() if now is None else now
         for code, host in list(self.hosts.items()):
             if not host.closed and not host.there(now):
                 tell, host.closed, host.tell = host.tell, now, None

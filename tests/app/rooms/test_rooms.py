@@ -236,3 +236,16 @@ def test_a_page_may_go_after_its_room_has_ended():
 
 def test_settings_are_those_that_are_other_than_at_first():
     assert settings_of({"a": 1, "b": 2, "c": 3}, {"a": 1, "b": 5, "c": 4}, ("a", "b")) == {"b": 2}
+
+
+@pytest.mark.parametrize("jump", [-86400.0, 86400.0])
+def test_a_clock_that_is_set_ends_no_room(monkeypatch, jump):
+    rooms, lecturer, guest = Rooms(Board(1)), Page(), Page()
+    code, _ = rooms.open("", lecturer.tell)
+    rooms.join(code, guest.look, guest.tell)
+    there = module.time.time()
+    monkeypatch.setattr(module.time, "time", lambda: there + jump)
+    assert rooms.tick()
+    late = Page()
+    rooms.join(code, late.look, late.tell)
+    assert not any("ended" in message for page in (lecturer, guest, late) for message in page.heard)
