@@ -90,6 +90,23 @@ test("what is typed is in the list and in the storage, opens, has a name, is rem
   assert.deepEqual(rows(one), ["mine"])
 })
 
+test("what is typed in a page that is opened later is another entry: one is removed, the other stays", () => {
+  const kept = {}
+  write(opened(kept), "-c*2")
+  const later = opened(kept)
+  write(later, "-c*3")
+  assert.deepEqual(rows(later), ["x′ = -c*3", "x′ = -c*2"])
+  click(later, ".yours .remove")
+  assert.deepEqual(JSON.parse(kept["codim2-yours"]).map(({values}) => values.texts.U1), ["-c*2"])
+})
+
+test("a parameter that is moved alone is kept with what was typed", () => {
+  const kept = {}, one = opened(kept)
+  write(one, "-c*2")
+  pull(one, "#c2-parameter-mu", "0.75"); one.tick(400)
+  assert.deepEqual(JSON.parse(kept["codim2-yours"]).map(({values}) => values.parameters), [{mu: 0.75}])
+})
+
 test("one click loses nothing that was typed the moment before", () => {
   const kept = {}, one = opened(kept)
   const area = one.find("textarea[data-box=U1]"); area.value = "-c*9"; one.fire(area, "input")
