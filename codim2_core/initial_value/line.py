@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -118,17 +119,25 @@ def _invariant(field: Field, n: Array, r: float, z: Array) -> bool:
         return False
     basis, sizes, _ = np.linalg.svd(span, full_matrices=False)
     basis = basis[:, sizes > EXACT * max(1e-300, float(sizes.max(initial=0.0)))]
+    V, places = _drawn(basis.shape[1])
+    moved = z + (1.0 + np.abs(z).max(initial=0.0)) * (V @ basis.T)
+    n1, n2 = n.tolist()
+    rows = [
+        field.value(q * n1, q * n2, s * r * n1, s * r * n2, *at)
+        for (q, s), at in zip(places, moved.tolist(), strict=True)
+    ]
+    found = np.array([row for row in rows if all(map(math.isfinite, row))]).reshape(-1, 2 + len(z))
+    U, W = found[:, :2], found[:, 2:]
+    outside = np.abs(W - W @ basis @ basis.T).max(axis=1, initial=0.0)
+    if (outside > EXACT * (1.0 + np.abs(W).max(axis=1, initial=0.0))).any():
+        return False
+    left, right = n1 * U[:, 1], n2 * U[:, 0]
+    across, size = np.abs(left - right).max(initial=0.0), (np.abs(left) + np.abs(right)).max(initial=0.0)
+    return len(found) > SAMPLES // 4 and bool(across <= EXACT * size)
+
+
+@cache
+def _drawn(width: int) -> tuple[Array, list[tuple[float, float]]]:
+    """Return where invariance is asked: (SAMPLES, width) places in the span of z and W, and (q, part of r) of each."""
     rng = np.random.default_rng(0)
-    across, size, known = 0.0, 0.0, 0
-    for _ in range(SAMPLES):
-        moved = z + basis @ (rng.uniform(-1.0, 1.0, basis.shape[1]) * (1.0 + np.abs(z).max(initial=0.0)))
-        U, W = at(float(rng.uniform(-1.0, 1.0)), float(rng.uniform(-1.0, 1.0)) * r, moved)
-        if not (np.isfinite(U).all() and np.isfinite(W).all()):
-            continue
-        outside = np.abs(W - basis @ (basis.T @ W)).max(initial=0.0)
-        if outside > EXACT * (1.0 + np.abs(W).max(initial=0.0)):
-            return False
-        known += 1
-        left, right = float(n[0] * U[1]), float(n[1] * U[0])
-        across, size = max(across, abs(left - right)), max(size, abs(left) + abs(right))
-    return known > SAMPLES // 4 and across <= EXACT * size
+    return rng.uniform(-1.0, 1.0, (SAMPLES, width)), rng.uniform(-1.0, 1.0, (SAMPLES, 2)).tolist()

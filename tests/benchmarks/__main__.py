@@ -1,8 +1,9 @@
-"""Run the benchmarks: ``python -m tests.benchmarks [--quick] [--html FILE] [name ...]``.
+"""Run the benchmarks: ``python -m tests.benchmarks [--quick] [--keep] [--html FILE] [name ...]``.
 
 Each is also a command of its own, ``python -m tests.benchmarks.bench_<name>``. A full run (without names and
-``--quick``) rewrites the tables and pictures of .readme/benchmarks.md; every run writes the report with its plots as
-one HTML file (default build/benchmarks.html) that needs no network. Nothing here is asserted: these are measurements.
+``--quick``) rewrites the tables and pictures of .readme/benchmarks.md, one with ``--keep`` the tables of those it
+names; every run writes the report with its plots as one HTML file (default build/benchmarks.html) that needs no
+network. Nothing here is asserted: these are measurements.
 """
 
 from __future__ import annotations
@@ -45,6 +46,7 @@ TABLES = {
 }  # fmt: skip
 ON_PAGE = (
     "trajectories", "scene", "general", "app", "browser", "page", "start", "sessions", "equator", "census",
+    "compiled", "nonsmooth",
 )  # fmt: skip
 # Titles of the plots of the second picture, by their beginnings.
 OTHERS = (
@@ -85,7 +87,7 @@ def measured(name: str, quick: bool) -> Section:
     module = importlib.import_module(f"{__package__}.bench_{name}")
     if name in TABLES:
         text = module.report(quick) if signature(module.report).parameters else module.report()
-        return Section(name, text, text, [])
+        return Section(name, text, module.readme(text) if hasattr(module, "readme") else text, [])
     found = module.measure(quick)
     text = module.text(found)
     short = module.readme(found) if hasattr(module, "readme") else text
@@ -108,10 +110,29 @@ def rewrite(sections: list[Section]) -> None:
         (PICTURES / name).write_text(picture)
     parts = [machine()]
     parts += [f"![{alt}]({name})" for name, alt in ALT.items()]
-    parts += [section.short for section in sections if section.name in ON_PAGE]
+    parts += [kept(section) for section in sections if section.name in ON_PAGE]
     before, rest = PAGE.read_text().split(START)
     after = rest.split(END)[1]
     PAGE.write_text(f"{before}{START}\n" + "\n\n".join(parts) + f"\n{END}{after}")
+
+
+def kept(section: Section) -> str:
+    """A section as it stands on the page, between marks of its own."""
+    return f"<!-- {section.name} -->\n{section.short}\n<!-- /{section.name} -->"
+
+
+def replace(sections: list[Section]) -> None:
+    """Put these sections on the page in the place of what they were; the first time at its end."""
+    text = PAGE.read_text()
+    for section in sections:
+        if section.name not in ON_PAGE:
+            continue
+        first, last = f"<!-- {section.name} -->", f"<!-- /{section.name} -->"
+        if first in text:
+            text = text.split(first)[0] + kept(section) + text.split(last)[1]
+        else:
+            text = text.replace(f"\n{END}", f"\n\n{kept(section)}\n{END}")
+    PAGE.write_text(text)
 
 
 def main() -> None:
@@ -120,6 +141,9 @@ def main() -> None:
     parser.add_argument("names", nargs="*", choices=[*DRAWN, *TABLES, []], metavar="name")
     parser.add_argument("--quick", action="store_true", help="a few cases of what is drawn, under a minute")
     parser.add_argument("--html", type=Path, default=ROOT / "build" / "benchmarks.html", help="where the report goes")
+    parser.add_argument(
+        "--keep", action="store_true", help="put what is named on the page, in the place of what was there"
+    )
     options = parser.parse_args()
     names = options.names or [*DRAWN, *(() if options.quick else TABLES)]
     sections = []
@@ -135,6 +159,8 @@ def main() -> None:
     options.html.write_text(page("codim2, measured", body))
     if not options.names and not options.quick:
         rewrite(sections)
+    elif options.keep:
+        replace(sections)
 
 
 if __name__ == "__main__":

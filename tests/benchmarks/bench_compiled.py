@@ -91,11 +91,28 @@ def row(name: str, eps: float, turns: int) -> tuple[str, list[float]]:
     for asked in ERRORS:
         (best, error), method = min((found[asked], method) for (method, _), found in theirs.items())
         taken, own_error = own[asked]
-        if math.isfinite(taken):
-            ratios.append(best / taken)
+        ratios.append(best / taken if math.isfinite(taken) else math.nan)
         told = f"{1e3 * best:.2g} {method} {error:.0e}" if math.isfinite(best) else f"none in {1e3 * longest:.0f}"
         cells.append(f"{1e3 * taken:.2g} {own_error:.0e} / {told} (**{best / taken:.1f}**)")
     return f"| {name} | {eps:.0e} | " + " | ".join(cells) + " |", ratios
+
+
+def summary(what: str, ratios: Sequence[Sequence[float]], methods: Sequence[str] = METHODS) -> str:
+    """The median and the least of the ratios, those of each motion a row, at each error that is asked; as Markdown."""
+    of = np.array(ratios)
+    cells = [f"{np.nanmedian(column):.1f} (least {np.nanmin(column):.1f})" for column in (*of.T, of.ravel())]
+    return "\n".join(
+        [
+            f"| {what}, time / ours at true error | {' | '.join(f'{asked:.0e}' for asked in ERRORS)} | all |",
+            "|" + "---|" * (len(ERRORS) + 2),
+            f"| best of {', '.join(methods)} | {' | '.join(cells)} |",
+        ]
+    )
+
+
+def readme(text: str) -> str:
+    """What of a report is kept on the page of all: the summary, and what follows it."""
+    return text.split("\n\n", 1)[1]
 
 
 def many(count: int) -> str:
@@ -117,15 +134,15 @@ def report(quick: bool = False) -> str:
         "| motion | ε | " + " | ".join(f"{e:.0e}: ms, true error: ours / best of SciPy (ratio)" for e in ERRORS) + " |",
         "|" + "---|" * (2 + len(ERRORS)),
     ]
-    ratios: list[float] = []
+    ratios: list[list[float]] = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # LSODA gives up loudly
         for name in MOTIONS:
             for eps in (1e-1, 1e-3, 1e-8) if quick else EPS:
                 line, found = row(name, eps, 1 if quick else 3)
                 lines.append(line)
-                ratios += found
-    lines += ["", f"Ratio: median {np.median(ratios):.1f}, least {min(ratios):.1f}, of {len(ratios)}."]
+                ratios.append(found)
+    lines += ["", summary("SciPy with a compiled right-hand side, 5 motions, ε from 1e-1 to 1e-12", ratios)]
     return "\n".join([*lines, "", many(1000 if quick else 10_000)])
 
 

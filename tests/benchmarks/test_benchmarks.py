@@ -8,6 +8,8 @@ from collections import Counter, defaultdict
 import numpy as np
 import pytest
 
+from . import __main__ as command
+from .bench_compiled import summary
 from .bench_load import Load, carried, saturated
 from .methods import ours
 from .page import html_of
@@ -108,3 +110,21 @@ def test_a_crowd_is_carried_if_all_smaller_ones_are():
         saturated(slow, 1)
         == "with 2, the server processes are at their limit: 95% of the processors that they can use."
     )
+
+
+def test_named_tables_take_the_place_of_what_was_on_the_page(tmp_path, monkeypatch):
+    page = tmp_path / "benchmarks.md"
+    page.write_text("Before.\n<!-- benchmarks -->\nMachine.\n<!-- /benchmarks -->\nAfter.\n")
+    monkeypatch.setattr(command, "PAGE", page)
+    for text in ("| old |", "| new |"):
+        command.replace([command.Section("nonsmooth", "", text, []), command.Section("wild", "", "not there", [])])
+    assert page.read_text() == (
+        "Before.\n<!-- benchmarks -->\nMachine.\n\n"
+        "<!-- nonsmooth -->\n| new |\n<!-- /nonsmooth -->\n<!-- /benchmarks -->\nAfter.\n"
+    )
+
+
+def test_a_summary_counts_what_nobody_else_meets_as_infinite():
+    table = summary("what", [[2.0, 4.0, math.inf, 1.0], [4.0, 2.0, 3.0, math.nan]])
+    cells = ["3.0 (least 2.0)", "3.0 (least 2.0)", "inf (least 3.0)", "1.0 (least 1.0)", "3.0 (least 1.0)"]
+    assert table.splitlines()[-1].split(" | ")[1:] == [*cells[:-1], f"{cells[-1]} |"]
