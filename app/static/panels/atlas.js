@@ -134,7 +134,7 @@ class Atlas {
     this.find(".cycle-curves").hidden = !this.isPlane || !this.possible
     this.find(".atlas-note").textContent = this.why || chart.note || ""
     this.find(".thumbnails").hidden = Boolean(this.why)
-    this.find(".pad").classList.toggle("strip", this.isStrip)
+    this.find(".pad").toggleAttribute("hidden", Boolean(this.why) && !this.isPlane) // there is nothing to put a hand on
     for (const label of this.find(".axes").querySelectorAll("label")) /** @type {any} */ (label).hidden = this.isStrip
     this.key(chart)
     this.showCrowd(values)
