@@ -229,8 +229,7 @@ def make_server(
     if not warmup_now:
         server.io_loop.add_callback(begin)
     server.io_loop.add_callback(garbage.keep_to_the_young)
-    look = partial(garbage.look, lambda: len(server.get_sessions()))
-    server.io_loop.add_callback(PeriodicCallback(look, 1000 * garbage.EVERY).start)
+    server.io_loop.add_callback(PeriodicCallback(garbage.look, 1000 * garbage.EVERY).start)
     if os.getpid() != parent:
         _stop_with(parent, server.io_loop)
     return server
