@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import html
 import json
+import re
 from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
@@ -90,8 +91,11 @@ def button(values: dict[str, Any], words: str) -> str:
 
 def draggable(name: str, words: str) -> str:
     """Return a number that is dragged sideways, or moved with the arrow keys."""
-    control = html.escape(name)
-    return f'<span class="drag" role="slider" tabindex="0" data-drag="{control}"><i>{words}</i> = <b></b></span>'
+    control, label = html.escape(name), re.sub("<[^>]*>", "", words)
+    return (
+        f'<span class="drag" role="slider" tabindex="0" aria-label="{label}" data-drag="{control}">'
+        f"<i>{words}</i> = <b></b></span>"
+    )
 
 
 def live(name: str) -> str:

@@ -5,7 +5,7 @@ import pytest
 PHONES = [(360, 640), (390, 844), (740, 360)]
 
 #: What can be pressed and is lower or narrower than a finger needs.
-SMALL = """(root) => [...root.querySelectorAll(':is(button, select, input:not([type=checkbox]), .layer, summary, .drag)')]
+SMALL = """(root) => [...root.querySelectorAll('button, select, input:not([type=checkbox]), .layer, summary, .drag')]
     .filter((it) => it.offsetParent && it.checkVisibility()
         && !(it.tagName === 'SUMMARY' ? it.parentElement.parentElement : it).closest('details:not([open])'))
     .map((it) => [it.className || it.id || it.textContent, it.offsetWidth, it.offsetHeight])

@@ -138,6 +138,7 @@ def test_what_a_lesson_shows_is_safe_and_complete():
         assert "$" not in html, lesson.key  # every formula was read
         assert "<script" not in html
         assert "href" not in html
+        assert html.count('role="slider"') == len(re.findall(r'role="slider" tabindex="0" aria-label="[^"<]+"', html))
         for found in re.findall(r'data-set="([^"]*)"', html):
             assert json.loads(found.replace("&quot;", '"'))
 
