@@ -34,7 +34,8 @@ const F1 = {name: "f1", symbol: "f₁", values: [-1.5, 0, 1.5], at: 2}, A = {nam
 const circles = (drawn) => drawn.filter(([name]) => name === "arc").map(([, x, y, r]) => [x, y, r])
 
 test("the first slider is the slowest; each shows its value, and opens where it was", async () => {
-  const frames = ["00", "01", "10", "11", "20", "21"].map((text, i) => frame(text.padEnd(3 + i), 0, 1))
+  // of any length: each begins at a whole number of four bytes
+  const frames = ["00", "01", "10", "11", "20", "21"].map((text, i) => new Uint8Array([...frame(text, 0, 1), ...Array(i % 4).fill(0)]))
   const one = await opened([F1, A], frames)
   assert.equal(one.sentence().trim(), "20")
   assert.deepEqual(one.rows.map((row) => row.textContent), ["f₁1.5", "a−0.25"])
@@ -62,6 +63,7 @@ test("the picture is as wide as the page, 720 px at most, x to the right, y upwa
     assert.deepEqual([one.canvas.width, one.canvas.height, one.canvas.style.width], [7.2 * across, 6 * across, `${3.6 * across}px`])
     const drawn = one.drawn()
     assert.deepEqual(drawn.find(([name]) => name === "setTransform"), ["setTransform", 2, 0, 0, 2, 1, 1])
+    assert.ok(drawn.some((call) => call.join() === `fillRect,-1,-1,${3.6 * across + 2},${3 * across + 2}`), "the page")
     assert.ok(circles(drawn).some(([x, y, r]) => close([x, y, r], [1.5 * across, 1.8 * across, across], 0.01)), "the equator")
     const spot = drawn.filter(([name]) => name === "translate")
     assert.ok(circles(drawn).concat(spot.map(([, x, y]) => [x, y, 5.5])).some(([x, y]) => close([x, y], [0.7 * across, 1.2 * across], 0.01)), `the direction ${JSON.stringify(drawn)}`)

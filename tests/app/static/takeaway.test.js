@@ -50,6 +50,12 @@ test("a file is asked for as the menu says it, saved under its name, and its siz
 })
 
 test("sizes are told in kB up to a million bytes, then in MB", async () => {
+  const part = new Uint8Array(5000).subarray(10, 1010), own = {buffer: new ArrayBuffer(1001)} // a view of more; as Bokeh wraps it
+  for (const [file, words] of /** @type {[any, string][]} */ ([[part, "1 kB"], [own, "2 kB"]])) {
+    const one = opened({answer: {...FILE, file}})
+    await one.press("json")
+    assert.equal(one.told(), `codim2.csv, ${words}`)
+  }
   for (const [size, words] of /** @type {[number, string][]} */ ([[1000, "1 kB"], [1001, "2 kB"], [999999, "1000 kB"], [1e6, "1.0 MB"], [2345678, "2.3 MB"]])) {
     const one = opened({answer: {...FILE, file: new ArrayBuffer(size)}})
     await one.press("json")
