@@ -44,7 +44,7 @@ export function menu(box, {ask, stop, film, theme, sliders}) {
     const answer = await ask({kind: {png: "svg", play: "gif"}[kind] ?? kind, theme: look, legend: find(".legend-too").checked, sliders: kind === "play" ? ["play"] : moving.includes(kind) ? chosen.map(ranged) : []}, (done, all) => { told.textContent = `Drawing the film: ${done} of ${all} pictures …` })
     if (answer.error) return answer.error
     const {file} = answer
-    const blob = new Blob([file instanceof ArrayBuffer || ArrayBuffer.isView(file) ? file : file.buffer], {type: answer.type})
+    const blob = new Blob([file instanceof ArrayBuffer || ArrayBuffer.isView(file) ? file : file.buffer ?? file], {type: answer.type})
     if (kind !== "png") return save(blob, answer.name)
     return save(await rastered(blob, Number(find(".scale").value)), answer.name.replace(/svg$/, "png"))
   }
