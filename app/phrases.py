@@ -48,8 +48,8 @@ SENTENCES: dict[str, Sentence] = {
         "numbers only, and m = 0",
     ),
     "one parameter": Sentence(
-        "Along {name}, the only parameter. A second one makes a plane: write a line such as k = 0.3 in [0, 1] under "
-        "“where”, and k in a formula; or choose Ψ = 3/(3 + (4s)ⁿ), which has n.",
+        "Along {name}, the only parameter. A second one makes a plane: Ψ = 3/(3 + (4s)ⁿ) has n, and equations of your "
+        "own have one by a line such as k = 0.3 in [0, 1] under “where”, and k in a formula.",
         "a system with one parameter",
     ),
     "points unproved": Sentence(

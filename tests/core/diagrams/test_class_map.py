@@ -217,7 +217,8 @@ def test_classes_point_by_point_are_those_of_the_e_linear_system() -> None:
     for psi in (c2.psi.tanh(), c2.psi.hill(3)):
         at = rng.uniform(-2, 2, (60, 2))
         linear = classes_over(system, psi, (), ("a", "b"), ((-2, 2), (-2, 2)))
-        general = TypedClasses(system, psi, (), ("a", "b"))
+        # x is 0 on Sigma; but by it U is searched as any other, and not solved as an e-linear one
+        general = TypedClasses(system.evolve(U=("a*c - b*s + f + x", "b*c - s + 0.2")), psi, (), ("a", "b"))
         assert isinstance(linear, PlaneClasses)
         names = [general.name(code).partition(";")[0] for code in general.decided(at)[0].tolist()]
         assert names == [linear.name(code) for code in linear.decided(at)[0].tolist()]
