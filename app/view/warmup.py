@@ -14,9 +14,10 @@ import numpy as np
 from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.figures.presets import presets
 from codim2_core.orbits.trajectories import is_warm, warm
-from codim2_core.psi import FAMILIES, constant, make
+from codim2_core.psi import FAMILIES, constant, hill, make
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
+from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.kinds import AnySystem
 
 from ..draw.arrowheads import arrowheads
@@ -50,7 +51,7 @@ def _steps() -> list[tuple[str, Callable[[], object]]]:
     """Return what is compiled beforehand, by what it is called, in the order in which it is asked for."""
     families = [family for family in FAMILIES.values() if not family.typed]
     first, *others = ((f"trajectories for Ψ = {family.title}", partial(warm, make(family.name))) for family in families)
-    last = [(GENERAL, warm_general), ("motions in time", _warm_motions)]
+    last = [(GENERAL, warm_general), ("branches of cycles", _warm_branches), ("motions in time", _warm_motions)]
     return [("arrowheads", _warm_arrowheads), first, ("limit cycles", _warm_cycles), *others, *last]
 
 
@@ -132,6 +133,15 @@ def _warm_cycles() -> None:
     """Compile, or load, the return map of e-linear systems."""
     three = presets["case3-n3"]
     limit_cycles(three.system, three.psi)
+
+
+def _warm_branches() -> None:
+    """Compile, or load, what follows limit cycles along a parameter, f1 or n."""
+    from codim2_core.continuation.branches import continue_cycles
+
+    system = ELinear(1.0, 1.3, -1.2, (0.33, 0.07))
+    for name, span in (("f1", (0.32, 0.34)), ("n", (3.0, 3.1))):
+        continue_cycles(system, hill(3.0), name, span)
 
 
 def _warm_arrowheads() -> None:

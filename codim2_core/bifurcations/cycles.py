@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -12,13 +13,14 @@ from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
-from .equator import coefficients_at, heteroclinic
-from .fold_of_cycles import OUTWARD, STEP, Fold, Folds, null_vector
+from .equator import coefficients_at, neutral_loop
+from .fold_of_cycles import OUTWARD, SMALL, STEP, Fold, FoldGuess, Folds, null_vector
 from .geometry import Geometry
 from .trace import hopf
 
 SMALLER = 0.05  # amplitude below which a branch that breaks off beside a generalised Hopf point ends there
 FIRST = 0.02  # chi of the first point beside a generalised Hopf point
+ARRIVED, FLAT = 2e-3, 0.02  # in A^-1 f, ebar: a branch need not be followed closer to where it ends
 NEAR = 0.03  # in A^-1 f: a branch that breaks off this close to a corner ends there
 LINES = 6  # across the disc of critical sets, on which folds are looked for
 TOUCHING = say("fold ends, saddle-node")
@@ -84,9 +86,9 @@ class _Curves:
         return Geometry(*self.plane).touching
 
     @cached_property
-    def resonant(self) -> tuple[SpecialPoint, ...]:
-        """Find the neutral loops through the equator."""
-        return heteroclinic(*self.plane, self.psi).special
+    def corners(self) -> list[Array]:
+        """Where the saddle-node curve touches the ellipse, in (f1, f2)."""
+        return [np.array(Geometry(*self.plane).saddle_node_at(t)) for t in self.touching]
 
     def near(self, f: Array, g: Array) -> float:
         """Distance in A^-1 f."""
@@ -101,9 +103,9 @@ class _Curves:
         e = np.asarray(-np.linalg.solve(self.A, f), float)
         folds.settle(e)
         for first in (FIRST, 0.3 * FIRST, 3.0 * FIRST):
-            found = folds.corrected(math.log(first), e, OUTWARD)
+            found = folds.corrected(FoldGuess(math.log(first), e, OUTWARD))
             if found is not None:
-                states, how = folds.followed(found, null_vector(found.jacobian, OUTWARD))
+                states, how = folds.followed(found, null_vector(found.jacobian, OUTWARD), self._arrived)
                 tail, special = self._end(states, how)
                 states = folds.with_cusps(states)
                 self._add([(f, 0.0), *self._rows(states), *tail], special + self._cusps(states))
@@ -113,14 +115,14 @@ class _Curves:
 
     def from_lines(self) -> None:
         """Begin at the folds on some lines across the disc that no curve has passed."""
-        for k in range(LINES):
-            angle = math.pi * (k + 0.5) / LINES
-            unit = np.array([math.cos(angle), math.sin(angle)])
+        angles = [math.pi * (k + 0.5) / LINES for k in range(LINES)]
+        units = [np.array([math.cos(angle), math.sin(angle)]) for angle in angles]
 
-            def at(t: float, unit: Array = unit) -> tuple[Coefficients, Psi]:
-                return coefficients_at(*self.plane, -self.A @ (t * unit)), self.psi
+        def line(unit: Array) -> Callable[[float], tuple[Coefficients, Psi]]:
+            return lambda t: (coefficients_at(*self.plane, -self.A @ (t * unit)), self.psi)
 
-            for turn in folds_along(at, 0.01, 0.995):
+        for unit, turns in zip(units, folds_along([line(unit) for unit in units], 0.01, 0.995), strict=True):
+            for turn in turns:
                 if self._passed(-self.A @ (turn.value * unit), turn.amplitude):
                     continue
                 folds = Folds(*self.plane, self.psi)
@@ -129,14 +131,14 @@ class _Curves:
                 if ready is None:
                     continue
                 tangent = null_vector(ready.jacobian, OUTWARD)
-                states, how = folds.followed(ready, tangent)
+                states, how = folds.followed(ready, tangent, self._arrived)
                 tail, special = self._end(states, how)
                 states = folds.with_cusps(states)
                 special += self._cusps(states)
                 if how == "closed":
                     self._add([*self._rows(states), self._rows(states)[0]], special)
                     continue
-                back, how = folds.followed(ready, -tangent)
+                back, how = folds.followed(ready, -tangent, self._arrived)
                 head, more = self._end(back, how)
                 back = folds.with_cusps(back)
                 special += more + self._cusps(back)
@@ -146,10 +148,19 @@ class _Curves:
         """Whether a curve passes near, with a cycle of about this size."""
         for line, sizes in zip(self.branches, self.sizes, strict=True):
             away = np.hypot(*np.linalg.solve(self.A, (line - f).T))
-            i = int(np.argmin(away))
-            if away[i] < 2.0 * STEP and abs(sizes[i] - amplitude) < 0.2:
+            # of all that is near: the two arms beside a cusp all but coincide
+            if ((away < 2.0 * STEP) & (np.abs(sizes - amplitude) < 0.2)).any():
                 return True
         return False
+
+    def _arrived(self, fold: Fold) -> bool:
+        """Whether a fold has come to a corner, to C, or to the equator, all but a distance that is not seen."""
+        f, size = self._rows([fold])[0]
+        if any(self.near(g, f) < ARRIVED for g in self.corners):
+            return True
+        if size < 3.0 * SMALL and any(self.near(g, f) < ARRIVED for g in self.points):
+            return True
+        return fold.turn.height < FLAT and neutral_loop(*self.plane, self.psi, f) is not None
 
     def _cusps(self, states: list[Fold]) -> list[SpecialPoint]:
         return [SpecialPoint("cusp of cycles", place(-self.A @ s.e), CUSP) for s in states if s.cusp]
@@ -173,14 +184,14 @@ class _Curves:
         if other is not None and (how == "C" or (self.near(other, f) < NEAR and size < SMALLER)):
             self.used += [other, -other]
             return [(other, 0.0)], []
-        corners = [(np.array(Geometry(*self.plane).saddle_node_at(t)), "touching", TOUCHING) for t in self.touching]
-        reach = NEAR
-        if states[-1].turn.height < 0.1 and all(self.near(g, f) >= NEAR for g, *_ in corners):
+        for g in self.corners:
+            if self.near(g, f) < NEAR:
+                return [(g, size)], [SpecialPoint("touching", place(g), TOUCHING)]
+        if states[-1].turn.height < 0.1:
             # towards a neutral loop the fold runs along the curve of loops, closer than any power
-            corners, reach = [(np.array(s.place), "resonant loop", RESONANT) for s in self.resonant], 5.0 * NEAR
-        for g, kind, text in corners:
-            if self.near(g, f) < reach:
-                return [(g, size)], [SpecialPoint(kind, place(g), text)]
+            g = neutral_loop(*self.plane, self.psi, f)
+            if g is not None and self.near(g, f) < 5.0 * NEAR:
+                return [(g, size)], [SpecialPoint("resonant loop", place(g), RESONANT)]
         if how == "equator":
             return [], [SpecialPoint("equator", place(f), say("fold reaches the equator"))]
         text = say("fold followed no further")

@@ -28,6 +28,9 @@ STEP, SHORTEST = 0.03, 1e-3  # of a curve in that disc
 MOST = 400
 NEAR = 0.03  # a curve that breaks off this close to a corner ends there
 
+ROUNDS, DIFFERENCE, CLOSE, REACH = 12, 1e-6, 1e-9, 0.15  # of the search for a neutral loop, in that disc
+FAILED = np.full(2, math.nan)
+
 _NONE = say("no cycles at all")
 
 
@@ -141,6 +144,45 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     sentence = say("loop through the equator") if branches else say("no loop")
     name = "heteroclinic cycle through the equator" if branches else "heteroclinic: none"
     return BifurcationCurve("heteroclinic", name, label, frozen(branches), tuple(special), frozen(values), sentence)
+
+
+def neutral_loop(a: float, b: float, d: float, psi: Psi, f: Array) -> Array | None:
+    """Find the loop through the equator nearby whose ratio is 1, where a fold of cycles ends; None if none is found.
+
+    Newton's method for both conditions in A^-1 f.
+
+    Parameters
+    ----------
+    a, b, d : float
+    psi : Psi
+    f : ndarray (2,)
+        Where to begin.
+
+    Returns
+    -------
+    ndarray (2,) or None
+    """
+    A = np.array([[a, -b], [b, d]])
+
+    def misses(e: Array) -> Array:
+        coefficients = coefficients_at(a, b, d, -A @ e)
+        arcs = loops(coefficients) if float(e @ e) < 1.0 else ()
+        return np.array([gap(coefficients, psi, arcs[0], FINE), math.log(arcs[0].ratio)]) if arcs else FAILED
+
+    e, last = np.asarray(-np.linalg.solve(A, f), float), math.inf
+    for _ in range(ROUNDS):
+        here = misses(e)
+        slopes = np.stack([(misses(e + DIFFERENCE * v) - here) / DIFFERENCE for v in np.eye(2)], axis=1)
+        if not np.isfinite(slopes).all() or np.linalg.det(slopes) == 0.0:
+            return None
+        change = -np.asarray(np.linalg.solve(slopes, here), float)
+        size = float(np.abs(change).max())
+        if size > min(2.0 * last, REACH):
+            return None
+        e, last = e + change, size
+        if size < CLOSE:
+            return np.asarray(-A @ e, float)
+    return None
 
 
 def _ratio(a: float, b: float, d: float, f: Array) -> float:

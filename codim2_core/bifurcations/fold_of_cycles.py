@@ -1,26 +1,29 @@
-"""One fold of limit cycles, and the curve through it: where the return map has a double fixed point.
+"""Folds of limit cycles, and the curve through one: where the return map has a double fixed point.
 
-With the place xi on the section as a third unknown, the curve solves ``shift = 0, exponent = 0`` (`continuation.turn`).
-It is followed by pseudo-arclength in (chi, A^-1 f), which is of size 1 however narrow the ellipse |A^-1 f| = 1 is.
+With the place xi on the section as a third unknown, the curve solves ``shift = 0, exponent = 0``
+(`continuation.turns`). It is followed by pseudo-arclength in (chi, A^-1 f), which is of size 1 however narrow the
+ellipse |A^-1 f| = 1 is. Several points ahead are predicted, and corrected side by side: each with its neighbours for
+the exponent's derivatives.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
-from ..continuation.turn import Turn, VariedSystem
+from ..continuation.ahead import Place, ahead
+from ..continuation.turns import Turn, turns
 from ..cycles.section import Section
+from ..cycles.sections import Sections
 from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi
-from ..systems.coefficients import Coefficients
 from .curve import Array
 from .equator import coefficients_at
 
-X, Y = np.eye(2)
 STEP, SHORTEST = 0.04, 1e-4
 MOST, MOST_TURNS = 400, 4000
 ROUNDS = 8
@@ -29,22 +32,50 @@ DIFFERENCE = 1e-5  # for derivatives of the exponent
 SMALL, LOW = 3e-3, 1e-4  # amplitude, ebar: the cycle has come to C, to the equator
 OUTWARD = np.array([1.0, 0.0, 0.0])
 CUSP_ROUNDS = 24
+LARGEST = 690.0  # |xi|
+AHEAD, MEMORY = 8, 12  # folds predicted at once; last folds that predictions know of
+TURNED = 0.9  # cosine between successive tangents below which a step is too long
+MISSED = 0.3  # distance of a fold from its prediction, in steps, beyond which a step is too long
+#: A place (xi, e) and those beside it, for differences of the exponent.
+BESIDE = DIFFERENCE * np.vstack([np.zeros(3), np.eye(3), -np.eye(3)])
+
+
+@dataclass(frozen=True)
+class FoldGuess:
+    """Where a fold is looked for, on the plane through (xi, e) across `row` (3,), in (chi, e)."""
+
+    xi: float
+    e: Array
+    row: Array
 
 
 @dataclass(frozen=True)
 class Fold:
-    """A fold, or a cusp: place on the section, e = -A^-1 f, its turn, and the Jacobian (2, 3) by (chi, e)."""
+    """A fold, or a cusp: place on the section, e = -A^-1 f, its turn, and the Jacobian (2, 3) by (chi, e).
+
+    `drift` (2,) is d chi/d e at fixed xi.
+    """
 
     xi: float
     e: Array
     turn: Turn
     jacobian: Array
+    drift: Array
     cusp: bool = False
 
     @property
     def bend(self) -> float:
         """Second derivative of the return map, up to a factor: zero at a cusp, where three cycles are one."""
         return float(self.jacobian[1, 0])
+
+    @property
+    def place(self) -> Array:
+        """(chi, e), (3,)."""
+        return np.array([self.turn.chi, *self.e])
+
+    def xi_by(self, change: Array) -> float:
+        """Change of xi with that of (chi, e)."""
+        return float(change[0] - self.drift @ change[1:]) / self.turn.rate
 
 
 class Folds:
@@ -53,7 +84,7 @@ class Folds:
     def __init__(self, a: float, b: float, d: float, psi: Psi) -> None:
         self.a, self.b, self.d, self.psi = a, b, d, psi
         self.A = np.array([[a, -b], [b, d]])
-        self.ray: int | None = None
+        self.ray = 0
         self.turns = 0
 
     def settle(self, e: Array) -> None:
@@ -74,82 +105,127 @@ class Folds:
         zeta = float(np.hypot(*x2))
         away = float(np.hypot(*(x2 / zeta * self.psi.modulus(zeta) - section.e)))
         xi = math.log(away / max(section.reach - away, 1e-300))
-        return self.corrected(xi, e, OUTWARD)
+        return self.corrected(FoldGuess(xi, e, OUTWARD))
 
-    def turn(self, xi: float, e: Array, axis: int = 0) -> Turn | None:
-        """Follow one turn; its derivative by the parameter is that by e[axis]."""
-        unit = (X, Y)[axis]
-
-        def at(value: float) -> tuple[Coefficients, Psi]:
-            return coefficients_at(self.a, self.b, self.d, -self.A @ (e + value * unit)), self.psi
-
-        family = VariedSystem(at, 1.0)
-        family.ray = self.ray
-        self.turns += 1
-        return family.turn(xi, 0.0) if -700.0 < xi < 690.0 else None
-
-    def state(self, xi: float, e: Array) -> Fold | None:
-        """Evaluate with all derivatives: those of the exponent by differences."""
-        turns = [self.turn(xi, e, axis) for axis in (0, 1)]
-        h = DIFFERENCE
-        moved = [self.turn(xi + h, e), self.turn(xi, e + h * X), self.turn(xi, e + h * Y)]
-        if any(t is None for t in turns + moved):
-            return None
-        one, two = turns
-        assert one is not None
-        assert two is not None
-        rise = np.array([(t.exponent - one.exponent) / h for t in moved if t is not None])
-        jacobian = np.array([[one.by_xi, one.by_value, two.by_value], rise])
-        jacobian[:, 0] /= one.rate
-        return Fold(xi, e, one, jacobian)
-
-    def corrected(self, xi: float, e: Array, row: Array) -> Fold | None:
-        """Newton's method with the Jacobian of the first place on the plane through it across `row` (3,)."""
-        state = self.state(xi, e)
-        if state is None:
-            return None
-        matrix3 = np.vstack([state.jacobian, row])
-        if abs(np.linalg.det(matrix3)) < 1e-12:
-            return None
-        turn, last = state.turn, math.inf
-        for _ in range(ROUNDS):
-            change = -np.linalg.solve(matrix3, [turn.shift, turn.exponent, 0.0])
-            size = float(np.abs(change).max())
-            if size > 2.0 * last or size > 0.3:
-                return None
-            xi, e = xi + change[0] / turn.rate, e + change[1:]
-            if size < CLOSE:
-                return Fold(xi, e, turn, state.jacobian)
-            after = self.turn(xi, e)
-            if after is None:
-                return None
-            turn, last = after, size
-        return None
-
-    def followed(self, start: Fold, tangent: Array) -> tuple[list[Fold], str]:
-        """Follow the curve from a fold along a tangent (3,) until it ends; how it ends."""
-        states, step = [start], 0.25 * STEP
-        while len(states) < MOST and self.turns < MOST_TURNS:
-            here = states[-1]
-            reach = min(STEP, 0.5 * min(here.turn.chi, 1.0 - here.turn.chi) / max(abs(tangent[0]), 1e-9))
-            step = min(step, max(reach, 1e-3 * STEP))
-            found = self.corrected(here.xi + step * tangent[0] / here.turn.rate, here.e + step * tangent[1:], tangent)
-            turned = tangent if found is None else null_vector(found.jacobian, tangent)
-            if found is None or float(turned @ tangent) < 0.9:
-                step *= 0.4
-                if step < SHORTEST * min(1.0, reach / STEP):
-                    return states, "stuck"
+    def states(self, places: Sequence[tuple[float, Array]]) -> list[Fold | None]:
+        """Follow turns from places (xi, e), with all derivatives: those of the exponent by differences."""
+        centres = np.array([(xi, *e) for xi, e in places])
+        every = (centres[:, None] + BESIDE).reshape(-1, 3)
+        complement = 1.0 - every[:, 1] ** 2 - every[:, 2] ** 2
+        allowed = np.flatnonzero((complement > 0.0) & (np.abs(every[:, 0]) < LARGEST))
+        if not len(allowed):
+            return [None] * len(places)
+        xi, e = every[allowed, 0], every[allowed, 1:]
+        planes = np.column_stack([np.tile((self.a, self.b, self.d), (len(e), 1)), -e @ self.A.T])
+        changes = np.zeros((2, len(e), 5))
+        changes[:, :, 3:] = -self.A.T[:, None]
+        sections = Sections(planes, e, complement[allowed], self.psi, None, self.ray)
+        self.turns += len(e)
+        found = turns(sections, xi, np.zeros(len(e), bool), changes)
+        each = found.each([0.0] * len(e))
+        row_of = np.full(len(every), -1)
+        row_of[allowed[found.rows]] = np.arange(len(found.rows))
+        out: list[Fold | None] = []
+        for centre, rows in zip(centres, row_of.reshape(-1, len(BESIDE)), strict=True):
+            turn = each[found.rows[rows[0]]] if (rows >= 0).all() else None
+            if turn is None:
+                out.append(None)
                 continue
-            states.append(found)
-            tangent = turned
-            if found.turn.amplitude < SMALL and tangent[0] < 0.0:
-                return states, "C"
-            if found.turn.height < LOW and found.turn.height < here.turn.height:
-                return states, "equator"
-            if len(states) > 8 and self._near(found, start) < 0.7 * step:
-                return states, "closed"
-            step *= 1.5
+            by_e, drift = found.parameters(rows[0])
+            after, before = found.exponent[rows[1:]].reshape(2, 3)
+            rise = (after - before) / (2.0 * DIFFERENCE)
+            jacobian = np.array([[turn.by_xi, *by_e], rise])
+            jacobian[:, 0] /= turn.rate
+            jacobian[:, 1:] -= jacobian[:, :1] * drift  # at fixed chi, not xi
+            out.append(Fold(float(centre[0]), centre[1:], turn, jacobian, drift))
+        return out
+
+    def corrected(self, guess: FoldGuess) -> Fold | None:
+        """Find the fold by one guess, see `all_corrected`."""
+        return self.all_corrected([guess])[0]
+
+    def all_corrected(self, guesses: Sequence[FoldGuess]) -> list[Fold | None]:
+        """Newton's method for folds, side by side."""
+        found: list[Fold | None] = [None] * len(guesses)
+        places = [(guess.xi, guess.e) for guess in guesses]
+        last = [math.inf] * len(guesses)
+        open_ = list(range(len(guesses)))
+        for _ in range(ROUNDS):
+            if not open_:
+                break
+            states, going = self.states([places[i] for i in open_]), []
+            for i, state in zip(open_, states, strict=True):
+                if state is None:
+                    continue
+                matrix = np.vstack([state.jacobian, guesses[i].row])
+                if abs(np.linalg.det(matrix)) < 1e-12:
+                    continue
+                change = -np.asarray(np.linalg.solve(matrix, [state.turn.shift, state.turn.exponent, 0.0]), float)
+                size = float(np.abs(change).max())
+                xi, e = state.xi + state.xi_by(change), state.e + change[1:]
+                if size < CLOSE:
+                    found[i] = replace(state, xi=xi, e=e)
+                elif size <= 2.0 * last[i] and size <= 0.3:
+                    places[i], last[i] = (xi, e), size
+                    going.append(i)
+            open_ = going
+        return found
+
+    def followed(self, start: Fold, tangent: Array, arrived: Callable[[Fold], bool]) -> tuple[list[Fold], str]:
+        """Follow the curve from a fold along a tangent (3,) until it ends; how it ends.
+
+        Where a step is too long, `arrived` says of the fold before it whether it has come to what ends the curve.
+        """
+        states, tangents, lengths = [start], [tangent], [0.0]
+        step, count = 0.25 * STEP, 1
+        while len(states) < MOST and self.turns < MOST_TURNS:
+            here, tangent = states[-1], tangents[-1]
+            reach = min(STEP, 0.5 * min(here.turn.chi, 1.0 - here.turn.chi) / max(abs(tangent[0]), 1e-9))
+            longest = max(reach, 1e-3 * STEP)
+            step = min(step, longest)
+            steps = [min(step * 1.5**k, longest) for k in range(count)]
+            taken = 0
+            for predicted, found in self._ahead(states, tangents, lengths, steps):
+                here, tangent, step = states[-1], tangents[-1], steps[taken]
+                turned = tangent if found is None else null_vector(found.jacobian, tangent)
+                if found is None or float(turned @ tangent) < TURNED:
+                    break
+                along = float((found.place - here.place) @ tangent)
+                missed = float(np.linalg.norm(found.place - predicted))
+                if not (missed < MISSED * (taken + 1) * step and MISSED * step < along < 3.0 * step):
+                    break
+                taken += 1
+                states.append(found)
+                tangents.append(turned)
+                lengths.append(lengths[-1] + self._near(here, found))
+                if found.turn.amplitude < SMALL and turned[0] < 0.0:
+                    return states, "C"
+                if found.turn.height < LOW and found.turn.height < here.turn.height:
+                    return states, "equator"
+                if len(states) > 8 and self._near(found, start) < 0.7 * step:
+                    return states, "closed"
+            if taken:
+                step = 1.5 * steps[taken - 1]
+                count = min(2 * count, AHEAD) if taken == len(steps) else taken
+                continue
+            step, count = 0.4 * steps[0], 1
+            if step < SHORTEST * min(1.0, reach / STEP) or arrived(states[-1]):
+                return states, "stuck"
         return states, "stuck"
+
+    def _ahead(
+        self, states: list[Fold], tangents: list[Array], lengths: list[float], steps: list[float]
+    ) -> list[tuple[Array, Fold | None]]:
+        """Folds after so many steps from one another, each with the (chi, e) predicted for it."""
+        rows = slice(max(len(states) - MEMORY, 0), None)
+        places = [Place(fold.xi, fold.turn.chi, tuple(fold.e.tolist())) for fold in states[rows]]
+        along = [
+            Place(fold.xi_by(t), float(t[0]), tuple(t[1:].tolist()))
+            for fold, t in zip(states[rows], tangents[rows], strict=True)
+        ]
+        predicted = ahead(lengths[rows], places, along, states[-1].turn.rate, steps)
+        found = self.all_corrected([FoldGuess(p.xi, np.array(p.parameters), tangents[-1]) for p in predicted])
+        return [(np.array([p.chi, *p.parameters]), fold) for p, fold in zip(predicted, found, strict=True)]
 
     def with_cusps(self, states: list[Fold]) -> list[Fold]:
         """Put in the cusps of a curve: where the second derivative of the return map changes its sign along it."""
@@ -169,11 +245,10 @@ class Folds:
                 return None
             part = min(max(low.bend / (low.bend - high.bend), 0.02), 0.98)
             xi, e = low.xi + part * (high.xi - low.xi), low.e + part * (high.e - low.e)
-            found = self.corrected(xi, e, OUTWARD)
-            exact = None if found is None else self.state(found.xi, found.e)
-            if exact is None:
+            found = self.corrected(FoldGuess(xi, e, OUTWARD))
+            if found is None:
                 return best
-            best = replace(exact, cusp=True)
+            best = replace(found, cusp=True)
             if abs(best.bend) < 1e-7 * (abs(here.bend) + abs(there.bend)) or abs(high.xi - low.xi) < 1e-9:
                 break
             low, high = (best, high) if (best.bend < 0.0) == (low.bend < 0.0) else (low, best)

@@ -9,7 +9,7 @@ closed branches between two folds are found too.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import Any
@@ -25,11 +25,13 @@ from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
 from ..words import say
+from .asking import answered
 from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, reversible, values
 from .result import CycleBranch, CycleBranches, CyclePoint
 from .sought import sought
-from .trace import LEVEL, Trace, Tracer, reversed_trace
-from .turn import Turn, VariedSystem
+from .trace import LEVEL, Guess, Trace, Tracer, reversed_trace
+from .turns import Turn
+from .varied_system import Asking, At, VariedSystem, follow
 
 __all__ = ["CycleBranch", "CycleBranches", "CyclePoint", "continue_cycles"]
 
@@ -105,30 +107,37 @@ def continue_cycles(
         return CycleBranches(name, (low, high), (), sentence or say("no cycle on the span"))
     middle = allowed[len(allowed) // 2]
     family.ray = family.section(middle).ray
-    return _Search(family, name, part, (low, high)).run()
+    (found,) = answered([_Search(family, name, part, (low, high)).run()], follow)
+    return found
 
 
-def folds_along(at: Callable[[float], tuple[Coefficients, Psi]], low: float, high: float) -> list[Turn]:
-    """Find the folds on all branches of cycles along a line.
+def folds_along(lines: Sequence[At], low: float, high: float) -> list[list[Turn]]:
+    """Find the folds on all branches of cycles along each of several lines.
 
     Parameters
     ----------
-    at : callable
+    lines : sequence of callable
         value -> (Coefficients, Psi).
     low, high : float
 
     Returns
     -------
-    list of Turn
+    list of list of Turn
     """
-    family = VariedSystem(at, high - low)
-    allowed = [v for v in values(low, high) if family.allows(v)]
-    if all(reversible(at(v)[0]) for v in allowed):
-        return []
-    family.ray = family.section(allowed[len(allowed) // 2]).ray
-    search_ = _Search(family, "t", (low, high), (low, high))
-    search_.run()
-    return [trace.points[i].turn for trace, *_ in search_.found for i in trace.folds]
+    searches = []
+    for at in lines:
+        family = VariedSystem(at, high - low)
+        allowed = [v for v in values(low, high) if family.allows(v)]
+        if not all(reversible(at(v)[0]) for v in allowed):
+            family.ray = family.section(allowed[len(allowed) // 2]).ray
+            searches.append(_Search(family, "t", (low, high), (low, high)))
+        else:
+            searches.append(None)
+    answered([search.run() for search in searches if search is not None], follow)
+    return [
+        [] if search is None else [trace.points[i].turn for trace, *_ in search.found for i in trace.folds]
+        for search in searches
+    ]
 
 
 class _Search:
@@ -148,18 +157,18 @@ class _Search:
         self.hopf = [end for end in self.hopf if end.value not in centres]
         self.closed = [end for end in self.closed if not reversible(family.at(end.value)[0])]
 
-    def run(self) -> CycleBranches:
+    def run(self) -> Asking[CycleBranches]:
         for end in self.hopf:
             if id(end) not in self.used:
-                self._from_end(end, math.log(FIRST), 1.0)
+                yield from self._from_end(end, math.log(FIRST), 1.0)
         for end in self.closed:
             if id(end) not in self.used:
                 section = self.family.section(end.value)
                 outside = section.psi.complement(OUTER) > SEEN
-                self._from_end(
+                yield from self._from_end(
                     end, float(section.xi_at_radius(OUTER[[min(int(outside.sum()), len(OUTER) - 1)]])[0]), -1.0
                 )
-        self._columns()
+        yield from self._columns()
         branches = tuple(self._branch(*entry) for entry in self.found)
         missed = [e for e in self.loops if id(e) not in self.used]
         self.notes += [say("loop without a cycle", name=self.name, value=e.value) for e in missed]
@@ -171,20 +180,22 @@ class _Search:
     def _nu(self, value: float) -> float:
         return (value - self.low) / (self.high - self.low)
 
-    def _from_end(self, end: End, xi: float, towards: float) -> None:
+    def _from_end(self, end: End, xi: float, towards: float) -> Asking[None]:
         """Begin where the cycle is smallest or largest; the parameter is then what is solved for."""
         self.used.add(id(end))
         first = None
         for start in (xi, xi - 0.4 * towards * abs(xi)):
-            first = first or self.tracer.corrected(start, self._nu(end.value), (1.0, 0.0), False)
+            first = first or (
+                yield from self.tracer.corrected(Guess(start, self._nu(end.value), (1.0, 0.0), backward=False))
+            )
         if first is None or not -1e-12 <= first[1] <= 1.0 + 1e-12:
             if first is None:
                 self.notes.append(say("birth not caught", kind=end.kind, name=self.name, value=end.value))
             return
-        trace = self.tracer.trace(self.tracer.point(*first, (towards, 0.0)))
+        trace = yield from self.tracer.trace(self.tracer.point(*first, (towards, 0.0)))
         self._keep(trace, self._special(end), end)
 
-    def _columns(self) -> None:
+    def _columns(self) -> Asking[None]:
         """Begin at each cycle that no branch has passed."""
         for value in values(self.low, self.high, COLUMNS):
             if not self.family.allows(value):
@@ -194,18 +205,20 @@ class _Search:
                 continue
             crossings, _ = search(self.family.section(value))
             for crossing in crossings:
-                first = self.tracer.corrected(crossing.xi, self._nu(value), (0.0, 1.0), crossing.repelling)
-                if first is None or self._known(first[0].chi, first[1]):
+                first = yield from self.tracer.corrected(
+                    Guess(crossing.xi, self._nu(value), (0.0, 1.0), crossing.repelling)
+                )
+                if first is None or (yield from self._known(first[0].chi, first[1])):
                     continue
                 point = self.tracer.point(*first, (1.0, 0.0))
-                trace = self.tracer.trace(point)
+                trace = yield from self.tracer.trace(point)
                 if trace.reason == "closed":
                     special = CyclePoint(
                         "closed", point.turn.value, point.turn.period, point.turn.amplitude, say("branch closed")
                     )
                     self.found.append((trace, special, special, None, None))
                     continue
-                other = self.tracer.trace(self.tracer.point(*first, (-point.tangent[0], -point.tangent[1])))
+                other = yield from self.tracer.trace(self.tracer.point(*first, (-point.tangent[0], -point.tangent[1])))
                 start, end = self._end(other)
                 back = reversed_trace(other)
                 joined = Trace(
@@ -215,7 +228,7 @@ class _Search:
                 )
                 self._keep(joined, start, end)
 
-    def _known(self, chi: float, nu: float) -> bool:
+    def _known(self, chi: float, nu: float) -> Asking[bool]:
         """Whether a branch passes here: its own cycle at this value is computed where that is not plain."""
         for trace, *_ in self.found:
             for one, two in pairwise(trace.points):
@@ -228,7 +241,7 @@ class _Search:
                     continue
                 near = one if part < 0.5 else two
                 xi = near.xi(guess, (nu - near.nu) * (self.high - self.low))
-                found = self.tracer.corrected(xi, nu, (0.0, 1.0), near.turn.exponent > 0.0)
+                found = yield from self.tracer.corrected(Guess(xi, nu, (0.0, 1.0), near.turn.exponent > 0.0))
                 if found is not None and abs(found[0].chi - chi) < SAME:
                     return True
         return False

@@ -19,7 +19,7 @@ from ..layer_problem.equator import equator_cycle, equator_equilibria
 from ..layer_problem.lyapunov import first_lyapunov
 from ..numerics.root_between import root_between
 from ..systems.coefficients import Coefficients
-from .turn import VariedSystem
+from .varied_system import VariedSystem
 
 SAMPLES = 129  # values at which traces and exponents are looked at
 COLUMNS = 9  # and gaps of loops

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from ..numerics.root_between import root_between
 from .ends import values
-from .turn import VariedSystem
+from .varied_system import VariedSystem
 
 NARROW = 0.25  # of the span: a part narrower than this is looked at by itself
 BESIDE = 0.05  # of the part: how far it is looked beyond its ends

@@ -8,7 +8,8 @@ import numpy as np
 from numba import njit
 
 from ..stepping.dop853 import ARITHMETIC
-from ..stepping.layout import ERROR_3, ERROR_5, LANES, NEW, PARAMETERS, SIGN, STATE, STEP, WORKSPACE
+from ..stepping.layout import EACH, ERROR_3, ERROR_5, LANES, NEW, SIGN, STATE, STEP, WITH_EACH, WORKSPACE
+from ..stepping.numbers import PSI
 
 SHARE = 0.1  # of the tolerance, for one step
 TRIALS = 40
@@ -17,10 +18,19 @@ TRIALS = 40
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def workspace(shared):
     """Return the workspace and the parameters of a field whose lanes all lie on the hemisphere."""
-    S, P = np.zeros(WORKSPACE), np.zeros(PARAMETERS)
-    P[:SIGN] = shared
-    P[SIGN:] = -1.0
+    S, P = np.zeros(WORKSPACE), np.zeros(WITH_EACH)
+    for m in range(SIGN):
+        P[m] = shared[m]
+    for m in range(SIGN, EACH):
+        P[m] = -1.0
     return S, P
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def load_system(P, shared, lane):
+    """Put the numbers of an e-linear system into the lane whose own it is."""
+    for c in range(PSI + 1):
+        P[EACH + c * LANES + lane] = shared[c]
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -88,11 +98,11 @@ def next_length(k, low, at_low, high, at_high):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def noted(log, logged, S, k, h):
-    """Write down where the step of lane k starts and its length, if there is room; return how many are written."""
+def noted(log, logged, S, k, h, i):
+    """Write down where the step of lane k starts, its length and whose it is, if there is room; return how many are."""
     if logged >= log.shape[0]:
         return logged
     for c in range(3):
         log[logged, c] = S[STATE + c * LANES + k]
-    log[logged, 3] = h
+    log[logged, 3], log[logged, 4] = h, i
     return logged + 1

@@ -99,9 +99,8 @@ def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Path
     first, h = np.ascontiguousarray(steps[:, :3]), np.ascontiguousarray(steps[:, 3])
     nodes, weights, _ = gauss()
     _, function = section.kernel
-    inner = reached(
-        np.repeat(first, NODES, axis=0), np.outer(h, nodes).ravel(), section.shared(backward), function.address
-    )
+    places, whose = np.repeat(first, NODES, axis=0), np.zeros(NODES * len(h), np.intp)
+    inner = reached(places, np.outer(h, nodes).ravel(), section.shared(backward)[None], whose, function.address)
     return Path(first, h, inner, np.outer(h, weights).ravel() / inner[:, 2], ends[0], float(times[0]))
 
 

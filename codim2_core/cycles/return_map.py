@@ -20,6 +20,7 @@ from .lane_steps import (
     growth,
     judged,
     load,
+    load_system,
     narrow,
     next_length,
     noted,
@@ -49,34 +50,37 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
     ----------
     states : (n, 3)
         (px, py, w) on the section; w > 0.
-    shared : (SHARED,)
-        Parameters of the field, of size about 1.
+    shared : (n, SHARED) or (1, SHARED)
+        Parameters of the field, of size about 1: of each state's own system, or of the one of all.
     field : int
-        Address of the field.
-    u, centre : (2,)
+        Address of the field: `fields.field`, or `fields.field_of_each` where systems differ.
+    u, centre : (n, 2) or (1, 2)
         Direction of the section, and x2 of the critical set.
-    sense : float
+    sense : (n,) or (1,)
         Its sign is the sense of rotation.
-    floor : float
+    floor : (n,) or (1,)
         Distance from the centre in x2 below which an orbit has gone inward.
-    sunk : float
+    sunk : (n,) or (1,)
         Fraction of the first w below which an orbit has gone outward.
     t_max, rtol : float
     limit : int
         Steps tried.
     record : int
-        Room for the steps of state 0; 0 records nothing.
+        Room for all steps; 0 records nothing.
     elsewhere : bool
         The states do not lie on the section: it is their first crossing that is wanted.
 
     Returns
     -------
-    ends (n, 3), times (n,), codes (n,), steps (k, 4): the states of state 0 where its steps start, and their lengths
+    ends (n, 3), times (n,), codes (n,)
+    steps : (k, 5)
+        Where a step starts, its length and whose it is: those of one state in order, several among one another.
     """
     n = states.shape[0]
     ends, times, codes = states.copy(), np.zeros(n), np.full(n, UNDECIDED)
-    log, logged = np.empty((record, 4)), 0
-    S, P = workspace(shared)
+    log, logged = np.empty((record, 5)), 0
+    S, P = workspace(shared[0])
+    own = 1 if len(shared) > 1 else 0  # times the index: where a state's own numbers are
     phase, tries = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
     clock, step = np.zeros(LANES), np.zeros(LANES)
     low, high, at_low, at_high = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
@@ -86,6 +90,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
         active = min(LANES, n - base)
         load(S, states, base, active)
         for k in range(LANES):
+            load_system(P, shared[own * (base + k if k < active else base)], k)
             phase[k] = FIRST_HALF if k < active else DONE
             clock[k], step[k] = 0.0, 0.5 * rtol**0.125 if k < active else 0.0
         call_field(field, S, STATE, K0, P)
@@ -93,7 +98,8 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
             # Orbits go round in one sense: where u.U > 0 they come to this section next, else to the opposite one.
             for k in range(active):
                 vx, vy = _velocity(S, STATE, K0, k)
-                phase[k] = SECOND_HALF if u[0] * vx + u[1] * vy > 0.0 else TURNED
+                m = own * (base + k)
+                phase[k] = SECOND_HALF if u[m, 0] * vx + u[m, 1] * vy > 0.0 else TURNED
         spent, running = 0, active
         while running > 0 and spent < limit:
             spent += 1
@@ -114,8 +120,10 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
             for k in range(LANES):
                 if phase[k] == DONE:
                     continue
+                m = own * (base + k)
+                u1, u2 = u[m, 0], u[m, 1]
                 vx, vy = _velocity(S, NEW, K12, k)
-                g = u[0] * vx + u[1] * vy
+                g = u1 * vx + u2 * vy
                 if phase[k] == REFINING:
                     h = step[k]
                     tries[k] += 1
@@ -124,38 +132,37 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
                     if abs(g) > 1e-16 * size and high[k] - low[k] > 4e-16 * high[k] and tries[k] < TRIALS:
                         step[k] = next_length(k, low, at_low, high, at_high)
                         continue
-                    if base + k == 0:
-                        logged = noted(log, logged, S, k, h)
+                    if record > 0:
+                        logged = noted(log, logged, S, k, h, base + k)
                     codes[base + k], times[base + k] = RETURNED, clock[k] + h
                     phase[k] = DONE
                 elif tries[k] == 1:
                     h = low[k]
-                    forward = sense * (u[0] * vy - u[1] * vx)
+                    forward = sense[m] * (u1 * vy - u2 * vx)
                     if phase[k] == FIRST_HALF and forward < 0.0:
                         phase[k] = TURNED
                     if phase[k] == TURNED and g > 0.0:
                         phase[k] = SECOND_HALF
                     elif phase[k] == SECOND_HALF and g <= 0.0:
                         ox, oy = _velocity(S, STATE, K0, k)
-                        low[k], at_low[k], high[k], at_high[k] = 0.0, u[0] * ox + u[1] * oy, h, g
+                        low[k], at_low[k], high[k], at_high[k] = 0.0, u1 * ox + u2 * oy, h, g
                         step[k] = h * at_low[k] / (at_low[k] - g)
                         phase[k], tries[k], side[k] = REFINING, 0, 0
                         continue
-                    if base + k == 0:
-                        logged = noted(log, logged, S, k, h)
+                    if record > 0:
+                        logged = noted(log, logged, S, k, h, base + k)
                     clock[k] += h
                     w = S[NEW + 2 * LANES + k]
-                    dx, dy = S[NEW + k] / w - centre[0], S[NEW + LANES + k] / w - centre[1]
-                    if dx * dx + dy * dy < floor * floor:
+                    dx, dy = S[NEW + k] / w - centre[m, 0], S[NEW + LANES + k] / w - centre[m, 1]
+                    if dx * dx + dy * dy < floor[m] * floor[m]:
                         codes[base + k], times[base + k], phase[k] = INWARD, clock[k], DONE
-                    elif w < sunk * states[base + k, 2]:
+                    elif w < sunk[m] * states[base + k, 2]:
                         codes[base + k], times[base + k], phase[k] = OUTWARD, clock[k], DONE
                     elif clock[k] >= t_max:
                         times[base + k], phase[k] = clock[k], DONE
                     for c in range(3):
-                        m = c * LANES + k
-                        S[STATE + m] = S[NEW + m]
-                        S[K0 + m] = S[K12 + m]
+                        S[STATE + c * LANES + k] = S[NEW + c * LANES + k]
+                        S[K0 + c * LANES + k] = S[K12 + c * LANES + k]
                 if phase[k] == DONE:
                     for c in range(3):
                         ends[base + k, c] = S[NEW + c * LANES + k]
@@ -165,14 +172,18 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def reached(states, lengths, shared, field):
-    """Take one step of given length (n,) from each state (n, 3): for short ones as accurate as the stepping."""
+def reached(states, lengths, shared, whose, field):
+    """Take one step of given length (n,) from each state (n, 3): for short ones as accurate as the stepping.
+
+    The parameters (m, SHARED) of the field are in the rows whose (n,).
+    """
     n = states.shape[0]
     out = np.empty((n, 3))
-    S, P = workspace(shared)
+    S, P = workspace(shared[0])
     for base in range(0, n, LANES):
         for k in range(LANES):
             i = min(base + k, n - 1)
+            load_system(P, shared[whose[i]], k)
             for c in range(3):
                 S[STATE + c * LANES + k] = states[i, c]
                 S[STEP + c * LANES + k] = lengths[i]

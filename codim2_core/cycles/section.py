@@ -248,18 +248,18 @@ class Section:
         module, function = self.kernel
         away = states[:, :2] / states[:, 2:] - self.critical.x2
         nearest = min(self.inner, float(np.hypot(away[:, 0], away[:, 1]).min()))
-        sense = -self.plane[1] if backward else self.plane[1]
+        sense, centre = -self.plane[1] if backward else self.plane[1], np.array(self.critical.x2)[None]
 
         def follow(states: Array, sunk: float) -> tuple[Array, Array, Any, Any]:
             return module.returns(
                 states,
-                self.shared(backward),
+                self.shared(backward)[None],
                 function.address,
-                self.u,
-                self.critical.x2,
-                sense,
-                SUNK_INWARD * nearest,
-                sunk,
+                self.u[None],
+                centre,
+                np.array([sense]),
+                np.array([SUNK_INWARD * nearest]),
+                np.array([sunk]),
                 LONGEST,
                 rtol,
                 limit,

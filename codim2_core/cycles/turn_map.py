@@ -75,7 +75,7 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
     """
     n = states.shape[0]
     ends, times, codes = states.copy(), np.zeros(n), np.full(n, UNDECIDED)
-    log, logged = np.empty((record, 4)), 0
+    log, logged = np.empty((record, 5)), 0
     S, P = workspace(shared)
     phase, tries, side = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
     clock, step, angle, errors = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
@@ -137,7 +137,7 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
                         if still or clock[k] + h >= t_max:
                             finished, code = True, UNDECIDED
                 if base + k == 0:
-                    logged = noted(log, logged, S, k, h)
+                    logged = noted(log, logged, S, k, h, 0)
                 clock[k] += h
                 angle[k] += swept
                 for c in range(3):

@@ -18,17 +18,17 @@ from numba import (
 from ..psi.function import Psi
 from .compiling import ARITHMETIC
 from .gains import Variants, arguments, gain, kind, variant
-from .layout import LANES, PARAMETERS, SIGN, WIDTH
+from .layout import EACH, LANES, PARAMETERS, SIGN, WIDTH, WITH_EACH
 from .numbers import PSI
 
 
 @njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def put(S, out, P, lane, gain):
-    """Write one lane of the field, given its gain."""
+def put(S, out, P, lane, gain, a, b, d, f1, f2):
+    """Write one lane of the field, given its gain and coefficients."""
     x, y, w = S[lane], S[lane + LANES], S[lane + 2 * LANES]
     c, s = gain * x, gain * y
-    u = P[0] * c - P[1] * s + P[3]
-    v = P[1] * c + P[2] * s + P[4]
+    u = a * c - b * s + f1
+    v = b * c + d * s + f2
     q = x * u + y * v
     out[lane] = u - x * q
     out[lane + LANES] = v - y * q
@@ -40,10 +40,19 @@ def _field(state, out, parameters):
     parameter = kind(P[PSI])
     for lane in range(LANES):
         r2, w = arguments(S, P, lane)
-        put(S, D, P, lane, gain(r2, w, parameter))
+        put(S, D, P, lane, gain(r2, w, parameter), P[0], P[1], P[2], P[3], P[4])
 
 
-_compiled = Variants(_field)
+def _field_of_each(state, out, parameters):
+    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (WITH_EACH,))
+    for lane in range(LANES):
+        r2, w = arguments(S, P, lane)
+        m = EACH + lane
+        a, b, d, f1, f2 = P[m], P[m + LANES], P[m + 2 * LANES], P[m + 3 * LANES], P[m + 4 * LANES]
+        put(S, D, P, lane, gain(r2, w, kind(P[m + PSI * LANES])), a, b, d, f1, f2)
+
+
+_compiled, _compiled_of_each = Variants(_field), Variants(_field_of_each)
 
 
 def is_compiled(psi: Psi) -> bool:
@@ -65,3 +74,15 @@ def field(psi: Psi) -> Any:
         come from the disk cache, a typed formula costs one compilation of a few lines (about 0.3 s), once a text.
     """
     return _compiled.get(variant(psi, True))
+
+
+def field_of_each(psi: Psi, same: bool) -> Any:
+    """Return the same with a system of its own in each lane, see `layout.EACH`.
+
+    Parameters
+    ----------
+    psi : Psi
+    same : bool
+        All lanes have this Psi, and not others of its family.
+    """
+    return _compiled_of_each.get(variant(psi, True, whole=same))

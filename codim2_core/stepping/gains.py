@@ -150,7 +150,7 @@ class Variant:
 ONE = Variant(_one, cached=True)  # of Psi = 1 where the sphere |p|^2 + w^2 = 1 is kept to
 
 
-def variant(psi: Psi, smooth: bool) -> Variant:
+def variant(psi: Psi, smooth: bool, whole: bool = True) -> Variant:
     """Say what is compiled for a Psi.
 
     Parameters
@@ -158,6 +158,8 @@ def variant(psi: Psi, smooth: bool) -> Variant:
     psi : Psi
     smooth : bool
         The gain may be left out where it is 1 on the sphere: U is smooth beyond |e| = 1 too.
+    whole : bool
+        A whole parameter may be taken for what it is: it stays whole.
     """
     record = psi.record
     if record.identity and smooth:
@@ -167,7 +169,7 @@ def variant(psi: Psi, smooth: bool) -> Variant:
         if expression is None:
             raise ValueError(f"{psi!r} has no expression; make it with psi.custom.")
         return Variant(expression.python_source(), parameter=record.names[-1] if len(record.names) > 1 else "parameter")
-    whole = record.whole(psi.parameter)
+    whole = whole and record.whole(psi.parameter)
     key = record.gain_whole if whole and record.gain_whole is not None else record.gain
     return Variant(key, whole, cached=key.__module__.startswith(__name__.split(".")[0] + "."))
 

@@ -18,7 +18,7 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
-from .numbers import SHARED
+from .numbers import PSI, SHARED
 
 # 32 doubles are four AVX-512 registers a component: stages then hide the latency of one another (measured:
 # 65 ns a step and lane with 8 lanes, 30 with 16, 20 with 32).
@@ -33,6 +33,9 @@ WORKSPACE = 29 * WIDTH
 
 SIGN = SHARED  # P[SIGN + lane] = -1 on the hemisphere, +1 outside
 PARAMETERS = SHARED + LANES
+# Where lanes have systems of their own: P[EACH + c LANES + lane] is number c of what e-linear fields read.
+EACH = PARAMETERS
+WITH_EACH = EACH + (PSI + 1) * LANES
 
 _POINTER = types.CPointer(types.float64)
 FIELD = types.void(_POINTER, _POINTER, _POINTER)

@@ -54,11 +54,12 @@ class Spiral:
     def returns(
         self, x2, floor=1e-9, sunk=1e-9, t_max=1e3, rtol=RTOL, limit=500, record=0, centre=(0.0, 0.0), elsewhere=False
     ):
-        """Follow orbits from points (n, 2) of kappa_2 to their return to the section u.U = 0."""
-        return returns(
-            sphere(x2), self.shared, FIELD.address, self.u, np.array(centre), self.sense, floor, sunk, t_max, rtol,
-            limit, record, elsewhere,
-        )  # fmt: skip
+        """Follow orbits from points (n, 2) of kappa_2 to their return to the section u.U = 0; steps of the first."""
+        numbers = (np.array([v]) for v in (self.u, centre, self.sense, floor, sunk))
+        ends, times, codes, steps = returns(
+            sphere(x2), self.shared[None], FIELD.address, *numbers, t_max, rtol, limit, record * len(x2), elsewhere
+        )
+        return ends, times, codes, steps[steps[:, 4] == 0.0][:record, :4]
 
     def turns(self, x2, **options):
         """Follow orbits from points (n, 2) of kappa_2 until they have turned about the critical set."""
@@ -68,7 +69,8 @@ class Spiral:
 def followed(
     states, shared, centre=(0.0, 0.0), floor=1e-9, sunk=1e-9, t_max=1e3, rtol=RTOL, limit=500, record=0
 ):  # fmt: skip
-    return turns(states, shared, FIELD.address, np.array(centre), floor, sunk, t_max, rtol, limit, record)
+    *found, steps = turns(states, shared, FIELD.address, np.array(centre), floor, sunk, t_max, rtol, limit, record)
+    return *found, steps[:, :4]
 
 
 SPIRALS = pytest.mark.parametrize(("growth", "b"), [(-0.2, 1.0), (0.15, 1.3), (0.1, -0.8), (-0.1, -1.1)])

@@ -20,7 +20,9 @@ def test_the_steps_of_the_first_state_are_those_of_its_orbit(follow):
     ends, times, _, steps = follow(own, x2, record=200)
     np.testing.assert_array_equal(steps[0, :3], sphere(x2)[0])
     np.testing.assert_allclose(steps[:, 3].sum(), times[0], rtol=1e-14)
-    after = reached(steps[:, :3].copy(), steps[:, 3].copy(), own.shared, FIELD.address)
+    after = reached(
+        steps[:, :3].copy(), steps[:, 3].copy(), own.shared[None], np.zeros(len(steps), np.intp), FIELD.address
+    )
     np.testing.assert_allclose(after, [*steps[1:, :3], ends[0]], rtol=0.0, atol=5e-16)
     clock = np.concatenate([[0.0], np.cumsum(steps[:, 3])])
     np.testing.assert_allclose(plane(steps[:, :3]), own.at(x2[0], clock[:-1]), rtol=0.0, atol=1e-11)

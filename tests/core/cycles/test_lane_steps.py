@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from codim2_core.cycles import lane_steps
-from codim2_core.stepping.layout import ERROR_3, ERROR_5, LANES, NEW, SIGN, STATE, STEP
-from codim2_core.stepping.numbers import SHARED
+from codim2_core.stepping.layout import EACH, ERROR_3, ERROR_5, LANES, NEW, SIGN, STATE, STEP
+from codim2_core.stepping.numbers import PSI, SHARED
 
 LANE = 2
 
@@ -33,7 +33,16 @@ def test_all_lanes_lie_on_the_hemisphere():
     S, P = lane_steps.workspace(np.arange(1.0, SHARED + 1.0))
     assert not S.any()
     np.testing.assert_array_equal(P[:SIGN], np.arange(1.0, SHARED + 1.0))
-    np.testing.assert_array_equal(P[SIGN:], np.full(LANES, -1.0))
+    np.testing.assert_array_equal(P[SIGN:EACH], np.full(LANES, -1.0))
+
+
+def test_a_lane_has_the_numbers_of_its_own_system():
+    _, P = lane_steps.workspace(np.arange(1.0, SHARED + 1.0))
+    before = P.copy()
+    lane_steps.load_system(P, np.arange(11.0, 11.0 + SHARED), LANE)
+    own = [EACH + c * LANES + LANE for c in range(PSI + 1)]
+    np.testing.assert_array_equal(P[own], np.arange(11.0, 12.0 + PSI))
+    assert changed(before, P) == set(own)
 
 
 def test_states_go_into_lanes_and_what_is_left_over_repeats_the_first():
@@ -151,9 +160,9 @@ def test_without_a_chord_the_middle_is_tried():
 
 def test_steps_are_written_down_while_there_is_room():
     S, _ = filled()
-    log, written = np.zeros((2, 4)), 0
+    log, written = np.zeros((2, 5)), 0
     for k, expected in ((LANE, 1), (0, 2), (1, 2)):
-        written = lane_steps.noted(log, written, S, k, 0.25)
+        written = lane_steps.noted(log, written, S, k, 0.25, 7)
         assert written == expected
     for row, k in zip(log, (LANE, 0), strict=True):
-        np.testing.assert_array_equal(row, [*S[at(STATE, k)], 0.25])
+        np.testing.assert_array_equal(row, [*S[at(STATE, k)], 0.25, 7.0])

@@ -85,7 +85,7 @@ def test_a_single_step_of_any_length_stays_on_the_sphere():
     own = Spiral(-0.2, 1.0)
     begin = np.repeat(sphere(0.7 * own.ray[None, :]), SEVERAL, axis=0)
     for lengths, right in ((np.linspace(0.0, 0.2, SEVERAL), True), (np.linspace(1.0, 2.0, SEVERAL), False)):
-        ends = reached(begin, lengths, own.shared, FIELD.address)
+        ends = reached(begin, lengths, own.shared[None], np.zeros(SEVERAL, np.intp), FIELD.address)
         away = np.abs(plane(ends) - own.at(0.7 * own.ray, lengths)).max()
         assert away < 1e-12 if right else away > 1e-9
         np.testing.assert_allclose(np.linalg.norm(ends, axis=1), 1.0, rtol=0.0, atol=5e-16)  # whatever its error

@@ -1,0 +1,62 @@
+"""Where the next points of a curve of cycles are expected: by its last points and their tangents."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from .hermite import hermite
+
+BEHIND = 3  # points from which others are predicted
+APART = 0.25  # of a step: how far from one another they are, at least: a fold may lie beside one
+
+
+class Place(NamedTuple):
+    """A place of the curve, or its derivative by the length: xi and chi of `turns.Turn`, and the parameters."""
+
+    xi: float
+    chi: float
+    parameters: tuple[float, ...]
+
+
+def ahead(
+    lengths: Sequence[float], places: Sequence[Place], tangents: Sequence[Place], rate: float, steps: Sequence[float]
+) -> list[Place]:
+    """Predict points after the last one; fewer than asked for where the section ends before.
+
+    Parameters
+    ----------
+    lengths : sequence of float
+        Of the curve up to each of its points.
+    places, tangents : sequence of Place
+        Of these points.
+    rate : float
+        d chi/d xi at the last one.
+    steps : sequence of float
+        From the last point to the first one wanted, and so on.
+    """
+    rows = [len(lengths) - 1]
+    for i in range(len(lengths) - 2, -1, -1):
+        if len(rows) == BEHIND:
+            break
+        if lengths[rows[-1]] - lengths[i] > APART * steps[0]:
+            rows.append(i)
+    chi = places[-1].chi
+    # xi goes to infinity at C and at the equator: with chi there is what is left of it beside these two logarithms
+    outer = 1.0 if chi < 0.5 else (1.0 / rate - 1.0 / chi) * (1.0 - chi)
+    values, slopes = [], []
+    for place, along in ((places[i], tangents[i]) for i in rows):
+        rest = place.xi - math.log(place.chi) + outer * math.log(1.0 - place.chi)
+        by_rest = along.xi - (1.0 / place.chi + outer / (1.0 - place.chi)) * along.chi
+        values.append((rest, place.chi, *place.parameters))
+        slopes.append((by_rest, along.chi, *along.parameters))
+    at = np.array([lengths[i] for i in rows]) - lengths[-1]
+    found = []
+    for rest, chi, *parameters in hermite(at, np.array(values), np.array(slopes), np.cumsum(steps)).tolist():
+        if not 0.0 < chi < 1.0:
+            break
+        found.append(Place(rest + math.log(chi) - outer * math.log(1.0 - chi), chi, tuple(parameters)))
+    return found

@@ -1,0 +1,48 @@
+"""Searches that ask for turns, and how the turns of several are followed side by side.
+
+A search is a generator: it yields what it asks for, is sent the answer, and returns what it has found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Sequence
+from typing import TypeVar
+
+Question = TypeVar("Question")
+Answer = TypeVar("Answer")
+Found = TypeVar("Found")
+
+
+def answered(
+    searches: Sequence[Generator[Question, Answer, Found]], answer: Callable[[list[Question]], list[Answer]]
+) -> list[Found]:
+    """Run searches side by side until all have ended.
+
+    Parameters
+    ----------
+    searches : sequence of generators
+    answer : callable
+        What it returns for questions of several searches, in their order.
+
+    Returns
+    -------
+    list
+        What each has found.
+    """
+    found: dict[int, Found] = {}
+    asked: dict[int, Question] = {}
+
+    def go_on(i: int, told: Answer | None) -> None:
+        try:
+            asked[i] = next(searches[i]) if told is None else searches[i].send(told)
+        except StopIteration as end:
+            found[i] = end.value
+
+    for i in range(len(searches)):
+        go_on(i, None)
+    while asked:
+        several = list(asked)
+        answers = answer([asked.pop(i) for i in several])
+        for i, told in zip(several, answers, strict=True):
+            go_on(i, told)
+    return [found[i] for i in range(len(searches))]

@@ -1,0 +1,162 @@
+"""Turns of the return map of the layer problem with their exact derivatives, many at once, for continuation of cycles.
+
+The section is the ray ``e = e_C + r u`` of `cycles.search`, ``r = R/(1 + exp(-xi))``; all of it depends on the value
+mu of the parameter that varies. With ``F = x2'``, ``D = D e_Psi`` and ``F x v = F1 v2 - F2 v1``, a deviation obeys
+
+    F x delta(end) = exp(E) F x delta(0) + M,    E = int div dtau,    M = int exp(E(tau, end)) F x U_mu dtau
+
+(Liouville's formula, Melnikov's integral), and both ends lie on the section: along ``t = D^-1 u`` when r changes, along
+``s = D^-1 (e_C' + r u') (and Psi')`` when mu changes at fixed r. Hence ``dr(end)/dr = exp(E)`` where the map has a
+fixed point, and ``dr(end)/dmu = ((exp(E) - 1) F x s + M)/(F x t)`` at fixed r.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..cycles.orbit import gauss
+from ..cycles.sections import Indices, Sections
+
+Array = NDArray[np.float64]
+
+RTOL = 1e-12  # of one turn
+
+
+@dataclass(frozen=True)
+class Turn:
+    """One turn from the section, at parameter value `value`; times in tau.
+
+    Attributes
+    ----------
+    xi, value : float
+        Where on the section, and the parameter's value.
+    shift : float
+        ``ln u.(x2 - C)`` after the turn minus before it; zero on a cycle.
+    by_xi, by_value : float
+        Derivatives of `shift`, at fixed value and at fixed xi.
+    exponent : float
+        ln of the Floquet multiplier.
+    period : float
+    amplitude : float
+        Largest ``|p - p_C|`` on it in the projected disc.
+    height : float
+        Smallest ebar on it: how near to the equator it comes.
+    rate : float
+        d chi/d xi, where chi = y/(1 + y) is the place on the section, in [0, 1), ``y = u.(x2 - C)``.
+    drift : float
+        d chi/d value at fixed xi.
+    chi : float
+    p : (float, float)
+        Where it crosses the section, in the projected disc.
+    """
+
+    xi: float
+    value: float
+    shift: float
+    by_xi: float
+    by_value: float
+    exponent: float
+    period: float
+    amplitude: float
+    height: float
+    rate: float
+    drift: float
+    chi: float
+    p: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Turns:
+    """Turns side by side, see `Turn`, of those asked for that return.
+
+    Attributes
+    ----------
+    rows : ndarray of int (k,)
+        Which these are.
+    xi : ndarray (k,)
+    numbers : ndarray (k, PARAMETERS + 2 q)
+        As `measured.measured` gives them for q parameters.
+    p : ndarray (k, 2)
+    """
+
+    rows: Indices
+    xi: Array
+    numbers: Array
+    p: Array
+
+    def each(self, values: list[float]) -> list[Turn | None]:
+        """One by one, given the value of every turn asked for: None for those that do not return."""
+        found: list[Turn | None] = [None] * len(values)
+        for i, xi, row, p in zip(*(v.tolist() for v in (self.rows, self.xi, self.numbers, self.p)), strict=True):
+            shift, by_xi, exponent, period, amplitude, height, rate, chi, *more = row
+            by_value, drift = more[0], more[len(more) // 2]
+            found[i] = Turn(
+                xi, values[i], shift, by_xi, by_value, exponent, period, amplitude, height, rate, drift, chi,
+                (p[0], p[1]),
+            )  # fmt: skip
+        return found
+
+    @property
+    def exponent(self) -> Array:
+        """Logarithms (k,) of the Floquet multipliers."""
+        from .measured import EXPONENT
+
+        return self.numbers[:, EXPONENT]
+
+    def parameters(self, row: int) -> Array:
+        """Return `by_value` and `drift`, (2, q), of the turn in a row."""
+        from .measured import PARAMETERS
+
+        return self.numbers[row, PARAMETERS:].reshape(2, -1)
+
+
+#: Change of |e_Psi| with a parameter, at given zeta (k,) of systems (k,).
+Swelling = Callable[[Array, Indices], Array]
+
+
+def turns(
+    sections: Sections, xi: Array, backward: NDArray[np.bool_], changes: Array, swelling: Swelling | None = None
+) -> Turns:
+    """Follow one turn from each of n sections.
+
+    Parameters
+    ----------
+    sections : Sections
+    xi : ndarray (n,)
+    backward : ndarray of bool (n,)
+        Followed backward in time, which is accurate where the cycle repels. The result is the same.
+    changes : ndarray (q, n, 5)
+        d/dmu of (a, b, d, f1, f2) for the parameters by which turns are differentiated.
+    swelling : callable, optional
+        That of the one parameter, where Psi changes with it.
+    """
+    from .measured import PARAMETERS, SHIFT, measured
+
+    start, x2 = sections.starts(xi)
+    zeta = np.hypot(x2[:, 0], x2[:, 1])
+    states = np.column_stack([x2, np.ones(len(x2))]) / np.hypot(1.0, zeta)[:, None]
+    rows, ways = sections.turned(states, RTOL, backward)
+    if ways is None:
+        return Turns(rows, np.zeros(0), np.zeros((0, PARAMETERS + 2 * len(changes))), np.zeros((0, 2)))
+    if len(rows) < len(sections):
+        sections, start, x2, changes = sections.taken(rows), start[rows], x2[rows], changes[:, rows]
+    every = np.arange(len(rows))
+    away = np.concatenate([np.hypot(*(v[:, :2] / v[:, 2:]).T) for v in (ways.inner, states[rows], ways.ends)])
+    places = np.concatenate([away, sections.zeta])
+    whose = np.concatenate([ways.whose, every, every, every])
+    radial, tangential = sections.psi_at(whose).jacobian_factors(places)
+    swell = np.zeros((len(changes), 0))
+    if swelling is not None:
+        swell = swelling(places, rows[whose])[None]
+    _, weights, matrix = gauss()
+    numbers = measured(
+        sections.plane, changes / sections.rate[:, None], sections.rate, sections.e, sections.u, sections.room,
+        sections.x2, x2, start, ways.ends, ways.first, ways.h, ways.inner, radial, tangential, swell,
+        np.where(backward[rows], -1.0, 1.0), weights, matrix,
+    )  # fmt: skip
+    good = np.flatnonzero(~np.isnan(numbers[:, SHIFT]))
+    return Turns(rows[good], xi[rows[good]], numbers[good], states[rows[good], :2])

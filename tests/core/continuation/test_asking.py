@@ -1,0 +1,28 @@
+"""Searches that ask, and are answered side by side."""
+
+from codim2_core.continuation.asking import answered
+
+
+def test_searches_of_different_length_go_on_side_by_side():
+    rounds = []
+
+    def search(name, count):
+        told = ""
+        for k in range(count):
+            told += yield f"{name}{k}"
+        return name, told
+
+    def answer(questions):
+        rounds.append(list(questions))
+        return [question.upper() for question in questions]
+
+    found = answered([search("a", 1), search("b", 3), search("c", 0), search("d", 2)], answer)
+    assert found == [("a", "A0"), ("b", "B0B1B2"), ("c", ""), ("d", "D0D1")]
+    assert rounds == [["a0", "b0", "d0"], ["b1", "d1"], ["b2"]]
+
+
+def test_an_empty_answer_is_an_answer():
+    def search():
+        return (yield "none"), (yield "empty")
+
+    assert answered([search()], lambda questions: [[] if q == "empty" else None for q in questions]) == [(None, [])]
