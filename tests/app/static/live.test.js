@@ -43,6 +43,8 @@ test("the first slider is the slowest; each shows its value, and opens where it 
   assert.deepEqual(inputs.map((it) => [it.type, Number(it.min), Number(it.max), Number(it.step), Number(it.value), it.getAttribute("aria-valuetext")]), [["range", 0, 2, 1, 2, "1.5"], ["range", 0, 1, 1, 0, "−0.25"]])
   one.move(1, 1)
   assert.equal(one.sentence().trim(), "21")
+  one.move(0, 1)
+  assert.equal(one.sentence().trim(), "11")
   one.move(0, 0)
   assert.deepEqual([one.sentence().trim(), one.rows[0].textContent, inputs[0].getAttribute("aria-valuetext")], ["01", "f₁−1.5", "−1.5"])
   assert.equal(one.canvas.dataset.ready, "true")
