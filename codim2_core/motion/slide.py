@@ -136,6 +136,8 @@ def slide(
             taken.append(whole)
             places.append(after)
     except StepsTooShortError as error:
+        if taken and t_end - taken[-1].end <= shortest:  # the rounding of t_end is left
+            return Slide(taken, "time", places[-1], places)
         end = _end(sheet)
         return Slide(taken, end, sheet.e, places, error if end == "given up" else None)
     except TooManyStepsError as error:

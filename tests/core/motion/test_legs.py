@@ -143,3 +143,13 @@ def test_a_span_that_ends_at_the_arrival_is_whole(monkeypatch, way):
         assert run.status is SimulationStatus.T_END
         assert run.times[-1] == t_end
         assert [phase.kind for phase in run.phases] == ["slip"]
+
+
+def test_a_slide_whose_end_is_a_rounding_away_has_ended(monkeypatch):
+    """Found at random: 2e-16 are left, and a step of that length is taken for the end of the set."""
+    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: 0)
+    state, t_end = (-0.4955759740468772, -0.0663660602076763, 0.16035802925580112), 1.7266351098640789
+    options = {"rtol": 1e-3, "atol": 1e-3, "events": Event(lambda t, state: 1.0)}
+    run = simulate_nonsmooth(examples.tilting_block(), state, (0.0, t_end), psi.constant(), **options)
+    assert run.status is SimulationStatus.T_END
+    assert run.times[-1] == pytest.approx(t_end, rel=1e-15)
