@@ -78,6 +78,8 @@ test("an object says its name and numbers, and why it has no eigenvectors", () =
   assert.equal(factsOf(c, {...HEADER, critical: {...CRITICAL, slow_flow: [[]]}}).rows.length, 5)
   assert.deepEqual(factsOf(cycle, HEADER), {title: "Limit cycle, stable", rows: [["period", "2.000"], ["multiplier", "0.500"]], notes: ["Orbits turn clockwise."]})
   assert.deepEqual(factsOf(launched, HEADER).notes, ["Tends to C."])
+  assert.deepEqual([launched, cycle].map((one) => pointedList(one, {}, {}, false).map(({kind}) => kind)), [["curves", "ring"], ["curves"]]) // an orbit has its start
+  assert.equal(followed(launched, [{...launched, curve: cycle.curve}])?.name, "O1") // by which it is followed, wherever it goes now
   assert.deepEqual(factsOf(launched, {...HEADER, launched: {...HEADER.launched, comes: ["Comes from Q1."]}}).notes, ["Tends to C.", "Comes from Q1."]) // as it goes on, then where it was
 })
 
