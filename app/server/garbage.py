@@ -14,7 +14,7 @@ EVERY = 1.0  # seconds between looks
 QUIET = 0.5  # seconds without a request
 #: Searches through the young after which there is enough for a whole one (objects that stayed: 7000 each); and beyond
 #: which it no longer waits.
-SOME, MOST = 10, 60
+SOME, MOST = 10, 25
 NEVER = 10**6
 
 _asked = 0.0
