@@ -1,6 +1,6 @@
 """Branches of limit cycles along one parameter: from where they are born, through folds, to where they end.
 
-A cycle is a fixed point of the return map of `cycles`; `turn` has its derivatives and
+A cycle is a fixed point of the return map of `cycles`; `turns` has its derivatives and
 `trace` follows it. Branches are begun at every Hopf point and at every end on the equator
 (`ends`), and at every cycle that is seen at one of several values and that no branch has yet passed: so
 closed branches between two folds are found too.
