@@ -16,9 +16,9 @@ from typing import Any
 from ..docs import place
 from ..frame.cluster import ClusterError, cluster
 from .commands import add_census, add_classify, add_docs, add_notebooks, add_presets
-from .logs import log_to_stderr
+from .process.logs import log_to_stderr
+from .process.stopping import stop_when_asked
 from .settings import add_settings
-from .stopping import stop_when_asked
 from .taking import add_data, add_figure, add_film, add_live
 
 

@@ -26,7 +26,7 @@ from ..state.controls import ExplorerState
 from ..state.links import Link, read_link
 from ..view import warmup
 from ..view.first_markup import page_markup
-from .garbage import asked
+from .process.garbage import asked
 
 TOKEN, MARKUP = "codim2-token", "<!-- codim2 markup -->"
 #: A script of Bokeh's that draws with WebGL, which the picture does not.

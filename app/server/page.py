@@ -35,10 +35,10 @@ from ..state.links import Link
 from ..view import warmup
 from ..view.explorer import ExplorerView
 from ..view.markup import address_of_script, edition, page_template
-from . import garbage
 from .first_page import Page, markup_of, opening
 from .headers import transform
-from .ports import listen_by_own, shared
+from .process import garbage
+from .process.ports import listen_by_own, shared
 from .scripts import routes
 from .sockets import MOST_SENT, PromptSocket, untraced, views
 

@@ -21,7 +21,7 @@ from tornado.locks import Lock
 from tornado.websocket import WebSocketClosedError
 
 from ..phrases import say
-from .garbage import asked
+from .process.garbage import asked
 
 #: Bytes of one message from a browser, over all its parts: a request is a few hundred.
 MOST_SENT = 200_000

@@ -3,7 +3,7 @@
 A step costs 0.3 ms as Python calls NumPy, and some microseconds compiled; compiling the formulas of a system takes
 about a second. So a motion is followed in Python until it has cost about that much, and from then on, and whenever
 the same system comes again, compiled: implicitly by the same method to the same coefficients, or explicitly where that
-costs less (`compiled_motion`).
+costs less (`kernels.motion`).
 """
 
 from __future__ import annotations
@@ -32,11 +32,23 @@ from ..stepping.compiling import Kept
 from ..stepping.gains import one_gain
 from ..stepping.layout import FIELD
 from ..words import say
-from .compiled_explicit import DEGREE, WIDTH
-from .compiled_motion import AHEAD, ARRIVED, BLOWN_UP, CONTROL, FULL, LIMIT, SHORT, SHORTEST, follow, follow_all, price
-from .compiled_rate import Motion
-from .compiled_stages import tableau_of, workspace
 from .field import Field
+from .kernels.explicit import DEGREE, WIDTH
+from .kernels.motion import (
+    AHEAD,
+    ARRIVED,
+    BLOWN_UP,
+    CONTROL,
+    FULL,
+    LIMIT,
+    SHORT,
+    SHORTEST,
+    follow,
+    follow_all,
+    price,
+)
+from .kernels.rate import Motion
+from .kernels.stages import tableau_of, workspace
 from .line import InvariantLine
 
 Array = NDArray[np.float64]
@@ -76,7 +88,7 @@ def _function(rows: Any, names: tuple[str, ...]) -> Any:
 
 @lru_cache(maxsize=1)
 def numbers_of_tableau() -> Array:
-    """Return the numbers of Radau IIA as `compiled_stages.tableau_of` reads them."""
+    """Return the numbers of Radau IIA as `kernels.stages.tableau_of` reads them."""
     table = tableau()
     return np.concatenate([[table.gamma], table.nodes, table.A.ravel(), table.error, table.fit.ravel()])
 

@@ -1,4 +1,4 @@
-"""Motions in the limit eps -> 0 followed compiled, as far as safe signs decide what comes next: `compiled_course`."""
+"""Motions in the limit eps -> 0 followed compiled, as far as safe signs decide what comes next: `kernels.course`."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from ..numerics.dense import Dense
 from ..psi.constructors import constant
 from ..psi.function import Psi
 from .compiled import functions_of, numbers_of_tableau, shared_out
-from .compiled_course import ROW, TOLD, follow_courses
-from .compiled_explicit import DEGREE
-from .compiled_slow import flow
 from .field import Field
+from .kernels.course import ROW, TOLD, follow_courses
+from .kernels.explicit import DEGREE
+from .kernels.slow import flow
 from .line import InvariantLine
 
 Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ class Leg:
     Attributes
     ----------
     kind : int
-        SLIP, SLIDE or LEAVE of `compiled_course`: LEAVE is a slip away from Sigma.
+        SLIP, SLIDE or LEAVE of `kernels.course`: LEAVE is a slip away from Sigma.
     first, last : int
         Steps of the motion that it begins with and ends before.
     theta : float
@@ -53,7 +53,7 @@ class Followed:
         e at its times, where it slides.
     legs : tuple of Leg
     onward : int
-        What comes next where it is handed over, as `Leg.kind`; WHOLE of `compiled_course` where nothing does.
+        What comes next where it is handed over, as `Leg.kind`; WHOLE of `kernels.course` where nothing does.
     theta : float
         Of that.
     evaluations : int

@@ -21,12 +21,12 @@ from ..numerics.growth import BlowUpError
 from ..numerics.radau import TooManyStepsError
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .course import AtEventError, Course, StopError
+from .limit.course import AtEventError, Course, StopError
 from .regularised import MANY, MAX_STEPS, checked_span, checked_states, checked_tolerances, count_steps, waited_for
 from .result import Simulation, SimulationStatus, simulation
 
 if TYPE_CHECKING:
-    from .legs import Legs
+    from .limit.legs import Legs
 
 __all__ = ["simulate_nonsmooth"]
 
@@ -194,7 +194,7 @@ def _followed(asked: _Asked, states: Array) -> Iterator[Simulation]:
     legs: dict[int, Legs] = {}
     if outside:
         from ..initial_value.courses import followed  # loads the compiler
-        from .legs import Legs
+        from .limit.legs import Legs
 
         lines = [invariant_line(asked.formulas, states[i]) for i in outside]
         own = (asked.rtol, asked.atol / asked.rtol, asked.max_steps)

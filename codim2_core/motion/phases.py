@@ -20,8 +20,8 @@ from ..numerics.dense import Dense
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
-from .decide import critical_name, from_hemisphere
 from .followed import Followed, followed, place
+from .limit.decide import critical_name, from_hemisphere
 from .places import OfState
 from .result import Phase
 

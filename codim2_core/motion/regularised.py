@@ -209,7 +209,7 @@ def _compiled(
 ) -> tuple[Simulation, ...]:
     """Follow motions compiled from the start, in as few calls as there are cores."""
     from ..initial_value.compiled import failure, followed  # loads the compiler
-    from ..initial_value.compiled_motion import UNDEFINED
+    from ..initial_value.kernels.motion import UNDEFINED
 
     lines = [invariant_line(formulas, first) for first in states]
     found, runs = followed(formulas, psi, eps, lines, states, span, rtol, atol / rtol, max_steps), []

@@ -16,7 +16,7 @@ from codim2_app.state.links import read_link, squeezed, unsqueezed, write_link
 from codim2_app.view.refresh import Frames
 
 from codim2_core import ELinear, System, psi
-from codim2_core.diagrams.class_map import class_map
+from codim2_core.diagrams.class_maps.atlas import class_map
 from codim2_core.scene import Scene
 
 CASE_3 = {"a": 172.0, "b": 186.0, "d": -200.0, "f1": -86.0, "f2": -93.0, "k1": 0.0}

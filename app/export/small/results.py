@@ -13,7 +13,7 @@ from codim2_core.bifurcations.curve import BifurcationCurve
 from codim2_core.bifurcations.plane_regions import Regions
 from codim2_core.continuation.result import CycleBranches
 from codim2_core.cycles.limit_cycles import LimitCycles
-from codim2_core.diagrams.class_map import ClassMap
+from codim2_core.diagrams.class_maps.atlas import ClassMap
 from codim2_core.diagrams.eigenvalue_path import LinearisationPath
 from codim2_core.diagrams.result import Diagram
 from codim2_core.figures.preset import Preset

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from codim2_core import bifurcations
 from codim2_core.bifurcations import BifurcationCurve
-from codim2_core.diagrams.class_line import Stretch, class_line
-from codim2_core.diagrams.class_map import ClassMap, class_map
+from codim2_core.diagrams.class_maps.atlas import ClassMap, class_map
+from codim2_core.diagrams.class_maps.line import Stretch, class_line
 from codim2_core.psi.function import Psi
 from codim2_core.systems.affine import as_elinear
 from codim2_core.systems.coefficients import Coefficients

@@ -12,7 +12,7 @@ import pytest
 import codim2_core as c2
 from codim2_core import bifurcations
 from codim2_core.continuation.branches import continue_cycles
-from codim2_core.diagrams.class_map import class_map
+from codim2_core.diagrams.class_maps.atlas import class_map
 from codim2_core.diagrams.diagram import diagram
 from codim2_core.diagrams.eigenvalue_path import linearisation_path
 from codim2_core.tables import number

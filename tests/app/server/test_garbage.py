@@ -3,7 +3,7 @@
 import gc
 
 import pytest
-from codim2_app.server import garbage
+from codim2_app.server.process import garbage
 
 
 @pytest.mark.parametrize(

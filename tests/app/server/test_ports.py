@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from codim2_app.server import ports
+from codim2_app.server.process import ports
 
 CODE = """import os, sys, urllib.request
 from codim2_app.server import page

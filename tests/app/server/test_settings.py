@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from codim2_app.server.logs import JsonLines
+from codim2_app.server.process.logs import JsonLines
 from codim2_app.server.settings import SETTINGS, add_settings, table
 
 

@@ -50,7 +50,7 @@ def test_the_first_process_of_a_container_is_not_deaf():
 def test_work_under_way_does_not_keep_it():
     """A thread that is not done is given some seconds, not more."""
     code = (
-        "import threading, time; from codim2_app.server import stopping; stopping.GRACE = 0.5\n"
+        "import threading, time; from codim2_app.server.process import stopping; stopping.GRACE = 0.5\n"
         "stopping.stop_when_asked(); threading.Thread(target=time.sleep, args=(300,)).start()\n"
         "try:\n    print('here', flush=True); time.sleep(300)\n"
         "except KeyboardInterrupt:\n    print('stopped', flush=True)\n"

@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import codim2_core as c2
-from codim2_core.diagrams.class_line import class_line
-from codim2_core.diagrams.class_map import ClassMap, class_map
-from codim2_core.diagrams.families import classes_over
-from codim2_core.diagrams.plane_classes import PlaneClasses
+from codim2_core.diagrams.class_maps.atlas import ClassMap, class_map
+from codim2_core.diagrams.class_maps.families import classes_over
+from codim2_core.diagrams.class_maps.line import class_line
+from codim2_core.diagrams.class_maps.plane_classes import PlaneClasses
+from codim2_core.diagrams.class_maps.typed_classes import TypedClasses
 from codim2_core.diagrams.sweep import class_name, classes, family
-from codim2_core.diagrams.typed.classes import TypedClasses
 from codim2_core.layer_problem.vary import varied
 
 BAD = c2.ELinear(172, 186, -200, f=(-86, -93))

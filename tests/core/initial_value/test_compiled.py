@@ -11,9 +11,9 @@ from codim2_core import ELinear, Event, System, examples, simulate, simulate_non
 from codim2_core import psi as families
 from codim2_core.initial_value import compiled
 from codim2_core.initial_value.compiled import CompiledMotion, is_compiled
-from codim2_core.initial_value.compiled_explicit import DEGREE
-from codim2_core.initial_value.compiled_motion import COUNT, IMPLICIT
 from codim2_core.initial_value.field import field
+from codim2_core.initial_value.kernels.explicit import DEGREE
+from codim2_core.initial_value.kernels.motion import COUNT, IMPLICIT
 from codim2_core.initial_value.problem import direction, plane_problem, smoothed
 from codim2_core.motion import regularised
 from codim2_core.motion.result import SimulationStatus

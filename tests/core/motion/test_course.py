@@ -14,15 +14,15 @@ from codim2_core.initial_value.events import Watch, checked_events
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.line import invariant_line
 from codim2_core.initial_value.problem import plane_problem
-from codim2_core.motion import course as module
 from codim2_core.motion import nonsmooth
 from codim2_core.motion.agreement import agreement
-from codim2_core.motion.course import PAST, Course, StopError
-from codim2_core.motion.decide import Decision
 from codim2_core.motion.followed import in_disc
-from codim2_core.motion.part import MotionPart
+from codim2_core.motion.limit import course as module
+from codim2_core.motion.limit.course import PAST, Course, StopError
+from codim2_core.motion.limit.decide import Decision
+from codim2_core.motion.limit.part import MotionPart
+from codim2_core.motion.limit.slide_on_cycle import CycleSlide
 from codim2_core.motion.result import Phase
-from codim2_core.motion.slide_on_cycle import CycleSlide
 from codim2_core.numerics.radau import STAGES, Step, TooManyStepsError
 
 PSI = c2.psi.rational()

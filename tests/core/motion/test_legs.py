@@ -10,7 +10,8 @@ import pytest
 
 from codim2_core import ELinear, Event, System, examples, psi, simulate_nonsmooth
 from codim2_core.initial_value import courses
-from codim2_core.motion import legs, nonsmooth
+from codim2_core.motion import nonsmooth
+from codim2_core.motion.limit import legs
 from codim2_core.motion.result import Phase, SimulationStatus
 
 SPAN = (0.0, 6.0)

@@ -9,8 +9,9 @@ import pytest
 import codim2_core as c2
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.sheet import solved
-from codim2_core.motion import agreement, decide, phases, places
+from codim2_core.motion import agreement, phases, places
 from codim2_core.motion.followed import followed, in_disc, place
+from codim2_core.motion.limit import decide
 from codim2_core.motion.result import Phase
 
 PSIS = [c2.psi.constant(), c2.psi.rational(), c2.psi.exponential(), c2.psi.tanh(), c2.psi.hill(3)]

@@ -11,8 +11,8 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.motion import phases as module
-from codim2_core.motion.decide import Decision
 from codim2_core.motion.followed import Followed
+from codim2_core.motion.limit.decide import Decision
 
 PSI = c2.psi.rational()
 EPS = 1e-3

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.motion import slide_on_cycle as module
-from codim2_core.motion.slide_on_cycle import APART, RTOL, _means, slide_on_cycle
+from codim2_core.motion.limit import slide_on_cycle as module
+from codim2_core.motion.limit.slide_on_cycle import APART, RTOL, _means, slide_on_cycle
 
 PSI = c2.psi.rational()
 SYSTEM = c2.System(U=("-s", "c"), W=("1", "1"))

@@ -14,9 +14,9 @@ from codim2_core.initial_value.line import InvariantLine
 from codim2_core.initial_value.problem import plane_problem
 from codim2_core.initial_value.safe_steps import _positive
 from codim2_core.initial_value.sheet import Sheet, complement, determinant, trace
-from codim2_core.motion.slide import _first, _last_alive, _place, _whole, slide
-from codim2_core.motion.slide_on_cycle import _means
-from codim2_core.motion.slip import slip
+from codim2_core.motion.limit.slide import _first, _last_alive, _place, _whole, slide
+from codim2_core.motion.limit.slide_on_cycle import _means
+from codim2_core.motion.limit.slip import slip
 from codim2_core.numerics.radau import Step
 
 PSIS = [c2.psi.constant(), c2.psi.rational(), c2.psi.tanh(), c2.psi.hill(3)]

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from codim2_core.layer_problem.equator import equator_equilibria
-from codim2_core.motion.decide import _ways_out
+from codim2_core.motion.limit.decide import _ways_out
 from codim2_core.systems.elinear import ELinear
 
 rates = st.floats(-0.9, 0.9).filter(lambda rate: abs(rate) > 1e-3)

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..layer_problem.vary import limits, names
-from ..psi.function import Psi
-from ..systems.affine import as_elinear
+from ...layer_problem.vary import limits, names
+from ...psi.function import Psi
+from ...systems.affine import as_elinear
+from ..family import family
 from .classes import Classes
-from .family import family
 from .plane_classes import PlaneClasses
-from .typed.classes import Samples, TypedClasses
+from .typed_classes import Samples, TypedClasses
 
 __all__ = ["classes_over"]
 

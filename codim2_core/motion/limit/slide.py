@@ -14,19 +14,19 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..initial_value.compiled_phases import CompiledPhases
-from ..initial_value.events import DEGREES, turns
-from ..initial_value.field import Field
-from ..initial_value.line import InvariantLine
-from ..initial_value.safe_steps import NODES, Safe
-from ..initial_value.sheet import Sheet, complement, determinant, trace
-from ..numerics.dense import Steps
-from ..numerics.growth import bounded
-from ..numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, steps
-from ..psi.function import Psi
+from ...initial_value.compiled_phases import CompiledPhases
+from ...initial_value.events import DEGREES, turns
+from ...initial_value.field import Field
+from ...initial_value.line import InvariantLine
+from ...initial_value.safe_steps import NODES, Safe
+from ...initial_value.sheet import Sheet, complement, determinant, trace
+from ...numerics.dense import Steps
+from ...numerics.growth import bounded
+from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, steps
+from ...psi.function import Psi
 
 if TYPE_CHECKING:
-    from ..initial_value.compiled_slow import CompiledSlow
+    from ...initial_value.compiled_slow import CompiledSlow
 
 Array = NDArray[np.float64]
 

@@ -6,9 +6,9 @@ import math
 
 from numba import njit
 
-from .compiled_arrival import write_at
-from .compiled_slow import RATES, TABLE
-from .leaving import FURTHEST, NEUTRAL, NEWTON, SLOW_START, START, TILT
+from ..leaving import FURTHEST, NEUTRAL, NEWTON, SLOW_START, START, TILT
+from .arrival import write_at
+from .slow import RATES, TABLE
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

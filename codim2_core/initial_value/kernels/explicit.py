@@ -12,9 +12,9 @@ from typing import Any
 
 from numba import njit
 
-from ..numerics.radau import FAILED, GROW, SAFETY, SHRINK
-from ..stepping import dop853, layout
-from .compiled_rate import PLACES, jacobian, rate_between
+from ...numerics.radau import FAILED, GROW, SAFETY, SHRINK
+from ...stepping import dop853, layout
+from .rate import PLACES, jacobian, rate_between
 
 WIDTH = 8  # components at most; a longer state is followed implicitly
 STIFF = 0.4  # h times a rate from which on a step may be short for stability alone, or for its loss of order

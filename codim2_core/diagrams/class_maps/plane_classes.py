@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .classes import Array, Codes
-from .sweep import (
+from ..sweep import (
     UNDEFINED,
     Plane,
     Sweep,
@@ -18,6 +17,7 @@ from .sweep import (
     linearise,
     scale,
 )
+from .classes import Array, Codes
 
 __all__ = ["PlaneClasses", "happening"]
 

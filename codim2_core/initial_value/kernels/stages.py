@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import njit
 
-from ..numerics.radau import ITERATIONS, STAGES, Tableau
-from ..stepping.numbers import PSI
-from .compiled_explicit import ROOM
-from .compiled_rate import rate
+from ...numerics.radau import ITERATIONS, STAGES, Tableau
+from ...stepping.numbers import PSI
+from .explicit import ROOM
+from .rate import rate
 
 FARTHEST = 4.0  # times the last step: how far its polynomial is continued
 

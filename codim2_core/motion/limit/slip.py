@@ -13,11 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..initial_value.compiled_phases import CompiledPhases
-from ..initial_value.leaving import polynomial_of
-from ..initial_value.problem import arrived
-from ..numerics.growth import bounded
-from ..numerics.radau import Problem, Step, TooManyStepsError, steps
+from ...initial_value.compiled_phases import CompiledPhases
+from ...initial_value.leaving import polynomial_of
+from ...initial_value.problem import arrived
+from ...numerics.growth import bounded
+from ...numerics.radau import Problem, Step, TooManyStepsError, steps
 
 Array = NDArray[np.float64]
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.dense import Dense
-from ..psi.function import Psi
-from ..systems.kinds import AnySystem
-from .places import Ascent, Leaving, OfState, OnCycle, OnSet, Place
-from .result import Phase
+from ...numerics.dense import Dense
+from ...psi.function import Psi
+from ...systems.kinds import AnySystem
+from ..places import Ascent, Leaving, OfState, OnCycle, OnSet, Place
+from ..result import Phase
 
 Array = NDArray[np.float64]
 

@@ -8,16 +8,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cycles.limit_cycles import limit_cycles
-from ..layer_problem.critical import CriticalSet, critical_sets
-from ..layer_problem.equator import EquatorEquilibria, equator_equilibria
-from ..layer_problem.problem import LayerProblem
-from ..portrait.approach import outcome_towards
-from ..portrait.verdicts import ends, followed, judge
-from ..psi.constructors import compared, constant
-from ..psi.function import Psi
-from ..systems.kinds import AnySystem
-from ..words import say
+from ...cycles.limit_cycles import limit_cycles
+from ...layer_problem.critical import CriticalSet, critical_sets
+from ...layer_problem.equator import EquatorEquilibria, equator_equilibria
+from ...layer_problem.problem import LayerProblem
+from ...portrait.approach import outcome_towards
+from ...portrait.verdicts import ends, followed, judge
+from ...psi.constructors import compared, constant
+from ...psi.function import Psi
+from ...systems.kinds import AnySystem
+from ...words import say
 
 Array = NDArray[np.float64]
 

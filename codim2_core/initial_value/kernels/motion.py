@@ -12,12 +12,11 @@ import math
 import numpy as np
 from numba import njit
 
-from ..numerics.radau import CAREFUL, FAILED, GROW, GROWTH_AFTER_FAILURE
-from . import compiled_explicit as explicit
-from . import compiled_radau as radau
-from . import problem
-from .compiled_rate import Motion, inward_bound, rate, sizes
-from .compiled_stages import tableau_of, workspace
+from ...numerics.radau import CAREFUL, FAILED, GROW, GROWTH_AFTER_FAILURE
+from .. import problem
+from . import explicit, radau
+from .rate import Motion, inward_bound, rate, sizes
+from .stages import tableau_of, workspace
 
 FINISHED, LIMIT, SHORT, FULL, BLOWN_UP, UNDEFINED, ARRIVED = range(7)
 FIRST = 1e-2  # of rho/|U|: the first step tried

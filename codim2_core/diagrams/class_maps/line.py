@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..psi.function import Psi
-from ..tables import Tabled, number
-from .critical import OFF_CENTRE
-from .diagram import diagram
+from ...psi.function import Psi
+from ...tables import Tabled, number
+from ..critical import OFF_CENTRE
+from ..diagram import diagram
 from .families import classes_over
 
 __all__ = ["Stretch", "class_line"]

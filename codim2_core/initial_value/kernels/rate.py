@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 from numba import njit
 
-from ..expressions.names import MOST_SLOW_VARIABLES
-from ..stepping.layout import call_field
-from .problem import INWARD
+from ...expressions.names import MOST_SLOW_VARIABLES
+from ...stepping.layout import call_field
+from ..problem import INWARD
 
 DIFFERENCE = 1e-5
 

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import drawing
-from ..psi.function import Psi
-from ..tables import Tabled, number, point, rows, table
-from .class_map_grid import THIN, Spans, Tree, tree
-from .class_map_trace import Boundaries, chains, rings, traced
+from ... import drawing
+from ...psi.function import Psi
+from ...tables import Tabled, number, point, rows, table
 from .classes import Classes
 from .families import classes_over
-from .typed.classes import Samples, TypedClasses
+from .grid import THIN, Spans, Tree, tree
+from .trace import Boundaries, chains, rings, traced
+from .typed_classes import Samples, TypedClasses
 
 __all__ = ["ClassMap", "MapBoundary", "MapRegion", "class_map"]
 

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cycles.limit_cycles import LimitCycle, limit_cycles
-from ..initial_value.problem import growth_bound
-from ..numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
-from ..psi.function import Psi
-from ..systems.kinds import AnySystem
+from ...cycles.limit_cycles import LimitCycle, limit_cycles
+from ...initial_value.problem import growth_bound
+from ...numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
+from ...psi.function import Psi
+from ...systems.kinds import AnySystem
 
 Array = NDArray[np.float64]
 

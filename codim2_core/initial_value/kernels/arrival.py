@@ -13,10 +13,10 @@ import math
 
 from numba import njit
 
-from ..stepping.layout import bits_of_double, call_field
-from .compiled_rate import GAIN, RADIUS
-from .compiled_slow import PLACE, RATES, TABLE, VALUE, found_set, write_slopes
-from .line import NET
+from ...stepping.layout import bits_of_double, call_field
+from ..line import NET
+from .rate import GAIN, RADIUS
+from .slow import PLACE, RATES, TABLE, VALUE, found_set, write_slopes
 
 SIGNED = 1e-6  # of the size of D_e U and U: what has a sign for sure
 ATTRACTS = 1e-2  # of the size of D_e U squared: its determinant, where orbits are said to end
@@ -198,7 +198,7 @@ def slides(S, P, gain, n, affine, known, n1, n2, theta):
     Parameters
     ----------
     S : (EXTENT,)
-        As `compiled_slow` reads it, with z in place.
+        As `slow` reads it, with z in place.
     P : (PARAMETERS,)
         With the parameter of Psi.
     gain : int64

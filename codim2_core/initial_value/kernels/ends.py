@@ -11,8 +11,8 @@ import math
 import numpy as np
 from numba import njit
 
-from .compiled_slow import PLACE, TABLE, found_set
-from .safe_steps import COEFFICIENTS, DEGREE, LEFT_OUT, NODES
+from ..safe_steps import COEFFICIENTS, DEGREE, LEFT_OUT, NODES
+from .slow import PLACE, TABLE, found_set
 
 SAFE, EQUATOR, UNSURE = range(3)
 GAUGES = 4  # 1 - |e|^2; det D_e U with its sign; and the two parts of -tr J, across C and along it

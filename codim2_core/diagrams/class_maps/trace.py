@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .class_map_grid import Spans, Tree, crossings
 from .classes import Classes
+from .grid import Spans, Tree, crossings
 
 __all__ = ["Boundaries", "chains", "rings", "traced"]
 

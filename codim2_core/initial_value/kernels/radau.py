@@ -1,6 +1,6 @@
 """Radau IIA of order 9 for one motion (x, y, z), compiled: the method of `numerics.radau`, step by step the same.
 
-What `numerics.radau` writes in arrays stands here, and in `compiled_stages`, in plain loops over numbers.
+What `numerics.radau` writes in arrays stands here, and in `stages`, in plain loops over numbers.
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ import math
 import numpy as np
 from numba import njit
 
-from ..numerics.radau import FAILED, GROW, SAFETY, SHRINK, STAGES
-from .compiled_rate import inward_bound, jacobian, rate, sizes
-from .compiled_stages import factor, guess, matrices, solve, solved
-from .problem import CONTACT
+from ...numerics.radau import FAILED, GROW, SAFETY, SHRINK, STAGES
+from ..problem import CONTACT
+from .rate import inward_bound, jacobian, rate, sizes
+from .stages import factor, guess, matrices, solve, solved
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")

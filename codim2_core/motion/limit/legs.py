@@ -9,19 +9,19 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..initial_value.compiled_course import LEAVE, SLIDE, WHOLE
-from ..initial_value.courses import Followed, Leg
-from ..initial_value.line import InvariantLine
-from ..numerics.dense import Dense
-from ..psi.constructors import constant
-from ..psi.function import Psi
-from ..systems.kinds import AnySystem
-from ..words import say
+from ...initial_value.courses import Followed, Leg
+from ...initial_value.kernels.course import LEAVE, SLIDE, WHOLE
+from ...initial_value.line import InvariantLine
+from ...numerics.dense import Dense
+from ...psi.constructors import constant
+from ...psi.function import Psi
+from ...systems.kinds import AnySystem
+from ...words import say
+from ..followed import in_disc
+from ..places import Ascent
+from ..result import Phase
 from .decide import Decision, arriving, critical_name
-from .followed import in_disc
 from .part import MotionPart
-from .places import Ascent
-from .result import Phase
 
 Array = NDArray[np.float64]
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from ...layer_problem.vary import varied
 from ...psi.function import Psi
-from ..classes import UNKNOWN, Array, Codes
 from ..sweep import UNDEFINED
-from .state import State
+from ..typed.state import State
+from .classes import UNKNOWN, Array, Codes
 
 __all__ = ["Samples", "TypedClasses"]
 

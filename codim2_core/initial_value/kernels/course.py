@@ -1,7 +1,7 @@
 """Whole motions in the limit eps -> 0, compiled: slip, arrival, slide, end at the equator, and so on.
 
-A phase is followed as far as safe signs tell what comes next: that an arrival slides (`compiled_arrival`), that a slide
-goes on or ends at the equator (`compiled_ends`), that there is one way out (`compiled_leave`). Where they do not, the
+A phase is followed as far as safe signs tell what comes next: that an arrival slides (`arrival`), that a slide
+goes on or ends at the equator (`ends`), that there is one way out (`leave`). Where they do not, the
 motion is handed over where that phase began.
 """
 
@@ -12,24 +12,36 @@ import math
 import numpy as np
 from numba import njit
 
-from ..stepping.layout import PARAMETERS, double_of_bits
-from ..stepping.numbers import PSI
-from . import compiled_explicit as explicit
-from .compiled_arrival import slides
-from .compiled_ends import GAUGES, SAFE, UNSURE, determinant, step_end
-from .compiled_leave import leave
-from .compiled_motion import ARRIVED, CHUNK, CONTROL, FINISHED, FIRST, FULL, LEAST, NEXT, follow, longer, prepared
-from .compiled_rate import Motion, rate
-from .compiled_slow import EXTENT, PLACE, RATES, SLOPES, SLOW, VALUE, found_set
-from .compiled_stages import tableau_of, work_on
-from .safe_steps import DEGREE
+from ...stepping.layout import PARAMETERS, double_of_bits
+from ...stepping.numbers import PSI
+from ..safe_steps import DEGREE
+from . import explicit
+from .arrival import slides
+from .ends import GAUGES, SAFE, UNSURE, determinant, step_end
+from .leave import leave
+from .motion import (
+    ARRIVED,
+    CHUNK,
+    CONTROL,
+    FINISHED,
+    FIRST,
+    FULL,
+    LEAST,
+    NEXT,
+    follow,
+    longer,
+    prepared,
+)
+from .rate import Motion, rate
+from .slow import EXTENT, PLACE, RATES, SLOPES, SLOW, VALUE, found_set
+from .stages import tableau_of, work_on
 
 SLIP, SLIDE, LEAVE = range(3)  # what a phase is; one that begins with LEAVE is a slip
 ROW = 5  # numbers of a phase: its motion, what it is, its first and last step, the angle it comes along
 TOLD = 5  # numbers of a motion: its steps and phases, what is handed over (or WHOLE), the angle, evaluations
 WHOLE = -1
 SHORTEST = 1e-14  # of the time ahead: shorter steps mean that a set ends
-OF_SLIPS = 0.5  # of rtol, asked of the steps of a slip: see `compiled_phases`
+OF_SLIPS = 0.5  # of rtol, asked of the steps of a slip: see `initial_value.compiled_phases`
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -116,7 +128,7 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
     Returns
     -------
     times, lengths (N,), states (N n,), polynomials (N 7 n,), sets (N 2,)
-        As of `compiled_motion.follow_all`; and e there, where a motion slides.
+        As of `motion.follow_all`; and e there, where a motion slides.
     phases : (p ROW,)
     told : (k, TOLD)
     """

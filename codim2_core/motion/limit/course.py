@@ -11,24 +11,24 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cycles.limit_cycles import limit_cycles
-from ..initial_value.compiled_phases import CompiledPhases
-from ..initial_value.events import Watch
-from ..initial_value.field import Field
-from ..initial_value.leaving import leave
-from ..initial_value.line import InvariantLine
-from ..layer_problem.equator import equator_equilibria
-from ..numerics.dense import Steps
-from ..numerics.radau import Problem, Step, TooManyStepsError
-from ..psi import constructors
-from ..psi.function import Psi
-from ..systems.kinds import AnySystem
-from ..words import say
+from ...cycles.limit_cycles import limit_cycles
+from ...initial_value.compiled_phases import CompiledPhases
+from ...initial_value.events import Watch
+from ...initial_value.field import Field
+from ...initial_value.leaving import leave
+from ...initial_value.line import InvariantLine
+from ...layer_problem.equator import equator_equilibria
+from ...numerics.dense import Steps
+from ...numerics.radau import Problem, Step, TooManyStepsError
+from ...psi import constructors
+from ...psi.function import Psi
+from ...systems.kinds import AnySystem
+from ...words import say
+from ..followed import in_disc
+from ..places import Ascent
+from ..result import Phase
 from .decide import Decision, arriving, critical_name, from_hemisphere, starting
-from .followed import in_disc
 from .part import MotionPart
-from .places import Ascent
-from .result import Phase
 from .slide import slide
 from .slide_on_cycle import slide_on_cycle
 from .slip import slip
