@@ -126,6 +126,7 @@ export class Explorer {
   begin() {
     const {root, values, rest} = this
     this.showRanges()
+    this.showRefused() // once more: what came with the connection has put what holds in its place
     this.theme.paint(); this.showLayers(); this.psi.show(values.psi); this.portraits.tell()
     rest.note("opening", true)
     requestAnimationFrame(() => setTimeout(() => { // the panel costs as much as all else: the picture is painted before it

@@ -158,7 +158,9 @@ def test_what_a_link_asked_in_vain_is_read_where_its_control_is_in_a_closed_shee
     assert page.find(".legend").bounding_box()["height"] == height
     tab, strip = page.find("#c2-tab-orbits").bounding_box(), page.find(".tabs").bounding_box()
     assert strip["x"] < tab["x"] < tab["x"] + tab["width"] < strip["x"] + strip["width"]
-    for row in (".legend", ".reading", ".tabs"):
+    fades = page.find(".tabs").evaluate("(row) => getComputedStyle(row, '::after').backgroundImage")
+    assert "linear-gradient" in fades
+    for row in (".legend", ".reading"):
         assert "linear-gradient" in page.find(row).evaluate("(row) => getComputedStyle(row).maskImage")
 
 

@@ -98,7 +98,8 @@ def opening_axes(scene: Scene, values: Mapping[str, Any], locked: Collection[str
     choice = values["system"]
     across, up = axes_of(OWN if choice == NORMAL and not isinstance(scene.system, ELinear) else choice)
     there = axes_there(scene, values, locked)
-    read = {name for name, axis in there.items() if name == "n" or axis.core in getattr(scene.system, "numbers", there)}
+    numbers = getattr(scene.system, "numbers", [axis.core for axis in there.values()])
+    read = {name for name, axis in there.items() if name == "n" or axis.core in numbers}
     read = read or there.keys()
     # along Sigma, then over what the system's author named
     order = sorted(there, key=lambda name: (name not in read, name not in SLOW_CONTROLS, not name.startswith(OWN_AXIS)))
