@@ -153,9 +153,18 @@ class Workers(Executor):
         pipe: Connection | None = None
         process: Any = None
         while (task := self._tasks.get()) is not None:
-            future, call = task
-            if not future.set_running_or_notify_cancel():
-                continue
+            pipe, process = self._serve_one(*task, pipe, process)
+            del task  # while it waits for the next, it holds nobody who waited for this one
+        if process is not None:
+            assert pipe is not None
+            pipe.close()  # an idle worker ends when nobody can speak to it
+            process.join(1.0)
+
+    def _serve_one(
+        self, future: Stoppable, call: bytes, pipe: Connection | None, process: Any
+    ) -> tuple[Connection | None, Any]:
+        """Hand one work to a process, a new one if there is none; return it, and the pipe to it."""
+        if future.set_running_or_notify_cancel():
             try:
                 if process is None or not process.is_alive():
                     pipe, process = self._start()
@@ -165,10 +174,7 @@ class Workers(Executor):
                 future.set_exception(error)
             else:
                 future.set_result(result)
-        if process is not None:
-            assert pipe is not None
-            pipe.close()  # an idle worker ends when nobody can speak to it
-            process.join(1.0)
+        return pipe, process
 
     def _start(self) -> tuple[Connection, Any]:
         with self._once:

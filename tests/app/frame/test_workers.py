@@ -1,10 +1,12 @@
 """Processes beside the frames: what they compute, and that they stop."""
 
+import gc
 import os
 import signal
 import subprocess
 import sys
 import time
+import weakref
 from concurrent.futures import CancelledError, wait
 from pathlib import Path
 
@@ -130,3 +132,23 @@ def test_what_lies_in_the_folder_of_the_server_is_not_imported_by_its_workers(tm
     done = subprocess.run([sys.executable, str(script)], cwd=here, capture_output=True, text=True, check=True)
     assert done.stdout == "True\n"
     assert not (here / "imported").exists()
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_an_idle_worker_holds_nobody_who_waited_for_its_last_work(workers, fails):
+    class Page:
+        def told(self, _):
+            pass
+
+    page = Page()
+    future = workers.submit(int, "x" if fails else "1")
+    future.add_done_callback(page.told)
+    assert isinstance(future.exception(60), ValueError if fails else type(None))
+    held = weakref.ref(page)
+    del page, future
+
+    end = time.monotonic() + 2.0
+    while held() is not None and time.monotonic() < end:
+        time.sleep(0.01)
+        gc.collect()
+    assert held() is None
