@@ -27,9 +27,10 @@ from ..systems.elinear import ELinear
 from ..words import say
 from .asking import answered
 from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, reversible, values
+from .points import Guess, Trace, reversed_trace
 from .result import CycleBranch, CycleBranches, CyclePoint
 from .sought import sought
-from .trace import LEVEL, Guess, Trace, Tracer, reversed_trace
+from .trace import LEVEL, Tracer
 from .turns import Turn
 from .varied_system import Asking, At, VariedSystem, follow
 

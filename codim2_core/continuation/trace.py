@@ -12,9 +12,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from .ahead import Place, ahead
+from .points import Guess, Point, Trace
 from .turns import Turn
 from .varied_system import Asking, Question, VariedSystem
 
@@ -35,41 +36,6 @@ MISSED = 0.3  # distance of a point from its prediction, in steps, beyond which 
 TURNED = 0.95  # cosine between successive tangents below which a step is too long
 AHEAD, MEMORY = 8, 12  # points predicted at once; last points that predictions know of
 NEARBY = 1e-5  # in xi rate and nu: for the derivatives of the exponent
-
-
-@dataclass(frozen=True)
-class Point:
-    """A point of a branch: a turn that closes, its nu, and the unit tangent (chi, nu)."""
-
-    turn: Turn
-    nu: float
-    tangent: tuple[float, float]
-
-    def xi(self, chi: float, change: float) -> float:
-        """Find the xi of a chi nearby, where the value has changed: ln y is nearly linear in both."""
-        here = self.turn
-        chi = min(max(chi, 0.05 * here.chi), 1.0 - 0.05 * (1.0 - here.chi))
-        logit = math.log(chi / (1.0 - chi)) - math.log(here.chi / (1.0 - here.chi))
-        return here.xi + (logit * here.chi * (1.0 - here.chi) - here.drift * change) / here.rate
-
-
-@dataclass(frozen=True)
-class Guess:
-    """Where a closed turn is looked for, on the line through (xi, nu) across the covector `along` (xi, nu)."""
-
-    xi: float
-    nu: float
-    along: tuple[float, float]
-    backward: bool
-
-
-@dataclass(frozen=True)
-class Trace:
-    """Points in order, folds among them by index, and why it stopped: "C", "equator", "span", "closed" or "stuck"."""
-
-    points: tuple[Point, ...]
-    folds: tuple[int, ...]
-    reason: str
 
 
 class Tracer:
@@ -354,10 +320,3 @@ def _round(start: Point, here: Point, there: Point) -> bool:
 
 def _distance(one: Point, other: Point) -> float:
     return math.hypot(other.turn.chi - one.turn.chi, other.nu - one.nu)
-
-
-def reversed_trace(trace: Trace) -> Trace:
-    """Return the same points in the opposite order, tangents turned; `reason` is dropped."""
-    points = tuple(replace(p, tangent=(-p.tangent[0], -p.tangent[1])) for p in reversed(trace.points))
-    last = len(points) - 1
-    return Trace(points, tuple(sorted(last - i for i in trace.folds)), "")

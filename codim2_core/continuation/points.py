@@ -1,0 +1,50 @@
+"""What a branch of cycles is made of: its points, and guesses of the next ones."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from .turns import Turn
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point of a branch: a turn that closes, its nu, and the unit tangent (chi, nu)."""
+
+    turn: Turn
+    nu: float
+    tangent: tuple[float, float]
+
+    def xi(self, chi: float, change: float) -> float:
+        """Find the xi of a chi nearby, where the value has changed: ln y is nearly linear in both."""
+        here = self.turn
+        chi = min(max(chi, 0.05 * here.chi), 1.0 - 0.05 * (1.0 - here.chi))
+        logit = math.log(chi / (1.0 - chi)) - math.log(here.chi / (1.0 - here.chi))
+        return here.xi + (logit * here.chi * (1.0 - here.chi) - here.drift * change) / here.rate
+
+
+@dataclass(frozen=True)
+class Guess:
+    """Where a closed turn is looked for, on the line through (xi, nu) across the covector `along` (xi, nu)."""
+
+    xi: float
+    nu: float
+    along: tuple[float, float]
+    backward: bool
+
+
+@dataclass(frozen=True)
+class Trace:
+    """Points in order, folds among them by index, and why it stopped: "C", "equator", "span", "closed" or "stuck"."""
+
+    points: tuple[Point, ...]
+    folds: tuple[int, ...]
+    reason: str
+
+
+def reversed_trace(trace: Trace) -> Trace:
+    """Return the same points in the opposite order, tangents turned; `reason` is dropped."""
+    points = tuple(replace(p, tangent=(-p.tangent[0], -p.tangent[1])) for p in reversed(trace.points))
+    last = len(points) - 1
+    return Trace(points, tuple(sorted(last - i for i in trace.folds)), "")
