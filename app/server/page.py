@@ -85,6 +85,7 @@ def session() -> ExplorerView:
     # The page says itself when the connection is lost, and loads itself again: see connection.js.
     doc.config.update(reconnect_session=False, notify_connection_status=False, notifications=None)
     doc.on_session_destroyed(lambda _: view.leave())
+    doc.on_session_destroyed(lambda _: garbage.ended())
     views[doc] = view
     doc.template = page_template()  # type: ignore[assignment]  # Bokeh takes a template's text as well
     doc.template_variables["explorer_script"] = address_of_script()

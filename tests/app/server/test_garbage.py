@@ -35,3 +35,20 @@ def test_python_looks_through_the_young_only():
         assert gc.get_threshold() == (*before[:2], garbage.NEVER)
     finally:
         gc.set_threshold(*before)
+
+
+@pytest.mark.parametrize(("since", "looked"), [(garbage.REST - 0.01, 0), (garbage.REST, 1)])
+def test_what_a_session_leaves_is_looked_for_once_at_rest(monkeypatch, since, looked):
+    done = []
+    monkeypatch.setattr(garbage, "_asked", 90.0)
+    monkeypatch.setattr(garbage, "_ended", 0.0)
+    monkeypatch.setattr(garbage.time, "monotonic", lambda: 100.0)
+    monkeypatch.setattr(gc, "get_count", lambda: (5, 5, 0))
+    monkeypatch.setattr(gc, "collect", lambda: done.append(1))
+    garbage.look()
+    assert not done
+    garbage.ended()
+    monkeypatch.setattr(garbage.time, "monotonic", lambda: 100.0 + since)
+    garbage.look()
+    garbage.look()
+    assert len(done) == looked
