@@ -108,10 +108,7 @@ def read_link(query: str | Mapping[str, str]) -> Link:
             given = {**dict(parse_qsl(unsqueezed(given.pop("s")), keep_blank_values=True)), **given}
         except ValueError as error:
             errors.append(InputError("", str(error)))
-    for name in (
-        "room",
-        "done",
-    ):  # the page enters it, adds it to what is done: see static/room and static/panels/lessons.js
+    for name in ("room", "done"):  # of the page: see static/room, static/panels/lessons.js
         given.pop(name, None)
     first = _first(given.pop("v", ""), errors)
     look = _look(given, errors)

@@ -94,7 +94,7 @@ def followed(
     first : ndarray (k, n)
     span : (t_start, t_end)
     rtol, floor, most
-        As in `Compiled`.
+        As in `CompiledMotion`.
     """
     own = constant() if psi is None else psi
     outside, inside = functions_of(field, constant()), functions_of(field, own)

@@ -273,8 +273,8 @@ def _linear(U: Sequence[Expression], W: Sequence[Expression], parameters: Mappin
     if any(word in ("c", "s") for side in sides for entry in side for word in entry.names):
         return None
     (a, shear), (b, d) = sides[:2]
-    total = [side.constant for side in (shear, b)]
-    if (shear, b) != (ZERO, ZERO) and (None in total or sum(map(float, total)) != 0.0):  # type: ignore[arg-type]
+    above, below = shear.constant, b.constant
+    if above is None or below is None or above + below != 0.0:
         return None
     rest = [row.substitute("c", ZERO).substitute("s", ZERO) for row in rows]
     return ELinear(a, b, d, rest[:2], sides[2:] or None, rest[2:] or None, parameters)

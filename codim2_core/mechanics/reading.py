@@ -43,11 +43,11 @@ def velocities(values: Any) -> tuple[str, ...]:
     return found
 
 
-def slow(values: Any, what: str = "slow") -> tuple[str, ...]:
+def slow(values: Any) -> tuple[str, ...]:
     """Check the names of the slow variables."""
-    found = words(values, what)
+    found = words(values, "slow")
     if len(found) > len(SLOW):
-        raise ValueError(f"{what} has {len(found)} names; at most {len(SLOW)} slow variables are allowed.")
+        raise ValueError(f"slow has {len(found)} names; at most {len(SLOW)} slow variables are allowed.")
     return found
 
 
