@@ -43,6 +43,14 @@ def _bits_of_double(value: float) -> int:
 STAND_INS = {one.__name__: one for one in (_call_field, _call_at, _double_of_bits, _bits_of_double)}
 
 
+def _njit(function: Any = None, **_options: Any) -> Any:
+    """Return the function itself, which knows itself as Python."""
+    if function is None:
+        return _njit
+    function.py_func = function
+    return function
+
+
 def interpret() -> None:
     """See to it that modules imported from now on compile nothing."""
     import numba
@@ -50,6 +58,7 @@ def interpret() -> None:
 
     np.seterr(all="ignore")  # as in machine code
     numba.config.DISABLE_JIT = True
+    numba.njit = _njit
     numba.cfunc = lambda *_signature, **_options: Entry
     numba.carray = lambda pointer, shape: pointer[: shape[0]]
     numba.extending.intrinsic = lambda function: STAND_INS[function.__name__]

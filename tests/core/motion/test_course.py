@@ -44,6 +44,8 @@ def step(first, last, start=1.0, h=0.5):
 def test_z_a_part_of_the_time_ahead_lies_along_the_slow_flow():
     own, e = course(), np.array([0.3, -0.2])
     np.testing.assert_allclose(own.ahead(e, 0.25), np.array([0.2, -0.1]) + 0.25 * 2.0 * np.array([2.3, -0.4]))
+    beside = c2.System(U=("-c", "-s"), W=("1 + 3*x + 5*y + s", "x*y - c"))  # on Sigma x = y = 0
+    np.testing.assert_allclose(course(beside).ahead(e, 0.25), np.array([0.2, -0.1]) + 0.5 * np.array([0.8, -0.3]))
 
 
 def script(monkeypatch, name, answers):
@@ -222,6 +224,21 @@ def test_in_a_line_its_own_equation_decides(q, z, kind, there):
     start, last = own.ascent.along
     np.testing.assert_allclose(start, in_disc(PSI, np.array([q, 0.0])))
     np.testing.assert_allclose(last, in_disc(PSI, np.array([end, 0.0])), rtol=0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("end", [1.0, -1.0])
+@pytest.mark.parametrize(("flow", "kind"), [(1.0, "leave"), (-1.0, "slide")])
+def test_in_a_line_a_set_on_the_equator_moves_in_or_out(end, flow, kind):
+    """q' = z - q at z = +-1."""
+    system = c2.ELinear(-1.0, 0.0, -1.0, ("z", 0.0), B=((0.0, 0.0),), g=(flow * end,))
+    state = (0.0, 0.0, end)
+    own = course(system, state=state, line=invariant_line(field(system), np.array([0.1, *state[1:]])))
+    found = own.in_line(-0.5 * end, "So.")
+    assert found.kind == kind
+    if kind == "slide":
+        assert found.e == pytest.approx([end, 0.0], abs=1e-12)
+    else:
+        assert math.cos(found.theta) == pytest.approx(end)
 
 
 def test_at_rest_on_a_repelling_set_of_a_line_it_stops():

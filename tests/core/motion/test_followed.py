@@ -11,6 +11,8 @@ SETS = {
     "node": c2.ELinear(-1.0, 0.0, -3.0, (0.2, -0.3)),
     "focus": c2.ELinear(-1.0, 4.0, -1.5, (0.2, -0.3)),
     "saddle": c2.ELinear(1.0, 0.0, -3.0, (0.2, -0.3)),
+    "slow node": c2.ELinear(-0.4, 0.0, -0.3, (0.05, -0.1)),
+    "slow, repels": c2.ELinear(0.3, 2.0, 0.2, (0.2, -0.3)),
 }
 
 
@@ -45,3 +47,22 @@ def test_a_state_follows_within_twice_what_the_slow_manifold_is_away(psi):
             if found is not None:
                 np.testing.assert_allclose(found.e, C.e, rtol=0.0, atol=1e-9)
                 np.testing.assert_allclose(found.p, C.p, rtol=0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize(("away", "follows"), [(0.95e-3, True), (1.05e-3, False), (0.3, False)])
+def test_where_the_slow_manifold_is_the_set_a_state_follows_within_what_an_orbit_is_given(away, follows):
+    system, psi, eps = SETS["node"], c2.psi.rational(), 1e-9
+    (C,) = c2.critical_sets(system, psi)
+    for way in ((1.0, 0.0), (-0.6, 0.8)):
+        p = C.p + away * np.array(way)
+        found = followed(field(system), psi, eps, eps * p / np.sqrt(1.0 - p @ p))
+        assert (found is not None) == follows
+
+
+@pytest.mark.parametrize(("away", "follows"), [(0.24, True), (0.26, False)])
+def test_no_state_follows_that_is_further_than_a_quarter(away, follows):
+    """However far the slow manifold is: W = 100."""
+    system, psi, eps = c2.System(U=("-c + z/4", "-2*s"), W=("100",)), c2.psi.rational(), 0.02
+    p = np.array([away, 0.0])
+    found = followed(field(system), psi, eps, np.append(eps * p / np.sqrt(1.0 - p @ p), 0.0))
+    assert (found is not None) == follows

@@ -124,3 +124,20 @@ def test_a_part_seen_nearer_has_the_cells_of_the_whole_as_finely():
 def test_a_box_that_is_none_is_refused(box):
     with pytest.raises(ValueError, match="left < right"):
         basins(c2.presets["case1-cm4"].system, c2.psi.constant(), n=32, box=box)
+
+
+def test_shares_are_parts_of_the_cells_of_the_disc():
+    """Two halves; and a quarter that leads nowhere, whose cells count as well."""
+    found = basins(c2.examples.nonunique_sliding(), c2.psi.tanh(), (0.4,), n=64)
+    assert found.shares == (0.5, 0.5)
+    cells = np.full((4, 4), OUTSIDE, np.int8)
+    cells[1:3] = [[UNDECIDED, 0, 0, 1], [UNDECIDED, 0, 1, 0]]
+    assert module.Basins(cells, ("C1", "C2"), (None, None), 0).shares == (0.5, 0.25)
+    nothing = np.full((4, 4), OUTSIDE, np.int8)
+    assert module.Basins(nothing, ("C1",), (None,), 0).shares == (0.0,)
+
+
+def test_a_notebook_shows_the_picture_and_the_shares():
+    told = basins(c2.examples.nonunique_sliding(), c2.psi.tanh(), (0.4,), n=32)._repr_html_()
+    assert told.index("<svg") < told.index("<table")
+    assert told.count("<td>0.5</td>") == 2

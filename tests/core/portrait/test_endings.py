@@ -247,3 +247,67 @@ def test_an_orbit_that_is_near_a_limit_direction_is_followed_before_it_is_said_t
     for then, label in (((Status.ARRIVED, place(second, 0.0)), "Q2"), ((Status.SPIRALLED, place(1.0, 0.0)), "equator")):
         one, _ = ended(monkeypatch, place(first, 5e-5), then=[then])
         assert one.label == label
+
+
+NEUTRAL = equator([0.3, 1.4, 2.9, 4.4], [1, 1, 1, 1], lambda_rho=[1.0, 0.0, -1.0, 2.0])[0]
+SADDLE = SimpleNamespace(p=np.array([0.3, 0.4]), kind="saddle")
+NODE = SimpleNamespace(p=np.array([-0.2, 0.1]), kind="stable node")
+
+
+def _ends(monkeypatch, place, height, status, then=None, critical=(SADDLE, NODE), cycles=()):
+    """What is said of one trajectory; followed on, it is at `then`, a status and a place."""
+    at = SimpleNamespace(speed=1.0)
+    later = (Status.T_MAX, place) if then is None else then
+    on = SimpleNamespace(status=[later[0]], ends=np.array([[*later[1], height]]))
+    monkeypatch.setattr(endings, "_followed", lambda *given: on)
+    monkeypatch.setattr(endings, "_tangent_at", lambda C, p: 0.7)
+
+    class Lines(SimpleNamespace):
+        def __len__(self):
+            return 1
+
+    lines = Lines(status=(status,), ends=np.array([[*place, height]]))
+    (found,) = endings.endings(at, None, lines, NEUTRAL, critical, lambda: cycles)
+    return found.label, found.sentence
+
+
+def _beside(p, distance):
+    return (p[0] + distance, p[1])
+
+
+def test_an_equilibrium_is_the_set_that_is_near(monkeypatch):
+    near, far = _beside(NODE.p, 9e-3), _beside(NODE.p, 1.1e-2)
+    assert _ends(monkeypatch, near, 0.9, Status.EQUILIBRIUM) == ("C2", Status.EQUILIBRIUM.value)
+    assert _ends(monkeypatch, far, 0.9, Status.EQUILIBRIUM)[0] == "undecided"
+    assert _ends(monkeypatch, near, 0.9, Status.EQUILIBRIUM, critical=(NODE,))[0] == "C"
+
+
+def test_only_what_has_stopped_at_a_saddle_is_said_to(monkeypatch):
+    assert _ends(monkeypatch, _beside(SADDLE.p, 9e-5), 0.8, Status.T_MAX) == ("C1", endings.CONNECTION)
+    assert _ends(monkeypatch, _beside(SADDLE.p, 9e-3), 0.8, Status.T_MAX)[0] == "undecided"
+    assert _ends(monkeypatch, _beside(NODE.p, 9e-5), 0.8, Status.T_MAX)[0] == "undecided"
+    # it passed by: followed on, it comes to the node
+    passed = _ends(monkeypatch, _beside(SADDLE.p, 9e-5), 0.8, Status.T_MAX, (Status.EQUILIBRIUM, NODE.p))
+    assert passed == ("C2", Status.EQUILIBRIUM.value)
+
+
+@pytest.mark.parametrize(("turn", "height", "at_it"), [(5e-3, 5e-3, True), (5e-3, 0.5, False), (0.05, 5e-3, False)])
+def test_at_a_neutral_direction_is_what_is_low_and_that_way(monkeypatch, turn, height, at_it):
+    r = math.sqrt(1.0 - height**2)
+    for i in range(4):
+        angle = float(NEUTRAL.theta[i]) + turn
+        label, said = _ends(monkeypatch, (r * math.cos(angle), r * math.sin(angle)), height, Status.T_MAX)
+        assert (said == endings.AT_NEUTRAL_Q) == (at_it and i == 1)
+        assert label == ("Q2" if at_it and i == 1 else "undecided")
+
+
+@pytest.mark.parametrize("kind", ["stable", "unstable", "semistable"])
+@pytest.mark.parametrize("backward", [False, True])
+def test_cycles_that_are_come_to_that_way_in_time(kind, backward):
+    """A semistable one attracts on one side, and repels on the other."""
+    t = np.linspace(0.0, 2.0 * math.pi, 400)
+    circles = [SimpleNamespace(kind=kind, points=r * np.column_stack([np.cos(t), np.sin(t)])) for r in (0.3, 0.6)]
+    comes = kind == "semistable" or (kind == "unstable") == backward
+    for r, expected in ((0.3, 0), (0.6, 1), (0.6005, None), (0.45, None)):
+        p = r * np.array([math.cos(1.0), math.sin(1.0)])
+        assert endings._on_cycle(circles, p, backward) == (expected if comes else None)
