@@ -100,7 +100,7 @@ export class OrbitInTime {
     this.point()
   }
 
-  get end() { return Math.max(this.orbit?.t.at(-1) ?? 0, this.motion?.t.at(-1) ?? 0) }
+  get end() { return Math.max(...[this.orbit, this.motion].flatMap((run) => run?.t.at(-1) ?? [])) }
 
   // What stands below the charts: which line is which, the ball, and the phases.
   tell(orbit, motion) {

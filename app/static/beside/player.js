@@ -39,7 +39,7 @@ export class Ticker {
 export class Player {
   /**
    * @param {any} button to play and pause
-   * @param {(moved: boolean) => void} show is called when the present time, `at`, has changed
+   * @param {() => void} show is called when the present time, `at`, has changed
    */
   constructor(button, show) {
     this.show = show
@@ -69,7 +69,7 @@ export class Player {
   }
 
   /** @param {number} t */
-  go(t) { this.at = Math.max(this.start, Math.min(this.end, t)); this.show(true) }
+  go(t) { this.at = Math.max(this.start, Math.min(this.end, t)); this.show() }
 
   /** By hand: what was playing stops. @param {number} t */
   scrub(t) { this.toggle(false); this.go(t) }

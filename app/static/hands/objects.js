@@ -83,7 +83,7 @@ export function objectAt(objects, {x, y}, reach, ofCurve) {
  * @param {Named} before @param {Named[]} objects @param {Named[]} last the objects before this frame
  */
 export function followed(before, objects, last = []) {
-  const alike = (/** @type {Named} */ one) => one.kind === before.kind && (one.kind !== "curve" || one.name === before.name) && (one.sort === before.sort || one.sort === "" || before.sort === "")
+  const alike = (/** @type {Named} */ one) => one.kind === before.kind && (one.sort === before.sort || one.sort === "" || before.sort === "")
   const there = objects.filter(alike), were = last.filter(alike)
   const itself = were.find((one) => one.name === before.name && gapOf(one, before) < 1e-9)
   const rivals = itself && there.length >= were.length ? [] : were.filter((one) => one !== itself)

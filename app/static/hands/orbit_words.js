@@ -8,7 +8,7 @@ export class OrbitWords {
   /** @param {any} box the element that they fill */
   constructor(box) {
     this.box = box
-    this.held = -1 // which of the launched orbits
+    this.held = -1 // which of the launched orbits; -1 is none
     this.quiet = null
   }
 
@@ -19,7 +19,7 @@ export class OrbitWords {
   /** @param {{goes: string[]}} launched of a frame, of the orbits that are not hidden @param {string} orbits */
   speak({goes}, orbits) {
     const i = readLaunches(orbits).slice(0, this.held + 1).filter((one) => !one.hidden).length - 1
-    this.box.hidden = this.held < 0 || !goes[i]
+    this.box.hidden = !goes[i]
     if (!this.box.hidden) this.box.textContent = goes[i]
   }
 }

@@ -8,6 +8,7 @@ import {SAYS, escape, formula} from "../words.js"
 
 const REACH = {mouse: 10, pen: 14, touch: 24} // px around a mark that count as on it
 const CURVE = {mouse: 6, pen: 7, touch: 8} // px around a curve: its ground is for launching
+const FIRST = {capture: true, passive: true} // heard before Bokeh's tools, and not kept from them
 const QUIET = 150 // ms after the last frame until what is read out follows
 const NAMED = ["launched", "cycles", "separatrices", "rho", "theta", "lines", "conics", "equator", "critical"] // layers of objects
 const EVERYWHERE = ["inside", "outside"] // trajectories: pointed at from half as near
@@ -59,9 +60,9 @@ export class Pointing {
       this.pin("")
     })
     const bokeh = root.querySelector(".bokeh")
-    bokeh.addEventListener("pointermove", (event) => { if (event.pointerType !== "touch") this.move(event) }, {capture: true, passive: true})
+    bokeh.addEventListener("pointermove", (event) => { if (event.pointerType !== "touch") this.move(event) }, FIRST)
     bokeh.addEventListener("pointerleave", () => this.move(null))
-    bokeh.addEventListener("pointerdown", () => this.move(null), {capture: true, passive: true})
+    bokeh.addEventListener("pointerdown", () => this.move(null), FIRST)
     picture.viewed(() => this.draw())
   }
 
@@ -107,7 +108,7 @@ export class Pointing {
     if (!one && !this.over) return
     this.over = one
     if (one) this.last = this.objects
-    this.byKey = focus && one !== null
+    this.byKey = focus
     this.draw()
   }
 

@@ -29,7 +29,7 @@ export class Room {
     /** @type {import("./crowd.js").Row[] | null} */
     this.rows = null
     this.code = this.inside = ""
-    this.tries = 0
+    this.again = 0 // times that a room is asked for still which is not there
     this.bar.addEventListener("click", (event) => {
       const act = event.target.closest("button")?.dataset.room
       if (act === "show") this.show()
@@ -112,7 +112,7 @@ export class Room {
 
   // The lecturer's line, and the number in the dialog.
   tell() {
-    const count = this.rows?.length ?? 0, words = `${count} ${count === 1 ? "phone" : "phones"}`
+    const {length: count} = this.rows ?? [], words = `${count} ${count === 1 ? "phone" : "phones"}`
     this.say(`Room <b>${escape(this.code)}</b> · ${words}`, ["show", "Show the code"], ["end", "Close the room"])
     const place = this.dialog.querySelector(".room-count")
     if (place) place.textContent = words

@@ -321,3 +321,31 @@ test("a system's parameters and slow variables have sliders, which stay while it
   one.answer({system: {...SYSTEM, slow: [...SYSTEM.slow, {symbol: "w", range: [0, 1]}]}})
   assert.deepEqual(names(), ["slow-z2"])
 })
+
+test("what was typed in this tab is there again when its system is chosen, in a page", () => {
+  const kept = {own: {texts: {U1: "-2*c"}, parameters: {mu: 0.75}, z: 1.5, ranges: {z: [0, 2]}}, psi: {psi_text: "1/(2+s)"}}
+  const chosen = (page, text = JSON.stringify(kept)) => {
+    const values = {...CONFIG.values, ranges: {a: [-9, 9], z: [-7, 7], z2: [-8, 8], "own:mu": [0, 6], trajectories: [0, 99]}} // of the system that is left
+    const one = wired({page, values}, FIRST, {sessionStorage: memory({"codim2-typed": text})})
+    type(one, "select.system", "own"); one.tick(20)
+    return asked(one)[0]
+  }
+  const stay = {a: [-9, 9], trajectories: [0, 99]} // sliders that every system has
+  assert.deepEqual(chosen(true), {...kept.own, ranges: {...stay, ...kept.own.ranges}, system: "own"})
+  for (const other of [chosen(false), chosen(true, "null"), chosen(true, "no JSON")]) assert.deepEqual(other, {texts: {}, parameters: {}, ranges: stay, system: "own"})
+})
+
+test("a parameter whose line is typed anew has what stands there, whatever its slider was", () => {
+  const values = {...CONFIG.values, system: "own", texts: {U1: "mu = 0.3 in [0, 1]\nnu = 2 in [0, 3]"}, parameters: {mu: 0.75, nu: 1}, ranges: {"own:mu": [0, 5], "own:nu": [0, 9], mu: [0, 7], z: [0, 2]}}
+  const one = wired({values}, {...FIRST, system: OWN})
+  const typed = (text) => { pull(one, "textarea", text); one.tick(20); one.answer(); const [{parameters, ranges}] = asked(one); return {parameters, ranges} }
+  assert.deepEqual(typed("mu = 0.3 in [0, 1]\nnu = 2 in [0, 3]\n-c"), {parameters: undefined, ranges: undefined}) // neither line is another one
+  assert.deepEqual(typed("mu = 0.4 in [0, 1]\nnu = 2 in [0, 3]\n-c"), {parameters: {nu: 1}, ranges: {"own:nu": [0, 9], mu: [0, 7], z: [0, 2]}})
+  assert.deepEqual(typed("mu = 0.4 in [0, 1]\nnu = 2 in [0, 4]\n-c"), {parameters: {}, ranges: {mu: [0, 7], z: [0, 2]}})
+})
+
+test("of many slow variables four have sliders", () => {
+  const one = wired({values: {...CONFIG.values, z3: 0, z4: 0}})
+  one.answer({system: {...OWN, slow: ["p", "q", "r", "s", "t"].map((symbol) => ({symbol, range: [0, 1]}))}, set: {system: "own"}})
+  assert.deepEqual([...one.root.querySelectorAll(".slow-controls .control")].map((box) => [box.dataset.control, box.querySelector("label").textContent]), [["slow-z", "p"], ["slow-z2", "q"], ["slow-z3", "r"], ["slow-z4", "s"]])
+})

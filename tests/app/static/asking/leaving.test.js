@@ -122,3 +122,27 @@ test("however often values are set, about one request leaves in a frame of the s
   assert.ok(left.length <= 13, `${left}`)
   assert.equal(left.at(-1), 60)
 })
+
+test("ten milliseconds after the last one a request leaves at once, before that in the next frame", async () => {
+  for (const [gap, now] of /** @type {[number, boolean][]} */ ([[0, false], [9.5, false], [10, true], [10.5, true]])) {
+    const screen = new Screen(), clock = screenClock(screen), left = []
+    clock.soon(() => left.push("one"))
+    await null
+    screen.time += gap
+    clock.soon(() => left.push("other"))
+    await null
+    assert.deepEqual(left, now ? ["one", "other"] : ["one"], `${gap} ms`)
+    screen.frame()
+    await null
+    assert.deepEqual(left, ["one", "other"])
+  }
+})
+
+test("requests are counted from a number of their own: another browser that shows this view gets the replies too", () => {
+  const {random} = Math, first = [0.25, 0.75, 0.999].map((chance) => {
+    Math.random = () => chance
+    return new Requests(() => {}, () => {}, {now: () => 0}).number
+  })
+  Math.random = random
+  assert.deepEqual(first, [0.25e12, 0.75e12, 0.999e12])
+})

@@ -77,3 +77,13 @@ test("as many requests go out as frames of the screen pass in a round trip", () 
     assert.equal(window.size, size, `${trip} ms`)
   }
 })
+
+test("on a steady line a reply counts as one that has queued from 20 ms on", () => {
+  const after = (trip) => {
+    const window = new Window()
+    for (let t = 0; t < 2000; t += 17) window.measured(t, 80, 0.2)
+    window.measured(2000, trip, 0.2)
+    return window.size
+  }
+  assert.deepEqual([80, 99, 100, 140].map(after), [5, 5, 4, 4]) // 12 ms and three times an eighth of what is new: 19.2
+})

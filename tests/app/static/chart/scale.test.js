@@ -49,6 +49,11 @@ test("ticks are written with as many decimals as they need, and a real minus", (
   for (const [value, words] of wordedTicks([0.00121, 0.00148], 4)) assert.equal(Number(words), Number(value.toPrecision(6)))
 })
 
+test("what would need more than six decimals is written with a power of ten", () => {
+  assert.deepEqual(wordedTicks([-1e-6, 2e-6], 3).map(([, words]) => words), ["−0.000001", "0", "0.000001", "0.000002"])
+  assert.deepEqual(wordedTicks([1e-7, 3e-7], 3).map(([, words]) => words), ["1e−7", "2e−7", "3e−7"])
+})
+
 test("a span holds all values, and something more on both sides", () => {
   assert.deepEqual(spanOf([2, 4], 0.5), [1, 5])
   assert.deepEqual(spanOf([2, 4], 0, [0]), [0, 4])

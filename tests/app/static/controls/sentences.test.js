@@ -21,3 +21,12 @@ test("what is said of the whole page stays above what is wrong with a control, a
   bar.querySelector("button").click()
   assert.deepEqual(done, ["reload"])
 })
+
+test("what is said beside a control in a closed sheet is said above the picture too", () => {
+  const {document} = page('<div class="banner" hidden></div><div class="box"><p class="error"></p></div>')
+  const bar = /** @type {any} */ (document.querySelector(".banner")), box = document.querySelector(".box"), error = box?.querySelector(".error"), said = []
+  const sentences = new Sentences(bar, {a: {box, say: (sentence) => said.push(sentence)}}, () => ({}))
+  const above = (parent) => { Object.defineProperty(error, "offsetParent", {value: parent, configurable: true}); sentences.say({a: "a is wrong."}); return bar.hidden ? "" : bar.textContent }
+  assert.deepEqual([above(box), above(null), above(box)], ["", "a is wrong.", ""])
+  assert.deepEqual(said, Array(3).fill("a is wrong."))
+})

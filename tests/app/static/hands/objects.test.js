@@ -3,7 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import {STEP} from "../../../../app/static/picture/frames.js"
-import {apart, areaAt, curveAt} from "../../../../app/static/hands/curves.js"
+import {apart, areaAt, curveAt, middleOf, nearestOn} from "../../../../app/static/hands/curves.js"
 import {eigenWords, factsOf, followed, objectAt, objectsOf, pointedList, styleOf} from "../../../../app/static/hands/objects.js"
 import {CRITICAL, EQUATOR} from "../played/wiring.js"
 
@@ -58,6 +58,26 @@ test("after a frame it is the nearest of those that behave alike, whatever it is
   assert.equal(followed(c, saddle), null)
   assert.equal(followed(all[4], all)?.name, "L1")
   assert.equal(followed(all[4], objectsOf({...HEADER, cycles: {...HEADER.cycles, kind: ["unstable"]}}, BLOCKS, TABLE)), null)
+})
+
+test("nothing of another kind takes its place, though it may become anything", () => {
+  const [, c, q1] = all, any = (one) => ({...one, sort: ""})
+  assert.equal(followed(any(c), [any({...q1, x: c.x, y: c.y})]), null)
+  assert.equal(followed(any(c), [any({...q1, x: c.x, y: c.y}), {...c, x: 0.3, name: "C2"}])?.name, "C2")
+})
+
+test("each launched orbit has its own curve, from its own start, in its own colour, whatever number it has", () => {
+  const starts = [[0.2, 0.9], [-0.5, 0.1]], parts = [1, 2].map((k) => ({name: `launched_${k}`, colour: `launch-${k}`}))
+  const blocks = {"launched_1.n": Uint16Array.of(2), "launched_1.xy": line(starts[0], [0.3, 0.9]), "launched_2.n": Uint16Array.of(2), "launched_2.xy": line(starts[1], [-0.6, 0.2])}
+  const header = {owners: {launched_1: ["O1"], launched_2: ["O2"]}, launched: {x: [0.2, -0.5], y: [0.9, 0.1], number: [2, 4], called: ["", "mine"], goes: [], comes: []}} // the first and the third are hidden
+  const found = objectsOf(header, blocks, [{name: "launched", parts}])
+  assert.deepEqual(found.map(({name, label, colour}) => [name, label, colour]), [["O2", "Launched orbit 2", "launch-1"], ["O4", "mine", "launch-2"]])
+  for (const {x, y, curve} of found) assert.ok(/** @type {any} */ (nearestOn(/** @type {any} */ (curve), x, y)).gap < 1e-3)
+})
+
+test("an eigenvector in the disc is drawn both ways, along one line", () => {
+  const rays = pointedList(all[1], {eigen: {critical: [{directions: [[0.6, -0.8, 2, "disc"]], turning: 0, every: false}]}}, {}, false).filter(({kind}) => kind === "ray")
+  assert.deepEqual(rays.map(({angle}) => [Math.cos(angle), Math.sin(angle)].map((v) => Number(v.toFixed(9)))), [[0.6, -0.8], [-0.6, 0.8]])
 })
 
 test("an object says its name and numbers, and why it has no eigenvectors", () => {
@@ -137,6 +157,29 @@ test("U₁ = 0 and U₂ = 0 are two objects of one layer, also where a zoom cuts
   assert.deepEqual(factsOf(at(0.3, -0.8), header), {title: "Separatrix 2, stable", rows: [["of", "C"], ["other end", "Q₂"], ["(x̄, ȳ)", "(0.300, −0.800)"], ["θ", "−69.44°"]], notes: ["It comes from Q₂."]})
   assert.equal(followed(at(0.4, 0.5), found, found)?.name, "U2")
   assert.equal(followed(at(0.4, 0.5), found.filter(({name}) => name !== "U2"), found), null)
+})
+
+test("a curve is told in the middle of its first piece: at the middle point, or between the two", () => {
+  const near = (found, x, y) => assert.ok(Math.abs(found.x - x) < 2e-4 && Math.abs(found.y - y) < 2e-4, JSON.stringify(found))
+  const piece = (...points) => ({n: [points.length], xy: line(...points)})
+  near(middleOf([piece([0.1, 0.7], [0.3, -0.4], [0.9, 0.2]), piece([0, 0], [1, 1])]), 0.3, -0.4)
+  near(middleOf([piece([0.1, 0.7], [0.3, -0.4], [0.5, 0.8], [0.9, 0.2])]), 0.4, 0.2)
+  near(middleOf([{n: [2], xy: Float32Array.of(0.25, 1.5, 0.75, 2)}]), 0.5, 1.75) // seen from near: as they are
+})
+
+test("of a curve in several pieces each is reached, and nothing between them", () => {
+  const pieces = [{n: [2, 2], xy: line([0, 0], [0.2, 0], [0.6, 0.4], [0.6, 0.8])}]
+  const at = (x, y) => { const {x: u, y: v, gap} = /** @type {any} */ (nearestOn(pieces, x, y)); return [u, v, gap].map((value) => Number(value.toFixed(3))) }
+  assert.deepEqual([at(0.1, 0.1), at(0.7, 0.5), at(0.6, 0.9), at(0.4, 0.1)], [[0.1, 0, 0.1], [0.6, 0.5, 0.1], [0.6, 0.8, 0.1], [0.2, 0, 0.224]])
+})
+
+test("a basin ends at the disc and at the edges of what is seen, and where there is none nothing is told", () => {
+  const ring = [1.03, 1.075], blocks = {basins: Uint16Array.of(1, 2, 2, 3, 1, 1)}
+  const at = (box, x, y) => areaAt(["basins"], {basins: {cells: 2, box, destinations: ["C", "Q2"]}}, blocks, ring, {x, y})?.of ?? null
+  const whole = [-1, 1, -1, 1], part = [-0.5, 0.5, -0.25, 0.5]
+  assert.deepEqual([at(whole, 0.7, 0.7), at(whole, 0.75, 0.75), at(whole, -0.75, -0.75)], ["undecided", null, null])
+  assert.deepEqual([at(part, -0.4, -0.2), at(part, 0.4, 0.4), at(part, -0.6, 0.4), at(part, 0.6, -0.2), at(part, 0.1, -0.3), at(part, 0.1, 0.6)], ["C", "undecided", null, null, null, null])
+  assert.equal(areaAt(["basins", "outcomes"], {}, {}, ring, {x: 0, y: 0}), null)
 })
 
 test("the ring and the basins are told by what they are of", () => {

@@ -193,6 +193,38 @@ test("a typed start: play takes nine seconds for the whole motion, and begins ag
   assert.deepEqual(one.said(), [["trace", null]])
 })
 
+test("a page in the background stands still: of a frame that comes late 80 ms count", () => {
+  const one = typed(), now = () => Number(one.find(".series").getAttribute("aria-valuenow"))
+  one.fire(one.find(".play"), "click")
+  one.tick(16)
+  globalThis.requestAnimationFrame = (go) => /** @type {any} */ (setTimeout(() => go(performance.now()), 1000))
+  one.tick(16)
+  near([now()], [0.032 * 4 / 9], 1e-6)
+  one.tick(1000)
+  near([now()], [0.112 * 4 / 9], 1e-6)
+})
+
+test("time ends with the longer of both runs; another orbit is at rest, at the seed, whatever was played before", () => {
+  const one = showing({orbit: OUTSIDE}, {orbit: 2, orbits: "0.4,-0.5;1.5,0.4"}), svg = one.find(".series"), play = one.find(".play")
+  const span = () => ["aria-valuemin", "aria-valuemax", "aria-valuenow"].map((name) => Number(svg.getAttribute(name)))
+  const rests = (wanted) => { assert.deepEqual([span(), play.textContent], [wanted, "▶ Play"]); one.tick(100); assert.deepEqual(span(), wanted) }
+  rests([-1, 0.5, 0])
+  one.frame({orbit: {...INSIDE, index: 1}})
+  rests([-2, 3, 0])
+  one.fire(play, "click"); one.tick(32)
+  assert.ok(span()[2] > 0)
+  one.frame({orbit: OUTSIDE})
+  rests([-1, 0.5, 0])
+  one.frame({orbit_motion: MOTION}); one.set({orbit_eps: "show"})
+  rests([-1, 1, 0])
+})
+
+test("of a motion that takes no time nothing is played", () => {
+  const one = typed({orbit: {...LIMIT, t: [0, 0, 0]}}), play = one.find(".play")
+  one.fire(play, "click")
+  assert.deepEqual([play.textContent, play.getAttribute("aria-pressed")], ["▶ Play", "false"])
+})
+
 test("a start that is typed is the chosen one; from a launched orbit outside z is let move at the z of the sliders", () => {
   const one = showing({orbit: OUTSIDE}, {orbit: 2, z: 0.25})
   one.said()

@@ -27,18 +27,22 @@ test("basins as vectors lie where they are, y upwards", () => {
 })
 
 test("basins as a bitmap lie where they are, y upwards", () => {
-  const canvases = [], drawn = []
+  const canvases = [], drawn = [], bitmaps = new Bitmaps()
   class Context { constructor(list) { return new Proxy(this, {get: (_, name) => name === "getTransform" ? () => ({a: 1}) : (...all) => { list.push([name, ...all]) }, set: (_, name, value) => { list.push(["=", name, value]); return true }}) } }
   const all = /** @type {any} */ (globalThis)
   all.CanvasRenderingContext2D = Context
   all.document = {createElement: () => { const list = [], canvas = {list, getContext: () => new Context(list)}; canvases.push(canvas); return canvas }}
   try {
-    paint(new Context(drawn), [CELLS], PLACE, BOX, new Bitmaps())
+    paint(new Context(drawn), [CELLS], PLACE, BOX, bitmaps)
+    paint(new Context(drawn), [CELLS], PLACE, BOX, bitmaps) // as it was
+    assert.equal(canvases.length, 2)
   } finally { delete all.CanvasRenderingContext2D; delete all.document }
-  const [large, small] = canvases
+  const [large, small, ...more] = canvases
   assert.deepEqual(filled(small.list), [["a", 2, 2, 1, 1], ["a", 0, 1, 1, 1], ["b", 1, 1, 2, 1], ["b", 0, 0, 1, 1]])
   assert.deepEqual(large.list.find(([name]) => name === "drawImage").slice(2), [40, 140, 120, 120])
-  assert.equal(drawn.at(-2)[0], "drawImage")
+  assert.deepEqual(large.list.find(([name]) => name === "translate"), ["translate", 0.5, 0.5])
+  assert.deepEqual(drawn.filter(([name]) => name === "drawImage").map(([, , ...at]) => at), Array(2).fill([-0.5, -0.5, 300, 400])) // against Bokeh's half of a pixel
+  assert.deepEqual([large.width, large.height, small.width, small.height, more], [300, 400, 3, 3, []])
 })
 
 test("basins of a part of the disc lie in that part", () => {

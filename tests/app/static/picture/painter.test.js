@@ -79,4 +79,20 @@ test("a triangle stands on its base, a diamond is higher than wide", () => {
   }
   assert.deepEqual(corners("triangle"), [[0, -7], [6, 3], [-6, 3]])
   assert.deepEqual(corners("diamond"), [[0, -6], [4, 0], [0, 6], [-4, 0]])
+  assert.deepEqual(corners("x"), [[-6, -6], [6, 6], [6, -6], [-6, 6]])
+})
+
+const painted = (...list) => { const {renderer, calls} = attached("glyph"); renderer.list = list; repaint(renderer); return calls.map(([, ...call]) => call) }
+
+test("a path is interrupted where either coordinate is no number", () => {
+  const path = {kind: "path", x: [0, 1, 2, 3, NaN, 0.5, 1.5], y: [0, 1, NaN, 2, 1, 1, 2], colour: "c", width: 1, dash: []}
+  assert.deepEqual(painted(path).filter(([name]) => name === "moveTo" || name === "lineTo"), [["moveTo", 100, 200], ["lineTo", 150, 160], ["moveTo", 250, 120], ["moveTo", 125, 160], ["lineTo", 175, 120]])
+})
+
+test("an eigenvector has a rim of 1.5 px in the page's colour, full where the stroke is broken", () => {
+  const ray = {kind: "ray", x: 1, y: 1, angle: Math.PI / 2, from: 14, length: 46, colour: "c", back: "page", width: 2.6, dash: [6, 4], head: "in"}
+  const set = (name) => painted(ray).filter(([what, key]) => what === "=" && key === name).map(([, , value]) => value)
+  assert.deepEqual([set("strokeStyle"), set("lineWidth"), painted(ray).filter(([name]) => name === "setLineDash").slice(0, 2)], [["page", "c"], [5.6, 2.6], [["setLineDash", []], ["setLineDash", [6, 4]]]])
+  const ends = painted(ray).filter(([name]) => name === "lineTo").slice(0, 2).map(([, x, y]) => [Math.round(x), Math.round(y)])
+  assert.deepEqual(ends, [[150, 100], [150, 100]]) // 60 px upward of (150, 160)
 })

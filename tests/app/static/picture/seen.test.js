@@ -40,6 +40,26 @@ test("what is seen is the whole picture only if all four edges are where they we
   assert.equal(picture.window, null)
 })
 
+test("before it is laid out a pixel of the picture is one of 700", () => {
+  const {picture} = wired().root.explorer
+  picture.seen = [-1, 0.75, -1, 1]
+  assert.equal(picture.window[4], 1.75 / 350)
+  picture.drawn.view.plot_view.frame.bbox = {...picture.drawn.view.plot_view.frame.bbox, width: 0}
+  assert.equal(picture.window[4], 1.75 / 700)
+  picture.drawn.view = null
+  assert.equal(picture.window[4], 1.75 / 700)
+})
+
+test("what is above the picture is painted when it changes, and not while nothing is there", () => {
+  const {picture} = wired().root.explorer
+  const paints = (act) => { const before = [picture.drawn.paints, picture.above.paints]; act(); return [picture.drawn.paints - before[0], picture.above.paints - before[1]] }
+  const ring = {kind: "ring", layer: "pointed", x: 0, y: 0, radius: 12, colour: "c", width: 1}
+  assert.deepEqual([[], [ring], [ring], [], []].map((list) => paints(() => picture.point(list))[1]), [0, 1, 1, 1, 0])
+  assert.deepEqual([null, {x: 0, y: 0.5}, {x: 0, y: 0.5, right: true}, null, null].map((place) => paints(() => picture.cross(place))[1]), [0, 1, 1, 1, 0])
+  assert.deepEqual([null, [[[0, 1], [0, 1]]], null, null].map((paths) => paints(() => picture.trace(paths, [0, 0]))[1]), [0, 1, 1, 0])
+  assert.deepEqual([1, 1.5, 1.5].map((times) => paints(() => picture.enlarge(times))[1]), [0, 1, 0])
+})
+
 test("the picture is drawn when something of it has come, or has become old, and once a frame of the screen", () => {
   const one = wired(), {picture} = one.root.explorer
   one.tick(50)

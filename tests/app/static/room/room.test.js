@@ -87,9 +87,9 @@ test("in the atlas: dots, those that meet as one with their number; a click open
   assert.deepEqual(shown(), [])
 })
 
-function room(kept = "{}") {
+function room(kept = "{}", hostname = "h") {
   const said = []
-  const there = page('<div class="codim2"><div class="room-bar" hidden></div><dialog class="room"></dialog></div>', {location: {origin: "http://h", pathname: "/x/", href: "http://h/x/", hostname: "h"}, sessionStorage: {value: kept, getItem() { return this.value }, setItem(_, text) { this.value = text }}})
+  const there = page('<div class="codim2"><div class="room-bar" hidden></div><dialog class="room"></dialog></div>', {location: {origin: "http://h", pathname: "/x/", href: "http://h/x/", hostname}, sessionStorage: {value: kept, getItem() { return this.value }, setItem(_, text) { this.value = text }}})
   const root = /** @type {any} */ (there.document.querySelector(".codim2")), dialog = root.querySelector("dialog")
   dialog.showModal = () => { dialog.open = true }
   dialog.close = () => { dialog.open = false }
@@ -130,6 +130,32 @@ test("a lecturer opens a room, is told of the phones, and closes it", async () =
   assert.deepEqual([again.said(), Boolean(again.dialog.open)], [["changed"], false]) // the lecturer goes on where he was
 })
 
+test("a click beside the dialog closes it, one within does not; where phones cannot come, that is said", async () => {
+  for (const [hostname, local] of /** @type {[string, boolean][]} */ ([["h", false], ["localhost", true], ["127.0.0.1", true], ["[::1]", true], ["my.localhost", false]])) {
+    const one = room("{}", hostname)
+    one.room.begin("new")
+    one.room.hear({room: {open: "BCDF", key: "secret"}})
+    await one.shown()
+    const note = one.dialog.querySelector(".room-local")
+    assert.deepEqual([note.hidden, note.textContent.length > 20], [!local, true], hostname)
+    one.fire(one.dialog.querySelector(".room-code"), "click")
+    assert.equal(one.dialog.open, true)
+    one.fire(one.dialog, "click")
+    assert.equal(one.dialog.open, false)
+  }
+})
+
+test("the room of the address comes before the one that this tab was in", () => {
+  for (const kept of ['{"key": "secret"}', '{"in": "FDCB"}']) {
+    const one = room(kept)
+    one.room.begin("bcdf")
+    assert.deepEqual(one.said(), [{join: "bcdf"}])
+    one.room.hear({room: {error: "There is none."}})
+    one.tick(10000)
+    assert.deepEqual(one.said(), []) // and it is not asked for again: somebody has typed it
+  }
+})
+
 test("a student is told that he is in a room, and leaves it", () => {
   const one = room()
   one.room.begin("bcdf")
@@ -147,8 +173,21 @@ test("a student is told that he is in a room, and leaves it", () => {
 test("a page that is loaded again while its server starts asks some times", () => {
   const one = room('{"in": "BCDF"}')
   one.room.begin(null)
-  for (let i = 0; i < 8; i++) { one.room.hear({room: {error: "There is none."}}); one.tick(3001) }
-  assert.deepEqual([one.said(), one.kept()], [Array(6).fill({join: "BCDF"}), {}])
+  for (let i = 0; i < 8; i++) {
+    one.room.hear({room: {error: "There is none."}})
+    one.tick(2999)
+    assert.deepEqual(one.said(), i ? [] : [{join: "BCDF"}])
+    one.tick(1) // three seconds after
+    assert.deepEqual(one.said(), i < 5 ? [{join: "BCDF"}] : [])
+  }
+  assert.deepEqual(one.kept(), {})
+  assert.match(one.bar.textContent, /^There is none\./)
+  const full = room()
+  full.room.begin("new")
+  full.room.hear({room: {error: "No more rooms."}}) // said at once, and not asked again
+  assert.match(full.bar.textContent, /^No more rooms\./)
+  full.tick(3001)
+  assert.deepEqual(full.said(), [{open: ""}])
   const back = room('{"in": "BCDF"}')
   back.room.begin(null)
   back.room.hear({room: {joined: "BCDF"}})
