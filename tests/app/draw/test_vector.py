@@ -3,6 +3,7 @@
 import math
 import re
 
+import numpy as np
 import pytest
 from codim2_app.draw.theme import RING, VIEW
 from codim2_app.draw.vector import parts as vector
@@ -58,3 +59,25 @@ def test_zoomed_in_a_label_stands_as_near_to_its_mark():
     assert offsets[0] == pytest.approx((0.15 * scale, -0.15 * scale), abs=0.6)
     assert offsets[1] == pytest.approx(offsets[0], abs=1.1)
     assert offsets[2] == pytest.approx((0.15 * SIDE / 14, -0.15 * SIDE / 14), abs=1.1)  # smaller with all else
+
+
+@pytest.mark.parametrize("seen", [(-1.75, 1.75, -1.75, 1.75), (-0.5, 0.7, -0.3, 0.9)])
+def test_basins_lie_where_their_cells_are(seen):
+    """Cells in rows from below, each from the left, over a part of the disc; 0 is drawn as nothing."""
+    cells, box = np.random.default_rng(4).choice(3, (8, 8), p=(0.3, 0.4, 0.3)), (-0.6, 1.0, -0.2, 1.4)
+    flat = cells.ravel()
+    starts = np.concatenate([[0], np.flatnonzero(np.diff(flat)) + 1])
+    runs = np.column_stack([np.diff(np.append(starts, 64)), flat[starts]]).ravel()
+    place = Placement(seen)
+    header = {"cells": 8, "box": box, "colours": ["", "basin-1", "basin-2"]}
+    drawn = "".join(vector.basins(header, {"basins": runs}, place))
+    found = np.zeros((8, 8), int)
+    centres = box[0] + 0.2 * (np.arange(8) + 0.5), box[2] + 0.2 * (np.arange(8) + 0.5)
+    for path, which in re.findall(r'<path d="([^"]*)" fill="var\(--basin-(\d)\)"', drawn):
+        for x, y, wide, tall in re.findall(r"M([-\d.]+) ([-\d.]+)h([-\d.]+)v([-\d.]+)h", path):
+            for row, v in enumerate(centres[1]):
+                for column, u in enumerate(centres[0]):
+                    px, py = (u - seen[0]) * place.scale, (seen[3] - v) * place.scale
+                    if 0 < px - float(x) < float(wide) and 0 < py - float(y) < float(tall):
+                        found[row, column] += int(which)
+    np.testing.assert_array_equal(found, cells)

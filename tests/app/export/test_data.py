@@ -134,3 +134,40 @@ def test_pandas_frames_of_a_scene():
     assert frames["limit_directions"]["lambda_rho"].tolist() == scene["equator"].lambda_rho.tolist()
     assert frames["limit_directions"].attrs["columns"]["theta"].startswith("rad angle")
     assert "basins" not in frames
+
+
+#: The unit of each number that has one. T, tau and t are three times: dT = dt/|(x, y)|, dt = eps dtau.
+UNITS = {
+    "theta": "rad", "lambda_rho": "1/T", "lambda_theta": "1/T", "trace": "1/τ", "determinant": "1/τ²",
+    "discriminant": "1/τ²", "eigenvalue1_re": "1/τ", "eigenvalue1_im": "1/τ", "eigenvalue2_re": "1/τ",
+    "eigenvalue2_im": "1/τ", "slow_flow1": "1/t", "period": "τ", "start": "rad", "end": "rad",
+}  # fmt: skip
+POWERS = {"": 0, "1": 0, "rad": 0, "1/T": 1, "1/τ": 1, "1/t": 1, "1/τ²": 2, "τ": -1}
+PERIODIC = "preset=case3-n3&layers=equator,critical,cycles,outcomes"
+
+
+def test_units_are_those_of_the_numbers():
+    """Three times as fast: each number changes as its unit says."""
+    view = view_of(PERIODIC)
+    at, psi = view.scene().coefficients, view.scene().psi
+
+    def of(k):
+        f, B, g = (k * at.f[0], k * at.f[1]), ((0.4 * k, -0.3 * k),), (0.7 * k,)
+        return tables(c2.Scene(c2.ELinear(k * at.a, k * at.b, k * at.d, f, B, g), psi, 0.0), view.values["layers"])
+
+    slow, fast = of(1.0), of(3.0)
+    assert slow.keys() == fast.keys() >= {"limit_cycles", "critical_sets", "outcomes"}
+    seen = set()
+    for name, table in slow.items():
+        for column, (unit, _) in table.columns.items():
+            if unit not in ("", "1"):
+                assert unit == UNITS[column]
+                seen.add(column)
+            if table.data[column].dtype.kind == "f":
+                expected = table.data[column] * 3.0 ** POWERS[unit]
+                np.testing.assert_allclose(fast[name].data[column], expected, rtol=1e-5, atol=1e-6, err_msg=column)
+    assert seen >= UNITS.keys() - {"theta", "lambda_rho", "lambda_theta"}
+    (directions,) = (tables(view_of("v=1").scene())["limit_directions"].columns,)
+    assert {name: unit for name, (unit, _) in directions.items() if name in UNITS} == {
+        name: UNITS[name] for name in ("theta", "lambda_rho", "lambda_theta")
+    }

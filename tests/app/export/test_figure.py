@@ -9,6 +9,7 @@ from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.theme import themes
 from codim2_app.draw.vector.labels import LabelBox, clear_of, width_of
 from codim2_app.draw.vector.paper import DASHES, paper
+from codim2_app.export.describe import system_words
 from codim2_app.export.figure import MM, Style, figure
 from codim2_app.export.view import WHOLE, view_of
 
@@ -170,3 +171,18 @@ def test_a_picture_without_layers_is_the_bare_hemisphere():
 def test_a_style_that_there_is_not(style, said):
     with pytest.raises(ValueError, match=said):
         Style(**style)
+
+
+@pytest.mark.parametrize(("g", "told"), [(0.9, "out of the page"), (-0.9, "into the page")])
+def test_the_legend_says_which_way_the_slow_flow_goes(g, told):
+    words = re.findall(r"<text[^>]*>([^<]*)</text>", figure(view_of(f"v=1&g0={g}&B1=0")))
+    (said,) = (word for word in words if "the page" in word)
+    assert said == f"z′ {'>' if g > 0 else '<'} 0: {told}" or said == f"z′ {'&gt;' if g > 0 else '&lt;'} 0: {told}"
+
+
+def test_the_caption_has_the_signs_of_the_system():
+    view = view_of("v=1&f1=-0.4&k1=0.25&f2=0.2&k2=-0.75&B1=-1.5&B2=0.5&g0=-0.1&a=-2.5&b=0.3&d=-1.25")
+    assert system_words(view) == (
+        "(x, y)′ = A e + f with a = −2.5, b = 0.3, d = −1.25, f = (−0.4 + 0.25 z, 0.2 − 0.75 z); "
+        "z′ = B e + g with B = (−1.5, 0.5), g = −0.1"
+    )

@@ -7,11 +7,14 @@ import holoviews as hv
 import numpy as np
 import pytest
 from codim2_app import svg
+from codim2_app.export.small import results
 
 import codim2_core as c2
 from codim2_core import drawing
 from codim2_core.bifurcations import saddle_node
 from codim2_core.diagrams.diagram import diagram
+from codim2_core.diagrams.eigenvalue_path import linearisation_path
+from codim2_core.portrait.basins import Basins
 
 SADDLE = c2.ELinear(1.0, 0.3, -1.2, (0.2, 0.45))
 CYCLE = c2.presets["case3-n3"]
@@ -86,3 +89,72 @@ def test_without_the_app_there_are_tables(monkeypatch):
     assert scene._repr_html_().count("<table>") == 2
     with pytest.raises(ValueError, match="pip install codim2"):
         scene.plot()
+
+
+def _areas(svg):
+    """Rectangles of basins: colour, left, top, right, bottom."""
+    for path, colour in re.findall(r'<path d="([^"]*)" fill="([^"]*)" opacity', svg):
+        for x, y, wide, tall in re.findall(r"M([-\d.]+) ([-\d.]+)h([\d.]+)v([\d.]+)h-[\d.]+Z", path):
+            left, top = float(x), float(y)
+            yield colour, left, top, left + float(wide), top + float(tall)
+
+
+def test_basins_are_drawn_where_they_are():
+    """One cell in four leads to the first set: that at the lower left; all others to the second."""
+    cells = np.ones((32, 32), np.int8)
+    cells[:16, :16] = 0
+    found = Basins(cells, ("C1", "C2"), (None, None), 0)
+    first, second = {}, {}
+    for colour, left, top, right, bottom in _areas(svg(found)):
+        first.setdefault(colour, []).append((left, right))
+        second.setdefault(colour, []).append((top, bottom))
+    size = max(right for spans in first.values() for _, right in spans)
+    (small,) = (c for c in first if sum(b - a for a, b in first[c]) < 0.3 * 32 * size)
+    assert max(right for _, right in first[small]) == pytest.approx(size / 2, abs=2)
+    assert min(top for top, _ in second[small]) == pytest.approx(size / 2, abs=size / 32 + 2)
+    assert max(bottom for _, bottom in second[small]) == pytest.approx(size, abs=2)
+
+
+LINE = c2.ELinear(-1, 0, -1, ("z", "0.25*z"), B=((0, 0),), g=(0.25,))
+STEEP = c2.ELinear(-1, 0, -1, ("0.25*z", "z"), B=((0, 0),), g=(0.25,))
+CHARTS = {
+    "diagram": (lambda: diagram(SADDLE, c2.psi.constant(), "f1", (-1, 1)),
+                lambda r: [(b.value, b.theta) for b in r.equator], ("f1", "θ")),
+    "simulation": (RESULTS["simulation"], lambda r: [(r.times, r.states[:, i]) for i in (0, 1)], ("t", "")),
+    "curve": (RESULTS["curve"], lambda r: [(b[:, 0], b[:, 1]) for b in r.branches], ("f₁", "f₂")),
+    "linearisation": (lambda: linearisation_path(SADDLE, c2.psi.constant(), "f1", (-0.3, 0.3)),
+                      lambda r: [(r.values, r.trace)], ("f1", "tr J")),
+    "slow portrait": (lambda: c2.slow_portrait(LINE, c2.psi.constant(), (-0.5, 0.6)),
+                      lambda r: [(b.z, b.e[:, 0]) for b in r.branches], ("z", "c")),
+    "slow portrait, steep": (lambda: c2.slow_portrait(STEEP, c2.psi.constant(), (-0.5, 0.6)),
+                             lambda r: [(b.z, b.e[:, 1]) for b in r.branches], ("z", "s")),
+    "psi": (lambda: c2.psi.tanh(), lambda r: [(np.linspace(0, 4, 161), r(np.linspace(0, 4, 161)))], ("s", "Ψ")),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CHARTS)
+def test_charts_have_the_parameter_across_and_the_number_up(monkeypatch, name):
+    make, columns, axes = CHARTS[name]
+    result, drawn, own = make(), [], results.chart
+    monkeypatch.setattr(results, "chart", lambda *given: drawn.append(given) or own(*given))
+    svg(result)
+    ((lines, *named),) = drawn
+    assert tuple(named) == axes
+    wanted = [np.column_stack(pair) for pair in columns(result)]
+    found = np.concatenate([np.column_stack([x, y]) for _, x, y in lines])
+    np.testing.assert_allclose(found[np.lexsort(found.T)], (every := np.concatenate(wanted))[np.lexsort(every.T)])
+
+
+def test_a_chart_has_its_axes_right_and_up():
+    shown = results.chart([("rises", np.array([1.0, 2.0, 4.0]), np.array([-3.0, -2.5, 5.0]))], "across", "up")
+    points = re.search(r'<path d="M([-\d. L]+)"', shown)[1]
+    (x0, y0), (x1, y1), (x2, y2) = (map(float, pair.split()) for pair in points.split("L"))
+    assert (x1 - x0) / (x2 - x0) == pytest.approx(1 / 3, abs=2e-3)
+    assert (y1 - y0) / (y2 - y0) == pytest.approx(0.5 / 8, abs=2e-3)
+    assert x2 > x0
+    assert y2 < y0  # y is downward in SVG
+    at = {
+        word: (float(x), float(y)) for x, y, word in re.findall(r'<text x="([\d.]+)" y="([\d.]+)"[^>]*>([^<]*)<', shown)
+    }
+    assert at["1"][0] < at["4"][0]
+    assert at["5"][1] < at["−3"][1]

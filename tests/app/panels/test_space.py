@@ -60,3 +60,32 @@ def test_critical_sets_of_the_stack_lie_over_z_and_move_as_the_slow_flow_says(sp
         middle = one["points"][len(one["points"]) // 2]
         (C, *_) = c2.critical_sets(SYSTEM, PSI, (low + middle[2] * (high - low),))
         assert one["flow"] == np.sign(C.slow_flow[0])
+
+
+def test_the_plane_of_combinations_is_spanned_by_u_and_w():
+    """Its corners are those of a square of (lambda1, lambda2), one after the other; it crosses Sigma once."""
+    found = sent(solid, psi="rational", solid="filippov", z=0.7, **VALUES)["filippov"]
+    at = SYSTEM.at((0.7,))
+    corners = np.array(found["plane"])
+    weights = np.linalg.solve(at.A, (corners[:, :2] - at.f).T).T
+    reach = weights[0, 0]
+    assert reach > 1.1
+    np.testing.assert_allclose(weights, reach * np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)]), atol=2e-3)
+    np.testing.assert_allclose(corners[:, 2], (weights @ at.B.T + at.g)[:, 0], atol=2e-3)
+    place = np.linalg.solve(at.A, -at.f)
+    assert found["cross"] == pytest.approx(float((at.B @ place + at.g)[0]), abs=1e-3)
+
+
+def test_limit_directions_of_the_stack_lie_over_z_with_both_their_signs(sphere):
+    stack = sphere["stack"]
+    low, high = stack["span"]
+    told = set()
+    for height, theta, arrives, gathers in stack["directions"][::7]:
+        found = c2.equator_equilibria(SYSTEM, (low + height * (high - low),))
+        near = int(np.argmin(np.abs(np.remainder(found.theta - theta + np.pi, 2.0 * np.pi) - np.pi)))
+        assert np.cos(found.theta[near] - theta) > 1.0 - 1e-4
+        rates = found.lambda_rho[near], found.lambda_theta[near]
+        if min(map(abs, rates)) > 1e-2:
+            assert (arrives, gathers) == (rates[0] < 0.0, rates[1] < 0.0)
+            told.add((arrives, gathers))
+    assert (1, 0) in told or (0, 1) in told  # one sign taken for the other is told
