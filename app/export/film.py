@@ -23,6 +23,7 @@ POSITIONS, MOST_POSITIONS, PACE, REST = 41, 121, 60, 8
 #: Width of the picture in mm, and dots to those of the screen: 567 px.
 STYLE = Style(size=120.0, legend=False, title=True)
 DENSITY = 1.25
+NO_DITHER = Image.Dither.NONE
 COLOURS, MOST = 256, 24_000_000  # of a GIF's picture; bytes of a film
 
 
@@ -63,7 +64,7 @@ def film(
         drawn += pictures(view, slider, style, positions, len(drawn), min(len(drawn) + part_of(slider), positions))
         if progress is not None:
             progress(len(drawn), positions)
-    return joined(drawn, kind, back=slider != PLAY)
+    return joined(drawn, kind, play=slider == PLAY)
 
 
 def count_of(slider: str) -> int:
@@ -96,8 +97,10 @@ def picture(view: View, slider: str, value: float, style: Style = STYLE) -> byte
     return png(drawn, DENSITY)
 
 
-def joined(pictures: Sequence[bytes], kind: str = ".gif", back: bool = True) -> bytes:
-    """Return pictures of one size as a film without end: there and back, or there alone.
+def joined(pictures: Sequence[bytes], kind: str = ".gif", play: bool = False) -> bytes:
+    """Return pictures of one size as a film without end: there and back, of play there alone.
+
+    The pictures of play have the colours of the first: each then costs in a file what moves in it.
 
     Raises
     ------
@@ -106,8 +109,9 @@ def joined(pictures: Sequence[bytes], kind: str = ".gif", back: bool = True) -> 
     """
     shown = [Image.open(io.BytesIO(one)).convert("RGB") for one in pictures]
     if kind == ".gif":  # by what they cover of all colours: a small mark keeps its own, which the median cut mixes
-        shown = [one.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE) for one in shown]
-    order = [*range(len(shown)), *(range(len(shown) - 2, 0, -1) if back else ())]
+        palette = _quantized(shown[0])
+        shown = [one.quantize(palette=palette, dither=NO_DITHER) if play else _quantized(one) for one in shown]
+    order = [*range(len(shown)), *(() if play else range(len(shown) - 2, 0, -1))]
     durations = [PACE * (REST if i in (0, len(shown) - 1) else 1) for i in order]
     film = io.BytesIO()
     first, *others = (shown[i] for i in order)
@@ -115,3 +119,7 @@ def joined(pictures: Sequence[bytes], kind: str = ".gif", back: bool = True) -> 
     if film.tell() > MOST:
         raise ValueError(f"The film would hold {film.tell() / 1e6:.0f} MB; show fewer layers, or fewer positions.")
     return film.getvalue()
+
+
+def _quantized(shown: Image.Image) -> Image.Image:
+    return shown.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=NO_DITHER)

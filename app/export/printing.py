@@ -11,7 +11,8 @@ from importlib.util import find_spec
 from typing import Any
 
 MISSING = "PNG and PDF are made by Typst, which is missing: pip install 'codim2[figures]', or ask for SVG."
-PAGE = b'#set page(width: auto, height: auto, margin: 0pt)\n#image("figure.svg")\n'
+#: No colour of its own: where the figure covers a part of the last pixels, a white one would be a line at a dark edge.
+PAGE = b'#set page(width: auto, height: auto, margin: 0pt, fill: none)\n#image("figure.svg")\n'
 #: Dots per inch of a PNG at scale 1, as a screen has them; largest scale.
 DPI, MOST = 96, 12.0
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -110,6 +111,6 @@ def taken(view: View, wish: Wish) -> tuple[str, bytes]:
 
 
 def named(view: View, wish: Wish) -> str:
-    """Return the name of a file."""
-    name = view.values["preset"] or view.scene()["classification"].name.lower() or "view"
-    return f"codim2-{name}.{wish.kind}"
+    """Return the name of a file: letters, figures and dashes, which no system and no command line minds."""
+    name = view.values["preset"] or view.scene()["classification"].name.lower()
+    return f"codim2-{'-'.join(re.findall('[a-z0-9]+', name)) or 'view'}.{wish.kind}"

@@ -98,7 +98,7 @@ class Taking:
                 last = min(first + part, count)
                 result = jobs.ask(JOB, (key, first), pictures, view, wish.slider, wish.moving, count, first, last)
             else:
-                result = jobs.ask(JOB, (key, "film"), joined, tuple(drawn), ".gif", wish.slider != PLAY)
+                result = jobs.ask(JOB, (key, "film"), joined, tuple(drawn), ".gif", wish.slider == PLAY)
             if isinstance(result, Failed):
                 reply({**about, "error": result.sentence})
             elif result is None:

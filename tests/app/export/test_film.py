@@ -143,6 +143,12 @@ def test_a_film_of_play_runs_once_and_begins_anew(tmp_path):
     assert [frame.info["duration"] for frame in frames(output.read_bytes())] == [480, 60, 60, 480]
 
 
+def test_a_picture_of_play_costs_what_moves_in_it():
+    view = view_of("?preset=case1-cm4&orbits=0.3,0.4")
+    few, many = (len(film(view, PLAY, positions=count)) for count in (2, 22))
+    assert many - few < few  # twenty more than the first two
+
+
 @pytest.mark.parametrize("query", ["v=1", "orbits=0.3,0.4&orbit=0", "orbits=0.3,0.4,-"])
 def test_without_a_launched_orbit_there_is_no_play(query):
     with pytest.raises(ValueError, match="click the picture to launch one"):

@@ -8,6 +8,7 @@ import zlib
 import numpy as np
 import pytest
 import typst
+from codim2_app.draw.theme import themes
 from codim2_app.export.figure import Style, figure
 from codim2_app.export.printing import pdf, png
 from codim2_app.export.view import view_of
@@ -29,6 +30,16 @@ def test_a_png_shows_the_figure_at_its_scale(svg):
     # C is at p = (-1/4, 0): its mark is there
     at = pixels[h // 2, round((1.75 - 0.25) / 3.5 * w)]
     assert np.abs(at - (0xC8, 0x10, 0x2E)).sum() < 12
+
+
+def test_the_edge_of_a_dark_png_is_as_dark_as_its_page():
+    style = Style(size=120.0, theme="dark", legend=False, title=True)  # no whole number of pixels wide or high
+    pixels = np.asarray(Image.open(io.BytesIO(png(figure(view_of("case1-cm4"), style), 1.25))).convert("RGBA"))
+    page = np.array([int(themes()["dark"]["page"][i : i + 2], 16) for i in (1, 3, 5)])
+    for edge in (pixels[-1], pixels[:, -1]):
+        colour, there = edge[:, :3].astype(int), edge[:, 3:] / 255
+        shown = there * colour + (1 - there) * page  # where it covers a part of a pixel, what lies behind is seen
+        assert np.abs(np.median(shown, axis=0) - page).max() < 3
 
 
 def _inflated(data):
