@@ -274,6 +274,19 @@ def test_a_step_of_a_slide_ends_where_its_set_leaves_the_disc(seed):
         (("-c*z1 - 3*s", "3*c - s*z1"), 0.0, 0.3, -0.1, (0.0, 0.0)),  # a focus whose trace turns positive
         (("-(c - 0.3)*z1", "-s*z1**2"), 0.3, 0.3, -0.1, (0.0, 0.0)),  # along C alone: the trace stays negative first
         (("-(c - 0.3)", "-s*z1"), 0.3, 0.3, -0.1, (0.0, 0.0)),  # across C alone
+        (("-(c - 0.3) - 3*s", "3*(c - 0.3) - 0.4*s*z1"), 0.3, 0.3, -0.1, (0.0, 0.0)),  # the same of a focus
+        (("-0.4*(c - 0.3)*z1 - 3*s", "3*(c - 0.3) - s"), 0.3, 0.3, -0.1, (0.0, 0.0)),  # along C, of a focus
+        (("-(c - 0.3) + (0.6 - z1)*s", "2*(c - 0.3) - s"), 0.3, 0.3, -0.1, (0.0, 0.0)),  # a saddle, where D12 D21 = 1
+        (  # along an oblique line
+            (
+                "-0.6*z1*(0.6*(c - 0.3) + 0.8*s) + 0.8*(0.6*s - 0.8*(c - 0.3))",
+                "-0.8*z1*(0.6*(c - 0.3) + 0.8*s) - 0.6*(0.6*s - 0.8*(c - 0.3))",
+            ),
+            0.3,
+            0.3,
+            -0.1,
+            (0.6, 0.8),
+        ),
     ],
 )
 def test_a_step_along_which_a_set_may_end_otherwise_is_not_sure(U, c, low, high, n):
