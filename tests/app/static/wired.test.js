@@ -104,6 +104,11 @@ test("the theme is the system's, the page's or JupyterLab's, until one is chosen
   assert.equal(dark(wired({page: false}, FIRST, on("rgb(33, 33, 33)"))), true) // as in a template's dark theme
   for (const ground of ["rgb(250, 250, 250)", "rgba(0, 0, 0, 0)"]) assert.equal(dark(wired({page: false}, FIRST, on(ground))), false)
   assert.equal(dark(wired({page: true}, FIRST, on("rgb(33, 33, 33)"))), false) // our own page paints its ground itself
+  for (const [ground, is] of /** @type {[string, boolean][]} */ ([["rgb(120, 130, 133)", true], ["rgb(130, 128, 126)", false], ["rgb(0, 130, 254)", false], ["rgb(0, 130, 253)", true], ["rgb(254, 0, 130)", false], ["rgb(130, 254, 0)", false], ["rgba(9, 9, 9, 0.5)", true]])) {
+    assert.equal(dark(wired({page: false}, FIRST, on(ground))), is, ground)
+  }
+  const around = {getComputedStyle: (element) => ({backgroundColor: element.id ? "color(srgb 1 1 1)" : "rgb(33, 33, 33)", getPropertyValue: () => ""})}
+  assert.equal(dark(wired({page: false}, FIRST, around)), true) // what is named otherwise is passed over
   const placed = [], later = {...on(""), ResizeObserver: class { constructor(call) { placed.push(call) } observe() {} }}
   const put = wired({page: false}, FIRST, later)
   assert.equal(dark(put), false)

@@ -58,6 +58,44 @@ test("the ball is drawn where the motion has brought it, y upwards, its way so f
   assert.ok(points(strokes[3]).every((v, k) => k % 2 || Math.abs(v - cx) < 1e-9))
   near([Math.max(...points(strokes[5]).filter((_, k) => k % 2 === 0))], [cx + r], 1e-9)
   assert.ok(points(strokes[3]).length < points(strokes[5]).length)
+  const rim = points(strokes[5]) // all of it is seen, and lies on the silhouette
+  assert.equal(rim.length, 2 * 49)
+  for (let k = 0; k < rim.length; k += 2) near([Math.hypot(rim[k] - cx, rim[k + 1] - cy)], [r], 1e-9)
+  assert.deepEqual(strokes[5].map(([name]) => name), ["move", ...Array(48).fill("line")])
+})
+
+test("the three great circles are painted where the ball has turned them, each in its colour, on the half that faces the eye", () => {
+  const global = /** @type {any} */ (globalThis), paths = []
+  let path = [], colour = ""
+  const g = new Proxy({}, {
+    get: (_, name) => name === "createRadialGradient" ? () => ({addColorStop() {}}) : (...all) => {
+      if (name === "beginPath") path = []
+      if (name === "moveTo" || name === "lineTo") path.push([name, ...all])
+      if (name === "stroke") paths.push([colour, path])
+    },
+    set: (_, name, value) => { if (name === "strokeStyle") colour = value; return true },
+  })
+  global.devicePixelRatio = 2
+  global.getComputedStyle = () => ({getPropertyValue: (name) => ` ${name.slice(2)}`})
+  const canvas = /** @type {any} */ ({clientWidth: 200, clientHeight: 100, getContext: () => g}), ball = new Ball({}, canvas)
+  const turn = about([1, 2, -0.5], 0.8)
+  ball.prepare({t: [0, 1], ball: {centre: [[0, 0], [0, 0]], turns: [turn, turn], radius: 1.5}})
+  ball.show(null, 0)
+  assert.deepEqual([canvas.width, canvas.height], [400, 200])
+  assert.deepEqual(paths.map(([name]) => name), ["line", "accent", "crit", "accent", "attr", "ink"])
+  const r = 0.92 * 50 // of a ball that stays where it is, as high as its place
+  for (const [axis, [, circle]] of paths.slice(2, 5).entries()) {
+    const normal = turned(turn, [0, 1, 2].map((k) => Number(k === axis)))
+    let before = null
+    for (const [name, u, v] of circle) {
+      const [x, y] = [(u - 100) / r, (50 - v) / r], z = Math.sqrt(Math.max(0, 1 - x * x - y * y))
+      near([Math.min(Math.abs(dot(normal, [x, y, z])), Math.abs(dot(normal, [x, y, -z])))], [0], 1e-6) // on the circle
+      if (z > 0.05) near([dot(normal, [x, y, z])], [0], 1e-6) // on its near half
+      if (name === "lineTo" && before) assert.ok(Math.hypot(x - before[0], y - before[1]) < 0.14) // no chord
+      before = [x, y]
+    }
+    assert.ok(circle.filter(([name]) => name === "moveTo").length <= 2 && circle.length > 20 && circle.length < 30)
+  }
 })
 
 test("a quarter turn about z takes x to y", () => near(turned([Math.SQRT1_2, 0, 0, Math.SQRT1_2], [1, 0, 0]), [0, 1, 0]))

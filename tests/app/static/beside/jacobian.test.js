@@ -32,3 +32,9 @@ test("kinds at their borders, and eigenvalues in order", () => {
   assert.deepEqual(eigenvalues({trace: 2, determinant: 10}), [[1, 3], [1, -3]])
   assert.deepEqual(eigenvalues({trace: -4, determinant: 4}), [[-2, 0], [-2, 0]])
 })
+
+test("between two Jacobians both trace and determinant go on evenly to where the eigenvalues meet", () => {
+  const [, {trace, determinant}] = withDouble([{trace: -6, determinant: 5}, {trace: -2, determinant: 7}])
+  const share = (7 - Math.sqrt(33)) / 4 // (-6 + 4s)^2 = 4(5 + 2s)
+  near([[trace, determinant]], [[-6 + 4 * share, 5 + 2 * share]], 1e-9)
+})

@@ -69,6 +69,7 @@ test("at its label a slider gives place to the two ends of its range, and comes 
   one.fire(one.label, "click")
   assert.deepEqual([one.slider.hidden, one.ends().map((end) => end.getAttribute("value")), one.ends().map((end) => end.getAttribute("aria-label"))], [true, [-4, 4].map(plain), ["least value of the slider a: of A", "greatest value of the slider a: of A"]])
   const [low, high] = one.ends()
+  assert.equal(one.document.activeElement, low) // its text is chosen: what is typed replaces it
   low.value = "-1"; high.value = "2"
   one.fire(high, "change")
   assert.deepEqual([one.said(), one.range(), one.error()], [[[-1, 2]], [-1, 2], ""])

@@ -16,6 +16,6 @@ test("ranges end at 1, 2 or 5 times a power of ten, and hold the value", () => {
 })
 
 test("round ends, exactly where they change", () => {
-  assert.deepEqual([1, 1.66, 1.67, 4.1, 4.2].map(roundUp), [2, 2, 5, 5, 10])
+  assert.deepEqual([5 / 6, 1, 1.66, 1.67, 4.1, 4.2, 25 / 3].map(roundUp), [1, 2, 2, 5, 5, 10, 10])
   assert.deepEqual([1, 1.3, 1.4, 1.78, 1.8, 3, 4, 5, 6, 8, 8.9].map(reachFor), [1.5, 1.5, 2, 2, 3, 4, 5, 6, 8, 10, 10])
 })

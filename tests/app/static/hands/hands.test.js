@@ -148,6 +148,7 @@ test("one line says how C slides, out of the page or into it", () => {
   assert.deepEqual([words[".portrait-name"].textContent, words[".portrait-case"].textContent, words[".sentence"].textContent], ["CM2", "Case II", "Two directions. Stable."])
   assert.equal(told({symbol: "f₁", below: "CM0", above: ""}), "")
   assert.equal(told({symbol: "f₁", below: "", above: "CM4"}), "")
+  assert.equal(told({symbol: "f₁", below: "CM4", above: ""}), "")
   assert.equal(told({symbol: "f₁", below: "CM0", above: "CM4"}, [["A <line>", "All."]]), '<p class="warning"><b>A &lt;line&gt;</b>. All.</p><p class="note sides">A little less f₁: <b>CM0</b>. A little more: <b>CM4</b>.</p>')
   inspector.apply({portrait: {case: null, name: "NCM2", sentence: "NCM2. Two.", degeneracies: []}})
   assert.deepEqual([words[".portrait-case"].textContent, words[".sentence"].textContent], ["", "Two."])

@@ -52,6 +52,33 @@ test("the dialog writes a frame with the controls that are named, and copies", a
   assert.deepEqual([opened, dialog.querySelector(".told").textContent], [["select"], ""])
 })
 
+test("from the dialog a room is opened, or entered by its code; in a frame there are none", () => {
+  const at = {location: {origin: "http://h", pathname: "/codim2", href: "http://h/codim2", search: "", hostname: "h"}, sessionStorage: memory({})}
+  const shared = (more) => {
+    const one = wired(more, FIRST, at), dialog = one.find("dialog.sharing"), wishes = () => one.sent.splice(0).filter((message) => "room" in message).map(({room}) => room)
+    Object.getPrototypeOf(dialog.ownerDocument.createElement("input")).select = () => {}
+    dialog.showModal = () => { dialog.open = true }
+    dialog.close = () => { dialog.open = false }
+    click(one, ".share")
+    return {...one, dialog, wishes, part: (name) => dialog.querySelector(name)}
+  }
+  const one = shared({}), code = one.part(".code")
+  assert.equal(one.part(".rooms").hidden, false)
+  one.wishes()
+  one.dialog.open = true
+  one.fire(one.part(".enter-room"), "click") // no code is typed yet
+  assert.deepEqual([one.wishes(), one.dialog.open], [[], true])
+  code.value = " bcdf "
+  one.fire(code, "keydown", {key: "x"})
+  assert.deepEqual([one.wishes(), one.dialog.open], [[], true])
+  assert.equal(one.fire(code, "keydown", {key: "Enter"}).defaultPrevented, true)
+  assert.deepEqual([one.wishes(), one.dialog.open], [[{join: "bcdf"}], false])
+  one.dialog.open = true
+  one.fire(one.part(".open-room"), "click")
+  assert.deepEqual([one.wishes(), one.dialog.open], [[{open: ""}], false])
+  assert.equal(shared({look: {embed: true, controls: [], seen: []}}).part(".rooms").hidden, true)
+})
+
 test("the strip of tabs: arrows go round, and the chosen tab is rolled to its middle", () => {
   const one = wired(), strip = one.find(".tabs"), [first, second] = strip.children
   const chosen = () => [first, second].map((tab) => [tab.getAttribute("aria-selected"), tab.tabIndex])

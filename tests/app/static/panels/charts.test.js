@@ -177,3 +177,14 @@ test("the panel psi: Ψ itself, and the step of each ε at its scale", () => {
   assert.deepEqual(one.texts(".psi-key span"), [" ε = 1", " ε = 0.3", " ε = 0.1", " ε = 0.316228", " ε → 0: sign l"])
   assert.deepEqual(one.all(".psi-key path").map((it) => it.getAttribute("class")), ["series-line s3", "series-line s1", "series-line s0", "series-line present", "series-line limit"])
 })
+
+test("the panel psi: as high as Ψ and a little more, no higher than 560 px, and far away the step is 1 up to a square", () => {
+  const one = opened("psi", {log_eps: -0.5}), svg = one.find(".psi-curves")
+  const heights = [500, 2000].map((px) => { wide(svg, px); one.frame({psi_curves: {s: [0, 1, 4], psi: [4, 2, 0.5], zeta: [0, 1], modulus: [0, 0.5], text: "4/(1 + s)"}}); return svg.style.height })
+  assert.deepEqual(heights, ["490px", "560px"])
+  const [upper, lower] = plots(svg), [frame] = one.all(".psi-curves .frame")
+  near([upper.y.of(Number(frame.getAttribute("y")))], [4.2], 0.02)
+  const {points} = named(lower.lines, "s1")[0] // eps = 0.3
+  const at = (l) => points.find(([x]) => Math.abs(x - l) < 0.004)[1]
+  near([at(0.15), at(0.6), at(-0.6), at(0.9)], [0.25, 0.875, -0.875, 1 - 0.5 / 9], 0.008)
+})

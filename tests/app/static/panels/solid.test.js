@@ -132,10 +132,15 @@ const FILIPPOV = {
   candidates: [-0.25, 1.25], combined: [[[1, 0.5, 2], [-1, -0.75, -1]], [[-0.5, 1, 1]]], selected: [[0.5, "stable node"], [1, "saddle"]], sentence: "Between.",
 }
 
+// Where a limit vector of these is drawn.
+function atFilippov([u, v, w]) {
+  const e = 0.5, scale = Math.min(WIDTH / 2.3, HEIGHT / (1.9 * Math.cos(e) + 2 * Math.sin(e)))
+  const [right, up] = seen([u / 2, v / 2, 1.5 * ((w + 1) / 3 - 0.5)], -0.6, e)
+  return [WIDTH / 2 + scale * right, HEIGHT / 2 - scale * up]
+}
+
 test("the panel solid: limit vectors, Σ upright with z′ growing upward, what the blowup selects filled if it is stable", () => {
-  const one = solid({filippov: FILIPPOV}, {solid: "filippov"}), all = paths(one.drawn()), e = 0.5
-  const scale = Math.min(WIDTH / 2.3, HEIGHT / (1.9 * Math.cos(e) + 2 * Math.sin(e)))
-  const at = ([u, v, w]) => { const [right, up] = seen([u / 2, v / 2, 1.5 * ((w + 1) / 3 - 0.5)], -0.6, e); return [WIDTH / 2 + scale * right, HEIGHT / 2 - scale * up] }
+  const one = solid({filippov: FILIPPOV}, {solid: "filippov"}), all = paths(one.drawn()), at = atFilippov
   const strokes = (colour, width) => all.filter((path) => path.how === "stroke" && path.colour === colour && path.width === width).map(({points}) => points.flat())
   const ends = (points) => points.slice(1).flatMap((to, i) => [...at(points[i]), ...at(to)]) // a stroke for each step
   near(strokes("attr", 2.2).flat(), ends(FILIPPOV.curve))
@@ -160,6 +165,8 @@ test("the panel solid: two candidates that combine a pair each are named with th
   const names = (data) => paths(solid({filippov: {...FILIPPOV, ...data}}, {solid: "filippov"}).drawn()).filter(({how, points}) => how === "text" && /^v/.test(points[0][0])).map(({points: [[text]]}) => text)
   assert.deepEqual([...new Set(names({combined}))], ["v₁", "v₃", "v₂", "v₄", "v₁₃", "v₂₄"])
   assert.deepEqual(names({}), [])
+  const drawn = paths(solid({filippov: {...FILIPPOV, combined}}, {solid: "filippov"}).drawn()), text = (wanted) => drawn.find(({how, points: [[word]]}) => how === "text" && word === wanted).points[0].slice(1)
+  FILIPPOV.candidates.forEach((value, i) => near(text(["v₁₃", "v₂₄"][i]), [atFilippov([0, 0, value])[0] - 8, atFilippov([0, 0, value])[1] + 4])) // on Σ, to the left of its candidate
   assert.match(solid({filippov: {...FILIPPOV, combined}}, {solid: "filippov"}).find(".solid-note").textContent, /^Between\. v₁₃ combines/)
 })
 

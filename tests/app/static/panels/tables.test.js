@@ -224,6 +224,13 @@ test("the panel lessons: a question hides, asks, judges and remembers", () => {
   assert.deepEqual(one.said(), [["open", {lesson: "04-y", f1: 1}]])
 })
 
+test("the panel lessons: before a question is begun nothing is hidden", () => {
+  const asked = [], one = opened("lessons", {quiz: "", lesson: "04-x"}, {ask: (it) => asked.push(it)})
+  one.frame({lesson: {key: "04-x", title: "Four", parts: [{ask: "Where?", options: ["here", "there"], hide: ["critical"]}]}})
+  one.set({f1: 1})
+  assert.deepEqual(asked.filter(Boolean), [])
+})
+
 test("the panel lessons: a place is marked by a click on the picture, or by arrow keys and Enter", () => {
   let asked = /** @type {any} */ (null)
   const lesson = {key: "04-x", title: "Four", parts: [{ask: "Where?", options: ["nowhere"], mark: true, hide: ["critical"]}]}

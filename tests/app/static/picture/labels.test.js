@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {displayList} from "../../../../app/static/picture/display.js"
+import {crossList, displayList} from "../../../../app/static/picture/display.js"
 import {Bitmaps, paint} from "../../../../app/static/picture/paint.js"
 
 const critical = {label: ["C₁", "C₂"], sense: ["⊙", "⊗"], x: [-0.72, 0.72], y: [0.47, 0.47], colour: ["c", "c"], shape: ["square", "square"], size: [12, 12], filled: [true, true]}
@@ -18,4 +18,21 @@ test("a label near the equator on the right stands on the left of its mark, and 
   const [first, second] = plates.map(([x, , wide]) => [Math.round(x), Math.round(x + wide)])
   assert.deepEqual(first, [167, 211])
   assert.deepEqual(second, [389, 433])
+})
+
+test("a marked place has a ring and a cross: the page's accent until it is judged, then as what attracts or repels", () => {
+  const theme = {accent: "blue", attr: "green", rep: "pink"}, marked = (place) => crossList(place, theme).map(({kind, shape, x, y, colour, fill = colour}) => [kind, shape, x, y, colour, fill])
+  assert.deepEqual(marked(null), [])
+  for (const [more, colour] of /** @type {[any, string][]} */ ([[{}, "blue"], [{right: true}, "green"], [{right: false}, "pink"]])) {
+    assert.deepEqual(marked({x: 0.25, y: -0.5, ...more}), [["ring", undefined, 0.25, -0.5, colour, colour], ["mark", "x", 0.25, -0.5, colour, colour]])
+  }
+})
+
+test("the sense of the equator is told unless a question hides it; where nothing has been launched nothing starts", () => {
+  const table = [{name: "launched", parts: [{name: "launched_1", colour: "l"}]}], state = {table, layers: ["launched"], old: [], blocks: {}, theme: {l: "l", page: "p"}, measures: {discs: [1], ring: [1, 1.1], hatches: {}}}
+  const kinds = (more) => displayList(/** @type {any} */ ({...state, ...more})).slice(2).map(({kind}) => kind)
+  const header = {sense: [[1, 0, 1.5]]}
+  assert.deepEqual([kinds({header}), kinds({header, sense: true}), kinds({header, sense: false})], [["circle", "head"], ["circle", "head"], ["circle"]])
+  const {size, width, colour, fill, ...start} = displayList(/** @type {any} */ ({...state, header: {launched: {x: [0.5], y: [-0.25]}}})).at(-1)
+  assert.deepEqual([size, width, colour, fill, start.shape, start.x, start.y], [11, 2.4, "p", "l", "circle", 0.5, -0.25]) // with a rim, so that it is seen on its own orbit
 })

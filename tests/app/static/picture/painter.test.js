@@ -96,3 +96,17 @@ test("an eigenvector has a rim of 1.5 px in the page's colour, full where the st
   const ends = painted(ray).filter(([name]) => name === "lineTo").slice(0, 2).map(([, x, y]) => [Math.round(x), Math.round(y)])
   assert.deepEqual(ends, [[150, 100], [150, 100]]) // 60 px upward of (150, 160)
 })
+
+test("the head of an eigenvector points away at its far end, or comes in half way along it, whichever way it lies", () => {
+  for (const angle of [0.4, 2.2, -1.9]) {
+    const heads = ["in", "out"].map((head) => {
+      const [tip, ...base] = painted({kind: "ray", x: 1, y: 1, angle, from: 14, length: 46, colour: "c", back: "page", width: 2.6, dash: [], head}).filter(([name]) => name === "moveTo" || name === "lineTo").slice(-3)
+      return [tip, ...base].map(([, x, y]) => (x - 150) * Math.cos(angle) - (y - 160) * Math.sin(angle)) // px along it; y of a canvas falls
+    })
+    const [[inward, ...behind], [outward, ...before]] = heads
+    for (const one of behind) assert.ok(Math.abs(one - inward - 13.2) < 1e-9 && one > 37)
+    for (const one of before) assert.ok(Math.abs(outward - one - 13.2) < 1e-9 && one > 37 && outward > 60)
+    assert.ok(inward > 14 && inward < 37)
+  }
+  assert.equal(painted({kind: "ray", x: 1, y: 1, angle: 1, from: 14, length: 46, colour: "c", back: "page", width: 2.6, dash: [], head: ""}).filter(([name]) => name === "fill").length, 0)
+})

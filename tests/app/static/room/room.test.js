@@ -46,6 +46,19 @@ test("all settings of a phone, and how many show what", () => {
   assert.deepEqual(lessons(rows), ["A: 1 there; question 1: 1 of 1 right", "Ball: 3 there; question 2: 1 of 2 right"])
 })
 
+test("settings are alike to nine digits, whatever their size; a typed Ψ by its text", () => {
+  const alike = (own, mine) => placed([row(1, "CM4", own)], {...FIRST, ...mine}, on(["f1", "f2"]))[0].alike
+  assert.deepEqual([1 + 1e-10, 1 + 1e-8].map((times) => alike({a: 3e6 * times}, {a: 3e6})), [true, false])
+  assert.deepEqual([1e-10, 1e-8].map((more) => alike({a: more}, {a: 0})), [true, false])
+  const own = (text) => ({psi: "custom", psi_text: text})
+  assert.deepEqual([alike(own("1/(1+s)"), own("1/(1+s)")), alike(own("1/(2+s)"), own("1/(1+s)")), alike({psi_text: "s"}, {})], [true, false, true])
+})
+
+test("questions of a lesson are told in their order", () => {
+  const at = (i, right) => row(i, "CM4", {}, ["Ball", i, right])
+  assert.deepEqual(lessons([at(2, true), at(0, false), at(10, true), at(1, true), at(2, false)]), ["Ball: 5 there; question 1: 0 of 1 right; question 2: 1 of 1 right; question 3: 1 of 2 right; question 11: 1 of 1 right"])
+})
+
 const REGIONS = {atlas_of: ["f1", "f2", true], atlas_size: 2, regions: {name: ["CM4"], inside: [[0, 0]], bounded: [false], loops: [0], size: 2}}
 const BLOCKS = Object.fromEntries(["transcritical", "saddle_node", "regions"].flatMap((name) => [[`${name}.n`, new Uint16Array()], [`${name}.xy`, new Int16Array()]]))
 
