@@ -108,6 +108,52 @@ def _on_sigma(S, sign, line1, line2, raw, values, lengths, ends, polynomials, se
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _keep_step(y, linear, square, row, states, polynomials):
+    """Move the state over a step whose polynomial is `linear` u + `square` u^2, and keep it."""
+    n, each = len(y), explicit.DEGREE * len(y)
+    for j in range(n):
+        y[j] += linear[j] + square[j]
+        states[(row + 1) * n + j] = y[j]
+        for a in range(explicit.DEGREE):
+            polynomials[row * each + j * explicit.DEGREE + a] = 0.0
+        polynomials[row * each + j * explicit.DEGREE] = linear[j]
+        polynomials[row * each + j * explicit.DEGREE + 1] = square[j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _straight_on(motion, S, y, rates, linear, square):
+    """Write the rest of the way to Sigma, which is straight; return its time, or infinity where it leads away."""
+    rate(motion, y, S, rates)
+    rho = math.hypot(y[0], y[1])
+    inward = -(y[0] * rates[0] + y[1] * rates[1]) / rho
+    if not inward > 0.0:
+        return math.inf
+    for j in range(len(y)):
+        linear[j] = -y[j] if j < 2 else rho / inward * rates[j]
+        square[j] = 0.0
+    return rho / inward
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _begun_slide(S, y, floor, control, ahead):
+    """Put the set that a slide begins on in place, and its first step; say whether it is there, and the sign of det."""
+    _in_place(S, y)
+    S[PLACE], S[PLACE + 1] = y[0], y[1]
+    there = found_set(S, len(y) - 2)
+    control[NEXT], control[LEAST] = _first_step(S, y, floor), SHORTEST * ahead
+    return there, math.copysign(1.0, determinant(S, len(y)))
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _roomier(n, times, lengths, states, polynomials, sets):
+    """Return the arrays of all rows with room for more than twice as many."""
+    room = 2 * len(times) + CHUNK
+    each = explicit.DEGREE * n
+    times, lengths, sets = longer(times, room), longer(lengths, room), longer(sets, 2 * room)
+    return times, lengths, longer(states, room * n), longer(polynomials, room * each), sets
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def follow_courses(addresses, numbers, coefficients, lines, first, most):
     """Follow one motion from each state outside Sigma, as far as it is decided.
 
@@ -132,6 +178,8 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
     phases : (p ROW,)
     told : (k, TOLD)
     """
+    # One loop over phases: they share some twenty numbers and arrays. What is a step by itself is a function above, at
+    # the same speed (0.93 to 0.95 of one body, 30 pairs) and with the same bits.
     k, n = first.shape
     m, each = n - 2, explicit.DEGREE * n
     rtol, floor, t_end, affine, known = numbers[0], numbers[1], numbers[3], numbers[5] != 0.0, numbers[6] != 0.0
@@ -156,10 +204,8 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
         while True:
             # A phase: from `start`, with y there.
             start, decided, onward, came = row, False, WHOLE, theta
-            if row + 4 >= room:
-                room = 2 * room + CHUNK
-                times, lengths, sets = longer(times, room), longer(lengths, room), longer(sets, 2 * room)
-                states, polynomials = longer(states, room * n), longer(polynomials, room * each)
+            if row + 4 >= len(times):
+                times, lengths, states, polynomials, sets = _roomier(n, times, lengths, states, polynomials, sets)
             if row == begun:
                 times[row] = numbers[2]
             for j in range(n):
@@ -181,30 +227,18 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
                 h = leave(S, m, line1, line2, theta, t_end - times[row], linear, square)
                 going = h > 0.0
                 lengths[row], times[row + 1] = h, times[row] + h
-                for j in range(n):
-                    y[j] += linear[j] + square[j]
-                    states[(row + 1) * n + j] = y[j]
-                    for a in range(explicit.DEGREE):
-                        polynomials[row * each + j * explicit.DEGREE + a] = 0.0
-                    polynomials[row * each + j * explicit.DEGREE] = linear[j]
-                    polynomials[row * each + j * explicit.DEGREE + 1] = square[j]
+                _keep_step(y, linear, square, row, states, polynomials)
                 row += 1
             motion = slow if sliding else slip
             if going:
                 going = prepared(motion, y, clock, control, times[row], t_end, left, work)
             if going and sliding:
-                _in_place(S, y)
-                S[PLACE], S[PLACE + 1] = y[0], y[1]
-                going = found_set(S, m)
-                sign = math.copysign(1.0, determinant(S, n))
-                control[NEXT], control[LEAST] = _first_step(S, y, floor), SHORTEST * (t_end - times[row])
+                going, sign = _begun_slide(S, y, floor, control, t_end - times[row])
                 for j in range(n):
                     raw[j] = y[j]
             while going:
-                if row + CHUNK >= room:
-                    room = 2 * room + CHUNK
-                    times, lengths, sets = longer(times, room), longer(lengths, room), longer(sets, 2 * room)
-                    states, polynomials = longer(states, room * n), longer(polynomials, room * each)
+                if row + CHUNK >= len(times):
+                    times, lengths, states, polynomials, sets = _roomier(n, times, lengths, states, polynomials, sets)
                 ends = states[(row + 1) * n : (row + CHUNK) * n].reshape((CHUNK - 1, n))
                 ways = polynomials[row * each : (row + CHUNK - 1) * each].reshape((CHUNK - 1, n, explicit.DEGREE))
                 code, filled = follow(
@@ -233,20 +267,11 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
                     decided = True
                     break
                 if code == ARRIVED:
-                    rate(motion, y, S, rates)
-                    rho = math.hypot(y[0], y[1])
-                    inward = -(y[0] * rates[0] + y[1] * rates[1]) / rho
-                    if inward > 0.0 and clock[0] + rho / inward < t_end:
-                        # The rest of the way is straight.
-                        theta, lengths[row] = math.atan2(y[1], y[0]), rho / inward
-                        times[row + 1] = max(times[row], clock[0] + lengths[row])
-                        for j in range(n):
-                            change = -y[j] if j < 2 else lengths[row] * rates[j]
-                            y[j] = 0.0 if j < 2 else y[j] + change
-                            states[(row + 1) * n + j] = y[j]
-                            for a in range(explicit.DEGREE):
-                                polynomials[row * each + j * explicit.DEGREE + a] = 0.0
-                            polynomials[row * each + j * explicit.DEGREE] = change
+                    h = _straight_on(motion, S, y, rates, linear, square)
+                    if clock[0] + h < t_end:
+                        theta, lengths[row] = math.atan2(y[1], y[0]), h
+                        times[row + 1] = max(times[row], clock[0] + h)
+                        _keep_step(y, linear, square, row, states, polynomials)
                         row += 1
                         _in_place(S, y)
                         decided, onward = slides(S, P, addresses[5], n, affine, known, line1, line2, theta), SLIDE
