@@ -44,6 +44,7 @@ test("the arrow into the page is of the first slow variable, and says so where t
   assert.deepEqual(slowWords([-1, 2], ["u", "v"]), {flow: "u′ = −1.000, v′ = 2.000", sense: "⊗ into the page, of u only: u falls"})
   assert.equal(slowWords([0, 2]).sense, "z₁ at rest")
   assert.equal(slowWords([0]).sense, "at rest")
+  assert.match(slowWords(Array(11).fill(1)).flow, /, z₉′ = 1\.000, z10′ = 1\.000, z11′ = 1\.000$/)
 })
 
 test("a ball slides and, in the words of mechanics, sticks and rolls", () => {

@@ -83,7 +83,7 @@ test("controls come with the pointer, and fade three seconds after its last move
   one.fire(one.document, "pointermove")
   one.tick(2999)
   assert.ok(one.has("awake"))
-  one.tick(2)
+  one.tick(1)
   assert.ok(!one.has("awake"))
   const quiet = beamer()
   quiet.fire(quiet.document, "pointermove")

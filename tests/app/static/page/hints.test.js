@@ -14,6 +14,7 @@ test("a bubble stands beside what it points at, within the window", () => {
   assert.deepEqual(of(195, 390, 800, 844, 390, 844), ["above", 132, 698])
   assert.deepEqual(of(320, 1040, 20, 740), ["inside", 555, 638])
   assert.deepEqual(of(14, 260, 0, 10), ["right", 272, 8]) // not above the window
+  assert.deepEqual(of(14, 260, 880, 900), ["right", 272, 802]) // nor below it
 })
 
 test("each side is taken as long as a bubble of 250 px has room there, 12 px apart", () => {

@@ -188,3 +188,15 @@ test("the panel psi: as high as Ψ and a little more, no higher than 560 px, and
   const at = (l) => points.find(([x]) => Math.abs(x - l) < 0.004)[1]
   near([at(0.15), at(0.6), at(-0.6), at(0.9)], [0.25, 0.875, -0.875, 1 - 0.5 / 9], 0.008)
 })
+
+test("the panel planes: ninety places are remembered; a trace without a determinant is in view", () => {
+  const one = opened("planes", {}), at = (trace, determinant) => one.frame({critical: {label: ["C"], kind: ["stable node"], trace: [trace], determinant: [determinant], x2: [[0.1, 0]]}})
+  const trail = () => named(plots(one.find(".trace-plane"))[0].lines, "trail")
+  for (let i = 1; i <= 95; i++) at(-i / 10, 1)
+  assert.equal(trail().length, 89)
+  near([trail()[0].points[0][0], trail()[88].points[1][0]], [-0.6, -9.5], 0.1) // the oldest are forgotten
+  const far = opened("planes", {})
+  far.frame({critical: {label: ["C"], kind: ["degenerate"], trace: [-40], determinant: [0], x2: [[0.1, 0]]}})
+  const [frame] = far.all(".trace-plane .frame"), [{x}] = plots(far.find(".trace-plane")), left = Number(frame.getAttribute("x"))
+  near([x.of(left), x.of(left + Number(frame.getAttribute("width")))], [-52, 52], 0.5) // three tenths more
+})
