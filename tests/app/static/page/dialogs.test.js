@@ -52,17 +52,18 @@ test("the dialog writes a frame with the controls that are named, and copies", a
   assert.deepEqual([opened, dialog.querySelector(".told").textContent], [["select"], ""])
 })
 
-test("from the dialog a room is opened, or entered by its code; in a frame there are none", () => {
+test("from the dialog a room is opened, or entered by its code; in a frame there are none", async () => {
   const at = {location: {origin: "http://h", pathname: "/codim2", href: "http://h/codim2", search: "", hostname: "h"}, sessionStorage: memory({})}
-  const shared = (more) => {
+  const shared = async (more) => {
     const one = wired(more, FIRST, at), dialog = one.find("dialog.sharing"), wishes = () => one.sent.splice(0).filter((message) => "room" in message).map(({room}) => room)
     Object.getPrototypeOf(dialog.ownerDocument.createElement("input")).select = () => {}
     dialog.showModal = () => { dialog.open = true }
     dialog.close = () => { dialog.open = false }
     click(one, ".share")
+    for (const end = Date.now() + 1e4; !dialog.open && Date.now() < end;) await new Promise((done) => { setImmediate(done) })
     return {...one, dialog, wishes, part: (name) => dialog.querySelector(name)}
   }
-  const one = shared({}), code = one.part(".code")
+  const one = await shared({}), code = one.part(".code")
   assert.equal(one.part(".rooms").hidden, false)
   one.wishes()
   one.dialog.open = true
@@ -76,7 +77,7 @@ test("from the dialog a room is opened, or entered by its code; in a frame there
   one.dialog.open = true
   one.fire(one.part(".open-room"), "click")
   assert.deepEqual([one.wishes(), one.dialog.open], [[{open: ""}], false])
-  assert.equal(shared({look: {embed: true, controls: [], seen: []}}).part(".rooms").hidden, true)
+  assert.equal((await shared({look: {embed: true, controls: [], seen: []}})).part(".rooms").hidden, true)
 })
 
 test("the strip of tabs: arrows go round, and the chosen tab is rolled to its middle", () => {

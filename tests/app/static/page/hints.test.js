@@ -65,6 +65,21 @@ test("one may go on, do the second first, or have none of it", () => {
   assert.equal(told(third), null)
 })
 
+test("who goes on by the button goes on by keys; who drags keeps his hand where it is", () => {
+  const one = visit({}), held = () => one.document.activeElement === one.find(".hint button")
+  pull(one, "#c2-f1", "0.75")
+  assert.deepEqual([told(one), held()], [CLICK, false])
+  click(one, ".hint .next")
+  assert.deepEqual([told(one), held()], [READ, true])
+})
+
+test("a hint at what is not on the screen is not given", () => {
+  const one = visit({}), [, {at}] = STEPS
+  for (const name of at) one.find(name).getBoundingClientRect = () => ({left: 0, right: 0, top: 0, bottom: 0, width: 0, height: 0})
+  pull(one, "#c2-f1", "0.75")
+  assert.equal(told(one), null)
+})
+
 test("none in a notebook, in a frame, or where a visit cannot be remembered", () => {
   assert.equal(told(visit({}, {page: false})), null)
   assert.equal(told(visit({}, {look: {embed: true, controls: [], seen: []}})), null)
