@@ -52,6 +52,11 @@ SENTENCES: dict[str, Sentence] = {
         "own have one by a line such as k = 0.3 in [0, 1] under “where”, and k in a formula.",
         "a system with one parameter",
     ),
+    "map by points": Sentence(
+        "Found point by point, at boundaries in cells of 1/{finest} of the map. What lies between the points of a net "
+        "of 1/{net} of it can be missed: zoom in for a finer one.",
+        "a map of equations that are not e-linear",
+    ),
     "points unproved": Sentence(
         "At {few} of {all} points it is not proved that no limit direction and no critical set is missed.",
         "a map of typed formulas with doubts",

@@ -112,6 +112,13 @@ def unproved(key):
     assert not map_columns(plain)[0]["note"]
 
 
+def by_points(key):
+    system = System(U=("c**2 - mu", "-s + k*c*s"), parameters={"mu": 0.5, "k": 0.3})
+    found = class_map(system, psi.constant(), ("mu", "k"), ((-1, 1), (-1, 1)), steps=32, thin=0, accuracy=1e-2)
+    header, _ = map_columns(found)
+    assert fields(key, header["note"]) == {"net": "16", "finest": "32"}
+
+
 def one_parameter(key):
     """As it advises: with a second name in a formula, or n, there is a plane."""
     values = {"panel": "atlas", "system": "typed", "texts": {}}
@@ -217,6 +224,7 @@ CHECKS = {
     "no slow variable": unable("along", "along", system="own", texts={"U1": "-c", "U2": "-s", "W": ""}),
     "no parameter to map": unable("atlas", "map", system="own", texts={"U1": "-c", "U2": "-s", "W": "", "where": ""}),
     "one parameter": one_parameter,
+    "map by points": by_points,
     "points unproved": unproved,
     "no parameter": unable("diagram", "diagram", system="own", texts={"U1": "-c", "U2": "-s", "W": "", "where": ""}),
     "one axis twice": axes,

@@ -268,7 +268,7 @@ def map_columns(found: ClassMap) -> tuple[dict[str, Any], dict[str, Polylines]]:
         "loops": [len(region.boundary) for region in found.regions],
         "curve": [boundary.happening[0] for boundary in found.boundaries],
         "pieces": [len(boundary.lines) for boundary in found.boundaries],
-        "note": say("points unproved", few=found.unproved, all=found.evaluated) if found.unproved else "",
+        "note": _note(found),
     }
     loops = [unit(loop) for region in found.regions for loop in region.boundary]
     curves = [unit(line) for boundary in found.boundaries for line in boundary.lines]
@@ -276,6 +276,14 @@ def map_columns(found: ClassMap) -> tuple[dict[str, Any], dict[str, Polylines]]:
         "map": Polylines(*plane_curves.thin(loops, 1.0)),
         "map_curves": Polylines(*plane_curves.thin(curves, 1.0)),
     }
+
+
+def _note(found: ClassMap) -> str:
+    """Tell what a map can miss."""
+    net, finest = round(1 / found.coarsest), round(1 / found.step)
+    told = [say("map by points", net=net, finest=finest)] if found.samples is not None else []
+    told += [say("points unproved", few=found.unproved, all=found.evaluated)] if found.unproved else []
+    return " ".join(told)
 
 
 PANEL = Panel("atlas", "Atlas", add, "Two parameters as a plane, cut into regions of one portrait each.")

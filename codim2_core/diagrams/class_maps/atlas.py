@@ -96,6 +96,8 @@ class ClassMap:
         junctions of three regions, and between points, they are as near as a part of a cell.
     step : float
         Side of the smallest cell, where both spans are counted as 1. Boundaries that hold no whole cell are not drawn.
+    coarsest : float
+        Side of the largest cell. A region of a general system that holds no corner and no centre of a cell is missed.
     thin : tuple of (str, (x, y))
         Classes that were seen, but only in places too thin to be drawn, and one such place.
     evaluated : int
@@ -112,6 +114,7 @@ class ClassMap:
     boundaries: tuple[MapBoundary, ...]
     accuracy: float
     step: float
+    coarsest: float
     thin: tuple[tuple[str, tuple[float, float]], ...]
     evaluated: int
     unproved: int = 0
@@ -147,6 +150,9 @@ def class_map(
     The class is computed at the vertices of a quadtree: coarse cells are halved where it changes or may change
     unseen, and once or twice more where something thinner than a cell shows. Points of the boundaries are then
     found by bisection along the edges of the triangles into which the cells are cut.
+
+    Of a general system only points tell of a change: a region that holds no corner and no centre of the first cells,
+    16 to a side, is missed, whatever `steps` is, unless a boundary leads there. Smaller spans have a finer net.
 
     Parameters
     ----------
@@ -201,7 +207,7 @@ def class_map(
     samples = classes.samples if isinstance(classes, TypedClasses) else None
     return ClassMap(
         (first, second), both, _regions(classes, leaves, found, both), _boundaries(classes, found),
-        accuracy, float(leaves.size.min()), unresolved, len(leaves.codes),
+        accuracy, float(leaves.size.min()), float(leaves.size.max()), unresolved, len(leaves.codes),
         0 if samples is None else len(samples.unproved), samples,
     )  # fmt: skip
 

@@ -255,6 +255,20 @@ def test_a_map_of_equations_has_their_classes_and_a_finer_one_goes_on_from_it() 
             assert region.name == of_general(FOLDING.evolve(mu=x, k=y), psi)
 
 
+def test_a_general_island_without_a_point_of_the_net_is_seen_by_a_map_of_less():
+    at = -1 + (2 * 7 + 0.5) / 16  # between a centre and the corners of a cell
+    island = f"r**2 - (mu - ({at}))**2 - (k - ({at}))**2"
+    system = c2.System(U=(f"c**2 - ({island})", "-9*s"), parameters={"mu": 0.0, "k": 0.0, "r": 0.02})
+
+    def found(radius: float, half: float) -> ClassMap:
+        around = (at - half, at + 1.1 * half)
+        spans = ((-1, 1), (-1, 1)) if half == 1 else (around, around)
+        return class_map(system.evolve(r=radius), c2.psi.tanh(), ("mu", "k"), spans, steps=16, thin=0, accuracy=1e-2)
+
+    assert [len(found(*of).regions) for of in ((0.02, 1), (0.02, 0.1), (0.2, 1))] == [1, 2, 2]
+    assert found(0.02, 1).coarsest == 1 / 16
+
+
 def test_where_equations_have_no_value_is_a_region_of_its_own() -> None:
     system = c2.System(U=("c**2 - mu", "-s + log(k)"), parameters={"mu": 0.5, "k": 0.3})
     M = class_map(system, c2.psi.tanh(), ("mu", "k"), ((-2, 2), (-1, 1)), steps=8, thin=0, accuracy=1e-2)
