@@ -67,7 +67,7 @@ export const SAYS = {
   removed: "Removed:",
   putBack: "Put back",
   orbit: "Launched orbit",
-  pointAt: "Point at the curve or at a mark on Σ to read its numbers.",
+  pointAt: "Point at the curve or at a mark on Σ to read its numbers, or press Enter on the picture for one after the other.",
   limitVector: "the limit vector",
   candidate: "An end of what convex combinations of limit vectors reach on Σ",
   affine: "The affine combination on Σ, the one that is linear in e",

@@ -1,6 +1,7 @@
 // The panel "3-D": the hemisphere of the blowup, or hemispheres stacked along z. Turned here, without asking the server.
 
 import {register} from "../beside/panels.js"
+import {Told} from "../beside/told.js"
 import {say} from "../dom.js"
 import {seen} from "../chart/projection.js"
 import {SAYS, digits, minus, plain} from "../words.js"
@@ -8,7 +9,7 @@ import {SAYS, digits, minus, plain} from "../words.js"
 /** Whether the two ends of what slides combine two limit vectors each. @param {{candidates: number[], combined: number[][][]}} data */
 const inPairs = ({candidates, combined}) => candidates.length === 2 && combined.every((ends) => ends.length === 2)
 
-const REACH = {mouse: 12, pen: 14, touch: 24} // px around what is told
+const TOLD = 24 // places along the curve of limit vectors at which keys stop
 
 class Stack {
   constructor(box, tools) {
@@ -27,11 +28,11 @@ class Stack {
     this.why = {}
     for (const button of this.box.querySelectorAll("[data-view]")) button.addEventListener("click", () => tools.choose("solid", button.dataset.view))
     this.canvas.addEventListener("pointerdown", (event) => { this.canvas.setPointerCapture(event.pointerId); this.from = [event.clientX, event.clientY] })
-    this.places = [] // what can be pointed at: where on the canvas, and what is said of it
-    this.canvas.addEventListener("pointerdown", (event) => this.tell(event))
+    this.told = new Told(this.canvas, this.find(".solid-told"), () => this.paint())
+    this.canvas.addEventListener("pointerdown", (event) => this.told.under(event))
     this.canvas.addEventListener("pointerleave", () => say(this.find(".solid-told"), ""))
     this.canvas.addEventListener("pointermove", (event) => {
-      if (!this.from) { this.tell(event); return }
+      if (!this.from) { this.told.under(event); return }
       this.turn((event.clientX - this.from[0]) / 120, (event.clientY - this.from[1]) / 160)
       this.from = [event.clientX, event.clientY]
     })
@@ -39,6 +40,7 @@ class Stack {
     this.canvas.addEventListener("keydown", (event) => {
       const way = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.08], ArrowDown: [0, -0.08]}[event.key]
       if (way) { event.preventDefault(); this.turn(...way) }
+      else if (event.key === "Enter") this.told.step(event.shiftKey ? -1 : 1)
     })
     new ResizeObserver(() => this.paint()).observe(this.canvas)
   }
@@ -63,20 +65,7 @@ class Stack {
 
   draw(values) { this.values = values; this.view = values.solid; this.paint() }
 
-  // Say what is under the pointer: of two the one that was drawn last.
-  tell(event) {
-    const box = this.canvas.getBoundingClientRect(), told = this.find(".solid-told")
-    const reach = REACH[event.pointerType] ?? REACH.mouse
-    let least = reach, words = ""
-    for (const {at: [x, y], said} of this.places) {
-      const gap = Math.hypot(event.clientX - box.left - x, event.clientY - box.top - y)
-      if (gap <= least) { least = gap; words = said }
-    }
-    told.hidden = !this.places.length
-    say(told, words || (this.places.length ? SAYS.pointAt : ""))
-  }
-
-  place(point, said) { this.places.push({at: this.project(point), said}) }
+  place(point, said, stop) { this.told.places.push({at: this.project(point), said, stop}) }
 
   // From space to the canvas, in px, with the depth.
   project(point) {
@@ -96,7 +85,7 @@ class Stack {
     const style = getComputedStyle(this.tools.root)
     this.colour = (name) => style.getPropertyValue(`--${name}`).trim()
     for (const button of this.box.querySelectorAll("[data-view]")) button.setAttribute("aria-pressed", button.dataset.view === this.view)
-    this.places = []
+    this.told.clear()
     const data = this.data[this.view]
     this.find(".solid-note").textContent = data ? [data.sentence, this.view === "filippov" && inPairs(data) && SAYS.ends].filter(Boolean).join(" ") : this.why[this.view] || "…"
     if (!data) return
@@ -322,10 +311,12 @@ class Stack {
   // What is told of the limit vectors under a pointer: the curve first, above it what lies on Σ.
   tellOf({cross, curve, candidates, selected}, at, lift) {
     const on = (value) => [0, 0, lift(value)], z = (value) => `z′ = ${digits(value, 4)}`
-    curve.forEach((v, i) => this.place(at(v), `F*(θ), θ = ${digits(360 * i / (curve.length - 1))}°: ${SAYS.limitVector} (U₁, U₂, W) = (${v.map((u) => digits(u)).join(", ")})`))
-    for (const value of candidates) this.place(on(value), `${SAYS.candidate}, ${z(value)}`)
-    if (cross !== null) this.place(on(cross), `${SAYS.affine}, ${z(cross)}`)
-    for (const [value, kind] of selected) this.place(on(value), `${SAYS.selected} (${kind}), ${z(value)}`)
+    const each = Math.max(1, Math.round((curve.length - 1) / TOLD))
+    curve.forEach((v, i) => this.place(at(v), `F*(θ), θ = ${digits(360 * i / (curve.length - 1))}°: ${SAYS.limitVector} (U₁, U₂, W) = (${v.map((u) => digits(u)).join(", ")})`, i % each === 0 && i < curve.length - 1))
+    for (const value of candidates) this.place(on(value), `${SAYS.candidate}, ${z(value)}`, "first")
+    if (cross !== null) this.place(on(cross), `${SAYS.affine}, ${z(cross)}`, "first")
+    for (const [value, kind] of selected) this.place(on(value), `${SAYS.selected} (${kind}), ${z(value)}`, "first")
+    this.told.ring(this.g, this.colour("ink"))
     this.find(".solid-told").hidden = false
   }
 

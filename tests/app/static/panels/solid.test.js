@@ -75,6 +75,28 @@ test("the panel solid: what the Filippov view shows is told under the pointer, a
   assert.deepEqual([told().textContent, told().hidden], ["", true])
 })
 
+test("the panel solid: Enter tells one thing of the Filippov view after the other, what lies on Σ first, and rings it", () => {
+  const curve = Array.from({length: 49}, (_, i) => [Math.cos(i * Math.PI / 24), Math.sin(i * Math.PI / 24), 0.5])
+  const data = {plane: [], cross: null, curve, candidates: [-0.25, 0.25], combined: [[], []], selected: [[0.125, "stable node"]], sentence: "All."}
+  const one = solid({filippov: data, ...MARKS}, {solid: "filippov"}), told = () => one.find(".solid-told").textContent
+  const press = (more = {}) => { one.fire(one.canvas, "keydown", {key: "Enter", ...more}); return told() }
+  const rings = () => paths(one.drawn()).filter(({how, points}) => how === "stroke" && points.length === 1).length
+  const none = rings()
+  assert.match(press(), /^An end.*−0\.250*$/)
+  assert.equal(rings(), none + 1)
+  assert.match(press(), /z′ = 0\.250*$/)
+  assert.match(press(), /stable node/)
+  assert.match(press(), /θ = 0°/)
+  assert.match(press(), /θ = 15\.00°/)
+  assert.match(press({shiftKey: true}), /θ = 0°/)
+  for (let i = 0; i < 4; i++) press({shiftKey: true})
+  assert.match(told(), /θ = 345\.0*°/) // round the end
+  one.fire(one.canvas, "pointermove", {clientX: -99, clientY: -99})
+  assert.equal(rings(), none)
+  one.set({solid: "sphere"})
+  assert.equal(press(), "")
+})
+
 test("the panel solid: a hand turns it, and so do keys, never from below", () => {
   const one = solid({sphere: {inside: [], outside: []}, equator: {x: [1], y: [0], filled: [1], label: ["Q"]}, critical: {}})
   const place = (drawn) => { const [[, x, y]] = paths(drawn).filter(({how, points}) => how === "fill" && points.length === 1 && points[0][0] === "arc").map(({points}) => points[0]); return [x, y] }
