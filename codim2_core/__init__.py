@@ -22,6 +22,7 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .motion.nonsmooth import simulate_nonsmooth
     from .motion.regularised import simulate
     from .motion.result import Phase, Simulation, SimulationStatus
+    from .motion.variation.result import Variation
     from .nullcline.nullclines import NullclineBranch, nullclines
     from .orbits.trajectories import Trajectories, trajectories
     from .portrait.approach import approach_outcomes
@@ -69,6 +70,7 @@ __all__ = [
     "SlowPortrait",
     "System",
     "Trajectories",
+    "Variation",
     "approach_outcomes",
     "basins",
     "bifurcations",
@@ -113,6 +115,7 @@ _HOMES = {
     "motion.nonsmooth": "simulate_nonsmooth",
     "motion.regularised": "simulate",
     "motion.result": "Phase Simulation SimulationStatus",
+    "motion.variation.result": "Variation",
     "nullcline.nullclines": "NullclineBranch nullclines",
     "orbits.trajectories": "Trajectories trajectories",
     "portrait.basins": "Basins basins",

@@ -65,15 +65,27 @@ class Field:
 
 @lru_cache(maxsize=32)
 def _of_hashable(system: ELinear | System | Frozen) -> Field:
+    return _field(_hashable_rows(system), system.m)
+
+
+def _hashable_rows(system: ELinear | System | Frozen, kept: Sequence[str] = ()) -> list[Expression]:
     if isinstance(system, ELinear):
-        return _field(_elinear_rows(system), system.m)
+        return _elinear_rows(system, kept)
     if isinstance(system, Frozen):
         values = [_number(value) for value in system.z]
-        rows = _system_rows(system.system)
+        rows = _system_rows(system.system, kept)
         for name, value in zip(SLOW, values, strict=False):
             rows = [row.substitute(name, value) for row in rows]
-        return _field(rows, system.m)
-    return _field(_system_rows(system), system.m)
+        return rows
+    return _system_rows(system, kept)
+
+
+def _coefficients_rows(system: Coefficients, kept: Sequence[str] = ()) -> list[Expression]:
+    a, b, d, f1, f2 = (
+        parse(name, (name,)) if name in kept else value
+        for name, value in zip(Coefficients.variable, (system.a, system.b, system.d, system.f1, system.f2), strict=True)
+    )
+    return _affine((a, b, d), (f1, f2), system.B.tolist(), system.g.tolist(), (1.0, 0.0))
 
 
 def field(system: AnySystem) -> Field:
@@ -90,20 +102,37 @@ def field(system: AnySystem) -> Field:
         An ELinear made `from_matrix` whose rotation into the normal form depends on z: its axes turn with z.
     """
     if isinstance(system, Coefficients):
-        rows = _affine(
-            (system.a, system.b, system.d), (system.f1, system.f2), system.B.tolist(), system.g.tolist(), (1.0, 0.0)
-        )
-        return _field(rows, len(system.g))
+        return _field(_coefficients_rows(system), len(system.g))
     return _of_hashable(system)
+
+
+def rows_of(system: AnySystem, kept: Sequence[str] = ()) -> list[Expression]:
+    """Return the formulas of U and W, in which some of the system's numbers keep their names.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    kept : sequence of str
+        Of ``system.variable``.
+
+    Raises
+    ------
+    ValueError
+        As `field`; also where A is given as a matrix and a name is kept of which it is made.
+    """
+    if isinstance(system, Coefficients):
+        return _coefficients_rows(system, kept)
+    assert isinstance(system, ELinear | System | Frozen)
+    return _hashable_rows(system, kept)
 
 
 def _number(value: float) -> Expression:
     return parse(repr(float(value)), ())
 
 
-def _system_rows(system: Formulas) -> list[Expression]:
+def _system_rows(system: Formulas, kept: Sequence[str] = ()) -> list[Expression]:
     rows = [*system.U, *(system.W or [_number(0.0)] * system.m)]
-    return _with_parameters(rows, system.parameters)
+    return _with_parameters(rows, [pair for pair in system.parameters if pair[0] not in kept])
 
 
 def _with_parameters(rows: Sequence[Expression], parameters: Sequence[tuple[str, float]]) -> list[Expression]:
@@ -116,20 +145,29 @@ def _with_parameters(rows: Sequence[Expression], parameters: Sequence[tuple[str,
     return found
 
 
-def _elinear_rows(system: ELinear) -> list[Expression]:
-    def known(value: Any) -> Expression:
+def _elinear_rows(system: ELinear, kept: Sequence[str] = ()) -> list[Expression]:
+    values = [pair for pair in system.parameters if pair[0] not in kept]
+
+    def known(value: Any, name: str = "") -> Expression:
+        if name in kept:
+            return parse(name, (name,))
         expression = value if isinstance(value, Expression) else _number(value)
-        expression = _with_parameters([expression], system.parameters)[0]
+        expression = _with_parameters([expression], values)[0]
         return expression.substitute("z", parse("z1", SLOW)) if "z" in expression.names else expression
 
-    f = [known(value) for value in system.f]
+    f = [known(value, name) for name, value in zip(("f1", "f2"), system.f, strict=True)]
     B = [[known(value) for value in row] for row in system.B or [(0.0, 0.0)] * system.m]
     g = [known(value) for value in system.g or [0.0] * system.m]
-    abd: list[Any] = [known(value) for value in (system.a, system.b, system.d)]
+    abd: list[Any] = [known(value, name) for name, value in zip("abd", (system.a, system.b, system.d), strict=True)]
     axes = (1.0, 0.0)
     if system.given_matrix is not None:
         entries = [[known(value).constant for value in row] for row in system.given_matrix]
         if any(entry is None for row in entries for entry in row):
+            if any(name in kept for row in system.given_matrix for value in row for name in known(value).names):
+                raise ValueError(
+                    "A is made of the parameters named, and its rotation into the normal form turns with them: "
+                    "give the system as System(U=..., W=...) in fixed axes."
+                )
             raise ValueError(
                 "A depends on z, and its rotation into the normal form would turn the axes of (x, y) with it: "
                 "nothing to simulate in. Give the system as System(U=..., W=...) in fixed axes."

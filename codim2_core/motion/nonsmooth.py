@@ -24,6 +24,7 @@ from ..systems.kinds import AnySystem
 from .limit.course import AtEventError, Course, StopError
 from .regularised import MANY, MAX_STEPS, checked_span, checked_states, checked_tolerances, count_steps, waited_for
 from .result import Simulation, SimulationStatus, simulation
+from .variation.nonsmooth import of_nonsmooth
 
 if TYPE_CHECKING:
     from .limit.legs import Legs
@@ -182,7 +183,8 @@ class _Asked:
         evaluations = count[0] + (course.compiled.evaluations if course.compiled else 0)
         motion = dense(t_start, first, [gathered(course.taken, len(first))])
         phases = partial(tuple, [part.placed(self.system, course.own, motion) for part in course.parts])
-        return simulation(motion, phases, status, detail=detail, evaluations=evaluations, events=watch.times)
+        variation = partial(of_nonsmooth, self.system, motion, phases, line)
+        return simulation(motion, phases, variation, status, detail=detail, evaluations=evaluations, events=watch.times)
 
 
 def _followed(asked: _Asked, states: Array) -> Iterator[Simulation]:
@@ -209,4 +211,5 @@ def _followed(asked: _Asked, states: Array) -> Iterator[Simulation]:
         else:
             found = begun.found
             phases = partial(begun.phases, found.motion)
-            yield simulation(found.motion, phases, SimulationStatus.T_END, evaluations=found.evaluations)
+            variation = partial(of_nonsmooth, asked.system, found.motion, phases, begun.line)
+            yield simulation(found.motion, phases, variation, SimulationStatus.T_END, evaluations=found.evaluations)

@@ -24,6 +24,7 @@ from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .phases import phases_of
 from .result import Simulation, SimulationStatus, simulation
+from .variation.regularised import of_regularised
 
 if TYPE_CHECKING:
     from ..initial_value.compiled import CompiledMotion
@@ -187,7 +188,10 @@ def simulate(
         parts, status, detail, count = _followed(formulas, psi, eps, first, span, rtol, atol, max_steps, watch)
         motion = dense(t_start, first, parts)
         phases = partial(phases_of, system, psi, eps, motion)
-        return simulation(motion, phases, status, detail=detail, eps=eps, evaluations=count, events=watch.times)
+        variation = partial(of_regularised, system, psi, eps, motion)
+        return simulation(
+            motion, phases, variation, status, detail=detail, eps=eps, evaluations=count, events=watch.times
+        )
 
     if not watched and (len(states) >= MANY or _is_compiled(formulas)):
         runs = _compiled(system, formulas, psi, eps, states, span, rtol, atol, max_steps)
@@ -223,7 +227,9 @@ def _compiled(
             status = SimulationStatus.BLOW_UP if isinstance(error, BlowUpError) else SimulationStatus.STEP_LIMIT
             detail = str(error)
         phases = partial(phases_of, system, psi, eps, one.motion)
-        runs.append(simulation(one.motion, phases, status, detail=detail, eps=eps, evaluations=one.evaluations))
+        variation = partial(of_regularised, system, psi, eps, one.motion)
+        count = one.evaluations
+        runs.append(simulation(one.motion, phases, variation, status, detail=detail, eps=eps, evaluations=count))
     return tuple(runs)
 
 

@@ -17,6 +17,9 @@ from ..tables import Tabled, number, paragraphs, rows
 from ..words import say
 from .places import NONE, Ascent, Place
 
+if TYPE_CHECKING:
+    from .variation.result import Variation
+
 Array = NDArray[np.float64]
 
 SAMPLES, MOST = 240, 500  # even times of a drawn motion besides the ends of its steps, and its most points
@@ -189,6 +192,7 @@ class Simulation:
     evaluations: int
     events: tuple[Array, ...]
     _phases: Callable[[], tuple[Phase, ...]]
+    _variation: Callable[[tuple[str, ...]], Variation]
 
     def _repr_html_(self) -> str:
         return (self._repr_svg_() or "") + rows(self.phases) + paragraphs([self.reason])
@@ -210,6 +214,39 @@ class Simulation:
     def phases(self) -> tuple[Phase, ...]:
         """Consecutive phases, read off the motion when first asked for."""
         return self._phases()
+
+    def variation(self, *names: str) -> Variation:
+        """Differentiate the motion by its start and by numbers of its system.
+
+        In the limit the derivatives go through arrival at Sigma, sliding on critical sets, crossing and exit at the
+        equator. Left out, as columns of zeros, is what no derivative tells: (x, y) of a start on Sigma itself, and in
+        an invariant line that repels what lies across it.
+
+        Parameters
+        ----------
+        *names : str
+            Of ``system.variable``: its parameters; of e-linear systems also a, b, d, f1, f2 where they are numbers.
+
+        Returns
+        -------
+        Variation
+            As far as the derivatives are known, with the reason where that is not all of the motion.
+
+        Raises
+        ------
+        ValueError
+            A name is none of the system's.
+
+        Examples
+        --------
+        A ball that slips comes to roll with 5/7 of its speed:
+
+        >>> from codim2_core import examples, simulate_nonsmooth
+        >>> run = simulate_nonsmooth(examples.ball_in_pool(K=0.0), (1.0, 0.0, 1.0, 0.0), (0.0, 1.0))
+        >>> run.variation().last[2, :3].round(9).tolist()
+        [-0.285714286, 0.0, 1.0]
+        """
+        return self._variation(names)
 
     @cached_property
     def invariant(self) -> float:
@@ -283,6 +320,7 @@ class Simulation:
 def simulation(
     motion: Dense,
     phases: Callable[[], tuple[Phase, ...]],
+    variation: Callable[[tuple[str, ...]], Variation],
     status: SimulationStatus,
     *,
     detail: str = "",
@@ -298,10 +336,12 @@ def simulation(
         As in `Simulation`.
     phases : callable
         Makes the phases when they are first asked for.
+    variation : callable
+        Makes the variation by named numbers.
     detail : str
         Added to the status as its reason.
     """
     found = tuple(np.array(times) for times in events)
     for array in found:
         array.flags.writeable = False
-    return Simulation(motion, status, f"{status.value} {detail}".strip(), eps, evaluations, found, phases)
+    return Simulation(motion, status, f"{status.value} {detail}".strip(), eps, evaluations, found, phases, variation)

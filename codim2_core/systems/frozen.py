@@ -25,6 +25,8 @@ class AtZ(Protocol):
         True: z is chosen already.
     moves_with_z : bool
         False: it depends on z no more.
+    variable : tuple of str
+        Names of the numbers that may be changed.
     z : tuple of float
         Where it is frozen, as far as that is known: () for numbers alone.
     m : int
@@ -56,6 +58,7 @@ class AtZ(Protocol):
 
     frozen: ClassVar[bool]
     moves_with_z: ClassVar[bool]
+    variable: ClassVar[tuple[str, ...]]
 
     @property
     def z(self) -> tuple[float, ...]: ...  # noqa: D102

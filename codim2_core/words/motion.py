@@ -15,6 +15,21 @@ SENTENCES: dict[str, Sentence] = {
         "Along it there is no critical set: crossing, it leaves along θ = {theta:.4g}.", "in a line, the equator ahead"
     ),
     "arrives in a line": Sentence("Arrives at Σ in an invariant line.", "a slip ends, in an invariant line"),
+    "variation undefined": Sentence(
+        "The derivatives are not known past t = {t:.6g}: those of a formula are not finite there.",
+        "D (U, W) is not finite",
+    ),
+    "variation on a cycle": Sentence(
+        "The derivatives are not known past t = {t:.6g}: the motion slides on a limit cycle from there.",
+        "a slide on a limit cycle of a general system",
+    ),
+    "variation past an end": Sentence(
+        "The derivatives are not known past t = {t:.6g}: sliding does not end at the equator there.",
+        "a fold, a Hopf bifurcation, the end of a cycle",
+    ),
+    "variation ends at Sigma": Sentence(
+        "The derivatives are not known at t = {t:.6g}: the motion ends as it arrives at Σ.", "no phase after an arrival"
+    ),
     "leaves": Sentence("Leaves Σ along θ = {theta:.4g}.", "after a crossing"),
     "ends at the equator": Sentence(
         "{C} reaches the equator (Figure 19) and sliding ends: slips away along θ = {theta:.4g}.",

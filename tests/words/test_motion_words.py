@@ -18,8 +18,10 @@ TWO_NODES = System(U=("-c*(c - 1/2)*(c + 1/2)", "-s"))
 SUBCRITICAL = System(U=("z*c - s + c*(c**2 + s**2)", "c + z*s + s*(c**2 + s**2)"), W=("1",))
 CYCLE = System(U=("c - s - 2*c*(c**2 + s**2)", "c + s - 2*s*(c**2 + s**2)"))
 AGREEMENT, FIRST_STEPS = "tests/core/motion/test_agreement.py", "tests/core/motion/test_nonsmooth.py"
+VARIATIONS = "tests/core/motion/test_variation.py"
 CYCLES_END = "tests/core/motion/test_slide_slip.py"
-#: Held by tests of their own: what `leave` and `agreement` return, and how a cycle of a typed system ends.
+#: Held by tests of their own: what `leave` and `agreement` return, how a cycle of a typed system ends, and how far a
+#: motion is differentiated.
 ELSEWHERE = {
     "repels angularly": FIRST_STEPS,
     "nothing leaves": FIRST_STEPS,
@@ -32,6 +34,10 @@ ELSEWHERE = {
     "cycle ends, not found": CYCLES_END,
     "cycle ends, not decided": CYCLES_END,
     "saddle reached": CYCLES_END,
+    "variation undefined": VARIATIONS,
+    "variation on a cycle": VARIATIONS,
+    "variation past an end": VARIATIONS,
+    "variation ends at Sigma": VARIATIONS,
 }
 CASES = {
     "focus": (ELinear(-1, 0.5, -1, (0.1, 0)), None, (1, 0.2), 3),

@@ -1,0 +1,1 @@
+"""How a motion changes with where it starts and with its system's numbers."""

@@ -1,0 +1,303 @@
+"""The variational equation in the limit eps -> 0: along slips and slides, with a saltation matrix where one begins.
+
+A change of the start moves an arrival at Sigma by dt. What is known of the motion after it, at fixed times, is moved
+with it: z by dt (W- - W+), and (x, y), if the motion leaves at once, by -dt U+. Where a critical set leaves through the
+equator, both fields agree and the motion begins with no speed: nothing is added there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+from itertools import pairwise
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...initial_value.line import InvariantLine
+from ...initial_value.slopes import Slopes, outside, slopes_of
+from ...numerics.dense import Dense
+from ...systems.kinds import AnySystem
+from ...words import say
+from .chain import chained
+from .propagators import Propagators, along, padded, propagators
+from .result import Variation
+
+Array = NDArray[np.float64]
+Steps = NDArray[np.intp]
+
+RTOL = 1e-10  # how far a part of a step and its halves may differ
+AT_EQUATOR = 1e-6  # 1 - |e| at which a slide has ended there
+NEUTRAL = 1e-9  # lambda_theta, in units of U, up to which a line does not repel: all directions are alike
+AT_REST = 1e-6  # |U| on a critical set, in units of its slopes: on a limit cycle e is a mean, where U is not zero
+
+
+class Phase(Protocol):
+    """What is read of a phase of the motion."""
+
+    @property
+    def kind(self) -> str: ...  # noqa: D102
+    @property
+    def t_start(self) -> float: ...  # noqa: D102
+    @property
+    def t_end(self) -> float: ...  # noqa: D102
+    def e(self, t: ArrayLike, /) -> Array: ...  # noqa: D102
+
+
+def of_nonsmooth(
+    system: AnySystem,
+    motion: Dense,
+    phases: Callable[[], Sequence[Phase]],
+    line: InvariantLine | None,
+    names: Sequence[str],
+) -> Variation:
+    """Differentiate a motion by its start, and by numbers of its system.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    motion : Dense
+    phases : callable
+        Makes its phases.
+    line : InvariantLine or None
+        The invariant line that it stays in: where the line repels, changes across it are left out.
+    names : sequence of str
+        Of ``system.variable``.
+    """
+    course, legs = _Course(slopes_of(system, names), motion, None), list(_legs(motion, phases()))
+    if line is not None and any(course.repels(leg, line.n) for leg in legs):
+        course = replace(course, n=line.n)
+    fine, coarse, before, reason = [course.none.fine], [course.none.coarse], course.kept, ""
+    for leg, following in pairwise([*legs, None]):
+        assert leg is not None
+        found, reason = course.along(leg, following, before)
+        before = reduce(lambda product, step: step @ product, found.fine, before)
+        fine.append(found.fine)
+        coarse.append(found.coarse)
+        if reason:
+            break
+    matrices, longer = np.concatenate(fine), np.concatenate(coarse)
+    for first in (matrices[:1], longer[:1]):
+        first @= course.kept
+    end = len(matrices)
+    return chained(tuple(names), motion.times[: end + 1], matrices, longer, course.rate(legs, end), reason)
+
+
+@dataclass(frozen=True)
+class _Leg:
+    """Consecutive steps of one kind: a slide, or a slip from Sigma or from outside, to Sigma or to the end."""
+
+    first: int
+    last: int
+    slides: tuple[Phase, ...]  # the phases of a slide; none for a slip
+    from_sigma: bool
+    to_sigma: bool
+    left: bool  # it leaves Sigma where a slide ended
+
+
+def _legs(motion: Dense, phases: Sequence[Phase]) -> Iterator[_Leg]:
+    """Cut a motion where it arrives at Sigma, and where it leaves."""
+    on = (motion.states[:, :2] == 0.0).all(axis=1)
+    sliding = on[:-1] & on[1:] & ~motion.polynomials[:, :2].any(axis=(1, 2))
+    cuts = np.flatnonzero(on[1:-1] & ~(sliding[:-1] & sliding[1:])) + 1
+    for first, last in pairwise([0, *cuts.tolist(), len(sliding)]):
+        start, end = float(motion.times[first]), float(motion.times[last])
+        slides = [p for p in phases if p.kind == "slide" and start <= p.t_start <= end and start < p.t_end <= end]
+        own = tuple(slides) if sliding[first] else ()
+        yield _Leg(first, last, own, bool(on[first]), bool(on[last]), first > 0 and bool(sliding[first - 1]))
+
+
+@dataclass(frozen=True, eq=False)
+class _Course:
+    """A motion that is being differentiated, in the plane, or only in the line along n."""
+
+    slopes: Slopes
+    motion: Dense
+    n: Array | None
+
+    @property
+    def size(self) -> int:
+        """Of the state, and of the numbers by which it is differentiated."""
+        return self.motion.states.shape[1] + len(self.slopes.kept)
+
+    def along(self, leg: _Leg, following: _Leg | None, before: Array) -> tuple[Propagators, str]:
+        """Differentiate the steps of a leg, and what happens at its end; say why it is not known further."""
+        return self.slide(leg, following, before) if leg.slides else self.slip(leg, following, before)
+
+    def slide(self, leg: _Leg, following: _Leg | None, before: Array) -> tuple[Propagators, str]:
+        """Along a slide: ``z' = W(e(z), z)`` on the critical set e(z), eq:linslowflow."""
+        phase, last, reason = leg.slides[0], leg.last, ""
+        if not self.rests(phase):
+            return self.none, say("variation on a cycle", t=phase.t_start)
+        if len(leg.slides) > 1 or (following is not None and not _at_equator(phase)):
+            last = int(np.searchsorted(self.motion.times, phase.t_end, side="left"))
+            reason = say("variation past an end", t=phase.t_end)
+        slopes = lambda steps, u: self.slide_slopes(phase, steps, u)  # noqa: E731
+        return self.solved(range(leg.first, last), slopes, before), reason
+
+    def slip(self, leg: _Leg, following: _Leg | None, before: Array) -> tuple[Propagators, str]:
+        """Along a slip, from where it leaves Sigma to where it arrives."""
+        near = self.near(leg) if leg.to_sigma else leg.last
+        coming = self.departure(leg) @ before if leg.from_sigma else before
+        found = self.solved(range(leg.first, near), self.slip_slopes, coming)
+        if leg.from_sigma:
+            for matrices in (found.fine, found.coarse):
+                matrices[0] = self.departed(leg, matrices[0])
+        if not leg.to_sigma:
+            return found, ""
+        if following is None:
+            return found, say("variation ends at Sigma", t=float(self.motion.times[near]))
+        onward, still = self.beginning(following), np.broadcast_to(np.eye(self.size), (leg.last - near, *before.shape))
+        fine, coarse = np.concatenate([found.fine, still]), np.concatenate([found.coarse, still])
+        fine[-1] = self.arrival(near, onward)
+        earlier = max(near - 1, leg.first)
+        coarse[earlier - leg.first : -1] = np.eye(self.size)
+        coarse[-1] = self.arrival(earlier, onward)
+        return Propagators(fine, coarse), ""
+
+    def near(self, leg: _Leg) -> int:
+        """Step of a leg to Sigma at whose beginning its arrival is told best: straight on from there.
+
+        Both the rest of the way and how far the direction still turns should be small; where all directions are alike
+        nothing damps the rounding of (x, y), and close to Sigma it is the direction.
+        """
+        e, _ = outside(self.motion.states[leg.first : leg.last, :2])
+        rho = np.hypot(*self.motion.states[leg.first : leg.last, :2].T)
+        turns = np.append(np.abs(np.diff(e, axis=0)).max(axis=1), 0.0)
+        turns[-1] = turns[-2] if len(turns) > 1 else 0.0
+        return leg.first + int(np.argmin(np.where(rho > 0.0, np.maximum(turns, rho / rho.max()), np.inf)))
+
+    @property
+    def none(self) -> Propagators:
+        """No steps."""
+        return Propagators(*np.zeros((2, 0, self.size, self.size)))
+
+    def solved(self, steps: range, jacobian: Callable[[Steps, Array], Array], before: Array) -> Propagators:
+        """Solve along steps; x and y are measured by rho."""
+        ends = slice(steps.start, steps.stop + 1)
+        sizes = np.ones((len(steps) + 1, self.size))
+        rho = np.hypot(*self.motion.states[ends, :2].T)
+        sizes[:, :2] = rho[:, None] if rho.any() else 1.0
+        lengths = self.motion.lengths[steps.start : steps.stop]
+        return propagators(lambda i, u: jacobian(i + steps.start, u), lengths, sizes, RTOL, before)
+
+    def slip_slopes(self, steps: Steps, u: Array) -> Array:
+        """Jacobian of the slip at fractions of steps."""
+        states = along(self.motion, steps, u)
+        found = padded(self.slopes.of_state(*outside(states[:, :2], self.n), states), u.shape)
+        return found if self.n is None else self.kept @ found @ self.kept
+
+    def slide_slopes(self, phase: Phase, steps: Steps, u: Array) -> Array:
+        """Jacobian of the slow flow at fractions of steps; the critical set moves by ``D_e U de + D_z U dz = 0``."""
+        times = self.motion.times[steps, None] + u * self.motion.lengths[steps, None]
+        e = phase.e(np.clip(times.ravel(), phase.t_start, phase.t_end))
+        D = self.slopes.at(e, along(self.motion, steps, u))
+        De, Dz = D[:, :, :2], D[:, :, 4:]
+        if self.n is None:
+            moved = -np.linalg.solve(De[:, :2], Dz[:, :2])
+        else:
+            moved = -self.n[:, None] * ((self.n @ Dz[:, :2]) / (self.n @ De[:, :2] @ self.n)[:, None])[:, None]
+        slopes = np.zeros((len(e), 2 + self.slopes.m, self.size))
+        slopes[:, 2:, 2:] = Dz[:, 2:] + De[:, 2:] @ moved
+        return padded(slopes, u.shape)
+
+    @property
+    def kept(self) -> Array:
+        """Projector on the changes that are not left out: along the line."""
+        found = np.eye(self.size)
+        if self.n is not None:
+            found[:2, :2] = np.outer(self.n, self.n)
+        return found
+
+    def rests(self, phase: Phase) -> bool:
+        """Whether it slides on a critical set, and not on a limit cycle around none."""
+        e = phase.e([0.5 * (phase.t_start + phase.t_end)])
+        state = self.motion(0.5 * (phase.t_start + phase.t_end))[None]
+        U, D = self.slopes.rates(e, state)[0, :2], self.slopes.at(e, state)[0, :2, :2]
+        if self.n is not None:
+            U = self.n * (self.n @ U)
+        return bool(np.abs(U).max() <= AT_REST * np.abs(D).max())
+
+    def repels(self, leg: _Leg, n: Array) -> bool:
+        """Whether what lies beside the line along n turns away from it: in a slide, or as it arrives or leaves."""
+        across = np.array([-n[1], n[0]])
+        if leg.slides:
+            e, state = leg.slides[0].e([leg.slides[0].t_start]), self.motion.states[leg.first]
+            return bool(across @ self.slopes.at(e, state[None])[0, :2, :2] @ across >= 0.0)
+        near = [leg.first + 1] * leg.from_sigma + ([self.near(leg)] if leg.to_sigma else [])
+        states = self.motion.states[near]
+        e, _ = outside(states[:, :2])
+        U, D = self.slopes.rates(e, states)[:, :2], self.slopes.at(e, states)[:, :2, :2]
+        lambda_theta = across @ D @ across - (e * U).sum(axis=1)
+        return bool((lambda_theta > NEUTRAL * np.abs(U).max(axis=1, initial=0.0)).any())
+
+    def beginning(self, leg: _Leg) -> Array:
+        """Rate of the state as a leg begins on Sigma."""
+        if leg.slides:
+            return self.sliding_rate(leg.slides[0], leg.slides[0].t_start)
+        return self.motion.polynomials[leg.first, :, 0] / self.motion.lengths[leg.first]
+
+    def sliding_rate(self, phase: Phase, t: float) -> Array:
+        """Rate of the state in a slide."""
+        found = self.slopes.rates(phase.e([t]), self.motion(t)[None])[0]
+        found[:2] = 0.0
+        return found
+
+    def slipping_rate(self, state: Array) -> Array:
+        """Rate of the state in a slip."""
+        return (
+            self.kept[: len(state), : len(state)]
+            @ self.slopes.rates(outside(state[None, :2], self.n)[0], state[None])[0]
+        )
+
+    def arrival(self, step: int, onward: Array) -> Array:
+        """Saltation matrix of an arrival, straight on from a step's beginning, where the motion goes on at a rate."""
+        state = self.motion.states[step]
+        e, rate = outside(state[None, :2], self.n)[0][0], self.slipping_rate(state)
+        later = np.zeros(self.size)
+        later[:2] = -e / (e @ rate[:2])
+        found = np.eye(self.size)
+        found[:2, :2] = 0.0
+        found[2 : len(state)] += np.outer(rate[2:] - onward[2:], later)
+        found[:2] -= np.outer(onward[:2], later)
+        return found
+
+    def departure(self, leg: _Leg) -> Array:
+        """Matrix from a change of the state where it leaves Sigma to that of z where and when it leaves.
+
+        That of when is told by that of (x, y).
+        """
+        start = np.eye(self.size)
+        start[:2, :2] = 0.0
+        start[2 : 2 + self.slopes.m] += np.outer(self.beginning(leg)[2:], self.later(leg))
+        return start
+
+    def later(self, leg: _Leg) -> Array:
+        """How much later it leaves, by a change of the state; where a slide ended, (x, y) has none."""
+        found, onward = np.zeros(self.size), self.beginning(leg)[:2]
+        if not leg.left:
+            found[:2] = -onward / (onward @ onward)
+        return found
+
+    def departed(self, leg: _Leg, first: Array) -> Array:
+        """Make the matrix of the first step away from Sigma: who leaves later is where it was before."""
+        found = first @ self.departure(leg)
+        rate = self.slipping_rate(self.motion.states[leg.first + 1])
+        found[: len(rate)] -= np.outer(rate, self.later(leg))
+        return found
+
+    def rate(self, legs: Sequence[_Leg], end: int) -> Array:
+        """Rate of the state at the end of the last known step."""
+        state = self.motion.states[end]
+        if state[:2].any():
+            return self.slipping_rate(state)
+        phase = next((leg.slides[0] for leg in legs if leg.slides and leg.first < end <= leg.last), None)
+        missing = np.full(len(state), np.nan)
+        return missing if phase is None else self.sliding_rate(phase, float(self.motion.times[end]))
+
+
+def _at_equator(phase: Phase) -> bool:
+    """Whether the critical set has come to the equator at the end of a slide."""
+    return bool(1.0 - np.hypot(*phase.e(phase.t_end)) < AT_EQUATOR)

@@ -1,0 +1,125 @@
+"""Linear equations Y' = J(t) Y along the steps of a motion: all steps at once, by collocation, halved where it matters.
+
+A step of the motion is as long as the motion is smooth, and its variation may be less so: beside a straight slip others
+turn. So each part of a step is solved whole and in halves, and halved again where the two differ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...numerics.dense import Dense
+from ...numerics.radau import tableau
+
+Array = NDArray[np.float64]
+Jacobian = Callable[[NDArray[np.intp], Array], Array]
+
+DEEPEST = 24  # halvings of a step
+AT_ONCE = 64  # parts whose stage equations are held at once
+
+
+@dataclass(frozen=True, eq=False)
+class Propagators:
+    """What the steps of a motion do to small changes.
+
+    Attributes
+    ----------
+    fine, coarse : ndarray (k, N, N)
+        Change at the end of a step by that at its beginning; `coarse` with parts twice as long.
+    """
+
+    fine: Array
+    coarse: Array
+
+
+def propagators(jacobian: Jacobian, lengths: Array, sizes: Array, rtol: float, before: Array) -> Propagators:
+    """Solve Y' = J Y along each of k steps.
+
+    Parts are compared by what they make of the changes that come to them: what an L-stable method damps, more or less
+    than the equation does, is not worth a halving.
+
+    Parameters
+    ----------
+    jacobian : callable
+        Steps (p,) and fractions of them (p, s) to J (p, s, N, N).
+    lengths : ndarray (k,)
+        Of the steps.
+    sizes : ndarray (k + 1, N)
+        What small is measured by, at the ends of the steps.
+    rtol : float
+        How far a part and its halves may differ, in those sizes, of the largest change by a change of one size.
+    before : ndarray (N, N)
+        Changes that come to the first step.
+    """
+    steps: NDArray[np.intp] = np.arange(len(lengths))
+    low, high = np.zeros(len(lengths)), np.ones(len(lengths))
+    whole = _collocated(jacobian, lengths, steps, low, high)
+    coming, size = np.empty_like(whole), np.empty(len(lengths))
+    for k, step in enumerate(whole):
+        coming[k], before = before, step @ before
+        size[k] = np.abs(before / sizes[k + 1, :, None]).max()
+    done: list[tuple[NDArray[np.intp], Array, Array, Array]] = []
+    for depth in range(DEEPEST + 1):
+        middle = 0.5 * (low + high)
+        first = _collocated(jacobian, lengths, steps, low, middle)
+        second = _collocated(jacobian, lengths, steps, middle, high)
+        both = second @ first
+        off = np.abs((both - whole) @ coming / sizes[steps + 1, :, None]).max(axis=(1, 2), initial=0.0)
+        apart = (off > rtol * size[steps]) & (depth < DEEPEST)  # undefined: False
+        done.append((steps[~apart], low[~apart], both[~apart], whole[~apart]))
+        if not apart.any():
+            break
+        steps, low, middle, high = steps[apart], low[apart], middle[apart], high[apart]
+        whole, coming = _beside(first[apart], second[apart]), _beside(coming[apart], first[apart] @ coming[apart])
+        steps, low, high = np.repeat(steps, 2), _beside(low, middle), _beside(middle, high)
+    fine = np.broadcast_to(np.eye(sizes.shape[1]), (len(lengths), *before.shape)).copy()
+    coarse = fine.copy()
+    at, begin, two, one = (np.concatenate(column) for column in zip(*done, strict=True))
+    for part in np.lexsort((begin, at)):
+        fine[at[part]] = two[part] @ fine[at[part]]
+        coarse[at[part]] = one[part] @ coarse[at[part]]
+    return Propagators(fine, coarse)
+
+
+def _beside(first: Array, second: Array) -> Array:
+    """Rows of two arrays, in turn."""
+    return np.stack((first, second), axis=1).reshape(-1, *first.shape[1:])
+
+
+def _collocated(jacobian: Jacobian, lengths: Array, steps: NDArray[np.intp], low: Array, high: Array) -> Array:
+    """Solve along parts of steps by Radau IIA, as the motion itself: L-stable, of order 9."""
+    table = tableau()
+    found = []
+    for begin in range(0, len(steps), AT_ONCE):
+        these = slice(begin, begin + AT_ONCE)
+        span = (high - low)[these]
+        J = jacobian(steps[these], low[these, None] + span[:, None] * table.nodes)
+        k, s, N = J.shape[:3]
+        h = lengths[steps[these]] * span
+        blocks = -h[:, None, None, None, None] * np.einsum("ij,kjab->kiajb", table.A, J)
+        stages = blocks.reshape(k, s * N, s * N) + np.eye(s * N)
+        undefined = ~np.isfinite(stages).all(axis=(1, 2))
+        stages[undefined] = np.eye(s * N)
+        ends = np.linalg.solve(stages, np.broadcast_to(np.tile(np.eye(N), (s, 1)), (k, s * N, N)))[:, -N:]
+        ends[undefined] = np.nan
+        found.append(ends)
+    return np.concatenate(found)
+
+
+def along(motion: Dense, steps: NDArray[np.intp], u: Array) -> Array:
+    """States (p s, n) of a motion at fractions (p, s) of steps (p,)."""
+    powers = u[:, :, None] ** np.arange(1, motion.polynomials.shape[2] + 1)
+    found = motion.states[steps, None] + np.einsum("pjd,psd->psj", motion.polynomials[steps], powers)
+    return found.reshape(-1, motion.states.shape[1])
+
+
+def padded(slopes: Array, shape: tuple[int, ...]) -> Array:
+    """J (p, s, N, N) of states and of numbers that stay what they are, from the rows of the states (p s, n, N)."""
+    count, n, N = slopes.shape
+    found = np.zeros((count, N, N))
+    found[:, :n] = slopes
+    return found.reshape(*shape, N, N)

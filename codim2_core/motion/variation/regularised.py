@@ -1,0 +1,46 @@
+"""The variational equation of the regularised system, eps > 0."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...initial_value.slopes import slopes_of, smoothed
+from ...numerics.dense import Dense
+from ...psi.function import Psi
+from ...systems.kinds import AnySystem
+from .chain import chained
+from .propagators import along, padded, propagators
+from .result import Variation
+
+Array = NDArray[np.float64]
+
+RTOL = 1e-10  # how far a part of a step and its halves may differ
+
+
+def of_regularised(system: AnySystem, psi: Psi, eps: float, motion: Dense, names: Sequence[str]) -> Variation:
+    """Differentiate a motion by its start, and by numbers of its system.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    eps : float
+    motion : Dense
+    names : sequence of str
+        Of ``system.variable``.
+    """
+    slopes, states = slopes_of(system, names), motion.states
+
+    def jacobian(steps: NDArray[np.intp], u: Array) -> Array:
+        at = along(motion, steps, u)
+        return padded(slopes.of_state(*smoothed(psi, eps, at[:, :2]), at), u.shape)
+
+    rho = np.hypot(np.hypot(*states[:, :2].T), eps)
+    sizes = np.ones((len(states), states.shape[1] + len(names)))
+    sizes[:, :2] = rho[:, None]
+    found = propagators(jacobian, motion.lengths, sizes, RTOL, np.diag(sizes[0]))
+    rate = slopes.rates(smoothed(psi, eps, states[-1:, :2])[0], states[-1:])[0]
+    return chained(tuple(names), motion.times, found.fine, found.coarse, rate)

@@ -1,0 +1,287 @@
+"""Derivatives of motions: the flow carries its own rate along, differences of motions, closed forms, and eps to 0."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from codim2_core import ELinear, Event, System, examples, psi, simulate, simulate_nonsmooth
+from codim2_core.motion.variation.propagators import propagators
+from codim2_core.systems.coefficients import Coefficients
+
+POOL = examples.ball_in_pool(mu=0.2, K=1.5, m=1.2)
+CROSSING = (
+    System(
+        U=("-1.2 + 0.7*c + 0.6*s + 0.2*c*s - k*z", "-0.5 - 0.4*c - 1.9*s + 0.7*(c**2 - s**2)"),
+        W=("1 - 1.1*c",),
+        parameters={"k": 0.3},
+    ),
+    (0.7, 0.1, 0.0),
+    2.0,
+    ("k",),
+)
+LEAVING = (ELinear(-1.0, 0.5, -1.5, ("z", 0.3), g=(1.0,)), (0.3, 0.2, 0.0), 4.0, ("a", "d", "f2"))
+SLIDING = (POOL, (1.0, 0.3, 1.0, 0.5), 2.0, ("mu", "K"))
+ALONG = (POOL, (1.0, 0.0, 1.0, 0.0), 2.0, ("mu",))  # lines that repel
+IN_A_LINE = (examples.ball_in_pool(K=2.0), (1.0, 0.0, 12.0, 0.0), 2.0, ("mu", "K"))
+READING = (
+    System(U=("-2*c + 0.3*s + z1*x", "-s - 0.2*c + 0.4*sin(z2)"), W=("s - z1*z2 + x", "1 + 0.3*c*z1"), parameters={}),
+    (0.5, 0.4, 0.3, 0.2),
+    1.5,
+    (),
+)
+MOTIONS = {"slide": SLIDING, "cross": CROSSING, "leave": LEAVING, "along": ALONG, "line": IN_A_LINE, "reads": READING}
+
+
+def first_rate(run):
+    return run.motion.polynomials[0, :, 0] / run.motion.lengths[0]
+
+
+def difference(end, value, h):
+    return (end(value + h) - end(value - h)) / (2.0 * h)
+
+
+def limit(system, state0, t_end):
+    return simulate_nonsmooth(system, state0, (0.0, t_end), psi.constant(), rtol=1e-13, atol=1e-13)
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_the_limit_is_differentiated_through_all_phases(name):
+    system, state0, t_end, names = MOTIONS[name]
+    start = np.array(state0)
+    run = limit(system, start, t_end)
+    found = run.variation(*names)
+    assert found.reason == ""
+    assert found.times.tolist() == run.times.tolist()
+    assert found.error.max() < 1e-9
+    for i, axis in enumerate(np.eye(len(start))):
+        if name in ("along", "line") and i in (1, 3):  # across the line
+            assert not found.last[:2, i].any()
+            continue
+        by = difference(lambda h, axis=axis: limit(system, start + h * axis, t_end).states[-1], 0.0, 1e-6)
+        np.testing.assert_allclose(found.last[:, i], by, rtol=0.0, atol=1e-7)
+    for one in names:
+        by = difference(
+            lambda value, one=one: limit(system.varied(one, value), start, t_end).states[-1], system.value_of(one), 1e-6
+        )
+        np.testing.assert_allclose(found.by(one)[-1], by, rtol=0.0, atol=1e-7)
+
+
+def test_those_motions_have_all_kinds_of_phases():
+    kinds = {name: [phase.kind for phase in limit(*MOTIONS[name][:3]).phases] for name in MOTIONS}
+    assert kinds["slide"] == kinds["along"] == kinds["reads"] == ["slip", "slide"]
+    assert kinds["cross"] == kinds["line"] == ["slip", "cross", "slip"]
+    assert kinds["leave"] == ["slip", "slide", "slip"]
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_a_motion_carries_its_own_rate_along(name):
+    system, state0, t_end, _ = MOTIONS[name]
+    run = limit(system, state0, t_end)
+    found = run.variation()
+    np.testing.assert_allclose(found.last @ first_rate(run), found.rate, rtol=0.0, atol=1e-9)
+
+
+@settings(max_examples=12, deadline=None)
+@given(
+    st.sampled_from(["slide", "reads", "leave"]),
+    st.sampled_from([psi.constant(), psi.hill(2), psi.tanh()]),
+    st.sampled_from([1.0, 1e-1, 1e-2, 1e-4, 1e-7]),
+)
+def test_regularised_it_carries_its_own_rate_along(name, family, eps):
+    system, state0, t_end, _ = MOTIONS[name]
+    run = simulate(system, family, eps, state0, (0.0, t_end), rtol=1e-10, atol=1e-11)
+    found = run.variation()
+    assert found.reason == ""
+    np.testing.assert_allclose(found.last @ first_rate(run), found.rate, rtol=1e-7, atol=1e-7)
+
+
+@pytest.mark.parametrize("eps", [1.0, 1e-2, 1e-4])
+def test_regularised_motions_are_differentiated(eps):
+    system, state0, t_end, names = SLIDING
+    start, family = np.array(state0), psi.hill(2)
+
+    def end(first, given=system):
+        return simulate(given, family, eps, first, (0.0, t_end), rtol=1e-13, atol=1e-13).states[-1]
+
+    found = simulate(system, family, eps, start, (0.0, t_end), rtol=1e-12, atol=1e-12).variation(*names)
+    by = np.stack([difference(lambda h, axis=axis: end(start + h * axis), 0.0, 1e-5) for axis in np.eye(4)], axis=-1)
+    np.testing.assert_allclose(found.last[:, :4], by, rtol=0.0, atol=1e-8)
+    for name in names:
+        by = difference(lambda v, name=name: end(start, system.varied(name, v)), system.value_of(name), 1e-5)
+        np.testing.assert_allclose(found.by(name)[-1], by, rtol=0.0, atol=1e-8)
+
+
+def test_derivatives_of_the_limit_are_the_limit_of_derivatives():
+    system, state0, t_end, names = SLIDING
+    last = limit(system, state0, t_end).variation(*names).last
+    off = [
+        np.abs(
+            simulate(system, psi.constant(), eps, state0, (0.0, t_end), rtol=1e-11, atol=1e-12).variation(*names).last
+            - last
+        ).max()
+        for eps in (1e-2, 1e-4, 1e-6, 1e-8)
+    ]
+    np.testing.assert_allclose(np.array(off[1:]) / off[:-1], 1e-2, rtol=0.01)  # O(eps)
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.floats(0.05, 1.0), st.floats(0.1, 10.0), st.floats(-3.0, 3.0))
+def test_textbook_ball(mu, v0, direction):
+    # It slips for 2 v0/(7 mu g), and rolls with 5/7 v0: z' = -mu g e before, 0 after; e turns with the direction.
+    c, s = math.cos(direction), math.sin(direction)
+    slips = 2.0 * v0 / (7.0 * mu * 9.81)
+    run = simulate_nonsmooth(examples.ball_in_pool(K=0.0, mu=mu), (v0 * c, v0 * s, v0 * c, v0 * s), (0.0, 2.0 * slips))
+    found = run.variation("mu")
+    expected = np.zeros((4, 5))
+    expected[2:, :2], expected[2:, 2:4] = -2.0 / 7.0 * np.eye(2), np.eye(2)
+    # All directions are alike: that of the arrival is known to the rounding of (x, y), and its error says so.
+    assert found.error.max() < 1e-5
+    assert (np.abs(found.last - expected) <= 3.0 * found.error + 1e-12).all()
+    t = 0.5 * slips  # while it slips, mu brakes it
+    half = simulate_nonsmooth(examples.ball_in_pool(K=0.0, mu=mu), run.states[0], (0.0, t)).variation("mu")
+    np.testing.assert_allclose(half.by("mu")[-1, 2:], -9.81 * t * np.array([c, s]), rtol=1e-9, atol=1e-9)
+
+
+def test_steps_follow_one_another():
+    system, state0, t_end, _ = READING
+    family, eps = psi.hill(2), 0.05
+    run = simulate(system, family, eps, state0, (0.0, t_end), rtol=1e-12, atol=1e-13)
+    half = simulate(system, family, eps, state0, (0.0, 0.6), rtol=1e-12, atol=1e-13)
+    rest = simulate(system, family, eps, half.states[-1], (0.6, t_end), rtol=1e-12, atol=1e-13)
+    product = rest.variation().last @ half.variation().last
+    np.testing.assert_allclose(run.variation().last, product, rtol=0.0, atol=1e-9)
+    np.testing.assert_array_equal(run.variation().matrices[0], np.eye(4))
+
+
+def test_volumes_shrink_at_the_rate_of_the_divergence():
+    # Liouville: d log det / dt = div (U, W), for the pool ball: that of U by quadrature along the motion.
+    system, family, eps, start = POOL, psi.constant(), 0.3, (1.0, 0.3, 1.0, 0.5)
+    run = simulate(system, family, eps, start, (0.0, 1.0), rtol=1e-12, atol=1e-13)
+    found = run.variation()
+    t, weights = np.polynomial.legendre.leggauss(60)
+    states = run.dense(0.5 + 0.5 * t)
+    h = 1e-6
+    divergence = np.zeros(len(t))
+    for i in range(4):
+        for k, state in enumerate(states):
+            ahead, behind = state.copy(), state.copy()
+            ahead[i] += h
+            behind[i] -= h
+            divergence[k] += (rate(system, eps, ahead)[i] - rate(system, eps, behind)[i]) / (2.0 * h)
+    assert math.log(np.linalg.det(found.last)) == pytest.approx(0.5 * float(weights @ divergence), rel=1e-8)
+    assert found.exponents.sum() == pytest.approx(0.5 * float(weights @ divergence), rel=1e-8)
+
+
+def rate(system, eps, state):
+    x, y = state[:2]
+    e = np.array([x, y]) / math.sqrt(x * x + y * y + eps * eps)  # Psi = 1
+    at = system.at(state[2:])
+    return np.concatenate([at.U(e), at.W(e)])
+
+
+def test_exponents_of_a_linear_motion_are_its_eigenvalues():
+    # Far inside e is (x, y)/eps: x' = -2 x/eps and so on, with Psi = 1 and |x| << eps.
+    system = ELinear(-2.0, 0.0, -1.0, (0.0, 0.0))
+    run = simulate(system, psi.constant(), 1.0, (1e-9, 1e-9), (0.0, 2.0), rtol=1e-12, atol=1e-13)
+    np.testing.assert_allclose(run.variation().exponents, [-1.0, -2.0], rtol=1e-9)
+    limit_run = simulate_nonsmooth(POOL, SLIDING[1], (0.0, 2.0))
+    exponents = limit_run.variation().exponents
+    assert np.isneginf(exponents[2:]).all()
+    assert np.isfinite(exponents[:2]).all()
+
+
+def test_a_section_is_passed_sooner_or_later():
+    system, state0, _, _ = SLIDING
+    start = np.array(state0)
+    falling = Event(lambda _, state: state[2] - 0.8, terminal=True)
+
+    def end(first):
+        run = simulate_nonsmooth(system, first, (0.0, 2.0), rtol=1e-13, atol=1e-13, events=[falling])
+        return np.array([run.times[-1], *run.states[-1]])
+
+    run = simulate_nonsmooth(system, start, (0.0, 2.0), rtol=1e-13, atol=1e-13, events=[falling])
+    when, where = run.variation().through((0.0, 0.0, 1.0, 0.0))
+    by = np.stack([difference(lambda h, axis=axis: end(start + h * axis), 0.0, 1e-6) for axis in np.eye(4)], axis=-1)
+    np.testing.assert_allclose(when, by[0], rtol=0.0, atol=1e-8)
+    np.testing.assert_allclose(where, by[1:], rtol=0.0, atol=1e-8)
+    np.testing.assert_allclose(where[2], 0.0, atol=1e-12)
+    with pytest.raises(ValueError, match="one for each of x, y, z"):
+        run.variation().through((1.0, 0.0))
+    still = limit(examples.ball_in_pool(K=0.0), (1.0, 0.0, 1.0, 0.0), 1.0).variation()
+    with pytest.raises(ValueError, match="touches the section"):
+        still.through((0.0, 0.0, 1.0, 0.0))
+
+
+def test_where_it_is_not_known_is_said():
+    case_3 = System(U=("172*c - 186*s - 172*z", "186*c - 200*s - 186*z"), W=("c/2",))
+    run = simulate_nonsmooth(case_3, (8.5e-4, 5.2e-4, 0.45), (0.0, 0.2), psi.hill(3))
+    found = run.variation()
+    assert found.reason.startswith("The derivatives are not known past t = 0.0")
+    assert "limit cycle" in found.reason
+    assert found.times[-1] == run.phases[1].t_start
+    fold = System(U=("-(c**2) + z", "-s"), W=("-1",))  # C at c = sqrt(z) is gone at z = 0
+    run = simulate_nonsmooth(fold, (0.3, 0.0, 0.5), (0.0, 3.0), psi.constant())
+    ended = next(phase for phase in run.phases if phase.kind == "slide").t_end
+    found = run.variation()
+    assert "does not end at the equator" in found.reason
+    assert found.times[-1] == pytest.approx(ended, abs=1e-9)
+
+
+def test_a_motion_that_ends_as_it_arrives_is_known_to_just_before():
+    run = limit(*SLIDING[:3])
+    arrives = run.phases[0].t_end
+    short = limit(SLIDING[0], SLIDING[1], arrives)
+    found = short.variation()
+    if short.phases[-1].kind == "slip" and not short.states[-1, :2].any():
+        assert "ends as it arrives" in found.reason
+    assert found.times[-1] == pytest.approx(arrives, rel=1e-6)
+
+
+def test_a_slope_that_is_not_finite_ends_what_is_known():
+    system = System(U=("-1 + 0*c", "-s"), W=("sqrt(z)",))  # its derivative at z = 0 is infinite
+    run = simulate(system, psi.constant(), 0.1, (1.0, 0.2, 0.0), (0.0, 0.5))
+    found = run.variation()
+    assert found.reason == "The derivatives are not known past t = 0: those of a formula are not finite there."
+    assert found.times.tolist() == [0.0]
+    np.testing.assert_array_equal(found.last, np.eye(3))
+    assert np.isnan(found.rate).all()
+
+
+@pytest.mark.parametrize("name", ["nothing", "z", "f1"])
+def test_a_name_that_is_none_of_the_system_is_refused(name):
+    run = limit(*SLIDING[:3])
+    with pytest.raises(ValueError, match=f"'{name}' is no number of this system; it has "):
+        run.variation(name)
+    with pytest.raises(ValueError, match="ask for variation"):
+        run.variation("mu").by(name)
+
+
+def test_coefficients_and_frozen_systems_are_differentiated_too():
+    frozen = ELinear(-1.0, 0.5, -1.5, ("z", 0.3), g=(1.0,)).at(0.2)
+    assert isinstance(frozen, Coefficients)
+    whole = ELinear(-1.0, 0.5, -1.5, (0.2, 0.3), g=(1.0,))
+    start, span = (0.3, 0.2, 0.0), (0.0, 1.0)
+    one = simulate(frozen, psi.hill(2), 0.1, start, span).variation("a", "f1")
+    other = simulate(whole, psi.hill(2), 0.1, start, span).variation("a", "f1")
+    np.testing.assert_allclose(one.last, other.last, rtol=0.0, atol=1e-12)
+    typed = System(U=("k*c - z*s", "-s + z"), W=("1",), parameters={"k": -2.0})
+    at = simulate(typed.at(0.2), psi.hill(2), 0.1, start, span).variation()
+    assert not at.last[:2, 2].any()  # U is that of z = 0.2, whatever z does
+
+
+def test_a_straight_step_is_halved_where_its_variation_bends():
+    asked = []
+
+    def jacobian(steps, u):
+        asked.append(len(steps))
+        t = u * 0.99
+        return (-0.7 / (1.0 - t))[:, :, None, None] * np.ones((1, 1, 1, 1))
+
+    found = propagators(jacobian, np.array([0.99]), np.ones((2, 1)), 1e-10, np.eye(1))
+    assert found.fine[0, 0, 0] == pytest.approx(0.01**0.7, rel=1e-9)
+    assert 10 < sum(asked) < 200
