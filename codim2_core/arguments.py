@@ -197,6 +197,7 @@ BY_NAME: Mapping[str, Check] = {
     "family": _as_given,  # `psi` says itself what it takes
     "example": _as_given,
     "box": _as_given,  # `basins` says itself what it takes
+    "names": _as_given,  # `mechanics.fit` says itself what it takes
 }
 BY_ANNOTATION: Mapping[str, Check] = {
     "float": number, "bool": truth, "str": text, "ArrayLike": numbers, "tuple[float, float]": pair,

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from codim2_core.expressions.expression import Expression, parse
 from codim2_core.expressions.names import PLANE, SLOW
-from codim2_core.expressions.tape import compact
+from codim2_core.expressions.tape import FUNCTIONS_OF_TWO, compact
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
@@ -98,6 +98,8 @@ def _function(op: str, inside: Piece) -> Piece:
 
 
 def _binary(op: str, left: Piece, right: Piece, left_number: bool, right_number: bool) -> Piece:
+    if op in FUNCTIONS_OF_TWO:
+        return f"<mrow><mi>{op}</mi><mo>(</mo>{left[0]}<mo>,</mo>{right[0]}<mo>)</mo></mrow>", _ATOM
     if op == "+":
         if right[0].startswith(_MINUS):  # u + -v
             return f"{left[0]}{right[0]}", _SUM

@@ -16,6 +16,8 @@ from .ball_on_turntable import ball_on_turntable
 from .example import GRAVITY, Example
 from .nonunique_sliding import nonunique_sliding
 from .offered import catalogue, register, unregister
+from .spinning_annulus import spinning_annulus
+from .spinning_disc import spinning_disc
 from .tilting_block import tilting_block
 from .unit_vector_control import unit_vector_control
 
@@ -29,6 +31,8 @@ __all__ = [
     "catalogue",
     "nonunique_sliding",
     "register",
+    "spinning_annulus",
+    "spinning_disc",
     "tilting_block",
     "unit_vector_control",
     "unregister",

@@ -16,6 +16,8 @@ NAMES = (
     "tilting_block",
     "unit_vector_control",
     "ball_on_turntable",
+    "spinning_disc",
+    "spinning_annulus",
 )
 LISTED: tuple[Example, ...] = tuple(import_module(f".{name}", __package__).EXAMPLE for name in NAMES)
 

@@ -16,42 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .expression import Expression
+from .functions import code
 from .names import PLANE, number_names
-from .opcodes import (
-    ABS,
-    ADD,
-    ATAN,
-    COS,
-    COSH,
-    DIV,
-    EXP,
-    HYPOT,
-    LOG,
-    MAX,
-    MIN,
-    MUL,
-    NEG,
-    NUM,
-    POW,
-    SIGN,
-    SIN,
-    SINH,
-    SLOT,
-    SQRT,
-    SUB,
-    TAN,
-    TANH,
-    VAR,
-)
+from .opcodes import ADD, DIV, HYPOT, MAX, MIN, MUL, NEG, NUM, POW, SLOT, SUB, VAR
 
 Array = NDArray[np.floating[Any]]
 Key = tuple[tuple[Expression, ...], tuple[float, ...]]  # `Frozen.key`: rows of U, and the numbers that they read
 
-_CODES = {
-    **{"neg": NEG, "+": ADD, "-": SUB, "*": MUL, "/": DIV, "**": POW, "abs": ABS, "atan": ATAN},
-    **{"sin": SIN, "cos": COS, "tan": TAN, "exp": EXP, "log": LOG, "sqrt": SQRT},
-    **{"tanh": TANH, "sinh": SINH, "cosh": COSH, "sign": SIGN, "min": MIN, "max": MAX},
-}
+_CODES = {"neg": NEG, "+": ADD, "-": SUB, "*": MUL, "/": DIV, "**": POW, "min": MIN, "max": MAX, **code}
 
 BESIDE = 1e-6  # so far from a point its slopes are looked at where it has none by the rules,
 AGREED = 1e-4  # and there they agree
@@ -157,7 +129,7 @@ def _encoded(rows: tuple[Expression, ...]) -> Program:
                 rooted = op == "sqrt" or (op == "**" and row.tape[args[1]] == ("num", 0.5))
                 root = norm(at[args[0]]) if rooted else None
                 if root is not None:
-                    at.append(root if nodes[root][0] == HYPOT else enter((ABS, root, root, 0.0)))
+                    at.append(root if nodes[root][0] == HYPOT else enter((code["abs"], root, root, 0.0)))
                     continue
                 node = (_CODES[op], at[args[0]], at[args[-1]], 0.0)
             at.append(enter(node))

@@ -1,8 +1,9 @@
 """Typed text becomes functions, without eval: ``parse("1/(1+s)**2", ("s",))``.
 
 A whitelist is read: decimal numbers, the given names, ``+ - * / **`` (``^`` too), parentheses, ``|u|``, the functions
-sin cos tan exp log sqrt tanh sinh cosh atan abs sign and min max of several arguments, and pi and e unless they are
-among the names. ``2c``, ``2(c + s)``, ``c²`` and the signs − × · of a text processor are read as they are meant.
+sin cos tan exp log sqrt tanh sinh cosh atan abs sign, complete elliptic integrals (`functions.elliptic`) and min max of
+several arguments, and pi and e unless they are among the names. ``2c``, ``2(c + s)``, ``c²`` and the signs − × · of a
+text processor are read as they are meant.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from . import tape as tapes
+from .functions import known
 from .reader import ExpressionError, check_names, read
 
 __all__ = ["Expression", "ExpressionError", "parse"]
@@ -253,10 +255,9 @@ def _operation(op: str, pieces: list[_Piece], nodes: list[tapes.Node], python: b
         return f"-{text}", _SIGN, depth
     if len(pieces) == 1:
         text, _, depth = pieces[0]
-        if python and op == "sign":
-            return f"(1.0*({text} > 0.0) - 1.0*({text} < 0.0))", _ATOM, depth + 2
-        prefix = "" if not python else "math."
-        return f"{prefix}{'fabs' if python and op == 'abs' else op}({text})", _ATOM, depth + 1
+        if not python:
+            return f"{op}({text})", _ATOM, depth + 1
+        return known[op].written(text), _ATOM, depth + max(1, known[op].source.count("("))
     if op in tapes.FUNCTIONS_OF_TWO:
         return f"{op}({pieces[0][0]}, {pieces[1][0]})", _ATOM, max(pieces[0][2], pieces[1][2]) + 1
     if op == "**":

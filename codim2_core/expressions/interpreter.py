@@ -7,16 +7,11 @@ import math
 import numpy as np
 from numba import njit
 
+from .functions import kernels
 from .opcodes import (
-    ABS,
     ADD,
-    ATAN,
-    COS,
-    COSH,
     DIV,
-    EXP,
     HYPOT,
-    LOG,
     MAX,
     MIN,
     MUL,
@@ -24,14 +19,8 @@ from .opcodes import (
     NUM,
     POW,
     POWI,
-    SIGN,
-    SIN,
-    SINH,
     SLOT,
-    SQRT,
     SUB,
-    TAN,
-    TANH,
     VAR,
 )
 
@@ -53,35 +42,13 @@ def _value(k, a, b):
         return a * a if b == 2.0 else math.pow(a, b)
     if k == POW:
         return math.pow(a, b)
-    if k == SIN:
-        return math.sin(a)
-    if k == COS:
-        return math.cos(a)
-    if k == TAN:
-        return math.tan(a)
-    if k == EXP:
-        return math.exp(a)
-    if k == LOG:
-        return math.log(a)
-    if k == SQRT:
-        return math.sqrt(a)
-    if k == TANH:
-        return math.tanh(a)
-    if k == SINH:
-        return math.sinh(a)
-    if k == COSH:
-        return math.cosh(a)
-    if k == ATAN:
-        return math.atan(a)
-    if k == SIGN:
-        return 1.0 if a > 0.0 else -1.0 if a < 0.0 else a
     if k == HYPOT:
         return math.hypot(a, b)
     if k == MIN:
         return b if b < a or b != b else a
     if k == MAX:
         return b if b > a or b != b else a
-    return abs(a)
+    return kernels.value(k, a)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -140,26 +107,6 @@ def gradients(op, left, right, number, roots, seed, work, out):
         elif k == POW:
             p = b * math.pow(a, b - 1.0) if b != 0.0 else 0.0
             q = v * math.log(a) if v != 0.0 and (b1 != 0.0 or b2 != 0.0) else 0.0
-        elif k == SIN:
-            p = math.cos(a)
-        elif k == COS:
-            p = -math.sin(a)
-        elif k == TAN:
-            p = 1.0 + v * v
-        elif k == EXP:
-            p = v
-        elif k == LOG:
-            p = 1.0 / a
-        elif k == SQRT:
-            p = 0.5 / v
-        elif k == TANH:
-            p = 1.0 / math.cosh(a) ** 2
-        elif k == SINH:
-            p = math.cosh(a)
-        elif k == COSH:
-            p = math.sinh(a)
-        elif k == ATAN:
-            p = 1.0 / (1.0 + a * a)
         elif k == HYPOT:  # at its tip the mean over all directions, 0
             p, q = (a / v, b / v) if v != 0.0 else (0.0, 0.0)
         elif k in (MIN, MAX):  # where both are equal the mean of the two slopes
@@ -169,8 +116,8 @@ def gradients(op, left, right, number, roots, seed, work, out):
                 a1, a2 = 0.0, 0.0
             if q == 0.0:
                 b1, b2 = 0.0, 0.0
-        elif k == ABS:  # at its kink the mean of the two slopes
-            p = 1.0 if a > 0.0 else -1.0 if a < 0.0 else 0.0
+        else:
+            p = kernels.slope(k, a, v)
         # an inner slope 0 stays 0 beside an infinite outer one: sqrt of a constant 0 has no slope
         work[i, 0] = v
         work[i, 1] = (p * a1 if a1 != 0.0 else 0.0) + (q * b1 if b1 != 0.0 else 0.0)

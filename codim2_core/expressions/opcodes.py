@@ -1,7 +1,6 @@
-"""Codes of the operations that `interpreter` runs."""
+"""Codes of the operations that `interpreter` runs; those of functions of one argument are in `functions`."""
 
 from __future__ import annotations
 
 NUM, VAR, NEG, ADD, SUB, MUL, DIV, POW, POWI, SLOT = range(10)
-SIN, COS, TAN, EXP, LOG, SQRT, TANH, SINH, COSH, ATAN, ABS = range(10, 21)
-SIGN, HYPOT, MIN, MAX = range(21, 25)
+HYPOT, MIN, MAX = range(10, 13)

@@ -6,10 +6,11 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from .expression import Expression
+from .functions import FUNCTIONS, known
 from .tape import BESIDE_ZERO, BESIDE_ZERO_SOURCE, FUNCTIONS_OF_TWO, Builder, Node
 
 # Smooth wherever their argument is finite, however far a step strays.
-ENTIRE = frozenset({"num", "name", "neg", "+", "-", "*", "sin", "cos", "exp", "tanh", "sinh", "cosh", "atan"})
+ENTIRE = frozenset({"num", "name", "neg", "+", "-", "*", *(one.name for one in FUNCTIONS if one.entire)})
 
 
 @dataclass(frozen=True)
@@ -91,14 +92,12 @@ def _integer(node: Node) -> int | None:
 def _operation(op: str, args: list[str], exponent: int | None) -> str:
     if op == "neg":
         return f"-{args[0]}"
-    if op == "sign":
-        return f"1.0*({args[0]} > 0.0) - 1.0*({args[0]} < 0.0)"
     if op in FUNCTIONS_OF_TWO:
         return f"{op}({args[0]}, {args[1]})"
     if op == BESIDE_ZERO:
         return BESIDE_ZERO_SOURCE.format(*args)
     if len(args) == 1:
-        return f"math.{'fabs' if op == 'abs' else op}({args[0]})"
+        return known[op].written(args[0])
     if op != "**":
         return f"{args[0]}{op}{args[1]}"
     if exponent is None:

@@ -12,21 +12,19 @@ from typing import Any
 
 import numpy as np
 
+from .functions import FUNCTIONS as _FUNCTIONS
+from .functions import known
+
 Node = tuple[Any, ...]  # ("num", 2.0), ("name", "s"), ("neg", i), ("sin", i), ("+", i, j), ...
 Tape = tuple[Node, ...]
 
-FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "sqrt", "tanh", "sinh", "cosh", "atan", "abs", "sign")
+FUNCTIONS = tuple(one.name for one in _FUNCTIONS)
 FUNCTIONS_OF_TWO = ("min", "max")
 BINARY = ("+", "-", "*", "/", "**")
 BESIDE_ZERO = "*0"  # of derivatives alone: u v, and 0 where one is 0 and the other infinite
 BESIDE_ZERO_SOURCE = "(0.0 if ({0} == 0.0 and math.isinf({1})) or ({1} == 0.0 and math.isinf({0})) else {0}*{1})"
 CONSTANTS = {"pi": math.pi, "e": math.e}
 MOST_NODES = 20_000
-
-
-def sign(u: float) -> float:
-    """-1, 0 or 1; NaN of NaN."""
-    return math.copysign(1.0, u) if u else abs(u)
 
 
 def least(u: float, v: float) -> float:
@@ -51,9 +49,7 @@ def _beside_zeros(u: Any, v: Any) -> Any:
 # math.* is some ten times faster than NumPy on one float, but raises where IEEE arithmetic answers inf or nan;
 # a formula then goes through NumPy instead.
 SCALAR: dict[str, Callable[..., Any]] = {
-    **{name: getattr(math, name) for name in FUNCTIONS if name not in ("abs", "sign")},
-    "abs": math.fabs,
-    "sign": sign,
+    **{one.name: one.scalar for one in _FUNCTIONS},
     "min": least,
     "max": most,
     "neg": operator.neg,
@@ -65,9 +61,7 @@ SCALAR: dict[str, Callable[..., Any]] = {
     BESIDE_ZERO: beside_zero,
 }
 VECTOR: dict[str, Callable[..., Any]] = {
-    **{name: getattr(np, name) for name in FUNCTIONS if name not in ("atan", "abs")},
-    "atan": np.arctan,
-    "abs": np.abs,
+    **{one.name: one.vector for one in _FUNCTIONS},
     "min": np.minimum,
     "max": np.maximum,
     "neg": np.negative,
@@ -220,19 +214,13 @@ def derivative(tape: Tape, name: str) -> Tape:
             rates.append(zero)
         elif op == "neg":
             rates.append(apply("neg", du))
-        elif op == "sqrt":
-            twice = apply("*", build.number(2.0), k)
-            if steep[k]:
-                rates.append(apply(BESIDE_ZERO, du, apply("/", build.number(1.0), twice)))
-            else:
-                rates.append(apply("/", du, twice))
-        elif op == "log":
-            rates.append(apply("/", du, args[0]))
-        elif op == "atan":
-            square = apply("**", args[0], build.number(2.0))
-            rates.append(apply("/", du, apply("+", build.number(1.0), square)))
         else:
-            rates.append(apply("*", _outer_rate(build, op, k, args[0]), du))
+            function = known[op]
+            outer = function.rate(build, k, args[0])
+            if function.steep and steep[k]:
+                rates.append(apply(BESIDE_ZERO, du, apply("/", build.number(1.0), outer)))
+            else:
+                rates.append(apply("/", du, outer) if function.divides else apply("*", outer, du))
     return compact(build.nodes, rates[-1])
 
 
@@ -249,45 +237,20 @@ def _steep(tape: Tape) -> list[bool]:
         signs = [least[i] for i in args]
         natural = op == "**" and tape[args[1]][0] == "num" and tape[args[1]][1] in range(1, 1001)
         square = (natural and tape[args[1]][1] % 2 == 0) or (op == "*" and args[0] == args[1])
-        if op in ("exp", "cosh"):
-            sign = 1
-        elif op == "+":
+        function = known.get(op)
+        if op == "+":
             sign = min(max(signs), 1) if min(signs) >= 0 else -1
         elif op in ("*", "/", "min", "max"):
             sign = 0 if square and signs[0] < 1 else max(signs) if op == "max" else min(signs)
-        elif op == "abs":
-            sign = max(signs[0], 0)
+        elif function is not None:
+            sign = {"positive": 1, "kept": signs[0], "not negative": max(signs[0], 0), "any": -1}[function.sign]
         else:
-            sign = signs[0] if op in ("sqrt", "tanh", "sinh", "atan", "**") else -1
-            sign = max(sign, 0) if square or op == "sqrt" else sign
+            sign = signs[0] if op == "**" else -1
+            sign = max(sign, 0) if square else sign
         least.append(sign)
-        own = op == "sqrt" or (op == "**" and not natural)
+        own = (function is not None and function.steep) or (op == "**" and not natural)
         steep.append((own and signs[0] < 1) or any(steep[i] for i in args))
     return steep
-
-
-def _outer_rate(build: Builder, op: str, k: int, u: int) -> int:
-    """Entry of d op(u)/du, entry k being op(u)."""
-    apply, one, two = build.apply, build.number(1.0), build.number(2.0)
-    match op:
-        case "exp":
-            return k
-        case "sin":
-            return apply("cos", u)
-        case "cos":
-            return apply("neg", apply("sin", u))
-        case "tan":
-            return apply("+", one, apply("**", k, two))
-        case "tanh":  # 1/cosh^2, not 1 - tanh^2: that one loses all digits where tanh is near 1
-            return apply("/", one, apply("**", apply("cosh", u), two))
-        case "sinh":
-            return apply("cosh", u)
-        case "cosh":
-            return apply("sinh", u)
-        case "sign":  # at the jump too: formulas that jump in e are refused (`systems.typed`)
-            return build.number(0.0)
-        case _:  # abs; at its kink the mean of the two slopes
-            return apply("sign", u)
 
 
 def _binary_rate(

@@ -53,6 +53,16 @@ def _typed(add: Add) -> None:
     )  # fmt: skip
 
 
+def _discs(add: Add) -> None:
+    add(
+        "spinning-disc", Preset(group="Examples", example="spinning_disc", family="rational", view="time"),
+        label="friction of a disc",
+        title="Sliding, spinning disc", portrait=(None, "1 critical set, 8 limit directions found", None),
+        degeneracy="limit directions uncertain",
+        note="(x, y) = (v, Rω). All motions that slide and spin stop along v = 0.653 Rω, both at once.",
+    )  # fmt: skip
+
+
 def _blowup(add: Add) -> None:
     add(
         "blowup", Preset(group=_VIEWS, a=-2.0, d=-1.0, f1=-0.5, portrait=("I", "CM4", None)),
@@ -95,6 +105,6 @@ def _filippov(add: Add) -> None:
 def example_presets() -> dict[str, Preset]:
     """Return the presets by name."""
     found: dict[str, Preset] = {}
-    for group in (_ball, _typed, _blowup, _filippov):
+    for group in (_ball, _typed, _discs, _blowup, _filippov):
         group(adding(found))
     return found

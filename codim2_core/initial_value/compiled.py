@@ -22,6 +22,7 @@ from numba import (
 )
 from numpy.typing import NDArray
 
+from ..expressions.functions import kernels
 from ..expressions.names import PLANE, SLOW
 from ..expressions.source import program
 from ..numerics.dense import Dense, Steps
@@ -80,7 +81,7 @@ def _function(rows: Any, names: tuple[str, ...]) -> Any:
         *written.inside,
         *(f"D[{k}] = {result}" for k, result in enumerate(written.results)),
     ]
-    scope: dict[str, Any] = {"math": math, "carray": carray}
+    scope: dict[str, Any] = {"math": math, "carray": carray, **kernels.called}
     exec("def function(state, out, parameters):\n" + "\n".join(f"    {line}" for line in lines), scope)
     # Written by `program`: its own names, numbers and math.* only. Strict arithmetic: a formula ends where it ends.
     return cfunc(FIELD, nogil=True, error_model="numpy")(scope["function"])

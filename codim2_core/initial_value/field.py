@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..expressions.expression import Expression, parse
+from ..expressions.functions import called
 from ..expressions.names import PLANE, SLOW
 from ..expressions.source import program
 from ..systems.coefficients import Coefficients
@@ -216,6 +217,6 @@ def _function(rows: Sequence[Expression], names: Sequence[str]) -> Callable[...,
         f"def function({', '.join(names)}):\n    try:\n        {body}\n"
         f"    except (ArithmeticError, ValueError):\n        return undefined\n"
     )
-    scope: dict[str, Any] = {"math": math, "undefined": (math.nan,) * len(rows)}
+    scope: dict[str, Any] = {"math": math, "undefined": (math.nan,) * len(rows), **called}
     exec(source, scope)  # written by `program`: its own names, numbers and math.* only
     return scope["function"]

@@ -1,7 +1,7 @@
 """Follow one curve on which a component of U vanishes, by predictor and corrector; compiled.
 
 The curve lives in the closed e-disc, or outside it in the picture, where U may read x and y. Its gradient is exact.
-Steps are short where it bends and where its gradient changes much: there a neighbour is close. A curve is followed to
+Steps are short where it bends, and where its gradient changes much: there a neighbour is close. A curve is followed to
 the border, to where it began, or to a small circle around a crossing (`crossings`).
 """
 

@@ -3,7 +3,7 @@
 A box is dropped when an enclosure of U over it (`enclosure`), plain or preconditioned by the inverse Jacobian
 at its middle, does not contain 0. A zero found by Newton's method is proven by Krawczyk's test, which also gives a box
 around it in which U is injective: what lies inside that box has no other zero. So the list is complete where no box
-is left over; boxes shrink for ever only at degenerate zeros.
+is left over; boxes shrink for ever only at degenerate zeros, and where a formula is undefined.
 """
 
 from __future__ import annotations

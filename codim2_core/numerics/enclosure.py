@@ -13,7 +13,6 @@ from ..expressions.opcodes import (
     ADD,
     DIV,
     HYPOT,
-    LOG,
     MAX,
     MIN,
     MUL,
@@ -24,7 +23,7 @@ from ..expressions.opcodes import (
     SUB,
     VAR,
 )
-from .intervals import divide, modulus, multiply, outwards, power, range_of, slope_of
+from .intervals import LOG, divide, modulus, multiply, outwards, power, range_of, slope_of
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -8,21 +8,16 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 from numba import njit
 
-from ..expressions.opcodes import (
-    ATAN,
-    COS,
-    COSH,
-    EXP,
-    LOG,
-    SIGN,
-    SIN,
-    SINH,
-    SQRT,
-    TAN,
-    TANH,
-)
+from ..expressions.functions import FIRST, FUNCTIONS, code, kernels
+
+ABS, SIGN, ATAN, COS, COSH = (code[name] for name in ("abs", "sign", "atan", "cos", "cosh"))
+EXP, LOG, SIN, SINH = (code[name] for name in ("exp", "log", "sin", "sinh"))
+SQRT, TAN, TANH = (code[name] for name in ("sqrt", "tan", "tanh"))
+BLUR = np.array([one.blur for one in FUNCTIONS])
+UNTIL = np.array([one.until for one in FUNCTIONS])
 
 WIDER = 2.0**-51  # four units of rounding: sums and products need half of one, library functions up to two
 TINY = 1e-300
@@ -119,6 +114,14 @@ def _tangent(a, b):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _between(k, a, b, p, q):
+    """Bounds between p and q, what is monotone at a and b, with the blur of the function k."""
+    blur = BLUR[k - FIRST] * WIDER * (1.0 + max(abs(a), abs(b)))
+    p, q = min(p, q), max(p, q)
+    return outwards(p - abs(p) * blur, q + abs(q) * blur)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def slope_of(k, a, b, v, w):
     """Range [v, w] of the function k over [a, b] is known; return the range of its derivative."""
     if k == SIN:
@@ -148,7 +151,11 @@ def slope_of(k, a, b, v, w):
         return divide(1.0, 1.0, 1.0 + lo, 1.0 + hi)
     if k == SIGN:
         return (0.0, 0.0) if a > 0.0 or b < 0.0 or a == b else (-math.inf, math.inf)
-    return (1.0 if a > 0.0 else -1.0), (-1.0 if b < 0.0 else 1.0)  # abs
+    if k == ABS:
+        return (1.0 if a > 0.0 else -1.0), (-1.0 if b < 0.0 else 1.0)
+    if not b <= UNTIL[k - FIRST]:
+        return -math.inf, math.inf
+    return _between(k, a, b, kernels.slope(k, a, kernels.value(k, a)), kernels.slope(k, b, kernels.value(k, b)))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -190,4 +197,8 @@ def range_of(k, a, b):
         if a == b == 0.0:
             return 0.0, 0.0
         return (1.0 if a > 0.0 else -1.0), (-1.0 if b < 0.0 else 1.0)
-    return modulus(a, b)
+    if k == ABS:
+        return modulus(a, b)
+    if not b <= UNTIL[k - FIRST]:
+        return -math.inf, math.inf
+    return _between(k, a, b, kernels.value(k, a), kernels.value(k, b))

@@ -12,6 +12,7 @@ from typing import Any
 
 from numba import carray  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
 
+from ..expressions.functions import kernels
 from ..expressions.names import PLANE
 from ..expressions.source import program
 from ..systems.typed import System
@@ -65,6 +66,7 @@ def _made(system: System) -> GeneralField:
     source, smooth = _source(system)
     scope: dict[str, Any] = {
         "math": math,
+        **kernels.called,
         "carray": carray,
         "call_at": call_at,
         "LANES": LANES,

@@ -21,6 +21,7 @@ from numba import (
     njit,
 )
 
+from ..expressions.functions import kernels
 from ..psi.function import Psi
 from .compiling import ARITHMETIC, Kept, compiled
 from .layout import LANES, PARAMETERS, SIGN, WIDTH, bits_of_double, double_of_bits
@@ -95,7 +96,7 @@ gain, kind = _one, float
 
 def _typed_gain(source: str, parameter: str) -> Any:
     """Write the gain for Psi given as Python source in s and a parameter, as `Expression.python_source` writes it."""
-    scope: dict[str, Any] = {"math": math}
+    scope: dict[str, Any] = {"math": math, **kernels.called}
     exec(f"def psi(s, {parameter}):\n    return {source}\n", scope)  # written by Expression: names and math.* only
     psi = njit(error_model="numpy")(scope["psi"])
 

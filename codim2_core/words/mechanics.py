@@ -20,5 +20,13 @@ SENTENCES: dict[str, Sentence] = {
     "contact opens": Sentence(
         "The contact opens: to stick, the normal force would have to be {normal:.4g}.", "N is not positive"
     ),
+    "fitted": Sentence(
+        "{found}; it slips at {angle:.4g}° ({low:.4g} to {high:.4g}) at the end, and does not stop.",
+        "least squares, 95 % sure; the motion that fits goes on",
+    ),
+    "fitted until it stops": Sentence(
+        "{found}; it stops at t = {stop:.4g}, at {angle:.4g}° ({low:.4g} to {high:.4g}).",
+        "least squares, 95 % sure; the motion that fits comes to rest",
+    ),
     "motion of a mechanism": Sentence("It {course}.", "a motion in an engineer's words, times in seconds"),
 }

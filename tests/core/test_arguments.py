@@ -70,6 +70,11 @@ GOOD = {
         "normal": 1.0,
         "velocities": ("u", "v"),
     },
+    c2.mechanics.fit: {
+        "system": c2.ELinear("-mu", 0.0, "-mu", parameters={"mu": 3.0}),
+        "times": np.linspace(0.0, 0.1, 5),
+        "velocities": np.linspace((1.0, 0.5), (0.8, 0.41), 5),
+    },
     c2.hemisphere.disc_from_entry: {"epsilon_1": 0.5, "theta": 0.1},
     c2.hemisphere.disc_from_scaling: {"x2": (1.0, 2.0)},
     c2.hemisphere.e_psi: {"psi": PSI, "p": (0.1, 0.2)},

@@ -230,6 +230,7 @@ OBJECTS = {
     "attracting-repelling": (limit_directions, critical_sets, trajectories, outcomes),
     "nonunique-sliding": (limit_directions, critical_sets, trajectories, senses_of_the_slow_flow, outcomes),
     "nonunique-sliding-outside": (limit_directions, critical_sets, trajectories, senses_of_the_slow_flow),
+    "spinning-disc": (limit_directions, critical_sets, trajectories),
     "blowup": (hemisphere, limit_directions, critical_sets),
     "blowup-stack": (hemispheres_along_z, limit_directions, critical_sets),
     "regularisation": (step_and_psi,),

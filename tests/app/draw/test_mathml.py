@@ -11,11 +11,13 @@ from hypothesis import strategies as st
 
 import codim2_core as c2
 from codim2_core.expressions.expression import parse
+from codim2_core.expressions.functions import known
 
 NAMES = ("c", "s", "mu", "z1", "K")
 VALUES = {"c": 0.4, "s": -0.7, "mu": 1.3, "z1": 0.6, "K": 2.1}
 SYMBOLS = {"c": "c", "s": "s", "μ": "mu", "z_1": "z1", "K": "K", "e": "math.e"}
 FUNCTIONS = ("sin", "cos", "tan", "log", "tanh", "sinh", "cosh", "atan")
+OWN = {"min": min, "max": max, "ellipk": known["ellipk"].scalar}
 
 
 def read(element):
@@ -28,7 +30,7 @@ def read(element):
         case "mn":
             return text
         case "mi":
-            return f"math.{text}" if text in FUNCTIONS else SYMBOLS[text]
+            return f"math.{text}" if text in FUNCTIONS else text if text in OWN else SYMBOLS[text]
         case "mo":
             return {"−": "-", "·": "*", "\u2062": "*", "|": "|"}.get(text, text)
         case "mfrac":
@@ -43,10 +45,16 @@ def read(element):
             return "".join(inside)
 
 
+def test_functions_of_two_and_those_of_the_list_are_written_as_calls():
+    for text in ("max(c, s)*mu", "K - min(c**2, 1 - s, mu)", "ellipk(min(c, s)/K)/2"):
+        formula = parse(text, NAMES)
+        assert value(formula) == pytest.approx(formula.evaluate(VALUES))
+
+
 def value(formula):
     text = read(ElementTree.fromstring(f"<math>{mathml(formula)}</math>"))
     # a sign binds as in Python, so that what is written side by side must not rely on anything else
-    return eval(text, {"math": math, **VALUES})
+    return eval(text, {"math": math, **OWN, **VALUES})
 
 
 leaves = st.sampled_from([*NAMES, "2", "0.5", "3"])
@@ -106,7 +114,7 @@ def test_the_drawn_formula_has_the_value_of_the_typed_one(text):
 def test_the_equations_of_an_example_are_its_right_hand_sides(example):
     system = example.make()
     at = system.at(example.z)
-    values = {"c": 0.6, "s": -0.8, "x": 0.0, "y": 0.0, "z": example.z[0], **dict(system.parameters)}
+    values = {"c": 0.6, "s": -0.8, "x": 0.0, "y": 0.0, "z": (*example.z, 0.0)[0], **dict(system.parameters)}
     values.update((f"z{i + 1}", v) for i, v in enumerate(example.z))
     rates = [float(right.evaluate(values)) for _, right in equations(system)]
     assert rates == pytest.approx([*at.U((0.6, -0.8)), *at.W((0.6, -0.8))], abs=1e-12)

@@ -1,0 +1,17 @@
+"""The functions of one argument that typed text may call: one list, which all forms of a formula read."""
+
+from __future__ import annotations
+
+from .angles import ATAN, COS, SIN, TAN
+from .elementary import COSH, EXP, LOG, SINH, SQRT, TANH
+from .elliptic import ELLIPTIC
+from .function import Function
+from .kinked import ABS, SIGN
+
+__all__ = ["FIRST", "FUNCTIONS", "Function", "called", "code", "known"]
+
+FUNCTIONS: tuple[Function, ...] = (SIN, COS, TAN, EXP, LOG, SQRT, TANH, SINH, COSH, ATAN, ABS, SIGN, *ELLIPTIC)
+FIRST = 32  # code of the first; those below are operations
+known = {one.name: one for one in FUNCTIONS}
+called = {one.name: one.scalar for one in FUNCTIONS if not one.source}  # what source calls by its name
+code = {one.name: FIRST + i for i, one in enumerate(FUNCTIONS)}

@@ -1,0 +1,199 @@
+"""Parameters of a system from a measured slip: least squares over whole motions, with intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..systems.bounds import slow_values
+from ..systems.elinear import ELinear
+from ..systems.reading import shortened
+from ..systems.typed import System
+from ..words import say
+from .slipping import Slipping, slipping
+
+Array = NDArray[np.float64]
+Interval = tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """What a measured slip says of a system: each value with the interval in which it lies, 95 % sure.
+
+    Intervals are those of least squares: for errors that are independent and normal, of one size, and small.
+
+    Attributes
+    ----------
+    system : ELinear or System
+        The system with the parameters that were found.
+    values, intervals : mapping of str to float, and to (low, high)
+        The parameters.
+    start : ndarray (2,)
+        Slip at the first time.
+    direction : float
+        The angle of the slip, rad, as it stops, or at the last time if it does not.
+    direction_interval : (low, high)
+    stop : float or None
+        When it stops; None if it goes on slipping.
+    error : float
+        Size of the errors: root of the mean square, by degrees of freedom.
+    times, velocities : ndarray (k,), (k, 2)
+        What was measured.
+    """
+
+    system: ELinear | System
+    values: Mapping[str, float]
+    intervals: Mapping[str, Interval]
+    start: Array
+    direction: float
+    direction_interval: Interval
+    stop: float | None
+    error: float
+    times: Array
+    velocities: Array
+    _course: Slipping
+
+    def at(self, times: ArrayLike) -> Array:
+        """Return the slip (..., 2) of the motion that was found; 0 once it has stopped."""
+        return self._course.at(np.asarray(times, float))
+
+    def drawn(self, count: int = 200) -> tuple[Array, Array]:
+        """Return what was measured, and the motion that was found, as points (1 + |v|) e of the portrait's picture."""
+        slips = self.times <= (self.times[-1] if self.stop is None else self.stop)
+        end = self.times[-1] if self.stop is None else min(self.stop, self.times[-1])
+        return tuple(  # pyright: ignore[reportReturnType]
+            (1.0 + 1.0 / np.hypot(v[:, 0], v[:, 1])[:, None]) * v
+            for v in (self.velocities[slips], self.at(np.linspace(self.times[0], end, count)[:-1]))
+        )
+
+    @property
+    def sentence(self) -> str:
+        """What was found."""
+        found = ", ".join(
+            f"{name} = {value:.4g} ({self.intervals[name][0]:.4g} to {self.intervals[name][1]:.4g})"
+            for name, value in self.values.items()
+        )
+        low, high = np.degrees(self.direction_interval)
+        where = {"found": found, "angle": float(np.degrees(self.direction)), "low": float(low), "high": float(high)}
+        return say("fitted", **where) if self.stop is None else say("fitted until it stops", stop=self.stop, **where)
+
+
+def fit(
+    system: ELinear | System, times: ArrayLike, velocities: ArrayLike, names: Iterable[str] = ("mu",), z: ArrayLike = ()
+) -> Fit:
+    """Find parameters of a system from a measured slip (v_x, v_y) over time.
+
+    Whole motions are held against what was measured, from a start that is fitted too; a motion that comes to rest stays
+    there. Nothing is differentiated, so noise does no harm but to widen the intervals.
+
+    Parameters
+    ----------
+    system : ELinear or System
+        (x, y) is the slip that was measured, and U may not read x or y. Its parameters are where the search begins.
+    times : (k,)
+        Growing.
+    velocities : (k, 2)
+    names : names of parameters
+        Those to find.
+    z : (m,) floats
+        The slow variables at the first time.
+
+    Raises
+    ------
+    ValueError
+        A name is no parameter of the system, shapes do not fit, times do not grow, U reads x or y, or what was
+        measured does not determine the parameters.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from codim2_core.mechanics import contact, fit
+    >>> block = contact(((1, 0), (0, 1)), ((1, 0), (0, 1)), (0, 0), "mu", "g", ("vx", "vy"),
+    ...                 parameters={"mu": 0.1, "g": 9.81})
+    >>> t = np.linspace(0.0, 0.6, 61)
+    >>> speed = np.maximum(1.0 - 0.3 * 9.81 * t, 0.0)[:, None] * [0.6, 0.8]
+    >>> round(fit(block, t, speed).values["mu"], 6)
+    0.3
+    """
+    from scipy.optimize import least_squares
+    from scipy.stats import t as student
+
+    t, v = np.asarray(times, float), np.asarray(velocities, float)
+    searched = _searched(system, names)
+    slow = slow_values(z, system.m)
+    _check(system, t, v, searched)
+    known = dict(system.parameters)
+    first = np.array([*(known[name] for name in searched), *v[0]])
+
+    def course(unknown: Array) -> Slipping:
+        changed = dict(zip(searched, map(float, unknown[:-2]), strict=True))
+        return slipping(system.evolve(**changed), unknown[-2:], slow, t)
+
+    def away(unknown: Array) -> Array:
+        return np.ravel(course(unknown).at(t) - v)
+
+    found = least_squares(away, first, jac="3-point", x_scale="jac", xtol=1e-13, ftol=1e-13, gtol=1e-13)
+    freedom = v.size - len(first)
+    error = float(np.sqrt(np.sum(found.fun**2) / freedom))
+    spread = found.jac.T @ found.jac
+    if np.linalg.cond(spread / np.sqrt(np.outer(*(np.diag(spread),) * 2) + 1e-300)) > 1e12:
+        raise ValueError(
+            f"what was measured does not determine {', '.join(searched)}; find fewer, or measure what they change."
+        )
+    covariance = error**2 * np.linalg.inv(spread)
+    sure = float(student.ppf(0.975, freedom))
+    half = sure * np.sqrt(np.diag(covariance))
+    last = course(found.x)
+    steps = 1e-6 * np.maximum(np.abs(found.x), np.abs(v).max() * 1e-3)
+    turns = [_turn(course(found.x - h * e).direction, course(found.x + h * e).direction) / (2.0 * h)
+             for h, e in zip(steps, np.eye(len(first)), strict=True)]  # fmt: skip
+    blur = sure * float(np.sqrt(np.array(turns) @ covariance @ turns))
+    values = dict(zip(searched, map(float, found.x[:-2]), strict=True))
+    return Fit(
+        system=system.evolve(**values),
+        values=MappingProxyType(values),
+        intervals=MappingProxyType({name: (x - h, x + h) for (name, x), h in zip(values.items(), map(float, half))}),  # noqa: B905 (the start comes after)
+        start=found.x[-2:],
+        direction=last.direction,
+        direction_interval=(last.direction - blur, last.direction + blur),
+        stop=last.stop,
+        error=error,
+        times=t,
+        velocities=v,
+        _course=last,
+    )
+
+
+def _turn(one: float, other: float) -> float:
+    """Return how far it is from one angle to another."""
+    return float(np.angle(np.exp(1j * (other - one))))
+
+
+def _searched(system: ELinear | System, names: Any) -> tuple[str, ...]:
+    known = dict(system.parameters)
+    given = (names,) if isinstance(names, str) or not isinstance(names, Iterable) else tuple(names)
+    strange = any(not isinstance(name, str) or name not in known for name in given)
+    if strange or not given or len(set(given)) < len(given):
+        raise ValueError(
+            f"names is {shortened(names)}; give one or several parameters of the system, among "
+            f"{', '.join(known) or '(none)'}."
+        )
+    return given
+
+
+def _check(system: ELinear | System, t: Array, v: Array, names: tuple[str, ...]) -> None:
+    if not isinstance(system, ELinear) and any(w in ("x", "y") for row in (*system.U, *system.W) for w in row.names):
+        raise ValueError("the system reads x or y; give one whose U and W depend on e and z alone.")
+    if t.ndim != 1 or v.shape != (len(t), 2) or len(t) <= len(names) + 1:
+        raise ValueError(
+            f"times and velocities have the shapes {t.shape} and {v.shape}; give (k,) and (k, 2), k > {len(names) + 1}."
+        )
+    if not (np.isfinite(t).all() and np.isfinite(v).all() and (np.diff(t) > 0.0).all()):
+        raise ValueError("times must grow, and all that was measured be finite; leave out what is not.")
+    if not np.hypot(*v[0]) > 0.0:
+        raise ValueError("the first velocity is 0: there is no slip; begin where it slips.")
