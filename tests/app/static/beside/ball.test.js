@@ -64,6 +64,19 @@ test("the ball is drawn where the motion has brought it, y upwards, its way so f
   assert.deepEqual(strokes[5].map(([name]) => name), ["move", ...Array(48).fill("line")])
 })
 
+test("the way of a ball fits its place, whichever way it is long", () => {
+  const global = /** @type {any} */ (globalThis)
+  global.devicePixelRatio = 1
+  global.getComputedStyle = () => ({getPropertyValue: (name) => name})
+  for (const [centre, scale] of /** @type {[number[][], number][]} */ ([[[[0, 9], [0, 1]], 200 / 10], [[[0, 1], [0, 9]], 100 / 10]])) {
+    const places = [], g = new Proxy({}, {get: (_, name) => name === "createRadialGradient" ? () => ({addColorStop() {}}) : (...all) => { if (name === "moveTo" || name === "lineTo") places.push(all) }, set: () => true})
+    const ball = new Ball({}, {clientWidth: 200, clientHeight: 100, getContext: () => g})
+    ball.prepare({t: [0, 1], ball: {centre, turns: [[1, 0, 0, 0], [1, 0, 0, 0]], radius: 0.5}})
+    ball.show(null, 0)
+    near([Math.hypot(places[1][0] - places[0][0], places[1][1] - places[0][1])], [0.92 * scale * Math.hypot(9, 1)], 1e-9)
+  }
+})
+
 test("the three great circles are painted where the ball has turned them, each in its colour, on the half that faces the eye", () => {
   const global = /** @type {any} */ (globalThis), paths = []
   let path = [], colour = ""

@@ -229,6 +229,10 @@ test("the panel lessons: before a question is begun nothing is hidden", () => {
   one.frame({lesson: {key: "04-x", title: "Four", parts: [{ask: "Where?", options: ["here", "there"], hide: ["critical"]}]}})
   one.set({f1: 1})
   assert.deepEqual(asked.filter(Boolean), [])
+  one.set({quiz: "0.25"})
+  assert.deepEqual(asked.at(-1).hide, ["critical"])
+  one.set({quiz: ""}) // it is left
+  assert.equal(asked.at(-1), null)
 })
 
 test("the panel lessons: a place is marked by a click on the picture, or by arrow keys and Enter", () => {
