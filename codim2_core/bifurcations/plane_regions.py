@@ -323,11 +323,13 @@ def _middle(boundary: list[Array], border: Array) -> tuple[float, float] | None:
         low, high = float(boundary[0][:, 1 - axis].min()), float(boundary[0][:, 1 - axis].max())
         levels = low + (high - low) * np.array([0.07, 0.21, 0.35, 0.4987, 0.65, 0.79, 0.93])[:, None]
         spans = (v0 > levels) != (v1 > levels)
-        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            crossing = np.where(spans, u0 + (levels - v0) / (v1 - v0) * (u1 - u0), np.inf)
-        crossing = np.sort(crossing, axis=1)[:, : int(spans.sum(axis=1).max())]
-        for level, row in zip(levels[:, 0].tolist(), crossing.tolist(), strict=True):
-            row = [v for v in row if v < math.inf]
+        which, at = np.nonzero(spans)
+        with np.errstate(invalid="ignore", over="ignore"):
+            part = (levels[which, 0] - v0[at]) / (v1[at] - v0[at])
+            crossing = (u0[at] + part * (u1[at] - u0[at])).tolist()
+        ends = np.searchsorted(which, np.arange(len(levels) + 1)).tolist()
+        for k, level in enumerate(levels[:, 0].tolist()):
+            row = sorted(v for v in crossing[ends[k] : ends[k + 1]] if v < math.inf)
             pairs = list(zip(row[::2], row[1::2], strict=False))
             if pairs:
                 left, right = max(pairs, key=lambda pair: pair[1] - pair[0])
@@ -336,6 +338,12 @@ def _middle(boundary: list[Array], border: Array) -> tuple[float, float] | None:
                 halves.append(0.5 * (right - left))
     if not candidates:
         return None
-    points = np.array(candidates)
-    distance = np.hypot(points[:, None, 0] - border[None, :, 0], points[:, None, 1] - border[None, :, 1]).min(axis=1)
-    return candidates[int(np.minimum(distance, halves).argmax())]
+    best, chosen = -1.0, 0
+    for i in sorted(range(len(candidates)), key=lambda i: -halves[i]):
+        if halves[i] < best:
+            break
+        u, v = candidates[i]
+        width = min(float(np.hypot(u - border[:, 0], v - border[:, 1]).min()), halves[i])
+        if width > best or (width == best and i < chosen):
+            best, chosen = width, i
+    return candidates[chosen]

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..cycles.limit_cycles import reason_for_none
-from ..cycles.search import search
+from ..cycles.search import search, shown
 from ..layer_problem.critical import critical_sets
 from ..layer_problem.vary import limits, varied
 from ..psi.function import Psi
@@ -204,7 +204,7 @@ class _Search:
             problem = self.family.problem(value)
             if reason_for_none(self.family.at(value)[0], problem.critical, problem.location) is not None:
                 continue
-            crossings, _ = search(self.family.section(value))
+            crossings, _ = search(shown(self.family.section(value)))
             for crossing in crossings:
                 first = yield from self.tracer.corrected(
                     Guess(crossing.xi, self._nu(value), (0.0, 1.0), crossing.repelling)

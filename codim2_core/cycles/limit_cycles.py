@@ -32,7 +32,7 @@ from ..tables import Tabled, number, paragraphs, point, rows
 from ..words import say
 from .orbit import Orbit, orbit
 from .resolution import counted
-from .search import search
+from .search import Shown, search, shown
 from .section import FixedPoint, Section
 
 __all__ = ["LimitCycle", "LimitCycles", "limit_cycles", "reason_for_none"]
@@ -203,17 +203,17 @@ class ClosedOrbits:
 
 def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
     """Find the limit cycles of a layer problem as closed orbits: whatever W is."""
-    at, psi, critical = problem.at, problem.psi, problem.critical
+    at, psi = problem.at, problem.psi
     coefficients = at.normal_form
     if coefficients is None:
         return _general(problem)
     if at.as_given is None:  # found in the axes of the normal form, and turned back
         return _turned(LayerProblem(coefficients, psi).keep(closed_orbits), -coefficients.rotation)
-    reason = reason_for_none(coefficients, critical, problem.location)
-    if reason is not None:
-        return ClosedOrbits((), (), reason)
-    section = Section(coefficients, psi, critical[0], location=problem.location)
-    crossings, notes = search(section)
+    samples = problem.keep(shown_of)
+    if isinstance(samples, str):
+        return ClosedOrbits((), (), samples)
+    section = samples.section
+    crossings, notes = search(samples)
     orbits = [(crossing, orbit(section, crossing)) for crossing in crossings]
     sense = 1 if coefficients.b > 0.0 else -1
     kept = [(crossing, found) for crossing, found in orbits if found is not None]
@@ -223,6 +223,14 @@ def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
     if any(cycle.kind == "semistable" for cycle in cycles):
         notes = (*notes, SEMISTABLE_NOTE)
     return ClosedOrbits(cycles, tuple(found for _, found in kept), counted(len(cycles), "section"), notes)
+
+
+def shown_of(problem: LayerProblem) -> Shown | str:
+    """Sample the return map of an e-linear layer problem in its own axes, or say why a theorem forbids cycles."""
+    coefficients, critical, location = problem.at.normal_form, problem.critical, problem.location
+    assert coefficients is not None
+    reason = reason_for_none(coefficients, critical, location)
+    return shown(Section(coefficients, problem.psi, critical[0], location=location)) if reason is None else reason
 
 
 def _turned(found: ClosedOrbits, angle: float) -> ClosedOrbits:

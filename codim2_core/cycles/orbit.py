@@ -160,12 +160,14 @@ def orbit(section: AnySection, crossing: FixedPoint) -> Orbit | None:
     if way is None:
         return None
     first, h, inner, weight = way.first, way.h, way.inner, way.weight
-    e, J = _linearisation(section, inner)
+    k = len(first)
+    every, everywhere = _linearisation(section, np.concatenate([first, inner]))
+    e, J = every[k:], everywhere[k:]
     per_T = 1.0 / inner[:, 2]  # dtau/dT
     period = float(weight.sum())
     mean_e = (weight @ e) / period
     divergence = float(weight @ (J[:, 0, 0] + J[:, 1, 1]))
-    velocity = section.field(_linearisation(section, first)[0])
+    velocity = section.field(every[:k])
     across = velocity[:, ::-1] * (-1.0, 1.0) / np.linalg.norm(velocity, axis=1)[:, None]
     multiplier = _normal_growth((sign * J * per_T[:, None, None]).reshape(-1, NODES, 2, 2), h, across)
     if backward:

@@ -8,6 +8,8 @@ the displacement is ``q(after one turn) - q``: -inf where the orbit goes to C, +
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -132,7 +134,7 @@ def _newborn(section: Section) -> FixedPoint | None:
     return FixedPoint(math.log(size / (1.0 - size)), square > 0.0, born=True)
 
 
-def _crossed(section: Section, xi: Array, shift: Array, changes: list[tuple[int, int]]) -> list[FixedPoint]:
+def _crossed(section: Section, xi: Array, shift: Array, changes: Sequence[tuple[int, int]]) -> list[FixedPoint]:
     """Place the fixed points at the changes of sign (i, j) of the displacement.
 
     One that repels attracts backward in time: it is found and followed backward. It may repel so strongly that forward
@@ -158,18 +160,55 @@ def _nearly_degenerate(q: Array, shift: Array, noise: Array) -> list[str]:
     return [*said, say("near a fold", gap=gap)] if gap < NEAR_FOLD else said
 
 
-def search(section: Section) -> tuple[tuple[FixedPoint, ...], tuple[str, ...]]:
-    """Find the fixed points that the samples show, innermost first, and notes on what is nearly degenerate.
+@dataclass(frozen=True)
+class Shown:
+    """Samples of a return map that resolve it, and what they show of its fixed points.
 
-    Parameters
+    Attributes
     ----------
     section : Section
+    xi, q, shift : ndarray (n,)
+        Where the samples are, and the displacements there.
+    changes : tuple of (int, int)
+        Between which samples the displacement changes its sign.
+    touching : tuple of int
+        At which it comes to zero and turns back.
+    notes : tuple of str
     """
+
+    section: Section
+    xi: Array
+    q: Array
+    shift: Array
+    changes: tuple[tuple[int, int], ...]
+    touching: tuple[int, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def newborn(self) -> bool:
+        """Whether a cycle lies below the innermost sample."""
+        C = self.section.critical
+        return bool(
+            self.shift.size and np.isfinite(self.shift[0]) and C.discriminant < 0.0 and self.shift[0] * C.trace < 0.0
+        )
+
+    @property
+    def certain(self) -> int:
+        """How many of the changes of sign, from the first, are fixed points for certain, and all up to there."""
+        if self.notes or self.touching or self.newborn:
+            return -1
+        finite = np.isfinite(self.shift).tolist()
+        return next((k for k, (i, j) in enumerate(self.changes) if not (finite[i] and finite[j])), len(self.changes))
+
+
+def shown(section: Section) -> Shown:
+    """Sample the return map of a section until the samples resolve it."""
     notes: list[str] = []
     samples = Samples(section, section.grid())
     finite = np.isfinite(samples.shift)
     if finite.sum() >= 8 and np.abs(samples.shift[finite]).max() < NOISE:
-        return (), (say("identity"),)
+        none = np.zeros(0)
+        return Shown(section, none, none, none, (), (), (say("identity"),))
     if not samples.resolve(_ends):
         notes.append(UNRESOLVED)
     known = ~np.isnan(samples.shift)
@@ -179,14 +218,25 @@ def search(section: Section) -> tuple[tuple[FixedPoint, ...], tuple[str, ...]]:
     changes, touching, band = zeros(q, shift, noise)
     if band:
         notes.append(say("band"))
-    found = _crossed(section, xi, shift, changes)
-    found += [FixedPoint(float(xi[i]), touching=True) for i in touching if noise[i] < TOUCHING]
     notes += _nearly_degenerate(q, shift, noise)
-    C = section.critical
-    if shift.size and np.isfinite(shift[0]) and C.discriminant < 0.0 and shift[0] * C.trace < 0.0:
+    meeting = tuple(i for i in touching if noise[i] < TOUCHING)
+    return Shown(section, xi, q, shift, tuple(changes), meeting, tuple(notes))
+
+
+def search(samples: Shown) -> tuple[tuple[FixedPoint, ...], tuple[str, ...]]:
+    """Find the fixed points that the samples show, innermost first, and notes on what is nearly degenerate.
+
+    Parameters
+    ----------
+    samples : Shown
+    """
+    section, xi, notes = samples.section, samples.xi, samples.notes
+    found = _crossed(section, xi, samples.shift, samples.changes)
+    found += [FixedPoint(float(xi[i]), touching=True) for i in samples.touching]
+    if samples.newborn:
         newborn = _newborn(section)
         if newborn is not None:
             found.append(newborn)
         else:
-            notes.append(say("too small, about C"))
-    return tuple(sorted(found, key=lambda crossing: crossing.xi)), tuple(notes)
+            notes = (*notes, say("too small, about C"))
+    return tuple(sorted(found, key=lambda crossing: crossing.xi)), notes

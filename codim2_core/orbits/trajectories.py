@@ -31,7 +31,8 @@ Array = NDArray[np.float64]
 DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
 # Steps of a stiff problem before those of its trajectories that are still under way are followed implicitly, and then.
 # A step of either costs about as much; one implicit step does for any number that stability would ask for. What is
-# longer than the disc is wide by then goes round and round, and does not creep.
+# longer than the disc is wide by then, or would be at its last pace in as much time again, goes round and round, and
+# does not creep.
 EXPLICIT, IMPLICIT, ROUND = 300, 1.0 / 3.0, 2.5  # IMPLICIT: of the step limit
 
 FARTHEST = (
@@ -145,13 +146,13 @@ def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping
     if not options.stiff:
         return _stepped(at, psi, states, signs, options)
     found = _stepped(at, psi, states, signs, replace(options, step_limit=min(EXPLICIT, options.step_limit)))
-    which, spent, drawn = _under_way(found)
-    creeping = drawn < ROUND
+    which, spent, drawn, pace = _under_way(found)
+    creeping = (drawn < ROUND) & (pace * spent < ROUND)
     if options.step_limit > EXPLICIT and creeping.any():
         which, spent, drawn = which[creeping], spent[creeping], drawn[creeping]
         rest = _crept(at, psi, found.ends[which], signs[which], spent, drawn, options)
         found = continued(found, which, rest)
-        which, spent, drawn = _under_way(found)
+        which, spent, drawn, _ = _under_way(found)
     more = options.step_limit - EXPLICIT - (int(IMPLICIT * options.step_limit) if creeping.any() else 0)
     if not len(which) or more <= 0:
         return found
@@ -162,13 +163,14 @@ def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping
     return continued(found, which, _stepped(at, psi, found.ends[which], signs[which], last))
 
 
-def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array]:
-    """Which trajectories have come to the step limit, in what time each, and over what length."""
+def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array, Array]:
+    """Which trajectories have come to the step limit, in what time each, over what length, and how fast at last."""
     which = np.flatnonzero(found.codes == STATUSES.index(Status.STEP_LIMIT))
     lines, times = found.points, found.times
     spent = np.array([abs(times[i][-1]) for i in which])
     drawn = np.array([np.hypot(*np.diff(lines[i], axis=0).T).sum() for i in which])
-    return which, spent, drawn
+    last = [(math.dist(lines[i][-2], lines[i][-1]), abs(times[i][-1] - times[i][-2])) for i in which]
+    return which, spent, drawn, np.array([way / max(time, 1e-300) for way, time in last])
 
 
 def _stepped(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:

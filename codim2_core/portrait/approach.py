@@ -26,7 +26,7 @@ from ..systems.kinds import AnySystem
 from ..words import named, say
 from .endings import angular_sign, radially_neutral
 from .outcomes import Outcome, Outcomes, on_arcs
-from .verdicts import Array, Judged, arriving, spiralling
+from .verdicts import Array, Judged, arriving, spiralling, with_flow
 
 __all__ = ["approach_outcomes"]
 
@@ -157,11 +157,11 @@ def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], se
             reason = f"{reason} {say('turns away')}"
         return Outcome(theta, label, "nothing", "misses", None, None, None, reason)
     arrives = _arrival(equator, i)
-    (verdict, onto, leaving, slow, reason, why), *others = judged
+    verdict, onto, leaving, slow, reason, why = with_flow(own, judged[0])
     # a single direction is an even zero of Theta
     reason = f"{say('one side, all angles' if len(equator) == 1 else arrives, Q=named(label))} {reason}"
     outcome = Outcome(theta, label, arrives, verdict, onto, leaving, slow, reason, why=why)
-    verdicts = [(text, *other[:2]) for text, other in zip(texts, others, strict=True)]
+    verdicts = [(text, *other[:2]) for text, other in zip(texts, judged[1:], strict=True)]
     return _compared(outcome, verdicts, sensitive, own.at.normal_form is not None)
 
 
@@ -171,7 +171,9 @@ def _whole(asked: _Asked) -> Outcome:
     if own.equator.all_directions:
         label, radial = "every direction", _radial(own.at)
         if radial.max() < 0.0:
-            verdict, onto, leaving, slow, reason, why = spiralling(own, "Orbits leave the equator at all angles")
+            verdict, onto, leaving, slow, reason, why = with_flow(
+                own, spiralling(own, "Orbits leave the equator at all angles")
+            )
             reason = f"{say('all directions')} {reason}"
             outcome = Outcome(None, label, "open set", verdict, onto, leaving, slow, reason, why=why)
             return _compared(
@@ -190,6 +192,6 @@ def _whole(asked: _Asked) -> Outcome:
     if not cycle.stable_outside:
         reason = say("equator repels")
         return Outcome(None, "equator", "nothing", "misses", None, None, None, reason)
-    verdict, onto, leaving, slow, reason, why = spiralling(own)
+    verdict, onto, leaving, slow, reason, why = with_flow(own, spiralling(own))
     outcome = Outcome(None, "equator", "open set", verdict, onto, leaving, slow, f"{say('spiral')} {reason}", why=why)
     return _compared(outcome, [(other.psi.words, *spiralling(other)[:2]) for other in others], sensitive, elinear)

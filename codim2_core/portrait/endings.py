@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cycles.foretold import ON_C
 from ..cycles.limit_cycles import LimitCycles
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.eigendirections import to_disc
@@ -29,6 +30,7 @@ AT_CRITICAL = 1e-2  # distance beyond which an equilibrium that captures is none
 AT_SADDLE = 1e-4  # distance at which a branch that stopped nowhere else is at a saddle
 NEUTRAL = 1e-13  # of the largest eigenvalue on the equator
 AT_NEUTRAL = 1e-2  # distance to a radially neutral Q, which is come to like 1/T, at which a branch is at it
+TOLD = 1e-7  # ebar of which a point of the disc says something: below it an orbit is not followed on
 CONNECTION = say("into a saddle")
 AT_NEUTRAL_Q = say("to a neutral direction")
 
@@ -53,7 +55,7 @@ def _nearest_critical(critical: tuple[CriticalSet, ...], p: Array, within: float
     return i if gaps and gaps[i] <= within else None
 
 
-def _nears_end(critical: tuple[CriticalSet, ...], p: Array, backward: bool) -> bool:
+def nears_end(critical: tuple[CriticalSet, ...], p: Array, backward: bool) -> bool:
     """Whether an orbit is close to a critical set that attracts, or repels backward."""
     k = _nearest_critical(critical, p, AT_CRITICAL)
     return k is not None and critical[k].kind.startswith("unstable" if backward else "stable")
@@ -106,6 +108,7 @@ def endings(
     *,
     rtol: float = 1e-9,
     backward: bool = False,
+    foretold: Callable[[Array], list[int | None]] | None = None,
 ) -> list[Ending]:
     """Where trajectories on the hemisphere end; those cut off by their time are followed further.
 
@@ -121,6 +124,8 @@ def endings(
     rtol : float
     backward : bool
         Whether `lines` run against time.
+    foretold : callable, optional
+        Says of states where their orbits go, as `cycles.foretold` does: asked before they are followed further.
 
     Returns
     -------
@@ -131,14 +136,20 @@ def endings(
     length = drawn_time(at, equator)
     for more in (0.0, 1.0, PATIENCE):
         open_ = [i for i, s in enumerate(statuses) if s in (Status.T_MAX, Status.STEP_LIMIT) and found[i] is None]
-        # A point of the disc says nothing of an ebar below 1e-7: there the orbit is not followed on.
-        follow = [i for i in open_ if states[i, 2] > 1e-7] if more else []
+        follow = [i for i in open_ if states[i, 2] > TOLD] if more else []
         if follow:
             time, places = more * length, states[follow, :2]
             on = _followed(at, psi, places, time, rtol, backward)
             for j, i in enumerate(follow):
                 statuses[i], states[i] = on.status[j], on.ends[j]
+        elif foretold is not None:
+            going = [i for i in open_ if not nears_end(critical, states[i, :2], backward)]
+            labels = foretold(states[going]) if going else []
+            for i, onto in zip(going, labels, strict=True):
+                found[i] = None if onto is None else _foretold(critical, onto)
         for i in open_ if more else range(len(lines)):
+            if found[i] is not None:
+                continue
             p, w = states[i, :2], float(states[i, 2])
             angle = math.atan2(p[1], p[0])
             near, gap = nearest(equator, angle) if len(equator) else (0, math.inf)
@@ -150,7 +161,7 @@ def endings(
                 found[i] = Ending(label, float(equator.theta[near]), statuses[i].value)
             elif statuses[i] is Status.SPIRALLED:
                 found[i] = Ending("equator", None, statuses[i].value)
-            elif not more and _nears_end(critical, p, backward):
+            elif not more and nears_end(critical, p, backward):
                 continue  # it is followed on before cycles, which cost more, are searched for
             elif (reached := _on_cycle(cycles(), p, backward)) is not None:
                 found[i] = Ending(f"cycle {reached + 1}", None, say("onto a cycle"))
@@ -161,6 +172,12 @@ def endings(
             elif k is not None and critical[k].kind == "saddle" and more:
                 found[i] = Ending(critical_label(critical, k), _tangent_at(critical[k], p), CONNECTION)
     return [e if e is not None else Ending("undecided", None, s.value) for e, s in zip(found, statuses, strict=True)]
+
+
+def _foretold(critical: tuple[CriticalSet, ...], onto: int) -> Ending:
+    if onto == ON_C:
+        return Ending(critical_label(critical, 0), None, Status.EQUILIBRIUM.value)
+    return Ending(f"cycle {onto + 1}", None, say("onto a cycle"))
 
 
 def drawn_time(at: AtZ, equator: EquatorEquilibria) -> float:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cycles.foretold import foretold
 from ..cycles.limit_cycles import cycles_of, reason_for_none
 from ..layer_problem.problem import LayerProblem
 from ..orbits.result import Status
@@ -17,10 +19,12 @@ from ..words import named, number, say
 from .endings import (
     CAPTURE,
     CONNECTION,
+    TOLD,
     Ending,
     critical_label,
     drawn_time,
     endings,
+    nears_end,
     radially_neutral,
     radially_neutral_ones,
 )
@@ -40,8 +44,14 @@ class Judged(NamedTuple):
 
 
 RTOL = 1e-8
+EARLY = 700  # steps after which samples of the return map are asked where orbits go
 FAN = 0.02  # radius, in (theta, ebar), of the half circle of starts around a Q that many orbits leave
 ANGLES = np.radians([15.0, 45.0, 75.0, 105.0, 135.0, 165.0])
+
+
+def _sampled(problem: LayerProblem) -> bool:
+    """Whether samples of a return map may tell where orbits go: of an e-linear system in its own axes."""
+    return problem.at.normal_form is not None and problem.at.as_given is not None
 
 
 def ends(problem: LayerProblem, lines: Trajectories) -> list[Ending]:
@@ -54,31 +64,35 @@ def ends(problem: LayerProblem, lines: Trajectories) -> list[Ending]:
         problem.critical,
         lambda: problem.keep(cycles_of),
         rtol=RTOL,
+        foretold=partial(foretold, problem) if _sampled(problem) else None,
     )
 
 
 def followed(problem: LayerProblem, points: Array) -> Trajectories:
     """Follow points of the picture (k, 2) until they have ended somewhere."""
-    time = drawn_time(problem.at, problem.equator)
-    return trajectories(
-        problem.at, problem.psi, points, t_max=time, rtol=RTOL, atol=0.1 * RTOL, capture=CAPTURE, samples="ends"
-    )
+    return _ended(problem, partial(trajectories, problem.at, problem.psi, points))
 
 
 def from_equator(problem: LayerProblem, which: Sequence[int], beside: Array | None = None) -> Trajectories:
     """Follow the orbits that leave some limit directions (from 0) up the hemisphere, and those from points beside."""
+    angles = problem.equator.theta[list(which)]
+    return _ended(problem, partial(continuation, problem.at, problem.psi, angles, beside=beside))
+
+
+def _ended(problem: LayerProblem, follow: Callable[..., Trajectories]) -> Trajectories:
+    """Follow orbits until they have ended, or go round and round and samples tell where they will end."""
     time = drawn_time(problem.at, problem.equator)
-    return continuation(
-        problem.at,
-        problem.psi,
-        problem.equator.theta[list(which)],
-        t_max=time,
-        rtol=RTOL,
-        atol=0.1 * RTOL,
-        capture=CAPTURE,
-        samples="ends",
-        beside=beside,
-    )
+    on = partial(follow, t_max=time, rtol=RTOL, atol=0.1 * RTOL, capture=CAPTURE, samples="ends")
+    if not _sampled(problem):
+        return on()
+    lines = on(step_limit=EARLY)
+    cut = [
+        i
+        for i, status in enumerate(lines.status)
+        if status is Status.STEP_LIMIT
+        and not (lines.ends[i, 2] > TOLD and nears_end(problem.critical, lines.ends[i, :2], backward=False))
+    ]
+    return on() if cut and None in foretold(problem, lines.ends[cut]) else lines
 
 
 def _place(end: Ending) -> str:
@@ -102,9 +116,8 @@ def judge(problem: LayerProblem, found: Sequence[Ending], many: str) -> Judged:
         if label == critical_label(problem.critical, i):
             return Judged("slide", label, None, C.slow_flow, say("slides", label=named(label), kind=C.kind))
     if label.startswith("cycle"):
-        cycle = problem.keep(cycles_of)[int(label.split()[1]) - 1]
         reason = say("slides on a cycle" if problem.at.normal_form is None else "slides around")
-        return Judged("cycle", label, None, cycle.slow_flow, reason)
+        return Judged("cycle", label, reason=reason)
     if label.startswith("Q"):
         theta = number(end.angle) if end.angle is not None else "?"
         return Judged("cross", label, end.angle, None, say("crosses", theta=theta, label=named(label)))
@@ -113,6 +126,15 @@ def judge(problem: LayerProblem, found: Sequence[Ending], many: str) -> Judged:
     if end.sentence == Status.EQUILIBRIUM.value:
         return Judged("undecided", reason=say("rest ahead"), why="neutral")
     return Judged("undecided", reason=say("unfollowed"), why="unfollowed")
+
+
+def with_flow(problem: LayerProblem, judged: Judged) -> Judged:
+    """Add the slow flow on a cycle, for which the cycle is followed: only where it is told."""
+    if judged.verdict != "cycle" or judged.onto is None or judged.slow_flow is not None:
+        return judged
+    cycles, k = problem.keep(cycles_of), int(judged.onto.split()[1]) - 1
+    # one that does not close in the steps allowed is foretold, and is not among them
+    return judged._replace(slow_flow=cycles[k].slow_flow) if k < len(cycles) else judged
 
 
 def _all_end_on_C(problem: LayerProblem) -> bool:

@@ -12,7 +12,7 @@ from codim2_core.layer_problem.eigendirections import to_disc
 from codim2_core.orbits.result import Status
 from codim2_core.portrait import endings
 from codim2_core.portrait.saddle_manifold import starts
-from codim2_core.portrait.verdicts import judge
+from codim2_core.portrait.verdicts import judge, with_flow
 
 
 def equator(theta, multiplicity, sign=1.0, lambda_rho=None):
@@ -176,7 +176,7 @@ def judged(*found, affine=True, many="Orbits"):
     cycles = [SimpleNamespace(slow_flow=(k,)) for k in (10, 11)]
     at = SimpleNamespace(normal_form="there" if affine else None)
     problem = SimpleNamespace(equator=limits, critical=sets, keep=lambda _: cycles, at=at)
-    return judge(problem, [endings.Ending(*one) for one in found], many)
+    return with_flow(problem, judge(problem, [endings.Ending(*one) for one in found], many))
 
 
 def test_ends_are_judged():
