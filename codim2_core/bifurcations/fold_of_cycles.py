@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 
@@ -230,10 +229,22 @@ class Folds:
     def with_cusps(self, states: list[Fold]) -> list[Fold]:
         """Put in the cusps of a curve: where the second derivative of the return map changes its sign along it."""
         out = states[:1]
-        for here, there in pairwise(states):
-            found = self._cusp(here, there) if (here.bend < 0.0) != (there.bend < 0.0) else None
-            out += [there] if found is None else [found, there]
+        for there in states[1:]:
+            middle = self._between(out[-1], there)
+            for after in (there,) if middle is None else (middle, there):
+                here = out[-1]
+                found = self._cusp(here, after) if (here.bend < 0.0) != (after.bend < 0.0) else None
+                out += [after] if found is None else [found, after]
         return out
+
+    def _between(self, here: Fold, there: Fold) -> Fold | None:
+        """Find the fold between two cusps that one step has passed, which has led back in e; None where it has not."""
+        step = there.place - here.place
+        leaving, arriving = (null_vector(fold.jacobian, step) for fold in (here, there))
+        if (here.bend < 0.0) != (there.bend < 0.0) or not max(leaving[1:] @ step[1:], arriving[1:] @ step[1:]) < 0.0:
+            return None
+        found = self.corrected(FoldGuess(0.5 * (here.xi + there.xi), 0.5 * (here.e + there.e), OUTWARD))
+        return found if found is not None and (found.bend < 0.0) != (here.bend < 0.0) else None
 
     def _cusp(self, here: Fold, there: Fold) -> Fold | None:
         """Find the cusp between two folds: the secant rule along chi, in which the curve is smooth there."""

@@ -167,3 +167,16 @@ def test_two_cycles_meet_on_a_fold_however_narrow_the_strip_is_in_which_they_are
     across = np.array([along[1], -along[0]]) / np.hypot(*along)
     counts = [len(limit_cycles(ELinear(1.0, 1.5, -2.0, tuple(line[i] + h * across)), p)) for h in (-1e-7, 1e-7, 1e-5)]
     assert counts == [0, 2, 0]
+
+
+def test_two_cusps_that_one_step_passes_are_both_named():
+    """The curve turns back at its cusps and nowhere else: two close ones leave the sign of the bend as it was."""
+    a, b, d = 0.3053288537408046, 0.6464953582754809, -0.33297978971701897
+    curve = bifurcations.cycle_folds(a, b, d, psi.hill(2))
+    cusps = [np.array(s.place) for s in curve.special if s.type == "cusp of cycles"]
+    assert len(cusps) == 6
+    for line, sizes in zip(curve.branches, curve.values, strict=True):
+        steps = np.diff(line[sizes != sizes[-1]], axis=0)  # a corner is added with the size of the fold before it
+        back = [line[i] for i in range(1, len(steps)) if steps[i] @ steps[i - 1] < 0.0]
+        for place in back:
+            assert min(np.hypot(*(cusp - place)) for cusp in cusps) < 1e-9
