@@ -110,8 +110,6 @@ def _say_if_compiled(what: str, seconds: float, done: int, of: int) -> None:
     """Say what had to be compiled: what is found on disk takes less than a second."""
     if seconds > 1.0:
         _say_compiled(f"compiled {what}", seconds, done, of)
-    if done == of:
-        gc.freeze()  # kernels are no garbage: looking for some would stop everybody for 0.2 s, again and again
 
 
 def _serve(chosen: argparse.Namespace) -> None:

@@ -84,6 +84,7 @@ def session() -> ExplorerView:
         view = opened(opening(query))
     # The page says itself when the connection is lost, and loads itself again: see connection.js.
     doc.config.update(reconnect_session=False, notify_connection_status=False, notifications=None)
+    garbage.begun()
     doc.on_session_destroyed(lambda _: view.leave())
     doc.on_session_destroyed(lambda _: garbage.ended())
     views[doc] = view
@@ -208,7 +209,7 @@ def make_server(
         executor = Workers(at_once, preload=PRELOAD, first=warmup.wait)
     serve_with(Turns(executor, at_once))
     warmup_now = processes == 1
-    begin = partial(warmup.start, *(() if told is None else (told,)), patience=warmup.PATIENCE)
+    begin = partial(warmup.start, partial(_told, told), patience=warmup.PATIENCE)
     if warmup_now:
         begin()
     parent = os.getpid()
@@ -234,6 +235,14 @@ def make_server(
     if os.getpid() != parent:
         _stop_with(parent, server.io_loop)
     return server
+
+
+def _told(told: warmup.Told | None, what: str, seconds: float, done: int, of: int) -> None:
+    """Tell what has been compiled; once it is all, it is no garbage."""
+    if told is not None:
+        told(what, seconds, done, of)
+    if done == of:
+        garbage.keep()
 
 
 def _keep(rooms: Rooms) -> None:

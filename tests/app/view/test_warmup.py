@@ -117,15 +117,6 @@ def test_a_terminal_is_told_what_had_to_be_compiled(capsys):
     assert capsys.readouterr().out == "codim2: 2 of 8: compiled limit cycles: 6.5 s\n"
 
 
-def test_kernels_are_no_garbage_once_all_are_there(monkeypatch):
-    frozen = []
-    monkeypatch.setattr(cli.gc, "freeze", lambda: frozen.append(1))
-    cli._say_if_compiled("motions", 0.1, 7, 8)
-    assert not frozen
-    cli._say_if_compiled("motions", 0.1, 8, 8)
-    assert frozen
-
-
 def test_a_server_starts_without_what_its_first_picture_does_not_need():
     """SciPy's parts and what draws in notebooks take longer to import than all of this package."""
     late = "'scipy.integrate', 'scipy.optimize', 'scipy.special', 'holoviews', 'pandas', 'matplotlib', 'IPython'"
