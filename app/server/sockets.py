@@ -68,14 +68,24 @@ class PromptSocket(WSHandler):
     #: Whether messages go in one write; no longer once that has failed, in any page.
     whole = True
     _held = 0
+    _gone = False  # before its connection was there
 
     def open(self, *arguments: str, **named: str) -> None:
         """Start the connection."""
         super().open(*arguments, **named)
         self.set_nodelay(True)
 
+    async def _async_open(self, token: str) -> None:
+        """Join the page to its session; one that is closed meanwhile would count as open for ever."""
+        if self._gone:
+            return
+        await super()._async_open(token)
+        if self._gone:
+            self.on_close()
+
     def on_close(self) -> None:
         """End what was computed for this page alone."""
+        self._gone = self.connection is None
         session = None if self.connection is None else self.connection.session
         super().on_close()
         if session is not None and not session.connection_count and (view := views.get(session.document)):

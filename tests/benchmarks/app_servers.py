@@ -32,6 +32,7 @@ def forgetful(port: int) -> None:
 
     class Left(RequestHandler):
         def get(self) -> None:
+            gc.unfreeze()  # what the server leaves out of its own searches lives too
             gc.collect()
             living = gc.get_objects()
             with open("/proc/self/statm") as pages:
@@ -39,8 +40,8 @@ def forgetful(port: int) -> None:
             kinds = (ExplorerView, Frames, Scene, Psi, System)
             # the type, as a weak reference whose object is gone cannot be asked for its class
             counts = {kind.__name__: sum(issubclass(type(one), kind) for one in living) for kind in kinds}
-            formulas = len(warmup._formulas)  # that are compiled here
-            self.write({"resident": resident, "objects": len(living), "formulas": formulas, **counts})
+            counts |= {"formulas": len(warmup._formulas), "sessions": len(server.get_sessions())}
+            self.write({"resident": resident, "objects": len(living), **counts})
 
     soon: dict[str, Any] = {"unused_session_lifetime_milliseconds": 2000, "check_unused_sessions_milliseconds": 200}
     server = make_server(port, **soon)

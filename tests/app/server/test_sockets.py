@@ -5,6 +5,7 @@ import sys
 
 import pytest
 from bokeh.protocol import Protocol
+from codim2_app.server import sockets
 from codim2_app.server.first_page import Page
 from codim2_app.server.page import OURS, take_over
 from codim2_app.server.sockets import PromptSocket, _Parts, untraced
@@ -53,6 +54,34 @@ def run(doing):
     except StopIteration as done:
         return done.value
     raise AssertionError("it waits")
+
+
+@pytest.mark.parametrize("closed", ["never", "before", "meanwhile", "afterwards"])
+def test_a_page_that_is_closed_while_it_opens_loses_its_connection_once(monkeypatch, closed):
+    class Session:
+        connection_count, document = 0, object()
+
+    class Connection:
+        session = Session
+
+    async def opening(self, _):
+        done.append("opened")
+        if closed == "meanwhile":
+            self.on_close()
+        self.connection = Connection
+
+    done = []
+    monkeypatch.setattr(WSHandler, "_async_open", opening)
+    monkeypatch.setattr(WSHandler, "on_close", lambda self: self.connection and done.append("lost"))
+    monkeypatch.setattr(sockets, "views", {})
+    socket = PromptSocket.__new__(PromptSocket)
+    socket.connection = None
+    if closed == "before":
+        socket.on_close()
+    run(socket._async_open(""))
+    if closed == "afterwards":
+        socket.on_close()
+    assert done == {"never": ["opened"], "before": []}.get(closed, ["opened", "lost"])
 
 
 def record_of(do):
