@@ -10,6 +10,7 @@ import sys
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
+from contextlib import suppress
 from multiprocessing.connection import Connection, wait
 from multiprocessing.forkserver import ensure_running
 from pathlib import Path
@@ -25,6 +26,11 @@ SECONDS = 60.0
 NICE = 5
 #: Bytes by which a worker may grow: each formula that is typed leaves about 2.5 MB, which Numba never gives back.
 MOST_GROWN = 400_000_000
+#: Bytes that a worker may ask for beside what it begins with: a work that needs more fails, alone.
+MOST_ASKED = 2_000_000_000
+#: What is added to a worker's share of the machine's memory, in thousandths, where the system looks for one to end:
+#: it takes a worker, and not what answers visitors.
+ENDED_FIRST = 500
 
 
 class Stopped(BrokenExecutor):
@@ -94,6 +100,8 @@ class Workers(Executor):
         Called before the first process is started, by a thread that may wait.
     most_grown : int
         Bytes by which a process may have grown when it is done with a work, or another one takes its place.
+    most_asked : int
+        Bytes that a process may ask for while it works; the work that needs more has MemoryError (on Linux).
     """
 
     def __init__(
@@ -103,12 +111,13 @@ class Workers(Executor):
         preload: Sequence[str] = (),
         first: Callable[[], None] = lambda: None,
         most_grown: int = MOST_GROWN,
+        most_asked: int = MOST_ASKED,
     ) -> None:
         known = multiprocessing.get_all_start_methods()
         self._context: Any = multiprocessing.get_context("forkserver" if "forkserver" in known else "spawn")
         if "forkserver" in known:
             self._context.set_forkserver_preload(list(preload))
-        self.seconds, self._first, self._most_grown = seconds, first, most_grown
+        self.seconds, self._first, self._bounds = seconds, first, (most_grown, most_asked)
         self._once, self._opened = threading.Lock(), False
         self._tasks: SimpleQueue[tuple[Stoppable, bytes] | None] = SimpleQueue()
         self._count = count
@@ -184,9 +193,7 @@ class Workers(Executor):
                     _open_forkserver()
                 self._opened = True
         ours, theirs = self._context.Pipe()
-        process = self._context.Process(
-            target=_work, args=(theirs, self._most_grown), daemon=True, name="codim2-worker"
-        )
+        process = self._context.Process(target=_work, args=(theirs, *self._bounds), daemon=True, name="codim2-worker")
         process.start()
         theirs.close()
         return ours, process
@@ -219,13 +226,14 @@ class Workers(Executor):
         return result
 
 
-def _work(pipe: Connection, most_grown: int) -> None:
+def _work(pipe: Connection, most_grown: int, most_asked: int) -> None:
     """Do one work after the other, as a worker, until nobody can speak to it or it has grown too large."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C in a terminal reaches all; the server ends its workers
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     if hasattr(os, "nice"):
         os.nice(max(0, NICE - os.nice(0)))
     threading.Thread(target=_end_with_parent, daemon=True).start()
+    _bound_memory(most_asked)
     before, last = held(), False
     while not last:
         try:
@@ -242,6 +250,22 @@ def _work(pipe: Connection, most_grown: int) -> None:
         except Exception as error:  # of any kind: a result's own __reduce__ may raise whatever it likes
             data = pickle.dumps((False, RuntimeError(f"the result cannot be sent: {error}"), last))
         pipe.send_bytes(data)
+
+
+def _bound_memory(most_asked: int) -> None:
+    """Let this process ask for so much more, and be ended before others where the machine has none left."""
+    if sys.platform != "linux":
+        return
+    import resource
+
+    with suppress(OSError):  # where /proc cannot be written
+        Path("/proc/self/oom_score_adj").write_text(str(ENDED_FIRST))
+    with suppress(OSError, ValueError):  # where it cannot be read, or the host's own bound is lower
+        lines = Path("/proc/self/status").read_text().splitlines()
+        data = next(int(line.split()[1]) for line in lines if line.startswith("VmData:"))
+        resource.setrlimit(
+            resource.RLIMIT_DATA, (1024 * data + most_asked, resource.getrlimit(resource.RLIMIT_DATA)[1])
+        )
 
 
 def held() -> int:

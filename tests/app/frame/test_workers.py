@@ -65,6 +65,27 @@ def test_a_worker_that_has_grown_too_large_is_replaced():
     assert third == 1
 
 
+def ask(size):
+    return len(bytearray(size)), os.getpid()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the system bounds no memory of a process")
+def test_a_work_that_asks_for_too_much_memory_fails_alone():
+    with Workers(1, seconds=300.0, most_asked=200_000_000) as some:
+        before, first = some.submit(ask, 100_000_000).result()
+        with pytest.raises(MemoryError):
+            some.submit(ask, 300_000_000).result()
+        assert some.submit(ask, 100_000_000).result() == (before, first)  # the same process goes on
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the system tells no such thing")
+def test_where_memory_is_short_a_worker_is_ended_before_its_server(workers):
+    def likely(pid):
+        return int(Path(f"/proc/{pid}/oom_score").read_text())
+
+    assert likely(workers.submit(os.getpid).result()) > likely(os.getpid()) + 100
+
+
 def test_errors_come_back(workers):
     with pytest.raises(ZeroDivisionError):
         workers.submit(divmod, 1, 0).result()

@@ -1,0 +1,114 @@
+"""Memory that has an end: a worker that reaches it fails or is ended alone, its page says so, and the server lives."""
+
+import asyncio
+import os
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from codim2_app.draw.packing import unpack
+from codim2_app.phrases import say
+
+from tests.app.serving import serving
+from tests.benchmarks.app_load import family
+from tests.benchmarks.bokeh_wire import Wire
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the system bounds no memory of a process")
+
+#: A server whose files never have enough: each asks for more memory, and uses it or not.
+SERVER = """
+import sys
+from codim2_app.view import taking
+from codim2_app.server.cli import main
+
+def hungry(view, wish):
+    held = []
+    while True:
+        held.append({block})
+
+taking.taken = hungry
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
+"""
+ASKED, USED = "bytearray(10**8)", "bytearray(b'x') * 10**7"
+BEYOND = 300_000_000  # bytes that all processes of the server have left
+
+GROUPS = {  # of processes, and the file that holds their bound
+    Path("/sys/fs/cgroup"): "memory.max",
+    Path("/sys/fs/cgroup/memory"): "memory.limit_in_bytes",
+}
+
+
+@contextmanager
+def bounded(pids, beyond):
+    """Let these processes, and all that they start, hold so much more together; skip where nobody can say so."""
+    used = sum(int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGESIZE") for pid in pids)
+    for root, bound in GROUPS.items():
+        group = root / f"codim2-{os.getpid()}"
+        try:
+            group.mkdir()
+        except OSError:
+            continue
+        if (group / bound).exists():
+            break
+        group.rmdir()
+    else:
+        pytest.skip("no group of processes can be made here: needs root")
+    try:
+        (group / bound).write_text(str(used + beyond))
+        for pid in pids:
+            (group / "cgroup.procs").write_text(str(pid))
+        yield group
+    finally:
+        for pid in (group / "cgroup.procs").read_text().split():
+            (root / "cgroup.procs").write_text(pid)
+        group.rmdir()
+
+
+async def told(port):
+    """Ask for a file; return what is said instead, once another page and this one have had frames beside it."""
+    wire, other = [await Wire.connect(port) for _ in range(2)]
+    await wire.frame(1, a=-1.25)
+    await wire.event("data_event", wire.root, data={"take": {"kind": "json", "id": 1}})
+    for i in range(20):
+        assert unpack(await other.frame(i + 1, a=-1.5 + 0.01 * i))[0]["id"] == i + 1
+    while True:
+        kind, content, _ = await wire.read()
+        if kind == "PATCH-DOC" and "taken" in str(content):
+            break
+    assert unpack(await wire.frame(2, a=-1.4))[0]["id"] == 2
+    await wire.close()
+    await other.close()
+    return str(content)
+
+
+@contextmanager
+def hungry(tmp_path, block):
+    script, log = tmp_path / "server.py", tmp_path / "log.txt"
+    script.write_text(SERVER.format(block=block))
+    with serving("--workers", "1", command=(str(script),), log=log) as address:
+        yield address
+        assert os.path.exists(f"/proc/{address.pid}")
+    assert "Traceback" not in log.read_text()
+
+
+def test_a_work_without_end_is_refused_memory(tmp_path):
+    with hungry(tmp_path, ASKED) as address:
+        for _ in range(2):
+            assert say("memory") in asyncio.run(told(address.port))
+
+
+def test_where_the_machine_has_none_left_a_worker_is_ended(tmp_path):
+    with hungry(tmp_path, USED) as address:
+        asyncio.run(first(address.port))
+        with bounded(family(address.pid), BEYOND):
+            for _ in range(2):
+                assert say("lost") in asyncio.run(told(address.port))
+
+
+async def first(port):
+    """Let all processes be started, as for a first visitor: a panel that a worker computes."""
+    wire = await Wire.connect(port)
+    await wire.frame(1, a=-1.3)
+    await wire.close()
