@@ -4,10 +4,12 @@ import asyncio
 import os
 import re
 import shutil
+import ssl
 import subprocess
+import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from urllib.request import urlopen
 
@@ -15,6 +17,8 @@ import pytest
 import yaml
 from codim2_app.draw.packing import unpack
 from codim2_app.server.settings import SETTINGS
+from tornado.httpclient import HTTPClientError, HTTPRequest
+from tornado.websocket import WebSocketClosedError, websocket_connect
 
 from tests.app.serving import serving
 from tests.benchmarks.app_load import free_port
@@ -22,6 +26,7 @@ from tests.benchmarks.bokeh_wire import Wire
 
 ROOT = Path(__file__).parents[2]
 CONFIGURATION = ROOT / "app" / "docs" / "text" / "hosting" / "nginx.conf"
+PAGE = CONFIGURATION.parents[1] / "hosting.md"
 COMPOSE = CONFIGURATION.with_name("compose.yaml")
 NGINX = os.environ.get("CODIM2_NGINX") or shutil.which("nginx")
 
@@ -109,3 +114,132 @@ def test_a_rolling_restart_of_two_replicas_behind_nginx_loses_no_state(tmp_path)
                 assert talk() == [0.0]
                 running[i].enter_context(start(i))
             assert talk() == [0.0]
+
+
+def commands(title):
+    """The blocks of commands in a section of the page."""
+    section = PAGE.read_text(encoding="utf-8").split(f"## {title}\n")[1].split("\n## ")[0]
+    return re.findall(r"```sh\n(.*?)```", section, re.DOTALL)
+
+
+PREFIX = "/explorer"
+
+
+class Shell:
+    """A shell in a folder, where commands of the page find programs, files and ports in place of the machine's."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.ports = {443: free_port(), 5006: free_port(), 5007: free_port()}
+        (folder / "app").symlink_to(ROOT / "app")
+        (folder / "bin").mkdir()
+        kinds = ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")
+        paths = "".join(f"{kind}_temp_path {folder}/{kind};" for kind in kinds)
+        replicas = "".join(f"; s|:{name} |:{self.ports[name]} |" for name in (5006, 5007))
+        self._program("sudo", 'exec "$@"')
+        self._program(
+            "nginx",
+            f"sed -i 's|^http {{$|http {{ access_log off; {paths}|{replicas}' {folder}/nginx.conf\n"
+            f"exec {NGINX} -c {folder}/nginx.conf -p {folder} -e {folder}/errors -g 'pid {folder}/nginx.pid;' \"$@\"",
+        )
+        subprocess.run(
+            ["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj", "/CN=localhost",
+             "-keyout", str(folder / "explorer.key"), "-out", str(folder / "explorer.pem")],
+            capture_output=True, check=True,
+        )  # fmt: skip
+        programs = f"{folder}/bin:{Path(sys.executable).parent}:{os.environ['PATH']}"
+        environment = {**os.environ, "PATH": programs, "CODIM2_PREFIX": PREFIX}
+        self._log = (folder / "log").open("w")
+        self.process = subprocess.Popen(
+            ["bash", "-e"], stdin=subprocess.PIPE, stdout=self._log, stderr=self._log, text=True, cwd=folder,
+            env=environment,
+        )  # fmt: skip
+
+    def _program(self, name, text):
+        path = self.folder / "bin" / name
+        path.write_text(f"#!/bin/sh\n{text}\n")
+        path.chmod(0o755)
+
+    def begin(self, text):
+        """Begin with a block of commands; `done` waits for their end."""
+        for word, own in self.ports.items():
+            text = re.sub(rf"\b{word}\b", str(own), text)
+        text = text.replace("explorer.example.org", f"localhost:{self.ports[443]}")
+        text = text.replace("/etc/nginx", str(self.folder)).replace("/etc/ssl", str(self.folder))
+        (self.folder / "done").unlink(missing_ok=True)
+        self.process.stdin.write(f"{text}\ntouch done\n")
+        self.process.stdin.flush()
+
+    def done(self):
+        assert self.process.poll() is None, (self.folder / "log").read_text()
+        return (self.folder / "done").exists()
+
+    def close(self):
+        for name in ("nginx", *self.ports):
+            pid = self.folder / f"{self.ports.get(name, name)}.pid"
+            with suppress(OSError):  # it has ended before
+                os.kill(int(pid.read_text()), 15)
+        self.process.stdin.close()
+        self.process.wait(20)
+        self._log.close()
+
+
+async def through_tls(port):
+    """Open a page behind the proxy; return the slow flow of its frame."""
+    trusting = ssl.create_default_context()
+    trusting.check_hostname, trusting.verify_mode = False, ssl.CERT_NONE
+    page = urlopen(f"https://localhost:{port}{PREFIX}/?a=-1&b=1&d=-1&f1=0", context=trusting).read().decode()
+    assert 'role="alert" style' not in page  # the name is allowed
+    token = re.search(r'"token":"([^"]+)"', page)[1]
+    headers = {"Sec-WebSocket-Protocol": f"bokeh, {token}", "Origin": f"https://localhost:{port}"}
+    address = f"wss://localhost:{port}{PREFIX}/ws"
+    wire = Wire(await websocket_connect(HTTPRequest(address, headers=headers, validate_cert=False)))
+    try:
+        await wire.read()
+        await wire.send("PULL-DOC-REQ", {})
+        _, content, _ = await wire.read()
+        wire.root = content["doc"]["roots"][0]["id"]
+        header, _ = unpack(await wire.frame(1))
+    finally:
+        wire.socket.close()  # also where its server has ended
+    return header["slow_flow"]
+
+
+@needs_nginx
+@pytest.mark.skipif(shutil.which("openssl") is None, reason="there is no openssl to make a certificate")
+def test_the_commands_of_the_page_bring_tls_two_replicas_below_a_path_and_a_rolling_restart(tmp_path):
+    begin, restart = commands("Behind a proxy with TLS, two replicas")
+    below = re.search(r'`(sed -e "s\|location.*? -e)` in place of `sed`', PAGE.read_text(encoding="utf-8"))[1]
+    begin = begin.replace("sed ", f"{below} ", 1).replace("nginx -s reload", "nginx")  # none runs yet
+    shell = Shell(tmp_path)
+    try:
+        shell.begin(begin)
+        assert until(shell.done)
+        assert until(lambda: all(ready(shell.ports[name]) for name in (5006, 5007)))
+        before = [(tmp_path / f"{shell.ports[name]}.pid").read_text() for name in (5006, 5007)]
+        shell.begin(restart)
+        opened = 0
+        while not shell.done():
+            with suppress(ConnectionError, HTTPClientError, WebSocketClosedError):  # its server ends: it asks again
+                assert asyncio.run(through_tls(shell.ports[443])) == [0.0]
+                opened += 1
+        assert opened
+        assert asyncio.run(through_tls(shell.ports[443])) == [0.0]
+        after = [(tmp_path / f"{shell.ports[name]}.pid").read_text() for name in (5006, 5007)]
+        assert not set(before) & set(after)
+    finally:
+        shell.close()
+
+
+def ready(port):
+    try:
+        return urlopen(f"http://localhost:{port}{PREFIX}/ready").status == 200
+    except OSError:
+        return False
+
+
+def until(condition, seconds=600.0):
+    end = time.monotonic() + seconds
+    while not (found := condition()) and time.monotonic() < end:
+        time.sleep(0.2)
+    return found
