@@ -11,10 +11,7 @@ from numpy.typing import NDArray
 from ..expressions.expression import Expression
 from ..expressions.names import PLANE, SLOW
 from ..psi.function import Psi
-from ..systems.coefficients import Coefficients
-from ..systems.elinear import ELinear
 from ..systems.kinds import AnySystem
-from ..systems.typed import System
 from .field import rows_of
 
 Array = NDArray[np.float64]
@@ -82,18 +79,15 @@ def slopes_of(system: AnySystem, kept: Sequence[str] = ()) -> Slopes:
     ValueError
         A name is none of the system's; or as `rows_of`.
     """
-    numbers = []
     for name in kept:
         if name not in system.variable:
             own = ", ".join(system.variable) or "none"
             raise ValueError(f"{name!r} is no number of this system; it has {own}.")
-        assert isinstance(system, ELinear | System | Coefficients)
-        numbers.append((name, system.value_of(name)))
     rows = rows_of(system, kept)
     m = len(rows) - 2
     by = (*PLANE, *SLOW[:m], *kept)
     derivatives = tuple(tuple(row.derivative(name) for name in by) for row in rows)
-    return Slopes(m, tuple(numbers), tuple(rows), derivatives)
+    return Slopes(m, tuple((name, system.value_of(name)) for name in kept), tuple(rows), derivatives)
 
 
 def outside(xy: Array, along: Array | None = None) -> tuple[Array, Array]:

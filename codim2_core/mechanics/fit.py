@@ -187,7 +187,8 @@ def _searched(system: ELinear | System, names: Any) -> tuple[str, ...]:
 
 
 def _check(system: ELinear | System, t: Array, v: Array, names: tuple[str, ...]) -> None:
-    if not isinstance(system, ELinear) and any(w in ("x", "y") for row in (*system.U, *system.W) for w in row.names):
+    typed = system.typed
+    if typed is not None and any(w in ("x", "y") for row in (*typed.U, *typed.W) for w in row.names):
         raise ValueError("the system reads x or y; give one whose U and W depend on e and z alone.")
     if t.ndim != 1 or v.shape != (len(t), 2) or len(t) <= len(names) + 1:
         raise ValueError(

@@ -26,7 +26,7 @@ class AtZ(Protocol):
     moves_with_z : bool
         False: it depends on z no more.
     variable : tuple of str
-        Names of the numbers that may be changed.
+        Names of the numbers that may be changed; `value_of` tells them.
     z : tuple of float
         Where it is frozen, as far as that is known: () for numbers alone.
     m : int
@@ -60,6 +60,7 @@ class AtZ(Protocol):
     moves_with_z: ClassVar[bool]
     variable: ClassVar[tuple[str, ...]]
 
+    def value_of(self, name: str) -> float: ...  # noqa: D102
     @property
     def z(self) -> tuple[float, ...]: ...  # noqa: D102
     @property

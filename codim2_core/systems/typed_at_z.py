@@ -64,6 +64,10 @@ class Frozen:
         """Parameters and slow variables by name."""
         return {**dict(self.system.parameters), **dict(zip(SLOW, self.z, strict=False))}
 
+    def value_of(self, name: str) -> float:
+        """Present value of a parameter or a slow variable."""
+        return self.values[name]
+
     @property
     def numbers(self) -> tuple[float, ...]:
         """Values of ``system.numbers``: the arguments of the compiled field."""

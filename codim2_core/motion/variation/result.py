@@ -8,6 +8,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...tables import number, paragraphs, table
+
 Array = NDArray[np.float64]
 
 
@@ -41,6 +43,12 @@ class Variation:
     error: Array
     rate: Array
     reason: str
+
+    def _repr_html_(self) -> str:
+        states = ["x", "y", *(f"z{i}" for i in range(1, len(self.rate) - 1))]
+        head = (f"at t = {number(float(self.times[-1]))}", *(f"∂/∂{name}" for name in (*states, *self.names)))
+        body = [(name, *map(number, row)) for name, row in zip(states, self.last.tolist(), strict=True)]
+        return table(head, body) + paragraphs([self.reason] if self.reason else [])
 
     @cached_property
     def matrices(self) -> Array:

@@ -43,6 +43,7 @@ RESULTS = {
     "simulate": lambda: c2.simulate(SPIRAL, ONE, 0.1, (0.5, 0.2), (0, 3)),
     "simulate_nonsmooth": lambda: c2.simulate_nonsmooth(FOUR, (0.5, 0.2, 0.0), (0, 3)),
     "slow_portrait": lambda: c2.slow_portrait(UNSTEADY, ONE, (-2, 2)),
+    "variation": lambda: c2.simulate_nonsmooth(FOUR, (0.5, 0.2, 0.0), (0, 3)).variation("a"),
     "trajectories": lambda: c2.trajectories(FOUR, ONE, [(0.1, 0.2), (1.2, 0.3)]),
     "scene": lambda: c2.Scene(FOUR),
     "launched": lambda: c2.Scene(FOUR, launch=[(0.1, 0.2), (1.2, 0.3)])["launched"],
@@ -138,6 +139,10 @@ def test_numbers_are_those_of_the_result():
     counted = c2.census(count=5000)
     _, *rows = cells(counted._repr_html_())
     assert [(row[0], row[1]) for row in rows] == [(one.name, f"{one.count:,}") for one in counted.table]
+    moved = RESULTS["variation"]()
+    head, *rows = cells(moved._repr_html_())
+    assert head[1:] == ["∂/∂x", "∂/∂y", "∂/∂z1", "∂/∂a"]
+    assert rows == [[name, *map(number, row)] for name, row in zip(("x", "y", "z1"), moved.last.tolist(), strict=True)]
     along = c2.slow_portrait(UNSTEADY, ONE, (-2, 2))
     rows = cells(along._repr_html_())
     assert [row[0] for row in rows if row[0] == "equator"] == [p.kind for p in along.points if p.kind == "equator"]
