@@ -14,29 +14,13 @@ from codim2_core.expressions.functions import FUNCTIONS, kernels, known
 from codim2_core.expressions.functions.elliptic import BLUR
 from codim2_core.numerics.enclosure import enclose
 
-NAMES = ("ellipk", "ellipe", "ellipb", "ellipb2", "ellipc2")
+from ..exact_elliptic import NAMES, exact
+
 PARAMETERS = st.one_of(
     st.floats(-3.0, 1.0, exclude_max=True),
     st.floats(-16.0, 0.0).map(lambda power: 1.0 - 10.0**power),
     st.floats(-300.0, 0.0).map(lambda power: 10.0**power).filter(lambda m: m < 1.0),
 )
-
-
-def exact(name, m):
-    """The integral as mpmath has K and E, with digits enough for all that cancels."""
-    with mpmath.workdps(60 if abs(m) > 1e-5 else 40):
-        m = mpmath.mpf(m)
-        if abs(m) < 1e-5:  # the binomial series of D, a few terms, and Wallis
-            p, q, n = dict(zip(NAMES, ((0, 0, 1), (0, 0, -1), (2, 0, 1), (4, 0, 3), (4, 2, 5)), strict=True))[name]
-            return sum(
-                mpmath.rf(mpmath.mpf(n) / 2, j) / mpmath.factorial(j) * m**j
-                * mpmath.beta(mpmath.mpf(p + 1) / 2, mpmath.mpf(q + 1) / 2 + j) / 2
-                for j in range(8)
-            )  # fmt: skip
-        K, E = mpmath.ellipk(m), mpmath.ellipe(m)
-        B = (E - (1 - m) * K) / m
-        B2 = (2 * B - E) / m
-        return {"ellipk": K, "ellipe": E, "ellipb": B, "ellipb2": B2, "ellipc2": ((K - B) - 4 * B2 / 3) / m}[name]
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -1,7 +1,7 @@
 """One contract for every system, built in or typed, with every Psi."""
 
 import math
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import mpmath
 import numpy as np
@@ -11,6 +11,8 @@ import codim2_core as c2
 from codim2_core import examples, hemisphere, psi
 from codim2_core.orbits.trajectories import trajectories
 from codim2_core.systems.typed_at_z import Frozen
+
+from ..exact_elliptic import NAMES, exact
 
 PSIS = [
     psi.constant(),
@@ -87,6 +89,7 @@ def exact_U(at):
         a, b, d, f1, f2 = map(mpmath.mpf, at.plane)
         return lambda c, s: (a * c - b * s + f1, b * c + d * s + f2)
     names = {n: getattr(mpmath, n) for n in ("sin", "cos", "tan", "exp", "log", "sqrt", "tanh", "sinh", "cosh", "atan")}
+    names |= {"min": min, "max": max, **{name: partial(exact, name) for name in NAMES}}
     values = {name: mpmath.mpf(value) for name, value in at.values.items()}
     codes = [compile(row.text, "U", "eval") for row in at.system.U]
     zero = mpmath.mpf(0)
