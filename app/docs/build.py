@@ -82,6 +82,7 @@ def build(target: Path, *, portraits: bool = True) -> list[str]:
     """
     try:
         from sphinx.application import Sphinx
+        from sphinx.util.docutils import docutils_namespace
     except ImportError:
         raise ValueError(MISSING) from None
     if target.exists() and any(target.iterdir()) and not (target / "searchindex.js").is_file():
@@ -93,8 +94,9 @@ def build(target: Path, *, portraits: bool = True) -> list[str]:
         _write_sources(source, portraits)
         warned = Path(scratch, "warnings")
         with warned.open("w", encoding="utf-8") as log, (Path(scratch) / "said").open("w", encoding="utf-8") as said:
-            site = Sphinx(source, None, made, Path(scratch, "trees"), "html", dict(SETTINGS), said, log)
-            site.build()
+            with docutils_namespace():  # what it registers is forgotten again: the next site here would warn of it
+                site = Sphinx(source, None, made, Path(scratch, "trees"), "html", dict(SETTINGS), said, log)
+                site.build()
         for page in made.glob("*.html"):
             page.write_text(_accessible(page.read_text(encoding="utf-8")), encoding="utf-8")
         for rest in (".buildinfo", "objects.inv"):

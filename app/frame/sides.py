@@ -34,7 +34,8 @@ def sides(scene: Scene, values: Mapping[str, Any], control: str) -> dict[str, An
     Returns
     -------
     dict or None
-        "symbol", and "below" and "above", names of portraits; None if nothing can be varied.
+        "symbol", and "below" and "above", names of portraits; None if nothing can be varied, or changes the name:
+        what is only uncertain is no border.
     """
     moved = f"z{SLOW_CONTROLS.index(control) + 1}" if control in SLOW_CONTROLS else control.removeprefix("own:")
     had = _controls(scene, values)
@@ -45,7 +46,7 @@ def sides(scene: Scene, values: Mapping[str, Any], control: str) -> dict[str, An
         if beside is not None and beside.below != beside.above:
             found = beside
             break
-    if found is None:
+    if found is None or {found.below, found.above} == {scene["classification"].name}:
         return None
     return {"symbol": _symbol(found.name, values), "below": found.below, "above": found.above}
 

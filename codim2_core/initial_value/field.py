@@ -66,19 +66,7 @@ class Field:
 
 @lru_cache(maxsize=32)
 def _of_hashable(system: ELinear | System | Frozen) -> Field:
-    return _field(_hashable_rows(system), system.m)
-
-
-def _hashable_rows(system: ELinear | System | Frozen, kept: Sequence[str] = ()) -> list[Expression]:
-    if isinstance(system, ELinear):
-        return _elinear_rows(system, kept)
-    if isinstance(system, Frozen):
-        values = [_number(value) for value in system.z]
-        rows = _system_rows(system.system, kept)
-        for name, value in zip(SLOW, values, strict=False):
-            rows = [row.substitute(name, value) for row in rows]
-        return rows
-    return _system_rows(system, kept)
+    return _field(rows_of(system), system.m)
 
 
 def _coefficients_rows(system: Coefficients, kept: Sequence[str] = ()) -> list[Expression]:
@@ -123,8 +111,12 @@ def rows_of(system: AnySystem, kept: Sequence[str] = ()) -> list[Expression]:
     """
     if isinstance(system, Coefficients):
         return _coefficients_rows(system, kept)
-    assert isinstance(system, ELinear | System | Frozen)
-    return _hashable_rows(system, kept)
+    if isinstance(system, ELinear):
+        return _elinear_rows(system, kept)
+    rows = _system_rows(system.typed, kept)
+    for name, value in zip(SLOW, getattr(system, "z", ()), strict=False):  # of one that is frozen
+        rows = [row.substitute(name, _number(value)) for row in rows]
+    return rows
 
 
 def _number(value: float) -> Expression:

@@ -54,6 +54,9 @@ def test_a_portrait_names_a_control_that_the_page_has(key):
     frames = Frames(ExplorerState.of({"preset": key}))
     header, _ = unpack(frames.answer({"all": True}))
     beside, preset = header["portrait"]["sides"], c2.presets[key]
+    if key == "spinning-disc":  # its directions are found and not proved; it lies at no border
+        assert beside is None
+        return
     assert (beside["below"], beside["above"]) != (header["portrait"]["name"],) * 2
     if preset.example:
         assert beside["symbol"] in {"z₁", "z₂", "μ", "m", "K", "g"}
