@@ -93,10 +93,13 @@ def build(target: Path, *, portraits: bool = True) -> list[str]:
         source, made = Path(scratch, "source"), Path(scratch, "site")
         _write_sources(source, portraits)
         warned = Path(scratch, "warnings")
-        with warned.open("w", encoding="utf-8") as log, (Path(scratch) / "said").open("w", encoding="utf-8") as said:
-            with docutils_namespace():  # what it registers is forgotten again: the next site here would warn of it
-                site = Sphinx(source, None, made, Path(scratch, "trees"), "html", dict(SETTINGS), said, log)
-                site.build()
+        with (
+            warned.open("w", encoding="utf-8") as log,
+            (Path(scratch) / "said").open("w", encoding="utf-8") as said,
+            docutils_namespace(),  # what it registers is forgotten again: the next site here would warn of it
+        ):
+            site = Sphinx(source, None, made, Path(scratch, "trees"), "html", dict(SETTINGS), said, log)
+            site.build()
         for page in made.glob("*.html"):
             page.write_text(_accessible(page.read_text(encoding="utf-8")), encoding="utf-8")
         for rest in (".buildinfo", "objects.inv"):
