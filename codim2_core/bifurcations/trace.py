@@ -58,10 +58,19 @@ class _Level:
         self.p, self.k = a + d, a - d
         self.root = math.sqrt(a * d + b * b)
         self.A = np.array([[a, -b], [b, d]])
+        self.scale = abs(self.p) + abs(self.k) + self.root
+
+    @property
+    def has_circle(self) -> bool:
+        """Whether tr J has the level on the whole circle where sigma = 1: p = 2 tau sqrt(det A)."""
+        return abs(self.p - 2.0 * self.tau * self.root) <= _FLAT * self.scale
 
     def sides(self, m: Array) -> tuple[Array, Array]:
-        """(N, D) with ``cos 2t = N/D``."""
+        """(N, D) with ``cos 2t = N/D``; where they have a zero in common, sigma = 1, without it."""
         sigma = _ratio(self.psi, m)
+        if self.has_circle and self.tau:
+            root = np.sqrt(sigma)  # N = p (1 - root)^2, D = k (1 - root) (1 + root)
+            return self.p * (1.0 - root), self.k * (1.0 + root)
         return self.p * (1.0 + sigma) - 4.0 * self.tau * self.root * np.sqrt(sigma), self.k * (1.0 - sigma)
 
     def angle(self, m: Array) -> Array:
@@ -156,12 +165,10 @@ def _branches(level: _Level) -> list[Array]:
     # u -> sin^2 u crowds both ends: the curve starts at the centre or ends on the equator with any slope
     m = np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, _GRID + 1)[1:-1])
     m = np.unique(np.concatenate([[1e-6, 1e-4, 1e-3], m, 1.0 - np.geomspace(1e-4, 1.0 - _MOST, 12), [_MOST]]))
-    scale = abs(level.p) + abs(level.k) + level.root
-    if abs(level.k) <= _FLAT * scale:
+    if abs(level.k) <= _FLAT * level.scale:
         return _circles(level, m, lambda v: level.sides(v)[0])
     found: list[Array] = []
-    if abs(level.p - 2.0 * level.tau * level.root) <= _FLAT * scale:
-        # N/D loses its meaning where sigma = 1: tr J has the level on the whole circle
+    if level.has_circle:
         found += _circles(level, m, lambda v: _ratio(level.psi, v) - 1.0)
         if level.p == 0.0 and level.tau == 0.0:
             ends = np.array([0.25, 0.75]) * math.pi
