@@ -8,6 +8,7 @@ import pickle
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 from contextlib import suppress
@@ -19,8 +20,9 @@ from typing import Any
 
 from ..phrases import say
 
-#: Seconds after which a worker is stopped, whatever it is doing.
-SECONDS = 60.0
+#: Seconds of its own time after which a worker is stopped, whatever it is doing; and how many times that by the clock,
+#: where it gets little of a busy machine.
+SECONDS, PATIENCE = 60.0, 5.0
 #: Processes that answer visitors go first: they have three times the share of a worker where processors are short. At
 #: 10 it was ten times, and work of two seconds was stopped after 60 on a busy machine.
 NICE = 5
@@ -92,7 +94,8 @@ class Workers(Executor):
     count : int
         At most so many processes.
     seconds : float
-        After this time a work is stopped: its future has TimeoutError.
+        After so much time of its own, or `PATIENCE` times that by the clock, a work is stopped: its future has
+        TimeoutError.
     preload : sequence of str
         Modules that a worker finds imported. They are imported once, in a process of its own from which the workers
         are forked (where there is no fork, by none).
@@ -203,7 +206,7 @@ class Workers(Executor):
             raise CancelledError
         try:
             pipe.send_bytes(call)
-            there = wait([pipe, process.sentinel], self.seconds)
+            there = _awaited(pipe, process, self.seconds)
             answer = pipe.recv_bytes() if pipe in there else None
         except (OSError, EOFError):  # it died in mid-sentence
             there, answer = [process.sentinel], None
@@ -224,6 +227,26 @@ class Workers(Executor):
         if not good:
             raise result
         return result
+
+
+def _awaited(pipe: Connection, process: Any, seconds: float) -> list[Any]:
+    """Wait until a worker answers or ends; nothing is returned once it has worked for so long."""
+    begun, end = _own_time(process.pid), time.monotonic() + PATIENCE * seconds
+    left = seconds
+    while left > 0.0:
+        there = wait([pipe, process.sentinel], max(left, 0.01))
+        if there:
+            return there
+        left = min(seconds - (_own_time(process.pid) - begun), end - time.monotonic())
+    return wait([pipe, process.sentinel], 0.0)
+
+
+def _own_time(pid: int) -> float:
+    """Seconds that a process has worked; those of the clock where the system does not tell."""
+    try:
+        return time.clock_gettime(~pid << 3 | 2)  # how Linux numbers the clock of another process's work
+    except (AttributeError, OSError):
+        return time.monotonic()
 
 
 def _work(pipe: Connection, most_grown: int, most_asked: int) -> None:

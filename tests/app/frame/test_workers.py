@@ -122,6 +122,13 @@ def test_a_worker_that_is_killed_is_replaced(workers, tmp_path):
     assert workers.submit(pow, 2, 3).result() == 8
 
 
+def test_time_in_which_a_worker_gets_no_processor_is_not_its_own():
+    with Workers(1, seconds=0.2) as workers:
+        assert workers.submit(time.sleep, 0.5).result() is None
+        with pytest.raises(TimeoutError):  # but nobody waits for ever
+            workers.submit(time.sleep, 60.0).result()
+
+
 def test_nothing_runs_for_ever(tmp_path):
     with Workers(1, seconds=0.2) as workers:
         future = workers.submit(endless, tmp_path)
