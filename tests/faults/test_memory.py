@@ -3,7 +3,7 @@
 import asyncio
 import os
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
@@ -58,11 +58,13 @@ def bounded(pids, beyond):
     try:
         (group / bound).write_text(str(used + beyond))
         for pid in pids:
-            (group / "cgroup.procs").write_text(str(pid))
+            with suppress(ProcessLookupError):  # it has ended meanwhile
+                (group / "cgroup.procs").write_text(str(pid))
         yield group
     finally:
         for pid in (group / "cgroup.procs").read_text().split():
-            (root / "cgroup.procs").write_text(pid)
+            with suppress(ProcessLookupError):
+                (root / "cgroup.procs").write_text(pid)
         group.rmdir()
 
 
