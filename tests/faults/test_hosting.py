@@ -188,7 +188,8 @@ async def through_tls(port):
     """Open a page behind the proxy; return the slow flow of its frame."""
     trusting = ssl.create_default_context()
     trusting.check_hostname, trusting.verify_mode = False, ssl.CERT_NONE
-    page = urlopen(f"https://localhost:{port}{PREFIX}/?a=-1&b=1&d=-1&f1=0", context=trusting).read().decode()
+    with urlopen(f"https://localhost:{port}{PREFIX}/?a=-1&b=1&d=-1&f1=0", context=trusting) as answer:
+        page = answer.read().decode()
     assert 'role="alert" style' not in page  # the name is allowed
     token = re.search(r'"token":"([^"]+)"', page)[1]
     headers = {"Sec-WebSocket-Protocol": f"bokeh, {token}", "Origin": f"https://localhost:{port}"}
@@ -201,7 +202,7 @@ async def through_tls(port):
         wire.root = content["doc"]["roots"][0]["id"]
         header, _ = unpack(await wire.frame(1))
     finally:
-        wire.socket.close()  # also where its server has ended
+        await wire.close()  # also where its server has ended
     return header["slow_flow"]
 
 
@@ -233,7 +234,8 @@ def test_the_commands_of_the_page_bring_tls_two_replicas_below_a_path_and_a_roll
 
 def ready(port):
     try:
-        return urlopen(f"http://localhost:{port}{PREFIX}/ready").status == 200
+        with urlopen(f"http://localhost:{port}{PREFIX}/ready") as answer:
+            return answer.status == 200
     except OSError:
         return False
 
