@@ -192,13 +192,12 @@ class Samples:
         """Add samples at the fine tolerance, and repeat those marked that are not fine yet."""
         also = also & ~self.fine
         every = np.concatenate([xi, self.xi[also]])
-        q = self.section.states(every)[1]
         shift = self.section.displacement(every, FINE, self.backward)
         self.shift[also] = shift[len(xi) :]
         self.fine = self.fine | also
         order = np.argsort(np.concatenate([self.xi, xi]), kind="stable")
         self.xi = np.concatenate([self.xi, xi])[order]
-        self.q = np.concatenate([self.q, q[: len(xi)]])[order]
+        self.q = np.concatenate([self.q, self.section.states(xi)[1]])[order]
         self.shift = np.concatenate([self.shift, shift[: len(xi)]])[order]
         self.fine = np.concatenate([self.fine, np.ones(len(xi), bool)])[order]
 

@@ -179,8 +179,6 @@ class Section:
         self.reach, self.other, u = found[self.ray]
         self.u = np.array(u)
         self.e = np.array(location.e)
-        self._asked: Array | None = None
-        self._states = (np.zeros((0, 3)), np.zeros(0))
 
     @cached_property
     def pull(self) -> EquatorPull:
@@ -221,12 +219,7 @@ class Section:
         return np.log(self.reach) - np.log(np.minimum(gap, self.reach))
 
     def states(self, xi: Array) -> tuple[Array, Array]:
-        """States (n, 3) = (p_x, p_y, ebar), and q (n,), at parameters (n,); of an array asked twice they are kept."""
-        if xi is not self._asked:
-            self._states, self._asked = self._found(xi), xi
-        return self._states
-
-    def _found(self, xi: Array) -> tuple[Array, Array]:
+        """States (n, 3) = (p_x, p_y, ebar), and q (n,), at parameters (n,)."""
         inner = self.reach / (1.0 + np.exp(-xi))
         rest = self.reach / (1.0 + np.exp(xi))  # reach - inner, to all digits
         e = self.e + inner[:, None] * self.u
