@@ -42,7 +42,7 @@ KERNELS = {
     "core.cycles": tuple(
         f"core/cycles/test_{name}.py" for name in ("both_maps", "lane_steps", "return_map", "turn_map")
     ),
-    "core.initial_value": ("core/initial_value/test_kernels.py", "core/initial_value/test_short_motions.py"),
+    "core.initial_value": ("core/initial_value/kernels", "core/initial_value/test_short_motions.py"),
 }
 
 

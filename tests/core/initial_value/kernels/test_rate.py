@@ -1,0 +1,51 @@
+"""The rate of a motion, its slopes and sizes, and what bounds a step."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from codim2_core import System
+from codim2_core.initial_value.field import field
+from codim2_core.initial_value.kernels import radau, rate
+from codim2_core.initial_value.kernels.stages import workspace
+from codim2_core.initial_value.problem import plane_problem
+
+from .placing import CURVED, HILL, TANH, motion_of
+
+
+@pytest.mark.parametrize("psi", [TANH, HILL], ids=lambda psi: psi.text)
+@pytest.mark.parametrize("line", [None, (0.6, -0.8)])
+@pytest.mark.parametrize("eps", [0.3, 1e-4])
+def test_rate_slopes_and_sizes_are_those_in_python(psi, line, eps):
+    motion = motion_of(CURVED, psi, eps, line=line or (0.0, 0.0))
+    problem = plane_problem(field(CURVED), psi, eps, 1e-6, 1e-8, line)
+    work = workspace(4, psi.parameter)
+    for y in np.random.default_rng(5).normal(size=(4, 4)) * ([eps, eps, 1.0, 1.0] if line is None else [1.0]):
+        rate.rate(motion, y, work.S, work.rate)
+        np.testing.assert_allclose(work.rate[:4], problem.F(y), rtol=1e-12, atol=1e-12)
+        rate.sizes(motion, y, work.size)
+        np.testing.assert_allclose(work.size[:4], [math.hypot(y[0], y[1], eps)] * 2 + [*(abs(y[2:]) + 0.01)])
+        if line is None:
+            rate.jacobian(motion, y, work.S, work.J)
+            J = problem.J(y)
+            np.testing.assert_allclose(work.J[:4, :4], J, rtol=1e-6, atol=1e-7 / eps)
+            bound, reach = radau.linearised(motion, y, 1e3, np.zeros(4), work)
+            assert bound == pytest.approx(problem.limit(y, problem.F(y), J), rel=1e-5)
+            size = work.size[:4]
+            assert reach == pytest.approx((abs(J) * size / size[:, None]).sum(axis=1).max(), rel=1e-5)
+
+
+def test_in_contact_with_sigma_the_way_inward_bounds_no_step():
+    """A straight fall, U = (-1, 0), through rho: 0.9 of the way, unless it is within 20 eps."""
+    falls = System(U=("-1", "0*c"))
+    motion, work = motion_of(falls, TANH, 1e-3), workspace(2, 0.0)
+    outside, inside = (
+        radau.linearised(motion, np.array([x, 0.0]), 1.0, np.zeros(4), work)[0] for x in (0.0201, 0.0199)
+    )
+    assert outside == pytest.approx(0.9 * (0.0201**2 + 1e-6) / 0.0201)
+    assert inside == math.inf
+    rising = radau.linearised(motion, np.array([-0.5, 0.0]), 1.0, np.zeros(4), work)[0]
+    assert rising == math.inf
