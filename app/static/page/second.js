@@ -101,7 +101,7 @@ export class Second {
     this.find(".second-narrow").hidden = !wanted || on
     this.box.hidden = !wanted
     this.root.classList.toggle("twofold", on)
-    if (!on) { this.frame?.remove(); this.frame = null; return }
+    if (!on) { this.close(); return }
     const names = Object.keys(own).join()
     const all = {...this.whole(values), ...Object.fromEntries(ALIKE.map((name) => [name, values[name]])), ...own}
     if (!this.frame || names !== this.names) {
@@ -113,10 +113,11 @@ export class Second {
     if (this.ready && Object.keys(changed).length) { this.told = all; this.tell({put: changed}) }
   }
 
+  close() { this.frame?.remove(); this.frame = null; this.ready = false }
+
   // A new element, so that the browser's history has no entry of it.
   make(all, controls) {
-    this.frame?.remove()
-    this.ready = false
+    this.close()
     this.told = all
     this.frame = document.createElement("iframe")
     this.frame.name = SECOND

@@ -58,6 +58,23 @@ test("the button opens a second portrait with the next Ψ, and closes it", () =>
   assert.equal(other.own().psi, "constant")
 })
 
+test("a second portrait that was closed, or has no room any more, is told nothing", () => {
+  const one = first()
+  one.press()
+  one.ready()
+  one.wide.matches = false
+  one.wide.changed()
+  one.second.look() // the colours change, say
+  one.wide.matches = true
+  one.wide.changed()
+  one.second.look() // the new frame does not listen yet
+  assert.deepEqual(one.sent(), [])
+  one.ready()
+  one.press()
+  one.second.look()
+  assert.deepEqual([one.frame(), one.sent()], [null, []])
+})
+
 test("it may begin with what is shown, or with a portrait; the list goes back to its first line", () => {
   const one = first({f1: 0.75})
   assert.equal(one.choose("now"), "")
