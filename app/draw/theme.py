@@ -51,6 +51,8 @@ DISCS = (*(0.06 * k + 0.04 for k in range(16)), 1.0)
 #: The ring of approach outcomes: its radii, and the pattern over each colour, so that colour is not all there is.
 RING = (1.03, 1.075)
 HATCHES = {"slide": "", "cross": "/", "depends": "x", "undecided": ".", "misses": ""}
+#: What the page and a live file draw by.
+MEASURES = {"discs": DISCS, "ring": RING, "hatches": HATCHES, "view": VIEW}
 
 
 def themes() -> dict[str, dict[str, str]]:

@@ -20,7 +20,7 @@ from ..draw.bundle import bundle
 from ..draw.layers import table
 from ..draw.mathml import plain_symbol
 from ..draw.packing import pack, unpack
-from ..draw.theme import DISCS, HATCHES, RING, themes
+from ..draw.theme import MEASURES, themes
 from ..state.chosen import parameters_of
 from ..state.controls import NUMBERS, ExplorerState
 from .describe import place_words, psi_words, system_words
@@ -169,7 +169,7 @@ def _page(
             for slider, values in zip(chosen, places, strict=True)
         ],
         "sizes": sizes, "seen": view.seen, "layers": view.values["layers"], "table": table(), "themes": themes(),
-        "measures": {"discs": DISCS, "ring": RING, "hatches": HATCHES},
+        "measures": MEASURES,
     }  # fmt: skip
     data = json.dumps(settings, separators=(",", ":")).replace("<", "\\u003c")
     script = bundle(STATIC / "live.js").replace("</script", "<\\/script")

@@ -74,7 +74,7 @@ export class Explorer {
     this.steps = undoable(root, plot, {browsed: config.page && !this.inside, page: config.page}, rest, {
       look: () => structuredClone({values, seen: picture.seen}),
       restore: (snapshot) => { this.forget(); this.put(structuredClone(snapshot.values)); picture.seen = snapshot.seen },
-      link: ({values: wanted, seen}) => `?${writeLink(wanted, seen.every((edge) => Math.abs(edge) === config.view) ? null : seen, config)}`,
+      link: ({values: wanted, seen}) => `?${writeLink(wanted, seen.every((edge) => Math.abs(edge) === config.measures.view) ? null : seen, config)}`,
       settled: () => this.note(),
     })
     this.waiting = new Waiting(this.find(".busy"), this.requests)

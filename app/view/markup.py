@@ -18,7 +18,7 @@ from codim2_core.psi import FAMILIES
 
 from ..draw.bundle import bundle
 from ..draw.layers import LAYERS, TRACES, looks, swatches, table
-from ..draw.theme import DISCS, HATCHES, RING, VIEW, custom_properties, themes
+from ..draw.theme import MEASURES, custom_properties, themes
 from ..export.printing import there
 from ..panels.registry import PANELS
 from ..slow_layers.outcomes import WORDS as OUTCOMES
@@ -108,8 +108,7 @@ def offered() -> dict[str, Any]:
         },
         "presets": {item["key"]: {**item, "values": _differences(first, item["key"])} for item in portraits()},
         "themes": themes(),
-        "measures": {"discs": DISCS, "ring": RING, "hatches": HATCHES},
-        "view": VIEW,
+        "measures": MEASURES,
         "link": {"version": VERSION, "brought": list(BROUGHT)},
     }
 

@@ -3,17 +3,12 @@
 const FADES = 3000 // ms after the last move
 export const LARGE = 1.7 // letters, marks and lines of the picture
 
-const OUT = 0.1 // of the disc's radius: a name of a limit direction stands so much further out for each time
+const SIZED = ["size", "width", "dx", "dy"] // what is in px
 
 /** What is drawn, with letters, marks and lines so many times as large. @param {any[]} list @param {number} times */
 export function enlarged(list, times) {
   if (times === 1) return list
-  return list.map((item) => {
-    const larger = Object.fromEntries(["size", "width", "dx", "dy"].filter((name) => name in item).map((name) => [name, item[name] * times]))
-    if (item.kind !== "label" || item.layer !== "equator") return {...item, ...larger}
-    const out = 1 + OUT * (times - 1) / Math.hypot(item.x, item.y)
-    return {...item, ...larger, x: item.x * out, y: item.y * out}
-  })
+  return list.map((item) => ({...item, ...Object.fromEntries(SIZED.filter((name) => name in item).map((name) => [name, item[name] * times]))}))
 }
 
 export class Beamer {

@@ -10,7 +10,7 @@
  * @property {Record<string, any>} blocks  the newest of each array of the frames
  * @property {Record<string, string>} theme  colours by name
  * @property {boolean} [sense]  whether the equator tells which way it is run through
- * @property {{discs: number[], ring: [number, number], hatches: Record<string, string>}} measures
+ * @property {{discs: number[], ring: [number, number], hatches: Record<string, string>, view: number}} measures
  */
 
 /** @param {State} state */
@@ -33,7 +33,7 @@ export function displayList({table, layers, old, header, blocks, theme, measures
   list.push(...circle(header, theme, sense))
   if (header.launched && shown.some((layer) => layer.name === "launched")) list.push(...starts(header.launched, theme, table.find(({name}) => name === "launched").parts))
   for (const name of ["equator", "critical"]) {
-    if (header[name] && shown.some((layer) => layer.name === name)) list.push(...marks(name, header[name], theme))
+    if (header[name] && shown.some((layer) => layer.name === name)) list.push(...marks(name, header[name], theme, measures))
   }
   return list
 }
@@ -95,7 +95,7 @@ function circle(header, theme, sense) {
 // A label of a critical set stands on the right or, near the equator there, on the left: no limit direction is covered.
 const beside = (x) => x > 0.55 ? {dx: -13, align: "right"} : {dx: 13, align: "left"}
 
-function marks(layer, columns, theme) {
+function marks(layer, columns, theme, {view}) {
   const list = columns.label.map((_, i) => {
     const colour = theme[columns.colour[i]]
     return {
@@ -105,7 +105,7 @@ function marks(layer, columns, theme) {
   })
   const back = theme.page
   const labels = layer === "equator"
-    ? columns.label.map((text, i) => ({kind: "label", layer, text, x: columns.label_x[i], y: columns.label_y[i], dx: 0, dy: 0, align: "center", size: 15, colour: theme.ink, back}))
+    ? columns.label.map((text, i) => ({kind: "label", layer, text, x: columns.x[i], y: columns.y[i], away: [columns.label_x[i] - columns.x[i], columns.label_y[i] - columns.y[i]], view, align: "center", size: 15, colour: theme.ink, back}))
     : columns.label.map((text, i) => ({kind: "label", layer, text: `${text} ${columns.sense[i]}`.trim(), x: columns.x[i], y: columns.y[i], ...beside(columns.x[i]), dy: -11, size: 16, colour: theme.ink, back}))
   return [...list, ...labels]
 }

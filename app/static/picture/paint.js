@@ -5,6 +5,7 @@ import {unit} from "./frames.js"
 
 const ANGLE_STEP = Math.PI / 32767 // a unit of the packed angles
 const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif"
+const CLEAR = 1.5 // heights of letters from a mark to its name, at least
 const HATCH = 7 // px between the strokes of a hatch
 
 /**
@@ -208,7 +209,9 @@ const PAINTERS = {
     ctx.stroke()
   },
 
-  label(ctx, {text, x, y, dx, dy, align, size, colour, back}, {left, across, top, up}) {
+  // So many px from a point, or `away` from it in the plane, where `view` is half of the whole picture.
+  label(ctx, {text, x, y, dx, dy, away, view, align, size, colour, back}, {left, across, top, up}, {width}) {
+    if (away) [dx, dy] = besideMark(away, Math.min(across, width / (2 * view)), CLEAR * size)
     const sx = left + across * x + dx, sy = top + up * y + dy
     ctx.font = `bold ${size}px ${FONT}`
     ctx.textAlign = align
@@ -221,6 +224,12 @@ const PAINTERS = {
     ctx.fillStyle = colour
     ctx.fillText(text, sx, sy)
   },
+}
+
+// Zoomed in, a name stays as near to its mark as on the whole picture; on a small one it is clear of it.
+function besideMark([x, y], scale, least) {
+  const stretched = Math.max(scale, least / Math.hypot(x, y))
+  return [stretched * x, -stretched * y] // y of a canvas falls
 }
 
 function stroke(ctx, colour, width, dash) {

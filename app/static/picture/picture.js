@@ -10,8 +10,8 @@ const REST = 150 // ms after the view has moved until it is asked for
 
 export class Picture {
   // `moved` is called when another part of the picture has come into view, and stays; `rest` is told until then.
-  constructor(plot, {themes, layers, traces, measures, view}, rest, moved) {
-    this.view = view
+  constructor(plot, {themes, layers, traces, measures}, rest, moved) {
+    this.view = measures.view
     this.plot = plot
     this.themes = themes
     this.traces = traces

@@ -3,6 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import {crossList, displayList} from "../../../../app/static/picture/display.js"
+import {enlarged} from "../../../../app/static/page/beamer.js"
 import {Bitmaps, paint} from "../../../../app/static/picture/paint.js"
 
 const critical = {label: ["C₁", "C₂"], sense: ["⊙", "⊗"], x: [-0.72, 0.72], y: [0.47, 0.47], colour: ["c", "c"], shape: ["square", "square"], size: [12, 12], filled: [true, true]}
@@ -18,6 +19,29 @@ test("a label near the equator on the right stands on the left of its mark, and 
   const [first, second] = plates.map(([x, , wide]) => [Math.round(x), Math.round(x + wide)])
   assert.deepEqual(first, [167, 211])
   assert.deepEqual(second, [389, 433])
+})
+
+// Q at (0, 1), its name by (0.12, 0.16), 0.2 away from it; with 350 px to 3.5 the picture has 100 to 1.
+const equator = {label: ["Q₁"], x: [0], y: [1], label_x: [0.12], label_y: [1.16], colour: ["c"], shape: ["circle"], size: [12], filled: [1]}
+const named = (times = 1) => enlarged(displayList({table: [{name: "equator", parts: []}], layers: ["equator"], old: [], header: {equator}, blocks: {}, theme: {}, measures: {discs: [1], ring: [1, 1.1], hatches: {}, view: 1.75}}), times).filter(({kind}) => kind === "label")
+function whereNamed(scale, width, times) {
+  const texts = []
+  const ctx = new Proxy({}, {get: (_, name) => (...all) => { if (name === "fillText") texts.push(all); return {width: 40} }, set: () => true})
+  paint(ctx, named(times), {left: 300, across: scale, top: 500, up: -scale}, {x: 0, y: 0, width, height: width}, new Bitmaps())
+  const [[text, x, y]] = texts
+  assert.equal(text, "Q₁")
+  return [x - 300, 500 - scale - y].map((v) => Math.round(10 * v) / 10)
+}
+
+test("the name of a limit direction stands where it is told, as near to its mark when zoomed in", () => {
+  assert.deepEqual(whereNamed(200, 700), [24, 32])
+  assert.deepEqual(whereNamed(2000, 700), [24, 32])
+  assert.deepEqual(whereNamed(150, 700), [18, 24])
+})
+
+test("on a small picture, or one with large letters, it stands clear of its mark", () => {
+  assert.deepEqual(whereNamed(50, 175), [13.5, 18]) // 22.5 px away: 1.5 times its letters
+  assert.deepEqual(whereNamed(200, 700, 2), [27, 36])
 })
 
 test("a marked place has a ring and a cross: the page's accent until it is judged, then as what attracts or repels", () => {

@@ -39,7 +39,7 @@ export const CONFIG = {
   families: {constant: {}, hill: {parameter: true}, custom: {typed: true}}, boxes: {own: [{name: "U1", label: "x′", lines: 1, text: "-c"}]},
   presets: {one: {label: "One", note: "The first.", values: {preset: "one", a: -1, f1: 0.25, layers: ["inside", "outcomes"]}}}, opening: "Drag f₁.",
   themes: {light: theme("light"), dark: theme("dark")}, layers: LAYERS, traces: [curve("motion", "motion"), curve("limit", "limit", {dash: [5, 4]})],
-  measures: {discs: [0.4, 1], ring: [1.03, 1.075], hatches: {slide: "", cross: "/", depends: "x", undecided: "."}}, view: 1.75, link: {version: 1, brought: ["z"]}, look: {embed: false, controls: [], seen: []}, panels: {orbits: {}, numbers: {}},
+  measures: {discs: [0.4, 1], ring: [1.03, 1.075], hatches: {slide: "", cross: "/", depends: "x", undecided: "."}, view: 1.75}, link: {version: 1, brought: ["z"]}, look: {embed: false, controls: [], seen: []}, panels: {orbits: {}, numbers: {}},
 }
 
 const BOX = {x: 10, y: 20, width: 350, height: 350}
