@@ -58,7 +58,7 @@ SETTINGS = (
     Setting("dask", "", "the scheduler of a Dask cluster that does the long work in place of these", str, "ADDRESS"),
     Setting("sessions", 400, "open pages of a server process, beyond which a new one is asked to wait", int, "N"),
     Setting("rooms", 20, "rooms that lecturers have open at once, of a server process; 0 for none", int, "N"),
-    Setting("lessons", None, "a folder with lessons of your own, offered after the course", Path, "DIR"),
+    Setting("lessons", None, "a folder with lessons of your own, offered after the course; /?lesson=NAME opens one", Path, "DIR"),
     Setting("docs", None, "a folder with the site that `codim2 docs DIR` built; else the package's own", Path, "DIR"),
     Setting("log-level", "warning", "what is logged to standard error", str, "LEVEL", choices=LEVELS),
     Setting("log-json", False, "log JSON lines", bool),

@@ -110,6 +110,8 @@ def read_link(query: str | Mapping[str, str]) -> Link:
             errors.append(InputError("", str(error)))
     for name in ("room", "done"):  # of the page: see static/room, static/panels/lessons.js
         given.pop(name, None)
+    if "v" not in given and given.get("lesson"):  # typed by hand: pages write a version, and leave out the first panel
+        given.setdefault("panel", "lessons")
     first = _first(given.pop("v", ""), errors)
     look = _look(given, errors)
     for (name, text), now in SAID_BEFORE.items():

@@ -97,6 +97,14 @@ def test_a_link_to_the_panel_time_opens_the_same_motion_in_orbits(query):
         assert (state.launch, state.t_end, state.log_eps, state.orbits) == ("0.6,0.8,0.3", 3.0, -1.5, "0.4,0.3")
 
 
+def test_a_link_typed_by_hand_opens_the_lesson_that_it_names():
+    assert read_link("lesson=04-sliding").state.values()["panel"] == "lessons"
+    assert read_link("lesson=04-sliding&panel=atlas").state.values()["panel"] == "atlas"
+    assert read_link("lesson=").state.values()["panel"] == "atlas"
+    # the page leaves out the panel that opens first, and a lesson may be open behind it
+    assert read_link(write_link({**first_values(), "lesson": "04-sliding"})).state.values()["panel"] == "atlas"
+
+
 def test_bad_values_are_told_and_the_rest_is_kept():
     link = read_link("a=nan&b=0.25&psi=none&unknown=3&trajectories=1e9&layers=rho,nothing")
     assert (link.state.b, link.state.a) == (0.25, -2.0)
