@@ -67,12 +67,11 @@ def found_set(S, m):
         j11, j12, j21, j22 = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
         inverse = 1.0 / (j11 * j22 - j12 * j21)
         du, dv = (j22 * u - j12 * v) * inverse, (j11 * v - j21 * u) * inverse
-        change = max(abs(du), abs(dv))
-        if not (change < FAR and abs(du) < FAR and abs(dv) < FAR):  # also where it is undefined
+        if not (abs(du) < FAR and abs(dv) < FAR):  # also where it is undefined
             return False
         S[PLACE] -= du
         S[PLACE + 1] -= dv
-        if change <= CLOSE:
+        if max(abs(du), abs(dv)) <= CLOSE:
             call_field(value, S, PLACE, RATES, S)
             return True
     return False

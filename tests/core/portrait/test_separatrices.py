@@ -1,4 +1,4 @@
-"""Separatrices: the order of the local expansion, the theorems, the index, and saddle connections."""
+"""Separatrices: the theorems, the index, and saddle connections."""
 
 import math
 
@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, hemisphere, presets, psi
 from codim2_core.portrait import saddle_connections
 from codim2_core.portrait.endings import half_saddle
-from codim2_core.portrait.saddle_manifold import ORDER, expansion, starts
 from codim2_core.portrait.separatrices import separatrices
 from codim2_core.portrait.separatrix import Separatrix
 from tests.core.strategies import regularisations, systems
@@ -35,47 +33,6 @@ def robust(system, p):
         assume(np.abs(C.eigenvalues.real).min() > 0.01 * size)
         assume(np.hypot(*C.p) < 0.999)
     return equator, critical
-
-
-# ---- the local expansion ------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("p", FAMILIES, ids=lambda p: p.text)
-@pytest.mark.parametrize("which", [0, 1])
-def test_expansion_has_its_order(p, which):
-    (C,) = critical_sets(SADDLE, p)
-    value = float(C.eigenvalues.real[which])
-    defect = [expansion(SADDLE.at(()), p, C, value, reach)[1] for reach in (0.03, 0.015)]
-    assert math.log2(defect[0] / defect[1]) == pytest.approx(ORDER + 1, abs=0.25)
-    assert defect[0] < 2e-9
-
-
-@pytest.mark.parametrize("p", FAMILIES, ids=lambda p: p.text)
-def test_expansion_is_tangent_and_invariant(p):
-    (C,) = critical_sets(SADDLE, p)
-    value = float(C.eigenvalues.real[0])
-    terms, _ = expansion(SADDLE.at(()), p, C, value, 0.02)
-    assert C.jacobian @ terms[1] == pytest.approx(value * terms[1], abs=1e-12)
-
-    # On the manifold sigma' = lambda sigma: doubling sigma takes ln 2/lambda.
-    def field(_, x):
-        zeta = math.hypot(*x)
-        return SADDLE.at(()).U(x * float(p.modulus(zeta)) / zeta)
-
-    near, far = (np.array([0.01, 0.02])[:, None] ** np.arange(ORDER + 1)) @ terms
-    end = solve_ivp(field, (0.0, math.log(2.0) / value), near, method="DOP853", rtol=1e-13, atol=1e-14).y[:, -1]
-    assert end == pytest.approx(far, abs=3e-11)
-
-
-def test_expansion_is_exact_where_manifolds_are_straight():
-    """For f = 0 the orbits are those of x2' = A x2."""
-    system = ELinear(1.0, 0.3, -1.0)
-    (C,) = critical_sets(system, psi.tanh())
-    terms, defect = expansion(system.at(()), psi.tanh(), C, float(C.eigenvalues.real[0]), 0.05)
-    assert np.abs(terms[1][0] * terms[2:, 1] - terms[1][1] * terms[2:, 0]).max() < 1e-6
-    assert defect < 1e-9
-    points, tangents = starts(system.at(()), psi.tanh(), C, float(C.eigenvalues.real[0]), 1e-10)
-    assert tangents == pytest.approx(points / np.linalg.norm(points, axis=1)[:, None], abs=1e-9)
 
 
 @pytest.mark.parametrize("p", FAMILIES, ids=lambda p: p.text)

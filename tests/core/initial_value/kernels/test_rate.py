@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from codim2_core import System
+from codim2_core.expressions.names import MOST_SLOW_VARIABLES
 from codim2_core.initial_value.field import field
-from codim2_core.initial_value.kernels import radau, rate
+from codim2_core.initial_value.kernels import explicit, radau, rate, slow
 from codim2_core.initial_value.kernels.stages import workspace
 from codim2_core.initial_value.problem import plane_problem
+from codim2_core.stepping.numbers import PSI
 
 from .placing import CURVED, HILL, TANH, motion_of
 
@@ -49,3 +52,23 @@ def test_in_contact_with_sigma_the_way_inward_bounds_no_step():
     assert inside == math.inf
     rising = radau.linearised(motion, np.array([-0.5, 0.0]), 1.0, np.zeros(4), work)[0]
     assert rising == math.inf
+
+
+def test_what_is_read_and_what_is_written_stands_apart():
+    """One array holds the arguments, the values and the slopes of all that is called, and the rows of both methods."""
+    m, rows = MOST_SLOW_VARIABLES, {k: v for k, v in vars(explicit)["_rows"].items() if k != "DENSE"}
+    table = (2 + m) * (4 + m)
+    of_motion = [
+        (rate.RADIUS, 2), (rate.GAIN, 1), (PSI, 1), (rate.ARGUMENTS, 4 + m), (rate.VALUE, 2 + m), (rate.SLOPES, table),
+        *((row, explicit.WIDTH) for row in rows.values()), (explicit.DENSE, explicit.DEGREE * explicit.WIDTH),
+    ]  # fmt: skip
+    of_slide = [
+        (slow.VALUE, 1), (slow.SLOPES, 1), (slow.SLOW, 1), (slow.PLACE, 4 + m), (slow.RATES, 4 + m), (slow.TABLE, table)
+    ]  # fmt: skip
+    for spans, end in ((of_motion, explicit.ROOM), (of_motion + of_slide, slow.EXTENT)):
+        spans = sorted(spans)
+        assert spans[0][0] >= 0
+        for (at, count), (then, _) in pairwise([*spans, (end, 0)]):
+            assert at + count <= then
+    assert len(workspace(3, 0.25).S) == explicit.ROOM
+    assert workspace(3, 0.25).S[PSI] == 0.25
