@@ -115,7 +115,7 @@ def test_the_rest_of_the_way_to_sigma_is_straight():
     motion, S = motion_of(system, families.constant(), 0.0), np.zeros(slow.EXTENT)
     linear, square, rates = np.full(4, math.nan), np.full(4, math.nan), np.empty(4)
     y = np.array([6e-10, 8e-10, 0.0, 0.0])
-    assert course._straight_on(motion, S, y, rates, linear, square) == pytest.approx(1e-9 / 0.4, rel=1e-12)
+    assert course._straight_on(motion, S, y, rates, linear, square) == pytest.approx(1e-9 / 0.4, rel=1e-12, abs=0.0)
     np.testing.assert_allclose(linear, [-6e-10, -8e-10, 7.5e-9, -1.25e-9], rtol=1e-12)
     np.testing.assert_array_equal(square, 0.0)
     for z in ((0.24 + 0.24 + 0.6, 0.32 - 0.18 + 0.8), (0.24 - 0.8, 0.32 + 0.6)):  # outward; about Sigma, and no more
@@ -133,7 +133,7 @@ def test_a_slide_begins_on_its_set(z, sign):
     assert found == sign
     np.testing.assert_allclose(S[slow.PLACE : slow.PLACE + 6], [z[0], -0.2, 0.0, 0.0, *z], atol=1e-14)
     assert control[NEXT] == pytest.approx(FIRST / max(0.5 / (abs(z[0]) + 0.01), (2.5 - z[0]) / (z[1] + 0.01)))
-    assert control[LEAST] == pytest.approx(2e-13, rel=1e-14)
+    assert control[LEAST] == pytest.approx(2e-13, rel=1e-14, abs=0.0)
     y[:2] = 3.0
     assert not course._begun_slide(S, y, 0.01, control, 20.0)[0]
 

@@ -20,7 +20,7 @@ from .placing import CURVED, HILL, TANH, motion_of
 
 
 @pytest.mark.parametrize("psi", [TANH, HILL], ids=lambda psi: psi.text)
-@pytest.mark.parametrize("line", [None, (0.6, -0.8)])
+@pytest.mark.parametrize("line", [None, (0.6, -0.8), (1.0, 0.0), (0.0, 1.0)])
 @pytest.mark.parametrize("eps", [0.3, 1e-4])
 def test_rate_slopes_and_sizes_are_those_in_python(psi, line, eps):
     motion = motion_of(CURVED, psi, eps, line=line or (0.0, 0.0))

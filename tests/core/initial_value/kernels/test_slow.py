@@ -46,7 +46,7 @@ def _flow(system, e, z):
     gain = int(functions_of(field(system), families.constant()).addresses[2])
     motion = rate.Motion(value.address, slopes.address, gain, 2 + len(z), 1.0, 1e-6, 0.01, 0.0, 0.0)
     S, found, J = placed(system, np.zeros(len(z))), np.zeros(2 + len(z)), np.full((2 + len(z),) * 2, math.nan)
-    S[rate.VALUE : rate.PLACES] = math.nan  # all that is read is written first
+    S[rate.VALUE : rate.SLOPES], S[rate.SLOPES : rate.PLACES] = 7.0, math.nan  # all that is read is written first
     y = np.array([*e, *z])
     rate.rate(motion, y, S, found)
     rate.jacobian(motion, y, S, J)
