@@ -50,7 +50,7 @@ async function library(root, {path, size}, ask) {
 
 // Panel loads itself where someone has called pn.extension(): it is given the time to.
 async function bring({version, libraries}, root, ask) {
-  if (page._bokeh_timeout !== undefined) await until(() => ours(version), Math.max(0, page._bokeh_timeout - Date.now()))
+  if (page._bokeh_timeout !== undefined) await until(() => ours(version), page._bokeh_timeout - Date.now())
   if (ours(version)) return
   const texts = await Promise.all(libraries.map((one) => library(root, one, ask)))
   const shim = document.createElement("script")

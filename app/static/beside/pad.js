@@ -32,8 +32,7 @@ export class Pad {
 
   rounded(value, i) {
     const [low, high] = this.box[i]
-    const unit = 10 ** (Math.floor(Math.log10(high - low)) - 3)
-    return Number((Math.round(value / unit) * unit).toPrecision(6))
+    return Number(value.toFixed(Math.max(0, 3 - Math.floor(Math.log10(high - low))))) + 0 // no -0
   }
 
   // Draw a chart: `box`; `regions` (name, bounded, inside, loops), `curves` by name, `points` [type, x, y, sentence];

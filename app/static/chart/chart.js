@@ -57,7 +57,7 @@ export class Chart {
     this.placed = [] // the words, and where they are
     svg.classList.add("chart")
     this.follow()
-    new ResizeObserver(() => { if (this.plots.length && Math.abs(svg.clientWidth - this.width) > 1) this.draw(this.plots) }).observe(svg)
+    new ResizeObserver(() => { if (Math.abs(svg.clientWidth - this.width) > 1) this.draw(this.plots) }).observe(svg)
   }
 
   /** @param {Plot[]} plots */
@@ -203,7 +203,7 @@ export class Chart {
    */
   over(dots, path = null, tag = null) {
     const holder = this.svg.querySelector(".moving"), [frame] = this.frames
-    if (!holder || !frame) return
+    if (!frame) return
     const place = (/** @type {number[]} */ [u, v]) => [frame.x.at(u), frame.y.at(v)]
     const covered = dots.map((dot) => [...place([dot.x, dot.y]), 2 * dot.r, 2 * dot.r])
     const parts = dots.map((dot, i) => `<circle class="dot ${dot.name}" cx="${fixed(covered[i][0])}" cy="${fixed(covered[i][1])}" r="${dot.r}"/>`)
@@ -231,7 +231,7 @@ export class Chart {
   under(event) {
     const box = this.svg.getBoundingClientRect(), ratio = this.width / box.width
     const px = (event.clientX - box.left) * ratio, py = (event.clientY - box.top) * ratio
-    const away = ({top, bottom}) => Math.max(top - py, py - bottom, 0)
+    const away = ({top, bottom}) => Math.max(top - py, py - bottom)
     const index = this.frames.reduce((best, frame, i) => (away(frame) < away(this.frames[best]) ? i : best), 0)
     const frame = this.frames[index]
     const x = frame.x.back(Math.max(frame.left, Math.min(frame.right, px))), y = frame.y.back(Math.max(frame.top, Math.min(frame.bottom, py)))

@@ -26,7 +26,7 @@ export function twoFingers(holder, plot, busy) {
   let start = null
   const places = (event) => {
     const box = holder.getBoundingClientRect()
-    return [...event.touches].slice(0, 2).map((touch) => [(touch.clientX - box.left) / box.width, (touch.clientY - box.top) / box.height])
+    return [...event.touches].map((touch) => [(touch.clientX - box.left) / box.width, (touch.clientY - box.top) / box.height])
   }
   // Bokeh is told of taps by one finger only
   const held = new Set(), hidden = new Set()

@@ -22,7 +22,7 @@ const fresh = async () => (await import("../../../app/static/cell.js?" + loaded+
 /** A cell in JupyterLab. `after`: ms until its kernel is there; `served`: what Jupyter's server has of each library. */
 function notebook({after = 0, served = TEXTS, config = '{"baseUrl": "/base/"}', active = true, own = {}} = {}) {
   const there = page(`${config ? `<script id="jupyter-config-data">${config}</script>` : ""}<div id="cell1"><p>still</p></div>`)
-  const {document} = there, run = [], asked = [], fetched = [], opened = []
+  const {document} = there, run = [], asked = [], answered = [], fetched = [], opened = []
   let now = 0
   Date.now = () => EPOCH + now
   const comm = {
@@ -31,7 +31,7 @@ function notebook({after = 0, served = TEXTS, config = '{"baseUrl": "/base/"}', 
       asked.push(about)
       const data = {about, ...ANSWERS[about]}
       const buffers = about in TEXTS ? [gzipSync(TEXTS[about])] : []
-      real.setTimeout(() => comm.onMsg({content: {data}, buffers}))
+      real.setTimeout(() => { comm.onMsg({content: {data}, buffers}); answered.push(about) })
     },
   }
   const kernel = {connectToComm: (...all) => { opened.push(all); return comm }}
@@ -46,7 +46,7 @@ function notebook({after = 0, served = TEXTS, config = '{"baseUrl": "/base/"}', 
     return text === undefined ? Promise.reject(new Error("none")) : Promise.resolve({ok: !text.startsWith("404"), arrayBuffer: () => Promise.resolve(new TextEncoder().encode(text).buffer)})
   }
   return {
-    ...there, run, asked, fetched, opened, PyViz, kernel, comm, window: global.window, place: document.getElementById("cell1"),
+    ...there, run, asked, answered, fetched, opened, PyViz, kernel, comm, window: global.window, place: document.getElementById("cell1"),
     async pass(ms) {
       for (const end = now + ms; now < end;) {
         now += 10
@@ -146,7 +146,7 @@ test("libraries that are there are not brought again", async () => {
 test("where Panel is loading itself it is given the time to, and no more", async () => {
   const one = notebook({own: {_bokeh_timeout: EPOCH + 1000}})
   await start()
-  await one.until(() => one.asked.length === 1)
+  await one.until(() => one.answered.length === 1)
   await one.pass(500)
   assert.deepEqual(one.fetched, [])
   one.window.Bokeh = {version: "3.9.0", Panel: {}}
@@ -155,7 +155,7 @@ test("where Panel is loading itself it is given the time to, and no more", async
   assert.deepEqual(one.fetched, [])
   const other = notebook({own: {_bokeh_timeout: EPOCH + 300}})
   await start()
-  await other.until(() => other.asked.length === 1)
+  await other.until(() => other.answered.length === 1)
   await other.pass(400)
   await other.lives()
   assert.equal(other.fetched.length, 2)

@@ -2,22 +2,9 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Chart} from "../../../../app/static/chart/chart.js"
 import {Space, TEXT, beside, textSize} from "../../../../app/static/chart/space.js"
-import {page} from "../played/page.js"
-import {close, plots} from "../played/reading.js"
-
-const near = (found, expected, most) => assert.ok(close(found, expected, most), `${JSON.stringify(found)} is not ${JSON.stringify(expected)}`)
-
-function made(given = [], options = {}) {
-  const there = page('<svg class="one"></svg>'), svg = /** @type {any} */ (there.document.querySelector("svg"))
-  const did = [], note = (what) => (...all) => { did.push([what, ...all]) }
-  const chart = new Chart(svg, {aspect: (width) => width / 2, onMove: note("move"), onEnd: note("end"), onKey: note("key"), onMark: note("mark"), ...options})
-  if (given.length) chart.draw(given)
-  const px = (name) => Number(svg.querySelector(name).getAttribute("d").match(/M(-?[\d.]+)/)?.[1])
-  return {...there, chart, svg, px, did: () => did.splice(0), plots: () => plots(svg), hand: (type, x, y) => there.fire(svg, type, {clientX: x, clientY: y})}
-}
-const PLOT = {title: "height", x: {span: [-1, 3], word: "x"}, y: {span: [10, 20]}}
+import {PLOT, made} from "../played/charted.js"
+import {near} from "../played/reading.js"
 
 test("a chart is as wide as its place, and what is drawn has the axes' values", () => {
   const one = made([{...PLOT, zeros: true, lines: [{name: "a", title: "<A>", x: [-1, 0, 3], y: [10, 12.5, 20]}], dots: [{name: "b", x: 1, y: 15, r: 4, title: "B"}], arrows: [{name: "c", x: 2, y: 11, u: 0, v: 1, length: 10}]}])

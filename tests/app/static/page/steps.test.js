@@ -158,3 +158,24 @@ test("what restoring sets is no action of its own", () => {
   steps.redo() // at once
   assert.equal(seen.value, 4)
 })
+
+test("an entry of the browser's history that has others after it can be redone, and none that has not", () => {
+  const fake = browser()
+  fake.replaceState({codim2: {at: 1, last: 3, snapshot: {value: 5}}}, "", "?")
+  const kept = new Browsed({value: 5}, fake, () => "?")
+  assert.deepEqual([kept.canUndo, kept.canRedo, fake.state.codim2.at, fake.state.codim2.last], [true, true, 1, 3])
+  const fresh = new Browsed({value: 5}, browser(), () => "?")
+  assert.deepEqual([fresh.canUndo, fresh.canRedo], [false, false])
+})
+
+test("what has been settled by hand, or left by the browser's Back, does not settle again later", () => {
+  for (const leave of [(steps) => steps.settle(), (steps) => steps.arrived(null)]) {
+    const time = clock(), told = []
+    const steps = new Steps(new Listed({value: 0}), () => ({value: 1}), () => {}, () => told.push(steps.pending), time)
+    steps.changed()
+    leave(steps)
+    told.length = 0
+    time.pass(1000)
+    assert.deepEqual(told, [])
+  }
+})
