@@ -2,6 +2,7 @@
 
 import {Chart} from "../chart/chart.js"
 import {holds} from "../chart/regions.js"
+import {rounded} from "../chart/scale.js"
 import {escape} from "../words.js"
 
 export class Pad {
@@ -13,7 +14,7 @@ export class Pad {
     this.box = [[-1, 1], [-1, 1]]
     this.plot = new Chart(svg, {
       aspect: (width) => (this.chart?.flat ? Math.min(width, 130) : width),
-      onMove: (x, y) => onMove([x, y].map((value, i) => this.rounded(value, i))),
+      onMove: (x, y) => onMove([x, y].map((value, i) => rounded(value, this.box[i]))),
       onEnd: () => onMove(null),
       onKey: (way, far) => onMove(this.chart.handle.map((value, i) => value + way[i] * (this.box[i][1] - this.box[i][0]) / (far ? 20 : 200))),
       onRedraw: () => { if (this.chart) this.drawMoving(); this.redrawn?.() },
@@ -29,11 +30,6 @@ export class Pad {
   get regions() { return this.svg.querySelectorAll(".region") }
 
   at(point) { return this.chart.regions.findIndex((region) => holds(region, point)) }
-
-  rounded(value, i) {
-    const [low, high] = this.box[i]
-    return Number(value.toFixed(Math.max(0, 3 - Math.floor(Math.log10(high - low))))) + 0 // no -0
-  }
 
   // Draw a chart: `box`; `regions` (name, bounded, inside, loops), `curves` by name, `points` [type, x, y, sentence];
   // `handle` and `here` (where the portrait is); `path` through the handle or null; `old`; the axes' `words`; `flat` where there is one axis only.

@@ -14,6 +14,16 @@ export function scale([from, to], [first, last]) {
 }
 
 /**
+ * A value as a hand sets it within a span: no digit of it is finer than a thousandth of the power of ten in the span's width.
+ * @param {number} value
+ * @param {number[]} span low, high
+ */
+export function rounded(value, [low, high]) {
+  const decimals = 3 - Math.floor(Math.log10(high - low))
+  return Number(value.toFixed(Math.max(0, decimals))) + 0 // no -0
+}
+
+/**
  * Round values within a span, 1, 2 or 5 times a power of ten apart: at most `most` of them, or somewhat more where there
  * would be fewer than three.
  * @param {number[]} span low, high

@@ -1,7 +1,7 @@
 // The panel "Along z": where Sigma slides, the slow flow on each critical set, and play, which lets z drift with it.
 
 import {Chart} from "../chart/chart.js"
-import {spanOf} from "../chart/scale.js"
+import {rounded, spanOf} from "../chart/scale.js"
 import {shape} from "../chart/marks.js"
 import {register} from "../beside/panels.js"
 import {Ticker} from "../beside/player.js"
@@ -29,7 +29,7 @@ class Along {
     this.svg = this.find(".along")
     this.chart = new Chart(this.svg, {
       aspect: (width) => Math.min(0.66 * width, 460),
-      onMove: (value) => { if (this.data) this.setControls({[this.data.control]: Number(value.toPrecision(6))}) },
+      onMove: (value) => { if (this.data) this.setControls({[this.data.control]: rounded(value, this.data.span)}) },
       onKey: (way, far) => this.step(way, far),
       onMark: (/** @type {any[]} */ [mark]) => this.setControls({[this.data.control]: mark.go}),
     })
@@ -37,7 +37,7 @@ class Along {
     this.planeChart = new Chart(this.plane, {
       aspect: (width) => width,
       onRedraw: () => this.showPlace(),
-      onMove: (z, z2) => { if (this.planeData) this.setControls({z: Number(z.toPrecision(6)), z2: Number(z2.toPrecision(6))}) },
+      onMove: (z, z2) => { if (this.planeData) this.setControls({z: rounded(z, this.planeData.spans[0]), z2: rounded(z2, this.planeData.spans[1])}) },
     })
     this.ticker = new Ticker(this.find(".play"), (ms, next) => this.drifts(ms, next))
     this.data = null

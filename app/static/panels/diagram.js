@@ -3,7 +3,7 @@
 
 import {axesMarkup, AxisChoice, ZoomButtons} from "../beside/axes.js"
 import {Chart} from "../chart/chart.js"
-import {spanOf} from "../chart/scale.js"
+import {rounded, spanOf} from "../chart/scale.js"
 import {shape} from "../chart/marks.js"
 import {register} from "../beside/panels.js"
 import {SAYS, escape, formula, minus, plain} from "../words.js"
@@ -30,10 +30,10 @@ class Diagram {
     this.data = null
     this.chart = new Chart(this.svg, {
       aspect: (width) => Math.min((this.data?.cycles?.pieces.length ? 1.3 : 0.86) * width, this.data?.cycles?.pieces.length ? 820 : 620),
-      onMove: (value, _, plot) => this.go(this.rounded(value, this.chart.plots[plot].x.span)),
+      onMove: (value, _, plot) => this.go(rounded(value, this.chart.plots[plot].x.span)),
       onKey: ([across, up], far) => {
         const [low, high] = this.data.span
-        this.go(this.rounded(this.tools.valueOf(this.values.along) + (across + up) * (high - low) / (far ? 20 : 200)))
+        this.go(rounded(this.tools.valueOf(this.values.along) + (across + up) * (high - low) / (far ? 20 : 200), [low, high]))
       },
       onMark: (marks) => this.visit(marks),
     })
@@ -44,11 +44,6 @@ class Diagram {
   }
 
   go(value) { this.setControls({[this.values.along]: value}) }
-
-  rounded(value, [low, high] = this.data.span) {
-    const unit = 10 ** (Math.floor(Math.log10(high - low)) - 3)
-    return Number((Math.round(value / unit) * unit).toPrecision(8))
-  }
 
   // Several special points under one mark: nearer to them, so that they come apart.
   visit(marks) {

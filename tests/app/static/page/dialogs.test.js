@@ -96,6 +96,10 @@ test("the strip of tabs: arrows go round, and the chosen tab is rolled to its mi
   assert.equal(strip.scrollLeft, 5)
   assert.equal(key("ArrowRight"), true)
   assert.deepEqual([chosen()[0], strip.scrollLeft], [["true", 0], 40 - 40])
+  Object.defineProperty(second, "offsetParent", {value: strip, configurable: true}) // where it is sticky, its tabs stand from its own edge
+  key("ArrowRight")
+  assert.equal(strip.scrollLeft, 207 - 30)
+  key("ArrowRight")
   for (const [name, place] of /** @type {[string, number][]} */ ([["ArrowLeft", 1], ["ArrowLeft", 0], ["End", 1], ["Home", 0]])) {
     key(name)
     assert.deepEqual(chosen().map(([is]) => is), [0, 1].map((i) => String(i === place)), name)

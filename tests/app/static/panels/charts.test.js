@@ -114,6 +114,21 @@ test("the panel along: the plane of two slow variables", () => {
   assert.deepEqual([one.find(".which").hidden, one.texts(".drift option"), one.find(".drift").value], [false, ["v", "w"], "z2"])
 })
 
+test("the panel along: a hand is as fine as the span is narrow, far from 0 too, in the line and in the plane", () => {
+  const one = opened("along", {z: 1000, z2: 0, drift: "z"}, {slowSymbols: () => ["v", "w"]})
+  one.frame({along: {...ALONG, m: 2, span: [1000, 1000.2]}, slow_plane: {spans: [[1000, 1000.2], [-0.02, 0.02]], arrows: []}})
+  const down = (name, x, y) => { const [plot] = plots(one.find(name)); one.fire(one.find(name), "pointerdown", {clientX: plot.x.back(x), clientY: plot.y.back(y)}); return Object.values(one.said()[0][1]) }
+  near(down(".along", 1000.1234, 0), [1000.1234], 1e-4)
+  near(down(".slow-plane", 1000.0567, -0.0123), [1000.0567, -0.0123], 1e-4)
+})
+
+test("the panel along: play asked for before there is anything to play does nothing", () => {
+  const one = opened("along", {z: -1.5, z2: 0, drift: "z"})
+  one.fire(one.find(".play"), "click")
+  one.tick(100)
+  assert.deepEqual([one.find(".play").textContent, one.said()], ["▶ Play", []])
+})
+
 // --- planes
 test("the panel planes: trace to the right, determinant upward, eigenvalues beside, each with its kind", () => {
   const one = opened("planes", {})
