@@ -1,11 +1,14 @@
 """The mutants themselves: each is valid code, differs in one place, and they are those that one expects."""
 
 import ast
+import signal
+import subprocess
+import threading
 from pathlib import Path
 
 import pytest
 
-from . import interpreted
+from . import interpreted, javascript
 from .__main__ import Choice, survivors
 from .explained import ALLOWED, LIVES
 from .live import changes, functions, put_in
@@ -179,3 +182,23 @@ def test_kernels_are_told_from_other_modules():
     assert is_kernel("core.stepping.lanes")
     assert is_kernel("core.cycles.return_map")
     assert not is_kernel("core.cycles.orbit")
+
+
+@pytest.mark.parametrize(
+    ("script", "answered"),
+    [
+        ("echo done", True),
+        ("kill -STOP $$; echo done", True),  # it is kept from working for a while
+        ("sleep 30", False),
+        ("while :; do :; done", False),
+    ],
+)
+def test_a_process_that_is_kept_waiting_is_not_late(script, answered):
+    with subprocess.Popen(["sh", "-c", script], stdout=subprocess.PIPE, text=True) as process:
+        timer = threading.Timer(1.5, process.send_signal, (signal.SIGCONT,))
+        timer.start()
+        try:
+            assert javascript.answers(process, 0.5) is answered
+        finally:
+            timer.join()
+            process.kill()

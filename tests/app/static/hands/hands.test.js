@@ -159,7 +159,7 @@ test("one line says how C slides, out of the page or into it", () => {
 const THEME = {page: "white", ink: "black", shade: "blue", "shade-alpha": "0.1", degenerate: "grey", orbit: "o", rho: "r", "launch-1": "l1", "launch-2": "l2", motion: "m", attr: "a", rep: "p"}
 const part = (name, colour, more = {}) => ({name, colour, width: 1, dash: [], ...more})
 const TABLE = [{name: "basins", parts: []}, {name: "rho", parts: [part("rho_inside", "rho", {dash: [3, 2]})]}, {name: "inside", parts: [part("inside", "orbit")]}, {name: "launched", parts: [part("launched_1", "launch-1"), part("launched_2", "launch-2")]}, {name: "equator", parts: []}, {name: "critical", parts: []}]
-const listed = (layers, header = {}, blocks = {}, old = []) => displayList({table: TABLE, layers, old, header, blocks, theme: THEME, measures: {discs: [1], ring: [1, 2], hatches: {}}})
+const listed = (layers, header = {}, blocks = {}, old = []) => displayList({table: TABLE, layers, old, header, blocks, theme: THEME, measures: {discs: [1], ring: [1, 2], hatches: {}, view: 2}})
 
 test("what has not come is not drawn, and what is late neither; layers lie in the order of the table, heads above", () => {
   const all = TABLE.map(({name}) => name)

@@ -10,7 +10,7 @@ const critical = {label: ["C₁", "C₂"], sense: ["⊙", "⊗"], x: [-0.72, 0.7
 
 test("a label near the equator on the right stands on the left of its mark, and so does what lies behind it", () => {
   const table = [{name: "critical", parts: []}]
-  const list = displayList({table, layers: ["critical"], old: [], header: {critical}, blocks: {}, theme: {}, measures: {discs: [1], ring: [1, 1.1], hatches: {}}})
+  const list = displayList({table, layers: ["critical"], old: [], header: {critical}, blocks: {}, theme: {}, measures: {discs: [1], ring: [1, 1.1], hatches: {}, view: 2}})
   const labels = list.filter(({kind}) => kind === "label")
   assert.deepEqual(labels.map(({text, dx, align}) => [text, dx, align]), [["C₁ ⊙", 13, "left"], ["C₂ ⊗", -13, "right"]])
   const plates = []
@@ -53,7 +53,7 @@ test("a marked place has a ring and a cross: the page's accent until it is judge
 })
 
 test("the sense of the equator is told unless a question hides it; where nothing has been launched nothing starts", () => {
-  const table = [{name: "launched", parts: [{name: "launched_1", colour: "l"}]}], state = {table, layers: ["launched"], old: [], blocks: {}, theme: {l: "l", page: "p"}, measures: {discs: [1], ring: [1, 1.1], hatches: {}}}
+  const table = [{name: "launched", parts: [{name: "launched_1", colour: "l"}]}], state = {table, layers: ["launched"], old: [], blocks: {}, theme: {l: "l", page: "p"}, measures: {discs: [1], ring: [1, 1.1], hatches: {}, view: 2}}
   const kinds = (more) => displayList(/** @type {any} */ ({...state, ...more})).slice(2).map(({kind}) => kind)
   const header = {sense: [[1, 0, 1.5]]}
   assert.deepEqual([kinds({header}), kinds({header, sense: true}), kinds({header, sense: false})], [["circle", "head"], ["circle", "head"], ["circle"]])
