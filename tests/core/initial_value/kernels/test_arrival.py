@@ -54,6 +54,20 @@ def test_what_arrives_slides_on_the_only_set(C, A, expected):
         assert place == pytest.approx(C, abs=1e-14)
 
 
+def test_the_only_set_is_where_it_is():
+    """For any matrix whose symmetric part is negative definite: C is inside, or it is not."""
+    system = System(U=("z1*(c - z5) + z2*(s - z6)", "z3*(c - z5) + z4*(s - z6)"), W=("0*c",) * 6)
+    rng, told = np.random.default_rng(12), []
+    for _ in range(40):
+        L, w, C = rng.normal(size=(2, 2)), 2.0 * rng.normal(), rng.uniform(-1.0, 1.0, 2)
+        A = -(L @ L.T) - 0.1 * np.eye(2) + w * np.array([[0.0, 1.0], [-1.0, 0.0]])
+        found, place = _slides(system, 0.3, affine=True, z=(*A.ravel(), *C))
+        assert found is bool(np.hypot(*C) < 1.0)
+        assert not found or place == pytest.approx(C, abs=1e-13)
+        told.append(found)
+    assert {False, True} == set(told)
+
+
 def test_what_arrives_slides_where_two_orbits_end():
     system = System(U=("-(c - 0.4) + 0.6*(s + 0.2)", "-0.2*(c - 0.4) - 1.5*(s + 0.2)"))
     theta = _attracting(system)
@@ -102,6 +116,8 @@ def test_in_a_line_it_slides_on_the_first_zero_if_that_attracts():
     assert not _slides(line, theta + math.pi, line=n)[0]  # it leaves at that end
     through = System(U=("-0.6 + 0*c", "0.8 + 0*c"))
     assert not _slides(through, theta, line=n)[0]
+    flat = System(U=(f"-0.6*({q} - 0.2)**3", f"0.8*({q} - 0.2)**3"))
+    assert not _slides(flat, theta, line=n)[0]  # it may attract or not
     near = System(U=("-0.6*(0.6*c - 0.8*s + 0.9999999)", "0.8*(0.6*c - 0.8*s + 0.9999999)"))
     assert not _slides(near, theta, line=n)[0]  # within 1e-6 of the other end
 
@@ -119,6 +135,7 @@ def test_in_a_line_it_slides_on_the_first_zero_if_that_attracts():
         ((-1.0, 0.999, 0.995, -1.0), 0.0, False),  # hardly a node
         ((1.0, 0.5, -0.5, 1.0), 0.0, False),
         ((-3.0, 2.0, -4.0, 0.9), 0.0, None),
+        ((-3.0, 2.9, 2.9, -3.0), 0.0, True),
     ],
 )
 def test_an_orbit_has_ended_at_a_set_that_attracts_under_every_psi(D, away, attracts):

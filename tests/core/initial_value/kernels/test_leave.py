@@ -10,7 +10,8 @@ import pytest
 from codim2_core import System
 from codim2_core.initial_value import leaving
 from codim2_core.initial_value.field import field
-from codim2_core.initial_value.kernels.leave import leave
+from codim2_core.initial_value.kernels.leave import _polished, leave
+from codim2_core.initial_value.leaving import START, TILT
 from codim2_core.initial_value.line import InvariantLine
 
 from .placing import CURVED, directions, placed
@@ -62,3 +63,41 @@ def test_the_first_step_away_from_where_a_set_reaches_the_equator_is_that_in_pyt
         ),
         str,
     )  # fmt: skip
+
+
+def test_an_angle_nearby_is_made_that_of_the_direction():
+    """Newton's method: to all digits from 0.03 away; what needs a longer step is none."""
+    for z in ((1.2, 0.4), (-1.0, 0.3), (2.5, -1.0)):
+        S = placed(CURVED, z)
+        for theta in directions(CURVED, z):
+            for away in (0.03, -0.03):
+                assert _polished(S, 2, theta + away) == pytest.approx(theta, abs=1e-13)
+            assert math.isnan(_polished(S, 2, theta + 0.2))
+
+
+@pytest.mark.parametrize("line", [(0.0, 0.0), (0.6, 0.8), (-0.6, -0.8)])
+def test_a_straight_way_out_is_as_long_as_a_part_of_the_time(line):
+    """U = (0.3, 0.4), W = (2, -1): nothing turns."""
+    S, linear, square = placed(System(U=("0.3", "0.4"), W=("2", "-1")), (1.0, 2.0)), np.empty(4), np.empty(4)
+    h = leave(S, 2, *line, math.atan2(0.8, 0.6), 1e6, linear, square)
+    assert h == pytest.approx(START * 1e6, rel=1e-12)
+    np.testing.assert_allclose(linear, h * np.array([0.3, 0.4, 2.0, -1.0]), rtol=1e-12)
+    np.testing.assert_array_equal(square, 0.0)
+    assert leave(S, 2, *line, math.atan2(-0.8, -0.6), 1e6, linear, square) == 0.0  # there it leads inward
+
+
+def test_a_way_out_turns_as_the_field_outside_and_z_make_it():
+    """lambda_rho = 1 and lambda_theta = -3 at n = (0.6, 0.8): theta' = t.(D_x U n + D_z U W)/4 along the way."""
+    M, N, W = np.array([[0.7, -1.1], [0.4, 1.3]]), np.array([[0.5, -0.8], [-0.3, 0.9]]), np.array([2.0, -1.5])
+    U = [
+        f"{n} + {-2.0 * t}*(-0.8*c + 0.6*s) + {M[i, 0]}*x + {M[i, 1]}*y + {N[i, 0]}*z1 + {N[i, 1]}*z2"
+        for i, (n, t) in enumerate(((0.6, -0.8), (0.8, 0.6)))
+    ]
+    S, linear, square = placed(System(U=U, W=("2", "-1.5")), (0.0, 0.0)), np.empty(4), np.empty(4)
+    theta, n, t = math.atan2(0.8, 0.6), np.array([0.6, 0.8]), np.array([-0.8, 0.6])
+    turning = t @ (M @ n + N @ W) / 4.0
+    h = leave(S, 2, 0.0, 0.0, theta, 1e9, linear, square)
+    assert h == pytest.approx(TILT / abs(turning), rel=1e-9)
+    np.testing.assert_allclose(linear[:2] / h, n + t * turning * h, atol=1e-10)
+    np.testing.assert_allclose(linear[2:], W * h, rtol=1e-12)
+    np.testing.assert_array_equal(square, 0.0)

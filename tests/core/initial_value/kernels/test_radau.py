@@ -137,6 +137,8 @@ def test_one_time_of_growth_bounds_a_step():
         longest, found = radau.linearised(motion, y, 10.0, np.zeros(4), work)
         assert found == pytest.approx(reach, rel=1e-9)
         assert min(longest, 1e12) == pytest.approx(bound, rel=1e-9)  # but for the rounding of an eigenvalue
+        if bound < 1e12:
+            assert radau.linearised(motion, y, 1.1 * bound, np.zeros(4), work)[0] == pytest.approx(bound, rel=1e-9)
         # A step that is short enough is not asked for its bound.
         assert radau.linearised(motion, y, 0.1, np.zeros(4), work) == pytest.approx((math.inf, reach), rel=1e-9)
 

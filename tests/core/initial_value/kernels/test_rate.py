@@ -42,15 +42,15 @@ def test_rate_slopes_and_sizes_are_those_in_python(psi, line, eps):
 
 
 def test_in_contact_with_sigma_the_way_inward_bounds_no_step():
-    """A straight fall, U = (-1, 0), through rho: 0.9 of the way, unless it is within 20 eps."""
-    falls = System(U=("-1", "0*c"))
+    """A straight fall, U = -(0.6, 0.8), through rho: 0.9 of the way, unless it is within 20 eps."""
+    falls = System(U=("-0.6", "-0.8"))
     motion, work = motion_of(falls, TANH, 1e-3), workspace(2, 0.0)
     outside, inside = (
-        radau.linearised(motion, np.array([x, 0.0]), 1.0, np.zeros(4), work)[0] for x in (0.0201, 0.0199)
+        radau.linearised(motion, np.array([0.6 * x, 0.8 * x]), 1.0, np.zeros(4), work)[0] for x in (0.0201, 0.0199)
     )
     assert outside == pytest.approx(0.9 * (0.0201**2 + 1e-6) / 0.0201)
     assert inside == math.inf
-    rising = radau.linearised(motion, np.array([-0.5, 0.0]), 1.0, np.zeros(4), work)[0]
+    rising = radau.linearised(motion, np.array([-0.3, -0.4]), 1.0, np.zeros(4), work)[0]
     assert rising == math.inf
 
 

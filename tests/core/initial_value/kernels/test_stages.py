@@ -89,6 +89,7 @@ def test_matrices_are_those_of_the_newton_iteration_in_units_of_size():
         (2, 900.0, 1000.0, 0),  # too slow, but that is not sure yet
         (3, 900.0, 1000.0, -1),  # 0.9^6 900 > 0.1
         (3, 900.0, 90000.0, 0),  # 0.01^6 900
+        (3, 1.5, 1.5 / 0.9, -1),  # 0.9^6 1.5 > 0.1
         (3, 1.5, 3.5, 0),
         (4, 99.0, 300.0, 1),  # so near, and as slow: rounding
         (4, 101.0, 300.0, 0),
