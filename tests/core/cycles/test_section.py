@@ -4,6 +4,7 @@ import math
 from fractions import Fraction
 from types import SimpleNamespace
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -291,3 +292,19 @@ def test_the_reach_of_a_ray_has_all_digits_however_near_the_equator_its_foot_is(
     root = math.sqrt(along * along + float(gap))
     assert own.reach == pytest.approx(float(gap) / (root + along) if side > 0.0 else root - along, rel=1e-12)
     assert own.other == pytest.approx(float(gap) / own.reach, rel=1e-12)
+
+
+def test_a_ray_that_starts_just_inside_the_equator_has_all_its_digits():
+    """C = (1 - 1e-7, 0), and the ray leads outward: |p + r u| = 1 with 40 digits."""
+    at, psi = c2.System(U=("-(c - 0.9999999) - 2*s", "2*(c - 0.9999999) - s")).at(), c2.psi.constant()
+    (C,) = c2.critical_sets(at, psi)
+    own = TurnSection(at, psi, C, (C,))
+    with mpmath.workdps(40):
+        x2, u = mpmath.matrix(C.x2.tolist()), mpmath.matrix(own.u.tolist())
+        gap = 1 / (1 + x2[0] ** 2 + x2[1] ** 2)
+        along = (x2[0] * u[0] + x2[1] * u[1]) * mpmath.sqrt(gap)
+        reach = mpmath.sqrt(along**2 + gap) - along
+    assert along > 0.9
+    assert own.reach < 1e-6
+    assert own.reach == pytest.approx(float(reach), rel=1e-13, abs=0.0)
+    assert own.other == pytest.approx(float(gap / reach), rel=1e-13)
