@@ -182,3 +182,11 @@ def test_where_both_vanish_a_flat_theta_blurs_lambda_rho(slope, shift):
     np.testing.assert_allclose(found.theta, [low, math.pi - low], rtol=0.0, atol=1e-9)
     assert found.radially_degenerate.tolist() == [shift == 0.0] * 2
     np.testing.assert_allclose(found.lambda_rho, shift, rtol=0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("at", [0.5, 2.5, 4.0, 5.5])
+def test_a_change_of_sign_is_found_wherever_it_is(at):
+    assert module._changes_sign(trigonometric(lambda t: 0.98 - np.cos(t - at)))
+    assert module._changes_sign(trigonometric(lambda t: np.cos(t - at) - 0.98))
+    assert not module._changes_sign(trigonometric(lambda t: 1.02 - np.cos(t - at)))
+    assert not module._changes_sign(trigonometric(lambda t: np.cos(t - at) - 1.02))

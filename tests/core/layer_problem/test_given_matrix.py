@@ -196,3 +196,14 @@ def test_a_determinant_that_a_rotation_would_round_is_that_of_the_matrix_as_give
     assert C.determinant == pytest.approx(float(exact) * radial * tangential, rel=1e-9)
     np.testing.assert_allclose(system.at().U(C.e), 0.0, atol=1e-14)
     assert (C.kind == "saddle") == (small < 0.0)
+
+
+def test_the_determinant_of_a_matrix_that_is_nearly_singular_is_that_of_its_numbers():
+    """Turned into the normal form it would be lost: 3.5e-13 of 2."""
+    M = ((0.7, 1.1), (1.4, 2.2 + 5e-13))
+    f = tuple((-np.array(M) @ (0.3, -0.4)).tolist())
+    (m11, m12), (m21, m22) = (map(Fraction, row) for row in M)
+    for psi in (c2.psi.constant(), c2.psi.rational()):
+        (C,) = c2.critical_sets(ELinear.from_matrix(M, f), psi)
+        radial, tangential = psi.jacobian_factors(float(np.hypot(*C.x2)))
+        assert C.determinant == pytest.approx(float(m11 * m22 - m12 * m21) * radial * tangential, rel=1e-12, abs=0.0)

@@ -21,10 +21,10 @@ from .placing import MOVES, TANH, motion_of, placed
 EDGE = math.sqrt(1.0 - 0.09)
 
 
-def _followed(system, first, t_end, rtol=1e-3, most=10000, line=True):
+def _followed(system, first, t_end, rtol=1e-3, most=10000, psi=TANH):
     first, own = np.atleast_2d(np.array(first, float)), field(system)
-    lines = [invariant_line(own, state) if line else None for state in first]
-    return courses.followed(own, TANH, lines, first, (0.0, t_end), rtol, 0.01, most)
+    lines = [invariant_line(own, state) for state in first]
+    return courses.followed(own, psi, lines, first, (0.0, t_end), rtol, 0.01, most)
 
 
 def test_a_slide_begins_with_a_small_part_of_the_time_in_which_z_changes_by_its_size():
@@ -224,3 +224,15 @@ def test_phases_of_many_motions_stand_apart():
         assert one.motion.times[0] == 0.0
         assert slide.theta == pytest.approx(math.atan2(y, x), abs=1e-6)
         assert one.motion.states[-1, 2] == pytest.approx(z + 3.0, abs=1e-12)
+
+
+def test_which_of_two_sets_it_slides_on_is_told_with_a_psi_alone():
+    two = System(U=("3*c*(0.25 - c**2)", "-4*s + 0*z1"), W=("1",))
+    for x, c in ((0.3, 0.5), (-0.3, -0.5)):
+        (one,) = _followed(two, (x, 0.05, 0.0), 1.0)
+        assert one.onward == WHOLE
+        assert [leg.kind for leg in one.legs] == [SLIP, SLIDE]
+        np.testing.assert_allclose(one.sets[-1], [c, 0.0], atol=1e-12)
+        (one,) = _followed(two, (x, 0.05, 0.0), 1.0, psi=None)
+        assert one.onward == SLIP
+        assert one.legs == ()
