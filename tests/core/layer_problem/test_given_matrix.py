@@ -203,7 +203,7 @@ def test_the_determinant_of_a_matrix_that_is_nearly_singular_is_that_of_its_numb
     M = ((0.7, 1.1), (1.4, 2.2 + 5e-13))
     f = tuple((-np.array(M) @ (0.3, -0.4)).tolist())
     (m11, m12), (m21, m22) = (map(Fraction, row) for row in M)
-    for psi in (c2.psi.constant(), c2.psi.rational()):
-        (C,) = c2.critical_sets(ELinear.from_matrix(M, f), psi)
-        radial, tangential = psi.jacobian_factors(float(np.hypot(*C.x2)))
+    for one in (c2.psi.constant(), c2.psi.rational()):
+        (C,) = c2.critical_sets(ELinear.from_matrix(M, f), one)
+        radial, tangential = one.jacobian_factors(float(np.hypot(*C.x2)))
         assert C.determinant == pytest.approx(float(m11 * m22 - m12 * m21) * radial * tangential, rel=1e-12, abs=0.0)
