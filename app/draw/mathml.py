@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from html import escape
@@ -21,6 +22,7 @@ _GREEK = {
 _SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(1, 6)  # how tightly a piece binds
 
 _MINUS = "<mo>−</mo>"
+_LARGEST_DIVISOR, _MOST = 12, 99  # of fractions of pi, and over pi, that are told from other numbers
 
 Piece = tuple[str, int]
 
@@ -72,7 +74,28 @@ def mathml(expression: Expression, named: Mapping[Expression, str] = MappingProx
 
 def _number(value: float) -> Piece:
     text = f"{abs(value):.12g}"
+    if len(text) >= 12:  # more digits than anyone types
+        for divisor in range(1, _LARGEST_DIVISOR + 1):
+            for unit, write in ((math.pi, _by_pi), (1.0 / math.pi, _over_pi)):
+                times = round(abs(value) * divisor / unit)
+                if 0 < times <= _MOST and abs(abs(value) * divisor / unit - times) <= 8.0 * math.ulp(times):
+                    return (_MINUS + write(times, divisor)[0], _SIGN) if value < 0.0 else write(times, divisor)
     return (f"<mn>{text}</mn>", _ATOM) if value >= 0.0 else (f"{_MINUS}<mn>{text}</mn>", _SIGN)
+
+
+def _by_pi(times: int, divisor: int) -> Piece:
+    text = _times_pi(times)
+    if divisor > 1:
+        return f"<mfrac><mrow>{text}</mrow><mn>{divisor}</mn></mfrac>", _ATOM
+    return text, _ATOM if times == 1 else _PRODUCT
+
+
+def _over_pi(times: int, divisor: int) -> Piece:
+    return f"<mfrac><mn>{times}</mn><mrow>{_times_pi(divisor)}</mrow></mfrac>", _ATOM
+
+
+def _times_pi(times: int) -> str:
+    return "<mi>π</mi>" if times == 1 else f"<mn>{times}</mn><mo>&#8290;</mo><mi>π</mi>"
 
 
 def _closed(piece: Piece, least: int) -> str:

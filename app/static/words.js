@@ -6,6 +6,9 @@ export const escape = (text) => String(text).replace(/[&<>"]/g, (c) => ({"&": "&
 export const lowered = (markup) => markup.replace(/([λeLθC])_([ρθΨεi])/g, "$1<sub>$2</sub>")
 export const formula = (text) => lowered(escape(text))
 
+/** A sentence that begins with something's name. @param {string} text */
+export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1)
+
 export function digits(value, places = 4) {
   if (value === 0) return "0"
   const size = Math.abs(value)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..systems.typed import System
 from .example import GRAVITY, Example
-from .spinning_disc import resistance
+from .spinning_disc import force, torque
 
 
 def spinning_annulus(eta: float = 0.5, mu: float = 0.2, g: float = GRAVITY) -> System:
@@ -25,17 +25,14 @@ def spinning_annulus(eta: float = 0.5, mu: float = 0.2, g: float = GRAVITY) -> S
     g : float
         Acceleration of gravity, m/s².
     """
-    inner_w2, inner_v2 = "eta**2*(1 - c**2)", "(1 - s**2)"
-    slides, force, _ = resistance("c**2", "(1 - c**2)", "")
-    spins, _, torque = resistance("(1 - s**2)", "s**2", "_s")
-    inner_slides, inner_force, _ = resistance("c**2", inner_w2, "_i")
-    inner_spins, _, inner_torque = resistance(inner_v2, "eta**2*s**2", "_si")
+    outer = force("c**2", "(1 - c**2)", "") | torque("(1 - s**2)", "s**2", "_s")
+    inner = force("c**2", "eta**2*(1 - c**2)", "_i") | torque("(1 - s**2)", "eta**2*s**2", "_si")
     return System(
         U=(
-            f"-mu*g*c*({force} - eta**2*{inner_force})/(1 - eta**2)",
-            f"-2*mu*g*s*({torque} - eta**4*{inner_torque})/(1 - eta**4)",  # k^2 = (1 + eta^2)/2
+            "-mu*g*c*(F - eta**2*F_i)/(1 - eta**2)",
+            "-2*mu*g*s*(T_s - eta**4*T_si)/(1 - eta**4)",  # k^2 = (1 + eta^2)/2
         ),
-        definitions=slides | spins | inner_slides | inner_spins,
+        definitions=outer | inner,
         parameters={"eta": eta, "mu": mu, "g": g},
     )
 

@@ -7,21 +7,35 @@ import math
 from ..systems.typed import System
 from .example import GRAVITY, Example
 
-#: Force, and torque over R, of a disc under uniform pressure, over mu m g, for (v, R omega) = (v, w): with
-#: P = max(v^2, w^2), M = min(v^2, w^2)/P, d = (w^2 - v^2)/P, these times v and w.
-FORCE = "4/(3*pi)*(ellipb({M}) + ellipe({M}))/sqrt({P})"
-TORQUE = "2/(9*pi)*((3 + {M} - {d})*ellipb({M}) + (3 - 2*{M} + 2*{d})*ellipe({M}) - (1 - {d})*ellipb2({M}))/sqrt({P})"
 
-
-def resistance(v2: str, w2: str, mark: str) -> tuple[dict[str, str], str, str]:
-    """Return definitions, and by them force over v and torque over w, given v^2 and w^2; `mark` ends their names."""
-    P, M, d = f"P{mark}", f"M{mark}", f"d{mark}"
-    defined = {
+def ratio(v2: str, w2: str, mark: str) -> dict[str, str]:
+    """Return definitions of P = max(v^2, w^2), M = min(v^2, w^2)/P, B and E by v^2 and w^2; `mark` ends their names."""
+    P, M = f"P{mark}", f"M{mark}"
+    return {
         P: f"max({v2}, {w2})",
         M: f"min(1, min({v2}, {w2})/{P})",  # what is 1 at most, by intervals too
-        d: f"({w2} - {v2})/{P}",
+        f"B{mark}": f"ellipb({M})",
+        f"E{mark}": f"ellipe({M})",
     }
-    return defined, FORCE.format(M=M, P=P), TORQUE.format(M=M, P=P, d=d)
+
+
+def force(v2: str, w2: str, mark: str) -> dict[str, str]:
+    """Return definitions up to that of F, the force on a disc under uniform pressure over mu m g v.
+
+    It slides at v and spins at R omega = w; `mark` ends all names.
+    """
+    return {**ratio(v2, w2, mark), f"F{mark}": f"4/(3*pi)*(B{mark} + E{mark})/sqrt(P{mark})"}
+
+
+def torque(v2: str, w2: str, mark: str) -> dict[str, str]:
+    """Return definitions up to that of T, the torque over mu m g R w, as `force`."""
+    B, E, M, d, D = (name + mark for name in "BEMdD")
+    return {
+        **ratio(v2, w2, mark),
+        D: f"ellipb2({M})",
+        d: f"({w2} - {v2})/P{mark}",
+        f"T{mark}": f"2/(9*pi)*((3 + {M} - {d})*{B} + (3 - 2*{M} + 2*{d})*{E} - (1 - {d})*{D})/sqrt(P{mark})",
+    }
 
 
 def spinning_disc(k: float = math.sqrt(0.5), mu: float = 0.2, g: float = GRAVITY) -> System:
@@ -56,11 +70,9 @@ def spinning_disc(k: float = math.sqrt(0.5), mu: float = 0.2, g: float = GRAVITY
     >>> round(1.0 / math.tan(directions[1]), 6)
     0.653002
     """
-    slides, force, _ = resistance("c**2", "(1 - c**2)", "")
-    spins, _, torque = resistance("(1 - s**2)", "s**2", "_s")
     return System(
-        U=(f"-mu*g*c*{force}", f"-mu*g/k**2*s*{torque}"),
-        definitions=slides | spins,
+        U=("-mu*g*c*F", "-mu*g/k**2*s*T_s"),
+        definitions=force("c**2", "(1 - c**2)", "") | torque("(1 - s**2)", "s**2", "_s"),
         parameters={"k": k, "mu": mu, "g": g},
     )
 

@@ -1,7 +1,7 @@
 // Which system is drawn: a choice, its equations, text boxes for what can be typed, and a slider for every name in it.
 
 import {NumberControl, sayAt, slider} from "./controls.js"
-import {SAYS, slowName} from "../words.js"
+import {SAYS, capital, slowName} from "../words.js"
 
 export class SystemChooser {
   // `change(name, value)`, `range(name, ends)` and `setAll(values)` as everywhere; `place(name, control)` registers a control, by the name
@@ -55,7 +55,7 @@ export class SystemChooser {
     this.config.slowSymbols = this.told.slow.map((one) => one.symbol)
     for (let i = 0; i < 4; i++) this.config.symbols[slowName(i)] = this.config.slowSymbols[i] ?? (i ? `z${"₁₂₃₄"[i]}` : "z")
     this.find(".equations").innerHTML = this.told.equations
-    this.find(".system-note").textContent = [this.told.label && `${this.told.label}.`, this.told.sentence].filter(Boolean).join(" ")
+    this.find(".system-note").textContent = [this.told.label && capital(`${this.told.label}.`), this.told.sentence].filter(Boolean).join(" ")
     if (!same) this.makeBoxes()
     this.makeParameters()
     this.makeSlow()

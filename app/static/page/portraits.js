@@ -1,7 +1,7 @@
 // The choice of a portrait, and what it is: the paper's figure, or what has been changed of it.
 
 import {put} from "../dom.js"
-import {formula} from "../words.js"
+import {capital, formula} from "../words.js"
 
 export class Portraits {
   /**
@@ -23,6 +23,6 @@ export class Portraits {
     const p = config.presets[values.preset], whole = {...config.defaults, ...p?.values}
     const same = config.setting.every((name) => JSON.stringify(values[name]) === JSON.stringify(whole[name]))
     if (this.select) this.select.title = p?.title ?? ""
-    put(this.words, formula(!p ? (same && config.page ? config.opening : "") : same ? `${p.label}. ${p.note}` : `changed from ${p.label}`))
+    put(this.words, formula(!p ? (same && config.page ? config.opening : "") : same ? capital(`${p.label}. ${p.note}`) : `changed from ${p.label}`))
   }
 }

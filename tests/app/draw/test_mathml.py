@@ -15,7 +15,7 @@ from codim2_core.expressions.functions import known
 
 NAMES = ("c", "s", "mu", "z1", "K")
 VALUES = {"c": 0.4, "s": -0.7, "mu": 1.3, "z1": 0.6, "K": 2.1}
-SYMBOLS = {"c": "c", "s": "s", "μ": "mu", "z_1": "z1", "K": "K", "e": "math.e"}
+SYMBOLS = {"c": "c", "s": "s", "μ": "mu", "z_1": "z1", "K": "K", "e": "math.e", "π": "math.pi"}
 FUNCTIONS = ("sin", "cos", "tan", "log", "tanh", "sinh", "cosh", "atan")
 OWN = {"min": min, "max": max, "ellipk": known["ellipk"].scalar}
 
@@ -43,6 +43,25 @@ def read(element):
             return f"abs({''.join(inside[1:-1])})"
         case _:
             return "".join(inside)
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("4/(3*pi)*c", "43πc"),
+        ("c/pi", "cπ"),
+        ("-2*c/(9*pi) + 1/pi", "1π"),
+        ("c - 5*pi/6", "5π6"),
+        ("-pi*c", "π"),
+        ("c**(2*pi)", "2π"),
+        ("9.42*c", "9.42"),
+        ("3.14159*c", "3.14159"),
+    ],
+)
+def test_a_multiple_of_pi_is_written_as_one_and_no_other_number_is(text, shown):
+    formula = parse(text, NAMES)
+    assert shown in re.sub("<[^>]*>|&#8290;|·", "", mathml(formula))
+    assert value(formula) == pytest.approx(formula.evaluate(VALUES), rel=1e-14)
 
 
 def test_functions_of_two_and_those_of_the_list_are_written_as_calls():

@@ -124,7 +124,7 @@ test("a system of one's own: its texts, parameters and slow variables, kept whil
   const one = wired({values: {...wired().root.explorer.values, z3: 0, z4: 0}}, FIRST, {sessionStorage: memory(kept)}), {symbols} = tools
   assert.equal(one.find(".slow-controls").hidden, true)
   assert.equal(one.root.classList.contains("not-normal"), false)
-  assert.equal(one.find(".system-note").textContent, "thm:x. Normal form.")
+  assert.equal(one.find(".system-note").textContent, "Friction of a disc. Normal form.")
   type(one, "select.system", "own")
   one.tick(20)
   assert.deepEqual(asked(one), [{texts: {U1: "c*c"}, parameters: {}, ranges: {}, system: "own"}])
