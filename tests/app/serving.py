@@ -20,9 +20,12 @@ class Address(str):
 
 
 @contextmanager
-def serving(*options, command=("-m", "codim2_app.server.cli"), environment=os.environ, user=None, log=None):
+def serving(
+    *options, command=("-m", "codim2_app.server.cli"), environment=os.environ, user=None, log=None,
+    python=sys.executable,
+):  # fmt: skip
     """Yield the address of a warm server on a free port; what it logs goes to a file, if one is given."""
-    whole = [sys.executable, *command, "serve", "--port", "0", *options]
+    whole = [python, *command, "serve", "--port", "0", *options]
     with_output = {**environment, "PYTHONUNBUFFERED": "1"}
     with nullcontext(subprocess.STDOUT) if log is None else open(log, "w") as logged:
         process = subprocess.Popen(whole, stdout=subprocess.PIPE, stderr=logged, text=True, env=with_output, user=user)
