@@ -14,7 +14,7 @@ from tests.app.serving import serving
 from tests.benchmarks import app_load
 from tests.benchmarks.bokeh_wire import Wire
 
-AT_ONCE = 8  # visitors: one after the other they would wait for their own machine most of the time
+AT_ONCE = 4  # visitors: one after the other they would wait for their own machine most of the time
 PLATEAU = 40e6  # bytes by which what is held after a thousand visits may exceed what is held after a hundred
 
 
