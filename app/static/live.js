@@ -33,7 +33,7 @@ function draw() {
   document.documentElement.style.cssText = `background:${theme.page};color:${theme.ink}`
   const [left, right, bottom, top] = settings.seen
   const width = Math.min(SIDE, document.body.clientWidth), scale = width / (right - left), height = scale * (top - bottom)
-  const ratio = window.devicePixelRatio || 1
+  const ratio = window.devicePixelRatio
   canvas.width = Math.round(width * ratio)
   canvas.height = Math.round(height * ratio)
   canvas.style.width = `${width}px`

@@ -17,7 +17,7 @@ export class Ball {
   }
 
   show(_, at) {
-    const canvas = this.canvas, ratio = devicePixelRatio || 1, w = canvas.clientWidth, h = canvas.clientHeight
+    const canvas = this.canvas, ratio = devicePixelRatio, w = canvas.clientWidth, h = canvas.clientHeight
     if (!w || !this.t) return
     canvas.width = Math.round(w * ratio); canvas.height = Math.round(h * ratio)
     const g = canvas.getContext("2d"), style = getComputedStyle(this.root), colour = (name) => style.getPropertyValue(`--${name}`).trim()

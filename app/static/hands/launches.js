@@ -11,10 +11,9 @@ const LONGEST_NAME = 24
 /** @param {string} text @returns {Launch[]} */
 export function readLaunches(text) {
   return text.split(";").filter((entry) => entry.trim()).map((entry) => {
-    const at = entry.indexOf(":")
-    const place = at < 0 ? entry : entry.slice(0, at)
+    const [place, name = ""] = entry.split(/:(.*)/s) // at the first colon
     const [x, y, hidden] = place.split(",")
-    return {x: Number(x), y: Number(y), hidden: hidden?.trim() === "-", name: at < 0 ? "" : entry.slice(at + 1).trim()}
+    return {x: Number(x), y: Number(y), hidden: hidden?.trim() === "-", name: name.trim()}
   })
 }
 

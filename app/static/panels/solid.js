@@ -76,7 +76,7 @@ class Stack {
   paint() {
     if (this.box.hidden || !this.canvas.clientWidth) return
     this.canvas.classList.toggle("stack", this.view === "stack")
-    const ratio = devicePixelRatio || 1, w = this.canvas.clientWidth, h = this.canvas.clientHeight
+    const ratio = devicePixelRatio, w = this.canvas.clientWidth, h = this.canvas.clientHeight
     if (this.canvas.width !== Math.round(w * ratio) || this.canvas.height !== Math.round(h * ratio)) { this.canvas.width = Math.round(w * ratio); this.canvas.height = Math.round(h * ratio) }
     const g = this.g = this.canvas.getContext("2d")
     g.setTransform(ratio, 0, 0, ratio, 0, 0)

@@ -20,6 +20,14 @@ test("typing on changes the entry that it began, another beginning makes another
   assert.deepEqual([current, list.map(({id}) => id), list[0].values.parameters], ["a", ["a"], {k: 2}])
 })
 
+test("the same texts of another kind of system are another entry, and so is what is typed of it", () => {
+  const typed = {...own("-c*2"), system: "typed"}, first = noted([], "", "own", own("-c*2"), "a").list
+  const both = noted(first, "", "typed", typed, "b")
+  assert.deepEqual([both.current, both.list.map(({id, kind}) => `${id} ${kind}`)], ["b", ["b typed", "a own"]])
+  const after = noted(first, "a", "typed", {...own("-c*3"), system: "typed"}, "c")
+  assert.deepEqual([after.current, after.list.map(({id, kind}) => `${id} ${kind}`)], ["c", ["c typed", "a own"]])
+})
+
 test("what has a name is not typed over", () => {
   const list = named(noted([], "", "own", own("-c*2"), "a").list, "a", "  mine  ")
   assert.equal(list[0].name, "mine")
@@ -29,6 +37,7 @@ test("what has a name is not typed over", () => {
 })
 
 test("the list is bounded: the oldest without a name goes, then the oldest", () => {
+  assert.equal(MOST, 24)
   const full = many(MOST)
   assert.deepEqual(noted(full, "", "own", own("new"), "n").list.map(({id}) => id), ["n", ...full.slice(0, -1).map(({id}) => id)])
   const last = full.map((one, i) => i > 2 ? {...one, name: "kept"} : one)

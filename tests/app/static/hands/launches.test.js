@@ -10,6 +10,7 @@ test("launched orbits are written and read again", () => {
     {x: 0.3, y: 0.2, hidden: false, name: ""}, {x: 1.5, y: -0.1, hidden: true, name: ""}, {x: -1, y: 0.25, hidden: false, name: "slow one"},
   ])
   assert.equal(writeLaunches(launches), text)
+  assert.deepEqual(readLaunches("0.5,1: a:b ").map(({x, y, name}) => [x, y, name]), [[0.5, 1, "a:b"]]) // typed into a link
   assert.deepEqual(readLaunches(""), [])
   assert.equal(writeLaunches([]), "")
 })
