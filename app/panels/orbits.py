@@ -9,6 +9,7 @@ import numpy as np
 
 from codim2_core.layer_problem.hemisphere import scaling_from_disc
 from codim2_core.motion.regularised import simulate
+from codim2_core.numerics.angle_along import LEAST_RADIUS, angle_along
 from codim2_core.orbits.in_time import in_time
 from codim2_core.psi.function import Psi
 from codim2_core.systems.kinds import AtZ
@@ -91,11 +92,12 @@ def regularised(
     drawn = run.drawn()
     x, y = drawn.states[:, 0] / unit, drawn.states[:, 1] / unit
     rho = np.hypot(x, y)
+    angle = angle_along(x, y, LEAST_RADIUS * (1.0 if fast else eps))
     height = np.hypot(*drawn.points.T) if fast else rho
     return {
         "eps": eps,
         "t": short(drawn.times / unit),
-        "states": [short(column) for column in (x, y, np.unwrap(np.arctan2(y, x)), height, *drawn.states[:, 2:].T)],
+        "states": [short(column) for column in (x, y, angle, height, *drawn.states[:, 2:].T)],
         "picture": [short(column) for column in drawn.points.T],
         "phases": [[p.kind, p.t_start / unit, p.t_end / unit, p.reason] for p in run.phases],
     }

@@ -14,6 +14,7 @@ from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.regularised import LARGEST_EPS, SMALLEST_EPS, simulate
 from codim2_core.motion.result import Simulation
 from codim2_core.motion.rolling import rolling
+from codim2_core.numerics.angle_along import LEAST_RADIUS, angle_along
 from codim2_core.psi.function import Psi
 
 from ..frame.draft import Draft
@@ -95,7 +96,7 @@ def followed(
 def curves(run: Simulation) -> dict[str, Any]:
     """Return a motion over time: x, y, its angle and radius in the picture, the slow variables; and its phases."""
     drawn = run.drawn()
-    angle, radius = np.unwrap(np.arctan2(drawn.points[:, 1], drawn.points[:, 0])), np.hypot(*drawn.points.T)
+    angle, radius = angle_along(*drawn.points.T, LEAST_RADIUS), np.hypot(*drawn.points.T)
     x, y, *z = drawn.states.T
     return {
         "t": short(drawn.times),

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..layer_problem.hemisphere import disc_from_scaling, e_psi, outside_flow, scaling_from_disc
+from ..numerics.angle_along import LEAST_RADIUS, angle_along
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem, AtZ
 from .seeds import checked_seeds
@@ -96,7 +97,7 @@ def in_time(system: AnySystem, psi: Psi, seed: ArrayLike, span: tuple[float, flo
     back, ahead = (half(at, psi, start, end) for end in (first, last))
     columns = [np.concatenate([b[:0:-1], a]) for b, a in zip(back, ahead, strict=True)]
     time, points, xy, r = columns
-    return InTime(radius < 1.0, time, xy, np.unwrap(np.arctan2(points[:, 1], points[:, 0])), r, points)
+    return InTime(radius < 1.0, time, xy, angle_along(*points.T, LEAST_RADIUS), r, points)
 
 
 def _on_hemisphere(at: AtZ, psi: Psi, start: Array, end: float) -> tuple[Array, Array, Array, Array]:

@@ -1,0 +1,31 @@
+"""The angle along a curve in the plane, without jumps; near the middle, where there is none, the last one is kept."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+LEAST_RADIUS = 1e-6  # of the picture: nearer to its middle a motion that is drawn is rounding
+
+
+def angle_along(x: Array, y: Array, least: float) -> Array:
+    """Return the angle of each point of a curve, which changes by less than pi from one to the next.
+
+    Parameters
+    ----------
+    x, y : ndarray (k,)
+    least : float
+        Distance from the origin below which a point is rounding and has no angle: it gets that of the point before, a
+        curve that begins so the first there is, and one that is all so 0.
+
+    Returns
+    -------
+    ndarray (k,)
+    """
+    known = np.flatnonzero(np.hypot(x, y) >= least)
+    if not len(known):
+        return np.zeros(len(x))
+    angle = np.unwrap(np.arctan2(y[known], x[known]))
+    return angle[np.maximum(np.searchsorted(known, np.arange(len(x)), side="right") - 1, 0)]

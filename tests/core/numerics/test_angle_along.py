@@ -1,0 +1,39 @@
+"""The angle along a curve: that of a spiral by its formula, and kept where the curve is rounding about the middle."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import codim2_core as c2
+from codim2_core.numerics.angle_along import angle_along
+
+
+@given(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), st.integers(2, 60))
+def test_a_spiral_turns_by_its_formula(first, rate, count):
+    turned = first + rate * np.arange(count)
+    radius = np.exp(-0.1 * np.arange(count))
+    angle = angle_along(radius * np.cos(turned), radius * np.sin(turned), 1e-6)
+    assert angle - angle[0] == pytest.approx(turned - turned[0], abs=1e-9)
+    assert np.cos(angle[0] - first) == pytest.approx(1.0)
+
+
+def test_where_it_is_rounding_the_angle_before_is_kept():
+    x = np.array([1e-17, 0.0, 1.0, 0.0, -1e-9, 1e-9, 0.0, -1.0, 0.0])
+    y = np.array([0.0, 1e-16, 0.0, 1.0, -1e-9, 1e-9, 0.0, 0.0, -1.0])
+    assert angle_along(x, y, 1e-6) == pytest.approx(np.pi * np.array([0, 0, 0, 0.5, 0.5, 0.5, 0.5, 1, 1.5]))
+    assert angle_along(1e-9 * x, 1e-9 * y, 1e-6).tolist() == [0.0] * 9
+
+
+def test_a_disc_at_rest_does_not_turn_in_the_picture():
+    """For eps > 0 it stays about (0, 0) once it rests: the angle climbed there by whole turns."""
+    from codim2_app.panels.typed_start import curves
+
+    system = c2.examples.spinning_disc()
+    for run in (
+        c2.simulate(system, c2.psi.constant(), 0.01, (1.0, 0.4), (0.0, 1.0), rtol=1e-6),
+        c2.simulate_nonsmooth(system, (1.0, 0.4), (0.0, 1.0), psi=c2.psi.constant(), rtol=1e-6),
+    ):
+        angle = np.array(curves(run)["states"][2])
+        assert np.abs(np.diff(angle)).max() < 0.5
+        assert 0.99 < angle[-1] < 0.5001 * np.pi  # from its limit direction to that in which C draws it
