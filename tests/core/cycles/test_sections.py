@@ -184,3 +184,14 @@ def test_where_none_returns_there_are_no_turns():
     rows, ways = many.turned(np.array([[*(height * x2[0]), height]]), FINE, np.array([False]))
     assert len(rows) == 0
     assert ways is None
+
+
+def test_turns_under_a_psi_of_each():
+    own = np.array([1.0, 2.0, 3.0, 4.0, 6.0])
+    many = _all(c2.psi.hill(2), 0, own)
+    ones = [_one(plane, c2.psi.hill(value), 0) for plane, value in zip(PLANES, own.tolist(), strict=True)]
+    starts = np.array([one.states(np.zeros(1))[0][0] for one in ones])
+    rows, ways = many.turned(starts, FINE, np.zeros(5, bool))
+    assert len(rows) > 2
+    for k, i in enumerate(rows):
+        np.testing.assert_allclose(ways.ends[k], path(ones[i], starts[i], FINE, False).end, rtol=1e-7, atol=1e-9)

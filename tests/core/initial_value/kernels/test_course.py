@@ -236,3 +236,14 @@ def test_which_of_two_sets_it_slides_on_is_told_with_a_psi_alone():
         (one,) = _followed(two, (x, 0.05, 0.0), 1.0, psi=None)
         assert one.onward == SLIP
         assert one.legs == ()
+
+
+def test_a_slide_ends_at_the_equator_whatever_its_set_does_beyond():
+    """C = (2 - sqrt(2 - z), 0) leaves the disc at z = 1, and has a fold at z = 2."""
+    system = System(U=("(c - 2)**2 - 2 + z1", "-s"), W=("1",))
+    (one,) = _followed(system, (-0.05, 0.0, 0.0), 3.0)
+    assert one.onward == WHOLE
+    assert [leg.kind for leg in one.legs] == [SLIP, SLIDE, LEAVE]
+    assert one.motion.times[one.legs[1].last] == pytest.approx(1.0, abs=1e-9)
+    assert one.legs[2].theta == pytest.approx(0.0, abs=1e-9)
+    assert one.motion.states[-1, 0] == pytest.approx(2.0, rel=1e-3)  # x' = z - 1

@@ -75,15 +75,22 @@ def test_an_angle_nearby_is_made_that_of_the_direction():
             assert math.isnan(_polished(S, 2, theta + 0.2))
 
 
-@pytest.mark.parametrize("line", [(0.0, 0.0), (0.6, 0.8), (-0.6, -0.8)])
+@pytest.mark.parametrize("line", [(0.0, 0.0), (0.8, 0.6), (-0.8, -0.6)])
 def test_a_straight_way_out_is_as_long_as_a_part_of_the_time(line):
-    """U = (0.3, 0.4), W = (2, -1): nothing turns."""
-    S, linear, square = placed(System(U=("0.3", "0.4"), W=("2", "-1")), (1.0, 2.0)), np.empty(4), np.empty(4)
-    h = leave(S, 2, *line, math.atan2(0.8, 0.6), 1e6, linear, square)
+    """U = (0.4, 0.3), W = (2, -1): nothing turns."""
+    S, linear, square = placed(System(U=("0.4", "0.3"), W=("2", "-1")), (1.0, 2.0)), np.empty(4), np.empty(4)
+    h = leave(S, 2, *line, math.atan2(0.6, 0.8), 1e6, linear, square)
     assert h == pytest.approx(START * 1e6, rel=1e-12)
-    np.testing.assert_allclose(linear, h * np.array([0.3, 0.4, 2.0, -1.0]), rtol=1e-12)
+    np.testing.assert_allclose(linear, h * np.array([0.4, 0.3, 2.0, -1.0]), rtol=1e-12)
     np.testing.assert_array_equal(square, 0.0)
-    assert leave(S, 2, *line, math.atan2(-0.8, -0.6), 1e6, linear, square) == 0.0  # there it leads inward
+    assert leave(S, 2, *line, math.atan2(-0.6, -0.8), 1e6, linear, square) == 0.0  # there it leads inward
+
+
+def test_along_a_direction_that_repels_on_the_equator_nothing_leaves_by_itself():
+    """lambda_rho = 2 and lambda_theta = 3 at (1, 0); in a line it is the way out all the same."""
+    S = placed(System(U=("2*c", "5*s"), W=("1",)), (0.0,))
+    assert leave(S, 1, 0.0, 0.0, 0.0, 1.0, np.empty(3), np.empty(3)) == 0.0
+    assert leave(S, 1, 1.0, 0.0, 0.0, 1.0, np.empty(3), np.empty(3)) == START
 
 
 def test_a_way_out_turns_as_the_field_outside_and_z_make_it():
