@@ -11,7 +11,6 @@ export class Pad {
   constructor(svg, onMove, onRegion) {
     this.svg = svg
     this.redrawn = /** @type {(() => void) | null} */ (null) // called when all was drawn anew
-    this.box = [[-1, 1], [-1, 1]]
     this.plot = new Chart(svg, {
       aspect: (width) => (this.chart?.flat ? Math.min(width, 130) : width),
       onMove: (x, y) => onMove([x, y].map((value, i) => rounded(value, this.box[i]))),

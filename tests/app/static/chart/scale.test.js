@@ -40,6 +40,7 @@ test("ticks are the round values of a span", () => {
   assert.deepEqual(ticks([-Infinity, 1], 5), {values: [], step: 0})
   assert.deepEqual(wordedTicks([0.5, 2], 4), [[0.5, "0.5"], [1, "1.0"], [1.5, "1.5"], [2, "2.0"]])
   assert.deepEqual(wordedTicks([-2000000, 2000000], 3).map(([, word]) => word), ["−2e6", "0", "2e6"])
+  assert.deepEqual(wordedTicks([0, 1e6], 3).map(([, word]) => word), ["0", "5e5", "1e6"])
   assert.deepEqual(wordedTicks([-20, 20], 3).map(([, word]) => word), ["−20", "0", "20"])
 })
 

@@ -22,6 +22,7 @@ test("a name cannot break the text, nor can a number be long", () => {
 })
 
 test("one more than can be kept lets the oldest go", () => {
+  assert.equal(MOST, 12) // as app/state/launches.py
   let launches = []
   for (let i = 0; i < MOST + 2; i++) launches = launchedAt(launches, i / 10, 0)
   assert.equal(launches.length, MOST)
