@@ -92,7 +92,7 @@ def regularised(
     drawn = run.drawn()
     x, y = drawn.states[:, 0] / unit, drawn.states[:, 1] / unit
     rho = np.hypot(x, y)
-    angle = angle_along(x, y, LEAST_RADIUS * (1.0 if fast else eps))
+    angle = angle_along(np.column_stack([x, y]), LEAST_RADIUS * (1.0 if fast else eps))
     height = np.hypot(*drawn.points.T) if fast else rho
     return {
         "eps": eps,

@@ -96,7 +96,7 @@ def followed(
 def curves(run: Simulation) -> dict[str, Any]:
     """Return a motion over time: x, y, its angle and radius in the picture, the slow variables; and its phases."""
     drawn = run.drawn()
-    angle, radius = angle_along(*drawn.points.T, LEAST_RADIUS), np.hypot(*drawn.points.T)
+    angle, radius = angle_along(drawn.points, LEAST_RADIUS), np.hypot(*drawn.points.T)
     x, y, *z = drawn.states.T
     return {
         "t": short(drawn.times),

@@ -10,12 +10,12 @@ Array = NDArray[np.float64]
 LEAST_RADIUS = 1e-6  # of the picture: nearer to its middle a motion that is drawn is rounding
 
 
-def angle_along(x: Array, y: Array, least: float) -> Array:
+def angle_along(points: Array, least: float) -> Array:
     """Return the angle of each point of a curve, which changes by less than pi from one to the next.
 
     Parameters
     ----------
-    x, y : ndarray (k,)
+    points : ndarray (k, 2)
     least : float
         Distance from the origin below which a point is rounding and has no angle: it gets that of the point before, a
         curve that begins so the first there is, and one that is all so 0.
@@ -24,8 +24,8 @@ def angle_along(x: Array, y: Array, least: float) -> Array:
     -------
     ndarray (k,)
     """
-    known = np.flatnonzero(np.hypot(x, y) >= least)
+    known = np.flatnonzero(np.hypot(points[:, 0], points[:, 1]) >= least)
     if not len(known):
-        return np.zeros(len(x))
-    angle = np.unwrap(np.arctan2(y[known], x[known]))
-    return angle[np.maximum(np.searchsorted(known, np.arange(len(x)), side="right") - 1, 0)]
+        return np.zeros(len(points))
+    angle = np.unwrap(np.arctan2(points[known, 1], points[known, 0]))
+    return angle[np.maximum(np.searchsorted(known, np.arange(len(points)), side="right") - 1, 0)]

@@ -97,7 +97,7 @@ def in_time(system: AnySystem, psi: Psi, seed: ArrayLike, span: tuple[float, flo
     back, ahead = (half(at, psi, start, end) for end in (first, last))
     columns = [np.concatenate([b[:0:-1], a]) for b, a in zip(back, ahead, strict=True)]
     time, points, xy, r = columns
-    return InTime(radius < 1.0, time, xy, angle_along(*points.T, LEAST_RADIUS), r, points)
+    return InTime(radius < 1.0, time, xy, angle_along(points, LEAST_RADIUS), r, points)
 
 
 def _on_hemisphere(at: AtZ, psi: Psi, start: Array, end: float) -> tuple[Array, Array, Array, Array]:

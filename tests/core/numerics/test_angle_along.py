@@ -13,16 +13,17 @@ from codim2_core.numerics.angle_along import angle_along
 def test_a_spiral_turns_by_its_formula(first, rate, count):
     turned = first + rate * np.arange(count)
     radius = np.exp(-0.1 * np.arange(count))
-    angle = angle_along(radius * np.cos(turned), radius * np.sin(turned), 1e-6)
+    angle = angle_along(np.column_stack([radius * np.cos(turned), radius * np.sin(turned)]), 1e-6)
     assert angle - angle[0] == pytest.approx(turned - turned[0], abs=1e-9)
     assert np.cos(angle[0] - first) == pytest.approx(1.0)
 
 
 def test_where_it_is_rounding_the_angle_before_is_kept():
-    x = np.array([1e-17, 0.0, 1.0, 0.0, -1e-9, 1e-9, 0.0, -1.0, 0.0])
-    y = np.array([0.0, 1e-16, 0.0, 1.0, -1e-9, 1e-9, 0.0, 0.0, -1.0])
-    assert angle_along(x, y, 1e-6) == pytest.approx(np.pi * np.array([0, 0, 0, 0.5, 0.5, 0.5, 0.5, 1, 1.5]))
-    assert angle_along(1e-9 * x, 1e-9 * y, 1e-6).tolist() == [0.0] * 9
+    x = [1e-17, 0.0, 1.0, 0.0, -1e-9, 1e-9, 0.0, -1.0, 0.0]
+    y = [0.0, 1e-16, 0.0, 1.0, -1e-9, 1e-9, 0.0, 0.0, -1.0]
+    points = np.column_stack([x, y])
+    assert angle_along(points, 1e-6) == pytest.approx(np.pi * np.array([0, 0, 0, 0.5, 0.5, 0.5, 0.5, 1, 1.5]))
+    assert angle_along(1e-9 * points, 1e-6).tolist() == [0.0] * 9
 
 
 def test_a_disc_at_rest_does_not_turn_in_the_picture():
