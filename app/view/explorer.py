@@ -64,6 +64,8 @@ class ExplorerView(JSComponent):
         Values of the page's address that could not be used; shown beside their controls.
     look : Look, optional
         What of the picture is seen, and what an embedded page shows.
+    figure : Figure, optional
+        Of Bokeh's, made by `make_figure` beforehand.
     **params
         Of any Panel component: sizing_mode, width, height, margin, styles, stylesheets, …; and values of the state.
 
@@ -95,6 +97,7 @@ class ExplorerView(JSComponent):
         page: bool = False,
         errors: tuple[InputError, ...] = (),
         look: Look | None = None,
+        figure: Any = None,
         **params: Any,
     ) -> None:
         self._look = look or Look()
@@ -116,7 +119,7 @@ class ExplorerView(JSComponent):
         layout = {**params, "stylesheets": [*own, *params.get("stylesheets", ())]}
         if not {"sizing_mode", "width"} & params.keys():
             layout["sizing_mode"] = "stretch_width"
-        picture = pn.pane.Bokeh(make_figure(), sizing_mode="stretch_both")
+        picture = pn.pane.Bokeh(figure or make_figure(), sizing_mode="stretch_both")
         opening = self._opening(page)
         drawn = {name: value for name, value in self.state.values().items() if name in SHARED}
         linked = {name: value for name, value in given.items() if value is not values[name]}
