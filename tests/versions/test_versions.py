@@ -47,7 +47,7 @@ def pip(folder, *arguments):
 
 @pytest.mark.parametrize("which", ["least", "newest"])
 def test_the_inner_loop_passes_with(which, tmp_path):
-    dependencies = PROJECT["dependencies"]
+    dependencies = PROJECT["dependencies"] + PROJECT["optional-dependencies"]["figures"]
     wanted = map(least, dependencies) if which == "least" else dependencies
     pip(tmp_path / "env", "install", *wanted, *RUNNING)
     python = pip(tmp_path / "env", "install", "--no-deps", str(source(tmp_path / "source")))
