@@ -200,3 +200,14 @@ test("the second shows the part of the picture that the first shows, and all of 
   assert.deepEqual([opens({}).get("embed"), opens({}).get("seen")], ["1", null])
   assert.equal(opens({look: {embed: false, controls: [], seen: [0, 1, -0.5, 0.5]}}).get("seen"), "0,1,-0.5,0.5")
 })
+
+test("an explorer is the second portrait only in the frame that the first made: embedded, in its own page, and of that name", () => {
+  const parent = {postMessage: () => {}}
+  const second = (config, framed) => wired(config, HEADER, {framed, location: {origin: "http://h", search: "", pathname: "/"}}).root.classList.contains("seconded")
+  const embedded = {look: {embed: true, controls: [], seen: []}}
+  assert.equal(second(embedded, {parent, name: "codim2-second"}), true)
+  assert.equal(second({}, {parent, name: "codim2-second"}), false)
+  assert.equal(second({...embedded, page: false}, {parent, name: "codim2-second"}), false)
+  assert.equal(second(embedded, {name: "codim2-second"}), false)
+  assert.equal(second(embedded, {parent, name: "another"}), false)
+})

@@ -22,9 +22,9 @@ const short = (value) => typeof value === "number" ? Number(value.toFixed(2)) + 
 
 /**
  * A new page; what modules find in the global scope belongs to it from then on.
- * @param {string} body its markup @param {Record<string, any>} more of the global scope
+ * @param {string} body its markup @param {Record<string, any>} more of the global scope; `framed` is what a window in a frame has
  */
-export function page(body = "", more = {}) {
+export function page(body = "", {framed = {}, ...more} = {}) {
   const {window, document} = parseHTML(`<!doctype html><html><body>${body}</body></html>`)
   let now = 0, number = 0
   Math.random = () => 0.25 // every time the same
@@ -47,6 +47,7 @@ export function page(body = "", more = {}) {
     getComputedStyle: () => ({getPropertyValue: (name) => `${name.slice(2)} `}), matchMedia: () => ({matches: false, ...listens}),
     localStorage: storage({"codim2-welcome": "seen"}), sessionStorage: storage(), structuredClone: (value) => JSON.parse(JSON.stringify(value)), ...more,
   }
+  Object.assign(given.window, {parent: given.window, name: "", ...framed})
   for (const [name, value] of Object.entries(given)) Object.defineProperty(global, name, {value, writable: true, configurable: true})
   return {
     window: given.window, document, heard,
