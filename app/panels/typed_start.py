@@ -14,7 +14,7 @@ from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.regularised import LARGEST_EPS, SMALLEST_EPS, simulate
 from codim2_core.motion.result import Simulation
 from codim2_core.motion.rolling import rolling
-from codim2_core.numerics.angle_along import LEAST_RADIUS, angle_along
+from codim2_core.orbits.angle_along import LEAST_RADIUS, angle_along
 from codim2_core.psi.function import Psi
 
 from ..frame.draft import Draft

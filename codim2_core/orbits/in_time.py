@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..layer_problem.hemisphere import disc_from_scaling, e_psi, outside_flow, scaling_from_disc
-from ..numerics.angle_along import LEAST_RADIUS, angle_along
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem, AtZ
+from .angle_along import LEAST_RADIUS, angle_along
 from .seeds import checked_seeds
 
 Array = NDArray[np.float64]

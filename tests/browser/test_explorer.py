@@ -74,7 +74,7 @@ def test_each_preset_shows_its_portrait(walked, portrait):
     assert explorer.find(".portrait-case").text_content() == (f"Case {case}" if case else "")
     if kind:
         assert kind in explorer.find(".critical-table").text_content()
-    assert portrait["label"] in explorer.find(".preset-note").text_content()
+    assert portrait["label"].lower() in explorer.find(".preset-note").text_content().lower()
 
 
 def test_fast_drag_ends_on_the_last_value_and_queues_nothing(explorer):
