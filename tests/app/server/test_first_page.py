@@ -180,7 +180,8 @@ def test_a_page_its_session_and_the_health_of_its_server_are_of_one_edition(addr
         await wire.close()
         return json.dumps(wire.document).replace(" ", "")
 
-    assert f'["edition","{edition}"]' in asyncio.run(talk())
+    with ThreadPoolExecutor(1) as pool:
+        assert f'["edition","{edition}"]' in pool.submit(asyncio.run, talk()).result()
     assert json.loads(opened(address + "/health")[0])["edition"] == edition
 
 

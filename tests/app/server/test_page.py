@@ -1,6 +1,7 @@
 """How a session is opened."""
 
 import asyncio
+from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 from types import SimpleNamespace
 
@@ -24,6 +25,7 @@ def test_between_the_parts_of_an_opening_others_have_their_turn(monkeypatch):
         done.append("models")
         await beside
 
-    asyncio.run(opening())
+    with ThreadPoolExecutor(1) as pool:  # a browser's loop may run in this thread
+        pool.submit(asyncio.run, opening()).result()
     parts = [done.index(part) for part in ("figure", "explorer with a figure", "models")]
     assert all("other" in done[first:second] for first, second in pairwise(parts))

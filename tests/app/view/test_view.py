@@ -140,7 +140,7 @@ def test_the_page_says_which_paper_it_shows_and_what_its_words_mean():
     assert scene["critical"][0].kind.startswith("stable")
 
 
-# HoloViews leaves it out by `catch_warnings`, which a thread of a test before undoes when it leaves its own (once in CI)
+# HoloViews leaves it out by `catch_warnings`, which a thread of a test before undoes when it leaves its own
 @pytest.mark.filterwarnings("ignore:No data for colormapping")
 def test_both_backends_of_holoviews_draw_equal_axes_with_the_papers_names():
     import codim2_app
