@@ -73,14 +73,19 @@ def mathml(expression: Expression, named: Mapping[Expression, str] = MappingProx
 
 
 def _number(value: float) -> Piece:
-    text = f"{abs(value):.12g}"
+    size = _size(abs(value))
+    return size if value >= 0.0 else (_MINUS + size[0], _SIGN)
+
+
+def _size(value: float) -> Piece:
+    text = f"{value:.12g}"
     if len(text) >= 12:  # more digits than anyone types
         for divisor in range(1, _LARGEST_DIVISOR + 1):
             for unit, write in ((math.pi, _by_pi), (1.0 / math.pi, _over_pi)):
-                times = round(abs(value) * divisor / unit)
-                if 0 < times <= _MOST and abs(abs(value) * divisor / unit - times) <= 8.0 * math.ulp(times):
-                    return (_MINUS + write(times, divisor)[0], _SIGN) if value < 0.0 else write(times, divisor)
-    return (f"<mn>{text}</mn>", _ATOM) if value >= 0.0 else (f"{_MINUS}<mn>{text}</mn>", _SIGN)
+                times = round(value * divisor / unit)
+                if 0 < times <= _MOST and abs(value * divisor / unit - times) <= 8.0 * math.ulp(times):
+                    return write(times, divisor)
+    return f"<mn>{text}</mn>", _ATOM
 
 
 def _by_pi(times: int, divisor: int) -> Piece:
