@@ -67,7 +67,7 @@ export class Panels {
     for (const box of this.boxes) box.addEventListener("pointerdown", () => hold(`${portrait.offsetHeight}px`))
     for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => hold(""))
     if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => this.reveal()).observe(this.strip)
-    // the strip is one row: what does not fit is drawn or rolled into view
+    // on narrow screens the strip is one row: what does not fit is drawn or rolled into view
     this.strip.addEventListener("wheel", (event) => {
       if (event.deltaX || this.strip.scrollWidth <= this.strip.clientWidth) return
       event.preventDefault()
