@@ -26,6 +26,7 @@ from ..state.controls import ExplorerState
 from ..state.links import Link, read_link
 from ..view import warmup
 from ..view.first_markup import page_markup
+from .giving_way import one_by_one
 from .process.garbage import asked
 
 TOKEN, MARKUP = "codim2-token", "<!-- codim2 markup -->"
@@ -58,17 +59,25 @@ def opening(query: Mapping[str, str]) -> Link:
 
 def markup_of(query: Mapping[str, str]) -> str:
     """Return the explorer's markup for an address, with its first picture; the same address is drawn once."""
-    key = tuple(sorted(query.items()))
-    kept = _pages.get(key)
+    kept = remembered(query)
     if kept is not None:
-        _pages.move_to_end(key)
         return kept
+    key = tuple(sorted(query.items()))
     markup, complete = page_markup(opening(query))
     if complete:
         _pages[key] = markup
         if len(_pages) > REMEMBERED:
             _pages.popitem(last=False)
     return markup
+
+
+def remembered(query: Mapping[str, str]) -> str | None:
+    """Return the markup for an address that has been drawn, or None."""
+    key = tuple(sorted(query.items()))
+    if key not in _pages:
+        return None
+    _pages.move_to_end(key)
+    return _pages[key]
 
 
 def skeleton_of(html: str) -> str | None:
@@ -127,7 +136,11 @@ class Page(DocHandler):
         self.set_header("Cache-Control", "no-store")
         self.set_header("Content-Type", "text/html")
         before, after = skeleton.replace(TOKEN, token).split(MARKUP)
-        self.finish(before + self._notice() + markup_of(query) + after)
+        markup = remembered(query)
+        if markup is None:
+            async with one_by_one(app):
+                markup = markup_of(query)
+        self.finish(before + self._notice() + markup + after)
 
     async def prepare(self) -> None:
         """Let what can wait stand back for the first page."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import logging
 import os
 import sys
@@ -11,34 +10,28 @@ from concurrent.futures import Executor
 from functools import partial
 from importlib.metadata import version
 from typing import Any
-from weakref import WeakKeyDictionary
 
 import panel as pn
-from bokeh.application.handlers.handler import Handler
-from bokeh.document import Document
 from panel.io.server import DocHandler, WSHandler
-from panel.io.state import set_curdoc
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.process import task_id
 from tornado.web import RequestHandler
 
 from ..docs.served import Docs, ToDocs
-from ..draw.figure import make_figure
 from ..frame.jobs import serve_with
 from ..frame.turns import Turns
 from ..frame.workers import Workers, processors
-from ..phrases import say
 from ..rooms.board import Board
 from ..rooms.rooms import EVERY, MOST_ROOMS, Rooms
 from ..rooms.rooms import serve_with as serve_rooms
-from ..state.cleaning import InputError
-from ..state.links import Link
 from ..view import warmup
 from ..view.explorer import ExplorerView
 from ..view.markup import address_of_script, edition, page_template
-from .first_page import Page, markup_of, opening
+from .first_page import Page, markup_of
 from .headers import transform
+from .openings import Ahead, query_of_the_page, view_of
 from .process import garbage
+from .process.clock import keep_steady
 from .process.ports import listen_by_own, shared
 from .scripts import routes
 from .sockets import MOST_SENT, PromptSocket, untraced, views
@@ -50,44 +43,17 @@ PRELOAD = ("codim2_app.server.worker",)
 #: after each of its kernels; by default they are 5 ms.
 SWITCH = 0.0005
 
+#: Seconds between looks for sessions whose pages have been closed: what they hold is searched for garbage till then.
+FORGOTTEN = 2
+
 TITLE = "Isolated codimension-2 discontinuity: explorer"
-
-
-class Ahead(Handler):
-    """Makes a session's figure, then its explorer, before Bokeh asks for its models: between them, others have frames.
-
-    Each takes 20 to 30 ms of processor time.
-    """
-
-    def modify_document(self, doc: Document) -> None:
-        """Leave this to `session`."""
-
-    async def on_session_created(self, session_context: Any) -> None:
-        """Make the explorer, and let others come."""
-        doc = session_context._document  # noqa: SLF001 (as Panel does)
-        drawn = make_figure()
-        await asyncio.sleep(0)
-        with set_curdoc(doc):
-            _ahead[doc] = opened(opening(_query()), drawn)
-        await asyncio.sleep(0)
-
-
-_ahead: WeakKeyDictionary[Document, ExplorerView] = WeakKeyDictionary()
-
-
-def _query() -> dict[str, str]:
-    arguments = pn.state.session_args or {}
-    return {name: values[-1].decode("utf-8", "replace") for name, values in arguments.items() if values}
 
 
 def session() -> ExplorerView:
     """Return one session's explorer; the query of the page's address is its state."""
     doc = pn.state.curdoc
     assert doc is not None  # Bokeh's server calls this with a document
-    query = _query()
-    view = _ahead.pop(doc, None)
-    if view is None:  # a session that Bokeh makes without telling of it
-        view = opened(opening(query))
+    view = view_of(doc)
     # The page says itself when the connection is lost, and loads itself again: see connection.js.
     doc.config.update(reconnect_session=False, notify_connection_status=False, notifications=None)
     garbage.begun()
@@ -96,17 +62,9 @@ def session() -> ExplorerView:
     views[doc] = view
     doc.template = page_template()  # type: ignore[assignment]  # Bokeh takes a template's text as well
     doc.template_variables["explorer_script"] = address_of_script()
-    doc.template_variables["explorer_markup"] = _Markup(query)  # for Bokeh's own handler, which makes a session first
+    # Bokeh's own handler, which makes a session first, writes it
+    doc.template_variables["explorer_markup"] = _Markup(query_of_the_page())
     return view
-
-
-def opened(link: Link, drawn: Any = None) -> ExplorerView:
-    """Return the explorer of an address, with a figure if one has been made, or the first one and a sentence."""
-    try:
-        return ExplorerView(link.state, page=True, errors=link.errors, look=link.look, figure=drawn)
-    except Exception:  # a visitor sees the explorer and a sentence; the log has the rest
-        logging.getLogger(__name__).exception("an address could not be opened")
-        return ExplorerView(page=True, errors=(InputError("", say("address failed")),))
 
 
 class _Markup:
@@ -222,6 +180,7 @@ def make_server(
     board = Board(processes)
     with shared(processes):
         server = _server(port, address, allow_origin, processes, prefix, options)
+    keep_steady(server.io_loop)
     listen_by_own(server, address)
     board.belong(task_id() or 0)
     _keep(Rooms(board, rooms))
@@ -236,7 +195,7 @@ def make_server(
     logging.getLogger("bokeh.server.protocol_handler").addFilter(untraced)
     if not warmup_now:
         server.io_loop.add_callback(begin)
-    server.io_loop.add_callback(garbage.keep_to_the_young)
+    server.io_loop.add_callback(garbage.begin)
     server.io_loop.add_callback(PeriodicCallback(garbage.look, 1000 * garbage.EVERY).start)
     if os.getpid() != parent:
         _stop_with(parent, server.io_loop)
@@ -308,5 +267,5 @@ def _server(
         prefix=prefix,
         compress_response=True,
         start=False,
-        **options,
+        **{"check_unused_sessions_milliseconds": 1000 * FORGOTTEN, **options},
     )

@@ -21,6 +21,7 @@ from tornado.locks import Lock
 from tornado.websocket import WebSocketClosedError
 
 from ..phrases import say
+from .giving_way import one_by_one
 from .process.garbage import asked
 
 #: Bytes of one message from a browser, over all its parts: a request is a few hundred.
@@ -76,19 +77,23 @@ class PromptSocket(WSHandler):
         self.set_nodelay(True)
 
     async def _async_open(self, token: str) -> None:
-        """Join the page to its session; one that is closed meanwhile would count as open for ever."""
-        if self._gone:
-            return
-        await super()._async_open(token)
-        if self._gone:
-            self.on_close()
+        """Join the page, in its turn, to its session; one that is closed meanwhile would count as open for ever."""
+        async with one_by_one(self.application):
+            if self._gone:
+                return
+            await super()._async_open(token)
+            if self._gone:
+                self.on_close()
 
     def on_close(self) -> None:
         """End what was computed for this page alone."""
         self._gone = self.connection is None
         session = None if self.connection is None else self.connection.session
         super().on_close()
-        if session is not None and not session.connection_count and (view := views.get(session.document)):
+        if session is None or session.connection_count:
+            return
+        session.request_expiration()  # a page that has lost its connection begins a new one
+        if view := views.get(session.document):
             view.leave()
 
     async def on_message(self, fragment: str | bytes) -> None:

@@ -114,6 +114,7 @@ class ExplorerView(JSComponent):
         self.frames = Frames(self.state, system, ready, errors, budget)
         self.answers = Answers(self.frames)
         self._cell: Cell | None = None
+        self._prepared: Any = None
         self._first_values = self.state.values()
         own = [] if page else [(STATIC / "notebook.css").read_text(encoding="utf-8")]
         layout = {**params, "stylesheets": [*own, *params.get("stylesheets", ())]}
@@ -164,12 +165,19 @@ class ExplorerView(JSComponent):
         markup = explorer_html(self.state, words, ("system",) if given else (), self._look)
         return {**told, "markup": markup}
 
+    def prepare(self, doc: Document) -> None:
+        """Make the Bokeh model of a page beforehand: the next `get_root` hands it over."""
+        self._prepared = self.get_root(doc)
+
     def get_root(self, doc: Any = None, comm: Any = None, preprocess: bool = True) -> Any:
         """Return the Bokeh model, without Panel's style sheets, which come from a public host in some set-ups.
 
         (A page that one server process wrote and another one answers; reused sessions; notebooks.) The explorer's
         own style sheet is in its markup.
         """
+        if self._prepared is not None:
+            root, self._prepared = self._prepared, None
+            return root
         root = super().get_root(doc, comm, preprocess)
         # A bundle is run as it is; else the browser would compile the script, which it reads, for 130 ms.
         if self.config["page"] and not _is_static(doc, comm):

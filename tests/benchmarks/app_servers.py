@@ -8,6 +8,7 @@ import json
 import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 
@@ -48,6 +49,22 @@ def forgetful(port: int) -> None:
     server._tornado.add_handlers(r".*", [("/left", Left)])
     server.start()
     server.io_loop.start()
+
+
+def jumping(port: int, offset: str) -> None:
+    """Serve as `forgetful` does, by a clock that is late or early by the seconds that a file holds."""
+    import datetime
+
+    real = time.time
+
+    class Told(datetime.datetime):
+        @classmethod
+        def now(cls, tz: Any = None) -> datetime.datetime:
+            return datetime.datetime.fromtimestamp(time.time(), tz)
+
+    time.time = lambda: real() + float(Path(offset).read_text() or 0)
+    datetime.datetime = Told
+    forgetful(port)
 
 
 def queued(thread: str = "/proc/thread-self/schedstat") -> float:
@@ -164,6 +181,6 @@ if __name__ == "__main__":
     kind, port, *more = sys.argv[1:]
     kinds: dict[str, Callable[..., None]] = {
         "explorer": explorer, "forgetful": forgetful, "bare": bare, "mathematics": mathematics,
-        "panel": panel, "watched": watched,
+        "panel": panel, "watched": watched, "jumping": jumping,
     }  # fmt: skip
     kinds[kind](int(port), *more)

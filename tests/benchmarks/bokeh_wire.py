@@ -22,7 +22,7 @@ def encoded(value: Any) -> Any:
 def decoded(value: Any) -> Any:
     """Read nested dicts and lists as Bokeh's protocol writes them."""
     if isinstance(value, dict) and value.get("type") == "map":
-        return {key: decoded(item) for key, item in value["entries"]}
+        return {key: decoded(item) for key, item in value.get("entries", ())}
     return [decoded(item) for item in value] if isinstance(value, list) else value
 
 

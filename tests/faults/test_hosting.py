@@ -4,7 +4,6 @@ import asyncio
 import os
 import re
 import shutil
-import ssl
 import subprocess
 import sys
 import time
@@ -17,12 +16,13 @@ import pytest
 import yaml
 from codim2_app.draw.packing import unpack
 from codim2_app.server.settings import SETTINGS
-from tornado.httpclient import HTTPClientError, HTTPRequest
-from tornado.websocket import WebSocketClosedError, websocket_connect
+from tornado.httpclient import HTTPClientError
+from tornado.websocket import WebSocketClosedError
 
 from tests.app.serving import serving
 from tests.benchmarks.app_load import free_port
 from tests.benchmarks.bokeh_wire import Wire
+from tests.faults.proxied import SLOW_FLOW, slow_flow_at
 
 ROOT = Path(__file__).parents[2]
 CONFIGURATION = ROOT / "app" / "docs" / "text" / "hosting" / "nginx.conf"
@@ -184,28 +184,6 @@ class Shell:
         self._log.close()
 
 
-async def through_tls(port):
-    """Open a page behind the proxy; return the slow flow of its frame."""
-    trusting = ssl.create_default_context()
-    trusting.check_hostname, trusting.verify_mode = False, ssl.CERT_NONE
-    with urlopen(f"https://localhost:{port}{PREFIX}/?a=-1&b=1&d=-1&f1=0", context=trusting) as answer:
-        page = answer.read().decode()
-    assert 'role="alert" style' not in page  # the name is allowed
-    token = re.search(r'"token":"([^"]+)"', page)[1]
-    headers = {"Sec-WebSocket-Protocol": f"bokeh, {token}", "Origin": f"https://localhost:{port}"}
-    address = f"wss://localhost:{port}{PREFIX}/ws"
-    wire = Wire(await websocket_connect(HTTPRequest(address, headers=headers, validate_cert=False)))
-    try:
-        await wire.read()
-        await wire.send("PULL-DOC-REQ", {})
-        _, content, _ = await wire.read()
-        wire.root = content["doc"]["roots"][0]["id"]
-        header, _ = unpack(await wire.frame(1))
-    finally:
-        await wire.close()  # also where its server has ended
-    return header["slow_flow"]
-
-
 @needs_nginx
 @pytest.mark.skipif(shutil.which("openssl") is None, reason="there is no openssl to make a certificate")
 def test_the_commands_of_the_page_bring_tls_two_replicas_below_a_path_and_a_rolling_restart(tmp_path):
@@ -213,6 +191,7 @@ def test_the_commands_of_the_page_bring_tls_two_replicas_below_a_path_and_a_roll
     below = re.search(r'`(sed -e "s\|location.*? -e)` in place of `sed`', PAGE.read_text(encoding="utf-8"))[1]
     begin = begin.replace("sed ", f"{below} ", 1).replace("nginx -s reload", "nginx")  # none runs yet
     shell = Shell(tmp_path)
+    address = f"https://localhost:{shell.ports[443]}{PREFIX}/"
     try:
         shell.begin(begin)
         assert until(shell.done)
@@ -222,10 +201,10 @@ def test_the_commands_of_the_page_bring_tls_two_replicas_below_a_path_and_a_roll
         opened = 0
         while not shell.done():
             with suppress(ConnectionError, HTTPClientError, WebSocketClosedError):  # its server ends: it asks again
-                assert asyncio.run(through_tls(shell.ports[443])) == [0.0]
+                assert asyncio.run(slow_flow_at(address)) == SLOW_FLOW
                 opened += 1
         assert opened
-        assert asyncio.run(through_tls(shell.ports[443])) == [0.0]
+        assert asyncio.run(slow_flow_at(address)) == SLOW_FLOW
         after = [(tmp_path / f"{shell.ports[name]}.pid").read_text() for name in (5006, 5007)]
         assert not set(before) & set(after)
     finally:

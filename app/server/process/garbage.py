@@ -43,9 +43,10 @@ def ended() -> None:
     _there -= 1
 
 
-def keep_to_the_young() -> None:
-    """Let Python's own search leave out what has lived for long."""
+def begin() -> None:
+    """Leave out what was there before the first visitor, and let Python's own search keep to the young."""
     gc.set_threshold(*gc.get_threshold()[:2], NEVER)
+    keep()
 
 
 def keep() -> None:

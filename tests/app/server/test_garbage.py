@@ -40,11 +40,12 @@ def test_it_is_looked_for_when_there_is_some_and_nobody_waits_or_there_is_much(
     assert searched == looked
 
 
-def test_python_looks_through_the_young_only():
+def test_from_the_start_python_looks_through_the_young_only_and_nobody_through_what_was_imported(searched):
     before = gc.get_threshold()
     try:
-        garbage.keep_to_the_young()
+        garbage.begin()
         assert gc.get_threshold() == (*before[:2], garbage.NEVER)
+        assert searched == ["freeze"]
     finally:
         gc.set_threshold(*before)
 
