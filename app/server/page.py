@@ -168,6 +168,7 @@ def make_server(
         Does the long work in place of `workers`, `at_once` at a time; with one process only, as it cannot be forked.
     """
     sys.setswitchinterval(SWITCH)
+    pn.config.browser_info = False  # a model for each page, which nobody reads
     if executor is None:
         at_once = workers or max(1, processors() // processes)
         executor = Workers(at_once, preload=PRELOAD, first=warmup.wait)

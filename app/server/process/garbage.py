@@ -16,7 +16,7 @@ QUIET = 0.5  # seconds without a request
 REST = 5.0  # seconds without a request or a session's end, after which it looks for what that left, however little
 #: Searches through the young after which there is enough for a whole one (objects that stayed: 7000 each, five visits);
 #: and beyond which it no longer waits.
-SOME, MOST = 1, 3
+SOME, MOST = 1, 2
 NEVER = 10**6
 
 _asked = 0.0
