@@ -139,17 +139,21 @@ def _jump(expression: Expression, values: Array, least: float) -> float | None:
     neighbours = np.maximum(np.append(change[1:], 0.0), np.append(0.0, change[:-1]))
     steep = change * (1.0 + s[1:]) > 1e-9 * size
     cells = np.argsort(np.where(steep, change / (neighbours + 1e-300), 0.0))[-10:]
-    lo, hi = s[cells], s[cells + 1]
+    lo, hi, y_lo, y_hi = s[cells], s[cells + 1], y[cells], y[cells + 1]
     first = change[cells]
     for _ in range(60):
         middle = 0.5 * (lo + hi)
         inside = (middle > lo) & (middle < hi)
-        y_lo, y_mid, y_hi = (expression.evaluate({"s": v}) for v in (lo, middle, hi))
+        if not inside.any():
+            break
+        y_mid = expression.evaluate({"s": middle})
         if not np.isfinite(y_mid).all():
             return float(middle[~np.isfinite(y_mid)][0])
         left = np.abs(y_mid - y_lo) >= np.abs(y_hi - y_mid)
-        lo, hi = np.where(inside & ~left, middle, lo), np.where(inside & left, middle, hi)
-    last = np.abs(expression.evaluate({"s": hi}) - expression.evaluate({"s": lo}))
+        up, down = inside & ~left, inside & left
+        lo, hi = np.where(up, middle, lo), np.where(down, middle, hi)
+        y_lo, y_hi = np.where(up, y_mid, y_lo), np.where(down, y_mid, y_hi)
+    last = np.abs(y_hi - y_lo)
     jumps = steep[cells] & (last > 1e-3 * first) & (last > 1e-9 * size / (1.0 + hi))
     return float(np.min(hi[jumps])) if jumps.any() else None
 
