@@ -20,6 +20,8 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .layer_problem.critical import CriticalSet, critical_sets
     from .layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
     from .motion.nonsmooth import simulate_nonsmooth
+    from .motion.periodic.result import PeriodicMotion, PeriodicStatus
+    from .motion.periodic.search import periodic_motion
     from .motion.regularised import simulate
     from .motion.result import Phase, Simulation, SimulationStatus
     from .motion.variation.result import Variation
@@ -59,6 +61,8 @@ __all__ = [
     "LimitCycle",
     "LimitCycles",
     "NullclineBranch",
+    "PeriodicMotion",
+    "PeriodicStatus",
     "Phase",
     "Preset",
     "Psi",
@@ -86,6 +90,7 @@ __all__ = [
     "limit_cycles",
     "mechanics",
     "nullclines",
+    "periodic_motion",
     "presets",
     "psi",
     "separatrices",
@@ -113,6 +118,8 @@ _HOMES = {
     "layer_problem.critical": "CriticalSet critical_sets",
     "layer_problem.equator": "EquatorCycle EquatorEquilibria equator_cycle equator_equilibria",
     "motion.nonsmooth": "simulate_nonsmooth",
+    "motion.periodic.result": "PeriodicMotion PeriodicStatus",
+    "motion.periodic.search": "periodic_motion",
     "motion.regularised": "simulate",
     "motion.result": "Phase Simulation SimulationStatus",
     "motion.variation.result": "Variation",

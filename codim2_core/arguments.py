@@ -10,6 +10,7 @@ import inspect
 import reprlib
 from collections.abc import Callable, Iterable, Mapping
 from functools import wraps
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,8 @@ LARGEST = 1e150  # of a number: its square is finite
 MOST_VALUES = 1_000_000  # in an array
 MOST: Mapping[str, int] = {"count": 1_000_000_000, "n": 4096, "max_steps": 100_000_000, "seed": 2**63 - 1}
 MOST_HERE: Mapping[tuple[str, str], int] = {("slow_portrait", "count"): 20_001}
-POSITIVE = ("eps", "rtol", "atol", "t_max", "pixel", "tolerance", "length", "capture", "view")
+ZERO_TOO = (("periodic_motion", "eps"),)  # stands for a limit there
+POSITIVE = ("period", "eps", "rtol", "atol", "t_max", "pixel", "tolerance", "length", "capture", "view")
 
 _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 60
@@ -121,6 +123,11 @@ def numbers(name: str, value: Any) -> Any:
     return value
 
 
+def numbers_or_file(name: str, value: Any) -> Any:
+    """Check an array of numbers, or the path of a file."""
+    return value if isinstance(value, str | Path) else numbers(name, value)
+
+
 def pair(name: str, value: Any) -> tuple[float, float]:
     """Check two numbers."""
     found = np.asarray(numbers(name, value), float)
@@ -200,7 +207,8 @@ BY_NAME: Mapping[str, Check] = {
     "names": _as_given,  # `mechanics.fit` says itself what it takes
 }
 BY_ANNOTATION: Mapping[str, Check] = {
-    "float": number, "bool": truth, "str": text, "ArrayLike": numbers, "tuple[float, float]": pair,
+    "float": number, "bool": truth, "str": text, "ArrayLike": numbers,
+    "ArrayLike | str | Path": numbers_or_file, "tuple[float, float]": pair,
     "ELinear | Coefficients": e_linear, "AnySystem": system, "ELinear | System": system, "Any": system,
 }  # fmt: skip
 
@@ -210,6 +218,8 @@ def _check(owner: str, parameter: inspect.Parameter) -> Check:
     name, annotation = parameter.name, str(parameter.annotation).removesuffix(" | None")
     if name in BY_NAME:
         return BY_NAME[name]
+    if (owner, name) in ZERO_TOO:
+        return _real
     if annotation == "int":
         most = MOST_HERE.get((owner, name), MOST.get(name, 1_000_000))
         return lambda name, value: whole(name, value, most)

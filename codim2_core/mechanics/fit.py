@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
@@ -15,7 +16,8 @@ from ..systems.elinear import ELinear
 from ..systems.reading import shortened
 from ..systems.typed import System
 from ..words import say
-from .slipping import Slipping, slipping
+from .measured import read
+from .slipping import Slipping, TooLongError, slipping
 
 Array = NDArray[np.float64]
 Interval = tuple[float, float]
@@ -84,7 +86,12 @@ class Fit:
 
 
 def fit(
-    system: ELinear | System, times: ArrayLike, velocities: ArrayLike, names: Iterable[str] = ("mu",), z: ArrayLike = ()
+    system: ELinear | System,
+    times: ArrayLike | str | Path,
+    velocities: ArrayLike | None = None,
+    names: Iterable[str] = ("mu",),
+    z: ArrayLike = (),
+    max_evaluations: int = 200_000,
 ) -> Fit:
     """Find parameters of a system from a measured slip (v_x, v_y) over time.
 
@@ -95,19 +102,22 @@ def fit(
     ----------
     system : ELinear or System
         (x, y) is the slip that was measured, and U may not read x or y. Its parameters are where the search begins.
-    times : (k,)
-        Growing.
+    times : (k,), or path of a CSV file
+        Growing. A file has three columns, time, v_x and v_y, and may begin with their names.
     velocities : (k, 2)
+        Left out where a file is given.
     names : names of parameters
         Those to find.
     z : (m,) floats
         The slow variables at the first time.
+    max_evaluations : int
+        Evaluations of U before the search is given up.
 
     Raises
     ------
     ValueError
-        A name is no parameter of the system, shapes do not fit, times do not grow, U reads x or y, or what was
-        measured does not determine the parameters.
+        A name is no parameter of the system, shapes do not fit, times do not grow, a file cannot be read, U reads x or
+        y, what was measured does not determine the parameters, or the search takes too many evaluations.
 
     Examples
     --------
@@ -123,16 +133,27 @@ def fit(
     from scipy.optimize import least_squares
     from scipy.stats import t as student
 
-    t, v = np.asarray(times, float), np.asarray(velocities, float)
+    t, v = _measured(times, velocities)
     searched = _searched(system, names)
     slow = slow_values(z, system.m)
     _check(system, t, v, searched)
     known = dict(system.parameters)
     first = np.array([*(known[name] for name in searched), *v[0]])
 
+    left = max_evaluations
+
     def course(unknown: Array) -> Slipping:
+        nonlocal left
         changed = dict(zip(searched, map(float, unknown[:-2]), strict=True))
-        return slipping(system.evolve(**changed), unknown[-2:], slow, t)
+        try:
+            one = slipping(system.evolve(**changed), unknown[-2:], slow, t, left)
+        except TooLongError:
+            raise ValueError(
+                f"{max_evaluations} evaluations of U did not lead to an end, the last at {shortened(changed)}; begin "
+                "with parameters closer to what was measured, or allow more by max_evaluations."
+            ) from None
+        left -= one.evaluations
+        return one
 
     def away(unknown: Array) -> Array:
         return np.ravel(course(unknown).at(t) - v)
@@ -167,6 +188,16 @@ def fit(
         velocities=v,
         _course=last,
     )
+
+
+def _measured(times: Any, velocities: Any) -> tuple[Array, Array]:
+    if isinstance(times, str | Path):
+        if velocities is not None:
+            raise ValueError("times is a file and velocities are given too; leave them out: they are in the file.")
+        return read(times)
+    if velocities is None:
+        raise ValueError("velocities is None; give (k, 2) numbers, or a CSV file instead of times.")
+    return np.asarray(times, float), np.asarray(velocities, float)
 
 
 def _turn(one: float, other: float) -> float:

@@ -18,6 +18,10 @@ STOPPED = 30.0  # log of how much slower than at the start it is when it stops
 LONGEST = 1e4  # in turns of the time dt/r
 
 
+class TooLongError(Exception):
+    """A slip takes more evaluations than are allowed."""
+
+
 @dataclass(frozen=True, eq=False)
 class Slipping:
     """A slip: log r, theta and time over tau, dt = r dtau.
@@ -28,10 +32,13 @@ class Slipping:
         When it stops.
     direction : float
         Its angle then, or at the last time.
+    evaluations : int
+        Of U that it took.
     """
 
     stop: float | None
     direction: float
+    evaluations: int
     _tau: Array
     _states: Array
     _dense: Any
@@ -47,15 +54,27 @@ class Slipping:
         return np.stack([r * np.cos(theta), r * np.sin(theta)], axis=-1)
 
 
-def slipping(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Array) -> Slipping:
-    """Follow the slip from a start at the first time until it stops, or until the last time."""
+def slipping(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Array, most: int) -> Slipping:
+    """Follow the slip from a start at the first time until it stops, or until the last time.
+
+    Raises
+    ------
+    TooLongError
+        It takes more than `most` evaluations.
+    """
     from scipy.integrate import solve_ivp
 
     x, y = (float(v) for v in np.asarray(start, float))
     slow = np.atleast_1d(np.asarray(z, float))
     still = system.at(tuple(slow)) if not len(slow) else None
 
+    count = 0
+
     def rates(_tau: float, state: Array) -> Array:
+        nonlocal count
+        count += 1
+        if count > most:
+            raise TooLongError
         log_r, theta = state[:2]
         e = np.array([math.cos(theta), math.sin(theta)])
         at = system.at(tuple(state[3:])) if still is None else still
@@ -74,4 +93,4 @@ def slipping(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Ar
     run = solve_ivp(rates, (0.0, LONGEST), begin, "DOP853", events=(over, slow_now), rtol=1e-10, atol=1e-12,
                     dense_output=True)  # fmt: skip
     stopped = bool(len(run.t_events[1]))
-    return Slipping(float(run.y[2, -1]) if stopped else None, float(run.y[1, -1]), run.t, run.y, run.sol)
+    return Slipping(float(run.y[2, -1]) if stopped else None, float(run.y[1, -1]), count, run.t, run.y, run.sol)

@@ -220,7 +220,7 @@ class Simulation:
 
         In the limit the derivatives go through arrival at Sigma, sliding on critical sets, crossing and exit at the
         equator. Left out, as columns of zeros, is what no derivative tells: (x, y) of a start on Sigma itself, and in
-        an invariant line that repels what lies across it.
+        an invariant line that repels what leads out of it.
 
         Parameters
         ----------

@@ -6,7 +6,7 @@ import re
 from functools import cache
 from string import Formatter
 
-from . import changes, claims, cycles, degenerate, equator, mechanics, motion, orbits, portrait, slow_flow
+from . import changes, claims, cycles, degenerate, equator, mechanics, motion, orbits, periodic, portrait, slow_flow
 from .sentence import Sentence
 from .written import named, number, power
 
@@ -17,6 +17,7 @@ ROOMS: dict[str, dict[str, Sentence]] = {
     "equator": equator.SENTENCES,
     "orbits": orbits.SENTENCES,
     "motion": motion.SENTENCES,
+    "periodic": periodic.SENTENCES,
     "slow flow": slow_flow.SENTENCES,
     "cycles": cycles.SENTENCES,
     "changes": changes.SENTENCES,

@@ -34,6 +34,7 @@ GOOD = {
     c2.filippov_sliding: {"system": SYSTEM, "z": 0.1},
     c2.limit_cycles: PLANE,
     c2.nullclines: PLANE,
+    c2.periodic_motion: {"system": SYSTEM, "psi": PSI, "state0": (1.0, 0.2, 0.1), "period": 0.3},
     c2.separatrices: PLANE,
     c2.simulate: {**MOTION, "eps": 1e-3},
     c2.simulate_nonsmooth: MOTION,

@@ -12,7 +12,13 @@ Array = NDArray[np.float64]
 
 
 def chained(
-    names: tuple[str, ...], times: Array, fine: Array, coarse: Array, rate: Array, reason: str = ""
+    names: tuple[str, ...],
+    times: Array,
+    fine: Array,
+    coarse: Array,
+    rate: Array,
+    reason: str = "",
+    within: Array | None = None,
 ) -> Variation:
     """Make the result of the steps' propagators, up to the first that is undefined.
 
@@ -25,6 +31,8 @@ def chained(
         Of the state at the last of the times; NaN where that is not asked for.
     reason : str
         Why there are no more steps.
+    within : ndarray (n, k), optional
+        Basis of the changes that are not left out, if not all.
     """
     undefined = np.flatnonzero(~np.isfinite(fine).all(axis=(1, 2)))
     if len(undefined):
@@ -37,6 +45,6 @@ def chained(
             two, one = step @ two, longer @ one
         error = np.abs(two - one)[: len(rate)]
     times, steps = times.copy(), fine.copy()
-    for array in (times, steps, error, rate):
+    for array in (times, steps, error, rate, *([] if within is None else [within])):
         array.flags.writeable = False
-    return Variation(names, times, steps, error, rate, reason)
+    return Variation(names, times, steps, error, rate, reason, within)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import cached_property, reduce
 from itertools import pairwise
 from typing import Protocol
 
@@ -30,6 +30,7 @@ Steps = NDArray[np.intp]
 
 RTOL = 1e-10  # how far a part of a step and its halves may differ
 AT_EQUATOR = 1e-6  # 1 - |e| at which a slide has ended there
+LEAVES = 1e-13  # of the largest slope: what turns U out of a line by more than rounding
 NEUTRAL = 1e-9  # lambda_theta, in units of U, up to which a line does not repel: all directions are alike
 AT_REST = 1e-6  # |U| on a critical set, in units of its slopes: on a limit cycle e is a mean, where U is not zero
 
@@ -62,14 +63,17 @@ def of_nonsmooth(
     phases : callable
         Makes its phases.
     line : InvariantLine or None
-        The invariant line that it stays in: where the line repels, changes across it are left out.
+        The invariant line that it stays in: where the line repels, changes that leave it are left out.
     names : sequence of str
         Of ``system.variable``.
     """
     course, legs = _Course(slopes_of(system, names), motion, None), list(_legs(motion, phases()))
     if line is not None and any(course.repels(leg, line.n) for leg in legs):
         course = replace(course, n=line.n)
-    fine, coarse, before, reason = [course.none.fine], [course.none.coarse], course.kept, ""
+    start = course.kept.copy()
+    if legs and legs[0].slides:
+        start[:2] = 0.0
+    fine, coarse, before, reason = [course.none.fine], [course.none.coarse], start, ""
     for leg, following in pairwise([*legs, None]):
         assert leg is not None
         found, reason = course.along(leg, following, before)
@@ -80,9 +84,10 @@ def of_nonsmooth(
             break
     matrices, longer = np.concatenate(fine), np.concatenate(coarse)
     for first in (matrices[:1], longer[:1]):
-        first @= course.kept
+        first @= start
     end = len(matrices)
-    return chained(tuple(names), motion.times[: end + 1], matrices, longer, course.rate(legs, end), reason)
+    times, rate = motion.times[: end + 1], course.rate(legs, end)
+    return chained(tuple(names), times, matrices, longer, rate, reason, course.within)
 
 
 @dataclass(frozen=True)
@@ -152,7 +157,7 @@ class _Course:
         onward, still = self.beginning(following), np.broadcast_to(np.eye(self.size), (leg.last - near, *before.shape))
         fine, coarse = np.concatenate([found.fine, still]), np.concatenate([found.coarse, still])
         fine[-1] = self.arrival(near, onward)
-        earlier = max(near - 1, leg.first)
+        earlier = near - 1 if near > leg.first and self.motion.states[near - 1, :2].any() else near
         coarse[earlier - leg.first : -1] = np.eye(self.size)
         coarse[-1] = self.arrival(earlier, onward)
         return Propagators(fine, coarse), ""
@@ -161,13 +166,16 @@ class _Course:
         """Step of a leg to Sigma at whose beginning its arrival is told best: straight on from there.
 
         Both the rest of the way and how far the direction still turns should be small; where all directions are alike
-        nothing damps the rounding of (x, y), and close to Sigma it is the direction.
+        nothing damps the rounding of (x, y), and close to Sigma it is the direction. Where it has just left Sigma both
+        are small too: it is looked for from where it is furthest away.
         """
         e, _ = outside(self.motion.states[leg.first : leg.last, :2])
         rho = np.hypot(*self.motion.states[leg.first : leg.last, :2].T)
         turns = np.append(np.abs(np.diff(e, axis=0)).max(axis=1), 0.0)
         turns[-1] = turns[-2] if len(turns) > 1 else 0.0
-        return leg.first + int(np.argmin(np.where(rho > 0.0, np.maximum(turns, rho / rho.max()), np.inf)))
+        apart = np.maximum(turns, rho / rho.max())
+        apart[: np.argmax(rho)] = np.inf
+        return leg.first + int(np.argmin(apart))
 
     @property
     def none(self) -> Propagators:
@@ -201,15 +209,39 @@ class _Course:
             moved = -self.n[:, None] * ((self.n @ Dz[:, :2]) / (self.n @ De[:, :2] @ self.n)[:, None])[:, None]
         slopes = np.zeros((len(e), 2 + self.slopes.m, self.size))
         slopes[:, 2:, 2:] = Dz[:, 2:] + De[:, 2:] @ moved
-        return padded(slopes, u.shape)
+        found = padded(slopes, u.shape)
+        return found if self.n is None else self.kept @ found @ self.kept
 
-    @property
+    @cached_property
     def kept(self) -> Array:
-        """Projector on the changes that are not left out: along the line."""
+        """Projector on the changes that are not left out: those that stay in the line."""
         found = np.eye(self.size)
         if self.n is not None:
             found[:2, :2] = np.outer(self.n, self.n)
+            leaves = np.append([False, False], self.leaves_line(self.n))
+            found[leaves] = 0.0
         return found
+
+    def leaves_line(self, n: Array) -> NDArray[np.bool_]:
+        """Which of z and the names (m + q,), changed, turn U out of the line along n, or move what does."""
+        states = self.motion.states
+        D = self.slopes.at(outside(states[:, :2], n)[0], states)
+        across = np.abs(D[:, :2].swapaxes(1, 2) @ [-n[1], n[0]]).max(axis=0, initial=0.0)
+        sizes = np.abs(D).max(axis=0, initial=0.0)
+        small = LEAVES * sizes.max(initial=0.0)
+        found, moves = across[4:] > small, sizes[2:, 4:] > small
+        for _ in moves:
+            found |= moves[found[: len(moves)]].any(axis=0)
+        return found
+
+    @property
+    def within(self) -> Array | None:
+        """Basis of the changes of the state that stay in the line; None without one."""
+        if self.n is None:
+            return None
+        state = self.motion.states.shape[1]
+        stays = [axis for axis in np.eye(state)[2:] if (self.kept[:state, :state] @ axis).any()]
+        return np.stack([np.append(self.n, np.zeros(state - 2)), *stays], axis=1)
 
     def rests(self, phase: Phase) -> bool:
         """Whether it slides on a critical set, and not on a limit cycle around none."""
@@ -247,10 +279,10 @@ class _Course:
 
     def slipping_rate(self, state: Array) -> Array:
         """Rate of the state in a slip."""
-        return (
-            self.kept[: len(state), : len(state)]
-            @ self.slopes.rates(outside(state[None, :2], self.n)[0], state[None])[0]
-        )
+        found = self.slopes.rates(outside(state[None, :2], self.n)[0], state[None])[0]
+        if self.n is not None:
+            found[:2] = self.n * (self.n @ found[:2])
+        return found
 
     def arrival(self, step: int, onward: Array) -> Array:
         """Saltation matrix of an arrival, straight on from a step's beginning, where the motion goes on at a rate."""

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 Jacobian = Callable[[NDArray[np.intp], Array], Array]
 
 DEEPEST = 24  # halvings of a step
+DAMPED = 1e-8  # of what comes to a step: what is left of less is 0, whatever it is
 AT_ONCE = 64  # parts whose stage equations are held at once
 
 
@@ -58,10 +59,12 @@ def propagators(jacobian: Jacobian, lengths: Array, sizes: Array, rtol: float, b
     steps: NDArray[np.intp] = np.arange(len(lengths))
     low, high = np.zeros(len(lengths)), np.ones(len(lengths))
     whole = _collocated(jacobian, lengths, steps, low, high)
-    coming, size = np.empty_like(whole), np.empty(len(lengths))
+    to_steps, size = np.empty_like(whole), np.empty(len(lengths))
     for k, step in enumerate(whole):
-        coming[k], before = before, step @ before
-        size[k] = np.abs(before / sizes[k + 1, :, None]).max()
+        least = DAMPED * np.abs(before / np.maximum(sizes[k], sizes[k + 1])[:, None]).max()
+        to_steps[k], before = before, step @ before
+        size[k] = max(np.abs(before / sizes[k + 1, :, None]).max(), least)
+    coming = to_steps
     done: list[tuple[NDArray[np.intp], Array, Array, Array]] = []
     for depth in range(DEEPEST + 1):
         middle = 0.5 * (low + high)
@@ -74,8 +77,9 @@ def propagators(jacobian: Jacobian, lengths: Array, sizes: Array, rtol: float, b
         if not apart.any():
             break
         steps, low, middle, high = steps[apart], low[apart], middle[apart], high[apart]
-        whole, coming = _beside(first[apart], second[apart]), _beside(coming[apart], first[apart] @ coming[apart])
+        whole = _beside(first[apart], second[apart])
         steps, low, high = np.repeat(steps, 2), _beside(low, middle), _beside(middle, high)
+        coming = _coming(to_steps, [(at, begin, two) for at, begin, two, _ in done], (steps, low, whole))
     fine = np.broadcast_to(np.eye(sizes.shape[1]), (len(lengths), *before.shape)).copy()
     coarse = fine.copy()
     at, begin, two, one = (np.concatenate(column) for column in zip(*done, strict=True))
@@ -83,6 +87,23 @@ def propagators(jacobian: Jacobian, lengths: Array, sizes: Array, rtol: float, b
         fine[at[part]] = two[part] @ fine[at[part]]
         coarse[at[part]] = one[part] @ coarse[at[part]]
     return Propagators(fine, coarse)
+
+
+Parts = tuple[NDArray[np.intp], Array, Array]
+
+
+def _coming(to_steps: Array, done: list[Parts], left: Parts) -> Array:
+    """Return what comes to the parts that are left, through all before them as well as they are known by now."""
+    at, begin, matrices = (np.concatenate(column) for column in zip(*done, left, strict=True))
+    first, found, product = len(at) - len(left[0]), np.empty_like(left[2]), {}
+    order = np.lexsort((begin, at))
+    for part in order[np.isin(at[order], left[0])].tolist():
+        k = int(at[part])
+        before = product.get(k, to_steps[k])
+        if part >= first:
+            found[part - first] = before
+        product[k] = matrices[part] @ before
+    return found
 
 
 def _beside(first: Array, second: Array) -> Array:

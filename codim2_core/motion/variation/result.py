@@ -35,6 +35,8 @@ class Variation:
         Of the state at the last time.
     reason : str
         Why it is not known further; empty where all of it is known.
+    within : ndarray (n, k) or None
+        Basis of the changes that are not left out where it stays in an invariant line that repels; None elsewhere.
     """
 
     names: tuple[str, ...]
@@ -43,6 +45,7 @@ class Variation:
     error: Array
     rate: Array
     reason: str
+    within: Array | None = None
 
     def _repr_html_(self) -> str:
         states = ["x", "y", *(f"z{i}" for i in range(1, len(self.rate) - 1))]

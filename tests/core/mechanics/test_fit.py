@@ -100,3 +100,71 @@ def test_what_is_wrong_is_said(change, said):
 def test_a_system_that_reads_the_position_is_refused():
     with pytest.raises(ValueError, match="reads x or y"):
         fit(c2.System(U=("-mu*c - x", "-mu*s"), parameters={"mu": 1.0}), [0, 1, 2, 3], np.ones((4, 2)))
+
+
+CSV = {
+    "commas and names": "t,vx,vy\n{}",
+    "a comment, blanks": "# from the sensor\n\n{}",
+    "semicolons, decimal commas": "Zeit; v1; v2\n{}",
+    "a mark of its encoding, tabs": "\ufeff{}",
+}
+PARTED = {"semicolons, decimal commas": ";", "a comment, blanks": "  ", "a mark of its encoding, tabs": "\t"}
+
+
+@pytest.mark.parametrize("how", CSV)
+@pytest.mark.parametrize("kind", [str, lambda path: path])
+def test_a_file_tells_what_its_arrays_do(how, kind, tmp_path):
+    t = np.linspace(0.0, 0.4, 9)
+    v = measured(block(0.3), (1.2, 0.9), t)
+    lines = [PARTED.get(how, ",").join(f"{number:.17g}" for number in row) for row in np.column_stack([t, v])]
+    text = "\n".join(lines)
+    if "decimal commas" in how:
+        text = text.replace(".", ",")
+    path = tmp_path / "measured.csv"
+    path.write_text(CSV[how].format(text), encoding="utf-8")
+    found = fit(block(0.25), kind(path))
+    np.testing.assert_array_equal(found.times, t)
+    np.testing.assert_array_equal(found.velocities, v)
+    assert found.values == fit(block(0.25), t, v).values
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("t,vx,vy\n0,1,0\n0.1,fast,0\n", "whose line 3 is not of three numbers"),
+        ("0,1,0\n0.1,0.9\n", "whose line 2 is not of three numbers"),
+        ("t,vx,vy\nt,vx,vy\n", "whose line 2 is not of three numbers"),
+        (b"\xff\xfe\x00", "which is no text in UTF-8"),
+        (None, "which cannot be opened"),
+        ("", "times and velocities have the shapes (0,) and (0, 2)"),
+        ("0,1,0\n0.1,nan,0\n0.2,0.8,0\n0.3,0.7,0\n", "all that was measured be finite"),
+    ],
+)
+def test_a_file_that_is_none_is_told(text, said, tmp_path):
+    path = tmp_path / "measured.csv"
+    if text is not None:
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(ValueError, match=re.escape(said)):
+        fit(block(0.2), path)
+
+
+def test_a_file_and_arrays_are_not_both_given(tmp_path):
+    with pytest.raises(ValueError, match="times is a file and velocities are given too"):
+        fit(block(0.2), tmp_path / "measured.csv", np.ones((3, 2)))
+    with pytest.raises(ValueError, match="velocities is None"):
+        fit(block(0.2), [0.0, 0.1, 0.2])
+
+
+def test_a_wild_start_is_given_up_after_so_many_evaluations(monkeypatch):
+    t, ball = np.linspace(0.0, 0.3, 10), examples.ball_in_pool(mu=0.2, K=500.0)
+    asked, U = [0], type(ball.at((4.0, 0.5))).U
+
+    def counted(self, e):
+        asked[0] += 1
+        return U(self, e)
+
+    monkeypatch.setattr(type(ball.at((4.0, 0.5))), "U", counted)
+    v = np.linspace((3.0, 1.0), (1.2, 0.5), 10)
+    with pytest.raises(ValueError, match=r"1000 evaluations of U did not lead to an end.*max_evaluations\.$"):
+        fit(ball, t, v, names=("mu", "K"), z=(4.0, 0.5), max_evaluations=1000)
+    assert asked[0] <= 1000

@@ -217,6 +217,45 @@ def test_a_section_is_passed_sooner_or_later():
         still.through((0.0, 0.0, 1.0, 0.0))
 
 
+BELT = System(  # a mass on springs, on a belt; the friction falls with speed
+    U=("-z1 - c + 0.1*x", "-z2 - s + 0.1*y"), W=("x + 1", "y")
+)
+
+
+@pytest.mark.parametrize("t_end", [3.0, 6.0, 8.0])
+def test_a_motion_that_comes_back_is_differentiated_by_its_start_in_a_slide(t_end):
+    start = np.array([0.0, 0.0, 0.9, 0.05])
+    found = limit(BELT, start, t_end).variation()
+    assert found.error.max() < 1e-8
+    assert not found.last[:, :2].any()  # (x, y) of a start on Sigma
+    for i in (2, 3):
+        axis = np.eye(4)[i]
+        by = difference(lambda h, axis=axis: limit(BELT, start + h * axis, t_end).states[-1], 0.0, 1e-5)
+        np.testing.assert_allclose(found.last[:, i], by, rtol=0.0, atol=1e-7)
+
+
+def test_a_start_that_slides_all_the_time_has_no_xy_to_be_differentiated_by():
+    found = limit(BELT, (0.0, 0.0, 0.5, 0.1), 0.2).variation()
+    np.testing.assert_allclose(found.last, np.diag([0.0, 0.0, 1.0, 1.0]), rtol=0.0, atol=1e-12)
+
+
+def test_what_leads_out_of_a_line_that_repels_is_left_out():
+    # z2 pulls across the line y = 0 where it is not 0; "side" does too, "along" does not.
+    system = System(
+        U=("-z1 - 0.1*c + along*cos(0.6*z3)", "-z2 - 0.1*s + side*z1"), W=("x", "y", "1"),
+        parameters={"along": 1.0, "side": 0.0},
+    )  # fmt: skip
+    start = np.array([0.5, 0.0, 1.0, 0.0, 0.0])
+    run = limit(system, start, 8.0)
+    assert "cross" in [phase.kind for phase in run.phases]
+    found = run.variation("along", "side")
+    assert not found.last[:, [1, 3, 6]].any()
+    assert found.within is not None
+    np.testing.assert_array_equal(found.within, np.eye(5)[:, [0, 2, 4]])
+    by = difference(lambda v: limit(system.varied("along", v), start, 8.0).states[-1], 1.0, 1e-6)
+    np.testing.assert_allclose(found.by("along")[-1], by, rtol=0.0, atol=1e-7)
+
+
 def test_where_it_is_not_known_is_said():
     case_3 = System(U=("172*c - 186*s - 172*z", "186*c - 200*s - 186*z"), W=("c/2",))
     run = simulate_nonsmooth(case_3, (8.5e-4, 5.2e-4, 0.45), (0.0, 0.2), psi.hill(3))
@@ -285,3 +324,15 @@ def test_a_straight_step_is_halved_where_its_variation_bends():
     found = propagators(jacobian, np.array([0.99]), np.ones((2, 1)), 1e-10, np.eye(1))
     assert found.fine[0, 0, 0] == pytest.approx(0.01**0.7, rel=1e-9)
     assert 10 < sum(asked) < 200
+
+
+def test_what_dies_out_within_a_long_step_is_not_halved_for_ever():
+    asked = []
+
+    def jacobian(steps, u):
+        asked.append(len(steps))
+        return np.full((*u.shape, 1, 1), -1.0)
+
+    found = propagators(jacobian, np.array([1e9]), np.ones((2, 1)), 1e-10, np.eye(1))
+    assert abs(found.fine[0, 0, 0]) < 1e-15
+    assert sum(asked) < 2000

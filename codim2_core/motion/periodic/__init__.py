@@ -1,0 +1,1 @@
+"""Motions that repeat themselves, by shooting, and whether they are stable."""

@@ -1,0 +1,131 @@
+"""Floquet multipliers of a periodic motion, without those that are known: of a shift in time 1, of what is lost 0.
+
+The monodromy matrix is M = P_K ... P_1, a product over steps. Its eigenvalues are those of the product begun at any
+other step: P_i ... P_1 P_K ... P_(i+1). In the limit eps -> 0 this begins where most is lost. On a slide (x, y) = 0
+and the state is z alone: two multipliers are 0, the others are those of z by z. Where the motion crosses Sigma,
+(x, y) = 0 too, and a motion beside it is told by z and by when it leaves, along e: one multiplier is 0. So zeros are
+exact, and not what rounding leaves of them.
+"""
+
+from __future__ import annotations
+
+from functools import reduce
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...initial_value.field import Field
+from ...psi.function import Psi
+from ..followed import place
+from ..result import Simulation
+from ..variation.result import Variation
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+def rate_at(formulas: Field, psi: Psi | None, run: Simulation, i: int) -> Array:
+    """Rate (2 + m,) with which a motion goes on from the end of a step.
+
+    Parameters
+    ----------
+    formulas : Field
+    psi : Psi or None
+        None only in the limit.
+    run : Simulation
+    i : int
+        Of ``run.times``.
+    """
+    x, y, *z = run.states[i].tolist()
+    if run.eps > 0.0:
+        assert psi is not None
+        e = place(psi, run.eps, x, y)[0]
+    elif x or y:
+        e = np.array([x, y]) / np.hypot(x, y)
+    else:
+        t = float(run.times[i])
+        phase = next(one for one in reversed(run.phases) if one.t_start <= t and (one.kind != "slip" or one.t_end > t))
+        e = phase.e(min(t, phase.t_end))
+        found = np.array(formulas.value(*e.tolist(), x, y, *z))
+        if phase.kind == "slide":
+            found[:2] = 0.0
+        return found
+    return np.array(formulas.value(*e.tolist(), x, y, *z))
+
+
+def start_of(run: Simulation, variation: Variation) -> tuple[int, Array]:
+    """Step end at which most is lost, and a basis (2, k) of the changes of (x, y) that are left there."""
+    plane = np.eye(2) if variation.within is None else variation.within[:2, :1]
+    if run.eps > 0.0:
+        return 0, plane
+    on = (run.states[:, :2] == 0.0).all(axis=1)
+    for phase in run.phases:
+        if phase.kind == "slide" and phase.t_end > phase.t_start:
+            within = on & (run.times >= phase.t_start) & (run.times <= phase.t_end)
+            return int(np.argmax(within)), np.empty((2, 0))
+    for phase in run.phases:
+        if phase.kind == "cross":
+            at = int(np.argmin(np.where(on, np.abs(run.times - phase.t_start), np.inf)))
+            return at, phase.e(phase.t_start)[:, None]
+    return 0, plane
+
+
+def multipliers(
+    formulas: Field, psi: Psi | None, run: Simulation, variation: Variation, clocks: NDArray[np.bool_]
+) -> tuple[Complex, Array, int]:
+    """Return the multipliers of a periodic motion, largest first, their condition, and how many are exactly 0.
+
+    Parameters
+    ----------
+    formulas : Field
+    psi : Psi or None
+    run : Simulation
+        Over one period.
+    variation : Variation
+        Its derivatives, all of them.
+    clocks : ndarray (m,) of bool
+        Slow variables that move at a constant rate. Without any, a shift in time is left out.
+
+    Returns
+    -------
+    multipliers : ndarray (q,) of complex
+    conditions : ndarray (q,)
+        By how much, to first order, an error of the matrix is larger in each of them.
+    lost : int
+    """
+    n = run.states.shape[1]
+    steps = variation.propagators[:, :n, :n]
+    i, plane = start_of(run, variation)
+    whole = reduce(lambda product, step: step @ product, [*steps[i:], *steps[:i]], np.eye(n))
+    slow = np.eye(n)[:, 2:] if variation.within is None else variation.within[:, 1:]
+    slow = slow[:, ~slow[2:][clocks].any(axis=0)]
+    basis = np.concatenate([np.concatenate([plane, np.zeros((n - 2, plane.shape[1]))]), slow], axis=1)
+    if not clocks.any():
+        ahead = basis.T @ rate_at(formulas, psi, run, i)
+        basis = basis @ np.linalg.qr(ahead[:, None], mode="complete")[0][:, 1:]
+    found, conditions = _eigenvalues(basis.T @ whole @ basis)
+    lost = (2 if variation.within is None else 1) - plane.shape[1]
+    order = np.argsort(-np.abs(found), kind="stable")
+    zeros = np.zeros(lost)
+    return np.concatenate([found[order], zeros.astype(complex)]), np.concatenate([conditions[order], zeros]), lost
+
+
+def _eigenvalues(matrix: Array) -> tuple[Complex, Array]:
+    """Eigenvalues, and their condition 1/|l.r|, l and r the eigenvectors of length 1."""
+    values, right = np.linalg.eig(matrix)
+    try:
+        left = np.linalg.inv(right)
+    except np.linalg.LinAlgError:
+        return values.astype(complex), np.full(len(values), np.inf)
+    return values.astype(complex), np.linalg.norm(left, axis=1) * np.linalg.norm(right, axis=0)
+
+
+def matched(values: Complex, others: Complex) -> Array:
+    """Distance of each value to its partner among as many others, partners being chosen to be close in all."""
+    from scipy.optimize import linear_sum_assignment  # imported late: it takes longer than all of this package
+
+    apart = np.abs(values[:, None] - others[None, :])
+    rows, columns = linear_sum_assignment(apart)
+    found = np.empty(len(values))
+    found[rows] = apart[rows, columns]
+    return found

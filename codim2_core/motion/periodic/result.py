@@ -1,0 +1,91 @@
+"""What a search for a periodic motion returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...tables import number, paragraphs, table
+from ..result import Simulation
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+class PeriodicStatus(Enum):
+    """What a search has come to; the reason of a result says it in a sentence."""
+
+    FOUND = "found"
+    NOT_ISOLATED = "not isolated"
+    NO_CONVERGENCE = "no convergence"
+    NO_DERIVATIVE = "no derivative"
+    MOTION_ENDS = "motion ends"
+    STANDS_STILL = "stands still"
+
+
+@dataclass(frozen=True, eq=False)
+class PeriodicMotion:
+    """A motion that repeats itself, or what a search for one has come to; arrays are read-only.
+
+    Attributes
+    ----------
+    status : PeriodicStatus
+        FOUND; NOT_ISOLATED, found with a multiplier +1; else why none was found.
+    reason : str
+        The same in sentences, with what says that it is stable or not.
+    run : Simulation
+        The motion over one period, from t = 0; the last that was tried if none was found.
+    period : float
+    forced : bool
+        Whether the period was given by a clock, a slow variable that moves at a constant rate.
+    advance : ndarray (m,)
+        How far each slow variable is on after a period.
+    multipliers : ndarray (q,) of complex
+        Floquet multipliers, largest first: of a forced motion by all but its clocks, of others by all but a shift in
+        time, whose multiplier is 1. In the limit eps -> 0 those lost at Sigma are exactly 0; across an invariant line
+        that repels there are none. Empty where none was found.
+    multiplier_errors : ndarray (q,)
+        Estimates: how far they move as the motion is followed more closely, and what the error of its derivatives does.
+    stability : str
+        "stable", "unstable" or "undecided".
+    residual : float
+        How far the end is from the start, in units of the motion's size.
+    error : ndarray (2 + m,)
+        Estimate of the error of the start: how far it moves as the motion is followed more closely.
+    period_error : float
+        The same of the period; 0 of one that is given.
+    """
+
+    status: PeriodicStatus
+    reason: str
+    run: Simulation
+    period: float
+    forced: bool
+    advance: Array
+    multipliers: Complex
+    multiplier_errors: Array
+    stability: str
+    residual: float
+    error: Array
+    period_error: float
+
+    @property
+    def state0(self) -> Array:
+        """Its start (2 + m,)."""
+        return self.run.states[0]
+
+    @property
+    def found(self) -> bool:
+        """Whether it repeats itself."""
+        return self.status in (PeriodicStatus.FOUND, PeriodicStatus.NOT_ISOLATED)
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (number(one.real), number(one.imag), number(abs(one)), f"{error:.1e}")
+            for one, error in zip(self.multipliers.tolist(), self.multiplier_errors.tolist(), strict=True)
+        ]
+        head = ("multiplier", "imaginary part", "modulus", "error")
+        return (self.run._repr_svg_() or "") + table(head, rows) + paragraphs([self.reason])

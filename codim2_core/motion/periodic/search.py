@@ -1,0 +1,285 @@
+"""Periodic motions by Newton's method, for eps > 0 and in the limit, and whether they are stable."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...initial_value.field import Field, field
+from ...psi.function import Psi
+from ...systems.kinds import AnySystem
+from ...words import say
+from ..regularised import LARGEST_EPS, MAX_STEPS, SMALLEST_EPS, checked_state, checked_tolerances
+from ..result import Simulation
+from .multipliers import matched, multipliers
+from .result import PeriodicMotion, PeriodicStatus
+from .shooting import LostError, Shooting, Shot
+
+__all__ = ["periodic_motion"]
+
+Array = NDArray[np.float64]
+
+STEPS, HALVINGS = 40, 8  # of Newton's method, and of one of its steps
+CLOSER = 1e-2  # of rtol: how closely the motion is followed at last
+CLOSEST = 1e-13  # rtol of a motion
+ENOUGH, LOOSE = 10.0, 1e4  # times rtol: residuals that are small enough, and that rounding may leave
+ROUNDING = 1e-15
+STILL, NEARLY_STILL = 1e-6, 1e-3  # of its size: what moves less stands still; also where the search ends in no motion
+NEAR = 3.0  # factor by which a period may be another than is given: as it shrinks all motions come to repeat themselves
+MOST_TIMES = 12  # that a motion is asked whether it has repeated itself
+SAME = 1e-7  # relative: formulas, and states, that repeat themselves
+LOOKED_AT = 16  # states at which formulas are asked whether they do
+
+
+def periodic_motion(
+    system: AnySystem,
+    state0: ArrayLike,
+    period: float,
+    psi: Psi | None = None,
+    eps: float = 0.0,
+    *,
+    advance: ArrayLike | None = None,
+    rtol: float = 1e-9,
+    atol: float = 1e-11,
+    max_steps: int = MAX_STEPS,
+) -> PeriodicMotion:
+    """Find a motion that repeats itself, by Newton's method from a start near it, and say whether it is stable.
+
+    Time is a slow variable with the rate 1, and a forcing a function of it. A slow variable of constant rate is such a
+    clock: if there is one, the period is what is given, its start is kept, and all else is sought. Without a clock the
+    period is sought too.
+
+    Parameters
+    ----------
+    system : ELinear, System, or one of them frozen at a z
+    state0 : (2 + m,)
+        (x, y, z1, ..., zm) near it.
+    period : float
+        Of a forced motion its period, a multiple of that of the forcing; else near it, within a factor of 3.
+    psi : Psi, optional
+        The regularisation. In the limit it may be left out, as in `simulate_nonsmooth`.
+    eps : float
+        0, the default, for the limit eps -> 0; else 1e-14 <= eps <= 1e6.
+    advance : (m,), optional
+        How far each slow variable is on after a period, as 2 pi for an angle. Left out, a clock is on by its rate times
+        the period, and all others are where they were.
+    rtol, atol : float
+        As in `simulate`; at last it is followed with a hundredth of both.
+    max_steps : int
+        Steps of one motion.
+
+    Returns
+    -------
+    PeriodicMotion
+        With a status that says so where none was found.
+
+    Raises
+    ------
+    ValueError
+        An argument is invalid, or the formulas do not repeat themselves when the slow variables are on by `advance`.
+
+    Examples
+    --------
+    A mass on springs in the plane, pushed round and braked by friction on the ground, goes round with the push on a
+    circle of radius sqrt(F^2 - mu^2)/|1 - w^2|:
+
+    >>> import math
+    >>> from codim2_core import System, periodic_motion
+    >>> mass = System(
+    ...     U=("-z1 - mu*c + F*cos(w*z3)", "-z2 - mu*s + F*sin(w*z3)"), W=("x", "y", "1"),
+    ...     parameters={"mu": 0.3, "F": 0.5, "w": 2.0},
+    ... )
+    >>> found = periodic_motion(mass, (0.3, 0.0, 0.0, -0.1, 0.0), math.pi)
+    >>> found.stability, round(math.hypot(*found.state0[2:4]), 9)
+    ('stable', 0.133333333)
+    """
+    checked_tolerances(rtol, atol, max_steps)
+    formulas = field(system)
+    start = checked_state(state0, formulas.m)
+    if eps != 0.0 and not SMALLEST_EPS <= eps <= LARGEST_EPS:
+        raise ValueError(f"eps is {eps!r}; give 0 for the limit, or {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
+    if eps > 0.0 and psi is None:
+        raise ValueError("psi is None; give the regularisation, or leave out eps for the limit eps -> 0.")
+    rates = np.array([row.constant or 0.0 for row in formulas.rows[2:]])
+    moved = _advance(advance, rates, period)
+    if not _repeats(formulas, start[None], moved):
+        raise ValueError(
+            f"the formulas do not repeat themselves as z moves on by {moved.tolist()}; give a multiple of the "
+            "forcing's period, or by how much z moves on as advance."
+        )
+    asked = Shooting(system, psi, float(eps), formulas, rates != 0.0, moved, float(period), atol / rtol, max_steps)
+    return _search(asked, start, rtol)
+
+
+def _advance(given: ArrayLike | None, rates: Array, period: float) -> Array:
+    """Return how far z is on after a period."""
+    if given is None:
+        return rates * period
+    found = np.array(given, float)
+    if found.shape != rates.shape or not np.isfinite(found).all():
+        raise ValueError(f"advance is {given!r}; give {len(rates)} finite numbers, one for each slow variable.")
+    wrong = (rates != 0.0) & ~np.isclose(found, rates * period, rtol=SAME, atol=0.0)
+    if wrong.any():
+        i = int(np.argmax(wrong))
+        raise ValueError(f"advance[{i}] is {found[i]}; z{i + 1} moves on by {rates[i] * period:.10g} in a period.")
+    return np.where(rates != 0.0, rates * period, found)
+
+
+def _repeats(formulas: Field, states: Array, advance: Array) -> bool:
+    """Whether the field is the same at states and where z is on by `advance`: there, and at places beside."""
+    if not advance.any():
+        return True
+    angles = np.arange(LOOKED_AT) * 2.4  # the golden angle: no two places look alike
+    for k, angle in enumerate(angles.tolist()):
+        x, y, *z = states[k % len(states)].tolist()
+        z = np.array(z) + advance * (k / LOOKED_AT)
+        e = 0.9 * np.cos(angle), 0.9 * np.sin(angle)
+        here, there = (np.array(formulas.value(*e, x + e[0], y + e[1], *at.tolist())) for at in (z, z + advance))
+        if not np.allclose(here, there, rtol=SAME, atol=SAME * (1.0 + np.nanmax(np.abs(here))), equal_nan=True):
+            return False
+    return True
+
+
+@dataclass(frozen=True)
+class _Stopped(Exception):
+    """Newton's method goes no further."""
+
+    status: PeriodicStatus
+    reason: str
+    shot: Shot
+
+
+def _search(asked: Shooting, start: Array, rtol: float) -> PeriodicMotion:
+    try:
+        rough = _newton(asked, asked.shot(start, asked.period, rtol), rtol)
+        closer = max(CLOSER * rtol, CLOSEST)
+        fine = _newton(asked, asked.shot(rough.state, rough.period, closer), closer)
+    except LostError as lost:
+        return _not_found(asked, lost.status, str(lost), lost.run, asked.period, np.nan)
+    except _Stopped as stopped:
+        shot = stopped.shot
+        return _not_found(asked, stopped.status, stopped.reason, shot.run, shot.period, shot.residual)
+    return _found(asked, rough, fine)
+
+
+def _newton(asked: Shooting, shot: Shot, rtol: float) -> Shot:
+    """Take Newton's steps, shorter ones where a whole one does not lead closer."""
+    for _ in range(STEPS):
+        if not asked.forced and _extent(shot) <= STILL:
+            break
+        if shot.residual <= ENOUGH * rtol and shot.step_size <= LOOSE * rtol:
+            return shot
+        ahead = _closer(asked, shot, rtol)
+        if ahead is None:
+            break
+        shot = ahead
+    still = not asked.forced and _extent(shot) <= STILL
+    if not still and shot.residual <= LOOSE * rtol and shot.step_size <= np.sqrt(rtol):
+        return shot
+    if not asked.forced and _extent(shot) <= NEARLY_STILL:
+        raise _Stopped(PeriodicStatus.STANDS_STILL, say("comes to rest"), shot)
+    raise _Stopped(PeriodicStatus.NO_CONVERGENCE, say("no periodic motion", residual=shot.residual), shot)
+
+
+def _closer(asked: Shooting, shot: Shot, rtol: float) -> Shot | None:
+    """Return what the longest part of the step that leads closer leads to; None if none does."""
+    change, later = shot.step
+    lost: LostError | None = None
+    for k in range(HALVINGS):
+        part = 0.5**k
+        period = shot.period + part * later
+        if not asked.period / NEAR < period < asked.period * NEAR:
+            continue
+        try:
+            ahead = asked.shot(shot.state + part * change, period, rtol)
+        except LostError as error:
+            lost = error
+            continue
+        if ahead.measured(shot.sizes) < (1.0 - 0.1 * part) * shot.residual:
+            return ahead
+    if lost is not None and shot.residual > LOOSE * rtol:
+        raise lost
+    return None
+
+
+def _extent(shot: Shot) -> float:
+    """How far a motion comes from its start, in units of its size."""
+    return float((np.abs(shot.run.states - shot.run.states[0]) / shot.sizes).max())
+
+
+def _not_found(
+    asked: Shooting, status: PeriodicStatus, reason: str, run: Simulation, period: float, residual: float
+) -> PeriodicMotion:
+    missing = np.full(len(run.states[0]), np.nan)
+    return _result(
+        status, reason, run, period, asked.forced, asked.advance, np.empty(0, complex), np.empty(0), "undecided",
+        residual, missing, 0.0 if asked.forced else np.nan,
+    )  # fmt: skip
+
+
+def _found(asked: Shooting, rough: Shot, fine: Shot) -> PeriodicMotion:
+    n = len(fine.state)
+    own = lambda shot: multipliers(asked.formulas, asked.psi, shot.run, shot.variation, asked.clocks)  # noqa: E731
+    values, conditions, lost = own(fine)
+    others = own(rough)[0]
+    blur = float((fine.variation.error[:, :n] / fine.sizes[:, None] * fine.sizes).max(initial=0.0))
+    apart = matched(values, others) if len(others) == len(values) else np.ones(len(values))
+    errors = conditions * max(blur, ROUNDING) + apart
+    errors[len(values) - lost :] = 0.0
+    change, later = fine.step
+    moved = np.abs(fine.state - rough.state) + np.abs(change)
+    moved[~asked.free] = 0.0
+    period_error = 0.0 if asked.forced else abs(fine.period - rough.period) + abs(later)
+    stability, why = _verdict(values, errors, fine.variation.within is not None)
+    alone = not (np.abs(values - 1.0) <= errors).any()
+    said = [say("repeats", period=fine.period)]
+    times = _times(asked, fine)
+    said += [say("repeats sooner", count=times)] if times > 1 else []
+    said += [say("start is lost", count=lost)] if lost else []
+    said += [why] + ([] if alone else [say("not isolated")])
+    return _result(
+        PeriodicStatus.FOUND if alone else PeriodicStatus.NOT_ISOLATED, " ".join(said), fine.run, fine.period,
+        asked.forced, asked.advance, values, errors, stability, fine.residual, moved, period_error,
+    )  # fmt: skip
+
+
+def _verdict(values: NDArray[np.complex128], errors: Array, in_a_line: bool) -> tuple[str, str]:
+    """Say whether a motion with these multipliers is stable."""
+    sizes = np.abs(values)
+    if (sizes - errors > 1.0).any():
+        return "unstable", say("periodic unstable", size=float(sizes.max()))
+    close = sizes + errors >= 1.0
+    if close.any():
+        i = int(np.argmax(np.where(close, sizes, 0.0)))
+        value, error = complex(values[i]), float(errors[i])
+        where = "+1" if abs(value - 1.0) <= error else "−1" if abs(value + 1.0) <= error else "on the unit circle"
+        return "undecided", say("periodic undecided", where=where, error=error)
+    size = float(sizes.max(initial=0.0))
+    if in_a_line:
+        return "undecided", say("periodic beside a line", size=size)
+    return "stable", say("periodic stable", size=size)
+
+
+def _times(asked: Shooting, shot: Shot) -> int:
+    """How many times a motion repeats itself in its period."""
+    motion, some = shot.run.dense, shot.run.states[:: max(1, len(shot.run.states) // LOOKED_AT)]
+    for count in range(MOST_TIMES, 1, -1):
+        part = asked.advance / count
+        away = motion(shot.period / count) - shot.state
+        away[2:] -= part
+        if (np.abs(away) <= SAME * shot.sizes).all() and _repeats(asked.formulas, some, part):
+            return count
+    return 1
+
+
+def _result(
+    status: PeriodicStatus, reason: str, run: Simulation, period: float, forced: bool, advance: Array,
+    values: NDArray[np.complex128], errors: Array, stability: str, residual: float, error: Array, period_error: float,
+) -> PeriodicMotion:  # fmt: skip
+    for array in (advance, values, errors, error):
+        array.flags.writeable = False
+    return PeriodicMotion(
+        status, reason, run, period, forced, advance, values, errors, stability, residual, error, period_error
+    )
