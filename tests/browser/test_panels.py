@@ -82,6 +82,15 @@ def test_tabs_are_moved_by_the_keyboard(explorer):
     assert explorer.find("[role=tab][tabindex='0']").count() == 1
 
 
+def test_only_keys_ring_a_chart(explorer):
+    ring = "(e) => [e.matches(':focus'), getComputedStyle(e).outlineStyle]"
+    pad = explorer.find("svg.pad")
+    pad.click(position={"x": 60, "y": 60})
+    assert pad.evaluate(ring) == [True, "none"]
+    explorer.page.keyboard.press("ArrowRight")
+    assert pad.evaluate(ring) == [True, "solid"]
+
+
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (1180, 800), (390, 844)])
 def test_controls_and_tabs_fit(open_page, width, height):
     page = open_page(viewport={"width": width, "height": height}).open()

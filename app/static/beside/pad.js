@@ -18,7 +18,6 @@ export class Pad {
       onKey: (way, far) => onMove(this.chart.handle.map((value, i) => value + way[i] * (this.box[i][1] - this.box[i][0]) / (far ? 20 : 200))),
       onRedraw: () => { if (this.chart) this.drawMoving(); this.redrawn?.() },
     })
-    svg.addEventListener("pointerdown", () => svg.focus())
     svg.addEventListener("pointermove", (event) => { if (!this.dragging && this.chart) { const {x, y} = this.plot.under(event); onRegion(this.at([x, y])) } })
     svg.addEventListener("pointerleave", () => onRegion(-1))
   }
