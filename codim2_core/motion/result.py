@@ -6,24 +6,23 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import drawing
+from ..expressions.names import SLOW
 from ..numerics.dense import Dense
 from ..tables import Tabled, number, paragraphs, rows
 from ..words import say
+from .drawn import Drawn, drawn
 from .places import NONE, Ascent, Place
 
 if TYPE_CHECKING:
     from .variation.result import Variation
 
 Array = NDArray[np.float64]
-
-SAMPLES, MOST = 240, 500  # even times of a drawn motion besides the ends of its steps, and its most points
-ASCENT = 3  # every so many points of an orbit up the hemisphere are drawn
 
 
 class SimulationStatus(Enum):
@@ -142,24 +141,6 @@ class Phase(Tabled):
     def ascent(self) -> Array:
         """Orbit (k, 2) of the layer problem that it begins with, in p: in the limit that takes no time; else empty."""
         return NONE if self._ascent is None else self._ascent.path()
-
-
-@dataclass(frozen=True, eq=False)
-class Drawn:
-    """A motion as a curve of the picture; arrays are read-only.
-
-    Attributes
-    ----------
-    times : ndarray (k,)
-        Not decreasing: what takes no time in the limit has several points at one time.
-    states : ndarray (k, 2 + m)
-    points : ndarray (k, 2)
-        (1 + r) e outside in the limit, (1 + rho) p for eps > 0; p on the hemisphere.
-    """
-
-    times: Array
-    states: Array
-    points: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -291,30 +272,36 @@ class Simulation:
 
         In the limit the orbits up the hemisphere, which take no time, are put in where phases begin with one.
         """
-        times = self.times
-        if len(times) > 1 and times[-1] > times[0]:
-            times = np.union1d(np.linspace(times[0], times[-1], SAMPLES), times)
-            if len(times) > MOST:
-                times = times[np.unique(np.rint(np.linspace(0, len(times) - 1, MOST)).astype(int))]
-        states = self.dense(times)
-        points = states[:, :2].copy()
-        pieces: list[tuple[Array, Array, Array]] = []
-        done = 0
-        for k, phase in enumerate(self.phases):
-            last = k + 1 == len(self.phases)
-            end = len(times) if last else int(np.searchsorted(times, self.phases[k + 1].t_start, side="left"))
-            up = phase.ascent[::ASCENT]
-            state = self.dense(np.full(len(up), phase.t_start))
-            pieces.append((np.full(len(up), phase.t_start), state, up))
-            if end > done:
-                p = phase.p(np.clip(times[done:end], phase.t_start, phase.t_end))
-                rho = np.hypot(np.hypot(states[done:end, 0], states[done:end, 1]), self.eps)
-                points[done:end] = p * (1.0 + rho)[:, None]
-                pieces.append((times[done:end], states[done:end], points[done:end]))
-                done = end
-        if not pieces:
-            pieces.append((times, states, points))
-        return Drawn(*(np.concatenate(column) for column in zip(*pieces, strict=True)))
+        return drawn(self.motion, self.phases, self.eps)
+
+    def to_frame(self, t: ArrayLike | None = None) -> Any:
+        """Return the motion as a pandas DataFrame: a row a time, columns t, x, y, z1, ..., zm, phase and onto.
+
+        Parameters
+        ----------
+        t : (k,), optional
+            Times between ``times[0]`` and ``times[-1]``; left out, the ends of the steps.
+
+        Raises
+        ------
+        ValueError
+            A time is outside, t is no list of times, or pandas is not installed.
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise ValueError(
+                "pandas is not installed, of which to_frame makes a DataFrame: pip install pandas."
+            ) from None
+        when = self.times if t is None else np.asarray(t, float)
+        if when.ndim != 1:
+            raise ValueError(f"t has shape {when.shape}; give a list of times.")
+        states = self.states if t is None else self.dense(when)
+        named = dict(zip(("x", "y", *SLOW), states.T, strict=False))
+        starts = [phase.t_start for phase in self.phases]
+        phases = [self.phases[i - 1] for i in np.searchsorted(starts, when, side="right") if i]  # as `phase_at`
+        told = {"phase": [phase.kind for phase in phases], "onto": [phase.onto for phase in phases]} if starts else {}
+        return pandas.DataFrame({"t": when, **named, **told})
 
 
 def simulation(

@@ -17,8 +17,9 @@ from codim2_core.initial_value import compiled
 from codim2_core.initial_value.events import Event
 from codim2_core.initial_value.problem import plane_problem
 from codim2_core.motion import regularised
+from codim2_core.motion.drawn import MOST, SAMPLES
 from codim2_core.motion.regularised import simulate
-from codim2_core.motion.result import MOST, SAMPLES, SimulationStatus
+from codim2_core.motion.result import SimulationStatus
 from codim2_core.numerics.radau import tableau
 from tests.core.strategies import coefficient, regularisations
 
