@@ -88,4 +88,7 @@ class PeriodicMotion:
             for one, error in zip(self.multipliers.tolist(), self.multiplier_errors.tolist(), strict=True)
         ]
         head = ("multiplier", "imaginary part", "modulus", "error")
-        return (self.run._repr_svg_() or "") + table(head, rows) + paragraphs([self.reason])
+        return (self._repr_svg_() or "") + table(head, rows) + paragraphs([self.reason])
+
+    def _repr_svg_(self) -> str | None:
+        return self.run._repr_svg_()

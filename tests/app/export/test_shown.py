@@ -23,6 +23,7 @@ SADDLE = c2.ELinear(1.0, 0.3, -1.2, (0.2, 0.45))
 SPIRAL = c2.ELinear(-1, 1, -1, (0, 0))
 CYCLE = c2.presets["case3-n3"]
 TWO = c2.examples.nonunique_sliding()
+RING = c2.System(U=("-y + x*(1 - x**2 - y**2)", "x + y*(1 - x**2 - y**2)"))
 UNSTEADY = c2.ELinear(-1, 0, -1, ("z", 0), B=((0, 0),), g=(0.25,))
 
 #: What stands in a notebook's cell, and what must be read in it.
@@ -39,6 +40,7 @@ RESULTS = {
     "filippov_sliding": lambda: c2.filippov_sliding(TWO, 0.0),
     "limit_cycles": lambda: c2.limit_cycles(CYCLE.system, CYCLE.psi),
     "nullclines": lambda: c2.nullclines(FOUR, ONE),
+    "periodic_motion": lambda: c2.periodic_motion(RING, (0.9, 0.1), 6.0),
     "separatrices": lambda: c2.separatrices(SADDLE, ONE),
     "simulate": lambda: c2.simulate(SPIRAL, ONE, 0.1, (0.5, 0.2), (0, 3)),
     "simulate_nonsmooth": lambda: c2.simulate_nonsmooth(FOUR, (0.5, 0.2, 0.0), (0, 3)),
@@ -63,12 +65,12 @@ RESULTS = {
 }
 PICTURED = {
     "basins", "basins, nearer", "class_map", "continue_cycles", "diagram", "launched", "limit_cycles",
-    "linearisation_path", "nullclines", "preset", "psi", "scene", "separatrices", "simulate", "simulate_nonsmooth",
+    "linearisation_path", "nullclines", "periodic_motion", "preset", "psi", "scene", "separatrices", "simulate", "simulate_nonsmooth",
     "slow_portrait", "trajectories", "bifurcations.closed_equator", "bifurcations.critical_boundary",
     "bifurcations.hopf", "bifurcations.regions", "bifurcations.saddle_node",
 }  # fmt: skip
 #: What is given and not found: equations show as their text.
-GIVEN = {c2.ELinear, c2.System, c2.Coefficients, c2.Frozen, c2.Event, c2.SimulationStatus}
+GIVEN = {c2.ELinear, c2.System, c2.Coefficients, c2.Frozen, c2.Event, c2.SimulationStatus, c2.PeriodicStatus}
 
 
 def classes_of(annotation):
