@@ -65,9 +65,9 @@ RESULTS = {
 }
 PICTURED = {
     "basins", "basins, nearer", "class_map", "continue_cycles", "diagram", "launched", "limit_cycles",
-    "linearisation_path", "nullclines", "periodic_motion", "preset", "psi", "scene", "separatrices", "simulate", "simulate_nonsmooth",
-    "slow_portrait", "trajectories", "bifurcations.closed_equator", "bifurcations.critical_boundary",
-    "bifurcations.hopf", "bifurcations.regions", "bifurcations.saddle_node",
+    "linearisation_path", "nullclines", "periodic_motion", "preset", "psi", "scene", "separatrices",
+    "simulate", "simulate_nonsmooth", "slow_portrait", "trajectories", "bifurcations.closed_equator",
+    "bifurcations.critical_boundary", "bifurcations.hopf", "bifurcations.regions", "bifurcations.saddle_node",
 }  # fmt: skip
 #: What is given and not found: equations show as their text.
 GIVEN = {c2.ELinear, c2.System, c2.Coefficients, c2.Frozen, c2.Event, c2.SimulationStatus, c2.PeriodicStatus}
