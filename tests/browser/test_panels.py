@@ -10,7 +10,8 @@ from .drawn import plots
 #: Elements of the inspector whose content is wider than they are; the strip of tabs may be drawn sideways on a phone.
 TOO_WIDE = """() => {
     const all = (root) => [...root.querySelectorAll('*')].flatMap((e) => e.shadowRoot ? [e, ...all(e.shadowRoot)] : [e])
-    return all(document).filter((e) => e.closest('.inspector') && !(innerWidth < 500 && e.matches('.tabs')) && e.offsetParent)
+    return all(document)
+        .filter((e) => e.closest('.inspector') && !(innerWidth < 500 && e.matches('.tabs')) && e.offsetParent)
         .filter((e) => e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).display !== 'inline')
         .map((e) => e.className) }"""
 
