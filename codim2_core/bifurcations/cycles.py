@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
 
 from ..continuation.branches import folds_along
+from ..continuation.varied_system import Straight
 from ..psi.function import Psi
-from ..systems.coefficients import Coefficients
 from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
-from .equator import coefficients_at, neutral_loop
+from .equator import neutral_loop
 from .fold_of_cycles import OUTWARD, SMALL, STEP, Fold, FoldGuess, Folds, null_vector
 from .geometry import Geometry
 from .trace import hopf
@@ -117,11 +116,9 @@ class _Curves:
         """Begin at the folds on some lines across the disc that no curve has passed."""
         angles = [math.pi * (k + 0.5) / LINES for k in range(LINES)]
         units = [np.array([math.cos(angle), math.sin(angle)]) for angle in angles]
-
-        def line(unit: Array) -> Callable[[float], tuple[Coefficients, Psi]]:
-            return lambda t: (coefficients_at(*self.plane, -self.A @ (t * unit)), self.psi)
-
-        for unit, turns in zip(units, folds_along([line(unit) for unit in units], 0.01, 0.995), strict=True):
+        origin = np.array([*self.plane, 0.0, 0.0])
+        lines = [Straight(origin, np.array([0.0, 0.0, 0.0, *(-self.A @ unit)]), self.psi) for unit in units]
+        for unit, turns in zip(units, folds_along(lines, 0.01, 0.995), strict=True):
             for turn in turns:
                 if self._passed(-self.A @ (turn.value * unit), turn.amplitude):
                     continue

@@ -32,7 +32,7 @@ SMALL, LOW = 3e-3, 1e-4  # amplitude, ebar: the cycle has come to C, to the equa
 OUTWARD = np.array([1.0, 0.0, 0.0])
 CUSP_ROUNDS = 24
 LARGEST = 690.0  # |xi|
-AHEAD, MEMORY = 8, 12  # folds predicted at once; last folds that predictions know of
+AHEAD, MEMORY, BEHIND = 8, 12, 3  # folds predicted at once; last folds that predictions know of, and use
 TURNED = 0.9  # cosine between successive tangents below which a step is too long
 MISSED = 0.3  # distance of a fold from its prediction, in steps, beyond which a step is too long
 #: A place (xi, e) and those beside it, for differences of the exponent.
@@ -222,7 +222,7 @@ class Folds:
             Place(fold.xi_by(t), float(t[0]), tuple(t[1:].tolist()))
             for fold, t in zip(states[rows], tangents[rows], strict=True)
         ]
-        predicted = ahead(lengths[rows], places, along, states[-1].turn.rate, steps)
+        predicted = ahead(lengths[rows], places, along, states[-1].turn.rate, steps, BEHIND)
         found = self.all_corrected([FoldGuess(p.xi, np.array(p.parameters), tangents[-1]) for p in predicted])
         return [(np.array([p.chi, *p.parameters]), fold) for p, fold in zip(predicted, found, strict=True)]
 

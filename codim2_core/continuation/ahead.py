@@ -1,4 +1,4 @@
-"""Where the next points of a curve of cycles are expected: by its last points and their tangents."""
+"""Where points of a curve of cycles are expected, ahead and in between: by some of its points and their tangents."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import numpy as np
 
 from .hermite import hermite
 
-BEHIND = 3  # points from which others are predicted
 APART = 0.25  # of a step: how far from one another they are, at least: a fold may lie beside one
 
 
@@ -23,7 +22,12 @@ class Place(NamedTuple):
 
 
 def ahead(
-    lengths: Sequence[float], places: Sequence[Place], tangents: Sequence[Place], rate: float, steps: Sequence[float]
+    lengths: Sequence[float],
+    places: Sequence[Place],
+    tangents: Sequence[Place],
+    rate: float,
+    steps: Sequence[float],
+    behind: int,
 ) -> list[Place]:
     """Predict points after the last one; fewer than asked for where the section ends before.
 
@@ -37,25 +41,49 @@ def ahead(
         d chi/d xi at the last one.
     steps : sequence of float
         From the last point to the first one wanted, and so on.
+    behind : int
+        How many points it is told by, at most: more tell more, if they are exact.
     """
     rows = [len(lengths) - 1]
     for i in range(len(lengths) - 2, -1, -1):
-        if len(rows) == BEHIND:
+        if len(rows) == behind:
             break
         if lengths[rows[-1]] - lengths[i] > APART * steps[0]:
             rows.append(i)
-    chi = places[-1].chi
+    at = [lengths[i] for i in rows]
+    return placed(
+        at, [places[i] for i in rows], [tangents[i] for i in rows], rate, (lengths[-1] + np.cumsum(steps)).tolist()
+    )
+
+
+def placed(
+    lengths: Sequence[float], places: Sequence[Place], tangents: Sequence[Place], rate: float, where: Sequence[float]
+) -> list[Place]:
+    """Find the curve through some points at other lengths; as far as the section goes.
+
+    Parameters
+    ----------
+    lengths : sequence of float
+        Of the curve up to each of the points.
+    places, tangents : sequence of Place
+        Of these points, the first of them the nearest to what is wanted.
+    rate : float
+        d chi/d xi at the first one.
+    where : sequence of float
+        Lengths at which it is wanted.
+    """
+    chi = places[0].chi
     # xi goes to infinity at C and at the equator: with chi there is what is left of it beside these two logarithms
     outer = 1.0 if chi < 0.5 else (1.0 / rate - 1.0 / chi) * (1.0 - chi)
     values, slopes = [], []
-    for place, along in ((places[i], tangents[i]) for i in rows):
+    for place, along in zip(places, tangents, strict=True):
         rest = place.xi - math.log(place.chi) + outer * math.log(1.0 - place.chi)
         by_rest = along.xi - (1.0 / place.chi + outer / (1.0 - place.chi)) * along.chi
         values.append((rest, place.chi, *place.parameters))
         slopes.append((by_rest, along.chi, *along.parameters))
-    at = np.array([lengths[i] for i in rows]) - lengths[-1]
+    at, wanted = np.array(lengths) - lengths[0], np.array(where) - lengths[0]
     found = []
-    for rest, chi, *parameters in hermite(at, np.array(values), np.array(slopes), np.cumsum(steps)).tolist():
+    for rest, chi, *parameters in hermite(at, np.array(values), np.array(slopes), wanted).tolist():
         if not 0.0 < chi < 1.0:
             break
         found.append(Place(rest + math.log(chi) - outer * math.log(1.0 - chi), chi, tuple(parameters)))

@@ -13,16 +13,14 @@ Answer = TypeVar("Answer")
 Found = TypeVar("Found")
 
 
-def answered(
-    searches: Sequence[Generator[Question, Answer, Found]], answer: Callable[[list[Question]], list[Answer]]
-) -> list[Found]:
-    """Run searches side by side until all have ended.
+def rounds(
+    searches: Sequence[Generator[Question, Answer, Found]],
+) -> Generator[list[Question], list[Answer], list[Found]]:
+    """Run searches side by side: yields the questions of those that go on, in their order, and is sent the answers.
 
     Parameters
     ----------
     searches : sequence of generators
-    answer : callable
-        What it returns for questions of several searches, in their order.
 
     Returns
     -------
@@ -42,7 +40,33 @@ def answered(
         go_on(i, None)
     while asked:
         several = list(asked)
-        answers = answer([asked.pop(i) for i in several])
+        answers = yield [asked.pop(i) for i in several]
         for i, told in zip(several, answers, strict=True):
             go_on(i, told)
     return [found[i] for i in range(len(searches))]
+
+
+def answered(
+    searches: Sequence[Generator[Question, Answer, Found]], answer: Callable[[list[Question]], list[Answer]]
+) -> list[Found]:
+    """Run searches side by side until all have ended.
+
+    Parameters
+    ----------
+    searches : sequence of generators
+    answer : callable
+        What it returns for questions of several searches, in their order.
+
+    Returns
+    -------
+    list
+        What each has found.
+    """
+    going = rounds(searches)
+    answers = None
+    while True:
+        try:
+            questions = next(going) if answers is None else going.send(answers)
+        except StopIteration as end:
+            return end.value
+        answers = answer(questions)

@@ -11,7 +11,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
+from functools import partial
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -27,18 +28,24 @@ from ..systems.elinear import ELinear
 from ..words import say
 from .asking import answered
 from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, reversible, values
-from .points import Guess, Trace, reversed_trace
+from .path import LEVEL, traced
+from .points import Guess, Trace, passing, reversed_trace
 from .result import CycleBranch, CycleBranches, CyclePoint
 from .sought import sought
-from .trace import LEVEL, Tracer
+from .trace import Tracer
 from .turns import Turn
-from .varied_system import Asking, At, VariedSystem, follow
+from .varied_system import Asking, Straight, VariedSystem, follow, side_by_side
 
 __all__ = ["CycleBranch", "CycleBranches", "CyclePoint", "continue_cycles"]
 
 FIRST = 1e-3  # of the reach: where branches start at C
 OUTER, SEEN = np.array([5.0, 10.0, 20.0, 50.0, 100.0, 300.0]), 1e-12  # |x2| where they start at the equator; 1 - |e|^2
+PLANE = ("a", "b", "d", "f1", "f2")
 COLUMNS = 9  # values at which all cycles are looked for
+
+#: A branch: its points, its start and end, and what these are if they are no cycles.
+Entry = tuple[Trace, CyclePoint, CyclePoint, End | None, End | None]
+
 FAR, SAME = 0.1, 1e-6  # distances in chi: a branch does not pass near a cycle; a cycle is that of the branch
 
 
@@ -77,8 +84,11 @@ def continue_cycles(
     if not (math.isfinite(low) and math.isfinite(high) and low < high):
         raise ValueError(f"span is {span!r}; give finite numbers low < high.")
 
-    if name in ("a", "b", "d", "f1", "f2") and name in system.variable:
+    straight = None
+    if name in PLANE and name in system.variable:
         system, z = system.at(z), ()  # nothing else varies: coefficients are checked and evaluated once
+        slope = np.eye(len(PLANE))[PLANE.index(name)]
+        straight = Straight((1.0 - slope) * system.plane, slope, psi)
 
     def inside(value: float) -> tuple[Coefficients, Psi]:
         changed, family_psi, place = varied(system, psi, z, name, value)
@@ -98,8 +108,8 @@ def continue_cycles(
     for value in (low, high):
         at(value)
     bounds = limits(system, psi, name)
-    part = sought(VariedSystem(at, high - low, bounds), low, high)
-    family = VariedSystem(at, part[1] - part[0], bounds)
+    part = sought(VariedSystem(at, high - low, bounds, straight), low, high)
+    family = VariedSystem(at, part[1] - part[0], bounds, straight)
     allowed = [v for v in values(*part) if family.allows(v)]
     if all(reversible(at(v)[0]) for v in allowed):
         settings = (at(float(v)) for v in values(low, high))
@@ -112,13 +122,12 @@ def continue_cycles(
     return found
 
 
-def folds_along(lines: Sequence[At], low: float, high: float) -> list[list[Turn]]:
+def folds_along(lines: Sequence[Straight], low: float, high: float) -> list[list[Turn]]:
     """Find the folds on all branches of cycles along each of several lines.
 
     Parameters
     ----------
-    lines : sequence of callable
-        value -> (Coefficients, Psi).
+    lines : sequence of Straight
     low, high : float
 
     Returns
@@ -126,10 +135,10 @@ def folds_along(lines: Sequence[At], low: float, high: float) -> list[list[Turn]
     list of list of Turn
     """
     searches = []
-    for at in lines:
-        family = VariedSystem(at, high - low)
+    for line in lines:
+        family = VariedSystem(partial(_on, line), high - low, straight=line)
         allowed = [v for v in values(low, high) if family.allows(v)]
-        if not all(reversible(at(v)[0]) for v in allowed):
+        if not all(reversible(family.at(v)[0]) for v in allowed):
             family.ray = family.section(allowed[len(allowed) // 2]).ray
             searches.append(_Search(family, "t", (low, high), (low, high)))
         else:
@@ -139,6 +148,11 @@ def folds_along(lines: Sequence[At], low: float, high: float) -> list[list[Turn]
         [] if search is None else [trace.points[i].turn for trace, *_ in search.found for i in trace.folds]
         for search in searches
     ]
+
+
+def _on(line: Straight, value: float) -> tuple[Coefficients, Psi]:
+    a, b, d, f1, f2 = (line.origin + value * line.slope).tolist()
+    return Coefficients(a, b, d, f1, f2, np.zeros((0, 2)), np.zeros(0)), line.psi
 
 
 class _Search:
@@ -152,7 +166,7 @@ class _Search:
         self.closed = equator_ends(family, low, high)
         self.loops = loop_ends(family, low, high)
         self.used: set[int] = set()
-        self.found: list[tuple[Trace, CyclePoint, CyclePoint, End | None, End | None]] = []
+        self.found: list[Entry] = []
         centres = {end.value for end in self.hopf if reversible(family.at(end.value)[0])}
         self.notes = [say("band at one value", name=name, value=v) for v in sorted(centres)]
         self.hopf = [end for end in self.hopf if end.value not in centres]
@@ -193,58 +207,63 @@ class _Search:
             if first is None:
                 self.notes.append(say("birth not caught", kind=end.kind, name=self.name, value=end.value))
             return
-        trace = yield from self.tracer.trace(self.tracer.point(*first, (towards, 0.0)))
+        trace = yield from traced(self.tracer, self.tracer.point(*first, (towards, 0.0)))
         self._keep(trace, self._special(end), end)
 
     def _columns(self) -> Asking[None]:
         """Begin at each cycle that no branch has passed."""
-        for value in values(self.low, self.high, COLUMNS):
-            if not self.family.allows(value):
+        guesses = [guess for value in values(self.low, self.high, COLUMNS) for guess in self._unexplained(value)]
+        corrected = yield from side_by_side([self.tracer.corrected(guess) for guess in guesses])
+        firsts, passed = [first for first in corrected if first is not None], len(self.found)
+        known = yield from side_by_side([self._known(first, self.found) for first in firsts])
+        for first, old in zip(firsts, known, strict=True):
+            if old or (yield from self._known(first, self.found[passed:])):
                 continue
-            problem = self.family.problem(value)
-            if reason_for_none(self.family.at(value)[0], problem.critical, problem.location) is not None:
+            point = self.tracer.point(*first, (1.0, 0.0))
+            trace = yield from traced(self.tracer, point)
+            if trace.reason == "closed":
+                special = CyclePoint(
+                    "closed", point.turn.value, point.turn.period, point.turn.amplitude, say("branch closed")
+                )
+                self.found.append((trace, special, special, None, None))
                 continue
-            crossings, _ = search(shown(self.family.section(value)))
-            for crossing in crossings:
-                first = yield from self.tracer.corrected(
-                    Guess(crossing.xi, self._nu(value), (0.0, 1.0), crossing.repelling)
-                )
-                if first is None or (yield from self._known(first[0].chi, first[1])):
-                    continue
-                point = self.tracer.point(*first, (1.0, 0.0))
-                trace = yield from self.tracer.trace(point)
-                if trace.reason == "closed":
-                    special = CyclePoint(
-                        "closed", point.turn.value, point.turn.period, point.turn.amplitude, say("branch closed")
-                    )
-                    self.found.append((trace, special, special, None, None))
-                    continue
-                other = yield from self.tracer.trace(self.tracer.point(*first, (-point.tangent[0], -point.tangent[1])))
-                start, end = self._end(other)
-                back = reversed_trace(other)
-                joined = Trace(
-                    back.points[:-1] + trace.points,
-                    back.folds + tuple(i + len(back.points) - 1 for i in trace.folds),
-                    trace.reason,
-                )
-                self._keep(joined, start, end)
+            turned = (-point.tangent[0], -point.tangent[1])
+            other = yield from traced(self.tracer, self.tracer.point(*first, turned))
+            start, end = self._end(other)
+            back = reversed_trace(other)
+            joined = Trace(
+                back.points[:-1] + trace.points,
+                back.folds + tuple(i + len(back.points) - 1 for i in trace.folds),
+                trace.reason,
+            )
+            self._keep(joined, start, end)
 
-    def _known(self, chi: float, nu: float) -> Asking[bool]:
-        """Whether a branch passes here: its own cycle at this value is computed where that is not plain."""
-        for trace, *_ in self.found:
-            for one, two in pairwise(trace.points):
-                low, high = sorted((one.nu, two.nu))
-                if not low - 1e-9 <= nu <= high + 1e-9:
-                    continue
-                part = (nu - one.nu) / (two.nu - one.nu) if two.nu != one.nu else 0.5
-                guess = one.turn.chi + part * (two.turn.chi - one.turn.chi)
-                if abs(guess - chi) > FAR:
-                    continue
-                near = one if part < 0.5 else two
-                xi = near.xi(guess, (nu - near.nu) * (self.high - self.low))
-                found = yield from self.tracer.corrected(Guess(xi, nu, (0.0, 1.0), near.turn.exponent > 0.0))
-                if found is not None and abs(found[0].chi - chi) < SAME:
-                    return True
+    def _unexplained(self, value: float) -> list[Guess]:
+        """Guess the cycles at a value, if there are others than those of the branches."""
+        if not self.family.allows(value):
+            return []
+        problem = self.family.problem(value)
+        if reason_for_none(self.family.at(value)[0], problem.critical, problem.location) is not None:
+            return []
+        samples, nu = shown(self.family.section(value)), self._nu(value)
+        expected = sorted(guess.xi for trace, *_ in self.found for _, guess in passing(trace, nu, self.tracer.width))
+        changes = [(samples.xi[i], samples.xi[j]) for i, j in samples.changes]
+        if samples.certain == len(changes) == len(expected) and all(
+            low < xi < high for xi, (low, high) in zip(expected, changes, strict=True)
+        ):
+            return []
+        crossings, _ = search(samples)
+        return [Guess(crossing.xi, nu, (0.0, 1.0), crossing.repelling) for crossing in crossings]
+
+    def _known(self, first: tuple[Turn, float], entries: Sequence[Entry]) -> Asking[bool]:
+        """Whether a branch passes a cycle: its own at this value is computed where that is not plain."""
+        turn, nu = first
+        for chi, guess in chain.from_iterable(passing(trace, nu, self.tracer.width) for trace, *_ in entries):
+            if abs(chi - turn.chi) > FAR:
+                continue
+            found = yield from self.tracer.corrected(guess)
+            if found is not None and abs(found[0].chi - turn.chi) < SAME:
+                return True
         return False
 
     def _keep(self, trace: Trace, start: CyclePoint, first: End | None) -> None:
@@ -259,10 +278,8 @@ class _Search:
             end = min(self.hopf, key=lambda e: abs(e.value - turn.value), default=None)
         elif trace.reason in ("equator", "stuck"):
             direction, width = math.copysign(1.0, last.tangent[1]), self.high - self.low
-            end = at_equator(self.family, turn.value, direction, width, self.closed + self.loops)
-            reach = width * (0.02 if turn.height < LEVEL else 1e-4)
-            if trace.reason == "stuck" and end is not None and abs(end.value - turn.value) > reach:
-                end = None
+            reach = width if trace.reason == "equator" else width * (0.02 if turn.height < LEVEL else 1e-4)
+            end = at_equator(self.family, turn.value, direction, width, self.closed + self.loops, reach)
             if trace.reason == "stuck" and end is None:
                 end = at_singular(self.family, turn.value, direction, width)
         if end is not None:

@@ -13,17 +13,23 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..cycles.loop import Loop, gap, loops
+from ..layer_problem.closed_equator import slowest_turn
 from ..layer_problem.equator import equator_cycle, equator_equilibria
 from ..layer_problem.lyapunov import first_lyapunov
+from ..layer_problem.problem import LayerProblem
 from ..numerics.root_between import root_between
 from ..systems.coefficients import Coefficients
 from .varied_system import VariedSystem
 
+Array = NDArray[np.float64]
+
 SAMPLES = 129  # values at which traces and exponents are looked at
 COLUMNS = 9  # and gaps of loops
 SIGN = 1e-7  # tolerance for the sign of a gap
+NEAR_BORDER = (1e-10, 1e-8, 1e-6)  # of a distance between samples: how far from where a function ceases to be defined
 AHEAD = 0.1  # of the span: how far beyond the last cycle its end is looked for
 
 
@@ -63,13 +69,14 @@ def hopf_ends(family: VariedSystem, low: float, high: float) -> list[End]:
     low, high : float
     """
 
-    def trace(value: float) -> float | None:
-        if not family.allows(value):
-            return None
-        return family.problem(value).critical[0].trace
+    def traces(places: list[float]) -> Array:
+        out, placed = np.full(len(places), math.nan), family.placed(places)
+        if placed is not None:
+            out[placed.rows] = placed.sections(0).trace
+        return out
 
     ends = []
-    for value in _roots(trace, values(low, high)):
+    for value in _roots(traces, family.room, values(low, high)):
         coefficients, psi = family.at(value)
         (C,) = family.problem(value).critical
         number = float(first_lyapunov(coefficients.A, psi, C.x2[None, :])[0])
@@ -85,8 +92,15 @@ def equator_ends(family: VariedSystem, low: float, high: float) -> list[End]:
     family : VariedSystem
     low, high : float
     """
+
+    def exponents(places: list[float]) -> Array:
+        return np.array([exponent(value) for value in places], float)  # None is NaN
+
+    def turning(value: float) -> float:
+        return float(slowest_turn(family.planes([value]))[0])
+
     exponent = _exponent(family)
-    return [_on_equator(family, "equator", value) for value in _roots(exponent, values(low, high))]
+    return [_on_equator(family, "equator", value) for value in _roots(exponents, turning, values(low, high))]
 
 
 def _exponent(family: VariedSystem) -> Callable[[float], float | None]:
@@ -130,7 +144,7 @@ def loop_ends(family: VariedSystem, low: float, high: float) -> list[End]:
     low, high : float
     """
     columns = values(low, high, COLUMNS)
-    arcs = [loops(family.at(v)[0]) if family.allows(v) else () for v in columns]
+    arcs = [_arcs(family, v) for v in columns]
     ends = []
     for i in range(len(columns) - 1):
         for loop in arcs[i]:
@@ -157,7 +171,7 @@ def loop_end(family: VariedSystem, low: float, high: float, loop: Loop) -> End |
     """
 
     def miss(value: float) -> float:
-        arcs = loops(family.at(value)[0]) if family.allows(value) else ()
+        arcs = _arcs(family, value)
         if not arcs:
             return math.nan
         return math.atan(gap(*family.at(value), _nearest(arcs, loop, loop.ray)))
@@ -166,10 +180,19 @@ def loop_end(family: VariedSystem, low: float, high: float, loop: Loop) -> End |
     if not at_low * at_high < 0.0:
         return None
     value = root_between(miss, low, high)
-    arcs = loops(family.at(value)[0])
+    arcs = _arcs(family, value)
     if not arcs or abs(miss(value)) > 1e-6:
         return None
     return _on_equator(family, "heteroclinic cycle through the equator", value, _nearest(arcs, loop).ratio)
+
+
+def _arcs(family: VariedSystem, value: float) -> tuple[Loop, ...]:
+    return family.problem(value).keep(_loops_of) if family.allows(value) else ()
+
+
+def _loops_of(problem: LayerProblem) -> tuple[Loop, ...]:
+    coefficients = problem.at.normal_form
+    return () if coefficients is None else loops(coefficients)
 
 
 def _nearest(arcs: tuple[Loop, ...], loop: Loop, ray: int | None = None) -> Loop:
@@ -182,7 +205,9 @@ def _nearest(arcs: tuple[Loop, ...], loop: Loop, ray: int | None = None) -> Loop
     return found if ray is None else Loop(found.source, found.sink, found.ratio, ray)
 
 
-def at_equator(family: VariedSystem, value: float, direction: float, width: float, known: list[End]) -> End | None:
+def at_equator(
+    family: VariedSystem, value: float, direction: float, width: float, known: list[End], reach: float
+) -> End | None:
     """How a branch ends that has come to the equator near a value.
 
     Parameters
@@ -196,6 +221,8 @@ def at_equator(family: VariedSystem, value: float, direction: float, width: floa
         Length of the span.
     known : list of End
         Those on the equator found before.
+    reach : float
+        How far from the value an end can be.
 
     Returns
     -------
@@ -205,14 +232,24 @@ def at_equator(family: VariedSystem, value: float, direction: float, width: floa
     nearest = min((end for end in known), key=lambda end: abs(end.value - value), default=None)
     if nearest is not None and abs(nearest.value - value) < 1e-4 * width:
         return nearest
+    found = _equator_near(family, value, direction, width, known, reach)
+    return found if found is not None and abs(found.value - value) <= reach else None
+
+
+def _equator_near(
+    family: VariedSystem, value: float, direction: float, width: float, known: list[End], reach: float
+) -> End | None:
+    """Find what becomes of cycles at the equator near a value: its exponent's zero, a loop, a saddle-node."""
     ahead = _saddle_node_ahead(family, value, direction, width)
     if equator_cycle(family.at(value)[0]) is not None:
         end = _exchange_near(family, value, direction, width, ahead)
         if end is not None:
             return min((e for e in known if abs(e.value - end.value) < 1e-9 * width), key=id, default=end)
-    arcs = loops(family.at(value)[0]) if family.allows(value) else ()
+    arcs = _arcs(family, value)
     for k in range(1, 9):
         step = direction * width * 10.0 ** (k - 9.0)
+        if abs(step) > 10.0 * reach:
+            break
         if ahead is not None and abs(step) > abs(ahead - value):
             step = (1.0 - 1e-9) * (ahead - value)
         for loop in arcs:
@@ -261,51 +298,53 @@ def _saddle_node_ahead(family: VariedSystem, value: float, direction: float, wid
     return None
 
 
-def _roots(function: Callable[[float], float | None], places: list[float]) -> list[float]:
-    """Zeros of a function that may be undefined (None) in parts, by its changes of sign between the places.
+def _roots(
+    function: Callable[[list[float]], Array], margin: Callable[[float], float], places: list[float]
+) -> list[float]:
+    """Zeros of a function that may be undefined (NaN) in parts, by its changes of sign between the places.
 
-    Where it comes near zero and turns back, the vertex of a parabola is asked too.
+    Where it comes near zero and turns back, the vertex of a parabola is asked too; where it begins or ends to be
+    defined, `margin` changes its sign, and a place all but there: the function may change its own before.
     """
-    found = [function(v) for v in places]
+    found = function(places).tolist()
     more: list[tuple[float, float]] = []
-    for i in range(len(places) - 1):
-        if (found[i] is None) != (found[i + 1] is None):
-            # up to where it stops being defined: it may change its sign there
-            inside, outside = (places[i], places[i + 1])[:: 1 if found[i] is not None else -1]
-            last = None
-            for _ in range(36):
-                middle = 0.5 * (inside + outside)
-                value = function(middle)
-                if value is None:
-                    outside = middle
-                else:
-                    inside, last = middle, (middle, value)
-            if last is not None:
-                more.append(last)
-    for i in range(1, len(places) - 1):
-        y0, y1, y2 = found[i - 1 : i + 2]
-        if y0 is None or y1 is None or y2 is None:
-            continue
-        s = math.copysign(1.0, y1)
-        bend = s * (y0 - 2.0 * y1 + y2)
-        if s * y0 > s * y1 < s * y2 and bend > 0.0 and s * y1 < (s * (y2 - y0)) ** 2 / (4.0 * bend):
-            vertex = places[i] - 0.5 * (places[i + 1] - places[i]) * s * (y2 - y0) / bend
-            value = function(vertex)
-            if value is not None:
-                more.append((vertex, value))
-    line = sorted([(v, y) for v, y in zip(places, found, strict=True) if y is not None] + more)
-    gaps = {v for v, y in zip(places, found, strict=True) if y is None}
-
-    def defined(value: float) -> float:
-        y = function(value)
-        return math.nan if y is None else y
-
+    for (one, y1), (two, y2) in pairwise(zip(places, found, strict=True)):
+        if math.isnan(y1) != math.isnan(y2):
+            more += _at_border(function, margin, *((one, two) if math.isnan(y2) else (two, one)))
+    vertices = [_vertex(places[i - 1 : i + 2], found[i - 1 : i + 2]) for i in range(1, len(places) - 1)]
+    asked = [v for v in vertices if v is not None]
+    more += zip(asked, function(asked).tolist(), strict=True)
+    line = sorted((v, y) for v, y in [*zip(places, found, strict=True), *more] if not math.isnan(y))
+    gaps = [v for v, y in zip(places, found, strict=True) if math.isnan(y)]
     roots = []
     for (v0, y0), (v1, y1) in pairwise(line):
         if y0 == 0.0:
             roots.append(v0)
         elif y0 * y1 < 0.0 and not any(v0 < v < v1 for v in gaps):
-            roots.append(root_between(defined, v0, v1))
+            roots.append(root_between(lambda v: float(function([v])[0]), v0, v1))
     if line and line[-1][1] == 0.0:
         roots.append(line[-1][0])
     return roots
+
+
+def _at_border(
+    function: Callable[[list[float]], Array], margin: Callable[[float], float], inside: float, outside: float
+) -> list[tuple[float, float]]:
+    """Return a place, and the function there, all but where it ceases to be defined; none if there is none."""
+    border = root_between(margin, inside, outside)
+    for share in NEAR_BORDER:
+        value = border + share * (inside - border)
+        y = float(function([value])[0])
+        if value != inside and not math.isnan(y):
+            return [(value, y)]
+    return []
+
+
+def _vertex(places: list[float], found: list[float]) -> float | None:
+    """Where the parabola through three values comes to zero or beyond, if its middle one is the least; or None."""
+    y0, y1, y2 = found
+    s = math.copysign(1.0, y1)
+    bend = s * (y0 - 2.0 * y1 + y2)
+    if s * y0 > s * y1 < s * y2 and bend > 0.0 and s * y1 < (s * (y2 - y0)) ** 2 / (4.0 * bend):
+        return places[1] - 0.5 * (places[2] - places[1]) * s * (y2 - y0) / bend
+    return None

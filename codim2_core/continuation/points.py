@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from .turns import Turn
 
@@ -48,3 +49,24 @@ def reversed_trace(trace: Trace) -> Trace:
     points = tuple(replace(p, tangent=(-p.tangent[0], -p.tangent[1])) for p in reversed(trace.points))
     last = len(points) - 1
     return Trace(points, tuple(sorted(last - i for i in trace.folds)), "")
+
+
+def passing(trace: Trace, nu: float, width: float) -> list[tuple[float, Guess]]:
+    """Return the chi at which a branch passes nu, between its points, and guesses of its cycles there.
+
+    Parameters
+    ----------
+    trace : Trace
+    nu : float
+    width : float
+        Of the span of values.
+    """
+    found = []
+    for one, two in pairwise(trace.points):
+        low, high = sorted((one.nu, two.nu))
+        if low - 1e-9 <= nu <= high + 1e-9:
+            part = (nu - one.nu) / (two.nu - one.nu) if two.nu != one.nu else 0.5
+            chi, near = one.turn.chi + part * (two.turn.chi - one.turn.chi), one if part < 0.5 else two
+            guess = Guess(near.xi(chi, (nu - near.nu) * width), nu, (0.0, 1.0), near.turn.exponent > 0.0)
+            found.append((chi, guess))
+    return found

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
 from functools import lru_cache
+from itertools import chain, islice
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -17,6 +18,7 @@ from ..layer_problem.problem import LayerProblem
 from ..psi.constructors import many
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
+from .asking import rounds
 from .turns import Swelling, Turn, turns
 
 Array = NDArray[np.float64]
@@ -44,18 +46,32 @@ class Question(NamedTuple):
     backward: list[bool]
 
 
-class Asked(NamedTuple):
-    """The turns of a question that have a section: `rows` of them, and what `turns.turns` needs."""
+class Placed(NamedTuple):
+    """Where C is at those of some values, `rows` of them, at which no theorem forbids cycles, and their Psi.
 
-    question: Question
+    Its parameters (k,) are those of each one's Psi, of one family.
+    """
+
     rows: list[int]
     planes: Array
     e: Array
     complement: Array
+    psi: Psi
+    parameters: Array
+
+    def sections(self, ray: int | Indices) -> Sections:
+        """Make their sections."""
+        own = None if (self.parameters == self.parameters[0]).all() else self.parameters
+        return Sections(self.planes, self.e, self.complement, self.psi, own, ray)
+
+
+class Asked(NamedTuple):
+    """The turns of a question that have a section, and what `turns.turns` needs for them."""
+
+    question: Question
+    placed: Placed
     ray: Indices
     changes: Array
-    psi: Psi
-    own: Array | None
     swelling: Swelling | None
 
 
@@ -66,29 +82,55 @@ def follow(questions: list[Question]) -> list[list[Turn | None]]:
     """
     found: list[list[Turn | None]] = [[None] * len(q.xi) for q in questions]
     ready = [(asked, out) for q, out in zip(questions, found, strict=True) if (asked := q.family.asked(q)) is not None]
-    alike = [pair for pair in ready if pair[0].swelling is None and pair[0].psi == ready[0][0].psi]
+    alike = [p for p in ready if p[0].swelling is None and p[0].placed.psi == ready[0][0].placed.psi]
     groups = [alike] if alike else []
     groups += [[pair] for pair in ready if pair not in alike]
     for group in groups:
         parts, outs = [asked for asked, _ in group], [out for _, out in group]
-        values = [part.question.values[i] for part in parts for i in part.rows]
-        xi = np.array([part.question.xi[i] for part in parts for i in part.rows])
-        backward = np.array([part.question.backward[i] for part in parts for i in part.rows])
-        planes, e = (np.concatenate(v) for v in zip(*((part.planes, part.e) for part in parts), strict=True))
-        complement = np.concatenate([part.complement for part in parts])
-        ray = np.concatenate([part.ray for part in parts])
+        values = [part.question.values[i] for part in parts for i in part.placed.rows]
+        xi = np.array([part.question.xi[i] for part in parts for i in part.placed.rows])
+        backward = np.array([part.question.backward[i] for part in parts for i in part.placed.rows])
+        swelling, sections = parts[0].swelling, _together([part.placed for part in parts], [part.ray for part in parts])
         changes = np.concatenate([part.changes for part in parts], axis=1)
-        sections = Sections(planes, e, complement, parts[0].psi, parts[0].own, ray)
-        result = turns(sections, xi, backward, changes, parts[0].swelling).each(values)
-        places = [(out, i) for part, out in zip(parts, outs, strict=True) for i in part.rows]
+        result = turns(sections, xi, backward, changes, swelling).each(values)
+        places = [(out, i) for part, out in zip(parts, outs, strict=True) for i in part.placed.rows]
         for (out, i), turn in zip(places, result, strict=True):
             out[i] = turn
     return found
 
 
+def _together(places: list[Placed], rays: list[Indices]) -> Sections:
+    """Make the sections of several families with one Psi."""
+    _, planes, e, complement, psi, parameters = zip(*places, strict=True)
+    planes, e, complement = np.concatenate(planes), np.concatenate(e), np.concatenate(complement)
+    return Placed([], planes, e, complement, psi[0], np.concatenate(parameters)).sections(np.concatenate(rays))
+
+
 #: A search that asks for turns; see `asking`.
 Found = TypeVar("Found")
 Asking = Generator[Question, "list[Turn | None]", Found]
+
+
+def side_by_side(searches: Sequence[Asking[Found]]) -> Asking[list[Found]]:
+    """Run searches in one family side by side, as one that asks for all their turns together."""
+    going = rounds(searches)
+    answers = None
+    while True:
+        try:
+            questions = next(going) if answers is None else going.send(answers)
+        except StopIteration as end:
+            return end.value
+        parts = [[*chain.from_iterable(part)] for part in list(zip(*questions, strict=True))[1:]]
+        found = iter((yield Question(questions[0].family, *parts)))
+        answers = [[*islice(found, len(question.xi))] for question in questions]
+
+
+class Straight(NamedTuple):
+    """Coefficients that are affine in a parameter: those at 0, and their derivative, (5,); Psi stays."""
+
+    origin: Array
+    slope: Array
+    psi: Psi
 
 
 class VariedSystem:
@@ -102,10 +144,18 @@ class VariedSystem:
         Size of changes of the value.
     bounds : (float, float), optional
         What the parameter may be.
+    straight : Straight, optional
+        The same as `at`, where it is so simple.
     """
 
-    def __init__(self, at: At, scale: float, bounds: tuple[float, float] = (-math.inf, math.inf)) -> None:
-        self.at, self.scale, self.bounds = lru_cache(maxsize=KEPT)(at), scale, bounds
+    def __init__(
+        self,
+        at: At,
+        scale: float,
+        bounds: tuple[float, float] = (-math.inf, math.inf),
+        straight: Straight | None = None,
+    ) -> None:
+        self.at, self.scale, self.bounds, self.straight = lru_cache(maxsize=KEPT)(at), scale, bounds, straight
         self.problem = lru_cache(maxsize=KEPT)(self._problem)
         self.ray: int | None = None
 
@@ -128,33 +178,51 @@ class VariedSystem:
         problem = self.problem(value)
         return Section(*self.at(value), problem.critical[0], self.ray, location=problem.location)
 
-    def asked(self, question: Question) -> Asked | None:
-        """Prepare turns; None if none of them has a section."""
-        allowed = [
-            i
-            for i, v in enumerate(question.values)
-            if self.bounds[0] <= v <= self.bounds[1] and math.isfinite(question.xi[i])
-        ]
-        if not allowed:
+    def planes(self, values: Sequence[float]) -> Array:
+        """Coefficients (a, b, d, f1, f2) (n, 5) at values within the bounds."""
+        if self.straight is not None:
+            return self.straight.origin + np.multiply.outer(values, self.straight.slope)
+        return np.array([self.at(value)[0].plane for value in values])
+
+    def members(self, values: Sequence[float]) -> list[Psi]:
+        """Psi at values within the bounds."""
+        return [self.at(value)[1] for value in values] if self.straight is None else [self.straight.psi] * len(values)
+
+    def room(self, value: float) -> float:
+        """``1 - |e_C|^2``, or a negative number: positive where `allows` is true, within rounding."""
+        within = self.bounds[0] <= value <= self.bounds[1]
+        return float(located(self.planes([value]))[1][0]) if within else -1.0
+
+    def placed(self, values: Sequence[float]) -> Placed | None:
+        """Say at which values there is a section, and where C is; None if at none of them."""
+        within = [i for i, v in enumerate(values) if self.bounds[0] <= v <= self.bounds[1]]
+        if not within:
             return None
-        systems = [self.at(question.values[i]) for i in allowed]
-        planes = np.array([q.plane for q, _ in systems])
+        planes = self.planes([values[i] for i in within])
         e, complement = located(planes)
         inside = np.flatnonzero(complement > 0.0)
         if not len(inside):
             return None
-        rows = [allowed[i] for i in inside.tolist()]
+        rows = [within[i] for i in inside.tolist()]
+        members = self.members([values[i] for i in rows])
+        parameters = np.array([member.parameter for member in members])
+        return Placed(rows, planes[inside], e[inside], complement[inside], members[0], parameters)
+
+    def asked(self, question: Question) -> Asked | None:
+        """Prepare turns; None if none of them has a section."""
+        values = [v if math.isfinite(xi) else math.nan for xi, v in zip(question.xi, question.values, strict=True)]
+        placed = self.placed(values)
+        if placed is None:
+            return None
         if self.ray is None:
-            self.ray = self.section(question.values[rows[0]]).ray
-        changes, swelling = self._changes([question.values[i] for i in rows])
-        own = None if swelling is None else np.array([psi.parameter for _, psi in systems])[inside]
-        return Asked(
-            question, rows, planes[inside], e[inside], complement[inside], np.full(len(rows), self.ray), changes,
-            systems[inside[0]][1], own, swelling,
-        )  # fmt: skip
+            self.ray = self.section(values[placed.rows[0]]).ray
+        changes, swelling = self._changes([values[i] for i in placed.rows])
+        return Asked(question, placed, np.full(len(placed.rows), self.ray), changes, swelling)
 
     def _changes(self, values: list[float]) -> tuple[Array, Swelling | None]:
         """Differentiate what depends on the parameter, by differences: (a, b, d, f1, f2) (1, n, 5), and |e_Psi|."""
+        if self.straight is not None:
+            return np.broadcast_to(self.straight.slope, (1, len(values), 5)), None
         h = STEP * self.scale
         ends = [(max(v - h, self.bounds[0]), min(v + h, self.bounds[1])) for v in values]
         low, high = [self.at(before) for before, _ in ends], [self.at(after) for _, after in ends]

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..numerics.root_between import root_through
 from ..words import say
 from .resolution import NEAR_FOLD, UNRESOLVED, Samples, near_fold, zeros
 from .section import COARSE, FINE, INNER, Array, FixedPoint, Section
@@ -57,13 +58,6 @@ def _ends(xi: Array, shift: Array) -> list[int]:
     return [*new, *np.flatnonzero(jumps).tolist()]
 
 
-def _root(x: Array, y: Array) -> float:
-    """Lagrange's polynomial for the parameter as a function of the displacement, at zero."""
-    return sum(
-        float(x[j]) * math.prod(float(-y[k] / (y[j] - y[k])) for k in range(len(y)) if k != j) for j in range(len(y))
-    )
-
-
 def _one_way(y: Array) -> bool:
     """Whether displacements are finite, and all rise or all fall from one sample to the next."""
     if not np.isfinite(y).all():
@@ -77,15 +71,15 @@ def _interpolated(section: Section, x: Array, y: Array, low: float, high: float,
 
     None if these do not show it: they do if their interpolant and that of the inner four agree.
     """
-    guess = _root(x, y)
+    guess = root_through(x, y)
     if not low < guess < high:
         return None
     x = guess + min(CLOSER, 0.1 * (high - low)) * np.array([-2.5, -1.5, -0.5, 0.5, 1.5, 2.5])
     y = section.displacement(x, FINE, backward)
     if not _one_way(y) or y[0] * y[-1] > 0.0:
         return None
-    found = _root(x, y)
-    return found if abs(found - _root(x[1:-1], y[1:-1])) < AGREED else None
+    found = root_through(x, y)
+    return found if abs(found - root_through(x[1:-1], y[1:-1])) < AGREED else None
 
 
 def _bracketed(section: Section, low: float, high: float, backward: bool) -> float:
@@ -103,7 +97,7 @@ def _bracketed(section: Section, low: float, high: float, backward: bool) -> flo
     y = section.displacement(x, FINE, backward)
     if not np.isfinite(y).all() or len(np.unique(y)) < len(y):
         return 0.5 * (low + high)
-    guess = _root(x, y)
+    guess = root_through(x, y)
     return guess if low - width <= guess <= high + width else 0.5 * (low + high)
 
 

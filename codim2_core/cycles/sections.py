@@ -97,7 +97,8 @@ class Sections:
         modulus = np.minimum(np.hypot(e[:, 0], e[:, 1]), 1.0)
         self.zeta = self.psi_at().radius(modulus, np.clip(complement, 1e-300, 1.0))
         self.x2 = (self.zeta / np.maximum(modulus, 1e-300))[:, None] * e
-        radial, tangential = self.psi_at().jacobian_factors(self.zeta)
+        self.factors = np.stack(self.psi_at().jacobian_factors(self.zeta), axis=1)  # of D e_Psi: radial, tangential
+        radial, tangential = self.factors.T
         along = along / np.maximum(modulus, 1e-300)
         #: Distance from C in x2 of the innermost sample, to first order.
         self.inner = INNER * reach * (1.0 / tangential + along * along * (1.0 / radial - 1.0 / tangential))
@@ -108,10 +109,17 @@ class Sections:
     def taken(self, rows: Indices) -> Sections:
         """Return some of them."""
         some = copy(self)
-        for name in ("rate", "plane", "e", "u", "room", "zeta", "x2", "inner"):
+        for name in ("rate", "plane", "e", "u", "room", "zeta", "x2", "factors", "inner"):
             setattr(some, name, getattr(self, name)[rows])
         some.own = None if self.own is None else self.own[rows]
         return some
+
+    @property
+    def trace(self) -> Array:
+        """Tr J at C (n,), in units of `rate`."""
+        (a, _, d, *_), (radial, tangential) = self.plane.T, self.factors.T
+        square = (self.x2 / np.maximum(self.zeta, 1e-300)[:, None]) ** 2
+        return tangential * (a + d) + (radial - tangential) * (a * square[:, 0] + d * square[:, 1])
 
     def psi_at(self, rows: Indices | None = None) -> Psi:
         """Return Psi for arrays with an entry for each system, or for those of the given rows."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.line_pair import line_pair
 from ..numerics.trigonometric import tangential_zeros
@@ -19,6 +19,7 @@ from .equator_zeros import equator_as_orbit
 __all__ = ["NEUTRAL_EQUATOR", "EquatorCycle", "equator_cycle"]
 
 CLOSE = 1e-4  # distance from a saddle-node below which the zeros need more than doubles
+DESCENTS = 6  # of Newton's method: from within 2.5 degrees of a minimum
 NEUTRAL_EQUATOR = 2.0**-49  # of the terms of the exponent: zero within rounding
 
 
@@ -110,6 +111,21 @@ def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
     neutral = abs(value) <= NEUTRAL_EQUATOR * (abs(a) + abs(d)) * g0
     period = g0 / unit / math.ldexp(1.0, exponent)
     return EquatorCycle(1 if b > 0.0 else -1, period, 0.0 if neutral else value / unit, neutral)
+
+
+def slowest_turn(planes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Find the least of sign(b) Theta on the equator (n,), for the largest of (a, b, d, f1, f2) (n, 5) as the unit.
+
+    Where it is positive the equator is a closed orbit, within rounding: it changes its sign where equilibria appear.
+    """
+    a, b, d, f1, f2 = (planes / np.abs(planes).max(axis=1, keepdims=True)).T[:, :, None]
+    half, sign, theta = 0.5 * (d - a), np.where(b < 0.0, -1.0, 1.0), _TURN
+    for _ in range(DESCENTS):  # Newton's method for minima, from all directions
+        c, s, c2, s2 = np.cos(theta), np.sin(theta), np.cos(2.0 * theta), np.sin(2.0 * theta)
+        slope, bend = sign * (-f2 * s - f1 * c + 2.0 * half * c2), sign * (-f2 * c + f1 * s - 4.0 * half * s2)
+        theta = theta - np.clip(slope / np.maximum(np.abs(bend), 1e-3), -0.1, 0.1)
+    turn = sign * (b + f2 * np.cos(theta) - f1 * np.sin(theta) + half * np.sin(2.0 * theta))
+    return turn.min(axis=1)
 
 
 _TURN = np.arange(72) * (2.0 * math.pi / 72.0)

@@ -1,8 +1,14 @@
-"""One root between two ends, without loading SciPy's optimisers."""
+"""One root, between two ends or by some values about it, without loading SciPy's optimisers."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
 
 
 def root_between(function: Callable[[float], float], low: float, high: float, tolerance: float = 1e-300) -> float:
@@ -33,3 +39,10 @@ def root_between(function: Callable[[float], float], low: float, high: float, to
             t = f1 / (f2 - f1) * f3 / (f2 - f3) + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)
         t = min(max(t, part), 1.0 - part)
     return best
+
+
+def root_through(x: Sequence[float] | Array, y: Sequence[float] | Array) -> float:
+    """Lagrange's polynomial for the place x as a function of the value y, all different, at zero."""
+    return sum(
+        float(x[j]) * math.prod(float(-y[k] / (y[j] - y[k])) for k in range(len(y)) if k != j) for j in range(len(y))
+    )

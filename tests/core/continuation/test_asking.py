@@ -1,10 +1,12 @@
 """Searches that ask, and are answered side by side."""
 
-from codim2_core.continuation.asking import answered
+import pytest
+
+from codim2_core.continuation.asking import answered, rounds
 
 
 def test_searches_of_different_length_go_on_side_by_side():
-    rounds = []
+    asked = []
 
     def search(name, count):
         told = ""
@@ -13,12 +15,12 @@ def test_searches_of_different_length_go_on_side_by_side():
         return name, told
 
     def answer(questions):
-        rounds.append(list(questions))
+        asked.append(list(questions))
         return [question.upper() for question in questions]
 
     found = answered([search("a", 1), search("b", 3), search("c", 0), search("d", 2)], answer)
     assert found == [("a", "A0"), ("b", "B0B1B2"), ("c", ""), ("d", "D0D1")]
-    assert rounds == [["a0", "b0", "d0"], ["b1", "d1"], ["b2"]]
+    assert asked == [["a0", "b0", "d0"], ["b1", "d1"], ["b2"]]
 
 
 def test_an_empty_answer_is_an_answer():
@@ -26,3 +28,15 @@ def test_an_empty_answer_is_an_answer():
         return (yield "none"), (yield "empty")
 
     assert answered([search()], lambda questions: [[] if q == "empty" else None for q in questions]) == [(None, [])]
+
+
+def test_rounds_stop_for_the_answers():
+    def search(name):
+        return (yield name) + (yield name * 2)
+
+    going = rounds([search("a"), search("b")])
+    assert next(going) == ["a", "b"]
+    assert going.send(["1", "2"]) == ["aa", "bb"]
+    with pytest.raises(StopIteration) as end:
+        going.send(["3", "4"])
+    assert end.value.value == ["13", "24"]

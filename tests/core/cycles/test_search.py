@@ -16,12 +16,6 @@ from .sections import Line, circle
 INF = math.inf
 
 
-def test_inverse_interpolation_finds_zeros_of_inverse_polynomials():
-    """xi is a polynomial of degree 3 of the displacement: four samples are enough."""
-    y = np.array([-1.0, -0.2, 0.5, 2.0])
-    assert search._root(0.7 + y - 0.3 * y**2 + 0.1 * y**3, y) == pytest.approx(0.7, abs=1e-15)
-
-
 @pytest.mark.parametrize("backward", [False, True])
 @pytest.mark.parametrize(
     "f",

@@ -195,3 +195,11 @@ def test_turns_under_a_psi_of_each():
     assert len(rows) > 2
     for k, i in enumerate(rows):
         np.testing.assert_allclose(ways.ends[k], path(ones[i], starts[i], FINE, False).end, rtol=1e-7, atol=1e-9)
+
+
+@pytest.mark.parametrize("psi", [c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(2.5)])
+def test_the_trace_at_c_is_that_of_its_critical_set(psi):
+    found = _all(psi, 0)
+    for plane, trace, rate in zip(PLANES, found.trace, found.rate, strict=True):
+        (C,) = c2.critical_sets(c2.ELinear(*plane[:3], tuple(plane[3:])), psi)
+        assert trace * rate == pytest.approx(C.trace, rel=1e-12, abs=1e-14 * rate)

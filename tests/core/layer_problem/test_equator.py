@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codim2_core.layer_problem.closed_equator import _polished
+from codim2_core.layer_problem.closed_equator import _polished, slowest_turn
 from codim2_core.layer_problem.equator import equator_cycle, equator_equilibria
 from codim2_core.systems.elinear import ELinear
 from tests.core.exact_trigonometric import count_equilibria, polished, theta_coefficients
@@ -305,3 +305,21 @@ def test_an_equator_that_hardly_turns_has_an_infinite_period(size, b):
     assert found.period == math.inf or found.period * abs(b) == pytest.approx(2.0 * math.pi)
     assert found.exponent == math.copysign(math.inf, size)
     assert not found.neutral
+
+
+def test_the_slowest_turn_is_positive_just_where_the_equator_is_a_closed_orbit():
+    rng = np.random.default_rng(5)
+    planes = rng.normal(size=(200, 5))
+    theta = np.linspace(0.0, 2.0 * np.pi, 4001)
+    a, b, d, f1, f2 = (planes / np.abs(planes).max(axis=1, keepdims=True)).T[:, :, None]
+    turn = np.sign(b) * (b + f2 * np.cos(theta) - f1 * np.sin(theta) + (d - a) * np.sin(theta) * np.cos(theta))
+    found = slowest_turn(planes)
+    np.testing.assert_allclose(found, turn.min(axis=1), atol=3e-6)
+    closed = [equator_cycle(ELinear(*plane[:3], tuple(plane[3:]))) is not None for plane in planes]
+    np.testing.assert_array_equal(found > 0.0, closed)
+    assert 10 < sum(closed) < 190
+
+
+def test_the_slowest_turn_is_zero_where_equilibria_appear():
+    """Theta = b + f2 cos - f1 sin comes to zero at |b| = |f|."""
+    assert slowest_turn(np.array([[1.0, -5.0, 1.0, 3.0, 4.0]]))[0] == pytest.approx(0.0, abs=1e-15)

@@ -1,0 +1,297 @@
+"""The way along one branch of cycles: a window of points ahead, corrected side by side, that moves with the branch.
+
+In every round the points in the window take one step of Newton's method. Those in front that are found are kept; those
+that all but are found tell, with their tangents, where further ones are expected. Far points are only tried: one that
+does not turn out well is looked for again when the branch has come nearer. Only where the next point fails the steps
+become shorter. Near C and near the equator, where chi hardly changes with xi, a step is at most `FARTHEST` in xi.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import accumulate, pairwise, takewhile
+
+from ..numerics.root_between import root_through
+from .ahead import Place, ahead, placed
+from .points import Guess, Point, Trace
+from .trace import FARTHEST, Search, Tracer, distance
+from .varied_system import Asking, side_by_side
+
+STEP = 0.03  # the longest step
+GROWTH, SHRINKAGE = 1.6, 0.4  # of steps
+SMALLEST = 1e-7  # below this the branch is said to end
+CARRY = 1e-9  # product of the last two corrections, in steps, below which the last is made without another turn
+KEPT, ALMOST = 0.2, 0.05  # last correction, in steps: of a point that may be found, of one that tells where others are
+SMALL = 3e-3  # amplitude at which a branch has come to C
+LARGE, LOW, LOWEST = 0.999, 1e-3, 1e-7  # chi, ebar at which it has come to the equator: all of it, or a part
+LEVEL, DEAD = 0.05, 1e-8  # ebar and exponent at which cycle and closed equator cannot be told apart
+BENT, ROUNDING = 1e-9, 1e-12  # change of nu about a fold near the equator, where exponents tend to 0, and elsewhere
+MOST = 600  # points
+MISSED = 0.3  # distance of a point from its prediction, in steps, beyond which a step is too long
+TURNED = 0.9  # cosine between successive tangents below which a step is too long
+WIDEST, MEMORY, BEHIND = 16, 12, 2  # points tried at once; last points that predictions know of, and use
+BEND, OFF = 0.25, 0.15  # turn of the tangent, and first correction in steps, that the next step is to have
+HALVINGS = 8  # of an interval in which a fold is not found at once
+
+
+def traced(tracer: Tracer, start: Point) -> Asking[Trace]:
+    """Follow a branch from a point along its tangent until it ends.
+
+    Parameters
+    ----------
+    tracer : Tracer
+    start : Point
+    """
+    path = _Path(tracer, start)
+    while path.reason is None and len(path.points) < MOST:
+        yield from path.go_on()
+    return (yield from path.finished())
+
+
+@dataclass(frozen=True)
+class _Sought:
+    """A point in the window: its search, its distance from the one before, and where it was expected.
+
+    `number` counts the points between it and the one from which it was predicted; `edge` says that it is looked for at
+    an end of the span.
+    """
+
+    search: Search
+    step: float
+    number: int
+    expected: Place
+    edge: bool
+
+    @property
+    def sure(self) -> bool:
+        """Whether what is known of it tells where others are."""
+        return self.search.nearly(ALMOST * self.step) is not None
+
+
+class _Path:
+    """The points of one branch so far, and the window ahead of them.
+
+    `near` holds the points of the window as far as they are known; `reason` is why the branch has ended, None while it
+    has not.
+    """
+
+    def __init__(self, tracer: Tracer, start: Point) -> None:
+        self.tracer, self.points = tracer, [start]
+        self.window: list[_Sought] = []
+        self.near: list[Point] = []
+        self.step, self.width = 0.25 * STEP, 2
+        self.backward = start.turn.exponent > 0.0
+        self.reason = self._at_once(start)
+
+    def go_on(self) -> Asking[None]:
+        """Let all that is in the window take one step of Newton's method, and keep what is found in front."""
+        if not (self.window and (self.window[-1].edge or not self.near)):
+            self._predict()
+        open_ = [sought.search for sought in self.window if not sought.search.over]
+        turns = yield self.tracer.question([search.guess for search in open_])
+        for search, turn in zip(open_, turns, strict=True):
+            search.told(turn)
+        self._settle()
+
+    def finished(self) -> Asking[Trace]:
+        """Put in the folds, where the exponent changes its sign."""
+        signs = [point.turn.exponent > 0.0 for point in self.points]
+        turned = [i for i in range(1, len(signs)) if signs[i] != signs[i - 1]]
+        found = yield from side_by_side([self._fold(i) for i in turned])
+        folds = dict(zip(turned, found, strict=True))
+        points: list[Point] = []
+        rows: list[int] = []
+        for i, point in enumerate(self.points):
+            fold = folds.get(i)
+            if fold is not None and _bends(fold, self.points[i - 1], point):
+                rows.append(len(points))
+                points.append(fold)
+            points.append(point)
+        return Trace(tuple(points), tuple(rows), self.reason or "stuck")
+
+    def _longest(self, point: Point, beyond: float) -> float:
+        """Return the longest step so far beyond a point."""
+        rise = abs(point.tangent[0])
+        chi = point.turn.chi + beyond * point.tangent[0]
+        if not 0.0 < chi < 1.0:
+            chi = point.turn.chi
+        return min(STEP, FARTHEST * chi * (1.0 - chi) / rise) if rise > 0.0 else STEP
+
+    def _predict(self) -> None:
+        """Expect points beyond those in the window, up to the end of the span."""
+        sure = list(takewhile(lambda sought: sought.sure, self.window))
+        points = [*self.points[-MEMORY:], *self.near[: len(sure)]]
+        last, waiting = points[-1], [sought.step for sought in self.window[len(sure) :]]
+        steps, step = list(waiting), self.step
+        if self.window:
+            step = waiting[-1] if waiting else sure[-1].step * _growth(points[-2], last, sure[-1])
+        for _ in range(self.width):
+            steps.append(min(step, self._longest(last, sum(steps))))
+            step = GROWTH * steps[-1]
+        course, line, before = _Course(self.tracer, points), self.tracer.across(last), last.nu
+        for number, place in enumerate(course.ahead(steps)):
+            (nu,) = place.parameters
+            edge = not 0.0 < nu < 1.0
+            if number >= len(waiting):
+                guess = Guess(place.xi, nu, line, self.backward)
+                if edge:
+                    end = 0.0 if nu < 0.5 else 1.0
+                    place = course.ahead([*steps[:number], steps[number] * (end - before) / (nu - before)])[-1]
+                    guess = Guess(place.xi, end, (0.0, 1.0), self.backward)
+                search = Search(self.tracer, guess, CARRY * steps[number] ** 2)
+                self.window.append(_Sought(search, steps[number], number, place, edge))
+            if edge:
+                return
+            before = nu
+
+    def _settle(self) -> None:
+        """Take what is found in front, and leave in the window what may be found."""
+        self.near = self._nearby()
+        front = self.window[0] if self.window else None
+        begun = front is not None and front.number == 0 and front.search.rounds == 1 and not front.search.over
+        count = max(len(self.near), int(begun))
+        tried, good = (sum(sought.search.rounds == 1 for sought in some) for some in (self.window, self.window[:count]))
+        self.width = min(2 * tried, WIDEST) if good == tried > 0 else good + 1
+        del self.window[count:]
+        if not count and (front is None or front.number == 0):
+            self.step = SHRINKAGE * (self.step if front is None else front.step)
+            if self.step < min(SMALLEST, 1e-3 * self._longest(self.points[-1], 0.0)):
+                self.reason = "stuck"
+        while self.reason is None and self.window and self.window[0].search.found is not None:
+            self._take(self.window.pop(0), self.near.pop(0))
+
+    def _nearby(self) -> list[Point]:
+        """Return the points in front of the window that are found, or nearly, each a good step after the one before."""
+        found: list[Point] = []
+        for sought in self.window:
+            here, nearly = found[-1] if found else self.points[-1], sought.search.nearly(KEPT * sought.step)
+            if nearly is None:
+                break
+            point = self.tracer.point(*nearly, here.tangent)
+            if not _fits(here, point, sought):
+                break
+            found.append(point)
+        return found
+
+    def _take(self, sought: _Sought, point: Point) -> None:
+        """Add a point of the window to the branch."""
+        here = self.points[-1]
+        self.step = sought.step * _growth(here, point, sought)
+        self.points.append(point)
+        self.backward = self.tracer.backward(point.turn, self.backward)
+        self.reason = "span" if sought.edge else self._over(here, point)
+
+    def _over(self, here: Point, there: Point) -> str | None:
+        """Why the branch ends with the step between two points, or None."""
+        lowest = LOW if there.turn.chi > LARGE else LOWEST
+        if there.turn.amplitude < SMALL and there.tangent[0] < 0.0:
+            return "C"
+        if there.turn.height < lowest and there.turn.height < here.turn.height:
+            return "equator"
+        if len(self.points) > 8 and _round(self.points[0], here, there):
+            self.points.append(self.points[0])
+            return "closed"
+        return self._at_once(there)
+
+    @staticmethod
+    def _at_once(point: Point) -> str | None:
+        """Why a branch ends at a point, whatever was before it, or None."""
+        if point.turn.height < LEVEL and point.tangent[0] > 0.0 and abs(point.turn.exponent) < DEAD:
+            return "equator"
+        beyond = point.nu <= 0.0 if point.tangent[1] < 0.0 else point.nu >= 1.0
+        return "span" if beyond else None
+
+    def _fold(self, i: int) -> Asking[Point | None]:
+        """Find the point between the i-th one and the one before at which the exponent is zero."""
+        around, k = self.points[max(i - 2, 0) : i + 2], min(i, 2)
+        for _ in range(HALVINGS):
+            here, there = around[k - 1], around[k]
+            course = _Course(self.tracer, around)
+            place, near = course.between(course.neutral(k))
+            found = yield from self.tracer.fold(place.xi, place.parameters[0], near)
+            if found is not None and max(distance(here, found), distance(found, there)) <= 1.5 * distance(here, there):
+                return found
+            if max(here.turn.height, there.turn.height) < LEVEL:
+                return None  # it may be rounding that has changed the sign
+            place, near = course.between(0.5 * (course.lengths[k - 1] + course.lengths[k]))
+            guess = Guess(place.xi, place.parameters[0], self.tracer.across(near), near.turn.exponent > 0.0)
+            closed = yield from self.tracer.corrected(guess)
+            if closed is None:
+                return None
+            middle = self.tracer.point(*closed, here.tangent)
+            same = (middle.turn.exponent > 0.0) == (here.turn.exponent > 0.0)
+            around, k = [middle, there] if same else [here, middle], 1
+        return None
+
+
+class _Course:
+    """Some points of a branch as a curve by its length.
+
+    Attributes
+    ----------
+    lengths : list of float
+        Up to each of them.
+    """
+
+    def __init__(self, tracer: Tracer, points: list[Point]) -> None:
+        self.points = points
+        self.lengths = [*accumulate((distance(one, two) for one, two in pairwise(points)), initial=0.0)]
+        self.places = [Place(point.turn.xi, point.turn.chi, (point.nu,)) for point in points]
+        self.tangents = [tracer.along(point) for point in points]
+
+    def ahead(self, steps: list[float]) -> list[Place]:
+        """Predict points after the last one, so many steps from one another."""
+        return ahead(self.lengths, self.places, self.tangents, self.points[-1].turn.rate, steps, BEHIND)
+
+    def between(self, length: float) -> tuple[Place, Point]:
+        """Interpolate; also return the nearest point."""
+        rows = sorted(range(len(self.points)), key=lambda i: abs(self.lengths[i] - length))
+        lengths, near = [self.lengths[i] for i in rows], self.points[rows[0]]
+        places, tangents = ([column[i] for i in rows] for column in (self.places, self.tangents))
+        found = placed(lengths, places, tangents, near.turn.rate, [length])
+        return (found[0] if found else places[0]), near
+
+    def neutral(self, k: int) -> float:
+        """Find where the exponent is zero between the points k - 1 and k: by all of them, if it only rises or falls."""
+        exponents = [point.turn.exponent for point in self.points]
+        low, high = self.lengths[k - 1], self.lengths[k]
+        rises = [two > one for one, two in pairwise(exponents)]
+        if all(rises) or not any(rises):
+            found = root_through(self.lengths, exponents)
+            if low < found < high:
+                return found
+        return low + (high - low) * exponents[k - 1] / (exponents[k - 1] - exponents[k])
+
+
+def _fits(here: Point, there: Point, sought: _Sought) -> bool:
+    """Whether a point is the one that was looked for, a step after another."""
+    (tc, tn), step, expected = here.tangent, sought.step, sought.expected
+    onward = tc * (there.turn.chi - here.turn.chi) + tn * (there.nu - here.nu)
+    least = 0.0 if sought.edge else MISSED * step
+    cosine = tc * there.tangent[0] + tn * there.tangent[1]
+    missed = math.hypot(there.turn.chi - expected.chi, there.nu - expected.parameters[0])
+    return missed < MISSED * (sought.number + 1) * step and least < onward < 3.0 * step and cosine > TURNED
+
+
+def _growth(here: Point, there: Point, sought: _Sought) -> float:
+    """By what the next step may be longer, judged by the turn of the tangent and the last prediction."""
+    cosine = here.tangent[0] * there.tangent[0] + here.tangent[1] * there.tangent[1]
+    turn = math.acos(min(cosine, 1.0))
+    off = sought.search.first / ((sought.number + 1) * sought.step)
+    return max(min(GROWTH, BEND / max(turn, 1e-9), (OFF / max(off, 1e-9)) ** 0.25), SHRINKAGE)
+
+
+def _bends(fold: Point, here: Point, there: Point) -> bool:
+    """Whether the branch turns back at a fold between two points: by more than rounding."""
+    bent = max(abs(fold.nu - here.nu), abs(fold.nu - there.nu))
+    return bent > (BENT if fold.turn.height < LEVEL else ROUNDING)
+
+
+def _round(start: Point, here: Point, there: Point) -> bool:
+    """Whether a step has passed the start in the start's direction."""
+    ux, un = here.turn.chi - start.turn.chi, here.nu - start.nu
+    vx, vn = there.turn.chi - start.turn.chi, there.nu - start.nu
+    tc, tn = start.tangent
+    near = max(distance(here, start), distance(there, start))
+    return ux * tc + un * tn < 0.0 <= vx * tc + vn * tn and near < 2.0 * STEP
