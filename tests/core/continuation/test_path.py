@@ -112,7 +112,7 @@ def test_where_a_branch_passes_a_value():
     ("system", "name", "span", "most"),
     [
         (ELinear(1.0, 1.3, -1.2, (0.33, 0.07)), "f1", (0.2, 0.5), 36),  # 62 rounds with steps that wait for each other
-        (ELinear(172, 186, -200, (-86, -93)), "f1", (-100.0, -70.0), 150),  # 224: its cycles explode
+        (ELinear(172, 186, -200, (-86, -93)), "f1", (-100.0, -70.0), 190),  # 224: its cycles explode
     ],
 )
 def test_rounds_of_a_branch(system, name, span, most, monkeypatch):
