@@ -62,10 +62,12 @@ def bounded(pids, beyond):
                 (group / "cgroup.procs").write_text(str(pid))
         yield group
     finally:
-        for pid in (group / "cgroup.procs").read_text().split():
-            with suppress(ProcessLookupError):
-                (root / "cgroup.procs").write_text(pid)
-        group.rmdir()
+        while group.exists():  # a worker that takes the place of one that was ended comes into the group, too
+            for pid in (group / "cgroup.procs").read_text().split():
+                with suppress(ProcessLookupError):
+                    (root / "cgroup.procs").write_text(pid)
+            with suppress(OSError):  # somebody is in it
+                group.rmdir()
 
 
 async def told(port):
