@@ -2,8 +2,8 @@
 
 A search through all stops every visitor for 0.1 to 0.4 s, and nearly all that it meets are modules and kernels. These
 are taken out of it once they are there (`gc.freeze`), and what formulas have left whenever the last visitor has gone:
-what is frozen stays, so nobody may be there. A search then meets what has come since. What waits for one is memory,
-0.6 MB for each visit.
+what is frozen stays, so nobody may be there. A search then meets what has come since, and what
+those hold who are there: 3000 objects, 1 to 3 ms each. What waits for one is memory, 0.6 MB for each visit.
 """
 
 from __future__ import annotations
