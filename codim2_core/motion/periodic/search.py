@@ -221,9 +221,9 @@ def _not_found(
 
 def _found(asked: Shooting, rough: Shot, fine: Shot) -> PeriodicMotion:
     n = len(fine.state)
-    own = lambda shot: multipliers(asked.formulas, asked.psi, shot.run, shot.variation, asked.clocks)  # noqa: E731
-    values, conditions, lost = own(fine)
-    others = own(rough)[0]
+    (others, _, _), (values, conditions, lost) = (
+        multipliers(asked.formulas, asked.psi, shot.run, shot.variation, asked.clocks) for shot in (rough, fine)
+    )
     blur = float((fine.variation.error[:, :n] / fine.sizes[:, None] * fine.sizes).max(initial=0.0))
     apart = matched(values, others) if len(others) == len(values) else np.ones(len(values))
     errors = conditions * max(blur, ROUNDING) + apart
