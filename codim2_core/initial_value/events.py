@@ -118,7 +118,7 @@ class Watch:
 
     def zeros(self, i: int, step: Step) -> list[tuple[float, bool]]:
         """Zeros of event i along a step: as fraction of the step, and whether it rises there."""
-        along = lambda u: self.value(i, step.start + u * step.h, step.last if u == 1.0 else step.at(u))  # noqa: E731
+        along = lambda u: self.value(i, step.start + u * step.h, step.last if u == 1.0 else step.at(u))
         start, self.before[i] = self.before[i], along(1.0)
         u, values = turns(along, start, self.before[i])
         found: list[tuple[float, bool]] = []

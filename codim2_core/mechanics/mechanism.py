@@ -253,7 +253,7 @@ class Mechanism(Parts):
         names = ("λ1", "λ2", "λ3")  # friction and the normal force: no name of a user
         rest = self._apart(self._speeds(tuple(map(self._algebra.name, names))))
         rows = [self._algebra.formula(entry) for entry in rest]
-        at = lambda row, one="": row.evaluate({**known, **dict.fromkeys(names, 0.0), **({one: 1.0} if one else {})})  # noqa: E731
+        at = lambda row, one="": row.evaluate({**known, **dict.fromkeys(names, 0.0), **({one: 1.0} if one else {})})
         free = np.array([at(row) for row in rows])
         slopes = np.array([[at(row, one) for one in names[: len(rows)]] for row in rows]) - free[:, None]
         mu = np.array([[at(self._algebra.formula(entry)) for entry in self._entered(row)] for row in self.mu])

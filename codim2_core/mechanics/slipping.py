@@ -86,8 +86,8 @@ def slipping(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Ar
         return found
 
     first = math.log(math.hypot(x, y))
-    over: Any = lambda _tau, state: state[2] - times[-1]  # noqa: E731
-    slow_now: Any = lambda _tau, state: state[0] - first + STOPPED  # noqa: E731
+    over: Any = lambda _tau, state: state[2] - times[-1]
+    slow_now: Any = lambda _tau, state: state[0] - first + STOPPED
     over.terminal = slow_now.terminal = True
     begin = np.array([first, math.atan2(y, x), times[0], *slow])
     run = solve_ivp(rates, (0.0, LONGEST), begin, "DOP853", events=(over, slow_now), rtol=1e-10, atol=1e-12,

@@ -138,7 +138,7 @@ class _ReadMotion:
         return float(np.hypot(*(here.e - middle.e)) + np.hypot(*(there.e - middle.e))) < 3.0 * SAME
 
     def on_set(self, first: int, last: int, start: Followed, end: Followed) -> _Run:
-        holds = lambda state: self.set_at(state) is not None  # noqa: E731
+        holds = lambda state: self.set_at(state) is not None
         t_start = self.boundary(first - 1, holds) if first > 0 and not holds(self.states[first - 1]) else None
         t_end = None
         if last + 1 < len(self.times):
@@ -240,7 +240,7 @@ class _ReadMotion:
 
     def contact(self, first: int, last: int, runs: list[_Run]) -> float:
         """Return the time at which a contact, from one step end to another, begins."""
-        close = lambda state: math.hypot(state[0], state[1]) <= CLOSE * self.eps  # noqa: E731
+        close = lambda state: math.hypot(state[0], state[1]) <= CLOSE * self.eps
         for i in range(first, (runs[0].first if runs else last) + 1):
             if close(self.states[i]):
                 return self.boundary(i - 1, close)

@@ -1,6 +1,5 @@
 """A Psi that the user typed: evaluation, a table for inverting |e_Psi|, and whether it can be used at all."""
 
-# ruff: noqa: D102 (the methods of `Kernel` are documented there)
 from __future__ import annotations
 
 import bisect

@@ -104,7 +104,7 @@ class ELinear:
         for name, value in parameters.items():
             parameters[name] = _finite(_number(value, f"parameter {name}"), f"parameter {name}")
         names = (*(f"z{i}" for i in range(1, MOST_SLOW_VARIABLES + 1)), "z", *parameters)
-        entry = lambda value, what: _coefficient(value, what, names)  # noqa: E731 (one short name for eight uses)
+        entry = lambda value, what: _coefficient(value, what, names)
         if isinstance(self.f, str) or not hasattr(self.f, "__len__") or len(self.f) != 2:
             raise ValueError(f"f is {self.f!r}; give two coefficients (f1, f2).")
         f = tuple(entry(value, f"f{i + 1}") for i, value in enumerate(self.f))

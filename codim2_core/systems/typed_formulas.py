@@ -39,7 +39,7 @@ class Formulas:
         U = texts(self.U, "U")
         if len(U) != 2:
             raise ValueError(f"U is {shortened(self.U)}; give two formulas (U1, U2).")
-        formula = lambda text, what: read(text, what, tuple(parameters), definitions)  # noqa: E731
+        formula = lambda text, what: read(text, what, tuple(parameters), definitions)
         fix(self, "U", tuple(formula(text, f"U{i + 1}") for i, text in enumerate(U)))
         W = texts(self.W, "W")
         if len(W) > MOST_SLOW_VARIABLES:

@@ -48,7 +48,7 @@ def _is(facts: Facts, example: System) -> bool:
     if at.typed is None or at.m != example.m or not at.z:
         return False
     other = example.at(at.z)
-    near = lambda u, v: bool(np.abs(u - v).max() <= 1e-12 * facts.size)  # noqa: E731
+    near = lambda u, v: bool(np.abs(u - v).max() <= 1e-12 * facts.size)
     return near(at.U(_NET), other.U(_NET)) and near(at.W(_NET), other.W(_NET))
 
 

@@ -106,7 +106,7 @@ def _positive(psi: Psi) -> Certificate:
     least = min(float((trace * np.sqrt(weight)).min()), float((determinant * weight).min()))
     # against differences of e_Psi itself
     zeta, h = 0.7, 1e-5
-    e = lambda x, y: e_psi(psi, np.array([[x, y]]), 1.0)[0]  # noqa: E731
+    e = lambda x, y: e_psi(psi, np.array([[x, y]]), 1.0)[0]
     D = np.stack([(e(zeta + h, 0.0) - e(zeta - h, 0.0)), (e(zeta, h) - e(zeta, -h))], axis=-1) / (2.0 * h)
     radial, tangential = psi.jacobian_factors(zeta)
     gap = float(np.abs(D - np.diag([radial, tangential])).max())

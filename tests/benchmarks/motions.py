@@ -115,7 +115,7 @@ def tableau() -> tuple[Array, Real, Array]:
         target = mpmath.matrix([mpmath.mpf(1) / (k + 1) - (gamma if k == 0 else 0) for k in ks])
         embedded = mpmath.lu_solve(powers.T, target)
         weights = (embedded - A[STAGES - 1, :].T).T * inverse
-        real = lambda x: Real(mpmath.nstr(x, 30))  # noqa: E731
+        real = lambda x: Real(mpmath.nstr(x, 30))
         return (
             np.array([[real(A[i, j]) for j in ks] for i in ks]),
             real(gamma),
@@ -142,7 +142,7 @@ def followed(F: Callable[[Array], Array], start: Array, t_end: float, eps: float
     A, gamma, weights = tableau()
     y, t, n = start.astype(Real), Real(0), len(start)
     unit, h = np.eye(n, dtype=Real), Real(1e-3 * math.hypot(*start[:2], eps))
-    size = lambda q: np.array([np.sqrt(q[0] ** 2 + q[1] ** 2 + Real(eps) ** 2)] * 2 + [abs(v) + 1e-2 for v in q[2:]])  # noqa: E731
+    size = lambda q: np.array([np.sqrt(q[0] ** 2 + q[1] ** 2 + Real(eps) ** 2)] * 2 + [abs(v) + 1e-2 for v in q[2:]])
     while t < t_end:
         h = min(h, t_end - t)
         w, d = size(y), Real(1e-9)
@@ -175,7 +175,7 @@ def main() -> None:
     for name, motion in MOTIONS.items():
         field = motion.field(sqrt=np.sqrt, sin=np.sin, cos=np.cos, pack=np.array)
         for eps in EPS:
-            F = lambda q, eps=eps, field=field: field(Real(0), q, Real(eps))  # noqa: E731
+            F = lambda q, eps=eps, field=field: field(Real(0), q, Real(eps))
             start = np.array(motion.start, Real)
             loose, tight = (followed(F, start, motion.t_end, eps, tolerance) for tolerance in (1e-11, 1e-12))
             apart = float(np.abs(tight - loose).max())

@@ -91,7 +91,7 @@ def page(port: int) -> str:
 async def seated(port: int, chairs: int, seconds: float) -> list[Chair]:
     """Let visitors come and go on so many chairs, each for as long as this lasts."""
     end = time.perf_counter() + seconds
-    goes_on = lambda: time.perf_counter() < end  # noqa: E731
+    goes_on = lambda: time.perf_counter() < end
     found = [Chair() for _ in range(chairs)]
 
     async def sit(i: int) -> None:

@@ -32,7 +32,7 @@ def test_planes(opened, setting):
     (values,) = plots(page, ".eigen-plane")
     drawn = np.array([place for place, _ in values.dots("now")])
     wanted = np.array([[v.real, v.imag] for C in sets for v in C.eigenvalues])
-    order = lambda v: v[np.lexsort(v.round(3).T)]  # noqa: E731
+    order = lambda v: v[np.lexsort(v.round(3).T)]
     np.testing.assert_allclose(order(drawn), order(wanted), rtol=0.0, atol=max(values.near))
 
 

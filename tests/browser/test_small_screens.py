@@ -110,9 +110,9 @@ def test_a_swipe_over_the_atlas_sets_nothing_and_a_tap_or_a_hand_on_the_handle_d
     pad = touched.find(".panel-atlas .pad")
     pad.scroll_into_view_if_needed()
     touched.find(".panel-atlas .region").first.wait_for()
-    f = lambda: [touched.find(f"[data-control={name}] .number").input_value() for name in ("f1", "f2")]  # noqa: E731
+    f = lambda: [touched.find(f"[data-control={name}] .number").input_value() for name in ("f1", "f2")]
     before, box = f(), pad.bounding_box()
-    spot = lambda u, v: (box["x"] + u * box["width"], box["y"] + v * box["height"])  # noqa: E731
+    spot = lambda u, v: (box["x"] + u * box["width"], box["y"] + v * box["height"])
     swipe(touched, spot(0.6, 0.8), spot(0.62, 0.4))
     assert f() == before
     pad.scroll_into_view_if_needed()  # it has been swiped away
@@ -130,7 +130,7 @@ def test_a_swipe_over_the_atlas_sets_nothing_and_a_tap_or_a_hand_on_the_handle_d
 def test_one_finger_leaves_the_picture_where_it_is_and_two_move_it(touched):
     before = touched.page.evaluate(RANGES)
     box = touched.find(".bokeh").bounding_box()
-    spot = lambda u, v: (box["x"] + u * box["width"], box["y"] + v * box["height"])  # noqa: E731
+    spot = lambda u, v: (box["x"] + u * box["width"], box["y"] + v * box["height"])
     swipe(touched, spot(0.5, 0.7), spot(0.55, 0.3))
     assert touched.page.evaluate(RANGES) == before
     swipe(touched, spot(0.4, 0.5), spot(0.2, 0.5), other=(spot(0.6, 0.5), spot(0.8, 0.5)))

@@ -104,7 +104,7 @@ def test_a_rolling_restart_of_two_replicas_behind_nginx_loses_no_state(tmp_path)
         for i in range(2):
             running[i].enter_context(start(i))
         with proxy(tmp_path, port, ports):
-            talk = lambda: pool.submit(asyncio.run, frame(port)).result()  # noqa: E731
+            talk = lambda: pool.submit(asyncio.run, frame(port)).result()
             assert answers(port)
             page = urlopen(f"http://localhost:{port}/").read().decode()
             assert 'role="alert" style' not in page  # the name is allowed

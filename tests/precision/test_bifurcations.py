@@ -44,7 +44,7 @@ def test_hopf_and_node_focus_points(abd, family):
             if not found or np.hypot(*found[0].e) > 1 - 1e-3 or np.hypot(*found[0].e) < 1e-3:
                 continue
             start = math.hypot(*found[0].x2)
-            zero = lambda q, start=start, name=name: [critical(family, start)(q)[CRITICAL.index(name)]]  # noqa: E731
+            zero = lambda q, start=start, name=name: [critical(family, start)(q)[CRITICAL.index(name)]]
             assert measure([0.0], zero, (*abd, f1, f2))[0] < BOUND, (name, f1, f2)
 
 

@@ -33,7 +33,7 @@ def test_portrait(name):
 @pytest.mark.parametrize("kind", ["pitchfork", "saddle-node", "transcritical"])
 def test_a_walk_is_one_slider_across_the_curve(kind):
     before, at, after = (PRESETS[f"{kind}-{when}"] for when in ("before", "at", "after"))
-    plane = lambda p: (p.a, p.b, p.d, p.f2, p.parameter)  # noqa: E731
+    plane = lambda p: (p.a, p.b, p.d, p.f2, p.parameter)
     assert plane(before) == plane(at) == plane(after)
     assert (before.f1 - at.f1) * (after.f1 - at.f1) < 0
     a, b, d = at.a, at.b, at.d

@@ -64,7 +64,7 @@ def one_sign(case, fields):
     """The divergence in the chart, by differences."""
     h = 1e-5
     flat = PLACES[:7].reshape(-1, 2)
-    U = lambda xy: case.at.U(e_psi(case.psi, xy))  # noqa: E731
+    U = lambda xy: case.at.U(e_psi(case.psi, xy))
     divergence = sum((U(flat + h * np.eye(2)[k]) - U(flat - h * np.eye(2)[k]))[:, k] for k in (0, 1))
     assert ((divergence > 0.0) if fields["sign"] == "positive" else (divergence < 0.0)).all()
     assert fields["kind"].split(" ", 1)[1] == c2.critical_sets(case.at, case.psi)[0].kind

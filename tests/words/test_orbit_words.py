@@ -157,7 +157,7 @@ def test_of_launched_orbits(name):
 def test_of_sliding_along_one_slow_variable(system, span, others, axis):
     for point in slow_portrait(system, ONE, span, others, axis).points:
         ((key, fields),) = recognise(point.sentence)
-        at = lambda z: tuple(z if i == axis else v for i, v in enumerate(others))  # noqa: E731
+        at = lambda z: tuple(z if i == axis else v for i, v in enumerate(others))
         step = 1e-3 * (span[1] - span[0])
         before, after = (c2.critical_sets(system, ONE, at(point.z + way * step)) for way in (-1, 1))
         if key.startswith(("along: att", "along: rep", "along one")):

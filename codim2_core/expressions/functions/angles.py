@@ -14,7 +14,7 @@ def _sin(a):
     return math.sin(a)
 
 
-def _sin_slope(a, v):  # noqa: ARG001 (a slope is called with both)
+def _sin_slope(a, v):
     return math.cos(a)
 
 
@@ -22,7 +22,7 @@ def _cos(a):
     return math.cos(a)
 
 
-def _cos_slope(a, v):  # noqa: ARG001
+def _cos_slope(a, v):
     return -math.sin(a)
 
 
@@ -30,7 +30,7 @@ def _tan(a):
     return math.tan(a)
 
 
-def _tan_slope(a, v):  # noqa: ARG001
+def _tan_slope(a, v):
     return 1.0 + v * v
 
 
@@ -38,7 +38,7 @@ def _atan(a):
     return math.atan(a)
 
 
-def _atan_slope(a, v):  # noqa: ARG001
+def _atan_slope(a, v):
     return 1.0 / (1.0 + a * a)
 
 
@@ -49,18 +49,18 @@ def _above_one(build: Any, i: int) -> int:
 
 
 SIN = Function(
-    "sin", math.sin, np.sin, plain(_sin, _sin_slope), lambda build, k, u: build.apply("cos", u),  # noqa: ARG005
+    "sin", math.sin, np.sin, plain(_sin, _sin_slope), lambda build, k, u: build.apply("cos", u),
     entire=True, source="math.sin({0})",
 )  # fmt: skip
 COS = Function(
-    "cos", math.cos, np.cos, plain(_cos, _cos_slope), lambda build, k, u: build.apply("neg", build.apply("sin", u)),  # noqa: ARG005
+    "cos", math.cos, np.cos, plain(_cos, _cos_slope), lambda build, k, u: build.apply("neg", build.apply("sin", u)),
     entire=True, source="math.cos({0})",
 )  # fmt: skip
 TAN = Function(
-    "tan", math.tan, np.tan, plain(_tan, _tan_slope), lambda build, k, u: _above_one(build, k),  # noqa: ARG005
+    "tan", math.tan, np.tan, plain(_tan, _tan_slope), lambda build, k, u: _above_one(build, k),
     source="math.tan({0})",
 )  # fmt: skip
 ATAN = Function(
-    "atan", math.atan, np.arctan, plain(_atan, _atan_slope), lambda build, k, u: _above_one(build, u),  # noqa: ARG005
+    "atan", math.atan, np.arctan, plain(_atan, _atan_slope), lambda build, k, u: _above_one(build, u),
     divides=True, sign="kept", entire=True, source="math.atan({0})",
 )  # fmt: skip

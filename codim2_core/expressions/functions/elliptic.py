@@ -55,7 +55,7 @@ def integrals(m):
     return K, E, B, K * (0.5 + m * S - 2.0 * S), C2
 
 
-def _slopes(m, K, E, B, B2, C2):  # noqa: ARG001 (one after the other, as they come)
+def _slopes(m, K, E, B, B2, C2):
     """Slopes of all five."""
     if m == 1.0:
         return math.inf, -math.inf, math.inf, math.inf, math.inf
@@ -78,7 +78,7 @@ def _one(integrals: Any, i: int) -> Callable[[float], float]:
 
 
 def _its_slope(integrals: Any, slopes: Any, i: int) -> Callable[[float, float], float]:
-    def slope(m, v):  # noqa: ARG001 (a slope is called with both)
+    def slope(m, v):
         K, E, B, B2, C2 = integrals(m)
         return slopes(m, K, E, B, B2, C2)[i]
 
@@ -99,11 +99,11 @@ def _half_over(build: Any, i: int, u: int) -> int:
     return build.apply("/", build.apply("*", build.number(0.5), i), rest)
 
 
-def _rate_k(build: Any, k: int, u: int) -> int:  # noqa: ARG001
+def _rate_k(build: Any, k: int, u: int) -> int:
     return _half_over(build, build.apply("ellipb", u), u)
 
 
-def _rate_e(build: Any, k: int, u: int) -> int:  # noqa: ARG001
+def _rate_e(build: Any, k: int, u: int) -> int:
     return build.apply("*", build.number(0.5), build.apply("-", build.apply("ellipb", u), build.apply("ellipk", u)))
 
 
@@ -112,7 +112,7 @@ def _rate_b(build: Any, k: int, u: int) -> int:
     return build.apply("*", build.number(0.5), rest)
 
 
-def _rate_b2(build: Any, k: int, u: int) -> int:  # noqa: ARG001
+def _rate_b2(build: Any, k: int, u: int) -> int:
     return build.apply("*", build.number(1.5), build.apply("ellipc2", u))
 
 

@@ -31,12 +31,12 @@ def _otherwise_slope(first: Any, number: int, rest: Any) -> Any:
 
 
 @_jit
-def _none(k, a):  # noqa: ARG001 (the end of the chain)
+def _none(k, a):  # the end of the chain
     return a
 
 
 @_jit
-def _no_slope(k, a, v):  # noqa: ARG001
+def _no_slope(k, a, v):
     return a
 
 

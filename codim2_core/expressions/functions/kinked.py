@@ -18,7 +18,7 @@ def _sign(a):
     return 1.0 if a > 0.0 else -1.0 if a < 0.0 else a
 
 
-def _sign_slope(a, v):  # noqa: ARG001 (a slope is called with both)
+def _sign_slope(a, v):
     return 0.0
 
 
@@ -26,16 +26,16 @@ def _abs(a):
     return abs(a)
 
 
-def _abs_slope(a, v):  # noqa: ARG001
+def _abs_slope(a, v):
     return 1.0 if a > 0.0 else -1.0 if a < 0.0 else 0.0  # at its kink the mean of the two slopes
 
 
 ABS = Function(
-    "abs", math.fabs, np.abs, plain(_abs, _abs_slope), lambda build, k, u: build.apply("sign", u),  # noqa: ARG005
+    "abs", math.fabs, np.abs, plain(_abs, _abs_slope), lambda build, k, u: build.apply("sign", u),
     sign="not negative", source="math.fabs({0})",
 )  # fmt: skip
 SIGN = Function(
     # at the jump too: formulas that jump in e are refused (`systems.typed`)
-    "sign", sign, np.sign, plain(_sign, _sign_slope), lambda build, k, u: build.number(0.0),  # noqa: ARG005
+    "sign", sign, np.sign, plain(_sign, _sign_slope), lambda build, k, u: build.number(0.0),
     source="(1.0*({0} > 0.0) - 1.0*({0} < 0.0))",
 )  # fmt: skip

@@ -139,7 +139,7 @@ class _Course:
         if len(leg.slides) > 1 or (following is not None and not _at_equator(phase)):
             last = int(np.searchsorted(self.motion.times, phase.t_end, side="left"))
             reason = say("variation past an end", t=phase.t_end)
-        slopes = lambda steps, u: self.slide_slopes(phase, steps, u)  # noqa: E731
+        slopes = lambda steps, u: self.slide_slopes(phase, steps, u)
         return self.solved(range(leg.first, last), slopes, before), reason
 
     def slip(self, leg: _Leg, following: _Leg | None, before: Array) -> tuple[Propagators, str]:

@@ -1,6 +1,5 @@
 """Psi = 1: e_Psi is the projection of the hemisphere itself."""
 
-# ruff: noqa: D102, ARG002 (the methods of `Kernel` are documented there, with one signature)
 from __future__ import annotations
 
 import math

@@ -1,6 +1,5 @@
 """Psi = exp(-s), inverted by Lambert's function."""
 
-# ruff: noqa: D102 (the methods of `Kernel` are documented there, with one signature)
 from __future__ import annotations
 
 import math

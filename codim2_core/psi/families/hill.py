@@ -1,6 +1,5 @@
 """Psi = 3/(3 + (4s)^n), the family of case III, fig:bads."""
 
-# ruff: noqa: D102 (the methods of `Kernel` are documented there, with one signature)
 from __future__ import annotations
 
 import math

@@ -1,6 +1,5 @@
 """Psi = s/sinh^2 sqrt(s), that is |e_Psi| = tanh(zeta), fig:component."""
 
-# ruff: noqa: D102 (the methods of `Kernel` are documented there, with one signature)
 from __future__ import annotations
 
 import math

@@ -123,7 +123,7 @@ def test_all_meetings_of_the_two_curves_are_found(abd):
     plane = Geometry(*abd)
     A = np.array([[abd[0], -abd[1]], [abd[1], abd[2]]])
     assume(determinant_sign(*abd) != 0 and np.linalg.cond(A) < 100 and abd[0] * abd[2] != 0.0)
-    G = lambda t: (np.linalg.solve(A, plane.saddle_node(np.asarray(t)).T) ** 2).sum(axis=0) - 1  # noqa: E731
+    G = lambda t: (np.linalg.solve(A, plane.saddle_node(np.asarray(t)).T) ** 2).sum(axis=0) - 1
     for t in (*plane.crossing, *plane.touching):
         assert G(t) == pytest.approx(0.0, abs=1e-9)
     values = G(np.linspace(0.0, 2 * np.pi, 4001))

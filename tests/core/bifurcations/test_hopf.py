@@ -85,7 +85,7 @@ def normal_form_coefficient(A, f, regularisation_mp, x0):
             x = P * mpmath.matrix([u, v])
             return Q * mpmath.matrix(U(x0[0] + x[0], x0[1] + x[1]))
 
-        D = lambda i, n: mpmath.diff(lambda u, v: G(u, v)[i], (0, 0), n)  # noqa: E731
+        D = lambda i, n: mpmath.diff(lambda u, v: G(u, v)[i], (0, 0), n)
         Jc = Q * J * P
         sign = mpmath.sign(Jc[1, 0])  # with (u, v)' = [[0, -w], [w, 0]] the formula holds; else mirror
         w = sign * w

@@ -128,7 +128,7 @@ def test_a_dip_of_few_samples_is_looked_into_on_both_sides():
 )
 def test_a_dip_is_one_between_two_that_are_higher(monkeypatch, three, dip, unit, sign):
     """Where the cubics show nothing, the heights alone tell."""
-    straight = lambda q, shift: (np.linspace(shift[:-1], shift[1:], 17, axis=1), np.zeros((len(q) - 1, 17)))  # noqa: E731
+    straight = lambda q, shift: (np.linspace(shift[:-1], shift[1:], 17, axis=1), np.zeros((len(q) - 1, 17)))
     monkeypatch.setattr(resolution, "cubics", straight)
     slow = 1.1 ** np.arange(1, 4)  # beside the three nothing dips
     shift = sign * unit * np.concatenate([three[0] * slow[::-1], three, three[2] * slow])
@@ -187,7 +187,7 @@ def test_samples_stay_in_order_and_know_which_are_fine():
 @pytest.mark.parametrize("backward", [False, True])
 def test_two_zeros_close_together_are_separated(apart, backward):
     at = (0.3123, 0.3123 + apart, -1.1)
-    f = lambda xi: (xi - at[0]) * (xi - at[1]) * (xi - at[2])  # noqa: E731
+    f = lambda xi: (xi - at[0]) * (xi - at[1]) * (xi - at[2])
     samples = Samples(Line(f), np.linspace(-3.0, 3.0, 24), backward)
     assert samples.resolve(lambda xi, shift: [])
     changes, touching, band = zeros(samples.q, samples.shift, samples.noise)

@@ -121,7 +121,7 @@ def test_a_cycle_just_born_is_where_its_expansion_vanishes(sign):
     linear, square = 2.0 * math.pi * trace / omega, -sign * 0.7
 
     def made(square, linear=linear):
-        r = lambda xi: 1.0 / (1.0 + np.exp(-xi))  # noqa: E731
+        r = lambda xi: 1.0 / (1.0 + np.exp(-xi))
         section = Line(lambda xi: linear + r(xi) ** 2 * (square + 300.0 * r(xi) + 1e5 * r(xi) ** 2))
         section.critical = SimpleNamespace(trace=linear * omega / (2.0 * math.pi), discriminant=-(omega**2))
         return search._newborn(section)
@@ -255,14 +255,14 @@ def test_what_a_section_shows(displacement, found, said):
 
 
 def test_a_jump_that_the_way_back_does_not_show_is_none():
-    jump = lambda xi: np.where(xi < 0.3, -INF, INF)  # noqa: E731
+    jump = lambda xi: np.where(xi < 0.3, -INF, INF)
     for back in (lambda xi: 1.0 + 0.0 * xi, lambda xi: -1.0 + 0.0 * xi, lambda xi: np.full_like(xi, np.nan)):
         assert sought(jump, backward=back) == ([], [])
 
 
 def test_only_of_what_repels_is_the_way_back_asked():
     """Forward orbits come to a cycle that attracts, however strongly: beside a jump the other way there is none."""
-    jump = lambda xi: np.where(xi < 0.3, INF, -INF)  # noqa: E731
+    jump = lambda xi: np.where(xi < 0.3, INF, -INF)
     assert sought(jump, backward=lambda xi: 0.3 - xi) == ([], [])
 
 
@@ -280,13 +280,13 @@ def test_a_cycle_is_born_between_the_critical_set_and_the_samples(monkeypatch, n
     monkeypatch.setattr(search, "_newborn", lambda _: newborn)
     plain = [at(1.03, sign < 0.0)]
     one = [(-20.0, False, False), *plain] if newborn else plain
-    displacement = lambda xi: sign * (1.03 - xi)  # noqa: E731
+    displacement = lambda xi: sign * (1.03 - xi)
     assert sought(displacement, -sign, -1.0) == (one, [] if newborn else ["too small, about C"])
     assert sought(displacement, sign, -1.0) == (plain, [])
     assert sought(displacement, 0.0, -1.0) == (plain, [])
     assert sought(displacement, -sign, 1.0) == (plain, [])  # a node: nothing turns about it
-    lost = lambda xi: np.where(xi < -4.0, np.nan, displacement(xi))  # noqa: E731
+    lost = lambda xi: np.where(xi < -4.0, np.nan, displacement(xi))
     assert sought(lost, -sign, -1.0) == (one, ["not all followed"] + ([] if newborn else ["too small, about C"]))
-    gone = lambda xi: np.where(xi < -4.0, INF, displacement(xi))  # noqa: E731
+    gone = lambda xi: np.where(xi < -4.0, INF, displacement(xi))
     if sign > 0.0:
         assert sought(gone, -sign, -1.0) == (plain, [])

@@ -204,13 +204,13 @@ def test_values_are_located_to_the_last_digits() -> None:
         a, d, f1, f2 = mp.mpf(-1.3), mp.mpf(0.9), mp.mpf(0.35), mp.mpf(-0.42)
         for s in D.special:
             if s.kind == "transcritical":
-                gap = lambda b: (a * d + b * b) ** 2 - (d * f1 + b * f2) ** 2 - (a * f2 - b * f1) ** 2  # noqa: E731
+                gap = lambda b: (a * d + b * b) ** 2 - (d * f1 + b * f2) ** 2 - (a * f2 - b * f1) ** 2
                 assert abs(mp.findroot(gap, s.value) - s.value) < 1e-13
             elif s.kind == "det A = 0":
                 assert abs(abs(s.value) - mp.sqrt(-a * d)) < 1e-13
             elif s.kind == "saddle-node":
                 t0 = math.atan2(s.place[1], s.place[0])
-                both = lambda t, b: (  # noqa: E731
+                both = lambda t, b: (
                     b + f2 * mp.cos(t) - f1 * mp.sin(t) + (d - a) * mp.sin(2 * t) / 2,
                     (d - a) * mp.cos(2 * t) - f2 * mp.sin(t) - f1 * mp.cos(t),
                 )

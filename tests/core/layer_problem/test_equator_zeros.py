@@ -289,7 +289,7 @@ _thousandths = st.integers(-1000, 1000).map(lambda n: n / 1000)
 @settings(max_examples=25)
 def test_across_saddle_nodes_counts_are_those_of_the_closed_form(a, d, f1, f2, from_b):
     """Theta loses its last zeros as b grows: up to the loss, and past it, none is missed or made up."""
-    closed = lambda b: equator_equilibria(ELinear(a, b, d, (f1, f2)))  # noqa: E731
+    closed = lambda b: equator_equilibria(ELinear(a, b, d, (f1, f2)))
     low, high = from_b, 4.0
     assume(max(map(abs, (a, d, f1, f2, from_b))) > 0.0)
     assume(len(closed(low)) > len(closed(high)) == 0)

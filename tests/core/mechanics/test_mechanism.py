@@ -32,7 +32,7 @@ def mechanisms(draw):
     """A mechanism in a position q and n velocities, with the same as functions of numbers."""
     n, held = draw(st.integers(3, 5)), draw(st.booleans())
     rows = 3 if held else 2
-    array = lambda *shape: np.array(draw(st.lists(number, min_size=(k := math.prod(shape)), max_size=k))).reshape(shape)  # noqa: E731
+    array = lambda *shape: np.array(draw(st.lists(number, min_size=(k := math.prod(shape)), max_size=k))).reshape(shape)
     L = np.tril(array(n, n), -1) + np.diag(1.0 + np.abs(array(n)))
     M = L @ L.T
     J0, J1 = array(rows, n), array(rows, n)
@@ -40,7 +40,7 @@ def mechanisms(draw):
     Q0, Q1, w, drift = array(n), array(n), array(2, 2), array(n)
     mu, N = 0.1 * (np.eye(2) + 0.3 * array(2, 2)), 1.0 + abs(draw(number))
     names = tuple(f"v{i}" for i in range(n))
-    text = lambda a, b: f"({a!r}) + ({b!r})*sin(q)"  # noqa: E731
+    text = lambda a, b: f"({a!r}) + ({b!r})*sin(q)"
     J = [[text(float(a), float(b)) for a, b in zip(p, q, strict=True)] for p, q in zip(J0, J1, strict=True)]
     parts = {
         "M": M, "J": J[:2], "mu": mu.tolist(), "velocities": names, "slow": ("q", *names[rows:]),

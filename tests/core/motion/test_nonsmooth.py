@@ -46,8 +46,8 @@ def test_ball_in_a_pool_along_a_line():
     mu, K, m, v0 = 0.2, 1.5, 1.2, 3.0
     k, friction = K / m, mu * G
     run = simulate_nonsmooth(examples.ball_in_pool(mu=mu, K=K, m=m), (v0, 0.0, v0, 0.0), (0.0, 2.0))
-    z = lambda t: (v0 + friction / k) * np.exp(-k * t) - friction / k  # noqa: E731
-    x = lambda t: v0 - 2.5 * friction * t + (z(t) - v0)  # noqa: E731 (x - z falls at the rate 5/2 mu g)
+    z = lambda t: (v0 + friction / k) * np.exp(-k * t) - friction / k
+    x = lambda t: v0 - 2.5 * friction * t + (z(t) - v0)
     arrives = run.phases[0].t_end
     assert kinds(run) == ["slip", "slide"]
     assert x(arrives) == pytest.approx(0.0, abs=1e-9)
@@ -61,7 +61,7 @@ def test_ball_in_a_pool_along_a_line():
 
 def test_ball_sticks_below_the_critical_speed_and_slips_above():
     ball, critical = examples.ball_in_pool(K=2.0), 7 * 0.2 * G / 4.0
-    at = lambda speed: (0.0, 0.0, 0.6 * speed, 0.8 * speed)  # noqa: E731
+    at = lambda speed: (0.0, 0.0, 0.6 * speed, 0.8 * speed)
     assert kinds(simulate_nonsmooth(ball, at(0.999 * critical), (0.0, 0.1))) == ["slide"]
     assert kinds(simulate_nonsmooth(ball, at(1.001 * critical), (0.0, 1e-4))) == ["slip"]
     # At the critical speed itself C lies on the equator and moves in.
@@ -282,7 +282,7 @@ def test_first_steps_away_from_sigma():
 def test_a_critical_set_is_continued_with_its_exact_slope():
     z = np.array([0.1])
     sheet = Sheet(field(examples.nonunique_sliding()), np.array([0.5, 0.0]) * (1.02 / 1.01), z)
-    chi = lambda z: (1 + 2 * z * z) / (1 + z * z)  # noqa: E731
+    chi = lambda z: (1 + 2 * z * z) / (1 + z * z)
     assert sheet.slope[0, 0] == pytest.approx((chi(0.1 + 1e-6) - chi(0.1 - 1e-6)) / 4e-6, rel=1e-6)
     np.testing.assert_allclose(sheet.at(np.array([0.3])), (chi(0.3) / 2, 0.0), rtol=0.0, atol=1e-14)
 

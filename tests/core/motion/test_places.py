@@ -112,7 +112,7 @@ def test_in_the_limit_a_place_on_the_equator_is_a_direction_also_at_sigma():
 
 def test_places_on_sets_cycles_and_where_it_leaves():
     t = np.array([0.0, 0.5, 1.0])
-    motion = lambda t: np.stack([0.0 * t, 0.0 * t, 0.1 + 0.2 * t], axis=-1)  # noqa: E731
+    motion = lambda t: np.stack([0.0 * t, 0.0 * t, 0.1 + 0.2 * t], axis=-1)
     rough = np.array([(0.2, 0.01), (0.4, -0.01)])
     e, p = places.OnSet(BENT, PSIS[1], motion, np.array([0.0, 1.0]), rough).at(t)
     np.testing.assert_allclose(e, np.stack([np.sqrt(0.05 + 0.1 * t), 0.0 * t], axis=-1), rtol=0.0, atol=1e-12)
@@ -130,7 +130,7 @@ def test_places_on_sets_cycles_and_where_it_leaves():
 def test_beyond_the_equator_a_set_is_not_polished():
     """C = (z, 0) has left the disc: what was followed is the place on the equator."""
     system = c2.System(U=("z - c", "-s"), W=("1",))
-    motion = lambda t: np.stack([0.0 * t, 0.0 * t, 1.0 + t], axis=-1)  # noqa: E731
+    motion = lambda t: np.stack([0.0 * t, 0.0 * t, 1.0 + t], axis=-1)
     on_set = places.OnSet(system, PSIS[1], motion, np.array([-1.0, 1.0]), np.array([(0.0, 0.0), (1.0, 0.0)]))
     e, p = on_set.at(np.array([-0.5, 0.1, 0.9]))
     np.testing.assert_allclose(e, [(0.5, 0.0), (0.55, 0.0), (0.95, 0.0)], rtol=0.0, atol=1e-12)

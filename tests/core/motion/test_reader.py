@@ -56,7 +56,7 @@ def by_r(radii, z=0.0):
 def test_contacts_with_returns_from_a_middle_distance():
     """r up to 20 eps is contact; what stays below sqrt(20 eps max r) belongs to it where the motion comes back."""
     assert pytest.approx(0.02) == module.NEAR * EPS
-    stays = lambda radii: list(reader(by_r(radii)).stays())  # noqa: E731
+    stays = lambda radii: list(reader(by_r(radii)).stays())
     assert stays([1.0, 0.5, 0.01, 0.1, 0.01, 0.5, 1.0, 0.01]) == [(2, 4), (7, 7)]
     assert stays([1.0, 0.01, 0.2, 0.01]) == [(1, 1), (3, 3)]
     assert stays([0.01, 0.1, 1.0]) == [(0, 0)]

@@ -269,7 +269,7 @@ def test_means_over_a_round_cycle(psi):
 def test_a_sheet_of_a_linear_field_is_found_however_its_components_are_coupled(A):
     (a, b), (c, d) = A
     system = c2.System(U=(f"({a})*c + ({b})*s - z/9", f"({c})*c + ({d})*s - z**2/9"), W=("1",))
-    exact = lambda z: np.linalg.solve(A, (z / 9.0, z * z / 9.0))  # noqa: E731
+    exact = lambda z: np.linalg.solve(A, (z / 9.0, z * z / 9.0))
     sheet = Sheet(field(system), exact(0.3), np.array([0.3]))
     for z in (0.31, 0.5, -1.0):
         np.testing.assert_allclose(sheet.at(np.array([z])), exact(z), rtol=0.0, atol=1e-13)

@@ -65,7 +65,7 @@ STIFF = [
 def test_every_orbit_of_a_stiff_portrait_ends_where_it_ends(system, family, backward):
     """And no half asks for more than 12 000 evaluations, whatever the ratio of the rates."""
     if backward:
-        minus = lambda v: f"-({v})" if isinstance(v, str) else -v  # noqa: E731
+        minus = lambda v: f"-({v})" if isinstance(v, str) else -v
         if isinstance(system, c2.System):
             system = c2.System(U=tuple(minus(u.text) for u in system.U))
         else:

@@ -42,7 +42,7 @@ def test_case_iii_changes_from_unstable_to_stable_where_the_trace_vanishes():
         assert abs(at_hopf.trace) < 1e-9 * np.abs(at_hopf.jacobian).max()
     # -A^-1 f at z, with adj(A) f = (d f1 + b f2, a f2 - b f1) and det A = a d + b^2
     det = 172 * -200 + 186**2
-    slow = lambda z: -(-200 * (-86 + 20 * z) + 186 * -93) / det + z  # noqa: E731
+    slow = lambda z: -(-200 * (-86 + 20 * z) + 186 * -93) / det + z
     assert slow(points["equilibrium"]) == pytest.approx(0.0, abs=1e-12)
     assert [i.kind for i in found.intervals] == ["crossing", "unstable", "sliding", "unstable", "sliding", "crossing"]
     for interval, after in zip(found.intervals, found.intervals[1:], strict=False):

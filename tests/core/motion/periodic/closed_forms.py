@@ -95,7 +95,7 @@ class Rotating:
     def speed(self) -> float:
         if self.eps == 0.0 and self.d == 0.0:
             return math.sqrt(self.F**2 - self.mu**2) * abs(self.w / (1.0 - self.w**2))
-        short = lambda a: abs(complex((1 - self.w**2) / self.w * a, self.d * a + self.mu * a / math.hypot(a, self.eps)))  # noqa: E731
+        short = lambda a: abs(complex((1 - self.w**2) / self.w * a, self.d * a + self.mu * a / math.hypot(a, self.eps)))
         return brentq(lambda a: short(a) - self.F, 1e-12, 1e3, xtol=1e-15, rtol=1e-15)
 
     @property

@@ -142,7 +142,7 @@ def test_through_stops_it_returns_and_its_multipliers_are_those_of_differences(m
     assume(slide.t_end - slide.t_start > 0.05)
     # From the middle of the slide on: z by z.
     first = found.run.dense(0.5 * (slide.t_start + slide.t_end))
-    end = lambda h: simulate_nonsmooth(system, first + h, (0.0, period), rtol=1e-12, atol=1e-13).states[-1][2:4]  # noqa: E731
+    end = lambda h: simulate_nonsmooth(system, first + h, (0.0, period), rtol=1e-12, atol=1e-13).states[-1][2:4]
     by = [(end(h) - end(-h)) / 2e-6 for h in 1e-6 * np.eye(5)[2:4]]
     expected = [*np.linalg.eigvals(np.transpose(by)), 0.0, 0.0]
     assert matched(found.multipliers, np.array(expected, complex)).max() < 1e-4
