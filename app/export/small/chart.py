@@ -18,8 +18,8 @@ COLOURS = ("rho", "theta", "separatrix", "continuation", "node-focus", "soft")
 WIDTH, HEIGHT, LEFT, BOTTOM = 360.0, 220.0, 44.0, 34.0
 SQUARE, EDGE, NAME_ROOM = 360.0, 'stroke="var(--soft)" stroke-width="0.8"', 60.0
 POINTS = 3000  # of all lines together
-#: Names of lines that are told; width of a letter, and height of a row of names.
-NAMED, LETTER, ROW = 4, 6.2, 13
+#: Width of a letter, and height of a row of names.
+LETTER, ROW = 6.2, 13
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ def framed(
     every = np.concatenate([points for _, points in kept]) if kept else np.zeros((1, 2))
     (left, low), (right, high) = every.min(axis=0), every.max(axis=0)
     kinds = dict(zip(dict.fromkeys(name for name, _ in kept), COLOURS * 9, strict=False))
-    named = list(kinds.items())[:NAMED]
+    named = list(kinds.items())[: len(COLOURS)]
     wide, tall = WIDTH - LEFT - 8, HEIGHT - BOTTOM - 22
     beside = all(LETTER * len(name) <= wide / len(named) for name, _ in named)  # else each has a row of its own
     top = 18 + (0 if beside else ROW * (len(named) - 1))

@@ -17,6 +17,7 @@ from codim2_core.diagrams.class_maps.atlas import ClassMap
 from codim2_core.diagrams.eigenvalue_path import LinearisationPath
 from codim2_core.diagrams.result import Diagram
 from codim2_core.figures.preset import Preset
+from codim2_core.motion.periodic.result import PeriodicMotion
 from codim2_core.motion.result import Simulation
 from codim2_core.nullcline.nullclines import Nullclines
 from codim2_core.orbits.trajectories import Trajectories
@@ -106,8 +107,20 @@ def _separatrices(result: Separatrices) -> str:
 
 @svg.register
 def _simulation(result: Simulation) -> str:
-    names = ("x", "y", *(f"z{i + 1}" for i in range(result.states.shape[1] - 2)))
-    return chart([(name, result.times, result.states[:, i]) for i, name in enumerate(names)], "t", "")
+    return _over_time(result, [False] * result.states.shape[1])
+
+
+@svg.register
+def _periodic(result: PeriodicMotion) -> str:
+    run = result.run
+    clock = run.states[:1, 2:] + np.outer((run.times - run.times[0]) / result.period, result.advance)
+    even = (result.advance != 0.0) & np.isclose(run.states[:, 2:], clock).all(axis=0)
+    return _over_time(run, [False, False, *even])
+
+
+def _over_time(run: Simulation, left_out: Sequence[bool]) -> str:
+    names = ("x", "y", *(f"z{i + 1}" for i in range(run.states.shape[1] - 2)))
+    return chart([(n, run.times, run.states[:, i]) for i, n in enumerate(names) if not left_out[i]], "t", "")
 
 
 @svg.register

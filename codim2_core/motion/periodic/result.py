@@ -8,6 +8,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import drawing
 from ...tables import number, paragraphs, table
 from ..result import Simulation
 
@@ -91,4 +92,4 @@ class PeriodicMotion:
         return (self._repr_svg_() or "") + table(head, rows) + paragraphs([self.reason])
 
     def _repr_svg_(self) -> str | None:
-        return self.run._repr_svg_()
+        return drawing.svg(self)

@@ -18,6 +18,7 @@ from codim2_core.portrait.basins import Basins
 
 SADDLE = c2.ELinear(1.0, 0.3, -1.2, (0.2, 0.45))
 CYCLE = c2.presets["case3-n3"]
+PUSHED = c2.System(U=("-z1 - 0.3*c + 0.5*cos(2*z3)", "-z2 - 0.3*s + 0.5*sin(2*z3) + z4/1000"), W=("x", "y", "1", "-z4"))
 RESULTS = {
     "scene": lambda: c2.Scene(SADDLE),
     "scene of its own": lambda: c2.Scene(c2.System(U=("-c + k", "-s"), W=("c",), parameters={"k": 0.3}), z=0.5),
@@ -25,6 +26,7 @@ RESULTS = {
     "separatrices": lambda: c2.separatrices(SADDLE, c2.psi.constant()),
     "limit cycles": lambda: c2.limit_cycles(CYCLE.system, CYCLE.psi),
     "simulation": lambda: c2.simulate(c2.ELinear(-1, 1, -1), c2.psi.constant(), 0.1, (0.5, 0.2), (0, 3)),
+    "periodic motion": lambda: c2.periodic_motion(PUSHED, (0.3, 0.0, 0.0, -0.1, 0.0, 0.0), np.pi),
     "curve": lambda: saddle_node(-2, 0.5, -1),
     "diagram": lambda: diagram(SADDLE, c2.psi.constant(), "f1", (-1, 1)),
 }
@@ -61,6 +63,11 @@ def test_a_portrait_has_the_marks_and_labels_of_its_scene():
     marked = [tuple(map(float, at)) for at in re.findall(r"translate\(([\d.]+) ([\d.]+)\)", shown)]
     (C,) = scene["critical"]
     assert min(np.hypot(x - 500 - C.p[0] * 1000 / 3.5, y - 500 + C.p[1] * 1000 / 3.5) for x, y in marked) < 1
+
+
+def test_a_chart_names_as_many_lines_as_there_are_colours():
+    shown = svg(RESULTS["periodic motion"]())
+    assert re.findall(r">(x|y|z\d)</text>", shown) == ["x", "y", "z1", "z2", "z4"]
 
 
 def test_a_chart_runs_through_its_ends():
@@ -121,6 +128,8 @@ CHARTS = {
     "diagram": (lambda: diagram(SADDLE, c2.psi.constant(), "f1", (-1, 1)),
                 lambda r: [(b.value, b.theta) for b in r.equator], ("f1", "θ")),
     "simulation": (RESULTS["simulation"], lambda r: [(r.times, r.states[:, i]) for i in (0, 1)], ("t", "")),
+    "periodic motion": (RESULTS["periodic motion"],  # the clock, z3, would crush it
+                        lambda r: [(r.run.times, r.run.states[:, i]) for i in (0, 1, 2, 3, 5)], ("t", "")),
     "curve": (RESULTS["curve"], lambda r: [(b[:, 0], b[:, 1]) for b in r.branches], ("f₁", "f₂")),
     "linearisation": (lambda: linearisation_path(SADDLE, c2.psi.constant(), "f1", (-0.3, 0.3)),
                       lambda r: [(r.values, r.trace)], ("f1", "tr J")),
