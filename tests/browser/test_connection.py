@@ -28,6 +28,7 @@ def stands_still(page, server):
         box.press("Enter")
         busy.wait_for(state="visible", timeout=2500)  # within 2 s, told when the page next looks
         assert busy.text_content() == "Waiting for the server …"
+        assert busy.bounding_box()["y"] > page.find(".tools").evaluate("(e) => e.getBoundingClientRect().bottom")
     finally:
         os.kill(server.pid, signal.SIGCONT)
     busy.wait_for(state="hidden")
