@@ -78,7 +78,8 @@ def count_equilibria(a, b, d, f1, f2):
 def theta_coefficients(a, b, d, f1, f2):
     """(m0, c1, s1, c2, s2) of Theta as 50-digit numbers."""
     a, b, d, f1, f2 = map(mp.mpf, (a, b, d, f1, f2))
-    return b, f2, -f1, mp.mpf(0), (d - a) / 2
+    with mp.workdps(50):
+        return b, f2, -f1, mp.mpf(0), (d - a) / 2
 
 
 def jet(q, theta):

@@ -46,6 +46,7 @@ def check(zeros, count, identically=False):
 @example((0.0, 1e-320, 1.0, 0.0, 0.0))
 @example((0.0, 0.5, 1.0, 0.0, 0.0))
 @example((0.0, 1.0, 1e150, 1e-150, 1e-170))
+@example((4.735007393174035e34, 1e21, 1e53, 0.0, 1e53))  # d - a has more digits than a double
 def test_counts_and_digits_of_theta(q):
     zeros = tangential_zeros(*q)
     check(zeros, count_equilibria(*q))
