@@ -101,6 +101,16 @@ def test_all_are_told_when_a_room_is_closed_and_nothing_of_it_is_left(two):
     assert code not in here.hosts
 
 
+def test_a_room_that_is_not_there_any_more_is_closed_without_a_word(two):
+    here, _ = two
+    code = opened(here)[1]
+    here.close("NOWHERE", 1.0)
+    here.close(code, 1.0)
+    closed = here.hosts[code].closed
+    here.close(code, 2.0)
+    assert here.hosts[code].closed == closed
+
+
 def test_a_lecturer_who_loads_the_page_again_has_his_room_also_from_another_process(two):
     here, there = two
     lecturer, code, key = opened(here)

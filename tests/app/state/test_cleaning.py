@@ -53,3 +53,18 @@ def test_own_values_of_a_second_portrait_may_be_empty_and_are_named():
     for wrong in ("f1=", "layers=inside", "f1=x", 3, "f1=" + "1" * MOST_OWN):
         with pytest.raises(InputError):
             clean("beside", wrong)
+
+
+def test_launched_orbits_are_a_text_that_is_not_too_long():
+    start = "1.4,0.5; "
+    assert clean("orbits", start) == start
+    for wrong in (start * (1 + cleaning.LONGEST_TEXT // len(start)), 3, ["1.4,0.5"]):
+        with pytest.raises(InputError, match=f"at most {cleaning.LONGEST_TEXT} characters"):
+            clean("orbits", wrong)
+
+
+def test_an_axis_is_a_control_or_a_name_of_ones_own():
+    assert [clean("across", name) for name in ("f1", "z", f"{OWN_AXIS}mu")] == ["f1", "z", f"{OWN_AXIS}mu"]
+    for wrong in ("nothing", "mu", 7, None):
+        with pytest.raises(InputError, match="choose one such as"):
+            clean("across", wrong)

@@ -105,6 +105,24 @@ def test_outside_a_system_that_reads_position_leans():
     assert out.direction == pytest.approx(np.array([1.0, slope]) / math.hypot(1.0, slope))
 
 
+def test_outside_they_are_eigenvectors_of_the_flow_of_a_system_that_reads_position():
+    system = System(U=("-2*c + s/5 + x + y/3", "-s + c/10 + 0.7*x - y"))
+    problem = LayerProblem(system.at(), psi.constant())
+    h = 1e-6
+    for theta, rho, one in zip(problem.equator.theta, problem.equator.lambda_rho, of_limit_directions(problem),
+                               strict=True):  # fmt: skip
+        e = np.array([math.cos(theta), math.sin(theta)])
+        (out,) = (np.array(d.direction) for d in one.directions if d.where == "outside")
+        assert abs(out @ (-e[1], e[0])) > 1e-2
+        away = h * out / (out @ e)
+        c, s = (e + away) / np.hypot(*(e + away))
+        r = np.hypot(*(e + away)) - 1.0
+        u, v = (-2 * c + s / 5 + r * c + r * s / 3, -s + c / 10 + 0.7 * r * c - r * s)
+        radial, around = c * u + s * v, c * v - s * u  # of r, times r, and of theta
+        speed = r * radial * np.array([c, s]) + (1.0 + r) * around * np.array([-s, c])
+        np.testing.assert_allclose(speed / h, rho * away / h, atol=1e-4)
+
+
 def test_what_has_no_two_directions():
     star = of_critical_set(critical_sets(ELinear(-1, 0, -1, (0, 0)), psi.constant())[0])
     assert (star.directions, star.turning, star.every) == ((), 0, True)

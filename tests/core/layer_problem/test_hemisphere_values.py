@@ -35,3 +35,9 @@ def test_flow_of_many_points_is_that_of_each():
         assert (hemisphere.e_psi(family, p)[0] == 0.0).all()
     assert hemisphere.height([1.0, 0.0]) == 0.0
     assert hemisphere.height([0.6, 0.0]) == pytest.approx(0.8)
+
+
+@pytest.mark.parametrize("epsilon_1", [1.01, -0.01, [0.5, 1.2]])
+def test_the_entry_chart_ends_at_the_top_and_at_the_equator(epsilon_1):
+    with pytest.raises(ValueError, match="beyond 0 to 1"):
+        hemisphere.disc_from_entry(epsilon_1, 0.3)

@@ -57,6 +57,7 @@ def test_what_vanishes_has_no_sign():
     assert matrix_determinant(1.0, 2.0, 0.0, 0.0) == (0.0, 0)
     assert matrix_determinant(0.0, 2.0, -3.0, 0.0) == (6.0, 1)
     assert matrix_determinant(2.0, 0.0, 5.0, -1e-200) == (-2e-200, -1)
+    assert matrix_determinant(0.8, -0.8, 0.625, 0.625) == (1.0, 1)  # of size 1
     assert matrix_determinant(0.875, 0.75, 0.75, 0.5) == (-0.125, -1)
     assert determinant_sign(0.875, 0.75, 0.5) == 1
     assert [determinant_sign(*abd) for abd in ((0, 0, 0), (1, 0, 0), (0, 1e-160, 0), (-1e-160, 0, 1e-160))] == [

@@ -42,6 +42,8 @@ test("the list is bounded: the oldest without a name goes, then the oldest", () 
   assert.deepEqual(noted(full, "", "own", own("new"), "n").list.map(({id}) => id), ["n", ...full.slice(0, -1).map(({id}) => id)])
   const last = full.map((one, i) => i > 2 ? {...one, name: "kept"} : one)
   assert.deepEqual(noted(last, "", "own", own("new"), "n").list.map(({id}) => id), ["n", ...last.filter((_, i) => i !== 2).map(({id}) => id)])
+  const young = full.map((one, i) => i > 0 ? {...one, name: "kept"} : one) // only what is new has no name, and this
+  assert.deepEqual(noted(young, "", "own", own("new"), "n").list.map(({id}) => id), ["n", ...young.slice(1).map(({id}) => id)])
   const all = many(MOST, "kept")
   assert.equal(noted(all, "", "own", own("new"), "n").list.at(-1)?.id, `i${MOST - 2}`)
   assert.deepEqual(noted([], "", "own", own("c".repeat(7000)), "n"), {list: [], current: ""})
@@ -58,7 +60,7 @@ test("a storage that holds something else is an empty list, and of a list what f
   for (const text of [null, "", "{", "7", "null", '{"a": 1}', "[1, null, {}]"]) assert.deepEqual(readYours(text), [])
   const good = many(2)
   assert.deepEqual(readYours(JSON.stringify(good)), good)
-  const bad = [{...good[0], kind: "other"}, {...good[0], name: 7}, {...good[0], values: null}, {...good[0], values: {texts: {U1: 3}, system: "own"}}, {...good[0], values: {...good[0].values, system: "typed"}}, {...good[0], kind: "psi"}]
+  const bad = [{...good[0], kind: "other"}, {...good[0], name: 7}, {...good[0], values: null}, {...good[0], values: {texts: {U1: 3}, system: "own"}}, {...good[0], values: {system: "own"}}, {...good[0], values: {texts: ["-c"], system: "own"}}, {...good[0], values: {...good[0].values, system: "typed"}}, {...good[0], kind: "psi"}]
   assert.deepEqual(readYours(JSON.stringify([...bad, good[1]])), [good[1]])
   assert.equal(readYours(JSON.stringify(many(99))).length, MOST)
 })

@@ -45,6 +45,7 @@ test("the panel diagram: limit cycles by amplitude and period, stable ones full"
   one.frame({diagram: DIAGRAM}, {}, ["cycles along"])
   assert.equal(one.find(".diagram-note").textContent, "Looking for limit cycles …")
   one.frame({cycles_along: CYCLES})
+  one.frame({}) // of something else: they stay
   assert.equal(one.find(".diagram-note").textContent, "Two branches.")
   const all = plots(one.find(".diagram"))
   assert.deepEqual(all.map(({title}) => title), ["limit directions θ", "critical set |p|", "limit cycles, amplitude |p − C|", "limit cycles, period (fast time τ)"])
@@ -59,6 +60,8 @@ test("the panel diagram: limit cycles by amplitude and period, stable ones full"
   one.frame({unable: {"cycles along": "Not of these."}})
   assert.equal(one.find(".diagram-note").textContent, "Not of these.")
   one.frame({unable: {diagram: "Choose another."}})
+  one.frame({cycles_along: CYCLES}) // late: there is no diagram any more
+  one.frame({unable: {"cycles along": "Not of these."}})
   assert.deepEqual([one.find(".diagram-note").textContent, one.find(".diagram").hasAttribute("hidden"), one.find(".special-list").innerHTML], ["Choose another.", true, ""])
   one.frame({diagram: DIAGRAM})
   assert.deepEqual([one.find(".diagram-note").textContent, one.find(".diagram").hasAttribute("hidden")], ["", false])
