@@ -58,7 +58,7 @@ def rendered(tokens: Sequence[Token], resolve: Resolve) -> str:
         if token.children:
             token.children = _links(token.children, resolve)
     renderer = RendererHTML(parser())
-    renderer.rules.update(parser().renderer.rules)  # type: ignore[attr-defined]
+    renderer.rules.update(parser().renderer.rules)  # type: ignore[attr-defined]  # its protocol names no rules
     return renderer.render(tokens, parser().options, {})
 
 

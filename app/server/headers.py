@@ -56,7 +56,7 @@ def transform(sources: str) -> type[OutputTransform]:
             status_code: int,
             headers: HTTPHeaders,
             chunk: bytes,
-            finishing: bool,  # noqa: ARG002
+            finishing: bool,  # noqa: ARG002 (Tornado gives it)
         ) -> tuple[int, HTTPHeaders, bytes]:
             if "Server" in headers:
                 del headers["Server"]

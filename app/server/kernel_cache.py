@@ -44,7 +44,7 @@ def _locators() -> list[type[Any]]:
 
     A folder that the host has warmed comes before a home that can be written, where nothing is.
     """
-    first, *others = caching.CacheImpl._locator_classes  # noqa: SLF001
+    first, *others = caching.CacheImpl._locator_classes  # noqa: SLF001 (Numba hands out no other way to them)
     return [first, AsGiven, *others, AsItIs]
 
 

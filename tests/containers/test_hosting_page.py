@@ -73,7 +73,7 @@ def follow(root, text, alone):
     return told
 
 
-HERE = "cd /root/codim2 && . .venv/bin/activate\n"
+HERE = "cd ~/codim2 && . .venv/bin/activate\n"
 
 
 def test_the_page_on_hosting_word_for_word_on_a_clean_machine(machine):

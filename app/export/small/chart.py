@@ -32,10 +32,8 @@ class Frame:
 
     def place(self, x: Any, y: Any) -> tuple[float, float]:
         """Return the place of a point, in px."""
-        return tuple(
-            float((value - low) * scale + foot)
-            for value, low, scale, foot in zip((x, y), self.corner, self.scale, self.foot, strict=True)
-        )  # type: ignore[return-value]
+        (left, low), (across, up), (u, v) = self.corner, self.scale, self.foot
+        return float((x - left) * across + u), float((y - low) * up + v)
 
 
 def chart(lines: Sequence[tuple[str, Any, Any]], across: str, up: str) -> str:
