@@ -11,16 +11,21 @@ from typing import TypeVar
 Question = TypeVar("Question")
 Answer = TypeVar("Answer")
 Found = TypeVar("Found")
+Asked = TypeVar("Asked")
+Told = TypeVar("Told")
 
 
 def rounds(
     searches: Sequence[Generator[Question, Answer, Found]],
-) -> Generator[list[Question], list[Answer], list[Found]]:
-    """Run searches side by side: yields the questions of those that go on, in their order, and is sent the answers.
+    ask: Callable[[list[Question]], Generator[Asked, Told, list[Answer]]],
+) -> Generator[Asked, Told, list[Found]]:
+    """Run searches side by side, and ask what those that go on ask.
 
     Parameters
     ----------
     searches : sequence of generators
+    ask : generator function
+        Yields what it asks for, of the questions of a round, and returns their answers in the same order.
 
     Returns
     -------
@@ -40,7 +45,7 @@ def rounds(
         go_on(i, None)
     while asked:
         several = list(asked)
-        answers = yield [asked.pop(i) for i in several]
+        answers = yield from ask([asked.pop(i) for i in several])
         for i, told in zip(several, answers, strict=True):
             go_on(i, told)
     return [found[i] for i in range(len(searches))]
@@ -62,7 +67,11 @@ def answered(
     list
         What each has found.
     """
-    going = rounds(searches)
+
+    def as_they_are(questions: list[Question]) -> Generator[list[Question], list[Answer], list[Answer]]:
+        return (yield questions)
+
+    going = rounds(searches, as_they_are)
     answers = None
     while True:
         try:

@@ -113,16 +113,13 @@ Asking = Generator[Question, "list[Turn | None]", Found]
 
 def side_by_side(searches: Sequence[Asking[Found]]) -> Asking[list[Found]]:
     """Run searches in one family side by side, as one that asks for all their turns together."""
-    going = rounds(searches)
-    answers = None
-    while True:
-        try:
-            questions = next(going) if answers is None else going.send(answers)
-        except StopIteration as end:
-            return end.value
-        parts = [[*chain.from_iterable(part)] for part in list(zip(*questions, strict=True))[1:]]
-        found = iter((yield Question(questions[0].family, *parts)))
-        answers = [[*islice(found, len(question.xi))] for question in questions]
+    return rounds(searches, _together_asked)
+
+
+def _together_asked(questions: list[Question]) -> Asking[list[list[Turn | None]]]:
+    parts = [[*chain.from_iterable(part)] for part in list(zip(*questions, strict=True))[1:]]
+    found = iter((yield Question(questions[0].family, *parts)))
+    return [[*islice(found, len(question.xi))] for question in questions]
 
 
 class Straight(NamedTuple):

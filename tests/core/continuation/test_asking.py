@@ -30,13 +30,16 @@ def test_an_empty_answer_is_an_answer():
     assert answered([search()], lambda questions: [[] if q == "empty" else None for q in questions]) == [(None, [])]
 
 
-def test_rounds_stop_for_the_answers():
+def test_a_round_is_asked_as_its_caller_says():
     def search(name):
         return (yield name) + (yield name * 2)
 
-    going = rounds([search("a"), search("b")])
-    assert next(going) == ["a", "b"]
-    assert going.send(["1", "2"]) == ["aa", "bb"]
+    def in_one_word(questions):
+        return (yield " ".join(questions)).split()
+
+    going = rounds([search("a"), search("b")], in_one_word)
+    assert next(going) == "a b"
+    assert going.send("1 2") == "aa bb"
     with pytest.raises(StopIteration) as end:
-        going.send(["3", "4"])
+        going.send("3 4")
     assert end.value.value == ["13", "24"]
