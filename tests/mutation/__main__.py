@@ -8,6 +8,8 @@ that can be (`live`), else with the module imported anew; what Numba compiles is
 is written in the repository.
 Printed are the mutants that live and, for each module, how many were killed of how many; those that
 `explained.ALLOWED` tells are not tried. ``--record`` keeps all that in `results.md`. The exit code is 1 if any lives.
+``--again`` tries those of `results.md` that live, or those of another run whose output is given; with ``--record`` it
+leaves out of the list those that a test notices by now, and what was killed of a sample stays as it was drawn.
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ import random
 import re
 import subprocess
 import sys
+from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -57,25 +60,33 @@ class Choice:
 
     sample: int | None
     seed: int
-    again: frozenset[tuple[str, int, str]] | None  # file, line and change
+    again: Counter[tuple[str, int, str]] | None  # file, line and change
     seconds: float = 10.0  # that the tests of one may take
 
     def of(self, found: list[Any], file: str) -> list[Any]:
         """Choose from a module's mutants."""
         if self.again is not None:
-            lived = [(line, change) for name, line, change in self.again if name == file]
-            same = [(line, [m for m in found if m.text.split(": ", 1)[1] == change]) for line, change in lived]
-            near = {min(these, key=lambda m: abs(m.line - line)) for line, these in same if these}
+            near: set[Any] = set()
+            for (name, line, change), count in self.again.items():
+                same = [m for m in found if name == file and m.text.split(": ", 1)[1] == change and m not in near]
+                near.update(sorted(same, key=lambda m: abs(m.line - line))[:count])
             found = [mutant for mutant in found if mutant in near]
         if self.sample is None or self.sample >= len(found):
             return found
         return sorted(random.Random(self.seed).sample(found, self.sample), key=lambda mutant: mutant.line)
 
 
-def survivors(output: str) -> frozenset[tuple[str, int, str]]:
+def survivors(output: str) -> Counter[tuple[str, int, str]]:
     """Files, lines and changes of the mutants that lived, from what was printed."""
     found = re.findall(r"^  lives  (.+?):(\d+): (.*)$", output, re.MULTILINE)
-    return frozenset((file, int(line), change) for file, line, change in found)
+    return Counter((file, int(line), change) for file, line, change in found)
+
+
+def survivors_on_record() -> Counter[tuple[str, int, str]]:
+    """Return the same of `results.md`."""
+    there = {*modules(), *front_end()}
+    lived = [(one.name, *text.split(": ", 1)) for one in record.known().values() for text in one.alive]
+    return Counter((file_of(name), int(line), change) for name, line, change in lived if name in there)
 
 
 def tell(job: Job, mutant: Mutant, outcome: str) -> None:
@@ -167,13 +178,17 @@ def main(arguments: list[str]) -> int:
     parser.add_argument(
         "--seconds", type=float, default=10.0, help="that the tests of a mutant may take, were it to live"
     )
-    parser.add_argument("--again", metavar="FILE", help="only those that lived in a run whose output this is")
+    parser.add_argument(
+        "--again", metavar="FILE", nargs="?", const="", help="only those that live on record, or by this run's output"
+    )
     parser.add_argument("--record", action="store_true", help="keep what was found in results.md")
     parser.add_argument("--processes", type=int, default=len(os.sched_getaffinity(0)), help="side by side")
     options = parser.parse_args(arguments)
-    if options.record and options.again is not None:
-        parser.error("--again tries only those that lived: no share of all can be recorded.")
-    again = None if options.again is None else survivors(Path(options.again).read_text())
+    if options.record and options.again:
+        parser.error("--again FILE tries only those that lived in that run: no share of all can be recorded.")
+    again = None
+    if options.again is not None:
+        again = survivors(Path(options.again).read_text()) if options.again else survivors_on_record()
     choice = Choice(options.sample, options.seed, again, options.seconds)
     rooms: dict[tuple[str, bool], list[str]] = {}
     tasks: list[tuple] = []
@@ -192,7 +207,9 @@ def main(arguments: list[str]) -> int:
     with multiprocessing.get_context("fork").Pool(options.processes, maxtasksperchild=1) as pool:
         for part in pool.imap_unordered(attempt, tasks, chunksize=1):
             counts += part
-            if options.record:
+            if options.record and again is not None:
+                record.write(record.known()[c.name]._replace(alive=tuple(c.alive)) for c in part)
+            elif options.record:
                 record.write(
                     record.Found(c.name, c.killed, c.tried, c.all, options.seed, tuple(c.alive), at) for c in part
                 )

@@ -55,7 +55,8 @@ def written(found: Iterable[Found]) -> str:
         "",
         "Written by `python -m tests.mutation ROOM --record`: one expression of a module is changed at a time, and the",
         "tests of its room are run. A part of a module's mutants is a sample, drawn with the seed and tried at the",
-        "commit given; a share of a small sample is no more than that.",
+        "commit given; a share of a small sample is no more than that. Who lives are those of them that no test has",
+        "noticed since: `--again --record` tries them once more.",
         "",
         "| room | killed |  |",
         "|---|---|---|",
@@ -72,16 +73,16 @@ def written(found: Iterable[Found]) -> str:
         lines += [f"- `{one.name}:{change}`{reason(one.name, change)}" for change in one.alive]
     lines += ["", "## What need not be tried", "", "Mutants of lines that hold these words, with the reason.", ""]
     counts: Counter[int] = Counter()
-    known = modules()
-    for module in sorted({one.module for one in ALLOWED} & known.keys()):  # those of the front end only Node can count
-        source = known[module].read_text()
+    there = modules()
+    for module in sorted({one.module for one in ALLOWED} & there.keys()):  # those of the front end only Node can count
+        source = there[module].read_text()
         texts = source.splitlines()
         for mutant in mutants(source):
             counts.update(
                 [i for i, one in enumerate(ALLOWED) if one.module == module and one.words in texts[mutant.line - 1]][:1]
             )
     for i, one in enumerate(ALLOWED):
-        count = f" ({counts[i]})" if one.module in known else ""
+        count = f" ({counts[i]})" if one.module in there else ""
         lines.append(f"- `{one.module}`: `{one.words}`{count}: {one.why}")
     return "\n".join(lines) + "\n"
 
@@ -92,5 +93,9 @@ def _share(name: str, killed: int, tried: int) -> str:
 
 def write(found: Iterable[Found]) -> None:
     """Put what was found in the place of what was known of these modules."""
-    known = read(RESULTS.read_text()) if RESULTS.exists() else {}
-    RESULTS.write_text(written({**known, **{one.name: one for one in found}}.values()))
+    RESULTS.write_text(written({**known(), **{one.name: one for one in found}}.values()))
+
+
+def known() -> dict[str, Found]:
+    """Return what is on record, by module."""
+    return read(RESULTS.read_text()) if RESULTS.exists() else {}

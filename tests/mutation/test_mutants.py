@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from . import interpreted, javascript
-from .__main__ import Choice, survivors
+from . import interpreted, javascript, record
+from .__main__ import Choice, survivors, survivors_on_record
 from .explained import ALLOWED, LIVES
 from .live import changes, functions, put_in
 from .mutants import mutants
@@ -156,8 +156,18 @@ def test_those_that_lived_can_be_tried_again():
     ones = [mutant for mutant in twice if (mutant.before, mutant.after) == ("1", "2")]
     moved = survivors(f"  lives  a/b.py:{ones[1].line + 1}: 1  →  2\n")  # a line has gone since
     assert Choice(None, 0, moved).of(twice, "a/b.py") == [ones[1]]
+    both = survivors("  lives  a/b.py:2: 1  →  2\n" * 2)
+    assert Choice(None, 0, both).of(twice, "a/b.py") == ones
     assert Choice(3, 1, None).of(found, "a/b.py") == Choice(3, 1, None).of(found, "a/b.py")
     assert len(Choice(3, 1, None).of(found, "a/b.py")) == 3
+
+
+def test_those_that_live_on_record_can_be_tried_again(monkeypatch):
+    lived = Found("core.sliding.over", 3, 5, 40, 7, ("12: a | b  →  a", "13: f(x): 1  →  0", "13: f(x): 1  →  0"))
+    moved = Found("core.sliding.of_old", 3, 4, 40, 7, ("1: 2  →  3",))
+    monkeypatch.setattr(record, "known", lambda: {one.name: one for one in (lived, moved)})
+    file = "codim2_core/sliding/over.py"
+    assert survivors_on_record() == {(file, 12, "a | b  →  a"): 1, (file, 13, "f(x): 1  →  0"): 2}
 
 
 def test_what_was_found_is_read_as_it_was_written():

@@ -187,7 +187,8 @@ def test_where_none_returns_there_are_no_turns():
 
 
 def test_turns_under_a_psi_of_each():
-    own = np.array([1.0, 2.0, 3.0, 4.0, 6.0])
+    """Also where that of the family is whole and others are not."""
+    own = np.array([1.3, 2.0, 2.5, 3.7, 6.0])
     many = _all(c2.psi.hill(2), 0, own)
     ones = [_one(plane, c2.psi.hill(value), 0) for plane, value in zip(PLANES, own.tolist(), strict=True)]
     starts = np.array([one.states(np.zeros(1))[0][0] for one in ones])

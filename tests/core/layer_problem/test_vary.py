@@ -61,3 +61,10 @@ def test_a_frozen_system_and_short_names() -> None:
 def test_what_cannot_be_is_explained(system: object, name: str, value: float, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         varied(system, HILL, (0.3, 0.4), name, value)
+
+
+@pytest.mark.parametrize("name", ["z1", "z", "k"])
+def test_of_a_frozen_system_neither_a_slow_variable_nor_a_parameter_has_a_value(name: str) -> None:
+    for ask in (value_of, lambda *given: varied(*given, 1.0)):
+        with pytest.raises(ValueError, match="cannot be varied"):
+            ask(TEXT.at((0.3, 0.4)), HILL, (0.3, 0.4), name)

@@ -179,6 +179,16 @@ def test_sliding_ends_in_a_fold():
     np.testing.assert_allclose(run.states[-1], (t + t * t / 8.0, 0.0, -t / 4.0), rtol=0.0, atol=1e-8)
 
 
+@pytest.mark.parametrize(("U2", "kept"), [("-s", ["slide", "slip", "slide"]), ("-s + (c + 1/2)/9", ["slide", "slip"])])
+def test_what_follows_a_fold_is_what_is_there_then_and_not_a_hundredth_of_the_time_later(U2, kept):
+    """At z = 0 the set at c = -sqrt(-z) is gone and nothing is there; from z = 0.07 on another one attracts."""
+    system = System(U=("z + c**2 - (1 + tanh(200*(z - 0.07)))*c", U2), W=("1",))
+    run = simulate_nonsmooth(system, (0.0, 0.0, -0.09), (0.0, 10.0), families.constant())
+    assert kinds(run)[: len(kept)] == kept
+    if U2 == "-s":
+        assert run.phases[1].t_start == pytest.approx(0.09, abs=1e-9)
+
+
 def test_the_side_of_approach_decides_how_it_slides():
     # e = -+chi/2 on C1 and C3, with z' = +-chi + 1/4 there.
     ends = {}

@@ -325,3 +325,13 @@ def test_what_is_handed_over_to_be_compiled(monkeypatch):
     (told,) = given
     assert told == (psi, 0.5, None, run.times[-1], 9.0, run.states[-1].tolist(), 1e-6, pytest.approx(1e-3), 47)
     assert run.evaluations > 7
+
+
+@pytest.mark.parametrize("eps", [1e-14, 1e6])
+def test_eps_goes_as_far_as_is_said(eps):
+    still = System(U=("-c", "-s"), W=("1",))
+    span = (0.0, 1e-3 * min(eps, 1.0))
+    assert simulate(still, families.constant(), eps, (0.3 * eps, 0.0, 0.0), span).times[-1] == span[1]
+    beyond = eps * (1.1 if eps > 1.0 else 0.9)
+    with pytest.raises(ValueError, match=r"1e-14 <= eps <= 1e\+06"):
+        simulate(still, families.constant(), beyond, (0.3 * eps, 0.0, 0.0), span)

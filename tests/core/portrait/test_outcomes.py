@@ -105,3 +105,14 @@ def test_a_row_has_a_dash_for_what_is_not_there():
     assert told._row_() == ("Q1", "1.25", "open set", "cross", "Q2", "2.5", point(np.array([0.5])), "Away.")
     bare = Outcome(None, "equator", "nothing", "misses", None, None, None, "Away.")
     assert bare._row_() == ("equator", "–", "nothing", "misses", "–", "–", "–", "Away.")
+
+
+def test_where_nothing_arrives_the_table_tells_what_the_directions_do_instead():
+    """U = e + (0.2, -0.1): all of the equator repels."""
+    found = c2.approach_outcomes(c2.ELinear(1.0, 0.0, 1.0, (0.2, -0.1)), c2.psi.constant())
+    assert len(found) == 0
+    shown = found._repr_html_()
+    assert shown.count("<tr>") == 1 + len(found.directions) == 3
+    for one in found.directions:
+        assert f"<td>{one.label}</td>" in shown
+        assert one.reason in shown

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from codim2_core import ELinear, critical_sets, presets, psi
+from codim2_core import ELinear, System, critical_sets, presets, psi
 from codim2_core.portrait.saddle_manifold import FIRST, ORDER, SMALLEST, expansion, starts
 
 SADDLE = presets["case2-saddle"].system
@@ -111,3 +111,20 @@ def test_the_defect_is_that_of_the_equation_of_the_manifold(p):
             worst = max(worst, np.abs(F - value * sigma * slope).max() / abs(value))
         assert defect == pytest.approx(worst, rel=1e-6)
         assert np.hypot(*terms[1]) == pytest.approx(1.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("p", [psi.rational(), psi.tanh()], ids=lambda p: p.text)
+def test_in_turned_axes_the_manifold_is_the_same_one_turned(p):
+    """Through 0.7, as formulas: in no normal form."""
+    R = np.array([[math.cos(0.7), -math.sin(0.7)], [math.sin(0.7), math.cos(0.7)]])
+    at = FAR_OUT.at(())
+    U = [f"{a!r}*c + {b!r}*s + {f!r}" for (a, b), f in zip((R @ at.A @ R.T).tolist(), (R @ at.f).tolist(), strict=True)]
+    turned = System(U=U)
+    (C,), (D,) = critical_sets(FAR_OUT, p), critical_sets(turned, p)
+    for one, other in zip(sorted(C.eigenvalues.real), sorted(D.eigenvalues.real), strict=True):
+        terms, defect = expansion(at, p, C, one, 0.3)
+        own, found = expansion(turned.at(()), p, D, other, 0.3)
+        side = np.sign(own[1] @ R @ terms[1]) ** np.arange(ORDER + 1)  # either way along the eigenvector
+        far = 0.3 ** np.arange(ORDER + 1)[:, None]
+        np.testing.assert_allclose(far * own, far * side[:, None] * terms @ R.T, rtol=0.0, atol=1e-11)
+        assert defect / 1.42 < found < 1.42 * defect  # the larger of two components

@@ -26,6 +26,11 @@ test("objects have the names of the picture, and only those that are shown are t
   assert.equal(objectsOf({critical: {...CRITICAL, label: ["C₁₂"]}}, {}, TABLE)[0].name, "C12")
 })
 
+test("a curve that is named and has not come yet is no object", () => {
+  const some = [layer("cycles", "cycles"), layer("rho", "rho_inside", "rho_outside")], {"cycles.n": _, ...rest} = BLOCKS
+  assert.deepEqual(objectsOf({owners: {cycles: ["L1"]}}, rest, some).map(({name, curve}) => [name, curve?.length]), [["R", 1]])
+})
+
 test("the nearest mark within reach is under the pointer, else a limit cycle, else nothing", () => {
   const under = (x, y, reach = 0.1) => objectAt(all, {x, y}, reach, 0.6 * reach)?.name ?? null
   assert.equal(under(0.65, 0.85), "Q1")

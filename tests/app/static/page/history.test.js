@@ -91,7 +91,7 @@ test("a step waits for the pointer that is held, and the browser's history is wa
   pull(one, "#c2-f1", "1")
   one.tick(1000)
   assert.equal(one.root.dataset.kept, "false")
-  for (const call of one.heard.pointerup) call({})
+  for (const call of one.first.pointerup) call({}) // at the end of a pan Bokeh lets nobody else hear
   one.tick(400)
   assert.equal(one.root.dataset.kept, "true")
   one.answer()

@@ -33,10 +33,14 @@ export function page(body = "", {framed = {}, ...more} = {}) {
   const after = (go, ms) => { waiting.set(++number, {at: now + ms, go}); return number }
   const cancel = (id) => { waiting.delete(id) }
   const every = (go, ms) => after(() => { go(); every(go, ms) }, ms)
-  const heard = {} // listeners of the window
+  const heard = {}, first = {} // listeners of the window, and those of them that hear before what is within it
   const how = new Map() // each listens: one is taken away only as it was given
   const listens = {
-    addEventListener: (type, go, as) => { how.set(go, as); (heard[type] ??= []).push(go) },
+    addEventListener: (type, go, as) => {
+      how.set(go, as)
+      ;(heard[type] ??= []).push(go)
+      if (as === true || as?.capture) (first[type] ??= []).push(go)
+    },
     removeEventListener: (type, go, as) => { if (how.get(go) === as) heard[type] = (heard[type] ?? []).filter((it) => it !== go) },
   }
   dress(window, document)
@@ -50,7 +54,7 @@ export function page(body = "", {framed = {}, ...more} = {}) {
   Object.assign(given.window, {parent: given.window, name: "", ...framed})
   for (const [name, value] of Object.entries(given)) Object.defineProperty(global, name, {value, writable: true, configurable: true})
   return {
-    window: given.window, document, heard,
+    window: given.window, document, heard, first,
     /** Let time pass, with all that was to happen meanwhile. */
     tick(ms) {
       const until = now + ms

@@ -12,7 +12,7 @@ from codim2_core.initial_value.compiled import numbers_of_tableau
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.kernels import explicit, radau
 from codim2_core.initial_value.kernels.stages import tableau_of, workspace
-from codim2_core.initial_value.problem import plane_problem
+from codim2_core.initial_value.problem import CONTACT, plane_problem
 from codim2_core.numerics import radau as in_python
 from codim2_core.numerics.radau import FAILED, GROW, SHRINK, Step, tableau
 
@@ -141,6 +141,17 @@ def test_one_time_of_growth_bounds_a_step():
             assert radau.linearised(motion, y, 1.1 * bound, np.zeros(4), work)[0] == pytest.approx(bound, rel=1e-9)
         # A step that is short enough is not asked for its bound.
         assert radau.linearised(motion, y, 0.1, np.zeros(4), work) == pytest.approx((math.inf, reach), rel=1e-9)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.5, math.pi / 2, 2.2, math.pi, -math.pi / 2])
+def test_a_step_goes_nine_tenths_of_the_way_to_sigma_at_most(angle):
+    """With U = -1.5 e that takes 0.6 of the distance; in contact with Sigma there is no way left to jump over."""
+    eps, n = 1e-3, np.array([math.cos(angle), math.sin(angle)])
+    motion, work = motion_of(System(U=("-1.5*c", "-1.5*s"), W=("1",)), TANH, eps), workspace(3, 0.0)
+    for away in (0.3, 2.0 * CONTACT * eps):
+        longest, _ = radau.linearised(motion, np.array([*(away * n), 0.0]), 0.1, np.zeros(4), work)
+        assert longest == pytest.approx(0.6 * away, rel=2e-3)
+    assert math.isinf(radau.linearised(motion, np.array([*(0.9 * CONTACT * eps * n), 0.0]), 0.0, np.zeros(4), work)[0])
 
 
 def test_a_step_that_is_kept_goes_through_its_stages():
