@@ -13,6 +13,8 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .counting.census import census
     from .counting.table import Census
     from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
+    from .diagrams.branches import branches
+    from .diagrams.result import Branches
     from .figures.preset import Preset
     from .figures.presets import presets
     from .initial_value.events import Event
@@ -47,6 +49,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Basins",
+    "Branches",
     "Census",
     "Classification",
     "Coefficients",
@@ -78,6 +81,7 @@ __all__ = [
     "approach_outcomes",
     "basins",
     "bifurcations",
+    "branches",
     "census",
     "certificates",
     "classify",
@@ -112,6 +116,8 @@ _HOMES = {
     "counting.census": "census",
     "counting.table": "Census",
     "cycles.limit_cycles": "LimitCycle LimitCycles limit_cycles",
+    "diagrams.branches": "branches",
+    "diagrams.result": "Branches",
     "figures.preset": "Preset",
     "figures.presets": "presets",
     "initial_value.events": "Event",

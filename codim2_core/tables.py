@@ -1,10 +1,11 @@
-"""Results as small HTML tables, which a notebook shows."""
+"""Results as small HTML tables, which a notebook shows, as CSV and as data frames."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
-from typing import ClassVar, TypeVar
+from pathlib import Path
+from typing import Any, ClassVar, TypeVar
 
 MOST = 40  # rows that are shown
 
@@ -77,6 +78,33 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 def paragraphs(sentences: Iterable[str]) -> str:
     """Return sentences, a paragraph each."""
     return "".join(f"<p>{escape(sentence)}</p>" for sentence in sentences if sentence)
+
+
+def write(path: str | Path, records: Iterable[Mapping[str, Any]]) -> None:
+    """Write records of the same names as CSV, with a line of these; what is None is left empty."""
+    import csv
+
+    with Path(path).open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        for i, record in enumerate(records):
+            if not i:
+                writer.writerow(record)
+            writer.writerow(record.values())
+
+
+def frame(records: Iterable[Mapping[str, Any]] | Mapping[str, Any]) -> Any:
+    """Return records of the same names, or columns by name, as a pandas DataFrame.
+
+    Raises
+    ------
+    ValueError
+        pandas is not installed.
+    """
+    try:
+        import pandas
+    except ImportError:
+        raise ValueError("pandas is not installed, of which to_frame makes a DataFrame: pip install pandas.") from None
+    return pandas.DataFrame(records if isinstance(records, Mapping) else list(records))
 
 
 def _row(kind: str, cells: Sequence[str]) -> str:

@@ -25,6 +25,7 @@ from ..layer_problem.vary import limits, varied
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
+from ..systems.kinds import AnySystem
 from ..words import say
 from .asking import answered
 from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, reversible, values
@@ -50,7 +51,7 @@ FAR, SAME = 0.1, 1e-6  # distances in chi: a branch does not pass near a cycle; 
 
 
 def continue_cycles(
-    system: ELinear | Coefficients, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike = ()
+    system: AnySystem, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike = ()
 ) -> CycleBranches:
     """Continue the limit cycles of the layer problem eq:LP along one parameter (sec:case3).
 
@@ -84,6 +85,8 @@ def continue_cycles(
     if not (math.isfinite(low) and math.isfinite(high) and low < high):
         raise ValueError(f"span is {span!r}; give finite numbers low < high.")
 
+    if not isinstance(system, ELinear | Coefficients):
+        raise ValueError("continue_cycles is for e-linear systems; give an ELinear.")
     straight = None
     if name in PLANE and name in system.variable:
         system, z = system.at(z), ()  # nothing else varies: coefficients are checked and evaluated once
@@ -92,10 +95,7 @@ def continue_cycles(
 
     def inside(value: float) -> tuple[Coefficients, Psi]:
         changed, family_psi, place = varied(system, psi, z, name, value)
-        found = changed.at(place)
-        if found.typed is not None:
-            raise ValueError("continue_cycles is for e-linear systems; give an ELinear.")
-        return found, family_psi
+        return changed.at(place), family_psi
 
     def at(value: float) -> tuple[Coefficients, Psi]:
         try:

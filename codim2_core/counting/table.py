@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..tables import Tabled, number, paragraphs, point, rows
+from ..tables import Tabled, frame, number, paragraphs, point, rows, write
 
 NORMAL_95 = 1.959963984540054  # two-sided 95 % of the normal distribution
 
@@ -89,18 +89,11 @@ class Census:
 
     def to_csv(self, path: str | Path) -> None:
         """Write the table as CSV, a row a portrait."""
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
-            import csv
-
-            writer = csv.writer(file)
-            writer.writerow([field.name for field in fields(Row)])
-            writer.writerows([getattr(row, field.name) for field in fields(Row)] for row in self.table)
+        write(path, map(vars, self.table))
 
     def to_frame(self) -> Any:
         """Return the table as a pandas DataFrame (pandas must be installed)."""
-        import pandas
-
-        return pandas.DataFrame([vars(row) for row in self.table])
+        return frame(map(vars, self.table))
 
 
 def tabulated(tallies: Iterable[Tally], seed: int) -> Census:

@@ -13,7 +13,7 @@ from ..numerics.sign_changes import refined, roots, sign_changes
 from ..numerics.trigonometric import real_zeros, tangential_zeros
 from ..words import say
 from .critical import OFF_CENTRE, SPREAD, Borders
-from .result import ClosedEquator, EquatorBranch, SpecialValue
+from .result import ClosedEquator, DirectionBranch, SpecialValue
 from .sweep import Line, Plane, discriminant, equator_counts
 from .theta_zeros import Meeting, lambda_rho, meetings, theta_slope, theta_value, theta_zeros
 
@@ -32,7 +32,7 @@ _PARTS = np.concatenate([_PART, [0.5], 1.0 - _PART[::-1]])
 
 def equator_part(
     path: Line, grid: Array, exponent: int, cuts: Borders
-) -> tuple[list[EquatorBranch], list[ClosedEquator], list[SpecialValue]]:
+) -> tuple[list[DirectionBranch], list[ClosedEquator], list[SpecialValue]]:
     """Branches of equator equilibria, pieces with a closed equator, and special values."""
     plane = path(grid)
     span = (float(grid[0]), float(grid[-1]))
@@ -49,7 +49,7 @@ def equator_part(
     stops = sorted({m.value for m in found} | set(everywhere))
     special = [_special(path, m) for m in found]
     special += [_directions(v) for v in everywhere]
-    branches: list[EquatorBranch] = []
+    branches: list[DirectionBranch] = []
     closed: list[ClosedEquator] = []
     edges = [span[0], *stops, span[1]]
     for low, high in pairwise(edges):
@@ -195,7 +195,7 @@ def _end(path: Line, value: float, theta: Array, meeting: list[float]) -> Array:
     return t[None]
 
 
-def _split(path: Line, x: Array, theta: Array, cuts: Borders) -> list[EquatorBranch]:
+def _split(path: Line, x: Array, theta: Array, cuts: Borders) -> list[DirectionBranch]:
     """Cut one branch where lambda_rho changes sign: there the critical set is on it."""
     plane = path(x)
     rho, slope = lambda_rho(plane, theta), theta_slope(plane, theta)
@@ -231,7 +231,7 @@ def _split(path: Line, x: Array, theta: Array, cuts: Borders) -> list[EquatorBra
     return out
 
 
-def _branch(x: Array, theta: Array, rho: Array, slope: Array) -> EquatorBranch:
+def _branch(x: Array, theta: Array, rho: Array, slope: Array) -> DirectionBranch:
     # by the sign in most places: the ends may be zero
     radial = np.sign(rho).sum()
     angular = np.sign(slope).sum()
@@ -241,7 +241,7 @@ def _branch(x: Array, theta: Array, rho: Array, slope: Array) -> EquatorBranch:
     )
     for array in (x, theta, rho, slope):
         array.flags.writeable = False
-    return EquatorBranch(x, theta, rho, slope, f"{first}, {then}")
+    return DirectionBranch(x, theta, rho, slope, f"{first}, {then}")
 
 
 def _closed(path: Line, low: float, high: float) -> tuple[list[ClosedEquator], list[SpecialValue]]:
@@ -279,12 +279,12 @@ def _closed_branch(x: Array, y: Array) -> ClosedEquator:
 
 def _unchanging(
     path: Line, grid: Array, cuts: Borders
-) -> tuple[list[EquatorBranch], list[ClosedEquator], list[SpecialValue]]:
+) -> tuple[list[DirectionBranch], list[ClosedEquator], list[SpecialValue]]:
     """Zeros of Theta that stay as they are, or stay multiple, along the whole path: the exact answer at each value."""
     plane = path(grid)
     everywhere = [] if plane.rigid else _all_directions(path, grid, plane)
     special = [_directions(v) for v in everywhere]
-    branches: list[EquatorBranch] = []
+    branches: list[DirectionBranch] = []
     closed: list[ClosedEquator] = []
     for low, high in pairwise([float(grid[0]), *everywhere, float(grid[-1])]):
         x = np.linspace(low, high, 2 if plane.rigid else 33)

@@ -1,19 +1,32 @@
-"""What `diagram` returns: branches of all that stands still along one parameter, and the points that are special."""
+"""What `branches` returns: all that stands still along one parameter, limit cycles, and the points that are special."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import drawing
-from ..tables import Tabled, number, rows
+from ..continuation.branches import continue_cycles
+from ..continuation.result import CycleBranches, CyclePoint
+from ..psi.function import Psi
+from ..systems.kinds import AnySystem
+from ..tables import Tabled, frame, number, paragraphs, table, write
+from ..words import say
 
-__all__ = ["ClosedEquator", "CriticalBranch", "Diagram", "EquatorBranch", "SpecialValue"]
+__all__ = ["Branches", "ClosedEquator", "CriticalBranch", "DirectionBranch", "SpecialValue"]
 
 Array = NDArray[np.float64]
+_COLUMNS = (
+    "theta", "lambda_rho", "lambda_theta", "c", "s", "p_x", "p_y", "trace", "determinant", "period", "amplitude",
+    "exponent",
+)  # fmt: skip
+#: Special points of branches of cycles that what stands still has already, or that are none of the system's.
+KNOWN = ("Hopf", "span", "closed")
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +65,7 @@ class SpecialValue(Tabled):
 
 
 @dataclass(frozen=True, eq=False)
-class EquatorBranch:
+class DirectionBranch:
     """A limit direction along a piece on which its stability does not change (eq:equator_zeros).
 
     Attributes
@@ -121,37 +134,109 @@ class CriticalBranch:
 
 
 @dataclass(frozen=True, eq=False)
-class Diagram:
-    """A one-parameter bifurcation diagram.
+class Branches:
+    """Branches along one parameter, and their special points.
 
     Attributes
     ----------
-    name : str
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    z : tuple of float
+    along : str
         The parameter.
     span : (float, float)
-    equator : tuple of EquatorBranch
+    limit_directions : tuple of DirectionBranch
     closed : tuple of ClosedEquator
         Where there are no limit directions.
     critical : tuple of CriticalBranch
-    special : tuple of SpecialValue
-        By increasing value.
-    cycles : tuple
-        Branches of limit cycles, as `continuation.branches.continue_cycles` gives them.
+    standing : tuple of SpecialValue
+        Special points of what stands still, by increasing value.
     gaps : tuple of (float, float)
         Where the coefficients are not finite.
+    cycles : CycleBranches
+        Branches of limit cycles; none, with the reason, before they were looked for.
     """
 
-    name: str
+    system: AnySystem
+    psi: Psi
+    z: tuple[float, ...]
+    along: str
     span: tuple[float, float]
-    equator: tuple[EquatorBranch, ...]
+    limit_directions: tuple[DirectionBranch, ...]
     closed: tuple[ClosedEquator, ...]
     critical: tuple[CriticalBranch, ...]
-    special: tuple[SpecialValue, ...]
-    cycles: tuple[Any, ...] = ()
-    gaps: tuple[tuple[float, float], ...] = field(default=())
+    standing: tuple[SpecialValue, ...]
+    gaps: tuple[tuple[float, float], ...]
+    cycles: CycleBranches
+
+    @property
+    def special(self) -> tuple[SpecialValue | CyclePoint, ...]:
+        """All special points, of what stands still and of limit cycles, by increasing value; Hopf points once."""
+        of_cycles = [one for branch in self.cycles for one in branch.special if one.kind not in KNOWN]
+        return tuple(sorted([*self.standing, *of_cycles], key=lambda one: one.value))
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was not decided, and where nothing is defined."""
+        return (*(say("gap", name=self.along, low=low, high=high) for low, high in self.gaps), *self.cycles.notes)
+
+    def with_cycles(self) -> Branches:
+        """Return the same with branches of limit cycles, which take longer."""
+        if self.system.typed is not None:
+            return self
+        ends = [self.span[0], *(v for gap in self.gaps for v in gap), self.span[1]]
+        parts = [
+            continue_cycles(self.system, self.psi, self.along, part, self.z)
+            for part in zip(ends[::2], ends[1::2], strict=True)
+            if part[0] < part[1]
+        ]
+        found, notes = [b for part in parts for b in part], [note for part in parts for note in part.notes]
+        reason = f" {say('elsewhere')} ".join(dict.fromkeys(part.reason for part in parts))
+        return replace(self, cycles=CycleBranches(self.along, self.span, tuple(found), reason, tuple(notes)))
+
+    def to_frame(self) -> Any:
+        """Return all branches as a pandas DataFrame, a row a point: which branch, the parameter's value, what is there.
+
+        Raises
+        ------
+        ValueError
+            pandas is not installed.
+        """
+        return frame(self._records())
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write what `to_frame` has as CSV."""
+        write(path, self._records())
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        for i, way in enumerate(self.limit_directions):
+            more = {"theta": way.theta, "lambda_rho": way.lambda_rho, "lambda_theta": way.lambda_theta}
+            yield from self._each("limit direction", i, way.value, way.kind, more)
+        for i, orbit in enumerate(self.closed):
+            yield from self._each("closed equator", i, orbit.value, orbit.kind, {"exponent": orbit.exponent})
+        for i, C in enumerate(self.critical):
+            more = {"c": C.e[:, 0], "s": C.e[:, 1], "p_x": C.p[:, 0], "p_y": C.p[:, 1]}
+            more |= {"trace": C.trace, "determinant": C.determinant}
+            yield from self._each("critical set", i, C.value, C.kind, more)
+        for i, cycle in enumerate(self.cycles):
+            more = {"p_x": cycle.section[:, 0], "p_y": cycle.section[:, 1], "period": cycle.period}
+            more |= {"amplitude": cycle.amplitude, "exponent": cycle.exponent}
+            for kind, row in zip(cycle.stable, self._each("limit cycle", i, cycle.value, "", more), strict=True):
+                yield {**row, "kind": "stable" if kind else "unstable"}
+        for i, one in enumerate(self.special):
+            yield from self._each("special point", i, np.array([one.value]), one.kind, {})
+
+    def _each(self, what: str, i: int, value: Array, kind: str, more: dict[str, Array]) -> Iterator[dict[str, Any]]:
+        columns = [v.tolist() for v in more.values()]
+        for at, *row in zip(value.tolist(), *columns, strict=True):
+            given = dict(zip(more, row, strict=True))
+            yield {
+                "what": what, "branch": i, self.along: at, "kind": kind, **{k: given.get(k) for k in _COLUMNS}
+            }  # fmt: skip
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
 
     def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + rows(self.special)
+        special = table(("at", self.along, "what happens"), [(*one._row_()[:2], one.sentence) for one in self.special])
+        return (self._repr_svg_() or "") + special + paragraphs([self.cycles.reason, *self.notes])

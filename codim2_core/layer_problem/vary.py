@@ -12,7 +12,9 @@ from ..psi.constructors import with_parameter
 from ..psi.function import Psi
 from ..systems.bounds import LARGEST
 
-__all__ = ["limits", "names", "value_of", "varied"]
+__all__ = ["limits", "names", "usual_span", "value_of", "varied"]
+
+PLANE = ("a", "b", "d", "f1", "f2")
 
 
 def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
@@ -104,6 +106,36 @@ def limits(system: Any, psi: Psi, name: str) -> tuple[float, float]:
     if shape is not None and name == shape.name and name not in system.variable:
         return shape.low, shape.high
     return -LARGEST, LARGEST
+
+
+def usual_span(system: Any, psi: Psi, z: ArrayLike, name: str) -> tuple[float, float]:
+    """Return the span over which something is looked at that was given none: about its present value.
+
+    Parameters
+    ----------
+    system, psi, z, name
+        As for `varied`.
+
+    Returns
+    -------
+    (low, high)
+        For the parameter of Psi from a third to three times the value, as far as it may go; for a parameter of the
+        system half as far on both sides as it is large, so that it keeps its sign; for a coefficient as far as the
+        largest of them is large; for a slow variable as far as it is large, and at least 1.
+
+    Raises
+    ------
+    ValueError
+        Nothing variable has this name.
+    """
+    value, (low, high) = value_of(system, psi, z, name), limits(system, psi, name)
+    if name not in system.variable and _of_psi(psi, name):
+        return max(low, value / 3.0), min(high, 3.0 * value)
+    if name in PLANE and system.typed is None:
+        room = max(abs(system.value_of(one)) for one in PLANE if one in system.variable)
+    else:
+        room = 0.5 * abs(value) if name in system.variable else max(abs(value), 1.0)
+    return max(low, value - (room or 1.0)), min(high, value + (room or 1.0))
 
 
 def _of_psi(psi: Psi, name: str) -> bool:

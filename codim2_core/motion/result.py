@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from .. import drawing
 from ..expressions.names import SLOW
 from ..numerics.dense import Dense
-from ..tables import Tabled, number, paragraphs, rows
+from ..tables import Tabled, frame, number, paragraphs, rows
 from ..words import say
 from .drawn import Drawn, drawn
 from .places import NONE, Ascent, Place
@@ -287,12 +287,6 @@ class Simulation:
         ValueError
             A time is outside, t is no list of times, or pandas is not installed.
         """
-        try:
-            import pandas
-        except ImportError:
-            raise ValueError(
-                "pandas is not installed, of which to_frame makes a DataFrame: pip install pandas."
-            ) from None
         when = self.times if t is None else np.asarray(t, float)
         if when.ndim != 1:
             raise ValueError(f"t has shape {when.shape}; give a list of times.")
@@ -301,7 +295,7 @@ class Simulation:
         starts = [phase.t_start for phase in self.phases]
         phases = [self.phases[i - 1] for i in np.searchsorted(starts, when, side="right") if i]  # as `phase_at`
         told = {"phase": [phase.kind for phase in phases], "onto": [phase.onto for phase in phases]} if starts else {}
-        return pandas.DataFrame({"t": when, **named, **told})
+        return frame({"t": when, **named, **told})
 
 
 def simulation(

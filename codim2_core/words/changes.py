@@ -182,6 +182,10 @@ SENTENCES: dict[str, Sentence] = {
         "Hopf: tr J = 0 < det J. First Lyapunov coefficient {number:.4g}, subcritical: an unstable cycle is born.",
         "positive",
     ),
+    "gap": Sentence(
+        "Nothing is found for {name} from {low:.6g} to {high:.6g}: the coefficients are not finite there.",
+        "a pole, or no value",
+    ),
     "Hopf, degenerate": Sentence(
         "Hopf: tr J = 0 < det J. First Lyapunov coefficient {number:.4g}, degenerate: the first Lyapunov "
         "coefficient is zero.",

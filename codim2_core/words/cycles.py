@@ -86,6 +86,7 @@ SENTENCES: dict[str, Sentence] = {
         "A cycle too small to resolve surrounds C: it was just born in a Hopf bifurcation.",
         "just past a Hopf bifurcation",
     ),
+    "cycles not looked for": Sentence("Limit cycles were not looked for.", "only what stands still was asked for"),
     "no cycle on the span": Sentence("No limit cycle anywhere on the span.", "along one parameter"),
     "band at one value": Sentence(
         "{name} = {value:.6g}: the layer problem is reversible; closed orbits fill a band, and none is a limit cycle.",

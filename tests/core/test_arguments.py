@@ -25,6 +25,7 @@ MOTION = {"system": SYSTEM, "psi": PSI, "state0": (1.0, 0.2, 0.1), "t_span": (0.
 GOOD = {
     c2.approach_outcomes: PLANE,
     c2.basins: {**PLANE, "n": 32},
+    c2.branches: {**PLANE, "along": "f1", "span": (-0.6, -0.4)},
     c2.census: {"psi": PSI, "count": 1000},
     c2.certificates: PLANE,
     c2.classify: PLANE,

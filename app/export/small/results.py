@@ -15,7 +15,7 @@ from codim2_core.continuation.result import CycleBranches
 from codim2_core.cycles.limit_cycles import LimitCycles
 from codim2_core.diagrams.class_maps.atlas import ClassMap
 from codim2_core.diagrams.eigenvalue_path import LinearisationPath
-from codim2_core.diagrams.result import Diagram
+from codim2_core.diagrams.result import Branches
 from codim2_core.figures.preset import Preset
 from codim2_core.motion.periodic.result import PeriodicMotion
 from codim2_core.motion.result import Simulation
@@ -129,8 +129,8 @@ def _curve(result: BifurcationCurve) -> str:
 
 
 @svg.register
-def _diagram(result: Diagram) -> str:
-    return chart([(branch.kind, branch.value, branch.theta) for branch in result.equator], result.name, "θ")
+def _branches(result: Branches) -> str:
+    return chart([(branch.kind, branch.value, branch.theta) for branch in result.limit_directions], result.along, "θ")
 
 
 @svg.register

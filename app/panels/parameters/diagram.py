@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from codim2_core.continuation.branches import CycleBranches, continue_cycles
-from codim2_core.diagrams.diagram import Diagram, diagram
+from codim2_core.continuation.result import CycleBranches
+from codim2_core.diagrams.branches import Branches, branches
 from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.elinear import ELinear
 
@@ -50,27 +50,27 @@ def add(draft: Draft) -> None:
 
 
 def _standing(*of: Any) -> dict[str, Any]:
-    return columns(diagram(*of))
+    return columns(branches(*of, with_cycles=False))
 
 
 def _cycles(*of: Any) -> dict[str, Any]:
-    return cycle_columns(continue_cycles(*of))
+    return cycle_columns(branches(*of).cycles)
 
 
-def columns(found: Diagram) -> dict[str, Any]:
+def columns(found: Branches) -> dict[str, Any]:
     """Return what the browser draws: branches as x, y and kind, and the special values."""
     return {
         "span": list(found.span),
         "equator": [
             {**_line(b.value, b.theta), "attracting": bool(np.median(b.lambda_rho) < 0.0),
              "turning": bool(np.median(b.lambda_theta) < 0.0)}
-            for b in found.equator
+            for b in found.limit_directions
         ],
         "critical": [{**_line(b.value, b.radius), "kind": b.kind} for b in found.critical],
         "closed": [[float(b.value[0]), float(b.value[-1])] for b in found.closed],
         "special": [
             {"kind": s.kind, "value": s.value, "place": [float(v) for v in s.place], "sentence": s.sentence}
-            for s in found.special
+            for s in found.standing
         ],
     }  # fmt: skip
 

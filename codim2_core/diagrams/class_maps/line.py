@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from ...psi.function import Psi
 from ...tables import Tabled, number
 from ..critical import OFF_CENTRE
-from ..diagram import diagram
+from ..standing import standing
 from .families import classes_over
 
 __all__ = ["Stretch", "class_line"]
@@ -69,7 +69,7 @@ def class_line(system: Any, psi: Psi, name: str, span: Sequence[float], z: Array
     ValueError
         The name cannot be varied, the span is empty, or z does not fit.
     """
-    found = diagram(system, psi, name, span, z)
+    found = standing(system, psi, name, span, z)
     low, high = found.span
     values = [one.value for one in found.special] + [v for gap in found.gaps for v in gap]
     ends = [low]

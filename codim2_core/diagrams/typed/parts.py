@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...psi.function import Psi
 from ..equator import linked
-from ..result import ClosedEquator, CriticalBranch, EquatorBranch, SpecialValue
+from ..result import ClosedEquator, CriticalBranch, DirectionBranch, SpecialValue
 from .changes import BESIDE, matched, pieces_between
 from .named import named
 from .state import State
@@ -17,7 +17,7 @@ from .state import State
 __all__ = ["general_parts"]
 
 Array = NDArray[np.float64]
-Parts = tuple[list[EquatorBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
+Parts = tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
 
 _GRID = 48
 
@@ -36,7 +36,7 @@ def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z
     grid = [state(v) for v in (low + width * np.clip(u, BESIDE, 1.0 - BESIDE)).tolist()]
     pieces, changes = pieces_between(state, grid, width)
     special = [one for change in changes for one in named(*change)]
-    equator: list[EquatorBranch] = []
+    equator: list[DirectionBranch] = []
     closed: list[ClosedEquator] = []
     critical: list[CriticalBranch] = []
     for piece in pieces:
@@ -52,7 +52,7 @@ def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z
     return equator, closed, critical, special
 
 
-def _directions(values: Array, states: list[State]) -> list[EquatorBranch]:
+def _directions(values: Array, states: list[State]) -> list[DirectionBranch]:
     first = states[0].equator
     if not len(first):
         return []
@@ -66,7 +66,7 @@ def _directions(values: Array, states: list[State]) -> list[EquatorBranch]:
         rho = [s.equator.lambda_rho[i] for s, i in zip(states, own, strict=True)]
         slope = [s.equator.lambda_theta[i] for s, i in zip(states, own, strict=True)]
         x, t, rho_, slope_ = _frozen(values, theta[:, j], rho, slope)
-        out.append(EquatorBranch(x, t, rho_, slope_, first.kind(own[0])))
+        out.append(DirectionBranch(x, t, rho_, slope_, first.kind(own[0])))
     return out
 
 

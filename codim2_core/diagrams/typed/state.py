@@ -52,8 +52,9 @@ class State:
         size, before, after = np.abs(value), np.roll(value, 1), np.roll(value, -1)
         turns = (size <= np.abs(before)) & (size <= np.abs(after)) & (before * value > 0.0) & (after * value > 0.0)
         # by the parabola through three samples
-        rise, bend = np.abs(after) - np.abs(before), np.abs(before) - 2.0 * size + np.abs(after)
-        return _CIRCLE[turns], (size - rise**2 / (8.0 * np.maximum(bend, 1e-300)))[turns]
+        before, size, after = (np.abs(v)[turns] for v in (before, value, after))
+        rise, bend = after - before, before - 2.0 * size + after
+        return _CIRCLE[turns], size - np.where(bend > 0.0, rise, 0.0) ** 2 / (8.0 * np.where(bend > 0.0, bend, 1.0))
 
     @cached_property
     def near_sets(self) -> Turns:

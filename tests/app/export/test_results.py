@@ -12,7 +12,6 @@ from codim2_app.export.small import results
 import codim2_core as c2
 from codim2_core import drawing
 from codim2_core.bifurcations import saddle_node
-from codim2_core.diagrams.diagram import diagram
 from codim2_core.diagrams.eigenvalue_path import linearisation_path
 from codim2_core.portrait.basins import Basins
 
@@ -28,7 +27,7 @@ RESULTS = {
     "simulation": lambda: c2.simulate(c2.ELinear(-1, 1, -1), c2.psi.constant(), 0.1, (0.5, 0.2), (0, 3)),
     "periodic motion": lambda: c2.periodic_motion(PUSHED, (0.3, 0.0, 0.0, -0.1, 0.0, 0.0), np.pi),
     "curve": lambda: saddle_node(-2, 0.5, -1),
-    "diagram": lambda: diagram(SADDLE, c2.psi.constant(), "f1", (-1, 1)),
+    "branches": lambda: c2.branches(SADDLE, c2.psi.constant(), "f1", (-1, 1)),
 }
 
 
@@ -125,8 +124,8 @@ def test_basins_are_drawn_where_they_are():
 LINE = c2.ELinear(-1, 0, -1, ("z", "0.25*z"), B=((0, 0),), g=(0.25,))
 STEEP = c2.ELinear(-1, 0, -1, ("0.25*z", "z"), B=((0, 0),), g=(0.25,))
 CHARTS = {
-    "diagram": (lambda: diagram(SADDLE, c2.psi.constant(), "f1", (-1, 1)),
-                lambda r: [(b.value, b.theta) for b in r.equator], ("f1", "θ")),
+    "branches": (lambda: c2.branches(SADDLE, c2.psi.constant(), "f1", (-1, 1)),
+                lambda r: [(b.value, b.theta) for b in r.limit_directions], ("f1", "θ")),
     "simulation": (RESULTS["simulation"], lambda r: [(r.times, r.states[:, i]) for i in (0, 1)], ("t", "")),
     "periodic motion": (RESULTS["periodic motion"],  # the clock, z3, would crush it
                         lambda r: [(r.run.times, r.run.states[:, i]) for i in (0, 1, 2, 3, 5)], ("t", "")),

@@ -13,7 +13,6 @@ import codim2_core as c2
 from codim2_core import bifurcations
 from codim2_core.continuation.branches import continue_cycles
 from codim2_core.diagrams.class_maps.atlas import class_map
-from codim2_core.diagrams.diagram import diagram
 from codim2_core.diagrams.eigenvalue_path import linearisation_path
 from codim2_core.tables import number
 
@@ -31,6 +30,7 @@ RESULTS = {
     "approach_outcomes": lambda: c2.approach_outcomes(FOUR, ONE),
     "basins": lambda: c2.basins(TWO, ONE, 0.0, n=64),
     "basins, nearer": lambda: c2.basins(TWO, ONE, 0.0, n=32, box=(0.0, 0.5, 0.0, 0.5)),
+    "branches": lambda: c2.branches(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)),
     "census": lambda: c2.census(count=5000),
     "certificates": lambda: c2.certificates(FOUR, ONE),
     "classify": lambda: c2.classify(FOUR, ONE),
@@ -60,11 +60,10 @@ RESULTS = {
     "bifurcations.saddle_node": lambda: bifurcations.saddle_node(-2, 0.5, -1),
     "class_map": lambda: class_map(SADDLE, ONE, ("f1", "f2"), ((-2, 2), (-2, 2)), steps=32, thin=0),
     "continue_cycles": lambda: continue_cycles(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)),
-    "diagram": lambda: diagram(SADDLE, ONE, "f1", (-1, 1)),
     "linearisation_path": lambda: linearisation_path(CYCLE.system, CYCLE.psi, "n", np.linspace(1.0, 4.0, 31)),
 }
 PICTURED = {
-    "basins", "basins, nearer", "class_map", "continue_cycles", "diagram", "launched", "limit_cycles",
+    "basins", "basins, nearer", "branches", "class_map", "continue_cycles", "launched", "limit_cycles",
     "linearisation_path", "nullclines", "periodic_motion", "preset", "psi", "scene", "separatrices",
     "simulate", "simulate_nonsmooth", "slow_portrait", "trajectories", "bifurcations.closed_equator",
     "bifurcations.critical_boundary", "bifurcations.hopf", "bifurcations.regions", "bifurcations.saddle_node",

@@ -8,8 +8,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, classify, critical_sets, psi
-from codim2_core.diagrams.diagram import diagram
 from codim2_core.diagrams.eigenvalue_path import linearisation_path
+from codim2_core.diagrams.standing import standing
 
 halves = st.integers(-9, 9).map(lambda k: 0.5 * k)
 
@@ -35,7 +35,7 @@ def test_a_matrix_of_rank_one_is_singular_everywhere(u1, u2, k, f1, f2, in_range
 
 @pytest.mark.parametrize("A", [[[1.0, -1.0], [-2.0, 2.0]], [[-1.0, -3.0], [-1.5, -4.5]], [[0.5, 3.5], [1.5, 10.5]]])
 def test_no_critical_set_along_a_line_of_singular_systems(A):
-    found = diagram(ELinear.from_matrix(A, (0.3, 0.7)), psi.hill(3), "f1", (-3.0, 3.0))
+    found = standing(ELinear.from_matrix(A, (0.3, 0.7)), psi.hill(3), "f1", (-3.0, 3.0))
     assert found.critical == ()
     assert not {s.kind for s in found.special} & {"transcritical", "Hopf", "det A = 0"}
 

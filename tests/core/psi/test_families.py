@@ -112,9 +112,9 @@ def test_an_added_family_for_a_typed_system(family):
 
 
 def test_a_diagram_along_the_parameter_of_an_added_family(family):
-    from codim2_core.diagrams.diagram import diagram
+    from codim2_core.diagrams.standing import standing
 
-    found = diagram(at_hopf(c2.psi.power(3.0)), c2.psi.power(2.0), "k", (1.0, 30.0))
+    found = standing(at_hopf(c2.psi.power(3.0)), c2.psi.power(2.0), "k", (1.0, 30.0))
     assert [s.value for s in found.special if s.kind == "Hopf"] == [pytest.approx(3.0, rel=1e-6)]
 
 

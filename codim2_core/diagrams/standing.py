@@ -1,4 +1,4 @@
-"""One-parameter bifurcation diagrams: all that stands still along one parameter, with the points that are special."""
+"""All that stands still along one parameter, with the points that are special."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..continuation.result import CycleBranches
 from ..numerics.sign_changes import roots
 from ..psi.function import Psi
+from ..words import say
 from .audit import samples_beside
 from .critical import borders, critical_part
 from .equator import equator_part
-from .result import ClosedEquator, CriticalBranch, Diagram, EquatorBranch, SpecialValue
+from .result import Branches, ClosedEquator, CriticalBranch, DirectionBranch, SpecialValue
 from .sweep import Line, Plane, family, scale
 from .typed.parts import general_parts
-
-__all__ = ["ClosedEquator", "CriticalBranch", "Diagram", "EquatorBranch", "SpecialValue", "diagram"]
 
 Array = NDArray[np.float64]
 
@@ -28,61 +28,44 @@ _WOBBLE = 0.3 * np.sin(2.0 + np.arange(_GRID + 1) * 1.7)
 _WOBBLE[[0, -1]] = 0.0
 
 
-def diagram(
-    system: Any,
-    psi: Psi,
-    name: str,
-    span: Sequence[float],
-    z: ArrayLike = (),
-    *,
-    cycles: Sequence[Any] = (),
-) -> Diagram:
-    """Everything that stands still, along one parameter.
+def standing(system: Any, psi: Psi, along: str, span: Sequence[float], z: ArrayLike = ()) -> Branches:
+    """Find everything that stands still along one parameter; see `branches`, which takes the same.
 
     Special values are found on a grid of 512 steps and then to the last digits. Two of one kind between neighbouring
     grid points are found too, if the function behind them is smooth on that scale and exceeds 1e-13 of its largest
     size between the two. Then the portrait's class is compared along every interval between special values, and where
     it changes they are looked for again (`audit`).
-
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    name : str
-        One of `layer_problem.vary.names`.
-    span : (low, high)
-    z : (m,) floats
-    cycles : sequence
-        Branches of limit cycles, from `continuation.branches.continue_cycles` with the same arguments; they take
-        longer, and are only passed on.
-
-    Returns
-    -------
-    Diagram
-        For a general system special values are found by bisection, on a coarser grid that is refined where something
-        comes near zero, and take longer; two that undo each other within a step, with nothing to announce them, are
-        missed.
-
-    Raises
-    ------
-    ValueError
-        The name cannot be varied, the span is empty, or z does not fit.
     """
     low, high = (float(v) for v in span)
     if not (np.isfinite([low, high]).all() and low < high):
-        raise ValueError(f"the span of {name} is {low:g} to {high:g}; give two finite numbers, the smaller one first.")
+        raise ValueError(f"the span of {along} is {low:g} to {high:g}; give two finite numbers, the smaller one first.")
+    directions, orbits, sets, special, gaps = _found(system, psi, along, (low, high), z)
+    special.sort(key=lambda s: s.value)
+    none = CycleBranches(along, (low, high), (), say("cycles not looked for"))
+    slow = tuple(float(v) for v in np.atleast_1d(np.asarray(z, float)))
+    parts = tuple(directions), tuple(orbits), tuple(sets), tuple(special), tuple(gaps), none
+    return Branches(system, psi, slow, along, (low, high), *parts)
 
+
+Parts = tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
+Gaps = list[tuple[float, float]]
+
+
+def _found(
+    system: Any, psi: Psi, along: str, span: tuple[float, float], z: ArrayLike
+) -> tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue], Gaps]:
+    """Find branches, special values and gaps, in any order."""
     if system.typed is not None:
-        branches, closed_, sets, found = general_parts(system, psi, name, (low, high), z)
-        found.sort(key=lambda s: s.value)
-        return Diagram(name, (low, high), tuple(branches), tuple(closed_), tuple(sets), tuple(found), tuple(cycles))
-    path = Line(family(system, psi, z, name, spans=((low, high),)))
+        directions, orbits, sets, found = general_parts(system, psi, along, span, z)
+        return directions, orbits, sets, found, []
+    low, high = span
+    path = Line(family(system, psi, z, along, spans=(span,)))
     grid = low + (high - low) * (np.arange(_GRID + 1) + _WOBBLE) / _GRID
     grid[-1] = high
     whole = path(grid)
     exponent = scale(whole)
     runs, gaps = _runs(path, grid, whole)
-    equator: list[EquatorBranch] = []
+    equator: list[DirectionBranch] = []
     closed: list[ClosedEquator] = []
     critical: list[CriticalBranch] = []
     special: list[SpecialValue] = []
@@ -92,12 +75,7 @@ def diagram(
         closed += orbits
         critical += sets
         special += found
-    special.sort(key=lambda s: s.value)
-    parts = tuple(equator), tuple(closed), tuple(critical), tuple(special), tuple(cycles), tuple(gaps)
-    return Diagram(name, (low, high), *parts)
-
-
-Parts = tuple[list[EquatorBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
+    return equator, closed, critical, special, gaps
 
 
 def _marked(path: Line, run: Array, exponent: int) -> Parts:
