@@ -79,7 +79,10 @@ def simulate_nonsmooth(
 
     Outside Sigma the system slips; it arrives at Sigma in finite time along a limit direction; the orbit that continues
     it on the hemisphere decides what follows (thm:geneps0(b), sec:geneps1): sliding on the critical set that it comes
-    to, with its slow flow, or crossing. Sliding ends where the critical set does.
+    to, with its slow flow, or crossing. Sliding ends where the critical set does. Where that only loses its stability
+    (Hopf), the motion stays near it until it has been repelled as much as it was attracted, or to the buffer point
+    before (`limit.delay`): in analytic formulas, as long as nothing disturbs it. The rounding of `simulate` does, once
+    eps is below 1/36 of what the attraction adds up to.
 
     The regularised motion differs from it by O(eps), as long as it does not leave Sigma. Leaving along a limit
     direction, also after a crossing, it differs by O(eps^min(1, |lambda_theta|/lambda_rho)), outside an invariant line;

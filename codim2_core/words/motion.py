@@ -50,16 +50,32 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "onward depends": Sentence("Where orbits go from there may depend on Ψ: give it.", "no family of Ψ was given"),
     "Hopf, delayed": Sentence(
-        "{C} loses its stability (Hopf) to a stable limit cycle: after what delay is left to ε.",
-        "tr J = 0, a typed system",
+        "{C} loses its stability (Hopf), and the motion stays near it: to the end of this phase it is attracted more "
+        "than repelled.",
+        "tr J = 0, way out after the end",
+    ),
+    "Hopf, delayed until": Sentence(
+        "{C} loses its stability (Hopf), and the motion stays near it until it is repelled as much as it was attracted "
+        "(way in = way out). Any disturbance that is not exponentially small in 1/ε ends that sooner.",
+        "tr J = 0, analytic",
+    ),
+    "Hopf, delayed until the buffer": Sentence(
+        "{C} loses its stability (Hopf), and the motion stays near it: a complex time at which an eigenvalue is 0 or "
+        "singular (buffer point) ends that before way in = way out. Any disturbance that is not exponentially small in "
+        "1/ε ends it sooner.",
+        "tr J = 0, analytic, C moves",
+    ),
+    "Hopf, left": Sentence("The motion leaves {C}, which is unstable.", "the end of a delay"),
+    "Hopf, not analytic": Sentence(
+        "{C} loses its stability (Hopf): after what delay is not known, for its eigenvalues are not smooth in time.",
+        "tr J = 0, a kink",
+    ),
+    "Hopf depends": Sentence(
+        "{C} loses its stability (Hopf): where, and after what delay, depends on Ψ: give it.",
+        "tr J = 0, no family of Ψ was given",
     ),
     "border moves in": Sentence("It moves inwards: sliding.", "a critical set on the equator, moving in"),
     "border moves out": Sentence("It moves out: slips.", "a critical set on the equator, moving out"),
-    "Hopf, cycle": Sentence(
-        "{C} loses its stability (Hopf) to a stable limit cycle: sliding, with z′ averaged over the cycle, which is "
-        "that on C (Proposition 4.2).",
-        "tr J = 0, a stable cycle, e-linear",
-    ),
     "arrival depends": Sentence(
         "Arrives at Σ at θ = {theta:.4g}; what follows depends on Ψ: give it.",
         "no family of Ψ was given, and they differ",
@@ -140,10 +156,6 @@ SENTENCES: dict[str, Sentence] = {
     "one to slide on": Sentence(
         "On Σ there is one stable critical set, {onto}: sliding.", "no Ψ given, one stable critical set"
     ),
-    "Hopf, nothing takes over": Sentence(
-        "{C} loses its stability (Hopf), and no stable limit cycle takes over.", "tr J = 0, no stable cycle"
-    ),
-    "for the constant": Sentence("That is for Ψ = 1; none was given.", "it depends on Ψ"),
     "starts, follows": Sentence("The motion starts within O(ε) of Σ, and follows {onto}: sliding.", "on Σ, ε > 0"),
     "comes, follows": Sentence("Comes within O(ε) of Σ, and follows {onto}: sliding.", "a slip ends, ε > 0"),
     "goes on": Sentence("Goes on within O(ε) of Σ, to {onto}: sliding.", "from one set to another, ε > 0"),

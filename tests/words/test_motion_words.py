@@ -16,6 +16,7 @@ TYPED_3 = System(U=("172*c - 186*s - 172*z", "186*c - 200*s - 186*z"), W=("c/2",
 ARRIVING = (8.5e-4, 5.2e-4)
 TWO_NODES = System(U=("-c*(c - 1/2)*(c + 1/2)", "-s"))
 SUBCRITICAL = System(U=("z*c - s + c*(c**2 + s**2)", "c + z*s + s*(c**2 + s**2)"), W=("1",))
+BUFFER = System(U=("z*(c - 0.3*z) - s/2 - c*(c**2 + s**2)", "(c - 0.3*z)/2 + z*s - s*(c**2 + s**2)"), W=("1",))
 CYCLE = System(U=("c - s - 2*c*(c**2 + s**2)", "c + s - 2*s*(c**2 + s**2)"))
 AGREEMENT, FIRST_STEPS = "tests/core/motion/test_agreement.py", "tests/core/motion/test_nonsmooth.py"
 VARIATIONS = "tests/core/motion/test_variation.py"
@@ -73,7 +74,11 @@ CASES = {
     "starts in a line": (ELinear(-1, 0, -1, (0.2, 0.1)), CONSTANT, (0, 0), 1),
     "rests": (System(U=("c", "s + c")), CONSTANT, (0, 0), 1),
     "fold, no psi": (System(U=("z - c**2", "-s + 0.1*c"), W=("-1",)), None, (0.3, 0.1, 0.5), 3),
-    "subcritical Hopf": (SUBCRITICAL, None, (0, 0, -0.5), 2),
+    "Hopf, no psi": (SUBCRITICAL, None, (0, 0, -0.5), 2),
+    "subcritical Hopf": (SUBCRITICAL, CONSTANT, (0, 0, -0.5), 2),
+    "delayed to the end": (SUBCRITICAL, CONSTANT, (0, 0, -0.5), 0.8),
+    "buffer point": (BUFFER, CONSTANT, (0, 0, -1.2), 1.9),
+    "kink": (System(U=("z*c - (1/2 + abs(z + 0.3))*s - z^2/4", "c/2 + z*s"), W=("1",)), CONSTANT, (0, 0, -1), 2),
     "crosses": (examples.attracting_repelling(), CONSTANT, (0.2, 0.25, 0.5), 2),
 }
 SEEN = set()

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from dataclasses import field as made_with
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,9 +27,11 @@ from ...words import say
 from ..followed import in_disc
 from ..places import Ascent
 from ..result import Phase
-from .decide import Decision, arriving, critical_name, from_hemisphere, starting
+from .decide import AROUND as ORBITS
+from .decide import BESIDE, Decision, arriving, critical_name, from_hemisphere, starting
+from .delay import NotAnalyticError, delayed
 from .part import MotionPart
-from .slide import slide
+from .slide import Slide, slide
 from .slide_on_cycle import slide_on_cycle
 from .slip import slip
 
@@ -218,25 +220,20 @@ class Course:
         on_cycle = decision.kind == "cycle"
         if on_cycle and self.system.typed is not None:
             return self.slide_on_cycle(decision)
-        lives = self.has_cycle if on_cycle else None
-        part = slide(
-            self.formulas,
-            self.own,
-            decision.e,
-            self.t,
-            self.state[2:],
-            self.t_end,
-            rtol=self.rtol,
-            atol=self.atol,
-            most=self.left,
-            lives=lives,
-            line=self.line,
-            compiled=self.compiled,
-        )
-        self.add("slide", part.taken, decision.reason, decision.onto, part.places)
+        part = self.slid(decision.e, lives=self.has_cycle if on_cycle else None, line=self.line)
+        return self.follow(part, decision.reason, decision.onto, on_cycle)
+
+    def slid(self, e: Array, **how: Any) -> Slide:
+        """Follow the slow flow from the critical set at e."""
+        options = {"rtol": self.rtol, "atol": self.atol, "most": self.left, "compiled": self.compiled}
+        return slide(self.formulas, self.own, e, self.t, self.state[2:], self.t_end, **options, **how)
+
+    def follow(self, part: Slide, reason: str, onto: str | None, on_cycle: bool = False) -> Decision | None:
+        """Add a slide, and decide what follows where it has ended, as its end says."""
+        self.add("slide", part.taken, reason, onto, part.places)
         if part.stopped is not None:
             raise part.stopped
-        C = "C" if on_cycle else decision.onto
+        C = "C" if on_cycle else onto
         if part.end == "time":
             return None
         if part.end == "equator":
@@ -319,16 +316,24 @@ class Course:
         """Whether the layer problem at z has a stable limit cycle."""
         return any(cycle.stable for cycle in limit_cycles(self.system, self.own, tuple(z.tolist())))
 
-    def past_hopf(self, e: Array, C: str | None) -> Decision:
-        """C has lost its stability to the fast flow: slide on the cycle born there, if it is stable."""
-        if any(self.has_cycle(self.ahead(e, part)) for part in (PAST, 100.0 * PAST)):
-            if self.system.typed is not None:
-                reason = say("Hopf, delayed", C=C)
-                return Decision("stop", reason)
-            reason = say("Hopf, cycle", C=C)
-            return Decision("cycle", reason, e, onto="cycle 1")
-        reason = say("Hopf, nothing takes over", C=C)
-        return Decision("stop", reason if self.psi is not None else f"{reason} {say('for the constant')}")
+    def past_hopf(self, e: Array, C: str | None) -> Decision | None:
+        """C has lost its stability to the fast flow: slide on it for as long as the loss is delayed."""
+        if self.psi is None:
+            return Decision("stop", say("Hopf depends", C=C))
+        before = self.parts[-1]
+        taken = self.taken[len(self.taken) + 1 - len(before.times) :]
+        part = self.slid(e, delayed=True)
+        try:
+            part, way = delayed(self.formulas, self.psi, taken, before.e, part)
+        except NotAnalyticError:
+            return Decision("stop", say("Hopf, not analytic", C=C))
+        if way is None:
+            return self.follow(part, say("Hopf, delayed", C=C), C)
+        key = "Hopf, delayed until" if way.buffer is None else "Hopf, delayed until the buffer"
+        self.add("slide", part.taken, say(key, C=C), C, part.places)
+        angle = math.tau * np.arange(ORBITS) / ORBITS
+        ring = in_disc(self.psi, part.e) + BESIDE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        return self.onward(say("Hopf, left", C=C), self.state[2:], ring)
 
     def on_equator(self, theta: float, z: Array) -> bool:
         """Tell whether a critical set lies on the equator in a direction: lambda_rho is 0 there."""

@@ -76,6 +76,7 @@ def slide(
     lives: Callable[[Array], bool] | None = None,
     line: InvariantLine | None = None,
     compiled: CompiledPhases | None = None,
+    delayed: bool = False,
 ) -> Slide:
     """Follow the slow flow until the critical set reaches the equator, folds, or changes stability.
 
@@ -96,11 +97,15 @@ def slide(
         The invariant line that the motion stays in, stable across it or not.
     compiled : CompiledPhases, optional
         Takes the steps instead.
+    delayed : bool
+        Go on where stability changes: for how long a motion follows is left to `delay`.
     """
     if not len(z):
         return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])
     sheet = Sheet(field, e, z)
     gauges = _gauges(sheet, psi, on_cycle=lives is not None, line=line)
+    if delayed:
+        del gauges["hopf"]
 
     def alive(z: Array) -> bool:
         if lives is None or lives(z):

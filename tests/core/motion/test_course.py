@@ -82,29 +82,11 @@ def test_past_a_fold_the_first_answer_counts_that_is_no_stop(monkeypatch, answer
     np.testing.assert_array_equal(own.ascent.z, asked[0][1])
 
 
-@pytest.mark.parametrize("seen", [0.5 * PAST, 50.0 * PAST])
-@pytest.mark.parametrize(("system", "kind"), [(ELINEAR, "cycle"), (TYPED, "stop")])
-def test_past_a_hopf_point_a_cycle_is_looked_for_near_and_farther(monkeypatch, seen, system, kind):
-    own, e = course(system), np.array([0.1, 0.2])
-    beyond = own.ahead(e, seen)
-    flow = beyond - own.state[2:]
-    monkeypatch.setattr(Course, "has_cycle", lambda _self, z: bool((z - beyond) @ flow > 0.0))
-    found = own.past_hopf(e, "C1")
-    assert found.kind == kind
-    if kind == "cycle":
-        assert found.onto == "cycle 1"
-        np.testing.assert_array_equal(found.e, e)
-    else:
-        assert "C₁" in found.reason
-
-
-def test_where_no_cycle_takes_over_it_is_said_for_which_psi(monkeypatch):
-    monkeypatch.setattr(Course, "has_cycle", lambda _self, z: False)
-    given, none = (course(psi=psi).past_hopf(np.zeros(2), "C") for psi in (PSI, None))
-    assert (given.kind, none.kind) == ("stop", "stop")
-    assert "no stable limit cycle takes over" in given.reason
-    assert none.reason.startswith(given.reason)
-    assert "Ψ = 1; none was given" in none.reason.removeprefix(given.reason)
+def test_past_a_hopf_point_psi_is_asked_for():
+    found = course(psi=None).past_hopf(np.zeros(2), "C1")
+    assert found.kind == "stop"
+    assert "C₁ loses its stability (Hopf)" in found.reason
+    assert "depends on Ψ: give it" in found.reason
 
 
 def circle(n, radius=0.3):

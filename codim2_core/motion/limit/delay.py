@@ -1,0 +1,261 @@
+"""Delayed loss of stability: how long a motion stays near a critical set that has become unstable (tr J = 0 < det J).
+
+Near C the distance from the slow motion grows like ``exp(G(t)/eps)``, ``G' = Re lambda``, with lambda the leading
+eigenvalue of J. It has fallen since the motion came to C; so, where the formulas are analytic, the motion leaves C when
+G has come back to where it was: way in = way out (A. I. Neishtadt, Differential Equations 23, 1385, 1987).
+The slow motion itself may end the delay before. It is singular in complex time, at t* with ``det J = 0`` and where the
+formulas are, and what it leaves behind there, of size ``exp(-(G(Re t*) + V)/eps)`` where V is the real part of the
+integral of lambda from Re t* to t*, shows when ``G(t) = G(Re t*) + V``: the buffer point. A critical set that does not
+move leaves nothing behind.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...initial_value.field import Field
+from ...initial_value.sheet import complement, solved
+from ...numerics.dense import Dense, dense, gathered
+from ...numerics.radau import Step, shortened
+from ...numerics.root_between import root_between
+from ...psi.function import Psi
+from .analytic import Complex, Rational, rational
+from .slide import Slide
+
+Array = NDArray[np.float64]
+
+DEGREE, HALVINGS = 9, 12  # of the polynomials of tr J and det J along a part of a step; how often it is halved
+RESOLVED, BESIDE = 1e-11, 0.43  # error allowed, of their size; where in a part it is looked at
+PARTS = 8  # of such a part, at whose ends signs are looked at
+SAMPLES = 400  # times from which tr J and det J are continued into the complex plane
+FINER, COARSER = 1e-9, 3e-8  # errors of two rational functions: a singular time that only one has is none
+CORNER = 3.0  # times between samples: a pole that near is a corner's
+ALIKE = 1e-3  # of its distance from the real axis: how far apart the two may have it
+VANISHES = 0.1  # of |lambda| at Re t*: more than that at a zero of det J, and it is the other eigenvalue that is 0
+STILL = 1e-11  # change of e of a critical set that does not move
+PANELS = 40  # of the way from Re t* to t*
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
+POINTS: Array = 0.5 * (1.0 + NODES)
+SHARES: Array = 0.5 * WEIGHTS
+
+
+class NotAnalyticError(Exception):
+    """J is continued into complex time by no rational function: its formulas have a kink, or are not smooth."""
+
+
+@dataclass(frozen=True)
+class WayOut:
+    """When a motion leaves an unstable critical set.
+
+    Attributes
+    ----------
+    t : float
+    buffer : complex or None
+        The singular time that ends the delay; None where it is way in = way out.
+    """
+
+    t: float
+    buffer: complex | None
+
+
+def delayed(
+    field: Field, psi: Psi, taken: Sequence[Step], places: Sequence[Array], part: Slide
+) -> tuple[Slide, WayOut | None]:
+    """Cut a slide on an unstable critical set where the motion leaves it.
+
+    Parameters
+    ----------
+    field : Field
+    psi : Psi
+    taken : sequence of Step
+        Of the slide before, from where the motion came to the set to where that lost its stability.
+    places : sequence of ndarray (2,)
+        e at the start and at the end of each of them.
+    part : Slide
+        How the slow flow goes on from there.
+
+    Raises
+    ------
+    NotAnalyticError
+    """
+    if not part.taken:
+        return part, None
+    growth = Growth(field, psi, [*taken, *part.taken], [*places, *part.places[1:]])
+    way = growth.way_out(part.taken[0].start)
+    if way is None:
+        return part, None
+    k = next(i for i, step in enumerate(part.taken) if step.end >= way.t)
+    step, e = part.taken[k], growth.place(way.t)
+    last = shortened(step, (way.t - step.start) / step.h)
+    return replace(part, taken=[*part.taken[:k], last], end="left", e=e, places=[*part.places[: k + 1], e]), way
+
+
+class Growth:
+    """G along a motion on a critical set, from where it came to it.
+
+    Parameters
+    ----------
+    field : Field
+    psi : Psi
+    taken : sequence of Step
+        Of the whole state.
+    places : sequence of ndarray (2,)
+        e at the start and at the end of each step.
+    """
+
+    def __init__(self, field: Field, psi: Psi, taken: Sequence[Step], places: Sequence[Array]) -> None:
+        first = taken[0].first
+        self.field, self.psi, self.e = field, psi, np.array(places)
+        self.motion = dense(taken[0].start, first, [gathered(taken, len(first))])
+        self.J = self._along()
+        times = self.J.times
+        fine = np.unique(times[:-1, None] + np.diff(times)[:, None] * np.arange(PARTS + 1) / PARTS)
+        # between these times G is smooth and monotone, as far as signs show it
+        self.cuts = np.unique(np.concatenate([times, *(_sign_changes(of, fine) for of in (self.rate, self._focus))]))
+        self.at = np.concatenate([[0.0], np.cumsum(self._between(self.cuts[:-1], self.cuts[1:]))])
+
+    def way_out(self, unstable: float) -> WayOut | None:
+        """Return when the motion leaves the set, which lost its stability at a time; None if not while it is followed.
+
+        Raises
+        ------
+        NotAnalyticError
+        """
+        end = self._reaches(0.0, unstable)
+        found = [] if end is None else [WayOut(end, None)]
+        if np.ptp(self.e, axis=0).max() > STILL:
+            for time, height in self._singular(float(self.motion.times[-1]) if end is None else end):
+                t = self._reaches(self._growth(time.real) + height, max(unstable, time.real))
+                found += [] if t is None else [WayOut(t, time)]
+        return min(found, key=lambda way: way.t, default=None)
+
+    def place(self, t: float) -> Array:
+        """E of the set at a time."""
+        guess = np.array([np.interp(t, self.motion.times, column) for column in self.e.T])
+        e = solved(self.field, guess, self.motion(t)[2:])
+        return guess if e is None else e
+
+    def linear(self, t: float) -> tuple[float, float]:
+        """Trace and determinant of J at a time."""
+        e, z = self.place(t), self.motion(t)[2:]
+        r, gap = math.hypot(e[0], e[1]), complement(e)
+        if gap <= 0.0:  # on the equator J is 0: orbits take for ever there
+            return 0.0, 0.0
+        D = self.field.jacobian(float(e[0]), float(e[1]), 0.0, 0.0, z.tolist())[:2, :2]
+        radial, tangential = self.psi.jacobian_factors(self.psi.radius(r, gap))
+        n = e / r if r > 0.0 else np.array([1.0, 0.0])
+        along = float(n @ D @ n)
+        det = float(D[0, 0] * D[1, 1] - D[0, 1] * D[1, 0])
+        return radial * along + tangential * (float(np.trace(D)) - along), radial * tangential * det
+
+    def rate(self, t: ArrayLike) -> Array:
+        """G' at times, the real part of the leading eigenvalue."""
+        return 0.5 * self.J(t)[..., 0] + np.sqrt(np.maximum(-self._focus(t), 0.0))
+
+    def _focus(self, t: ArrayLike) -> Array:
+        """Return ``det J - (tr J)^2/4``: positive where both eigenvalues turn."""
+        J = self.J(t)
+        return J[..., 1] - 0.25 * J[..., 0] ** 2
+
+    def _along(self) -> Dense:
+        """Trace and determinant of J, as polynomials along the steps, which are halved until these are resolved."""
+        nodes = 0.5 - 0.5 * np.cos(math.pi * np.arange(DEGREE + 1) / DEGREE)
+        powers = nodes[1:, None] ** np.arange(1, DEGREE + 1)
+        todo = [(a, b, HALVINGS) for a, b in reversed([*pairwise(self.motion.times.tolist())])]
+        ends, states, polynomials, size = [todo[-1][0]], list[Array](), list[Array](), np.zeros(2)
+        while todo:
+            a, b, more = todo.pop()
+            values = np.array([self.linear(a + (b - a) * u) for u in nodes.tolist()])
+            size = np.maximum(size, np.abs(values).max(axis=0))
+            polynomial = np.linalg.solve(powers, values[1:] - values[0]).T
+            beside = values[0] + polynomial @ (BESIDE ** np.arange(1, DEGREE + 1))
+            off = np.abs(beside - self.linear(a + (b - a) * BESIDE))
+            if more and (off > RESOLVED * size).any():
+                todo += [(0.5 * (a + b), b, more - 1), (a, 0.5 * (a + b), more - 1)]
+                continue
+            ends.append(b)
+            states += [values[0]] if todo else [values[0], values[-1]]
+            polynomials.append(polynomial)
+        return Dense(np.array(ends), np.array(states), np.diff(ends), np.array(polynomials))
+
+    def _between(self, a: ArrayLike, b: ArrayLike) -> Array:
+        """Integrals of G' (k,), by Gauss and Legendre in v, t = a + (b - a)(3 v^2 - 2 v^3): no root is left."""
+        a, length = np.asarray(a, float), np.asarray(b, float) - a
+        t = a[..., None] + length[..., None] * POINTS**2 * (3.0 - 2.0 * POINTS)
+        return length * (self.rate(t) * (SHARES * 6.0 * POINTS * (1.0 - POINTS))).sum(axis=-1)
+
+    def _growth(self, t: float) -> float:
+        """G, from 0 at the start."""
+        i = min(int(np.searchsorted(self.cuts, t, side="right")) - 1, len(self.cuts) - 2)
+        return float(self.at[i] + self._between(self.cuts[i], t))
+
+    def _reaches(self, level: float, after: float) -> float | None:
+        """Return the first time from `after` on at which G has risen to a level."""
+        for (a, _), (b, high) in pairwise(zip(self.cuts.tolist(), self.at.tolist(), strict=True)):
+            low = max(a, after)
+            if b > low and high >= level:
+                gap = lambda t: self._growth(t) - level
+                return low if gap(low) >= 0.0 else root_between(gap, low, b)
+        return None
+
+    def _singular(self, last: float) -> Iterator[tuple[complex, float]]:
+        """Singular times before `last`, in the upper half plane, each with its V."""
+        start = float(self.cuts[0])
+        span = last - start
+        s = np.linspace(0.0, 1.0, SAMPLES)
+        J = self.J(start + span * s) * [span, span * span]  # in a unit of time of its own
+        finer, coarser = ([_continued(s, f, error) for f in J.T] for error in (FINER, COARSER))
+        other = _of(*coarser)
+        for time in _of(*finer).tolist():
+            alike = np.abs(other - time).min(initial=math.inf) < ALIKE * time.imag
+            if alike and 0.0 < time.real < 1.0 and (height := _height(*finer, time)) is not None:
+                yield start + span * time, height
+
+
+def _continued(t: Array, f: Array, error: float) -> Rational:
+    found = rational(t, f, error)
+    if found is None:
+        raise NotAnalyticError
+    poles = found.poles()
+    at_corner = (np.abs(poles.imag) < CORNER * (t[1] - t[0])) & (t[0] < poles.real) & (poles.real < t[-1])
+    if at_corner.any():
+        raise NotAnalyticError
+    return found
+
+
+def _of(trace: Rational, det: Rational) -> Complex:
+    """Zeros of det J, and poles of both, in the upper half plane."""
+    found = np.concatenate([det.zeros(), det.poles(), trace.poles()])
+    return found[found.imag > 0.0]
+
+
+def _height(trace: Rational, det: Rational, time: complex) -> float | None:
+    """V up to a singular time, along the eigenvalue that falls on the way, or leads; None if it is no end for that.
+
+    At a zero of det J it is none if the other eigenvalue vanishes.
+    """
+    parts = ((np.arange(PANELS)[:, None] + POINTS) / PANELS).ravel()
+    values, half = [], 0j
+    for t in (time.real + 1j * time.imag * parts).tolist():
+        root = np.sqrt(0.25 * trace(t) ** 2 - det(t))
+        if not values and abs(root.imag) > abs(root.real):
+            root *= -math.copysign(1.0, root.imag)
+        elif values and abs(root - half) > abs(root + half):
+            root = -root
+        half = root
+        values.append(0.5 * trace(t) + half)
+    height = -time.imag / PANELS * float(np.tile(SHARES, PANELS) @ np.imag(values))  # the real part of lambda i dy
+    vanishing = abs(det(time)) < VANISHES**2 * abs(values[0]) ** 2
+    return None if height <= 0.0 or (vanishing and abs(values[-1]) > VANISHES * abs(values[0])) else height
+
+
+def _sign_changes(of: Callable[[float], Array], times: Array) -> Array:
+    value = lambda t: float(of(t))
+    signs = np.sign([value(t) for t in times.tolist()])
+    return np.array([root_between(value, times[i], times[i + 1]) for i in np.flatnonzero(signs[1:] * signs[:-1] < 0)])

@@ -1,0 +1,206 @@
+"""Past a Hopf bifurcation the motion stays: way in = way out, and the buffer point, by closed forms and `simulate`."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from codim2_core import Event, SimulationStatus, System, critical_sets, simulate, simulate_nonsmooth
+from codim2_core.motion.limit.analytic import rational
+from codim2_core.psi import constructors as families
+
+PSI = families.constant()  # D e_Psi = 1 in the middle; at |e| = r, sqrt(1 - r^2) across and (1 - r^2)^1.5 along e
+
+
+def turning(w, at="0", rate="1", more=""):
+    """U = (z + i w)(e - e_C) with C at e = (at, 0): in the middle the eigenvalues of J are z ± i w."""
+    return System(U=(f"z*(c - {at}) - {w}*s{more}", f"{w}*(c - {at}) + z*s"), W=(rate,))
+
+
+def followed(system, z0, end=10.0, psi=PSI, **options):
+    """Start on Sigma, slide on C."""
+    return simulate_nonsmooth(system, (0.0, 0.0, z0), (0.0, end), psi, **options)
+
+
+@settings(max_examples=6)
+@given(st.floats(-1.2, -0.1), st.floats(0.05, 3.0), st.floats(0.05, 0.5), st.sampled_from([1, -1]))
+def test_way_in_is_way_out_where_the_set_stays(z0, w, size, sign):
+    """``G = int z dz/(1 + k z)`` has a closed form, and C in the middle is a motion for every eps."""
+    k = sign * size
+    run = followed(turning(w, rate=f"1 + ({k!r})*z"), z0)
+    G = lambda z: z / k - math.log1p(k * z) / k**2
+    slow = brentq(lambda z: G(z) - G(z0), 1e-3, 20.0 if k > 0.0 else -(1.0 - 1e-9) / k)
+    assert [phase.kind for phase in run.phases[:2]] == ["slide", "slide"]
+    assert run.dense(run.phases[0].t_end)[2] == pytest.approx(0.0, abs=1e-9)
+    assert run.dense(run.phases[1].t_end)[2] == pytest.approx(slow, abs=1e-8)
+    assert "way in = way out" in run.phases[1].reason
+
+
+def complex_growth(w, step):
+    """Eigenvalues of J of the turning system with C at e = (step z, 0), for complex z, by hand."""
+
+    def eigenvalue(z):
+        gap = 1.0 - (step * z) ** 2
+        along, across = gap**1.5, gap**0.5
+        half, det = 0.5 * z * (along + across), (z**2 + w**2) * along * across
+        return half, np.sqrt(det - half**2 + 0j)
+
+    def rate(z):
+        half, turn = eigenvalue(z)
+        return float((half + np.abs(turn.imag)).real)
+
+    return eigenvalue, rate
+
+
+@settings(max_examples=6)
+@given(st.floats(0.2, 0.7), st.floats(0.02, 0.3))
+@example(0.5, 0.3)
+def test_a_set_that_moves_is_left_at_the_buffer_point(w, step):
+    """det J = 0 at z = ± i w: what is left behind there comes up before way in = way out."""
+    z0 = -1.3
+    run = followed(turning(w, f"{step!r}*z"), z0, 4.0)
+    eigenvalue, rate = complex_growth(w, step)
+
+    def falling(y):
+        half, turn = eigenvalue(1j * y)
+        return -(half - 1j * turn * math.copysign(1.0, turn.real)).imag
+
+    height = quad(falling, 0.0, w)[0]
+    slow = brentq(lambda z: quad(rate, 0.0, z)[0] - height, 1e-3, 2.5)
+    assert height == pytest.approx(0.5 * w**2, rel=0.2)
+    assert run.dense(run.phases[1].t_end)[2] == pytest.approx(slow, abs=1e-6)
+    assert "buffer point" in run.phases[1].reason
+
+
+@settings(max_examples=6)
+@given(st.floats(-0.19, -0.05), st.floats(0.3, 0.7), st.floats(0.02, 0.3))
+def test_near_its_start_the_delay_ends_before_the_buffer_point(z0, w, step):
+    run = followed(turning(w, f"{step!r}*z"), z0, 4.0)
+    assert run.dense(run.phases[1].t_end)[2] == pytest.approx(-z0, rel=1e-7)  # G is even in z
+
+
+def left_at(system, eps, start, far, end):
+    """When |e - e_C| of the regularised motion passes `far` for the last time before the end."""
+    x0, z0, place = start
+    run = simulate(system, PSI, eps, (eps * x0, 0.0, z0), (0.0, end), rtol=1e-11, atol=1e-14)
+    t = np.linspace(0.0, run.times[-1], 8001)
+    x = run.dense(t)
+    e = x[:, :2] / np.hypot(np.hypot(x[:, 0], x[:, 1]), eps)[:, None]
+    away = np.hypot(e[:, 0] - place * x[:, 2], e[:, 1])
+    return float(t[np.flatnonzero((away < far) & (t > -z0))[-1]])
+
+
+def test_the_regularised_motion_tends_to_it_where_the_set_stays():
+    """From |x2| = 0.05 it is back at 0.05 when G is 0: in the middle rounding is no disturbance."""
+    z0, w = -0.35, 0.4
+    limit = followed(turning(w), z0).phases[1].t_end
+    assert limit == pytest.approx(0.7, abs=1e-9)
+    off = [left_at(turning(w), eps, (0.05, z0, 0.0), 0.05, 0.8) - limit for eps in (0.02, 0.01, 0.005, 0.0025)]
+    assert np.abs(off).max() < 1e-3  # it is linear but for 0.05^2, at both ends
+
+
+def test_the_regularised_motion_tends_to_the_buffer_point():
+    """Down to where rounding, 1e-16, outgrows what the turning point left behind: exp(-0.125/0.0035)."""
+    system = turning(0.5, "0.3*z")
+    limit = followed(system, -1.2, 4.0).phases[1].t_end
+    off = [left_at(system, eps, (0.0, -1.2, 0.3), 0.05, 2.4) - limit for eps in (0.02, 0.01, 0.005)]
+    assert np.abs(off).max() < 0.03
+    assert abs(off[2]) < 0.2 * abs(off[0])
+
+
+def test_in_case_3_the_delay_is_that_of_the_eigenvalues_of_the_critical_set():
+    """On z = z0 exp(t/2); an independent integral of the eigenvalues that `critical_sets` gives."""
+    from codim2_core import ELinear
+
+    system, psi = ELinear(172.0, 186.0, -200.0, ("-172*z", "-186*z"), B=((0.5, 0.0),)), families.hill(3)
+    run = simulate_nonsmooth(system, (8.5e-4, 5.2e-4, 0.3), (0.0, 1.5), psi)
+    assert [(phase.kind, phase.onto) for phase in run.phases] == [
+        ("slip", None),
+        ("slide", "C"),
+        ("slide", "C"),
+        ("slide", "cycle 1"),
+    ]
+    on, left = run.phases[1].t_start, run.phases[2].t_end
+    z = lambda t: run.dense(on)[2] * math.exp(0.5 * (t - on))
+    rate = lambda t: float(critical_sets(system, psi, (z(t),))[0].eigenvalues.real.max())
+    cuts = np.linspace(on, left, 41)
+    total, part = 0.0, 0.0
+    for a, b in pairwise(cuts.tolist()):
+        value = quad(rate, a, b, epsabs=1e-9)[0]
+        total, part = total + value, part + abs(value)
+    assert abs(total) < 1e-5 * part
+    assert critical_sets(system, psi, (z(run.phases[1].t_end),))[0].trace == pytest.approx(0.0, abs=1e-6)
+
+
+def test_it_stays_to_the_end_where_it_is_attracted_more_than_repelled():
+    """Re lambda = -0.4 - cos t: repelled from time to time, for ever attracted on the whole."""
+    system = System(U=("(-0.4 - cos(z))*c - s", "c + (-0.4 - cos(z))*s"), W=("1",))
+    run = simulate_nonsmooth(system, (0.0, 0.0, 0.0), (0.0, 20.0), PSI)
+    assert run.status is SimulationStatus.T_END
+    assert [phase.kind for phase in run.phases] == ["slide", "slide"]
+    assert run.phases[1].t_start == pytest.approx(math.acos(-0.4), abs=1e-8)
+    # with less attraction it leaves where 0.1 t + sin t = 0 for the second time, and not in between
+    system = System(U=("(-0.1 - cos(z))*c - s", "c + (-0.1 - cos(z))*s"), W=("1",))
+    run = simulate_nonsmooth(system, (0.0, 0.0, 0.0), (0.0, 20.0), PSI)
+    left = brentq(lambda t: -0.1 * t - math.sin(t), 3.2, 4.7)
+    assert run.phases[1].t_end == pytest.approx(left, abs=1e-8)
+
+
+def test_a_span_that_ends_in_the_delay_ends_there():
+    run = followed(turning(0.5), -1.0, 1.7)
+    assert run.status is SimulationStatus.T_END
+    assert [(phase.kind, phase.t_end) for phase in run.phases] == [
+        ("slide", pytest.approx(1.0)),
+        ("slide", pytest.approx(1.7)),
+    ]
+
+
+def test_an_event_stops_it_in_the_delay():
+    run = followed(turning(0.5), -1.0, events=(Event(lambda _t, y: y[2] - 0.4, terminal=True),))
+    assert run.status is SimulationStatus.EVENT
+    assert run.times[-1] == pytest.approx(1.4, abs=1e-9)
+    assert len(run.phases) == 2
+
+
+def test_it_goes_on_to_the_cycle_that_took_over():
+    """Past a supercritical Hopf point of a system that is not e-linear: the stop that this was, now goes on."""
+    system = System(U=("(z - 2*(c^2 + s^2))*c - s", "c + (z - 2*(c^2 + s^2))*s"), W=("1",))
+    run = followed(system, -0.3, 0.8)
+    assert run.status is SimulationStatus.T_END
+    assert [phase.onto for phase in run.phases] == ["C", "C", "cycle 1"]
+    assert run.phases[1].t_end == pytest.approx(0.6, abs=1e-8)
+
+
+def test_without_psi_and_with_a_kink_it_stops_and_says_so():
+    bare = simulate_nonsmooth(turning(0.5), (0.0, 0.0, -1.0), (0.0, 2.0))
+    assert bare.status is SimulationStatus.NOT_UNIQUE
+    assert "depends on Ψ: give it" in bare.reason
+    kink = followed(turning("(0.5 + abs(z + 0.3))", "0.3*z"), -1.0)
+    assert kink.status is SimulationStatus.NOT_UNIQUE
+    assert "not smooth in time" in kink.reason
+
+
+@settings(max_examples=30)
+@given(st.complex_numbers(min_magnitude=0.3, max_magnitude=1.0), st.floats(0.5, 3.0))
+def test_zeros_and_poles_are_continued_from_the_real_axis(zero, pole):
+    z = complex(zero.real, 0.2 + abs(zero.imag))
+    t = np.linspace(-1.5, 1.5, 301)
+    f = np.exp(0.3 * t) * ((t - z.real) ** 2 + z.imag**2) / (t**2 + pole**2)
+    found = rational(t, f, 1e-11)
+    assert found is not None
+    assert np.abs(found.zeros() - z).min() < 1e-6
+    assert np.abs(found.poles() - 1j * pole).min() < 1e-4 * pole
+    assert found(0.123) == pytest.approx(math.exp(0.0369) * abs(0.123 - z) ** 2 / (0.123**2 + pole**2), rel=1e-9)
+
+
+def test_a_corner_has_poles_on_the_real_axis_and_noise_no_rational_function():
+    t = np.linspace(-1.0, 1.0, 400)
+    found = rational(t, np.abs(t - 0.1), 1e-9)
+    assert found is not None
+    assert np.abs(found.poles() - 0.1).min() < 0.01
+    assert rational(t, np.random.default_rng(1).standard_normal(400), 1e-9) is None
