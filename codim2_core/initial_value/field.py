@@ -207,8 +207,15 @@ def _function(rows: Sequence[Expression], names: Sequence[str]) -> Callable[...,
     body = "\n        ".join(lines)
     source = (
         f"def function({', '.join(names)}):\n    try:\n        {body}\n"
-        f"    except (ArithmeticError, ValueError):\n        return undefined\n"
+        f"    except (ArithmeticError, ValueError):\n        return beyond({', '.join(names)})\n"
     )
-    scope: dict[str, Any] = {"math": math, "undefined": (math.nan,) * len(rows), **called}
+
+    def beyond(*values: float) -> tuple[float, ...]:
+        """Return what IEEE arithmetic, which goes on past inf, makes of them, as in machine code."""
+        known = dict(zip(names, values, strict=True))
+        found = (float(row.evaluate({name: known[name] for name in row.names})) for row in rows)
+        return tuple(value if math.isfinite(value) else math.nan for value in found)
+
+    scope: dict[str, Any] = {"math": math, "beyond": beyond, **called}
     exec(source, scope)  # written by `program`: its own names, numbers and math.* only
     return scope["function"]

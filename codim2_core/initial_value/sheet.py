@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 
 NEWTON, FURTHER = 12, 20  # iterations; and where there was a set a little before
 FAR = 0.6  # in e: no set is looked for if Newton's first step is longer
+SAME = 1e-2  # in e: sets as near to each other are one
 
 
 def solved(field: Field, e: Array, z: Array, far: float = FAR, most: int = NEWTON) -> Array | None:
@@ -61,6 +62,13 @@ class Sheet:
     def at(self, z: Array) -> Array | None:
         """Return e at z, or None where the set is not found."""
         return solved(self.field, self.e + self.slope @ (z - self.z), z, far=1.0, most=FURTHER)
+
+    def joined(self, other: Sheet) -> bool:
+        """Whether another one may be the same set: each is not far from where the slope of the other leads."""
+        between = other.z - self.z
+        leads = (self.slope @ between, other.slope @ between)
+        far = other.e - self.e
+        return all(np.abs(far - change).max() <= max(SAME, 0.5 * np.abs(change).max()) for change in leads)
 
     def move(self, z: Array) -> None:
         """Continue from z from now on."""

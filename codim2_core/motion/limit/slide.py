@@ -33,6 +33,7 @@ Array = NDArray[np.float64]
 SHORTEST = 1e-14  # of the time span: steps that short mean that the set ends here
 AT_EQUATOR = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
 AT_FOLD = 1e-3  # |det D_e U|, in units of its entries squared, at which it is taken for a fold
+SHORTEST_PART = 1e-13  # of a step: a set that is not followed so far has gone
 INSIDE = (4, *DEGREES)  # of the polynomials that a gauge is taken for along a step: most are far from zero
 NEAR_HOPF = 1e-2  # |tr J| in units of D_e U, below which a stable cycle may be too small to be found
 
@@ -201,7 +202,31 @@ def _ends(
         u = _first(gauge, place, gauge(before, step.first), gauge(after, step.last))
         if u is not None:
             found.append((u, name))
+    lost = _lost(sheet, step, before, after)
+    if lost is not None and all(lost[0] < u for u, _ in found):
+        sheet.begin(lost[1].e, lost[1].z)
+        return [(lost[0], "fold")]
     return found
+
+
+def _lost(sheet: Sheet, step: Step, before: Array, after: Array) -> tuple[float, Sheet] | None:
+    """Return up to which fraction of a step the set is there that it begins on, and that; None if to its end.
+
+    At the end there may be another: it is the same where each leads to the other by its slope, or all parts do so.
+    """
+    here, there = Sheet(sheet.field, before, step.first), Sheet(sheet.field, after, step.last)
+    u, part = 0.0, 1.0
+    while part > SHORTEST_PART:
+        if u + part >= 1.0:
+            if here.joined(there):
+                return None
+        else:
+            z = step.at(u + part)
+            e = here.at(z)
+            if e is not None and here.joined(between := Sheet(sheet.field, e, z)):
+                here, u, part = between, u + part, 4.0 * part
+        part *= 0.5
+    return u, here
 
 
 def _gauges(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from codim2_core import ELinear, examples
+from codim2_core import ELinear, System, examples
 from codim2_core.initial_value.field import field
 
 SYSTEMS = [
@@ -36,3 +36,15 @@ def test_fields_are_those_of_the_system_with_exact_slopes(system):
 def test_axes_that_turn_with_z_are_refused():
     with pytest.raises(ValueError, match="turn the axes"):
         field(ELinear.from_matrix([["z", 1.0], [0.0, 1.0]], g=(1.0,)))
+
+
+@pytest.mark.parametrize("steep", [100, 3000, 1e5])
+def test_what_overflows_on_the_way_is_what_ieee_arithmetic_makes_of_it(steep):
+    """1/cosh^2 of 1000 is 0, and 1/(1 + exp(1000)) too; what is undefined is so alone."""
+    formulas = field(System(U=(f"-c + tanh({steep}*s)/2", f"-s + 1/(1 + exp(-{steep}*c))"), W=("log(z1)",)))
+    assert formulas.value(-0.9, 0.5, 0.0, 0.0, 1.0) == pytest.approx((1.4, -0.5, 0.0), abs=1e-12)
+    slopes = formulas.jacobian(0.9, 0.5, 0.0, 0.0, [1.0])
+    np.testing.assert_allclose(slopes[:, [0, 1, 4]], [[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]], atol=1e-12)
+    u, v, w = formulas.value(-0.9, 0.5, 0.0, 0.0, -1.0)
+    assert (u, v) == pytest.approx((1.4, -0.5), abs=1e-12)
+    assert np.isnan(w)

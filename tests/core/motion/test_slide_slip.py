@@ -127,6 +127,19 @@ def test_a_slide_compiled_ends_where_the_set_is_outside_for_part_of_a_step(heigh
     assert found.taken[-1].end == pytest.approx(math.asin(1.0 / height), abs=1e-9)
 
 
+@pytest.mark.parametrize("in_python", [True, False])
+@pytest.mark.parametrize("gap", [0.006, 0.002, 2e-4])
+def test_a_slide_does_not_step_over_a_gap_in_which_there_is_no_set(gap, in_python):
+    """C at c = -sqrt(-z) folds at z = 0, and from about z = gap on there is another one, at c = 1 - sqrt(1 - z)."""
+    system = c2.System(U=(f"z + c**2 - (1 + tanh({20 / gap}*(z - {gap})))*c", "-s"), W=("1",))
+    phases = None if in_python else compiled_phases(field(system))
+    start = (field(system), PSIS[0], np.array([-0.3, 0.0]), 0.0, np.array([-0.09]), 1.0)
+    found = slide(*start, **OPTIONS, compiled=phases)
+    assert found.end == "fold"
+    assert found.taken[-1].end == pytest.approx(0.09, abs=1e-9)
+    assert found.places[-1] == pytest.approx([0.0, 0.0], abs=1e-4)
+
+
 def test_what_is_surely_positive_all_along_a_step_is():
     for values, safe in (([1.0] * 5, True), ([-1.0] * 5, False), ([1.0, 1.1, 1.2, 1.1, 1.0], True)):
         assert _positive(np.array([values])).tolist() == [safe]
