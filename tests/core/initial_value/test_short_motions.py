@@ -157,6 +157,16 @@ def system_set(system, z):
     return e
 
 
+def test_a_motion_of_many_phases_goes_on_as_long_as_it_is_asked_for():
+    """U has the period 2 pi in z = t, and where a slide begins only z counts: four phases later all is the same."""
+    (one,) = _course(PUSHED, (0.3, 0.2, 0.0), 30.0, most=20_000)
+    ends = np.array([one.motion.times[leg.last] for leg in one.legs])
+    assert len(ends) > 18
+    assert ends[-1] == pytest.approx(30.0, abs=1e-12)
+    np.testing.assert_allclose(ends[5:-1] - ends[1:-5], math.tau, atol=2e-4)
+    assert [leg.kind for leg in one.legs[1:]] == [SLIDE, LEAVE] * ((len(ends) - 1) // 2)
+
+
 def test_many_are_those_one_by_one():
     first = [(0.3, 0.2, 0.0), (0.9, 0.7, 2.0), (-0.2, 0.1, 1.0)]
     for start, one in zip(first, _course(PUSHED, first, 2.5), strict=True):

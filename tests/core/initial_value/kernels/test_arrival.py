@@ -136,6 +136,7 @@ def test_in_a_line_it_slides_on_the_first_zero_if_that_attracts():
         ((1.0, 0.5, -0.5, 1.0), 0.0, False),
         ((-3.0, 2.0, -4.0, 0.9), 0.0, None),
         ((-3.0, 2.9, 2.9, -3.0), 0.0, True),
+        ((0.0, -2.0, 2.0, 0.0), 0.0, False),  # a centre
     ],
 )
 def test_an_orbit_has_ended_at_a_set_that_attracts_under_every_psi(D, away, attracts):
@@ -209,6 +210,14 @@ def test_an_arrival_comes_to_the_limit_direction_that_it_is_led_to():
             told[attracts] += 1
     assert told[True] > 1
     assert told[False] > 1
+
+
+@pytest.mark.parametrize("unit", [1e-9, 1.0, 1e9])
+def test_where_an_arrival_comes_to_depends_on_no_unit_of_time(unit):
+    U = ("-c + s/2", "-2*s + c/4")
+    theta = min(directions(System(U=U), ()), key=abs)  # 0.22: lambda_rho = -0.89 and lambda_theta = -1.22
+    S = placed(System(U=tuple(f"{unit}*({row})" for row in U)), ())
+    assert _limit_direction(S, 0, theta + 0.1) == pytest.approx(theta, abs=1e-8)
 
 
 @pytest.mark.parametrize(("lean", "there"), [(0.25, True), (0.29, True), (0.31, False)])
