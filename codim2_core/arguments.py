@@ -194,7 +194,6 @@ BY_NAME: Mapping[str, Check] = {
     "coefficients": at_z,
     "cycles": cycles,
     "compare": regularisations,
-    "draw": function,
     "progress": function,
     "executor": executor,
     "samples": text,
@@ -203,6 +202,7 @@ BY_NAME: Mapping[str, Check] = {
     "events": _as_given,  # `initial_value.events` checks them, one by one
     "family": _as_given,  # `psi` says itself what it takes
     "example": _as_given,
+    "draw": _as_given,  # `census` says itself what it takes
     "box": _as_given,  # `basins` says itself what it takes
     "names": _as_given,  # `mechanics.fit` says itself what it takes
 }

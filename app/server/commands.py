@@ -8,10 +8,12 @@ import shlex
 import shutil
 import sys
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import codim2_core as c2
+from codim2_core.counting.draws import DRAWS
 from codim2_core.paper import cite
 from codim2_core.psi import FAMILIES, make
 from codim2_core.words import number, subscript
@@ -45,9 +47,11 @@ def add_presets(commands: Any) -> None:
 
 def add_census(commands: Any) -> None:
     """Add `codim2 census`."""
-    command = commands.add_parser(
-        "census", help="count the portraits of e-linear systems with standard normal a, b, d, f₁, f₂"
+    command = commands.add_parser("census", help="count the portraits of systems drawn at random")
+    told = (
+        "normal (default): e-linear ones, of standard normal a, b, d, f₁, f₂; quadratic: in e, of twelve such numbers"
     )
+    command.add_argument("--draw", choices=tuple(DRAWS), default="normal", help=told)
     command.add_argument("--count", type=_whole, default=1_000_000, help="default a million")
     command.add_argument("--seed", type=int, default=0)
     command.add_argument("--processes", type=int, default=1)
@@ -163,18 +167,20 @@ def census(chosen: argparse.Namespace) -> int:
         if sys.stderr.isatty():
             print(f"\r{done / count:6.1%}", end="", file=sys.stderr, flush=True)
 
+    asked = partial(c2.census, chosen.draw, count=chosen.count, seed=chosen.seed, progress=progress)
     try:
         if chosen.processes > 1:
             with ProcessPoolExecutor(chosen.processes) as executor:
-                found = c2.census(count=chosen.count, seed=chosen.seed, executor=executor, progress=progress)
+                found = asked(executor=executor)
         else:
-            found = c2.census(count=chosen.count, seed=chosen.seed, progress=progress)
+            found = asked()
     except ValueError as error:
         print(f"codim2: {error}", file=sys.stderr)
         return 2
-    print(f"\r{'portrait':10} {'count':>12} {'share':>9}  95 % interval")
+    wide = max(len(row.name) for row in found.table)
+    print(f"\r{'portrait':{wide}} {'count':>12} {'share':>9}  95 % interval")
     for row in found.table:
-        print(f"{row.name:10} {row.count:12d} {row.share:9.5f}  {row.low:.5f} to {row.high:.5f}")
+        print(f"{row.name:{wide}} {row.count:12d} {row.share:9.5f}  {row.low:.5f} to {row.high:.5f}")
     if chosen.csv:
         found.to_csv(chosen.csv)
     return 0

@@ -12,26 +12,19 @@ from ..portrait.classify import classify
 from ..psi import constructors
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from .draws import DRAWS, Draw
 from .table import Census, Tally, tabulated
 
 if TYPE_CHECKING:  # an import that takes as long as a tenth of this package
     from concurrent.futures import Executor, Future
-
-#: Draws systems: (random generator, how many) to coefficients (n, 5), or to a sequence of systems.
-Draw = Callable[["np.random.Generator", int], "NDArray[np.float64] | Sequence[AnySystem]"]
 
 CHUNK, FEW = 100_000, 200  # systems in a chunk: of coefficients, and of systems that are classified one by one
 AHEAD = 64  # chunks handed to an executor at a time
 MOST = 10**12
 
 
-def normal(rng: np.random.Generator, count: int) -> NDArray[np.float64]:
-    """Draw a, b, d, f1, f2 independently from the standard normal distribution; (count, 5)."""
-    return rng.standard_normal((count, 5))
-
-
 def census(
-    draw: Draw = normal,
+    draw: Draw | str = "normal",
     psi: Psi | None = None,
     count: int = 1_000_000,
     *,
@@ -46,10 +39,11 @@ def census(
 
     Parameters
     ----------
-    draw : callable
-        (generator, n) to n systems: coefficients (n, 5) a, b, d, f1, f2 of e-linear ones, which a compiled filter
-        names, or a sequence of systems, which `classify` names one by one (at z = 0). Default `normal`. For processes
-        it must be picklable.
+    draw : "normal", "quadratic", or callable
+        Default "normal": e-linear systems with standard normal a, b, d, f1, f2. "quadratic": systems quadratic in e,
+        with twelve standard normal coefficients. Or (generator, n) to n systems: coefficients (n, 5) a, b, d, f1, f2 of
+        e-linear ones, which a compiled filter names, or a sequence of systems, which `classify` names one by one (at
+        z = 0, in some milliseconds each). For processes it must be picklable.
     psi : Psi, optional
         Read by systems that are not e-linear only; default Psi = 1.
     count : int
@@ -74,8 +68,9 @@ def census(
     >>> census(count=10_000).table[0].name
     'I NCM2'
     """
+    draw = DRAWS.get(draw, draw) if isinstance(draw, str) else draw
     if not callable(draw):
-        raise ValueError(f"draw is {draw!r}; give a function (generator, n) that returns n systems.")
+        raise ValueError(f"draw is {draw!r:.80}; give {', '.join(DRAWS)}, or a function (generator, n) to n systems.")
     if not isinstance(count, (int, np.integer)) or not 1 <= count <= MOST:
         raise ValueError(f"count is {count!r}; give a whole number from 1 to 1e12.")
     if not isinstance(seed, (int, np.integer)) or seed < 0:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from ..layer_problem.vary import usual_span
+from ..layer_problem.vary import check_name, usual_span
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .result import Branches
@@ -59,6 +59,7 @@ def branches(
     >>> cycle.start.kind, cycle.end.kind, bool(cycle.stable[-1]), round(float(cycle.period[-1]), 6)
     ('Hopf', 'span', True, 0.606696)
     """
+    check_name(system, psi, z, "along", along)
     span = usual_span(system, psi, z, along) if span is None else span
     found = standing(system, psi, along, span, z)
     return found.with_cycles() if with_cycles else found

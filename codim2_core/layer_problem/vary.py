@@ -12,7 +12,7 @@ from ..psi.constructors import with_parameter
 from ..psi.function import Psi
 from ..systems.bounds import LARGEST
 
-__all__ = ["limits", "names", "usual_span", "value_of", "varied"]
+__all__ = ["check_name", "limits", "names", "usual_span", "value_of", "varied"]
 
 PLANE = ("a", "b", "d", "f1", "f2")
 
@@ -108,6 +108,14 @@ def limits(system: Any, psi: Psi, name: str) -> tuple[float, float]:
     return -LARGEST, LARGEST
 
 
+def check_name(system: Any, psi: Psi, z: ArrayLike, parameter: str, name: str) -> None:
+    """Refuse, under the name of the parameter of a function that takes it, a name of nothing that can be varied."""
+    allowed = names(system, psi, z)
+    if name not in allowed and not (name == "z" and "z1" in allowed):
+        known = f"choose one of {', '.join(allowed)}" if allowed else "nothing of this system and its Ψ can be varied"
+        raise ValueError(f"{parameter} is {name!r}; {known}.")
+
+
 def usual_span(system: Any, psi: Psi, z: ArrayLike, name: str) -> tuple[float, float]:
     """Return the span over which something is looked at that was given none: about its present value.
 
@@ -143,7 +151,10 @@ def _of_psi(psi: Psi, name: str) -> bool:
 
 
 def _slow(z: ArrayLike) -> tuple[float, ...]:
-    return tuple(float(v) for v in np.atleast_1d(np.asarray(z, float)))
+    slow = np.atleast_1d(np.asarray(z, float))
+    if slow.ndim > 1:
+        raise ValueError(f"z has shape {slow.shape}; give a list of numbers.")
+    return tuple(slow.tolist())
 
 
 def _slow_index(name: str) -> int:

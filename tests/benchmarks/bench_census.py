@@ -12,7 +12,7 @@ import time
 import numpy as np
 
 from codim2_core import ELinear, classify, psi
-from codim2_core.counting.census import normal
+from codim2_core.counting.draws import normal
 from codim2_core.counting.names import NAMES, names
 
 #: How far from the saddle-node curve systems are drawn: as they come, and 10^-k of a coefficient from it.

@@ -210,11 +210,11 @@ class Growth:
         span = last - start
         s = np.linspace(0.0, 1.0, SAMPLES)
         J = self.J(start + span * s) * [span, span * span]  # in a unit of time of its own
-        finer, coarser = ([_continued(s, f, error) for f in J.T] for error in (FINER, COARSER))
-        other = _of(*coarser)
-        for time in _of(*finer).tolist():
+        (trace, det), coarser = ([_continued(s, f, error) for f in J.T] for error in (FINER, COARSER))
+        other = _of(coarser[0], coarser[1])
+        for time in _of(trace, det).tolist():
             alike = np.abs(other - time).min(initial=math.inf) < ALIKE * time.imag
-            if alike and 0.0 < time.real < 1.0 and (height := _height(*finer, time)) is not None:
+            if alike and 0.0 < time.real < 1.0 and (height := _height(trace, det, time)) is not None:
                 yield start + span * time, height
 
 

@@ -1,6 +1,7 @@
 """The commands that answer in the terminal say what the core says."""
 
 import json
+import re
 
 import pytest
 from codim2_app.server.cli import main
@@ -83,6 +84,11 @@ def test_census_prints_its_table(capsys, tmp_path):
     ]
     assert (tmp_path / "t.csv").read_text().count("\n") == len(expected) + 1
     assert main(["census", "--count", "0"]) == 2
+    capsys.readouterr()
+    assert main(["census", "--count", "30", "--draw", "quadratic"]) == 0
+    told = capsys.readouterr().out
+    for row in c2.census("quadratic", count=30).table:
+        assert re.search(rf"^{row.name} +{row.count} ", told, re.MULTILINE)
 
 
 def test_the_version_is_told(capsys):

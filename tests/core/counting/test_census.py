@@ -1,15 +1,18 @@
 """The census: its filter says what `classify` says, and its table does not depend on who counts."""
 
 import csv
+import math
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.integrate import dblquad
 
 import codim2_core as c2
-from codim2_core.counting.census import AHEAD, CHUNK, FEW, normal
+from codim2_core.counting.census import AHEAD, CHUNK, FEW
+from codim2_core.counting.draws import normal, quadratic
 from codim2_core.counting.names import NAMES, _filter, names
 from codim2_core.counting.table import interval
 
@@ -114,22 +117,48 @@ def test_the_table_does_not_depend_on_the_executor():
             assert f"{found.case} {found.name}" == row.name
 
 
-def quadratics(rng, count):
-    """Draw systems quadratic in e."""
-    terms = ("1", "c", "s", "c*c", "c*s", "s*s")
-
-    def quadratic():
-        return " + ".join(f"({k})*{term}" for k, term in zip(rng.standard_normal(6), terms, strict=True))
-
-    return [c2.System(U=(quadratic(), quadratic())) for _ in range(count)]
-
-
 def test_systems_of_any_kind_are_counted_by_their_names():
-    found = c2.census(quadratics, count=FEW + 10, seed=1)
+    found = c2.census("quadratic", count=FEW + 10, seed=1)
+    assert found == c2.census(quadratic, count=FEW + 10, seed=1)
     assert found.count == FEW + 10
-    drawn = [*quadratics(np.random.default_rng((1, 0)), FEW), *quadratics(np.random.default_rng((1, 1)), 10)]
+    drawn = [*quadratic(np.random.default_rng((1, 0)), FEW), *quadratic(np.random.default_rng((1, 1)), 10)]
     expected = [c2.classify(system, PSI).name for system in drawn]
     assert {row.name: row.count for row in found.table} == {name: expected.count(name) for name in set(expected)}
+
+
+def test_what_is_drawn_as_quadratic_is():
+    """Twelve coefficients that are standard normal; U is the polynomial of them."""
+    drawn = quadratic(np.random.default_rng(5), 400)
+    e = np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0], [1.0, 1.0]])
+    terms = np.stack([np.ones(6), e[:, 0], e[:, 1], e[:, 0] ** 2, e[:, 0] * e[:, 1], e[:, 1] ** 2], axis=1)
+    U = np.array([[system.at().U(one) for one in e] for system in drawn])
+    found = np.linalg.solve(terms, U.swapaxes(0, 1).reshape(6, -1))
+    assert found.shape == (6, 800)
+    assert np.abs(found.mean(axis=1)).max() < 4.0 / math.sqrt(800)
+    assert np.abs(found.std(axis=1) - 1.0).max() < 4.0 / math.sqrt(1600)
+    assert np.abs(np.corrcoef(found) - np.eye(6)).max() < 4.5 / math.sqrt(800)
+
+
+def test_in_each_quadratic_system_indices_add_up_to_the_turns_of_U():
+    """A check of what is counted: indices of the critical sets against how often U turns along the equator."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 4001)
+    e = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    for system in quadratic(np.random.default_rng(11), 120):
+        U = system.at().U(e)
+        turns = np.diff(np.unwrap(np.arctan2(U[:, 1], U[:, 0]))).sum() / (2.0 * np.pi)
+        kinds = [C.kind for C in c2.critical_sets(system, PSI)]
+        assert sum(-1 if kind == "saddle" else 1 for kind in kinds) == round(float(turns))
+
+
+def test_shares_that_are_known_exactly():
+    """Case I: a and d of one sign, 1/2. Case II: b^2 < -a d, the mean of erf(sqrt(|a d|/2))/2 over |a|, |d|."""
+    table = c2.census(count=1_000_000, seed=12).table
+    share = {case: sum(row.count for row in table if row.name.split()[0] == case) / 1e6 for case in ("I", "II", "III")}
+    density = lambda x: math.sqrt(2.0 / math.pi) * math.exp(-0.5 * x * x)
+    second = 0.5 * dblquad(lambda a, d: density(a) * density(d) * math.erf(math.sqrt(0.5 * a * d)), 0, 9, 0, 9)[0]
+    exact = {"I": 0.5, "II": second, "III": 0.5 - second}
+    for case, expected in exact.items():
+        assert abs(share[case] - expected) < 4.0 * math.sqrt(expected * (1.0 - expected) / 1e6)
 
 
 def test_progress_is_told_and_chunks_wait_their_turn():
@@ -164,6 +193,7 @@ def test_the_table_as_csv(tmp_path):
         ({"count": 1.5}, "count is 1.5"),
         ({"seed": -1}, "seed is -1"),
         ({"draw": 3}, "draw is 3"),
+        ({"draw": "cubic"}, "give normal, quadratic, or a function"),
         ({"psi": "tanh"}, "psi is 'tanh'"),
         ({"draw": lambda rng, n: rng.standard_normal((1, 5)), "count": 10}, "draw returned 1"),
     ],
