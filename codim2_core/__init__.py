@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Python the same
     from . import bifurcations, examples, mechanics, psi
+    from .atlases.atlas import Atlas, AtlasCurve, AtlasPoint, AtlasRegion, atlas
     from .counting.census import census
     from .counting.table import Census
     from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
@@ -48,6 +49,10 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
 __version__ = "0.1.0"
 
 __all__ = [
+    "Atlas",
+    "AtlasCurve",
+    "AtlasPoint",
+    "AtlasRegion",
     "Basins",
     "Branches",
     "Census",
@@ -79,6 +84,7 @@ __all__ = [
     "Trajectories",
     "Variation",
     "approach_outcomes",
+    "atlas",
     "basins",
     "bifurcations",
     "branches",
@@ -113,6 +119,7 @@ _MODULES = {
     "psi": "psi",
 }
 _HOMES = {
+    "atlases.atlas": "Atlas AtlasCurve AtlasPoint AtlasRegion atlas",
     "counting.census": "census",
     "counting.table": "Census",
     "cycles.limit_cycles": "LimitCycle LimitCycles limit_cycles",

@@ -204,6 +204,7 @@ BY_NAME: Mapping[str, Check] = {
     "example": _as_given,
     "draw": _as_given,  # `census` says itself what it takes
     "box": _as_given,  # `basins` says itself what it takes
+    "ranges": _as_given,  # and `atlas`
     "names": _as_given,  # `mechanics.fit` says itself what it takes
 }
 BY_ANNOTATION: Mapping[str, Check] = {

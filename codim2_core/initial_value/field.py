@@ -198,10 +198,11 @@ def _filled(template: str, **values: Any) -> Expression:
 def _field(rows: Sequence[Expression], m: int) -> Field:
     names = (*PLANE, *SLOW[:m])
     slopes = [row.derivative(name) for row in rows for name in names]
-    return Field(m, tuple(rows), _function(rows, names), _function(slopes, names))
+    return Field(m, tuple(rows), function_of(rows, names), function_of(slopes, names))
 
 
-def _function(rows: Sequence[Expression], names: Sequence[str]) -> Callable[..., tuple[float, ...]]:
+def function_of(rows: Sequence[Expression], names: Sequence[str]) -> Callable[..., tuple[float, ...]]:
+    """Return formulas as one function of numbers, in the order of their names; NaNs where one has a pole."""
     written = program(rows, {name: name for name in names}, names)
     lines = [*written.before, *written.inside, f"return ({', '.join(written.results)},)"]
     body = "\n        ".join(lines)

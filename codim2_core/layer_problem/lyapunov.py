@@ -1,4 +1,4 @@
-"""The first Lyapunov coefficient of the layer problem ``x2' = A e_Psi(x2) + f`` where tr J = 0 (eq:linLP).
+"""The first Lyapunov coefficient of the layer problem ``x2' = U(e_Psi(x2))`` where tr J = 0 (eq:linLP, eq:LP).
 
 With ``e_Psi = x h(|x|^2)`` and ``h(s) = (s + Psi(s))^(-1/2)`` the second and third differentials of e_Psi are exact
 polynomials in h', h'', h''' and hence in the first three derivatives of Psi.
@@ -42,15 +42,18 @@ def psi_derivatives(psi: Psi, s: Array) -> tuple[Array, Array, Array]:
 
 
 @np.errstate(all="ignore")  # where det J is lost in rounding, next to the equator, the answer is no number
-def first_lyapunov(A: Array, psi: Psi, x2: Array) -> Array:
+def first_lyapunov(A: Array, psi: Psi, x2: Array, second_U: Array | None = None, third_U: Array | None = None) -> Array:
     """First Lyapunov coefficient at critical sets with tr J = 0 < det J.
 
     Parameters
     ----------
-    A : ndarray (2, 2)
+    A : ndarray (2, 2) or (m, 2, 2)
+        D_e U: of all, or of each.
     psi : Psi
     x2 : ndarray (m, 2)
         The critical sets in the scaling chart.
+    second_U, third_U : ndarray (m, 2, 2, 2) and (m, 2, 2, 2, 2), optional
+        Second and third derivatives of U by e there, that of U_i by e_j, e_k, ... in [i, j, k]; zero if left out.
 
     Returns
     -------
@@ -72,20 +75,32 @@ def first_lyapunov(A: Array, psi: Psi, x2: Array) -> Array:
         return (u * v).sum(axis=1)[:, None]
 
     h0, h1, h2, h3 = h0[:, None], h1[:, None], h2[:, None], h3[:, None]
+    eye = np.eye(2)
+    De = h0[:, :, None] * eye + 2.0 * h1[:, :, None] * x[:, :, None] * x[:, None, :]
+    J = A @ De
+
+    def through(matrix: NDArray, u: NDArray) -> NDArray:
+        return (matrix @ u[:, :, None])[:, :, 0]
+
+    def bent(v: NDArray, u: NDArray) -> NDArray:
+        xv, xu = dot(x, v), dot(x, u)
+        return 2.0 * h1 * (xu * v + xv * u + dot(u, v) * x) + 4.0 * h2 * xu * xv * x
+
+    def twice(v: NDArray, u: NDArray) -> NDArray:
+        return np.zeros(2) if second_U is None else np.einsum("mijk,mj,mk->mi", second_U, v, u)
 
     def second(v: NDArray, u: NDArray) -> NDArray:
-        xv, xu = dot(x, v), dot(x, u)
-        return (2.0 * h1 * (xu * v + xv * u + dot(u, v) * x) + 4.0 * h2 * xu * xv * x) @ A.T
+        return through(A, bent(v, u)) + twice(through(De, v), through(De, u))
 
     def third(u: NDArray, v: NDArray, t: NDArray) -> NDArray:
         xu, xv, xt, uv, ut, vt = dot(x, u), dot(x, v), dot(x, t), dot(u, v), dot(u, t), dot(v, t)
         plain = 2.0 * h1 * (ut * v + uv * t + vt * u)
         mixed = 4.0 * h2 * (xu * xt * v + xu * xv * t + xv * xt * u + (uv * xt + xv * ut + xu * vt) * x)
-        return (plain + mixed + 8.0 * h3 * xu * xv * xt * x) @ A.T
+        out = through(A, plain + mixed + 8.0 * h3 * xu * xv * xt * x)
+        Du, Dv, Dt = through(De, u), through(De, v), through(De, t)
+        out = out + twice(bent(u, v), Dt) + twice(bent(v, t), Du) + twice(bent(t, u), Dv)
+        return out if third_U is None else out + np.einsum("mijkl,mj,mk,ml->mi", third_U, Du, Dv, Dt)
 
-    eye = np.eye(2)
-    De = h0[:, :, None] * eye + 2.0 * h1[:, :, None] * x[:, :, None] * x[:, None, :]
-    J = A @ De
     # On the curve tr J = 0; its rounding is taken out, so that the eigenvalues are +- i omega.
     J = J - 0.5 * np.trace(J, axis1=1, axis2=2)[:, None, None] * eye
     omega = np.sqrt(np.linalg.det(J))

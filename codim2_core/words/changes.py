@@ -191,4 +191,27 @@ SENTENCES: dict[str, Sentence] = {
         "coefficient is zero.",
         "zero",
     ),
+    "cusp of directions": Sentence(
+        "Θ has a triple zero at θ = {theta:.4g}: two saddle-nodes of limit directions meet in a cusp.", "a cusp"
+    ),
+    "two borders touch": Sentence(
+        "A critical set reaches the equator at θ = {theta:.4g} just where two limit directions meet there: "
+        "λ_ρ = λ_θ = 0.",
+        "U = 0 and Θ′ = 0 on the equator",
+    ),
+    "fold on the equator": Sentence(
+        "Two critical sets meet on the equator, at θ = {theta:.4g}: det J = 0 there.", "U = 0 and det J = 0 on it"
+    ),
+    "cusp of sets": Sentence(
+        "Three critical sets meet in one: two folds of critical sets end in a cusp.", "a cusp of det J = 0"
+    ),
+    "both eigenvalues zero": Sentence(
+        "Bogdanov–Takens: tr J = det J = 0, so that both eigenvalues are zero. A Hopf curve ends on the fold here.",
+        "tr J = det J = 0",
+    ),
+    "Lyapunov turns": Sentence(
+        "The first Lyapunov coefficient is zero (Bautin): a curve on which two limit cycles meet begins here.",
+        "the Lyapunov coefficient changes its sign",
+    ),
+    "two at once": Sentence("At once, at two places of the portrait: {one}; {other}.", "two curves cross"),
 }

@@ -24,6 +24,7 @@ MOTION = {"system": SYSTEM, "psi": PSI, "state0": (1.0, 0.2, 0.1), "t_span": (0.
 #: For each public function, arguments with which it is quick: what is not there keeps its default.
 GOOD = {
     c2.approach_outcomes: PLANE,
+    c2.atlas: {**PLANE, "across": "f1", "up": "f2", "ranges": ((-2, 2), (-2, 2))},
     c2.basins: {**PLANE, "n": 32},
     c2.branches: {**PLANE, "along": "f1", "span": (-0.6, -0.4)},
     c2.census: {"psi": PSI, "count": 1000},

@@ -12,6 +12,7 @@ from codim2_core import ELinear, bifurcations, psi
 from codim2_core.words import ROOMS, recognise
 
 from .standing import At, order
+from .test_atlas_words import CHECKS as OF_ATLASES
 from .test_change_words import AT_A_VALUE
 
 ONE, HILL = psi.constant(), psi.hill(3)
@@ -188,6 +189,7 @@ ELSEWHERE = {
     "fold ends, neutral loop": "tests/core/bifurcations/test_cycles.py",
     "cusp of cycles": "tests/core/cycles/test_near_folds.py",
     "fold not caught": "nothing is claimed",
+    "gap": "tests/core/diagrams/test_branches.py",
     "fold reaches the equator": "tests/core/bifurcations/test_cycles.py",
     "fold followed no further": "nothing is claimed",
     "one comes or goes": "held above wherever it is said",
@@ -234,4 +236,7 @@ def test_on_the_curves_of_cycles(matrix, family):
 
 
 def test_every_sentence_of_a_change_is_held():
-    assert AT_A_VALUE.keys() | CURVES.keys() | POINTS.keys() | ELSEWHERE.keys() == ROOMS["changes"].keys()
+    assert (
+        AT_A_VALUE.keys() | CURVES.keys() | POINTS.keys() | ELSEWHERE.keys() | OF_ATLASES.keys()
+        == ROOMS["changes"].keys()
+    )

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from codim2_core.atlases.result import Atlas
 from codim2_core.bifurcations.curve import BifurcationCurve
 from codim2_core.bifurcations.plane_regions import Regions
 from codim2_core.continuation.result import CycleBranches
@@ -163,6 +164,11 @@ def _psi(result: Psi) -> str:
 def _class_map(result: ClassMap) -> str:
     areas = [(region.name, region.boundary) for region in result.regions]
     return regions(areas, result.spans, *result.names)
+
+
+@svg.register
+def _atlas(result: Atlas) -> str:
+    return chart([(one.kind, one.points[:, 0], one.points[:, 1]) for one in result.curves], *result.names)
 
 
 @svg.register

@@ -58,12 +58,13 @@ RESULTS = {
     "bifurcations.hopf": lambda: bifurcations.hopf(CYCLE.a, CYCLE.b, CYCLE.d, CYCLE.psi),
     "bifurcations.regions": lambda: bifurcations.regions(-2, 0.5, -1),
     "bifurcations.saddle_node": lambda: bifurcations.saddle_node(-2, 0.5, -1),
+    "atlas": lambda: c2.atlas(SADDLE, ONE, "f1", "f2", ((-2, 2), (-2, 2))),
     "class_map": lambda: class_map(SADDLE, ONE, ("f1", "f2"), ((-2, 2), (-2, 2)), steps=32, thin=0),
     "continue_cycles": lambda: continue_cycles(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)),
     "linearisation_path": lambda: linearisation_path(CYCLE.system, CYCLE.psi, "n", np.linspace(1.0, 4.0, 31)),
 }
 PICTURED = {
-    "basins", "basins, nearer", "branches", "class_map", "continue_cycles", "launched", "limit_cycles",
+    "atlas", "basins", "basins, nearer", "branches", "class_map", "continue_cycles", "launched", "limit_cycles",
     "linearisation_path", "nullclines", "periodic_motion", "preset", "psi", "scene", "separatrices",
     "simulate", "simulate_nonsmooth", "slow_portrait", "trajectories", "bifurcations.closed_equator",
     "bifurcations.critical_boundary", "bifurcations.hopf", "bifurcations.regions", "bifurcations.saddle_node",

@@ -1,0 +1,141 @@
+"""`atlas`: all curves on which the portrait of any system changes over any two parameters, by continuation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..arguments import shown
+from ..layer_problem.vary import limits, value_of
+from ..layer_problem.vary import names as names_of
+from ..psi.function import Psi
+from .curves import curves_of
+from .family import Family, Ranges
+from .numbers import numbers, places
+from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
+from .special import crossings, each_once
+
+__all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "atlas"]
+
+Array = NDArray[np.float64]
+
+LABELS = {
+    "saddle-node": "fig:SNBIF, eq:tangencies",
+    "pitchfork": "fig:SNBIF",
+    "transcritical": "fig:ellipse, fig:transcrit",
+    "fold of critical sets": "eq:scjaco",
+    "Hopf": "sec:case3",
+    "node-focus": "fig:bads",
+    "det A = 0": "thm:lineps1",
+    "neutral equator": "thm:geneps0",
+}
+AROUND = 2.0  # range on either side of a parameter's value where none is given, or the value if that is more
+
+
+def atlas(
+    system: Any,
+    psi: Psi,
+    across: str,
+    up: str,
+    ranges: Any = None,
+    z: ArrayLike = (),
+) -> Atlas:
+    """All curves over two parameters on which the portrait changes, where they meet, and the regions between.
+
+    Each curve is the set of zeros of equations in the two parameters and a place, an angle of the equator or a point
+    within it, and is followed by pseudo-arclength; its points are zeros to the last digits. Where to begin is looked
+    for on a net: 64 angles by 24 x 24 values of the parameters on the equator, 16 in each direction within. A curve
+    that keeps within one cell may be missed.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    across, up : str
+        What is varied: two of a, b, d, f1, f2 as far as they are numbers, the system's own parameters, z1 to zm (z is
+        z1), and the parameter of Psi, such as n.
+    ranges : ((low, high), (low, high)), optional
+        Of `across`, then of `up`. Left out: about the present values.
+    z : (m,) floats
+
+    Returns
+    -------
+    Atlas
+
+    Raises
+    ------
+    ValueError
+        A name cannot be varied or is given twice, a range is empty or beyond what is allowed, z does not fit, or U is
+        not finite in a corner or the middle of the ranges.
+
+    Examples
+    --------
+    >>> import codim2_core as c2
+    >>> found = c2.atlas(c2.ELinear(-2, 0, -1), c2.psi.constant(), across="f1", up="f2")
+    >>> sorted({curve.kind for curve in found.curves})
+    ['saddle-node', 'transcritical']
+    """
+    family = family_over(system, psi, z, across, up, ranges)
+    found, special = curves_of(family)
+    curves = [
+        AtlasCurve(one.kind, _read_only(family.values(one.plane)), LABELS[one.kind],
+                   _read_only(places(family, one)), _read_only(numbers(family, one)))
+        for one in found
+    ]  # fmt: skip
+    points = [
+        AtlasPoint(one.kind, (float(at[0]), float(at[1])), one.sentence)
+        for one in each_once(special + crossings(found))
+        for at in [family.values(one.plane)]
+    ]
+    return Atlas(family.names, family.ranges, tuple(curves), tuple(points))
+
+
+def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> Family:
+    """Check what `atlas` is given, and return what all of it is computed from."""
+    system.at(z)  # says what is wrong with z
+    slow = tuple(np.ravel(np.asarray(z, float)).tolist())
+    there = names_of(system, psi, slow)
+    both = tuple("z1" if name == "z" and "z" not in there else name for name in (across, up))
+    for what, name in zip(("across", "up"), both, strict=True):
+        if name not in there:
+            allowed = f"choose one of {', '.join(there)}" if len(there) > 1 else "give a system with two parameters"
+            raise ValueError(f"{what} is {shown(name)}, which cannot be varied here; {allowed}.")
+    if both[0] == both[1]:
+        raise ValueError(f"across and up are both {both[0]!r}; choose two different names.")
+    family = Family(system, psi, slow, both, _ranges(system, psi, slow, both, ranges))  # type: ignore[arg-type]
+    for corner in ((0.0, 0.0), (0.5, 0.5), (1.0, 1.0)):
+        at, _, slow_at = family.at(np.array(corner))
+        at.at(slow_at)
+    return family
+
+
+def _ranges(system: Any, psi: Psi, z: Sequence[float], names: Sequence[str], given: Any) -> Ranges:
+    found = []
+    if given is not None and (not isinstance(given, Sequence | np.ndarray) or len(given) != 2):
+        raise ValueError(f"ranges are {shown(given)}; give ((low, high), (low, high)), or leave them out.")
+    for i, name in enumerate(names):
+        least, most = limits(system, psi, name)
+        if given is None:
+            value = value_of(system, psi, z, name)
+            reach = max(AROUND, abs(value))
+            found.append((max(value - reach, least), min(value + reach, most)))
+            continue
+        try:
+            low, high = (float(v) for v in given[i])
+        except (TypeError, ValueError, OverflowError):
+            raise ValueError(f"ranges are {shown(given)}; give two numbers (low, high) for {name}.") from None
+        if not (math.isfinite(low) and math.isfinite(high) and low < high):
+            raise ValueError(f"ranges are {shown(given)}; give (low, high) with low < high for {name}.")
+        if not least <= low < high <= most:
+            raise ValueError(f"ranges are {shown(given)}; of {name} from {least:g} to {most:g} is allowed.")
+        found.append((low, high))
+    return found[0], found[1]
+
+
+def _read_only(array: Array) -> Array:
+    array.flags.writeable = False
+    return array

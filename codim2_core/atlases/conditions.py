@@ -1,0 +1,197 @@
+"""What is zero along each kind of curve, with derivatives: in (theta, u, v) on the equator, in (c, s, u, v) within it.
+
+With n = e and t across it on the equator, Theta = t.U, and by theta
+
+    Theta'  = t.DU t - n.U,    Theta'' = t.D²U(t, t) - 2 n.DU t - t.DU n - t.U.
+
+Within, J has the determinant of DU times a positive factor, and tr J is a positive factor times
+
+    T = tr DU - (1 - sigma) n.DU n = tr DU - bend e.DU e,    sigma = 1 - bend |e|^2 (`Family.ratio`):
+
+tr J = 0 is T = 0, and tr(J)^2 = 4 det J is T^2 = 4 sigma det DU. U and its derivatives are plain numbers: arrays of
+two would take ten times as long.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .family import Family
+from .implicit_curve import Condition
+
+Array = NDArray[np.float64]
+
+STEP = 1e-5  # for derivatives of Theta''
+
+
+class OnEquator:
+    """U on the equator at a place (theta, u, v).
+
+    Attributes
+    ----------
+    turning, slope, curvature : float
+        Theta, Theta', Theta''.
+    radial : float
+        lambda_rho.
+    determinant : float
+        Det DU.
+    U : (float, float)
+    U_slopes : ndarray (2, 3)
+    turning_by, slope_by : (float, float)
+        Derivatives of Theta and Theta' by u and v.
+    """
+
+    def __init__(self, family: Family, v: Array) -> None:
+        theta, across, up = v.tolist()
+        c, s = math.cos(theta), math.sin(theta)
+        U, Uc, Us, Uu, Uv, Ucc, Ucs, Ucu, Ucv, Uss, Usu, Usv, *rest = family.jet(c, s, across, up)
+        V, Vc, Vs, Vu, Vv, Vcc, Vcs, Vcu, Vcv, Vss, Vsu, Vsv = rest
+        Ut, Vt = c * Us - s * Uc, c * Vs - s * Vc  # DU t
+        self.turning, self.radial = c * V - s * U, c * U + s * V
+        self.slope = c * Vt - s * Ut - self.radial
+        twice_U, twice_V = (
+            s * s * cc - 2.0 * s * c * cs + c * c * ss for cc, cs, ss in ((Ucc, Ucs, Uss), (Vcc, Vcs, Vss))
+        )
+        spin = c * (c * Vc + s * Vs) - s * (c * Uc + s * Us)  # t.DU n
+        self.curvature = c * twice_V - s * twice_U - 2.0 * (c * Ut + s * Vt) - spin - self.turning
+        self.determinant = Uc * Vs - Us * Vc
+        self.U = U, V
+        self.U_slopes = np.array([[Ut, Uu, Uv], [Vt, Vu, Vv]])
+        self.turning_by = c * Vu - s * Uu, c * Vv - s * Uv
+        self.slope_by = (
+            c * (c * Vsu - s * Vcu) - s * (c * Usu - s * Ucu) - c * Uu - s * Vu,
+            c * (c * Vsv - s * Vcv) - s * (c * Usv - s * Ucv) - c * Uv - s * Vv,
+        )
+
+
+def saddle_node(family: Family) -> Condition:
+    """Theta = Theta' = 0."""
+
+    def condition(v: Array) -> tuple[Array, Array]:
+        at = OnEquator(family, v)
+        return np.array([at.turning, at.slope]), np.array([[at.slope, *at.turning_by], [at.curvature, *at.slope_by]])
+
+    return condition
+
+
+def pitchfork(family: Family) -> Condition:
+    """Theta' = Theta'' = 0: where a symmetry keeps Theta = 0 along the curve, Theta does not tell."""
+
+    def condition(v: Array) -> tuple[Array, Array]:
+        at = OnEquator(family, v)
+        second = [
+            (OnEquator(family, v + h).curvature - OnEquator(family, v - h).curvature) / (2.0 * STEP)
+            for h in STEP * np.eye(3)
+        ]
+        return np.array([at.slope, at.curvature]), np.array([[at.curvature, *at.slope_by], second])
+
+    return condition
+
+
+def through_equator(family: Family) -> Condition:
+    """U = 0 on the equator."""
+
+    def condition(v: Array) -> tuple[Array, Array]:
+        at = OnEquator(family, v)
+        return np.array(at.U), at.U_slopes
+
+    return condition
+
+
+def equator_corner(family: Family) -> Condition:
+    """U = 0 and Theta' = 0 on the equator."""
+
+    def condition(v: Array) -> tuple[Array, Array]:
+        at = OnEquator(family, v)
+        return np.array([*at.U, at.slope]), np.vstack([at.U_slopes, (at.curvature, *at.slope_by)])
+
+    return condition
+
+
+class Within:
+    """U at a place (c, s, u, v) within the equator.
+
+    Attributes
+    ----------
+    U : ndarray (2,)
+    U_slopes : ndarray (2, 4)
+    determinant : float
+        Det DU.
+    determinant_slopes : list of float (4,)
+    """
+
+    def __init__(self, family: Family, v: Array) -> None:
+        c, s, across, up = v.tolist()
+        U, Uc, Us, Uu, Uv, Ucc, Ucs, Ucu, Ucv, Uss, Usu, Usv, *rest = family.jet(c, s, across, up)
+        V, Vc, Vs, Vu, Vv, Vcc, Vcs, Vcu, Vcv, Vss, Vsu, Vsv = rest
+        self.U, self.U_slopes = np.array([U, V]), np.array([[Uc, Us, Uu, Uv], [Vc, Vs, Vu, Vv]])
+        self.determinant = Uc * Vs - Us * Vc
+        self._e, self._D = (c, s), (Uc, Us, Vc, Vs)
+        # derivatives of the four entries of DU
+        self._DD = (Ucc, Ucs, Ucu, Ucv), (Ucs, Uss, Usu, Usv), (Vcc, Vcs, Vcu, Vcv), (Vcs, Vss, Vsu, Vsv)
+
+    @property
+    def determinant_slopes(self) -> list[float]:
+        """Derivatives of det DU."""
+        (a, b, c, d), every = self._D, zip(*self._DD, strict=True)
+        return [a * dd + d * da - b * dc - c * db for da, db, dc, dd in every]
+
+    def trace(self, bend: float) -> float:
+        """Return T."""
+        (x, y), (a, b, c, d) = self._e, self._D
+        return a + d - bend * (x * x * a + x * y * (b + c) + y * y * d)
+
+    def trace_slopes(self, bend: float, by_square: float, by_parameters: tuple[float, float]) -> list[float]:
+        """Return the derivatives of T."""
+        (x, y), (a, b, c, d) = self._e, self._D
+        along = x * x * a + x * y * (b + c) + y * y * d
+        out = [
+            da + dd - bend * (x * x * da + x * y * (db + dc) + y * y * dd)
+            for da, db, dc, dd in zip(*self._DD, strict=True)
+        ]
+        out[0] -= 2.0 * by_square * along * x + bend * (2.0 * x * a + y * (b + c))
+        out[1] -= 2.0 * by_square * along * y + bend * (2.0 * y * d + x * (b + c))
+        out[2] -= by_parameters[0] * along
+        out[3] -= by_parameters[1] * along
+        return out
+
+
+def fold(family: Family) -> Condition:
+    """U = 0 and det J = 0."""
+
+    def condition(v: Array) -> tuple[Array, Array]:
+        at = Within(family, v)
+        return np.append(at.U, at.determinant), np.vstack([at.U_slopes, at.determinant_slopes])
+
+    return condition
+
+
+def hopf(family: Family) -> Condition:
+    """U = 0 and tr J = 0."""
+
+    def condition(v: Array) -> tuple[Array, Array]:
+        at, ratio = Within(family, v), family.ratio(float(v[:2] @ v[:2]), v[2:])
+        return np.append(at.U, at.trace(ratio.bend)), np.vstack([at.U_slopes, at.trace_slopes(*ratio)])
+
+    return condition
+
+
+def node_focus(family: Family) -> Condition:
+    """U = 0 and tr(J)^2 = 4 det J."""
+
+    def condition(v: Array) -> tuple[Array, Array]:
+        square = float(v[:2] @ v[:2])
+        at, ratio = Within(family, v), family.ratio(square, v[2:])
+        det, trace, sigma = at.determinant, at.trace(ratio.bend), 1.0 - ratio.bend * square
+        rise = -2.0 * (ratio.by_square * square + ratio.bend)
+        sigma_slopes = [rise * float(v[0]), rise * float(v[1]), *(-r * square for r in ratio.by_parameters)]
+        slopes = [
+            2.0 * trace * t - 4.0 * (sigma * d + det * g)
+            for t, d, g in zip(at.trace_slopes(*ratio), at.determinant_slopes, sigma_slopes, strict=True)
+        ]
+        return np.append(at.U, trace * trace - 4.0 * sigma * det), np.vstack([at.U_slopes, slopes])
+
+    return condition

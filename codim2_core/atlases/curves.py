@@ -1,0 +1,122 @@
+"""All curves over two parameters, each once, and cut to where what they tell of happens."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import conditions, plane_conditions, special, starts, tracing
+from .family import Family
+from .implicit_curve import Traced, zero_between
+from .special import Special
+from .tracing import Followed
+
+Array = NDArray[np.float64]
+
+LAST = 0.04  # of the ranges: last step of the curve of a neutral equator, whose mean takes ever more angles
+POINT = 1e-7  # of the ranges: a curve that keeps within this is a point
+SAME = 1e-6  # two curves of one kind that are as near as this everywhere are one
+SINGULAR = 1e-9  # of det DU, all along a curve through the equator: there critical sets fill a line
+STILL = 1e-9  # of det DU, all along a curve of tr J = 0: there critical sets fill a line
+
+
+def curves_of(family: Family) -> tuple[list[Followed], list[Special]]:
+    """All curves, in unknowns of their own, and the special points along them."""
+    on, through, turning = starts.on_equator(family)
+    folds, hopfs, foci = starts.within(family)
+    found = _true(tracing.saddle_nodes(family, on) + tracing.through_equator(family, through))
+    points = [point for one in found for point in special.along(family, one)]
+    corners = special.corners(points)
+    if family.affine:
+        found = [one for one in found if one.kind != "transcritical" or not _singular(family, one)]
+        singular = plane_conditions.singular_matrix(family)
+        more = tracing.in_the_plane("det A = 0", singular, starts.of_plane(singular))
+    else:
+        more = tracing.folds(family, folds)
+    for one in tracing.hopfs(family, hopfs, corners):
+        more += _with_positive_determinant(family, one)
+    more += tracing.node_foci(family, foci, corners)
+    neutral = plane_conditions.neutral_equator(family)
+    turned = tracing.in_the_plane("neutral equator", neutral, starts.on_steps(neutral, turning))
+    more += [_to_corners(one, corners) for one in turned]
+    more = _true(more)
+    points += [point for one in more for point in special.along(family, one)]
+    return found + more, points
+
+
+def _true(found: list[Followed]) -> list[Followed]:
+    """Leave out what keeps to one point, and what another one covers."""
+    return _each_once([one for one in found if np.ptp(one.plane, axis=0).max() > POINT])
+
+
+def _to_corners(one: Followed, corners: list[Array]) -> Followed:
+    """Go on from where the equator all but has limit directions to the corner where it has."""
+    points = one.points
+    for end, i in zip(one.curve.ends, (0, -1), strict=True):
+        near = min(corners, key=lambda v, i=i: math.dist(v[1:], points[i]), default=None)
+        if end == "lost" and near is not None and math.dist(near[1:], points[i]) < LAST:
+            points = np.concatenate([near[None, 1:], points] if i == 0 else [points, near[None, 1:]])
+    return Followed(one.kind, one.condition, Traced(points, one.curve.closed, one.curve.ends))
+
+
+def _singular(family: Family, one: Followed) -> bool:
+    return all(abs(conditions.OnEquator(family, v).determinant) < SINGULAR for v in one.points)
+
+
+def _with_positive_determinant(family: Family, one: Followed) -> list[Followed]:
+    """Parts of a curve along which det J > 0, with the ends at which it is 0."""
+
+    def determinant(v: Array) -> float:
+        return conditions.Within(family, v).determinant
+
+    points = one.points
+    value = np.array([determinant(v) for v in points])
+    good = value > 0.0
+    if good.all():
+        return [one]
+    if one.curve.closed and good[0]:  # begin where it is negative
+        first = int(np.argmin(good))
+        points = np.concatenate([points[first:], points[1 : first + 1]])
+        value = np.concatenate([value[first:], value[1 : first + 1]])
+        good = value > 0.0
+    found: list[Followed] = []
+    i = 0
+    while i < len(points):
+        if not good[i]:
+            i += 1
+            continue
+        j = i
+        while j + 1 < len(points) and good[j + 1]:
+            j += 1
+        part = list(points[i : j + 1])
+        if i > 0:
+            part.insert(0, zero_between(one.condition, determinant, points[i - 1], points[i]))
+        if j + 1 < len(points):
+            part.append(zero_between(one.condition, determinant, points[j], points[j + 1]))
+        ends = ("det J = 0" if i > 0 else one.curve.ends[0], "det J = 0" if j + 1 < len(points) else one.curve.ends[1])
+        if len(part) > 1 and value[i : j + 1].max() > STILL:
+            found.append(Followed(one.kind, one.condition, Traced(np.array(part), False, ends)))
+        i = j + 1
+    return found
+
+
+def _each_once(found: list[Followed]) -> list[Followed]:
+    """Leave out curves that lie on an earlier one of their kind: a symmetry makes them."""
+    kept: list[Followed] = []
+    for one in found:
+        if not any(one.kind == other.kind and _on(one.plane, other.plane) for other in kept):
+            kept.append(one)
+    return kept
+
+
+def _on(points: Array, line: Array) -> bool:
+    """Whether all points lie on a line but for its bends."""
+    few = points[np.linspace(0, len(points) - 1, 9).astype(int)]
+    start, along = line[:-1], np.diff(line, axis=0)
+    size = np.maximum((along**2).sum(axis=1), 1e-300)
+    away = few[:, None] - start
+    part = np.clip((away * along).sum(axis=2) / size, 0.0, 1.0)
+    gap = np.sqrt(((away - part[..., None] * along) ** 2).sum(axis=2)).min(axis=1)
+    return bool((gap < SAME + 0.02 * np.sqrt(size).max() ** 2).all())

@@ -1,0 +1,242 @@
+"""U on Sigma over the plane of two parameters, with its derivatives by e and by both: what all curves are made of.
+
+Both parameters run from 0 to 1 over their ranges.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..expressions.expression import Expression, parse
+from ..expressions.names import SLOW
+from ..initial_value.field import function_of, rows_of
+from ..layer_problem.vary import varied
+from ..psi.constructors import with_parameter
+from ..psi.function import Psi
+from ..systems.elinear import ELinear
+
+Array = NDArray[np.float64]
+Ranges = tuple[tuple[float, float], tuple[float, float]]
+
+DIFFERENCE = 1e-5  # of ln s and of the parameter of Psi, for derivatives by them
+BESIDE = 1e-10  # in e, where derivatives are taken for those of a point that has none
+CENTRE = 1e-16  # |e|^2 below which it counts as this
+NEAR = 1.0 - 1e-6  # |e|^2 up to which curves that ask for Psi are followed: they end on the equator
+AXES: tuple[str, str] = ("across_unit", "up_unit")
+_PARTS = ("row_c", "row_s", "row_f")
+
+
+class Ratio(NamedTuple):
+    """sigma, the ratio of the radial to the tangential eigenvalue of D e_Psi, written ``1 - bend |e|^2``.
+
+    Attributes
+    ----------
+    bend : float
+    by_square : float
+        Derivative of `bend` by |e|^2.
+    by_parameters : (float, float)
+        Derivatives of `bend` by both parameters: not zero where one is that of Psi.
+    """
+
+    bend: float
+    by_square: float
+    by_parameters: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Family:
+    """A system and Psi over two parameters.
+
+    Attributes
+    ----------
+    system, psi, z
+        As given.
+    names : (str, str)
+    ranges : ((low, high), (low, high))
+    """
+
+    system: Any
+    psi: Psi
+    z: tuple[float, ...]
+    names: tuple[str, str]
+    ranges: Ranges
+
+    @cached_property
+    def rows(self) -> tuple[Expression, Expression]:
+        """U1 and U2 on Sigma, in c, s and the names of both parameters."""
+        first, second = (self._on_sigma(row) for row in _rows(self.system, self.names))
+        return first, second
+
+    def _on_sigma(self, row: Expression) -> Expression:
+        values = {"x": 0.0, "y": 0.0, **dict(zip(SLOW, self.z, strict=False))}
+        for name, value in values.items():
+            if name in row.names and name not in self.names:
+                row = row.substitute(name, parse(repr(value), ()))
+        return row
+
+    @property
+    def affine(self) -> bool:
+        """Whether U is affine in e: then critical sets do not meet."""
+        return all(
+            not {"c", "s"} & set(row.derivative(one).derivative(other).names) and
+            row.derivative(one).derivative(other).constant == 0.0
+            for row in self.rows for one in "cs" for other in "cs"
+        )  # fmt: skip
+
+    @property
+    def read(self) -> tuple[bool, bool]:
+        """Which parameters U reads."""
+        first, second = (any(name in row.names for row in self.rows) for name in self.names)
+        return first, second
+
+    @cached_property
+    def of_psi(self) -> tuple[bool, bool]:
+        """Which parameters are that of Psi."""
+        own = self.psi.record.parameter
+        first, second = (
+            own is not None and name == own.name and name not in self.system.variable for name in self.names
+        )
+        return first, second
+
+    @cached_property
+    def unit_rows(self) -> tuple[Expression, Expression]:
+        """U1 and U2 over `size`, in c, s and `AXES`, the places in the unit square."""
+        found = []
+        for row in self.rows:
+            for name, unit, low, width in zip(self.names, AXES, self._low.tolist(), self.widths.tolist(), strict=True):
+                row = row.substitute(name, parse(f"{low!r} + {width!r}*{unit}", AXES))
+            found.append(parse(f"value/{self.size!r}", ("value",)).substitute("value", row))
+        return found[0], found[1]
+
+    def jet(self, c: float, s: float, u: float, v: float) -> tuple[float, ...]:
+        """Of U1, then of U2: the value, and derivatives by c, s, u, v, cc, cs, cu, cv, ss, su, sv.
+
+        Where one is undefined, as that of abs(c) at 0, all are taken just beside.
+        """
+        found = self._jet(c, s, u, v)
+        return found if math.isfinite(sum(found)) else self._jet(c + BESIDE, s + BESIDE, u, v)
+
+    @cached_property
+    def _jet(self) -> Callable[..., tuple[float, ...]]:
+        names = ("c", "s", *AXES)
+        rows = []
+        for row in self.unit_rows:
+            once = [row.derivative(name) for name in names]
+            twice = [once[i].derivative(names[j]) for i in range(2) for j in range(i, 4)]
+            rows += [row, *once, *twice]
+        return function_of(rows, names)
+
+    @cached_property
+    def widths(self) -> Array:
+        """Widths of both ranges, (2,)."""
+        return np.array([high - low for low, high in self.ranges])
+
+    @cached_property
+    def _low(self) -> Array:
+        return np.array([low for low, _ in self.ranges])
+
+    def values(self, u: Array) -> Array:
+        """Return the parameters at places (..., 2) of the unit square."""
+        return self._low + self.widths * u
+
+    @cached_property
+    def size(self) -> float:
+        """The largest |U| on a coarse net over the disc and the square, or 1: the unit of speed."""
+        sides = *2 * [np.linspace(-1.0, 1.0, 9)], *2 * [np.linspace(0.0, 1.0, 5)]
+        c, s, u, v = (side.ravel() for side in np.meshgrid(*sides))
+        inside = c * c + s * s <= 1.0
+        where = self.values(np.stack([u, v], axis=-1)[inside])
+        values = {"c": c[inside], "s": s[inside], **dict(zip(self.names, where.T, strict=True))}
+        speeds = np.hypot(*(row.evaluate(values) for row in self.rows))
+        return float(speeds[np.isfinite(speeds)].max(initial=0.0)) or 1.0
+
+    def on_net(self, c: Array, s: Array, u: Array, v: Array) -> tuple[Array, Array]:
+        """Return U (2, ...) over `size` and its derivatives by e (2, 2, ...) at many places at once."""
+        values: dict[str, Any] = dict(zip(("c", "s", *AXES), (c, s, u, v), strict=True))
+        U = [row.evaluate(values) for row in self.unit_rows]
+        D = [[row.derivative(name).evaluate(values) for name in "cs"] for row in self.unit_rows]
+        return np.stack(U), np.stack([np.stack(row) for row in D])
+
+    def psi_at(self, u: Array) -> Psi:
+        """Return Psi at a place of the unit square."""
+        if not any(self.of_psi):
+            return self.psi
+        return with_parameter(self.psi, float(self.values(np.clip(u, 0.0, 1.0))[self.of_psi.index(True)]))
+
+    def ratio(self, square: float, u: Array) -> Ratio:
+        """Return what sigma is where |e|^2 is `square`; from `NEAR` on its tangent there goes on, for steps too far."""
+        held = min(max(square, CENTRE), NEAR)
+        first, second = (self._ratio_by(k, held, u) if own else 0.0 for k, own in enumerate(self.of_psi))
+        bend, by_square = _bend(self.psi_at(u), held)
+        return Ratio(bend + by_square * max(square - NEAR, 0.0), by_square, (first, second))
+
+    def _ratio_by(self, k: int, square: float, u: Array) -> float:
+        step, held = DIFFERENCE * np.eye(2)[k], np.clip(u, 0.0, 1.0)
+        low, high = np.clip(held - step, 0.0, 1.0), np.clip(held + step, 0.0, 1.0)
+        rise = _bend(self.psi_at(high), square)[0] - _bend(self.psi_at(low), square)[0]
+        return rise / float(high[k] - low[k])
+
+    @cached_property
+    def turns(self) -> bool:
+        """Whether the portrait's axes are turned from those of `rows`, by lem:normalform."""
+        return getattr(self.system, "given_matrix", None) is not None
+
+    def frozen(self, u: Array) -> Any:
+        """Return the system at a place of the unit square, with all numbers."""
+        system, _, z = self.at(u)
+        return system.at(z)
+
+    def at(self, u: Array) -> tuple[Any, Psi, tuple[float, ...]]:
+        """Return system, Psi and z at a place of the unit square.
+
+        Raises
+        ------
+        ValueError
+            A value is not allowed.
+        """
+        of = self.system, self.psi, self.z
+        for name, value in zip(self.names, self.values(u).tolist(), strict=True):
+            of = varied(*of, name, value)
+        return of
+
+
+def _bend(psi: Psi, square: float) -> tuple[float, float]:
+    """Return ``(1 - sigma)/q`` and its derivative by q = |e|^2: sigma = (1 - q)(1 + k), k = -s Psi'(s)/Psi(s)."""
+    modulus = math.sqrt(square)
+    zeta = float(psi.radius(modulus, (1.0 - modulus) * (1.0 + modulus)))
+    k = psi.steepness(zeta)
+    higher, lower = (psi.steepness(zeta * math.exp(0.5 * sign * DIFFERENCE)) for sign in (1.0, -1.0))
+    rise = (higher - lower) / (2.0 * DIFFERENCE)  # d k/d ln s
+    return 1.0 + k - k / square, (k - rise / (1.0 + k)) / (square * square)
+
+
+def _rows(system: Any, names: Sequence[str]) -> list[Expression]:
+    """U1 and U2 as formulas in which two names stay; of a matrix that was given in its own axes."""
+    kept = [name for name in names if name in system.variable]
+    if not isinstance(system, ELinear) or system.given_matrix is None:
+        return rows_of(system, kept)[:2]
+    own = [(name, value) for name, value in system.parameters if name not in kept]
+
+    def known(value: Any, name: str = "") -> Expression:
+        if name in kept:
+            return parse(name, (name,))
+        row = value if isinstance(value, Expression) else parse(repr(value), ())
+        row = row.substitute("z", parse("z1", SLOW)) if "z" in row.names else row
+        for parameter, number in own:
+            row = row.substitute(parameter, parse(repr(number), ()))
+        return row
+
+    found = []
+    for i, entries in enumerate(system.given_matrix):
+        row = parse("row_c*c + row_s*s + row_f", ("c", "s", *_PARTS))
+        for name, value in zip(_PARTS, (*entries, system.f[i]), strict=True):
+            row = row.substitute(name, known(value, f"f{i + 1}" if name == "row_f" else ""))
+        found.append(row)
+    return found

@@ -1,0 +1,137 @@
+"""What `atlas` returns: curves on which the portrait changes, points where they meet, and the regions between."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import drawing
+from ..paper import cite
+from ..tables import Tabled, number, paragraphs, point, rows
+
+__all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class AtlasCurve(Tabled):
+    """A curve in the plane of two parameters, on which one thing happens.
+
+    Attributes
+    ----------
+    kind : str
+        "saddle-node" (two limit directions meet), "pitchfork" (one splits into three, by a symmetry), "transcritical"
+        (a critical set comes to the equator), "fold of critical sets", "Hopf", "node-focus", "det A = 0" or
+        "neutral equator".
+    points : ndarray (m, 2)
+        In order along it; a closed one repeats its first point.
+    label : str
+        The paper's label.
+    places : ndarray (m, 2)
+        Where on the projected hemisphere it happens; NaNs where that is nowhere in particular.
+    numbers : ndarray (m,)
+        A number that tells more: of "Hopf" the first Lyapunov coefficient (negative: a stable cycle is born), of
+        "saddle-node" and "pitchfork" lambda_rho, of "transcritical" lambda_theta, in units of the largest |U|; of
+        "fold of critical sets" and "node-focus" the sign of tr J. Empty where there is none.
+    """
+
+    _head_ = ("curve", "from", "to", "points")
+
+    kind: str
+    points: Array
+    label: str
+    places: Array
+    numbers: Array
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.kind, point(self.points[0]), point(self.points[-1]), str(len(self.points))
+
+    @property
+    def closed(self) -> bool:
+        """Whether it ends where it began."""
+        return bool((self.points[0] == self.points[-1]).all())
+
+
+@dataclass(frozen=True, slots=True)
+class AtlasPoint(Tabled):
+    """A point of codimension two.
+
+    Attributes
+    ----------
+    kind : str
+        Such as "cusp", "Bogdanov–Takens", "generalised Hopf", "saddle-node on the equator", "crossing".
+    place : (float, float)
+    sentence : str
+        What happens there.
+    """
+
+    _head_ = ("point", "place", "what happens")
+
+    kind: str
+    place: tuple[float, float]
+    sentence: str
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.kind, point(self.place), self.sentence
+
+
+@dataclass(frozen=True, eq=False)
+class AtlasRegion(Tabled):
+    """A region in which the portrait has one class.
+
+    Attributes
+    ----------
+    name : str
+        Of the portrait, as in a map of classes: "CM4, saddle", "2CM6, saddle, stable node; 4 arrive, 2 leave".
+    sample : (float, float)
+        A point of it, far from its border.
+    area : float
+    boundary : tuple of ndarray (m, 2)
+        Closed polygons (the first point is not repeated): the outer one anticlockwise, holes clockwise.
+    """
+
+    _head_ = ("portrait", "a point of the region", "area")
+
+    name: str
+    sample: tuple[float, float]
+    area: float
+    boundary: tuple[Array, ...]
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.name, point(self.sample), number(self.area)
+
+
+@dataclass(frozen=True, eq=False)
+class Atlas:
+    """All that changes over two parameters.
+
+    Attributes
+    ----------
+    names : (str, str)
+        Across, and up.
+    ranges : ((low, high), (low, high))
+    curves : tuple of AtlasCurve
+    points : tuple of AtlasPoint
+    regions : tuple of AtlasRegion
+        By falling area.
+    notes : tuple of str
+        Sentences on what may be missing.
+    """
+
+    names: tuple[str, str]
+    ranges: tuple[tuple[float, float], tuple[float, float]]
+    curves: tuple[AtlasCurve, ...]
+    points: tuple[AtlasPoint, ...] = ()
+    regions: tuple[AtlasRegion, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        labels = dict.fromkeys(f"{one.kind}: {cite(one.label)}" for one in self.curves if cite(one.label))
+        tables = rows(self.regions) + rows(self.points) + rows(self.curves)
+        return (self._repr_svg_() or "") + tables + paragraphs([*self.notes, "; ".join(labels)])

@@ -1,0 +1,132 @@
+"""Where curves are looked for: cells of a net in which all that is zero along them changes its sign.
+
+On the equator the net is over (theta, u, v), within it over (c, s, u, v). A curve that keeps within one cell may be
+missed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.root_between import root_between
+from .family import CENTRE, NEAR, Family
+from .implicit_curve import Condition
+
+Array = NDArray[np.float64]
+
+TURNS, SIDES = 64, 24  # cells round the equator, and along both parameters beside them
+CELLS = 16  # cells along each of c, s, u and v
+MOST_STEPS = 32  # on which the curve of a neutral equator is looked for
+OFF = 0.37  # of a cell: the net of e lies beside round numbers, on which degenerate systems like to lie
+
+EQUATOR_CELL = np.array([2.0 * math.pi / TURNS, 1.0 / SIDES, 1.0 / SIDES])
+PLANE_CELL = EQUATOR_CELL[1:]
+CELL = np.array([2.0 / CELLS, 2.0 / CELLS, 1.0 / CELLS, 1.0 / CELLS])
+
+
+def on_equator(family: Family) -> tuple[Array, Array, Array]:
+    """Cells in which Theta and Theta' come to zero, and those in which U does: centres (k, 3) of each.
+
+    And steps (k, 2, 2) of the net, from where Theta has no zero, on which the mean of lambda_rho/|Theta| does.
+    """
+    theta = (np.arange(TURNS + 1) + OFF) * EQUATOR_CELL[0]
+    side = np.linspace(0.0, 1.0, SIDES + 1)
+    c, s = np.cos(theta)[:, None, None], np.sin(theta)[:, None, None]
+    (U, V), ((a, b), (p, q)) = _on_net(family, c, s, side[:, None], side)
+    turning, radial = c * V - s * U, c * U + s * V
+    slope = s * s * a - s * c * (b + p) + c * c * q - radial
+    grids = theta, side, side
+    return _cells((turning, slope), grids), _cells((U, V), grids), _turns(turning[:-1], radial[:-1], side)
+
+
+def _turns(turning: Array, radial: Array, side: Array) -> Array:
+    """Find the steps of the net, from closed equators, on which these change their stability.
+
+    Where Theta gets a zero the mean goes to infinity, with the sign of lambda_rho there.
+    """
+    way = np.sign(turning.mean(axis=0))
+    closed = (turning * way > 0.0).all(axis=0)
+    mean = (radial / np.where(closed, turning * way, 1.0)).mean(axis=0)
+    there = np.take_along_axis(radial, (turning * way).argmin(axis=0)[None], axis=0)[0]
+    value = np.where(closed, mean, there)
+    place = np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1)
+    found = []
+    for one, other in (((slice(1, None),), (slice(-1),)), ((slice(None), slice(1, None)), (slice(None), slice(-1)))):
+        turned = value[one] * value[other] < 0.0
+        forward, back = turned & closed[one], turned & closed[other] & ~closed[one]
+        found.append(np.stack([place[one][forward], place[other][forward]], axis=1))
+        found.append(np.stack([place[other][back], place[one][back]], axis=1))
+    return np.concatenate(found)
+
+
+def within(family: Family) -> tuple[Array, Array, Array]:
+    """Cells in which U comes to zero, and with it det DU, T, or T^2 - 4 sigma det DU: centres (k, 4) of each."""
+    place = (np.arange(CELLS + 2) - OFF) * CELL[0] - 1.0
+    side = np.linspace(0.0, 1.0, CELLS + 1)
+    c, s = place[:, None, None, None], place[:, None, None]
+    (U, V), ((a, b), (p, q)) = _on_net(family, c, s, side[:, None], side)
+    det, square = a * q - b * p, c * c + s * s
+    bend = _bends(family, square[..., 0, 0], side)
+    trace = a + q - bend * (c * c * a + c * s * (b + p) + s * s * q)
+    focus = trace * trace - 4.0 * (1.0 - bend * np.minimum(square, NEAR)) * det
+    grids = place, place, side, side
+    found = [_cells((U, V, third), grids) for third in (det, trace, focus)]
+    first, second, third = (cells[np.hypot(*cells[:, :2].T) < 1.0 + CELL[0]] for cells in found)
+    return first, second, third
+
+
+def of_plane(condition: Condition) -> Array:
+    """Cells of the unit square in which a function of both parameters comes to zero: centres (k, 2)."""
+    side = np.linspace(0.0, 1.0, SIDES + 1)
+    values = np.array([[condition(np.array([u, v]))[0][0] for v in side] for u in side])
+    return _cells((values,), (side, side))
+
+
+def on_steps(condition: Condition, steps: Array) -> Array:
+    """Places (k, 2) on some steps, from where a function is known, at which it changes its sign or is known no more."""
+    few = steps[np.linspace(0, len(steps) - 1, min(len(steps), MOST_STEPS)).astype(int)]
+    found = []
+    for start, end in few:
+        sign = condition(start)[0][0] > 0.0
+
+        def value(t: float, start: Array = start, end: Array = end, sign: bool = sign) -> float:
+            here = condition(start + t * (end - start))[0][0]
+            return float(here) if math.isfinite(here) else -1.0 if sign else 1.0
+
+        found.append(start + root_between(value, 0.0, 1.0, 1e-4) * (end - start))
+    return np.array(found).reshape(-1, 2)
+
+
+def _on_net(family: Family, c: Array, s: Array, u: Array, v: Array) -> tuple[Array, Array]:
+    """U (2, ...) and its derivatives by e (2, 2, ...), finite."""
+    shape = np.broadcast_shapes(c.shape, s.shape, u.shape, v.shape)
+    U, D = family.on_net(c, s, u, v)
+    return np.nan_to_num(np.broadcast_to(U, (2, *shape))), np.nan_to_num(np.broadcast_to(D, (2, 2, *shape)))
+
+
+def _bends(family: Family, square: Array, side: Array) -> Array:
+    """``Ratio.bend`` for each |e|^2 (n, n) and place along the parameter of Psi, (n, n, ..., ...)."""
+    kinds, where = np.unique(np.clip(square, CENTRE, NEAR), return_inverse=True)
+    places = [np.zeros(2)]
+    if any(family.of_psi):
+        places = [np.where(family.of_psi, t, 0.0) for t in side]
+    table = np.array([[family.ratio(q, u).bend for u in places] for q in kinds.tolist()])
+    found = table[where.reshape(square.shape)]  # (n, n, places)
+    return found[..., None] if family.of_psi[0] else found[..., None, :]
+
+
+def _cells(functions: Sequence[Array], grids: Sequence[Array]) -> Array:
+    """Centres of the cells at whose corners all functions have both signs."""
+    mixed = np.ones([len(grid) - 1 for grid in grids], bool)
+    for values in functions:
+        low = high = values
+        for axis in range(len(grids)):
+            one, other = (slice(None),) * axis + (slice(1, None),), (slice(None),) * axis + (slice(None, -1),)
+            low, high = np.minimum(low[one], low[other]), np.maximum(high[one], high[other])
+        mixed &= (low <= 0.0) & (high >= 0.0)
+    index = np.nonzero(mixed)
+    return np.stack([0.5 * (grid[i] + grid[i + 1]) for grid, i in zip(grids, index, strict=True)], axis=-1)
