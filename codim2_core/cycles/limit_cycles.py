@@ -31,6 +31,7 @@ from ..systems.kinds import AnySystem
 from ..tables import Tabled, number, paragraphs, point, rows
 from ..words import say
 from .orbit import Orbit, orbit
+from .proof.result import Proof
 from .resolution import counted
 from .search import Shown, search, shown
 from .section import FixedPoint, Section
@@ -106,17 +107,24 @@ class LimitCycles:
         Why there is none, or how those there are were found.
     notes : tuple of str
         Named near-degeneracies: near a loop through the equator, semistable, too small, undecided.
+    proved : Proof or None
+        None if no proof was asked for. It is true in a condition exactly where the count stands proved.
     """
 
     cycles: tuple[LimitCycle, ...]
     reason: str
     notes: tuple[str, ...] = ()
+    proved: Proof | None = None
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
 
     def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + rows(self) + paragraphs([self.reason, *self.notes])
+        return (
+            (self._repr_svg_() or "")
+            + rows(self)
+            + paragraphs([self.reason, *self.notes] if self.proved is None else [self.proved.reason, *self.notes])
+        )
 
     def __iter__(self) -> Iterator[LimitCycle]:
         return iter(self.cycles)
@@ -161,7 +169,7 @@ def reason_for_none(
     return None
 
 
-def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> LimitCycles:
+def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool = False) -> LimitCycles:
     """Find the limit cycles of the layer problem, eq:LP, sec:case3 (the closed equator is not one of them).
 
     Parameters
@@ -169,14 +177,35 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> LimitCycles:
     system : ELinear or System, or either frozen at a z
     psi : Psi
     z : (m,) floats
+    prove : bool
+        Try to prove, in seconds, that there are just these: `LimitCycles.proved` says whether that was done. For
+        e-linear systems, with Psi constant, rational, exponential, or of the Hill family with n >= 1.
 
     Returns
     -------
     LimitCycles
         Empty, with a reason, wherever a theorem forbids cycles: that costs no integration. Elsewhere the `reason` says
         how they were searched for: by samples (`search`, `first_turns`), which prove nothing of what they do not show.
+
+    Examples
+    --------
+    >>> from codim2_core import ELinear, limit_cycles, psi
+    >>> found = limit_cycles(ELinear(1.0, 3.0, -2.0, (0.4, 0.1)), psi.rational(), prove=True)
+    >>> len(found), bool(found.proved)
+    (0, True)
     """
-    return LayerProblem(system.at(z), psi).keep(cycles_of)
+    problem = LayerProblem(system.at(z), psi)
+    found = problem.keep(cycles_of)
+    return replace(found, proved=problem.keep(proof_of)) if prove else found
+
+
+def proof_of(problem: LayerProblem) -> Proof:
+    """Prove how many limit cycles a layer problem has, as far as that can be done."""
+    from .proof.prove import proved
+
+    found, form = problem.keep(closed_orbits), problem.at.normal_form
+    forbidden = None if form is None else reason_for_none(form, problem.critical, problem.location)
+    return proved(problem, [cycle.points for cycle in found.cycles], forbidden)
 
 
 def cycles_of(problem: LayerProblem) -> LimitCycles:

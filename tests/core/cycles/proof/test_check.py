@@ -1,0 +1,204 @@
+"""The checker of certificates: it stands alone, its bounds hold, and what was tampered with proves nothing."""
+
+import ast
+import copy
+import json
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+
+import mpmath
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from codim2_core import ELinear, limit_cycles, psi
+from codim2_core.cycles.proof import check as checker
+from codim2_core.cycles.proof.check import Interval, check
+from codim2_core.cycles.proof.result import Proof
+
+SOURCE = Path(Proof.checker())
+ONE = ELinear(-2.1812217, -2.8478183, 1.3933138, (2.4845378, 2.7718119)), psi.hill(6)  # one cycle, two directions
+CLOSED = ELinear(-2.39902552, 3.39881521, 0.09495882, (-2.396268, 0.02161039)), psi.constant()  # none, closed equator
+
+
+@cache
+def text(which):
+    system, family = ONE if which == "one" else CLOSED
+    found = limit_cycles(system, family, prove=True)
+    assert found.proved, found.proved.reason
+    return found.proved.certificate
+
+
+def certificate(which):
+    return json.loads(text(which))
+
+
+def accepted(changed):
+    try:
+        return check(changed) != (0, False)
+    except (ValueError, ArithmeticError, LookupError):
+        return False
+
+
+def test_it_is_short_and_imports_nothing_of_ours():
+    source = SOURCE.read_text()
+    assert len(source.splitlines()) <= 100
+    nodes = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Import | ast.ImportFrom)]
+    assert {getattr(node, "level", 0) for node in nodes} == {0}
+    names = {node.module if isinstance(node, ast.ImportFrom) else node.names[0].name for node in nodes}
+    assert names == {"json", "contextlib", "decimal", "fractions", "itertools", "math"}
+
+
+def test_it_runs_alone(tmp_path):
+    path = tmp_path / "certificate.json"
+    path.write_text(text("closed"))
+    with path.open() as file:
+        run = subprocess.run(
+            [sys.executable, "-I", "-S", SOURCE], stdin=file, capture_output=True, text=True, check=True
+        )
+    assert run.stdout == "rings with exactly one limit cycle: 0; no other: True\n"
+
+
+@pytest.mark.parametrize(("which", "count"), [("one", 1), ("closed", 0)])
+def test_what_was_proved_is_accepted(which, count):
+    assert check(certificate(which)) == (count, True)
+
+
+finite = st.floats(-1e6, 1e6)
+
+
+@given(*[finite] * 4, st.floats(0, 1), st.floats(0, 1))
+def test_intervals_hold_every_result(a, b, c, d, s, t):
+    first, second = Interval(a, b), Interval(c, d)
+    mpmath.mp.prec = 300
+    x, y = (mpmath.mpf(p) + mpmath.mpf(k) * (mpmath.mpf(q) - mpmath.mpf(p)) for p, q, k in ((a, b, s), (c, d, t)))
+    for bounds, exact in ((first + second, x + y), (first * second, x * y)):
+        assert bounds.lo <= exact <= bounds.hi
+    if second.lo > 0 and (abs(a) + abs(b)) / second.lo < 1e100:
+        bounds = first / second
+        assert bounds.lo <= x / y <= bounds.hi
+
+
+@given(st.sampled_from(["rational", "exponential", "hill"]), st.floats(1, 30), st.floats(0, 1e6))
+def test_psi_and_its_slope_are_right_to_all_digits(family, n, s):
+    mpmath.mp.dps = 60
+    forms = {
+        "rational": lambda v: 1 / (1 + v),
+        "exponential": lambda v: mpmath.exp(-v),
+        "hill": lambda v: 3 / (3 + (4 * v) ** mpmath.mpf(n)),
+    }
+    value, slope = checker.psi(family, n, s)
+    v = mpmath.mpf(s)
+    exact = forms[family](v)
+    if family == "hill":
+        rate = -4 * mpmath.mpf(n) / 3 * ((4 * v) ** (mpmath.mpf(n) - 1) if n > 1 else 1) * exact**2
+    else:
+        rate = -(exact**2) if family == "rational" else -exact
+    for found, wanted in ((value, exact), (slope, rate)):
+        assert abs(found - wanted) <= 1.2e-16 * abs(wanted) + 5e-324
+
+
+def walk_moved(c):
+    c["walks"][0][0][3][0] += 0.3
+
+
+def way_opened(c):
+    c["walks"][0][0].pop()
+
+
+def sense_flipped(c):
+    c["walks"][0][1] *= -1
+
+
+def weight_altered(c):
+    for one in c["rings"][-1][1]:
+        one[len(one) // 2] += 40.0
+
+
+def sign_flipped(c):
+    c["rings"][0][3] *= -1
+
+
+def force_altered(c):
+    c["f"] = [-v for v in c["f"]]
+
+
+def matrix_of_a_saddle(c):
+    c["A"][1][0] *= -1
+
+
+def psi_altered(c):
+    c["psi"] = ["rational", 0.0] if c["psi"][0] == "constant" else ["hill", 1.0]
+
+
+def psi_unknown(c):
+    c["psi"] = ["custom", 0.0]
+
+
+def psi_not_smooth(c):
+    c["psi"] = ["hill", 0.5]
+
+
+def centre_moved(c):
+    c["centre"][0] += 30.0
+
+
+def ring_turned_over(c):
+    layers, weights, *_ = c["rings"][0]
+    layers[1].reverse()
+    weights[1].reverse()
+
+
+def layer_shortened(c):
+    c["rings"][-1][0][0].pop()
+
+
+def weights_shortened(c):
+    c["rings"][-1][1][0].pop()
+
+
+def way_behind_the_equator(c):
+    c["walks"][0][0][2] = [-v for v in c["walks"][0][0][2]]
+
+
+TAMPERED = [
+    walk_moved, way_opened, sense_flipped, weight_altered, sign_flipped, force_altered, matrix_of_a_saddle,
+    psi_altered, psi_unknown, psi_not_smooth, centre_moved, ring_turned_over, layer_shortened, weights_shortened,
+    way_behind_the_equator,
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("tamper", TAMPERED, ids=lambda one: one.__name__)
+@pytest.mark.parametrize("which", ["one", "closed"])
+def test_what_was_tampered_with_is_refused(tamper, which):
+    changed = certificate(which)
+    tamper(changed)
+    assert not accepted(changed)
+
+
+def test_a_ring_or_a_walk_that_is_left_out_leaves_the_count_open():
+    whole = certificate("one")
+    for name, k in (("rings", 0), ("rings", -1), ("walks", 0), ("walks", -1)):
+        changed = copy.deepcopy(whole)
+        changed[name].pop(k)
+        if accepted(changed):
+            assert check(changed)[1] is False
+
+
+@pytest.mark.parametrize("place", [[0.0, 0.0, 1.0], [9.0, 0.0, 1.0]])
+def test_a_ring_without_triangles_holds_no_cycle(place):
+    whole = certificate("one")
+    bare = [[place, place], [[v + 1 for v in place[:2]] + [1.0]] * 2]
+    for layers in (bare, bare[:1]):
+        changed = whole | {"rings": [[layers, [[0.0, 0.0]] * len(layers), [0, 1], 1, [1, 0]]]}
+        assert not accepted(changed)
+
+
+def test_its_work_is_bounded(monkeypatch):
+    tried = []
+    monkeypatch.setattr(checker, "psi", lambda *_: tried.append(0) or (1.0, 1e9))  # bounds that never decide
+    with pytest.raises(ValueError, match="not decided"):
+        check(certificate("one"))
+    assert len(tried) < 400

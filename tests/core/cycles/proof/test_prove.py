@@ -1,0 +1,136 @@
+"""Proofs that there are just so many limit cycles: where there are theorems, where certificates, and where neither."""
+
+import json
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import codim2_core as c2
+from codim2_core import ELinear, System, psi
+from codim2_core.cycles.proof import flow, prove
+from codim2_core.cycles.proof.check import check
+from codim2_core.layer_problem.problem import LayerProblem
+from codim2_core.words import recognise
+
+CASE3 = c2.presets["case3-n3"].system
+PAIR = ELinear(1.86786703, 3.16834868, -2.21184256, (-1.49598633, -1.02365467)), psi.hill(4)
+
+
+def key(found):
+    ((key, _),) = recognise(found.proved.reason)
+    return key
+
+
+def test_nothing_is_proved_unless_it_is_asked_for():
+    assert c2.limit_cycles(CASE3, psi.hill(1)).proved is None
+
+
+def test_a_theorem_needs_no_certificate(tmp_path):
+    found = c2.limit_cycles(ELinear(-1, 3, -1.5, (0.3, 0.1)), psi.custom("1/(1+s)**2"), prove=True)
+    assert found.proved
+    assert found.proved.reason == found.reason
+    assert found.proved.certificate is None
+    with pytest.raises(ValueError, match="no certificate"):
+        found.proved.save(tmp_path / "none.json")
+
+
+@pytest.mark.parametrize("n", [1, 2])
+def test_the_paper_has_no_cycle_before_the_hopf_bifurcation(n):
+    """Case III with n = 1, 2: tr J < 0 at C, and all orbits outside its basin go to limit directions."""
+    found = c2.limit_cycles(CASE3, psi.hill(n), prove=True)
+    assert found.proved
+    assert not found.cycles
+    assert key(found) == "proved by a certificate"
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+@pytest.mark.parametrize("back", [1.0, -1.0])
+def test_one_cycle_and_no_other_whatever_the_sense_and_stability(sense, back, tmp_path):
+    """Reflected, cycles go round the other way; in backward time they change their stability."""
+    a, b, d, f1, f2 = -2.1812217, -2.8478183, 1.3933138, 2.4845378, 2.7718119
+    system = ELinear(back * a, back * sense * b, back * d, (back * f1, back * sense * f2))
+    found = c2.limit_cycles(system, psi.hill(6), prove=True)
+    assert found.proved
+    assert found.proved.cycles == (True,) == tuple(True for _ in found)
+    path = tmp_path / "certificate.json"
+    found.proved.save(path)
+    with path.open() as file:
+        said = subprocess.run([sys.executable, found.proved.checker()], stdin=file, capture_output=True, text=True)
+    assert said.stdout == "rings with exactly one limit cycle: 1; no other: True\n"
+
+
+def test_given_numbers_are_not_rounded_on_the_way():
+    """A matrix that is brought into the normal form by a rotation: the certificate is of the matrix itself."""
+    A, f = [[0.3, -3.1], [2.7, -0.9]], (0.4, 0.2)
+    found = c2.limit_cycles(ELinear.from_matrix(A, f), psi.rational(), prove=True)
+    assert found.proved
+    written = json.loads(found.proved.certificate)
+    assert (written["A"], written["f"]) == (A, list(f))
+
+
+@pytest.mark.parametrize(
+    ("system", "family", "said"),
+    [
+        (System(U=("c - 3*s + 0.4 + 0.1*c**3", "3*c - s")), psi.hill(3), "proofs e-linear only"),
+        (CASE3, psi.tanh(), "proof not for this Psi"),
+        (CASE3, psi.hill(0.5), "proof not for this Psi"),
+    ],
+)
+def test_what_is_not_proved_is_said(system, family, said):
+    found = c2.limit_cycles(system, family, prove=True)
+    assert not found.proved
+    assert key(found) == said
+    assert found.proved.cycles == (False,) * len(found)
+
+
+def test_work_is_bounded(monkeypatch):
+    monkeypatch.setattr(prove, "MOST_STEPS", 500)
+    found = c2.limit_cycles(*PAIR, prove=True)
+    assert not found.proved
+    assert key(found) == "proof is too long"
+
+
+def problems(seed, count):
+    """Random layer problems of Case III."""
+    rng = np.random.default_rng(seed)
+    families = [psi.constant(), psi.rational(), psi.exponential(), *map(psi.hill, (2, 3, 4, 2.5))]
+    while count:
+        a, b, d = rng.uniform(-5.0, 5.0, 3)
+        if a * d < 0.0 < a * d + b * b:
+            e = math.sqrt(rng.uniform()) * np.exp(2j * math.pi * rng.uniform())
+            f = -np.array([[a, -b], [b, d]]) @ (e.real, e.imag)
+            count -= 1
+            yield ELinear(a, b, d, tuple(f)), families[rng.integers(len(families))]
+
+
+def test_a_proved_count_agrees_with_what_is_found_and_most_counts_are_proved():
+    done = [c2.limit_cycles(system, family, prove=True) for system, family in problems(4, 12)]
+    for found in done:
+        assert len(found.proved.cycles) == len(found)
+        if found.proved.certificate is not None:
+            count, whole = check(json.loads(found.proved.certificate))
+            assert whole == found.proved.whole
+            assert count == sum(found.proved.cycles)
+    assert sum(map(bool, (found.proved for found in done))) >= 9
+
+
+def test_a_cycle_that_was_overlooked_is_not_proved_away(monkeypatch):
+    """Told of no cycle where there is one, or of one of two, no certificate is accepted."""
+    for system, family, kept in ((*PAIR, 1), (*PAIR, 0)):
+        problem = LayerProblem(system.at(), family)
+        lines = [cycle.points for cycle in c2.limit_cycles(system, family)]
+        assert len(lines) == 2
+        assert not prove.proved(problem, lines[:kept], None)
+
+
+def test_an_angle_that_closes_an_orbit_is_zero_on_a_cycle_alone():
+    system, family = PAIR
+    problem = LayerProblem(system.at(), family)
+    one = flow.Flow(problem, 10**6)
+    p = c2.limit_cycles(system, family)[0].points
+    r = prove._crossing(one, p)
+    assert abs(one.closing(r)) < 1e-4
+    assert one.closing(0.7 * r) * one.closing(r + 0.3 * (one.reach - r) * 0.2) < 0.0
