@@ -326,6 +326,13 @@ def test_a_straight_step_is_halved_where_its_variation_bends():
     assert 10 < sum(asked) < 200
 
 
+@pytest.mark.parametrize("rate", [9.0, 10.0, 11.0])
+def test_what_a_step_leaves_little_of_is_known_as_well_as_it_is_asked_for(rate):
+    """Relative to what is left, down to exp(-11)."""
+    decays = (lambda steps, u: np.full((*u.shape, 1, 1), -rate), np.array([1.0]), np.ones((2, 1)), 1e-5, np.eye(1))
+    assert propagators(*decays).fine[0, 0, 0] == pytest.approx(math.exp(-rate), rel=1e-5)
+
+
 def test_what_dies_out_within_a_long_step_is_not_halved_for_ever():
     asked = []
 
