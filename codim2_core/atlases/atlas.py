@@ -16,6 +16,7 @@ from ..psi.function import Psi
 from .curves import curves_of
 from .family import Family, Ranges
 from .numbers import numbers, places
+from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
 from .special import crossings, each_once
 
@@ -49,7 +50,8 @@ def atlas(
     Each curve is the set of zeros of equations in the two parameters and a place, an angle of the equator or a point
     within it, and is followed by pseudo-arclength; its points are zeros to the last digits. Where to begin is looked
     for on a net: 64 angles by 24 x 24 values of the parameters on the equator, 16 in each direction within. A curve
-    that keeps within one cell may be missed.
+    that keeps within one cell may be missed. The regions are the faces into which the curves cut the plane, each
+    named by the portrait at a place well inside it.
 
     Parameters
     ----------
@@ -78,6 +80,8 @@ def atlas(
     >>> found = c2.atlas(c2.ELinear(-2, 0, -1), c2.psi.constant(), across="f1", up="f2")
     >>> sorted({curve.kind for curve in found.curves})
     ['saddle-node', 'transcritical']
+    >>> sorted({region.name for region in found.regions})
+    ['CM2, stable node', 'CM4, stable node', 'NCM2']
     """
     family = family_over(system, psi, z, across, up, ranges)
     found, special = curves_of(family)
@@ -86,12 +90,13 @@ def atlas(
                    _read_only(places(family, one)), _read_only(numbers(family, one)))
         for one in found
     ]  # fmt: skip
+    special = each_once(special + crossings(found))
     points = [
         AtlasPoint(one.kind, (float(at[0]), float(at[1])), one.sentence)
-        for one in each_once(special + crossings(found))
+        for one in special
         for at in [family.values(one.plane)]
     ]
-    return Atlas(family.names, family.ranges, tuple(curves), tuple(points))
+    return Atlas(family.names, family.ranges, tuple(curves), tuple(points), tuple(regions_of(family, found, special)))
 
 
 def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> Family:

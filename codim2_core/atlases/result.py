@@ -117,8 +117,6 @@ class Atlas:
     points : tuple of AtlasPoint
     regions : tuple of AtlasRegion
         By falling area.
-    notes : tuple of str
-        Sentences on what may be missing.
     """
 
     names: tuple[str, str]
@@ -126,7 +124,6 @@ class Atlas:
     curves: tuple[AtlasCurve, ...]
     points: tuple[AtlasPoint, ...] = ()
     regions: tuple[AtlasRegion, ...] = ()
-    notes: tuple[str, ...] = ()
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
@@ -134,4 +131,4 @@ class Atlas:
     def _repr_html_(self) -> str:
         labels = dict.fromkeys(f"{one.kind}: {cite(one.label)}" for one in self.curves if cite(one.label))
         tables = rows(self.regions) + rows(self.points) + rows(self.curves)
-        return (self._repr_svg_() or "") + tables + paragraphs([*self.notes, "; ".join(labels)])
+        return (self._repr_svg_() or "") + tables + paragraphs(["; ".join(labels)])

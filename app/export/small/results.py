@@ -168,7 +168,7 @@ def _class_map(result: ClassMap) -> str:
 
 @svg.register
 def _atlas(result: Atlas) -> str:
-    return chart([(one.kind, one.points[:, 0], one.points[:, 1]) for one in result.curves], *result.names)
+    return regions([(one.name, one.boundary) for one in result.regions], result.ranges, *result.names)
 
 
 @svg.register

@@ -1,0 +1,79 @@
+"""Regions of one class between the curves: faces that they cut out of the plane, each named at a place within it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..diagrams.class_maps.families import classes_over
+from .faces import Face, middle, net_of
+from .family import Family
+from .result import AtlasRegion
+from .special import Special
+from .tracing import Followed
+
+Array = NDArray[np.float64]
+
+BESIDE = 1e-3  # of the ranges: a point that is as near as this to a curve's chord lies on the curve
+THIN = 2e-4  # of the ranges: what is nowhere wider than twice this is given to a neighbour
+
+
+def regions_of(family: Family, curves: Sequence[Followed], points: Sequence[Special]) -> list[AtlasRegion]:
+    """All regions, by falling area; curves that meet in one of the points do so exactly."""
+    marks = np.array([one.plane for one in points]).reshape(-1, 2)
+    net = net_of([_through(one.plane, marks) for one in curves])
+    faces = net.faces()
+    found = [middle(face) for face in faces]
+    classes = classes_over(family.system, family.psi, family.z, family.names, family.ranges)
+    wide = [i for i, (_, room) in enumerate(found) if room > THIN]
+    codes = np.full(len(faces), -1, np.int64)
+    if wide:
+        codes[wide] = classes.decided(family.values(np.array([found[i][0] for i in wide])))[0]
+    code = dict(enumerate(codes.tolist()))
+    owner = {edge: i for i, face in enumerate(faces) for edge in face.edges}
+    _give(faces, owner, code, set(wide))
+    same = {(u, v) for (u, v), i in owner.items() if (v, u) in owner and code[owner[v, u]] == code[i]}
+    out = []
+    for face in net.without(same).faces():
+        at, _ = middle(face)
+        kind = code[next(owner[edge] for edge in face.edges if edge in owner)]
+        boundary = tuple(_read_only(family.values(ring)) for ring in face.rings)
+        place = family.values(at)
+        area = face.area * float(np.prod(family.widths))
+        out.append(AtlasRegion(classes.name(kind), (float(place[0]), float(place[1])), area, boundary))
+    return sorted(out, key=lambda region: -region.area)
+
+
+def _through(line: Array, marks: Array) -> Array:
+    """Put those of some points into a line on which they lie, but for its bends."""
+    start, along = line[:-1], np.diff(line, axis=0)
+    square = np.maximum((along**2).sum(axis=1), 1e-300)
+    added: list[tuple[float, Array]] = []
+    for mark in marks:
+        part = np.clip(((mark - start) * along).sum(axis=1) / square, 0.0, 1.0)
+        gap = np.hypot(*(start + part[:, None] * along - mark).T)
+        i = int(gap.argmin())
+        if gap[i] < BESIDE and 0.0 < part[i] < 1.0:
+            added.append((i + float(part[i]), mark))
+    for where, mark in sorted(added, key=lambda pair: -pair[0]):
+        line = np.insert(line, int(where) + 1, mark, axis=0)
+    return line
+
+
+def _give(faces: Sequence[Face], owner: dict[tuple[int, int], int], code: dict[int, int], wide: set[int]) -> None:
+    """Give what is too thin to be named the class of the neighbour with which it shares most edges."""
+    for i in sorted(set(code) - wide, key=lambda i: -faces[i].area):
+        votes: dict[int, int] = {}
+        for u, v in faces[i].edges:
+            other = owner.get((v, u))
+            if other is not None and other in wide:
+                votes[code[other]] = votes.get(code[other], 0) + 1
+        if votes:
+            code[i] = max(votes, key=lambda kind: votes[kind])
+
+
+def _read_only(array: Array) -> Array:
+    array.flags.writeable = False
+    return array

@@ -1,0 +1,69 @@
+"""Regions of an atlas against the classes at many places, and faces against areas that are known."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import codim2_core as c2
+from codim2_core.atlases.faces import middle, net_of, within
+from codim2_core.diagrams.class_maps.families import classes_over
+
+QUADRATIC = c2.System(U=("mu*c**2 - c + s/3 - 0.2", "-s + k*c*s + 0.3*c"), parameters={"mu": 1.0, "k": 1.0})
+PLANES = {
+    "f": (c2.ELinear(1, 0.4, -1), c2.psi.tanh(), ("f1", "f2"), ((-3, 3), (-3, 3)), ()),
+    "a, d": (c2.ELinear(3, 2, -1.5, (0.3, 0.2)), c2.psi.hill(3), ("a", "d"), ((-4, 4), (-4, 4)), ()),
+    "block": (c2.examples.tilting_block(), c2.psi.constant(), ("z1", "phi"), ((0.05, 1.2), (-3, 3)), (0.15,)),
+    "quadratic": (QUADRATIC, c2.psi.tanh(), ("mu", "k"), ((-3, 3), (-3, 3)), ()),
+}
+TURN = np.linspace(0.0, 2.0 * math.pi, 201)
+RING = np.stack([np.cos(TURN), np.sin(TURN)], axis=-1)
+
+
+@pytest.mark.parametrize("plane", PLANES)
+def test_every_place_is_in_the_region_of_its_class(plane):
+    system, psi, names, ranges, z = PLANES[plane]
+    found = c2.atlas(system, psi, *names, ranges, z)
+    widths = np.array([high - low for low, high in ranges])
+    assert sum(region.area for region in found.regions) == pytest.approx(float(np.prod(widths)), rel=1e-9)
+    classes = classes_over(system, psi, z, names, ranges)
+    samples = np.array([region.sample for region in found.regions])
+    assert [classes.name(code) for code in classes.decided(samples)[0].tolist()] == [one.name for one in found.regions]
+    count = 60 if plane == "quadratic" else 2000
+    places = np.random.default_rng(5).uniform(*np.array(ranges).T, (count, 2))
+    codes = classes.decided(places)[0]
+    owned = np.stack([within(places, region.boundary) for region in found.regions])
+    assert (owned.sum(axis=0) == 1).mean() > 0.999
+    wrong = [
+        place
+        for place, code, owner in zip(places, codes.tolist(), owned.T, strict=True)
+        if classes.name(code) not in {found.regions[i].name for i in np.flatnonzero(owner)}
+    ]
+    for place in wrong:  # only beside a curve, by the bend of its chords
+        assert min((np.abs(one.points - place) / widths).max(axis=1).min() for one in found.curves) < 0.02
+    assert len(wrong) <= 0.003 * count
+
+
+def test_circles_cut_the_square():
+    faces = net_of([0.5 + 0.2 * RING, 0.5 + 0.3 * RING, [0.5, 0.1] + 0.05 * RING]).faces()
+    areas = sorted(face.area for face in faces)
+    inner, outer, small = (math.pi * r * r for r in (0.2, 0.3, 0.05))
+    assert areas == pytest.approx(sorted([inner, outer - inner, small, 1.0 - outer - small]), rel=1e-3)
+    assert sum(areas) == pytest.approx(1.0, abs=1e-12)
+    for face in faces:
+        at, room = middle(face)
+        assert within(at[None], face.rings)[0]
+        assert room > 0.02
+
+
+def test_lines_that_cross_or_end_loosely():
+    lines = [np.array([[0.0, 0.3], [1.0, 0.3]]), np.array([[0.4, 0.0], [0.4, 1.0]]), np.array([[0.1, 0.6], [0.3, 0.9]])]
+    areas = sorted(face.area for face in net_of(lines).faces())
+    assert areas == pytest.approx([0.12, 0.18, 0.28, 0.42], abs=1e-9)  # the loose one cuts nothing
+
+
+def test_a_line_ends_on_another():
+    lines = [np.array([[0.0, 0.5], [1.0, 0.5]]), np.array([[0.5, 1.0], [0.5, 0.503]])]
+    assert sorted(face.area for face in net_of(lines).faces()) == pytest.approx([0.25, 0.25, 0.5], abs=1e-9)
