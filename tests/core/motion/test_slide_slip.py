@@ -16,7 +16,7 @@ from codim2_core.initial_value.safe_steps import _positive
 from codim2_core.initial_value.sheet import Sheet, complement, determinant, trace
 from codim2_core.motion.limit.slide import _first, _last_alive, _place, _whole, slide
 from codim2_core.motion.limit.slide_on_cycle import _means
-from codim2_core.motion.limit.slip import slip
+from codim2_core.motion.limit.slip import _straight, slip
 from codim2_core.numerics.radau import Step
 
 PSIS = [c2.psi.constant(), c2.psi.rational(), c2.psi.tanh(), c2.psi.hill(3)]
@@ -286,3 +286,12 @@ def test_a_sheet_of_a_linear_field_is_found_however_its_components_are_coupled(A
     sheet = Sheet(field(system), exact(0.3), np.array([0.3]))
     for z in (0.31, 0.5, -1.0):
         np.testing.assert_allclose(sheet.at(np.array([z])), exact(z), rtol=0.0, atol=1e-13)
+
+
+def test_the_rest_of_the_way_to_sigma_ends_where_its_polynomial_does():
+    problem = plane_problem(field(SLIDING), None, 0.0, OPTIONS["rtol"], OPTIONS["atol"])
+    before = Step(1.0, 0.5, np.ones(4), np.array([3e-3, -4e-3, 0.2, -0.1]), np.zeros((4, 5)))
+    rest = _straight(problem, before, 0.01)
+    np.testing.assert_allclose(rest.last, rest.at(1.0), rtol=0.0, atol=1e-15)
+    np.testing.assert_allclose(rest.last[2:], before.last[2:] + 0.01 * problem.F(before.last)[2:], rtol=0.0, atol=1e-15)
+    assert (rest.start, rest.h, *rest.last[:2]) == (1.5, 0.01, 0.0, 0.0)
