@@ -191,30 +191,36 @@ class Turns:
             owner = self._running.pop(work, None)
             if owner in self._used:
                 self._used[owner] += time.monotonic() - work.since
+            work.under_way = None  # the two hold each other
             wanted = self._works.get(work.key) is work
-            if wanted and lost and work.again:
-                work.again, work.under_way = False, None
+            again = wanted and lost and work.again
+            if again:
+                work.again = False
                 self._queues.setdefault(owner, deque()).appendleft(work)
             elif wanted:
                 del self._works[work.key]
                 self.results.put(work.key, result)
             self._next()
         self._forget_idle()
-        if wanted and not (lost and not work.future.done() and work.under_way is None):
+        if wanted and not again:
             work.future.set_result(result)
 
 
 def _outcome(done: Future[Any]) -> tuple[Any, bool]:
-    """Return the result, and whether the worker was lost."""
-    try:
+    """Return the result, and whether the worker was lost.
+
+    Nothing is raised: an error's traceback would hold the future, which holds the error and those who waited for it.
+    """
+    error = CancelledError() if done.cancelled() else done.exception()
+    if error is None:
         return done.result(), False
-    except TimeoutError as error:
+    if isinstance(error, TimeoutError):
         return Failed(str(error) or say("stopped")), False
-    except (BrokenExecutor, CancelledError):
+    if isinstance(error, BrokenExecutor | CancelledError):
         return Failed(say("lost")), True
-    except Exception:  # of the host's executor: a panel says so, the picture stands, the log has the rest
-        logging.getLogger(__name__).exception("work beside the frames failed")
-        return Failed(FAULT), False
+    # of the host's executor: a panel says so, the picture stands, the log has the rest
+    logging.getLogger(__name__).error("work beside the frames failed", exc_info=error)
+    return Failed(FAULT), False
 
 
 def compute(function: Callable[..., Any], *args: Any) -> Any:

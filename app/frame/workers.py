@@ -183,7 +183,7 @@ class Workers(Executor):
                 assert pipe is not None
                 result = self._run(future, call, pipe, process)
             except BaseException as error:
-                future.set_exception(error)
+                future.set_exception(error.with_traceback(None))  # which would hold the future
             else:
                 future.set_result(result)
         return pipe, process

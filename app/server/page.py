@@ -34,7 +34,7 @@ from .process import garbage
 from .process.clock import keep_steady
 from .process.ports import listen_by_own, shared
 from .scripts import routes
-from .sockets import MOST_SENT, PromptSocket, untraced, views
+from .sockets import MOST_SENT, PromptSocket, closed, untraced, views
 
 #: What the workers find imported.
 PRELOAD = ("codim2_app.server.worker",)
@@ -54,11 +54,12 @@ def session() -> ExplorerView:
     doc = pn.state.curdoc
     assert doc is not None  # Bokeh's server calls this with a document
     view = view_of(doc)
+    spare = doc.config.notifications  # Bokeh makes some as soon as it is given others, and loses them with the session
     # The page says itself when the connection is lost, and loads itself again: see connection.js.
     doc.config.update(reconnect_session=False, notify_connection_status=False, notifications=None)
-    garbage.begun()
+    garbage.begun(doc)
     doc.on_session_destroyed(lambda _: view.leave())
-    doc.on_session_destroyed(lambda _: garbage.ended())
+    doc.on_session_destroyed(lambda _: garbage.ended(doc, spare, views.pop(doc), *closed.pop(doc, ())))
     views[doc] = view
     doc.template = page_template()  # type: ignore[assignment]  # Bokeh takes a template's text as well
     doc.template_variables["explorer_script"] = address_of_script()

@@ -33,6 +33,8 @@ EXPECTED = frozenset({"PULL-DOC-REQ", "PATCH-DOC", "SERVER-INFO-REQ"})
 
 #: What each open page shows; a page that is closed is told so at once, long before Bokeh forgets its session.
 views: WeakKeyDictionary[Document, Any] = WeakKeyDictionary()
+#: The socket and the models of each page that is closed, which lose each other when Bokeh forgets its session.
+closed: WeakKeyDictionary[Document, list[Any]] = WeakKeyDictionary()
 
 _BOKEH = Path(bokeh.__file__).parent
 _log = logging.getLogger(__name__)
@@ -92,6 +94,7 @@ class PromptSocket(WSHandler):
         super().on_close()
         if session is None or session.connection_count:
             return
+        closed[session.document] = [self, *session.document.models]
         session.request_expiration()  # a page that has lost its connection begins a new one
         if view := views.get(session.document):
             view.leave()

@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any
 
 from panel.models.esm import ESMEvent
+from tornado.ioloop import IOLoop
 
 from ..rooms.visitor import Visitor
 from .refresh import Frames
@@ -76,7 +77,12 @@ class Answers:
         def there(_: Future[Any]) -> None:
             doc.add_next_tick_callback(answer)
 
-        doc.add_timeout_callback(answer, int(1000 * PATIENCE))
+        def late() -> None:
+            if self._held is held and doc.session_context is not None:
+                doc.add_next_tick_callback(answer)
+
+        # by the loop: a timeout of Bokeh's leaves garbage that holds the document
+        IOLoop.current().call_later(PATIENCE, late)
         pending.add_done_callback(there)
 
     def leave(self) -> None:

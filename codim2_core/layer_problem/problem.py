@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from typing import Any, TypeVar
+from weakref import ref
 
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
@@ -60,13 +61,18 @@ class LayerProblem:
     def __init__(self, at: AtZ, psi: Psi) -> None:
         self.at, self.psi = at, psi
         self._kept: dict[Hashable, Any] = {}
-        self._base = self
-        self._under: dict[Psi, LayerProblem] = {psi: self}
+        self._others: dict[Psi, LayerProblem] = {}  # made from this one
+        self._base = ref(self)  # no cycles: a problem that nobody holds is gone at once
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Be pickled, and copied, by what it is a problem of: what has been found stays here."""
+        return LayerProblem, (self.at, self.psi)
 
     def keep(self, find: Callable[[LayerProblem], Result]) -> Result:
         """Return ``find(self)``, computed once; `find` is a function of a module, not made anew for each call."""
-        if find in FREE and self._base is not self:
-            return self._base.keep(find)
+        base = self._base() or self
+        if find in FREE and base is not self:
+            return base.keep(find)
         if find not in self._kept:
             self._kept[find] = find(self)
         return self._kept[find]
@@ -79,11 +85,15 @@ class LayerProblem:
 
     def under(self, psi: Psi) -> LayerProblem:
         """Return the layer problem of the same system under another Psi; what Psi has no say in is shared."""
-        known = self._under
-        if psi not in known:
-            known[psi] = other = LayerProblem(self.at, psi)
-            other._base, other._under = self._base, known
-        return known[psi]
+        base = self._base() or self
+        if base is not self:
+            return base.under(psi)
+        if psi == self.psi:
+            return self
+        if psi not in self._others:
+            self._others[psi] = other = LayerProblem(self.at, psi)
+            other._base = ref(self)
+        return self._others[psi]
 
     @property
     def location(self) -> Location | None:

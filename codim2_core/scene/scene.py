@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any
+from weakref import ref
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -39,16 +40,19 @@ def _again(inputs: dict[str, Any]) -> Scene:
 
 
 class _Problem(LayerProblem):
-    """The layer problem of a scene: what it keeps is kept in the scene's memory, for the scenes to come."""
+    """The layer problem of a scene: what it keeps is kept in the scene's memory, for the scenes to come.
+
+    It does not hold its scene, so that a scene that nobody holds is gone at once, without a search for garbage.
+    """
 
     def __init__(self, scene: Scene) -> None:
         super().__init__(scene.coefficients, scene.psi)
-        self._scene = scene
+        self._scene = ref(scene)
 
     def keep(self, find: Callable[[LayerProblem], Result]) -> Result:
         """Return ``find(self)``, computed once for all scenes that agree in what it reads."""
-        name = FOUND_BY.get(find)
-        return super().keep(find) if name is None else self._scene[name]
+        name, scene = FOUND_BY.get(find), self._scene()
+        return super().keep(find) if name is None or scene is None else scene[name]
 
 
 class Scene:

@@ -33,11 +33,12 @@ def forgetful(port: int) -> None:
 
     class Left(RequestHandler):
         def get(self) -> None:
-            gc.unfreeze()  # what the server leaves out of its own searches lives too
-            gc.collect()
-            living = gc.get_objects()
             with open("/proc/self/statm") as pages:
                 resident = int(pages.read().split()[1]) * 4096
+            gc.collect()
+            gc.unfreeze()  # what the server leaves out of its own searches is there too; it may be garbage, and is told
+            living = gc.get_objects()
+            gc.freeze()
             kinds = (ExplorerView, Frames, Scene, Psi, System)
             # the type, as a weak reference whose object is gone cannot be asked for its class
             counts = {kind.__name__: sum(issubclass(type(one), kind) for one in living) for kind in kinds}
@@ -80,6 +81,15 @@ def watched(port: int) -> None:
     from tornado.web import RequestHandler
 
     most: list[Any] = [0.0, 0.0, ""]
+    search = [0.0, 0.0]  # the longest search for garbage, and when the one under way began
+
+    def searching(phase: str, _: object) -> None:
+        if phase == "start":
+            search[1] = time.thread_time()
+        else:
+            search[0] = max(search[0], time.thread_time() - search[1])
+
+    gc.callbacks.append(searching)
     handle: Any = asyncio.events.Handle
     run = handle._run
 
@@ -92,8 +102,9 @@ def watched(port: int) -> None:
 
     class Longest(RequestHandler):
         def get(self) -> None:
-            self.write(json.dumps(most))
+            self.write(json.dumps([*most, search[0]]))
             most[:] = 0.0, 0.0, ""
+            search[0] = 0.0
 
     handle._run = timed
     server = make_server(port, told=_say_if_compiled)

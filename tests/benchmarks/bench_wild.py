@@ -50,7 +50,11 @@ WILD: dict[str, dict[str, Any]] = {
     "Theorems": {**MANY, "panel": "theorems"},
     "Atlas": {**MANY, "panel": "atlas"},
 }
+#: Seconds that the longest callback took, those at work, which it was, and those of the longest search for garbage.
+Longest = tuple[float, float, str, float]
+
 SECONDS = 6.0  # for which each is there
+LIVING = (20, 50)  # pages that are open beside the one who drags
 APART = 1 / 60
 
 
@@ -85,15 +89,12 @@ async def played(port: int, values: dict[str, Any], seconds: float) -> None:
         await wire.vanish()
 
 
-def longest(port: int) -> tuple[float, float, str]:
-    """Return the longest time, in seconds, for which one callback had the loop since this was asked last.
-
-    With it, for how long of that its thread was at work, and which it was.
-    """
+def longest(port: int) -> Longest:
+    """Return the longest callback that had the loop, and the longest search, since this was asked last."""
     return tuple(json.loads(urlopen(f"http://localhost:{port}/longest").read()))
 
 
-def waits(wild: dict[str, dict[str, Any]], seconds: float) -> dict[str, tuple[list[float], tuple[float, float, str]]]:
+def waits(wild: dict[str, dict[str, Any]], seconds: float) -> dict[str, tuple[list[float], Longest]]:
     """Return what the one who drags waits for, and the longest callback, by what the others ask for."""
 
     async def beside(values: dict[str, Any] | None) -> list[float]:
@@ -109,6 +110,31 @@ def waits(wild: dict[str, dict[str, Any]], seconds: float) -> dict[str, tuple[li
         for name, values in {"nobody": None, **wild}.items():
             longest(port)
             found[name] = asyncio.run(beside(values)), longest(port)
+    return found
+
+
+async def crowded(port: int, pid: int, count: int, seconds: float) -> list[float]:
+    """Drag beside others who are there and still, while two more come, play and leave again and again."""
+    there = [await Wire.connect(port) for _ in range(count)]
+    for wire in there:
+        await wire.frame(0, a=-1.5)
+    await at_rest(pid)
+    longest(port)
+    others = [asyncio.create_task(played(port, WILD["an ordinary portrait"], seconds / 3)) for _ in range(2)]
+    took = await dragged(port, pid, seconds)
+    await asyncio.gather(*others)
+    for wire in there:
+        await wire.vanish()
+    return took
+
+
+def living(counts: tuple[int, ...], seconds: float) -> dict[int, tuple[list[float], Longest]]:
+    """Return what the one who drags waits for, and the longest callback, by how many others are there and still."""
+    found = {}
+    for count in counts:
+        with serving("watched") as (port, pid):
+            asyncio.run(at_rest(pid))
+            found[count] = asyncio.run(crowded(port, pid, count, seconds)), longest(port)
     return found
 
 
@@ -140,15 +166,25 @@ def cancelled(times: int = 5) -> list[float]:
 def report(quick: bool = False) -> str:
     """Return both as Markdown."""
     names = ("an ordinary portrait", "b = 1e12", "sin(100 c + z), separatrices") if quick else WILD
-    found = waits({name: WILD[name] for name in names}, 3.0 if quick else SECONDS)
+    seconds = 3.0 if quick else SECONDS
+    found = waits({name: WILD[name] for name in names}, seconds)
     lines = [
         "| beside the one who drags, two with | frames | median, ms | 99 % | worst | longest callback, ms | at work |",
         "|---|---|---|---|---|---|---|",
     ]
-    for name, (took, (held, worked, what)) in found.items():
+    for name, (took, (held, worked, what, _)) in found.items():
         middle, late, worst = 1e3 * np.quantile(took, (0.5, 0.99, 1.0))
         cells = f"{len(took)} | {middle:.0f} | {late:.0f} | {worst:.0f} | {1e3 * held:.0f}, {what} | {1e3 * worked:.0f}"
         lines.append(f"| {name} | {cells} |")
+    lines += [
+        "",
+        "| others are there, still | frames | median, ms | 99 % | worst | longest callback, ms | longest search |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for count, (took, (held, _, what, search)) in living(LIVING[:1] if quick else LIVING, 5 * seconds).items():
+        middle, late, worst = 1e3 * np.quantile(took, (0.5, 0.99, 1.0))
+        cells = f"{len(took)} | {middle:.0f} | {late:.0f} | {worst:.0f} | {1e3 * held:.0f}, {what} | {1e3 * search:.0f}"
+        lines.append(f"| {count} | {cells} |")
     lines.append(f"\nCancelled work has ended after {1e3 * max(cancelled()):.0f} ms, the longest of five.")
     return "\n".join(lines)
 

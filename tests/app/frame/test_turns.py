@@ -1,6 +1,8 @@
 """Who is served next, what is shared, and what ends when nobody wants it any more."""
 
-from concurrent.futures import BrokenExecutor, Executor, Future
+import gc
+import weakref
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 
 import pytest
 from codim2_app.frame.turns import KEPT, Failed, KeptResults, Turns
@@ -105,6 +107,37 @@ def test_what_fails_is_a_sentence(error):
     found = Turns(Fails(error), 1).want("a", 1, str, "done").result(0)
     assert isinstance(found, Failed)
     assert found.sentence.endswith(".")
+
+
+@pytest.mark.parametrize("error", [None, CancelledError(), TimeoutError(), RuntimeError("?")])
+@pytest.mark.parametrize("wanted", [True, False])
+def test_what_is_done_holds_nobody_who_waited_for_it(error, wanted):
+    """At once: a cycle would be left to a search for garbage, and hold a page's session till then."""
+
+    class Page:
+        def told(self, _):
+            pass
+
+    executor = Held()
+    turns = Turns(executor, 1)
+    page = Page()
+    turns.want(1, "key", str, "x").add_done_callback(page.told)
+    if not wanted:
+        turns.leave(1)
+    for _ in range(2):  # what is lost is tried once more
+        if executor.given and error is not None:
+            future, _, _ = executor.given.pop(0)
+            future.set_exception(error)
+            del future
+        elif executor.given:
+            executor.run()
+    held = weakref.ref(page)
+    gc.disable()
+    try:
+        del page
+        assert held() is None
+    finally:
+        gc.enable()
 
 
 def test_results_are_bounded_in_number_and_in_size():

@@ -60,8 +60,11 @@ def run(doing):
 
 @pytest.mark.parametrize("closed", ["never", "before", "meanwhile", "afterwards"])
 def test_a_page_that_is_closed_while_it_opens_loses_its_connection_once(monkeypatch, closed):
+    class Document:
+        models = ("a model", "another")
+
     class Session:
-        connection_count, document = 0, object()
+        connection_count, document = 0, Document
         request_expiration = staticmethod(lambda: done.append("may be forgotten"))
 
     class Connection:
@@ -77,6 +80,7 @@ def test_a_page_that_is_closed_while_it_opens_loses_its_connection_once(monkeypa
     monkeypatch.setattr(WSHandler, "_async_open", opening)
     monkeypatch.setattr(WSHandler, "on_close", lambda self: self.connection and done.append("lost"))
     monkeypatch.setattr(sockets, "views", {})
+    monkeypatch.setattr(sockets, "closed", {})
     socket = PromptSocket.__new__(PromptSocket)
     socket.connection = None
     socket.application = Application()
@@ -86,6 +90,8 @@ def test_a_page_that_is_closed_while_it_opens_loses_its_connection_once(monkeypa
     if closed == "afterwards":
         socket.on_close()
     assert done == {"never": ["opened"], "before": []}.get(closed, ["opened", "lost", "may be forgotten"])
+    had = {} if closed in ("never", "before") else {Document: [socket, *Document.models]}
+    assert sockets.closed == had
 
 
 def record_of(do):

@@ -24,16 +24,23 @@ class Frames:
     publish = keep
 
 
+@pytest.fixture
+def held(monkeypatch):
+    """What is sent, what comes at the next tick, and what after a time, of a document."""
+    sent, soon, late = [], [], []
+    monkeypatch.setattr(answers, "send", lambda model, message: sent.append(message))
+    monkeypatch.setattr(
+        answers.IOLoop, "current", lambda: SimpleNamespace(call_later=lambda after, call: late.append((after, call)))
+    )
+    return sent, soon, late, SimpleNamespace(session_context=True, add_next_tick_callback=soon.append)
+
+
 @pytest.mark.parametrize(
     ("asked", "rest"), [({"all": True}, True), ({"rest": True}, True), ({"rest": False}, False), ({}, False)]
 )
-def test_who_asks_for_all_is_at_rest_when_it_is_answered(monkeypatch, asked, rest):
+def test_who_asks_for_all_is_at_rest_when_it_is_answered(held, asked, rest):
     """A link that opened on the Atlas, with a formula yet to be compiled, had no regions until something moved."""
-    sent, soon = [], []
-    monkeypatch.setattr(answers, "send", lambda model, message: sent.append(message))
-    document = SimpleNamespace(
-        session_context=True, add_next_tick_callback=soon.append, add_timeout_callback=lambda call, after: None
-    )
+    sent, soon, _, document = held
     frames = Frames()
     data = {"id": 7, "window": [1.0], **asked}
     Answers(frames).answer(SimpleNamespace(document=document), data)
@@ -43,3 +50,25 @@ def test_who_asks_for_all_is_at_rest_when_it_is_answered(monkeypatch, asked, res
     answer()
     assert sent == [{"frame": b"frame"}]
     assert frames.asked[1] == {"id": 7, "window": [1.0], "rest": rest}
+
+
+@pytest.mark.parametrize("meanwhile", ["nothing", "left", "forgotten", "answered"])
+def test_an_answer_comes_soon_without_its_picture_unless_nobody_waits_for_it(held, meanwhile):
+    sent, soon, late, document = held
+    made = Answers(frames := Frames())
+    frames.jobs, made.visitor = SimpleNamespace(leave=lambda: None), SimpleNamespace(leave=lambda: None)
+    made.answer(SimpleNamespace(document=document), {"id": 7})
+    [(after, call)] = late
+    assert after == answers.PATIENCE
+    if meanwhile == "left":
+        made.leave()
+    elif meanwhile == "forgotten":
+        document.session_context = None
+    elif meanwhile == "answered":
+        frames.pending.set_result(None)
+        soon.pop()()
+    call()
+    assert len(soon) == (meanwhile == "nothing")
+    for answer in soon:
+        answer()
+    assert len(sent) == (meanwhile in ("nothing", "answered"))

@@ -1,6 +1,8 @@
 """The scene recomputes exactly what a change reaches."""
 
 import dataclasses
+import gc
+import weakref
 
 import numpy as np
 import pytest
@@ -156,3 +158,24 @@ def test_nothing_is_drawn_up_from_where_rounding_decides_whether_it_arrives(b):
 def test_unknown_layers_are_refused_with_the_list():
     with pytest.raises(ValueError, match="equator"):
         c2.Scene(typed(), z=0.5)["sky"]
+
+
+GENERAL = c2.System(U=("a*c - s + z", "0.3*c + s"), W=("c",), parameters={"a": -2.0})
+
+
+@pytest.mark.parametrize("system", [typed(), GENERAL])
+def test_one_that_nobody_holds_is_gone_at_once(system):
+    """In a cycle it would keep all that it has found until a search for garbage, which stops everybody who drags."""
+    scene = c2.Scene(system, c2.psi.hill(3), [0.1] * system.m, launch=[(0.3, 0.2)], count=8)
+    gone = []
+    gc.disable()
+    try:
+        for _ in range(2):
+            for name in scene:
+                scene[name]
+            gone += [weakref.ref(scene), weakref.ref(scene.problem)]
+            scene = scene.evolve(z=[0.2] * system.m)
+        del scene
+        assert [one() for one in gone] == [None] * 4
+    finally:
+        gc.enable()
