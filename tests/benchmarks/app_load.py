@@ -165,13 +165,18 @@ def left(port: int) -> dict[str, float]:
     return json.loads(urlopen(f"http://localhost:{port}/left").read())
 
 
+def there(port: int) -> int:
+    """Return how many explorers a `forgetful` server holds."""
+    return int(urlopen(f"http://localhost:{port}/there").read())
+
+
 async def forgotten(port: int) -> dict[str, float]:
     """Wait until a `forgetful` server has forgotten its last page; return what it holds then."""
     for _ in range(60):
         await asyncio.sleep(0.5)
-        if not (held := left(port))["ExplorerView"]:
+        if not there(port):
             break
-    return held
+    return left(port)
 
 
 def memory(warm: int = 100, sessions: int = 200) -> tuple[dict[str, float], dict[str, float]]:

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from weakref import WeakSet
 
 
 def explorer(port: int, processes: str = "1", *flags: str) -> None:
@@ -20,8 +21,11 @@ def explorer(port: int, processes: str = "1", *flags: str) -> None:
 
 
 def forgetful(port: int) -> None:
-    """Serve the explorer with sessions that end at once, and ``/left``: what they have left behind."""
-    from codim2_app.server.page import make_server
+    """Serve the explorer with sessions that end at once; ``/there``: how many are held; ``/left``: what they leave.
+
+    The former can be asked while sessions end; the latter searches and freezes, as the server does.
+    """
+    from codim2_app.server import page
     from codim2_app.view import warmup
     from codim2_app.view.explorer import ExplorerView
     from codim2_app.view.refresh import Frames
@@ -30,6 +34,19 @@ def forgetful(port: int) -> None:
     from codim2_core.psi.function import Psi
     from codim2_core.scene import Scene
     from codim2_core.systems.typed import System
+
+    views: WeakSet[ExplorerView] = WeakSet()
+    view_of = page.view_of
+
+    def noted(doc: Any) -> ExplorerView:
+        views.add(view := view_of(doc))
+        return view
+
+    page.view_of = noted
+
+    class There(RequestHandler):
+        def get(self) -> None:
+            self.write(str(len(views)))
 
     class Left(RequestHandler):
         def get(self) -> None:
@@ -46,8 +63,8 @@ def forgetful(port: int) -> None:
             self.write({"resident": resident, "objects": len(living), **counts})
 
     soon: dict[str, Any] = {"unused_session_lifetime_milliseconds": 2000, "check_unused_sessions_milliseconds": 200}
-    server = make_server(port, **soon)
-    server._tornado.add_handlers(r".*", [("/left", Left)])
+    server = page.make_server(port, **soon)
+    server._tornado.add_handlers(r".*", [("/left", Left), ("/there", There)])
     server.start()
     server.io_loop.start()
 

@@ -8,6 +8,7 @@ from urllib.request import urlopen
 
 import pytest
 from codim2_app.draw.packing import unpack
+from codim2_app.server.process.garbage import REST, TRIES
 from codim2_app.view.warmup import MOST_COMPILED, MOST_THREADS
 
 from tests.app.serving import serving
@@ -15,6 +16,7 @@ from tests.benchmarks import app_load
 from tests.benchmarks.bokeh_wire import Wire
 
 AT_ONCE = 4  # visitors: one after the other they would wait for their own machine most of the time
+FORGOTTEN = REST * 2**TRIES  # seconds: what is still in use is searched again, each time after twice as long
 PLATEAU = 40e6  # bytes by which what is held after a thousand visits may exceed what is held after a hundred
 
 
@@ -147,8 +149,8 @@ def test_a_thousand_visits_hold_no_more_than_a_hundred():
         for kinds in (first, others):
             await visits(port, kinds)
             await stays.frame(1, a=app_load.value(len(kinds)))
-            alone = lambda: app_load.left(port)["ExplorerView"] == 1
-            assert await asyncio.to_thread(until, alone), app_load.left(port)
+            alone = lambda: app_load.there(port) == 1
+            assert await asyncio.to_thread(until, alone, FORGOTTEN), app_load.left(port)
             await app_load.at_rest(pid)
             yield app_load.left(port)
         await stays.close()

@@ -28,6 +28,7 @@ KEPT = ("numba", "llvmlite")
 _untrack, _track = pythonapi.PyObject_GC_UnTrack, pythonapi.PyObject_GC_Track
 _untrack.argtypes = _track.argtypes = [py_object]
 _untrack.restype = _track.restype = None
+_call: Any = call  # map cannot tell its types
 
 
 class Old:
@@ -76,7 +77,7 @@ def bring_back(roots: Iterable[Any], old: Old) -> None:
     gc.disable()
     try:
         # All in one call: between the two no other thread may come, which could track a dictionary that it writes to
-        deque(map(call, cycle((_untrack, _track)), chain.from_iterable(zip(found, found, strict=True))), maxlen=0)
+        deque(map(_call, cycle((_untrack, _track)), chain.from_iterable(zip(found, found, strict=True))), maxlen=0)
     finally:
         if searching:
             gc.enable()
