@@ -15,11 +15,13 @@ from .weights import VARIES, fields, mean_divergence, refined, weights, zipped
 Array = NDArray[np.float64]
 
 TURNED, LONGEST = 0.7, 0.2  # how much an edge of a turned orbit may turn: a part of its angle, and at most
+GAP = 0.05  # in `height`, of the angle: what is left open where a loop is closed by hand
 LAYERS = 4
 WIDEST, LEAST_WIDTH, NARROWER = 0.4, 2e-3, 0.6  # of a ring about a cycle, to either side, in `height`
 DEFINITE = 0.2  # of the divergence at C, and of the mean on the equator
-OUTER = np.arange(1.0, 24.0, 1.0)  # heights where a ring at the equator may begin
+OUTER = np.arange(1.0, 27.0, 1.0)  # heights where a ring at the equator may begin
 DIRECTIONS = 2048
+FINE = 0.08  # of the mean on the equator: the angle of an edge there
 
 
 @dataclass(frozen=True)
@@ -56,9 +58,11 @@ class Ring:
     kind: tuple[int, int]
 
 
-def loop(flow: Flow, r: float, angle: float) -> Loop:
-    """Follow the turned orbit that closes at r, as a polygon that all orbits cross."""
-    places, _ = flow.turn(r, angle, min(TURNED * abs(angle), LONGEST))
+def loop(flow: Flow, r: float, angle: float) -> Loop | None:
+    """Follow the turned orbit that closes at r, as a polygon that all orbits cross; None where it does not close."""
+    places, end = flow.turn(r, angle, min(TURNED * abs(angle), LONGEST))
+    if not 0.0 < end < flow.reach or abs(flow.height(end) - flow.height(r)) > GAP * abs(angle):
+        return None
     return Loop(r, [*places[:-1], places[0]])
 
 
@@ -96,9 +100,9 @@ def about_C(flow: Flow, first: float) -> Ring:
     r = min(0.5 * first, 0.3 * flow.reach)
     while r > 1e-5 * flow.reach:
         way = loop(flow, r, flow.closing(r))
-        places = np.array(way.places)
+        places = np.array([] if way is None else way.places).reshape(-1, 2)
         inside = np.concatenate([C + share * (places - C) for share in (0.3, 0.65, 1.0)])
-        if (sign * fields(flow, inside)[1]).min() > DEFINITE * abs(at_C):
+        if way is not None and (sign * fields(flow, inside)[1]).min() > DEFINITE * abs(at_C):
             layers = [[[*flow.C, 1.0]] * len(places), [[x, y, 1.0] for x, y in way.places]]
             return Ring(Loop(0.0, []), way, layers, [[0.0] * len(places)] * 2, sign, (1, 0))
         r *= NARROWER
@@ -117,9 +121,10 @@ def about(flow: Flow, height: float, room_in: float, room_out: float) -> Ring:
         width *= NARROWER
         if angles[0] * angles[-1] >= 0.0:
             continue
-        inner, outer = (
-            Loop(r[k], refined(flow, loop(flow, r[k], angles[k]).places, VARIES * abs(mean))) for k in (0, -1)
-        )
+        ends_closed = loop(flow, r[0], angles[0]), loop(flow, r[-1], angles[-1])
+        if ends_closed[0] is None or ends_closed[1] is None:
+            continue
+        inner, outer = (Loop(one.r, refined(flow, one.places, VARIES * abs(mean))) for one in ends_closed if one)
         ways = [inner.places]
         for one, angle in zip(r[1:-1], angles[1:-1], strict=True):
             places, _ = flow.turn(one, angle)
@@ -160,7 +165,9 @@ def at_equator(flow: Flow, beyond: float) -> list[Ring]:
         if r <= beyond:
             continue
         way = loop(flow, r, flow.closing(r))
-        places = np.array(split(refined(flow, way.places, VARIES * abs(mean)), max(0.3 * abs(mean), 0.004)))
+        if way is None:
+            continue
+        places = np.array(split(refined(flow, way.places, VARIES * abs(mean)), max(FINE * abs(mean), 0.002)))
         angle = np.arctan2(places[:, 1], places[:, 0]) % math.tau
         h = np.hypot(*places.T) * np.exp(np.interp(angle, theta, H))
         h[-1] = h[0]
