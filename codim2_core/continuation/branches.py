@@ -13,7 +13,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import chain
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,6 +27,7 @@ from ..systems.elinear import ELinear
 from ..systems.kinds import AnySystem
 from ..words import say
 from .asking import answered
+from .assembled import Row, assembled, row
 from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, reversible, values
 from .path import LEVEL, traced
 from .points import Guess, Trace, passing, reversed_trace
@@ -312,38 +312,17 @@ class _Search:
     def _branch(
         self, trace: Trace, start: CyclePoint, end: CyclePoint, first: End | None, last: End | None
     ) -> CycleBranch:
-        """Assemble the arrays, with the limits at ends that are no cycles."""
-        rows: list[tuple[float, ...]] = [
-            (t.value, t.period, t.amplitude, t.exponent, *t.p) for t in (point.turn for point in trace.points)
-        ]
+        """Put in the limits at ends that are no cycles."""
+        rows = [row(point.turn) for point in trace.points]
         if first is not None:
             rows.insert(0, self._limit(first, rows[0]))
         if last is not None:
             rows.append(self._limit(last, rows[-1]))
-        table = np.array(rows)
-        folds = []
-        for i in trace.folds:
-            t = trace.points[i].turn
-            text = say("branch folds", name=self.name, value=t.value)
-            folds.append(CyclePoint("fold of cycles", t.value, t.period, t.amplitude, text))
-        exponent = np.ascontiguousarray(table[:, 3])
-        columns: dict[str, Any] = {
-            "value": table[:, 0],
-            "period": table[:, 1],
-            "amplitude": table[:, 2],
-            "exponent": exponent,
-            "multiplier": np.exp(np.clip(exponent, -700.0, 700.0)),
-            "stable": exponent < 0.0,
-            "section": table[:, 4:6],
-        }
-        for key, array in columns.items():
-            columns[key] = np.ascontiguousarray(array)
-            columns[key].flags.writeable = False
-        return CycleBranch(start=start, end=end, folds=tuple(folds), **columns)
+        return assembled(self.name, rows, [trace.points[i].turn for i in trace.folds], start, end)
 
-    def _limit(self, end: End, beside: tuple[float, ...]) -> tuple[float, ...]:
+    def _limit(self, end: End, beside: Row) -> Row:
         """Row of the arrays at an end that is no cycle: C, or a loop on the equator."""
         found = self.family.problem(end.value).critical
-        place = tuple(found[0].p.tolist()) if end.kind == "Hopf" and found else beside[4:6]
+        x, y = found[0].p.tolist() if end.kind == "Hopf" and found else beside[4:6]
         exponent = 0.0 if end.kind in ("Hopf", "equator") else math.copysign(math.inf, beside[3])
-        return (end.value, end.period, end.amplitude, exponent, *place)
+        return (end.value, end.period, end.amplitude, exponent, x, y)

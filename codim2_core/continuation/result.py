@@ -1,4 +1,4 @@
-"""What `continue_cycles` returns: branches of limit cycles along one parameter, and their special points."""
+"""What `continue_cycles` and `continue_typed` return: branches of limit cycles, and their special points."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ class CyclePoint(Tabled):
         "Hopf", "fold of cycles", "heteroclinic cycle through the equator", "equator" (the closed equator takes over the
         cycle), "saddle-node on the equator", "det A = 0" (a line of equilibria cuts
         the cycle), "span" (an end of the span), "closed" (the branch has no ends) or
-        "undecided".
+        "undecided"; of a general system also "homoclinic cycle", "heteroclinic cycle" (through one saddle, or several)
+        and "saddle-node on the cycle" (two critical sets appear on it).
     value : float
         Of the parameter.
     period, amplitude : float
@@ -56,7 +57,8 @@ class CycleBranch:
     period : ndarray (m,)
         In tau, the fast time of kappa_2; infinite at an end on the equator.
     amplitude : ndarray (m,)
-        Largest distance from C on the cycle, in the projected disc.
+        Largest distance from C on the cycle, in the projected disc; of a general system from the critical set of which
+        it is born, or from one inside it, and from where that was last where it ceases to be.
     exponent, multiplier : ndarray (m,)
         ln of the Floquet multiplier, from the integral of the divergence, and the multiplier itself.
     stable : ndarray of bool (m,)

@@ -10,11 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 from .ahead import Place
 from .points import Guess, Point
 from .turns import Turn
-from .varied_system import Asking, Question, VariedSystem
+from .varied_system import Asking, Question
 
 FARTHEST = 1.0  # in ln y
 ROUNDS = 7  # of Newton's method
@@ -28,11 +29,12 @@ class Tracer:
 
     Parameters
     ----------
-    family : VariedSystem
+    family : VariedSystem, or VariedRay
+        Whom turns are asked of.
     low, high : float
     """
 
-    def __init__(self, family: VariedSystem, low: float, high: float) -> None:
+    def __init__(self, family: Any, low: float, high: float) -> None:
         self.family, self.low, self.width = family, low, high - low
 
     def question(self, guesses: Sequence[Guess]) -> Question:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Generator, Sequence
 from functools import lru_cache
 from itertools import chain, islice
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,13 +34,13 @@ class Question(NamedTuple):
 
     Attributes
     ----------
-    family : VariedSystem
+    family : VariedSystem, or VariedRay
     xi, values : list of float
     backward : list of bool
         Followed backward in time, which is accurate where the cycle repels. The result is the same.
     """
 
-    family: VariedSystem
+    family: Any
     xi: list[float]
     values: list[float]
     backward: list[bool]

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from .. import drawing
 from ..continuation.branches import continue_cycles
 from ..continuation.result import CycleBranches, CyclePoint
+from ..continuation.typed.search import continue_typed
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..tables import Tabled, frame, number, paragraphs, table, write
@@ -183,7 +184,8 @@ class Branches:
     def with_cycles(self) -> Branches:
         """Return the same with branches of limit cycles, which take longer."""
         if self.system.typed is not None:
-            return self
+            of = self.system, self.psi, self.along, self.span, self.z
+            return replace(self, cycles=continue_typed(*of, self.standing))
         ends = [self.span[0], *(v for gap in self.gaps for v in gap), self.span[1]]
         parts = [
             continue_cycles(self.system, self.psi, self.along, part, self.z)

@@ -161,6 +161,41 @@ SENTENCES: dict[str, Sentence] = {
         "{name} = {value:.6g}: Hopf bifurcation of C, subcritical (first Lyapunov coefficient {number:.3g}).",
         "a branch begins",
     ),
+    "born, stable": Sentence(
+        "{name} = {value:.6g}: Hopf bifurcation of a critical set, supercritical: the cycle born there is stable.",
+        "a branch begins, exponent negative",
+    ),
+    "born, unstable": Sentence(
+        "{name} = {value:.6g}: Hopf bifurcation of a critical set, subcritical: the cycle born there is unstable.",
+        "a branch begins, exponent positive",
+    ),
+    "no branch, typed": Sentence(
+        "No limit cycle for {name} from {low:.6g} to {high:.6g}: none is born at a Hopf point, and none was found at "
+        "the {count} values where all were looked for.",
+        "along one parameter",
+    ),
+    "one branch, typed": Sentence(
+        "1 branch of limit cycles, from the first turn of orbits about a point inside them.", "along one parameter"
+    ),
+    "branches, typed": Sentence(
+        "{count} branches of limit cycles, from the first turn of orbits about a point inside them.",
+        "along one parameter",
+    ),
+    "cycle not continued": Sentence(
+        "A limit cycle at {name} = {value:.6g} was seen and not followed from there.", "along one parameter"
+    ),
+    "becomes homoclinic": Sentence(
+        "{name} = {value:.6g}: the cycle becomes a loop through one saddle: its period grows beyond bounds.",
+        "a branch ends",
+    ),
+    "becomes heteroclinic": Sentence(
+        "{name} = {value:.6g}: the cycle becomes a loop through several saddles: its period grows beyond bounds.",
+        "a branch ends",
+    ),
+    "meets two sets": Sentence(
+        "{name} = {value:.6g}: two critical sets appear on the cycle, and motion along it stops there.",
+        "a branch ends",
+    ),
     "becomes the equator": Sentence(
         "{name} = {value:.6g}: the cycle becomes the equator, which is a closed orbit and changes its stability.",
         "a branch ends",

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from codim2_core.continuation.result import CycleBranches
 from codim2_core.diagrams.branches import Branches, branches
-from codim2_core.systems.coefficients import Coefficients
-from codim2_core.systems.elinear import ELinear
 
 from ...frame.draft import Draft
 from ...phrases import say
@@ -20,8 +18,6 @@ from .axes import available, missing, spans_of, without
 
 #: Most points that the browser is sent of a branch: it is drawn some 320 px wide.
 MOST = 160
-#: Systems whose limit cycles are followed.
-E_LINEAR = (ELinear, Coefficients)
 #: Special points of branches of cycles that the diagram has already, or that are none of the system's.
 KNOWN = ("Hopf", "span", "closed")
 
@@ -43,7 +39,7 @@ def add(draft: Draft) -> None:
     found = draft.slow("diagram", key, _standing, system, psi, axis.core, span, z)
     if found is not None:
         draft.header["diagram"] = {**found, "control": name}
-    if draft.ready and draft.now.get("diagram") == key and isinstance(system, E_LINEAR):
+    if draft.ready and draft.now.get("diagram") == key:
         cycles = draft.slow("cycles along", key, _cycles, system, psi, axis.core, span, z)
         if cycles is not None:
             draft.header["cycles_along"] = cycles

@@ -51,6 +51,18 @@ def test_cycles_along_n_are_born_at_the_hopf_point():
     assert header["cycles_along"]["special"] == []
 
 
+def test_cycles_of_a_general_system_are_followed_too():
+    system = c2.System(
+        U=("m*c - s + 0.3*c**2 - 2*c*(c**2 + s**2)", "c + m*s - 0.2*c*s - 2*s*(c**2 + s**2)"), parameters={"m": 0.1}
+    )
+    frames = Frames(ExplorerState(panel="diagram", along="own:m"), system)
+    header = settled(frames, all=True)
+    (piece,) = header["cycles_along"]["pieces"]
+    assert piece["stable"] is True
+    assert piece["x"][0] == pytest.approx(0.0, abs=1e-9)
+    assert piece["x"][-1] == pytest.approx(2.0, abs=1e-3)  # where the equator is neutral
+
+
 def test_where_there_can_be_no_cycle_the_reason_is_said():
     _, header = opened("diagram", along="f1")
     assert header["cycles_along"]["pieces"] == []

@@ -1,0 +1,120 @@
+"""How a branch of cycles of a general system begins or ends where it can be followed no further."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from ...layer_problem.problem import LayerProblem
+from ...words import say
+from ..assembled import Row
+from ..result import CyclePoint
+from ..turns import Turn
+from .foot import Array, Foot
+
+#: Distance from a saddle, and ebar, at which a cycle that nears it all the time is all but a loop.
+NEAR, SUNK = 0.03, 0.03
+SLOWER = 1.05  # times the period before: what goes to a loop becomes slower
+SETTLED, REACH = 1e-4, 0.1  # of the span: how far from the last cycle a loop may be, and what is special
+
+
+class Marked(Protocol):
+    """A special value of what stands still, as `diagrams` finds them."""
+
+    @property
+    def kind(self) -> str: ...  # noqa: D102
+    @property
+    def value(self) -> float: ...  # noqa: D102
+    @property
+    def place(self) -> tuple[float, float]: ...  # noqa: D102
+
+
+@dataclass(frozen=True)
+class Last:
+    """The last cycles of a branch: the turn, the states along it, and those of an earlier one."""
+
+    turn: Turn
+    states: Array
+    before: Turn
+    earlier: Array
+
+
+@dataclass(frozen=True)
+class Ended:
+    """An end: what it is, and the limit of the branch there where that is no cycle."""
+
+    point: CyclePoint
+    limit: Row | None = None
+
+
+def hopf_end(name: str, value: float, problem: LayerProblem, place: Sequence[float], stable: bool) -> Ended:
+    """Name the end at a Hopf point of the critical set next to a place; whether the cycles born there are stable."""
+    C = min(problem.critical, key=lambda C: math.dist(C.p, place))
+    period = 2.0 * math.pi / math.sqrt(C.determinant)
+    sentence = say("born, stable" if stable else "born, unstable", name=name, value=value)
+    x, y = C.p.tolist()
+    return Ended(CyclePoint("Hopf", value, period, 0.0, sentence), (value, period, 0.0, 0.0, x, y))
+
+
+def equator_end(name: str, turn: Turn, marked: Sequence[Marked], width: float, centre: Foot) -> Ended | None:
+    """Name the end at the closed equator, where its exponent changes its sign; None if that is not nearby."""
+    near = [m.value for m in marked if m.kind == "neutral equator" and abs(m.value - turn.value) < REACH * width]
+    if not near:
+        return None
+    value = min(near, key=lambda v: abs(v - turn.value))
+    away = 1.0 + math.hypot(*centre.place(value).p)
+    point = CyclePoint("equator", value, math.inf, away, say("becomes the equator", name=name, value=value))
+    return Ended(point, (value, math.inf, away, 0.0, *turn.p))
+
+
+def loop_end(name: str, last: Last, problem: LayerProblem, marked: Sequence[Marked], width: float) -> Ended | None:
+    """Name the end at a loop of saddles, which cycles near ever more slowly; None if they do not."""
+    turn = last.turn
+    if turn.period < SLOWER * last.before.period:
+        return None
+    ahead = {m.kind: m for m in reversed(marked) if _ahead(m, last, width)}  # the first of each kind
+    fold, meeting = ahead.get("fold of critical sets"), ahead.get("saddle-node")
+    if fold is not None and min(_gaps([fold.place], last.states)) < NEAR:
+        return _ended("saddle-node on the cycle", say("meets two sets", name=name, value=fold.value), turn, fold.value)
+    sunk, settled = _sunk(last), abs(turn.value - last.before.value) < SETTLED * width
+    if sunk and meeting is not None and not settled:
+        sentence = say("meets a saddle-node", name=name, value=meeting.value)
+        return _ended("saddle-node on the equator", sentence, turn, meeting.value)
+    saddles = [C.p for C in problem.critical if C.kind == "saddle"]
+    pairs = zip(_gaps(saddles, last.states), _gaps(saddles, last.earlier), strict=True)
+    near = sum(now < NEAR and now < before for now, before in pairs)
+    at = {"name": name, "value": turn.value}
+    if not settled:
+        return None
+    if sunk and len(problem.equator):
+        sentence = say("becomes a loop", how="attracting" if turn.exponent < 0.0 else "repelling", **at)
+        return _ended("heteroclinic cycle through the equator", sentence, turn, turn.value)
+    if near:
+        kind = "homoclinic" if near == 1 else "heteroclinic"
+        return _ended(f"{kind} cycle", say(f"becomes {kind}", **at), turn, turn.value)
+    return None
+
+
+def _sunk(last: Last) -> bool:
+    """Whether cycles come down to the equator."""
+    return last.turn.height < SUNK and last.turn.height < last.before.height
+
+
+def _ahead(mark: Marked, last: Last, width: float) -> bool:
+    """Whether a special value lies ahead, not far."""
+    onward = math.copysign(1.0, last.turn.value - last.before.value)
+    return 0.0 <= (mark.value - last.turn.value) * onward < REACH * width
+
+
+def _ended(kind: str, sentence: str, turn: Turn, value: float) -> Ended:
+    point = CyclePoint(kind, value, math.inf, turn.amplitude, sentence)
+    return Ended(point, (value, math.inf, turn.amplitude, math.copysign(math.inf, turn.exponent), *turn.p))
+
+
+def _gaps(places: Sequence[Sequence[float]] | Sequence[Array], states: Array) -> list[float]:
+    """Smallest distances in the disc of places from a cycle."""
+    return [float(np.hypot(*(states[:, :2] - p).T).min()) for p in places]

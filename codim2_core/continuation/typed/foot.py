@@ -1,0 +1,103 @@
+"""A point inside cycles, for each value of the parameter: a critical set that is followed, or one that stays."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...psi.function import Psi
+from ...systems.frozen import AtZ
+
+Array = NDArray[np.float64]
+At = Callable[[float], tuple[AtZ, Psi]]
+
+ROUNDS, CLOSE, FAR = 8, 1e-9, 0.1  # of Newton's method for e; its last step (its error is the square); all of its way
+HALVINGS = 30  # of the way to a value at which it is not found at once: after these it is where it was last
+INSIDE = 1.0 - 1e-9  # |e| of a critical set
+
+
+@dataclass(frozen=True)
+class Place:
+    """A point of the hemisphere: in the projected disc, and x2."""
+
+    p: Array
+    x2: Array
+
+
+class Foot:
+    """Where a point is at each value.
+
+    A critical set is followed from where it is known; where it ceases to be one, its last place goes on. So the foot
+    depends on the parameter alone, without a jump.
+
+    Parameters
+    ----------
+    at : callable
+        value -> (system frozen at it, Psi).
+    value : float
+    e : ndarray (2,)
+        (c, s) there.
+    critical : bool
+        Whether it is a critical set; else x2 stays.
+    """
+
+    def __init__(self, at: At, value: float, e: Array, critical: bool = True) -> None:
+        self.at, self.critical = at, critical
+        self._values, self._places = [value], [np.array(e, float)]
+        self._ends = (-math.inf, math.inf)  # it is no critical set beyond
+        self._still = None if critical else _placed(at(value)[1], self._places[0])
+
+    def place(self, value: float) -> Place:
+        """Where it is at a value."""
+        return _placed(self.at(value)[1], self.e(value)) if self._still is None else self._still
+
+    def e(self, value: float) -> Array:
+        """(c, s) of the critical set at a value."""
+        value = min(max(value, self._ends[0]), self._ends[1])
+        i = bisect(self._values, value)
+        k = min((k for k in (i - 1, i) if 0 <= k < len(self._values)), key=lambda k: abs(self._values[k] - value))
+        here, e = self._values[k], self._places[k]
+        step, tried = value - here, 0
+        while here != value and tried < HALVINGS:
+            there = value if abs(step) >= abs(value - here) else here + step
+            found = self._corrected(there, e)
+            if found is None:
+                step, tried = 0.5 * (there - here), tried + 1
+            else:
+                here, e = there, found
+        if here != value:
+            self._ends = (here, self._ends[1]) if value < here else (self._ends[0], here)
+        where = bisect(self._values, here)
+        if not where or self._values[where - 1] != here:
+            self._values.insert(where, here)
+            self._places.insert(where, e)
+        return e
+
+    def _corrected(self, value: float, e: Array) -> Array | None:
+        """Newton's method for U = 0 from a place nearby."""
+        system, start = self.at(value)[0], e
+        for _ in range(ROUNDS):
+            matrix = system.DU(e)
+            det = matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]
+            if det == 0.0 or not math.isfinite(det):
+                return None
+            step = np.linalg.solve(matrix, system.U(e))
+            e = e - step
+            if not (math.hypot(*e) < INSIDE and math.dist(e, start) < FAR):
+                return None
+            if math.hypot(*step) < CLOSE:
+                return e
+        return None
+
+
+def _placed(psi: Psi, e: Array) -> Place:
+    """Return the point of the hemisphere where e_Psi = e."""
+    modulus = math.hypot(*e)
+    zeta = float(psi.radius(modulus, (1.0 - modulus) * (1.0 + modulus)))
+    x2 = e * (zeta / max(modulus, 1e-300))
+    return Place(x2 / math.hypot(1.0, zeta), x2)

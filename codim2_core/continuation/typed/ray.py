@@ -1,0 +1,77 @@
+"""A ray from a point of the hemisphere to the equator, and which one crosses a cycle well."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...cycles.turn_section import TurnSection
+from ...psi.function import Psi
+from ...systems.frozen import AtZ
+from .foot import Array, Place
+
+RECENT = 0.05  # of a turn: what lies so shortly before a crossing is judged by its angle alone
+
+
+class Ray(TurnSection):
+    """The ray from a point in a given direction, with the map of first turns on it.
+
+    Parameters
+    ----------
+    at : AtZ
+    psi : Psi
+    foot : Place
+    u : ndarray (2,)
+        Direction, of length 1.
+    """
+
+    def __init__(self, at: AtZ, psi: Psi, foot: Place, u: Array) -> None:
+        self.at, self.psi, self.critical, self.u = at, psi, foot, u
+        self.rate = at.speed
+        self.reach, self.other = room(foot, u)
+
+
+def room(foot: Place, u: Array) -> tuple[float, float]:
+    """Return reach and other of a ray: ``|p + r u|^2 - 1 = (r - reach)(r + other)``."""
+    along, gap = float(u @ foot.p), 1.0 / (1.0 + float(foot.x2 @ foot.x2))  # 1 - |p|^2, to all digits
+    root = math.sqrt(along * along + gap)
+    reach = gap / (root + along) if along > 0.0 else root - along
+    return reach, gap / reach
+
+
+def crossing(points: Array, foot: Place) -> tuple[float, int]:
+    """Find where a cycle crosses a ray from a point best: how well, and at which of its points.
+
+    An orbit from there turns by 2 pi about the point just when it is back, and not sooner, if no earlier point of the
+    cycle is as far round. It crosses well if that is so by far, and if it crosses at a large angle.
+
+    Parameters
+    ----------
+    points : ndarray (m, 2)
+        Closed, the last point is the first.
+    foot : Place
+
+    Returns
+    -------
+    quality : float
+        Negative if the cycle does not go round the point once.
+    index : int
+    """
+    away = points - foot.p
+    angle = np.unwrap(np.arctan2(away[:, 1], away[:, 0]))
+    turned = angle[-1] - angle[0]
+    if abs(abs(turned) - 2.0 * math.pi) > 0.1:
+        return -1.0, 0
+    sense, count = math.copysign(1.0, turned), len(points) - 1
+    angle = sense * angle[:-1]
+    along = np.roll(points[:-1], -1, axis=0) - np.roll(points[:-1], 1, axis=0)
+    sine = sense * (away[:-1, 0] * along[:, 1] - away[:-1, 1] * along[:, 0])
+    sine = sine / np.maximum(np.hypot(*away[:-1].T) * np.hypot(*along.T), 1e-300)
+    twice = np.concatenate([angle - 2.0 * math.pi, angle])  # the turn before, and this one
+    highest = np.maximum.accumulate(twice)
+    recent = max(1, int(RECENT * count))
+    lead = angle - highest[count - recent : 2 * count - recent]
+    quality = np.where(angle >= highest[count:], np.minimum(sine, lead), -1.0)
+    best = int(quality.argmax())
+    return float(quality[best]), best

@@ -1,0 +1,330 @@
+"""Branches of limit cycles of any system along one parameter, from where they are born or seen to where they end.
+
+They are begun at the Hopf points of what stands still, and at every cycle that is seen at one of several values and
+that no branch has passed. Each is followed on a ray (`family`) as long as its cycles cross that well; then on another.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+from numpy.typing import ArrayLike
+
+from ...cycles.limit_cycles import LimitCycle, closed_orbits
+from ...cycles.turn_section import TurnSection
+from ...layer_problem.problem import LayerProblem
+from ...layer_problem.vary import limits, varied
+from ...psi.function import Psi
+from ...systems.frozen import AtZ
+from ...systems.kinds import AnySystem
+from ...words import say
+from ..asking import answered
+from ..assembled import Row, assembled, row
+from ..ends import values
+from ..path import LEVEL, traced
+from ..points import Guess, Point, Trace, passing, reversed_trace
+from ..result import CycleBranch, CycleBranches, CyclePoint
+from ..trace import Tracer
+from ..turns import Turn
+from ..varied_system import KEPT
+from .ends import Ended, Last, Marked, equator_end, hopf_end, loop_end
+from .family import VariedRay, follow
+from .foot import Array, At, Foot, Place
+from .passed import line_of, passed
+from .ray import crossing, room
+from .seen import Seen, met, same
+
+FIRST, LARGE = 1e-3, 0.05  # of the reach: where branches start at a critical set; ebar, where at the equator
+COLUMNS = 9  # values at which all cycles are looked for
+BETTER = 1.3  # times as well another ray is crossed that is worth taking
+RAYS = 12  # of one branch
+BACK = 3  # points before the last one, with which it is compared
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A part of a branch that was followed on one ray."""
+
+    tracer: Tracer
+    trace: Trace
+
+
+def continue_typed(
+    system: AnySystem, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike, marked: Sequence[Marked]
+) -> CycleBranches:
+    """Continue the limit cycles of a general system along one parameter.
+
+    Parameters
+    ----------
+    system : System
+    psi : Psi
+    name : str
+    span : (low, high)
+    z : (m,) floats
+    marked : sequence of Marked
+        The special values of what stands still on the span.
+
+    Returns
+    -------
+    CycleBranches
+    """
+
+    @lru_cache(maxsize=KEPT)
+    def at(value: float) -> tuple[AtZ, Psi]:
+        changed, family_psi, place = varied(system, psi, z, name, value)
+        return changed.at(place), family_psi
+
+    return Search(at, name, span, limits(system, psi, name), marked).run()
+
+
+class Search:
+    """One call of `continue_typed`."""
+
+    def __init__(
+        self, at: At, name: str, span: tuple[float, float], bounds: tuple[float, float], marked: Sequence[Marked]
+    ) -> None:
+        self.at, self.name, self.bounds, self.marked = at, name, bounds, marked
+        self.low, self.high = span
+        self.width = self.high - self.low
+        self.problem = lru_cache(maxsize=KEPT)(lambda value: LayerProblem(*at(value)))
+        self.hopf = [m for m in marked if m.kind == "Hopf"]
+        self.used: set[int] = set()
+        self.found: list[tuple[list[Piece], Ended, Ended]] = []
+        self.notes: list[str] = []
+
+    def run(self) -> CycleBranches:
+        """Find all branches."""
+        for mark in self.hopf:
+            if id(mark) not in self.used:
+                self._from_hopf(mark)
+        for mark in self.marked:
+            if mark.kind == "neutral equator" and id(mark) not in self.used:
+                self._from_equator(mark)
+        for value in values(self.low, self.high, COLUMNS):
+            for cycle in self._seen(value):
+                if not self._known(cycle, value):
+                    self._from_cycle(cycle, value)
+        branches = tuple(self._branch(*one) for one in self.found)
+        span = {"name": self.name, "low": self.low, "high": self.high}
+        kind = "no branch, typed" if not branches else "one branch, typed" if len(branches) == 1 else "branches, typed"
+        reason = say(kind, **span, count=len(branches) or COLUMNS)
+        return CycleBranches(self.name, (self.low, self.high), branches, reason, tuple(dict.fromkeys(self.notes)))
+
+    def _nu(self, value: float) -> float:
+        return (value - self.low) / self.width
+
+    def _tracer(self, foot: Foot, centre: Foot, u: Array) -> Tracer:
+        return Tracer(VariedRay(self.at, self.width, self.bounds, foot, centre, u), self.low, self.high)
+
+    def _from_hopf(self, mark: Marked) -> None:
+        """Begin where the cycle is smallest; the parameter is then what is solved for."""
+        self.used.add(id(mark))
+        critical = self.problem(mark.value).critical
+        C = min(critical, key=lambda C: math.dist(C.p, mark.place), default=None)
+        if C is None or C.determinant <= 0.0:
+            return
+        foot = Foot(self.at, mark.value, C.e)
+        tracer = self._tracer(foot, foot, TurnSection(*self.at(mark.value), C, critical).u)
+        (first,) = answered(
+            [tracer.corrected(Guess(math.log(FIRST), self._nu(mark.value), (1.0, 0.0), backward=False))], follow
+        )
+        if first is None:
+            self.notes.append(say("birth not caught", kind="Hopf", name=self.name, value=mark.value))
+        elif -1e-12 <= first[1] <= 1.0 + 1e-12:
+            problem, stable = self.problem(mark.value), first[0].exponent < 0.0
+            start = hopf_end(self.name, mark.value, problem, mark.place, stable)
+            self._keep(self._followed(tracer, tracer.point(*first, (1.0, 0.0))), start)
+
+    def _from_equator(self, mark: Marked) -> None:
+        """Begin where the cycle is largest, all but the closed equator."""
+        critical = [C for C in self.problem(mark.value).critical if C.kind != "saddle"]
+        for C in critical[:1]:
+            foot = Foot(self.at, mark.value, C.e)
+            u = TurnSection(*self.at(mark.value), C, self.problem(mark.value).critical).u
+            reach, other = room(foot.place(mark.value), u)
+            xi = math.log(reach * (reach + other)) - 2.0 * math.log(LARGE)
+            tracer = self._tracer(foot, foot, u)
+            for guess in (Guess(xi, self._nu(mark.value), (1.0, 0.0), backward) for backward in (False, True)):
+                (first,) = answered([tracer.corrected(guess)], follow)
+                if first is None or not 0.0 <= first[1] <= 1.0:
+                    continue
+                start = equator_end(self.name, first[0], self.marked, self.width, foot)
+                if start is not None:
+                    self._keep(self._followed(tracer, tracer.point(*first, (-1.0, 0.0))), start)
+                    return
+        self.notes.append(say("birth not caught", kind="equator", name=self.name, value=mark.value))
+
+    def _seen(self, value: float) -> Sequence[LimitCycle]:
+        if not self.bounds[0] <= value <= self.bounds[1]:
+            return ()
+        return closed_orbits(self.problem(value)).cycles
+
+    def _from_cycle(self, cycle: LimitCycle, value: float) -> None:
+        """Begin at a cycle that was seen."""
+        inside = self._feet(value, cycle.points)
+        begun = self._on(value, cycle.points, inside, inside[0], cycle.multiplier > 1.0, (0.0, 1.0))
+        if begun is None:
+            self.notes.append(say("cycle not continued", name=self.name, value=value))
+            return
+        tracer, first = begun
+        point = tracer.point(*first, (1.0, 0.0))
+        onward = self._followed(tracer, point)
+        if onward[-1].trace.reason == "closed":
+            t = point.turn
+            end = Ended(CyclePoint("closed", t.value, t.period, t.amplitude, say("branch closed")))
+            self.found.append((onward, end, end))
+            return
+        turned = tracer.point(*first, (-point.tangent[0], -point.tangent[1]))
+        back = self._followed(tracer, turned)
+        start = self._end(back)
+        self._keep([*(_reversed(piece) for piece in reversed(back)), *onward], start)
+
+    def _feet(self, value: float, points: Array) -> list[Foot]:
+        """Find points inside a cycle: critical sets that are no saddles, others, and its middle."""
+        sets = sorted(self.problem(value).critical, key=lambda C: C.kind == "saddle")
+        feet = [Foot(self.at, value, C.e) for C in sets if crossing(points, Place(C.p, C.x2))[0] > -1.0]
+        middle = points[:-1].mean(axis=0)
+        x2 = middle / math.sqrt(1.0 - float(middle @ middle))
+        zeta = math.hypot(*x2)
+        e = x2 / max(zeta, 1e-300) * self.at(value)[1].modulus(zeta)
+        return [*feet, Foot(self.at, value, e, critical=False)]
+
+    def _on(
+        self,
+        value: float,
+        points: Array,
+        feet: Sequence[Foot],
+        centre: Foot,
+        backward: bool,
+        along: tuple[float, float],
+    ) -> tuple[Tracer, tuple[Turn, float]] | None:
+        """Find a cycle, known as a line, on the ray that it crosses best."""
+        crossed = [(*crossing(points, foot.place(value)), foot) for foot in feet]
+        for quality, index, foot in sorted(crossed, key=lambda one: -one[0]):
+            if quality <= 0.0:
+                break
+            place = foot.place(value)
+            away = points[index] - place.p
+            r = math.hypot(*away)
+            tracer = self._tracer(foot, centre, away / r)
+            reach, _ = room(place, away / r)
+            guess = Guess(math.log(r / max(reach - r, 1e-300)), self._nu(value), along, backward)
+            (first,) = answered([tracer.corrected(guess)], follow)
+            if first is not None:
+                return tracer, first
+        return None
+
+    def _followed(self, tracer: Tracer, point: Point) -> list[Piece]:
+        """Follow a branch to its end, on as many rays as it takes."""
+        pieces: list[Piece] = []
+        for _ in range(RAYS):
+            (trace,) = answered([traced(tracer, point)], follow)
+            pieces.append(Piece(tracer, trace))
+            if trace.reason != "stuck" or len(trace.points) < 3:
+                break
+            again = self._again(tracer, trace)
+            if again is None:
+                break
+            tracer, point = again
+        return pieces
+
+    def _again(self, tracer: Tracer, trace: Trace) -> tuple[Tracer, Point] | None:
+        """Find the last cycle on another ray that it crosses better; None if there is none."""
+        last, before = trace.points[-1], trace.points[-2]
+        line, earlier = line_of(tracer, last.turn), line_of(tracer, before.turn)
+        if line is None or earlier is None:
+            return None
+        family, value = tracer.family, last.turn.value
+        place = family.foot.place(value)
+        along = line[1] - line[-2]
+        here = abs(float(along[0] * family.u[1] - along[1] * family.u[0])) / max(math.hypot(*along), 1e-300)
+        feet = [family.foot, *self._feet(value, line)]
+        if max(crossing(line, foot.place(value))[0] for foot in feet) < BETTER * here:
+            return None
+        fixed = (0.0, 1.0) if abs(last.tangent[1]) > 0.1 else (1.0, 0.0)
+        found = self._on(value, line, feet, family.centre, last.turn.exponent > 0.0, fixed)
+        if found is None:
+            return None
+        other, (turn, nu) = found
+        place, u = other.family.foot.place(before.turn.value), other.family.u
+        r = met(earlier, place.p, u, turn.chi * room(place, u)[0])
+        towards = (turn.chi - r / room(place, u)[0], nu - before.nu)
+        return other, other.point(turn, nu, towards)
+
+    def _keep(self, pieces: list[Piece], start: Ended) -> None:
+        """Keep a branch, in two where it has passed a loop: on its two sides there are different cycles."""
+        for k, piece in enumerate(pieces):
+            cut = passed(piece.tracer, piece.trace, self.problem)
+            if cut is None:
+                continue
+            before, after = (Piece(piece.tracer, trace) for trace in cut)
+            self.found.append(([*pieces[:k], before], start, self._end([before])))
+            turn = after.trace.points[len(after.trace.points) // 2].turn
+            line = line_of(piece.tracer, turn)
+            if line is None or not self._known(Seen(line, turn.period), turn.value):
+                back = self._end([_reversed(after)])
+                self._keep([after, *pieces[k + 1 :]], back)
+            return
+        self.found.append((pieces, start, self._end(pieces)))
+
+    def _end(self, pieces: list[Piece]) -> Ended:
+        """Name the end of a branch."""
+        trace = pieces[-1].trace
+        turn = trace.points[-1].turn
+        if trace.reason == "span":
+            text = say("end of the branch span", name=self.name, value=turn.value)
+            return Ended(CyclePoint("span", turn.value, turn.period, turn.amplitude, text))
+        if trace.reason == "C" and self.hopf:
+            mark = min(self.hopf, key=lambda m: abs(m.value - turn.value))
+            self.used.add(id(mark))
+            return hopf_end(self.name, mark.value, self.problem(mark.value), mark.place, turn.exponent < 0.0)
+        found = None
+        if trace.reason == "equator" or turn.height < LEVEL:
+            found = equator_end(self.name, turn, self.marked, self.width, pieces[-1].tracer.family.centre)
+            near = [] if found is None else [m for m in self.marked if m.value == found.point.value]
+            self.used.update(map(id, near))
+        if found is None:
+            found = self._loop(pieces[-1])
+        if found is None:
+            text = say("followed no further", name=self.name, value=turn.value)
+            self.notes.append(text)
+            found = Ended(CyclePoint("undecided", turn.value, turn.period, turn.amplitude, text))
+        return found
+
+    def _loop(self, piece: Piece) -> Ended | None:
+        """Name a loop that the last cycles of a branch come to."""
+        points = piece.trace.points
+        last, before = points[-1].turn, points[max(len(points) - 1 - BACK, 0)].turn
+        states, earlier = (piece.tracer.family.course(t.xi, t.value, t.exponent > 0.0) for t in (last, before))
+        if states is None or earlier is None:
+            return None
+        told = Last(last, states.states, before, earlier.states)
+        return loop_end(self.name, told, self.problem(last.value), self.marked, self.width)
+
+    def _known(self, cycle: LimitCycle | Seen, value: float) -> bool:
+        """Whether a branch passes a cycle that was seen."""
+        nu = self._nu(value)
+        for pieces, *_ in self.found:
+            for piece in pieces:
+                for _, guess in passing(piece.trace, nu, self.width):
+                    (found,) = answered([piece.tracer.corrected(guess)], follow)
+                    if found is not None and same(found[0], cycle):
+                        return True
+        return False
+
+    def _branch(self, pieces: list[Piece], start: Ended, end: Ended) -> CycleBranch:
+        rows: list[Row] = [] if start.limit is None else [start.limit]
+        folds: list[Turn] = []
+        for i, piece in enumerate(pieces):
+            rows += [row(point.turn) for point in piece.trace.points[1 if i else 0 :]]
+            folds += [piece.trace.points[k].turn for k in piece.trace.folds]
+        if end.limit is not None:
+            rows.append(end.limit)
+        return assembled(self.name, rows, folds, start.point, end.point)
+
+
+def _reversed(piece: Piece) -> Piece:
+    return Piece(piece.tracer, reversed_trace(piece.trace))

@@ -1,0 +1,44 @@
+"""Cycles as closed lines: whether two are one, and where one meets a ray."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from ...cycles.limit_cycles import LimitCycle
+from ..turns import Turn
+from .foot import Array
+
+SAME, CLOSE = 1e-5, 1e-4  # of the period, and of the disc: two cycles are one
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A cycle as a closed line, and its period."""
+
+    points: Array
+    period: float
+
+
+def same(turn: Turn, cycle: LimitCycle | Seen) -> bool:
+    """Whether a closed turn is a cycle that was seen."""
+    if abs(turn.period - cycle.period) > SAME * cycle.period:
+        return False
+    start, along = cycle.points[:-1], np.diff(cycle.points, axis=0)
+    length = np.maximum((along**2).sum(axis=1), 1e-300)
+    part = np.clip(((turn.p - start) * along).sum(axis=1) / length, 0.0, 1.0)
+    return bool(np.hypot(*(start + part[:, None] * along - turn.p).T).min() < CLOSE)
+
+
+def met(points: Array, foot: Array, u: Array, near: float) -> float:
+    """How far along a ray a closed line meets it, next to a distance."""
+    away = points - foot
+    side, along = away[:, 0] * u[1] - away[:, 1] * u[0], away @ u
+    found = [
+        along[i] + (along[j] - along[i]) * side[i] / (side[i] - side[j])
+        for i, j in pairwise(range(len(points)))
+        if (side[i] < 0.0) != (side[j] < 0.0)
+    ]
+    return float(min((r for r in found if r > 0.0), key=lambda r: abs(r - near), default=near))

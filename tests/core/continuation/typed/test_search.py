@@ -1,0 +1,126 @@
+"""Branches of limit cycles of general systems: their e-linear twins, integrations by SciPy, separatrices of saddles."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+import codim2_core as c2
+
+ONE = c2.psi.constant()
+CASE3 = c2.ELinear(172, 186, -200, (-86, -93))
+FOLD = c2.ELinear(1.6215774162507035, -2.4647033090719974, -2.095840045086004, (1.3369924, -1.0251566))
+LOOP = c2.ELinear(0.6285923608169889, -1.2085733311350155, -1.5844770979730014, (-0.861192783343166, 0.99838561970375))
+QUADRATIC = c2.System(
+    U=("m*c - s + 0.3*c**2 - 2*c*(c**2 + s**2)", "c + m*s - 0.2*c*s - 2*s*(c**2 + s**2)"), parameters={"m": 0.1}
+)
+BOGDANOV = c2.System(U=("s", "-0.1 + m*s + c**2 - c*s"), parameters={"m": -0.28})
+EIGHT = c2.System(U=("s", "c - 4*c**3 + m*s - c**2*s"), parameters={"m": 0.2})
+
+
+def twin(system, angle):
+    """Write the e-linear system in turned axes as text."""
+    k, q = repr(math.cos(angle)), repr(math.sin(angle))
+    u, v = f"({k}*c + {q}*s)", f"({k}*s - {q}*c)"
+    U = f"(a*{u} - b*{v} + f1)", f"(b*{u} + d*{v} + f2)"
+    numbers = {name: system.value_of(name) for name in ("a", "b", "d", "f1", "f2")}
+    return c2.System(U=(f"{k}*{U[0]} - {q}*{U[1]}", f"{q}*{U[0]} + {k}*{U[1]}"), parameters=numbers)
+
+
+@pytest.mark.parametrize(("system", "n", "along", "span"), [
+    (CASE3, 3, "n", (2.0, 4.0)), (CASE3, 3, "a", (171.8, 172.4)), (FOLD, 3, "b", (-2.55, -2.2)),
+    (FOLD, 3, "f1", (1.25, 1.4)), (LOOP, 2, "f1", (-0.9, -0.8)),
+])  # fmt: skip
+def test_an_e_linear_system_as_text_has_the_same_branches(system, n, along, span):
+    psi = c2.psi.hill(n)
+    (one,), (two,) = (c2.branches(S, psi, along, span).cycles for S in (system, twin(system, 0.7)))
+    first, second = one.special, two.special
+    if first[0].kind != second[0].kind:
+        second = second[::-1]
+    assert [p.kind for p in first] == [p.kind for p in second]
+    for p, q in zip(first, second, strict=True):
+        loose = p.kind.startswith("heteroclinic")  # a limit of cycles here, a gap's zero there
+        assert q.value == pytest.approx(p.value, rel=1e-7 if loose else 1e-8)
+        assert q.period == pytest.approx(p.period, rel=1e-7)
+        assert q.amplitude == pytest.approx(p.amplitude, abs=5e-3 if math.isinf(p.period) else 2e-4)
+
+
+def motion(system, psi, value):
+    """x2' = U(e_Psi(x2)), with the integral of its divergence by differences."""
+    at = system.evolve(**{next(iter(dict(system.parameters))): value}).at()
+
+    def U(x):
+        return at.U(np.array(x) / math.sqrt(x[0] ** 2 + x[1] ** 2 + float(psi(x[0] ** 2 + x[1] ** 2))))
+
+    def field(_, x):
+        h = 1e-5
+        across = U((x[0] + h, x[1]))[0] - U((x[0] - h, x[1]))[0] + U((x[0], x[1] + h))[1] - U((x[0], x[1] - h))[1]
+        return [*U(x[:2]), across / (2 * h)]
+
+    return field
+
+
+@pytest.mark.parametrize("psi", [ONE, c2.psi.tanh()])
+def test_cycles_of_a_quadratic_system_close_and_have_their_multipliers(psi):
+    found = c2.branches(QUADRATIC, psi, "m", (-0.2, 0.9))
+    (branch,) = found.cycles
+    assert [p.kind for p in branch.special] == ["Hopf", "span"]
+    assert branch.start.value == pytest.approx(0.0, abs=1e-10)
+    assert branch.start.period == pytest.approx(2 * math.pi, rel=1e-9)
+    assert "supercritical" in branch.start.sentence
+    assert branch.stable[1:].all()
+    assert (np.diff(branch.value[1:]) > 0.0).all()  # the side on which C is unstable
+    for i in (5, len(branch) // 2, len(branch) - 1):
+        start = branch.section[i] / math.sqrt(1.0 - branch.section[i] @ branch.section[i])
+        end = solve_ivp(
+            motion(QUADRATIC, psi, branch.value[i]), (0.0, branch.period[i]), [*start, 0.0],
+            method="DOP853", rtol=1e-11, atol=1e-12,
+        )  # fmt: skip
+        assert math.dist(end.y[:2, -1], start) < 1e-8
+        assert end.y[2, -1] == pytest.approx(branch.exponent[i], abs=1e-6)
+        p = end.y[:2] / np.sqrt(1.0 + (end.y[:2] ** 2).sum(axis=0))
+        assert np.hypot(*p).max() == pytest.approx(branch.amplitude[i], abs=2e-3)
+
+
+def separation(system, m):
+    """By how much the unstable and the stable branch of the saddle miss each other on the axis s = 0, left of it."""
+    at = system.evolve(m=m).at()
+    (saddle,) = (C for C in c2.critical_sets(system.evolve(m=m), ONE) if C.kind == "saddle")
+    met = []
+    for sign, which in ((1.0, 0), (-1.0, 1)):
+        value, vectors = np.linalg.eig(saddle.jacobian)
+        v = vectors[:, int(np.argsort(-value.real)[which])].real
+        v = v if v[0] < 0.0 else -v
+
+        def field(_, x, sign=sign):
+            return sign * at.U(np.array(x) / math.hypot(1.0, *x))
+
+        def axis(_, x):
+            return x[1]
+
+        axis.terminal = True
+        run = solve_ivp(field, (0.0, 60.0), saddle.x2 + 1e-6 * v, method="DOP853", rtol=1e-11, atol=1e-13, events=axis)
+        met.append(run.y_events[0][0][0])
+    return met[0] - met[1]
+
+
+def test_a_branch_ends_where_the_separatrices_of_the_saddle_meet():
+    (branch,) = c2.branches(BOGDANOV, ONE, "m", (-0.4, -0.15)).cycles
+    assert [p.kind for p in branch.special] == ["Hopf", "homoclinic cycle"]
+    assert branch.end.period == math.inf
+    value = brentq(lambda m: separation(BOGDANOV, m), branch.end.value - 1e-3, branch.end.value + 1e-3, xtol=1e-11)
+    assert branch.end.value == pytest.approx(value, abs=1e-6)
+    assert (np.diff(branch.period[-6:-1]) > 0.0).all()
+
+
+def test_a_loop_between_two_branches_is_not_passed_over():
+    """Both foci give birth to a cycle; both end in one loop of two halves, from which a cycle about all three comes."""
+    cycles = c2.branches(EIGHT, ONE, "m", (-0.1, 0.6)).cycles
+    kinds = sorted(tuple(p.kind for p in branch.special) for branch in cycles)
+    assert kinds == [("Hopf", "homoclinic cycle")] * 2 + [("homoclinic cycle", "fold of cycles", "equator")]
+    ends = [p.value for branch in cycles for p in branch.special if p.kind == "homoclinic cycle"]
+    assert np.ptp(ends) < 1e-8
+    for m in (0.18, 0.2):
+        assert cycles.count(m) == len(c2.limit_cycles(EIGHT.evolve(m=m), ONE))
