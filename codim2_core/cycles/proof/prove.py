@@ -65,7 +65,8 @@ def _each(problem: LayerProblem, cycles: list[Array], why: str) -> Proof:
             flow = Flow(problem, MOST_STEPS)
             one = alone(problem, flow, _crossing(flow, cycle))
             found.append(check(_bounded(one)) == (1, False))
-            certificate = one if certificate is None else _joined(certificate, one)
+            if found[-1]:
+                certificate = one if certificate is None else _joined(certificate, one)
         except (Undecided, *REFUSED):
             found.append(False)
     return Proof(False, tuple(found), why, None if certificate is None else json.dumps(certificate))
