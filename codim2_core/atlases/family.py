@@ -20,7 +20,6 @@ from ..initial_value.field import function_of, rows_of
 from ..layer_problem.vary import varied
 from ..psi.constructors import with_parameter
 from ..psi.function import Psi
-from ..systems.elinear import ELinear
 
 Array = NDArray[np.float64]
 Ranges = tuple[tuple[float, float], tuple[float, float]]
@@ -220,7 +219,8 @@ def _bend(psi: Psi, square: float) -> tuple[float, float]:
 def _rows(system: Any, names: Sequence[str]) -> list[Expression]:
     """U1 and U2 as formulas in which two names stay; of a matrix that was given in its own axes."""
     kept = [name for name in names if name in system.variable]
-    if not isinstance(system, ELinear) or system.given_matrix is None:
+    given = getattr(system, "given_matrix", None)  # of e-linear systems only
+    if given is None:
         return rows_of(system, kept)[:2]
     own = [(name, value) for name, value in system.parameters if name not in kept]
 
@@ -234,7 +234,7 @@ def _rows(system: Any, names: Sequence[str]) -> list[Expression]:
         return row
 
     found = []
-    for i, entries in enumerate(system.given_matrix):
+    for i, entries in enumerate(given):
         row = parse("row_c*c + row_s*s + row_f", ("c", "s", *_PARTS))
         for name, value in zip(_PARTS, (*entries, system.f[i]), strict=True):
             row = row.substitute(name, known(value, f"f{i + 1}" if name == "row_f" else ""))

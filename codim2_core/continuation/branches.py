@@ -23,7 +23,6 @@ from ..layer_problem.critical import critical_sets
 from ..layer_problem.vary import limits, varied
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from ..systems.elinear import ELinear
 from ..systems.kinds import AnySystem
 from ..words import say
 from .asking import answered
@@ -85,7 +84,7 @@ def continue_cycles(
     if not (math.isfinite(low) and math.isfinite(high) and low < high):
         raise ValueError(f"span is {span!r}; give finite numbers low < high.")
 
-    if not isinstance(system, ELinear | Coefficients):
+    if system.typed is not None:
         raise ValueError("continue_cycles is for e-linear systems; give an ELinear.")
     straight = None
     if name in PLANE and name in system.variable:

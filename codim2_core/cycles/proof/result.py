@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 __all__ = ["Proof"]
@@ -21,13 +21,13 @@ class Proof:
     reason : str
         By what theorem, or certificate, or what is not decided and where.
     certificate : str or None
-        JSON, to be checked by ``python check.py FILE`` with `checker`; None where a theorem alone decides it.
+        JSON, to be checked by ``python check.py < FILE`` with `checker`; None where a theorem alone decides it.
     """
 
     whole: bool
     cycles: tuple[bool, ...]
     reason: str
-    certificate: str | None = None
+    certificate: str | None = field(default=None, repr=False)
 
     def __bool__(self) -> bool:
         return self.whole
