@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import chain
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -88,9 +89,10 @@ def continue_cycles(
         raise ValueError("continue_cycles is for e-linear systems; give an ELinear.")
     straight = None
     if name in PLANE and name in system.variable:
-        system, z = system.at(z), ()  # nothing else varies: coefficients are checked and evaluated once
+        # nothing else varies: coefficients are checked and evaluated once
+        system, z = (coefficients := cast("Coefficients", system.at(z))), ()
         slope = np.eye(len(PLANE))[PLANE.index(name)]
-        straight = Straight((1.0 - slope) * system.plane, slope, psi)
+        straight = Straight((1.0 - slope) * coefficients.plane, slope, psi)
 
     def inside(value: float) -> tuple[Coefficients, Psi]:
         changed, family_psi, place = varied(system, psi, z, name, value)
