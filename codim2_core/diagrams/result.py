@@ -11,9 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import drawing
-from ..continuation.branches import continue_cycles
 from ..continuation.result import CycleBranches, CyclePoint
-from ..continuation.typed.search import continue_typed
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..tables import Tabled, frame, number, paragraphs, table, write
@@ -183,6 +181,9 @@ class Branches:
 
     def with_cycles(self) -> Branches:
         """Return the same with branches of limit cycles, which take longer."""
+        from ..continuation.branches import continue_cycles  # here: both load the compiler
+        from ..continuation.typed.search import continue_typed
+
         if self.system.typed is not None:
             of = self.system, self.psi, self.along, self.span, self.z
             return replace(self, cycles=continue_typed(*of, self.standing))
