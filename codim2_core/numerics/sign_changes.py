@@ -140,6 +140,8 @@ def lowest(grid: Array, y: Array) -> list[int]:
 def _near_zero(offsets: Array, sizes: Array) -> bool:
     """Whether the parabola through three points, the middle one at offset 0, comes near zero."""
     (u, _, w), (p, q, r) = offsets.tolist(), sizes.tolist()
+    if u == 0.0 or w == 0.0:  # no double lies between: there is nothing left to hide
+        return False
     left, right = (p - q) / u, (r - q) / w
     bend, slope = (right - left) / (w - u), (left * w - right * u) / (w - u)
     lowest = q - slope * slope / (4.0 * bend) if bend > 0.0 else q
