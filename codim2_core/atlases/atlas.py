@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..arguments import shown
-from ..layer_problem.vary import limits, value_of
+from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
 from .curves import curves_of
@@ -103,15 +103,14 @@ def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, range
     """Check what `atlas` is given, and return what all of it is computed from."""
     system.at(z)  # says what is wrong with z
     slow = tuple(np.ravel(np.asarray(z, float)).tolist())
+    for what, name in (("across", across), ("up", up)):
+        check_name(system, psi, slow, what, name)
     there = names_of(system, psi, slow)
-    both = tuple("z1" if name == "z" and "z" not in there else name for name in (across, up))
-    for what, name in zip(("across", "up"), both, strict=True):
-        if name not in there:
-            allowed = f"choose one of {', '.join(there)}" if len(there) > 1 else "give a system with two parameters"
-            raise ValueError(f"{what} is {shown(name)}, which cannot be varied here; {allowed}.")
+    first, second = ("z1" if name == "z" and "z" not in there else name for name in (across, up))
+    both = first, second
     if both[0] == both[1]:
         raise ValueError(f"across and up are both {both[0]!r}; choose two different names.")
-    family = Family(system, psi, slow, both, _ranges(system, psi, slow, both, ranges))  # type: ignore[arg-type]
+    family = Family(system, psi, slow, both, _ranges(system, psi, slow, both, ranges))
     for corner in ((0.0, 0.0), (0.5, 0.5), (1.0, 1.0)):
         at, _, slow_at = family.at(np.array(corner))
         at.at(slow_at)
