@@ -26,11 +26,19 @@ class Marked(Protocol):
     """A special value of what stands still, as `diagrams` finds them."""
 
     @property
-    def kind(self) -> str: ...  # noqa: D102
+    def kind(self) -> str:
+        """What happens."""
+        ...
+
     @property
-    def value(self) -> float: ...  # noqa: D102
+    def value(self) -> float:
+        """Of the parameter."""
+        ...
+
     @property
-    def place(self) -> tuple[float, float]: ...  # noqa: D102
+    def place(self) -> tuple[float, float]:
+        """In the projected disc."""
+        ...
 
 
 @dataclass(frozen=True)
