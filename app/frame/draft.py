@@ -12,6 +12,7 @@ from codim2_core.systems.typed import System
 from codim2_core.words import printed
 
 from ..state.chosen import System_
+from .budget import LeftOut
 from .jobs import Jobs
 from .turns import Failed
 
@@ -38,6 +39,8 @@ class Draft:
         Controls that the system does not have.
     missing : list of str
         Layers of the scene that are to be computed beside the frames, as they have been asked for in vain.
+    left_out : list of LeftOut
+        Layers of the scene that are not drawn of this system, and why; told below the picture.
     """
 
     scene: Scene
@@ -50,6 +53,7 @@ class Draft:
     ready: bool
     locked: tuple[str, ...]
     missing: list[str] = field(default_factory=list)
+    left_out: list[LeftOut] = field(default_factory=list)
 
     @property
     def system(self) -> System_ | None:

@@ -43,20 +43,28 @@ def register(panel: Panel) -> None:
 
 
 def add(draft: Draft) -> None:
-    """Add what the open panel and the visible layers show to a frame."""
+    """Add what the open panel and the visible layers show to a frame.
+
+    What one has noted as sent before it ends early may not have been: the browser is sent it again.
+    """
     wanted = [PANELS[draft.values["panel"]].add, *(LAYERS[name] for name in LAYERS if name in draft.values["layers"])]
     for each in dict.fromkeys(wanted):
+        had = dict(draft.now)
         try:
             each(draft)
+            continue
         except NotYet as name:
             draft.missing.append(str(name))
             draft.late(draft.values["panel"])
         except LeftOut as why:
+            draft.left_out.append(why)
             draft.unable(draft.values["panel"], LeftOut.sentence([why]))
         except FAILURES:
             raise
         except Exception as error:  # the picture is drawn without it
             draft.header["fault"] = sentence_of(error, f"the panel {draft.values['panel']}")
+        draft.now.clear()
+        draft.now.update(had)
 
 
 for module in MODULES:

@@ -219,7 +219,8 @@ class Frames:
             header, blocks, now_sent = make_frame(scene, values, sent, ready, self.window, asked)
             if header.get("portrait", {}).get("degeneracies"):
                 self._add_sides(header, scene, values)
-            draft = Draft(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked, asked.missing)
+            late = asked.missing, asked.left_out
+            draft = Draft(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked, *late)
             registry.add(draft)
             if asked.left_out:
                 header["left_out"] = LeftOut.sentence(asked.left_out)

@@ -4,8 +4,16 @@ import threading
 import time
 from concurrent.futures import Future
 
+import pytest
+from codim2_app.draw.packing import unpack
+from codim2_app.frame import budget
+from codim2_app.frame.budget import Budget
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.turns import Failed
+from codim2_app.panels import registry
+from codim2_app.panels.panel import Panel
+from codim2_app.state.controls import ExplorerState
+from codim2_app.view.refresh import Frames
 
 
 class Later:
@@ -76,3 +84,55 @@ def test_jobs_run_beside_the_thread_that_answers():
         assert time.monotonic() < deadline
         time.sleep(0.005)
     assert names[0].startswith("codim2-panels")
+
+
+@pytest.fixture
+def typed():
+    """What the page of a typed Psi is sent, where slow layers are computed when told to; and what computes them."""
+    frames, executor = Frames(ExplorerState(psi="custom", psi_text="1/(1+s)**2"), budget=Budget()), Later()
+    frames.jobs = Jobs(executor)
+    return frames, executor
+
+
+def at_rest(frames, executor=None, **request):
+    """Return header and names of the layers of the frame at rest, after what was asked for has been computed."""
+    if executor is not None:
+        executor.run()
+    header, blocks = unpack(frames.answer({"id": 1, "rest": True, **request}))
+    return header, {name.split(".")[0] for name in blocks}
+
+
+def test_the_regions_of_a_typed_psi_come_however_late_they_are(typed):
+    frames, executor = typed
+    first, _ = at_rest(frames, all=True, set={"panel": "atlas"})
+    assert "regions" not in first
+    assert first["late"]
+    sent = [at_rest(frames, executor) for _ in range(4)]
+    assert [header["regions"]["name"] for header, _ in sent if "regions" in header] == [["CM2", "CM4", "CM2", "NCM2"]]
+    assert sum("regions" in blocks for _, blocks in sent) == 1
+
+
+def test_a_panel_that_cannot_be_drawn_yet_is_asked_again(typed, monkeypatch):
+    frames, executor = typed
+
+    def add(draft):
+        if draft.fresh("one", 1):
+            draft.header["one"] = draft.scene["certificates"] is not None
+
+    monkeypatch.setitem(registry.PANELS, "psi", Panel("psi", "One", add))
+    told = [at_rest(frames, executor, set={"panel": "psi"})[0].get("one") for _ in range(5)]
+    assert told.count(True) == 1
+    assert told[0] is None
+
+
+def test_what_a_panel_lacks_of_a_wild_system_is_said_below_the_picture(typed, monkeypatch):
+    frames, executor = typed
+
+    def add(draft):
+        draft.header["one"] = draft.scene["certificates"] is not None
+
+    monkeypatch.setitem(registry.PANELS, "psi", Panel("psi", "One", add))
+    monkeypatch.setattr(budget, "wild", lambda scene: "it is wild")
+    told = [at_rest(frames, executor, set={"panel": "psi"})[0].get("left_out", "") for _ in range(5)]
+    assert "theorems" in told[-1]
+    assert "it is wild" in told[-1]
