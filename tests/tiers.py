@@ -3,16 +3,18 @@
 ===========  =====================================================================================
 `fast`       the inner loop: the rooms and the presets, without what `costly.txt` lists
 `browser`    what drives a headless Chromium
-`slow`       faults, fuzz, containers, other versions, Firefox; left out unless asked for: ``-m slow``
+`slow`       faults, fuzz, containers, other versions, Firefox, and of long series of cases those
+             that `sampled.txt` leaves; left out unless asked for: ``-m slow``
 ===========  =====================================================================================
 
-``python -m pytest`` runs all but `slow`.
+``python -m pytest`` runs all but `slow`; a file that is named is run whole.
 """
 
 from __future__ import annotations
 
 import os
 import resource
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +24,8 @@ TESTS = Path(__file__).parent
 FAST = ("core", "app", "presets")
 SLOW = ("faults", "fuzz", "containers", "versions", "firefox")
 COSTLY = TESTS / "costly.txt"
+#: Lines ``N file::function``: of the function's cases only each N-th is run wherever all tests are.
+SAMPLED = TESTS / "sampled.txt"
 LIMIT = 0.25  # seconds of processor time, of a test that is fast
 ALTOGETHER = 2.0  # the same, of a function for all its parameters
 
@@ -40,10 +44,25 @@ def marks(folder: str, name: str, costly: frozenset[str]) -> list[str]:
 def mark(items: list[pytest.Item]) -> None:
     """Give all tests their marks, and put those in the browser first: they wait, and the others do not."""
     costly = frozenset(COSTLY.read_text().split())
+    sampled = {name: int(each) for each, name in map(str.split, SAMPLED.read_text().splitlines())}
+    cases: Counter[str] = Counter()
     for item in items:
-        for name in marks(item.path.relative_to(TESTS).parts[0], named(item), costly):
-            item.add_marker(name)
+        name = named(item)
+        left = cases[name] % sampled.get(name, 1)
+        cases[name] += 1
+        for given in ("slow",) if left else marks(item.path.relative_to(TESTS).parts[0], name, costly):
+            item.add_marker(given)
     items.sort(key=lambda item: item.get_closest_marker("browser") is None)
+
+
+def leave_out(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out the slow cases of functions that are sampled, where all tests of a folder or more are run."""
+    if not leaves_out_slow(config) or names_a_file(config):
+        return
+    kept = [item for item in items if item.get_closest_marker("slow") is None]
+    if len(kept) < len(items):
+        config.hook.pytest_deselected(items=[item for item in items if item.get_closest_marker("slow") is not None])
+        items[:] = kept
 
 
 def asked_for(config: pytest.Config) -> list[tuple[str, ...]]:
@@ -72,14 +91,18 @@ def browses(config: pytest.Config) -> bool:
     return not config.option.markexpr and () in asked_for(config)
 
 
+def names_a_file(config: pytest.Config) -> bool:
+    """Whether the command names something smaller than a folder of ``tests``."""
+    return any(len(parts) > 1 or (parts and parts[0].endswith(".py")) for parts in asked_for(config))
+
+
 def processes(config: pytest.Config) -> int:
     """Processes for this command: one a processor if it names nothing smaller than a folder of ``tests``.
 
     And two more with the tests in the browser: a process that drives it waits for it half of the time.
     """
-    small = any(len(parts) > 1 or (parts and parts[0].endswith(".py")) for parts in asked_for(config))
     alone = config.getoption("usepdb") or config.getoption("capture") == "no" or config.option.collectonly
-    if small or alone or "PYTEST_XDIST_WORKER" in os.environ:
+    if names_a_file(config) or alone or "PYTEST_XDIST_WORKER" in os.environ:
         return 0
     return len(os.sched_getaffinity(0)) + 2 * browses(config)
 

@@ -10,7 +10,19 @@ import pytest
 from tests import tiers
 
 ROOT = Path(__file__).parents[2]
-DUMMY = "def test_one():\n    pass\n\n\ndef test_two():\n    pass\n"
+DUMMY = """
+import pytest
+
+def test_one():
+    pass
+
+def test_two():
+    pass
+
+@pytest.mark.parametrize("n", range(7))
+def test_many(n):
+    pass
+"""
 
 
 @pytest.mark.parametrize(
@@ -38,13 +50,17 @@ def test_every_folder_of_slow_tests_is_left_out_unless_it_is_asked_for(tmp_path)
     for name in ("pyproject.toml", "tests/conftest.py", "tests/tiers.py"):
         (tmp_path / name).write_text((ROOT / name).read_text())
     (tests / "costly.txt").write_text("core/psi/test_it.py::test_two\n")
+    (tests / "sampled.txt").write_text("3 core/psi/test_it.py::test_many\n4 stress/test_it.py::test_many\n")
 
+    both = (2 + 3) + (2 + 2)  # without what is sampled
     asked = {
-        ("-n0",): 4,
-        ("-n0", "-m", "fast"): 1,
-        ("-n0", "-m", "slow"): 2 * len(tiers.SLOW),
-        (f"tests/{tiers.SLOW[0]}",): 2,
-        ("-p", "no:xdist"): 4,  # where pytest-xdist is not installed
+        ("-n0",): both,
+        ("-n0", "-m", "fast"): 1 + 3,
+        ("-n0", "-m", "slow"): 9 * len(tiers.SLOW) + 4 + 5,
+        (f"tests/{tiers.SLOW[0]}",): 9,
+        ("tests/stress",): 4,
+        ("tests/stress/test_it.py",): 9,
+        ("-p", "no:xdist"): both,  # where pytest-xdist is not installed
     }
     # each in a child of one process, which has imported what all need
     code = f"""
@@ -59,6 +75,15 @@ for arguments in {list(asked)!r}:
 """
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert list(map(int, re.findall(r"(\d+) passed", done.stdout))) == list(asked.values()), done.stdout
+
+
+def test_what_is_sampled_has_several_cases():
+    rows = [row.split() for row in tiers.SAMPLED.read_text().splitlines()]
+    assert rows == sorted(rows, key=lambda row: row[1])
+    for each, name in rows:
+        file, _, function = name.partition("::")
+        assert int(each) > 1, name
+        assert re.search(rf"(@[^\n]*\n(.+\n)*)def {function}\(", (tiers.TESTS / file).read_text()), name
 
 
 def test_those_in_the_browser_come_first_and_all_else_keeps_its_order():

@@ -5,8 +5,8 @@ from urllib.parse import urlparse
 from urllib.request import urlopen
 
 import pytest
-from codim2_app.docs.build import build
 
+from tests.app.docs.whole import whole_site
 from tests.app.serving import serving
 from tests.browser.conftest import PATIENCE, Explorer
 from tests.browser.test_accessible import COLOURS, SERIOUS, STATES, axe
@@ -19,9 +19,7 @@ FITS = "() => document.documentElement.scrollWidth <= innerWidth + 1"
 
 @pytest.fixture(scope="module")
 def address(tmp_path_factory):
-    pytest.importorskip("sphinx", reason="no Sphinx: pip install -e '.[docs]'")
-    folder = tmp_path_factory.mktemp("site") / "docs"
-    build(folder, portraits=False)
+    folder, _ = whole_site(tmp_path_factory)
     with serving("--docs", str(folder)) as address:
         yield address
 

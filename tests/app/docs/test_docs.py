@@ -2,19 +2,18 @@
 
 import inspect
 import re
-import threading
 from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
 
 import codim2_app
 import pytest
 from codim2_app.docs import gallery
-from codim2_app.docs.build import build
 from codim2_app.docs.place import offer, site
 from codim2_app.lessons.library import built_in
 from codim2_app.server.cli import main
 
 import codim2_core as c2
+from tests.app.docs.whole import whole_site
 
 FETCHED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"), ("source", "src")}
 
@@ -42,12 +41,7 @@ class Page(HTMLParser):
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     """The site without portraits, what it warned of, and its pages."""
-    pytest.importorskip("sphinx", reason="no Sphinx: pip install -e '.[docs]'")
-    for thread in threading.enumerate():  # of an explorer in another test: warnings have one filter for all threads
-        if thread.name == "codim2-compile":
-            thread.join()
-    folder = tmp_path_factory.mktemp("site") / "docs"
-    warned = build(folder, portraits=False)
+    folder, warned = whole_site(tmp_path_factory)
     return folder, warned, {file.name: Page(file) for file in folder.glob("*.html")}
 
 

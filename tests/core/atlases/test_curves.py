@@ -82,17 +82,18 @@ def test_e_linear_systems_typed_as_general_ones_agree_with_the_closed_forms(a, b
         )
 
 
-def test_ten_thousand_points_of_random_systems():
-    """Of forty systems: all points to 1e-9, and of each kind as much as there is."""
-    rng = np.random.default_rng(7)
+@pytest.mark.parametrize("block", range(5))
+def test_ten_thousand_points_of_random_systems(block):
+    """Of eight systems each time: all points to 1e-9, and of each kind as much as there is."""
+    rng = np.random.default_rng((7, block))
     count = 0
-    for i in range(40):
+    for i in range(8):
         a, b, d = rng.uniform(-3.0, 3.0, 3)
         psi = PSIS[i % len(PSIS)]
         found = over_f(a, b, d, psi)
         assert max(gaps(found, a, b, d, psi).values()) < 1e-9
         count += sum(len(one.points) for one in found.curves)
-    assert count > 10_000
+    assert count > 2000
 
 
 def test_the_same_system_given_in_coefficients():
