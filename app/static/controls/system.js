@@ -1,6 +1,7 @@
 // Which system is drawn: a choice, its equations, text boxes for what can be typed, and a slider for every name in it.
 
 import {NumberControl, sayAt, slider} from "./controls.js"
+import {fit} from "./fitted.js"
 import {SAYS, capital, slowName} from "../words.js"
 
 export class SystemChooser {
@@ -20,6 +21,7 @@ export class SystemChooser {
     this.find = (name) => this.box.querySelector(name)
     this.select = this.find("select")
     this.select?.addEventListener("change", () => this.choose(this.select.value))
+    if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => fit(this.find(".equations"))).observe(this.box)
     this.sliders = {}
     this.told = null
     this.kept = {}
@@ -55,6 +57,7 @@ export class SystemChooser {
     this.config.slowSymbols = this.told.slow.map((one) => one.symbol)
     for (let i = 0; i < 4; i++) this.config.symbols[slowName(i)] = this.config.slowSymbols[i] ?? (i ? `z${"₁₂₃₄"[i]}` : "z")
     this.find(".equations").innerHTML = this.told.equations
+    fit(this.find(".equations"))
     this.find(".system-note").textContent = [this.told.label && capital(`${this.told.label}.`), this.told.sentence].filter(Boolean).join(" ")
     if (!same) this.makeBoxes()
     this.makeParameters()
