@@ -52,14 +52,29 @@ SENTENCES: dict[str, Sentence] = {
         "own have one by a line such as k = 0.3 in [0, 1] under “where”, and k in a formula.",
         "a system with one parameter",
     ),
-    "map by points": Sentence(
-        "Found point by point, at boundaries in cells of 1/{finest} of the map. What lies between the points of a net "
-        "of 1/{net} of it can be missed: zoom in for a finer one.",
-        "a map of equations that are not e-linear",
+    "map by curves": Sentence(
+        "Curves are followed from where a net sees them: one that keeps within 1/24 of the ranges (within the disc "
+        "1/16) can be missed. Zoom in for a finer one.",
+        "an atlas of equations that are not e-linear",
     ),
-    "points unproved": Sentence(
-        "At {few} of {all} points it is not proved that no limit direction and no critical set is missed.",
-        "a map of typed formulas with doubts",
+    "regions to come": Sentence(
+        "The regions between these curves are being named …", "an atlas whose curves are there"
+    ),
+    "curves given up": Sentence(
+        "Of these curves some may be missing, for the search was given up after 100 places without one: {kinds}.",
+        "an atlas with a search that fails",
+    ),
+    "degenerate line": Sentence(
+        "At {name} = {value:.4g} every direction is a limit direction: nothing is told there.",
+        "an atlas with a value at which Θ is zero",
+    ),
+    "region unlike": Sentence(
+        "At {few} of {all} places the portrait is not that of its region: a curve near them is missing.",
+        "an atlas of formulas with corners",
+    ),
+    "regions unproved": Sentence(
+        "At {few} of {all} places it is not proved that no limit direction and no critical set is missed.",
+        "an atlas of typed formulas with doubts",
     ),
     "no parameter": Sentence(
         "A diagram needs a parameter; this system has none. A name typed in a formula becomes one, and Ψ = 3/(3 + "

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,13 +15,15 @@ from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
 from .curves import curves_of
+from .degenerate import degenerate_lines
 from .family import Family, Ranges
 from .numbers import numbers, places
 from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
 from .special import crossings, each_once
+from .undefined import borders
 
-__all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "atlas"]
+__all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "atlas", "curves_over", "with_regions"]
 
 Array = NDArray[np.float64]
 
@@ -33,7 +36,10 @@ LABELS = {
     "node-focus": "fig:bads",
     "det A = 0": "thm:lineps1",
     "neutral equator": "thm:geneps0",
+    "degenerate": "thm:geneps0",
+    "undefined": "U has no value",
 }
+PLACES = (0.5, 0.5), (0.21, 0.33), (0.83, 0.27), (0.29, 0.79), (0.71, 0.89)  # where U is tried, in the unit square
 AROUND = 2.0  # range on either side of a parameter's value where none is given, or the value if that is more
 
 
@@ -50,8 +56,10 @@ def atlas(
     Each curve is the set of zeros of equations in the two parameters and a place, an angle of the equator or a point
     within it, and is followed by pseudo-arclength; its points are zeros to the last digits. Where to begin is looked
     for on a net: 64 angles by 24 x 24 values of the parameters on the equator, 16 in each direction within. A curve
-    that keeps within one cell may be missed. The regions are the faces into which the curves cut the plane, each
-    named by the portrait at a place well inside it.
+    that keeps within one cell may be missed, and what happens where U has a corner, as abs(c) at 0, is not followed;
+    the result says of which kinds some may be missing, and at how many places its regions were looked at and found
+    to be others. The regions are the faces into which the curves cut the plane, each named by the portrait at a place
+    well inside it.
 
     Parameters
     ----------
@@ -71,8 +79,8 @@ def atlas(
     Raises
     ------
     ValueError
-        A name cannot be varied or is given twice, a range is empty or beyond what is allowed, z does not fit, or U is
-        not finite in a corner or the middle of the ranges.
+        A name cannot be varied or is given twice, a range is empty or beyond what is allowed, z does not fit, or U has
+        no value in the middle nor at four places about it.
 
     Examples
     --------
@@ -83,20 +91,43 @@ def atlas(
     >>> sorted({region.name for region in found.regions})
     ['CM2, stable node', 'CM4, stable node', 'NCM2']
     """
+    return with_regions(system, psi, curves_over(system, psi, across, up, ranges, z), z)
+
+
+def curves_over(system: Any, psi: Psi, across: str, up: str, ranges: Any = None, z: ArrayLike = ()) -> Atlas:
+    """Curves and points of an atlas, without its regions: all arguments are those of `atlas`."""
     family = family_over(system, psi, z, across, up, ranges)
-    found, special = curves_of(family)
+    lines = degenerate_lines(family)
+    found, special = curves_of(family, lines)
     curves = [
         AtlasCurve(one.kind, _read_only(family.values(one.plane)), LABELS[one.kind],
                    _read_only(places(family, one)), _read_only(numbers(family, one)))
-        for one in found
+        for one in found.curves
     ]  # fmt: skip
-    special = each_once(special + crossings(found))
+    curves += [_nowhere(family, "degenerate", line.points) for line in lines]
+    curves += [_nowhere(family, "undefined", line) for line in borders(family)]
+    met = [one for one in crossings(found.curves) if not any(line.holds(one.plane) for line in lines)]
     points = [
         AtlasPoint(one.kind, (float(at[0]), float(at[1])), one.sentence)
-        for one in special
+        for one in each_once(special + met)
         for at in [family.values(one.plane)]
     ]
-    return Atlas(family.names, family.ranges, tuple(curves), tuple(points), tuple(regions_of(family, found, special)))
+    degenerate = tuple((family.names[line.axis], float(family.values(line.points)[0, line.axis])) for line in lines)
+    kinds = tuple(dict.fromkeys(found.unfinished))
+    return Atlas(family.names, family.ranges, tuple(curves), tuple(points), (), kinds, degenerate)
+
+
+def _nowhere(family: Family, kind: str, plane: Array) -> AtlasCurve:
+    """Return a curve that belongs to no place of the portrait."""
+    places = _read_only(np.full((len(plane), 2), math.nan))
+    return AtlasCurve(kind, _read_only(family.values(plane)), LABELS[kind], places, _read_only(np.zeros(0)))
+
+
+def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
+    """Return an atlas with the regions between its curves, of the same system, psi and z."""
+    family = family_over(system, psi, z, *found.names, found.ranges)
+    regions, looked = regions_of(family, [one.points for one in found.curves], [one.place for one in found.points])
+    return replace(found, regions=regions, looked=looked)
 
 
 def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> Family:
@@ -111,10 +142,23 @@ def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, range
     if both[0] == both[1]:
         raise ValueError(f"across and up are both {both[0]!r}; choose two different names.")
     family = Family(system, psi, slow, both, _ranges(system, psi, slow, both, ranges))
-    for corner in ((0.0, 0.0), (0.5, 0.5), (1.0, 1.0)):
-        at, _, slow_at = family.at(np.array(corner))
-        at.at(slow_at)
+    _check_somewhere(family)
     return family
+
+
+def _check_somewhere(family: Family) -> None:
+    """Say what is wrong if U has no value at any of a few places."""
+    wrong: ValueError | None = None
+    for place in PLACES:
+        try:
+            at, _, slow = family.at(np.array(place))
+            at.at(slow)
+        except ValueError as error:
+            wrong = wrong or error
+        else:
+            return
+    if wrong is not None:
+        raise wrong
 
 
 def _ranges(system: Any, psi: Psi, z: Sequence[float], names: Sequence[str], given: Any) -> Ranges:

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..bifurcations.implicit_curve import Traced, zero_between
 from . import conditions, plane_conditions, special, starts, tracing
+from .degenerate import Line
 from .family import Family
-from .implicit_curve import Traced, zero_between
 from .special import Special
-from .tracing import Followed
+from .tracing import Followed, Found
 
 Array = NDArray[np.float64]
 
@@ -22,42 +24,47 @@ SINGULAR = 1e-9  # of det DU, all along a curve through the equator: there criti
 STILL = 1e-9  # of det DU, all along a curve of tr J = 0: there critical sets fill a line
 
 
-def curves_of(family: Family) -> tuple[list[Followed], list[Special]]:
-    """All curves, in unknowns of their own, and the special points along them."""
-    on, through, turning = starts.on_equator(family)
-    folds, hopfs, foci = starts.within(family)
-    found = _true(tracing.saddle_nodes(family, on) + tracing.through_equator(family, through))
-    points = [point for one in found for point in special.along(family, one)]
+def curves_of(family: Family, lines: Sequence[Line]) -> tuple[Found, list[Special]]:
+    """All curves, in unknowns of their own, and the special points along them; none that lies on a degenerate line."""
+    on, through, turning = starts.on_equator(family, lines)
+    folds, hopfs, foci = starts.within(family, lines)
+    found = _true(tracing.saddle_nodes(family, on) + tracing.through_equator(family, through), lines)
+    points = [point for one in found.curves for point in special.along(family, one)]
     corners = special.corners(points)
     if family.affine:
-        found = [one for one in found if one.kind != "transcritical" or not _singular(family, one)]
+        kept = [one for one in found.curves if one.kind != "transcritical" or not _singular(family, one)]
+        found = Found(kept, found.unfinished)
         singular = plane_conditions.singular_matrix(family)
         more = tracing.in_the_plane("det A = 0", singular, starts.of_plane(singular))
     else:
         more = tracing.folds(family, folds)
-    for one in tracing.hopfs(family, hopfs, corners):
-        more += _with_positive_determinant(family, one)
-    more += tracing.node_foci(family, foci, corners)
+    turning_points = tracing.hopfs(family, hopfs, corners)
+    real = [part for one in turning_points.curves for part in _with_positive_determinant(family, one)]
+    more += Found(real, turning_points.unfinished) + tracing.node_foci(family, foci, corners)
+    meetings = special.crossings([one for one in found.curves if one.kind == "saddle-node"])
+    ends = [v[1:] for v in corners] + [one.plane for one in meetings]
     neutral = plane_conditions.neutral_equator(family)
     turned = tracing.in_the_plane("neutral equator", neutral, starts.on_steps(neutral, turning))
-    more += [_to_corners(one, corners) for one in turned]
-    more = _true(more)
-    points += [point for one in more for point in special.along(family, one)]
-    return found + more, points
+    more += Found([_to_ends(one, ends) for one in turned.curves], turned.unfinished)
+    more = _true(more, lines)
+    points += [point for one in more.curves for point in special.along(family, one)]
+    return found + more, [one for one in points if not any(line.holds(one.plane) for line in lines)]
 
 
-def _true(found: list[Followed]) -> list[Followed]:
-    """Leave out what keeps to one point, and what another one covers."""
-    return _each_once([one for one in found if np.ptp(one.plane, axis=0).max() > POINT])
+def _true(found: Found, lines: Sequence[Line]) -> Found:
+    """Leave out what keeps to one point or to a degenerate line, and what another one covers."""
+    wide = [one for one in found.curves if np.ptp(one.plane, axis=0).max() > POINT]
+    own = [one for one in wide if not any(line.holds(one.plane).all() for line in lines)]
+    return Found(_each_once(own), found.unfinished)
 
 
-def _to_corners(one: Followed, corners: list[Array]) -> Followed:
-    """Go on from where the equator all but has limit directions to the corner where it has."""
+def _to_ends(one: Followed, ends: list[Array]) -> Followed:
+    """Go on from where the equator all but has limit directions to where it has: at a corner, or two at once."""
     points = one.points
     for end, i in zip(one.curve.ends, (0, -1), strict=True):
-        near = min(corners, key=lambda v, i=i: math.dist(v[1:], points[i]), default=None)
-        if end == "lost" and near is not None and math.dist(near[1:], points[i]) < LAST:
-            points = np.concatenate([near[None, 1:], points] if i == 0 else [points, near[None, 1:]])
+        near = min(ends, key=lambda v, i=i: math.dist(v, points[i]), default=None)
+        if end == "lost" and near is not None and math.dist(near, points[i]) < LAST:
+            points = np.concatenate([near[None], points] if i == 0 else [points, near[None]])
     return Followed(one.kind, one.condition, Traced(points, one.curve.closed, one.curve.ends))
 
 

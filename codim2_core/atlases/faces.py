@@ -17,6 +17,7 @@ FRAME = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
 BEYOND = 1e-6  # that lines go on beyond their ends, so that they cross what they end on
 NEAR = 6e-3  # a line that ends so near to another ends on it
 DIGITS = 9  # of places: nearer ones are one
+TOUCHING = 2e-9  # a place so near to a piece lies on it
 CHUNK = 256
 LINES = 24  # across a face, along which a place far from its border is looked for
 
@@ -86,10 +87,11 @@ def net_of(lines: Sequence[Array]) -> Net:
     places: list[tuple[float, float]] = []
 
     def number(x: float, y: float) -> int:
+        x, y = min(max(x, 0.0), 1.0), min(max(y, 0.0), 1.0)
         key = round(x, DIGITS) + 0.0, round(y, DIGITS) + 0.0
         if key not in numbers:
             numbers[key] = len(places)
-            places.append((min(max(x, 0.0), 1.0), min(max(y, 0.0), 1.0)))
+            places.append((x, y))
         return numbers[key]
 
     on: list[list[tuple[float, int]]] = [
@@ -99,6 +101,8 @@ def net_of(lines: Sequence[Array]) -> Net:
         at = number(*(start[i] + t * (end[i] - start[i])).tolist())
         on[i].append((t, at))
         on[j].append((w, at))
+    for i, j, t in _touches(np.array(places), start, end):
+        on[i].append((t, j))
     edges = set()
     for points in on:
         chain = [at for _, at in sorted(points)]
@@ -151,6 +155,21 @@ def _crossings(start: Array, end: Array, of: NDArray[np.intp]) -> list[tuple[int
         met &= ~((of[own] == of[None]) & (rows == own + 1))
         for k, j in np.argwhere(met).tolist():
             found.append((i + k, j, float(t[k, j]), float(w[k, j])))
+    return found
+
+
+def _touches(places: Array, start: Array, end: Array) -> list[tuple[int, int, float]]:
+    """Pieces, the places that lie within them, and at which part: lines may run along each other or along the frame."""
+    along = end - start
+    size = np.maximum(np.sqrt((along**2).sum(axis=1)), 1e-100)
+    found: list[tuple[int, int, float]] = []
+    for i in range(0, len(start), CHUNK):
+        r, own = along[i : i + CHUNK, None], size[i : i + CHUNK, None]
+        away = places[None] - start[i : i + CHUNK, None]
+        part = (away * r).sum(axis=2) / own**2
+        gap = np.abs(away[..., 0] * r[..., 1] - away[..., 1] * r[..., 0]) / own
+        met = (gap < TOUCHING) & (part * own > TOUCHING) & ((1.0 - part) * own > TOUCHING)
+        found += [(i + k, j, float(part[k, j])) for k, j in np.argwhere(met).tolist()]
     return found
 
 

@@ -145,6 +145,10 @@ class Family:
         """Return the parameters at places (..., 2) of the unit square."""
         return self._low + self.widths * u
 
+    def units(self, values: Array) -> Array:
+        """Return places of the unit square from values (..., 2) of the parameters."""
+        return np.asarray((values - self._low) / self.widths)
+
     @cached_property
     def size(self) -> float:
         """The largest |U| on a coarse net over the disc and the square, or 1: the unit of speed."""
@@ -162,6 +166,12 @@ class Family:
         U = [row.evaluate(values) for row in self.unit_rows]
         D = [[row.derivative(name).evaluate(values) for name in "cs"] for row in self.unit_rows]
         return np.stack(U), np.stack([np.stack(row) for row in D])
+
+    def speed_on_net(self, c: Array, s: Array, u: Array, v: Array) -> Array:
+        """Return U (2, ...) over `size` at many places at once."""
+        values: dict[str, Any] = dict(zip(("c", "s", *AXES), (c, s, u, v), strict=True))
+        shape = np.broadcast_shapes(c.shape, s.shape, u.shape, v.shape)
+        return np.stack([np.broadcast_to(row.evaluate(values), shape) for row in self.unit_rows])
 
     def psi_at(self, u: Array) -> Psi:
         """Return Psi at a place of the unit square."""

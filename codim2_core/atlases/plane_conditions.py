@@ -7,8 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from ..bifurcations.implicit_curve import Condition
 from .family import AXES, Family
-from .implicit_curve import Condition
 
 Array = NDArray[np.float64]
 

@@ -7,43 +7,87 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..diagrams.class_maps.classes import Named
 from ..diagrams.class_maps.families import classes_over
-from .faces import Face, middle, net_of
+from .faces import Face, middle, net_of, within
 from .family import Family
-from .result import AtlasRegion
-from .special import Special
-from .tracing import Followed
+from .result import AtlasRegion, Looked
 
 Array = NDArray[np.float64]
 
 BESIDE = 1e-3  # of the ranges: a point that is as near as this to a curve's chord lies on the curve
+ASIDE = 0.01  # of the ranges: nearer to a curve than this nothing is compared
+STEPS = (np.arange(5) + 0.5) / 5.0 + 0.013 * np.sin(np.arange(1.0, 6.0))  # off round numbers
+NET = np.stack(np.meshgrid(STEPS, STEPS[::-1] + 0.007, indexing="ij"), axis=-1).reshape(-1, 2)
 THIN = 2e-4  # of the ranges: what is nowhere wider than twice this is given to a neighbour
 
 
-def regions_of(family: Family, curves: Sequence[Followed], points: Sequence[Special]) -> list[AtlasRegion]:
-    """All regions, by falling area; curves that meet in one of the points do so exactly."""
-    marks = np.array([one.plane for one in points]).reshape(-1, 2)
-    net = net_of([_through(one.plane, marks) for one in curves])
+def regions_of(
+    family: Family, curves: Sequence[Array], points: Sequence[tuple[float, float]]
+) -> tuple[tuple[AtlasRegion, ...], Looked]:
+    """All regions, by falling area, and what the portrait is where they were looked at.
+
+    Parameters
+    ----------
+    family : Family
+    curves : sequence of ndarray (m, 2)
+        In values of the parameters.
+    points : sequence of (float, float)
+        Curves that meet in one of them do so exactly.
+    """
+    lines = [family.units(line) for line in curves]
+    marks = family.units(np.reshape(points, (-1, 2)))
+    net = net_of([_through(line, marks) for line in lines])
     faces = net.faces()
     found = [middle(face) for face in faces]
     classes = classes_over(family.system, family.psi, family.z, family.names, family.ranges)
     wide = [i for i, (_, room) in enumerate(found) if room > THIN]
     codes = np.full(len(faces), -1, np.int64)
     if wide:
-        codes[wide] = classes.decided(family.values(np.array([found[i][0] for i in wide])))[0]
+        codes[wide] = classes.decided(family.values(np.array([found[i][0] for i in wide])))
     code = dict(enumerate(codes.tolist()))
     owner = {edge: i for i, face in enumerate(faces) for edge in face.edges}
     _give(faces, owner, code, set(wide))
     same = {(u, v) for (u, v), i in owner.items() if (v, u) in owner and code[owner[v, u]] == code[i]}
-    out = []
-    for face in net.without(same).faces():
+    out, kinds = [], []
+    joined = net.without(same).faces()
+    for face in joined:
         at, _ = middle(face)
         kind = code[next(owner[edge] for edge in face.edges if edge in owner)]
         boundary = tuple(_read_only(family.values(ring)) for ring in face.rings)
         place = family.values(at)
         area = face.area * float(np.prod(family.widths))
         out.append(AtlasRegion(classes.name(kind), (float(place[0]), float(place[1])), area, boundary))
-    return sorted(out, key=lambda region: -region.area)
+        kinds.append(kind)
+    unlike = _unlike(family, classes, joined, kinds, lines)
+    looked = Looked(len(wide) + len(NET), unlike, classes.unproved)
+    return tuple(sorted(out, key=lambda region: -region.area)), looked
+
+
+def _unlike(
+    family: Family, classes: Named, faces: Sequence[Face], kinds: Sequence[int], lines: Sequence[Array]
+) -> tuple[tuple[float, float], ...]:
+    """Places of a net, away from all curves, whose class is not that of the region in which they lie."""
+    codes = classes.decided(family.values(NET)).tolist()
+    near = np.zeros(len(NET), bool)
+    for line in lines:
+        near |= _gaps(NET, line) < ASIDE
+    owner = np.full(len(NET), -1)
+    for i, face in enumerate(faces):
+        owner[within(NET, face.rings)] = i
+    return tuple(
+        (float(x), float(y))
+        for (x, y), code, beside, i in zip(family.values(NET), codes, near, owner.tolist(), strict=True)
+        if not beside and i >= 0 and code != kinds[i]
+    )
+
+
+def _gaps(points: Array, line: Array) -> Array:
+    """Distances of points (k, 2) from a polyline."""
+    start, along = line[:-1], np.diff(line, axis=0)
+    away = points[:, None] - start
+    part = np.clip((away * along).sum(axis=2) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
+    return np.asarray(np.sqrt(((away - part[..., None] * along) ** 2).sum(axis=2)).min(axis=1))
 
 
 def _through(line: Array, marks: Array) -> Array:

@@ -11,7 +11,7 @@ from .. import drawing
 from ..paper import cite
 from ..tables import Tabled, number, paragraphs, point, rows
 
-__all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion"]
+__all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "Looked"]
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,8 @@ class AtlasCurve(Tabled):
     kind : str
         "saddle-node" (two limit directions meet), "pitchfork" (one splits into three, by a symmetry), "transcritical"
         (a critical set comes to the equator), "fold of critical sets", "Hopf", "node-focus", "det A = 0" or
-        "neutral equator".
+        "neutral equator"; "degenerate" is a line on which every direction is a limit direction, "undefined" one beyond
+        which U has no value.
     points : ndarray (m, 2)
         In order along it; a closed one repeats its first point.
     label : str
@@ -104,6 +105,25 @@ class AtlasRegion(Tabled):
         return self.name, point(self.sample), number(self.area)
 
 
+@dataclass(frozen=True, slots=True)
+class Looked:
+    """Where an atlas was compared with the portrait.
+
+    Attributes
+    ----------
+    places : int
+        So many, in all regions and on a net between the curves.
+    unlike : tuple of (float, float)
+        Those whose portrait is not that of their region: a curve nearby is missing.
+    unproved : int
+        At so many it is not proved that no limit direction and no critical set is missed.
+    """
+
+    places: int = 0
+    unlike: tuple[tuple[float, float], ...] = ()
+    unproved: int = 0
+
+
 @dataclass(frozen=True, eq=False)
 class Atlas:
     """All that changes over two parameters.
@@ -117,6 +137,13 @@ class Atlas:
     points : tuple of AtlasPoint
     regions : tuple of AtlasRegion
         By falling area.
+    unfinished : tuple of str
+        Kinds of curves of which some may be missing: the search was given up after 100 places from which it found none.
+    degenerate : tuple of (str, float)
+        Parameters, and values of them at which every direction is a limit direction: no curve and no point is told
+        there.
+    looked : Looked
+        Where the portrait was computed.
     """
 
     names: tuple[str, str]
@@ -124,6 +151,9 @@ class Atlas:
     curves: tuple[AtlasCurve, ...]
     points: tuple[AtlasPoint, ...] = ()
     regions: tuple[AtlasRegion, ...] = ()
+    unfinished: tuple[str, ...] = ()
+    degenerate: tuple[tuple[str, float], ...] = ()
+    looked: Looked = Looked()
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..bifurcations.implicit_curve import solved, zero_between
 from ..words import say
 from . import conditions
 from .conditions import OnEquator, Within
 from .family import Family
-from .implicit_curve import solved, zero_between
 from .numbers import lyapunov, trace
 from .tracing import Followed
 

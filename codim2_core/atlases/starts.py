@@ -12,9 +12,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..bifurcations.implicit_curve import Condition
 from ..numerics.root_between import root_between
+from .degenerate import NEAR as BESIDE
+from .degenerate import Line, without
 from .family import CENTRE, NEAR, Family
-from .implicit_curve import Condition
 
 Array = NDArray[np.float64]
 
@@ -28,7 +30,7 @@ PLANE_CELL = EQUATOR_CELL[1:]
 CELL = np.array([2.0 / CELLS, 2.0 / CELLS, 1.0 / CELLS, 1.0 / CELLS])
 
 
-def on_equator(family: Family) -> tuple[Array, Array, Array]:
+def on_equator(family: Family, lines: Sequence[Line] = ()) -> tuple[Array, Array, Array]:
     """Cells in which Theta and Theta' come to zero, and those in which U does: centres (k, 3) of each.
 
     And steps (k, 2, 2) of the net, from where Theta has no zero, on which the mean of lambda_rho/|Theta| does.
@@ -40,7 +42,16 @@ def on_equator(family: Family) -> tuple[Array, Array, Array]:
     turning, radial = c * V - s * U, c * U + s * V
     slope = s * s * a - s * c * (b + p) + c * c * q - radial
     grids = theta, side, side
-    return _cells((turning, slope), grids), _cells((U, V), grids), _turns(turning[:-1], radial[:-1], side)
+    on, through = (without(_cells(of, grids), lines, 0.5 / SIDES) for of in ((turning, slope), (U, V)))
+    return on, through, _apart(_turns(turning[:-1], radial[:-1], side), lines)
+
+
+def _apart(steps: Array, lines: Sequence[Line]) -> Array:
+    """Leave out steps (k, 2, 2) that come to a degenerate line."""
+    for line in lines:
+        away = steps[..., line.axis] - line.at
+        steps = steps[(away.min(axis=1) > BESIDE) | (away.max(axis=1) < -BESIDE)]
+    return steps
 
 
 def _turns(turning: Array, radial: Array, side: Array) -> Array:
@@ -63,7 +74,7 @@ def _turns(turning: Array, radial: Array, side: Array) -> Array:
     return np.concatenate(found)
 
 
-def within(family: Family) -> tuple[Array, Array, Array]:
+def within(family: Family, lines: Sequence[Line] = ()) -> tuple[Array, Array, Array]:
     """Cells in which U comes to zero, and with it det DU, T, or T^2 - 4 sigma det DU: centres (k, 4) of each."""
     place = (np.arange(CELLS + 2) - OFF) * CELL[0] - 1.0
     side = np.linspace(0.0, 1.0, CELLS + 1)
@@ -75,6 +86,8 @@ def within(family: Family) -> tuple[Array, Array, Array]:
     focus = trace * trace - 4.0 * (1.0 - bend * np.minimum(square, NEAR)) * det
     grids = place, place, side, side
     found = [_cells((U, V, third), grids) for third in (det, trace, focus)]
+    still = [line for line in lines if line.still]
+    found = [without(cells, still, 0.5 / CELLS) for cells in found]
     first, second, third = (cells[np.hypot(*cells[:, :2].T) < 1.0 + CELL[0]] for cells in found)
     return first, second, third
 
@@ -102,10 +115,11 @@ def on_steps(condition: Condition, steps: Array) -> Array:
 
 
 def _on_net(family: Family, c: Array, s: Array, u: Array, v: Array) -> tuple[Array, Array]:
-    """U (2, ...) and its derivatives by e (2, 2, ...), finite."""
+    """U (2, ...) and its derivatives by e (2, 2, ...), NaN where one is not finite: no cell is begun from there."""
     shape = np.broadcast_shapes(c.shape, s.shape, u.shape, v.shape)
     U, D = family.on_net(c, s, u, v)
-    return np.nan_to_num(np.broadcast_to(U, (2, *shape))), np.nan_to_num(np.broadcast_to(D, (2, 2, *shape)))
+    speeds, slopes = np.broadcast_to(U, (2, *shape)), np.broadcast_to(D, (2, 2, *shape))
+    return np.where(np.isfinite(speeds), speeds, np.nan), np.where(np.isfinite(slopes), slopes, np.nan)
 
 
 def _bends(family: Family, square: Array, side: Array) -> Array:

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..bifurcations.implicit_curve import Condition, Edge, Steps, Traced, solved, tangent, traced
 from . import conditions, starts
 from .family import NEAR, Family
-from .implicit_curve import Condition, Edge, Steps, Traced, solved, tangent, traced
 
 Array = NDArray[np.float64]
 
@@ -54,6 +54,24 @@ class Followed:
         return self.curve.points[:, -2:]
 
 
+@dataclass(frozen=True, eq=False)
+class Found:
+    """All curves of some kinds that were found.
+
+    Attributes
+    ----------
+    curves : list of Followed
+    unfinished : tuple of str
+        Kinds that were given up: from `MOST_FAILED` cells none was reached.
+    """
+
+    curves: list[Followed]
+    unfinished: tuple[str, ...] = ()
+
+    def __add__(self, other: Found) -> Found:
+        return Found(self.curves + other.curves, self.unfinished + other.unfinished)
+
+
 @dataclass(frozen=True)
 class Sought:
     """A kind of curve.
@@ -73,7 +91,7 @@ class Sought:
     true: Callable[[Array], bool] = lambda _: True
 
 
-def saddle_nodes(family: Family, cells: Array) -> list[Followed]:
+def saddle_nodes(family: Family, cells: Array) -> Found:
     """Curves on which limit directions meet: saddle-nodes, and where a symmetry holds, pitchforks."""
     plain = Sought("saddle-node", conditions.saddle_node(family), _edges(3))
     forked = Sought(
@@ -85,26 +103,26 @@ def saddle_nodes(family: Family, cells: Array) -> list[Followed]:
     return _curves((plain, forked), cells, starts.EQUATOR_CELL, EQUATOR)
 
 
-def through_equator(family: Family, cells: Array) -> list[Followed]:
+def through_equator(family: Family, cells: Array) -> Found:
     """Curves on which a critical set comes to the equator."""
     sought = Sought("transcritical", conditions.through_equator(family), _edges(3))
     return _curves((sought,), cells, starts.EQUATOR_CELL, EQUATOR)
 
 
-def folds(family: Family, cells: Array) -> list[Followed]:
+def folds(family: Family, cells: Array) -> Found:
     """Curves on which two critical sets meet."""
     sought = Sought("fold of critical sets", conditions.fold(family), _edges(4, 1.0))
     return _curves((sought,), cells, starts.CELL, WITHIN)
 
 
-def hopfs(family: Family, cells: Array, corners: Sequence[Array]) -> list[Followed]:
+def hopfs(family: Family, cells: Array, corners: Sequence[Array]) -> Found:
     """Curves on which tr J = 0, of saddles too."""
     sought = Sought("Hopf", conditions.hopf(family), _edges(4, NEAR))
     sure = [_beside(family, v, 0.0) for v in corners]
-    return [_to_equator(family, one) for one in _curves((sought,), cells, starts.CELL, WITHIN, sure)]
+    return _all_to_equator(family, _curves((sought,), cells, starts.CELL, WITHIN, sure))
 
 
-def node_foci(family: Family, cells: Array, corners: Sequence[Array]) -> list[Followed]:
+def node_foci(family: Family, cells: Array, corners: Sequence[Array]) -> Found:
     """Curves on which tr(J)^2 = 4 det J; they end where both are zero."""
 
     def edge(v: Array, sign: float) -> tuple[float, Array]:
@@ -121,7 +139,7 @@ def node_foci(family: Family, cells: Array, corners: Sequence[Array]) -> list[Fo
         for sign in (1.0, -1.0)
     ]  # fmt: skip
     sure = [_beside(family, v, sign) for v in corners for sign in (2.0, -2.0)]
-    return [_to_equator(family, one) for one in _curves(both, cells, starts.CELL, WITHIN, sure)]
+    return _all_to_equator(family, _curves(both, cells, starts.CELL, WITHIN, sure))
 
 
 def _beside(family: Family, corner: Array, level: float) -> Array | None:
@@ -144,7 +162,7 @@ def _beside(family: Family, corner: Array, level: float) -> Array | None:
     return solved(condition, start, LAST)
 
 
-def in_the_plane(kind: str, condition: Condition, cells: Array) -> list[Followed]:
+def in_the_plane(kind: str, condition: Condition, cells: Array) -> Found:
     """Curves of a function of both parameters alone."""
     return _curves((Sought(kind, condition, _edges(2)),), cells, starts.PLANE_CELL, PLANE)
 
@@ -158,6 +176,10 @@ def _edges(n: int, inner: float = math.inf) -> list[Edge]:
     if inner < math.inf:
         found.append(Edge("equator", lambda v: (float(v[:2] @ v[:2]) - inner, np.append(2.0 * v[:2], (0.0, 0.0)))))
     return found
+
+
+def _all_to_equator(family: Family, found: Found) -> Found:
+    return Found([_to_equator(family, one) for one in found.curves], found.unfinished)
 
 
 def _to_equator(family: Family, one: Followed) -> Followed:
@@ -175,7 +197,7 @@ def _to_equator(family: Family, one: Followed) -> Followed:
 
 def _curves(
     sought: Sequence[Sought], cells: Array, cell: Array, steps: Steps, sure: Sequence[Array | None] = ()
-) -> list[Followed]:
+) -> Found:
     """Curves through places that are `sure` to lie beside one, and through some cells.
 
     Where the first kind has no regular point the next one is looked for. Cells come in any order: what fails often
@@ -207,7 +229,8 @@ def _curves(
     for i in np.random.default_rng(0).permutation(len(cells)).tolist():
         if left[i] and failed < MOST_FAILED:
             failed += not follow(cells[i])
-    return [curve for _, curve in found]
+    kinds = dict.fromkeys(one.kind for one in sought) if failed == MOST_FAILED else ()
+    return Found([curve for _, curve in found], tuple(kinds))
 
 
 def _regular(one: Sought, start: Array, reach: float) -> Array | None:

@@ -1,14 +1,17 @@
 """Where limit cycles reach the equator, as curves in (f1, f2): its own change of stability, and loops of half-saddles.
 
-Both functions are even in f (turn the picture by pi), so half of the plane is enough. Both kinds of curve begin where
-the saddle-node curve touches the ellipse |A^-1 f| = 1, with lambda_rho = lambda_theta = 0: the closed equator's where
-Theta has the sign of b beside that double zero, that of loops elsewhere.
+The equator is closed where sign(b) Theta > 0 at all theta, and Theta is affine in f: for f in a convex set. On its
+border, a part of the saddle-node curve, the exponent is infinite, with the sign of lambda_rho at the double zero of
+Theta: a curve of neutral equators ends at each place of the border where that sign changes, which it does where the
+saddle-node curve touches the ellipse |A^-1 f| = 1, lambda_rho = lambda_theta = 0, and may do where it crosses itself,
+in a corner. The curves of loops begin where it touches the ellipse elsewhere. Their function is even in f (turn the
+picture by pi), so half of the plane is enough.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -21,11 +24,16 @@ from ..systems.coefficients import Coefficients
 from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
 from .geometry import Geometry
+from .implicit_curve import Steps, differenced, traced, zero_between
 
-ANGLES, RADII = 24, 10  # of the half disc of critical sets in which changes of sign are looked for
+BORDER, TURN = 1440, 256  # tangents to the border of closed equators, and angles at which Theta is looked at
+WIDE = (30, 10, 3, 0)  # tangents between which a chord of that border is drawn, on either side of a change of sign
+INSIDE = 1e-6  # part of a chord of that border, from its ends, within which the exponent is not computed
+ANGLES, RADII = 24, 10  # of the half disc of critical sets in which loops are looked for by changes of sign
 COARSE, FINE = 1e-6, 1e-11  # tolerances there and on the curves
-STEP, SHORTEST = 0.03, 1e-3  # of a curve in that disc
-MOST = 400
+STEP = 0.03  # of a curve in that disc
+OF_EQUATORS = Steps(STEP, 0.12, 400, close=1e-10, least=1e-5)
+OF_LOOPS = Steps(STEP, 0.3, 400, close=1e-9, least=1e-3)
 NEAR = 0.03  # a curve that breaks off this close to a corner ends there
 
 ROUNDS, DIFFERENCE, CLOSE, REACH = 12, 1e-6, 1e-9, 0.15  # of the search for a neutral loop, in that disc
@@ -76,11 +84,12 @@ def closed_equator(a: float, b: float, d: float) -> BifurcationCurve:
     A = np.array([[a, -b], [b, d]])
     corners = touching + [np.array(plane.saddle_node_at(pair[0])) for pair in plane.double]
 
-    def exponent(e: Array) -> float:
+    def mean(e: Array) -> float:
+        """Mean of lambda_rho over the time of a turn."""
         found = equator_cycle(coefficients_at(a, b, d, -A @ e))
-        return math.nan if found is None else math.atan(found.exponent)
+        return math.nan if found is None else found.exponent / found.period
 
-    branches = _curves(exponent, exponent, A, corners)
+    branches = _curves(mean, OF_EQUATORS, _on_border(plane, mean, A), A, corners)
     sentence = say("equator turns") if branches else say("equator keeps")
     name = "closed equator" if branches else "closed equator: none"
     return BifurcationCurve("equator", name, label, frozen(branches), (), (), sentence)
@@ -129,7 +138,9 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
 
         return miss
 
-    branches = _curves(missing(FINE), missing(COARSE), A, touching)
+    sought = _sign_changes(missing(COARSE), missing(FINE))
+    branches = _curves(missing(FINE), OF_LOOPS, sought, A, touching)
+    condition = differenced(missing(FINE), DIFFERENCE)
     values, special = [], []
     for branch in branches:
         e = -np.linalg.solve(A, branch.T).T
@@ -138,7 +149,7 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
         row = np.interp(np.arange(len(row)), good, row[good])
         values.append(row)
         for i in np.flatnonzero((row[1:] > 1.0) != (row[:-1] > 1.0)):
-            at = -A @ _between(missing(FINE), lambda v: _ratio(a, b, d, -A @ v) - 1.0, e[i], e[i + 1])
+            at = -A @ zero_between(condition, lambda v: _ratio(a, b, d, -A @ v) - 1.0, e[i], e[i + 1])
             text = say("neutral loop")
             special.append(SpecialPoint("resonant loop", place(at), text))
     sentence = say("loop through the equator") if branches else say("no loop")
@@ -190,109 +201,69 @@ def _ratio(a: float, b: float, d: float, f: Array) -> float:
     return arcs[0].ratio if arcs else math.nan
 
 
-def _between(function: Callable[[Array], float], measure: Callable[[Array], float], one: Array, two: Array) -> Array:
-    """Find the point of a curve between two neighbours on it where a measure of points is zero."""
-    along = two - one
-    normal = np.array([-along[1], along[0]])
+def _on_border(plane: Geometry, mean: Callable[[Array], float], A: Array) -> Iterator[Array]:
+    """Places e = -A^-1 f on the curves of neutral equators, each beside one of their ends."""
+    theta = 2.0 * math.pi * (np.arange(BORDER) + 0.37) / BORDER
+    turn = 2.0 * math.pi * np.arange(TURN) / TURN
+    c, s = np.cos(turn), np.sin(turn)
+    f = plane.saddle_node(theta)
+    turning = (plane.b - plane.k * s * c + f[:, 1:] * c - f[:, :1] * s) * math.copysign(1.0, plane.b)
+    rows = np.flatnonzero(turning.min(axis=1) > -1e-9 * plane.size)
+    radial = plane.d * np.cos(theta) ** 2 + plane.a * np.sin(theta) ** 2
+    e = -np.linalg.solve(A, f.T).T
+    for k in range(len(rows)):
+        # the longest chord about a change of sign that cuts off no other
+        for wide in WIDE:
+            i, *between, j = np.take(rows, range(k - wide, k + 2 + wide), mode="wrap").tolist()
+            signs = np.sign(radial[[i, *between, j]])
+            if (signs[: wide + 1] == signs[0]).all() and (signs[wide + 1 :] == -signs[0]).all():
+                low, along = e[i] + INSIDE * (e[j] - e[i]), (1.0 - 2.0 * INSIDE) * (e[j] - e[i])
+                yield low + root_between(lambda t, p=low, v=along: mean(p + t * v), 0.0, 1.0, 1e-13) * along
+                break
 
-    def point(t: float) -> Array:
-        middle = one + t * along
-        slope = (function(middle + 1e-4 * normal) - function(middle - 1e-4 * normal)) / 2e-4
-        found = _crossing(function, middle, normal, slope, 1.0)
-        return middle if found is None else found[0]
 
-    return point(root_between(lambda t: measure(point(t)), 0.0, 1.0, 1e-10))
-
-
-def _curves(
-    function: Callable[[Array], float], rough: Callable[[Array], float], A: Array, corners: list[Array]
-) -> list[Array]:
-    """All curves through changes of sign seen in the disc of critical sets, in f, with their mirror images at -f.
-
-    The functions are of e = -A^-1 f: in the disc all directions count alike, however narrow the ellipse is.
-    """
-    ends = [np.asarray(-np.linalg.solve(A, f), float) for f in corners]
+def _sign_changes(rough: Callable[[Array], float], function: Callable[[Array], float]) -> Iterator[Array]:
+    """Zeros in half of the disc of critical sets, on the rays on which a rough function changes its sign."""
     radii = np.sin(0.5 * math.pi * (np.arange(RADII) + 1.0) / (RADII + 1.0))
-    found: list[Array] = []
     for angle in np.linspace(0.0, math.pi, ANGLES, endpoint=False):
         places = radii[:, None] * (math.cos(angle), math.sin(angle))
         values = [rough(e) for e in places]
         for i in range(len(places) - 1):
-            if not values[i] * values[i + 1] < 0.0:
-                continue
-            low, along = places[i], places[i + 1] - places[i]
-            e = low + root_between(lambda t, p=low, v=along: function(p + t * v), 0.0, 1.0, 1e-13) * along
-            if any(_passes(curve, e) for curve in found):
-                continue
-            curve = _curve(function, e, ends)
-            if curve is not None:
-                found += [curve] if _passes(curve, -e) else [curve, -curve]
+            if values[i] * values[i + 1] < 0.0:
+                low, along = places[i], places[i + 1] - places[i]
+                yield low + root_between(lambda t, p=low, v=along: function(p + t * v), 0.0, 1.0, 1e-13) * along
+
+
+def _curves(
+    function: Callable[[Array], float], steps: Steps, starts: Iterator[Array], A: Array, corners: list[Array]
+) -> list[Array]:
+    """All curves through some zeros, in f, with their mirror images at -f.
+
+    The functions are of e = -A^-1 f: in the disc all directions count alike, however narrow the ellipse is.
+    """
+    ends = [np.asarray(-np.linalg.solve(A, f), float) for f in corners]
+    condition = differenced(function, DIFFERENCE)
+    found: list[Array] = []
+    for e in starts:
+        if any(_passes(curve, e) for curve in found):
+            continue
+        curve = traced(condition, e, (), steps) if abs(function(e)) < 1e-3 else None
+        if curve is not None:
+            line = curve.points if curve.closed else _to_ends(curve.points, ends)
+            found += [line] if _passes(line, -e) else [line, -line]
     return [-curve @ A.T for curve in found]
+
+
+def _to_ends(line: Array, ends: list[Array]) -> Array:
+    """Return a line, drawn on to the corners beside which it breaks off."""
+    for i in (0, -1):
+        end = min(ends, key=lambda t, i=i: math.dist(t, line[i]), default=None)
+        if end is not None and 0.0 < math.dist(end, line[i]) < NEAR:
+            line = np.concatenate([end[None], line] if i == 0 else [line, end[None]])
+    return line
 
 
 def _passes(curve: Array, e: Array) -> bool:
     start, along = curve[:-1], np.diff(curve, axis=0)
     part = np.clip(((e - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
     return float(np.hypot(*(start + part[:, None] * along - e).T).min()) < 0.2 * STEP
-
-
-def _curve(function: Callable[[Array], float], e: Array, ends: list[Array]) -> Array | None:
-    """Follow the curve through a zero both ways."""
-    h = 1e-5 * np.eye(2)
-    slope = np.array([function(e + h[k]) - function(e - h[k]) for k in (0, 1)]) / 2e-5
-    steep = math.hypot(*slope)
-    if not 0.0 < steep < math.inf or abs(function(e)) > 1e-3:
-        return None
-    normal = slope / steep
-    ahead, closed = _followed(function, e, normal, steep, ends)
-    if closed:
-        return np.array([e, *ahead, e])
-    behind, _ = _followed(function, e, -normal, -steep, ends)
-    return np.array([*behind[::-1], e, *ahead])
-
-
-def _followed(
-    function: Callable[[Array], float], start: Array, normal: Array, slope: float, ends: list[Array]
-) -> tuple[list[Array], bool]:
-    """Points from a start, to the right of `normal`, until the function is no longer defined; whether it came round."""
-    tangent = np.array([normal[1], -normal[0]])
-    points, step = [start], 0.2 * STEP
-    while len(points) < MOST:
-        here = points[-1]
-        found = _crossing(function, here + step * tangent, np.array([-tangent[1], tangent[0]]), slope, step)
-        after, steep = found or (here, slope)
-        turn = (after - here) / max(math.hypot(*(after - here)), 1e-300)
-        if float(turn @ tangent) < 0.95:
-            step *= 0.5
-            if step < SHORTEST:
-                break
-            continue
-        tangent, slope = turn, steep
-        points.append(after)
-        if len(points) > 8 and math.hypot(*(after - start)) < 0.7 * step:
-            return points[1:-1], True
-        step = min(1.5 * step, STEP)
-    end = min(ends, key=lambda t: math.hypot(*(t - points[-1])), default=None)
-    if end is not None and math.hypot(*(end - points[-1])) < NEAR:
-        points.append(end)
-    return points[1:], False
-
-
-def _crossing(
-    function: Callable[[Array], float], middle: Array, normal: Array, slope: float, step: float
-) -> tuple[Array, float] | None:
-    """Zero on the line through `middle` along `normal`, and the slope there: the secant rule from a known slope."""
-    t, value = 0.0, function(middle)
-    for _ in range(8):
-        change = -value / slope
-        if not abs(t + change) < step:
-            return None
-        after = function(middle + (t + change) * normal)
-        if not math.isfinite(after):
-            return None
-        if after != value and change != 0.0:
-            slope = (after - value) / change
-        t, value = t + change, after
-        if abs(value) <= abs(slope) * 1e-11 or abs(change) < 1e-11:
-            return middle + t * normal, slope
-    return None

@@ -2,21 +2,24 @@
 
 import re
 from dataclasses import replace
+from functools import cache
 from string import Formatter
 
 import pytest
 from codim2_app import phrases
 from codim2_app.draw.packing import unpack
 from codim2_app.frame import budget, faults, turns
-from codim2_app.panels.parameters.atlas import map_columns
+from codim2_app.panels.parameters.atlas_columns import atlas_columns
 from codim2_app.server.first_page import opening
 from codim2_app.state import asked, links
 from codim2_app.state.controls import ExplorerState
 from codim2_app.state.links import read_link, squeezed, unsqueezed, write_link
 from codim2_app.view.refresh import Frames
 
-from codim2_core import ELinear, System, psi
-from codim2_core.diagrams.class_maps.atlas import class_map
+from codim2_core import System, equator_equilibria, psi
+from codim2_core.atlases import starts, tracing
+from codim2_core.atlases.atlas import curves_over, with_regions
+from codim2_core.atlases.result import Looked
 from codim2_core.scene import Scene
 
 CASE_3 = {"a": 172.0, "b": 186.0, "d": -200.0, "f1": -86.0, "f2": -93.0, "k1": 0.0}
@@ -105,18 +108,46 @@ def axes(key):
     return unable("atlas", "map", across=across, up="f1" if key == "one axis twice" else "f2")(key)
 
 
-def unproved(key):
-    plain = class_map(ELinear(-2, 0, -1), psi.constant(), ("f1", "f2"), ((-1, 1), (-1, 1)), steps=8, thin=0)
-    header, _ = map_columns(replace(plain, unproved=3))
-    assert fields(key, header["note"]) == {"few": "3", "all": str(plain.evaluated)}
-    assert not map_columns(plain)[0]["note"]
+FOLDING = System(U=("2*c**2 - c - mu", "-s + k*c*s"), parameters={"mu": 0.5, "k": 0.3})
 
 
-def by_points(key):
-    system = System(U=("c**2 - mu", "-s + k*c*s"), parameters={"mu": 0.5, "k": 0.3})
-    found = class_map(system, psi.constant(), ("mu", "k"), ((-1, 1), (-1, 1)), steps=32, thin=0, accuracy=1e-2)
-    header, _ = map_columns(found)
-    assert fields(key, header["note"]) == {"net": "16", "finest": "32"}
+@cache
+def followed():
+    """An atlas of which nothing is missing, and its curves alone."""
+    curves = curves_over(FOLDING, psi.constant(), "mu", "k", ((-1, 1), (-1, 1)))
+    return with_regions(FOLDING, psi.constant(), curves), curves
+
+
+def note(found):
+    return atlas_columns(found, ("μ", "k"))[0]["note"]
+
+
+def by_curves(key):
+    """The cells of the net are those of the search; what is there is not said to come."""
+    whole, curves = followed()
+    assert note(whole) == phrases.SENTENCES[key].says
+    assert {str(starts.SIDES), str(starts.CELLS)} == set(re.findall(r"1/(\d+)", note(whole)))
+    assert note(curves) == phrases.SENTENCES["regions to come"].says
+    assert curves.regions == ()
+
+
+def given_up(key):
+    found = replace(followed()[0], unfinished=("Hopf", "pitchfork"))
+    assert fields(key, note(found)) == {"kinds": "Hopf, pitchfork"}
+    assert str(tracing.MOST_FAILED) in phrases.SENTENCES[key].says
+
+
+def degenerate_line(key):
+    system = System(U=("mu*(c**2 - c)", "mu*(s*c + k)"), parameters={"mu": 0.5, "k": 0.1})
+    found = curves_over(system, psi.constant(), "mu", "k", ((0, 1), (-1, 1)))
+    assert fields(key, note(found)) == {"name": "μ", "value": "0"}
+    assert equator_equilibria(system.evolve(mu=0.0)).all_directions
+
+
+def looked(key):
+    """That it is so is shown by `tests/core/atlases/test_missing.py`."""
+    here = Looked(30, unproved=2) if key == "regions unproved" else Looked(30, ((0.1, 0.2), (0.3, 0.4)))
+    assert fields(key, note(replace(followed()[0], looked=here))) == {"few": "2", "all": "30"}
 
 
 def one_parameter(key):
@@ -224,8 +255,12 @@ CHECKS = {
     "no slow variable": unable("along", "along", system="own", texts={"U1": "-c", "U2": "-s", "W": ""}),
     "no parameter to map": unable("atlas", "map", system="own", texts={"U1": "-c", "U2": "-s", "W": "", "where": ""}),
     "one parameter": one_parameter,
-    "map by points": by_points,
-    "points unproved": unproved,
+    "map by curves": by_curves,
+    "regions to come": lambda _: by_curves("map by curves"),
+    "curves given up": given_up,
+    "degenerate line": degenerate_line,
+    "region unlike": looked,
+    "regions unproved": looked,
     "no parameter": unable("diagram", "diagram", system="own", texts={"U1": "-c", "U2": "-s", "W": "", "where": ""}),
     "one axis twice": axes,
     "n of another Ψ": unable("atlas", "map", across="f1", up="n"),

@@ -1,8 +1,9 @@
 """The panel "Atlas": two parameters as a plane, cut into regions of one portrait each, with a small portrait of each.
 
 The plane (f1, f2) is known in closed form: its curves go with every frame. Any other pair of axes, and a part of that
-plane, by zoom or by the ranges of its sliders, is mapped by the core's `class_map` once nothing moves: that of a system
-that is not e-linear coarsely first, then finer. A system with one parameter only has a strip along that.
+plane, by zoom or by the ranges of its sliders, is mapped once nothing moves: of an e-linear system by the core's
+`class_map`, of any other by its `atlas`, the curves first, then the regions between them, each shown as it comes. A
+system with one parameter only has a strip along that.
 """
 
 from __future__ import annotations
@@ -10,10 +11,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from codim2_core import bifurcations
+from codim2_core.atlases.atlas import Atlas, curves_over, with_regions
 from codim2_core.bifurcations import BifurcationCurve
 from codim2_core.diagrams.class_maps.atlas import ClassMap, class_map
 from codim2_core.diagrams.class_maps.line import Stretch, class_line
@@ -22,23 +21,19 @@ from codim2_core.systems.affine import as_elinear
 from codim2_core.systems.coefficients import Coefficients
 
 from ...draw import plane_curves
-from ...draw.glyphs import join
 from ...draw.packing import Polylines
 from ...draw.thumbnails import thumbnails
 from ...frame.draft import Draft
 from ...phrases import say
 from ..panel import Panel
+from .atlas_columns import atlas_columns, map_columns, short, strip_columns
 from .axes import Axis, available, missing, spans_of, without
 
 #: Controls of the plane of f: a system that lacks one of them has none.
 PLANE = ("a", "b", "d", "f1", "f2")
 #: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
 CURVES = ("saddle_node", "transcritical")
-#: Cells to a side at boundaries of a system that is classified point by point: one map after the other.
-STEPS = (16, 32, 64)
-#: How near the points of such a boundary are to the change of class, of the span: less than a pixel.
-ACCURACY = 1e-3
-#: A region narrower than this, of the width of the map, gets no small portrait.
+#: A region narrower than this, of the width of the map, gets no small portrait; nor one of less than its square.
 THINNEST = 0.012
 
 
@@ -166,56 +161,46 @@ def _map(draft: Draft, axes: tuple[Axis, Axis]) -> None:
     spans = spans_of(draft, "map", axes, draft.values["atlas_zoom"])
     names = axes[0].core, axes[1].core
     key = (system, psi, z, names, spans)
-    of = system, psi, names, spans, z
-    found: ClassMap | None
-    if as_elinear(system) is not None:
-        found = draft.slow("map", key, class_map, *of)
-    elif draft.now.get("map") != key:
-        found = draft.slow("map", key, _by_points, *of, STEPS[0], None)
-        draft.now["coarser"] = (key, found, STEPS[1:])
+    if as_elinear(system) is None:
+        _followed(draft, key, axes)
     else:
-        found = _finer(draft, key, of)
-    if found is not None:
-        draft.header["map"], lines = map_columns(found)
-        draft.blocks.update(lines)
-        if draft.now.get("coarser", (None,))[0] == key and draft.now["coarser"][2]:
-            draft.late("finer map")
-        wide = [(i, short(r.name), r.inside) for i, r in enumerate(found.regions) if r.width >= THINNEST]
-        draft.now["places"] = (key, wide, found.step)
-    _portraits(draft, key, system, psi, z, names)
+        found: ClassMap | None = draft.slow("map", key, class_map, system, psi, names, spans, z)
+        if found is not None:
+            draft.header["map"], lines = map_columns(found)
+            draft.blocks.update(lines)
+            wide = [(i, short(r.name), r.inside) for i, r in enumerate(found.regions) if r.width >= THINNEST]
+            draft.now["places"] = (key, wide)
+    _portraits(draft, key)
 
 
-def _finer(draft: Draft, key: tuple[Any, ...], of: tuple[Any, ...]) -> ClassMap | None:
-    """Return the next finer map than the browser has, once it is there; by another name: what is there is not old."""
-    kept, coarser, steps = draft.now["coarser"]
-    if kept != key or coarser is None or not steps:
-        return None
-    found: ClassMap | None = draft.slow("finer map", (key, steps[0]), _by_points, *of, steps[0], coarser)
-    if found is not None:
-        draft.now["coarser"] = (key, found, steps[1:])
-    return found
-
-
-def _portraits(draft: Draft, key: tuple[Any, ...], system: Any, psi: Psi, z: Any, names: Sequence[str]) -> None:
-    """Add a small portrait of each region of the map that the browser has, once it is the finest that there will be."""
-    of, places, step = draft.now.get("places", (None, (), 0.0))
-    if draft.now.get("coarser", (None,))[0] == key and draft.now["coarser"][2]:
+def _followed(draft: Draft, key: tuple[Any, ...], axes: tuple[Axis, Axis]) -> None:
+    """Add the curves of a system that is not e-linear and, once they are there, the regions between them."""
+    system, psi, z, names, spans = key
+    curves: Atlas | None = draft.slow("map", key, curves_over, system, psi, *names, spans, z)
+    if curves is not None:
+        draft.now["curves"] = key, curves
+    kept, known = draft.now.get("curves", (None, None))
+    if kept != key or draft.now.get("map") != key:
         return
+    whole: Atlas | None = draft.slow("map regions", key, with_regions, system, psi, known, z)
+    found = whole or curves
+    if found is not None:
+        draft.header["map"], lines = atlas_columns(found, (axes[0].symbol, axes[1].symbol))
+        draft.blocks.update(lines)
+    if whole is not None:
+        least = THINNEST**2 * sum(region.area for region in whole.regions)
+        wide = [(i, short(r.name), r.sample) for i, r in enumerate(whole.regions) if r.area >= least]
+        draft.now["places"] = (key, wide)
+
+
+def _portraits(draft: Draft, key: tuple[Any, ...]) -> None:
+    """Add a small portrait of each region of the map that the browser has."""
+    of, places = draft.now.get("places", (None, ()))
     if draft.ready and of == key:
-        tiles = draft.slow("thumbnails", (key, step), thumbnails, system, psi, z, names, places)
+        system, psi, z, names, _ = key
+        tiles = draft.slow("thumbnails", key, thumbnails, system, psi, z, names, places)
         if tiles is not None:
             draft.header["thumbnails"] = tiles
-
-
-def _by_points(
-    system: Any, psi: Psi, names: Sequence[str], spans: Any, z: Any, steps: int, start: ClassMap | None
-) -> ClassMap:
-    return class_map(system, psi, names, spans, z, steps=steps, thin=0, accuracy=ACCURACY, start=start)
-
-
-def short(name: str) -> str:
-    """Return a class without what its limit directions do: a region has little room."""
-    return name.partition(";")[0]
 
 
 def _strip(draft: Draft, axis: Axis) -> None:
@@ -229,61 +214,8 @@ def _strip(draft: Draft, axis: Axis) -> None:
         draft.blocks.update(lines)
         wide = [(i, short(s.name), (0.5 * (s.low + s.high),)) for i, s in enumerate(found)
                 if s.high - s.low >= THINNEST * (span[1] - span[0])]  # fmt: skip
-        draft.now["places"] = (key, wide, 0.0)
-    _portraits(draft, key, system, psi, z, (axis.core,))
-
-
-def strip_columns(
-    found: Sequence[Stretch], span: tuple[float, float], note: str
-) -> tuple[dict[str, Any], dict[str, Polylines]]:
-    """Return stretches as the regions of a plane that is as high as it is wide, and their ends as its curves."""
-    middle, half = 0.5 * (span[0] + span[1]), 0.5 * (span[1] - span[0])
-    ends = [[(v - middle) / half for v in (s.low, s.high)] for s in found]
-    loops = [np.array([(u, -1.0), (v, -1.0), (v, 1.0), (u, 1.0)]) for u, v in ends]
-    between = [np.array([(v, -1.0), (v, 1.0)]) for _, v in ends[:-1]]
-    header = {
-        "spans": [list(span), [0.0, 1.0]],
-        "name": [s.name for s in found],
-        "inside": [[0.5 * (s.low + s.high), 0.5] for s in found],
-        "loops": [1] * len(found),
-        "curve": [s.happening[0] for s in found[:-1]],
-        "pieces": [1] * len(between),
-        "note": note,
-    }
-    return header, {"map": Polylines(*join(loops)), "map_curves": Polylines(*join(between))}
-
-
-def map_columns(found: ClassMap) -> tuple[dict[str, Any], dict[str, Polylines]]:
-    """Return regions and curves of a map: columns, and their lines where both spans are -1 to 1."""
-    spans = np.array(found.spans)
-    middle, half = spans.mean(axis=1), 0.5 * (spans[:, 1] - spans[:, 0])
-
-    def unit(points: NDArray[np.float64]) -> NDArray[np.float64]:
-        return (points - middle) / half
-
-    header = {
-        "spans": [list(span) for span in found.spans],
-        "name": [region.name for region in found.regions],
-        "inside": [list(region.inside) for region in found.regions],
-        "loops": [len(region.boundary) for region in found.regions],
-        "curve": [boundary.happening[0] for boundary in found.boundaries],
-        "pieces": [len(boundary.lines) for boundary in found.boundaries],
-        "note": _note(found),
-    }
-    loops = [unit(loop) for region in found.regions for loop in region.boundary]
-    curves = [unit(line) for boundary in found.boundaries for line in boundary.lines]
-    return header, {
-        "map": Polylines(*plane_curves.thin(loops, 1.0)),
-        "map_curves": Polylines(*plane_curves.thin(curves, 1.0)),
-    }
-
-
-def _note(found: ClassMap) -> str:
-    """Tell what a map can miss."""
-    net, finest = round(1 / found.coarsest), round(1 / found.step)
-    told = [say("map by points", net=net, finest=finest)] if found.samples is not None else []
-    told += [say("points unproved", few=found.unproved, all=found.evaluated)] if found.unproved else []
-    return " ".join(told)
+        draft.now["places"] = (key, wide)
+    _portraits(draft, key)
 
 
 PANEL = Panel("atlas", "Atlas", add, "Two parameters as a plane, cut into regions of one portrait each.")

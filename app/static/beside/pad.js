@@ -30,7 +30,8 @@ export class Pad {
   at(point) { return this.chart.regions.findIndex((region) => holds(region, point)) }
 
   // Draw a chart: `box`; `regions` (name, bounded, inside, loops), `curves` by name, `points` [type, x, y, sentence];
-  // `handle` and `here` (where the portrait is); `path` through the handle or null; `old`; the axes' `words`; `flat` where there is one axis only.
+  // `names` of the curves in words; `handle` and `here` (where the portrait is); `path` through the handle or null; `old`;
+  // the axes' `words`; `flat` where there is one axis only.
   draw(chart) {
     const old = this.chart
     this.chart = chart
@@ -43,7 +44,7 @@ export class Pad {
   }
 
   drawBase() {
-    const {regions, curves, points, words, flat, box: [across, up]} = this.chart
+    const {regions, curves, points, words, names, flat, box: [across, up]} = this.chart
     const lines = Object.entries(curves).flatMap(([name, all]) => all.map((line) => ({name, line})))
     // a branch that is a point, or that nobody could tell from one, is drawn as a dot
     const small = [across, up].map(([low, high]) => 0.0025 * (high - low))
@@ -51,8 +52,8 @@ export class Pad {
     this.plot.draw([{
       x: {span: across, word: words[0]}, y: {span: up, ...(flat ? {ticks: []} : {})}, title: escape(words[1] ?? ""), zeros: !flat,
       areas: regions.map(({name, bounded, loops}) => ({name: `region ${colours(regions)(name)}`, label: name, title: name, loops, whole: !bounded})),
-      lines: lines.filter(({line}) => !isPoint(line)).map(({name, line}) => ({name, silent: true, x: line.map(([x]) => x), y: line.map(([, y]) => y)})),
-      dots: lines.filter(({line}) => isPoint(line)).map(({name, line: [[x, y]]}) => ({name: `point ${name}`, x, y, r: 3})),
+      lines: lines.filter(({line}) => !isPoint(line)).map(({name, line}) => ({name, title: names[name], silent: true, x: line.map(([x]) => x), y: line.map(([, y]) => y)})),
+      dots: lines.filter(({line}) => isPoint(line)).map(({name, line: [[x, y]]}) => ({name: `point ${name}`, title: names[name], x, y, r: 3})),
       marks: points.map(([type, x, y, sentence]) => ({kind: "codimension two", x, y, title: `${type}. ${sentence}`})),
       labels: regions.map((region) => ({text: shortName(region.name), name: "name", near: region.inside, allowed: (x, y) => holds(region, [x, y])})),
     }])

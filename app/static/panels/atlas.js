@@ -9,11 +9,11 @@ import {Dots} from "../room/dots.js"
 import {rangeFor, reachFor} from "../controls/ranges.js"
 
 const CURVE_NAMES = {
-  transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", closed_equator: "cycle at the equator", determinant: "det A = 0", fold: "fold of critical sets", undefined: "undefined",
+  transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", pitchfork: "pitchfork", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", closed_equator: "cycle at the equator", determinant: "det A = 0", fold: "fold of critical sets", degenerate: "all is degenerate", undefined: "undefined",
 }
 const OF_EQUATIONS = {transcritical: "a critical set at the equator", closed_equator: "closed equator neutral"}
 const CURVE_OF = {
-  transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "saddle_node", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant", fold: "fold", "neutral equator": "closed_equator",
+  transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "pitchfork", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant", fold: "fold", "fold of critical sets": "fold", "neutral equator": "closed_equator", degenerate: "degenerate",
 }
 
 const MARKUP = `${axesMarkup({across: "across", up: "up"}, "atlas_zoom")}
@@ -38,7 +38,7 @@ class Atlas {
     cycles.addEventListener("change", () => tools.choose("cycle_curves", cycles.checked ? "show" : "hide"))
     tools.follow("cycle_curves", (value) => { cycles.checked = value === "show" })
     this.plane = {size: 0, curves: {}, regions: [], points: []}
-    this.map = this.empty = {of: "", regions: [], curves: {}, points: []}
+    this.map = this.empty = {of: "", regions: [], curves: {}, points: [], names: {}}
     this.of = "" // the axes that the server draws, and whether they are the plane of f
     this.tiles = []
     this.dots = /** @type {Dots | null} */ (null)
@@ -105,22 +105,25 @@ class Atlas {
     }
     if (header.atlas_of) this.of = String(header.atlas_of)
     if (header.map) {
-      const {spans, name, inside, loops, curve, pieces} = header.map
+      const {spans, name, inside, loops, curve, pieces, points} = header.map
       const scaled = (block) => polygons(blocks[`${block}.n`], blocks[`${block}.xy`], 1)
         .map((line) => line.map((p) => p.map((u, i) => (spans[i][0] + spans[i][1]) / 2 + u * (spans[i][1] - spans[i][0]) / 2)))
       const all = scaled("map"), between = scaled("map_curves"), curves = {}
       for (const [i, kind] of curve.entries()) (curves[CURVE_OF[kind] ?? "undefined"] ??= []).push(...between.splice(0, pieces[i]))
       const regions = name.map((words, i) => ({name: words, bounded: true, inside: inside[i], loops: all.splice(0, loops[i])}))
-      this.map = {of: this.of, spans, regions, curves, points: [], note: header.map.note}
+      // only what is followed has points: its critical sets are those of equations
+      const names = points || name.some((words) => words.includes(";")) ? OF_EQUATIONS : {}
+      this.map = {of: this.of, spans, regions, curves, points: points ?? [], names, note: header.map.note}
     }
     this.why = header.unable?.map ?? (header.map || header.atlas_of ? "" : this.why)
     if (header.unable?.map) this.map = this.empty
+    if (header.unable?.["map regions"]) this.map = {...this.map, note: header.unable["map regions"]}
     if (header.thumbnails) this.showTiles(header.thumbnails)
     this.old = late.includes("regions") || late.includes("map")
     // curves that belong to another Psi or matrix are no longer true
     this.stale = late.includes("curves of psi")
     this.staleCycles = late.includes("curves of cycles")
-    this.find(".thumbnails").classList.toggle("old", late.includes("thumbnails") || this.old)
+    this.find(".thumbnails").classList.toggle("old", this.old || late.includes("thumbnails") || late.includes("map regions"))
     if (this.values) this.draw(this.values)
   }
 
@@ -128,7 +131,8 @@ class Atlas {
     this.values = values
     const words = this.axes.map((name) => this.tools.symbols[name] ?? "")
     const chart = this.isPlane ? this.chartOfPlane(values) : this.chartOfMap()
-    const here = this.pad.draw({...chart, words, old: this.old})
+    const names = {...CURVE_NAMES, ...chart.names}
+    const here = this.pad.draw({...chart, words, names, old: this.old})
     if (here !== this.here) { this.here = here; this.markTiles("here", here) }
     this.zoom.draw(values)
     this.find(".cycle-curves").hidden = !this.isPlane || !this.possible
@@ -136,7 +140,7 @@ class Atlas {
     this.find(".thumbnails").hidden = Boolean(this.why)
     this.find(".pad").toggleAttribute("hidden", Boolean(this.why) && !this.isPlane) // there is nothing to put a hand on
     for (const label of this.find(".axes").querySelectorAll("label")) /** @type {any} */ (label).hidden = this.isStrip
-    this.key(chart)
+    this.key(chart, names)
     this.showCrowd(values)
   }
 
@@ -169,18 +173,17 @@ class Atlas {
 
   chartOfMap() {
     const handle = this.axes.map((name) => this.tools.valueOf(name))
-    const {of, spans, regions, curves, points, note} = this.map.of === this.of ? this.map : this.empty
+    const {of, spans, regions, curves, points, names, note} = this.map.of === this.of ? this.map : this.empty
     const box = of ? spans : this.axes.map((name, i) => rangeFor(this.tools.rangeOf(name), handle[i]))
     if (this.isStrip) { handle[1] = 0.5; box[1] = [0, 1] }
-    return {box, regions, curves, points, handle, here: handle, path: null, note, flat: this.isStrip}
+    return {box, regions, curves, points, handle, here: handle, path: null, note, names, flat: this.isStrip}
   }
 
   // A region may be too small for its name: the key has them all, and the curves that are there.
-  key({regions, curves}) {
+  key({regions, curves}, words) {
     if (this.keyOf?.[0] === regions && this.keyOf[1] === curves) return
     this.keyOf = [regions, curves]
     const found = [...new Set(regions.map((region) => region.name))].sort(), colour = colours(regions)
-    const words = {...CURVE_NAMES, ...(found.some((name) => name.includes(";")) ? OF_EQUATIONS : {})}
     this.find(".pad-names").innerHTML = found.map((name) => `<span><i class="${colour(name)}"></i>${name}</span>`).join("")
     this.find(".pad-curves").innerHTML = Object.entries(curves).filter(([, lines]) => lines.length)
       .map(([name]) => `<span><i class="${name}"></i>${words[name]}</span>`).join("")

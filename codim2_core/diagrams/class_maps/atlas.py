@@ -1,4 +1,4 @@
-"""The atlas over any two parameters: regions of one class, and what happens between them."""
+"""The atlas of an e-linear system over any two parameters: regions of one class, and what happens between them."""
 
 from __future__ import annotations
 
@@ -11,19 +11,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from ... import drawing
 from ...psi.function import Psi
+from ...systems.affine import as_elinear
 from ...tables import Tabled, number, point, rows, table
-from .classes import Classes
-from .families import classes_over
+from ..family import family
 from .grid import THIN, Spans, Tree, tree
+from .plane_classes import PlaneClasses
 from .trace import Boundaries, chains, rings, traced
-from .typed_classes import Samples, TypedClasses
 
 __all__ = ["ClassMap", "MapBoundary", "MapRegion", "class_map"]
 
 Array = NDArray[np.float64]
 
-_PLAIN = 2  # levels of halving at every change of class of e-linear systems, which are cheap
-_COARSE = 16  # cells to a side at first, of general systems
+_PLAIN = 2  # levels of halving at every change of class
 _CANDIDATES = 48  # points of a region among which the one farthest from as many points of its border is chosen
 
 
@@ -35,9 +34,7 @@ class MapRegion(Tabled):
     ----------
     name : str
         Such as "CM4, saddle", "CM0, stable focus" or "NCM2": name of the portrait (`Classification.name`) and kind of
-        the critical set; "undefined" where a coefficient is not finite. Of a general system as "2CM6, saddle, stable
-        node; 4 arrive, 2 leave": how many critical sets and limit directions there are, the kinds of the former, and
-        how many of the latter are radially attracting and repelling.
+        the critical set; "undefined" where a coefficient is not finite.
     inside : (x, y)
         A point of the region, far from its border.
     area : float
@@ -67,8 +64,7 @@ class MapBoundary:
     ----------
     happening : tuple of str
         What happens across it: "saddle-node", "pitchfork", "transcritical", "det A = 0", "Hopf", "node-focus",
-        "undefined"; several where curves coincide. Of general systems also "fold" (two critical sets meet), "neutral
-        equator" (a closed one changes its stability), and "change" of what is degenerate throughout.
+        "undefined"; several where curves coincide.
     between : (str, str)
         Names of the regions.
     lines : tuple of ndarray (m, 2)
@@ -82,7 +78,7 @@ class MapBoundary:
 
 @dataclass(frozen=True, eq=False)
 class ClassMap:
-    """The atlas over two parameters.
+    """The atlas of an e-linear system over two parameters.
 
     Attributes
     ----------
@@ -96,16 +92,10 @@ class ClassMap:
         junctions of three regions, and between points, they are as near as a part of a cell.
     step : float
         Side of the smallest cell, where both spans are counted as 1. Boundaries that hold no whole cell are not drawn.
-    coarsest : float
-        Side of the largest cell. A region of a general system that holds no corner and no centre of a cell is missed.
     thin : tuple of (str, (x, y))
         Classes that were seen, but only in places too thin to be drawn, and one such place.
     evaluated : int
         At how many points the class was computed, before the bisections.
-    unproved : int
-        At so many of them it is not proved that no limit direction and no critical set is missed.
-    samples : Samples or None
-        Of a general system these points: a finer map (`class_map`, `start`) does not compute them again.
     """
 
     names: tuple[str, str]
@@ -114,11 +104,8 @@ class ClassMap:
     boundaries: tuple[MapBoundary, ...]
     accuracy: float
     step: float
-    coarsest: float
     thin: tuple[tuple[str, tuple[float, float]], ...]
     evaluated: int
-    unproved: int = 0
-    samples: Samples | None = None
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
@@ -143,7 +130,6 @@ def class_map(
     steps: int = 128,
     thin: int = THIN,
     accuracy: float = 1e-5,
-    start: ClassMap | None = None,
 ) -> ClassMap:
     """Regions of equal class over two parameters, and the curves between them (sec:bifurcations).
 
@@ -151,28 +137,22 @@ def class_map(
     unseen, and once or twice more where something thinner than a cell shows. Points of the boundaries are then
     found by bisection along the edges of the triangles into which the cells are cut.
 
-    Of a general system only points tell of a change: a region that holds no corner and no centre of the first cells,
-    16 to a side, is missed, whatever `steps` is, unless a boundary leads there. Smaller spans have a finer net.
-
     Parameters
     ----------
     system : ELinear, System, Coefficients or Frozen
-        Where U of a System is affine in (c, s) it is mapped as the e-linear system that it is (lem:normalform). Any
-        other is classified point by point, in seconds: begin with few steps, and give each map to the next as `start`.
+        Where U of a System is affine in (c, s) it is mapped as the e-linear system that it is (lem:normalform); any
+        other has its `atlas`.
     psi : Psi
     names : (str, str)
         Two of `layer_problem.vary.names`.
     spans : ((low, high), (low, high))
     z : (m,) floats
     steps : int
-        1/steps of the spans is the cell at boundaries, 8 to 512; rounded up to a multiple of 4 (a general system's
-        beyond 16: to 16 times a power of two).
+        1/steps of the spans is the cell at boundaries, 8 to 512; rounded up to a multiple of 4.
     thin : int
         How often cells are halved again at thin places, 0 to 2: 0 while a picture moves.
     accuracy : float
         Of the points of boundaries, where both spans are counted as 1; 1e-12 to 1e-2.
-    start : ClassMap, optional
-        A coarser map with the same system, psi, names, spans and z.
 
     Returns
     -------
@@ -181,8 +161,12 @@ def class_map(
     Raises
     ------
     ValueError
-        A name cannot be varied, a span is empty or beyond what is allowed, or z does not fit.
+        The system is not e-linear, a name cannot be varied, a span is empty or beyond what is allowed, or z does not
+        fit.
     """
+    linear = as_elinear(system)
+    if linear is None:
+        raise ValueError("U is not affine in (c, s), and class_map is of e-linear systems; use atlas.")
     if len(names) != 2 or len(spans) != 2:
         raise ValueError(f"names are {names!r} and spans {spans!r}; give two of each.")
     if not 8 <= steps <= 512:
@@ -195,20 +179,16 @@ def class_map(
     if not (np.isfinite([x0, x1, y0, y1]).all() and x0 < x1 and y0 < y1):
         raise ValueError(f"spans are {spans!r}; give (low, high) with low < high for each.")
     both = (x0, x1), (y0, y1)
-    classes = classes_over(system, psi, z, names, both, None if start is None else start.samples)
-    typed = isinstance(classes, TypedClasses)
-    plain = max(0, int(np.ceil(np.log2(steps / _COARSE)))) if typed else _PLAIN
-    coarse = min(_COARSE, -(-steps // 4) * 4) if typed else -(-steps // 4)
-    leaves = tree(classes, both, coarse, plain, thin)
-    halvings = max(1, int(np.ceil(np.log2(1.0 / ((coarse << plain) * accuracy)))))
+    classes = PlaneClasses.over(family(linear, psi, z, *names, spans=both), both)
+    coarse = -(-steps // 4)
+    leaves = tree(classes, both, coarse, _PLAIN, thin)
+    halvings = max(1, int(np.ceil(np.log2(1.0 / ((coarse << _PLAIN) * accuracy)))))
     found = traced(classes, leaves, both, halvings)
     unresolved = tuple((classes.name(code), at) for code, at in found.seen.items())
     first, second = classes.names
-    samples = classes.samples if isinstance(classes, TypedClasses) else None
     return ClassMap(
         (first, second), both, _regions(classes, leaves, found, both), _boundaries(classes, found),
-        accuracy, float(leaves.size.min()), float(leaves.size.max()), unresolved, len(leaves.codes),
-        0 if samples is None else len(samples.unproved), samples,
+        accuracy, float(leaves.size.min()), unresolved, len(leaves.codes),
     )  # fmt: skip
 
 
@@ -219,7 +199,7 @@ def _codes(found: Boundaries) -> NDArray[np.int64]:
     return out
 
 
-def _regions(classes: Classes, leaves: Tree, found: Boundaries, spans: Spans) -> tuple[MapRegion, ...]:
+def _regions(classes: PlaneClasses, leaves: Tree, found: Boundaries, spans: Spans) -> tuple[MapRegion, ...]:
     codes = _codes(found)
     bounds = np.arange(len(codes) + 1)
     inner = found.pieces[found.pieces[:, 3] >= 0]
@@ -268,7 +248,7 @@ def _inside(points: Array, polygons: list[Array], spans: Spans) -> tuple[tuple[f
     return (float(best[0]), float(best[1])), 2.0 * least
 
 
-def _boundaries(classes: Classes, found: Boundaries) -> tuple[MapBoundary, ...]:
+def _boundaries(classes: PlaneClasses, found: Boundaries) -> tuple[MapBoundary, ...]:
     codes = _codes(found)
     inner = found.pieces[found.pieces[:, 3] >= 0]
     low, high = np.sort(codes[inner[:, 2:]], axis=1).T

@@ -1,4 +1,4 @@
-"""What a class map asks of a family of systems: the class at many points, and what happens from one to another."""
+"""What is asked of a family of systems: the class at many points, and what happens from one to another."""
 
 from __future__ import annotations
 
@@ -7,41 +7,28 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["UNKNOWN", "Classes"]
+__all__ = ["Classes", "Named"]
 
 Array = NDArray[np.float64]
 Codes = NDArray[np.int64]
 
-UNKNOWN = -2  # not the class that was asked about
 
-
-class Classes(Protocol):
+class Named(Protocol):
     """The classes of portraits over one or two parameters; a class is a number, `sweep.UNDEFINED` where U is not.
 
     Attributes
     ----------
-    names : tuple of str
-        The parameters.
-    most_cells : int
-        So many cells of a map are halved at most.
+    unproved : int
+        Points, of those at which the class was computed, at which it is not proved that nothing is missed.
     """
 
     @property
-    def names(self) -> tuple[str, ...]:
-        """The parameters."""
+    def unproved(self) -> int:
+        """Points without a proof."""
         ...
 
-    @property
-    def most_cells(self) -> int:
-        """Cells of a map, at most."""
-        ...
-
-    def decided(self, at: Array) -> tuple[Codes, Array]:
-        """Return classes at points (k, n), and the functions (j, k) whose signs decide them (nan: without meaning)."""
-        ...
-
-    def beside(self, at: Array, before: Codes, after: Codes) -> Codes:
-        """Return classes at points between others or, where they are not `before` and dear to find, `UNKNOWN`."""
+    def decided(self, at: Array) -> Codes:
+        """Return classes at points (k, n)."""
         ...
 
     def happening(self, before: int, after: int) -> tuple[str, ...]:
@@ -50,4 +37,31 @@ class Classes(Protocol):
 
     def name(self, code: int) -> str:
         """Name a class."""
+        ...
+
+
+class Classes(Protocol):
+    """Classes that a quadtree over two parameters is made of.
+
+    Attributes
+    ----------
+    most_cells : int
+        So many cells are halved at most.
+    """
+
+    @property
+    def most_cells(self) -> int:
+        """Cells, at most."""
+        ...
+
+    def measured(self, at: Array) -> tuple[Codes, Array]:
+        """Return classes at points (k, 2), and the functions (j, k) whose signs decide them (nan: without meaning)."""
+        ...
+
+    def decided(self, at: Array) -> Codes:
+        """Return classes at points (k, 2)."""
+        ...
+
+    def happening(self, before: int, after: int) -> tuple[str, ...]:
+        """Name what happens between two classes."""
         ...

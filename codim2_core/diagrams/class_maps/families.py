@@ -12,9 +12,8 @@ from ...layer_problem.vary import limits, names
 from ...psi.function import Psi
 from ...systems.affine import as_elinear
 from ..family import family
-from .classes import Classes
 from .plane_classes import PlaneClasses
-from .typed_classes import Samples, TypedClasses
+from .typed_classes import TypedClasses
 
 __all__ = ["classes_over"]
 
@@ -25,8 +24,7 @@ def classes_over(
     z: ArrayLike,
     varying: Sequence[str],
     spans: Sequence[Sequence[float]],
-    known: Samples | None = None,
-) -> Classes:
+) -> PlaneClasses | TypedClasses:
     """Return the classes of a system over some names.
 
     Parameters
@@ -37,8 +35,6 @@ def classes_over(
     varying : sequence of str
         Different ones of `layer_problem.vary.names`.
     spans : sequence of (low, high)
-    known : Samples, optional
-        Of the same general system, not to be computed again.
 
     Raises
     ------
@@ -59,4 +55,4 @@ def classes_over(
         low, high = limits(system, psi, name)
         if not all(np.isfinite(v) and low <= v <= high for v in spans[i]):
             raise ValueError(f"values of {name} are beyond {low:g} to {high:g}; give values between these.")
-    return TypedClasses(system, psi, z, varying, known)
+    return TypedClasses(system, psi, z, varying)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .classes import UNKNOWN, Classes
+from .classes import Classes
 
 __all__ = ["THIN", "Spans", "Tree", "crossings", "tree"]
 
@@ -81,7 +81,7 @@ class _Vertices:
             self.table[new] = count  # of equal keys the last one stays
             new = new[self.table[new] == count]
             self.table[new] = len(self.keys) + np.arange(len(new), dtype=np.int32)
-            codes, functions = self.classes.decided(self.place(new))
+            codes, functions = self.classes.measured(self.place(new))
             self.keys = np.concatenate([self.keys, new])
             self.codes = np.concatenate([self.codes, codes])
             known = self.functions if self.functions.shape[1] else functions[:, :0]
@@ -237,13 +237,9 @@ def crossings(
     beyond = after.copy()
     for _ in range(halvings):
         t = 0.5 * (low + high)
-        here = classes.beside(start + t[:, None] * (end - start), before, after)
+        here = classes.decided(start + t[:, None] * (end - start))
         same = here == before
         low, high = np.where(same, t, low), np.where(same, high, t)
         beyond = np.where(same, beyond, here)
     t = 0.5 * (low + high)
-    unknown = np.flatnonzero(beyond == UNKNOWN)
-    if len(unknown):
-        behind = start[unknown] + high[unknown, None] * (end[unknown] - start[unknown])
-        beyond[unknown] = classes.decided(behind)[0]
     return start + t[:, None] * (end - start), beyond

@@ -79,7 +79,7 @@ def class_line(system: Any, psi: Psi, name: str, span: Sequence[float], z: Array
     ends.append(high)
     classes = classes_over(system, psi, z, (name,), (found.span,))
     middles = np.array([[u + OFF_CENTRE * (v - u)] for u, v in pairwise(ends)])
-    codes = classes.decided(middles)[0].tolist()
+    codes = classes.decided(middles).tolist()
     stretches: list[Stretch] = []
     start = low
     for i, (code, end) in enumerate(zip(codes, ends[1:], strict=True)):

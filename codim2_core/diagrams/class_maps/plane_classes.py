@@ -24,7 +24,7 @@ __all__ = ["PlaneClasses", "happening"]
 
 @dataclass(frozen=True, eq=False)
 class PlaneClasses:
-    """Classes of an e-linear family, see `classes.Classes`.
+    """Classes of an e-linear family, see `classes.Classes` and `classes.Named`.
 
     Attributes
     ----------
@@ -48,6 +48,11 @@ class PlaneClasses:
         return 60_000
 
     @property
+    def unproved(self) -> int:
+        """Points without a proof: none, they are closed forms."""
+        return 0
+
+    @property
     def names(self) -> tuple[str, ...]:
         """The parameters."""
         return self.family.names
@@ -55,7 +60,7 @@ class PlaneClasses:
     def _plane(self, at: Array) -> Plane:
         return self.family(**dict(zip(self.names, at.T, strict=True)))
 
-    def decided(self, at: Array) -> tuple[Codes, Array]:
+    def measured(self, at: Array) -> tuple[Codes, Array]:
         """Classes, and the four functions whose signs decide them (nan where one has no meaning)."""
         plane = self._plane(at)
         exponent = scale(plane)
@@ -68,7 +73,7 @@ class PlaneClasses:
         known = discriminant(plane, exponent)
         return classes(plane, found, known), np.stack([known, gap, share, focus])
 
-    def beside(self, at: Array, before: Codes, after: Codes) -> Codes:  # noqa: ARG002 (all cost the same)
+    def decided(self, at: Array) -> Codes:
         """Classes at points."""
         return classes(self._plane(at))
 

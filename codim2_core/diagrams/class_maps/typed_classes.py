@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,9 +12,9 @@ from ...layer_problem.vary import varied
 from ...psi.function import Psi
 from ..sweep import UNDEFINED
 from ..typed.state import State
-from .classes import UNKNOWN, Array, Codes
+from .classes import Array, Codes
 
-__all__ = ["Samples", "TypedClasses"]
+__all__ = ["TypedClasses"]
 
 
 class Portrait(NamedTuple):
@@ -57,28 +56,8 @@ class Portrait(NamedTuple):
         return sum(kind.endswith(ending) or kind.startswith(ending) for kind in self.sets)
 
 
-@dataclass(frozen=True, eq=False)
-class Samples:
-    """Points at which classes were computed.
-
-    Attributes
-    ----------
-    classes : tuple of Portrait
-        By number.
-    places : tuple of (float, float)
-    codes : tuple of int
-    unproved : frozenset of int
-        Points, by position, at which it is not proved that nothing is missed.
-    """
-
-    classes: tuple[Portrait, ...]
-    places: tuple[tuple[float, ...], ...]
-    codes: tuple[int, ...]
-    unproved: frozenset[int]
-
-
 class TypedClasses:
-    """Classes of any system over one or two parameters, see `classes.Classes`.
+    """Classes of any system over one or two parameters, see `classes.Named`.
 
     Parameters
     ----------
@@ -87,34 +66,17 @@ class TypedClasses:
     z : (m,) floats
     names : sequence of str
         Of `layer_problem.vary.names`.
-    known : Samples, optional
-        Of an earlier one with the same arguments: they are not computed again.
     """
 
-    most_cells = 4_000
-
-    def __init__(self, system: Any, psi: Psi, z: Any, names: Sequence[str], known: Samples | None = None) -> None:
+    def __init__(self, system: Any, psi: Psi, z: Any, names: Sequence[str]) -> None:
         self.names = tuple("z1" if name == "z" else name for name in names)
+        self.unproved = 0
         self._of = system, psi, z
-        self._classes: list[Portrait] = list(known.classes) if known else []
-        self._numbers: dict[Portrait, int] = {portrait: i for i, portrait in enumerate(self._classes)}
-        self._unproved: set[tuple[float, ...]] = {known.places[i] for i in known.unproved} if known else set()
-        self._known: dict[tuple[float, ...], int] = dict(zip(known.places, known.codes, strict=True)) if known else {}
+        self._classes: list[Portrait] = []
 
-    @property
-    def samples(self) -> Samples:
-        """All that was computed for `decided`."""
-        unproved = frozenset(i for i, place in enumerate(self._known) if place in self._unproved)
-        return Samples(tuple(self._classes), tuple(self._known), tuple(self._known.values()), unproved)
-
-    def decided(self, at: Array) -> tuple[Codes, Array]:
-        """Classes, and no functions: the products of all that may come to zero cost more than the classes."""
-        return np.array([self._decided(tuple(place)) for place in at.tolist()], np.int64), np.zeros((0, len(at)))
-
-    def beside(self, at: Array, before: Codes, after: Codes) -> Codes:
-        """`before` where the class is that, else `UNKNOWN`: only what is not the same in `after` is looked at."""
-        rows = zip(at.tolist(), before.tolist(), after.tolist(), strict=True)
-        return np.array([here if self._still(tuple(place), here, then) else UNKNOWN for place, here, then in rows])
+    def decided(self, at: Array) -> Codes:
+        """Classes at points, one after the other."""
+        return np.array([self._decided(tuple(place)) for place in at.tolist()], np.int64)
 
     def _state(self, place: tuple[float, ...]) -> State:
         of = self._of
@@ -124,31 +86,15 @@ class TypedClasses:
         return State(system, psi, self.names[-1], place[-1], z)
 
     def _decided(self, place: tuple[float, ...]) -> int:
-        if place not in self._known:
-            try:
-                state = self._state(place)
-            except ValueError:  # U is not finite there
-                self._known[place] = UNDEFINED
-            else:
-                portrait = Portrait(*(part(state) for part in _PARTS))
-                if portrait not in self._numbers:
-                    self._numbers[portrait] = len(self._classes)
-                    self._classes.append(portrait)
-                self._known[place] = self._numbers[portrait]
-                if not state.proven:
-                    self._unproved.add(place)
-        return self._known[place]
-
-    def _still(self, place: tuple[float, ...], before: int, after: int) -> bool:
-        """Whether the class is `before` in all that `after` has otherwise."""
         try:
             state = self._state(place)
-        except ValueError:
-            return before == UNDEFINED
-        if UNDEFINED in (before, after):
-            return before != UNDEFINED
-        rows = zip(_PARTS, self._classes[before], self._classes[after], strict=True)
-        return all(part(state) == here for part, here, then in rows if here != then)
+        except ValueError:  # U is not finite there
+            return UNDEFINED
+        portrait = Portrait(_directions(state), _arcs(state), _sets(state), state.part(2))
+        self.unproved += not state.proven
+        if portrait not in self._classes:
+            self._classes.append(portrait)
+        return self._classes.index(portrait)
 
     def happening(self, before: int, after: int) -> tuple[str, ...]:
         """Name what happens between two classes."""
@@ -174,13 +120,6 @@ def _arcs(state: State) -> int:
 
 def _sets(state: State) -> tuple[str, ...]:
     return tuple(sorted(C.kind for C in state.critical))
-
-
-def _closed(state: State) -> int | None:
-    return state.part(2)
-
-
-_PARTS: tuple[Callable[[State], Any], ...] = (_directions, _arcs, _sets, _closed)  # of a `Portrait`, in its order
 
 
 def _happening(one: Portrait, other: Portrait) -> tuple[str, ...]:

@@ -30,10 +30,10 @@ def test_every_place_is_in_the_region_of_its_class(plane):
     assert sum(region.area for region in found.regions) == pytest.approx(float(np.prod(widths)), rel=1e-9)
     classes = classes_over(system, psi, z, names, ranges)
     samples = np.array([region.sample for region in found.regions])
-    assert [classes.name(code) for code in classes.decided(samples)[0].tolist()] == [one.name for one in found.regions]
+    assert [classes.name(code) for code in classes.decided(samples).tolist()] == [one.name for one in found.regions]
     count = 60 if plane == "quadratic" else 2000
     places = np.random.default_rng(5).uniform(*np.array(ranges).T, (count, 2))
-    codes = classes.decided(places)[0]
+    codes = classes.decided(places)
     owned = np.stack([within(places, region.boundary) for region in found.regions])
     assert (owned.sum(axis=0) == 1).mean() > 0.999
     wrong = [
@@ -67,3 +67,10 @@ def test_lines_that_cross_or_end_loosely():
 def test_a_line_ends_on_another():
     lines = [np.array([[0.0, 0.5], [1.0, 0.5]]), np.array([[0.5, 1.0], [0.5, 0.503]])]
     assert sorted(face.area for face in net_of(lines).faces()) == pytest.approx([0.25, 0.25, 0.5], abs=1e-9)
+
+
+def test_lines_run_along_the_frame_and_along_each_other():
+    side, up = np.linspace(0.0, 1.0, 8), np.linspace(0.0, 1.0, 6)
+    edge = np.stack([1.0 + 0.0 * side, side], axis=-1)
+    one, other = (np.stack([0.3 + 0.0 * at, at], axis=-1) for at in (side, up))
+    assert sorted(face.area for face in net_of([edge, one, other]).faces()) == pytest.approx([0.3, 0.7], abs=1e-12)

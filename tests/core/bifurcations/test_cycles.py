@@ -59,6 +59,24 @@ def test_closed_equator_has_exponent_zero():
     assert min(from_nearest(end, [np.array(double), -np.array(double)]) for end in ends) < 1e-9
 
 
+@pytest.mark.parametrize("abd", [(0.0466, 2.228, -0.8324), (-0.585, -2.4198, 2.807)])
+def test_a_curve_beside_the_border_of_closed_equators_is_found(abd):
+    """It lies between the rays on which changes of sign were looked for once."""
+    curve = bifurcations.closed_equator(*abd)
+    assert len(curve) == 2
+    for line in curve.branches:
+        way = np.diff(line, axis=0)
+        for i in range(len(line) // 4, len(line) - len(line) // 4, 5):
+            across = 1e-6 * np.array([-way[i, 1], way[i, 0]]) / np.hypot(*way[i])
+            sides = [equator_cycle(ELinear(*abd, tuple(line[i] + s * across))).exponent for s in (-1.0, 1.0)]
+            assert sides[0] * sides[1] < 0.0
+        plane = Geometry(*abd)
+        ends = [
+            np.array(plane.saddle_node_at(t)) for t in [*plane.touching, *(t for pair in plane.double for t in pair)]
+        ]
+        assert max(from_nearest(end, ends) for end in (line[0], line[-1])) < 1e-9
+
+
 def test_a_cycle_is_born_from_the_closed_equator():
     curve = bifurcations.closed_equator(*ABD)
     f = curve.branches[0][20]

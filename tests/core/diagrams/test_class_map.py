@@ -220,8 +220,8 @@ def test_classes_point_by_point_are_those_of_the_e_linear_system() -> None:
         # x is 0 on Sigma; but by it U is searched as any other, and not solved as an e-linear one
         general = TypedClasses(system.evolve(U=("a*c - b*s + f + x", "b*c - s + 0.2")), psi, (), ("a", "b"))
         assert isinstance(linear, PlaneClasses)
-        names = [general.name(code).partition(";")[0] for code in general.decided(at)[0].tolist()]
-        assert names == [linear.name(code) for code in linear.decided(at)[0].tolist()]
+        names = [general.name(code).partition(";")[0] for code in general.decided(at).tolist()]
+        assert names == [linear.name(code) for code in linear.decided(at).tolist()]
 
 
 def test_equations_that_are_e_linear_have_the_map_of_their_coefficients() -> None:
@@ -233,48 +233,9 @@ def test_equations_that_are_e_linear_have_the_map_of_their_coefficients() -> Non
     assert [r.area for r in mine.regions] == pytest.approx([r.area for r in theirs.regions], rel=1e-9)
 
 
-def test_a_map_of_equations_has_their_classes_and_a_finer_one_goes_on_from_it() -> None:
-    psi, names, spans = c2.psi.tanh(), ("mu", "k"), ((-0.4, 0.4), (-1.0, 1.0))
-    coarse = class_map(FOLDING, psi, names, spans, steps=8, thin=0, accuracy=1e-2)
-    fine = class_map(FOLDING, psi, names, spans, steps=16, thin=0, accuracy=1e-3, start=coarse)
-    assert coarse.samples is not None
-    assert fine.samples is not None
-    assert set(coarse.samples.places) < set(fine.samples.places)
-    for r in fine.regions:
-        mu, k = r.inside
-        assert r.name == of_general(FOLDING.evolve(mu=mu, k=k), psi)
-    # two critical sets, c = (1 ± sqrt(1 + 8 mu))/4, are born at mu = -1/8
-    borders = {b.happening[0]: b for b in fine.boundaries}
-    assert_allclose(np.concatenate(borders["fold"].lines)[:, 0], -0.125, atol=1e-3)
-    assert fine.unproved == 0
-    rng = np.random.default_rng(1)
-    lines = np.concatenate([line for b in fine.boundaries for line in b.lines])
-    for x, y in zip(rng.uniform(-0.4, 0.4, 40).tolist(), rng.uniform(-1, 1, 40).tolist(), strict=True):
-        (region,) = [r for r in fine.regions if holds(r.boundary, x, y)]
-        if np.hypot(*(lines - (x, y)).T).min() > 0.16:
-            assert region.name == of_general(FOLDING.evolve(mu=x, k=y), psi)
-
-
-def test_a_general_island_without_a_point_of_the_net_is_seen_by_a_map_of_less():
-    at = -1 + (2 * 7 + 0.5) / 16  # between a centre and the corners of a cell
-    island = f"r**2 - (mu - ({at}))**2 - (k - ({at}))**2"
-    system = c2.System(U=(f"c**2 - ({island})", "-9*s"), parameters={"mu": 0.0, "k": 0.0, "r": 0.02})
-
-    def found(radius: float, half: float) -> ClassMap:
-        around = (at - half, at + 1.1 * half)
-        spans = ((-1, 1), (-1, 1)) if half == 1 else (around, around)
-        return class_map(system.evolve(r=radius), c2.psi.tanh(), ("mu", "k"), spans, steps=16, thin=0, accuracy=1e-2)
-
-    assert [len(found(*of).regions) for of in ((0.02, 1), (0.02, 0.1), (0.2, 1))] == [1, 2, 2]
-    assert found(0.02, 1).coarsest == 1 / 16
-
-
-def test_where_equations_have_no_value_is_a_region_of_its_own() -> None:
-    system = c2.System(U=("c**2 - mu", "-s + log(k)"), parameters={"mu": 0.5, "k": 0.3})
-    M = class_map(system, c2.psi.tanh(), ("mu", "k"), ((-2, 2), (-1, 1)), steps=8, thin=0, accuracy=1e-2)
-    below = next(r for r in M.regions if r.name == "undefined")
-    assert below.area == pytest.approx(4, abs=0.1)
-    assert ("undefined",) in {b.happening for b in M.boundaries}
+def test_equations_that_are_not_e_linear_are_sent_to_their_atlas() -> None:
+    with pytest.raises(ValueError, match="use atlas"):
+        class_map(FOLDING, c2.psi.tanh(), ("mu", "k"), ((-1, 1), (-1, 1)))
 
 
 def test_stretches_along_one_parameter() -> None:

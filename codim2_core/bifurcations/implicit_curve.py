@@ -59,12 +59,18 @@ class Steps:
         Points each way.
     period : float
         Of the first coordinate; infinite where it has none.
+    close : float
+        Correction at which Newton's method stops.
+    least : float
+        Shortest step.
     """
 
     longest: float
     turn: float
     most: int
     period: float = math.inf
+    close: float = CLOSE
+    least: float = LEAST_STEP
 
     def apart(self, one: Array, other: Array) -> Array:
         """Return ``other - one``, by the shorter way round."""
@@ -91,6 +97,20 @@ class Traced:
     points: Array
     closed: bool
     ends: tuple[str, str]
+
+
+def differenced(function: Callable[[Array], float], step: float) -> Condition:
+    """Return a condition of one function, whose derivatives are central differences."""
+
+    def condition(v: Array) -> tuple[Array, Array]:
+        value = function(v)
+        if not math.isfinite(value):
+            return np.full(1, math.nan), np.full((1, len(v)), math.nan)
+        ways = step * np.eye(len(v))
+        slope = [(function(v + way) - function(v - way)) / (2.0 * step) for way in ways]
+        return np.array([value]), np.array([slope])
+
+    return condition
 
 
 def solved(condition: Condition, start: Array, reach: float = math.inf) -> Array | None:
@@ -183,10 +203,10 @@ def _followed(
     points: list[Array] = []
     here, along, step = start, first, FIRST_STEP * steps.longest
     while len(points) < steps.most:
-        found = _stepped(condition, here, along, step)
+        found = _stepped(condition, here, along, step, steps.close)
         if found is None or float(found[1] @ along) < math.cos(steps.turn):
             step *= SHRINKAGE
-            if step < LEAST_STEP:
+            if step < steps.least:
                 return points, "lost"
             continue
         there, onward, quick = found
@@ -196,7 +216,7 @@ def _followed(
             if last is not None:
                 return [*points, last[0]], last[1]
             step *= SHRINKAGE
-            if step < LEAST_STEP:
+            if step < steps.least:
                 return points, crossed[0].name
             continue
         if len(points) > 2 and _comes_round(steps, start, first, here, there):
@@ -209,7 +229,9 @@ def _followed(
     return points, "many"
 
 
-def _stepped(condition: Condition, here: Array, along: Array, step: float) -> tuple[Array, Array, bool] | None:
+def _stepped(
+    condition: Condition, here: Array, along: Array, step: float, close: float
+) -> tuple[Array, Array, bool] | None:
     """Return the point a step further, the tangent there, and whether it was found quickly."""
     expected = here + step * along
     v, n = expected, len(here)
@@ -230,7 +252,7 @@ def _stepped(condition: Condition, here: Array, along: Array, step: float) -> tu
         v, size = v + change, math.sqrt(change @ change)
         if not size < step:
             return None
-        if size < CLOSE or (rounds == ROUNDS - 1 and size < ENOUGH):
+        if size < close or (rounds == ROUNDS - 1 and size < ENOUGH):
             return v, onward / math.sqrt(onward @ onward), rounds < QUICK
     return None
 

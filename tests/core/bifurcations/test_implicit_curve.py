@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from codim2_core.atlases.implicit_curve import Edge, Steps, between, solved, tangent, traced, zero_between
+from codim2_core.bifurcations.implicit_curve import Edge, Steps, between, solved, tangent, traced, zero_between
 
 STEPS = Steps(0.1, 0.2, 500)
 

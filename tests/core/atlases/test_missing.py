@@ -1,0 +1,63 @@
+"""What an atlas says of itself: where all is degenerate, where U has no value, and what it has missed, or may have."""
+
+import numpy as np
+import pytest
+
+import codim2_core as c2
+from codim2_core.atlases import tracing
+from codim2_core.atlases.faces import within
+from codim2_core.diagrams.class_maps.families import classes_over
+
+ONE = c2.psi.constant()
+FOLDING = c2.System(U=("2*c**2 - c - mu", "-s + k*c*s"), parameters={"mu": 0.5, "k": 0.3})
+SQUARE = (-1, 1), (-1, 1)
+
+
+@pytest.mark.parametrize("low", [0, -1.3])
+def test_a_line_on_which_u_is_zero_is_named_and_has_no_points(low):
+    system = c2.System(U=("mu*(c**2 - c)", "mu*(s*c + k)"), parameters={"mu": 0.5, "k": 0.1})
+    found = c2.atlas(system, ONE, "mu", "k", ((low, 1), (-1, 1)))
+    ((name, value),) = found.degenerate
+    assert name == "mu"
+    assert abs(value) < 1e-12
+    (line,) = [one for one in found.curves if one.kind == "degenerate"]
+    assert np.abs(line.points[:, 0]).max() < 1e-12
+    assert all(abs(point.place[0]) > 1e-6 for point in found.points)
+    assert all(np.ptp(one.points[:, 0]) > 0.5 for one in found.curves if one is not line)  # none runs along it
+
+
+def test_so_is_one_on_which_every_direction_is_a_limit_direction():
+    system = c2.System(U=("-c*(1 + c*s) + k*s", "-s*(1 + c*s) + k*k*c + k*mu"), parameters={"mu": 0.5, "k": 0.1})
+    found = c2.atlas(system, ONE, "mu", "k", ((0, 1), (-1, 1.5)))
+    ((name, value),) = found.degenerate
+    assert (name, round(value, 12)) == ("k", 0.0)
+    assert c2.equator_equilibria(system.evolve(k=0.0)).all_directions
+
+
+def test_a_search_that_is_given_up_is_told(monkeypatch):
+    assert c2.atlas(FOLDING, ONE, "mu", "k", SQUARE).unfinished == ()
+    monkeypatch.setattr(tracing, "MOST_FAILED", 0)
+    assert "saddle-node" in c2.atlas(FOLDING, ONE, "mu", "k", SQUARE).unfinished
+
+
+def test_what_happens_at_a_corner_of_u_is_seen_to_be_missing():
+    system = c2.System(U=("-c", "mu - abs(s - k)"), parameters={"mu": 0.1, "k": 0.1})
+    found = c2.atlas(system, ONE, "mu", "k", ((-0.5, 0.5), (-0.5, 0.5)))  # two critical sets are born at mu = 0
+    assert found.looked.unlike
+    classes = classes_over(system, ONE, (), ("mu", "k"), found.ranges)
+    for place in found.looked.unlike:
+        (own,) = [one for one in found.regions if within(np.array([place]), one.boundary)[0]]
+        assert classes.name(int(classes.decided(np.array([place]))[0])) != own.name
+    assert not c2.atlas(FOLDING, ONE, "mu", "k", SQUARE).looked.unlike
+
+
+def test_where_equations_have_no_value_is_a_region_of_its_own():
+    system = c2.System(U=("c**2 - mu", "-s + log(k)"), parameters={"mu": 0.5, "k": 0.3})
+    found = c2.atlas(system, ONE, "mu", "k", ((-2, 2), (-1, 1)))
+    (border,) = [one for one in found.curves if one.kind == "undefined"]
+    assert np.abs(border.points[:, 1]).max() < 1e-9
+    assert found.regions[0].name == "undefined"
+    assert found.regions[0].area == pytest.approx(4.0, abs=1e-9)
+    nowhere = system.evolve(U=("c**2 - mu", "-s + log(k - 9)"))
+    with pytest.raises(ValueError, match="finite"):
+        c2.atlas(nowhere, ONE, "mu", "k", ((-2, 2), (-1, 1)))
