@@ -61,7 +61,7 @@ SENTENCES: dict[str, Sentence] = {
         "The regions between these curves are being named …", "an atlas whose curves are there"
     ),
     "curves given up": Sentence(
-        "Of these curves some may be missing, for the search was given up after 100 places without one: {kinds}.",
+        "Some of these curves may be missing, the search was given up after 100 places without one: {kinds}.",
         "an atlas with a search that fails",
     ),
     "degenerate line": Sentence(

@@ -19,6 +19,7 @@ NEAR = 6e-3  # a line that ends so near to another ends on it
 DIGITS = 9  # of places: nearer ones are one
 TOUCHING = 2e-9  # a place so near to a piece lies on it
 CHUNK = 256
+ASIDE = 0.479  # of a stretch across a face: its middle is a round number where the face has a symmetry
 LINES = 24  # across a face, along which a place far from its border is looked for
 
 
@@ -241,7 +242,7 @@ def middle(face: Face) -> tuple[Array, float]:
 
 
 def _chords(rings: Sequence[Array], axis: int) -> Array:
-    """Middles (k, 2) of stretches within polygons on lines along one axis."""
+    """Places (k, 2) near the middles of stretches within polygons on lines along one axis."""
     low, high = rings[0][:, 1 - axis].min(), rings[0][:, 1 - axis].max()
     found = []
     for level in low + (high - low) * (np.arange(LINES) + 0.5137) / LINES:
@@ -252,6 +253,6 @@ def _chords(rings: Sequence[Array], axis: int) -> Array:
             crossed += (p0[cut] + (level - q0[cut]) / (q1[cut] - q0[cut]) * (p1[cut] - p0[cut])).tolist()
         crossed.sort()
         for one, other in zip(crossed[::2], crossed[1::2], strict=False):
-            at = 0.5 * (one + other)
+            at = one + ASIDE * (other - one)
             found.append((at, level) if axis == 0 else (level, at))
     return np.array(found).reshape(-1, 2)

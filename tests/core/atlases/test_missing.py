@@ -34,6 +34,14 @@ def test_so_is_one_on_which_every_direction_is_a_limit_direction():
     assert c2.equator_equilibria(system.evolve(k=0.0)).all_directions
 
 
+def test_a_region_is_named_beside_the_line_of_its_symmetry():
+    """On k = 0 foci are nodes, for no curve's sake: the discriminant is -k^2."""
+    system = c2.System(U=("-mu*c*(1 + c^2/2) - k*s", "-mu*s*(1 + c^2/2) + k*c"), parameters={"mu": 0.5, "k": 0.3})
+    found = c2.atlas(system, ONE, "mu", "k", ((0.1, 1), (-1, 1)))
+    assert not found.looked.unlike
+    assert all("focus" in region.name for region in found.regions)
+
+
 def test_a_search_that_is_given_up_is_told(monkeypatch):
     assert c2.atlas(FOLDING, ONE, "mu", "k", SQUARE).unfinished == ()
     monkeypatch.setattr(tracing, "MOST_FAILED", 0)
