@@ -14,6 +14,7 @@ import numpy as np
 from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.figures.presets import presets
 from codim2_core.orbits.trajectories import is_warm, warm
+from codim2_core.portrait.approach import approach_outcomes
 from codim2_core.psi import FAMILIES, constant, hill, make
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
@@ -51,7 +52,12 @@ def _steps() -> list[tuple[str, Callable[[], object]]]:
     """Return what is compiled beforehand, by what it is called, in the order in which it is asked for."""
     families = [family for family in FAMILIES.values() if not family.typed]
     first, *others = ((f"trajectories for Ψ = {family.title}", partial(warm, make(family.name))) for family in families)
-    last = [(GENERAL, warm_general), ("branches of cycles", _warm_branches), ("motions in time", _warm_motions)]
+    last = [
+        ("approach outcomes", _warm_outcomes),
+        (GENERAL, warm_general),
+        ("branches of cycles", _warm_branches),
+        ("motions in time", _warm_motions),
+    ]
     return [("arrowheads", _warm_arrowheads), first, ("limit cycles", _warm_cycles), *others, *last]
 
 
@@ -133,6 +139,12 @@ def _warm_cycles() -> None:
     """Compile, or load, the return map of e-linear systems."""
     three = presets["case3-n3"]
     limit_cycles(three.system, three.psi)
+
+
+def _warm_outcomes() -> None:
+    """Compile, or load, what follows orbits under all Psi side by side."""
+    three = presets["case3-n3"]
+    approach_outcomes(three.system, three.psi)
 
 
 def _warm_branches() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 
 from ..stepping.dop853 import ARITHMETIC
-from ..stepping.layout import EACH, ERROR_3, ERROR_5, LANES, NEW, SIGN, STATE, STEP, WITH_EACH, WORKSPACE
+from ..stepping.layout import EACH, ERROR_3, ERROR_5, GAINS, LANES, NEW, SIGN, STATE, STEP, WITH_EACH, WORKSPACE
 from ..stepping.numbers import PSI
 
 SHARE = 0.1  # of the tolerance, for one step
@@ -21,7 +21,7 @@ def workspace(shared):
     S, P = np.zeros(WORKSPACE), np.zeros(WITH_EACH)
     for m in range(SIGN):
         P[m] = shared[m]
-    for m in range(SIGN, EACH):
+    for m in range(SIGN, GAINS):
         P[m] = -1.0
     return S, P
 
@@ -34,12 +34,17 @@ def load_system(P, shared, lane):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def load_state(S, state, lane):
+    """Let a lane stand at a state (3,)."""
+    for c in range(3):
+        S[STATE + c * LANES + lane] = state[c]
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def load(S, states, base, active):
     """Put the next states into the lanes; one that is left over repeats the first of them."""
     for k in range(LANES):
-        i = base + k if k < active else base
-        for c in range(3):
-            S[STATE + c * LANES + k] = states[i, c]
+        load_state(S, states[base + k if k < active else base], k)
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")

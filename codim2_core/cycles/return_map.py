@@ -19,7 +19,7 @@ from .lane_steps import (
     TRIALS,
     growth,
     judged,
-    load,
+    load_state,
     load_system,
     narrow,
     next_length,
@@ -81,93 +81,105 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
     log, logged = np.empty((record, 5)), 0
     S, P = workspace(shared[0])
     own = 1 if len(shared) > 1 else 0  # times the index: where a state's own numbers are
-    phase, tries = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
+    phase, tries, spent = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
+    who, fresh = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
     clock, step = np.zeros(LANES), np.zeros(LANES)
     low, high, at_low, at_high = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
     side = np.zeros(LANES, np.int64)
     allowed = SHARE * rtol
-    for base in range(0, n, LANES):
-        active = min(LANES, n - base)
-        load(S, states, base, active)
+    following, done, free = 0, 0, True
+    for k in range(LANES if n > 0 else 0):  # an idle lane repeats a harmless state with steps of length 0
+        load_state(S, states[0], k)
+        load_system(P, shared[0], k)
+        phase[k] = DONE
+    while done < n:
+        if free:
+            free = False
+            for k in range(LANES):
+                fresh[k] = 0
+                if phase[k] == DONE and following < n:
+                    load_state(S, states[following], k)
+                    load_system(P, shared[own * following], k)
+                    who[k], fresh[k], phase[k], spent[k] = following, 1, FIRST_HALF, 0
+                    clock[k], step[k] = 0.0, 0.5 * rtol**0.125
+                    following += 1
+            call_field(field, S, STATE, K0, P)
+            for k in range(LANES if elsewhere else 0):
+                if fresh[k] == 1:
+                    # Orbits go round in one sense: where u.U > 0 they come to this section next, else to the opposite.
+                    vx, vy = _velocity(S, STATE, K0, k)
+                    m = own * who[k]
+                    phase[k] = SECOND_HALF if u[m, 0] * vx + u[m, 1] * vy > 0.0 else TURNED
+        set_lengths(S, step)
+        advance(S, P, field)
         for k in range(LANES):
-            load_system(P, shared[own * (base + k if k < active else base)], k)
-            phase[k] = FIRST_HALF if k < active else DONE
-            clock[k], step[k] = 0.0, 0.5 * rtol**0.125 if k < active else 0.0
-        call_field(field, S, STATE, K0, P)
-        if elsewhere:
-            # Orbits go round in one sense: where u.U > 0 they come to this section next, else to the opposite one.
-            for k in range(active):
-                vx, vy = _velocity(S, STATE, K0, k)
-                m = own * (base + k)
-                phase[k] = SECOND_HALF if u[m, 0] * vx + u[m, 1] * vy > 0.0 else TURNED
-        spent, running = 0, active
-        while running > 0 and spent < limit:
-            spent += 1
-            set_lengths(S, step)
-            advance(S, P, field)
-            for k in range(LANES):
-                if phase[k] == REFINING:
-                    to_sphere(S, k)
-            # Errors before the field at NEW, which belongs on the sphere.
-            for k in range(LANES):
-                if phase[k] == DONE or phase[k] == REFINING:
+            if phase[k] == REFINING:
+                to_sphere(S, k)
+        # Errors before the field at NEW, which belongs on the sphere.
+        for k in range(LANES):
+            if phase[k] == DONE or phase[k] == REFINING:
+                continue
+            error = judged(S, k, allowed)
+            tries[k] = 1 if error <= 1.0 else 0
+            low[k] = step[k]  # the length just tried
+            step[k] *= growth(error)
+        call_field(field, S, NEW, K12, P)
+        for k in range(LANES):
+            if phase[k] == DONE:
+                continue
+            spent[k] += 1
+            m = own * who[k]
+            u1, u2 = u[m, 0], u[m, 1]
+            vx, vy = _velocity(S, NEW, K12, k)
+            g = u1 * vx + u2 * vy
+            if phase[k] == REFINING:
+                h = step[k]
+                tries[k] += 1
+                narrow(k, g > 0.0, g, step, low, at_low, high, at_high, side)
+                size = math.sqrt(vx * vx + vy * vy)
+                if abs(g) > 1e-16 * size and high[k] - low[k] > 4e-16 * high[k] and tries[k] < TRIALS:
+                    step[k] = next_length(k, low, at_low, high, at_high)
                     continue
-                error = judged(S, k, allowed)
-                tries[k] = 1 if error <= 1.0 else 0
-                low[k] = step[k]  # the length just tried
-                step[k] *= growth(error)
-            call_field(field, S, NEW, K12, P)
-            for k in range(LANES):
-                if phase[k] == DONE:
+                if record > 0:
+                    logged = noted(log, logged, S, k, h, who[k])
+                codes[who[k]], times[who[k]] = RETURNED, clock[k] + h
+                phase[k] = DONE
+            elif tries[k] == 1:
+                h = low[k]
+                forward = sense[m] * (u1 * vy - u2 * vx)
+                if phase[k] == FIRST_HALF and forward < 0.0:
+                    phase[k] = TURNED
+                if phase[k] == TURNED and g > 0.0:
+                    phase[k] = SECOND_HALF
+                elif phase[k] == SECOND_HALF and g <= 0.0:
+                    ox, oy = _velocity(S, STATE, K0, k)
+                    low[k], at_low[k], high[k], at_high[k] = 0.0, u1 * ox + u2 * oy, h, g
+                    step[k] = h * at_low[k] / (at_low[k] - g)
+                    phase[k], tries[k], side[k] = REFINING, 0, 0
                     continue
-                m = own * (base + k)
-                u1, u2 = u[m, 0], u[m, 1]
-                vx, vy = _velocity(S, NEW, K12, k)
-                g = u1 * vx + u2 * vy
-                if phase[k] == REFINING:
-                    h = step[k]
-                    tries[k] += 1
-                    narrow(k, g > 0.0, g, step, low, at_low, high, at_high, side)
-                    size = math.sqrt(vx * vx + vy * vy)
-                    if abs(g) > 1e-16 * size and high[k] - low[k] > 4e-16 * high[k] and tries[k] < TRIALS:
-                        step[k] = next_length(k, low, at_low, high, at_high)
-                        continue
-                    if record > 0:
-                        logged = noted(log, logged, S, k, h, base + k)
-                    codes[base + k], times[base + k] = RETURNED, clock[k] + h
-                    phase[k] = DONE
-                elif tries[k] == 1:
-                    h = low[k]
-                    forward = sense[m] * (u1 * vy - u2 * vx)
-                    if phase[k] == FIRST_HALF and forward < 0.0:
-                        phase[k] = TURNED
-                    if phase[k] == TURNED and g > 0.0:
-                        phase[k] = SECOND_HALF
-                    elif phase[k] == SECOND_HALF and g <= 0.0:
-                        ox, oy = _velocity(S, STATE, K0, k)
-                        low[k], at_low[k], high[k], at_high[k] = 0.0, u1 * ox + u2 * oy, h, g
-                        step[k] = h * at_low[k] / (at_low[k] - g)
-                        phase[k], tries[k], side[k] = REFINING, 0, 0
-                        continue
-                    if record > 0:
-                        logged = noted(log, logged, S, k, h, base + k)
-                    clock[k] += h
-                    w = S[NEW + 2 * LANES + k]
-                    dx, dy = S[NEW + k] / w - centre[m, 0], S[NEW + LANES + k] / w - centre[m, 1]
-                    if dx * dx + dy * dy < floor[m] * floor[m]:
-                        codes[base + k], times[base + k], phase[k] = INWARD, clock[k], DONE
-                    elif w < sunk[m] * states[base + k, 2]:
-                        codes[base + k], times[base + k], phase[k] = OUTWARD, clock[k], DONE
-                    elif clock[k] >= t_max:
-                        times[base + k], phase[k] = clock[k], DONE
-                    for c in range(3):
-                        S[STATE + c * LANES + k] = S[NEW + c * LANES + k]
-                        S[K0 + c * LANES + k] = S[K12 + c * LANES + k]
-                if phase[k] == DONE:
-                    for c in range(3):
-                        ends[base + k, c] = S[NEW + c * LANES + k]
-                    step[k] = 0.0
-                    running -= 1
+                if record > 0:
+                    logged = noted(log, logged, S, k, h, who[k])
+                clock[k] += h
+                w = S[NEW + 2 * LANES + k]
+                dx, dy = S[NEW + k] / w - centre[m, 0], S[NEW + LANES + k] / w - centre[m, 1]
+                if dx * dx + dy * dy < floor[m] * floor[m]:
+                    codes[who[k]], times[who[k]], phase[k] = INWARD, clock[k], DONE
+                elif w < sunk[m] * states[who[k], 2]:
+                    codes[who[k]], times[who[k]], phase[k] = OUTWARD, clock[k], DONE
+                elif clock[k] >= t_max:
+                    times[who[k]], phase[k] = clock[k], DONE
+                for c in range(3):
+                    S[STATE + c * LANES + k] = S[NEW + c * LANES + k]
+                    S[K0 + c * LANES + k] = S[K12 + c * LANES + k]
+            if phase[k] == DONE:
+                for c in range(3):
+                    ends[who[k], c] = S[NEW + c * LANES + k]
+                step[k], free = 0.0, True
+                done += 1
+        for k in range(LANES):
+            if phase[k] != DONE and spent[k] >= limit:  # given up: its end stays where it began
+                phase[k], step[k], free = DONE, 0.0, True
+                done += 1
     return ends, times, codes, log[:logged]
 
 

@@ -98,16 +98,18 @@ def of_critical_set(C: CriticalSet) -> Linearised:
     for value in values[:1] if values[0] == values[1] else values:
         # the longer row of J - lambda has the eigenvector across it
         u, v = max((j11 - value, j12), (j21, j22 - value), key=lambda row: math.hypot(*row))
-        x, y = to_disc(C.x2, np.array([-v, u])).tolist()
-        found.append(Eigendirection((x, y), value))
+        found.append(Eigendirection(to_disc(C.x2, (-v, u)), value))
     return Linearised(tuple(found))
 
 
-def to_disc(x2: Array, vector: Array) -> Array:
-    """Carry a tangent (2,) at x2 (2,) of kappa_2 to the disc, ``p = x2/sqrt(1 + |x2|^2)``, with length 1."""
-    vector = vector / np.abs(vector).max()  # the square of its length may be too small to be told from 0
-    image = vector - x2 * float(x2 @ vector) / (1.0 + float(x2 @ x2))
-    return image / np.linalg.norm(image)
+def to_disc(x2: Array, vector: tuple[float, float]) -> tuple[float, float]:
+    """Carry a tangent at x2 (2,) of kappa_2 to the disc, ``p = x2/sqrt(1 + |x2|^2)``, with length 1."""
+    (x, y), size = x2.tolist(), max(map(abs, vector))
+    u, v = vector[0] / size, vector[1] / size  # the square of its length may be too small to be told from 0
+    part = (x * u + y * v) / (1.0 + x * x + y * y)
+    u, v = u - x * part, v - y * part
+    length = math.hypot(u, v)
+    return u / length, v / length
 
 
 def of_limit_directions(problem: LayerProblem) -> tuple[Linearised, ...]:

@@ -13,6 +13,9 @@ up to terms of order w^4. At the resonance, where that denominator vanishes, k h
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -38,12 +41,19 @@ def _tilt(
 
 
 def departures(at: AtZ, psi: Psi, theta: ArrayLike, rtol: float, backward: bool) -> NDArray[np.float64]:
-    """First states (k, 3) of the orbits that leave limit directions.
+    """First states (k, 3) of the orbits that leave limit directions; as `departures_under` for one Psi."""
+    return departures_under(at, (psi,), theta, rtol, backward)[0]
+
+
+def departures_under(
+    at: AtZ, psis: Sequence[Psi], theta: ArrayLike, rtol: float, backward: bool
+) -> list[NDArray[np.float64]]:
+    """First states of the orbits that leave limit directions, under each Psi.
 
     Parameters
     ----------
     at : Coefficients or Frozen
-    psi : Psi
+    psis : sequence of Psi
     theta : (k,)
         Zeros of Theta with lambda_rho < 0 (backward: > 0), radians.
     rtol : float
@@ -52,7 +62,7 @@ def departures(at: AtZ, psi: Psi, theta: ArrayLike, rtol: float, backward: bool)
 
     Returns
     -------
-    ndarray (k, 3)
+    list of ndarray (k, 3)
         (p_x, p_y, ebar).
 
     Raises
@@ -85,9 +95,10 @@ def departures(at: AtZ, psi: Psi, theta: ArrayLike, rtol: float, backward: bool)
             f"hemisphere {'backward where lambda_rho > 0' if backward else 'where lambda_rho < 0'} only."
         )
     w = min(HIGHEST, (0.1 * rtol) ** 0.25)
-    far = 1.0 / (w * w)
-    value = psi(far)
-    mu = max(-far * psi.derivative(far) / value, 0.0) if value > 0.0 else 0.0
-    angle = angle + w * w * _tilt(lambda_theta, lambda_rho, 0.5 * value * tilting, mu, w)
-    r = np.sqrt((1.0 - w) * (1.0 + w))
-    return np.stack([r * np.cos(angle), r * np.sin(angle), np.full_like(angle, w)], axis=-1)
+    far, r, found = 1.0 / (w * w), math.sqrt((1.0 - w) * (1.0 + w)), []
+    for psi in psis:
+        value = psi(far)
+        mu = max(-far * psi.derivative(far) / value, 0.0) if value > 0.0 else 0.0
+        turned = angle + w * w * _tilt(lambda_theta, lambda_rho, 0.5 * value * tilting, mu, w)
+        found.append(np.stack([r * np.cos(turned), r * np.sin(turned), np.full_like(turned, w)], axis=-1))
+    return found

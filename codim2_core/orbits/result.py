@@ -113,6 +113,17 @@ def joined(parts: Sequence[Trajectories]) -> Trajectories:
     )
 
 
+def cut_up(every: Trajectories, until: Sequence[int], evaluations: Sequence[int]) -> list[Trajectories]:
+    """One result as several, each up to the trajectory `until` which it goes, with its evaluations."""
+    parts = []
+    for first, last, count in zip([0, *until], until, evaluations, strict=False):
+        low, high = every.offsets[[first, last]].tolist()
+        lines = (every.buffer[low:high], every.clock[low:high], every.offsets[first : last + 1] - low)
+        ends = (every.ends[first:last], every.codes[first:last])
+        parts.append(Trajectories(*(array.copy() for array in (*lines, *ends)), count))
+    return parts
+
+
 def continued(first: Trajectories, which: NDArray[np.int64], rest: Trajectories) -> Trajectories:
     """Return trajectories of which some, `which` of `first`, go on as `rest`, from where they ended there."""
     points, times = list(first.points), list(first.times)

@@ -10,7 +10,7 @@ import math
 from dataclasses import replace
 from functools import lru_cache
 from types import SimpleNamespace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +21,7 @@ from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .departures import departures
 from .options import PIXEL, STEP_LIMIT, Stepping, stepping
-from .result import STATUSES, Status, Trajectories, continued, joined
+from .result import STATUSES, Status, Trajectories, continued, cut_up, joined
 from .seeds import checked_seeds
 
 __all__ = ["Status", "Trajectories", "continuation", "is_warm", "joined", "trajectories", "warm"]
@@ -144,8 +144,8 @@ def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping
     if len(states) == 0:
         return joined([])
     if not options.stiff:
-        return _stepped(at, psi, states, signs, options)
-    found = _stepped(at, psi, states, signs, replace(options, step_limit=min(EXPLICIT, options.step_limit)))
+        return stepped(at, psi, states, signs, options)
+    found = stepped(at, psi, states, signs, replace(options, step_limit=min(EXPLICIT, options.step_limit)))
     which, spent, drawn, pace = _under_way(found)
     creeping = (drawn < ROUND) & (pace * spent < ROUND)
     if options.step_limit > EXPLICIT and creeping.any():
@@ -160,7 +160,7 @@ def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping
         options, t_max=max(options.t_max - spent.min(), 1e-300), length=max(options.length - drawn.max(), 1e-9),
         step_limit=more,
     )  # fmt: skip
-    return continued(found, which, _stepped(at, psi, found.ends[which], signs[which], last))
+    return continued(found, which, stepped(at, psi, found.ends[which], signs[which], last))
 
 
 def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array, Array]:
@@ -173,16 +173,26 @@ def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array, Ar
     return which, spent, drawn, np.array([way / max(time, 1e-300) for way, time in last])
 
 
-def _stepped(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
+def stepped(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
     """Follow trajectories explicitly."""
-    kernels = _kernels()
+    found = in_lanes(at, _kernels().problem(at, psi, options.backward), states, signs, [len(states)], options)[0]
+    _warm.add(psi.family if at.typed is None else GENERAL)
+    return found
+
+
+def in_lanes(
+    at: AtZ, problem: Any, states: Array, signs: Array, until: list[int], options: Stepping
+) -> list[Trajectories]:
+    """Follow trajectories explicitly under each Psi of a problem, whose states end at `until`."""
     # Time in units of 1/|U| makes step sizes, speeds and capture independent of the scale of U.
-    problem, unit = kernels.problem(at, psi, options.backward), at.speed
-    buffer, clock, offsets, ends, codes, evaluations = kernels.integrate(
+    unit = at.speed
+    buffer, clock, offsets, ends, codes, evaluations = _kernels().integrate(
         states,
         signs,
         problem.shared,
         problem.address,
+        problem.own,
+        np.array(until),
         min(float(options.t_max) * unit, 1e300),
         float(options.rtol),
         float(options.atol),
@@ -193,8 +203,8 @@ def _stepped(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) 
         float(options.length),
     )
     clock *= (-1.0 if options.backward else 1.0) / unit
-    _warm.add(psi.family if at.typed is None else GENERAL)
-    return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
+    found = Trajectories(buffer, clock, offsets, ends, codes, int(evaluations.sum()))
+    return [found] if len(until) == 1 else cut_up(found, until, evaluations.tolist())
 
 
 def _crept(

@@ -26,7 +26,7 @@ from ..systems.kinds import AnySystem
 from ..words import named, say
 from .endings import angular_sign, radially_neutral
 from .outcomes import Outcome, Outcomes, on_arcs
-from .verdicts import Array, Judged, arriving, spiralling, with_flow
+from .verdicts import Array, Judged, arriving, arriving_begun, spiralling, with_flow
 
 __all__ = ["approach_outcomes"]
 
@@ -125,7 +125,10 @@ def _directions(asked: _Asked, indices: Sequence[int]) -> tuple[Outcome, ...]:
     equator = own.equator
     which = [i for i in indices if not radially_neutral(equator, i) and equator.lambda_rho[i] < 0.0]
     problems = {problem.psi: problem for problem in (own, *others)}  # the own Psi may be one of the others
-    arrivals = {psi: arriving(problem, which) for psi, problem in problems.items()}
+    lines = arriving_begun(list(problems.values()), which)
+    arrivals = {
+        psi: arriving(problem, which, begun) for (psi, problem), begun in zip(problems.items(), lines, strict=True)
+    }
     judged = {i: [arrivals[problem.psi][k] for problem in (own, *others)] for k, i in enumerate(which)}
     texts = [other.psi.words for other in others]
     return tuple(_direction(own, judged.get(i, ()), texts, sensitive, i) for i in indices)

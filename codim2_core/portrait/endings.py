@@ -78,17 +78,18 @@ def _tangent_at(critical: CriticalSet, p: Array) -> float | None:
     """Angle from C of the eigendirection along which an orbit, now at p, comes to a node or saddle."""
     if critical.discriminant < 0.0:
         return None
-    away, best = p - critical.p, None
-    for value in critical.eigenvalues.real:
-        rows = critical.jacobian - value * np.eye(2)
-        row = rows[int(np.argmax(np.hypot(rows[:, 0], rows[:, 1])))]
-        if not row.any():
-            return float(math.atan2(away[1], away[0]))  # a star node: any direction
-        t = to_disc(critical.x2, np.array([-row[1], row[0]]))
-        score = float(t @ away)
-        if best is None or abs(score) > abs(best[0]):
-            best = (score, t if score > 0.0 else -t)
-    return None if best is None else float(math.atan2(best[1][1], best[1][0]))
+    (x, y), best = (p - critical.p).tolist(), (-1.0, 0.0, 0.0)
+    (j11, j12), (j21, j22) = critical.jacobian.tolist()
+    for value in critical.eigenvalues.real.tolist():
+        # the longer row of J - lambda has the eigenvector across it
+        u, v = max((j11 - value, j12), (j21, j22 - value), key=lambda row: math.hypot(*row))
+        if u == v == 0.0:
+            return math.atan2(y, x)  # a star node: any direction
+        u, v = to_disc(critical.x2, (-v, u))
+        score = u * x + v * y
+        towards = math.copysign(1.0, score)
+        best = max(best, (abs(score), towards * u, towards * v), key=lambda one: one[0])
+    return math.atan2(best[2], best[1])
 
 
 def nearest(equator: EquatorEquilibria, angle: float) -> tuple[int, float]:

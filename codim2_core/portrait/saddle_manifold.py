@@ -111,5 +111,5 @@ def starts(at: AtZ, psi: Psi, critical: CriticalSet, eigenvalue: float, toleranc
     sigma = np.array([-reach, reach])
     x2 = (sigma[:, None] ** np.arange(ORDER + 1)) @ terms
     points = x2 / np.hypot(1.0, np.hypot(x2[:, :1], x2[:, 1:]))
-    tangent = to_disc(critical.x2, terms[1])
+    tangent = np.array(to_disc(critical.x2, (float(terms[1, 0]), float(terms[1, 1]))))
     return points, np.array([-tangent, tangent])

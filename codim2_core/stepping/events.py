@@ -7,7 +7,7 @@ import math
 from numba import njit
 
 from .dop853 import ARITHMETIC, dense
-from .layout import LANES, NEW, PARAMETERS, SIGN, WIDTH, call_field
+from .layout import BLOCK, GAINS, LANES, NEW, PARAMETERS, PSIS, SIGN, WIDTH, call_field
 
 NOTHING, INTERIOR, EQUATOR = range(3)
 DIFFERENCE = 1e-5  # of central differences; their error, 1e-10 at unit scale, only has to decide signs
@@ -45,8 +45,10 @@ def _measured(x, y, w, P, field, lane, capture, scratch):
     else:
         ax, ay, bx, by, bw = 1.0, 0.0, 0.0, 1.0, 0.0
     S2, P2 = scratch[: 2 * WIDTH], scratch[2 * WIDTH :]
-    for i in range(PARAMETERS):
-        P2[i] = P[i] if i < SIGN else sign
+    for i in range(PSIS):  # the Psi of this lane in all of them
+        P2[i] = P[i] if i < SIGN else sign if i < GAINS else P[GAINS + lane // BLOCK]
+    for i in range(PSIS, PARAMETERS):
+        P2[i] = P[PSIS + lane]
     for i in range(LANES):
         p = DIFFERENCE if i == 0 else -DIFFERENCE if i == 1 else 0.0
         q = DIFFERENCE if i == 2 else -DIFFERENCE if i == 3 else 0.0
@@ -118,10 +120,8 @@ def winding(P, field, scratch):
     Outside it is the opposite. The sign of the integral of lambda_rho/|Theta|, by the trapezoidal rule.
     """
     S2, P2 = scratch[: 2 * WIDTH], scratch[2 * WIDTH :]
-    for m in range(SIGN):
-        P2[m] = P[m]
-    for m in range(SIGN, PARAMETERS):
-        P2[m] = 1.0  # outside, at w = rho = FAINT, where w' = w lambda_rho
+    for m in range(PARAMETERS):
+        P2[m] = 1.0 if SIGN <= m < GAINS else P[m]  # outside, at w = rho = FAINT, where w' = w lambda_rho
     total, size, first = 0.0, 0.0, 0.0
     for base in range(0, ROUND, LANES):
         for k in range(LANES):

@@ -8,6 +8,7 @@ Loops are free of branches and of library calls, so that they run in vector regi
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 from numba import (
@@ -16,10 +17,10 @@ from numba import (
 )
 
 from ..psi.function import Psi
-from .compiling import ARITHMETIC
+from .compiling import ARITHMETIC, compiled
 from .gains import Variants, arguments, gain, kind, variant
-from .layout import EACH, LANES, PARAMETERS, SIGN, WIDTH, WITH_EACH
-from .numbers import PSI
+from .layout import EACH, LANES, PARAMETERS, SIGN, WIDTH, WITH_EACH, call_at
+from .numbers import GAIN, PSI
 
 
 @njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
@@ -52,6 +53,13 @@ def _field_of_each(state, out, parameters):
         put(S, D, P, lane, gain(r2, w, kind(P[m + PSI * LANES])), a, b, d, f1, f2)
 
 
+def _field_of_gain(state, out, parameters):
+    call_at(int(carray(parameters, (PARAMETERS,))[GAIN]), state, out, parameters)
+    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
+    for lane in range(LANES):
+        put(S, D, P, lane, D[lane], P[0], P[1], P[2], P[3], P[4])
+
+
 _compiled, _compiled_of_each = Variants(_field), Variants(_field_of_each)
 
 
@@ -74,6 +82,12 @@ def field(psi: Psi) -> Any:
         come from the disk cache, a typed formula costs one compilation of a few lines (about 0.3 s), once a text.
     """
     return _compiled.get(variant(psi, True))
+
+
+@lru_cache(maxsize=1)
+def field_of_gain() -> Any:
+    """Return the same for a gain that is called at its address, in place GAIN of the parameters."""
+    return compiled(_field_of_gain, cache=True)
 
 
 def field_of_each(psi: Psi, same: bool) -> Any:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from hashlib import blake2b
 from types import FunctionType
 from typing import Any
@@ -24,7 +25,20 @@ from numba import (
 from ..expressions.functions import kernels
 from ..psi.function import Psi
 from .compiling import ARITHMETIC, Kept, compiled
-from .layout import LANES, PARAMETERS, SIGN, WIDTH, bits_of_double, double_of_bits
+from .layout import (
+    BLOCK,
+    BLOCKS,
+    GAINS,
+    LANES,
+    PARAMETERS,
+    PSIS,
+    SIGN,
+    WIDTH,
+    ahead,
+    bits_of_double,
+    call_at,
+    double_of_bits,
+)
 from .numbers import PSI
 
 TINY = 1e-300
@@ -222,6 +236,33 @@ def gains(psi: Psi, smooth: bool) -> Any:
 def has_gains(psi: Psi) -> bool:
     """Whether `gains` answers without compiling (a built-in family may still be loaded from the disk cache)."""
     return variant(psi, False) in _compiled
+
+
+def _gains_of_block(state, out, parameters):
+    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
+    for lane in range(BLOCK):
+        r2, w = arguments(S, P, lane)
+        D[lane] = gain(r2, w, kind(P[PSIS + lane]))
+
+
+def _gains_of_blocks(state, out, parameters):
+    P = carray(parameters, (PARAMETERS,))
+    for j in range(BLOCKS):
+        call_at(int(P[GAINS + j]), ahead(state, j * BLOCK), ahead(out, j * BLOCK), ahead(parameters, j * BLOCK))
+
+
+_compiled_of_block = Variants(_gains_of_block)
+
+
+def gains_of_block(psi: Psi, smooth: bool) -> Any:
+    """Return the compiled gain of one block of lanes, for `gains_of_blocks`; as `gains`."""
+    return _compiled_of_block.get(variant(psi, smooth))
+
+
+@lru_cache(maxsize=1)
+def gains_of_blocks() -> Any:
+    """Return the compiled gain of lanes that have a Psi of their own, block by block: see `layout.GAINS`."""
+    return compiled(_gains_of_blocks, cache=True)
 
 
 def _one_gain(state, out, parameters):

@@ -13,7 +13,24 @@ from numba import njit
 
 from .dop853 import ARITHMETIC, advance, dense, interpolate
 from .events import INTERIOR, MIRROR, NOTHING, attracted, left_view, winding
-from .layout import ERROR_3, ERROR_5, K0, K12, LANES, NEW, PARAMETERS, SIGN, STATE, STEP, WORKSPACE, call_field
+from .layout import (
+    BLOCK,
+    BLOCKS,
+    ERROR_3,
+    ERROR_5,
+    GAINS,
+    K0,
+    K12,
+    LANES,
+    NEW,
+    PARAMETERS,
+    PSIS,
+    SIGN,
+    STATE,
+    STEP,
+    WORKSPACE,
+    call_field,
+)
 from .lines import BEGUN, begin_lines, end_line, in_order, keep_line, length_of, longer
 from .polyline import CURSOR, follow
 
@@ -89,16 +106,25 @@ def _flag(S, P, times, accepted, spent, flags, t_max, slow, near, view, limit):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _begin(S, P, states, signs, following, first, who, times, steps, spent, counts, travelled, accepted):
-    """Give each free lane the next trajectory, at the start of its time; returns which one comes after those."""
+def _own(P, own):
+    """Give each block of lanes its Psi of those in the rows of `own`: the address of its gain, and its parameter."""
     for k in range(LANES):
-        if who[k] < 0 and following < states.shape[0]:
-            _load(S, P, k, states, signs, following)
-            who[k], times[k], steps[k], spent[k], counts[k] = following, 0.0, first, 0, 1
+        j = k // BLOCK
+        m = j * own.shape[0] // BLOCKS
+        P[GAINS + j], P[PSIS + k] = own[m, 0], own[m, 1]
+
+
+@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+def _begin(S, P, states, signs, following, until, first, who, times, steps, spent, counts, travelled, accepted):
+    """Give each free lane the next trajectory of its Psi, at the start of its time."""
+    for k in range(LANES):
+        m = (k // BLOCK) * following.shape[0] // BLOCKS
+        if who[k] < 0 and following[m] < until[m]:
+            _load(S, P, k, states, signs, following[m])
+            who[k], times[k], steps[k], spent[k], counts[k] = following[m], 0.0, first, 0, 1
             travelled[k] = 0.0
             accepted[k] = BEGUN
-            following += 1
-    return following
+            following[m] += 1
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -167,7 +193,7 @@ def _go_on(S, times, accepted):
 # In one piece: with the stages of a step, the drawing of a line and its end as inlined functions of their own, results
 # were the same and took 6 to 11 % longer (medians of paired runs, process time).
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, view, distance, longest):
+def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit, capture, view, distance, longest):
     """Integrate every row of `states`; scaled so that |U| is about 1.
 
     Parameters
@@ -180,6 +206,11 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
         Parameters of the field.
     field : int
         Address of the field.
+    own : (m, 2)
+        Address and parameter of the gain of each of several Psi, BLOCKS at most, where that of the field is
+        `gains_of_blocks`; else m is 1, and they are not read.
+    until : (m,) of int
+        Where the states of each Psi end; those of one lie together.
     t_max, rtol, atol : float
     limit : int
         Steps tried, a trajectory.
@@ -194,13 +225,14 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
 
     Returns
     -------
-    points (N, 2), times (N,), offsets (n + 1,), ends (n, 3), codes (n,), evaluations
+    points (N, 2), times (N,), offsets (n + 1,), ends (n, 3), codes (n,), evaluations (m,)
     """
     n = states.shape[0]
     draw = distance > 0.0
     S, P, scratch = np.zeros(WORKSPACE), np.zeros(PARAMETERS), np.empty(MIRROR)
     for m in range(SIGN):
         P[m] = shared[m]
+    _own(P, own)
     cursor = np.zeros((CURSOR, LANES))
     times, steps, tried, accepted = np.zeros(2 * LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
     flags = np.zeros(LANES, np.int64)
@@ -215,12 +247,13 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
     slow, near = (4.0 * capture) ** 2, max(NEAR, capture)
     for k in range(LANES):
         _load(S, P, k, states, signs, 0)  # an idle lane repeats a harmless state with steps of length 0
-    evaluations, following, done, free = n, 0, 0, True
+    following = np.zeros(len(until), np.int64)
+    for m in range(1, len(until)):
+        following[m] = until[m - 1]
+    evaluations, done, free = np.zeros(len(until), np.int64), 0, True
     while done < n:
         if free:
-            following = _begin(
-                S, P, states, signs, following, first, who, times, steps, spent, counts, travelled, accepted
-            )
+            _begin(S, P, states, signs, following, until, first, who, times, steps, spent, counts, travelled, accepted)
             call_field(field, S, STATE, K0, P)
             begin_lines(S, P, cursor, lines, accepted)
             free = False
@@ -266,7 +299,7 @@ def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, v
                 store = longer(store)
             where[i], length[i] = stored, counts[k]
             stored = keep_line(store, stored, lines, counts, k)
-            evaluations += spent[k] * (15 if interpolated else 12)
+            evaluations[(k // BLOCK) * len(until) // BLOCKS] += 1 + spent[k] * (15 if interpolated else 12)
             who[k], spent[k] = -1, IDLE
             done += 1
             free = True

@@ -32,7 +32,13 @@ DENSE = 22 * WIDTH  # seven rows
 WORKSPACE = 29 * WIDTH
 
 SIGN = SHARED  # P[SIGN + lane] = -1 on the hemisphere, +1 outside
-PARAMETERS = SHARED + LANES
+# Where lanes have a Psi of their own, BLOCK neighbours (a register of four) have the same one: P[GAINS + block] is the
+# address of its gain for one block, and P[PSIS + lane] its parameter.
+BLOCK = max(LANES // 8, 1)
+BLOCKS = LANES // BLOCK
+GAINS = SIGN + LANES
+PSIS = GAINS + BLOCKS
+PARAMETERS = PSIS + LANES
 # Where lanes have systems of their own: P[EACH + c LANES + lane] is number c of what e-linear fields read.
 EACH = PARAMETERS
 WITH_EACH = EACH + (PSI + 1) * LANES
@@ -74,6 +80,14 @@ def _call_at(typing_context, address, state, out, parameters):  # noqa: ARG001
 
 
 call_at: Any = intrinsic(_call_at)
+
+
+def _ahead(typing_context, pointer, places):  # noqa: ARG001
+    """Point some places further on."""
+    return _POINTER(_POINTER, types.int64), lambda _c, builder, _s, a: builder.gep(a[0], [a[1]])
+
+
+ahead: Any = intrinsic(_ahead)
 
 
 def _double_of_bits(typing_context, bits):  # noqa: ARG001

@@ -1,7 +1,8 @@
 """The numbers that a compiled right-hand side reads, and the unit of time in which it runs.
 
 An e-linear field reads ``[a, b, d, f1, f2, parameter of Psi]``. A general one reads a factor (one over the unit of
-speed, negative backward in time), at GAIN the address of the gain of Psi, and its own numbers from OWN on.
+speed, negative backward in time), at GAIN the address of the gain of Psi (so does an e-linear one whose lanes have a
+Psi of their own), and its own numbers from OWN on.
 """
 
 from __future__ import annotations
@@ -31,14 +32,14 @@ def numbers(at: AtZ, psi: Psi, backward: bool, gain: int = 0) -> NDArray[np.floa
     backward : bool
         Against time.
     gain : int
-        Address of the gain of Psi, which a general system's field calls.
+        Address of the gain of Psi, of a field that calls it.
     """
     sign, unit = -1.0 if backward else 1.0, at.speed
     shared = np.zeros(SHARED)
-    shared[PSI] = psi.parameter
+    shared[PSI], shared[GAIN] = psi.parameter, float(gain)  # exact: addresses have fewer than 53 bits
     if at.typed is None:
         shared[:5] = [sign * (value / unit) for value in at.numbers]
     else:
-        shared[FACTOR], shared[GAIN] = sign / unit, float(gain)  # exact: addresses have fewer than 53 bits
+        shared[FACTOR] = sign / unit
         shared[OWN : OWN + len(at.numbers)] = at.numbers
     return shared

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,8 +13,11 @@ from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..systems.typed import System
 from . import fields, fields_typed
-from .gains import gains, has_gains
+from .gains import gains, gains_of_block, gains_of_blocks, has_gains
 from .numbers import FACTOR, numbers
+
+ALONE = np.zeros((1, 2))
+ALONE.flags.writeable = False
 
 
 @dataclass(frozen=True)
@@ -30,12 +34,15 @@ class Compiled:
         The compiled functions behind the addresses: they must outlive their use.
     factors : slice
         The parameters to which the right-hand side is proportional.
+    own : ndarray (m, 2)
+        Address and parameter of the gain of each of several Psi, see `lanes.integrate`.
     """
 
     address: int
     shared: NDArray[np.float64]
     functions: tuple[Any, ...]
     factors: slice
+    own: NDArray[np.float64]
 
     @property
     def reversed(self) -> Compiled:
@@ -57,11 +64,34 @@ def problem(at: AtZ, psi: Psi, backward: bool = False) -> Compiled:
     """
     if at.typed is None:
         field = fields.field(psi)
-        return Compiled(field.address, numbers(at, psi, backward), (field,), slice(0, 5))
+        return Compiled(field.address, numbers(at, psi, backward), (field,), slice(0, 5), ALONE)
     function, gain = prepare(at.typed, psi)
     return Compiled(
-        function.address, numbers(at, psi, backward, gain.address), (function, gain), slice(FACTOR, FACTOR + 1)
+        function.address,
+        numbers(at, psi, backward, gain.address),
+        (function, gain),
+        slice(FACTOR, FACTOR + 1),
+        ALONE,
     )
+
+
+def problems(at: AtZ, psis: Sequence[Psi], backward: bool = False) -> Compiled:
+    """Prepare a right-hand side whose lanes have a Psi of their own, of at most BLOCKS.
+
+    Parameters
+    ----------
+    at : Coefficients or Frozen
+    psis : sequence of Psi
+    backward : bool
+        Against time.
+    """
+    general = None if at.typed is None else fields_typed.general_field(at.typed)
+    field, smooth = (fields.field_of_gain(), True) if general is None else (general.function, general.smooth)
+    mixed, each = gains_of_blocks(), [gains_of_block(psi, smooth) for psi in psis]
+    own = np.array([(gain.address, psi.parameter) for gain, psi in zip(each, psis, strict=True)], float)
+    factors = slice(0, 5) if general is None else slice(FACTOR, FACTOR + 1)
+    shared = numbers(at, psis[0], backward, mixed.address)
+    return Compiled(field.address, shared, (field, mixed, *each), factors, own)
 
 
 def prepare(system: System, psi: Psi) -> tuple[Any, Any]:

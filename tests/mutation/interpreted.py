@@ -32,6 +32,10 @@ def _call_at(address: int, state: Any, out: Any, parameters: Any) -> None:
     Entry.known[address](state, out, parameters)
 
 
+def _ahead(pointer: Any, places: int) -> Any:
+    return pointer[places:]
+
+
 def _double_of_bits(bits: int) -> float:
     return struct.unpack("<d", struct.pack("<q", bits))[0]
 
@@ -40,7 +44,7 @@ def _bits_of_double(value: float) -> int:
     return struct.unpack("<q", struct.pack("<d", value))[0]
 
 
-STAND_INS = {one.__name__: one for one in (_call_field, _call_at, _double_of_bits, _bits_of_double)}
+STAND_INS = {one.__name__: one for one in (_call_field, _call_at, _ahead, _double_of_bits, _bits_of_double)}
 
 
 def _njit(function: Any = None, **_options: Any) -> Any:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from codim2_core.cycles import lane_steps
-from codim2_core.stepping.layout import EACH, ERROR_3, ERROR_5, LANES, NEW, SIGN, STATE, STEP
+from codim2_core.stepping.layout import EACH, ERROR_3, ERROR_5, GAINS, LANES, NEW, SIGN, STATE, STEP
 from codim2_core.stepping.numbers import PSI, SHARED
 
 LANE = 2
@@ -33,7 +33,7 @@ def test_all_lanes_lie_on_the_hemisphere():
     S, P = lane_steps.workspace(np.arange(1.0, SHARED + 1.0))
     assert not S.any()
     np.testing.assert_array_equal(P[:SIGN], np.arange(1.0, SHARED + 1.0))
-    np.testing.assert_array_equal(P[SIGN:EACH], np.full(LANES, -1.0))
+    np.testing.assert_array_equal(P[SIGN:GAINS], np.full(LANES, -1.0))
 
 
 def test_a_lane_has_the_numbers_of_its_own_system():

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED, reached
+from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED, UNDECIDED, reached
+from codim2_core.stepping.layout import LANES
 
 from .spirals import FIELD, SEVERAL, SPIRALS, Spiral, plane, sphere
 
@@ -89,3 +90,18 @@ def test_a_single_step_of_any_length_stays_on_the_sphere():
         away = np.abs(plane(ends) - own.at(0.7 * own.ray, lengths)).max()
         assert away < 1e-12 if right else away > 1e-9
         np.testing.assert_allclose(np.linalg.norm(ends, axis=1), 1.0, rtol=0.0, atol=5e-16)  # whatever its error
+
+
+def test_each_turn_is_the_same_among_many_as_alone():
+    """More than there are lanes, of which some return late, some never, and some are given up."""
+    own = Spiral(0.3, 1.0)
+    x2 = np.geomspace(1e-3, 50.0, 2 * LANES + 5)[:, None] * own.ray
+    for limit in (2000, 14):
+        ends, times, codes, steps = own.returns(x2, record=4000, limit=limit, sunk=0.3)
+        for i in range(len(x2)):
+            end, time, code, alone = own.returns(x2[i : i + 1], record=4000, limit=limit, sunk=0.3)
+            np.testing.assert_array_equal(ends[i], end[0])
+            assert (times[i], codes[i]) == (time[0], code[0])
+            if i == 0:
+                np.testing.assert_array_equal(steps, alone)
+        assert set(codes.tolist()) == ({RETURNED, OUTWARD} if limit > 14 else {UNDECIDED})

@@ -283,7 +283,7 @@ def test_no_psi_is_followed_twice(monkeypatch):
     """The own one is among those compared."""
     followed = []
     real = approach.arriving
-    monkeypatch.setattr(approach, "arriving", lambda problem, which: followed.append(problem) or real(problem, which))
+    monkeypatch.setattr(approach, "arriving", lambda problem, *given: followed.append(problem) or real(problem, *given))
     own = psi.hill(2)
     found = approach_outcomes(presets["case3-n2"].system, own)
     assert own.words in [text for text, *_ in found[0].families]
@@ -299,3 +299,46 @@ def test_where_nothing_slides_no_psi_is_asked(system):
         assert (outcome.depends_on_psi, outcome.families, outcome.slides_alike, outcome.why) == (False, (), False, "")
         assert outcome.slow_flow is None
     assert any(outcome.verdict == "cross" for outcome in found) == (system.at().a < 0.0)
+
+
+# ---- all Psi side by side -------------------------------------------------------------------------------------------
+
+
+def random_case_III(seed, count):
+    """Systems about those of the paper and about one with two cycles."""
+    rng = np.random.default_rng(seed)
+    for i in range(count):
+        about = np.array([(1.0, 1.3, -1.2, 0.33, 0.07), (172.0, 186.0, -200.0, -86.0, -93.0)][i % 2])
+        a, b, d, f1, f2 = about * rng.uniform(0.8, 1.2, 5)
+        yield ELinear(a, b, d, (f1, f2)), psi.hill(1.0 + i % 4)
+
+
+def told(found):
+    return [(o.label, o.arrives, o.verdict, o.onto, o.leaving, o.reason, o.families, o.why) for o in found.directions]
+
+
+def test_side_by_side_and_cut_short_orbits_are_told_as_one_after_the_other(monkeypatch):
+    """Under each Psi by itself, and where C repels as long as where it attracts: the same to the last word.
+
+    1200 systems were compared with the answers of the code that did so, in which they did not differ.
+    """
+    cases = [(presets["case3-n2"].system, psi.hill(2)), *random_case_III(7, 9)]
+    beside = [told(approach_outcomes(*case)) for case in cases]
+    monkeypatch.setattr(approach, "arriving_begun", lambda problems, _: [None] * len(problems))
+    monkeypatch.setattr(verdicts, "SOON", verdicts.EARLY)
+    assert [told(approach_outcomes(*case)) for case in cases] == beside
+    assert {"slide", "cycle", "misses"} <= {verdict for found in beside for _, _, verdict, *_ in found}
+
+
+def test_all_psi_cost_two_calls_of_the_lanes_and_few_steps(monkeypatch):
+    """Of Case III in the paper: about a C that attracts, and about one that repels.
+
+    One after the other it took eight calls, and 2762 evaluations of the field an orbit instead of 1904.
+    """
+    calls, real = [], verdicts.together
+    monkeypatch.setattr(verdicts, "together", lambda *given: calls.append(real(*given)) or calls[-1])
+    approach_outcomes(presets["case3-n2"].system, presets["case3-n2"].psi)
+    assert len(calls) == 2
+    lines = [one for call in calls for one in call]
+    assert (len(lines), sum(map(len, lines))) == (8, 64)
+    assert sum(one.evaluations for one in lines) < 2000 * 64

@@ -112,14 +112,14 @@ def test_tangents_are_carried_to_the_disc(x2):
         p = [y / math.sqrt(1.0 + y @ y) for y in (x2 - step * v, x2 + step * v)]
         expected = (p[1] - p[0]) / np.linalg.norm(p[1] - p[0])
         for size in (1.0, 1e-198, 1e198):
-            np.testing.assert_allclose(to_disc(x2, size * v), expected, rtol=0.0, atol=1e-8)
+            np.testing.assert_allclose(to_disc(x2, tuple(size * v)), expected, rtol=0.0, atol=1e-8)
 
 
 @pytest.mark.parametrize("f", [(0.0, 0.0), (0.3, -0.6)])
 def test_an_orbit_comes_to_a_node_along_the_direction_it_is_on(f):
     """Of the two eigendirections, each with two sides, the one along which the orbit lies."""
     (C,) = c2.critical_sets(c2.ELinear(-1.0, 0.0, -3.0, f), c2.psi.constant())
-    first, second = (to_disc(C.x2, v) for v in np.linalg.eig(C.jacobian)[1].real.T)  # of a node
+    first, second = (np.array(to_disc(C.x2, tuple(v))) for v in np.linalg.eig(C.jacobian)[1].real.T)  # of a node
     for side in (1.0, -1.0):
         for ahead, other in ((first, second), (second, first)):
             found = endings._tangent_at(C, C.p + 0.1 * side * ahead + 0.01 * other)

@@ -23,7 +23,8 @@ def begun(monkeypatch, limits, which):
     """Judge limit directions; the points followed, what was left from the equator, and what was judged together."""
     points, left, together = [], [], []
 
-    def from_equator(_, which, beside):
+    def from_equator(_, which, beside, lines):
+        assert lines is None
         left.append(list(which))
         points.extend([] if beside is None else [beside])
         return [f"main {i}" for i in which] + [f"fan {k}" for k in range(0 if beside is None else len(beside))]
