@@ -270,13 +270,13 @@ def _kinks(key: Hashable) -> NDArray[np.float64]:
     sources = kinks(rows, ("c", "s"))
     if not sources:
         return np.zeros(0)
-    run = program((sources, tuple(values[name] for name in number_names(sources))))
     net = 1e-3 + np.linspace(0.0, 2.0 * math.pi, NET // 4 + 1)
     found: list[NDArray[np.float64]] = []
-    for i in range(len(sources)):
+    for source in sources:  # each by itself: of all together the others would be evaluated with it
+        run = program(((source,), tuple(values[name] for name in number_names((source,)))))
 
-        def value(theta: NDArray[np.float64], i: int = i) -> NDArray[np.float64]:
-            return np.asarray(run.at(directions(theta))[:, i, 0], np.float64)
+        def value(theta: NDArray[np.float64], run: Program = run) -> NDArray[np.float64]:
+            return np.asarray(run.at(directions(theta))[:, 0, 0], np.float64)
 
         at = roots(value, [net], [value(net)])
         found += [*at.zeros, *at.touches]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ...layer_problem.critical import CriticalSet
 from ...numerics.sign_changes import lowest, vertex
 from ..equator import linked
+from .rounding import States
 from .state import State, Turns
 
 __all__ = ["BESIDE", "Change", "matched", "pieces_between"]
@@ -30,7 +31,7 @@ _PARTS = 0.01, 0.1, 0.4  # of the way from a special value to its neighbour on t
 
 
 def pieces_between(
-    state: Callable[[float], State], grid: Sequence[State], width: float, rounds: int = _CLOSER
+    state: States, grid: Sequence[State], width: float, rounds: int = _CLOSER
 ) -> tuple[list[list[State]], list[Change]]:
     """Part the states where something changes; look again on each piece, where two changes may undo each other."""
     pieces: list[list[State]] = [[grid[0]]]
@@ -60,7 +61,7 @@ def pieces_between(
     return parts, within
 
 
-def _filled(state: Callable[[float], State], piece: Sequence[State]) -> list[State]:
+def _filled(state: States, piece: Sequence[State]) -> list[State]:
     """Add states to a piece that has few, in order."""
     known = sorted(piece, key=lambda s: s.value)
     low, high = known[0].value, known[-1].value
@@ -128,14 +129,13 @@ def _functions(run: Sequence[State]) -> Iterator[Array]:
         yield np.array([1.0 - float(C.e @ C.e) for C in column])
 
 
-def _changes(
-    state: Callable[[float], State], left: State, right: State, width: float, deeper: int = _MOST_CHANGES
-) -> Iterator[Change]:
+def _changes(state: States, left: State, right: State, width: float, deeper: int = _MOST_CHANGES) -> Iterator[Change]:
     """All changes between two states, in order: the value, and the states beside it."""
     part = left.difference(right)
     if part is None or not deeper:
         return
     value = _bisected(state, left, right, part, _NARROW * width)
+    state.check(value)
     before, after = _beside(state, left, value, width), _beside(state, right, value, width)
     for one, two in pairwise(_way(state, left, before, width)):
         yield from _changes(state, one, two, width, deeper - 1)
@@ -144,7 +144,7 @@ def _changes(
         yield from _changes(state, one, two, width, deeper - 1)
 
 
-def _beside(state: Callable[[float], State], far: State, value: float, width: float) -> State:
+def _beside(state: States, far: State, value: float, width: float) -> State:
     """Return the state beside a special value, towards `far`: nearer where that differs, as one more lies between."""
     side = math.copysign(1.0, far.value - value)
     near = far if abs(far.value - value) <= BESIDE * width else state(value + side * BESIDE * width)
@@ -160,7 +160,7 @@ def _beside(state: Callable[[float], State], far: State, value: float, width: fl
     return near
 
 
-def _way(state: Callable[[float], State], left: State, right: State, width: float) -> list[State]:
+def _way(state: States, left: State, right: State, width: float) -> list[State]:
     """Return the states from one to the other, and between them those in which a short pair of changes may show."""
     room = right.value - left.value
     if room <= _APART * width:
@@ -169,7 +169,7 @@ def _way(state: Callable[[float], State], left: State, right: State, width: floa
     return [left, *(state(left.value + t * room) for t in sorted(parts)), right]
 
 
-def _bisected(state: Callable[[float], State], left: State, right: State, part: int, narrow: float) -> float:
+def _bisected(state: States, left: State, right: State, part: int, narrow: float) -> float:
     """Find a value at which that part is no longer what it is at `left`."""
     low, high, here = left.value, right.value, left.part(part)
     while high - low > narrow:

@@ -12,6 +12,7 @@ from ..equator import linked
 from ..result import ClosedEquator, CriticalBranch, DirectionBranch, SpecialValue
 from .changes import BESIDE, matched, pieces_between
 from .named import named
+from .rounding import RoughError, States
 from .state import State
 
 __all__ = ["general_parts"]
@@ -24,17 +25,19 @@ _GRID = 48
 
 def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike) -> Parts:
     """Branches and special values of any system; see `diagram`."""
-
-    def state(value: float) -> State:
-        return State(system, psi, name, value, z)
-
+    state = States(system, psi, name, span, z)
     low, high = span
     width = high - low
     # off the round numbers on which special values like to lie
     u = (np.arange(_GRID + 1) + 0.3 * np.sin(2.0 + 1.7 * np.arange(_GRID + 1))) / _GRID
     u[[0, -1]] = 0.0, 1.0
-    grid = [state(v) for v in (low + width * np.clip(u, BESIDE, 1.0 - BESIDE)).tolist()]
-    pieces, changes = pieces_between(state, grid, width)
+    values = (low + width * np.clip(u, BESIDE, 1.0 - BESIDE)).tolist()
+    while True:
+        try:
+            pieces, changes = pieces_between(state, [state(v) for v in values], width)
+            break
+        except RoughError as found:
+            state.leave_out(found.zone)
     special = [one for change in changes for one in named(*change)]
     equator: list[DirectionBranch] = []
     closed: list[ClosedEquator] = []

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...expressions.arrays import program
 from ...layer_problem.critical import CriticalSet
 from ...layer_problem.disc_zeros import disc_zeros
 from ...layer_problem.equator import EquatorEquilibria
@@ -39,6 +40,11 @@ class State:
         at, psi_at, z_at = varied(system, psi, z, name, value)
         self._problem = LayerProblem(at.at(z_at), psi_at)
 
+    def _field(self, e: Array) -> tuple[Array, Array]:
+        """U (..., 2) and D_e U (..., 2, 2) at e (..., 2), compiled."""
+        rows = np.asarray(program(self._problem.at.key).at(e.reshape(-1, 2)), float).reshape(*e.shape[:-1], 2, 3)
+        return rows[..., 0], rows[..., 1:]
+
     @property
     def equator(self) -> EquatorEquilibria:
         """The limit directions."""
@@ -47,7 +53,7 @@ class State:
     @cached_property
     def near_directions(self) -> Turns:
         """Where |Theta| turns back before zero, and how large it is: there two limit directions may appear."""
-        U = self._problem.at.U(_CIRCLE)
+        U, _ = self._field(_CIRCLE)
         value = _CIRCLE[:, 0] * U[:, 1] - _CIRCLE[:, 1] * U[:, 0]
         size, before, after = np.abs(value), np.roll(value, 1), np.roll(value, -1)
         turns = (size <= np.abs(before)) & (size <= np.abs(after)) & (before * value > 0.0) & (after * value > 0.0)
@@ -59,21 +65,21 @@ class State:
     @cached_property
     def near_sets(self) -> Turns:
         """Where |U| turns back before zero in the disc, and how large it is: there two critical sets may appear."""
-        at = self._problem.at
-        size = np.hypot(*np.moveaxis(at.U(_NET), -1, 0))
+        size = np.hypot(*np.moveaxis(self._field(_NET)[0], -1, 0))
         padded = np.pad(size, 1, constant_values=math.inf)
         around = [padded[i : i + _SIDE, j : j + _SIDE] for i in range(3) for j in range(3) if (i, j) != (1, 1)]
         e = _NET[(size <= np.min(around, axis=0)) & _WITHIN]
         for _ in range(_POLISHES):
             beside = e[:, None] + _STENCIL  # Newton on half the gradient of |U|^2, downhill
-            slope = np.einsum("knji,knj->kni", at.DU(beside), at.U(beside))
+            U, DU = self._field(beside)
+            slope = np.einsum("knji,knj->kni", DU, U)
             bend = (slope[:, 1:3] - slope[:, 3:]) / (2.0 * _STEP)
             if not np.isfinite(bend).all():
                 return e[:0], np.zeros(0)
             rate, way = np.linalg.eigh(bend + np.swapaxes(bend, 1, 2))
             along = np.einsum("kji,kj->ki", way, slope[:, 0]) / np.maximum(0.5 * abs(rate), 1e-300)
             e = e - np.einsum("kij,kj->ki", way, np.clip(along, -_LONGEST, _LONGEST))
-        left = np.hypot(*at.U(e).T)
+        left = np.hypot(*self._field(e)[0].T)
         turns = (np.hypot(*e.T) < 1.0) & (left > _ZERO * size.max())
         return e[turns], left[turns]
 

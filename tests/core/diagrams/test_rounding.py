@@ -1,0 +1,60 @@
+"""Diagrams of general systems through a value at which a formula is 0/0, and beside which it is rounding."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import codim2_core as c2
+from codim2_core.diagrams.typed.rounding import RoughError, States
+
+PSI = c2.psi.constant()
+#: (exp(ks) - exp(s))/(k - 1) goes smoothly through k = 1, where it is s exp(s).
+REMOVABLE = c2.System(U=("c*((k - 1)**2 + 1e-6)", "(exp(k*s) - exp(s))/(k - 1)"), parameters={"k": 0.5})
+
+
+@pytest.mark.parametrize("span", [(0.0, 2.0), (0.1, 2.0)], ids=["the pole is asked for", "beside it"])
+def test_a_pole_that_is_none_is_passed_and_nothing_beside_it_is_special(span):
+    """lambda_rho dips at k = 1 to 1e-6, so that what may hide is looked for there, where U has no value or is noise.
+
+    Theta vanishes at theta = 3 pi/2 always, and is a pitchfork there where U2 = s (k - 1)^2.
+    """
+    found = c2.branches(REMOVABLE, PSI, "k", span, with_cycles=False)
+    gap = lambda k: (math.exp(-1.0) - math.exp(-k)) / (k - 1.0) - (k - 1.0) ** 2 - 1e-6
+    expected = [brentq(gap, 0.15, 0.9, xtol=1e-14), brentq(gap, 1.1, 1.9, xtol=1e-14)]
+    assert [one.kind for one in found.special] == ["pitchfork"] * 2
+    np.testing.assert_allclose(
+        [one.value for one in found.special], expected, rtol=0.0, atol=1e-8
+    )  # as near as a triple zero is told
+    for branch in found.limit_directions:  # nothing breaks off at k = 1
+        assert min(abs(branch.value[[0, -1]] - 1.0)) > 0.4
+
+
+def test_the_zone_is_where_rounding_is_seen_and_no_wider():
+    states = States(REMOVABLE, PSI, "k", (0.0, 2.0), ())
+    for value in (1.0, 1.0 + 1e-8, 1.0 - 1e-7):
+        with pytest.raises(RoughError) as found:
+            states.check(value)
+        low, high = found.value.zone
+        assert 1.0 - 1e-3 < low < 1.0 - 1e-6 < 1.0 + 1e-6 < high < 1.0 + 1e-3
+        states.check(low)
+        states.check(high)
+    states.leave_out((0.999, 1.002))
+    assert [states(v).value for v in (0.9, 0.9991, 1.0, 1.0014)] == [0.9, 0.999, 0.999, 1.002]
+    states.check(1.0)  # left out already
+
+
+def test_a_change_from_one_side_of_a_zone_to_the_other_is_told_once():
+    """Through a real pole of U1 = c/(k - 1) its sign changes: what was left out is where that is told."""
+    pole = c2.System(U=("c/(k - 1) + 0.3*s**2", "-s"), parameters={"k": 0.5})
+    found = c2.branches(pole, PSI, "k", (0.0, 2.0), with_cycles=False)
+    assert [one.value for one in found.special if abs(one.value - 1.0) < 1e-3] != []
+    assert all(math.isfinite(one.value) for one in found.special)
+
+
+def test_what_has_no_value_at_all_is_refused_as_ever():
+    with pytest.raises(ValueError, match="has no value"):
+        c2.branches(
+            c2.System(U=("c + sqrt(k)", "s**3"), parameters={"k": 0.5}), PSI, "k", (-1.0, 1.0), with_cycles=False
+        )
