@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -154,9 +153,12 @@ def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], 
     band : bool
         Whether there is a whole interval that cannot be told from zero: a band of closed orbits.
     """
-    decided = np.flatnonzero(np.abs(shift) > noise).tolist()
+    decided = np.flatnonzero(np.abs(shift) > noise)
+    inward = shift[decided] < 0.0
     changes, touching, band = [], [], False
-    for i, j in pairwise(decided):
+    told = (inward[1:] != inward[:-1]) | (np.diff(decided) > 1)  # else there is nothing between the two
+    for k in np.flatnonzero(told).tolist():
+        i, j = decided[k : k + 2].tolist()
         if q[j - 1] - q[i + 1] > BAND:
             band = True
         elif (shift[i] < 0.0) != (shift[j] < 0.0):
@@ -192,12 +194,13 @@ class Samples:
         """Add samples at the fine tolerance, and repeat those marked that are not fine yet."""
         also = also & ~self.fine
         every = np.concatenate([xi, self.xi[also]])
+        q = self.section.states(every)[1]
         shift = self.section.displacement(every, FINE, self.backward)
         self.shift[also] = shift[len(xi) :]
         self.fine = self.fine | also
         order = np.argsort(np.concatenate([self.xi, xi]), kind="stable")
         self.xi = np.concatenate([self.xi, xi])[order]
-        self.q = np.concatenate([self.q, self.section.states(xi)[1]])[order]
+        self.q = np.concatenate([self.q, q[: len(xi)]])[order]
         self.shift = np.concatenate([self.shift, shift[: len(xi)]])[order]
         self.fine = np.concatenate([self.fine, np.ones(len(xi), bool)])[order]
 

@@ -179,6 +179,7 @@ class Section:
         self.reach, self.other, u = found[self.ray]
         self.u = np.array(u)
         self.e = np.array(location.e)
+        self._states: tuple[Array, Array, Array] | None = None  # of the parameters asked for last
 
     @cached_property
     def pull(self) -> EquatorPull:
@@ -219,7 +220,12 @@ class Section:
         return np.log(self.reach) - np.log(np.minimum(gap, self.reach))
 
     def states(self, xi: Array) -> tuple[Array, Array]:
-        """States (n, 3) = (p_x, p_y, ebar), and q (n,), at parameters (n,)."""
+        """States (n, 3) = (p_x, p_y, ebar), and q (n,), at parameters (n,); those of the same array are found once."""
+        if self._states is None or self._states[0] is not xi:
+            self._states = (xi, *self._placed(xi))
+        return self._states[1:]
+
+    def _placed(self, xi: Array) -> tuple[Array, Array]:
         inner = self.reach / (1.0 + np.exp(-xi))
         rest = self.reach / (1.0 + np.exp(xi))  # reach - inner, to all digits
         e = self.e + inner[:, None] * self.u

@@ -118,9 +118,9 @@ def cut_up(every: Trajectories, until: Sequence[int], evaluations: Sequence[int]
     parts = []
     for first, last, count in zip([0, *until], until, evaluations, strict=False):
         low, high = every.offsets[[first, last]].tolist()
-        lines = (every.buffer[low:high], every.clock[low:high], every.offsets[first : last + 1] - low)
-        ends = (every.ends[first:last], every.codes[first:last])
-        parts.append(Trajectories(*(array.copy() for array in (*lines, *ends)), count))
+        buffer, clock, offsets = every.buffer[low:high].copy(), every.clock[low:high].copy(), every.offsets - low
+        ends, codes = every.ends[first:last].copy(), every.codes[first:last].copy()
+        parts.append(Trajectories(buffer, clock, offsets[first : last + 1], ends, codes, count))
     return parts
 
 

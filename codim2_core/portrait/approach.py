@@ -26,7 +26,7 @@ from ..systems.kinds import AnySystem
 from ..words import named, say
 from .endings import angular_sign, radially_neutral
 from .outcomes import Outcome, Outcomes, on_arcs
-from .verdicts import Array, Judged, arriving, arriving_begun, spiralling, with_flow
+from .verdicts import ANGLES, OUTER, Array, Judged, arriving, arriving_begun, spiralling, with_flow
 
 __all__ = ["approach_outcomes"]
 
@@ -127,7 +127,8 @@ def _directions(asked: _Asked, indices: Sequence[int]) -> tuple[Outcome, ...]:
     problems = {problem.psi: problem for problem in (own, *others)}  # the own Psi may be one of the others
     lines = arriving_begun(list(problems.values()), which)
     arrivals = {
-        psi: arriving(problem, which, begun) for (psi, problem), begun in zip(problems.items(), lines, strict=True)
+        problem.psi: arriving(problem, which, begun, ANGLES if problem is own else OUTER)
+        for problem, begun in zip(problems.values(), lines, strict=True)
     }
     judged = {i: [arrivals[problem.psi][k] for problem in (own, *others)] for k, i in enumerate(which)}
     texts = [other.psi.words for other in others]

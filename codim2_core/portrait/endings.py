@@ -50,8 +50,9 @@ def critical_label(critical: tuple[CriticalSet, ...], i: int) -> str:
 
 
 def _nearest_critical(critical: tuple[CriticalSet, ...], p: Array, within: float) -> int | None:
-    gaps = [math.dist(C.p, p) for C in critical]
-    i = int(np.argmin(gaps)) if gaps else 0
+    at = p.tolist()
+    gaps = [math.dist(C.p, at) for C in critical]
+    i = min(range(len(gaps)), key=gaps.__getitem__, default=0)
     return i if gaps and gaps[i] <= within else None
 
 
@@ -95,7 +96,7 @@ def _tangent_at(critical: CriticalSet, p: Array) -> float | None:
 def nearest(equator: EquatorEquilibria, angle: float) -> tuple[int, float]:
     """Return the limit direction (from 0) nearest to an angle, and the gap between them."""
     gaps = [abs(math.remainder(angle - t, 2.0 * math.pi)) for t in equator.theta.tolist()]
-    i = int(np.argmin(gaps))
+    i = min(range(len(gaps)), key=gaps.__getitem__)
     return i, gaps[i]
 
 

@@ -52,6 +52,9 @@ RTOL = 1e-8
 EARLY, SOON = 700, 128
 FAN = 0.02  # radius, in (theta, ebar), of the half circle of starts around a Q that many orbits leave
 ANGLES = np.radians([15.0, 45.0, 75.0, 105.0, 135.0, 165.0])
+OUTER = ANGLES[
+    [0, -1]
+]  # where these two end apart, the others need not be followed to see that there is more than one end
 
 
 def _sampled(problem: LayerProblem) -> bool:
@@ -79,21 +82,29 @@ def followed(problem: LayerProblem, points: Array) -> Trajectories:
 
 
 def from_equator(
-    problem: LayerProblem, which: Sequence[int], beside: Array | None = None, lines: Trajectories | None = None
+    problem: LayerProblem,
+    which: Sequence[int],
+    wide: Sequence[int] = (),
+    lines: Trajectories | None = None,
+    angles: Array = ANGLES,
 ) -> Trajectories:
-    """Follow the orbits that leave some limit directions (from 0) up the hemisphere, and those from points beside.
+    """Follow the orbits that leave some limit directions (from 0) up the hemisphere, and those around the wide ones.
 
     `lines` are the early parts of them, if they have been followed.
     """
-    return _ended(problem, lambda: _leaving([problem], which, beside)[0], lines)
+    return _ended(problem, lambda: _leaving([problem], which, wide, [angles])[0], lines)
 
 
-def _leaving(problems: Sequence[LayerProblem], which: Sequence[int], beside: Array | None) -> list[Array]:
-    """States of the orbits that leave limit directions under each Psi, and of points beside."""
-    angles, psis = problems[0].equator.theta[list(which)], [problem.psi for problem in problems]
-    also = np.zeros((0, 3)) if beside is None else states_at(beside)
-    leaving = departures_under(problems[0].at, psis, angles, RTOL, backward=False)
-    return [np.concatenate([states, also]) for states in leaving]
+def _leaving(
+    problems: Sequence[LayerProblem], which: Sequence[int], wide: Sequence[int], angles: Sequence[Array]
+) -> list[Array]:
+    """States of the orbits that leave limit directions under each Psi, and of those around the wide ones."""
+    one, psis = problems[0], [problem.psi for problem in problems]
+    leaving = departures_under(one.at, psis, one.equator.theta[list(which)], RTOL, backward=False)
+    return [
+        np.concatenate([states, states_at(_around(one, wide, own))]) if wide else states
+        for states, own in zip(leaving, angles, strict=True)
+    ]
 
 
 def _options(problem: LayerProblem, early: bool) -> Stepping:
@@ -188,46 +199,57 @@ def _all_end_on_C(problem: LayerProblem) -> bool:
     return down and not len(equator.arcs) and reason_for_none(form, critical, problem.location) is not None
 
 
-def _wide(problem: LayerProblem, which: Sequence[int]) -> tuple[list[int], Array | None]:
-    """Limit directions that a whole family of orbits leaves, and points around each that see all sides of it."""
+def _wide(problem: LayerProblem, which: Sequence[int]) -> list[int]:
+    """Limit directions that a whole family of orbits leaves."""
     equator = problem.equator
-    wide = [i for i in which if not (equator.multiplicity[i] == 1 and equator.lambda_theta[i] < 0.0)]
-    if not wide:
-        return wide, None
-    theta, height = equator.theta[wide][:, None] + FAN * np.cos(ANGLES), FAN * np.sin(ANGLES)
+    return [i for i in which if not (equator.multiplicity[i] == 1 and equator.lambda_theta[i] < 0.0)]
+
+
+def _around(problem: LayerProblem, wide: Sequence[int], angles: Array = ANGLES) -> Array:
+    """Points around limit directions, at some angles from the equator."""
+    theta, height = problem.equator.theta[list(wide)][:, None] + FAN * np.cos(angles), FAN * np.sin(angles)
     around = np.sqrt(1.0 - height**2)[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
-    return wide, around.reshape(-1, 2)
+    return around.reshape(-1, 2)
 
 
 def arriving_begun(problems: Sequence[LayerProblem], which: Sequence[int]) -> list[Trajectories | None]:
-    """Follow the early part of what `arriving` follows, under several Psi side by side; None where it follows none."""
+    """Follow the early part of what `arriving` follows, under several Psi side by side; None where it follows none.
+
+    Of all but the first, which are only compared with it, families are followed at their `OUTER` angles.
+    """
     if not which:
         return [None] * len(problems)
     follow = [not _all_end_on_C(problem) for problem in problems]
     some = list(itertools.compress(problems, follow))
-    _, around = _wide(problems[0], which)
-    lines = iter(begun(some, _leaving(some, which, around)) if some else ())
+    angles = [ANGLES if problem is problems[0] else OUTER for problem in some]
+    lines = iter(begun(some, _leaving(some, which, _wide(problems[0], which), angles)) if some else ())
     return [next(lines) if one else None for one in follow]
 
 
-def arriving(problem: LayerProblem, which: Sequence[int], lines: Trajectories | None = None) -> list[Judged]:
+def arriving(
+    problem: LayerProblem, which: Sequence[int], lines: Trajectories | None = None, angles: Array = ANGLES
+) -> list[Judged]:
     """Judge what arrives at some limit directions (from 0), where lambda_rho < 0: all orbits side by side.
 
-    `lines` are those of `arriving_begun`, if they have been followed.
+    `lines` are those of `arriving_begun`, if they have been followed. With `OUTER` for angles the verdicts are the
+    same, but what they say of a whole family is not told of all of it.
     """
     if not which:
         return []
     if lines is None and _all_end_on_C(problem):
         C = problem.critical[0]
         return [Judged("slide", "C", None, C.slow_flow, say("slides", label=named("C"), kind=C.kind))] * len(which)
-    wide, around = _wide(problem, which)
-    found = ends(problem, from_equator(problem, which, around, lines))
+    wide, count = _wide(problem, which), len(angles)
+    found = ends(problem, from_equator(problem, which, wide, lines, angles))
     mains, beside = found[: len(which)], found[len(which) :]
-    fans = {i: beside[k * len(ANGLES) : (k + 1) * len(ANGLES)] for k, i in enumerate(wide)}
-    return [
-        judge(problem, [main, *fans.get(i, [])], "A whole family of orbits leaves Q" if i in fans else "")
-        for i, main in zip(which, mains, strict=True)
-    ]
+    fans = {i: beside[k * count : (k + 1) * count] for k, i in enumerate(wide)}
+    judged = []
+    for i, main in zip(which, mains, strict=True):
+        fan = fans.get(i, [])
+        if fan and count < len(ANGLES) and len({main.label, *(end.label for end in fan)}) == 1:
+            fan = ends(problem, followed(problem, _around(problem, [i])))
+        judged.append(judge(problem, [main, *fan], "A whole family of orbits leaves Q" if i in fans else ""))
+    return judged
 
 
 def spiralling(problem: LayerProblem, many: str = "Orbits leave the closed equator at all angles") -> Judged:

@@ -15,6 +15,7 @@ import numpy as np
 
 import codim2_core as c2
 from codim2_core.continuation.branches import continue_cycles
+from codim2_core.diagrams.standing import standing
 
 from .bench_scene import LAYERS, PICTURE, TRAJECTORIES
 
@@ -62,6 +63,17 @@ def branch_error(branches: Any, system: c2.ELinear, psi: c2.Psi) -> float:
     return worst
 
 
+def standing_row(repeats: int) -> tuple[float, float]:
+    """Milliseconds of a general diagram, and how far its special values are from those of its e-linear twin."""
+    psi, span = c2.psi.hill(3), (0.2, 0.5)
+    numbers = {"a": 1.0, "b": 1.3, "d": -1.2, "f1": 0.33, "f2": 0.07}
+    twin = c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=numbers)
+    cost, found = timed(lambda: standing(twin, psi, "f1", span), max(repeats // 3, 1))
+    exact = [one.value for one in standing(FOLDING, psi, "f1", span).special]
+    values = [one.value for one in found.special]
+    return cost, max(map(abs, np.subtract(values, exact)), default=0.0) if len(values) == len(exact) else np.inf
+
+
 def report(quick: bool = False) -> str:
     """Return both tables as Markdown."""
     repeats = 3 if quick else 15
@@ -83,7 +95,13 @@ def report(quick: bool = False) -> str:
     cost, branches = timed(lambda: continue_cycles(FOLDING, psi, "f1", (0.2, 0.5)), max(repeats // 3, 1))
     error = branch_error(branches, FOLDING, psi)
     lines.append(f"| branches of cycles along f1: {len(branches)} | {cost:.0f} | {error:.0e} |")
+    cost, error = standing_row(repeats)
+    lines.append(f"| what stands still along f1 of the same system, general, as text | {cost:.0f} | {error:.0e} |")
     if not quick:
+        ring = c2.examples.spinning_annulus()
+        cost, along = timed(lambda: standing(ring, c2.psi.constant(), "eta", (0.5, 1.5)), 1)
+        count = len(along.special)
+        lines.append(f"| the same of the spinning annulus, eta through 1: {count} special values | {cost:.0f} | |")
         cost, curve = timed(lambda: c2.bifurcations.cycle_folds(1.0, 1.3, -1.2, psi), 1)
         lines.append(f"| folds of cycles in (f1, f2): {len(curve)} curves | {cost:.0f} | |")
     return "\n".join(lines)

@@ -38,19 +38,23 @@ def add(draft: Draft) -> None:
     key = (system, psi, z, name, span)
     found = draft.slow("diagram", key, _standing, system, psi, axis.core, span, z)
     if found is not None:
-        draft.header["diagram"] = {**found, "control": name}
-    if draft.ready and draft.now.get("diagram") == key:
-        cycles = draft.slow("cycles along", key, _cycles, system, psi, axis.core, span, z)
+        shown, stands = found
+        draft.header["diagram"] = {**shown, "control": name}
+        draft.now["stands along"] = key, stands
+    of, stands = draft.now.get("stands along", (None, None))
+    if draft.ready and of == key:
+        cycles = draft.slow("cycles along", key, _cycles, stands)
         if cycles is not None:
             draft.header["cycles_along"] = cycles
 
 
-def _standing(*of: Any) -> dict[str, Any]:
-    return columns(branches(*of, with_cycles=False))
+def _standing(*of: Any) -> tuple[dict[str, Any], Branches]:
+    found = branches(*of, with_cycles=False)
+    return columns(found), found
 
 
-def _cycles(*of: Any) -> dict[str, Any]:
-    return cycle_columns(branches(*of).cycles)
+def _cycles(standing: Branches) -> dict[str, Any]:
+    return cycle_columns(standing.with_cycles().cycles)
 
 
 def columns(found: Branches) -> dict[str, Any]:

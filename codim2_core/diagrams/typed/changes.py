@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ...layer_problem.critical import CriticalSet
 from ...numerics.sign_changes import lowest, vertex
 from ..equator import linked
+from .narrowing import narrowed
 from .rounding import States
 from .state import State, Turns
 
@@ -134,7 +135,7 @@ def _changes(state: States, left: State, right: State, width: float, deeper: int
     part = left.difference(right)
     if part is None or not deeper:
         return
-    value = _bisected(state, left, right, part, _NARROW * width)
+    value = narrowed(state, left, right, part, _NARROW * width)
     state.check(value)
     before, after = _beside(state, left, value, width), _beside(state, right, value, width)
     for one, two in pairwise(_way(state, left, before, width)):
@@ -167,17 +168,6 @@ def _way(state: States, left: State, right: State, width: float) -> list[State]:
         return [left, right]
     parts = {1.0 - t if beside else t for beside in (False, True) for t in _PARTS}
     return [left, *(state(left.value + t * room) for t in sorted(parts)), right]
-
-
-def _bisected(state: States, left: State, right: State, part: int, narrow: float) -> float:
-    """Find a value at which that part is no longer what it is at `left`."""
-    low, high, here = left.value, right.value, left.part(part)
-    while high - low > narrow:
-        middle = 0.5 * (low + high)
-        if middle in (low, high):
-            break
-        low, high = (middle, high) if state(middle).part(part) == here else (low, middle)
-    return 0.5 * (low + high)
 
 
 def matched(places: Sequence[Array], critical: Sequence[CriticalSet]) -> list[CriticalSet]:

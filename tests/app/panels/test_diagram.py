@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from codim2_app.panels.parameters import axes
+from codim2_app.panels.parameters import axes, diagram
 from codim2_app.state.choices import AXES
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
@@ -61,6 +61,18 @@ def test_cycles_of_a_general_system_are_followed_too():
     assert piece["stable"] is True
     assert piece["x"][0] == pytest.approx(0.0, abs=1e-9)
     assert piece["x"][-1] == pytest.approx(2.0, abs=1e-3)  # where the equator is neutral
+
+
+def test_what_stands_still_is_found_once_for_both_steps(monkeypatch):
+    """Cycles are followed from what the first step has found: also in a system that was left and come back to."""
+    asked, real = [], diagram.branches
+    monkeypatch.setattr(diagram, "branches", lambda *given, **options: asked.append(given) or real(*given, **options))
+    frames, header = opened("diagram", along="n", **{**CASE3, "f2": -93.01})  # which no other test has asked for
+    assert header["cycles_along"]["pieces"]
+    assert len(asked) == 1
+    assert ask(frames, f1=CASE3["f1"] + 1.0)["late"] == ["diagram"]
+    assert "late" not in ask(frames, f1=CASE3["f1"])
+    assert len(asked) == 1
 
 
 def test_where_there_can_be_no_cycle_the_reason_is_said():

@@ -87,7 +87,7 @@ def test_others_are_asked_unless_there_are_too_many_sets(monkeypatch):
 
     monkeypatch.setattr(approach, "_direction", direction)
     monkeypatch.setattr(approach, "arriving_begun", lambda problems, which: [len(which)] * len(problems))
-    monkeypatch.setattr(approach, "arriving", lambda problem, which, _: followed.append(which) or [problem.psi])
+    monkeypatch.setattr(approach, "arriving", lambda problem, which, *_: followed.append(which) or [problem.psi])
     limits, _ = equator([0.3, 1.0, 2.0, 3.0], [1, 1, 1, 1], lambda_rho=[-0.5, 0.5, 1.0, -1e-17])
     for count, compare, expected in ((8, None, None), (9, None, 0), (9, [PSI], 1), (8, (), 0), (8, [PSI] * 2, 2)):
         own = SimpleNamespace(

@@ -23,11 +23,12 @@ def begun(monkeypatch, limits, which):
     """Judge limit directions; the points followed, what was left from the equator, and what was judged together."""
     points, left, together = [], [], []
 
-    def from_equator(_, which, beside, lines):
+    def from_equator(problem, which, wide, lines, angles):
         assert lines is None
         left.append(list(which))
-        points.extend([] if beside is None else [beside])
-        return [f"main {i}" for i in which] + [f"fan {k}" for k in range(0 if beside is None else len(beside))]
+        beside = verdicts._around(problem, wide, angles)
+        points.extend([beside] if len(beside) else [])
+        return [f"main {i}" for i in which] + [f"fan {k}" for k in range(len(beside))]
 
     def judge(_, found, many):
         together.append(([one.label for one in found], many))
@@ -66,6 +67,21 @@ def test_a_whole_family_is_followed_from_a_half_circle_around_its_direction(monk
             assert many == "A whole family of orbits leaves Q"
         else:
             assert (labels, many) == ([f"main {i}"], "")
+
+
+def test_two_orbits_of_a_family_do_where_they_end_apart(monkeypatch):
+    """Else all are followed: those between the two may end elsewhere."""
+    problem = LayerProblem(c2.presets["case3-n2"].system.at(), c2.psi.rational())
+    (i,) = (i for i in range(4) if problem.equator.lambda_rho[i] < 0.0 < problem.equator.lambda_theta[i])
+    whole = verdicts.arriving(problem, [i])[0]
+    followed, real = [], verdicts.followed
+    monkeypatch.setattr(verdicts, "followed", lambda own, points: followed.append(len(points)) or real(own, points))
+    assert (*whole[:2], whole.why) == ("undecided", None, "several")
+    assert verdicts.arriving(problem, [i], angles=verdicts.OUTER)[0][:2] == whole[:2]
+    assert followed == []
+    both = verdicts.ANGLES[[2, 2]]  # as if these were the outer ones: they end alike
+    assert verdicts.arriving(problem, [i], angles=both)[0].verdict == verdicts.arriving(problem, [i])[0].verdict
+    assert followed == [len(verdicts.ANGLES)]
 
 
 def test_where_single_orbits_leave_no_family_is_followed(monkeypatch):
@@ -118,8 +134,8 @@ def test_cycles_are_not_searched_for_where_an_orbit_nears_a_stable_set(monkeypat
 
 def test_orbits_beside_are_followed_as_they_are_alone():
     problem = LayerProblem(c2.presets["case3-n3"].system.at(), c2.psi.hill(3))
-    beside = np.array([(0.9, 0.3), (-0.5, 0.1)])
-    both = verdicts.from_equator(problem, [0, 1], beside)
+    beside = verdicts._around(problem, [1])
+    both = verdicts.from_equator(problem, [0, 1], [1])
     apart = [verdicts.from_equator(problem, [0, 1]), verdicts.followed(problem, beside)]
     np.testing.assert_array_equal(both.ends, np.concatenate([part.ends for part in apart]))
     assert both.status == apart[0].status + apart[1].status
