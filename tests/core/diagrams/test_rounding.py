@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 
 import codim2_core as c2
 from codim2_core.diagrams.typed.rounding import RoughError, States
@@ -22,7 +22,7 @@ def test_a_pole_that_is_none_is_passed_and_nothing_beside_it_is_special(span):
     """
     found = c2.branches(REMOVABLE, PSI, "k", span, with_cycles=False)
     gap = lambda k: (math.exp(-1.0) - math.exp(-k)) / (k - 1.0) - (k - 1.0) ** 2 - 1e-6
-    expected = [brentq(gap, 0.15, 0.9, xtol=1e-14), brentq(gap, 1.1, 1.9, xtol=1e-14)]
+    expected = [root_scalar(gap, bracket=part, xtol=1e-14).root for part in ((0.15, 0.9), (1.1, 1.9))]
     assert [one.kind for one in found.special] == ["pitchfork"] * 2
     np.testing.assert_allclose(
         [one.value for one in found.special], expected, rtol=0.0, atol=1e-8
