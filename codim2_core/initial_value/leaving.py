@@ -14,7 +14,7 @@ from .line import InvariantLine
 
 Array = NDArray[np.float64]
 
-START, SLOW_START = 1e-9, 1e-5  # first part of the time ahead, covered by an expansion at Sigma
+START, SLOW_START = 1e-9, 1e-5  # first part, of the time ahead or of the rates' own, covered by an expansion at Sigma
 TILT = 1e-6  # largest angle that this expansion may cover
 NEWTON, FURTHEST = 6, 0.05  # steps to polish theta, and how far one may go
 NEUTRAL = 1e-7  # of the size of U's slopes: lambda_rho counts as zero
@@ -26,6 +26,16 @@ def polynomial_of(*terms: Array) -> Array:
     for k, term in enumerate(terms):
         polynomial[:, k] = term
     return polynomial
+
+
+def pace(rate: float, change: float) -> float:
+    """Time in which a rate that changes at this rate becomes another; infinite where it stands, or does not change."""
+    return abs(rate / change) if rate != 0.0 and change != 0.0 else math.inf
+
+
+def norm(vector: Array) -> float:
+    """Largest size of an entry; 0 of none."""
+    return float(np.abs(vector).max(initial=0.0))
 
 
 def leave(
@@ -69,9 +79,11 @@ def leave(
     drift = D[:2, 4:] @ W
     ahead = t_end - t
     if lambda_rho > NEUTRAL * size:
-        forced = 0.0 if line is not None else float(angular @ (drift + lambda_rho * (D[:2, 2:4] @ radial)))
+        outward = drift + lambda_rho * (D[:2, 2:4] @ radial)
+        forced = 0.0 if line is not None else float(angular @ outward)
         turning = forced / (lambda_rho - lambda_theta) if forced else 0.0
-        h = START * ahead
+        bend = D[2:, 4:] @ W + D[2:, :2] @ angular * turning + D[2:, 2:4] @ radial * lambda_rho
+        h = START * min(ahead, pace(lambda_rho, float(radial @ outward)), pace(norm(W), norm(bend)))
         h = min(h, TILT / abs(turning)) if turning else h
         end = theta + turning * h
         n = radial if line is not None else np.array([math.cos(end), math.sin(end)])

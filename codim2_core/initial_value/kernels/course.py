@@ -40,7 +40,7 @@ SLIP, SLIDE, LEAVE = range(3)  # what a phase is; one that begins with LEAVE is 
 ROW = 5  # numbers of a phase: its motion, what it is, its first and last step, the angle it comes along
 TOLD = 5  # numbers of a motion: its steps and phases, what is handed over (or WHOLE), the angle, evaluations
 WHOLE = -1
-SHORTEST = 1e-14  # of the time ahead: shorter steps mean that a set ends
+SHORTEST = 1e-14  # of the time in which z changes by its own size: shorter steps mean that a set ends
 OF_SLIPS = 0.5  # of rtol, asked of the steps of a slip: see `initial_value.compiled_phases`
 
 
@@ -140,7 +140,8 @@ def _begun_slide(S, y, floor, control, ahead):
     _in_place(S, y)
     S[PLACE], S[PLACE + 1] = y[0], y[1]
     there = found_set(S, len(y) - 2)
-    control[NEXT], control[LEAST] = _first_step(S, y, floor), SHORTEST * ahead
+    first = _first_step(S, y, floor)
+    control[NEXT], control[LEAST] = first, SHORTEST * min(first / FIRST, ahead)
     return there, math.copysign(1.0, determinant(S, len(y)))
 
 

@@ -6,9 +6,11 @@ import math
 
 from numba import njit
 
-from ..leaving import FURTHEST, NEUTRAL, NEWTON, SLOW_START, START, TILT
+from ..leaving import FURTHEST, NEUTRAL, NEWTON, SLOW_START, START, TILT, pace
 from .arrival import write_at
 from .slow import RATES, TABLE
+
+_pace = njit(cache=True, nogil=True, error_model="numpy")(pace)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -75,7 +77,14 @@ def leave(S, m, n1, n2, theta, ahead, linear, square):
         outward2 = drift2 + radial * (S[TABLE + width + 2] * c + S[TABLE + width + 3] * s)
         forced = 0.0 if in_line else c * outward2 - s * outward1
         turning = forced / (radial - angular) if forced != 0.0 else 0.0
-        h = START * ahead
+        speed, bend = 0.0, 0.0
+        for i in range(m):
+            row = TABLE + (2 + i) * width
+            change = (c * S[row + 1] - s * S[row]) * turning + (c * S[row + 2] + s * S[row + 3]) * radial
+            for j in range(m):
+                change += S[row + 4 + j] * S[RATES + 2 + j]
+            speed, bend = max(speed, abs(S[RATES + 2 + i])), max(bend, abs(change))
+        h = START * min(ahead, _pace(radial, c * outward1 + s * outward2), _pace(speed, bend))
         h = min(h, TILT / abs(turning)) if turning != 0.0 else h
         if not in_line:
             c, s = math.cos(theta + turning * h), math.sin(theta + turning * h)

@@ -43,7 +43,7 @@ Array = NDArray[np.float64]
 CLOSER = 1e-4  # a trajectory that turns before Sigma is followed this much closer, and asked again
 SAME_DIRECTION = 1e-12  # 1 - cos: directions that differ by a rounding of either
 AROUND = 16  # points of a cycle that has ended, from which orbits are followed
-PAST = 1e-6  # of the time ahead: how far past a Hopf bifurcation its cycle is looked for
+PAST = 1e-6  # of the time ahead, or of the slide behind: how far past its end it is looked at what follows
 
 
 class StopError(Exception):
@@ -265,10 +265,10 @@ class Course:
         return self.past_cycle(self.state[2:] + 10.0 * (self.state[2:] - part.taken[-1].first[2:]))
 
     def ahead(self, e: Array, part: float) -> Array:
-        """Return z a small part of the time ahead, along the slow flow at e."""
-        z = self.state[2:]
+        """Return z a small part of the time ahead, or of the slide that has ended, along the slow flow at e."""
+        z, slid = self.state[2:], self.t - self.parts[-1].phase.t_start
         flow = self.formulas.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:]
-        return z + part * (self.t_end - self.t) * np.array(flow)
+        return z + part * min(self.t_end - self.t, slid or math.inf) * np.array(flow)
 
     def past_fold_in_line(self, line: InvariantLine, e: Array, C: str | None) -> Decision:
         """C has met another critical set in the line: the layer problem leads on from there, just past the fold."""

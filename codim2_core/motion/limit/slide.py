@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-SHORTEST = 1e-14  # of the time span: steps that short mean that the set ends here
+SHORTEST = 1e-14  # of the time in which z changes by its own size: steps that short mean that the set ends here
 AT_EQUATOR = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
 AT_FOLD = 1e-3  # |det D_e U|, in units of its entries squared, at which it is taken for a fold
 SHORTEST_PART = 1e-13  # of a step: a set that is not followed so far has gone
@@ -118,8 +118,8 @@ def slide(
 
     problem = sheet.problem(atol / rtol)
     rate = np.array(field.value(*sheet.e.tolist(), 0.0, 0.0, *z.tolist())[2:])
-    h = 1e-2 / float(np.max(np.abs(rate) / problem.scale(z))) if rate.any() else math.inf
-    shortest = SHORTEST * (t_end - t)
+    pace = 1.0 / float(np.max(np.abs(rate) / problem.scale(z))) if rate.any() else math.inf
+    h, shortest = 1e-2 * pace, SHORTEST * min(pace, t_end - t)
     if compiled is None or lives is not None:
         ahead = _in_python(sheet, bounded(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest))
     else:

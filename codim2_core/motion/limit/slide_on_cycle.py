@@ -22,7 +22,8 @@ Array = NDArray[np.float64]
 
 RTOL, ATOL = 1e-6, 1e-8  # no better than the cycles themselves are known
 DIFFERENCE = 1e-4
-SHORTEST = 1e-6  # of the time span: steps that short mean that the cycle ends
+#: Of the time in which z changes by its own size: the first step; steps so short that the cycle ends.
+FIRST, SHORTEST = 0.05, 1e-6
 APART = 0.2  # in the disc: a cycle whose middle has moved further is another
 
 
@@ -97,8 +98,8 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
     still = np.zeros(2)
     taken: list[Step] = []
     try:
-        span = t_end - t
-        for step in steps(problem, t, t_end, z, RTOL, 0.05 * span, most, SHORTEST * span):
+        pace = min(t_end - t, 1.0 / max(float(np.max(np.abs(first.slow_flow) / problem.scale(z))), 1e-300))
+        for step in steps(problem, t, t_end, z, RTOL, FIRST * pace, most, SHORTEST * pace):
             polynomial = np.concatenate([np.zeros((2, STAGES)), step.polynomial])
             first, last = np.concatenate([still, step.first]), np.concatenate([still, step.last])
             taken.append(Step(step.start, step.h, first, last, polynomial))

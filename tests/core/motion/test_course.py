@@ -30,22 +30,27 @@ ELINEAR = c2.ELinear(-1.0, 0.5, -2.0, ("z1", "z2/2"), B=((0.5, 0.0), (1.0, -1.0)
 TYPED = c2.System(U=("-c + z1 + c**2/9", "-s + z2"), W=("c + 2", "s - z1"))
 
 
-def course(system=TYPED, psi=PSI, state=(0.0, 0.0, 0.2, -0.1), t_end=3.0, line=None):
+def course(system=TYPED, psi=PSI, state=(0.0, 0.0, 0.2, -0.1), t_end=3.0, line=None, slid=0.0):
     formulas, first = field(system), np.array(state)
     problem = plane_problem(formulas, None, 0.0, 1e-10, 1e-12, None)
     watch = Watch(checked_events(()), 1.0, first)
-    return Course(system, psi, formulas, problem, line, watch, 1.0, first, t_end, 1e-10, 1e-12, 100)
+    made = Course(system, psi, formulas, problem, line, watch, 1.0, first, t_end, 1e-10, 1e-12, 100)
+    if slid:
+        made.parts.append(MotionPart(Phase("slide", 1.0 - slid, 1.0, "It came here."), [], None))
+    return made
 
 
 def step(first, last, start=1.0, h=0.5):
     return Step(start, h, np.array(first), np.array(last), np.zeros((len(first), STAGES)))
 
 
-def test_z_a_part_of_the_time_ahead_lies_along_the_slow_flow():
-    own, e = course(), np.array([0.3, -0.2])
+def test_z_a_part_of_the_time_ahead_or_of_the_slide_behind_lies_along_the_slow_flow():
+    own, e = course(slid=20.0), np.array([0.3, -0.2])
     np.testing.assert_allclose(own.ahead(e, 0.25), np.array([0.2, -0.1]) + 0.25 * 2.0 * np.array([2.3, -0.4]))
+    own = course(slid=0.2)
+    np.testing.assert_allclose(own.ahead(e, 0.25), np.array([0.2, -0.1]) + 0.25 * 0.2 * np.array([2.3, -0.4]))
     beside = c2.System(U=("-c", "-s"), W=("1 + 3*x + 5*y + s", "x*y - c"))  # on Sigma x = y = 0
-    np.testing.assert_allclose(course(beside).ahead(e, 0.25), np.array([0.2, -0.1]) + 0.5 * np.array([0.8, -0.3]))
+    np.testing.assert_allclose(course(beside, slid=20.0).ahead(e, 0.25), np.array([0.2, -0.1]) + 0.5 * np.array([0.8, -0.3]))
 
 
 def script(monkeypatch, name, answers):
@@ -67,7 +72,7 @@ STOP, LEAVE = Decision("stop", "nothing"), Decision("leave", "that way", theta=0
     ("answers", "which"), [([LEAVE], 0), ([STOP, LEAVE], 1), ([STOP, STOP, LEAVE], 2), ([STOP] * 3, 2)]
 )
 def test_past_a_fold_the_first_answer_counts_that_is_no_stop(monkeypatch, answers, which):
-    own, e = course(), np.array([0.5, -0.1])
+    own, e = course(slid=20.0), np.array([0.5, -0.1])
     asked = script(monkeypatch, "onward", answers)
     assert own.past_fold(e, "C2") is answers[which]
     assert len(asked) == which + 1

@@ -132,10 +132,12 @@ def test_a_slide_begins_on_its_set(z, sign):
     assert there
     assert found == sign
     np.testing.assert_allclose(S[slow.PLACE : slow.PLACE + 6], [z[0], -0.2, 0.0, 0.0, *z], atol=1e-14)
-    assert control[NEXT] == pytest.approx(FIRST / max(0.5 / (abs(z[0]) + 0.01), (2.5 - z[0]) / (z[1] + 0.01)))
-    assert control[LEAST] == pytest.approx(2e-13, rel=1e-14, abs=0.0)
+    pace = 1.0 / max(0.5 / (abs(z[0]) + 0.01), (2.5 - z[0]) / (z[1] + 0.01))
+    assert control[NEXT] == pytest.approx(FIRST * pace)
+    assert control[LEAST] == pytest.approx(course.SHORTEST * pace, rel=1e-12, abs=0.0)
     y[:2] = 3.0
-    assert not course._begun_slide(S, y, 0.01, control, 20.0)[0]
+    assert not course._begun_slide(S, y, 0.01, control, 1e-3)[0]
+    assert control[LEAST] == pytest.approx(course.SHORTEST * 1e-3, rel=1e-12, abs=0.0)
 
 
 def test_rows_keep_what_they_hold_and_have_room_for_more_than_twice_as_many():
