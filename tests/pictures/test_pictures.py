@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from codim2_core.motion import nonsmooth, regularised
+
 from .panels import DRAWN
 from .pictures import pictures
 
@@ -27,7 +29,16 @@ def _near(one: str, other: str) -> bool:
     return abs(int(one) - int(other)) <= 1 and min(abs(int(one)), abs(int(other))) > 1
 
 
+@pytest.fixture
+def in_python(monkeypatch):
+    """Motions take the same steps whatever was compiled for other tests."""
+    monkeypatch.setattr(regularised, "waited_for", lambda formulas: regularised.PATIENCE)
+    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
+    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: regularised.PATIENCE)
+
+
 @pytest.mark.parametrize("name", pictures())
+@pytest.mark.usefixtures("in_python")
 def test_a_picture_is_the_one_that_is_kept(name):
     made = pictures()[name]()
     kept = KEPT / name

@@ -80,9 +80,9 @@ export class SystemChooser {
     for (const {name, text} of boxes) {
       const box = this.find(`[data-box=${name}].control`), area = box.querySelector("textarea")
       area.value = this.values.texts[name] ?? text
-      const fit = () => { area.rows = Math.max(boxes.find((b) => b.name === name).lines, area.value.split("\n").length) }
-      area.addEventListener("input", () => { fit(); this.declare(this.values.texts[name] ?? text, area.value); this.change("texts", {...this.values.texts, [name]: area.value}) })
-      fit()
+      const grow = () => { area.rows = Math.max(boxes.find((b) => b.name === name).lines, area.value.split("\n").length) }
+      area.addEventListener("input", () => { grow(); this.declare(this.values.texts[name] ?? text, area.value); this.change("texts", {...this.values.texts, [name]: area.value}) })
+      grow()
       this.place(`text:${name}`, {box, say: (sentence) => sayAt(box, sentence), set: () => {}})
     }
   }

@@ -6,6 +6,7 @@ A1494 (2018): barycentric, its support points chosen one after the other where t
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,12 +40,13 @@ class Rational:
     tolerance: float
 
     def __call__(self, t: complex) -> complex:
-        """Return the value at one place."""
+        """Return the value at one place, infinite at a pole."""
         away = t - self.points
         if (away == 0.0).any():
             return complex(self.values[away == 0.0][0])
         share = self.weights / away
-        return complex(share @ self.values / share.sum())
+        whole = complex(share.sum())
+        return complex(share @ self.values) / whole if whole else complex(math.inf)
 
     def zeros(self) -> Complex:
         """Return where it vanishes."""

@@ -50,7 +50,8 @@ def test_z_a_part_of_the_time_ahead_or_of_the_slide_behind_lies_along_the_slow_f
     own = course(slid=0.2)
     np.testing.assert_allclose(own.ahead(e, 0.25), np.array([0.2, -0.1]) + 0.25 * 0.2 * np.array([2.3, -0.4]))
     beside = c2.System(U=("-c", "-s"), W=("1 + 3*x + 5*y + s", "x*y - c"))  # on Sigma x = y = 0
-    np.testing.assert_allclose(course(beside, slid=20.0).ahead(e, 0.25), np.array([0.2, -0.1]) + 0.5 * np.array([0.8, -0.3]))
+    there = course(beside, slid=20.0).ahead(e, 0.25)
+    np.testing.assert_allclose(there, np.array([0.2, -0.1]) + 0.5 * np.array([0.8, -0.3]))
 
 
 def script(monkeypatch, name, answers):

@@ -204,3 +204,8 @@ def test_a_corner_has_poles_on_the_real_axis_and_noise_no_rational_function():
     assert found is not None
     assert np.abs(found.poles() - 0.1).min() < 0.01
     assert rational(t, np.random.default_rng(1).standard_normal(400), 1e-9) is None
+
+
+def test_at_a_pole_the_value_is_infinite():
+    t = np.linspace(0.0, 1.0, 33)
+    assert rational(t, 1.0 / (t + 1.0), 1e-12)(-1.0) == math.inf
