@@ -104,6 +104,7 @@ def page(open_page, address):
 
 def test_a_panel_from_a_folder_is_one_registration(page):
     page.open("?panel=twice")
+    assert sum("explorer.js" in url for url in page.requests) == 1  # fetched first, and used
     assert page.find(".tabs [role=tab]").all_text_contents()[-1] == "Twice"
     button = page.find(".panel-twice button")
     assert button.text_content() == "2a = -4 of A"
