@@ -123,7 +123,11 @@ class PromptSocket(WSHandler):
         return message
 
     async def _handle(self, message: Message[Any]) -> Any:
-        answer = await super()._handle(message)
+        if message.msgtype == "PULL-DOC-REQ":  # writing a document takes as long as a part of an opening
+            async with one_by_one(self.application):
+                answer = await super()._handle(message)
+        else:
+            answer = await super()._handle(message)
         if isinstance(answer, Message) and answer.msgtype == "ERROR":
             answer.content = {"text": say("fault"), "traceback": None}  # Bokeh would tell where its files lie
         return answer

@@ -10,6 +10,7 @@ from typing import Any
 from panel.models.esm import ESMEvent
 from tornado.ioloop import IOLoop
 
+from ..frame.later import later
 from ..rooms.visitor import Visitor
 from .refresh import Frames
 from .taking import Taking
@@ -41,11 +42,10 @@ class Answers:
 
     def answer(self, model: Any, request: Any) -> None:
         """Answer a request: for a file (``take``), of a room (``room``), else for a frame; see `Frames.answer`."""
-        later = model.document.add_next_tick_callback  # the one thing that any thread may ask of a document
         if isinstance(request, Mapping) and "take" in request:
-            self.taking.answer(request["take"], partial(send, model), later)
+            self.taking.answer(request["take"], partial(send, model), later(model.document))
         elif isinstance(request, Mapping) and "room" in request:
-            self.visitor.answer(request["room"], lambda message: send(model, {"room": message}), later)
+            self.visitor.answer(request["room"], lambda message: send(model, {"room": message}), later(model.document))
         else:
             self._draw(model, request)
 
@@ -66,24 +66,20 @@ class Answers:
 
     def _hold(self, model: Any, pending: Future[Any], request: dict[str, Any]) -> None:
         """Answer once the picture is there, or soon without it: the browser then asks again, with its newest values."""
-        doc = model.document
         held = self._held = object()
+        soon = later(model.document)
 
-        def answer(_: object = None) -> None:
-            if self._held is held and doc.session_context is not None:
+        def answer() -> None:
+            if self._held is held:
                 self._reply(model, self.frames.answer(request))
                 self.frames.publish()
 
-        def there(_: Future[Any]) -> None:
-            doc.add_next_tick_callback(answer)
-
         def late() -> None:
-            if self._held is held and doc.session_context is not None:
-                doc.add_next_tick_callback(answer)
+            if self._held is held:
+                soon(answer)
 
-        # by the loop: a timeout of Bokeh's leaves garbage that holds the document
         IOLoop.current().call_later(PATIENCE, late)
-        pending.add_done_callback(there)
+        pending.add_done_callback(lambda _: soon(answer))
 
     def leave(self) -> None:
         """Stop what is computed for this browser alone: it has gone."""

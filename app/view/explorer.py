@@ -7,7 +7,7 @@ request and its frame are two small events past all property syncing, so that a 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, ClassVar
@@ -15,6 +15,7 @@ from typing import Any, ClassVar
 import panel as pn
 import param
 from bokeh.document import Document
+from bokeh.models import StyledElement
 from panel.custom import JSComponent
 from panel.io.save import Comm  # pyright: ignore[reportPrivateImportUsage] (the one that its files are made with)
 from panel.models.esm import DataEvent, ESMEvent
@@ -50,6 +51,17 @@ def _is_static(doc: Any, comm: Any) -> bool:
     return getattr(doc, "session_context", None) is None and (comm is None or type(comm) is Comm)
 
 
+def begin(
+    state: ExplorerState, errors: Sequence[InputError] = (), system: System_ | None = None
+) -> tuple[Frames, bytes]:
+    """Return what a page shows, which is answered by the thread that answers all pages, and its first frame."""
+    return _answered(Frames(state, system, is_ready_for_all, errors, Budget(elsewhere)))
+
+
+def _answered(frames: Frames) -> tuple[Frames, bytes]:
+    return frames, frames.answer({"all": True})
+
+
 class ExplorerView(JSComponent):
     """The live explorer.
 
@@ -66,6 +78,8 @@ class ExplorerView(JSComponent):
         What of the picture is seen, and what an embedded page shows.
     figure : Figure, optional
         Of Bokeh's, made by `make_figure` beforehand.
+    begun : (Frames, bytes), optional
+        Of a page, made by `begin` beforehand.
     **params
         Of any Panel component: sizing_mode, width, height, margin, styles, stylesheets, …; and values of the state.
 
@@ -98,6 +112,7 @@ class ExplorerView(JSComponent):
         errors: tuple[InputError, ...] = (),
         look: Look | None = None,
         figure: Any = None,
+        begun: tuple[Frames, bytes] | None = None,
         **params: Any,
     ) -> None:
         self._look = look or Look()
@@ -109,9 +124,11 @@ class ExplorerView(JSComponent):
         self._opened: dict[str, Any] = {}
         self._system = system
         self._given_params = params
-        # a page is answered by the thread that answers all pages; a notebook is one person's
-        ready, budget = (is_ready_for_all, Budget(elsewhere)) if page else (is_ready, None)
-        self.frames = Frames(self.state, system, ready, errors, budget)
+        if begun is None and page:
+            begun = begin(self.state, errors, system)
+        elif begun is None:
+            begun = _answered(Frames(self.state, system, is_ready, errors))
+        self.frames, first = begun
         self.answers = Answers(self.frames)
         self._cell: Cell | None = None
         self._prepared: Any = None
@@ -121,7 +138,7 @@ class ExplorerView(JSComponent):
         if not {"sizing_mode", "width"} & params.keys():
             layout["sizing_mode"] = "stretch_width"
         picture = pn.pane.Bokeh(figure or make_figure(), sizing_mode="stretch_both")
-        opening = self._opening(page)
+        opening = self._opening(page, first)
         drawn = {name: value for name, value in self.state.values().items() if name in SHARED}
         linked = {name: value for name, value in given.items() if value is not values[name]}
         super().__init__(picture=picture, **opening, **layout, **{**drawn, **linked})
@@ -144,9 +161,8 @@ class ExplorerView(JSComponent):
         state = ExplorerState(**self.state.values())
         return ExplorerView(state, self._system, page=self.config["page"], **{**self._given_params, **params})
 
-    def _opening(self, page: bool) -> dict[str, Any]:
+    def _opening(self, page: bool, first: bytes) -> dict[str, Any]:
         """Return what a browser starts from: the values of the controls, the first frame and the markup."""
-        first = self.frames.answer({"all": True})
         self.frames.publish()  # what cannot be drawn is not in the state
         self._opened = self.frames.values
         header, _ = unpack(first)
@@ -185,7 +201,7 @@ class ExplorerView(JSComponent):
         else:
             root.update(bundle=digest())
         for model in root.references():
-            sheets = getattr(model, "stylesheets", None)
+            sheets: Any = model.stylesheets if isinstance(model, StyledElement) else ()
             if sheets:
                 model.update(stylesheets=[sheet for sheet in sheets if isinstance(sheet, str)])
         return root
@@ -198,7 +214,7 @@ class ExplorerView(JSComponent):
         changed = self._models or self._opened is not self.frames.values
         if not self.config["page"] and (changed or (static and not self._whole)):
             # a notebook shows it once more, or after its state was changed: as it is now
-            self.param.update(**self._opening(page=False))
+            self.param.update(**self._opening(page=False, first=_answered(self.frames)[1]))
         return super()._get_model(doc, root, parent, comm)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:

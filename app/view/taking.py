@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from ..export.film import count_of, joined, part_of, pictures
 from ..export.play import PLAY
 from ..export.taking import TYPES, Wish, named, seen_by, taken
 from ..export.view import View
+from ..frame.later import Later
 from ..frame.turns import Failed
 from ..phrases import say
 from .refresh import Frames
@@ -17,6 +20,20 @@ from .refresh import Frames
 JOB = "take"
 #: Pictures of a film that are drawn in one turn.
 PART = 4
+
+Reply = Callable[[dict[str, Any]], None]
+
+
+@dataclass(frozen=True, eq=False)
+class _Film:
+    """A film that is drawn: what its messages begin with, what it is of, its pictures, and those of one turn."""
+
+    about: dict[str, Any]
+    view: View
+    wish: Wish
+    key: str
+    count: int
+    part: int
 
 
 class Taking:
@@ -30,11 +47,9 @@ class Taking:
 
     def __init__(self, frames: Frames) -> None:
         self.frames = frames
-        self._film: object = None
+        self._film: _Film | None = None
 
-    def answer(
-        self, request: Any, reply: Callable[[dict[str, Any]], None], later: Callable[[Callable[[], None]], None]
-    ) -> None:
+    def answer(self, request: Any, reply: Reply, later: Later) -> None:
         """Answer a request, now or once the file is made.
 
         Parameters
@@ -61,55 +76,51 @@ class Taking:
         view = seen_by(request, self.frames.values, self.frames.own)
         key = repr((view, wish))
         if wish.kind == "gif":
-            self._draw(about, view, wish, key, reply, later)
+            count, part = count_of(wish.slider), max(PART, part_of(wish.slider))
+            self._film = _Film(about, view, wish, key, count, part)
+            self._draw(self._film, (), reply, later)
             return
+        self._make(about, view, wish, key, reply, later)
 
-        def look() -> None:
-            result = self.frames.jobs.ask(JOB, key, taken, view, wish)
-            if isinstance(result, Failed):
-                reply({**about, "error": result.sentence})
-            elif result is not None:
-                name, data = result
-                reply({**about, "name": name, "type": TYPES[wish.kind], "file": data})
-            elif (future := self.frames.jobs.future(JOB)) is not None:
-                future.add_done_callback(lambda _: later(look))
+    def _make(self, about: dict[str, Any], view: View, wish: Wish, key: str, reply: Reply, later: Later) -> None:
+        """Answer with a file, once it is made."""
+        result = self.frames.jobs.ask(JOB, key, taken, view, wish)
+        if isinstance(result, Failed):
+            reply({**about, "error": result.sentence})
+        elif result is not None:
+            name, data = result
+            reply({**about, "name": name, "type": TYPES[wish.kind], "file": data})
+        else:
+            self._again(later, partial(self._make, about, view, wish, key, reply, later))
 
-        look()
+    def _again(self, later: Later, look: Callable[[], None]) -> None:
+        """Look again when the job that is under way is done.
 
-    def _draw(
-        self,
-        about: dict[str, Any],
-        view: View,
-        wish: Wish,
-        key: str,
-        reply: Callable[[dict[str, Any]], None],
-        later: Callable[[Callable[[], None]], None],
-    ) -> None:
+        What is called is made anew for each look: a function that calls itself later would be held by itself, and
+        hold the page's document until a search for garbage finds it.
+        """
+        future = self.frames.jobs.future(JOB)
+        if future is not None:
+            future.add_done_callback(lambda _: later(look))
+
+    def _draw(self, film: _Film, drawn: tuple[bytes, ...], reply: Reply, later: Later) -> None:
         """Answer with a film, drawn a part at a time: others have their turns between, and it can be stopped."""
-        mine = self._film = object()
-        drawn: list[bytes] = []
-        count, part = count_of(wish.slider), max(PART, part_of(wish.slider))
-
-        def look() -> None:
-            if self._film is not mine:
-                return
-            jobs, first = self.frames.jobs, len(drawn)
-            if first < count:
-                last = min(first + part, count)
-                result = jobs.ask(JOB, (key, first), pictures, view, wish.slider, wish.moving, count, first, last)
-            else:
-                result = jobs.ask(JOB, (key, "film"), joined, tuple(drawn), ".gif", wish.slider == PLAY)
-            if isinstance(result, Failed):
-                reply({**about, "error": result.sentence})
-            elif result is None:
-                future = jobs.future(JOB)
-                if future is not None:
-                    future.add_done_callback(lambda _: later(look))
-            elif first < count:
-                drawn.extend(result)
-                reply({**about, "done": len(drawn), "all": count})
-                later(look)
-            else:
-                reply({**about, "name": named(view, wish), "type": TYPES[wish.kind], "file": result})
-
-        look()
+        if self._film is not film:
+            return
+        jobs, first, wish, view = self.frames.jobs, len(drawn), film.wish, film.view
+        if first < film.count:
+            last = min(first + film.part, film.count)
+            which = view, wish.slider, wish.moving, film.count, first, last
+            result = jobs.ask(JOB, (film.key, first), pictures, *which)
+        else:
+            result = jobs.ask(JOB, (film.key, "film"), joined, drawn, ".gif", wish.slider == PLAY)
+        if isinstance(result, Failed):
+            reply({**film.about, "error": result.sentence})
+        elif result is None:
+            self._again(later, partial(self._draw, film, drawn, reply, later))
+        elif first < film.count:
+            drawn = (*drawn, *result)
+            reply({**film.about, "done": len(drawn), "all": film.count})
+            later(partial(self._draw, film, drawn, reply, later))
+        else:
+            reply({**film.about, "name": named(view, wish), "type": TYPES[wish.kind], "file": result})

@@ -17,7 +17,7 @@ from ..nullcline.refining import Seen
 from ..portrait.approach import outcomes_of
 from ..portrait.classify import portrait
 from ..portrait.separatrices import Separatrices, separatrices_of
-from ..sliding.flow import sliding_flow
+from ..sliding.flow import flow_on
 from ..systems.bounds import SMALLEST
 from ..theorems.certificates import Certificate, certificates_of
 from .drawn_orbits import continuations, orbits, seeds_of, sketched
@@ -121,7 +121,7 @@ layers: Mapping[str, Recipe] = MappingProxyType(
         "equator_cycle": Recipe(("plane",), lambda s: find_equator_cycle(s.problem)),
         "location": Recipe(("plane",), lambda s: find_location(s.problem)),
         "critical": Recipe(("plane", "slow", "psi"), lambda s: find_critical(s.problem)),
-        "slow_flow": Recipe(("plane", "slow"), lambda s: sliding_flow(s.coefficients)),
+        "slow_flow": Recipe(("plane", "slow"), lambda s: flow_on(s.coefficients, s.problem.critical)),
         "classification": Recipe(("plane", "slow", "psi"), lambda s: portrait(s.problem)),
         "eigendirections": Recipe(("plane", "psi"), lambda s: find_eigendirections(s.problem)),
         "nullclines_inside": Recipe(("plane", "psi", "closely"), _inside_nullclines),

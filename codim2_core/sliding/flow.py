@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..layer_problem.critical import CriticalSet
 from ..layer_problem.disc_zeros import disc_zeros
 from ..layer_problem.location import locate
+from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 
 
@@ -32,5 +36,14 @@ def sliding_flow(system: AnySystem, z: ArrayLike = ()) -> NDArray[np.float64] | 
     if points is None or not len(points):
         return None
     flow = at.W(np.asarray(points) if at.typed is None else np.atleast_2d(points))
+    flow.flags.writeable = False
+    return flow
+
+
+def flow_on(at: AtZ, critical: Sequence[CriticalSet]) -> NDArray[np.float64] | None:
+    """Return what `sliding_flow` does of a frozen system whose critical sets are known."""
+    if not critical:
+        return None
+    flow = critical[0].slow_flow if at.typed is None else np.stack([C.slow_flow for C in critical])
     flow.flags.writeable = False
     return flow

@@ -2,9 +2,11 @@
 
 A search through all stops every visitor for 0.1 to 0.4 s, and nearly all that it meets are modules, kernels, and what
 those hold who are there. So whatever a search leaves is frozen (`gc.freeze`): the next one meets what has come since.
-When a session has ended, what it had is brought back (see `left_behind`), and the next search meets that as well. All
-that lives is searched when the last visitor has gone, and also with visitors there if much was frozen and then left:
-compiling a formula leaves 2700 objects, of 48 formulas in all; nothing else is known to.
+When a session has ended, what it had is brought back (see `left_behind`), and the next search meets that as well.
+Garbage that came to be while it was frozen, and that nothing of a session leads to, keeps what it holds: nothing that
+is made here does that (see `later`), but what others make may. So all that lives is searched when the last visitor has
+gone; when something of a session that has ended is still there after all its searches, as soon as nobody has asked for
+a while; and at once, whoever asks, if that has become much, or much else is frozen.
 """
 
 from __future__ import annotations
@@ -22,8 +24,8 @@ from .left_behind import Old, bring_back
 
 EVERY = 0.25  # seconds between looks
 QUIET = 0.5  # seconds without a request
-#: Seconds after a session's end until what it had is searched: till then somebody may be at work for it. Once nobody
-#: is there, seconds without a request after which all that lives is.
+#: Seconds after a session's end until what it had is searched: till then somebody may be at work for it. Also seconds
+#: without a request after which all that lives is, where there is a reason.
 REST = 5.0
 #: Searches through the young after which there is enough for one of what they left (objects that stayed: 7000 each,
 #: two visits); and beyond which it no longer waits for quiet.
@@ -31,10 +33,11 @@ SOME, MOST = 1, 2
 NEVER = 10**6
 #: How often what a session had is searched, each time after twice as long, while something of it is still in use.
 TRIES = 6
-#: Sessions, some of which is in use for ever, and objects that are frozen beyond those of `begin` and of sessions
-#: (each of `OBJECTS`), either of which is enough to search all though somebody is there; the latter is seen every
-#: so many sessions, as counting takes 5 ms.
-STUCK, FROZEN, OBJECTS, COUNTED = 40, 400_000, 3000, 16
+#: Sessions of which something is still there, and objects that are frozen beyond those of `begin` and of sessions
+#: (each of `OBJECTS`), either of which is enough to search all though somebody asks.
+STUCK, FROZEN, OBJECTS = 40, 400_000, 3000
+#: Sessions after which the latter are counted, when nobody waits, or twice as many: that takes up to 30 ms.
+COUNTED = 64
 #: The name of Panel's own search through all, some seconds after a session's end.
 PANELS = "gc.collect"
 
@@ -53,7 +56,7 @@ _ended = 0.0  # when a session last ended and all has not been searched since; 0
 _documents: list[Any] = []  # of the sessions that are there
 _left: list[_Session] = []
 _stuck = 0  # sessions
-_searched = 0  # sessions
+_uncounted = 0  # sessions
 _frozen = 0  # objects, at the begin
 _old: Old | None = None
 
@@ -65,8 +68,9 @@ def asked() -> None:
 
 
 def begun(document: Any) -> None:
-    """Note that the session of a document has begun."""
-    _documents.append(document)
+    """Note that the session of a document begins, once or again: from now on somebody is there."""
+    if document not in _documents:
+        _documents.append(document)
 
 
 def ended(document: Any, *roots: Any) -> None:
@@ -88,8 +92,8 @@ def begin() -> None:
 
 
 def _count() -> None:
-    global _frozen, _searched, _stuck
-    _frozen, _searched, _stuck = gc.get_freeze_count() - OBJECTS * len(_documents), 0, 0
+    global _frozen, _uncounted, _stuck
+    _frozen, _uncounted, _stuck = gc.get_freeze_count() - OBJECTS * len(_documents), 0, 0
 
 
 def keep() -> None:
@@ -102,16 +106,18 @@ def keep() -> None:
 
 
 def look() -> None:
-    """Search if a session has ended or there is enough, and nobody waits; through all once nobody is there."""
+    """Search if a session has ended or there is enough, and nobody waits; through all where it need be."""
     now = time.monotonic()
     quiet = now - _asked
-    if _ended and not _documents and min(quiet, now - _ended) >= REST:
+    if quiet >= REST and (_stuck or (_ended and not _documents and now - _ended >= REST)):
         _search_all()
     elif due := [session for session in _left if now >= session.due + (0.0 if quiet >= QUIET else REST)]:
         _left.remove(due[0])
         _search_session(due[0])
     elif gc.get_count()[2] >= (SOME if quiet >= QUIET else MOST):
         _search()
+    elif _uncounted >= (COUNTED if quiet >= QUIET else 2 * COUNTED) and _many():
+        _search_all()
 
 
 def _search() -> bool:
@@ -134,7 +140,7 @@ def _searches() -> int:
 
 def _search_session(session: _Session) -> None:
     """Search what a session had; if some of it is still in use, again later."""
-    global _searched, _stuck
+    global _uncounted, _stuck
     assert _old is not None  # since before the first visitor
     there = [ref(root) for root in session.roots]
     bring_back(session.roots, _old)
@@ -146,14 +152,16 @@ def _search_session(session: _Session) -> None:
         session.due = time.monotonic() + (REST * 2**session.tried if searched else 0.0)
         _left.append(session)
     else:
-        _searched += 1
+        _uncounted += 1
         _stuck += bool(session.roots)
-        if _stuck >= STUCK or (_searched % COUNTED == 0 and _many()):
+        if _stuck >= STUCK:
             _search_all()
 
 
 def _many() -> bool:
     """Whether much more is frozen than sessions explain."""
+    global _uncounted
+    _uncounted = 0
     return gc.get_freeze_count() > _frozen + FROZEN + OBJECTS * len(_documents)
 
 

@@ -69,6 +69,18 @@ def test_what_was_quick_is_computed_with_the_frame_until_the_formula_is_wilder()
         scene.evolve(k=1.2)["equator"]
 
 
+def test_that_a_layer_has_become_quick_is_believed_by_halves():
+    """A worker that has searched for one frame finds the same at once for the next, and this thread would search."""
+    scene, budget = make_scene(typed()), Budget()
+    scene.ask_before(budget.before)
+    for took in (8.0 * LAYER, 0.0, 0.0):
+        budget.told(scene, Layers({}, {"location": 0.0, "equator": took}, {}))
+        with pytest.raises(NotYet):
+            scene["equator"]
+    budget.told(scene, Layers({}, {"equator": 0.0}, {}))
+    assert len(scene["equator"]) > 0
+
+
 def test_what_is_compiled_elsewhere_is_not_computed_here_however_quick_it_is():
     scene, full = make_scene(typed(layers=["critical", "equator"])), []
     budget = Budget(lambda psi, system: bool(full))

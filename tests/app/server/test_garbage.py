@@ -27,7 +27,7 @@ class Play:
         self.now, self.done, self.back, self.left, self.frozen = 100.0, [], [], 0, 1000
         self.searches, self.free = 0, True
         for name, value in {
-            "_asked": 0.0, "_ended": 0.0, "_documents": [], "_left": [], "_stuck": 0, "_searched": 0, "_frozen": 1000,
+            "_asked": 0.0, "_ended": 0.0, "_documents": [], "_left": [], "_stuck": 0, "_uncounted": 0, "_frozen": 1000,
             "_old": "old", "Old": lambda: self.done.append("old") or "new", "bring_back": self.bring_back,
         }.items():  # fmt: skip
             monkeypatch.setattr(garbage, name, value)
@@ -139,8 +139,9 @@ def test_what_of_a_session_is_still_in_use_is_searched_again_each_time_after_twi
         found.append(play.back.pop())
     assert found == [["Document", "Root"], *[["Root"]] * (TRIES - 1)]
     assert there() is None
-    assert play.look(1e4) == []
     assert garbage._stuck == 1
+    assert play.look() == ALL_BESIDE  # nobody has asked for long
+    assert play.look(1e4) == []
 
 
 def test_a_session_that_is_in_use_keeps_none_of_the_others_waiting(play):
@@ -179,33 +180,70 @@ def test_all_that_lives_is_searched_once_nobody_is_there(play):
 
 @pytest.mark.parametrize("stuck", [STUCK - 1, STUCK])
 def test_all_that_lives_is_searched_when_much_of_what_has_ended_is_in_use_for_ever(play, stuck):
-    """So memory has a bound whatever holds a session; it is not known to happen."""
+    """So memory has a bound whatever holds a session, and though somebody always asks."""
     garbage.begun(there := Document())
     for _ in range(stuck):
         garbage.begun(document := Document())
         garbage.ended(document)
         garbage._left[-1].tried = TRIES - 1
-        done = play.look(REST)
+        play.now += 2 * REST
+        garbage.asked()
+        done = play.look()
     assert there in garbage._documents
     assert done == [*YOUNG, *(ALL_BESIDE if stuck == STUCK else ())]
     assert garbage._old == "old"  # what visitors hold is none of it
     assert garbage._stuck == stuck % STUCK
 
 
+@pytest.mark.parametrize("quiet", [True, False])
 @pytest.mark.parametrize("more", [0, 1])
-def test_all_that_lives_is_searched_when_much_is_frozen(play, more):
+def test_all_that_lives_is_searched_when_much_is_frozen(play, more, quiet):
     there = [Document(), Document()]
     for each in there:
         garbage.begun(each)
     play.frozen += garbage.FROZEN + 2 * garbage.OBJECTS + more
-    for _ in range(garbage.COUNTED):
+
+    def looked():
+        play.now += 0.0 if quiet else 2 * REST
+        if not quiet:
+            garbage.asked()
+        return play.look(REST if quiet else 0.0)
+
+    for _ in range(garbage.COUNTED if quiet else 2 * garbage.COUNTED):
+        assert looked() == []
         garbage.begun(document := Document())
         garbage.ended(document)
         del document
-        done = play.look(REST)
-    assert done == [*YOUNG, *(ALL_BESIDE if more else ())]
+        assert looked() == YOUNG
+    assert looked() == (ALL_BESIDE if more else [])
     if more:
         assert garbage._frozen == play.frozen - 2 * garbage.OBJECTS
+    play.frozen += 1
+    assert looked() == []  # it was counted
+
+
+def test_all_that_lives_is_searched_when_nobody_asks_if_something_of_one_session_is_in_use_for_ever(play):
+    """A cycle that became garbage while it was frozen holds a session for ever, whatever is brought back of it."""
+    garbage.begun(Document())
+    garbage.begun(document := Document())
+    garbage.ended(document)
+    garbage._left[-1].tried = TRIES - 1
+    assert play.look(REST) == YOUNG
+    garbage.asked()
+    assert play.look(REST - 0.01) == []
+    assert play.look(0.01) == ALL_BESIDE
+    assert play.look(60.0) == []
+
+
+def test_nothing_of_a_session_that_is_being_opened_counts_as_old(play):
+    """What is old is held, until nobody is there the next time."""
+    garbage.begun(document := Document())
+    garbage.ended(document)
+    garbage.begun(opening := Document())
+    assert play.look(60.0) == YOUNG
+    garbage.begun(opening)
+    garbage.ended(opening)
+    assert play.look(60.0) == ALL
 
 
 def test_panels_own_search_through_all_is_called_off(play):

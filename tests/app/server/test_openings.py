@@ -48,8 +48,11 @@ def between(done, *parts):
 def test_between_the_parts_of_an_opening_a_message_is_answered(monkeypatch):
     done = []
     view = SimpleNamespace(prepare=lambda _: done.append("models"))
+    monkeypatch.setattr(openings, "begun", lambda _: done.append("begun"))
     monkeypatch.setattr(openings, "make_figure", lambda: done.append("figure") or "a figure")
-    monkeypatch.setattr(openings, "opened", lambda _link, drawn: done.append(f"explorer with {drawn}") or view)
+    monkeypatch.setattr(openings, "begin", lambda _state, _errors: done.append("frame") or "frames")
+    made = lambda _link, drawn, frames: done.append(f"explorer with {drawn}, {frames}") or view
+    monkeypatch.setattr(openings, "opened", made)
 
     async def opening():
         await openings.Ahead().on_session_created(SimpleNamespace(_document=doc))
@@ -57,7 +60,8 @@ def test_between_the_parts_of_an_opening_a_message_is_answered(monkeypatch):
 
     doc = Document()
     alone(beside(done, opening()))
-    assert min(between(done, "figure", "explorer with a figure", "models", "session")) >= MESSAGE
+    assert done.index("begun") < done.index("figure")  # it is noted that somebody is there
+    assert min(between(done, "figure", "frame", "explorer with a figure, frames", "models", "session")) >= MESSAGE
     assert openings.view_of(doc) is view
 
 

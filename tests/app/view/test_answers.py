@@ -26,13 +26,14 @@ class Frames:
 
 @pytest.fixture
 def held(monkeypatch):
-    """What is sent, what comes at the next tick, and what after a time, of a document."""
+    """What is sent, what comes in its turn, and what after a time, of a document."""
     sent, soon, late = [], [], []
     monkeypatch.setattr(answers, "send", lambda model, message: sent.append(message))
+    monkeypatch.setattr(answers, "later", lambda document: document.soon.append)
     monkeypatch.setattr(
         answers.IOLoop, "current", lambda: SimpleNamespace(call_later=lambda after, call: late.append((after, call)))
     )
-    return sent, soon, late, SimpleNamespace(session_context=True, add_next_tick_callback=soon.append)
+    return sent, soon, late, SimpleNamespace(soon=soon)
 
 
 @pytest.mark.parametrize(
@@ -52,7 +53,7 @@ def test_who_asks_for_all_is_at_rest_when_it_is_answered(held, asked, rest):
     assert frames.asked[1] == {"id": 7, "window": [1.0], "rest": rest}
 
 
-@pytest.mark.parametrize("meanwhile", ["nothing", "left", "forgotten", "answered"])
+@pytest.mark.parametrize("meanwhile", ["nothing", "left", "answered"])
 def test_an_answer_comes_soon_without_its_picture_unless_nobody_waits_for_it(held, meanwhile):
     sent, soon, late, document = held
     made = Answers(frames := Frames())
@@ -62,8 +63,6 @@ def test_an_answer_comes_soon_without_its_picture_unless_nobody_waits_for_it(hel
     assert after == answers.PATIENCE
     if meanwhile == "left":
         made.leave()
-    elif meanwhile == "forgotten":
-        document.session_context = None
     elif meanwhile == "answered":
         frames.pending.set_result(None)
         soon.pop()()

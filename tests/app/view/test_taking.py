@@ -1,10 +1,12 @@
 """A browser's wish for a file is read, made in its turn, and answered once."""
 
+import gc
 import re
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from queue import Queue
 from threading import Event
+from weakref import ref
 
 import pytest
 from codim2_app.draw.theme import themes
@@ -126,6 +128,36 @@ def conversation(executor, request, query="preset=case1-cm4", stop_after=None):
     while not later.empty():
         later.get()()
     return answers
+
+
+OTHER = {**FILM, "sliders": ["f1=-0.5,1"]}  # its parts are remembered
+
+
+@pytest.mark.parametrize("request_", [{"id": 1, "kind": "json"}, OTHER])
+def test_a_file_that_was_made_leaves_nothing_that_a_search_must_find(executor, monkeypatch, request_):
+    """What looks for it again and again must not hold itself: left out of searches, it would hold the page for ever."""
+    monkeypatch.setattr(takings, "count_of", lambda slider: 6)
+    monkeypatch.setattr(films, "picture", lambda view, slider, value, style: b"")
+    monkeypatch.setattr(takings, "joined", lambda *what: b"")
+
+    class Page(list):
+        """The answers that one page was given."""
+
+    searching = gc.isenabled()
+    gc.disable()
+    try:
+        page, later = Page(), Queue()
+        there, frames = ref(page), Frames(read_link("preset=case1-cm4").state)
+        frames.jobs = Jobs(executor)
+        Taking(frames).answer(request_, page.append, later.put)
+        while not page or "done" in page[-1]:
+            later.get(timeout=60)()
+        assert "file" in page[-1]
+        del page
+        assert there() is None
+    finally:
+        if searching:
+            gc.enable()
 
 
 def test_a_film_is_drawn_in_parts_and_is_that_of_the_command_line(executor, monkeypatch):

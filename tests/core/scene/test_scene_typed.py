@@ -127,6 +127,17 @@ def test_one_compilation_draws_every_setting():
         assert is_warm(p, first.evolve(q=0.7).coefficients)
 
 
+def test_the_slow_flow_is_that_of_the_critical_sets_which_are_known(monkeypatch):
+    """A server's thread is given the critical sets of a wild formula, and would search for them once more."""
+    first = scene()
+    expected = c2.sliding_flow(first.system, first.z)
+    given = scene()
+    given.give({"critical": first["critical"]})
+    monkeypatch.setattr(c2.sliding.flow, "disc_zeros", None)
+    np.testing.assert_array_equal(given["slow_flow"], expected)
+    assert expected.shape == (len(first["critical"]), 2)
+
+
 def test_a_lineage_may_pass_from_one_kind_of_system_to_the_other():
     first = c2.Scene(c2.ELinear(-2.0, 0.3, -1.0, (-0.5, 0.1)))
     first["classification"], first["inside"]

@@ -1,0 +1,37 @@
+"""What is asked of a page from elsewhere is done by the thread that answers, in its turn, with the document's lock.
+
+Bokeh's own callbacks of a document hold it, and each other in a cycle: once called they are garbage, which a search
+must find before the document goes. What is made here is gone as soon as it was called.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from bokeh.document import Document
+from bokeh.io.doc import patch_curdoc
+from tornado.ioloop import IOLoop
+
+#: Has a function called; any thread may ask.
+Later = Callable[[Callable[[], None]], Any]
+
+
+def later(document: Document) -> Later:
+    """Return what has functions called for a document, from the thread that answers; none once its session is over."""
+    return partial(IOLoop.current().add_callback, _called, document)
+
+
+async def _called(document: Document, function: Callable[[], None]) -> None:
+    async def call(its: Document) -> None:
+        with patch_curdoc(its):
+            try:
+                function()
+            except Exception:  # the loop would log it too, and its task, the error and their frames hold each other
+                logging.getLogger(__name__).exception("a page could not be answered")
+
+    context = document.session_context
+    if context is not None:
+        await context.with_locked_document(call)
