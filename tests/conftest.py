@@ -56,3 +56,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Mark all tests, and leave out the cases that run only if asked for."""
     tiers.mark(items)
     tiers.leave_out(config, items)
+
+
+@pytest.fixture
+def in_python(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let motions take the same steps whatever was compiled for other tests."""
+    from codim2_core.motion import nonsmooth, regularised
+
+    monkeypatch.setattr(regularised, "waited_for", lambda formulas: regularised.PATIENCE)
+    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
+    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: regularised.PATIENCE)

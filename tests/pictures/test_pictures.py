@@ -5,8 +5,6 @@ from pathlib import Path
 
 import pytest
 
-from codim2_core.motion import nonsmooth, regularised
-
 from .panels import DRAWN
 from .pictures import pictures
 
@@ -27,14 +25,6 @@ def _near(one: str, other: str) -> bool:
     if "." in one + other:
         return abs(float(one) - float(other)) <= 0.0021
     return abs(int(one) - int(other)) <= 1 and min(abs(int(one)), abs(int(other))) > 1
-
-
-@pytest.fixture
-def in_python(monkeypatch):
-    """Motions take the same steps whatever was compiled for other tests."""
-    monkeypatch.setattr(regularised, "waited_for", lambda formulas: regularised.PATIENCE)
-    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
-    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: regularised.PATIENCE)
 
 
 @pytest.mark.parametrize("name", pictures())

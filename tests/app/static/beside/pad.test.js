@@ -10,7 +10,7 @@ const SQUARE = (left, right) => [[left, -0.5], [right, -0.5], [right, 2.5], [lef
 const CHART = {
   box: [[-2, 2], [-1, 3]], regions: [{name: "CM2; left", bounded: true, inside: [-1, 1], loops: [SQUARE(-1.8, 0)]}, {name: "1 node, 2 saddles", bounded: true, inside: [1, 1], loops: [SQUARE(0, 1.8)]}],
   curves: {hopf: [[[-1, 0], [1, 2]], [[0.5, 0.5], [0.509, 0.5], [0.5, 0.509]]], cusps: [[[0.5, 2.5], [0.511, 2.5]], [[0.5, 2], [0.5, 2.011]]]},
-  points: [["cusp", -1, 2, "It turns."]], handle: [0.5, 1], here: [-1, 0.5], path: [[-2, 0], [2, 2]], words: ["a", "b<"],
+  points: [["cusp", -1, 2, "It turns."]], handle: [0.5, 1], here: [-1, 0.5], path: [[-2, 0], [2, 2]], words: ["a", "b<"], names: {hopf: "Hopf", cusps: "cusp"},
 }
 
 function made(given = {}) {
@@ -35,6 +35,7 @@ test("curves are lines, branches that are hardly more than a point dots; points 
   near(named(plot.lines, "hopf").map(({points}) => points), [[[-1, 0], [1, 2]]])
   near(named(plot.lines, "cusps").map(({points}) => points), [[[0.5, 2.5], [0.511, 2.5]], [[0.5, 2], [0.5, 2.011]]]) // longer than 0.01 of 4
   near(named(plot.dots, "point", "hopf").map(({at, r}) => [...at, r]), [[0.5, 0.5, 3]])
+  assert.deepEqual([...named(plot.lines, "hopf"), ...named(plot.lines, "cusps"), ...named(plot.dots, "point", "hopf")].map(({title}) => title), ["Hopf", "cusp", "cusp", "Hopf"])
   near(plot.marks.map(({at}) => at), [[-1, 2]])
   assert.deepEqual([plot.marks[0].title, plot.marks[0].kind], ["cusp. It turns.", "codimension two"])
 })
