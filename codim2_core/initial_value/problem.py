@@ -38,6 +38,12 @@ def growth_bound(jacobian: Array) -> float:
     return GROWTH / growth if growth > 0.0 else math.inf
 
 
+def own_time(problem: Problem, state: Array, rate: Array) -> float:
+    """Time in which a state changes by its own size; infinite where it stands."""
+    speed = float(np.max(np.abs(rate) / problem.scale(state)))
+    return 1.0 / speed if speed > 0.0 else math.inf
+
+
 def direction(psi: Psi | None, eps: float, x: float, y: float) -> tuple[float, float, float, float, float, float]:
     """Return e and what its derivative by (x, y) is made of.
 

@@ -18,6 +18,7 @@ from ...initial_value.compiled_phases import CompiledPhases
 from ...initial_value.events import DEGREES, turns
 from ...initial_value.field import Field
 from ...initial_value.line import InvariantLine
+from ...initial_value.problem import own_time
 from ...initial_value.safe_steps import NODES, Safe
 from ...initial_value.sheet import Sheet, complement, determinant, trace
 from ...numerics.dense import Steps
@@ -118,7 +119,7 @@ def slide(
 
     problem = sheet.problem(atol / rtol)
     rate = np.array(field.value(*sheet.e.tolist(), 0.0, 0.0, *z.tolist())[2:])
-    pace = 1.0 / float(np.max(np.abs(rate) / problem.scale(z))) if rate.any() else math.inf
+    pace = own_time(problem, z, rate)
     h, shortest = 1e-2 * pace, SHORTEST * min(pace, t_end - t)
     if compiled is None or lives is not None:
         ahead = _in_python(sheet, bounded(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest))

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...cycles.limit_cycles import LimitCycle, limit_cycles
-from ...initial_value.problem import growth_bound
+from ...initial_value.problem import growth_bound, own_time
 from ...numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
@@ -98,7 +98,7 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
     still = np.zeros(2)
     taken: list[Step] = []
     try:
-        pace = min(t_end - t, 1.0 / max(float(np.max(np.abs(first.slow_flow) / problem.scale(z))), 1e-300))
+        pace = min(t_end - t, own_time(problem, z, np.array(first.slow_flow)))
         for step in steps(problem, t, t_end, z, RTOL, FIRST * pace, most, SHORTEST * pace):
             polynomial = np.concatenate([np.zeros((2, STAGES)), step.polynomial])
             first, last = np.concatenate([still, step.first]), np.concatenate([still, step.last])
