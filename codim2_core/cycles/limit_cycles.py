@@ -179,7 +179,7 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool 
     z : (m,) floats
     prove : bool
         Try to prove, in seconds, that there are just these: `LimitCycles.proved` says whether that was done. For
-        e-linear systems, with Psi constant, rational, exponential, or of the Hill family with n >= 1.
+        e-linear systems, with Psi constant, rational, exponential, tanh, or of the Hill family with n >= 1.
 
     Returns
     -------

@@ -223,8 +223,8 @@ SENTENCES: dict[str, Sentence] = {
         "The count is not proved: that is done for e-linear systems only.", "a proof for a typed system"
     ),
     "proof not for this Psi": Sentence(
-        "The count is not proved: that is done for Ψ constant, rational, exponential, or of the Hill family with "
-        "n at least 1.",
+        "The count is not proved: that is done for Ψ constant, rational, exponential, s/sinh²√s, or of the Hill family "
+        "with n at least 1.",
         "a proof for another Psi",
     ),
     "proof is too long": Sentence("The count is not proved: a proof would be too long.", "a proof beyond its bounds"),

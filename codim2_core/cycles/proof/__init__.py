@@ -1,9 +1,9 @@
 r"""Proofs that an e-linear layer problem has just so many limit cycles, as certificates that anyone can check.
 
 In kappa_2 let ``F = q U = A x2 + q f``, ``q = sqrt(s + Psi(s))``, s = |x2|^2: the orbits of the layer problem, with
-time changed by q > 0. There is one equilibrium C, of index 1, so each closed orbit G surrounds it. Places are
-homogeneous, (X, Y, W), x2 = (X, Y)/W: a place with W = 0 lies on the equator, and edges are straight in x2. A
-certificate holds
+time changed by q > 0. As det A > 0, there is at most one equilibrium C, of index 1, and each closed orbit G surrounds
+it. Places are homogeneous, (X, Y, W), x2 = (X, Y)/W: a place with W = 0 lies on the equator, and edges are straight in
+x2. A certificate holds
 
 - *walks*: polygons all of whose edges U crosses from the right to the left, or all from the left to the right. A walk
   meets G from one side of G only; if it is closed, or comes from the equator and goes to it, it meets G as often
@@ -27,5 +27,6 @@ Then places of G lie once in the ring, so G is a closed orbit of it. Were G insi
 between them would lie less than 0 times in it. So each G is the one cycle of one ring.
 
 Only what is here counted on the fingers stands proved: `check.py` looks at each edge and triangle with intervals that
-are rounded outwards. How the certificate was found, by the other modules, proves nothing.
+are rounded outwards: what a component of U is on it is bounded by its value at one place, and slopes from there to the
+corners. How the certificate was found, by the other modules, proves nothing.
 """

@@ -13,8 +13,9 @@ from itertools import pairwise
 from typing import Any
 
 from ...layer_problem.problem import LayerProblem
+from .equator_ring import at_equator
 from .flow import Flow, Place, Undecided
-from .rings import LONGEST, TURNED, Ring, about, about_C, at_equator
+from .rings import LONGEST, TURNED, Ring, about, about_C
 
 BEYOND = 3.0  # |x2| from which on a way may be led to the equator
 LEAVES = 0.02  # of the size of U: how fast orbits go out there, and on the equator round
@@ -135,4 +136,5 @@ def alone(problem: LayerProblem, flow: Flow, crossing: float) -> Written:
 
 
 def _ring(flow: Flow, ring: Ring, k: int) -> list[Any]:
-    return [ring.layers, ring.h, [k - 1, k], flow.sense * ring.sign, list(ring.kind)]
+    corners = [[[*p, h] for p, h in zip(*one, strict=True)] for one in zip(ring.layers, ring.h, strict=True)]
+    return [corners, ring.paths, [k - 1, k], flow.sense * ring.sign, list(ring.kind)]

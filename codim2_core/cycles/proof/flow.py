@@ -3,6 +3,7 @@
 Time runs so that cycles go round anticlockwise: where they do not, U is -U here. In kappa_2 the orbits of the turned
 field ``R(angle) U`` cross those of U at that angle everywhere. Which angle closes the orbit through a place of the
 section says how U itself winds there: it is positive where orbits come back farther out, and zero on a limit cycle.
+Angles and lengths are those of coordinates in which a cycle is as round as can be: in x2 it may be a sliver.
 """
 
 from __future__ import annotations
@@ -12,17 +13,19 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...layer_problem.problem import LayerProblem
 from ...psi.kernel import SCALAR
 
+Array = NDArray[np.float64]
 Place = tuple[float, float]
 
 STEEP = 1.45  # of an angle: at right angles to U nothing goes round
 FAR = 1e5  # |x2|
 SUNK = 1e-9  # of the distance from C
 CLOSED = 1e-8  # in `height`
-COARSE = 0.1  # turning of an edge, where only the end of the orbit is asked for
+COARSE = 0.05  # turning of an edge, where only the end of the orbit is asked for
 
 
 class Undecided(Exception):
@@ -38,16 +41,20 @@ class Flow:
         With a critical set and ``a d < 0 < det A``.
     steps : int
         How many steps may be made.
+    cycle : ndarray (m, 2), optional
+        x2 on a cycle, which lengths are to make round; by default, the orbits near a focus C.
 
     Attributes
     ----------
+    frame : ndarray (2, 2)
+        Of determinant 1: lengths are those of ``frame @ x2``.
     sense : int
         1, or -1 where time runs backward here.
     reach : float
         Length of the section in e, from C to the equator.
     """
 
-    def __init__(self, problem: LayerProblem, steps: int) -> None:
+    def __init__(self, problem: LayerProblem, steps: int, cycle: Array | None = None) -> None:
         affine = problem.at.affine
         assert affine is not None
         self.left, self.psi = steps, problem.psi
@@ -61,6 +68,19 @@ class Flow:
         self.e_C = (b * g - d * f) / det, (c * f - a * g) / det
         self.u, self.reach = self._section()
         self.C = self.place(0.0)
+        self.frame = np.linalg.cholesky(self._at_C() if cycle is None else _rounding(cycle)).T
+        self.metric: tuple[float, float, float] = tuple((self.frame.T @ self.frame).ravel()[[0, 1, 3]].tolist())
+
+    def _at_C(self) -> Array:
+        """Return the form that the linearisation at C turns, or that of x2 where it turns none."""
+        p, q, size = self.scaled(*self.C)
+        stretch = np.eye(2) - (1.0 + self.slope(self.C[0] ** 2 + self.C[1] ** 2)) * np.outer((p, q), (p, q))
+        J = np.reshape(self.numbers[:4], (2, 2)) @ stretch / size
+        K = J - 0.5 * np.trace(J) * np.eye(2)
+        turning = float(np.linalg.det(K))
+        if turning <= 1e-3 * float((K**2).sum()):
+            return np.eye(2)
+        return np.array([[K[1, 0], -K[0, 0]], [-K[0, 0], -K[0, 1]]]) / math.sqrt(turning)
 
     def _section(self) -> tuple[Place, float]:
         """Return the longest of the rays from C in e on which all velocities are parallel, see `limit_cycles`."""
@@ -118,6 +138,16 @@ class Flow:
         count = max(2, math.ceil(4.0 * abs(end - start)))
         return [self.place(self.at_height(start + (end - start) * k / count)) for k in range(1, count + 1)]
 
+    def product(self, p: Place, q: Place) -> float:
+        """Return the inner product of two vectors."""
+        first, both, last = self.metric
+        return first * p[0] * q[0] + both * (p[0] * q[1] + p[1] * q[0]) + last * p[1] * q[1]
+
+    def dist(self, p: Place, q: Place) -> float:
+        """Return the distance of two places."""
+        between = p[0] - q[0], p[1] - q[1]
+        return math.sqrt(max(self.product(between, between), 0.0))
+
     def turn(
         self,
         r: float,
@@ -144,12 +174,14 @@ class Flow:
             The distance from C on return: 0 at C, the reach far out, NaN where it was stopped.
         """
         way = -1.0 if backward else 1.0
+        m11, m12, m22 = self.metric
         cosine, sine = way * math.cos(angle), way * math.sin(angle)
 
         def direction(x: float, y: float) -> Place:
             u, v = self.velocity(x, y)
-            size = math.hypot(u, v) or 1e-300
-            return (cosine * u - sine * v) / size, (sine * u + cosine * v) / size
+            lower, upper = m11 * u + m12 * v, m12 * u + m22 * v
+            size = math.sqrt(max(u * lower + v * upper, 0.0)) or 1e-300
+            return (cosine * u - sine * upper) / size, (sine * lower + cosine * v) / size
 
         def step(place: Place, first: Place, h: float) -> Place:
             x, y = place
@@ -162,7 +194,7 @@ class Flow:
             )
 
         here = self.place(r)
-        start = math.dist(here, self.C)
+        start = self.dist(here, self.C)
         places, first, h, before, left = [here], direction(*here), edge * start, 0.0, False
         while True:
             self.left -= 1
@@ -171,9 +203,7 @@ class Flow:
             while True:
                 there = step(here, first, h)
                 second = direction(*there)
-                turned = abs(
-                    math.atan2(first[0] * second[1] - first[1] * second[0], first[0] * second[0] + first[1] * second[1])
-                )
+                turned = abs(math.atan2(first[0] * second[1] - first[1] * second[0], self.product(first, second)))
                 if turned <= 1.3 * edge or h < 1e-13 * start:
                     break
                 h *= max(0.3, 0.9 * edge / turned)
@@ -190,7 +220,7 @@ class Flow:
                     low, high = ((middle, way * side), high) if way * side < 0.0 else (low, (middle, way * side))
                     if abs(side) < 1e-15:
                         break
-                if len(places) > 1 and math.dist(there, here) < 0.5 * math.dist(here, places[-2]):
+                if len(places) > 1 and self.dist(there, here) < 0.5 * self.dist(here, places[-2]):
                     places.pop()  # two short edges are one
                 return [*places, there], along
             left, before = left or side < 0.0, side
@@ -201,7 +231,7 @@ class Flow:
             radius = math.hypot(*here)
             if radius > FAR:
                 return places, self.reach
-            near = math.dist(here, self.C)
+            near = self.dist(here, self.C)
             if near < SUNK * start:
                 return places, 0.0
             h = min(h * min(2.0, max(0.7, edge / max(turned, 1e-300))), 0.3 * near)
@@ -234,3 +264,11 @@ class Flow:
                 (middle, at_middle, high, at_high) if at_middle * at_low > 0.0 else (low, at_low, middle, at_middle)
             )
         return 0.5 * (low + high)
+
+
+def _rounding(cycle: Array) -> Array:
+    """Return the form, of determinant 1, in which a closed polyline is as wide as it is long."""
+    step = np.hypot(*np.diff(cycle, axis=0).T)
+    middle = 0.5 * (cycle[1:] + cycle[:-1])
+    spread = np.cov(middle.T, aweights=step)
+    return np.asarray(np.linalg.inv(spread) * math.sqrt(np.linalg.det(spread)), float)

@@ -17,10 +17,10 @@ from .result import Proof
 
 Array = NDArray[np.float64]
 
-COVERED = ("constant", "rational", "exponential", "hill")  # the families whose Psi the checker encloses
-MOST_STEPS = 150_000  # of orbits, in search of a certificate
-MOST_ROWS = 40_000  # corners and edges in one that is checked
-REFUSED = (ValueError, ArithmeticError)
+COVERED = ("constant", "rational", "exponential", "tanh", "hill")  # the families whose Psi the checker encloses
+MOST_STEPS = 200_000  # of orbits, in search of a certificate
+MOST_ROWS = 60_000  # corners and edges in one that is checked
+REFUSED = (AssertionError, ArithmeticError, LookupError)
 
 
 def proved(problem: LayerProblem, cycles: list[Array], forbidden: str | None) -> Proof:
@@ -50,7 +50,7 @@ def proved(problem: LayerProblem, cycles: list[Array], forbidden: str | None) ->
 
 
 def _all(problem: LayerProblem, cycles: list[Array]) -> Proof:
-    flow = Flow(problem, MOST_STEPS)
+    flow = Flow(problem, MOST_STEPS, _in_kappa_2(cycles[0]) if cycles else None)
     certificate = written(problem, flow, [_crossing(flow, cycle) for cycle in cycles])
     if check(_bounded(certificate)) != (len(cycles), True):
         raise Undecided("proof refused")
@@ -62,7 +62,7 @@ def _each(problem: LayerProblem, cycles: list[Array], why: str) -> Proof:
     found, certificate = [], None
     for cycle in cycles:
         try:
-            flow = Flow(problem, MOST_STEPS)
+            flow = Flow(problem, MOST_STEPS, _in_kappa_2(cycle))
             one = alone(problem, flow, _crossing(flow, cycle))
             found.append(check(_bounded(one)) == (1, False))
             if found[-1]:
@@ -75,7 +75,7 @@ def _each(problem: LayerProblem, cycles: list[Array], why: str) -> Proof:
 def _joined(first: Written, then: Written) -> Written:
     """Join two certificates of the same system."""
     shift = len(first["walks"])
-    rings = [[layers, h, [i + shift, j + shift], *rest] for layers, h, (i, j), *rest in then["rings"]]
+    rings = [[*mesh, [i + shift, j + shift], sign, kind] for *mesh, (i, j), sign, kind in then["rings"]]
     return first | {"walks": first["walks"] + then["walks"], "rings": first["rings"] + rings}
 
 
@@ -88,10 +88,13 @@ def _bounded(certificate: Written) -> Written:
     return certificate
 
 
+def _in_kappa_2(p: Array) -> Array:
+    return p / np.sqrt(1.0 - (p**2).sum(axis=1))[:, None]
+
+
 def _crossing(flow: Flow, p: Array) -> float:
     """Return where a cycle crosses the section: its distance from C in e."""
-    places = (p / np.sqrt(1.0 - (p**2).sum(axis=1))[:, None]).tolist()
-    beside = [flow.beside(x, y) for x, y in places]
+    beside = [flow.beside(x, y) for x, y in _in_kappa_2(p).tolist()]
     for (along, before), (onward, after) in pairwise(beside):
         if (before < 0.0) != (after < 0.0) and (along > 0.0 or onward > 0.0):
             r = along - before * (onward - along) / (after - before)
