@@ -99,14 +99,13 @@ def to_equator(flow: Flow, inner: Ring, outward: bool) -> Way:
     return [*led[::-1], *spiralled[::-1], *loop, *section]
 
 
-def head(problem: LayerProblem, flow: Flow) -> Written:
+def head(problem: LayerProblem) -> Written:
     """Return what a certificate says of its system: numbers as they were given, not rounded."""
     a, b, c, d, f, g = problem.at.affine or (0.0,) * 6
     return {
         "A": [[a, b], [c, d]],
         "f": [f, g],
         "psi": [problem.psi.family, problem.psi.parameter],
-        "centre": [*flow.C, 1.0],
     }
 
 
@@ -123,7 +122,7 @@ def written(problem: LayerProblem, flow: Flow, crossings: list[float]) -> Writte
         outward = not outward
     if rings[-1].outer.places:
         walks.append([to_equator(flow, rings[-1], outward), flow.sense * (-1 if outward else 1)])
-    return head(problem, flow) | {"walks": walks, "rings": [_ring(flow, ring, k) for k, ring in enumerate(rings)]}
+    return head(problem) | {"walks": walks, "rings": [_ring(flow, ring, k) for k, ring in enumerate(rings)]}
 
 
 def alone(problem: LayerProblem, flow: Flow, crossing: float) -> Written:
@@ -132,9 +131,9 @@ def alone(problem: LayerProblem, flow: Flow, crossing: float) -> Written:
     outward = ring.sign < 0  # inside a cycle that attracts
     ways = (ring.inner, outward), (ring.outer, not outward)
     walks = [[finite(way.places), flow.sense * (-1 if out else 1)] for way, out in ways]
-    return head(problem, flow) | {"walks": walks, "rings": [_ring(flow, ring, 1)]}
+    return head(problem) | {"walks": walks, "rings": [_ring(flow, ring, 1)]}
 
 
 def _ring(flow: Flow, ring: Ring, k: int) -> list[Any]:
     corners = [[[*p, h] for p, h in zip(*one, strict=True)] for one in zip(ring.layers, ring.h, strict=True)]
-    return [corners, ring.paths, [k - 1, k], flow.sense * ring.sign, list(ring.kind)]
+    return [corners, ring.paths, [k - 1, k], flow.sense * ring.sign, list(ring.kind), list(ring.middle)]

@@ -35,7 +35,7 @@ def psi(family, n, s):
 
 def check(certificate):
     """Return how many rings have exactly one limit cycle, and whether there is no other; (0, False): nothing shown."""
-    (family, n), (X, Y, _), ways, rings = (certificate[name] for name in ("psi", "centre", "walks", "rings"))
+    (family, n), ways, rings = certificate["psi"], [*certificate["walks"], ([], 0)], certificate["rings"]
     cross, work = lambda p, q: [p[i] * q[j] - p[j] * q[i] for i, j in ((1, 2), (2, 0), (0, 1))], count()
     steps = lambda way: {(*p[:3], *q[:3]) for p, q in pairwise(way) if p != q}
     (a, b), (c, d), (f, g) = ([*map(Interval, row)] for row in [*certificate["A"], certificate["f"]])
@@ -66,17 +66,17 @@ def check(certificate):
                 more = J * (s * (a * s + b * t + f) + t * (c * s + d * t + g)) + K * (f * s + g * t)
                 if (across / (w if k else h) + beta * more + K * (a + d)).lo > 0.0:
                     continue
-            assert next(work) / 25_000 < 16 > depth, f"not decided at {corners}"
+            if depth == 16 or next(work) == 400_000:
+                raise ArithmeticError(f"not decided at {corners}")
             ends = max(combinations(piece, 2), key=lambda pair: dist(*pair))
-            new = [0.5 * sum(pair) for pair in zip(*ends)]
-            pieces += [([new if one is end else one for one in piece], depth + 1) for end in ends]
+            pieces += [([[sum(i) / 2 for i in zip(*ends)] if p is q else p for p in piece], depth + 1) for q in ends]
 
     fine = [(a * d - b * c).lo > 0, family != "hill" or n >= 1]
-    for way, sense in ways:  # U crosses it to its left (1) or to its right (-1)
-        fine += [way[0] == way[-1] or way[0][2] == way[-1][2] == 0, [X, Y, 1] not in way]
+    for way, sense in ways[:-1]:  # U crosses it to its left (1) or to its right (-1)
+        fine += [way[0] == way[-1] or way[0][2] == way[-1][2] == 0]
         for p, q in pairwise(way):
             hold(([*p, 1], [*q, 1]), cross([*map(Interval, p)], [*map(Interval, q)]), sense, 0, 0)
-    for rows, paths, (inner, outer), sign, (k, j) in rings:  # U goes in across both of its ends, or out
+    for rows, paths, (inner, outer), sign, (k, j), (X, Y) in rings:
         for (p, *near), (q, *far), path in zip(rows, rows[1:], paths):
             for step in path:  # a triangle to the next corner of the near row (0), or of the far one (1)
                 three = p, q, (near, far)[step].pop(0)
@@ -85,15 +85,15 @@ def check(certificate):
                 u, v, size = (L * V[0][i] + M * V[1][i] + N * V[2][i] for (L, M, N), i in zip(lines, (3, 3, 2)))
                 hold(three, (u / size, v / size), sign, k, j)  # no division by a size that may not be positive
                 p, q = (p, three[2]) if step else (three[2], q)
-            fine += [near == far == [], {*path} <= {0, 1}]
-        for loop in rows[inner < 0 :]:
+            fine += [near == far == [], {*path} <= {0, 1}, k in (0, 1), -1 <= inner < outer < len(ways)]
+        for loop in rows[inner < 0 :]:  # seen from (X, Y) it goes on and on to the left, once round
             turns = [remainder(q - p, tau) for p, q in pairwise(atan2(y - w * Y, x - w * X) for x, y, w, _ in loop)]
-            fine += [loop[0] == loop[-1], round(sum(turns)) == 6, max(map(abs, turns)) < 3, k in (0, 1)]
-        fine += [k == 0 or ways[inner][1] == -[*ways, (0, 0)][outer][1] if inner >= 0 else rows[0][0][:3] == [X, Y, 1]]
-        fine += [len(paths) == len(rows) - 1 > 0, -1 <= inner < outer, steps(rows[0]) <= steps(ways[inner][0])]
-        fine += [steps(rows[-1]) <= steps(ways[outer][0]) if outer < len(ways) else {p[2] for p in rows[-1]} == {0}]
-    whole = [one[2] for one in rings] == [[i - 1, i] for i in range(len(ways) + (ways[-1][0][0][2] != 0))]
-    return (sum(k == 1 and inner >= 0 for *_, (inner, _), _, (k, _) in rings), whole) if all(fine) else (0, False)
+            fine += [loop[0] == loop[-1], round(sum(turns)) == 6, min(turns) > 1e-9, max(turns) < 3]
+        fine += [k == 0 or ways[inner][1] == -ways[outer][1] if inner >= 0 else rows[0][0][:3] == [X, Y, 1]]
+        fine += [len(paths) == len(rows) - 1 > 0, steps(rows[0]) <= steps(ways[inner][0])]
+        fine += [steps(rows[-1]) <= steps(ways[outer][0]) or not any([ways[outer][0], *(p[2] for p in rows[-1])])]
+    whole = [one[2] for one in rings] == [[i - 1, i] for i in range(len(ways) - (ways[-2][0][0][2] == 0))]
+    return (sum(k == 1 and inner >= 0 for _, _, (inner, _), _, (k, _), _ in rings), whole) if all(fine) else (0, False)
 
 
 if __name__ == "__main__":

@@ -67,7 +67,7 @@ def at_equator(flow: Flow, beyond: float) -> list[Ring]:
                 inner = Loop(r, [(x, y) for x, y in places.tolist()])
                 layers = [[[x, y, w] for x, y in inner.places] for w in (1.0, 0.0)]
                 path, sign = [0, 1] * (len(places) - 1), -1 if mean > 0.0 else 1
-                return [Ring(inner, Loop(flow.reach, []), layers, [h.tolist()] * 2, [path], sign, (0, -2))]
+                return [Ring(inner, Loop(flow.reach, []), layers, [h.tolist()] * 2, [path], sign, (0, -2), (0.0, 0.0))]
     raise Undecided("proof fails at the equator")
 
 

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 COVERED = ("constant", "rational", "exponential", "tanh", "hill")  # the families whose Psi the checker encloses
 MOST_STEPS = 200_000  # of orbits, in search of a certificate
 MOST_ROWS = 60_000  # corners and edges in one that is checked
-REFUSED = (AssertionError, ArithmeticError, LookupError)
+REFUSED = (ArithmeticError, LookupError)
 
 
 def proved(problem: LayerProblem, cycles: list[Array], forbidden: str | None) -> Proof:
@@ -75,7 +75,7 @@ def _each(problem: LayerProblem, cycles: list[Array], why: str) -> Proof:
 def _joined(first: Written, then: Written) -> Written:
     """Join two certificates of the same system."""
     shift = len(first["walks"])
-    rings = [[*mesh, [i + shift, j + shift], sign, kind] for *mesh, (i, j), sign, kind in then["rings"]]
+    rings = [[rows, paths, [i + shift, j + shift], *rest] for rows, paths, (i, j), *rest in then["rings"]]
     return first | {"walks": first["walks"] + then["walks"], "rings": first["rings"] + rings}
 
 

@@ -52,6 +52,8 @@ class Ring:
         Of what is shown to have one sign.
     kind : (k, j)
         (1, 0): the divergence with the weight exp(h); (0, -2): the derivative of ln h - 2 ln q.
+    middle : (x, y)
+        Seen from there, each layer goes on to the left.
     """
 
     inner: Loop
@@ -61,6 +63,7 @@ class Ring:
     paths: list[list[int]]
     sign: int
     kind: tuple[int, int]
+    middle: tuple[float, float]
 
 
 def loop(flow: Flow, r: float, angle: float, longest: float = LONGEST) -> Loop | None:
@@ -84,7 +87,7 @@ def about_C(flow: Flow, first: float) -> Ring:
         if way is not None and (sign * fields(flow, inside)[1]).min() > DEFINITE * abs(at_C):
             layers = [[[*flow.C, 1.0]], [[x, y, 1.0] for x, y in way.places]]
             path = [1] * (len(places) - 1)
-            return Ring(Loop(0.0, []), way, layers, [[0.0], [0.0] * len(places)], [path], sign, (1, 0))
+            return Ring(Loop(0.0, []), way, layers, [[0.0], [0.0] * len(places)], [path], sign, (1, 0), flow.C)
         r *= NARROWER
     raise Undecided("proof fails at C")
 
@@ -114,7 +117,8 @@ def about(flow: Flow, height: float, room_in: float, room_out: float) -> Ring:
             h = weights(flow, found, mean)
             if h is not None:
                 layers = [[[x, y, 1.0] for x, y in way.places.tolist()] for way in known]
-                return Ring(inner, outer, layers, h, found.paths, 1 if mean > 0.0 else -1, (1, 0))
+                sign, center = 1 if mean > 0.0 else -1, (float(middle[0]), float(middle[1]))
+                return Ring(inner, outer, layers, h, found.paths, sign, (1, 0), center)
     raise Undecided("proof fails at a cycle")
 
 
