@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -27,7 +28,9 @@ STEP, SHORTEST = 0.04, 1e-4
 MOST, MOST_TURNS = 400, 4000
 ROUNDS = 8
 CLOSE = 1e-9
-DIFFERENCE = 1e-5  # for derivatives of the exponent
+DIFFERENCE = 2e-6  # for derivatives of the exponent: it is known to 1e-12, and one of them needs no more than 1e-5
+LATE = 1  # rounds after the first fold is found
+CARRY = 1e-10  # what is left, in chi and e, after a correction that is the last without another turn
 SMALL, LOW = 3e-3, 1e-4  # amplitude, ebar: the cycle has come to C, to the equator
 OUTWARD = np.array([1.0, 0.0, 0.0])
 CUSP_ROUNDS = 24
@@ -36,7 +39,7 @@ AHEAD, MEMORY, BEHIND = 8, 12, 3  # folds predicted at once; last folds that pre
 TURNED = 0.9  # cosine between successive tangents below which a step is too long
 MISSED = 0.3  # distance of a fold from its prediction, in steps, beyond which a step is too long
 #: A place (xi, e) and those beside it, for differences of the exponent.
-BESIDE = DIFFERENCE * np.vstack([np.zeros(3), np.eye(3), -np.eye(3)])
+BESIDE = DIFFERENCE * np.vstack([np.zeros(3), np.eye(3)])
 
 
 @dataclass(frozen=True)
@@ -131,8 +134,7 @@ class Folds:
                 out.append(None)
                 continue
             by_e, drift = found.parameters(rows[0])
-            after, before = found.exponent[rows[1:]].reshape(2, 3)
-            rise = (after - before) / (2.0 * DIFFERENCE)
+            rise = (found.exponent[rows[1:]] - turn.exponent) / DIFFERENCE
             jacobian = np.array([[turn.by_xi, *by_e], rise])
             jacobian[:, 0] /= turn.rate
             jacobian[:, 1:] -= jacobian[:, :1] * drift  # at fixed chi, not xi
@@ -144,29 +146,40 @@ class Folds:
         return self.all_corrected([guess])[0]
 
     def all_corrected(self, guesses: Sequence[FoldGuess]) -> list[Fold | None]:
-        """Newton's method for folds, side by side."""
+        """Newton's method for folds one after another on a curve, side by side.
+
+        None for those behind one that is not found, and for those that take much longer than the first.
+        """
         found: list[Fold | None] = [None] * len(guesses)
         places = [(guess.xi, guess.e) for guess in guesses]
-        last = [math.inf] * len(guesses)
+        before: list[tuple[Fold, Array, float] | None] = [None] * len(guesses)
         open_ = list(range(len(guesses)))
+        late = 0
         for _ in range(ROUNDS):
-            if not open_:
+            late += found[0] is not None
+            if not open_ or late > LATE:
                 break
             states, going = self.states([places[i] for i in open_]), []
             for i, state in zip(open_, states, strict=True):
                 if state is None:
-                    continue
+                    break
                 matrix = np.vstack([state.jacobian, guesses[i].row])
                 if abs(np.linalg.det(matrix)) < 1e-12:
-                    continue
+                    break
                 change = -np.asarray(np.linalg.solve(matrix, [state.turn.shift, state.turn.exponent, 0.0]), float)
                 size = float(np.abs(change).max())
                 xi, e = state.xi + state.xi_by(change), state.e + change[1:]
+                one = before[i]
+                last = math.inf if one is None else one[2]
                 if size < CLOSE:
                     found[i] = replace(state, xi=xi, e=e)
-                elif size <= 2.0 * last[i] and size <= 0.3:
-                    places[i], last[i] = (xi, e), size
+                elif one is not None and size * (size / last) ** 2 < CARRY:
+                    found[i] = _carried(*one[:2], state, change, xi)
+                elif size <= 2.0 * last and size <= 0.3:
+                    places[i], before[i] = (xi, e), (state, change, size)
                     going.append(i)
+                else:
+                    break
             open_ = going
         return found
 
@@ -268,6 +281,19 @@ class Folds:
     @staticmethod
     def _near(one: Fold, two: Fold) -> float:
         return math.hypot(one.turn.chi - two.turn.chi, *(one.e - two.e))
+
+
+def _carried(one: Fold, first: Array, two: Fold, change: Array, xi: float) -> Fold:
+    """Carry what is known of two places, `first` apart in (chi, e), linearly on to the end of a last small change."""
+    part = float(first @ change) / float(first @ first)
+
+    def on(here: Any, there: Any) -> Any:
+        return there + part * (there - here)
+
+    names = ("exponent", "period", "amplitude", "height", "rate", "by_xi")
+    numbers = {name: on(getattr(one.turn, name), getattr(two.turn, name)) for name in names}
+    turn = replace(two.turn, xi=xi, shift=0.0, chi=two.turn.chi + float(change[0]), **numbers)
+    return Fold(xi, two.e + change[1:], turn, on(one.jacobian, two.jacobian), on(one.drift, two.drift))
 
 
 def null_vector(jacobian: Array, towards: Array) -> Array:

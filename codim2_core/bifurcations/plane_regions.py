@@ -7,9 +7,7 @@ smooth, and walking along arcs with the face on the left gives each region once.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,15 +17,13 @@ from ..portrait.classify import Classification, classify
 from ..psi.constructors import constant
 from ..systems.coefficients import Coefficients
 from ..tables import Results, Tabled, point
+from .arrangement import arrangement, borders
 from .curve import Array, frozen, matrix
 from .geometry import Geometry
 
-_TAU = 2.0 * math.pi
-_ARC = 33  # points drawn along an arc, and more where it turns by more than a degree from one to the next
-_TURN = _TAU / 360
-_SAME = 1e-9  # of the size: points of the two curves nearer than this are one vertex
 _THIN = 1e-6  # of the size: regions with a smaller mean width are left out; nobody could see them
 _NOTHING = np.zeros((0, 2)), np.zeros(0)
+_LEVELS = np.array([0.07, 0.21, 0.35, 0.4987, 0.65, 0.79, 0.93])  # of the extent of a region: where it is cut
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,27 +68,6 @@ class Regions(Results[Region]):
         return (self._repr_svg_() or "") + super()._repr_html_()
 
 
-class _Stop(NamedTuple):
-    """A parameter value on a curve at a vertex."""
-
-    parameter: float
-    vertex: int
-
-
-@dataclass
-class _Half:
-    """An arc in one direction: from `start` to `end`, with the face on its left."""
-
-    at: Callable[[float], tuple[float, float]]
-    low: float  # parameter at its start, and at its end
-    high: float
-    start: int
-    end: int
-    twin: int
-    points: Array
-    used: bool = field(default=False)
-
-
 def regions(a: float, b: float, d: float) -> Regions:
     """All regions of the plane (f1, f2) between the saddle-node curve and the ellipse, each classified inside.
 
@@ -120,8 +95,8 @@ def regions(a: float, b: float, d: float) -> Regions:
         found = [_region(plane, [], np.zeros((1, 2)), (1.0, 0.0), bounded=False)]
         return Regions(region for region in found if region is not None)
     # a or d of next to nothing is taken for 0: the points of fourfold contact that it parts cannot be told apart
-    halves = _arrangement(Geometry(*(0.0 if abs(v) <= _THIN * plane.size else v for v in (a, b, d))))
-    loops = _loops(halves, plane)
+    halves = arrangement(Geometry(*(0.0 if abs(v) <= _THIN * plane.size else v for v in (a, b, d))))
+    loops = borders(halves, plane)
     thin = _THIN * plane.size
     faces = [[loop] for loop, area in loops if area > thin * _length(loop)]
     outer = [(loop, area) for loop, area in loops if area < 0.0]
@@ -142,128 +117,6 @@ def regions(a: float, b: float, d: float) -> Regions:
     corner = 1.15 * abs(border).max(axis=0) + 0.1 * plane.size
     found.append(_region(plane, free, border, (float(corner[0]), float(corner[1])), bounded=False))
     return Regions(region for region in found if region is not None)
-
-
-def _arrangement(plane: Geometry) -> list[_Half]:
-    """Half-arcs of both curves; twins are neighbours in the list (2i, 2i + 1)."""
-    vertices: list[tuple[float, float]] = []
-
-    def vertex(point: tuple[float, float]) -> int:
-        for i, other in enumerate(vertices):
-            if math.dist(point, other) <= _SAME * plane.size:
-                return i
-        vertices.append(point)
-        return len(vertices) - 1
-
-    nodes: list[_Stop] = []  # on the saddle-node curve
-    others: list[_Stop] = []  # on the ellipse
-    point_only = plane.a == plane.d and plane.b == 0.0
-    has_nodes = not point_only
-    has_ellipse = plane.determinant_sign != 0 and not plane.inseparable
-    if has_nodes:
-        common = [*plane.touching, *plane.crossing] if has_ellipse else []
-        own = [*plane.cusps, *(t for pair in plane.double for t in pair)]
-        for theta in (*common, *own):
-            nodes.append(_Stop(theta, vertex(plane.saddle_node_at(theta))))  # noqa: PERF401 (vertex grows a list)
-        for theta in common:
-            point = plane.saddle_node_at(theta)
-            others.append(_Stop(plane.on_ellipse(point), vertex(point)))
-    halves: list[_Half] = []
-    if has_nodes:
-        _add_arcs(halves, plane.saddle_node, plane.saddle_node_at, nodes, vertex, plane.size)
-    if has_ellipse:
-        _add_arcs(halves, plane.ellipse, plane.ellipse_at, others, vertex, plane.size)
-    return halves
-
-
-def _add_arcs(
-    halves: list[_Half],
-    curve: Callable[[Array], Array],
-    at: Callable[[float], tuple[float, float]],
-    stops: list[_Stop],
-    vertex: Callable[[tuple[float, float]], int],
-    size: float,
-) -> None:
-    if not stops:
-        stops = [_Stop(0.0, vertex(at(0.0)))]
-    stops = sorted(stops)
-    merged = [stops[0]]
-    for stop in stops[1:]:
-        if stop.vertex != merged[-1].vertex or stop.parameter - merged[-1].parameter > 1e-3:
-            merged.append(stop)
-    if len(merged) > 1 and merged[-1].vertex == merged[0].vertex and merged[0].parameter + _TAU - merged[-1][0] < 1e-3:
-        merged.pop()
-    for i, (low, start) in enumerate(merged):
-        high, end = merged[i + 1] if i + 1 < len(merged) else (merged[0].parameter + _TAU, merged[0].vertex)
-        points = curve(np.linspace(low, high, max(_ARC, math.ceil((high - low) / _TURN) + 1)))
-        if start == end and float(abs(points - points[0]).max()) <= _SAME * size:
-            continue
-        index = len(halves)
-        halves.append(_Half(at, low, high, start, end, index + 1, points))
-        halves.append(_Half(at, high, low, end, start, index, points[::-1]))
-
-
-def _loops(halves: list[_Half], plane: Geometry) -> list[tuple[Array, float]]:
-    """Borders of all faces, each with its signed area (negative: the outside of a connected piece)."""
-    leaving: dict[int, list[int]] = {}
-    for i, half in enumerate(halves):
-        leaving.setdefault(half.start, []).append(i)
-    follow: dict[int, int] = {}
-    for around in leaving.values():
-        ordered = _anticlockwise(around, halves)
-        # arriving by the twin of ordered[i], the next arc with the face on the left is the one clockwise of it
-        for i, index in enumerate(ordered):
-            follow[halves[index].twin] = ordered[i - 1]
-    out = []
-    for first in range(len(halves)):
-        if halves[first].used:
-            continue
-        pieces, index = [], first
-        while not halves[index].used:
-            halves[index].used = True
-            pieces.append(halves[index].points[:-1])
-            index = follow[index]
-        loop = np.concatenate(pieces)
-        x, y = (loop / plane.size).T
-        x, y = x - x[0], y - y[0]
-        area = 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) * plane.size**2
-        out.append((loop, area))
-    return out
-
-
-def _anticlockwise(around: list[int], halves: list[_Half]) -> list[int]:
-    """Half-arcs leaving a vertex, in anticlockwise order, told apart at one small distance from it.
-
-    At a touching point the directions agree to second order and more: at this distance they still differ by far more
-    than rounding.
-    """
-    if len(around) <= 2:
-        return around
-    rays = []
-    # one origin for all: where nearly coincident points were merged, their small distances still tell the order
-    origin = halves[around[0]].at(halves[around[0]].low)
-    for i in around:
-        half = halves[i]
-        step = math.copysign(min(0.05, 0.25 * abs(half.high - half.low)), half.high - half.low)
-        rays.append((half.at, half.low, step))
-    radius = min(math.dist(at(low + step), origin) for at, low, step in rays)
-    angles = []
-    for at, low, step in rays:
-        # regula falsi (Illinois) for the part of the step that leads as far as the shortest one
-        u0, u1, v0, v1 = 0.0, 1.0, -radius, math.dist(at(low + step), origin) - radius
-        u = 1.0
-        while v1 > 1e-12 * radius:
-            u = u1 - v1 * (u1 - u0) / (v1 - v0)
-            v = math.dist(at(low + u * step), origin) - radius
-            if abs(v) <= 1e-12 * radius or not u0 < u < u1:
-                break
-            if v > 0.0:
-                u1, v1, v0 = u, v, 0.5 * v0
-            else:
-                u0, v0, v1 = u, v, 0.5 * v1
-        x, y = at(low + u * step)
-        angles.append(math.atan2(y - origin[1], x - origin[0]))
-    return [around[j] for j in sorted(range(len(around)), key=lambda j: angles[j])]
 
 
 def _length(loop: Array) -> float:
@@ -315,35 +168,39 @@ def _beside(plane: Geometry, f: tuple[float, float], border: Array) -> tuple[flo
 
 def _middle(boundary: list[Array], border: Array) -> tuple[float, float] | None:
     """Find a point well inside closed polygons and far from all curves: the best of the middles of several cuts."""
-    edges = np.concatenate([np.concatenate([loop, np.roll(loop, -1, axis=0)], axis=1) for loop in boundary])
+    loops = [np.concatenate([loop, loop[:1]]) for loop in boundary]
+    first, second = (np.concatenate([loop[part] for loop in loops]).T for part in (slice(-1), slice(1, None)))
+    low, high = boundary[0].min(axis=0), boundary[0].max(axis=0)
+    # along each axis, cuts at some levels of the other one
+    levels = low[::-1, None] + (high - low)[::-1, None] * _LEVELS
+    axis, level, at = np.nonzero((first[::-1, None] > levels[..., None]) != (second[::-1, None] > levels[..., None]))
+    with np.errstate(invalid="ignore", over="ignore"):
+        part = (levels[axis, level] - first[1 - axis, at]) / (second[1 - axis, at] - first[1 - axis, at])
+        crossing = first[axis, at] + part * (second[axis, at] - first[axis, at])
+    ends = np.searchsorted(axis * len(_LEVELS) + level, np.arange(2 * len(_LEVELS) + 1)).tolist()
     candidates: list[tuple[float, float]] = []
     halves: list[float] = []  # half the width of each cut: the border's points alone would miss how thin a sliver is
-    for axis in (0, 1):
-        u0, v0, u1, v1 = edges[:, axis], edges[:, 1 - axis], edges[:, 2 + axis], edges[:, 3 - axis]
-        low, high = float(boundary[0][:, 1 - axis].min()), float(boundary[0][:, 1 - axis].max())
-        levels = low + (high - low) * np.array([0.07, 0.21, 0.35, 0.4987, 0.65, 0.79, 0.93])[:, None]
-        spans = (v0 > levels) != (v1 > levels)
-        which, at = np.nonzero(spans)
-        with np.errstate(invalid="ignore", over="ignore"):
-            part = (levels[which, 0] - v0[at]) / (v1[at] - v0[at])
-            crossing = (u0[at] + part * (u1[at] - u0[at])).tolist()
-        ends = np.searchsorted(which, np.arange(len(levels) + 1)).tolist()
-        for k, level in enumerate(levels[:, 0].tolist()):
-            row = sorted(v for v in crossing[ends[k] : ends[k + 1]] if v < math.inf)
-            pairs = list(zip(row[::2], row[1::2], strict=False))
-            if pairs:
-                left, right = max(pairs, key=lambda pair: pair[1] - pair[0])
-                middle = 0.5 * (left + right)
-                candidates.append((middle, level) if axis == 0 else (level, middle))
-                halves.append(0.5 * (right - left))
+    places = crossing.tolist()
+    for k, where in enumerate(levels.ravel().tolist()):
+        row = sorted(v for v in places[ends[k] : ends[k + 1]] if v < math.inf)
+        pairs = list(zip(row[::2], row[1::2], strict=False))
+        if pairs:
+            left, right = max(pairs, key=lambda pair: pair[1] - pair[0])
+            middle = 0.5 * (left + right)
+            candidates.append((middle, where) if k < len(_LEVELS) else (where, middle))
+            halves.append(0.5 * (right - left))
     if not candidates:
         return None
     best, chosen = -1.0, 0
+    scale = float(np.abs(border).max())
+    x, y = np.ascontiguousarray(border.T) / scale
     for i in sorted(range(len(candidates)), key=lambda i: -halves[i]):
         if halves[i] < best:
             break
         u, v = candidates[i]
-        width = min(float(np.hypot(u - border[:, 0], v - border[:, 1]).min()), halves[i])
+        du, dv = u / scale - x, v / scale - y
+        nearest = border[int((du * du + dv * dv).argmin())]
+        width = min(float(np.hypot(u - nearest[0], v - nearest[1])), halves[i])
         if width > best or (width == best and i < chosen):
             best, chosen = width, i
     return candidates[chosen]

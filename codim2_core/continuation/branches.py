@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..cycles.limit_cycles import reason_for_none
-from ..cycles.search import search, shown
+from ..cycles.search import crossed, search, shown
 from ..layer_problem.critical import critical_sets
 from ..layer_problem.vary import limits, varied
 from ..psi.function import Psi
@@ -248,12 +248,11 @@ class _Search:
             return []
         samples, nu = shown(self.family.section(value)), self._nu(value)
         expected = sorted(guess.xi for trace, *_ in self.found for _, guess in passing(trace, nu, self.tracer.width))
-        changes = [(samples.xi[i], samples.xi[j]) for i, j in samples.changes]
-        if samples.certain == len(changes) == len(expected) and all(
-            low < xi < high for xi, (low, high) in zip(expected, changes, strict=True)
-        ):
-            return []
-        crossings, _ = search(samples)
+        places = [(samples.xi[i], samples.xi[j]) for i, j in samples.changes]
+        explained = samples.certain == len(expected) and all(
+            low < xi < high for xi, (low, high) in zip(expected, places, strict=False)
+        )
+        crossings = crossed(samples, samples.certain) if explained else search(samples)[0]
         return [Guess(crossing.xi, nu, (0.0, 1.0), crossing.repelling) for crossing in crossings]
 
     def _known(self, first: tuple[Turn, float], entries: Sequence[Entry]) -> Asking[bool]:

@@ -15,9 +15,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cycles.loop import Loop, gap, loops
+from ..cycles.loop import Loop, gap, gaps, loops
 from ..layer_problem.closed_equator import slowest_turn
-from ..layer_problem.equator import equator_cycle, equator_equilibria
+from ..layer_problem.equator import equator_cycle, number_of_directions
 from ..layer_problem.lyapunov import first_lyapunov
 from ..layer_problem.problem import LayerProblem
 from ..numerics.root_between import root_between
@@ -145,17 +145,16 @@ def loop_ends(family: VariedSystem, low: float, high: float) -> list[End]:
     """
     columns = values(low, high, COLUMNS)
     arcs = [_arcs(family, v) for v in columns]
+    pairs = [(i, loop, _nearest(arcs[i + 1], loop)) for i in range(len(columns) - 1) for loop in arcs[i] if arcs[i + 1]]
+    asked = list(dict.fromkeys(place for i, loop, after in pairs for place in ((i, loop), (i + 1, after))))
+    found = gaps([(*family.at(columns[i]), loop) for i, loop in asked], SIGN)
+    sign = dict(zip(asked, found, strict=True))
     ends = []
-    for i in range(len(columns) - 1):
-        for loop in arcs[i]:
-            if not arcs[i + 1]:
-                continue
-            after = _nearest(arcs[i + 1], loop)
-            signs = [gap(*family.at(v), arc, SIGN) for v, arc in ((columns[i], loop), (columns[i + 1], after))]
-            if signs[0] * signs[1] < 0.0:
-                end = loop_end(family, columns[i], columns[i + 1], loop)
-                if end is not None:
-                    ends.append(end)
+    for i, loop, after in pairs:
+        if sign[i, loop] * sign[i + 1, after] < 0.0:
+            end = loop_end(family, columns[i], columns[i + 1], loop)
+            if end is not None:
+                ends.append(end)
     return ends
 
 
@@ -282,14 +281,14 @@ def reversible(coefficients: Coefficients) -> bool:
 
 def _saddle_node_ahead(family: VariedSystem, value: float, direction: float, width: float) -> float | None:
     """Find the first value ahead at which the number of limit directions changes, within `AHEAD` of the span."""
-    count = len(equator_equilibria(family.at(value)[0]))
+    count = number_of_directions(family.at(value)[0])
     near = value
     for k in range(1, 41):
         far = value + direction * width * AHEAD * (k / 40.0) ** 3
-        if len(equator_equilibria(family.at(far)[0])) != count:
+        if number_of_directions(family.at(far)[0]) != count:
             for _ in range(60):
                 middle = 0.5 * (near + far)
-                if len(equator_equilibria(family.at(middle)[0])) == count:
+                if number_of_directions(family.at(middle)[0]) == count:
                     near = middle
                 else:
                     far = middle

@@ -32,6 +32,7 @@ MISSED = 0.3  # distance of a point from its prediction, in steps, beyond which 
 TURNED = 0.9  # cosine between successive tangents below which a step is too long
 WIDEST, MEMORY, BEHIND = 16, 12, 2  # points tried at once; last points that predictions know of, and use
 BEND, OFF = 0.25, 0.15  # turn of the tangent, and first correction in steps, that the next step is to have
+PATIENT, MANY = 400, 4  # steps of a turn that a point may cost at least, and times those of the point before it
 HALVINGS = 8  # of an interval in which a fold is not found at once
 
 
@@ -89,7 +90,8 @@ class _Path:
         if not (self.window and (self.window[-1].edge or not self.near)):
             self._predict()
         open_ = [sought.search for sought in self.window if not sought.search.over]
-        turns = yield self.tracer.question([search.guess for search in open_])
+        limit = max(PATIENT, MANY * self.points[-1].turn.steps)
+        turns = yield self.tracer.question([search.guess for search in open_], limit)
         for search, turn in zip(open_, turns, strict=True):
             search.told(turn)
         self._settle()

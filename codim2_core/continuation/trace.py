@@ -37,10 +37,11 @@ class Tracer:
     def __init__(self, family: Any, low: float, high: float) -> None:
         self.family, self.low, self.width = family, low, high - low
 
-    def question(self, guesses: Sequence[Guess]) -> Question:
-        """Ask for one turn from each."""
+    def question(self, guesses: Sequence[Guess], limit: int | None = None) -> Question:
+        """Ask for one turn from each, within so many steps."""
         values = [self.low + g.nu * self.width if -700.0 < g.xi < 690.0 else math.nan for g in guesses]
-        return Question(self.family, [g.xi for g in guesses], values, [g.backward for g in guesses])
+        limits = None if limit is None else [limit] * len(guesses)
+        return Question(self.family, [g.xi for g in guesses], values, [g.backward for g in guesses], limits)
 
     def corrected(self, guess: Guess) -> Asking[tuple[Turn, float] | None]:
         """Find the closed turn by one guess, and its nu."""
@@ -62,7 +63,7 @@ class Tracer:
 
         p = (two.p[0] + part * (two.p[0] - one.p[0]), two.p[1] + part * (two.p[1] - one.p[1]))
         names = ("by_xi", "by_value", "exponent", "period", "amplitude", "height", "rate", "drift", "chi")
-        return Turn(xi=xi, value=value, shift=0.0, p=p, **{name: carried(name) for name in names})
+        return Turn(xi=xi, value=value, shift=0.0, p=p, steps=two.steps, **{name: carried(name) for name in names})
 
     @staticmethod
     def backward(turn: Turn, before: bool) -> bool:

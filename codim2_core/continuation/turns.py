@@ -18,8 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cycles.orbit import gauss
-from ..cycles.sections import Indices, Sections
+from ..cycles.orbit import MOST_STEPS, gauss
+from ..cycles.sections import NODES, Indices, Sections
 
 Array = NDArray[np.float64]
 
@@ -52,6 +52,8 @@ class Turn:
     chi : float
     p : (float, float)
         Where it crosses the section, in the projected disc.
+    steps : int
+        Of the integration: what it has cost.
     """
 
     xi: float
@@ -67,6 +69,7 @@ class Turn:
     drift: float
     chi: float
     p: tuple[float, float]
+    steps: int = 0
 
 
 @dataclass(frozen=True)
@@ -81,22 +84,25 @@ class Turns:
     numbers : ndarray (k, PARAMETERS + 2 q)
         As `measured.measured` gives them for q parameters.
     p : ndarray (k, 2)
+    steps : ndarray of int (k,)
     """
 
     rows: Indices
     xi: Array
     numbers: Array
     p: Array
+    steps: Indices
 
     def each(self, values: list[float]) -> list[Turn | None]:
         """One by one, given the value of every turn asked for: None for those that do not return."""
         found: list[Turn | None] = [None] * len(values)
-        for i, xi, row, p in zip(*(v.tolist() for v in (self.rows, self.xi, self.numbers, self.p)), strict=True):
+        columns = (self.rows, self.xi, self.numbers, self.p, self.steps)
+        for i, xi, row, p, steps in zip(*(v.tolist() for v in columns), strict=True):
             shift, by_xi, exponent, period, amplitude, height, rate, chi, *more = row
             by_value, drift = more[0], more[len(more) // 2]
             found[i] = Turn(
                 xi, values[i], shift, by_xi, by_value, exponent, period, amplitude, height, rate, drift, chi,
-                (p[0], p[1]),
+                (p[0], p[1]), steps,
             )  # fmt: skip
         return found
 
@@ -119,7 +125,12 @@ Swelling = Callable[[Array, Indices], Array]
 
 
 def turns(
-    sections: Sections, xi: Array, backward: NDArray[np.bool_], changes: Array, swelling: Swelling | None = None
+    sections: Sections,
+    xi: Array,
+    backward: NDArray[np.bool_],
+    changes: Array,
+    swelling: Swelling | None = None,
+    limit: int = MOST_STEPS,
 ) -> Turns:
     """Follow one turn from each of n sections.
 
@@ -133,15 +144,17 @@ def turns(
         d/dmu of (a, b, d, f1, f2) for the parameters by which turns are differentiated.
     swelling : callable, optional
         That of the one parameter, where Psi changes with it.
+    limit : int
+        Steps after which a turn is given up.
     """
     from .measured import PARAMETERS, SHIFT, measured
 
     start, x2 = sections.starts(xi)
     zeta = np.hypot(x2[:, 0], x2[:, 1])
     states = np.column_stack([x2, np.ones(len(x2))]) / np.hypot(1.0, zeta)[:, None]
-    rows, ways = sections.turned(states, RTOL, backward)
+    rows, ways = sections.turned(states, RTOL, backward, limit)
     if ways is None:
-        return Turns(rows, np.zeros(0), np.zeros((0, PARAMETERS + 2 * len(changes))), np.zeros((0, 2)))
+        return Turns(rows, np.zeros(0), np.zeros((0, PARAMETERS + 2 * len(changes))), np.zeros((0, 2)), rows)
     if len(rows) < len(sections):
         sections, start, x2, changes = sections.taken(rows), start[rows], x2[rows], changes[:, rows]
     every = np.arange(len(rows))
@@ -152,11 +165,12 @@ def turns(
     swell = np.zeros((len(changes), 0))
     if swelling is not None:
         swell = swelling(places, rows[whose])[None]
-    _, weights, matrix = gauss()
+    _, weights, matrix = gauss(NODES)
     numbers = measured(
         sections.plane, changes / sections.rate[:, None], sections.rate, sections.e, sections.u, sections.room,
         sections.x2, x2, start, ways.ends, ways.first, ways.h, ways.inner, radial, tangential, swell,
         np.where(backward[rows], -1.0, 1.0), weights, matrix,
     )  # fmt: skip
     good = np.flatnonzero(~np.isnan(numbers[:, SHIFT]))
-    return Turns(rows[good], xi[rows[good]], numbers[good], states[rows[good], :2])
+    steps = np.diff(ways.first) // NODES
+    return Turns(rows[good], xi[rows[good]], numbers[good], states[rows[good], :2], steps[good])

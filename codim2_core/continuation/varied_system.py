@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cycles.orbit import MOST_STEPS
 from ..cycles.section import Section
 from ..cycles.sections import Indices, Sections, located
 from ..layer_problem.location import Existence
@@ -38,12 +39,20 @@ class Question(NamedTuple):
     xi, values : list of float
     backward : list of bool
         Followed backward in time, which is accurate where the cycle repels. The result is the same.
+    limits : list of int, optional
+        Steps after which turns may be given up; as many as a turn may take at all, if they are not given.
     """
 
     family: Any
     xi: list[float]
     values: list[float]
     backward: list[bool]
+    limits: list[int] | None = None
+
+    @property
+    def limit(self) -> int:
+        """Steps that each of them may take."""
+        return MOST_STEPS if self.limits is None else max(self.limits)
 
 
 class Placed(NamedTuple):
@@ -92,7 +101,8 @@ def follow(questions: list[Question]) -> list[list[Turn | None]]:
         backward = np.array([part.question.backward[i] for part in parts for i in part.placed.rows])
         swelling, sections = parts[0].swelling, _together([part.placed for part in parts], [part.ray for part in parts])
         changes = np.concatenate([part.changes for part in parts], axis=1)
-        result = turns(sections, xi, backward, changes, swelling).each(values)
+        limit = max(part.question.limit for part in parts)
+        result = turns(sections, xi, backward, changes, swelling, limit).each(values)
         places = [(out, i) for part, out in zip(parts, outs, strict=True) for i in part.placed.rows]
         for (out, i), turn in zip(places, result, strict=True):
             out[i] = turn
@@ -117,8 +127,8 @@ def side_by_side(searches: Sequence[Asking[Found]]) -> Asking[list[Found]]:
 
 
 def _together_asked(questions: list[Question]) -> Asking[list[list[Turn | None]]]:
-    parts = [[*chain.from_iterable(part)] for part in list(zip(*questions, strict=True))[1:]]
-    found = iter((yield Question(questions[0].family, *parts)))
+    family, *parts = zip(*(q._replace(limits=[q.limit] * len(q.xi)) for q in questions), strict=True)
+    found = iter((yield Question(family[0], *([*chain.from_iterable(part)] for part in parts))))
     return [[*islice(found, len(question.xi))] for question in questions]
 
 

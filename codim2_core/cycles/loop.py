@@ -14,6 +14,7 @@ branch tell how far they miss each other.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,7 +25,8 @@ from ..layer_problem.location import locate
 from ..orbits.departures import departures
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from .section import Section, rays
+from .equator_pull import SUNK
+from .section import LONGEST, STEPS, SUNK_INWARD, Array, Section, rays
 
 RTOL = 1e-12
 TURN = 2.0 * math.pi
@@ -97,15 +99,65 @@ def gap(coefficients: Coefficients, psi: Psi, loop: Loop, rtol: float = RTOL) ->
         Negative where the branch of Q passes inside that of P, and so spirals inwards; positive where it goes to the
         equator. Infinite where one of them does not reach the ray. NaN where the sign is not decided either.
     """
-    section = Section(coefficients, psi, critical_sets(coefficients, psi)[0], loop.ray)
-    places = []
-    for angle, backward in ((loop.sink, False), (loop.source, True)):
-        start = departures(coefficients, psi, [angle], rtol, backward)
-        ends, _, codes, _ = section.turn(start, rtol, backward, elsewhere=True)
-        module, _ = section.kernel
-        values = {module.INWARD: -math.inf, module.OUTWARD: math.inf, module.UNDECIDED: math.nan}
-        places.append(values.get(int(codes[0]), float(section.coordinate(ends)[0])))
-    leaving, entering = places
-    if math.isinf(leaving) and math.isinf(entering):
-        return math.nan
-    return float(np.float64(leaving) - np.float64(entering))
+    return gaps([(coefficients, psi, loop)], rtol)[0]
+
+
+def gaps(asked: Sequence[tuple[Coefficients, Psi, Loop]], rtol: float = RTOL) -> list[float]:
+    """Find the gaps of several systems side by side; see `gap`.
+
+    Parameters
+    ----------
+    asked : sequence of (Coefficients, Psi, Loop)
+        The Psi are of one family.
+    rtol : float
+    """
+    if not asked:
+        return []
+    sections = [Section(q, psi, critical_sets(q, psi)[0], loop.ray) for q, psi, loop in asked]
+    leaving = _crossings(sections, asked, [loop.sink for *_, loop in asked], rtol, False)
+    entering = _crossings(sections, asked, [loop.source for *_, loop in asked], rtol, True)
+    return [
+        math.nan if math.isinf(out) and math.isinf(back) else out - back
+        for out, back in zip(leaving, entering, strict=True)
+    ]
+
+
+def _crossings(
+    sections: Sequence[Section],
+    asked: Sequence[tuple[Coefficients, Psi, Loop]],
+    angles: Sequence[float],
+    rtol: float,
+    backward: bool,
+) -> list[float]:
+    """Where the branch of a limit direction first crosses its section, in each system."""
+    starts = [departures(q, psi, [angle], rtol, backward) for (q, psi, _), angle in zip(asked, angles, strict=True)]
+    module, _ = sections[0].kernel
+    values = {module.INWARD: -math.inf, module.OUTWARD: math.inf, module.UNDECIDED: math.nan}
+    found = []
+    for section, start, end, code in zip(sections, starts, *_turned(sections, starts, rtol, backward), strict=True):
+        if code == module.OUTWARD:  # perhaps only for a while
+            ends, _, codes, _ = section.turn(start, rtol, backward, elsewhere=True)
+            end, code = ends[0], int(codes[0])
+        found.append(values.get(code, float(section.coordinate(end[None])[0])))
+    return found
+
+
+def _turned(
+    sections: Sequence[Section], starts: Sequence[Array], rtol: float, backward: bool
+) -> tuple[Array, list[int]]:
+    """Follow an orbit to each section: where it ends, and the code of `return_map.returns`."""
+    from ..stepping.fields import field_of_each
+
+    psi = sections[0].psi
+    states, count = np.concatenate(starts), len(sections)
+    field = field_of_each(psi, all(section.psi.parameter == psi.parameter for section in sections))
+    centres = np.array([section.critical.x2 for section in sections])
+    away = np.hypot(*(states[:, :2] / states[:, 2:] - centres).T)
+    near = SUNK_INWARD * np.minimum([section.inner for section in sections], away)
+    sense = np.array([-section.plane[1] if backward else section.plane[1] for section in sections])
+    ends, _, codes, _ = sections[0].kernel[0].returns(
+        states, np.array([section.shared(backward) for section in sections]), field.address,
+        np.array([section.u for section in sections]), centres, sense, near, np.full(count, SUNK),
+        LONGEST, rtol, STEPS, 0, True,
+    )  # fmt: skip
+    return ends, codes.tolist()

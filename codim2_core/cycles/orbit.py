@@ -42,12 +42,12 @@ class Orbit:
     share: Array
 
 
-@lru_cache(maxsize=1)
-def gauss() -> tuple[Array, Array, Array]:
+@lru_cache(maxsize=2)
+def gauss(count: int = NODES) -> tuple[Array, Array, Array]:
     """Nodes, weights on [0, 1] and the collocation matrix ``a_ij``, the integral of l_j from 0 to c_i."""
-    nodes, weights = np.polynomial.legendre.leggauss(NODES)
+    nodes, weights = np.polynomial.legendre.leggauss(count)
     c, w = 0.5 * (nodes + 1.0), 0.5 * weights
-    powers = np.arange(NODES)
+    powers = np.arange(count)
     vandermonde = nodes[:, None] ** powers
     integrals = (nodes[:, None] ** (powers + 1) - (-1.0) ** (powers + 1)) / (powers + 1)
     return c, w, 0.5 * integrals @ np.linalg.inv(vandermonde)
@@ -97,7 +97,7 @@ def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Path
     if codes[0] != RETURNED:
         return None
     first, h = np.ascontiguousarray(steps[:, :3]), np.ascontiguousarray(steps[:, 3])
-    nodes, weights, _ = gauss()
+    nodes, weights, _ = gauss(NODES)
     _, function = section.kernel
     places, whose = np.repeat(first, NODES, axis=0), np.zeros(NODES * len(h), np.intp)
     inner = reached(places, np.outer(h, nodes).ravel(), section.shared(backward)[None], whose, function.address)
@@ -124,7 +124,7 @@ def _normal_growth(J: Array, h: Array, across: Array) -> float:
     flow direction is carried into itself, so in frames along and across the orbit the fundamental matrix of each step
     is triangular, and the multiplier is the product of its entries across: to full relative accuracy.
     """
-    _, weights, matrix = gauss()
+    _, weights, matrix = gauss(NODES)
     k, size = len(h), 2 * NODES
     # Stage slopes K_i solve K_i = J_i (1 + h sum_j a_ij K_j).
     coupling = h[:, None, None, None, None] * J[:, :, :, None, :] * matrix[None, :, None, :, None]

@@ -8,7 +8,6 @@ the displacement is ``q(after one turn) - q``: -inf where the orbit goes to C, +
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -128,24 +127,6 @@ def _newborn(section: Section) -> FixedPoint | None:
     return FixedPoint(math.log(size / (1.0 - size)), square > 0.0, born=True)
 
 
-def _crossed(section: Section, xi: Array, shift: Array, changes: Sequence[tuple[int, int]]) -> list[FixedPoint]:
-    """Place the fixed points at the changes of sign (i, j) of the displacement.
-
-    One that repels attracts backward in time: it is found and followed backward. It may repel so strongly that forward
-    no sample beside it returns; then the way back shows whether it is there.
-    """
-    found = []
-    for i, j in changes:
-        repelling = bool(shift[i] < 0.0)
-        shown = bool(np.isfinite(shift[[i, j]]).all())
-        if repelling and not shown:
-            back = section.displacement(xi[[i, j]], backward=True)
-            shown = bool(back[0] > 0.0 > back[1])
-        if shown:
-            found.append(FixedPoint(_polished(section, xi, shift, i, j, repelling), repelling))
-    return found
-
-
 def _nearly_degenerate(q: Array, shift: Array, noise: Array) -> list[str]:
     """Say where orbits nearly close along a loop, and where two fixed points nearly meet."""
     last = shift[:-1][np.isfinite(shift[:-1]) & (shift[1:] == np.inf)]
@@ -217,6 +198,30 @@ def shown(section: Section) -> Shown:
     return Shown(section, xi, q, shift, tuple(changes), meeting, tuple(notes))
 
 
+def crossed(samples: Shown, first: int = 0) -> list[FixedPoint]:
+    """Place the fixed points at the changes of sign of the displacement, from the first or a later one.
+
+    One that repels attracts backward in time: it is found and followed backward. It may repel so strongly that forward
+    no sample beside it returns; then the way back shows whether it is there.
+
+    Parameters
+    ----------
+    samples : Shown
+    first : int
+        The first change.
+    """
+    section, xi, shift, found = samples.section, samples.xi, samples.shift, []
+    for i, j in samples.changes[first:]:
+        repelling = bool(shift[i] < 0.0)
+        known = bool(np.isfinite(shift[[i, j]]).all())
+        if repelling and not known:
+            back = section.displacement(xi[[i, j]], backward=True)
+            known = bool(back[0] > 0.0 > back[1])
+        if known:
+            found.append(FixedPoint(_polished(section, xi, shift, i, j, repelling), repelling))
+    return found
+
+
 def search(samples: Shown) -> tuple[tuple[FixedPoint, ...], tuple[str, ...]]:
     """Find the fixed points that the samples show, innermost first, and notes on what is nearly degenerate.
 
@@ -225,7 +230,7 @@ def search(samples: Shown) -> tuple[tuple[FixedPoint, ...], tuple[str, ...]]:
     samples : Shown
     """
     section, xi, notes = samples.section, samples.xi, samples.notes
-    found = _crossed(section, xi, samples.shift, samples.changes)
+    found = crossed(samples)
     found += [FixedPoint(float(xi[i]), touching=True) for i in samples.touching]
     if samples.newborn:
         newborn = _newborn(section)

@@ -16,12 +16,13 @@ from ..layer_problem.border import CANCELS, to_all_digits
 from ..psi.constructors import many
 from ..psi.function import Psi
 from .equator_pull import LEAST, LOST, SUNK
-from .orbit import MOST_STEPS, NODES, gauss
+from .orbit import MOST_STEPS, gauss
 from .section import INNER, LONGEST, SUNK_INWARD
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
+NODES = 4  # of a step: of its own order, 8; with more the means are the same
 SIGNS = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])  # of the four rays, as in `section.rays`
 
 
@@ -153,8 +154,10 @@ class Sections:
 
         return field_of_each(self.psi, self.own is None)
 
-    def turned(self, states: Array, rtol: float, backward: NDArray[np.bool_]) -> tuple[Indices, Ways | None]:
-        """Follow one turn from states (n, 3); None where none returns within `MOST_STEPS` steps.
+    def turned(
+        self, states: Array, rtol: float, backward: NDArray[np.bool_], limit: int = MOST_STEPS
+    ) -> tuple[Indices, Ways | None]:
+        """Follow one turn from states (n, 3); None where none returns within `limit` steps.
 
         Returns
         -------
@@ -172,8 +175,8 @@ class Sections:
         sense = np.where(backward, -self.plane[:, 1], self.plane[:, 1])
         u, centre = np.ascontiguousarray(self.u), np.ascontiguousarray(self.x2)
         ends, _, codes, steps = returns(
-            states, shared, field.address, u, centre, sense, SUNK_INWARD * near, lost, LONGEST, rtol, MOST_STEPS,
-            len(self) * MOST_STEPS, False,
+            states, shared, field.address, u, centre, sense, SUNK_INWARD * near, lost, LONGEST, rtol, limit,
+            len(self) * limit, False,
         )  # fmt: skip
         rows = np.flatnonzero(codes == RETURNED)
         if not len(rows):
@@ -182,7 +185,7 @@ class Sections:
         order = np.argsort(whose, kind="stable")
         order = order[codes[whose[order]] == RETURNED]
         h, whose = steps[order, 3], np.repeat(whose[order], NODES)
-        nodes, _, _ = gauss()
+        nodes, _, _ = gauss(NODES)
         inner = reached(
             np.repeat(steps[order, :3], NODES, axis=0), np.outer(h, nodes).ravel(), shared, whose, field.address
         )

@@ -26,7 +26,7 @@ from ..numerics.trigonometric import (
     tangential_zeros,
 )
 from ..numerics.trigonometric_exact import quotient, solve_exactly, to_integers
-from ..systems.coefficients import Affine
+from ..systems.coefficients import Affine, Coefficients
 from ..systems.frozen import AtZ
 from ..tables import number, paragraphs, table
 from ..words import say
@@ -207,10 +207,29 @@ def equilibria_at(at: AtZ, location: Location | None) -> EquatorEquilibria:
     return _gathered(zeros, radial, size, location, b == 0.0 and (f1 == 0.0 or f2 == 0.0))
 
 
+def number_of_directions(q: Coefficients) -> int:
+    """Count the equilibria on the equator of an e-linear system, without their rates.
+
+    Parameters
+    ----------
+    q : Coefficients
+        Whatever they were made from.
+    """
+    given = q.as_given.given is not None
+    zeros = real_zeros(*_harmonics(q.affine)) if given else tangential_zeros(q.a, q.b, q.d, q.f1, q.f2)
+    return len(zeros.theta)
+
+
+def _harmonics(affine: Affine) -> tuple[float, float, float, float, float]:
+    """Theta as a trigonometric polynomial: its mean, and the coefficients of cos, sin, cos 2 and sin 2."""
+    a11, a12, a21, a22, f1, f2 = affine
+    return 0.5 * a21 - 0.5 * a12, f2, -f1, 0.5 * a21 + 0.5 * a12, 0.5 * a22 - 0.5 * a11
+
+
 def _of_matrix(affine: Affine, turn: float, location: Location) -> EquatorEquilibria:
     """Equilibria for any matrix, decided in the axes in which it is given, then turned by an angle."""
     a11, a12, a21, a22, f1, f2 = affine
-    harmonics = 0.5 * a21 - 0.5 * a12, f2, -f1, 0.5 * a21 + 0.5 * a12, 0.5 * a22 - 0.5 * a11
+    harmonics = _harmonics(affine)
 
     def radial(theta: float) -> float:
         c, s = math.cos(theta - turn), math.sin(theta - turn)

@@ -96,6 +96,7 @@ def turn(ray: Ray, xi: float, value: float, beside: Beside, centre: Place, backw
         exponent=sign * exponent, period=float(way.weight.sum()) / ray.rate,
         amplitude=_farthest(way.inner[:, :2], centre.p), height=float(way.inner[:, 2].min()),
         rate=chi * (1.0 - chi), drift=0.0, chi=chi, p=(float(begin[0]), float(begin[1])),
+        steps=len(way.h),
     )  # fmt: skip
     return Course(found, way.inner)
 

@@ -180,4 +180,5 @@ def test_a_branch_that_does_not_reach_the_ray_is_infinitely_far(monkeypatch, lea
         "turn",
         lambda _self, states, _rtol, backward, **_: (states, None, [entering if backward else leaving], None),
     )
+    monkeypatch.setattr(module, "_turned", lambda _, starts, _r, back: (starts[0], [entering if back else leaving]))
     assert gap(at, PSI, loop) == pytest.approx(expected, nan_ok=True)

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.cycles.orbit import NODES, path
+from codim2_core.cycles import orbit
+from codim2_core.cycles.orbit import path
 from codim2_core.cycles.section import FINE, INNER, Section
-from codim2_core.cycles.sections import Sections, located
+from codim2_core.cycles.sections import NODES, Sections, located
 
 # (a, b, d, f1, f2): foci of all senses, in the middle and out of it.
 PLANES = np.array(
@@ -148,8 +149,9 @@ def test_each_runs_forward_or_backward_by_itself():
 
 
 @pytest.mark.parametrize("back", [False, True])
-def test_turns_are_those_of_one_system(back):
+def test_turns_are_those_of_one_system(back, monkeypatch):
     """Ends, and the nodes of all steps; those that do not return are left out."""
+    monkeypatch.setattr(orbit, "NODES", NODES)
     psi, ray = c2.psi.hill(3), 0
     many, backward = _all(psi, ray), np.full(5, back)
     backward[1] = not back
