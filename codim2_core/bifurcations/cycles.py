@@ -13,7 +13,7 @@ from ..psi.function import Psi
 from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
 from .equator import neutral_loop
-from .fold_of_cycles import OUTWARD, SMALL, STEP, Fold, FoldGuess, Folds, null_vector
+from .fold_of_cycles import OUTWARD, SMALL, STEP, Asking, Fold, FoldGuess, Folds, null_vector
 from .geometry import Geometry
 from .trace import hopf
 
@@ -58,8 +58,7 @@ def cycle_folds(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
         return BifurcationCurve("fold of cycles", "folds of cycles: none", label, (), sentence=curve.sentence)
     points = [np.array(s.place) for s in curve.special if s.type == "generalised Hopf"]
     found = _Curves(a, b, d, psi, points)
-    for f in points:
-        found.from_hopf(f)
+    found.from_hopf()
     found.from_lines()
     name = "folds of cycles" if found.branches else "folds of cycles: none"
     sentence = say("two cycles meet") if found.branches else say("no fold of cycles", lines=LINES)
@@ -93,24 +92,34 @@ class _Curves:
         """Distance in A^-1 f."""
         return float(np.hypot(*np.linalg.solve(self.A, f - g)))
 
-    def from_hopf(self, f: Array) -> None:
-        """Begin beside a generalised Hopf point, at a given place on the section."""
-        if any(self.near(f, g) < 1e-6 for g in self.used):
-            return
-        self.used += [f, -f]
+    def from_hopf(self) -> None:
+        """Begin beside the generalised Hopf points, of each pair at f and -f one, all side by side."""
+        starts: list[Array] = []
+        for f in self.points:
+            if not any(self.near(sign * f, g) < 1e-6 for g in starts for sign in (1.0, -1.0)):
+                starts.append(f)
+        ways = Folds(*self.plane, self.psi).together([self._beside(f) for f in starts])
+        for f, way in zip(starts, ways, strict=True):
+            if any(self.near(f, g) < 1e-6 for g in self.used):
+                continue  # a curve has ended there
+            self.used += [f, -f]
+            if way is None:
+                text = say("fold not caught")
+                self.special += [SpecialPoint("undecided", place(sign * f), text) for sign in (1.0, -1.0)]
+                continue
+            tail, special = self._end(*way)
+            self._add([(f, 0.0), *self._rows(way[0]), *tail], special + self._cusps(way[0]))
+
+    def _beside(self, f: Array) -> Asking[tuple[list[Fold], str] | None]:
+        """Follow the curve that begins at a generalised Hopf point, from a given place on the section."""
         folds = Folds(*self.plane, self.psi)
         e = np.asarray(-np.linalg.solve(self.A, f), float)
         folds.settle(e)
         for first in (FIRST, 0.3 * FIRST, 3.0 * FIRST):
-            found = folds.corrected(FoldGuess(math.log(first), e, OUTWARD))
+            found = yield from folds.corrected(FoldGuess(math.log(first), e, OUTWARD))
             if found is not None:
-                states, how = folds.followed(found, null_vector(found.jacobian, OUTWARD), self._arrived)
-                tail, special = self._end(states, how)
-                states = folds.with_cusps(states)
-                self._add([(f, 0.0), *self._rows(states), *tail], special + self._cusps(states))
-                return
-        text = say("fold not caught")
-        self.special += [SpecialPoint("undecided", place(sign * f), text) for sign in (1.0, -1.0)]
+                return (yield from folds.followed(found, null_vector(found.jacobian, OUTWARD), self._arrived))
+        return None
 
     def from_lines(self) -> None:
         """Begin at the folds on some lines across the disc that no curve has passed."""
@@ -122,22 +131,22 @@ class _Curves:
             for turn in turns:
                 if self._passed(-self.A @ (turn.value * unit), turn.amplitude):
                     continue
-                folds = Folds(*self.plane, self.psi)
-                folds.settle(turn.value * unit)
-                ready = folds.placed(turn, unit)
+                folds = [Folds(*self.plane, self.psi) for _ in range(2)]
+                for one in folds:
+                    one.settle(turn.value * unit)
+                (ready,) = folds[0].together([folds[0].placed(turn, unit)])
                 if ready is None:
                     continue
                 tangent = null_vector(ready.jacobian, OUTWARD)
-                states, how = folds.followed(ready, tangent, self._arrived)
+                (states, how), (back, how_back) = folds[0].together(
+                    [own.followed(ready, t, self._arrived) for own, t in zip(folds, (tangent, -tangent), strict=True)]
+                )
                 tail, special = self._end(states, how)
-                states = folds.with_cusps(states)
                 special += self._cusps(states)
                 if how == "closed":
                     self._add([*self._rows(states), self._rows(states)[0]], special)
                     continue
-                back, how = folds.followed(ready, -tangent, self._arrived)
-                head, more = self._end(back, how)
-                back = folds.with_cusps(back)
+                head, more = self._end(back, how_back)
                 special += more + self._cusps(back)
                 self._add([*head[::-1], *self._rows(back)[:0:-1], *self._rows(states), *tail], special)
 

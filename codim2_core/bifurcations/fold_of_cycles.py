@@ -9,27 +9,27 @@ the exponent's derivatives.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from ..continuation.ahead import Place, ahead
+from ..continuation.asking import answered
 from ..continuation.turns import Turn, turns
 from ..cycles.section import Section
-from ..cycles.sections import Sections
+from ..cycles.sections import Indices, Sections
 from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi
 from .curve import Array
 from .equator import coefficients_at
 
 STEP, SHORTEST = 0.04, 1e-4
-MOST, MOST_TURNS = 400, 4000
+MOST, MOST_TURNS = 400, 600  # points of a curve, and places that it may ask for
 ROUNDS = 8
 CLOSE = 1e-9
-DIFFERENCE = 2e-6  # for derivatives of the exponent: it is known to 1e-12, and one of them needs no more than 1e-5
-LATE = 1  # rounds after the first fold is found
+DIFFERENCE = 1e-5  # for derivatives of the exponent: on both sides, for near corners it bends sharply
 CARRY = 1e-10  # what is left, in chi and e, after a correction that is the last without another turn
 SMALL, LOW = 3e-3, 1e-4  # amplitude, ebar: the cycle has come to C, to the equator
 OUTWARD = np.array([1.0, 0.0, 0.0])
@@ -39,7 +39,7 @@ AHEAD, MEMORY, BEHIND = 8, 12, 3  # folds predicted at once; last folds that pre
 TURNED = 0.9  # cosine between successive tangents below which a step is too long
 MISSED = 0.3  # distance of a fold from its prediction, in steps, beyond which a step is too long
 #: A place (xi, e) and those beside it, for differences of the exponent.
-BESIDE = DIFFERENCE * np.vstack([np.zeros(3), np.eye(3)])
+BESIDE = DIFFERENCE * np.vstack([np.zeros(3), np.eye(3), -np.eye(3)])
 
 
 @dataclass(frozen=True)
@@ -80,8 +80,20 @@ class Fold:
         return float(change[0] - self.drift @ change[1:]) / self.turn.rate
 
 
+class Asked(NamedTuple):
+    """Places (xi, e) on the section along a ray, whose turns are asked for with all derivatives."""
+
+    ray: int
+    places: Sequence[tuple[float, Array]]
+
+
+#: A search that asks for turns; see `continuation.asking`.
+Found = TypeVar("Found")
+Asking = Generator[Asked, "list[Fold | None]", Found]
+
+
 class Folds:
-    """Folds for one a, b, d and Psi."""
+    """Folds for one a, b, d and Psi: searches on one ray, which ask for turns, and their answers on all rays."""
 
     def __init__(self, a: float, b: float, d: float, psi: Psi) -> None:
         self.a, self.b, self.d, self.psi = a, b, d, psi
@@ -94,7 +106,11 @@ class Folds:
         coefficients = coefficients_at(self.a, self.b, self.d, -self.A @ e)
         self.ray = Section(coefficients, self.psi, critical_sets(coefficients, self.psi)[0]).ray
 
-    def placed(self, turn: Turn, unit: Array) -> Fold | None:
+    def together(self, searches: Sequence[Asking[Found]]) -> list[Found]:
+        """Run searches of such folds side by side, and return what each has found."""
+        return answered(searches, self.answers)
+
+    def placed(self, turn: Turn, unit: Array) -> Asking[Fold | None]:
         """Put a fold found on a line along `unit` on this section, which may be on another ray."""
         e = turn.value * unit
         coefficients = coefficients_at(self.a, self.b, self.d, -self.A @ e)
@@ -107,9 +123,20 @@ class Folds:
         zeta = float(np.hypot(*x2))
         away = float(np.hypot(*(x2 / zeta * self.psi.modulus(zeta) - section.e)))
         xi = math.log(away / max(section.reach - away, 1e-300))
-        return self.corrected(FoldGuess(xi, e, OUTWARD))
+        return (yield from self.corrected(FoldGuess(xi, e, OUTWARD)))
 
-    def states(self, places: Sequence[tuple[float, Array]]) -> list[Fold | None]:
+    def states(self, places: Sequence[tuple[float, Array]]) -> Asking[list[Fold | None]]:
+        """Ask for turns from places (xi, e), with all derivatives."""
+        self.turns += len(places)
+        return (yield Asked(self.ray, places))
+
+    def answers(self, asked: list[Asked]) -> list[list[Fold | None]]:
+        """Follow the turns that several searches ask for."""
+        rays = np.concatenate([np.full(len(one.places), one.ray) for one in asked])
+        found = iter(self._followed(rays, [place for one in asked for place in one.places]))
+        return [[next(found) for _ in one.places] for one in asked]
+
+    def _followed(self, rays: Indices, places: Sequence[tuple[float, Array]]) -> list[Fold | None]:
         """Follow turns from places (xi, e), with all derivatives: those of the exponent by differences."""
         centres = np.array([(xi, *e) for xi, e in places])
         every = (centres[:, None] + BESIDE).reshape(-1, 3)
@@ -121,8 +148,7 @@ class Folds:
         planes = np.column_stack([np.tile((self.a, self.b, self.d), (len(e), 1)), -e @ self.A.T])
         changes = np.zeros((2, len(e), 5))
         changes[:, :, 3:] = -self.A.T[:, None]
-        sections = Sections(planes, e, complement[allowed], self.psi, None, self.ray)
-        self.turns += len(e)
+        sections = Sections(planes, e, complement[allowed], self.psi, None, np.repeat(rays, len(BESIDE))[allowed])
         found = turns(sections, xi, np.zeros(len(e), bool), changes)
         each = found.each([0.0] * len(e))
         row_of = np.full(len(every), -1)
@@ -134,32 +160,32 @@ class Folds:
                 out.append(None)
                 continue
             by_e, drift = found.parameters(rows[0])
-            rise = (found.exponent[rows[1:]] - turn.exponent) / DIFFERENCE
+            after, before = found.exponent[rows[1:]].reshape(2, 3)
+            rise = (after - before) / (2.0 * DIFFERENCE)
             jacobian = np.array([[turn.by_xi, *by_e], rise])
             jacobian[:, 0] /= turn.rate
             jacobian[:, 1:] -= jacobian[:, :1] * drift  # at fixed chi, not xi
             out.append(Fold(float(centre[0]), centre[1:], turn, jacobian, drift))
         return out
 
-    def corrected(self, guess: FoldGuess) -> Fold | None:
+    def corrected(self, guess: FoldGuess) -> Asking[Fold | None]:
         """Find the fold by one guess, see `all_corrected`."""
-        return self.all_corrected([guess])[0]
+        (found,) = yield from self.all_corrected([guess])
+        return found
 
-    def all_corrected(self, guesses: Sequence[FoldGuess]) -> list[Fold | None]:
+    def all_corrected(self, guesses: Sequence[FoldGuess]) -> Asking[list[Fold | None]]:
         """Newton's method for folds one after another on a curve, side by side.
 
-        None for those behind one that is not found, and for those that take much longer than the first.
+        None for those behind one that is not found, unless they were found before it was given up.
         """
         found: list[Fold | None] = [None] * len(guesses)
         places = [(guess.xi, guess.e) for guess in guesses]
         before: list[tuple[Fold, Array, float] | None] = [None] * len(guesses)
         open_ = list(range(len(guesses)))
-        late = 0
         for _ in range(ROUNDS):
-            late += found[0] is not None
-            if not open_ or late > LATE:
+            if not open_:
                 break
-            states, going = self.states([places[i] for i in open_]), []
+            states, going = (yield from self.states([places[i] for i in open_])), []
             for i, state in zip(open_, states, strict=True):
                 if state is None:
                     break
@@ -183,11 +209,15 @@ class Folds:
             open_ = going
         return found
 
-    def followed(self, start: Fold, tangent: Array, arrived: Callable[[Fold], bool]) -> tuple[list[Fold], str]:
-        """Follow the curve from a fold along a tangent (3,) until it ends; how it ends.
+    def followed(self, start: Fold, tangent: Array, arrived: Callable[[Fold], bool]) -> Asking[tuple[list[Fold], str]]:
+        """Follow the curve from a fold along a tangent (3,) until it ends; how it ends. Its cusps are put in.
 
         Where a step is too long, `arrived` says of the fold before it whether it has come to what ends the curve.
         """
+        states, how = yield from self._way(start, tangent, arrived)
+        return (yield from self._with_cusps(states)), how
+
+    def _way(self, start: Fold, tangent: Array, arrived: Callable[[Fold], bool]) -> Asking[tuple[list[Fold], str]]:
         states, tangents, lengths = [start], [tangent], [0.0]
         step, count = 0.25 * STEP, 1
         while len(states) < MOST and self.turns < MOST_TURNS:
@@ -197,7 +227,7 @@ class Folds:
             step = min(step, longest)
             steps = [min(step * 1.5**k, longest) for k in range(count)]
             taken = 0
-            for predicted, found in self._ahead(states, tangents, lengths, steps):
+            for predicted, found in (yield from self._ahead(states, tangents, lengths, steps)):
                 here, tangent, step = states[-1], tangents[-1], steps[taken]
                 turned = tangent if found is None else null_vector(found.jacobian, tangent)
                 if found is None or float(turned @ tangent) < TURNED:
@@ -227,7 +257,7 @@ class Folds:
 
     def _ahead(
         self, states: list[Fold], tangents: list[Array], lengths: list[float], steps: list[float]
-    ) -> list[tuple[Array, Fold | None]]:
+    ) -> Asking[list[tuple[Array, Fold | None]]]:
         """Folds after so many steps from one another, each with the (chi, e) predicted for it."""
         rows = slice(max(len(states) - MEMORY, 0), None)
         places = [Place(fold.xi, fold.turn.chi, tuple(fold.e.tolist())) for fold in states[rows]]
@@ -236,30 +266,32 @@ class Folds:
             for fold, t in zip(states[rows], tangents[rows], strict=True)
         ]
         predicted = ahead(lengths[rows], places, along, states[-1].turn.rate, steps, BEHIND)
-        found = self.all_corrected([FoldGuess(p.xi, np.array(p.parameters), tangents[-1]) for p in predicted])
+        guesses = [FoldGuess(p.xi, np.array(p.parameters), tangents[-1]) for p in predicted]
+        found = yield from self.all_corrected(guesses)
         return [(np.array([p.chi, *p.parameters]), fold) for p, fold in zip(predicted, found, strict=True)]
 
-    def with_cusps(self, states: list[Fold]) -> list[Fold]:
+    def _with_cusps(self, states: list[Fold]) -> Asking[list[Fold]]:
         """Put in the cusps of a curve: where the second derivative of the return map changes its sign along it."""
         out = states[:1]
         for there in states[1:]:
-            middle = self._between(out[-1], there)
+            middle = yield from self._between(out[-1], there)
             for after in (there,) if middle is None else (middle, there):
                 here = out[-1]
-                found = self._cusp(here, after) if (here.bend < 0.0) != (after.bend < 0.0) else None
+                turned = (here.bend < 0.0) != (after.bend < 0.0)
+                found = (yield from self._cusp(here, after)) if turned else None
                 out += [after] if found is None else [found, after]
         return out
 
-    def _between(self, here: Fold, there: Fold) -> Fold | None:
+    def _between(self, here: Fold, there: Fold) -> Asking[Fold | None]:
         """Find the fold between two cusps that one step has passed, which has led back in e; None where it has not."""
         step = there.place - here.place
         leaving, arriving = (null_vector(fold.jacobian, step) for fold in (here, there))
         if (here.bend < 0.0) != (there.bend < 0.0) or not max(leaving[1:] @ step[1:], arriving[1:] @ step[1:]) < 0.0:
             return None
-        found = self.corrected(FoldGuess(0.5 * (here.xi + there.xi), 0.5 * (here.e + there.e), OUTWARD))
+        found = yield from self.corrected(FoldGuess(0.5 * (here.xi + there.xi), 0.5 * (here.e + there.e), OUTWARD))
         return found if found is not None and (found.bend < 0.0) != (here.bend < 0.0) else None
 
-    def _cusp(self, here: Fold, there: Fold) -> Fold | None:
+    def _cusp(self, here: Fold, there: Fold) -> Asking[Fold | None]:
         """Find the cusp between two folds: the secant rule along chi, in which the curve is smooth there."""
         low, high = here, there
         best: Fold | None = None
@@ -269,7 +301,7 @@ class Folds:
                 return None
             part = min(max(low.bend / (low.bend - high.bend), 0.02), 0.98)
             xi, e = low.xi + part * (high.xi - low.xi), low.e + part * (high.e - low.e)
-            found = self.corrected(FoldGuess(xi, e, OUTWARD))
+            found = yield from self.corrected(FoldGuess(xi, e, OUTWARD))
             if found is None:
                 return best
             best = replace(found, cusp=True)
