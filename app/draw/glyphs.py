@@ -53,9 +53,12 @@ def spread(angles: Sequence[float], gap: float = LABEL_GAP) -> list[float]:
 
     Parameters
     ----------
-    angles : (k,) sorted, in radians, k * gap <= 2 pi
+    angles : (k,) sorted, in radians
+        More than there is room for around the circle stay where they are.
     """
     moved = list(angles)
+    if len(moved) * gap > 2 * math.pi:
+        return moved
     for _ in range(60):
         still = True
         for i in range(len(moved)):

@@ -1,38 +1,10 @@
-"""What is long for the loop gives way to whoever waits for an answer: after each part, and one visitor's at a time."""
+"""What is long for the loop is done for one visitor at a time, and gives way to whoever waits for an answer."""
 
 from __future__ import annotations
 
-import asyncio
-from types import TracebackType
 from typing import Any
 
-#: Turns of the loop between two parts. A message takes ten from the line to its answer; with fewer, it would wait for
-#: several parts.
-TURNS = 16
-
-
-async def others_first() -> None:
-    """Return once whatever has come meanwhile is answered."""
-    for _ in range(TURNS):
-        await asyncio.sleep(0)
-
-
-class OneByOne:
-    """Lets one in at a time, first come first served, and whoever waits for an answer before the next."""
-
-    def __init__(self) -> None:
-        self._lock = asyncio.Lock()
-
-    async def __aenter__(self) -> None:
-        await self._lock.acquire()
-
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        try:
-            await others_first()
-        finally:
-            self._lock.release()
+from ..frame.later import OneByOne
 
 
 def one_by_one(application: Any) -> OneByOne:

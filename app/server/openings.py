@@ -12,13 +12,13 @@ from bokeh.document import Document
 from panel.io.state import set_curdoc
 
 from ..draw.figure import make_figure
+from ..frame.later import others_first
 from ..phrases import say
 from ..state.cleaning import InputError
 from ..state.links import Link
 from ..view.explorer import ExplorerView, begin
 from ..view.refresh import Frames
 from .first_page import opening
-from .giving_way import others_first
 from .process.garbage import begun
 
 

@@ -33,6 +33,7 @@ from .openings import Ahead, query_of_the_page, view_of
 from .process import garbage
 from .process.clock import keep_steady
 from .process.ports import listen_by_own, shared
+from .process.standing_back import stand_back
 from .scripts import routes
 from .sockets import MOST_SENT, PromptSocket, closed, untraced, views
 
@@ -42,6 +43,10 @@ PRELOAD = ("codim2_app.server.worker",)
 #: Seconds for which a thread that compiles keeps the interpreter from a frame that asks for it, which a frame does
 #: after each of its kernels; by default they are 5 ms.
 SWITCH = 0.0005
+
+#: Seconds for which a page may begin its session after it was sent, by the machine's clock. After Bokeh's 300, one
+#: that slept meanwhile, or where a clock was set, would show a picture that stands still; its token is no secret.
+TOKEN_HOLDS = 10 * 365 * 86_400
 
 #: Seconds between looks for sessions whose pages have been closed: what they hold is searched for garbage till then.
 FORGOTTEN = 2
@@ -169,6 +174,7 @@ def make_server(
         Does the long work in place of `workers`, `at_once` at a time; with one process only, as it cannot be forked.
     """
     sys.setswitchinterval(SWITCH)
+    stand_back()
     pn.config.browser_info = False  # a model for each page, which nobody reads
     if executor is None:
         at_once = workers or max(1, processors() // processes)
@@ -269,5 +275,6 @@ def _server(
         prefix=prefix,
         compress_response=True,
         start=False,
+        session_token_expiration=TOKEN_HOLDS,
         **{"check_unused_sessions_milliseconds": 1000 * FORGOTTEN, **options},
     )

@@ -23,6 +23,7 @@ from tornado.websocket import WebSocketClosedError
 from ..phrases import say
 from .giving_way import one_by_one
 from .process.garbage import asked
+from .process.standing_back import answering
 
 #: Bytes of one message from a browser, over all its parts: a request is a few hundred.
 MOST_SENT = 200_000
@@ -83,7 +84,8 @@ class PromptSocket(WSHandler):
         async with one_by_one(self.application):
             if self._gone:
                 return
-            await super()._async_open(token)
+            with answering:
+                await super()._async_open(token)
             if self._gone:
                 self.on_close()
 
@@ -106,7 +108,8 @@ class PromptSocket(WSHandler):
         if self._held > MOST_SENT:
             self._refuse(f"a message is larger than {MOST_SENT} bytes")
         else:
-            await super().on_message(fragment)
+            with answering:
+                await super().on_message(fragment)
 
     async def _receive(self, fragment: str | bytes) -> Message[Any] | None:
         try:

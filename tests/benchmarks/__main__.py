@@ -45,8 +45,8 @@ TABLES = {
     "nonsmooth": "Nonsmooth motions against SciPy told its events",
 }  # fmt: skip
 ON_PAGE = (
-    "trajectories", "scene", "general", "app", "browser", "page", "start", "sessions", "equator", "census",
-    "compiled", "nonsmooth",
+    "trajectories", "scene", "general", "app", "browser", "page", "start", "sessions", "load", "wild", "equator",
+    "census", "compiled", "nonsmooth",
 )  # fmt: skip
 # Titles of the plots of the second picture, by their beginnings.
 OTHERS = (

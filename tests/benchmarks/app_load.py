@@ -55,15 +55,11 @@ def serving(kind: str, *options: str) -> Iterator[tuple[int, int]]:
 
 
 def cpu(pid: int) -> float:
-    """Return the seconds of CPU that a process has used, without its children."""
-    total = 0
-    for thread in os.listdir(f"/proc/{pid}/task"):
-        try:
-            with open(f"/proc/{pid}/task/{thread}/schedstat") as stat:
-                total += int(stat.read().split()[0])
-        except OSError:  # it has just ended
-            continue
-    return total * 1e-9
+    """Return the seconds of CPU that a process has used, also by threads that have ended; without its children."""
+    try:
+        return time.clock_gettime(~pid << 3 | 2)  # how Linux numbers the clock of another process's work
+    except OSError:  # it has just ended
+        return 0.0
 
 
 def family(pid: int) -> list[int]:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import asyncio
 import gc
-import json
 import sys
 import time
 from collections.abc import Callable
@@ -92,53 +90,17 @@ def queued(thread: str = "/proc/thread-self/schedstat") -> float:
 
 
 def watched(port: int) -> None:
-    """Serve the explorer, and ``/longest``: see `bench_wild.longest`."""
+    """Serve the explorer, and ``/held``: see `held.Held`."""
     from codim2_app.server.cli import _say_if_compiled
     from codim2_app.server.page import make_server
-    from tornado.web import RequestHandler
 
-    most: list[Any] = [0.0, 0.0, ""]
-    search = [0.0, 0.0]  # the longest search for garbage, and when the one under way began
+    from .held import watch
 
-    def searching(phase: str, _: object) -> None:
-        if phase == "start":
-            search[1] = time.thread_time()
-        else:
-            search[0] = max(search[0], time.thread_time() - search[1])
-
-    gc.callbacks.append(searching)
-    handle: Any = asyncio.events.Handle
-    run = handle._run
-
-    def timed(self: Any) -> None:
-        began, worked, waited = time.perf_counter(), time.thread_time(), queued()
-        run(self)
-        took = time.perf_counter() - began - (queued() - waited)
-        if took > most[0]:
-            most[:] = took, time.thread_time() - worked, _named(self._callback)
-
-    class Longest(RequestHandler):
-        def get(self) -> None:
-            self.write(json.dumps([*most, search[0]]))
-            most[:] = 0.0, 0.0, ""
-            search[0] = 0.0
-
-    handle._run = timed
     server = make_server(port, told=_say_if_compiled)
-    server._tornado.add_handlers(r".*", [("/longest", Longest)])
+    watch(server)
     server.start()
     gc.freeze()  # as `codim2 serve` does
     server.io_loop.start()
-
-
-def _named(callback: Any) -> str:
-    """Name a callback of the loop; a step of a task by its coroutine."""
-    task = getattr(callback, "__self__", None)
-    coroutine = task.get_coro() if isinstance(task, asyncio.Task) else None
-    while hasattr(callback, "func"):
-        callback = callback.func
-    found = getattr(coroutine or callback, "__qualname__", "") or type(callback).__name__
-    return found.rpartition(".<locals>.")[2]
 
 
 def mathematics(port: int) -> None:

@@ -79,6 +79,11 @@ def spent(pid: int, servers: int) -> dict[str, float]:
     return {"server processes": answers, "their workers": sum(times.values()) - answers, "visitors": own()}
 
 
+def since(before: dict[str, float], after: dict[str, float]) -> dict[str, float]:
+    """Return what was used between two times; what a worker has used that has ended is no longer known."""
+    return {what: max(0.0, after[what] - before[what]) for what in after}
+
+
 def crowds(processes: int, chairs: tuple[int, ...], seconds: float) -> dict[int, Load]:
     """Return what crowds have met, by their size."""
     found = {}
@@ -91,7 +96,7 @@ def crowds(processes: int, chairs: tuple[int, ...], seconds: float) -> dict[int,
             seats = asyncio.run(seated(port, size, seconds))
             took, after = time.perf_counter() - began, spent(pid, processes)
             waited = queued(f"/proc/{one}/schedstat") - waited
-            used = {what: after[what] - before[what] for what in after}
+            used = since(before, after)
             frames = max(1, sum(chair.answered for chair in seats))
             shares = {what: share / took for what, share in used.items()}
             found[size] = Load(seats, shares, used["server processes"] / frames, waited / took)
@@ -192,8 +197,8 @@ def report(quick: bool = False) -> str:
     """Return the tables as Markdown."""
     chairs, seconds = ((8, 24), 5.0) if quick else (CHAIRS, SECONDS)
     lines = []
-    for processes in (1,) if quick else (1, 2):
-        found = crowds(processes, chairs, seconds)
+    both = {processes: crowds(processes, chairs, seconds) for processes in ((1,) if quick else (1, 2))}
+    for processes, found in both.items():
         most = carried(found)
         lines += [
             f"| {processes} process{'es' * (processes > 1)}: sessions | visits, lost | frames: median, p95, ms "
@@ -207,8 +212,21 @@ def report(quick: bool = False) -> str:
             f"{saturated(found[chairs[-1]], processes)}",
             "",
         ]
+    if len(both) > 1:
+        lines += [compared(both[1], both[2]), ""]
     lines += [first_come(quick), refused(), memory(HOUR // 10 if quick else HOUR)]
     return "\n".join(lines)
+
+
+def compared(one: dict[int, Load], two: dict[int, Load]) -> str:
+    """Say what a second process gains, by the size of the crowd."""
+    said = (
+        f"{size}: median {1e3 * np.median(one[size].delays()):.0f} and {1e3 * np.median(two[size].delays()):.0f} ms, "
+        f"{sum(one[size].rates()) / 2:.1f} and {sum(two[size].rates()) / 2:.1f} frames/s"
+        for size in sorted(one.keys() & two.keys())
+        if one[size].delays() and two[size].delays()
+    )
+    return f"By one process and by two, sessions: {'; '.join(said)} (middle of the least and the most served)."
 
 
 def saturated(load: Load, processes: int) -> str:

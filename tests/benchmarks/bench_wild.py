@@ -1,28 +1,28 @@
 """Visitors ask for what is wild while another drags: how long the one who drags waits; and how soon work is ended.
 
 ``python -m tests.benchmarks wild [--quick]``. Each request comes from two visitors, who open a page with it, move z and
-leave; beside them one drags, who is compared with one who drags beside nobody. Time for which a thread waits for a
-processor, because other programs have it, is taken from all that is told; that for which it waits for the interpreter's
-lock is not.
+leave; beside them one drags, who is compared with one who drags beside nobody: what a frame takes there is the
+machine's. Time for which a thread waits for a processor, because other programs have it, is taken from all that is
+told; that for which it waits for the interpreter's lock is not.
 """
 
 from __future__ import annotations
 
 import asyncio
-import json
 import os
 import time
 from concurrent.futures import CancelledError
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
-from urllib.request import urlopen
 
 import numpy as np
 
 from .app_load import at_rest, serving, value
 from .app_servers import queued
 from .bokeh_wire import Wire
+from .held import Held, held
 
 PLAIN = {"W": "0", "where": ""}
 ALL = ["inside", "outside", "continuations", "separatrices", "cycles", "lines", "critical", "equator"]
@@ -50,29 +50,54 @@ WILD: dict[str, dict[str, Any]] = {
     "Theorems": {**MANY, "panel": "theorems"},
     "Atlas": {**MANY, "panel": "atlas"},
 }
-#: Seconds that the longest callback took, those at work, which it was, and those of the longest search for garbage.
-Longest = tuple[float, float, str, float]
-
 SECONDS = 6.0  # for which each is there
 LIVING = (20, 50)  # pages that are open beside the one who drags
 APART = 1 / 60
 
 
-async def dragged(port: int, pid: int, seconds: float) -> list[float]:
-    """Drag as a hand does, one request a frame of the screen at most; return the seconds until each answer."""
+@dataclass(frozen=True)
+class Frame:
+    """One frame of the one who drags: when it was asked for, its seconds, and those without waiting for a processor."""
+
+    began: float
+    took: float
+    own: float
+
+
+@dataclass(frozen=True)
+class Beside:
+    """The frames of the one who drags beside others, and what had the server's loop meanwhile."""
+
+    frames: list[Frame]
+    held: list[Held]
+
+    def worst(self) -> tuple[Frame, list[Held]]:
+        """Return the longest frame, and what had the loop while it was waited for."""
+        frame = max(self.frames, key=lambda each: each.own)
+        end = frame.began + frame.took
+        return frame, [each for each in self.held if each.began < end and each.began + each.took > frame.began]
+
+    def longest(self) -> Held:
+        """Return what one request had the loop for."""
+        return max(self.held, key=lambda each: each.own)
+
+
+async def dragged(port: int, pid: int, seconds: float) -> list[Frame]:
+    """Drag as a hand does, one request a frame of the screen at most."""
     server = f"/proc/{pid}/task/{pid}/schedstat"
     wire = await Wire.connect(port)
     await wire.frame(0, a=-1.5)
-    took, number, end = [], 0, time.perf_counter() + seconds
+    frames, number, end = [], 0, time.perf_counter() + seconds
     while (began := time.perf_counter()) < end:
         number += 1
         waited = queued(server), queued()
         await wire.frame(number, a=value(number))
         passed = time.perf_counter() - began
-        took.append(max(0.0, passed - (queued(server) - waited[0]) - (queued() - waited[1])))
+        own = max(0.0, passed - (queued(server) - waited[0]) - (queued() - waited[1]))
+        frames.append(Frame(began, passed, own))
         await asyncio.sleep(max(0.0, APART - passed))
     await wire.close()
-    return took
+    return frames
 
 
 async def played(port: int, values: dict[str, Any], seconds: float) -> None:
@@ -89,52 +114,49 @@ async def played(port: int, values: dict[str, Any], seconds: float) -> None:
         await wire.vanish()
 
 
-def longest(port: int) -> Longest:
-    """Return the longest callback that had the loop, and the longest search, since this was asked last."""
-    return tuple(json.loads(urlopen(f"http://localhost:{port}/longest").read()))
+def waits(wild: dict[str, dict[str, Any]], seconds: float) -> dict[str, Beside]:
+    """Return what the one who drags waits for, and what had the loop, by what the others ask for."""
 
-
-def waits(wild: dict[str, dict[str, Any]], seconds: float) -> dict[str, tuple[list[float], Longest]]:
-    """Return what the one who drags waits for, and the longest callback, by what the others ask for."""
-
-    async def beside(values: dict[str, Any] | None) -> list[float]:
+    async def beside(values: dict[str, Any] | None) -> list[Frame]:
         others = [] if values is None else [asyncio.create_task(played(port, values, seconds)) for _ in range(2)]
-        took = await dragged(port, pid, seconds)
+        frames = await dragged(port, pid, seconds)
         await asyncio.gather(*others)
-        return took
+        return frames
 
     found = {}
     with serving("watched") as (port, pid):
         asyncio.run(at_rest(pid))
         asyncio.run(dragged(port, pid, 1.0))
         for name, values in {"nobody": None, **wild}.items():
-            longest(port)
-            found[name] = asyncio.run(beside(values)), longest(port)
+            held(port)
+            frames = asyncio.run(beside(values))
+            found[name] = Beside(frames, held(port))
     return found
 
 
-async def crowded(port: int, pid: int, count: int, seconds: float) -> list[float]:
+async def crowded(port: int, pid: int, count: int, seconds: float) -> list[Frame]:
     """Drag beside others who are there and still, while two more come, play and leave again and again."""
     there = [await Wire.connect(port) for _ in range(count)]
     for wire in there:
         await wire.frame(0, a=-1.5)
     await at_rest(pid)
-    longest(port)
+    held(port)
     others = [asyncio.create_task(played(port, WILD["an ordinary portrait"], seconds / 3)) for _ in range(2)]
-    took = await dragged(port, pid, seconds)
+    frames = await dragged(port, pid, seconds)
     await asyncio.gather(*others)
     for wire in there:
         await wire.vanish()
-    return took
+    return frames
 
 
-def living(counts: tuple[int, ...], seconds: float) -> dict[int, tuple[list[float], Longest]]:
-    """Return what the one who drags waits for, and the longest callback, by how many others are there and still."""
+def living(counts: tuple[int, ...], seconds: float) -> dict[str, Beside]:
+    """Return what the one who drags waits for, and what had the loop, by how many others are there and still."""
     found = {}
     for count in counts:
         with serving("watched") as (port, pid):
             asyncio.run(at_rest(pid))
-            found[count] = asyncio.run(crowded(port, pid, count, seconds)), longest(port)
+            frames = asyncio.run(crowded(port, pid, count, seconds))
+            found[f"{count} who are still, two with an ordinary portrait"] = Beside(frames, held(port))
     return found
 
 
@@ -163,30 +185,45 @@ def cancelled(times: int = 5) -> list[float]:
     return took
 
 
+def row(name: str, beside: Beside) -> str:
+    """Return a row of the table."""
+    middle, late, most = 1e3 * np.quantile([frame.own for frame in beside.frames], (0.5, 0.99, 1.0))
+    worst, meanwhile = beside.worst()
+    made_of = " + ".join(f"{1e3 * each.own:.0f}" for each in meanwhile if each.own > 0.002)
+    one = beside.longest()
+    search = 1e3 * max(each.search for each in beside.held)
+    cells = (
+        f"{len(beside.frames)}",
+        f"{middle:.0f}, {late:.0f}, {most:.0f}",
+        f"{made_of}; {1e3 * (worst.took - worst.own):.0f}",
+        f"{1e3 * one.own:.0f}, {one.name}",
+        f"{1e3 * one.worked:.0f}, {1e3 * one.locked:.0f}, {one.faults}",
+        f"{search:.0f}",
+    )
+    return f"| {name} | {' | '.join(cells)} |"
+
+
 def report(quick: bool = False) -> str:
-    """Return both as Markdown."""
+    """Return all as Markdown."""
     names = ("an ordinary portrait", "b = 1e12", "sin(100 c + z), separatrices") if quick else WILD
     seconds = 3.0 if quick else SECONDS
-    found = waits({name: WILD[name] for name in names}, seconds)
-    lines = [
-        "| beside the one who drags, two with | frames | median, ms | 99 % | worst | longest callback, ms | at work |",
-        "|---|---|---|---|---|---|---|",
-    ]
-    for name, (took, (held, worked, what, _)) in found.items():
-        middle, late, worst = 1e3 * np.quantile(took, (0.5, 0.99, 1.0))
-        cells = f"{len(took)} | {middle:.0f} | {late:.0f} | {worst:.0f} | {1e3 * held:.0f}, {what} | {1e3 * worked:.0f}"
-        lines.append(f"| {name} | {cells} |")
-    lines += [
-        "",
-        "| others are there, still | frames | median, ms | 99 % | worst | longest callback, ms | longest search |",
-        "|---|---|---|---|---|---|---|",
-    ]
-    for count, (took, (held, _, what, search)) in living(LIVING[:1] if quick else LIVING, 5 * seconds).items():
-        middle, late, worst = 1e3 * np.quantile(took, (0.5, 0.99, 1.0))
-        cells = f"{len(took)} | {middle:.0f} | {late:.0f} | {worst:.0f} | {1e3 * held:.0f}, {what} | {1e3 * search:.0f}"
-        lines.append(f"| {count} | {cells} |")
-    lines.append(f"\nCancelled work has ended after {1e3 * max(cancelled()):.0f} ms, the longest of five.")
-    return "\n".join(lines)
+    found = waits({name: WILD[name] for name in names}, seconds) | living(LIVING[:1] if quick else LIVING, 5 * seconds)
+    alone, *others = found.values()
+    frame = 1e3 * np.median([each.own for each in alone.frames])
+    one, least = (1e3 * max(getattr(had, what) for each in others for had in each.held) for what in ("own", "alone"))
+    return "\n".join(
+        [
+            "| beside the one who drags, two with | frames | median, 99 %, worst, ms | what had the loop in the worst, "
+            "ms; and waited for a processor | longest of one request, ms | of it at work, other threads waited for a "
+            "processor; pages read from disk | longest search for garbage, ms |",
+            "|---|---|---|---|---|---|---|",
+            *(row(name, each) for name, each in found.items()),
+            "",
+            f"A frame beside nobody takes {frame:.0f} ms here. No request had the loop for more than {one:.0f} ms; for "
+            f"more than {least:.0f} ms, if that is taken off for which other threads waited for a processor.",
+            f"Cancelled work has ended after {1e3 * max(cancelled()):.0f} ms, the longest of five.",
+        ]
+    )
 
 
 if __name__ == "__main__":

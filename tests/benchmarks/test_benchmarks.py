@@ -10,7 +10,9 @@ import pytest
 
 from . import __main__ as command
 from .bench_compiled import summary
-from .bench_load import Load, carried, saturated
+from .bench_load import Load, carried, compared, saturated, since
+from .bench_wild import Beside, Frame, row
+from .held import Held
 from .methods import ours
 from .page import html_of
 from .pictures import plot, svg
@@ -112,12 +114,39 @@ def test_a_crowd_is_carried_if_all_smaller_ones_are():
     )
 
 
+def test_what_two_processes_gain_is_said_by_the_size_of_the_crowd():
+    one, two = loaded(0.2), loaded(0.02, (1.0, 2.0))
+    assert compared({1: one, 8: one}, {8: two}) == (
+        "By one process and by two, sessions: 8: median 10 and 10 ms, 7.5 and 15.0 frames/s "
+        "(middle of the least and the most served)."
+    )
+
+
+def test_a_worker_that_has_ended_has_used_nothing_rather_than_less():
+    assert since({"workers": 3.0, "servers": 1.0}, {"workers": 2.0, "servers": 4.0}) == {"workers": 0.0, "servers": 3.0}
+
+
+def test_the_worst_frame_is_told_by_what_had_the_loop_meanwhile():
+    frames = [Frame(1.0, 0.01, 0.01), Frame(2.0, 0.08, 0.07)]
+    others = (
+        Held("opening", 1.98, 0.04, 0.03, 0.0, 0.0, 0, 0.0),
+        Held("compiling", 2.03, 0.05, 0.01, 0.005, 0.03, 2, 0.0),
+    )
+    before = Held("before", 1.0, 0.006, 0.005, 0.0, 0.0, 0, 0.002)
+    found = Beside(frames, [before, *others])
+    assert found.worst() == (frames[1], list(others))
+    assert found.longest() == others[1]
+    assert others[1].own == pytest.approx(0.045)
+    assert others[1].alone == pytest.approx(0.015)
+    assert row("a formula", found) == ("| a formula | 2 | 40, 69, 70 | 40 + 45; 10 | 45, compiling | 10, 30, 2 | 2 |")
+
+
 def test_named_tables_take_the_place_of_what_was_on_the_page(tmp_path, monkeypatch):
     page = tmp_path / "benchmarks.md"
     page.write_text("Before.\n<!-- benchmarks -->\nMachine.\n<!-- /benchmarks -->\nAfter.\n")
     monkeypatch.setattr(command, "PAGE", page)
     for text in ("| old |", "| new |"):
-        command.replace([command.Section("nonsmooth", "", text, []), command.Section("wild", "", "not there", [])])
+        command.replace([command.Section("nonsmooth", "", text, []), command.Section("room", "", "not there", [])])
     assert page.read_text() == (
         "Before.\n<!-- benchmarks -->\nMachine.\n\n"
         "<!-- nonsmooth -->\n| new |\n<!-- /nonsmooth -->\n<!-- /benchmarks -->\nAfter.\n"

@@ -7,6 +7,7 @@ from codim2_app.draw.packing import unpack
 
 from tests.benchmarks import app_load
 from tests.benchmarks.bokeh_wire import Wire
+from tests.benchmarks.visits import page
 from tests.faults.test_leaving import FILE, TYPED, state_of, until, workers
 
 HOUR = 3600.0
@@ -55,10 +56,12 @@ def test_a_clock_that_is_set_ends_no_session_and_holds_up_nothing(machine, by):
         code = (await lecturer.ask("room", {"open": ""}))["open"]
         assert await phone.ask("room", {"join": code}) == {"joined": code}
         await told(lecturer, lambda answer: len(answer.get("rows", ())) == 1)
+        sent = await asyncio.to_thread(page, port)
 
         offset.write_text(str(float(offset.read_text()) + by))
         after = await opened(port)  # a new page opens
-        for number, wire in enumerate((lecturer, phone, after)):
+        pages.append(await Wire.connect(port, page=sent))  # one that was sent before begins its session
+        for number, wire in enumerate((lecturer, phone, after, pages[-1])):
             header, _ = unpack(await wire.frame(number + 2, a=-1.1 - 0.1 * number))
             assert header["id"] == number + 2
         later = await opened(port)  # the room is open, and its lecturer sees who comes

@@ -5,6 +5,7 @@ import gc
 import logging
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from itertools import pairwise
 from types import SimpleNamespace
 from weakref import ref
 
@@ -13,8 +14,11 @@ from bokeh.document import Document
 from bokeh.io import curdoc
 from bokeh.server.contexts import BokehSessionContext
 from bokeh.server.session import ServerSession
-from codim2_app.frame.later import later
+from codim2_app.frame.later import TURNS, later
 from tornado.ioloop import IOLoop
+
+#: Turns of the loop that a message takes from the line to its answer.
+MESSAGE = 10
 
 
 class Held:
@@ -70,11 +74,30 @@ def test_it_is_called_in_its_turn_with_the_documents_lock():
         await asyncio.to_thread(soon, lambda: done.append(("first", curdoc() is document, locked())))
         soon(lambda: done.append(("second", curdoc() is document, locked())))
         asked_for.set()
-        await turns(20)
+        await turns(TURNS + 20)
         await first
         return done
 
     assert alone(asked()) == ["before", "still before", ("first", True, True), ("second", True, True)]
+
+
+def test_what_several_have_waited_for_comes_one_after_the_other():
+    """Two wild pictures that are ready at once would hold up a third visitor by both."""
+
+    async def asked():
+        done = []
+        pages = [opened() for _ in range(3)]
+        for number, (document, _) in enumerate(pages):
+            later(document)(lambda number=number: done.append(number))
+        while len([each for each in done if each != "other"]) < len(pages):
+            done.append("other")
+            await turns(1)
+        return done
+
+    done = alone(asked())
+    assert [each for each in done if each != "other"] == [0, 1, 2]
+    places = [done.index(number) for number in range(3)]
+    assert min(second - first for first, second in pairwise(places)) > MESSAGE
 
 
 @pytest.mark.parametrize("gone", ["destroyed", "forgotten"])

@@ -1,19 +1,27 @@
 """The socket of a page, where Bokeh and Panel are others than known; tests/faults asks it what no page sends."""
 
+import asyncio
 import logging
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
 import pytest
+from bokeh.events import ButtonClick
+from bokeh.models import Button, ColumnDataSource
 from bokeh.protocol import Protocol
+from bokeh.server.server import Server
+from codim2_app.frame.later import TURNS
 from codim2_app.server import sockets
 from codim2_app.server.first_page import Page
-from codim2_app.server.giving_way import TURNS
 from codim2_app.server.page import OURS, take_over
 from codim2_app.server.sockets import PromptSocket, _Parts, untraced
 from panel.io.server import DocHandler, WSHandler
 from tornado.locks import Lock
 from tornado.web import Application, RequestHandler
 from tornado.websocket import WebSocketHandler
+
+from tests.benchmarks.bokeh_wire import Wire
 
 
 def targets(application):
@@ -113,3 +121,62 @@ def test_a_visitors_message_that_fails_in_bokeh_is_a_line_and_a_fault_here_keeps
     plain = logging.LogRecord("bokeh", logging.ERROR, "", 0, "words", (), None)
     assert untraced(plain)
     assert plain.getMessage() == "words"
+
+
+class Other:
+    """A websocket's connection of which nobody knows the stream."""
+
+    def __init__(self, socket):
+        self._connection = socket.ws_connection
+
+    def __getattr__(self, name):
+        if name == "stream":
+            raise AttributeError(name)
+        return getattr(self._connection, name)
+
+
+@pytest.mark.parametrize("way", ["one write", "Bokeh's messages are others", "Tornado's connections are others"])
+def test_a_page_is_answered_in_one_write_or_where_that_cannot_be_in_bokehs_own_way(way, monkeypatch, caplog):
+    """The same buffer arrives; that it goes in parts is told once."""
+    wrote = []
+    monkeypatch.setattr(PromptSocket, "whole", True)
+    write = WSHandler.write_message
+    noted = lambda self, *part, **how: wrote.append(part) or write(self, *part, **how)
+    monkeypatch.setattr(WSHandler, "write_message", noted)
+    if way == "Bokeh's messages are others":
+        monkeypatch.delattr(_Parts, "write_message")
+    if way == "Tornado's connections are others":
+        begin = PromptSocket.open
+        monkeypatch.setattr(
+            PromptSocket, "open", lambda self: begin(self) or setattr(self, "ws_connection", Other(self))
+        )
+
+    async def served():
+        def page(doc):
+            button, source = Button(), ColumnDataSource({"frame": np.zeros(3, np.int16)})
+            button.on_event(ButtonClick, lambda _: source.update(data={"frame": np.arange(3, dtype=np.int16)}))
+            button.tags = [source]
+            doc.add_root(button)
+
+        server = Server({"/": page}, port=0)
+        take_over(server._tornado)
+        server.start()
+        try:
+            return await asyncio.to_thread(lambda: asyncio.run(clicked(server.port)))
+        finally:
+            server.stop()
+
+    async def clicked(port):
+        wire = await Wire.connect(port)
+        await wire.event("button_click", wire.root)
+        buffer = await wire.patch()
+        await wire.close()
+        return buffer
+
+    with ThreadPoolExecutor(1) as pool:
+        buffer = pool.submit(asyncio.run, served()).result()
+    assert np.frombuffer(buffer, np.int16).tolist() == [0, 1, 2]
+    told = [record for record in caplog.records if "others than known" in record.getMessage()]
+    assert (bool(wrote), len(told), PromptSocket.whole) == (
+        (False, 0, True) if way == "one write" else (True, 1, False)
+    )
