@@ -30,7 +30,7 @@ MOST, MOST_TURNS = 400, 600  # points of a curve, and places that it may ask for
 ROUNDS = 8
 CLOSE = 1e-9
 DIFFERENCE = 1e-5  # for derivatives of the exponent: on both sides, for near corners it bends sharply
-CARRY = 1e-10  # what is left, in chi and e, after a correction that is the last without another turn
+NEARLY, CARRY = 1e-6, 1e-12  # a correction that may be the last without another turn, and what is then left
 SMALL, LOW = 3e-3, 1e-4  # amplitude, ebar: the cycle has come to C, to the equator
 OUTWARD = np.array([1.0, 0.0, 0.0])
 CUSP_ROUNDS = 24
@@ -199,7 +199,7 @@ class Folds:
                 last = math.inf if one is None else one[2]
                 if size < CLOSE:
                     found[i] = replace(state, xi=xi, e=e)
-                elif one is not None and size * (size / last) ** 2 < CARRY:
+                elif one is not None and size < NEARLY and size * (size / last) ** 2 < CARRY:
                     found[i] = _carried(*one[:2], state, change, xi)
                 elif size <= 2.0 * last and size <= 0.3:
                     places[i], before[i] = (xi, e), (state, change, size)
