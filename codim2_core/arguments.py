@@ -171,6 +171,13 @@ def regularisations(name: str, value: Any) -> Any:
     raise ValueError(f"{name} is {shown(value)}; give several regularisation functions, such as (psi.tanh(),).")
 
 
+def file(name: str, value: Any) -> Any:
+    """Check the path of a file."""
+    if isinstance(value, str | Path) and str(value) and not Path(value).is_dir():
+        return value
+    raise ValueError(f"{name} is {shown(value)}; give the path of a file.")
+
+
 def function(name: str, value: Any) -> Any:
     """Check a function."""
     if callable(value):
@@ -209,7 +216,7 @@ BY_NAME: Mapping[str, Check] = {
 }
 BY_ANNOTATION: Mapping[str, Check] = {
     "float": number, "bool": truth, "str": text, "ArrayLike": numbers,
-    "ArrayLike | str | Path": numbers_or_file, "tuple[float, float]": pair,
+    "str | Path": file, "ArrayLike | str | Path": numbers_or_file, "tuple[float, float]": pair,
     "ELinear | Coefficients": e_linear, "AnySystem": system, "ELinear | System": system, "Any": system,
 }  # fmt: skip
 

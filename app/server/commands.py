@@ -7,8 +7,8 @@ import json
 import shlex
 import shutil
 import sys
-from concurrent.futures import ProcessPoolExecutor
-from functools import partial
+from concurrent.futures import Executor, ProcessPoolExecutor
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,8 @@ from codim2_core.counting.draws import DRAWS
 from codim2_core.paper import cite
 from codim2_core.psi import FAMILIES, make
 from codim2_core.words import number, subscript
+
+from ..frame.cluster import ClusterError, cluster
 
 NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
 
@@ -28,14 +30,18 @@ def add_classify(commands: Any) -> None:
         command.add_argument(f"-{name}", type=float, required=name != "b", default=0.0, help=f"{name} of A")
     for name in ("f1", "f2"):
         command.add_argument(f"--{name}", type=float, default=0.0)
+    _add_psi(command)
+    command.add_argument("--json", action="store_true", help="as JSON")
+    command.set_defaults(run=classify)
+
+
+def _add_psi(command: argparse.ArgumentParser) -> None:
     known = ", ".join(
         family.name + (f":{family.parameter.name.upper()}" if family.parameter else "")
         for family in FAMILIES.values()
         if not family.typed
     )
     command.add_argument("--psi", default="1", help=f"{known}, or text in s; default 1")
-    command.add_argument("--json", action="store_true", help="as JSON")
-    command.set_defaults(run=classify)
 
 
 def add_presets(commands: Any) -> None:
@@ -54,7 +60,12 @@ def add_census(commands: Any) -> None:
     command.add_argument("--draw", choices=tuple(DRAWS), default="normal", help=told)
     command.add_argument("--count", type=_whole, default=1_000_000, help="default a million")
     command.add_argument("--seed", type=int, default=0)
+    command.add_argument("--outcomes", action="store_true", help="name what becomes of arriving orbits too, under Ψ")
+    _add_psi(command)
     command.add_argument("--processes", type=int, default=1)
+    command.add_argument("--dask", metavar="ADDRESS", help="count on a Dask cluster: its scheduler's address")
+    command.add_argument("--resume", metavar="FILE",
+                         help="keep there what is counted, and go on from it if it is there")  # fmt: skip
     command.add_argument("--csv", metavar="FILE", help="write the table there too")
     command.set_defaults(run=census)
 
@@ -167,23 +178,38 @@ def census(chosen: argparse.Namespace) -> int:
         if sys.stderr.isatty():
             print(f"\r{done / count:6.1%}", end="", file=sys.stderr, flush=True)
 
-    asked = partial(c2.census, chosen.draw, count=chosen.count, seed=chosen.seed, progress=progress)
+    if chosen.dask and chosen.processes > 1:
+        print("codim2: --dask has processes of its own; give no --processes.", file=sys.stderr)
+        return 2
     try:
-        if chosen.processes > 1:
-            with ProcessPoolExecutor(chosen.processes) as executor:
-                found = asked(executor=executor)
-        else:
-            found = asked()
-    except ValueError as error:
+        with _executor(chosen) as executor:
+            found = c2.census(
+                chosen.draw, psi_of(chosen.psi), chosen.count, seed=chosen.seed, outcomes=chosen.outcomes,
+                resume=chosen.resume, executor=executor, progress=progress,
+            )  # fmt: skip
+    except (ValueError, ClusterError) as error:
         print(f"codim2: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        print(f"\ncodim2: stopped; {chosen.resume} keeps what is counted." if chosen.resume else "\ncodim2: stopped.",
+              file=sys.stderr)  # fmt: skip
+        return 130
     wide = max(len(row.name) for row in found.table)
+    if found.contradictions:
+        print(f"codim2: {found.contradictions} systems contradict index theory; please report this.", file=sys.stderr)
     print(f"\r{'portrait':{wide}} {'count':>12} {'share':>9}  95 % interval")
     for row in found.table:
         print(f"{row.name:{wide}} {row.count:12d} {row.share:9.5f}  {row.low:.5f} to {row.high:.5f}")
     if chosen.csv:
         found.to_csv(chosen.csv)
     return 0
+
+
+def _executor(chosen: argparse.Namespace) -> AbstractContextManager[Executor | None]:
+    """Return what counts: this process, several, or a cluster."""
+    if chosen.dask:
+        return cluster(chosen.dask)[0]
+    return ProcessPoolExecutor(chosen.processes) if chosen.processes > 1 else nullcontext()
 
 
 def notebooks(chosen: argparse.Namespace) -> int:

@@ -14,6 +14,10 @@ AXES = ("a", "b", "d", "f1", "f2", "z", "z2", "z3", "z4", "n")
 OWN_AXIS = "own:"
 #: Views of the panel "3-D".
 SOLIDS = {"sphere": "Hemisphere", "stack": "Along z", "filippov": "Filippov"}
+#: What the panel "Census" draws: what it is called, and how many systems the smallest census has; each size is 10 times
+#: the one before.
+CENSUSES = {"normal": ("e-linear", 10_000), "quadratic": ("quadratic in e", 50)}
+MOST_CENSUS = 2
 #: Controls of the slow variables z1, z2, …
 SLOW_CONTROLS = ("z", "z2", "z3", "z4")
 MAX_TRAJECTORIES = 160

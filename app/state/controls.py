@@ -16,7 +16,7 @@ import param
 from codim2_core import psi as psi_families
 
 from ..draw.layers import LAYERS, shown
-from .choices import MAX_TRAJECTORIES, PANELS, SLOW_CONTROLS, SOLIDS
+from .choices import CENSUSES, MAX_TRAJECTORIES, MOST_CENSUS, PANELS, SLOW_CONTROLS, SOLIDS
 from .chosen import NORMAL, titles
 from .launches import MOST
 from .opening import opening
@@ -77,6 +77,10 @@ class ExplorerState(param.Parameterized):
     across = param.String("f1", label="Across", doc="Horizontal axis of the atlas.")
     cycle_curves = param.Selector(
         default="hide", objects=["hide", "show"], label="Cycles", doc="Bifurcations of limit cycles in the atlas."
+    )
+    census = param.Selector(default="normal", objects=list(CENSUSES), label="Draw", doc="What a census draws.")
+    census_size = param.Integer(
+        1, bounds=(0, MOST_CENSUS), label="Systems", doc="How many a census draws: the smallest number times 10^this."
     )
     atlas_zoom = param.Integer(0, bounds=(0, 6), label="Zoom", doc="The atlas shows a 4^zoom-th of the ranges.")
     up = param.String("f2", label="Up", doc="Vertical axis of the atlas.")

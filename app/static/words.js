@@ -56,6 +56,8 @@ export const SAYS = {
   follows: "This system takes longer than a frame; its picture follows …",
   compiling: "Compiling, once: trajectories are sketched …",
   looking: "Looking for limit cycles …",
+  drawnNormal: "a, b, d, f₁, f₂ are independent and standard normal: one choice among others.",
+  drawnQuadratic: "U₁ and U₂ are polynomials of degree two in c and s, their twelve coefficients independent and standard normal.",
   roomDots: "A full dot has all else as it is here, a hollow one has not. Click a dot, or a row, to open its settings; undo brings yours back.",
   roomEmpty: "Each phone that enters is a dot on the chart.",
   roomLocal: "This page is open at localhost, which phones do not reach: open it at this machine’s own address (codim2 serve --address 0.0.0.0 --allow-origin ADDRESS:PORT).",

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..portrait.classify import classify
 from ..psi import constructors
 from ..psi.function import Psi
-from ..systems.kinds import AnySystem
 from .draws import DRAWS, Draw
-from .table import Census, Tally, tabulated
+from .kept import Kept
+from .table import Census, tabulated
+from .tally import Plan, Tally, tally
 
 if TYPE_CHECKING:  # an import that takes as long as a tenth of this package
     from concurrent.futures import Executor, Future
@@ -29,6 +29,8 @@ def census(
     count: int = 1_000_000,
     *,
     seed: int = 0,
+    outcomes: bool = False,
+    resume: str | Path | None = None,
     executor: Executor | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Census:
@@ -43,12 +45,19 @@ def census(
         Default "normal": e-linear systems with standard normal a, b, d, f1, f2. "quadratic": systems quadratic in e,
         with twelve standard normal coefficients. Or (generator, n) to n systems: coefficients (n, 5) a, b, d, f1, f2 of
         e-linear ones, which a compiled filter names, or a sequence of systems, which `classify` names one by one (at
-        z = 0, in some milliseconds each). For processes it must be picklable.
+        z = 0, in some milliseconds each). It must give the same for the same generator; for processes it must be
+        picklable.
     psi : Psi, optional
-        Read by systems that are not e-linear only; default Psi = 1.
+        Read by systems that are not e-linear, and for outcomes; default Psi = 1.
     count : int
         1 to 1e12.
     seed : int
+    outcomes : bool
+        Whether names tell as well what becomes of orbits that arrive along open sets, or along one side of a
+        direction: "I CM4, slides". Each system then takes some milliseconds.
+    resume : path, optional
+        A file in which what is counted is kept, every two seconds. If it is there, the census goes on from it: after it
+        was stopped, or with a larger count.
     executor : concurrent.futures.Executor, optional
         Threads, processes, or a cluster's; by default all is done here.
     progress : callable, optional
@@ -61,7 +70,7 @@ def census(
     Raises
     ------
     ValueError
-        An argument is invalid, or `draw` does not return what it should.
+        An argument is invalid, `draw` does not return what it should, or the file to resume is another census's.
 
     Examples
     --------
@@ -78,49 +87,44 @@ def census(
     psi = constructors.constant() if psi is None else psi
     if not isinstance(psi, Psi):
         raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
-    sizes = list(_sizes(count, _chunk_size(draw, seed)))
-    tallies: dict[int, Tally] = {}
-    done = 0
-    for i, tally in _run(executor, draw, psi, seed, sizes):
-        tallies[i] = tally
-        done += sizes[i]
-        if progress is not None:
-            progress(done, count)
-    return tabulated((tallies[i] for i in sorted(tallies)), seed)
+    plan = Plan(draw, psi, int(seed), bool(outcomes))
+    chunk = _chunk_size(plan)
+    kept = Kept(plan, chunk, None if resume is None else Path(resume))
+    last = -(-count // chunk)
+    if kept.systems > count:
+        raise ValueError(f"{resume} keeps {kept.systems} systems; give a count of at least that.")
+    waiting = ((i, min(chunk, count - i * chunk)) for i in range(last) if i not in kept)
+    try:
+        for i, found in _run(executor, plan, waiting):
+            kept.add(i, found)
+            if progress is not None:
+                progress(kept.systems, count)
+    finally:
+        kept.save()
+    return tabulated(kept.all(), plan, chunk)
 
 
-def _chunk_size(draw: Draw, seed: int) -> int:
-    """Return how many systems go into a chunk; it follows from what is drawn alone, so that tables agree."""
-    return CHUNK if isinstance(draw(np.random.default_rng((seed, 0)), 1), np.ndarray) else FEW
+def _chunk_size(plan: Plan) -> int:
+    """Return how many systems go into a chunk; it follows from what is asked alone, so that tables agree."""
+    return CHUNK if isinstance(plan.drawn(0, 1), np.ndarray) and not plan.outcomes else FEW
 
 
-def _sizes(count: int, chunk: int) -> Iterator[int]:
-    for start in range(0, count, chunk):
-        yield min(chunk, count - start)
-
-
-def _run(
-    executor: Executor | None, draw: Draw, psi: Psi, seed: int, sizes: Sequence[int]
-) -> Iterator[tuple[int, Tally]]:
+def _run(executor: Executor | None, plan: Plan, chunks: Iterator[tuple[int, int]]) -> Iterator[tuple[int, Tally]]:
     if executor is None:
-        for i, size in enumerate(sizes):
-            yield i, tally(draw, psi, seed, i, size)
+        for i, size in chunks:
+            yield i, tally(plan, i, size)
         return
     waiting: dict[Future[Tally], int] = {}
     try:
-        for i, size in enumerate(sizes):
+        for i, size in chunks:
             if len(waiting) >= AHEAD:
                 yield from _finished(waiting)
-            waiting[_submit(executor, draw, psi, seed, i, size)] = i
+            waiting[executor.submit(tally, plan, i, size)] = i
         while waiting:
             yield from _finished(waiting)
     finally:
         for future in waiting:
             future.cancel()
-
-
-def _submit(executor: Executor, draw: Draw, psi: Psi, seed: int, i: int, size: int) -> Future[Tally]:
-    return executor.submit(tally, draw, psi, seed, i, size)
 
 
 def _finished(waiting: dict[Future[Tally], int]) -> Iterator[tuple[int, Tally]]:
@@ -129,54 +133,3 @@ def _finished(waiting: dict[Future[Tally], int]) -> Iterator[tuple[int, Tally]]:
     ready, _ = wait(waiting, return_when=FIRST_COMPLETED)
     for future in ready:
         yield waiting.pop(future), future.result()
-
-
-def tally(draw: Draw, psi: Psi, seed: int, i: int, size: int) -> Tally:
-    """Name one chunk.
-
-    Parameters
-    ----------
-    draw, psi, seed
-        As in `census`.
-    i : int
-        Which chunk.
-    size : int
-        How many systems it has.
-    """
-    drawn = draw(np.random.default_rng((seed, i)), size)
-    if len(drawn) != size:
-        raise ValueError(f"draw returned {len(drawn)} systems; it was asked for {size}.")
-    return _of_coefficients(drawn) if isinstance(drawn, np.ndarray) else _of_systems(drawn, psi)
-
-
-def _of_coefficients(plane: NDArray[np.float64]) -> Tally:
-    from .names import NAMES, names  # on first use: it loads the compiler
-
-    codes, margins, others = names(plane)
-    found: dict[str, tuple[int, float, Any, float, Any]] = {}
-    for code in np.unique(codes[codes > 0]):
-        where = np.flatnonzero(codes == code)
-        most, least = where[np.argmax(margins[where])], where[np.argmin(margins[where])]
-        found[" ".join(NAMES[code - 1])] = (
-            len(where), float(margins[most]), tuple(plane[most].tolist()),
-            float(margins[least]), tuple(plane[least].tolist()),
-        )  # fmt: skip
-    whole = Tally(found)
-    for i, (case, name) in others.items():
-        system = tuple(plane[i].tolist())
-        whole = whole.joined(Tally({_full(case, name): (1, 0.0, system, 0.0, system)}))
-    return whole
-
-
-def _of_systems(systems: Sequence[AnySystem], psi: Psi) -> Tally:
-    whole = Tally({})
-    for system in systems:
-        found = classify(system, psi, (0.0,) * getattr(system, "m", 0))
-        margin = 0.0 if found.degeneracies else 1.0
-        text = repr(system)
-        whole = whole.joined(Tally({_full(found.case, found.name): (1, margin, text, margin, text)}))
-    return whole
-
-
-def _full(case: str | None, name: str) -> str:
-    return f"{case} {name}" if case else name

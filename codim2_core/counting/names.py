@@ -23,6 +23,13 @@ from ..systems.elinear import ELinear
 NAMES: tuple[tuple[str, str], ...] = tuple(
     (case, f"{exists}{count}") for case in ("I", "II", "III") for exists in ("NCM", "CM") for count in (0, 2, 4)
 )
+#: Codes of names that index theory excludes: U turns w times along the equator, w is the sum of the indices of the
+#: critical sets (a saddle's in Case II), and n limit directions allow |w - 1| <= n/2 (sec:geneps0).
+IMPOSSIBLE = tuple(
+    code
+    for code, (case, name) in enumerate(NAMES, 1)
+    if 2 * abs((0 if name.startswith("N") else -1 if case == "II" else 1) - 1) > int(name[-1])
+)
 #: Relative error allowed for each of the polynomials below: they have fewer than 60 roundings of 2^-53, and `classify`
 #: names as degenerate what is within a few roundings of it.
 ERROR = 2.0**-46

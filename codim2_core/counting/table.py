@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..tables import Tabled, frame, number, paragraphs, point, rows, write
+from .tally import Place, Plan, Tally
 
 NORMAL_95 = 1.959963984540054  # two-sided 95 % of the normal distribution
 
@@ -25,9 +27,9 @@ class Row(Tabled):
     share : float
     low, high : float
         The share's interval of 95 % confidence (Wilson).
-    example : tuple of float, or str
-        The system of this name that lies farthest from a border: a, b, d, f1, f2, or text of a general system.
-    marginal : tuple of float, or str
+    example : tuple of float, or System
+        The system of this name that lies farthest from a border: a, b, d, f1, f2, or a general system.
+    marginal : tuple of float, or System
         The one that lies nearest to a border.
     """
 
@@ -42,30 +44,8 @@ class Row(Tabled):
     marginal: Any
 
     def _row_(self) -> tuple[str, ...]:
-        example = self.example if isinstance(self.example, str) else point(self.example)
+        example = point(self.example) if isinstance(self.example, tuple) else repr(self.example)
         return self.name, f"{self.count:,}", number(self.share), f"{number(self.low)} to {number(self.high)}", example
-
-
-@dataclass(frozen=True)
-class Tally:
-    """Portraits of one chunk: by name (count, margin and system of the most typical, of the most marginal)."""
-
-    found: dict[str, tuple[int, float, Any, float, Any]]
-
-    def joined(self, other: Tally) -> Tally:
-        """Return both together; of equal margins this one's example is kept."""
-        found = dict(self.found)
-        for name, (count, wide, typical, narrow, marginal) in other.found.items():
-            if name not in found:
-                found[name] = (count, wide, typical, narrow, marginal)
-                continue
-            n, best, example, least, edge = found[name]
-            if wide > best:
-                best, example = wide, typical
-            if narrow < least:
-                least, edge = narrow, marginal
-            found[name] = (n + count, best, example, least, edge)
-        return Tally(found)
 
 
 @dataclass(frozen=True)
@@ -78,11 +58,15 @@ class Census:
         The most frequent first.
     count : int
     seed : int
+    contradictions : int
+        Systems that are not degenerate and whose critical sets do not have the indices that U turns along the equator
+        (sec:geneps0): each would be an error of this software.
     """
 
     table: tuple[Row, ...]
     count: int
     seed: int
+    contradictions: int = 0
 
     def _repr_html_(self) -> str:
         return rows(self.table) + paragraphs([f"{self.count:,} systems, seed {self.seed}"])
@@ -96,17 +80,29 @@ class Census:
         return frame(map(vars, self.table))
 
 
-def tabulated(tallies: Iterable[Tally], seed: int) -> Census:
-    """Return the census of some chunks, in their order."""
-    whole = Tally({})
-    for tally in tallies:
-        whole = whole.joined(tally)
-    total = sum(entry[0] for entry in whole.found.values())
+def tabulated(tally: Tally, plan: Plan, chunk: int) -> Census:
+    """Return the census of what is counted; its examples are drawn again, `chunk` systems at a time."""
+    total = sum(entry.systems for entry in tally.found.values())
+    places = {place for entry in tally.found.values() for place in (entry.typical, entry.marginal)}
+    systems = _drawn_again(plan, places, chunk, total)
     rows = [
-        Row(name, count, count / total, *interval(count, total), example, marginal)
-        for name, (count, _, example, _, marginal) in whole.found.items()
-    ]
-    return Census(tuple(sorted(rows, key=lambda row: (-row.count, row.name))), total, seed)
+        Row(name, entry.systems, entry.systems / total, *interval(entry.systems, total),
+            systems[entry.typical], systems[entry.marginal])
+        for name, entry in tally.found.items()
+    ]  # fmt: skip
+    ordered = sorted(rows, key=lambda row: (-row.count, row.name))
+    return Census(tuple(ordered), total, plan.seed, tally.contradictions)
+
+
+def _drawn_again(plan: Plan, places: set[Place], chunk: int, total: int) -> dict[Place, Any]:
+    found: dict[Place, Any] = {}
+    for i in sorted({i for i, _ in places}):
+        drawn = plan.drawn(i, min(chunk, total - i * chunk))
+        for place in places:
+            if place[0] == i:
+                system = drawn[place[1]]
+                found[place] = tuple(system.tolist()) if isinstance(system, np.ndarray) else system
+    return found
 
 
 def interval(count: int, total: int) -> tuple[float, float]:

@@ -50,6 +50,11 @@ class Event:
             )
 
 
+def reflected(event: Event) -> Event:
+    """Return the same event for a motion that runs backwards in time, by the time -t."""
+    return Event(lambda t, state: event.function(-t, state), -event.direction, event.terminal)
+
+
 Events = Sequence[Event | Callable[[float, Array], float]]
 
 

@@ -95,6 +95,22 @@ def field(system: AnySystem) -> Field:
     return _of_hashable(system)
 
 
+def backwards(formulas: Field) -> Field:
+    """Return the field of the same motions run backwards: -U and -W."""
+    return _backwards(formulas.rows, formulas.m)
+
+
+@lru_cache(maxsize=32)
+def _backwards(rows: tuple[Expression, ...], m: int) -> Field:
+    return _field([_filled("-r", r=row) for row in rows], m)
+
+
+def backwards_system(system: AnySystem) -> System:
+    """Return a system whose motions are those of another one, run backwards."""
+    rows = [row.text for row in backwards(field(system)).rows]
+    return System(U=(rows[0], rows[1]), W=tuple(rows[2:]))
+
+
 def rows_of(system: AnySystem, kept: Sequence[str] = ()) -> list[Expression]:
     """Return the formulas of U and W, in which some of the system's numbers keep their names.
 

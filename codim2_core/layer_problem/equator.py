@@ -141,6 +141,21 @@ class EquatorEquilibria:
                 return ", weakly " + ("repelling" if rises == bool(self.lambda_theta[j] > 0.0) else "attracting")
         return ""
 
+    @cached_property
+    def turns(self) -> int | None:
+        """How often U turns along the equator, read from lambda_rho and Theta: the sum of the indices within.
+
+        Seen from the turning frame U is (lambda_rho, Theta): it crosses the radial axis where Theta changes sign. None
+        where U vanishes on the equator, or every direction is a limit direction.
+        """
+        if self.all_directions or len(self.arcs) or self.radially_degenerate.any():
+            return None
+        odd = self.multiplicity % 2 == 1
+        slopes, rates = np.sign(self.lambda_theta[odd]), np.sign(self.lambda_rho[odd])
+        if (slopes == 0.0).any():  # a triple zero: crossings alternate
+            slopes = np.where(slopes == 0.0, -slopes.sum(), slopes)
+        return round(1 + 0.5 * float((slopes * rates).sum()))
+
     def sentence(self, i: int) -> str:
         """One sentence for people on equilibrium i (from 0)."""
         return say("Q at", Q=f"Q{i + 1}", theta=float(self.theta[i]), kind=self.kind(i))

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..initial_value.compiled_phases import CompiledPhases
-from ..initial_value.events import Event, Events, Watch, checked_events
-from ..initial_value.field import Field, field
+from ..initial_value.events import Event, Events, Watch, checked_events, reflected
+from ..initial_value.field import Field, backwards_system, field
 from ..initial_value.line import invariant_line
 from ..initial_value.problem import plane_problem
 from ..numerics.dense import dense, gathered
@@ -21,9 +21,12 @@ from ..numerics.growth import BlowUpError
 from ..numerics.radau import TooManyStepsError
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from ..words import say
+from .checks import checked_span, checked_states, checked_tolerances
 from .limit.course import AtEventError, Course, StopError
-from .regularised import MANY, MAX_STEPS, checked_span, checked_states, checked_tolerances, count_steps, waited_for
-from .result import Simulation, SimulationStatus, simulation
+from .places import OfState
+from .regularised import MANY, MAX_STEPS, count_steps, waited_for
+from .result import Phase, Simulation, SimulationStatus, simulation
 from .variation.nonsmooth import of_nonsmooth
 
 if TYPE_CHECKING:
@@ -97,7 +100,8 @@ def simulate_nonsmooth(
         decides. Without psi: slides if one critical set attracts, else leaves along the one way out. Rows are as many
         motions, followed compiled on all cores.
     t_span : (t_start, t_end)
-        Increasing.
+        If it decreases, what is returned is the past of state0, which lies off Sigma: the slip that comes to state0 at
+        t_start. It begins at t_end, or where it left Sigma: what was before that is not unique.
     psi : Psi, optional
         The regularisation of which this is the limit. Left out, the motion stops where it would matter.
     rtol, atol : float
@@ -133,6 +137,9 @@ def simulate_nonsmooth(
         if math.hypot(first[0], first[1]) < ON_SIGMA:
             first[:2] = 0.0
     asked = _Asked(system, psi, formulas, watched, (t_start, t_end), rtol, atol, max_steps)
+    if t_end < t_start:
+        pasts = tuple(_past(asked, first) for first in states)
+        return pasts[0] if np.ndim(state0) < 2 else pasts
     runs = _followed(asked, states) if len(states) >= MANY or not waited_for(formulas) else map(asked.one, states)
     return next(iter(runs)) if np.ndim(state0) < 2 else tuple(runs)
 
@@ -188,6 +195,33 @@ class _Asked:
         phases = partial(tuple, [part.placed(self.system, course.own, motion) for part in course.parts])
         variation = partial(of_nonsmooth, self.system, motion, phases, line)
         return simulation(motion, phases, variation, status, detail=detail, evaluations=evaluations, events=watch.times)
+
+
+def _past(asked: _Asked, last: Array) -> Simulation:
+    """Follow a motion backwards until it is on Sigma, where motions meet, and tell it forwards."""
+    if not last[:2].any():
+        raise ValueError(
+            f"state0 is {last.tolist()}, on Sigma, where motions meet: give a state off it to ask for its past."
+        )
+    t_start, t_end = asked.span
+    back = simulate_nonsmooth(
+        backwards_system(asked.system), last, (-t_start, -t_end), asked.psi, rtol=asked.rtol, atol=asked.atol,
+        events=tuple(map(reflected, asked.watched)), max_steps=asked.max_steps,
+    )  # fmt: skip
+    arrives = len(back.phases) > 1
+    steps = int(np.searchsorted(back.times, back.phases[0].t_end, side="right")) - 1 if arrives else len(back.times) - 1
+    motion = back.motion.upto(steps).backwards()
+    first = float(motion.times[0])
+    slip = Phase("slip", first, t_start, say("past on Sigma" if arrives else "starts outside"))
+    phases = (slip.placed(OfState(motion, None, 0.0, first, t_start), None),)
+    status, detail = back.status, back.reason.removeprefix(back.status.value).strip()
+    if arrives:
+        status, detail = SimulationStatus.FORGOTTEN, say("has left Sigma", t=first)
+    variation = partial(of_nonsmooth, asked.system, motion, lambda: phases, invariant_line(asked.formulas, last))
+    events = [[t for t in (-times[::-1]).tolist() if t >= first] for times in back.events]
+    return simulation(
+        motion, lambda: phases, variation, status, detail=detail, evaluations=back.evaluations, events=events
+    )
 
 
 def _followed(asked: _Asked, states: Array) -> Iterator[Simulation]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from importlib.util import resolve_name
 from typing import TYPE_CHECKING, NoReturn, overload
@@ -13,15 +14,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..expressions.expression import Expression
-from ..initial_value.events import Events, Watch, checked_events
-from ..initial_value.field import Field, field
+from ..initial_value.events import Event, Events, Watch, checked_events, reflected
+from ..initial_value.field import Field, backwards, field
 from ..initial_value.line import invariant_line
 from ..initial_value.problem import plane_problem
-from ..numerics.dense import Steps, dense, gathered
+from ..numerics.dense import Dense, Steps, dense, gathered
 from ..numerics.growth import BlowUpError, bounded
 from ..numerics.radau import Problem, Step, TooManyStepsError, steps
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from .checks import checked_span, checked_states, checked_tolerances
+from .past import Past
 from .phases import phases_of
 from .result import Simulation, SimulationStatus, simulation
 from .variation.regularised import of_regularised
@@ -41,56 +44,6 @@ MAX_STEPS = 20_000
 PATIENCE = 400  # steps in Python, of all motions of a system: they take about as long as compiling its formulas
 REMEMBERED = 64  # systems whose steps are counted
 MANY = 8  # motions at once for which that is not waited for
-
-
-def checked_span(t_span: ArrayLike) -> tuple[float, float]:
-    """Check (t_start, t_end): finite and increasing."""
-    try:
-        t_start, t_end = (float(t) for t in np.asarray(t_span, float))
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"t_span is {t_span!r}; give two times (t_start, t_end).") from error
-    if not (math.isfinite(t_start) and math.isfinite(t_end) and t_start < t_end):
-        raise ValueError(f"t_span is ({t_start}, {t_end}); give finite times with t_start < t_end.")
-    return t_start, t_end
-
-
-def checked_state(state0: ArrayLike, m: int) -> Array:
-    """Check (x, y, z1, ..., zm): finite numbers."""
-    try:
-        state = np.array(state0, float)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"state0 is {state0!r}; give numbers (x, y, z1, ..., zm) with m = {m}.") from error
-    if state.shape != (2 + m,):
-        raise ValueError(f"state0 has shape {state.shape}; this system has m = {m}: give (x, y, z1, ..., zm).")
-    if not np.isfinite(state).all():
-        raise ValueError(f"state0 is {state.tolist()}; give finite numbers.")
-    return state
-
-
-def checked_states(state0: ArrayLike, m: int) -> Array:
-    """Check one state or several: (k, 2 + m)."""
-    if np.ndim(np.asarray(state0, object)) < 2:
-        return checked_state(state0, m)[None]
-    try:
-        states = np.array(state0, float)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"state0 is {state0!r}; give rows of numbers (x, y, z1, ..., zm) with m = {m}.") from error
-    if states.ndim != 2 or states.shape[1] != 2 + m:
-        raise ValueError(f"state0 has shape {states.shape}; this system has m = {m}: give (2 + m,) or (k, 2 + m).")
-    if not np.isfinite(states).all():
-        wrong = int(np.flatnonzero(~np.isfinite(states).all(axis=1))[0])
-        raise ValueError(f"state0[{wrong}] is {states[wrong].tolist()}; give finite numbers.")
-    return states
-
-
-def checked_tolerances(rtol: float, atol: float, max_steps: int) -> None:
-    """Check tolerances and the step limit."""
-    if not 1e-13 <= rtol <= 1e-2:
-        raise ValueError(f"rtol is {rtol!r}; give a relative tolerance from 1e-13 to 0.01.")
-    if not 0.0 < atol < math.inf:
-        raise ValueError(f"atol is {atol!r}; give a positive absolute tolerance for z.")
-    if not 1 <= max_steps <= 10**9:
-        raise ValueError(f"max_steps is {max_steps!r}; give a number of steps from 1 to 1e9.")
 
 
 @overload
@@ -146,7 +99,8 @@ def simulate(
     state0 : (2 + m,), or (k, 2 + m)
         (x, y, z1, ..., zm); x = y = 0 is allowed. Rows are as many motions, followed compiled on all cores.
     t_span : (t_start, t_end)
-        In the time t of eq:vf, increasing.
+        In the time t of eq:vf. If it decreases, what is returned is the past of state0: the motion that begins at
+        t_end, runs forward like any other, and comes to state0 at t_start.
     rtol, atol : float
         Error allowed in a step: rtol rho for x and y, rho = sqrt(x^2 + y^2 + eps^2), and rtol |z| + atol for z.
         rtol from 1e-13 to 0.01.
@@ -160,7 +114,8 @@ def simulate(
     Simulation, or tuple of k Simulation
         Its phases are read off the motion when they are first asked for: "slide" where it follows a critical set or a
         limit cycle of the layer problem within O(eps). If it grows beyond bounds, or the step limit is reached, it
-        holds what was followed till then.
+        holds what was followed till then. What slides forgets where it came from: a past begins where differences of
+        rtol at state0 would have grown to a hundredth, and the status says so.
 
     Raises
     ------
@@ -173,64 +128,98 @@ def simulate(
     >>> run = simulate(examples.ball_in_pool(K=0.0), psi.constant(), 1e-6, (1.0, 0.0, 1.0, 0.0), (0.0, 0.5))
     >>> [phase.kind for phase in run.phases]
     ['slip', 'slide']
+
+    Where it came from:
+
+    >>> past = simulate(examples.ball_in_pool(K=0.0), psi.constant(), 1e-6, (0.5, 0.0, 1.0, 0.0), (0.0, -0.1))
+    >>> past.states[-1].tolist(), past.states[0].round(6).tolist()
+    ([0.5, 0.0, 1.0, 0.0], [1.1867, 0.0, 1.1962, 0.0])
     """
     if not SMALLEST_EPS <= eps <= LARGEST_EPS:
         raise ValueError(f"eps is {eps!r}; allowed is {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
-    t_start, t_end = checked_span(t_span)
+    span = checked_span(t_span)
     checked_tolerances(rtol, atol, max_steps)
-    formulas = field(system)
-    watched = checked_events(events)
-    states = checked_states(state0, formulas.m)
-    span, eps = (t_start, t_end), float(eps)
-
-    def one(first: Array) -> Simulation:
-        watch = Watch(watched, t_start, first)
-        parts, status, detail, count = _followed(formulas, psi, eps, first, span, rtol, atol, max_steps, watch)
-        motion = dense(t_start, first, parts)
-        phases = partial(phases_of, system, psi, eps, motion)
-        variation = partial(of_regularised, system, psi, eps, motion)
-        return simulation(
-            motion, phases, variation, status, detail=detail, eps=eps, evaluations=count, events=watch.times
-        )
-
-    if not watched and (len(states) >= MANY or _is_compiled(formulas)):
-        runs = _compiled(system, formulas, psi, eps, states, span, rtol, atol, max_steps)
-    else:
-        runs = tuple(one(first) for first in states)
+    asked = _Asked(system, field(system), psi, float(eps), span, rtol, atol, checked_events(events), max_steps)
+    states = checked_states(state0, asked.formulas.m)
+    runs = asked.runs(states) if span[0] < span[1] else _pasts(asked, states)
     return runs[0] if np.ndim(state0) < 2 else runs
 
 
-def _compiled(
-    system: AnySystem,
-    formulas: Field,
-    psi: Psi,
-    eps: float,
-    states: Array,
-    span: tuple[float, float],
-    rtol: float,
-    atol: float,
-    max_steps: int,
-) -> tuple[Simulation, ...]:
-    """Follow motions compiled from the start, in as few calls as there are cores."""
-    from ..initial_value.compiled import failure, followed  # loads the compiler
-    from ..initial_value.kernels.motion import UNDEFINED
+@dataclass(frozen=True, eq=False)
+class _Asked:
+    """What is asked of each motion; the phases are those of `system`, `formulas` are what is followed."""
 
-    lines = [invariant_line(formulas, first) for first in states]
-    found, runs = followed(formulas, psi, eps, lines, states, span, rtol, atol / rtol, max_steps), []
-    for one, line, first in zip(found, lines, states, strict=True):
-        status, detail = SimulationStatus.T_END, ""
-        if one.code == UNDEFINED:
-            _refuse(plane_problem(formulas, psi, eps, 1.0, 1.0).F(first), first)
-        if one.code:
-            problem = plane_problem(formulas, psi, eps, rtol, atol, None if line is None else line.vector)
-            error = failure(problem, one.code, one.t, one.motion.states[-1])
-            status = SimulationStatus.BLOW_UP if isinstance(error, BlowUpError) else SimulationStatus.STEP_LIMIT
-            detail = str(error)
-        phases = partial(phases_of, system, psi, eps, one.motion)
-        variation = partial(of_regularised, system, psi, eps, one.motion)
-        count = one.evaluations
-        runs.append(simulation(one.motion, phases, variation, status, detail=detail, eps=eps, evaluations=count))
-    return tuple(runs)
+    system: AnySystem
+    formulas: Field
+    psi: Psi
+    eps: float
+    span: tuple[float, float]
+    rtol: float
+    atol: float
+    events: tuple[Event, ...]
+    max_steps: int
+
+    def runs(self, states: Array) -> tuple[Simulation, ...]:
+        """Follow all motions."""
+        if not self.events and (len(states) >= MANY or _is_compiled(self.formulas)):
+            return self.compiled(states)
+        return tuple(self.one(first) for first in states)
+
+    def one(self, first: Array) -> Simulation:
+        """Follow one motion, in Python at first."""
+        watch = Watch(self.events, self.span[0], first)
+        parts, status, detail, count = _followed(
+            self.formulas, self.psi, self.eps, first, self.span, self.rtol, self.atol, self.max_steps, watch
+        )
+        return self.told(dense(self.span[0], first, parts), status, detail, count, watch.times)
+
+    def told(
+        self,
+        motion: Dense,
+        status: SimulationStatus,
+        detail: str,
+        evaluations: int,
+        events: Sequence[Sequence[float]] = (),
+    ) -> Simulation:
+        """Return the result, whose phases and derivatives are found when they are asked for."""
+        phases = partial(phases_of, self.system, self.psi, self.eps, motion)
+        variation = partial(of_regularised, self.system, self.psi, self.eps, motion)
+        return simulation(
+            motion, phases, variation, status, detail=detail, eps=self.eps, evaluations=evaluations, events=events
+        )
+
+    def compiled(self, states: Array) -> tuple[Simulation, ...]:
+        """Follow motions compiled from the start, in as few calls as there are cores."""
+        from ..initial_value.compiled import failure, followed  # loads the compiler
+        from ..initial_value.kernels.motion import UNDEFINED
+
+        formulas, psi, eps, rtol, atol = self.formulas, self.psi, self.eps, self.rtol, self.atol
+        lines = [invariant_line(formulas, first) for first in states]
+        found, runs = followed(formulas, psi, eps, lines, states, self.span, rtol, atol / rtol, self.max_steps), []
+        for one, line, first in zip(found, lines, states, strict=True):
+            status, detail = SimulationStatus.T_END, ""
+            if one.code == UNDEFINED:
+                _refuse(plane_problem(formulas, psi, eps, 1.0, 1.0).F(first), first)
+            if one.code:
+                problem = plane_problem(formulas, psi, eps, rtol, atol, None if line is None else line.vector)
+                error = failure(problem, one.code, one.t, one.motion.states[-1])
+                status = SimulationStatus.BLOW_UP if isinstance(error, BlowUpError) else SimulationStatus.STEP_LIMIT
+                detail = str(error)
+            runs.append(self.told(one.motion, status, detail, one.evaluations))
+        return tuple(runs)
+
+
+def _pasts(asked: _Asked, states: Array) -> tuple[Simulation, ...]:
+    """Follow motions backwards, and return them as they run, as far as their states tell where they came from."""
+    back = replace(
+        asked,
+        formulas=backwards(asked.formulas),
+        span=(-asked.span[0], -asked.span[1]),
+        events=tuple(map(reflected, asked.events)),
+    )
+    problem = plane_problem(back.formulas, asked.psi, asked.eps, asked.rtol, asked.atol)
+    pasts = [Past.of(run, problem, asked.rtol) for run in back.runs(states)]
+    return tuple(asked.told(*past) for past in pasts)
 
 
 def _refuse(rate: Array, first: Array) -> NoReturn:

@@ -31,6 +31,7 @@ class SimulationStatus(Enum):
     T_END = say("end of span")
     EVENT = say("at an event")
     NOT_UNIQUE = say("not unique")
+    FORGOTTEN = say("past ends")
     BLOW_UP = say("blows up")
     STEP_LIMIT = say("step limit")
 

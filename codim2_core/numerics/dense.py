@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -50,6 +51,23 @@ class Dense:
         found = self.states[i] + np.einsum("ijk,ik->ij", self.polynomials[i], powers)
         found = np.where((flat == self.times[at])[:, None], self.states[at], found)
         return found.reshape(*when.shape, self.states.shape[1])
+
+    def upto(self, k: int) -> Dense:
+        """Return the first k steps."""
+        return Dense(*(array[:end] for array, end in zip(
+            (self.times, self.states, self.lengths, self.polynomials), (k + 1, k + 1, k, k), strict=True
+        )))  # fmt: skip
+
+    def backwards(self) -> Dense:
+        """Return the same states in the order of the time -t."""
+        d = self.polynomials.shape[2]
+        # in v = 1 - u: the sum of a_k (1 - v)^k less its value at v = 0
+        turned = np.array([[(-1.0) ** j * math.comb(k, j) for k in range(1, d + 1)] for j in range(1, d + 1)])
+        polynomials = np.einsum("jk,ink->inj", turned, self.polynomials[::-1])
+        arrays = -self.times[::-1], self.states[::-1].copy(), self.lengths[::-1].copy(), polynomials
+        for array in arrays:
+            array.flags.writeable = False
+        return Dense(*arrays)
 
     def within(self, i: int, u: float) -> Array:
         """State (2 + m,) at the fraction u of step i."""

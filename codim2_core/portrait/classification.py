@@ -67,6 +67,11 @@ class Classification:
     sentence: str
     degeneracies: tuple[Degeneracy, ...]
 
+    @property
+    def full_name(self) -> str:
+        """The name with its case, if it has one: "I CM4"."""
+        return f"{self.case} {self.name}" if self.case else self.name
+
     def _repr_html_(self) -> str:
         case = f"Case {self.case}" if self.case else ""
         name = f"<p><strong>{escape(self.name)}</strong> {case}</p>"

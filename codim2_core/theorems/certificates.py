@@ -278,19 +278,14 @@ def _index(facts: Facts) -> Certificate:
     if facts.uncertain is not None:
         return not_applicable(theorem, statement, facts.uncertain)
     singular = facts.location is not None and facts.location.singular
-    if equator.all_directions or equator.radially_degenerate.any() or singular:
+    degree = equator.turns
+    if degree is None or singular:
         return not_applicable(theorem, statement, say("index not defined"))
-    # Seen from the turning frame U is (lambda_rho, Theta): it crosses the radial axis where Theta changes sign.
-    odd = equator.multiplicity % 2 == 1
-    slopes, rates = np.sign(equator.lambda_theta[odd]), np.sign(equator.lambda_rho[odd])
-    if (slopes == 0.0).any():  # a triple zero: crossings alternate
-        slopes = np.where(slopes == 0.0, -slopes.sum(), slopes)
-    degree = 1 + 0.5 * float((slopes * rates).sum())
     theta = np.linspace(0.0, 2.0 * math.pi, 721)
     U = facts.at.U(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
     index = float(sum(_INDEX.get(C.kind, 1) for C in facts.critical))
     holds = degree == index
-    numbers: list[tuple[str, float]] = [("sum of the indices", index), ("turns, from λ_ρ and Θ", degree)]
+    numbers: list[tuple[str, float]] = [("sum of the indices", index), ("turns, from λ_ρ and Θ", float(degree))]
     steps = np.diff(np.unwrap(np.arctan2(U[:, 1], U[:, 0])))
     if abs(steps).max() < 0.5:  # U turns slowly enough to be followed
         turns = float(steps.sum() / (2.0 * math.pi))

@@ -9,6 +9,7 @@ import numpy as np
 from ..words import say
 from .facts import Certificate, Facts, not_applicable, verdict_of
 
+TURNED = 4.0 * np.finfo(float).eps
 NOT_LINEAR = say("U not e-linear")
 
 
@@ -58,7 +59,9 @@ def equal_diagonal(facts: Facts) -> Certificate:
     if form.a != form.d:
         return not_applicable(theorem, statement, say("a and d differ"))
     length = math.hypot(form.f1, form.f2)
-    if length == abs(form.b) == 0.0:
+    # turning a matrix leaves a rounding of its entries, and with b = f = 0 nothing else
+    least = 0.0 if form.given is None else TURNED * max(abs(form.a), abs(form.d))
+    if max(length, abs(form.b)) <= least:
         return not_applicable(theorem, statement, say("every direction, b = 0"))
     expected: list[float] = []
     if abs(form.b) <= length:

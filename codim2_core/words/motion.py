@@ -123,6 +123,16 @@ SENTENCES: dict[str, Sentence] = {
     "not unique": Sentence(
         "Stopped: in the limit ε → 0 what follows is not unique, or not known.", "the status of a simulation"
     ),
+    "past on Sigma": Sentence("It is known from where it left Σ.", "a past in the limit that begins on Sigma"),
+    "past ends": Sentence("Stopped: what was before is not told by the state.", "the status of a past"),
+    "has left Sigma": Sentence(
+        "It left Σ at t = {t:.6g}, where motions meet.", "a past in the limit that begins on Sigma"
+    ),
+    "past forgotten": Sentence(
+        "What slides forgets where it came from: before t = {t:.6g} differences of the tolerance would have grown "
+        "beyond a hundredth.",
+        "a motion followed backwards",
+    ),
     "blows up": Sentence("Stopped: the motion grows beyond all bounds in finite time.", "the status of a simulation"),
     "step limit": Sentence(
         "Stopped at the step limit: the motion varies too fast for the time span (around a limit cycle once in a "

@@ -15,7 +15,7 @@ TOO_WIDE = """() => {
         .filter((e) => e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).display !== 'inline')
         .map((e) => e.className) }"""
 
-OWN = ["Atlas", "Numbers", "Planes", "Diagram", "Theorems", "Along z", "3-D", "Orbits", "Ψ"]
+OWN = ["Atlas", "Numbers", "Planes", "Diagram", "Theorems", "Along z", "3-D", "Orbits", "Ψ", "Census"]
 
 
 def value(explorer, name):
@@ -132,6 +132,19 @@ def test_pointing_at_a_region_marks_its_small_portrait(explorer):
     assert explorer.find(".thumbnails .pointed").text_content() == "NCM2"
     explorer.find(".thumbnails button").filter(has_text="CM4").hover()
     assert explorer.find(".pad .region.pointed").get_attribute("data-region") == "CM4"
+
+
+def test_a_bar_of_the_census_opens_a_portrait_of_its_name(explorer):
+    open_panel(explorer, "Census")
+    bars = explorer.find(".census-list button")
+    explorer.find(".census-portrait svg").first.wait_for()
+    assert bars.count() == 13
+    assert explorer.find(".census-list .here .census-name").text_content() == "I CM4"
+    bars.filter(has_text="II NCM4").first.click()
+    explorer.settle()
+    assert explorer.name() == "NCM4"
+    assert explorer.find(".census-list .here .census-name").text_content() == "II NCM4"
+    explorer.kept()
 
 
 def test_other_axes_of_the_atlas(explorer):

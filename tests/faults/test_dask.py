@@ -76,6 +76,17 @@ def test_a_worker_that_is_killed_in_mid_work_changes_no_result(workers):
     executor._client.close()
 
 
+def test_the_command_counts_on_the_cluster(workers, capsys, tmp_path):
+    connected(workers[0])[0]._client.close()
+    told = []
+    for options in ((), ("--dask", workers[0])):
+        kept = str(tmp_path / str(len(told)))
+        assert main(["census", "--count", "3e5", "--seed", "3", "--resume", kept, *options]) == 0
+        told.append(capsys.readouterr().out)
+    assert told[0] == told[1]
+    assert (tmp_path / "0").read_text() == (tmp_path / "1").read_text()
+
+
 def test_a_page_has_its_files_from_the_cluster(workers):
     address, _ = workers
     connected(address)[0]._client.close()

@@ -43,6 +43,7 @@ DRAWN = {
     "psi-rational": f"{NODE}&log_eps=-0.5",
     "orbits-two": f"{NODE}&orbits=-0.4,0.3:mine;1.2,0.8;0.2,-0.5,-",
     "orbits-over-time": f"{NODE}&orbits=-0.4,0.3:mine;1.2,0.8;0.2,-0.5,-&orbit=2&orbit_eps=show",
+    "census-normal": f"{NODE}&census_size=0",
     "lessons-list": "",
     "lessons-first": "lesson=01-friction",
 }

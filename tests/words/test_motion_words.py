@@ -19,11 +19,12 @@ SUBCRITICAL = System(U=("z*c - s + c*(c**2 + s**2)", "c + z*s + s*(c**2 + s**2)"
 BUFFER = System(U=("z*(c - 0.3*z) - s/2 - c*(c**2 + s**2)", "(c - 0.3*z)/2 + z*s - s*(c**2 + s**2)"), W=("1",))
 CYCLE = System(U=("c - s - 2*c*(c**2 + s**2)", "c + s - 2*s*(c**2 + s**2)"))
 AGREEMENT, FIRST_STEPS = "tests/core/motion/test_agreement.py", "tests/core/motion/test_nonsmooth.py"
-VARIATIONS = "tests/core/motion/test_variation.py"
+VARIATIONS, PASTS = "tests/core/motion/test_variation.py", "tests/core/motion/test_past.py"
 CYCLES_END = "tests/core/motion/test_slide_slip.py"
 #: Held by tests of their own: what `leave` and `agreement` return, how a cycle of a typed system ends, and how far a
 #: motion is differentiated.
 ELSEWHERE = {
+    **dict.fromkeys(("past on Sigma", "past ends", "has left Sigma", "past forgotten"), PASTS),
     "repels angularly": FIRST_STEPS,
     "nothing leaves": FIRST_STEPS,
     "phases agree": AGREEMENT,

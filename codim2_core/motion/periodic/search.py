@@ -11,7 +11,8 @@ from ...initial_value.field import Field, field
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
-from ..regularised import LARGEST_EPS, MAX_STEPS, SMALLEST_EPS, checked_state, checked_tolerances
+from ..checks import checked_state, checked_tolerances
+from ..regularised import LARGEST_EPS, MAX_STEPS, SMALLEST_EPS
 from ..result import Simulation
 from .multipliers import matched, multipliers
 from .result import PeriodicMotion, PeriodicStatus

@@ -4,6 +4,7 @@ import json
 import re
 
 import pytest
+from codim2_app.frame.cluster import ClusterError
 from codim2_app.server.cli import main
 from codim2_app.server.commands import psi_of
 
@@ -89,6 +90,39 @@ def test_census_prints_its_table(capsys, tmp_path):
     told = capsys.readouterr().out
     for row in c2.census("quadratic", count=30).table:
         assert re.search(rf"^{row.name} +{row.count} ", told, re.MULTILINE)
+
+
+def test_a_census_of_outcomes_is_kept_and_goes_on(capsys, tmp_path):
+    kept = tmp_path / "kept.json"
+    told = []
+    for count in ("210", "250"):
+        assert main(["census", "--count", count, "--outcomes", "--psi", "hill:2", "--resume", str(kept)]) == 0
+        told.append(capsys.readouterr().out)
+    for row in c2.census(count=250, psi=c2.psi.hill(2), outcomes=True).table:
+        assert re.search(rf"^{row.name} +{row.count} ", told[1], re.MULTILINE)
+    assert main(["census", "--count", "250", "--resume", str(kept)]) == 2
+    assert "another draw" in capsys.readouterr().err
+
+
+def test_a_census_is_stopped_by_its_key(capsys, tmp_path, monkeypatch):
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(c2, "census", stopped, raising=False)
+    assert main(["census", "--resume", str(tmp_path / "kept.json")]) == 130
+    assert "kept.json keeps what is counted" in capsys.readouterr().err
+
+
+def test_a_census_on_a_cluster_that_is_not_there(capsys, monkeypatch):
+    assert main(["census", "--dask", "tcp://127.0.0.1:9", "--processes", "2"]) == 2
+    assert "no --processes" in capsys.readouterr().err
+
+    def missing(_):
+        raise ClusterError("no Dask scheduler answers at tcp://127.0.0.1:9.")
+
+    monkeypatch.setattr("codim2_app.server.commands.cluster", missing)
+    assert main(["census", "--dask", "tcp://127.0.0.1:9"]) == 2
+    assert "no Dask scheduler answers" in capsys.readouterr().err
 
 
 def test_the_version_is_told(capsys):

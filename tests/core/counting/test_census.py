@@ -1,6 +1,7 @@
 """The census: its filter says what `classify` says, and its table does not depend on who counts."""
 
 import csv
+import itertools
 import math
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
@@ -13,8 +14,11 @@ from scipy.integrate import dblquad
 import codim2_core as c2
 from codim2_core.counting.census import AHEAD, CHUNK, FEW
 from codim2_core.counting.draws import normal, quadratic
-from codim2_core.counting.names import NAMES, _filter, names
+from codim2_core.counting.kept import Kept
+from codim2_core.counting.names import IMPOSSIBLE, NAMES, _filter, names
 from codim2_core.counting.table import interval
+from codim2_core.counting.tally import Plan, _of_one, margin_of, tally
+from codim2_core.layer_problem.problem import LayerProblem, find_critical
 
 PSI = c2.psi.constant()
 
@@ -195,9 +199,179 @@ def test_the_table_as_csv(tmp_path):
         ({"draw": 3}, "draw is 3"),
         ({"draw": "cubic"}, "give normal, quadratic, or a function"),
         ({"psi": "tanh"}, "psi is 'tanh'"),
+        ({"outcomes": 1}, "outcomes is 1"),
+        ({"resume": 3}, "resume is 3"),
+        ({"resume": "/"}, "resume is '/'"),
         ({"draw": lambda rng, n: rng.standard_normal((1, 5)), "count": 10}, "draw returned 1"),
     ],
 )
 def test_what_cannot_be_used_is_said(given_, words):
     with pytest.raises(ValueError, match=words):
         c2.census(**{"count": 10, **given_})
+
+
+# Resuming ----------------------------------------------------------------------------------------------------------
+
+
+class Interrupted(Exception):
+    pass
+
+
+def small(rng, n):
+    """Chunks of general systems are small ones."""
+    return [c2.ELinear(a, b, d, (f, 0.0)) for a, b, d, f in rng.standard_normal((n, 4)).tolist()]
+
+
+def after(chunks):
+    """Draw as `small` does, until so many chunks are drawn."""
+    calls = itertools.count()
+
+    def draw(rng, n):
+        if n > 1 and next(calls) == chunks:
+            raise Interrupted
+        return small(rng, n)
+
+    return draw
+
+
+def test_a_census_that_was_stopped_goes_on_where_it_stood(tmp_path):
+    count, kept = 3 * FEW + 11, tmp_path / "kept.json"
+    whole = c2.census(small, count=count, seed=5)
+    with pytest.raises(Interrupted):
+        c2.census(after(2), count=count, seed=5, resume=kept)
+    drawn = []
+    counted = lambda rng, n: drawn.append(n) or small(rng, n)
+    assert c2.census(counted, count=count, seed=5, resume=kept) == whole
+    ones = [n for n in drawn if n > 1]
+    assert ones[:2] == [FEW, 11]  # the two chunks that were kept are not named again; the rest are examples drawn again
+    assert [path.name for path in tmp_path.iterdir()] == ["kept.json"]
+
+
+def test_a_kept_census_grows_by_a_larger_count(tmp_path):
+    kept = tmp_path / "kept.json"
+    c2.census(small, count=FEW + 50, resume=kept)
+    told = []
+    grown = c2.census(small, count=2 * FEW + 50, resume=kept, progress=lambda *step: told.append(step))
+    assert grown == c2.census(small, count=2 * FEW + 50)
+    assert told == [(2 * FEW, 2 * FEW + 50), (2 * FEW + 50, 2 * FEW + 50)]
+
+
+def test_chunks_that_come_out_of_turn_are_kept_too(tmp_path):
+    """A first chunk that fails in the end: what came before it, from other threads, is not lost."""
+    kept = tmp_path / "kept.json"
+    plan = Plan(small, PSI, 0, False)
+    count = Kept(plan, FEW, kept)
+    count.add(2, tally(plan, 2, FEW))
+    count.add(1, tally(plan, 1, FEW))
+    count.save()
+    again = Kept(plan, FEW, kept)
+    assert 0 not in again
+    assert 1 in again
+    assert 2 in again
+    again.add(0, tally(plan, 0, FEW))
+    assert (again.upto, again.ahead) == (3, {})
+    assert again.all() == Kept(plan, FEW, None, tally(plan, 0, FEW).joined(tally(plan, 1, FEW))).whole.joined(
+        tally(plan, 2, FEW)
+    )
+
+
+@pytest.mark.parametrize(
+    "other", [{"seed": 1}, {"draw": "quadratic"}, {"outcomes": True}, {"psi": c2.psi.tanh()}, {"draw": normal}]
+)
+def test_the_file_of_another_census_is_refused(tmp_path, other):
+    kept = tmp_path / "kept.json"
+    c2.census(small, count=FEW, resume=kept)
+    before = kept.read_bytes()
+    with pytest.raises(ValueError, match="another draw"):
+        c2.census(**{"draw": small, "count": 2 * FEW, "resume": kept, **other})
+    assert kept.read_bytes() == before
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[1]", '{"census": 1, "chunks": 0, "whole": {}, "ahead": {}}', "\x00"])
+def test_a_file_that_keeps_no_census_is_refused(tmp_path, text):
+    kept = tmp_path / "kept.json"
+    kept.write_text(text)
+    with pytest.raises(ValueError, match="keeps no census"):
+        c2.census(count=10, resume=kept)
+    assert kept.read_text() == text
+
+
+def test_fewer_than_are_kept_are_refused(tmp_path):
+    kept = tmp_path / "kept.json"
+    c2.census(small, count=2 * FEW, resume=kept)
+    with pytest.raises(ValueError, match=f"keeps {2 * FEW} systems"):
+        c2.census(small, count=FEW, resume=kept)
+
+
+# Outcomes, the index, margins ---------------------------------------------------------------------------------------
+
+
+def with_opposites(rng, n):
+    """Systems and the same with U turned round: their orbits run backwards."""
+    half = rng.standard_normal(((n + 1) // 2, 5))
+    return np.concatenate([half, -half])[:n]
+
+
+def test_in_case_one_half_of_what_has_a_critical_set_slides():
+    """Thm:case1: with a, d < 0 all that arrives slides on C; with a, d > 0, the same backwards, nothing does."""
+    rows = c2.census(with_opposites, count=FEW, outcomes=True, seed=2).table
+    counts = {row.name: row.count for row in rows if row.name.startswith("I CM")}
+    by_name = {name.partition(", ") for name in counts}
+    assert {words for *_, words in by_name} == {"slides", "almost none arrives"}
+    assert sum(n for name, n in counts.items() if name.endswith("slides")) == sum(counts.values()) / 2 > 10
+
+
+def test_names_with_outcomes_tell_what_approach_tells():
+    psi = c2.psi.hill(2)
+    table = c2.census(count=60, psi=psi, outcomes=True, seed=9).table
+    for row in table:
+        a, b, d, f1, f2 = row.example
+        system = c2.ELinear(a, b, d, (f1, f2))
+        found = c2.classify(system, psi)
+        assert row.name.startswith(f"{found.case} {found.name}, ")
+        said = {o.verdict for o in c2.approach_outcomes(system, psi) if o.arrives == "open set"}
+        assert ("slides" in row.name.replace("slides around a cycle", "")) == ("slide" in said)
+        assert ("crosses" in row.name) == ("cross" in said)
+        assert ("almost none" in row.name) == (not said - {"misses"})
+
+
+def test_five_names_contradict_the_index_and_none_occurs():
+    assert {" ".join(NAMES[code - 1]) for code in IMPOSSIBLE} == {"I NCM0", "II NCM0", "III NCM0", "II CM0", "II CM2"}
+    assert c2.census(count=100_000, seed=8).contradictions == 0
+    assert c2.census("quadratic", count=60, seed=8).contradictions == 0
+
+
+def test_a_system_whose_critical_set_was_lost_is_a_contradiction():
+    system = quadratic(np.random.default_rng(0), 1)[0]  # one saddle
+    problem = LayerProblem(system.at(), PSI).give(find_critical, ())
+    assert problem.equator.turns == -1
+    assert _of_one(problem, 1.0, False, (0, 0)).contradictions == 1
+    assert _of_one(LayerProblem(system.at(), PSI), 1.0, False, (0, 0)).contradictions == 0
+
+
+@given(st.tuples(*[st.floats(-3, 3)] * 5))
+def test_margins_shrink_towards_borders(row):
+    a, b, d, f1, f2 = row
+    if max(map(abs, row)) < 1e-2:
+        return
+    system = c2.ELinear(a, b, d, (f1, f2))
+    margin = margin_of(c2.equator_equilibria(system), c2.critical_sets(system, PSI))
+    assert 0.0 <= margin <= 1.0
+    for scale in (1e-6, 1e3):  # a border does not move with the unit of time
+        faster = c2.ELinear(scale * a, scale * b, scale * d, (scale * f1, scale * f2))
+        other = margin_of(c2.equator_equilibria(faster), c2.critical_sets(faster, PSI))
+        assert other == pytest.approx(margin, rel=1e-6, abs=1e-9)
+
+
+def test_the_margin_vanishes_on_a_saddle_node_and_on_the_ellipse():
+    near = [c2.ELinear(-1, 1, -1, (1.0 - gap, 0.0)) for gap in (1e-2, 1e-4, 1e-6)]  # |f| = |b|, sec:conics
+    edge = [c2.ELinear(-1, 0, -2, (1.0 - gap, 0.0)) for gap in (1e-2, 1e-4, 1e-6)]  # |A^-1 f| = 1
+    for systems in (near, edge):
+        margins = [margin_of(c2.equator_equilibria(one), c2.critical_sets(one, PSI)) for one in systems]
+        assert margins[0] > 10 * margins[1] > 100 * margins[2] > 0.0
+
+
+def test_examples_of_general_systems_are_systems_of_their_name():
+    for row in c2.census("quadratic", count=40, seed=4).table:
+        for system in (row.example, row.marginal):
+            assert c2.classify(system, PSI).name == row.name

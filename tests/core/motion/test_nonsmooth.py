@@ -328,7 +328,7 @@ def test_where_the_equator_lets_all_out_the_phase_of_the_spiral_is_not_known():
     assert "phase of the spiral" in run.reason
 
 
-@pytest.mark.parametrize(("state0", "t_span", "message"), [((1.0,), (0, 1), "state0"), ((1.0, 0.0), (1, 0), "t_start")])
+@pytest.mark.parametrize(("state0", "t_span", "message"), [((1.0,), (0, 1), "state0"), ((1.0, 0.0), (1, 1), "t_span")])
 def test_wrong_arguments_say_so(state0, t_span, message):
     with pytest.raises(ValueError, match=message):
         simulate_nonsmooth(ELinear(-1.0, 0.0, -1.0), state0, t_span)

@@ -93,6 +93,7 @@ def turned(system, angle):
 @example(ELinear(3.0, 0.0, 3.0, (0.0, 0.0)), psi.constant(), 0.3)  # stars, but for the rounding of the turn
 @example(ELinear(3.0, 0.0, 3.0, (0.0, 0.0)), psi.constant(), 2.0)
 @example(ELinear(1.0, 0.0, 1.0, (0.0, 0.0)), psi.constant(), 0.3)
+@example(ELinear(0.875, 0.0, 0.875, (0.0, 0.0)), psi.constant(), 2.0)
 def test_nothing_fails_for_typed_affine_systems(system, regularisation, angle):
     typed = turned(system, angle)
     try:

@@ -14,6 +14,7 @@ import {Panels} from "../../../../app/static/beside/panels.js"
 import {Rest} from "../../../../app/static/asking/rest.js"
 import "../../../../app/static/panels/along.js"
 import "../../../../app/static/panels/atlas.js"
+import "../../../../app/static/panels/census.js"
 import "../../../../app/static/panels/diagram.js"
 import "../../../../app/static/panels/lessons.js"
 import "../../../../app/static/panels/numbers.js"
@@ -44,6 +45,10 @@ const HANDS = {
     [".pad", "pointermove", {clientX: 200, clientY: 100}], [".pad", "pointerleave"], [".pad", "keydown", {key: "ArrowUp"}], [".pad", "keydown", {key: "ArrowLeft", shiftKey: true}],
     [".thumbnails button@1", "click"], [".thumbnails button", "pointerover"], [".thumbnails button", "pointerout"], [".cycle-curves input", "change"],
     ["select.across", "change"], [".zoom .in", "click"], [".zoom .out", "click"], ["values", {f1: 0.3, f2: -0.4, atlas_zoom: 2, a: -1.1}],
+  ],
+  census: [
+    [".census-list button@1", "click"], [".census-size", "change"], [".census-draw", "change"], ["frame", {census_here: "III NCM2"}], ["late", ["census"]],
+    ["values", {census: "quadratic", census_size: 2}], ["frame", {unable: {census: "This takes too long, and was stopped."}}],
   ],
   diagram: [
     [".diagram", "pointerdown", {clientX: 222, clientY: 60}], [".diagram", "pointerup"], [".diagram", "keydown", {key: "ArrowLeft"}], [".diagram", "keydown", {key: "ArrowUp", shiftKey: true}],

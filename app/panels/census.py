@@ -1,0 +1,111 @@
+"""The panel "Census": how often each portrait occurs among systems drawn at random, each with one to open."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from codim2_core.counting.census import census
+from codim2_core.counting.table import Row
+from codim2_core.portrait.classify import classify
+from codim2_core.psi import constructors
+from codim2_core.scene import Scene
+from codim2_core.systems.elinear import ELinear
+from codim2_core.systems.typed import System
+
+from ..draw.svg import small
+from ..draw.thumbnails import COUNT, PIXEL, VIEW
+from ..frame.draft import Draft
+from ..state.choices import CENSUSES, MOST_CENSUS
+from ..state.chosen import NORMAL, OWN
+from .panel import Panel
+
+#: Coefficients of an example are brought below this, in the range of their sliders, by another unit of time.
+LARGEST = 2.5
+PSI = constructors.constant()  # a portrait's name is the same under every other
+
+
+def add(draft: Draft) -> None:
+    """Add the census that is asked for, then the portraits of its examples, once nothing moves."""
+    key = draft.values["census"], draft.values["census_size"]
+    found = draft.slow("census", key, _counted, *key)
+    if found is not None:
+        shown, rows = found
+        draft.header["census"] = {"draw": key[0], "rows": shown}
+        draft.now["census rows"] = key, rows
+    of, rows = draft.now.get("census rows", (None, ()))
+    if draft.ready and of == key:
+        tiles = draft.slow("census portraits", key, _portraits, rows)
+        if tiles is not None:
+            draft.header["census_portraits"] = tiles
+    here = draft.scene["classification"].full_name
+    if draft.now.get("census here") != here:
+        draft.now["census here"] = here
+        draft.header["census_here"] = here
+
+
+def _counted(draw: str, size: int) -> tuple[list[list[Any]], tuple[Row, ...]]:
+    """Return each portrait's name, count, share, ends of its interval and controls of its example; and the rows."""
+    table = census(draw, count=CENSUSES[draw][1] * 10**size).table
+    shown = [[row.name, row.count, *map(_six, (row.share, row.low, row.high)), controls(row)] for row in table]
+    return shown, table
+
+
+def _six(value: float) -> float:
+    return float(f"{value:.6g}")
+
+
+def _portraits(rows: tuple[Row, ...]) -> dict[str, str]:
+    """Return a small portrait of each example, by name, as SVG."""
+    psi = constructors.constant()
+    scenes = {
+        row.name: Scene(_with(row, _rounded(row)), psi, count=COUNT, view=VIEW * 1.4, pixel=PIXEL) for row in rows
+    }
+    return {name: small(scene, VIEW) for name, scene in scenes.items()}
+
+
+def _rounded(row: Row) -> tuple[float, ...]:
+    """Return the numbers of an example as its controls have them: a, b, d, f1, f2 or all twelve.
+
+    They have three digits, or as many more as its name needs.
+    """
+    numbers = row.example if isinstance(row.example, tuple) else tuple(dict(row.example.parameters).values())
+    scale = max(1.0, max(map(abs, numbers)) / LARGEST)
+    for digits in (3, 6, 12):
+        rounded = tuple(float(f"{value / scale:.{digits}g}") for value in numbers)
+        if classify(_with(row, rounded), PSI).full_name == row.name:
+            return rounded
+    return tuple(value / scale for value in numbers)
+
+
+def _with(row: Row, numbers: tuple[float, ...]) -> ELinear | System:
+    if isinstance(row.example, tuple):
+        a, b, d, f1, f2 = numbers
+        return ELinear(a, b, d, (f1, f2))
+    return row.example.evolve(parameters=dict(zip(dict(row.example.parameters), numbers, strict=True)))
+
+
+def controls(row: Row) -> dict[str, Any]:
+    """Return the controls with which the example of a portrait opens."""
+    numbers = _rounded(row)
+    if isinstance(row.example, tuple):
+        return {"system": NORMAL, **dict(zip(("a", "b", "d", "f1", "f2"), numbers, strict=True)), "k1": 0.0, "k2": 0.0}
+    half = len(numbers) // 2
+    texts = {f"U{i + 1}": _polynomial(numbers[i * half : (i + 1) * half]) for i in range(2)}
+    return {"system": OWN, "texts": {**texts, "W": "1", "where": ""}}
+
+
+def _polynomial(weights: tuple[float, ...]) -> str:
+    """Return the quadratic polynomial in c and s with these weights, as one types it."""
+    monomials = ("", "*c", "*s", "*c^2", "*c*s", "*s^2")
+    terms = [(weight, f"{abs(weight):g}{one}") for weight, one in zip(weights, monomials, strict=True) if weight]
+    text = "".join(f" {'-' if weight < 0 else '+'} {term}" for weight, term in terms)
+    return f"-{text[3:]}" if text.startswith(" -") else text[3:] or "0"
+
+
+PANEL = Panel(
+    "census",
+    "Census",
+    add,
+    "How often each portrait occurs among systems drawn at random.",
+    {"draws": {draw: [words, base] for draw, (words, base) in CENSUSES.items()}, "most": MOST_CENSUS},
+)

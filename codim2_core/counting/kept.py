@@ -1,0 +1,118 @@
+"""A census under way: what is counted so far, and the file from which it goes on."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from .tally import Found, Place, Plan, Tally
+
+EVERY = 2.0  # seconds between two savings
+
+
+@dataclass
+class Kept:
+    """Chunks counted so far: the first `upto` together, those that came before their turn apart.
+
+    Parameters
+    ----------
+    plan : Plan
+    chunk : int
+        Systems in a whole chunk. The last one, if it is smaller, is not saved: with a larger count it would be another.
+    path : Path or None
+        Where it is saved, at most every two seconds.
+    """
+
+    plan: Plan
+    chunk: int
+    path: Path | None
+    whole: Tally = field(default_factory=lambda: Tally({}))
+    upto: int = 0
+    ahead: dict[int, Tally] = field(default_factory=dict)
+    saved: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.path is not None and self.path.exists():
+            self._read(self.path)
+
+    def __contains__(self, chunk: int) -> bool:
+        return chunk < self.upto or chunk in self.ahead
+
+    @property
+    def systems(self) -> int:
+        """How many systems are counted."""
+        return sum(entry.systems for tally in (self.whole, *self.ahead.values()) for entry in tally.found.values())
+
+    def add(self, chunk: int, tally: Tally) -> None:
+        """Count one more chunk."""
+        self.ahead[chunk] = tally
+        while self.upto in self.ahead:
+            last = self.ahead[self.upto]
+            if sum(entry.systems for entry in last.found.values()) < self.chunk:
+                break
+            self.whole = self.whole.joined(self.ahead.pop(self.upto))
+            self.upto += 1
+        if self.path is not None and time.monotonic() - self.saved > EVERY:
+            self.save()
+
+    def all(self) -> Tally:
+        """Return all chunks together, in their order."""
+        whole = self.whole
+        for chunk in sorted(self.ahead):
+            whole = whole.joined(self.ahead[chunk])
+        return whole
+
+    def save(self) -> None:
+        """Write the file, whole or not at all."""
+        if self.path is None:
+            return
+        full = {i: t for i, t in self.ahead.items() if sum(entry.systems for entry in t.found.values()) == self.chunk}
+        record = {
+            "census": self._mark(),
+            "chunks": self.upto,
+            "whole": _columns(self.whole),
+            "ahead": {str(i): _columns(t) for i, t in full.items()},
+        }
+        beside = self.path.with_name(f"{self.path.name}.{os.getpid()}")
+        beside.write_text(json.dumps(record), encoding="utf-8")
+        beside.replace(self.path)
+        self.saved = time.monotonic()
+
+    def _mark(self) -> str:
+        """Return what tells a census from another one: the first system drawn, Psi, the seed, and what is named."""
+        first = self.plan.drawn(0, 1)[0]
+        told = (repr(first), self.plan.psi.words, self.plan.seed, self.plan.outcomes, self.chunk)
+        return hashlib.sha256(repr(told).encode()).hexdigest()
+
+    def _read(self, path: Path) -> None:
+        try:
+            record = json.loads(path.read_text(encoding="utf-8"))
+            mark, upto, whole = record["census"], int(record["chunks"]), _tally(record["whole"])
+            ahead = {int(i): _tally(columns) for i, columns in record["ahead"].items()}
+        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+            raise ValueError(f"{path} keeps no census; give another file, or one that is not there yet.") from None
+        if mark != self._mark():
+            raise ValueError(f"{path} keeps a census of another draw, Ψ or seed; give another file.")
+        self.upto, self.whole, self.ahead = upto, whole, ahead
+
+
+def _columns(tally: Tally) -> dict[str, Any]:
+    return {"found": {name: list(entry) for name, entry in tally.found.items()}, "wrong": tally.contradictions}
+
+
+def _tally(columns: dict[str, Any]) -> Tally:
+    found = {
+        name: Found(int(count), float(wide), _place(typical), float(narrow), _place(marginal))
+        for name, (count, wide, typical, narrow, marginal) in columns["found"].items()
+    }
+    return Tally(found, int(columns["wrong"]))
+
+
+def _place(pair: list[int]) -> Place:
+    chunk, i = pair
+    return int(chunk), int(i)
