@@ -28,14 +28,14 @@ from ..systems.kinds import AnySystem
 from ..words import say
 from .asking import answered
 from .assembled import Row, assembled, row
-from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, reversible, values
+from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, values
 from .path import LEVEL, traced
 from .points import Guess, Trace, passing, reversed_trace
 from .result import CycleBranch, CycleBranches, CyclePoint
 from .sought import sought
 from .trace import Tracer
 from .turns import Turn
-from .varied_system import Asking, Straight, VariedSystem, follow, side_by_side
+from .varied_system import Asking, Straight, VariedSystem, follow, reversible, side_by_side
 
 __all__ = ["CycleBranch", "CycleBranches", "CyclePoint", "continue_cycles"]
 
@@ -111,7 +111,7 @@ def continue_cycles(
     bounds = limits(system, psi, name)
     part = sought(VariedSystem(at, high - low, bounds, straight), low, high)
     family = VariedSystem(at, part[1] - part[0], bounds, straight)
-    allowed = [v for v in values(*part) if family.allows(v)]
+    allowed = family.allowed(values(*part))
     if all(reversible(at(v)[0]) for v in allowed):
         settings = (at(float(v)) for v in values(low, high))
         reasons = dict.fromkeys(reason_for_none(q, critical_sets(q, member)) for q, member in settings)
@@ -138,7 +138,7 @@ def folds_along(lines: Sequence[Straight], low: float, high: float) -> list[list
     searches = []
     for line in lines:
         family = VariedSystem(partial(_on, line), high - low, straight=line)
-        allowed = [v for v in values(low, high) if family.allows(v)]
+        allowed = family.allowed(values(low, high))
         if not all(reversible(family.at(v)[0]) for v in allowed):
             family.ray = family.section(allowed[len(allowed) // 2]).ray
             searches.append(_Search(family, "t", (low, high), (low, high)))

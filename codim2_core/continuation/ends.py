@@ -21,13 +21,13 @@ from ..layer_problem.equator import equator_cycle, number_of_directions
 from ..layer_problem.lyapunov import first_lyapunov
 from ..layer_problem.problem import LayerProblem
 from ..numerics.root_between import root_between
-from ..systems.coefficients import Coefficients
 from .varied_system import VariedSystem
 
 Array = NDArray[np.float64]
 
 SAMPLES = 129  # values at which traces and exponents are looked at
 COLUMNS = 9  # and gaps of loops
+CLEAR = 1e-6  # of the coefficients: by how much Theta may seem to vanish on an equator that is closed
 SIGN = 1e-7  # tolerance for the sign of a gap
 NEAR_BORDER = (1e-10, 1e-8, 1e-6)  # of a distance between samples: how far from where a function ceases to be defined
 AHEAD = 0.1  # of the span: how far beyond the last cycle its end is looked for
@@ -94,7 +94,14 @@ def equator_ends(family: VariedSystem, low: float, high: float) -> list[End]:
     """
 
     def exponents(places: list[float]) -> Array:
-        return np.array([exponent(value) for value in places], float)  # None is NaN
+        out, placed = np.full(len(places), math.nan), family.placed(places)
+        if placed is not None:
+            closed = (
+                slowest_turn(placed.planes) > -CLEAR
+            )  # elsewhere there are equilibria on it, without asking further
+            for i, turns in zip(placed.rows, closed.tolist(), strict=True):
+                out[i] = exponent(places[i]) if turns else math.nan  # None is NaN
+        return out
 
     def turning(value: float) -> float:
         return float(slowest_turn(family.planes([value]))[0])
@@ -271,12 +278,6 @@ def at_singular(family: VariedSystem, value: float, direction: float, width: flo
         return None
     place = root_between(determinant, *sorted((value, far)))
     return End("det A = 0", place, math.inf, math.nan)
-
-
-def reversible(coefficients: Coefficients) -> bool:
-    """Whether a = -d and |f1| = |f2|, within 1e-9: C is then a centre, and no cycle is a limit cycle."""
-    a, _, d, f1, f2 = coefficients.plane
-    return abs(a + d) <= 1e-9 * abs(a - d) and abs(abs(f1) - abs(f2)) <= 1e-9 * (abs(f1) + abs(f2))
 
 
 def _saddle_node_ahead(family: VariedSystem, value: float, direction: float, width: float) -> float | None:

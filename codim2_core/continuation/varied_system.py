@@ -180,6 +180,11 @@ class VariedSystem:
         location = self.problem(value).location
         return location is not None and location.existence is Existence.INSIDE
 
+    def allowed(self, values: Sequence[float]) -> list[float]:
+        """Return the values that `allows` is true of, within rounding."""
+        placed = self.placed(values)
+        return [] if placed is None else [values[i] for i in placed.rows]
+
     def section(self, value: float) -> Section:
         """Make the section at one value; all sections of a family are on rays of the same signs."""
         problem = self.problem(value)
@@ -246,3 +251,9 @@ class VariedSystem:
             return -0.5 * change / width[whose] / np.maximum(here, 1e-300)
 
         return np.array(planes), swelling
+
+
+def reversible(coefficients: Coefficients) -> bool:
+    """Whether a = -d and |f1| = |f2|, within 1e-9: C is then a centre, and no cycle is a limit cycle."""
+    a, _, d, f1, f2 = coefficients.plane
+    return abs(a + d) <= 1e-9 * abs(a - d) and abs(abs(f1) - abs(f2)) <= 1e-9 * (abs(f1) + abs(f2))

@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 SAMPLES = 64
 INNER, OUTER = 1e-4, 1e5  # of the reach R, and in zeta: how near C and the equator the section is sampled
 COARSE, FINE = 1e-9, 1e-13  # tolerances
+FARTHEST = 1e6  # zeta from which the outer samples begin, at most
 STEPS, LONGEST = 2000, 1e6  # steps tried, and T in units of 1/|(a, b, d, f1, f2)|
 SUNK_INWARD = 1e-3  # of the innermost sample: gone, within one turn
 
@@ -305,8 +306,10 @@ class Section:
     def grid(self) -> Array:
         """Choose samples: even in ln r near C, in ln zeta near the equator."""
         inner = np.linspace(math.log(INNER), math.log(9.0), SAMPLES - 24)
-        start = float(np.linalg.norm(self.states(inner[-1:])[0][0, :2]))
-        start = max(start / math.sqrt(max(1.0 - start * start, 1e-12)), 1e-3)
+        r, rest = self.reach / (1.0 + math.exp(-inner[-1])), self.reach / (1.0 + math.exp(inner[-1]))
+        modulus = min(math.hypot(*(self.e + r * self.u).tolist()), 1.0)
+        gap = min(max(rest * (r + self.other), 1e-300), 1.0)
+        start = min(max(self.psi.radius(modulus, gap), 1e-3), FARTHEST)
         outer = self.xi_at_radius(np.geomspace(start, max(OUTER, 10.0 * start), 26)[1:])
         xi = np.concatenate([inner, outer[outer > inner[-1] + 1e-3]])
         return np.unique(np.minimum(xi, 600.0))
