@@ -1,7 +1,7 @@
 """What is asked of a page from elsewhere is done by the thread that answers, in its turn, with the document's lock.
 
-Its turn comes once whoever waits for an answer has it: what several have waited for, such as pictures computed beside
-the frames, is told one after the other, and others are answered between.
+After what is long, such as a frame whose picture was computed beside the frames, whoever waits for an answer has it
+first: what several have waited for is told one after the other, and others are answered between.
 
 Bokeh's own callbacks of a document hold it, and each other in a cycle: once called they are garbage, which a search
 must find before the document goes. What is made here is gone as soon as it was called.
@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import time
 from collections.abc import Callable
 from functools import partial
-from types import TracebackType
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -26,6 +26,8 @@ Later = Callable[[Callable[[], None]], Any]
 #: Turns of the loop between two parts of what is long. A message takes ten from the line to its answer; with fewer, it
 #: would wait for several parts.
 TURNS = 16
+#: Seconds of processor time of what gives way once it is done. The messages of a room are much shorter, and many.
+LONG = 0.005
 
 
 async def others_first() -> None:
@@ -34,25 +36,7 @@ async def others_first() -> None:
         await asyncio.sleep(0)
 
 
-class OneByOne:
-    """Lets one in at a time, first come first served, and whoever waits for an answer before the next."""
-
-    def __init__(self) -> None:
-        self._lock = asyncio.Lock()
-
-    async def __aenter__(self) -> None:
-        await self._lock.acquire()
-
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        try:
-            await others_first()
-        finally:
-            self._lock.release()
-
-
-_told: WeakKeyDictionary[asyncio.AbstractEventLoop, OneByOne] = WeakKeyDictionary()
+_one_by_one: WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock] = WeakKeyDictionary()
 
 
 def later(document: Document) -> Later:
@@ -61,14 +45,21 @@ def later(document: Document) -> Later:
 
 
 async def _called(document: Document, function: Callable[[], None]) -> None:
+    took = 0.0
+
     async def call(its: Document) -> None:
+        nonlocal took
+        began = time.thread_time()
         with patch_curdoc(its):
             try:
                 function()
             except Exception:  # the loop would log it too, and its task, the error and their frames hold each other
                 logging.getLogger(__name__).exception("a page could not be answered")
+        took = time.thread_time() - began
 
-    async with _told.setdefault(asyncio.get_running_loop(), OneByOne()):
+    async with _one_by_one.setdefault(asyncio.get_running_loop(), asyncio.Lock()):
         context = document.session_context
         if context is not None:
             await context.with_locked_document(call)
+        if took >= LONG:
+            await others_first()

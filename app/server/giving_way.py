@@ -2,9 +2,29 @@
 
 from __future__ import annotations
 
+import asyncio
+from types import TracebackType
 from typing import Any
 
-from ..frame.later import OneByOne
+from ..frame.later import others_first
+
+
+class OneByOne:
+    """Lets one in at a time, first come first served, and whoever waits for an answer before the next."""
+
+    def __init__(self) -> None:
+        self._lock = asyncio.Lock()
+
+    async def __aenter__(self) -> None:
+        await self._lock.acquire()
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        try:
+            await others_first()
+        finally:
+            self._lock.release()
 
 
 def one_by_one(application: Any) -> OneByOne:

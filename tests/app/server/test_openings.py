@@ -9,9 +9,9 @@ from bokeh.document import Document
 from bokeh.events import ButtonClick
 from bokeh.models import Button
 from bokeh.server.server import Server
-from codim2_app.frame.later import TURNS, OneByOne
+from codim2_app.frame.later import TURNS
 from codim2_app.server import openings
-from codim2_app.server.giving_way import one_by_one
+from codim2_app.server.giving_way import OneByOne, one_by_one
 from codim2_app.server.page import take_over
 from tornado.web import Application
 
