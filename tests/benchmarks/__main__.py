@@ -46,7 +46,7 @@ TABLES = {
 }  # fmt: skip
 ON_PAGE = (
     "trajectories", "scene", "general", "app", "browser", "page", "start", "sessions", "load", "wild", "equator",
-    "census", "compiled", "nonsmooth",
+    "census", "cycles", "compiled", "nonsmooth",
 )  # fmt: skip
 # Titles of the plots of the second picture, by their beginnings.
 OTHERS = (
