@@ -53,12 +53,14 @@ def forgetful(port: int) -> None:
             gc.collect()
             gc.unfreeze()  # what the server leaves out of its own searches is there too; it may be garbage, and is told
             living = gc.get_objects()
-            gc.freeze()
             kinds = (ExplorerView, Frames, Scene, Psi, System)
             # the type, as a weak reference whose object is gone cannot be asked for its class
             counts = {kind.__name__: sum(issubclass(type(one), kind) for one in living) for kind in kinds}
+            many = len(living)
+            living.clear()  # it is in a cycle, as it holds what counts it; frozen, it would hold all that lives now
+            gc.freeze()
             counts |= {"formulas": len(warmup._formulas), "sessions": len(server.get_sessions())}
-            self.write({"resident": resident, "objects": len(living), **counts})
+            self.write({"resident": resident, "objects": many, **counts})
 
     soon: dict[str, Any] = {"unused_session_lifetime_milliseconds": 2000, "check_unused_sessions_milliseconds": 200}
     server = page.make_server(port, **soon)
