@@ -31,6 +31,7 @@ SENTENCES: dict[str, Sentence] = {
         "codim2 film --play of a view without one, or the button",
     ),
     "film stopped": Sentence("The film was stopped; nothing was made.", "a click on Stop while a film is drawn"),
+    "proof stopped": Sentence("The search for a proof was stopped.", "a click on Stop, or a value that moves"),
     "address failed": Sentence(
         "This address could not be opened, a fault of the program: here is the first portrait instead.",
         "an exception of the program",

@@ -16,6 +16,7 @@ from .figure import THEMES, Style, figure
 from .files import DATA
 from .film import STYLE, film
 from .live import MOST_SLIDERS, live
+from .proof import proof
 from .view import WHOLE, View
 
 #: Bytes of a file; what holds more goes by the command line.
@@ -25,10 +26,12 @@ TYPES: Mapping[str, str] = MappingProxyType(
     {
         "svg": "image/svg+xml", "zip": "application/zip", "json": "application/json",
         "npz": "application/octet-stream", "py": "text/x-python", "tex": "text/x-tex", "html": "text/html",
-        "gif": "image/gif",
+        "gif": "image/gif", "proof": "application/json",
     }
 )  # fmt: skip
 LONGEST = 80  # characters of a slider
+#: What takes long, and is searched for while other files are taken.
+PROOF = "proof"
 
 
 @dataclass(frozen=True)
@@ -48,6 +51,11 @@ class Wish:
     kind: str
     style: Style = field(default_factory=Style)
     sliders: tuple[str, ...] = ()
+
+    @property
+    def job(self) -> str:
+        """What it is called among the jobs of a browser: of each name one at a time, a newer wish replaces an older."""
+        return PROOF if self.kind == PROOF else "take"
 
     @property
     def slider(self) -> str:
@@ -103,6 +111,7 @@ def taken(view: View, wish: Wish) -> tuple[str, bytes]:
         "svg": lambda one: figure(one, wish.style).encode(),
         "html": lambda one: live(one, wish.sliders),
         "gif": lambda one: film(one, wish.slider, style=wish.moving),
+        "proof": proof,
     }.get(wish.kind) or DATA[f".{wish.kind}"]
     made = make(view)
     if len(made) > MOST:

@@ -59,8 +59,7 @@ class Jobs:
         turns = self.turns
         wish = self._wishes.get(name)
         if wish is not None and wish[0] != key:
-            turns.drop(id(self), (name, wish[0]))
-            del self._wishes[name]
+            self.drop(name)
             wish = None
         result = turns.result(whole)
         if result is not None:
@@ -72,6 +71,12 @@ class Jobs:
             self._wishes.pop(name)
             return wish[1].result()
         return None
+
+    def drop(self, name: str) -> None:
+        """Want nothing under a name any more: its work is stopped, unless another browser wants it."""
+        wish = self._wishes.pop(name, None)
+        if wish is not None:
+            self.turns.drop(id(self), (name, wish[0]))
 
     def future(self, name: str) -> Future[Any] | None:
         """Return what is being waited for under a name, if anything is."""

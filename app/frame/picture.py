@@ -8,6 +8,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from codim2_core.cycles.limit_cycles import provable
 from codim2_core.layer_problem.equator import EquatorEquilibria, equator_equilibria
 from codim2_core.portrait.classification import NEARER, Classification
 from codim2_core.portrait.separatrix import Separatrices
@@ -92,7 +93,7 @@ def make_frame(
     header: dict[str, Any] = {"ready": ready}
     blocks = _drawn(values["layers"], now, ready, window, asked, header)
     if "cycles" in blocks and now["cycles"] is not NOTHING:
-        header["cycles"] = glyphs.cycle_columns(scene["closed_orbits"])
+        header["cycles"] = {**glyphs.cycle_columns(scene["closed_orbits"]), "proof": provable(scene.problem)}
     if "launched_1" in blocks and now["launched_1"] is not NOTHING:
         header["launched"] = {
             **glyphs.launched_columns(scene.launch, scene["launched"]),
@@ -174,7 +175,7 @@ def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked) -> No
         equator, cycle = no_directions(), None
     if equator is not LATER and cycle is not LATER and _fresh(now, "equator", equator):
         cycle = None if cycle is NOTHING else cycle
-        header["equator"] = glyphs.equator_columns(equator)
+        header["equator"] = {**glyphs.equator_columns(equator), "proved": equator.exact}
         header["sense"] = glyphs.equator_arrows(equator, 0 if cycle is None else int(cycle.direction))
         header["all_directions"] = bool(equator.all_directions)
         header["cycle"] = None if cycle is None else float(cycle.exponent)
@@ -182,7 +183,8 @@ def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked) -> No
         header["psi_note"] = breaks(asked.scene.psi)
     critical = () if critical is NOTHING else critical
     if critical is not LATER and _fresh(now, "critical", critical):
-        header["critical"] = glyphs.critical_columns(critical)
+        where = asked.scene.problem.location
+        header["critical"] = {**glyphs.critical_columns(critical), "proved": where is not None and where.exact}
     # what stands still comes with its eigenvectors, or without any: never with those of another setting
     if _fresh(now, "eigendirections", eigen) or "equator" in header or "critical" in header:
         there = eigen is not LATER and eigen is not NOTHING

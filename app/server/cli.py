@@ -15,7 +15,7 @@ from typing import Any
 
 from ..docs import place
 from ..frame.cluster import ClusterError, cluster
-from .commands import add_census, add_classify, add_docs, add_notebooks, add_presets
+from .commands import add_census, add_classify, add_docs, add_notebooks, add_presets, add_prove
 from .process.logs import log_to_stderr
 from .process.stopping import stop_when_asked
 from .settings import add_settings
@@ -36,6 +36,7 @@ def parser() -> argparse.ArgumentParser:
     commands.add_parser("warm", help="compile the integrator into the disk cache, so that servers start warm")
     for add in (
         add_classify,
+        add_prove,
         add_presets,
         add_figure,
         add_data,

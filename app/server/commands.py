@@ -26,6 +26,20 @@ NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
 def add_classify(commands: Any) -> None:
     """Add `codim2 classify`."""
     command = commands.add_parser("classify", help="name the portrait of an e-linear system, and say what stands still")
+    _add_system(command)
+    command.add_argument("--json", action="store_true", help="as JSON")
+    command.set_defaults(run=classify)
+
+
+def add_prove(commands: Any) -> None:
+    """Add `codim2 prove`."""
+    command = commands.add_parser("prove", help="prove how many limit cycles an e-linear system has")
+    _add_system(command)
+    command.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the certificate there")
+    command.set_defaults(run=prove)
+
+
+def _add_system(command: Any) -> None:
     for name in ("a", "b", "d"):
         command.add_argument(f"-{name}", type=float, required=name != "b", default=0.0, help=f"{name} of A")
     for name in ("f1", "f2"):
@@ -154,6 +168,27 @@ def classify(chosen: argparse.Namespace) -> int:
         place = f"e = ({_six(C.e[0])}, {_six(C.e[1])})"
         print(f"  C: {place}, {C.kind}, tr J = {_six(C.trace)}, det J = {_six(C.determinant)}")
     return 0
+
+
+def prove(chosen: argparse.Namespace) -> int:
+    """Print how many limit cycles one system has, and whether that is proved: then the status is 0, else 1."""
+    try:
+        psi = psi_of(chosen.psi)
+        system = c2.ELinear(chosen.a, chosen.b, chosen.d, (chosen.f1, chosen.f2))
+        found = c2.limit_cycles(system, psi, prove=True)
+    except ValueError as error:
+        print(f"codim2: {error}", file=sys.stderr)
+        return 2
+    proved = found.proved
+    assert proved is not None
+    print(f"Limit cycles: {len(found)}. {proved.reason}")
+    for i, (cycle, alone) in enumerate(zip(found, proved.cycles, strict=True)):
+        told = f"{cycle.kind}, period {_six(cycle.period)}, multiplier {_six(cycle.multiplier)}"
+        print(f"  cycle {i + 1}: {told}{', proved' if alone else ''}")
+    if chosen.output is not None and proved.certificate is not None:
+        proved.save(chosen.output)
+        print(f"wrote {chosen.output}; to check it: {Path(sys.executable).name} {proved.checker()} < {chosen.output}")
+    return 0 if proved else 1
 
 
 def _six(value: float) -> str:

@@ -14,6 +14,19 @@ export function say(element, text) {
   if (element.textContent !== text) element.textContent = text
 }
 
+/** Save a file; returns its name and size. @param {Blob} blob @param {string} name */
+export function save(blob, name) {
+  const link = document.createElement("a")
+  link.href = URL.createObjectURL(blob)
+  link.download = name
+  link.click()
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000)
+  return `${name}, ${size(blob.size)}`
+}
+
+/** A size in words. @param {number} bytes */
+export function size(bytes) { return bytes < 1e6 ? `${Math.ceil(bytes / 1000)} kB` : `${(bytes / 1e6).toFixed(1)} MB` }
+
 /** Copy what a box holds. @param {any} box */
 export async function copied(box) {
   box.select()

@@ -24,6 +24,7 @@ export function panelsOf(explorer) {
     rangeOf: (name) => (name.startsWith("own:") ? explorer.systems.sliders[name.slice(4)] : controls[name])?.range ?? config.ranges[name] ?? [-4, 4],
     valueOf: (name) => name.startsWith("own:") ? explorer.systems.value(name.slice(4)) : values[name],
     follow: (name, set) => { setters[name] = set },
+    take: (wish) => explorer.takes.ask(wish), untake: (kind) => explorer.takes.stop(kind),
     trace: (paths, place) => explorer.picture.trace(paths, place),
     open: (wanted) => explorer.put(wanted),
     ask: (question) => explorer.ask(question),

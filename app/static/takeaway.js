@@ -1,5 +1,6 @@
 // The menu "Take away": files of what is on the screen. It is no part of the page's first load.
 
+import {save} from "./dom.js"
 import {escape} from "./words.js"
 
 const MARKUP = `
@@ -59,15 +60,6 @@ export function menu(box, {ask, stop, film, theme, sliders}) {
       button.focus()
     }
   }
-}
-
-function save(blob, name) {
-  const link = document.createElement("a")
-  link.href = URL.createObjectURL(blob)
-  link.download = name
-  link.click()
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000)
-  return `${name}, ${blob.size < 1e6 ? `${Math.ceil(blob.size / 1000)} kB` : `${(blob.size / 1e6).toFixed(1)} MB`}`
 }
 
 // The browser draws the figure: what is asked of the server is its text, whatever the scale.

@@ -9,14 +9,14 @@ from typing import Any
 
 from ..export.film import count_of, joined, part_of, pictures
 from ..export.play import PLAY
-from ..export.taking import TYPES, Wish, named, seen_by, taken
+from ..export.taking import PROOF, TYPES, Wish, named, seen_by, taken
 from ..export.view import View
 from ..frame.later import Later
 from ..frame.turns import Failed
 from ..phrases import say
 from .refresh import Frames
 
-#: What it is called among the jobs of a browser: one at a time, a newer wish replaces an older.
+#: What the parts of a film are called among the jobs of a browser.
 JOB = "take"
 #: Pictures of a film that are drawn in one turn.
 PART = 4
@@ -55,8 +55,8 @@ class Taking:
         Parameters
         ----------
         request : object
-            As a browser sent it: ``{"id", "kind", "theme", "legend", "sliders", "window", "layers"}``, or
-            ``{"id", "stop": true}`` for a film that is no longer wanted.
+            As a browser sent it: ``{"id", "kind", "theme", "legend", "sliders", "window", "layers"}``; with
+            ``"stop": true`` if it is no longer wanted, a film or (kind "proof") a proof.
         reply : callable
             Sends ``{"taken": id, "name", "type", "file"}`` or ``{"taken": id, "error": sentence}``; before, of a film,
             ``{"taken": id, "done": pictures, "all": pictures}``.
@@ -64,9 +64,14 @@ class Taking:
             Has a function called by the thread that answers; may be called by any thread.
         """
         about = {"taken": request.get("id", 0) if isinstance(request, Mapping) else 0}
-        self._film = None  # a newer wish replaces an older, and so does the wish to stop
-        if isinstance(request, Mapping) and request.get("stop"):
-            reply({**about, "error": say("film stopped")})
+        told = request if isinstance(request, Mapping) else {}
+        of_proof = told.get("kind") == PROOF
+        if not of_proof:
+            self._film = None  # a newer wish replaces an older, and so does the wish to stop
+        if told.get("stop"):
+            if of_proof:
+                self.frames.jobs.drop(PROOF)
+            reply({**about, "error": say("proof stopped" if of_proof else "film stopped")})
             return
         try:
             wish = Wish.read(request)
@@ -84,22 +89,22 @@ class Taking:
 
     def _make(self, about: dict[str, Any], view: View, wish: Wish, key: str, reply: Reply, later: Later) -> None:
         """Answer with a file, once it is made."""
-        result = self.frames.jobs.ask(JOB, key, taken, view, wish)
+        result = self.frames.jobs.ask(wish.job, key, taken, view, wish)
         if isinstance(result, Failed):
             reply({**about, "error": result.sentence})
         elif result is not None:
             name, data = result
             reply({**about, "name": name, "type": TYPES[wish.kind], "file": data})
         else:
-            self._again(later, partial(self._make, about, view, wish, key, reply, later))
+            self._again(wish.job, later, partial(self._make, about, view, wish, key, reply, later))
 
-    def _again(self, later: Later, look: Callable[[], None]) -> None:
+    def _again(self, job: str, later: Later, look: Callable[[], None]) -> None:
         """Look again when the job that is under way is done.
 
         What is called is made anew for each look: a function that calls itself later would be held by itself, and
         hold the page's document until a search for garbage finds it.
         """
-        future = self.frames.jobs.future(JOB)
+        future = self.frames.jobs.future(job)
         if future is not None:
             future.add_done_callback(lambda _: later(look))
 
@@ -117,7 +122,7 @@ class Taking:
         if isinstance(result, Failed):
             reply({**film.about, "error": result.sentence})
         elif result is None:
-            self._again(later, partial(self._draw, film, drawn, reply, later))
+            self._again(JOB, later, partial(self._draw, film, drawn, reply, later))
         elif first < film.count:
             drawn = (*drawn, *result)
             reply({**film.about, "done": len(drawn), "all": film.count})

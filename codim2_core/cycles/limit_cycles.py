@@ -31,7 +31,7 @@ from ..systems.kinds import AnySystem
 from ..tables import Tabled, number, paragraphs, point, rows
 from ..words import say
 from .orbit import Orbit, orbit
-from .proof.result import Proof
+from .proof.result import Proof, covers
 from .resolution import counted
 from .search import Shown, search, shown
 from .section import FixedPoint, Section
@@ -210,6 +210,16 @@ def proof_of(problem: LayerProblem) -> Proof:
     found, form = problem.keep(closed_orbits), problem.at.normal_form
     forbidden = None if form is None else reason_for_none(form, problem.critical, problem.location)
     return proved(problem, [cycle.points for cycle in found.cycles], forbidden)
+
+
+def provable(problem: LayerProblem) -> str:
+    """Say how the number of limit cycles may be proved: by a "theorem", by a "certificate", or "", not at all."""
+    form = problem.at.normal_form
+    if form is None:
+        return ""
+    if reason_for_none(form, problem.critical, problem.location) is not None:
+        return "theorem"
+    return "certificate" if covers(problem.psi) else ""
 
 
 def cycles_of(problem: LayerProblem) -> LimitCycles:

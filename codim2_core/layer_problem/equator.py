@@ -109,6 +109,12 @@ class EquatorEquilibria:
         """Q1, Q2, ... in order of theta."""
         return tuple(f"Q{i + 1}" for i in range(len(self)))
 
+    @property
+    def exact(self) -> bool:
+        """Whether their number is decided in closed form, for the doubles as they are given: of an e-linear system."""
+        decided = self.certificate == say("at most four") and not self.all_directions
+        return decided and self.exact_count == len(self) and bool((self.multiplicity == 1).all())
+
     def kind(self, i: int) -> str:
         """Describe the type of equilibrium i (from 0), such as "radially attracting, angularly repelling"."""
         if self.radially_degenerate[i]:

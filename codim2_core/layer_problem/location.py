@@ -60,6 +60,11 @@ class Location:
     line: tuple[tuple[float, float], tuple[float, float]] | None = None
 
     @property
+    def exact(self) -> bool:
+        """Whether the number of critical sets is that of the doubles as they are given, not within their rounding."""
+        return self.existence in (Existence.INSIDE, Existence.NONE)
+
+    @property
     def singular(self) -> bool:
         """Whether det A = 0 within the rounding of a, b, d."""
         return self.existence not in (Existence.INSIDE, Existence.NONE, Existence.EQUATOR)

@@ -15,6 +15,8 @@
  * @property {(wanted: Record<string, any>) => void} move controls
  * @property {(name: string, value: any) => void} choose a value that concerns the panels only, and draw them
  * @property {(name: string, set: (value: any) => void) => void} follow a control of the panel that the state may move
+ * @property {(wish: Record<string, any>) => Promise<any>} take ask for a file of what is shown: {name, type, file} or {error}
+ * @property {(kind: string) => void} untake the last wish of this kind is no longer wanted
  * @property {(paths: any, place?: number[]) => void} trace a motion in the picture, or clear it with null
  * @property {(wanted: Record<string, any>) => void} open many values at once, as choosing a portrait does
  * @property {() => import("../room/crowd.js").Row[] | null} crowd the phones in the lecturer's room; null without one

@@ -8,17 +8,18 @@ export class Takes {
     /** @type {Map<number, {done: (answer: any) => void, progress: (done: number, all: number) => void}>} */
     this.waiting = new Map()
     this.count = 0
+    this.latest = /** @type {Record<string, number>} */ ({}) // wish of each kind
   }
 
   /** Ask for a file; resolves to {name, type, file} or {error}. @param {Record<string, any>} wish @param {(done: number, all: number) => void} [progress] @returns {Promise<any>} */
   ask(wish, progress = () => {}) {
-    const id = ++this.count
+    const id = this.latest[wish.kind] = ++this.count
     return new Promise((done) => { this.waiting.set(id, {done, progress}); this.send({take: {id, ...this.shown(), ...wish}}) })
   }
 
-  // The last wish is no longer wanted; its answer says so.
-  stop() {
-    this.send({take: {id: this.count, stop: true}})
+  // The last wish is no longer wanted, or the last of a kind; its answer says so.
+  stop(kind = "") {
+    this.send({take: {id: kind ? this.latest[kind] : this.count, stop: true, kind}})
   }
 
   // Whether a message was the answer to a wish.

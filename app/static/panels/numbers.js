@@ -2,6 +2,7 @@
 
 import {put} from "../dom.js"
 import {register} from "../beside/panels.js"
+import {Proof, marked} from "../beside/proof.js"
 import {roundUp} from "../controls/ranges.js"
 import {SAYS, digits, eigen, escape, pair, plain, slowWords} from "../words.js"
 
@@ -9,17 +10,19 @@ const QUIET = 60 // ms: longer than three frames of a drag
 
 class Numbers {
   constructor(box, tools) {
-    box.innerHTML = '<div class="equator-table"></div><div class="critical-table"></div><div class="outcome-table"></div><div class="cycle-table"></div><div class="slow"></div>'
+    box.innerHTML = '<div class="equator-table"></div><div class="critical-table"></div><div class="outcome-table"></div><div class="cycle-table"></div><div class="proof-box"><div class="proof" hidden></div></div><div class="slow"></div>'
     this.find = (name) => box.querySelector(name)
     this.box = box
     this.tools = tools
     /** @type {any} what frames have brought and is not written yet */
     this.kept = {}
+    this.proof = new Proof(this.find(".proof"), tools, () => { if (this.found) this.cycles(this.found) })
   }
 
   // While the panel is closed its tables follow once nothing moves: they cost as much as a third of the picture.
   apply({header}, late) {
     clearTimeout(this.timer)
+    this.proof.follow()
     Object.assign(this.kept, header)
     if (this.box.hidden) {
       this.tools.rest.note("tables", true)
@@ -28,7 +31,10 @@ class Numbers {
   }
 
   // Cycles are computed while they are shown only.
-  draw({layers}) { this.find(".cycle-table").hidden = !layers.includes("cycles") }
+  draw({layers}) {
+    this.proof.follow()
+    for (const name of [".cycle-table", ".proof-box"]) this.find(name).hidden = !layers.includes("cycles")
+  }
 
   write(late) {
     this.tools.rest.note("tables", false)
@@ -36,7 +42,10 @@ class Numbers {
     this.kept = {}
     if (header.equator) this.equator(header)
     if (header.critical) this.critical(header.critical)
-    if (header.cycles) this.cycles(header.cycles)
+    if (header.cycles) {
+      this.proof.offer(header.cycles.proof)
+      this.cycles(header.cycles)
+    }
     if (header.outcomes) this.outcomes(header.outcomes.rows)
     if (header.unable?.outcomes) put(this.find(".outcome-table"), `<h2>Approach outcomes</h2><p class="note">${escape(header.unable.outcomes)}</p>`)
     this.find(".outcome-table").classList.toggle("old", late.includes("outcomes"))
@@ -49,7 +58,7 @@ class Numbers {
       <tr><td></td><td class="words" colspan="3">${q.type[i]}${q.multiplicity[i] > 1 ? `, multiplicity ${q.multiplicity[i]}` : ""}</td></tr>`)
     const words = all ? SAYS.allDirections : cycle === null ? SAYS.noDirection :
       `${cycle < 0 ? SAYS.attractingEquator : cycle > 0 ? SAYS.repellingEquator : SAYS.neutralEquator} (exponent ${digits(cycle)}).`
-    put(this.find(".equator-table"), "<h2>Equator equilibria</h2>" + (rows.length
+    put(this.find(".equator-table"), `<h2>Equator equilibria${marked(q.proved, rows.length)}</h2>` + (rows.length
       ? `<table><tr><th></th><th>θ</th><th>λ<sub>ρ</sub></th><th>λ<sub>θ</sub></th></tr>${rows.join("")}</table>` : `<p class="note">${words}</p>`))
   }
 
@@ -62,14 +71,16 @@ class Numbers {
       <tr><td>Δ(J)</td><td>${digits(c.discriminant[i])}</td></tr>
       <tr><td>eigenvalues</td><td>${eigen(c.eigenvalues[i])}</td></tr>
       ${c.slow_flow[i].length && c.label.length > 1 ? `<tr><td>z′</td><td>${c.slow_flow[i].map((v) => digits(v)).join(", ")}</td></tr>` : ""}</table>`)
-    put(this.find(".critical-table"), `<h2>${c.label.length > 1 ? "Critical sets" : "Critical set"}</h2>` + (rows.join("") || `<p class="note">${SAYS.noCriticalSet}</p>`))
+    put(this.find(".critical-table"), `<h2>${c.label.length > 1 ? "Critical sets" : "Critical set"}${marked(c.proved, rows.length)}</h2>` + (rows.join("") || `<p class="note">${SAYS.noCriticalSet}</p>`))
   }
 
   cycles(c) {
-    const rows = c.kind.map((kind, i) => `<table><tr><td><b>Limit cycle</b></td><td><b>${kind}</b></td></tr>
+    this.found = c
+    const {holds} = this.proof
+    const rows = c.kind.map((kind, i) => `<table><tr><td><b>Limit cycle</b></td><td><b>${kind}</b>${holds.whole ? "" : this.proof.cycle(i)}</td></tr>
       <tr><td>period (fast time τ)</td><td>${digits(c.period[i])}</td></tr><tr><td>multiplier</td><td>${digits(c.multiplier[i])}</td></tr></table>`)
     const words = [...(rows.length ? [] : [c.reason]), ...c.notes].map((text) => `<p class="note">${escape(text)}</p>`)
-    put(this.find(".cycle-table"), "<h2>Limit cycles</h2>" + rows.join("") + words.join(""))
+    put(this.find(".cycle-table"), `<h2>Limit cycles${marked(holds.whole, rows.length)}</h2>` + rows.join("") + words.join(""))
   }
 
   outcomes(rows) {

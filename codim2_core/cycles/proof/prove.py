@@ -13,11 +13,10 @@ from ...words import say
 from .certificate import Written, alone, written
 from .check import check
 from .flow import Flow, Undecided
-from .result import Proof
+from .result import Proof, covers
 
 Array = NDArray[np.float64]
 
-COVERED = ("constant", "rational", "exponential", "tanh", "hill")  # the families whose Psi the checker encloses
 MOST_STEPS = 200_000  # of orbits, in search of a certificate
 MOST_ROWS = 60_000  # corners and edges in one that is checked
 REFUSED = (ArithmeticError, LookupError)
@@ -34,12 +33,12 @@ def proved(problem: LayerProblem, cycles: list[Array], forbidden: str | None) ->
     forbidden : str or None
         Why a theorem forbids cycles.
     """
-    nothing, psi = tuple(False for _ in cycles), problem.psi
+    nothing = tuple(False for _ in cycles)
     if problem.at.affine is None:
         return Proof(False, nothing, say("proofs e-linear only"))
     if forbidden is not None:
         return Proof(True, (), forbidden)
-    if psi.family not in COVERED or (psi.family == "hill" and psi.parameter < 1.0):
+    if not covers(problem.psi):
         return Proof(False, nothing, say("proof not for this Psi"))
     try:
         return _all(problem, cycles)

@@ -5,7 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
-__all__ = ["Proof"]
+from ...psi.function import Psi
+
+__all__ = ["Proof", "covers"]
+
+COVERED = ("constant", "rational", "exponential", "tanh", "hill")  # the families whose Psi the checker encloses
+
+
+def covers(psi: Psi) -> bool:
+    """Whether there may be certificates with this Psi: the checker knows its family, and it is smooth."""
+    return psi.family in COVERED and (psi.family != "hill" or psi.parameter >= 1.0)
 
 
 @dataclass(frozen=True)

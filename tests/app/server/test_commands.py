@@ -9,6 +9,7 @@ from codim2_app.server.cli import main
 from codim2_app.server.commands import psi_of
 
 import codim2_core as c2
+from codim2_core.cycles.proof.check import check
 
 
 def test_classify_in_words_and_as_json(capsys):
@@ -67,6 +68,20 @@ def test_what_cannot_be_used_is_said_in_one_line(wrong, capsys):
     told = capsys.readouterr().err
     assert told.startswith("codim2: ")
     assert "Traceback" not in told
+
+
+def test_prove_says_what_is_proved_and_writes_the_certificate(capsys, tmp_path):
+    path = tmp_path / "certificate.json"
+    assert main(["prove", "-a", "1", "-b", "3", "-d", "-2", "--f1", "0.4", "--f2", "0.1", "-o", str(path)]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("Limit cycles: 0. That there are these limit cycles and no other is proved")
+    assert f"check.py < {path}" in said
+    assert check(json.loads(path.read_text())) == (0, True)
+    assert (
+        main(["prove", "-a", "172", "-b", "186", "-d", "-200", "--f1", "-86", "--f2", "-93", "--psi", "1/(1+s)**2"])
+        == 1
+    )
+    assert "The count is not proved" in capsys.readouterr().out
 
 
 def test_presets_are_listed(capsys):

@@ -1,6 +1,7 @@
 """A browser's wish for a file is read, made in its turn, and answered once."""
 
 import gc
+import json
 import re
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -21,6 +22,8 @@ from codim2_app.state.links import read_link
 from codim2_app.view import taking as takings
 from codim2_app.view.refresh import Frames
 from codim2_app.view.taking import Taking
+
+from codim2_core.cycles.proof.check import check
 
 
 @pytest.fixture(scope="module")
@@ -52,6 +55,38 @@ def test_a_file_is_what_the_command_line_writes(executor, kind):
     assert answer["file"] == expected
     again = asked(executor, "preset=case1-cm4", {"id": 8, "kind": kind, "theme": "paper", "legend": False})
     assert (again["taken"], again["file"]) == (8, expected)
+
+
+def test_a_proof_is_taken_with_its_certificate_and_the_program_that_checks_it(executor):
+    query = "a=1&b=3&d=-2&f1=0.4&f2=0.1&psi=constant"
+    found = json.loads(asked(executor, query, {"id": 5, "kind": "proof"})["file"])
+    assert (found["whole"], found["cycles"]) == (True, [])
+    assert "no other is proved" in found["sentence"]
+    assert check(json.loads(found["certificate"])) == (0, True)
+    assert found["checker"].startswith('"""Check a certificate')
+    found = json.loads(asked(executor, "preset=case1-cm4", {"id": 6, "kind": "proof"})["file"])
+    assert (found["whole"], found["certificate"], found["checker"]) == (True, None, None)  # by a theorem
+
+
+def test_a_proof_is_stopped_alone(executor):
+    """What else is made meanwhile goes on, and takes nothing from it."""
+    frames = Frames(read_link("f1=0.123").state)
+    frames.jobs = Jobs(executor)
+    answers, later, begin = Queue(), Queue(), Event()
+    taking = Taking(frames)
+    executor.submit(begin.wait)
+    try:
+        taking.answer({"id": 1, "kind": "proof"}, answers.put, later.put)
+        taking.answer({"id": 2, "kind": "tex"}, answers.put, later.put)
+        assert frames.jobs.future("proof") is not None
+        taking.answer({"id": 1, "kind": "proof", "stop": True}, answers.put, later.put)
+        assert frames.jobs.future("proof") is None
+        assert answers.get(timeout=1) == {"taken": 1, "error": "The search for a proof was stopped."}
+    finally:
+        begin.set()
+    later.get(timeout=60)()
+    assert answers.get(timeout=1)["taken"] == 2
+    assert answers.empty()
 
 
 def test_it_is_what_is_on_the_screen(executor):

@@ -49,6 +49,75 @@ test("the panel numbers: limit cycles are told while they are shown", () => {
   assert.equal(box.hidden, false)
 })
 
+const ONE = {kind: ["stable"], period: [7.5], multiplier: [0.25], reason: "", notes: []}
+const FOUND = {whole: true, cycles: [true], sentence: "There are <these> and no other.", certificate: "{}", checker: "print()"}
+
+// The panel with a count that may be proved; what it asks for, and its answer.
+function proving(found = /** @type {any} */ (FOUND)) {
+  const asked = [], left = [], answers = []
+  const values = {z: 0, f1: 0.5, layers: ["cycles"]}
+  const one = opened("numbers", values, {setting: ["f1"], take: (wish) => { asked.push(wish); return new Promise((done) => { answers.push(() => done("error" in found ? found : {name: "codim2-one.proof", file: new TextEncoder().encode(JSON.stringify(found))})) }) }, untake: (kind) => left.push(kind)})
+  one.frame({cycles: {...ONE, proof: "certificate"}})
+  const click = (act) => one.fire(one.find(`[data-act=${act}]`), "click")
+  const soon = () => new Promise((done) => setImmediate(done))
+  return {...one, asked, left, click, soon, answer: async () => { answers.shift()(); await soon() }, acts: () => one.all(".proof [data-act]").map((it) => it.dataset.act), mark: () => one.find(".cycle-table h2 .proved")?.textContent}
+}
+
+test("the panel numbers: a count is proved when that is asked for, and told with its certificate", async () => {
+  const one = proving()
+  assert.deepEqual([one.acts(), one.mark()], [["prove"], undefined])
+  one.click("prove")
+  await one.soon()
+  assert.deepEqual([one.asked, one.acts(), one.root.dataset.settled], [[{kind: "proof"}], ["stop"], "false"])
+  await one.answer()
+  assert.deepEqual([one.acts(), one.mark(), one.root.dataset.settled], [["certificate", "checker"], "✓ proved: no other", "true"])
+  assert.deepEqual(one.texts(".proof .note"), ["There are <these> and no other."])
+  one.set({f1: 0.6})
+  assert.deepEqual([one.acts(), one.mark(), one.left], [["prove"], undefined, []])
+})
+
+test("the panel numbers: a search for a proof ends when a value moves, or on Stop, and its answer is not shown", async () => {
+  for (const end of [(one) => one.set({f1: 0.7}), (one) => { one.values.f1 = 0.7; one.frame({}) }, (one) => one.click("stop")]) {
+    const one = proving()
+    one.click("prove")
+    await one.soon()
+    end(one)
+    assert.deepEqual([one.left, one.acts(), one.root.dataset.settled], [["proof"], ["prove"], "true"])
+    await one.answer()
+    assert.deepEqual([one.acts(), one.mark()], [["prove"], undefined])
+  }
+})
+
+test("the panel numbers: nothing is asked before the server has what is shown", async () => {
+  const one = proving()
+  one.panels.made.numbers.tools.rest.note("asked", true)
+  one.click("prove")
+  await one.soon()
+  assert.deepEqual([one.asked, one.acts()], [[], ["stop"]])
+  one.click("stop")
+  assert.deepEqual(one.left, [])
+})
+
+test("the panel numbers: of a count that is not proved each cycle that is says so; why there is none is said", async () => {
+  const one = proving({...FOUND, whole: false, sentence: "Not proved."})
+  one.click("prove")
+  await one.soon()
+  await one.answer()
+  assert.deepEqual([one.mark(), one.texts(".cycle-table .proved")], [undefined, ["✓ proved"]])
+  const failed = proving({error: "Too long."})
+  failed.click("prove")
+  await failed.soon()
+  await failed.answer()
+  assert.deepEqual([failed.texts(".proof .note"), failed.acts()], [["Too long."], ["prove"]])
+})
+
+test("the panel numbers: what a theorem, or a closed form, proves has its mark at once", () => {
+  const one = opened("numbers", {z: 0.5})
+  one.frame({cycles: {...ONE, kind: [], proof: "theorem"}, equator: {...Q, proved: true}, cycle: null, critical: {...C, proved: false}})
+  assert.deepEqual(one.texts("h2 .proved"), ["✓ proved: no other", "✓ proved: none"])
+  assert.equal(one.find(".proof").hidden, true)
+})
+
 test("the panel numbers: cycles and outcomes", () => {
   const one = opened("numbers", {z: 0.5})
   one.frame({cycles: {kind: ["stable", "unstable"], period: [7.5, 12], multiplier: [0.25, 3], reason: "", notes: ["More <may> be."]}, outcomes: {rows: [["Q₁", "slide", "slide", "All slide.", [["slides on C", ["1", "3/(3+s)"]]]]]}})

@@ -1,0 +1,26 @@
+"""The proof of how many limit cycles a view has: what is proved, the certificate, and the program that checks it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from codim2_core.cycles.limit_cycles import proof_of
+from codim2_core.words import printed
+
+from .view import View
+
+
+def proof(view: View) -> bytes:
+    """Search for a proof; return, as JSON, what `Proof` holds, and the text of the checker beside a certificate."""
+    found = proof_of(view.scene().problem)
+    checker = None if found.certificate is None else Path(found.checker()).read_text(encoding="utf-8")
+    return json.dumps(
+        {
+            "whole": found.whole,
+            "cycles": found.cycles,
+            "sentence": printed(found.reason),
+            "certificate": found.certificate,
+            "checker": checker,
+        }
+    ).encode()
