@@ -11,12 +11,12 @@ from typing import Any
 from ..draw.layers import LAYERS
 from ..draw.packing import Rectangle
 from ..frame.window import Window
+from ..slow_layers.proof import proof
 from ..state.chosen import System_
 from .figure import THEMES, Style, figure
 from .files import DATA
 from .film import STYLE, film
 from .live import MOST_SLIDERS, live
-from .proof import proof
 from .view import WHOLE, View
 
 #: Bytes of a file; what holds more goes by the command line.
@@ -111,7 +111,7 @@ def taken(view: View, wish: Wish) -> tuple[str, bytes]:
         "svg": lambda one: figure(one, wish.style).encode(),
         "html": lambda one: live(one, wish.sliders),
         "gif": lambda one: film(one, wish.slider, style=wish.moving),
-        "proof": proof,
+        "proof": lambda one: proof(one.scene()),
     }.get(wish.kind) or DATA[f".{wish.kind}"]
     made = make(view)
     if len(made) > MOST:

@@ -296,6 +296,7 @@ ELSEWHERE = {
     "mark away": "tests/app/lessons/test_lessons.py",
     "nothing to play": "tests/app/export/test_film.py",
     "film stopped": "tests/app/view/test_taking.py",
+    "proof stopped": "tests/app/view/test_taking.py",
     "compiling": "tests/app/view/test_notebook.py",
     "axis given": "tests/app/panels/parameters/test_axes.py",
     "no rooms": "tests/app/rooms/test_rooms.py",

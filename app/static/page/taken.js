@@ -19,7 +19,7 @@ export class Takes {
 
   // The last wish is no longer wanted, or the last of a kind; its answer says so.
   stop(kind = "") {
-    this.send({take: {id: kind ? this.latest[kind] : this.count, stop: true, kind}})
+    this.send({take: {id: kind ? this.latest[kind] : this.count, stop: true, ...kind && {kind}}})
   }
 
   // Whether a message was the answer to a wish.

@@ -23,6 +23,14 @@ test("a wish is sent with what is seen, and its answer comes back to it", async 
   assert.equal(takes.waiting.size, 0)
 })
 
+test("of several wishes the last of one kind can be left, and the others go on", () => {
+  const sent = [], takes = new Takes((message) => sent.push(message), () => ({}))
+  takes.ask({kind: "proof"})
+  takes.ask({kind: "svg"})
+  takes.stop("proof")
+  assert.deepEqual(sent.at(-1), {take: {id: 1, stop: true, kind: "proof"}})
+})
+
 test("a film tells how far it is until it is there, and can be stopped", async () => {
   const sent = [], told = []
   const takes = new Takes((message) => sent.push(message), () => ({window: null, layers: []}))

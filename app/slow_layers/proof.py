@@ -1,4 +1,4 @@
-"""The proof of how many limit cycles a view has: what is proved, the certificate, and the program that checks it."""
+"""The proof of how many limit cycles a scene has: what is proved, the certificate, and the program that checks it."""
 
 from __future__ import annotations
 
@@ -6,14 +6,13 @@ import json
 from pathlib import Path
 
 from codim2_core.cycles.limit_cycles import proof_of
+from codim2_core.scene import Scene
 from codim2_core.words import printed
 
-from .view import View
 
-
-def proof(view: View) -> bytes:
+def proof(scene: Scene) -> bytes:
     """Search for a proof; return, as JSON, what `Proof` holds, and the text of the checker beside a certificate."""
-    found = proof_of(view.scene().problem)
+    found = proof_of(scene.problem)
     checker = None if found.certificate is None else Path(found.checker()).read_text(encoding="utf-8")
     return json.dumps(
         {
