@@ -45,8 +45,6 @@ def _add_system(command: Any) -> None:
     for name in ("f1", "f2"):
         command.add_argument(f"--{name}", type=float, default=0.0)
     _add_psi(command)
-    command.add_argument("--json", action="store_true", help="as JSON")
-    command.set_defaults(run=classify)
 
 
 def _add_psi(command: argparse.ArgumentParser) -> None:

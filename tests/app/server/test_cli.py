@@ -1,4 +1,5 @@
 import pytest
+from codim2_app.lessons import library
 from codim2_app.server.cli import main, parser
 
 
@@ -28,6 +29,15 @@ def test_a_command_is_needed():
         main([])
 
 
+@pytest.fixture
+def only_the_course():
+    """Take back what a test offers: the same process may draw the list of lessons afterwards."""
+    yield
+    library._own.clear()
+    library.lessons.cache_clear()
+
+
+@pytest.mark.usefixtures("only_the_course")
 def test_lessons_of_a_lecturer_and_what_is_wrong_with_one(tmp_path, capsys):
     import socket
 
