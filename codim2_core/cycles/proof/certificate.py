@@ -99,6 +99,21 @@ def to_equator(flow: Flow, inner: Ring, outward: bool) -> Way:
     return [*led[::-1], *spiralled[::-1], *loop, *section]
 
 
+def _written(problem: LayerProblem, flow: Flow, walks: list[Any], rings: list[Any]) -> Written:
+    """Write a certificate; where the plane is mirrored, all ways go back, so that they go round as before."""
+    if flow.mirror < 0:
+        walks = [[_mirrored(way), sense] for way, sense in walks]
+        rings = [
+            [[_mirrored(row) for row in rows], [path[::-1] for path in paths], *rest, [x, -y]]
+            for rows, paths, *rest, (x, y) in rings
+        ]
+    return head(problem) | {"walks": walks, "rings": rings}
+
+
+def _mirrored(way: Way) -> Way:
+    return [[x, -y, *rest] for x, y, *rest in reversed(way)]
+
+
 def head(problem: LayerProblem) -> Written:
     """Return what a certificate says of its system: numbers as they were given, not rounded."""
     a, b, c, d, f, g = problem.at.affine or (0.0,) * 6
@@ -122,7 +137,7 @@ def written(problem: LayerProblem, flow: Flow, crossings: list[float]) -> Writte
         outward = not outward
     if rings[-1].outer.places:
         walks.append([to_equator(flow, rings[-1], outward), flow.sense * (-1 if outward else 1)])
-    return head(problem) | {"walks": walks, "rings": [_ring(flow, ring, k) for k, ring in enumerate(rings)]}
+    return _written(problem, flow, walks, [_ring(flow, ring, k) for k, ring in enumerate(rings)])
 
 
 def alone(problem: LayerProblem, flow: Flow, crossing: float) -> Written:
@@ -131,7 +146,7 @@ def alone(problem: LayerProblem, flow: Flow, crossing: float) -> Written:
     outward = ring.sign < 0  # inside a cycle that attracts
     ways = (ring.inner, outward), (ring.outer, not outward)
     walks = [[finite(way.places), flow.sense * (-1 if out else 1)] for way, out in ways]
-    return head(problem) | {"walks": walks, "rings": [_ring(flow, ring, 1)]}
+    return _written(problem, flow, walks, [_ring(flow, ring, 1)])
 
 
 def _ring(flow: Flow, ring: Ring, k: int) -> list[Any]:

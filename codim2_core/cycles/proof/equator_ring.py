@@ -81,7 +81,7 @@ def _rise(flow: Flow, places: Array, h: Array) -> Array:
     found = []
     for far in (1.0, 1.5, 3.0, 10.0, 100.0, 1e5):
         for end in (places[:-1], places[1:]):
-            F, _ = fields(flow, far * end)
+            F, _ = fields(flow.psi, flow.numbers, far * end)
             beta, q = _flat(flow, far * end)
             e = far * end / q[:, None]
             U = F / q[:, None]

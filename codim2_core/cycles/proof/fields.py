@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
+from ...psi.function import Psi
 from ...psi.kernel import VECTOR
-from .flow import Flow
 
 Array = NDArray[np.float64]
 
 
-def fields(flow: Flow, places: Array) -> tuple[Array, Array]:
-    """Return F (n, 2) and its divergence (n,) at x2 (n, 2)."""
-    a, b, c, d, f, g = flow.numbers
+def fields(psi: Psi, numbers: Sequence[float], places: Array) -> tuple[Array, Array]:
+    """Return F (n, 2) and its divergence (n,) at x2 (n, 2), for numbers a, b, c, d (of A, by rows) and f, g."""
+    a, b, c, d, f, g = numbers
     s = (places**2).sum(axis=1)
-    kernel = flow.psi.kernel
+    kernel = psi.kernel
     with np.errstate(all="ignore"):
         value, slope = kernel.value(VECTOR, s), kernel.slope(VECTOR, s)
     q = np.sqrt(s + value)
@@ -24,9 +26,9 @@ def fields(flow: Flow, places: Array) -> tuple[Array, Array]:
     return q[:, None] * U, a + d + (1.0 + slope) * (e @ (f, g))
 
 
-def mean_divergence(flow: Flow, places: Array) -> float:
+def mean_divergence(psi: Psi, numbers: Sequence[float], places: Array) -> float:
     """Return the mean of div F over a closed orbit, in the time of F."""
     step = np.hypot(*np.diff(places, axis=0).T)
-    F, divergence = fields(flow, 0.5 * (places[1:] + places[:-1]))
+    F, divergence = fields(psi, numbers, 0.5 * (places[1:] + places[:-1]))
     time = step / np.hypot(*F.T)
     return float(divergence @ time / time.sum())

@@ -1,9 +1,11 @@
 """The e-linear layer problem as numbers to prove things with, and orbits of it when it is turned by a fixed angle.
 
-Time runs so that cycles go round anticlockwise: where they do not, U is -U here. In kappa_2 the orbits of the turned
-field ``R(angle) U`` cross those of U at that angle everywhere. Which angle closes the orbit through a place of the
-section says how U itself winds there: it is positive where orbits come back farther out, and zero on a limit cycle.
-Angles and lengths are those of coordinates in which a cycle is as round as can be: in x2 it may be a sliver.
+Time runs so that a cycle attracts, and the plane is mirrored where it then goes round clockwise: what is off a cycle
+that repels strongly is never seen to close. Where no cycle is given, time runs so that orbits go round anticlockwise.
+In kappa_2 the orbits of the turned field ``R(angle) U`` cross those of U at that angle everywhere. Which angle closes
+the orbit through a place of the section says how U itself winds there: it is positive where orbits come back farther
+out, and zero on a limit cycle. Angles and lengths are those of coordinates in which a cycle is as round as can be: in
+x2 it may be a sliver.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ from numpy.typing import NDArray
 
 from ...layer_problem.problem import LayerProblem
 from ...psi.kernel import SCALAR
+from .fields import mean_divergence
 
 Array = NDArray[np.float64]
 Place = tuple[float, float]
@@ -35,6 +38,8 @@ class Undecided(Exception):
 class Flow:
     """The velocity of an e-linear layer problem in kappa_2, anticlockwise, in units of its largest coefficient.
 
+    Places are those of a plane that may be mirrored, (x, mirror y).
+
     Parameters
     ----------
     problem : LayerProblem
@@ -42,7 +47,7 @@ class Flow:
     steps : int
         How many steps may be made.
     cycle : ndarray (m, 2), optional
-        x2 on a cycle, which lengths are to make round; by default, the orbits near a focus C.
+        x2 on a cycle, which is to attract, and which lengths are to make round; by default, the orbits near a focus C.
 
     Attributes
     ----------
@@ -50,6 +55,8 @@ class Flow:
         Of determinant 1: lengths are those of ``frame @ x2``.
     sense : int
         1, or -1 where time runs backward here.
+    mirror : int
+        1, or -1 where y is -y here.
     reach : float
         Length of the section in e, from C to the equator.
     """
@@ -58,9 +65,12 @@ class Flow:
         affine = problem.at.affine
         assert affine is not None
         self.left, self.psi = steps, problem.psi
-        self.sense = 1 if affine[2] > affine[1] else -1
+        turns = 1 if affine[2] > affine[1] else -1
+        self.sense = turns if cycle is None else -1 if mean_divergence(problem.psi, affine, cycle) > 0.0 else 1
+        self.mirror = turns * self.sense
         size = self.sense * max(map(abs, affine))
-        self.numbers = (a, b, c, d, f, g) = tuple(value / size for value in affine)
+        a, b, c, d, f, g = (value / size for value in affine)
+        self.numbers = (a, b, c, d, f, g) = a, self.mirror * b, self.mirror * c, d, f, self.mirror * g
         kernel = problem.psi.kernel
         self.value: Callable[[float], float] = partial(kernel.value, SCALAR)
         self.slope: Callable[[float], float] = partial(kernel.slope, SCALAR)
@@ -68,7 +78,7 @@ class Flow:
         self.e_C = (b * g - d * f) / det, (c * f - a * g) / det
         self.u, self.reach = self._section()
         self.C = self.place(0.0)
-        self.frame = np.linalg.cholesky(self._at_C() if cycle is None else _rounding(cycle)).T
+        self.frame = np.linalg.cholesky(self._at_C() if cycle is None else _rounding(cycle * (1, self.mirror))).T
         self.metric: tuple[float, float, float] = tuple((self.frame.T @ self.frame).ravel()[[0, 1, 3]].tolist())
 
     def _at_C(self) -> Array:

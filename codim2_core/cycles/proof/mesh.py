@@ -56,7 +56,7 @@ def spread(flow: Flow, places: Array, angles: Array, count: int) -> Array:
     step = np.diff(places, axis=0) @ flow.frame.T
     toward = np.arctan2(step[:, 1], step[:, 0])
     turn = np.abs(np.mod(np.diff(np.append(toward, toward[0])) + math.pi, math.tau) - math.pi)
-    change = np.abs(np.diff(fields(flow, places)[1]))
+    change = np.abs(np.diff(fields(flow.psi, flow.numbers, places)[1]))
     parts = [np.hypot(*step.T), 0.5 * (turn + np.roll(turn, 1)), change]
     share = np.concatenate([[0.0], np.cumsum(sum(part / max(float(part.sum()), 1e-300) for part in parts))])
     return np.interp(np.linspace(0.0, share[-1], count + 1), share, angles)

@@ -93,7 +93,7 @@ def _in_kappa_2(p: Array) -> Array:
 
 def _crossing(flow: Flow, p: Array) -> float:
     """Return where a cycle crosses the section: its distance from C in e."""
-    beside = [flow.beside(x, y) for x, y in _in_kappa_2(p).tolist()]
+    beside = [flow.beside(x, flow.mirror * y) for x, y in _in_kappa_2(p).tolist()]
     for (along, before), (onward, after) in pairwise(beside):
         if (before < 0.0) != (after < 0.0) and (along > 0.0 or onward > 0.0):
             r = along - before * (onward - along) / (after - before)

@@ -77,14 +77,14 @@ def loop(flow: Flow, r: float, angle: float, longest: float = LONGEST) -> Loop |
 def about_C(flow: Flow, first: float) -> Ring:
     """Find a ring about C, inside the first cycle, in which the divergence has one sign."""
     C = np.array(flow.C)
-    at_C = float(fields(flow, C[None])[1][0])
+    at_C = float(fields(flow.psi, flow.numbers, C[None])[1][0])
     sign = 1 if at_C > 0.0 else -1
     r = min(0.5 * first, 0.3 * flow.reach)
     while r > 1e-5 * flow.reach:
         way = loop(flow, r, flow.closing(r))
         places = np.array([] if way is None else way.places).reshape(-1, 2)
         inside = np.concatenate([C + share * (places - C) for share in (0.3, 0.65, 1.0)])
-        if way is not None and (sign * fields(flow, inside)[1]).min() > DEFINITE * abs(at_C):
+        if way is not None and (sign * fields(flow.psi, flow.numbers, inside)[1]).min() > DEFINITE * abs(at_C):
             layers = [[[*flow.C, 1.0]], [[x, y, 1.0] for x, y in way.places]]
             path = [1] * (len(places) - 1)
             return Ring(Loop(0.0, []), way, layers, [[0.0], [0.0] * len(places)], [path], sign, (1, 0), flow.C)
@@ -95,7 +95,7 @@ def about_C(flow: Flow, first: float) -> Ring:
 def about(flow: Flow, height: float, room_in: float, room_out: float) -> Ring:
     """Find a ring about a cycle at this height, in which the weighted divergence has one sign."""
     orbit = _orbit(flow, height, 0.0)
-    middle, mean = orbit[:-1].mean(axis=0), mean_divergence(flow, orbit)
+    middle, mean = orbit[:-1].mean(axis=0), mean_divergence(flow.psi, flow.numbers, orbit)
     toward = directions(flow, orbit, middle)
     if toward is None:
         raise Undecided("proof fails at a cycle")

@@ -51,7 +51,7 @@ def weights(flow: Flow, mesh: Mesh, mean: float) -> list[list[float]] | None:
     hats[:, 1] = np.stack([second[:, 1], -second[:, 0]], axis=1) / size[:, None]
     hats[:, 2] = np.stack([-first[:, 1], first[:, 0]], axis=1) / size[:, None]
     hats[:, 0] = -hats[:, 1] - hats[:, 2]
-    F, divergence = fields(flow, places)
+    F, divergence = fields(flow.psi, flow.numbers, places)
     sign, asked = math.copysign(1.0, mean), abs(mean)
     values = sign * np.einsum("tkx,tvx->tvk", hats, F[corners]).reshape(-1, 3)
     rows = np.repeat(np.arange(3 * len(corners)), 3)
