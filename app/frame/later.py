@@ -36,7 +36,28 @@ async def others_first() -> None:
         await asyncio.sleep(0)
 
 
-_one_by_one: WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock] = WeakKeyDictionary()
+class _Way:
+    """Through which those pass one by one who are called, after one that was long only once others were answered.
+
+    Nobody waits in it for a page: one whose line stands still holds its document, and nothing else.
+    """
+
+    def __init__(self) -> None:
+        self._lock, self._long = asyncio.Lock(), False
+
+    async def passed(self) -> None:
+        """Return when it is free."""
+        async with self._lock:
+            if self._long:
+                self._long = False
+                await others_first()
+
+    def took(self, seconds: float) -> None:
+        """Note the processor time of one who has passed."""
+        self._long = self._long or seconds >= LONG
+
+
+_ways: WeakKeyDictionary[asyncio.AbstractEventLoop, _Way] = WeakKeyDictionary()
 
 
 def later(document: Document) -> Later:
@@ -45,21 +66,18 @@ def later(document: Document) -> Later:
 
 
 async def _called(document: Document, function: Callable[[], None]) -> None:
-    took = 0.0
+    way = _ways.setdefault(asyncio.get_running_loop(), _Way())
 
     async def call(its: Document) -> None:
-        nonlocal took
         began = time.thread_time()
         with patch_curdoc(its):
             try:
                 function()
             except Exception:  # the loop would log it too, and its task, the error and their frames hold each other
                 logging.getLogger(__name__).exception("a page could not be answered")
-        took = time.thread_time() - began
+        way.took(time.thread_time() - began)
 
-    async with _one_by_one.setdefault(asyncio.get_running_loop(), asyncio.Lock()):
-        context = document.session_context
-        if context is not None:
-            await context.with_locked_document(call)
-        if took >= LONG:
-            await others_first()
+    await way.passed()
+    context = document.session_context
+    if context is not None:
+        await context.with_locked_document(call)

@@ -104,6 +104,30 @@ def test_what_is_long_comes_one_after_the_other_and_others_are_answered_between(
     assert min(between) >= MESSAGE if long else max(between) <= 2
 
 
+def test_a_page_whose_line_stands_still_holds_up_no_other(monkeypatch):
+    """Bokeh holds a document for as long as what it has written to its page is under way."""
+    monkeypatch.setattr(module, "LONG", 0.0)
+
+    async def asked():
+        (still, context), (other, _kept) = opened(), opened()
+        done, flows = [], asyncio.Event()
+
+        async def written(_):
+            await flows.wait()
+
+        first = asyncio.ensure_future(context.with_locked_document(written))
+        await turns(1)
+        for document, name in ((still, "still"), (other, "other"), (still, "still again"), (other, "other again")):
+            later(document)(lambda name=name: done.append(name))
+        await turns(6 * TURNS)
+        flows.set()
+        await turns(6 * TURNS)
+        await first
+        return done
+
+    assert alone(asked()) == ["other", "other again", "still", "still again"]
+
+
 @pytest.mark.parametrize("gone", ["destroyed", "forgotten"])
 def test_it_is_not_called_once_the_session_is_over(gone):
     async def asked():
