@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from functools import partial
 from typing import Any
@@ -10,7 +10,7 @@ from typing import Any
 from panel.models.esm import ESMEvent
 from tornado.ioloop import IOLoop
 
-from ..frame.later import later
+from ..frame.later import Later, later
 from ..rooms.visitor import Visitor
 from .refresh import Frames
 from .taking import Taking
@@ -23,6 +23,34 @@ def send(model: Any, message: dict[str, Any]) -> None:
     """Send to the one page that shows a model, if it is still there."""
     if model.document is not None:
         model.document.callbacks.send_event(ESMEvent(model=model, data=message))
+
+
+class _Held:
+    """An answer that waits. Who keeps what it waits for keeps nothing of its page once it is given, or the page gone.
+
+    Parameters
+    ----------
+    soon : Later
+    answer : callable
+        Gives it; called once at most.
+    """
+
+    def __init__(self, soon: Later, answer: Callable[[], None]) -> None:
+        self._waits: tuple[Later, Callable[[], None]] | None = (soon, answer)
+
+    def come(self, *_: object) -> None:
+        """Have it given in its turn; any thread may say so."""
+        waits = self._waits
+        if waits is not None:
+            waits[0](self._give)
+
+    def _give(self) -> None:
+        if self._waits is not None:
+            self._waits[1]()
+
+    def let_go(self) -> None:
+        """Hold nothing any more."""
+        self._waits = None
 
 
 class Answers:
@@ -38,7 +66,7 @@ class Answers:
         self.frames = frames
         self.taking = Taking(frames)
         self.visitor = Visitor(frames)
-        self._held: object = None  # the frame that waits; a newer one replaces it
+        self._held: _Held | None = None  # the frame that waits; a newer one replaces it
 
     def answer(self, model: Any, request: Any) -> None:
         """Answer a request: for a file (``take``), of a room (``room``), else for a frame; see `Frames.answer`."""
@@ -61,28 +89,28 @@ class Answers:
         self.frames.publish()
 
     def _reply(self, model: Any, frame: bytes) -> None:
-        self._held = None
+        self._let_go()
         send(model, {"frame": frame})
+
+    def _let_go(self) -> None:
+        if self._held is not None:
+            self._held.let_go()
+            self._held = None
 
     def _hold(self, model: Any, pending: Future[Any], request: dict[str, Any]) -> None:
         """Answer once the picture is there, or soon without it: the browser then asks again, with its newest values."""
-        held = self._held = object()
-        soon = later(model.document)
+        self._let_go()
 
         def answer() -> None:
-            if self._held is held:
-                self._reply(model, self.frames.answer(request))
-                self.frames.publish()
+            self._reply(model, self.frames.answer(request))
+            self.frames.publish()
 
-        def late() -> None:
-            if self._held is held:
-                soon(answer)
-
-        IOLoop.current().call_later(PATIENCE, late)
-        pending.add_done_callback(lambda _: soon(answer))
+        held = self._held = _Held(later(model.document), answer)
+        IOLoop.current().call_later(PATIENCE, held.come)
+        pending.add_done_callback(held.come)
 
     def leave(self) -> None:
         """Stop what is computed for this browser alone: it has gone."""
-        self._held = None
+        self._let_go()
         self.frames.jobs.leave()
         self.visitor.leave()

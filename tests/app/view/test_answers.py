@@ -1,5 +1,7 @@
 """A frame that waits for its picture: what was asked for with it is answered once the picture is there."""
 
+import gc
+import weakref
 from concurrent.futures import Future
 from types import SimpleNamespace
 
@@ -71,3 +73,33 @@ def test_an_answer_comes_soon_without_its_picture_unless_nobody_waits_for_it(hel
     for answer in soon:
         answer()
     assert len(sent) == (meanwhile in ("nothing", "answered"))
+
+
+class Model:
+    """A page's model, of which one can see whether somebody holds it."""
+
+    def __init__(self, document):
+        self.document = document
+
+
+@pytest.mark.parametrize("how", ["answered late", "left", "asked again"])
+def test_what_was_waited_for_holds_no_page_that_waits_no_more(held, how):
+    """A picture that others want too, or that is kept, outlives the page that asked for it."""
+    _, soon, late, document = held
+    made, model = Answers(frames := Frames()), Model(document)
+    pending, page = frames.pending, weakref.ref(model)
+    frames.jobs, made.visitor = SimpleNamespace(leave=lambda: None), SimpleNamespace(leave=lambda: None)
+    made.answer(model, {"id": 7})
+    if how == "answered late":
+        late[0][1]()
+        soon.pop()()
+    elif how == "left":
+        made.leave()
+    else:
+        frames.pending = None
+        made.answer(model, {"id": 8})
+    del made, model, frames
+    gc.collect()
+    assert page() is None
+    pending.set_result(None)
+    assert soon == []
