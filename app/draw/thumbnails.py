@@ -46,6 +46,10 @@ def thumbnails(
         changed = system, psi, z
         for axis, value in zip(names, place, strict=True):
             changed = varied(*changed, axis, value)
-        scene = Scene(*changed, count=COUNT, view=VIEW * 1.4, pixel=PIXEL)
-        drawn.append([region, name, [float(v) for v in place], small(scene, VIEW)])
+        drawn.append([region, name, [float(v) for v in place], thumbnail(*changed)])
     return drawn
+
+
+def thumbnail(system: Any, psi: Psi, z: tuple[float, ...]) -> str:
+    """Draw one small portrait, as SVG."""
+    return small(Scene(system, psi, z, count=COUNT, view=VIEW * 1.4, pixel=PIXEL), VIEW)

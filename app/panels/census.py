@@ -8,12 +8,10 @@ from codim2_core.counting.census import census
 from codim2_core.counting.table import Row
 from codim2_core.portrait.classify import classify
 from codim2_core.psi import constructors
-from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
-from ..draw.svg import small
-from ..draw.thumbnails import COUNT, PIXEL, VIEW
+from ..draw.thumbnails import thumbnail
 from ..frame.draft import Draft
 from ..state.choices import CENSUSES, MOST_CENSUS
 from ..state.chosen import NORMAL, OWN
@@ -56,11 +54,7 @@ def _six(value: float) -> float:
 
 def _portraits(rows: tuple[Row, ...]) -> dict[str, str]:
     """Return a small portrait of each example, by name, as SVG."""
-    psi = constructors.constant()
-    scenes = {
-        row.name: Scene(_with(row, _rounded(row)), psi, count=COUNT, view=VIEW * 1.4, pixel=PIXEL) for row in rows
-    }
-    return {name: small(scene, VIEW) for name, scene in scenes.items()}
+    return {row.name: thumbnail(_with(row, _rounded(row)), PSI, ()) for row in rows}
 
 
 def _rounded(row: Row) -> tuple[float, ...]:

@@ -46,14 +46,13 @@ class Kept:
     @property
     def systems(self) -> int:
         """How many systems are counted."""
-        return sum(entry.systems for tally in (self.whole, *self.ahead.values()) for entry in tally.found.values())
+        return sum(tally.systems for tally in (self.whole, *self.ahead.values()))
 
     def add(self, chunk: int, tally: Tally) -> None:
         """Count one more chunk."""
         self.ahead[chunk] = tally
         while self.upto in self.ahead:
-            last = self.ahead[self.upto]
-            if sum(entry.systems for entry in last.found.values()) < self.chunk:
+            if self.ahead[self.upto].systems < self.chunk:
                 break
             self.whole = self.whole.joined(self.ahead.pop(self.upto))
             self.upto += 1
@@ -71,7 +70,7 @@ class Kept:
         """Write the file, whole or not at all."""
         if self.path is None:
             return
-        full = {i: t for i, t in self.ahead.items() if sum(entry.systems for entry in t.found.values()) == self.chunk}
+        full = {i: t for i, t in self.ahead.items() if t.systems == self.chunk}
         record = {
             "census": self._mark(),
             "chunks": self.upto,

@@ -82,7 +82,7 @@ class Census:
 
 def tabulated(tally: Tally, plan: Plan, chunk: int) -> Census:
     """Return the census of what is counted; its examples are drawn again, `chunk` systems at a time."""
-    total = sum(entry.systems for entry in tally.found.values())
+    total = tally.systems
     places = {place for entry in tally.found.values() for place in (entry.typical, entry.marginal)}
     systems = _drawn_again(plan, places, chunk, total)
     rows = [

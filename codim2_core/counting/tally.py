@@ -30,7 +30,6 @@ ENDINGS = {
     "undecided": "undecided",
     "misses": "almost none arrives",
 }
-_INDEX = {"saddle": -1, "saddle-node": 0}  # of a critical set by its kind; of all others 1
 
 
 class Found(NamedTuple):
@@ -49,6 +48,11 @@ class Tally:
 
     found: dict[str, Found]
     contradictions: int = 0
+
+    @property
+    def systems(self) -> int:
+        """How many systems there are of all names."""
+        return sum(entry.systems for entry in self.found.values())
 
     def joined(self, other: Tally) -> Tally:
         """Return both together; of equal margins this one's example is kept."""
@@ -130,7 +134,7 @@ def _of_one(problem: LayerProblem, margin: float, outcomes: bool, place: Place) 
     if named.degeneracies:
         return Tally({name: Found(1, 0.0, place, 0.0, place)})
     turns = problem.equator.turns
-    contradicts = turns is not None and turns != sum(_INDEX.get(C.kind, 1) for C in problem.critical)
+    contradicts = turns is not None and turns != sum(C.index for C in problem.critical)
     return Tally({name: Found(1, margin, place, margin, place)}, int(contradicts))
 
 

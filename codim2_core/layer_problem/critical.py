@@ -69,6 +69,11 @@ class CriticalSet(Tabled):
     kind: str
     slow_flow: NDArray[np.float64]
 
+    @property
+    def index(self) -> int:
+        """How often U turns about it, read from its kind: -1 for a saddle, 0 for a saddle-node, else 1."""
+        return {"saddle": -1, "saddle-node": 0}.get(self.kind, 1)
+
     def _row_(self) -> tuple[str, ...]:
         return point(self.e), self.kind, number(self.trace), number(self.determinant), point(self.slow_flow)
 

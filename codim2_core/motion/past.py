@@ -43,14 +43,26 @@ class Past(NamedTuple):
         rtol : float
             Its tolerance: differences that it cannot tell.
         """
-        k = _known(run.motion, problem, math.log(AGREE / rtol))
+        return cls.upto(run, _known(run.motion, problem, math.log(AGREE / rtol)), "past forgotten")
+
+    @classmethod
+    def upto(cls, run: Simulation, k: int, why: str) -> Past:
+        """Return what the first k steps of a motion that was followed backwards tell.
+
+        Parameters
+        ----------
+        run : Simulation
+        k : int
+        why : str
+            The sentence, by its key, that says why no more are told, if there are more.
+        """
         motion = run.motion.upto(k).backwards()
         first = float(motion.times[0])
         events = tuple(tuple(t for t in (-times[::-1]).tolist() if t >= first) for times in run.events)
         if k == len(run.motion.lengths):
             detail = run.reason.removeprefix(run.status.value).strip()
             return cls(motion, run.status, detail, run.evaluations, events)
-        return cls(motion, SimulationStatus.FORGOTTEN, say("past forgotten", t=first), run.evaluations, events)
+        return cls(motion, SimulationStatus.FORGOTTEN, say(why, t=first), run.evaluations, events)
 
 
 def _known(motion: Dense, problem: Problem, most: float) -> int:

@@ -268,9 +268,6 @@ def _filippov(facts: Facts) -> Certificate:
 # Index and limit cycles --------------------------------------------------------------------------------------------
 
 
-_INDEX = {"saddle": -1, "saddle-node": 0}
-
-
 def _index(facts: Facts) -> Certificate:
     theorem = "sec:geneps0, index theory"
     statement = say("index")
@@ -283,7 +280,7 @@ def _index(facts: Facts) -> Certificate:
         return not_applicable(theorem, statement, say("index not defined"))
     theta = np.linspace(0.0, 2.0 * math.pi, 721)
     U = facts.at.U(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
-    index = float(sum(_INDEX.get(C.kind, 1) for C in facts.critical))
+    index = float(sum(C.index for C in facts.critical))
     holds = degree == index
     numbers: list[tuple[str, float]] = [("sum of the indices", index), ("turns, from λ_ρ and Θ", float(degree))]
     steps = np.diff(np.unwrap(np.arctan2(U[:, 1], U[:, 0])))
