@@ -31,13 +31,14 @@ COPY .github/hosting/requirements.txt ./
 COPY --from=wheel /wheels /wheels
 COPY --from=site /site /srv/codim2/site
 # Tests, examples, stubs and source maps of the dependencies, a quarter of them all, are of no use here; nor is what
-# Panel brings for maps, VTK and Perspective, 36 MB that no page of the explorer asks for.
+# Panel brings for maps, VTK, Perspective, editors and Plotly, 52 MB that no page of the explorer asks for.
 RUN pip install --no-cache-dir --require-hashes -r requirements.txt \
     && pip install --no-cache-dir --no-deps /wheels/*.whl \
     && cd "$(python -c 'import panel; print(panel.__path__[0])')/.." \
     && find . -type d \( -name tests -o -name test \) -prune -exec rm -rf {} + \
     && find . \( -name "*.map" -o -name "*.pyi" \) -delete \
-    && (cd panel/dist/bundled && rm -r deckglplot abstractvtkplot perspective) && rm -r holoviews/examples \
+    && (cd panel/dist/bundled && rm -r deckglplot abstractvtkplot perspective aceplot plotlyplot) \
+    && rm -r holoviews/examples \
     && codim2 warm
 
 USER codim2

@@ -28,6 +28,7 @@ from ..view import warmup
 from ..view.first_markup import page_markup
 from .giving_way import one_by_one
 from .process.garbage import asked
+from .sockets import full
 
 TOKEN, MARKUP = "codim2-token", "<!-- codim2 markup -->"
 #: A script of Bokeh's that draws with WebGL, which the picture does not.
@@ -112,10 +113,7 @@ class Page(DocHandler):
         if own or "Bokeh-Session-Id" in self.request.headers or self.request.path == app.prefix != "":
             await super().get(*args, **kwargs)  # type: ignore[misc]  # a coroutine, under a decorator
             return
-        context: Any = self.application_context
-        if sum(session.connection_count > 0 for session in context.sessions) >= app.settings.get(
-            "most_sessions", 10**9
-        ):
+        if full(app, self.application_context):
             self.set_status(503)
             self.set_header("Retry-After", str(RETRY))
             self.finish(BUSY.format(RETRY))

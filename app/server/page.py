@@ -21,6 +21,7 @@ from ..docs.served import Docs, ToDocs
 from ..frame.jobs import serve_with
 from ..frame.turns import Turns
 from ..frame.workers import Workers, processors
+from ..phrases import say
 from ..rooms.board import Board
 from ..rooms.rooms import EVERY, MOST_ROOMS, Rooms
 from ..rooms.rooms import serve_with as serve_rooms
@@ -68,6 +69,7 @@ def session() -> ExplorerView:
     views[doc] = view
     doc.template = page_template()  # type: ignore[assignment]  # Bokeh takes a template's text as well
     doc.template_variables["explorer_script"] = address_of_script()
+    doc.template_variables["refused"] = {"full": say("places taken"), "other": say("no connection")}
     # Bokeh's own handler, which makes a session first, writes it
     doc.template_variables["explorer_markup"] = _Markup(query_of_the_page())
     return view

@@ -37,6 +37,9 @@ views: WeakKeyDictionary[Document, Any] = WeakKeyDictionary()
 #: The socket and the models of each page that is closed, which lose each other when Bokeh forgets its session.
 closed: WeakKeyDictionary[Document, list[Any]] = WeakKeyDictionary()
 
+#: Why a connection is closed before its page has begun, as codes of websockets: all places are taken; a fault here.
+FULL, FAILED = 1013, 1011
+
 _BOKEH = Path(bokeh.__file__).parent
 _log = logging.getLogger(__name__)
 
@@ -62,6 +65,12 @@ class _Parts:
         self.frames.append(data)
 
 
+def full(application: Any, context: Any) -> bool:
+    """Whether all places are taken: a session counts while its page is connected."""
+    there = sum(session.connection_count > 0 for session in context.sessions)
+    return there >= application.settings.get("most_sessions", 10**9)
+
+
 class PromptSocket(WSHandler):
     """Bokeh's websocket with one write for each message, without Nagle's algorithm, and with bounded messages.
 
@@ -80,12 +89,23 @@ class PromptSocket(WSHandler):
         self.set_nodelay(True)
 
     async def _async_open(self, token: str) -> None:
-        """Join the page, in its turn, to its session; one that is closed meanwhile would count as open for ever."""
+        """Join the page, in its turn, to its session; one that is closed meanwhile would count as open for ever.
+
+        A page that cannot be joined loses its connection, or it would wait for ever: it then says so.
+        """
         async with one_by_one(self.application):
             if self._gone:
                 return
-            with answering:
-                await super()._async_open(token)
+            if full(self.application, self.application_context):
+                self.close(FULL, "all places are taken")
+                return
+            try:
+                with answering:
+                    await super()._async_open(token)
+            except Exception:  # the loop would log it too, and leave the page without a word
+                _log.exception("a session could not be opened")
+                self.close(FAILED, "a session could not be opened")
+                return
             if self._gone:
                 self.on_close()
 
@@ -133,6 +153,9 @@ class PromptSocket(WSHandler):
             answer = await super()._handle(message)
         if isinstance(answer, Message) and answer.msgtype == "ERROR":
             answer.content = {"text": say("fault"), "traceback": None}  # Bokeh would tell where its files lie
+            if message.msgtype == "PULL-DOC-REQ":  # without its document a page has nothing to wait for
+                self.close(FAILED, "a session could not be shown")
+                return None
         return answer
 
     def _refuse(self, why: str) -> None:

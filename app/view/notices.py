@@ -33,7 +33,7 @@ def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
         named, some = values["lesson"][:40], ", ".join(list(lessons())[:3])
         said.append(say("no such lesson", name=named, some=some))
     try:
-        launch_of(values, system.m)
+        launch_of(values, system)
     except InputError as error:
         said.append(str(error))
     return said

@@ -21,6 +21,7 @@ from weakref import ref
 import panel as pn
 
 from .left_behind import Old, bring_back
+from .returned import give_back
 
 EVERY = 0.25  # seconds between looks
 QUIET = 0.5  # seconds without a request
@@ -31,6 +32,8 @@ REST = 5.0
 #: two visits); and beyond which it no longer waits for quiet.
 SOME, MOST = 1, 2
 NEVER = 10**6
+#: Sessions that are due, beyond which two are searched at once: where more came than looks, they would pile up.
+BEHIND = 8
 #: How often what a session had is searched, each time after twice as long, while something of it is still in use.
 TRIES = 6
 #: Sessions of which something is still there, and objects that are frozen beyond those of `begin` and of sessions
@@ -112,8 +115,7 @@ def look() -> None:
     if quiet >= REST and (_stuck or (_ended and not _documents and now - _ended >= REST)):
         _search_all()
     elif due := [session for session in _left if now >= session.due + (0.0 if quiet >= QUIET else REST)]:
-        _left.remove(due[0])
-        _search_session(due[0])
+        _search_sessions(due[: 1 + (len(due) > BEHIND)])
     elif gc.get_count()[2] >= (SOME if quiet >= QUIET else MOST):
         _search()
     elif _uncounted >= (COUNTED if quiet >= QUIET else 2 * COUNTED) and _many():
@@ -138,24 +140,28 @@ def _searches() -> int:
     return gc.get_stats()[2]["collections"]
 
 
-def _search_session(session: _Session) -> None:
-    """Search what a session had; if some of it is still in use, again later."""
+def _search_sessions(sessions: list[_Session]) -> None:
+    """Search what some sessions had; what is still in use of one, again later."""
     global _uncounted, _stuck
     assert _old is not None  # since before the first visitor
-    there = [ref(root) for root in session.roots]
-    bring_back(session.roots, _old)
-    session.roots.clear()
+    there = [[ref(root) for root in session.roots] for session in sessions]
+    bring_back([root for session in sessions for root in session.roots], _old)
+    for session in sessions:
+        _left.remove(session)
+        session.roots.clear()
     searched = _search()
-    session.roots = [root for one in there if (root := one()) is not None]
-    session.tried += searched
-    if session.roots and session.tried < TRIES:
-        session.due = time.monotonic() + (REST * 2**session.tried if searched else 0.0)
-        _left.append(session)
-    else:
-        _uncounted += 1
-        _stuck += bool(session.roots)
-        if _stuck >= STUCK:
-            _search_all()
+    give_back()
+    for session, were in zip(sessions, there, strict=True):
+        session.roots = [root for one in were if (root := one()) is not None]
+        session.tried += searched
+        if session.roots and session.tried < TRIES:
+            session.due = time.monotonic() + (REST * 2**session.tried if searched else 0.0)
+            _left.append(session)
+        else:
+            _uncounted += 1
+            _stuck += bool(session.roots)
+    if _stuck >= STUCK:
+        _search_all()
 
 
 def _many() -> bool:
@@ -173,6 +179,7 @@ def _search_all() -> None:
         _left.clear()
     gc.unfreeze()
     gc.collect()
+    give_back()
     if _old is None:
         _old = Old()
     else:

@@ -8,7 +8,7 @@ import panel as pn
 import pytest
 from codim2_app.server import page
 from codim2_app.server.process import garbage
-from codim2_app.server.process.garbage import MOST, QUIET, REST, SOME, STUCK, TRIES
+from codim2_app.server.process.garbage import BEHIND, MOST, QUIET, REST, SOME, STUCK, TRIES
 
 
 class Root:
@@ -29,6 +29,7 @@ class Play:
         for name, value in {
             "_asked": 0.0, "_ended": 0.0, "_documents": [], "_left": [], "_stuck": 0, "_uncounted": 0, "_frozen": 1000,
             "_old": "old", "Old": lambda: self.done.append("old") or "new", "bring_back": self.bring_back,
+            "give_back": lambda: self.done.append("give back"),
         }.items():  # fmt: skip
             monkeypatch.setattr(garbage, name, value)
         monkeypatch.setattr(garbage.time, "monotonic", lambda: self.now)
@@ -60,9 +61,10 @@ def play(monkeypatch):
     return Play(monkeypatch)
 
 
-ALL = ["unfreeze", "collect", "old"]
-ALL_BESIDE = ["unfreeze", "collect", "freeze"]
+ALL = ["unfreeze", "collect", "give back", "old"]
+ALL_BESIDE = ["unfreeze", "collect", "give back", "freeze"]
 YOUNG = ["collect", "freeze"]
+ENDED = [*YOUNG, "give back"]
 
 
 @pytest.mark.parametrize(
@@ -119,7 +121,7 @@ def test_what_a_session_had_is_searched_after_a_while_when_nobody_waits_or_after
             assert play.look(0.01) == []
             play.now += REST - 0.01
             garbage.asked()
-        assert play.look(0.01) == YOUNG
+        assert play.look(0.01) == ENDED
         assert play.back.pop() == ["Document", "Root"]
         assert play.look(60.0) == []
 
@@ -135,7 +137,7 @@ def test_what_of_a_session_is_still_in_use_is_searched_again_each_time_after_twi
     for tried in range(TRIES):
         after = REST * 2**tried
         assert play.look(after - 0.01) == []
-        assert play.look(0.02) == YOUNG
+        assert play.look(0.02) == ENDED
         found.append(play.back.pop())
     assert found == [["Document", "Root"], *[["Root"]] * (TRIES - 1)]
     assert there() is None
@@ -152,7 +154,7 @@ def test_a_session_that_is_in_use_keeps_none_of_the_others_waiting(play):
     garbage.begun(other := Document())
     garbage.ended(other)
     del other
-    assert play.look(REST) == YOUNG
+    assert play.look(REST) == ENDED
     assert garbage._left[0].roots == [held]
 
 
@@ -162,11 +164,26 @@ def test_while_another_thread_searches_nothing_is_frozen_and_what_a_session_had_
     garbage.begun(document := Document())
     garbage.ended(document)
     play.free = False
-    assert play.look(REST) == ["collect"]
+    assert play.look(REST) == ["collect", "give back"]
     play.free = True
-    assert play.look() == YOUNG
+    assert play.look() == ENDED
     assert play.back == [["Document"]] * 2
     assert garbage._left[0].tried == 1
+
+
+def test_of_many_sessions_that_are_due_two_are_searched_at_once_and_what_was_freed_is_given_back(play):
+    """Where more ended than there are looks, they would pile up."""
+    garbage.begun(Document())
+    for _ in range(BEHIND + 2):
+        garbage.begun(document := Document())
+        garbage.ended(document, Root())
+    del document
+    play.now += REST
+    for left in (BEHIND, BEHIND - 1):
+        assert play.look() == ENDED
+        assert len(garbage._left) == left
+    assert [len(roots) for roots in play.back] == [4, 2]
+    assert garbage._uncounted == 3
 
 
 def test_all_that_lives_is_searched_once_nobody_is_there(play):
@@ -190,7 +207,7 @@ def test_all_that_lives_is_searched_when_much_of_what_has_ended_is_in_use_for_ev
         garbage.asked()
         done = play.look()
     assert there in garbage._documents
-    assert done == [*YOUNG, *(ALL_BESIDE if stuck == STUCK else ())]
+    assert done == [*ENDED, *(ALL_BESIDE if stuck == STUCK else ())]
     assert garbage._old == "old"  # what visitors hold is none of it
     assert garbage._stuck == stuck % STUCK
 
@@ -214,7 +231,7 @@ def test_all_that_lives_is_searched_when_much_is_frozen(play, more, quiet):
         garbage.begun(document := Document())
         garbage.ended(document)
         del document
-        assert looked() == YOUNG
+        assert looked() == ENDED
     assert looked() == (ALL_BESIDE if more else [])
     if more:
         assert garbage._frozen == play.frozen - 2 * garbage.OBJECTS
@@ -228,7 +245,7 @@ def test_all_that_lives_is_searched_when_nobody_asks_if_something_of_one_session
     garbage.begun(document := Document())
     garbage.ended(document)
     garbage._left[-1].tried = TRIES - 1
-    assert play.look(REST) == YOUNG
+    assert play.look(REST) == ENDED
     garbage.asked()
     assert play.look(REST - 0.01) == []
     assert play.look(0.01) == ALL_BESIDE
@@ -240,7 +257,7 @@ def test_nothing_of_a_session_that_is_being_opened_counts_as_old(play):
     garbage.begun(document := Document())
     garbage.ended(document)
     garbage.begun(opening := Document())
-    assert play.look(60.0) == YOUNG
+    assert play.look(60.0) == ENDED
     garbage.begun(opening)
     garbage.ended(opening)
     assert play.look(60.0) == ALL

@@ -91,7 +91,7 @@ def test_a_page_that_is_closed_while_it_opens_loses_its_connection_once(monkeypa
     monkeypatch.setattr(sockets, "closed", {})
     socket = PromptSocket.__new__(PromptSocket)
     socket.connection = None
-    socket.application = Application()
+    socket.application, socket.application_context = Application(), Places()
     if closed == "before":
         socket.on_close()
     run(socket._async_open(""))
@@ -100,6 +100,50 @@ def test_a_page_that_is_closed_while_it_opens_loses_its_connection_once(monkeypa
     assert done == {"never": ["opened"], "before": []}.get(closed, ["opened", "lost", "may be forgotten"])
     had = {} if closed in ("never", "before") else {Document: [socket, *Document.models]}
     assert sockets.closed == had
+
+
+class Places:
+    """Two sessions, of which one has its page."""
+
+    def __init__(self):
+        self.sessions = [type("Session", (), {"connection_count": count}) for count in (1, 0)]
+
+
+@pytest.mark.parametrize(("most", "fails", "code"), [(1, False, 1013), (2, True, 1011), (2, False, None)])
+def test_a_page_that_cannot_be_joined_loses_its_connection(monkeypatch, caplog, most, fails, code):
+    """Or it would wait for ever; one that came while there was a place may find none."""
+    done = []
+
+    async def opening(_, token):
+        done.append(token)
+        if fails:
+            raise RuntimeError("a fault")
+
+    monkeypatch.setattr(WSHandler, "_async_open", opening)
+    socket = PromptSocket.__new__(PromptSocket)
+    socket.application, socket.application_context = Application(most_sessions=most), Places()
+    socket.close = lambda code=None, _=None: done.append(code)
+    run(socket._async_open("token"))
+    assert done == (["token"] if code != 1013 else []) + ([code] if code else [])
+    assert ("could not be opened" in caplog.text) == fails
+
+
+@pytest.mark.parametrize(("asked", "code"), [("PULL-DOC-REQ", 1011), ("PATCH-DOC", None)])
+def test_a_page_without_its_document_loses_its_connection(monkeypatch, asked, code):
+    answer = Protocol().create("ERROR", "r1", "/secret/path")
+
+    async def failed(_, __):
+        return answer
+
+    closed = []
+    monkeypatch.setattr(WSHandler, "_handle", failed)
+    socket = PromptSocket.__new__(PromptSocket)
+    socket.application = Application()
+    socket.close = lambda code=None, _=None: closed.append(code)
+    told = run(socket._handle(Protocol().create("PULL-DOC-REQ") if asked == "PULL-DOC-REQ" else answer))
+    assert closed == ([code] if code else [])
+    assert told is (None if code else answer)
+    assert "secret" not in str(answer.content)
 
 
 def record_of(do):

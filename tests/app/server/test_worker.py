@@ -1,5 +1,6 @@
 """What the processes beside the frames are forked from."""
 
+import os
 import subprocess
 import sys
 
@@ -7,14 +8,28 @@ CODE = """
 import sys
 from codim2_app.server import worker
 known = set(sys.modules)
+print("the fork")
+from codim2_core.figures.presets import presets
 from codim2_core.orbits.trajectories import warm
 from codim2_core.psi import make
+from codim2_core.scene import Scene
+one = presets["blowup-stack"]
+scene = Scene(one.system, one.psi, one.z, launch=[(0.3, 0.2)])
+for layer in ("critical", "outside", "inside", "nullclines_inside", "closed_orbits", "launched"):
+    scene[layer]
+print("no kernel more")
 warm(make("hill"))
 print(*sorted(name for name in set(sys.modules) - known if name.startswith(("numba.", "llvmlite.", "scipy."))))
 """
 
 
-def test_a_first_kernel_imports_nothing_more_than_is_there_before_the_fork():
-    """Of Numba's and SciPy's: what it did import took each new worker most of a second."""
-    done = subprocess.run([sys.executable, "-c", CODE], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == []
+def test_a_picture_of_typed_formulas_needs_no_more_than_is_there_before_the_fork():
+    """Kernels took each new worker a second: while somebody moved something, none had one to draw his picture.
+
+    What a first kernel imported of Numba's and SciPy's took most of another.
+    """
+    environment = {**os.environ, "NUMBA_DEBUG_CACHE": "1"}
+    done = subprocess.run([sys.executable, "-c", CODE], capture_output=True, text=True, check=True, env=environment)
+    drawn, rest = done.stdout.split("the fork\n")[1].split("no kernel more\n")
+    assert drawn == ""
+    assert rest.splitlines()[-1] == ""  # modules
