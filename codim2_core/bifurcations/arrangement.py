@@ -1,6 +1,13 @@
 """The saddle-node curve and the ellipse |A^-1 f| = 1 as a planar graph of (f1, f2): its arcs, and the borders of faces.
 
-Its vertices are known in closed form (`Geometry`), and every arc between neighbours is smooth.
+Its vertices are known in closed form (`Geometry`), and every arc between neighbours is smooth. Where arcs of the two
+curves touch, angles do not tell them apart: at a fourfold contact (a or d is 0) they differ by the third power of the
+distance, and a cusp all but there leaves next to no distance. On the saddle-node curve
+
+    |A^-1 f|^2 - 1 = Lambda^2 (|adj(A) e|^2 - 2 det A) / det(A)^2
+
+and the bracket changes its sign at crossings only, which are vertices: so an arc of it is inside or outside the ellipse
+as a whole, and that is known without a comparison of what is nearly equal.
 """
 
 from __future__ import annotations
@@ -21,13 +28,15 @@ ARC = 33  # points drawn along an arc, and more where it turns by more than a de
 TURN = TAU / 360
 SAME = 1e-9  # of the size: points of the two curves nearer than this are one vertex
 ROUNDS = 60  # of Newton's method between bounds
+BESIDE = 0.01  # angle between arcs of the two curves below which it is inside or outside that tells their order
 
 
 class _Stop(NamedTuple):
-    """A parameter value on a curve at a vertex."""
+    """A parameter value on a curve at a vertex, and its point: for both curves the same one."""
 
     parameter: float
     vertex: int
+    point: tuple[float, float]
 
 
 @dataclass
@@ -40,8 +49,14 @@ class Half:
     start: int
     end: int
     twin: int
+    origin: tuple[float, float]  # its point at `low`
     points: Array
     used: bool = field(default=False)
+
+    @property
+    def middle(self) -> float:
+        """The parameter half way."""
+        return 0.5 * (self.low + self.high)
 
 
 def arrangement(plane: Geometry) -> list[Half]:
@@ -69,10 +84,11 @@ def arrangement(plane: Geometry) -> list[Half]:
         common = [*plane.touching, *plane.crossing] if has_ellipse else []
         own = [*plane.cusps, *(t for pair in plane.double for t in pair)]
         for theta in (*common, *own):
-            nodes.append(_Stop(theta, vertex(plane.saddle_node_at(theta))))  # noqa: PERF401 (vertex grows a list)
+            point = plane.saddle_node_at(theta)
+            nodes.append(_Stop(theta, vertex(point), point))
         for theta in common:
             point = plane.saddle_node_at(theta)
-            others.append(_Stop(plane.on_ellipse(point), vertex(point)))
+            others.append(_Stop(plane.meeting(theta), vertex(point), point))
     halves: list[Half] = []
     if has_nodes:
         _add_arcs(halves, plane, False, nodes, vertex)
@@ -90,7 +106,8 @@ def _add_arcs(
 ) -> None:
     curve = plane.ellipse if on_ellipse else plane.saddle_node
     if not stops:
-        stops = [_Stop(0.0, vertex((plane.ellipse_at if on_ellipse else plane.saddle_node_at)(0.0)))]
+        point = (plane.ellipse_at if on_ellipse else plane.saddle_node_at)(0.0)
+        stops = [_Stop(0.0, vertex(point), point)]
     stops = sorted(stops)
     merged = [stops[0]]
     for stop in stops[1:]:
@@ -98,14 +115,15 @@ def _add_arcs(
             merged.append(stop)
     if len(merged) > 1 and merged[-1].vertex == merged[0].vertex and merged[0].parameter + TAU - merged[-1][0] < 1e-3:
         merged.pop()
-    for i, (low, start) in enumerate(merged):
-        high, end = merged[i + 1] if i + 1 < len(merged) else (merged[0].parameter + TAU, merged[0].vertex)
+    for i, (low, start, origin) in enumerate(merged):
+        turned = merged[0]._replace(parameter=merged[0].parameter + TAU)
+        high, end, there = merged[i + 1] if i + 1 < len(merged) else turned
         points = curve(np.linspace(low, high, max(ARC, math.ceil((high - low) / TURN) + 1)))
         if start == end and float(abs(points - points[0]).max()) <= SAME * plane.size:
             continue
         index = len(halves)
-        halves.append(Half(on_ellipse, low, high, start, end, index + 1, points))
-        halves.append(Half(on_ellipse, high, low, end, start, index, points[::-1]))
+        halves.append(Half(on_ellipse, low, high, start, end, index + 1, origin, points))
+        halves.append(Half(on_ellipse, high, low, end, start, index, there, points[::-1]))
 
 
 def borders(halves: list[Half], plane: Geometry) -> list[tuple[Array, float]]:
@@ -140,10 +158,10 @@ def borders(halves: list[Half], plane: Geometry) -> list[tuple[Array, float]]:
 
 
 def _anticlockwise(halves: list[Half], plane: Geometry) -> list[list[int]]:
-    """Half-arcs leaving each vertex, in anticlockwise order, told apart at one small distance from it.
+    """Half-arcs leaving each vertex, in anticlockwise order: as they are seen at one small distance from it.
 
-    At a touching point the directions agree to second order and more: at this distance they still differ by far more
-    than rounding.
+    Of two arcs in nearly one direction, that of the saddle-node curve is on the left of the ellipse's, or on its right,
+    as it is inside or outside.
     """
     leaving: dict[int, list[int]] = {}
     for i, half in enumerate(halves):
@@ -156,7 +174,27 @@ def _anticlockwise(halves: list[Half], plane: Geometry) -> list[list[int]]:
     counts = [len(around) for around in crowded]
     starts = np.cumsum([0, *counts[:-1]])
     angles = dict(zip((i for around in crowded for i in around), _leaving(rays, counts, starts, plane), strict=True))
-    return [sorted(around, key=angles.__getitem__) if len(around) > 2 else around for around in groups]
+
+    def ordered(around: list[int]) -> list[int]:
+        if len(around) <= 2:
+            return around
+        round_ = [i for i in around if halves[i].on_ellipse]
+
+        def key(i: int) -> tuple[float, float, float]:
+            aside = [(math.remainder(angles[i] - angles[j], TAU), j) for j in round_ if not halves[i].on_ellipse]
+            off, beside = min(aside, key=lambda pair: abs(pair[0]), default=(math.inf, i))
+            if abs(off) > BESIDE:
+                return angles[i], 0.0, 0.0
+            return angles[beside], plane.outside(halves[i].middle) * _turning_right(halves[beside], plane), off
+
+        return sorted(around, key=key)
+
+    return [ordered(around) for around in groups]
+
+
+def _turning_right(half: Half, plane: Geometry) -> float:
+    """1 where the outside of the ellipse is on the left of a half-arc of it, else -1."""
+    return -math.copysign(1.0, (half.high - half.low) * plane.determinant_sign)
 
 
 def _leaving(rays: list[Half], counts: list[int], starts: NDArray[np.intp], plane: Geometry) -> list[float]:
@@ -166,15 +204,16 @@ def _leaving(rays: list[Half], counts: list[int], starts: NDArray[np.intp], plan
     way = np.array([ray.high for ray in rays]) - low
     step = np.copysign(np.minimum(0.05, 0.25 * np.abs(way)), way)
     # one origin for all: where nearly coincident points were merged, their small distances still tell the order
-    origin = _on_curves(plane, round_, low)[0][:, starts[group]]
-    x, y = _on_curves(plane, round_, low + step)[0] - origin
+    origins = np.array([ray.origin for ray in rays]).T
+    offset = origins - origins[:, starts[group]]
+    x, y = offset + _along_curves(plane, round_, low, step)[0]
     reach = np.hypot(x, y)
     radius = np.minimum.reduceat(reach, starts)[group]
     # Newton's method, kept between bounds, for the part of the step that leads as far as the shortest one
     u, below, above = np.ones(len(rays)), np.zeros(len(rays)), np.ones(len(rays))
     for _ in range(ROUNDS):
-        places, tangents = _on_curves(plane, round_, low + u * step)
-        x, y = places - origin
+        way, tangents = _along_curves(plane, round_, low, u * step)
+        x, y = offset + way
         distance = np.hypot(x, y)
         beyond = distance - radius
         open_ = np.abs(beyond) > 1e-12 * radius
@@ -188,10 +227,17 @@ def _leaving(rays: list[Half], counts: list[int], starts: NDArray[np.intp], plan
     return np.arctan2(y, x).tolist()
 
 
-def _on_curves(plane: Geometry, on_ellipse: NDArray[np.bool_], parameter: Array) -> tuple[Array, Array]:
-    """Points (2, n) of both curves, and their derivatives by the parameter."""
-    c, s = np.cos(parameter), np.sin(parameter)
+def _along_curves(plane: Geometry, on_ellipse: NDArray[np.bool_], start: Array, change: Array) -> tuple[Array, Array]:
+    """Differences (2, n) of points of both curves, by their parameters' change, and their derivatives by it.
+
+    As products, which keep their digits where the change is small.
+    """
     a, b, d, k = plane.a, plane.b, plane.d, plane.k
-    places = np.where(on_ellipse, (b * s - a * c, -b * c - d * s), (b * s - k * c**3, k * s**3 - b * c))
+    chord, m = 2.0 * np.sin(0.5 * change), start + 0.5 * change
+    c, s = np.cos(m), np.sin(m)
+    third = 0.25 * (1.0 + 2.0 * np.cos(change))
+    across = b * c + k * (0.75 * s + third * np.sin(3.0 * m)), b * s + k * (0.75 * c - third * np.cos(3.0 * m))
+    ways = chord * np.where(on_ellipse, (b * c + a * s, b * s - d * c), across)
+    c, s = np.cos(start + change), np.sin(start + change)
     turn = b + 3.0 * k * s * c
-    return places, np.where(on_ellipse, (b * c + a * s, b * s - d * c), (turn * c, turn * s))
+    return ways, np.where(on_ellipse, (b * c + a * s, b * s - d * c), (turn * c, turn * s))

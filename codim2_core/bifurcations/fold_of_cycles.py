@@ -18,8 +18,8 @@ import numpy as np
 from ..continuation.ahead import Place, ahead
 from ..continuation.asking import answered
 from ..continuation.turns import Turn, turns
+from ..cycles.many.sections import Indices, Sections
 from ..cycles.section import Section
-from ..cycles.sections import Indices, Sections
 from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi
 from .curve import Array

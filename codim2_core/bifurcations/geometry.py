@@ -84,6 +84,22 @@ class Geometry:
         e1, e2 = sign * (self.d * f[0] + self.b * f[1]), sign * (self.a * f[1] - self.b * f[0])
         return math.atan2(e2, e1) % (2 * math.pi)
 
+    def meeting(self, theta: float) -> float:
+        """Angle phi in [0, 2 pi) of the ellipse's point at which the saddle-node curve, at theta, meets it.
+
+        ``f = Lambda e(theta) - A e(theta)``: of its two parts, and not of f, so that a thin ellipse loses no digits.
+        """
+        c, s = math.cos(theta), math.sin(theta)
+        at = 0.0 if theta in self.touching else (self.d * c * c + self.a * s * s) / (self.a * self.d + self.b * self.b)
+        e1, e2 = c - at * (self.d * c + self.b * s), s - at * (self.a * s - self.b * c)
+        return math.atan2(e2, e1) % (2 * math.pi)
+
+    def outside(self, theta: float) -> float:
+        """1 where the saddle-node curve is outside the ellipse at theta, -1 inside; see above."""
+        c, s = math.cos(theta), math.sin(theta)
+        square = (self.d * c + self.b * s) ** 2 + (self.a * s - self.b * c) ** 2
+        return math.copysign(1.0, square - 2.0 * (self.a * self.d + self.b * self.b))
+
     @cached_property
     def cusps(self) -> list[float]:
         """Angles of the cusps (triple zeros of Theta): sin 2 theta = -2 b/(3 k); two where all four zeros meet."""

@@ -189,14 +189,14 @@ def traced(condition: Condition, start: Array, edges: Sequence[Edge], steps: Ste
     along = tangent(condition, start)
     if along is None:
         return None
-    ahead, end = _followed(condition, start, along, edges, steps)
+    ahead, end = followed(condition, start, along, edges, steps)
     if not end:
         return Traced(np.array([start, *ahead]), True, ("", ""))
-    behind, other = _followed(condition, start, -along, edges, steps)
+    behind, other = followed(condition, start, -along, edges, steps)
     return Traced(np.array([*behind[::-1], start, *ahead]), False, (other or "many", end))
 
 
-def _followed(
+def followed(
     condition: Condition, start: Array, first: Array, edges: Sequence[Edge], steps: Steps
 ) -> tuple[list[Array], str]:
     """Points along a curve from a start, and where it ends; "" where it has come round."""

@@ -29,7 +29,7 @@ from ..words import say
 from .asking import answered
 from .assembled import Row, assembled, row
 from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, values
-from .path import LEVEL, traced
+from .path import LEVEL, all_traced, traced
 from .points import Guess, Trace, passing, reversed_trace
 from .result import CycleBranch, CycleBranches, CyclePoint
 from .sought import sought
@@ -93,6 +93,8 @@ def continue_cycles(
         system, z = (coefficients := cast("Coefficients", system.at(z))), ()
         slope = np.eye(len(PLANE))[PLANE.index(name)]
         straight = Straight((1.0 - slope) * coefficients.plane, slope, psi)
+    elif name not in system.variable and psi.record.parameter is not None and name == psi.record.parameter.name:
+        system, z = cast("Coefficients", system.at(z)), ()  # only Psi varies
 
     def inside(value: float) -> tuple[Coefficients, Psi]:
         changed, family_psi, place = varied(system, psi, z, name, value)
@@ -174,16 +176,7 @@ class _Search:
         self.closed = [end for end in self.closed if not reversible(family.at(end.value)[0])]
 
     def run(self) -> Asking[CycleBranches]:
-        for end in self.hopf:
-            if id(end) not in self.used:
-                yield from self._from_end(end, math.log(FIRST), 1.0)
-        for end in self.closed:
-            if id(end) not in self.used:
-                section = self.family.section(end.value)
-                outside = section.psi.complement(OUTER) > SEEN
-                yield from self._from_end(
-                    end, float(section.xi_at_radius(OUTER[[min(int(outside.sum()), len(OUTER) - 1)]])[0]), -1.0
-                )
+        yield from self._from_ends()
         yield from self._columns()
         branches = tuple(self._branch(*entry) for entry in self.found)
         missed = [e for e in self.loops if id(e) not in self.used]
@@ -196,20 +189,42 @@ class _Search:
     def _nu(self, value: float) -> float:
         return (value - self.low) / (self.high - self.low)
 
-    def _from_end(self, end: End, xi: float, towards: float) -> Asking[None]:
-        """Begin where the cycle is smallest or largest; the parameter is then what is solved for."""
-        self.used.add(id(end))
-        first = None
+    def _from_ends(self) -> Asking[None]:
+        """Begin where cycles are smallest or largest, at all such ends side by side."""
+        ends = [*self.hopf, *self.closed]
+        towards = [1.0 if end.kind == "Hopf" else -1.0 for end in ends]
+        firsts = yield from side_by_side([self._first(e, t) for e, t in zip(ends, towards, strict=True)])
+        caught = [i for i, first in enumerate(firsts) if first is not None and -1e-12 <= first[1] <= 1.0 + 1e-12]
+        starts = [self.tracer.point(*cast("tuple[Turn, float]", firsts[i]), (towards[i], 0.0)) for i in caught]
+        followed = yield from all_traced(self.tracer, starts)
+        traces = dict(zip(caught, followed, strict=True))
+        for i, end in enumerate(ends):
+            if id(end) in self.used:
+                continue
+            self.used.add(id(end))
+            if found := traces.get(i):
+                trace, other = found
+                if other is None:
+                    self._keep(trace, self._special(end), end)
+                else:
+                    last = ends[caught[other]]
+                    self.used.add(id(last))
+                    self.found.append((trace, self._special(end), self._special(last), end, last))
+            elif firsts[i] is None:
+                self.notes.append(say("birth not caught", kind=end.kind, name=self.name, value=end.value))
+
+    def _first(self, end: End, towards: float) -> Asking[tuple[Turn, float] | None]:
+        """Find the first cycle of a branch: the parameter is what is solved for."""
+        xi, first = math.log(FIRST), None
+        if end.kind != "Hopf":
+            section = self.family.section(end.value)
+            outside = int((section.psi.complement(OUTER) > SEEN).sum())
+            xi = float(section.xi_at_radius(OUTER[[min(outside, len(OUTER) - 1)]])[0])
         for start in (xi, xi - 0.4 * towards * abs(xi)):
             first = first or (
                 yield from self.tracer.corrected(Guess(start, self._nu(end.value), (1.0, 0.0), backward=False))
             )
-        if first is None or not -1e-12 <= first[1] <= 1.0 + 1e-12:
-            if first is None:
-                self.notes.append(say("birth not caught", kind=end.kind, name=self.name, value=end.value))
-            return
-        trace = yield from traced(self.tracer, self.tracer.point(*first, (towards, 0.0)))
-        self._keep(trace, self._special(end), end)
+        return first
 
     def _columns(self) -> Asking[None]:
         """Begin at each cycle that no branch has passed."""

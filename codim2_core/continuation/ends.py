@@ -8,19 +8,20 @@ reach the equator: the closed equator where its exponent changes sign, a loop th
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cycles.loop import Loop, gap, gaps, loops
+from ..cycles.loop import Loop, gaps, loops
+from ..layer_problem.closed_equator import exponents as closed_exponents
 from ..layer_problem.closed_equator import slowest_turn
 from ..layer_problem.equator import equator_cycle, number_of_directions
 from ..layer_problem.lyapunov import first_lyapunov
 from ..layer_problem.problem import LayerProblem
-from ..numerics.root_between import root_between
+from ..numerics.root_between import root_between, vertex_through
 from .varied_system import VariedSystem
 
 Array = NDArray[np.float64]
@@ -96,11 +97,12 @@ def equator_ends(family: VariedSystem, low: float, high: float) -> list[End]:
     def exponents(places: list[float]) -> Array:
         out, placed = np.full(len(places), math.nan), family.placed(places)
         if placed is not None:
-            closed = (
-                slowest_turn(placed.planes) > -CLEAR
-            )  # elsewhere there are equilibria on it, without asking further
-            for i, turns in zip(placed.rows, closed.tolist(), strict=True):
-                out[i] = exponent(places[i]) if turns else math.nan  # None is NaN
+            # elsewhere there are equilibria on it, without asking further
+            closed = np.flatnonzero(slowest_turn(placed.planes) > -CLEAR)
+            quick = np.arctan(closed_exponents(placed.planes[closed])) if len(closed) > 1 else np.full(1, math.nan)
+            for i, found in zip(closed.tolist(), quick.tolist(), strict=False):
+                row = placed.rows[i]
+                out[row] = exponent(places[row]) if math.isnan(found) else found  # None is NaN
         return out
 
     def turning(value: float) -> float:
@@ -177,12 +179,9 @@ def loop_end(family: VariedSystem, low: float, high: float, loop: Loop) -> End |
     """
 
     def miss(value: float) -> float:
-        arcs = _arcs(family, value)
-        if not arcs:
-            return math.nan
-        return math.atan(gap(*family.at(value), _nearest(arcs, loop, loop.ray)))
+        return _misses(family, [(value, loop)])[0]
 
-    at_low, at_high = miss(low), miss(high)
+    at_low, at_high = _misses(family, [(low, loop), (high, loop)])
     if not at_low * at_high < 0.0:
         return None
     value = root_between(miss, low, high)
@@ -190,6 +189,15 @@ def loop_end(family: VariedSystem, low: float, high: float, loop: Loop) -> End |
     if not arcs or abs(miss(value)) > 1e-6:
         return None
     return _on_equator(family, "heteroclinic cycle through the equator", value, _nearest(arcs, loop).ratio)
+
+
+def _misses(family: VariedSystem, asked: Sequence[tuple[float, Loop]]) -> list[float]:
+    """Find the arc tangents of gaps of the loops nearest to given ones, on their rays; NaN where there is none."""
+    found = [_arcs(family, value) for value, _ in asked]
+    there = [i for i, arcs in enumerate(found) if arcs]
+    ask = [(*family.at(asked[i][0]), _nearest(found[i], asked[i][1], asked[i][1].ray)) for i in there]
+    out = dict(zip(there, map(math.atan, gaps(ask)), strict=True))
+    return [out.get(i, math.nan) for i in range(len(asked))]
 
 
 def _arcs(family: VariedSystem, value: float) -> tuple[Loop, ...]:
@@ -252,17 +260,19 @@ def _equator_near(
         if end is not None:
             return min((e for e in known if abs(e.value - end.value) < 1e-9 * width), key=id, default=end)
     arcs = _arcs(family, value)
-    for k in range(1, 9):
-        step = direction * width * 10.0 ** (k - 9.0)
-        if abs(step) > 10.0 * reach:
-            break
-        if ahead is not None and abs(step) > abs(ahead - value):
-            step = (1.0 - 1e-9) * (ahead - value)
-        for loop in arcs:
-            for there in (value + step, value - step):  # on the other side there may be no loop at all
-                end = loop_end(family, min(value, there), max(value, there), loop)
-                if end is not None:
-                    return end
+    steps = [direction * width * 10.0 ** (k - 9.0) for k in range(1, 9)]
+    steps = [step for step in steps if abs(step) <= 10.0 * reach]
+    if ahead is not None:
+        steps = [(1.0 - 1e-9) * (ahead - value) if abs(step) > abs(ahead - value) else step for step in steps]
+    # on the other side there may be no loop at all
+    tries = [(value + sign * step, loop) for step in steps for loop in arcs for sign in (1.0, -1.0)]
+    sides = _misses(family, [*((value, loop) for loop in arcs), *tries])
+    here = dict(zip(arcs, sides, strict=False))
+    for (there, loop), miss in zip(tries, sides[len(arcs) :], strict=True):
+        if here[loop] * miss < 0.0:
+            end = loop_end(family, min(value, there), max(value, there), loop)
+            if end is not None:
+                return end
     return None if ahead is None else _on_equator(family, "saddle-node on the equator", ahead)
 
 
@@ -311,7 +321,7 @@ def _roots(
     for (one, y1), (two, y2) in pairwise(zip(places, found, strict=True)):
         if math.isnan(y1) != math.isnan(y2):
             more += _at_border(function, margin, *((one, two) if math.isnan(y2) else (two, one)))
-    vertices = [_vertex(places[i - 1 : i + 2], found[i - 1 : i + 2]) for i in range(1, len(places) - 1)]
+    vertices = [vertex_through(places[i - 1 : i + 2], found[i - 1 : i + 2]) for i in range(1, len(places) - 1)]
     asked = [v for v in vertices if v is not None]
     more += zip(asked, function(asked).tolist(), strict=True)
     line = sorted((v, y) for v, y in [*zip(places, found, strict=True), *more] if not math.isnan(y))
@@ -338,13 +348,3 @@ def _at_border(
         if value != inside and not math.isnan(y):
             return [(value, y)]
     return []
-
-
-def _vertex(places: list[float], found: list[float]) -> float | None:
-    """Where the parabola through three values comes to zero or beyond, if its middle one is the least; or None."""
-    y0, y1, y2 = found
-    s = math.copysign(1.0, y1)
-    bend = s * (y0 - 2.0 * y1 + y2)
-    if s * y0 > s * y1 < s * y2 and bend > 0.0 and s * y1 < (s * (y2 - y0)) ** 2 / (4.0 * bend):
-        return places[1] - 0.5 * (places[2] - places[1]) * s * (y2 - y0) / bend
-    return None

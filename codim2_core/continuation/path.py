@@ -9,13 +9,13 @@ become shorter. Near C and near the equator, where chi hardly changes with xi, a
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from itertools import accumulate, pairwise, takewhile
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations, pairwise, takewhile
 
-from ..numerics.root_between import root_through
-from .ahead import Place, ahead, placed
+from .ahead import Place
 from .points import Guess, Point, Trace
-from .trace import FARTHEST, Search, Tracer, distance
+from .trace import FARTHEST, Course, Search, Tracer, distance
 from .varied_system import Asking, side_by_side
 
 STEP = 0.03  # the longest step
@@ -28,9 +28,10 @@ LARGE, LOW, LOWEST = 0.999, 1e-3, 1e-7  # chi, ebar at which it has come to the 
 LEVEL, DEAD = 0.05, 1e-8  # ebar and exponent at which cycle and closed equator cannot be told apart
 BENT, ROUNDING = 1e-9, 1e-12  # change of nu about a fold near the equator, where exponents tend to 0, and elsewhere
 MOST = 600  # points
+SAME = 1e-4  # of a step: how near the ends of two ways along one branch come to each other's curve
 MISSED = 0.3  # distance of a point from its prediction, in steps, beyond which a step is too long
 TURNED = 0.9  # cosine between successive tangents below which a step is too long
-WIDEST, MEMORY, BEHIND = 16, 12, 2  # points tried at once; last points that predictions know of, and use
+WIDEST, MEMORY = 16, 12  # points tried at once; last points that predictions know of
 BEND, OFF = 0.25, 0.15  # turn of the tangent, and first correction in steps, that the next step is to have
 PATIENT, MANY = 400, 4  # steps of a turn that a point may cost at least, and times those of the point before it
 HALVINGS = 8  # of an interval in which a fold is not found at once
@@ -45,9 +46,67 @@ def traced(tracer: Tracer, start: Point) -> Asking[Trace]:
     start : Point
     """
     path = _Path(tracer, start)
-    while path.reason is None and len(path.points) < MOST:
+    while path.open:
         yield from path.go_on()
     return (yield from path.finished())
+
+
+def all_traced(tracer: Tracer, starts: Sequence[Point]) -> Asking[list[tuple[Trace, int | None] | None]]:
+    """Follow branches from several points side by side; two that meet are one, from the first of them to the other.
+
+    Parameters
+    ----------
+    tracer : Tracer
+    starts : sequence of Point
+
+    Returns
+    -------
+    list of (Trace, int or None), or None
+        With the start to which a branch leads, if they have met; None at the place of that other start.
+    """
+    paths, met = [_Path(tracer, start) for start in starts], {}
+    while going := [path for path in paths if path.open]:
+        yield from side_by_side([path.go_on() for path in going])
+        for i, j in combinations(range(len(paths)), 2):
+            if i in met or j in met or not (paths[i] in going or paths[j] in going):
+                continue
+            points = _joined(tracer, paths[i].points, paths[j].points)
+            if points is not None:
+                paths[i].points, paths[i].reason, paths[j].reason = points, "met", "met"
+                met[i], met[j] = j, i
+    own = [i for i in range(len(paths)) if met.get(i, i) >= i]
+    traces = yield from side_by_side([paths[i].finished() for i in own])
+    found = {i: (trace, met.get(i)) for i, trace in zip(own, traces, strict=True)}
+    return [found.get(i) for i in range(len(paths))]
+
+
+def _joined(tracer: Tracer, first: list[Point], other: list[Point]) -> list[Point] | None:
+    """Join two ways along one branch whose ends have passed one another; None where they have not."""
+    back = [replace(p, tangent=(-p.tangent[0], -p.tangent[1])) for p in reversed(other)]
+    last = back[0]
+    for i, (here, there) in enumerate(pairwise(first)):
+        step = distance(here, there)
+        part = _part(here, there, last)
+        if not 0.0 < part <= 1.0 or distance(here, last) > 1.5 * step:
+            continue
+        course = Course(tracer, first[max(i - 1, 0) : i + 3])
+        length = course.lengths[min(i, 1)] + part * step
+        missed = math.inf, math.inf
+        for _ in range(2):
+            place, _ = course.between(length)
+            missed = last.turn.chi - place.chi, last.nu - place.parameters[0]
+            length += missed[0] * last.tangent[0] + missed[1] * last.tangent[1]
+        cosine = here.tangent[0] * last.tangent[0] + here.tangent[1] * last.tangent[1]
+        if cosine > TURNED and math.hypot(*missed) < SAME * step:
+            return [*first[: i + 1 if part > 0.2 or i == 0 else i], *back]
+    return None
+
+
+def _part(here: Point, there: Point, place: Point) -> float:
+    """Where a point is between two others: 0 beside the first of them, 1 beside the second."""
+    x, y = there.turn.chi - here.turn.chi, there.nu - here.nu
+    square = x * x + y * y
+    return ((place.turn.chi - here.turn.chi) * x + (place.nu - here.nu) * y) / square if square > 0.0 else -1.0
 
 
 @dataclass(frozen=True)
@@ -84,6 +143,11 @@ class _Path:
         self.step, self.width = 0.25 * STEP, 2
         self.backward = start.turn.exponent > 0.0
         self.reason = self._at_once(start)
+
+    @property
+    def open(self) -> bool:
+        """Whether the branch has not ended."""
+        return self.reason is None and len(self.points) < MOST
 
     def go_on(self) -> Asking[None]:
         """Let all that is in the window take one step of Newton's method, and keep what is found in front."""
@@ -131,7 +195,7 @@ class _Path:
         for _ in range(self.width):
             steps.append(min(step, self._longest(last, sum(steps))))
             step = GROWTH * steps[-1]
-        course, line, before = _Course(self.tracer, points), self.tracer.across(last), last.nu
+        course, line, before = Course(self.tracer, points), self.tracer.across(last), last.nu
         for number, place in enumerate(course.ahead(steps)):
             (nu,) = place.parameters
             edge = not 0.0 < nu < 1.0
@@ -209,7 +273,7 @@ class _Path:
         around, k = self.points[max(i - 2, 0) : i + 2], min(i, 2)
         for _ in range(HALVINGS):
             here, there = around[k - 1], around[k]
-            course = _Course(self.tracer, around)
+            course = Course(self.tracer, around)
             place, near = course.between(course.neutral(k))
             found = yield from self.tracer.fold(place.xi, place.parameters[0], near)
             if found is not None and max(distance(here, found), distance(found, there)) <= 1.5 * distance(here, there):
@@ -225,45 +289,6 @@ class _Path:
             same = (middle.turn.exponent > 0.0) == (here.turn.exponent > 0.0)
             around, k = [middle, there] if same else [here, middle], 1
         return None
-
-
-class _Course:
-    """Some points of a branch as a curve by its length.
-
-    Attributes
-    ----------
-    lengths : list of float
-        Up to each of them.
-    """
-
-    def __init__(self, tracer: Tracer, points: list[Point]) -> None:
-        self.points = points
-        self.lengths = [*accumulate((distance(one, two) for one, two in pairwise(points)), initial=0.0)]
-        self.places = [Place(point.turn.xi, point.turn.chi, (point.nu,)) for point in points]
-        self.tangents = [tracer.along(point) for point in points]
-
-    def ahead(self, steps: list[float]) -> list[Place]:
-        """Predict points after the last one, so many steps from one another."""
-        return ahead(self.lengths, self.places, self.tangents, self.points[-1].turn.rate, steps, BEHIND)
-
-    def between(self, length: float) -> tuple[Place, Point]:
-        """Interpolate; also return the nearest point."""
-        rows = sorted(range(len(self.points)), key=lambda i: abs(self.lengths[i] - length))
-        lengths, near = [self.lengths[i] for i in rows], self.points[rows[0]]
-        places, tangents = ([column[i] for i in rows] for column in (self.places, self.tangents))
-        found = placed(lengths, places, tangents, near.turn.rate, [length])
-        return (found[0] if found else places[0]), near
-
-    def neutral(self, k: int) -> float:
-        """Find where the exponent is zero between the points k - 1 and k: by all of them, if it only rises or falls."""
-        exponents = [point.turn.exponent for point in self.points]
-        low, high = self.lengths[k - 1], self.lengths[k]
-        rises = [two > one for one, two in pairwise(exponents)]
-        if all(rises) or not any(rises):
-            found = root_through(self.lengths, exponents)
-            if low < found < high:
-                return found
-        return low + (high - low) * exponents[k - 1] / (exponents[k - 1] - exponents[k])
 
 
 def _fits(here: Point, there: Point, sought: _Sought) -> bool:

@@ -10,9 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import accumulate, pairwise
 from typing import Any
 
-from .ahead import Place
+from ..numerics.root_between import root_through
+from .ahead import Place, ahead, placed
 from .points import Guess, Point
 from .turns import Turn
 from .varied_system import Asking, Question
@@ -21,6 +23,7 @@ FARTHEST = 1.0  # in ln y
 ROUNDS = 7  # of Newton's method
 CLOSE, CLOSER = 1e-9, 1e-11  # the last correction in chi, nu and, near C, a tenth of xi; at a fold
 NEUTRAL = 2e-10  # exponent of a fold
+BEHIND = 2  # points that predictions use
 NEARBY = 1e-5  # in xi rate and nu: for the derivatives of the exponent
 
 
@@ -172,3 +175,42 @@ class Search:
 def distance(one: Point, other: Point) -> float:
     """Return how far two points are apart in (chi, nu)."""
     return math.hypot(other.turn.chi - one.turn.chi, other.nu - one.nu)
+
+
+class Course:
+    """Some points of a branch as a curve by its length.
+
+    Attributes
+    ----------
+    lengths : list of float
+        Up to each of them.
+    """
+
+    def __init__(self, tracer: Tracer, points: list[Point]) -> None:
+        self.points = points
+        self.lengths = [*accumulate((distance(one, two) for one, two in pairwise(points)), initial=0.0)]
+        self.places = [Place(point.turn.xi, point.turn.chi, (point.nu,)) for point in points]
+        self.tangents = [tracer.along(point) for point in points]
+
+    def ahead(self, steps: list[float]) -> list[Place]:
+        """Predict points after the last one, so many steps from one another."""
+        return ahead(self.lengths, self.places, self.tangents, self.points[-1].turn.rate, steps, BEHIND)
+
+    def between(self, length: float) -> tuple[Place, Point]:
+        """Interpolate; also return the nearest point."""
+        rows = sorted(range(len(self.points)), key=lambda i: abs(self.lengths[i] - length))
+        lengths, near = [self.lengths[i] for i in rows], self.points[rows[0]]
+        places, tangents = ([column[i] for i in rows] for column in (self.places, self.tangents))
+        found = placed(lengths, places, tangents, near.turn.rate, [length])
+        return (found[0] if found else places[0]), near
+
+    def neutral(self, k: int) -> float:
+        """Find where the exponent is zero between the points k - 1 and k: by all of them, if it only rises or falls."""
+        exponents = [point.turn.exponent for point in self.points]
+        low, high = self.lengths[k - 1], self.lengths[k]
+        rises = [two > one for one, two in pairwise(exponents)]
+        if all(rises) or not any(rises):
+            found = root_through(self.lengths, exponents)
+            if low < found < high:
+                return found
+        return low + (high - low) * exponents[k - 1] / (exponents[k - 1] - exponents[k])

@@ -18,8 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cycles.many.sections import NODES, Indices, Sections
 from ..cycles.orbit import MOST_STEPS, gauss
-from ..cycles.sections import NODES, Indices, Sections
 
 Array = NDArray[np.float64]
 
@@ -147,19 +147,18 @@ def turns(
     limit : int
         Steps after which a turn is given up.
     """
+    from ..cycles.many import placing
     from .measured import PARAMETERS, SHIFT, measured
 
     start, x2 = sections.starts(xi)
-    zeta = np.hypot(x2[:, 0], x2[:, 1])
-    states = np.column_stack([x2, np.ones(len(x2))]) / np.hypot(1.0, zeta)[:, None]
+    states = placing.hemisphere(x2)
     rows, ways = sections.turned(states, RTOL, backward, limit)
     if ways is None:
         return Turns(rows, np.zeros(0), np.zeros((0, PARAMETERS + 2 * len(changes))), np.zeros((0, 2)), rows)
     if len(rows) < len(sections):
         sections, start, x2, changes = sections.taken(rows), start[rows], x2[rows], changes[:, rows]
     every = np.arange(len(rows))
-    away = np.concatenate([np.hypot(*(v[:, :2] / v[:, 2:]).T) for v in (ways.inner, states[rows], ways.ends)])
-    places = np.concatenate([away, sections.zeta])
+    places = placing.distances(ways.inner, states[rows], ways.ends, sections.zeta)
     whose = np.concatenate([ways.whose, every, every, every])
     radial, tangential = sections.psi_at(whose).jacobian_factors(places)
     swell = np.zeros((len(changes), 0))

@@ -11,9 +11,9 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cycles.many.sections import Indices, Sections, located
 from ..cycles.orbit import MOST_STEPS
 from ..cycles.section import Section
-from ..cycles.sections import Indices, Sections, located
 from ..layer_problem.location import Existence
 from ..layer_problem.problem import LayerProblem
 from ..psi.constructors import many
@@ -52,7 +52,7 @@ class Question(NamedTuple):
     @property
     def limit(self) -> int:
         """Steps that each of them may take."""
-        return MOST_STEPS if self.limits is None else max(self.limits)
+        return MOST_STEPS if self.limits is None else max(self.limits, default=0)
 
 
 class Placed(NamedTuple):

@@ -104,7 +104,7 @@ def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Path
     return Path(first, h, inner, np.outer(h, weights).ravel() / inner[:, 2], ends[0], float(times[0]))
 
 
-def _linearisation(section: AnySection, states: Array) -> tuple[Array, Array]:
+def linearisation(section: AnySection, states: Array) -> tuple[Array, Array]:
     """Compute e (n, 2) and ``D_e U D e_Psi`` (n, 2, 2) in kappa_2, for the scaled field."""
     x2 = states[:, :2] / states[:, 2:]
     zeta = np.hypot(x2[:, 0], x2[:, 1])
@@ -161,7 +161,7 @@ def orbit(section: AnySection, crossing: FixedPoint) -> Orbit | None:
         return None
     first, h, inner, weight = way.first, way.h, way.inner, way.weight
     k = len(first)
-    every, everywhere = _linearisation(section, np.concatenate([first, inner]))
+    every, everywhere = linearisation(section, np.concatenate([first, inner]))
     e, J = every[k:], everywhere[k:]
     per_T = 1.0 / inner[:, 2]  # dtau/dT
     period = float(weight.sum())

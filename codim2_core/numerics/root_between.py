@@ -1,4 +1,4 @@
-"""One root, between two ends or by some values about it, without loading SciPy's optimisers."""
+"""One root, between two ends or by some values about it, without loading SciPy's optimisers; a vertex by three."""
 
 from __future__ import annotations
 
@@ -46,3 +46,13 @@ def root_through(x: Sequence[float] | Array, y: Sequence[float] | Array) -> floa
     return sum(
         float(x[j]) * math.prod(float(-y[k] / (y[j] - y[k])) for k in range(len(y)) if k != j) for j in range(len(y))
     )
+
+
+def vertex_through(x: Sequence[float], y: Sequence[float]) -> float | None:
+    """Where the parabola through three values comes to zero or beyond, if its middle one is the least; or None."""
+    y0, y1, y2 = y
+    s = math.copysign(1.0, y1)
+    bend = s * (y0 - 2.0 * y1 + y2)
+    if s * y0 > s * y1 < s * y2 and bend > 0.0 and s * y1 < (s * (y2 - y0)) ** 2 / (4.0 * bend):
+        return x[1] - 0.5 * (x[2] - x[1]) * s * (y2 - y0) / bend
+    return None

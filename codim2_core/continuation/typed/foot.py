@@ -50,11 +50,11 @@ class Foot:
         self.at, self.critical = at, critical
         self._values, self._places = [value], [np.array(e, float)]
         self._ends = (-math.inf, math.inf)  # it is no critical set beyond
-        self._still = None if critical else _placed(at(value)[1], self._places[0])
+        self._still = None if critical else placed(at(value)[1], self._places[0])
 
     def place(self, value: float) -> Place:
         """Where it is at a value."""
-        return _placed(self.at(value)[1], self.e(value)) if self._still is None else self._still
+        return placed(self.at(value)[1], self.e(value)) if self._still is None else self._still
 
     def e(self, value: float) -> Array:
         """(c, s) of the critical set at a value."""
@@ -65,7 +65,7 @@ class Foot:
         step, tried = value - here, 0
         while here != value and tried < HALVINGS:
             there = value if abs(step) >= abs(value - here) else here + step
-            found = self._corrected(there, e)
+            found = corrected(self.at(there)[0], e)
             if found is None:
                 step, tried = 0.5 * (there - here), tried + 1
             else:
@@ -78,24 +78,25 @@ class Foot:
             self._places.insert(where, e)
         return e
 
-    def _corrected(self, value: float, e: Array) -> Array | None:
-        """Newton's method for U = 0 from a place nearby."""
-        system, start = self.at(value)[0], e
-        for _ in range(ROUNDS):
-            matrix = system.DU(e)
-            det = matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]
-            if det == 0.0 or not math.isfinite(det):
-                return None
-            step = np.linalg.solve(matrix, system.U(e))
-            e = e - step
-            if not (math.hypot(*e) < INSIDE and math.dist(e, start) < FAR):
-                return None
-            if math.hypot(*step) < CLOSE:
-                return e
-        return None
+
+def corrected(system: AtZ, start: Array) -> Array | None:
+    """Newton's method for U = 0 from a place (c, s) nearby; None if it is not found."""
+    e = start
+    for _ in range(ROUNDS):
+        matrix = system.DU(e)
+        det = matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]
+        if det == 0.0 or not math.isfinite(det):
+            return None
+        step = np.linalg.solve(matrix, system.U(e))
+        e = e - step
+        if not (math.hypot(*e) < INSIDE and math.dist(e, start) < FAR):
+            return None
+        if math.hypot(*step) < CLOSE:
+            return e
+    return None
 
 
-def _placed(psi: Psi, e: Array) -> Place:
+def placed(psi: Psi, e: Array) -> Place:
     """Return the point of the hemisphere where e_Psi = e."""
     modulus = math.hypot(*e)
     zeta = float(psi.radius(modulus, (1.0 - modulus) * (1.0 + modulus)))

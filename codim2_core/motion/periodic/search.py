@@ -11,7 +11,7 @@ from ...initial_value.field import Field, field
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
-from ..checks import checked_state, checked_tolerances
+from ..checks import checked_state, checked_tolerances, with_time
 from ..regularised import LARGEST_EPS, MAX_STEPS, SMALLEST_EPS
 from ..result import Simulation
 from .multipliers import matched, multipliers
@@ -98,7 +98,7 @@ def periodic_motion(
     """
     checked_tolerances(rtol, atol, max_steps)
     formulas = field(system)
-    start = checked_state(state0, formulas.m)
+    start = checked_state(with_time(state0, system, 0.0), formulas.m)
     if eps != 0.0 and not SMALLEST_EPS <= eps <= LARGEST_EPS:
         raise ValueError(f"eps is {eps!r}; give 0 for the limit, or {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
     if eps > 0.0 and psi is None:

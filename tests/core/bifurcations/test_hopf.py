@@ -1,5 +1,6 @@
 """Hopf and node-focus curves, the first Lyapunov coefficient, and what changes with n."""
 
+import itertools
 import math
 from itertools import pairwise
 
@@ -183,8 +184,20 @@ def test_derivatives_of_psi(regularisation, s):
         expected = mpmath.taylor(formula, mpmath.mpf(s), 3)
     for j in (1, 2, 3):
         value = float(expected[j]) * math.factorial(j)
-        # the Hill form divides by s^j
-        assert found[j - 1][0] == pytest.approx(value, rel=1e-10, abs=1e-12 * max(1.0, s**-j))
+        assert found[j - 1][0] == pytest.approx(value, rel=1e-10, abs=1e-12)
+
+
+@pytest.mark.parametrize("regularisation", [psi.hill(1), psi.hill(2), psi.hill(3.5), psi.tanh(), psi.rational()])
+def test_a_critical_set_at_the_origin_has_its_coefficient_whatever_psi(regularisation):
+    """In plane coordinates e = q (cos, sin) a cycle of U = (k q^2 c - s, c + k q^2 s) grows by k q^3: l1 ~ k."""
+    A = np.array([[[0.0, -1.0], [1.0, 0.0]]])
+    third = np.zeros((1, 2, 2, 2, 2))
+    for i, j in itertools.product(range(2), repeat=2):  # of k c (c^2 + s^2), k s (c^2 + s^2)
+        for a, b, c in {(i, j, j), (j, i, j), (j, j, i)}:
+            third[0, i, a, b, c] = 6.0 if i == j else 2.0
+    own = [first_lyapunov(A, regularisation, np.array([[size, 0.0]]), None, third)[0] for size in (0.0, 1e-9)]
+    assert own[0] == pytest.approx(own[1], rel=1e-6)
+    assert own[0] > 0.1
 
 
 def test_where_there_is_no_hopf_curve_it_says_why():

@@ -8,7 +8,7 @@ import pytest
 from codim2_core import ELinear, psi
 from codim2_core.continuation import branches
 from codim2_core.continuation.asking import answered
-from codim2_core.continuation.path import STEP, traced
+from codim2_core.continuation.path import STEP, all_traced, traced
 from codim2_core.continuation.points import Guess, Trace, passing, reversed_trace
 from codim2_core.continuation.trace import Tracer, distance
 from codim2_core.continuation.turns import Turn
@@ -121,3 +121,44 @@ def test_rounds_of_a_branch(system, name, span, most, monkeypatch):
     monkeypatch.setattr(branches, "follow", lambda questions: rounds.append(1) or follow(questions))
     branches.continue_cycles(system, psi.hill(3), name, span)
     assert len(rounds) <= most
+
+
+def _both_ways(form, low, high, radii):
+    tracer = Tracer(form, low, high)
+    starts = []
+    for r, towards in zip(radii, (1.0, -1.0), strict=True):
+        turn = form.turn(math.log(r / (1.0 - r)), form.mu(r))
+        starts.append(tracer.point(turn, (form.mu(r) - low) / (high - low), (towards, 0.0)))
+    (found,) = answered([all_traced(tracer, starts)], form.follow)
+    return found
+
+
+@pytest.mark.parametrize(("linear", "square"), [(-1.0, 0.4), (1.0, -2.0), (-0.2, 1.0)])
+def test_two_ways_that_meet_are_one_branch_in_half_the_rounds(linear, square):
+    form, alone = NormalForm(linear, square), NormalForm(linear, square)
+    mu = [form.mu(0.01 * k) for k in range(96)]
+    low, high = min(mu) - 0.1, max(mu) + 0.1
+    (joined, nothing) = _both_ways(form, low, high, (1e-3, 0.95))
+    assert nothing is None
+    trace, other = joined
+    assert other == 1
+    r = [point.turn.chi for point in trace.points]
+    assert all(one < two for one, two in pairwise(r))
+    assert (r[0], r[-1]) == pytest.approx((1e-3, 0.95), abs=1e-9)
+    for point in trace.points:
+        assert low + point.nu * (high - low) == pytest.approx(form.mu(point.turn.chi), abs=1e-9)
+        assert point.tangent[0] > 0.0
+    assert all(distance(one, two) < 2.0 * STEP for one, two in pairwise(trace.points))
+    folds = [r[i] for i in trace.folds]
+    expected = math.sqrt(-linear / (2.0 * square)) if linear * square < 0.0 else math.inf
+    assert folds == pytest.approx([expected] if expected < 0.95 else [], abs=1e-6)
+    alone.traced(low, high)
+    assert form.rounds < 0.75 * alone.rounds
+
+
+def test_two_ways_that_part_do_not_meet():
+    form = NormalForm(1.0, -2.0)
+    one, two = _both_ways(form, form.mu(0.5) - 1e-3, 0.5, (0.45, 0.4))
+    assert one[1] is None
+    assert two[1] is None
+    assert one[0].points[-1].turn.chi > 0.5 > two[0].points[0].turn.chi

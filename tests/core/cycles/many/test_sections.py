@@ -10,9 +10,10 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.cycles import orbit
+from codim2_core.cycles.many import placing
+from codim2_core.cycles.many.sections import NODES, Sections, located
 from codim2_core.cycles.orbit import path
 from codim2_core.cycles.section import FINE, INNER, Section
-from codim2_core.cycles.sections import NODES, Sections, located
 
 # (a, b, d, f1, f2): foci of all senses, in the middle and out of it.
 PLANES = np.array(
@@ -142,10 +143,12 @@ def test_each_runs_forward_or_backward_by_itself():
     own = np.array([1.0, 2.0, 3.0, 4.0, 6.0])
     backward = np.array([True, False, False, True, False])
     many = _all(c2.psi.hill(2), 0, own)
-    for i, row in enumerate(many.shared(backward)):
+    states = np.tile([0.1, 0.2, 0.9], (5, 1))
+    rows, sense, _, _ = placing.lanes(many.plane, own, backward, states, many.x2, many.inner)
+    for i, row in enumerate(rows):
         one = _one(PLANES[i], c2.psi.hill(own[i]), 0)
         np.testing.assert_allclose(row, one.shared(bool(backward[i])), rtol=1e-13)
-    assert (_all(c2.psi.hill(2), 0).shared(backward)[:, 5] == 2.0).all()
+        assert sense[i] == row[1]
 
 
 @pytest.mark.parametrize("back", [False, True])

@@ -1,0 +1,1 @@
+"""Sections of many systems at once, whose turns are followed side by side."""
