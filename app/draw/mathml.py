@@ -151,9 +151,9 @@ def equations(system: ELinear | System) -> tuple[tuple[str, Expression], ...]:
     An e-linear system made from a matrix is written in its normal form only if that has formulas; otherwise as given.
     """
     if isinstance(system, System):
-        rows = (*system.U, *system.W)
-        left = ("x", "y", *SLOW[: len(system.W)])
-        return tuple(zip(left, rows, strict=True))
+        U, W = system.without_clock  # what is typed in t is written in t
+        left = ("x", "y", *SLOW[: len(W)])
+        return tuple(zip(left, (*U, *W), strict=True))
     names = (*PLANE, "z", *SLOW, *dict(system.parameters), "A_", "B_", "C_")
     template = parse("A_*c + B_*s + C_", names)
 
@@ -185,7 +185,7 @@ def _meanings(system: ELinear | System) -> dict[str, Expression]:
     if isinstance(system, ELinear) or not system.definitions:
         return {}
     given = {"parameters": dict(system.parameters), "definitions": dict(system.definitions)}
-    return {name: System(U=(name, "0"), **given).U[0] for name, _ in system.definitions}
+    return {name: System(U=(name, "0"), **given).without_clock[0][0] for name, _ in system.definitions}
 
 
 def _row(left: str, right: str) -> str:
@@ -197,12 +197,11 @@ def _row(left: str, right: str) -> str:
 
 def equations_mathml(system: ELinear | System) -> str:
     """Return a MathML table of a system's equations."""
-    plain = (
-        (lambda e: e.substitute("z1", parse("z", ("z",))) if "z1" in e.names else e) if system.m == 1 else lambda e: e
-    )
+    alone = system.m - (isinstance(system, System) and bool(system.clock)) == 1  # z beside no other but t
+    plain = (lambda e: e.substitute("z1", parse("z", ("z",))) if "z1" in e.names else e) if alone else lambda e: e
     meanings = {plain(meaning): name for name, meaning in _meanings(system).items()}
     rows = [
-        _row(symbol("z" if system.m == 1 and left == "z1" else left, dot=True), mathml(plain(right), meanings))
+        _row(symbol("z" if alone and left == "z1" else left, dot=True), mathml(plain(right), meanings))
         for left, right in equations(system)
     ]
     for k, (meaning, name) in enumerate(meanings.items()):

@@ -34,7 +34,7 @@ def add(draft: Draft) -> None:
     if system is None:
         return
     try:
-        start, t_end = launch_of(values, system.m)
+        start, t_end = launch_of(values, system)
     except InputError as error:
         draft.now.pop("orbit", None)  # the browser forgets what it has
         draft.unable("orbit", str(error))
@@ -48,7 +48,7 @@ def add(draft: Draft) -> None:
         draft.now["orbit_motion"] = TYPED  # what was there of a launched orbit is gone
 
 
-def launch_of(values: Mapping[str, Any], m: int) -> tuple[tuple[float, ...], float]:
+def launch_of(values: Mapping[str, Any], system: System_) -> tuple[tuple[float, ...], float]:
     """Return the state from which the motion starts, and the time for which it is followed.
 
     Raises
@@ -56,7 +56,7 @@ def launch_of(values: Mapping[str, Any], m: int) -> tuple[tuple[float, ...], flo
     InputError
         The text of the state does not hold 2 + m numbers, the time is not positive, or no motion takes this eps.
     """
-    text, t_end = values["launch"], values["t_end"]
+    text, t_end, m = values["launch"], values["t_end"], system.m
     if t_end <= 0.0:
         raise InputError("t_end", f"until t: {t_end:g} given; give a positive time.")
     low, high = EPS
@@ -70,7 +70,7 @@ def launch_of(values: Mapping[str, Any], m: int) -> tuple[tuple[float, ...], flo
     if text == opening_launch(values["system"]):  # not the user's: as many numbers of it as the system has
         start = (*start, *(0.0,) * m)[: 2 + m]
     if len(start) != 2 + m or not all(map(math.isfinite, start)):
-        names = ", ".join(["x", "y", *slow_symbols(values["system"], m)])
+        names = ", ".join(["x", "y", *slow_symbols(values["system"], system)])
         raise InputError("launch", f"Start: {text[:60]!r} given; give {2 + m} numbers: {names}.")
     return start, t_end
 

@@ -15,7 +15,7 @@ from typing import Any
 
 from codim2_core.examples import catalogue
 from codim2_core.expressions.expression import ExpressionError, parse
-from codim2_core.expressions.names import PLANE
+from codim2_core.expressions.names import PLANE, TIME
 from codim2_core.expressions.tape import CONSTANTS, FUNCTIONS
 from codim2_core.paper import cite
 from codim2_core.systems.elinear import ELinear
@@ -139,6 +139,7 @@ def _typed(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
         raise TextError("where", "Coefficients take no definitions; write a line such as mu = 0.3 in [0, 1].")
     known = {*PLANE, "z", *(f"z{i}" for i in range(1, 17)), *FUNCTIONS, *CONSTANTS}
     known |= {key.split("(")[0].strip() for key in definitions}
+    known |= {TIME} if choice == OWN else set()
     names: list[str] = []
     own = {box.name for box in BOXES[choice]}
     for box, text in (*boxes.items(), *(("where", formula) for formula in definitions.values())):
@@ -221,7 +222,8 @@ def _own(boxes: Mapping[str, str], definitions: dict[str, str], parameters: dict
     try:
         made = System(U=(boxes["U1"], boxes["U2"]), W=rows, parameters=parameters, definitions=definitions)
         if made.m > MOST_SLOW:
-            raise TextError("W", f"The formulas name z{made.m}; at most {MOST_SLOW} slow variables have a slider.")
+            named = "t, and with it" if made.clock else f"z{made.m};"
+            raise TextError("W", f"The formulas name {named} at most {MOST_SLOW} slow variables have a slider.")
     except ExpressionError as error:
         box = str(error).split(":")[0]
         place = "where" if box.startswith("definition") else "W" if box.startswith("W") else box
@@ -300,7 +302,7 @@ def describe(choice: str, system: System_, texts: Mapping[str, str] = MappingPro
         {"name": name, "symbol": plain_symbol(name), "range": list(ranges.get(name, PARAMETER_RANGE)), "value": value}
         for name, value in system.parameters
     ]
-    symbols = slow_symbols(choice, system.m)
+    symbols = slow_symbols(choice, system)
     slow = [{"symbol": s, "range": list(r)} for s, r in zip(symbols, slow_ranges(choice, system.m), strict=True)]
     return {
         "choice": choice,
@@ -313,10 +315,14 @@ def describe(choice: str, system: System_, texts: Mapping[str, str] = MappingPro
     }
 
 
-def slow_symbols(choice: str, m: int) -> list[str]:
-    """Return what each slow variable is called."""
+def slow_symbols(choice: str, system: System_) -> list[str]:
+    """Return what each slow variable is called; the last is t where the formulas read time."""
     example = catalogue.get(choice)
-    return [one[0] for one in example.slow] if example else [_slow_symbol(i, m) for i in range(m)]
+    if example:
+        return [one[0] for one in example.slow]
+    clock = isinstance(system, System) and bool(system.clock)
+    others = system.m - clock
+    return [*(_slow_symbol(i, others) for i in range(others)), *((TIME,) if clock else ())]
 
 
 def _slow_symbol(i: int, m: int) -> str:

@@ -10,6 +10,7 @@ MOST_SLOW_VARIABLES = 16
 
 
 PLANE = ("c", "s", "x", "y")
+TIME = "t"  # unless a parameter or a definition has that name
 SLOW = tuple(f"z{i}" for i in range(1, MOST_SLOW_VARIABLES + 1))
 
 

@@ -19,6 +19,7 @@ from .equator_zeros import equator_as_orbit
 __all__ = ["NEUTRAL_EQUATOR", "EquatorCycle", "equator_cycle"]
 
 CLOSE = 1e-4  # distance from a saddle-node below which the zeros need more than doubles
+DIRECTIONS = 512  # of a mean: zeros of Theta with |e| below 0.95 are then far enough from the circle
 DESCENTS = 6  # of Newton's method: from within 2.5 degrees of a minimum
 NEUTRAL_EQUATOR = 2.0**-49  # of the terms of the exponent: zero within rounding
 
@@ -111,6 +112,24 @@ def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
     neutral = abs(value) <= NEUTRAL_EQUATOR * (abs(a) + abs(d)) * g0
     period = g0 / unit / math.ldexp(1.0, exponent)
     return EquatorCycle(1 if b > 0.0 else -1, period, 0.0 if neutral else value / unit, neutral)
+
+
+def exponents(planes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Find the exponent of `equator_cycle` for many (a, b, d, f1, f2) (n, 5) whose equator is closed, by means.
+
+    NaN where the mean over `DIRECTIONS` is far from that over half of them: what is left is about the square of what is
+    between the two. Also where the exponent is small beside its terms.
+    """
+    planes = planes / np.abs(planes).max(axis=1, keepdims=True)
+    a, b, d, f1, f2 = (v[:, None] for v in planes.T)
+    theta = np.arange(DIRECTIONS) * (2.0 * math.pi / DIRECTIONS)
+    c, s = np.cos(theta), np.sin(theta)
+    with np.errstate(all="ignore"):
+        weight = 1.0 / np.abs(b + f2 * c - f1 * s + (d - a) * s * c)
+        terms, sizes = weight * (d * c * c + a * s * s), weight.mean(axis=1) * (np.abs(a) + np.abs(d))[:, 0]
+        mean, half = terms.mean(axis=1), terms[:, ::2].mean(axis=1)
+        sure = (np.abs(mean - half) < 1e-5 * sizes) & (np.abs(mean) > 1e-8 * sizes)
+        return np.where(sure, 2.0 * math.pi * mean, math.nan)
 
 
 def slowest_turn(planes: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -23,7 +23,7 @@ def psi_derivatives(psi: Psi, s: Array) -> tuple[Array, Array, Array]:
     ----------
     psi : Psi
     s : ndarray (m,)
-        Positive.
+        Not negative; at 0 some may be infinite.
 
     Returns
     -------
@@ -69,6 +69,8 @@ def first_lyapunov(A: Array, psi: Psi, x2: Array, second_U: Array | None = None,
     h1 = -0.5 * h0**3 * w1
     h2 = 0.75 * h0**5 * w1**2 - 0.5 * h0**3 * P2
     h3 = -1.875 * h0**7 * w1**3 + 2.25 * h0**5 * w1 * P2 - 0.5 * h0**3 * P3
+    # at 0 they come with powers of x alone, and may be infinite where e_Psi bends as the power of a Hill Psi does
+    h2, h3 = np.where(s > 0.0, h2, 0.0), np.where(s > 0.0, h3, 0.0)
     x = x2
 
     def dot(u: NDArray, v: NDArray) -> NDArray:

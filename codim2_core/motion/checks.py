@@ -7,6 +7,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..systems.kinds import AnySystem
+
 Array = NDArray[np.float64]
 
 
@@ -32,6 +34,17 @@ def checked_state(state0: ArrayLike, m: int) -> Array:
     if not np.isfinite(state).all():
         raise ValueError(f"state0 is {state.tolist()}; give finite numbers.")
     return state
+
+
+def with_time(state0: ArrayLike, system: AnySystem, t: float) -> ArrayLike:
+    """Give states of a system that reads t their last slow variable, the time, where they were given without it."""
+    if not system.clock:
+        return state0
+    states = np.asarray(state0, object)
+    if states.ndim not in (1, 2) or states.shape[states.ndim - 1] != 1 + system.m:
+        return state0
+    clocks = np.full((*states.shape[: states.ndim - 1], 1), t, object)
+    return np.concatenate([states, clocks], axis=states.ndim - 1)
 
 
 def checked_states(state0: ArrayLike, m: int) -> Array:

@@ -22,8 +22,9 @@ from ..numerics.radau import TooManyStepsError
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
-from .checks import checked_span, checked_states, checked_tolerances
+from .checks import checked_span, checked_states, checked_tolerances, with_time
 from .limit.course import AtEventError, Course, StopError
+from .past import Past
 from .places import OfState
 from .regularised import MANY, MAX_STEPS, count_steps, waited_for
 from .result import Phase, Simulation, SimulationStatus, simulation
@@ -132,7 +133,7 @@ def simulate_nonsmooth(
     checked_tolerances(rtol, atol, max_steps)
     formulas = field(system)
     watched = checked_events(events)
-    states = checked_states(state0, formulas.m)
+    states = checked_states(with_time(state0, system, t_start), formulas.m)
     for first in states:
         if math.hypot(first[0], first[1]) < ON_SIGMA:
             first[:2] = 0.0
@@ -210,18 +211,15 @@ def _past(asked: _Asked, last: Array) -> Simulation:
     )  # fmt: skip
     arrives = len(back.phases) > 1
     steps = int(np.searchsorted(back.times, back.phases[0].t_end, side="right")) - 1 if arrives else len(back.times) - 1
-    motion = back.motion.upto(steps).backwards()
-    first = float(motion.times[0])
+    past = Past.upto(back, steps, "has left Sigma")
+    motion, first = past.motion, float(past.motion.times[0])
     slip = Phase("slip", first, t_start, say("past on Sigma" if arrives else "starts outside"))
     phases = (slip.placed(OfState(motion, None, 0.0, first, t_start), None),)
-    status, detail = back.status, back.reason.removeprefix(back.status.value).strip()
-    if arrives:
-        status, detail = SimulationStatus.FORGOTTEN, say("has left Sigma", t=first)
     variation = partial(of_nonsmooth, asked.system, motion, lambda: phases, invariant_line(asked.formulas, last))
-    events = [[t for t in (-times[::-1]).tolist() if t >= first] for times in back.events]
     return simulation(
-        motion, lambda: phases, variation, status, detail=detail, evaluations=back.evaluations, events=events
-    )
+        motion, lambda: phases, variation, past.status,
+        detail=past.detail, evaluations=past.evaluations, events=past.events,
+    )  # fmt: skip
 
 
 def _followed(asked: _Asked, states: Array) -> Iterator[Simulation]:

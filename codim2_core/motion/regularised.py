@@ -23,7 +23,7 @@ from ..numerics.growth import BlowUpError, bounded
 from ..numerics.radau import Problem, Step, TooManyStepsError, steps
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .checks import checked_span, checked_states, checked_tolerances
+from .checks import checked_span, checked_states, checked_tolerances, with_time
 from .past import Past
 from .phases import phases_of
 from .result import Simulation, SimulationStatus, simulation
@@ -140,7 +140,7 @@ def simulate(
     span = checked_span(t_span)
     checked_tolerances(rtol, atol, max_steps)
     asked = _Asked(system, field(system), psi, float(eps), span, rtol, atol, checked_events(events), max_steps)
-    states = checked_states(state0, asked.formulas.m)
+    states = checked_states(with_time(state0, system, span[0]), asked.formulas.m)
     runs = asked.runs(states) if span[0] < span[1] else _pasts(asked, states)
     return runs[0] if np.ndim(state0) < 2 else runs
 

@@ -40,6 +40,7 @@ class Coefficients:
     given: Affine | None = None
 
     frozen: ClassVar[bool] = True
+    clock: ClassVar[str] = ""
     moves_with_z: ClassVar[bool] = False
     variable: ClassVar[tuple[str, ...]] = ("a", "b", "d", "f1", "f2")
 

@@ -97,6 +97,7 @@ class ELinear:
     given_matrix: Any = None  # the raw entries ((a11, a12), (a21, a22)) when made by `from_matrix`
 
     frozen: ClassVar[bool] = False
+    clock: ClassVar[str] = ""
     typed: ClassVar[None] = None
 
     def __post_init__(self) -> None:

@@ -57,6 +57,7 @@ class AtZ(Protocol):
     """
 
     frozen: ClassVar[bool]
+    clock: ClassVar[str]
     moves_with_z: ClassVar[bool]
     variable: ClassVar[tuple[str, ...]]
 

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..expressions.expression import Expression, ExpressionError, parse
-from ..expressions.names import MOST_SLOW_VARIABLES, PLANE, SLOW
+from ..expressions.names import MOST_SLOW_VARIABLES, PLANE, SLOW, TIME
 from ..expressions.reader import MOST_CHARACTERS
 from .bounds import LARGEST
 
@@ -87,7 +87,8 @@ def definitions(given: Mapping[str, Any], parameters: tuple[str, ...]) -> tuple[
 
 def read(text: Text, what: str, parameters: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
     """Parse one formula; `z` becomes `z1` and definitions are put in."""
-    names = (*PLANE, "z", *SLOW, *parameters, *(definition[0] for definition in definitions))
+    given = (*parameters, *(definition[0] for definition in definitions))
+    names = (*PLANE, "z", *SLOW, *given, *(() if TIME in given else (TIME,)))
     if isinstance(text, Expression):
         foreign = [name for name in text.names if name not in names]
         if foreign:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, ClassVar
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ..expressions.names import SLOW
@@ -27,6 +28,9 @@ class System(Formulas):
         In c, s, x, y, the slow variables z1 … zm (z is z1), `parameters` and `definitions`.
     W : (m,) text, optional
         Likewise. Left out, W = 0 for as many slow variables as U names.
+        Where a formula reads t, time is one more slow variable, the last, with the rate 1 (`clock` is its name): it
+        needs no row, a motion that starts without it starts at the time where its span begins, and a portrait without
+        it is that of t = 0. A parameter or a definition of the name t is that.
     parameters : mapping of str to float, optional
         `evolve` changes their values without reading or compiling anything again.
     definitions : mapping of str to text, optional
@@ -49,6 +53,12 @@ class System(Formulas):
     --------
     >>> System(U=("2*c**2 - c - 1/2", "-s"), W=("-z",)).at(0.5).U((1.0, 0.5)).tolist()
     [0.5, -0.5]
+
+    A table that is shaken:
+
+    >>> shaken = System(U=("-mu*c + F*cos(w*t)", "-mu*s"), parameters={"mu": 0.3, "F": 0.5, "w": 2.0})
+    >>> shaken.m, shaken.clock, shaken.at(0.0).U((0.0, -1.0)).tolist()
+    (1, 'z1', [0.5, 0.3])
     """
 
     frozen: ClassVar[bool] = False
@@ -66,6 +76,7 @@ class System(Formulas):
                 allowed = ", ".join([*parameters, "U", "W", "parameters", "definitions"])
                 raise ValueError(f"{name!r} is no parameter of this system; it has {allowed}.")
         if fields:
+            fields = dict(zip("UW", self.without_clock, strict=True)) | fields
             return replace(self, **{"parameters": tuple(parameters.items()), **fields})
         copy = object.__new__(System)  # only numbers change: nothing is read again
         copy.__dict__.update(self.__dict__)
@@ -96,13 +107,15 @@ class System(Formulas):
         Parameters
         ----------
         z : (m,) floats
-            May be left out if no formula depends on it.
+            May be left out if no formula depends on it; t, the last where there is a `clock`, also else: it is 0 then.
 
         Raises
         ------
         ValueError
             z has the wrong length, or U is not finite somewhere on the hemisphere.
         """
+        if self.clock and np.size(np.asarray(z, object)) == self.m - 1:
+            z = (*np.ravel(z).tolist(), 0.0)
         used = any(name in SLOW for row in (*self.U, *self.W) for name in row.names)
         frozen = Frozen(self, slow_values(z, self.m, needed=used))
         frozen.size  # noqa: B018 (raises where U is not finite)

@@ -41,6 +41,7 @@ class Frozen:
     z: tuple[float, ...]
 
     frozen: ClassVar[bool] = True
+    clock: ClassVar[str] = ""
     moves_with_z: ClassVar[bool] = False
     variable: ClassVar[tuple[str, ...]] = ()
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from ..expressions.expression import Expression
-from ..expressions.names import MOST_SLOW_VARIABLES, SLOW, number_names
+from ..expressions.expression import Expression, parse
+from ..expressions.names import MOST_SLOW_VARIABLES, SLOW, TIME, number_names
 from .bounds import slow_names
 from .reading import continuous, mapping, parameter, read, shortened, texts
 from .reading import definitions as read_definitions
@@ -16,14 +16,43 @@ MOST_NUMBERS = 32  # parameters and slow variables that one system may read
 MOST_NAMES = 64  # parameters and definitions of one system
 
 
+Rows = tuple[Expression, ...]
+_T = parse(TIME, (TIME,))
+
+
+def with_clock(U: Rows, W: Rows) -> tuple[Rows, Rows, str]:
+    """Return U and W with one more slow variable for t, the last, whose rate is 1, and its name.
+
+    Time is a slow variable like any other for all that is known of them: a portrait is that of an instant, sliding
+    follows it, a periodic motion is forced by it.
+    """
+    named = max((SLOW.index(name) + 1 for row in (*U, *W) for name in row.names if name in SLOW), default=0)
+    others = len(W) or named
+    if others >= MOST_SLOW_VARIABLES:
+        raise ValueError(f"t is one more slow variable; at most {MOST_SLOW_VARIABLES - 1} are allowed beside it.")
+    if named > others:  # to be refused for that
+        return U, W, ""
+    clock = SLOW[others]
+    rows = W or (parse("0", ()),) * others
+    U, W = (tuple(row.substitute(TIME, parse(clock, SLOW)) for row in part) for part in (U, rows))
+    return U, (*W, parse("1", ())), clock
+
+
 @dataclass(frozen=True)
 class Formulas:
-    """U and W of eq:vf as formulas with numbers for their parameters, the parameters of `System`."""
+    """U and W of eq:vf as formulas with numbers for their parameters, the parameters of `System`.
+
+    Attributes
+    ----------
+    clock : str
+        The slow variable that is t, the last one, where formulas read t; else "".
+    """
 
     U: Any
     W: Any = ()
     parameters: Any = ()
     definitions: Any = ()
+    clock: str = field(default="", init=False)
 
     def __post_init__(self) -> None:
         fix = object.__setattr__
@@ -40,11 +69,16 @@ class Formulas:
         if len(U) != 2:
             raise ValueError(f"U is {shortened(self.U)}; give two formulas (U1, U2).")
         formula = lambda text, what: read(text, what, tuple(parameters), definitions)
-        fix(self, "U", tuple(formula(text, f"U{i + 1}") for i, text in enumerate(U)))
+        plane = tuple(formula(text, f"U{i + 1}") for i, text in enumerate(U))
         W = texts(self.W, "W")
         if len(W) > MOST_SLOW_VARIABLES:
             raise ValueError(f"W has {len(W)} rows; at most {MOST_SLOW_VARIABLES} slow variables are allowed.")
-        fix(self, "W", tuple(formula(text, f"W{i + 1}") for i, text in enumerate(W)))
+        slow = tuple(formula(text, f"W{i + 1}") for i, text in enumerate(W))
+        if TIME not in parameters and any(TIME in row.names for row in (*plane, *slow)):
+            plane, slow, clock = with_clock(plane, slow)
+            fix(self, "clock", clock)
+        fix(self, "U", plane)
+        fix(self, "W", slow)
         for what, rows in (("U", self.U), ("W", self.W)):
             for i, row in enumerate(rows):
                 continuous(row, f"{what}{i + 1}")
@@ -53,6 +87,14 @@ class Formulas:
                 f"the system reads {len(self.numbers)} parameters and slow variables; at most {MOST_NUMBERS}."
             )
         self.m  # noqa: B018 (raises where W has too few rows)
+
+    @property
+    def without_clock(self) -> tuple[Rows, Rows]:
+        """U and W as they were given: in t, and without the row of its clock."""
+        if not self.clock:
+            return self.U, self.W
+        U, W = (tuple(row.substitute(self.clock, _T) for row in rows) for rows in (self.U, self.W[:-1]))
+        return U, W
 
     @cached_property
     def m(self) -> int:

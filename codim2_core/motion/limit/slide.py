@@ -35,6 +35,7 @@ SHORTEST = 1e-14  # of the time in which z changes by its own size: steps that s
 AT_EQUATOR = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
 AT_FOLD = 1e-3  # |det D_e U|, in units of its entries squared, at which it is taken for a fold
 SHORTEST_PART = 1e-13  # of a step: a set that is not followed so far has gone
+LEAST_PART = 1.0 / 64.0  # of a step, in which a set that has moved far is followed to a place within it
 INSIDE = (4, *DEGREES)  # of the polynomials that a gauge is taken for along a step: most are far from zero
 NEAR_HOPF = 1e-2  # |tr J| in units of D_e U, below which a stable cycle may be too small to be found
 
@@ -260,7 +261,23 @@ def _end(sheet: Sheet) -> str:
 def _place(sheet: Sheet, step: Step, u: float) -> tuple[Array | None, Array]:
     """Return the critical set, None where there is none, and z at a fraction of a step."""
     z = step.at(u)
-    return sheet.at(z), z
+    e = sheet.at(z)
+    return (_further(sheet, step, u) if e is None else e), z
+
+
+def _further(sheet: Sheet, step: Step, u: float) -> Array | None:
+    """Follow the set to a fraction of a step in parts: a long step may move it farther than one search looks."""
+    here, at, part = Sheet(sheet.field, sheet.e, sheet.z), 0.0, 0.5 * u
+    while part > LEAST_PART * u:
+        there = min(at + part, u)
+        e = here.at(step.at(there))
+        if e is None or not here.joined(between := Sheet(sheet.field, e, step.at(there))):
+            part *= 0.5
+        elif there == u:
+            return e
+        else:
+            here, at, part = between, there, 2.0 * part
+    return None
 
 
 def _first(

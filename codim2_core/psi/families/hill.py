@@ -77,14 +77,24 @@ class Hill(Kernel):
 
 
 def derivatives(s: Array, n: float) -> tuple[Array, Array, Array]:
-    """First three derivatives of Psi = 1/(1 + v), v = (4s)^n/3, by s dPsi/ds = -n Psi (1 - Psi)."""
+    """First three derivatives of Psi = 1/(1 + v), v = (4s)^n/3, by s dPsi/ds = -n Psi Q, Q = 1 - Psi.
+
+    With ``R_jk = Q^j/s^k``, of which each is a power where s is small, and not a difference of what is nearly equal.
+    """
     P = np.asarray(Hill(n=n).value(VECTOR, s))
-    Q = 1.0 - P
-    first = -n * P * Q
-    second = n * n * P * Q * (1.0 - 2.0 * P)
-    third = -(n**3) * P * Q * (1.0 - 6.0 * P * Q)
-    # s d/ds to powers of d/ds
-    return first / s, (second - first) / s**2, (third - 3.0 * second + 2.0 * first) / s**3
+    x = np.minimum(4.0 * s, 1.0)
+
+    def R(j: int, k: int) -> Array:
+        near = 4.0**k * (P / 3.0) ** j * np.power(x, j * n - k)
+        return np.where(4.0 * s < 1.0, near, (1.0 - P) ** j / np.maximum(s, 0.25) ** k)
+
+    def times(coefficient: float, j: int, k: int) -> Array | float:
+        return coefficient * R(j, k) if coefficient else 0.0
+
+    with np.errstate(divide="ignore", invalid="ignore"):  # at s = 0 some are infinite
+        second = times(1.0 - n, 1, 2) + 2.0 * n * R(2, 2)
+        third = times((n - 1.0) * (n - 2.0), 1, 3) - times(6.0 * n * (n - 1.0), 2, 3) + 6.0 * n * n * R(3, 3)
+        return -n * P * R(1, 1), n * P * second, -n * P * third
 
 
 def gain(r2, w, n):

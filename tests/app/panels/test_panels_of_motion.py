@@ -12,6 +12,7 @@ from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import along as panel_along
 from codim2_app.panels import filippov, orbits, psi, solid
 from codim2_app.panels.typed_start import launch_of
+from codim2_app.state.chosen import build
 from codim2_app.state.cleaning import InputError
 from codim2_app.state.controls import ExplorerState
 from codim2_app.state.opening import opening
@@ -160,17 +161,20 @@ def test_a_jump_up_the_hemisphere_takes_no_time():
     assert radius[-1] < 0.9
 
 
+ONE_SLOW = build("own", {}, {})
+
+
 @pytest.mark.parametrize("launch", ["", "1,2", "1,2,3,4", "a,b,c", "1,2,nan"])
 def test_a_start_that_is_no_state_is_told(launch):
     with pytest.raises(InputError, match=r"give 3 numbers: x, y, z\."):
-        launch_of({"system": "own", "launch": launch, "t_end": 1.0, "log_eps": -2.0}, 1)
+        launch_of({"system": "own", "launch": launch, "t_end": 1.0, "log_eps": -2.0}, ONE_SLOW)
     assert "give 3 numbers" in sent(orbits, launch=launch)["unable"]["orbit"]
 
 
 @pytest.mark.parametrize("log_eps", [-14.5, 7.0, 100.0])
 def test_an_eps_that_no_motion_takes_is_told(log_eps):
     with pytest.raises(InputError, match="from -14 to 6") as caught:
-        launch_of({"launch": "1,2,3", "t_end": 1.0, "log_eps": log_eps}, 1)
+        launch_of({"launch": "1,2,3", "t_end": 1.0, "log_eps": log_eps}, ONE_SLOW)
     assert caught.value.control == "log_eps"
 
 
@@ -205,7 +209,8 @@ def test_the_first_start_has_as_many_numbers_as_the_system(m, W):
     header, _ = unpack(frames.answer({"all": True, "rest": True}))
     assert "" not in header["errors"]
     assert "orbit" not in header.get("unable", {})
-    start, _ = launch_of(frames.values, m)
+    system = build("own", texts, {})
+    start, _ = launch_of(frames.values, system)
     assert start == (0.6, 0.8, *(0.0,) * m)
     with pytest.raises(InputError, match=f"give {2 + m} numbers"):
-        launch_of({**frames.values, "launch": "1, 2, 3, 4, 5, 6, 7, 8"}, m)
+        launch_of({**frames.values, "launch": "1, 2, 3, 4, 5, 6, 7, 8"}, system)

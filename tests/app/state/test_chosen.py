@@ -81,7 +81,7 @@ def test_text_that_cannot_be_used_names_its_box_and_column(choice, texts, box, c
         (OWN, "U1", "-c + Psi", "without regularisation"),
         (OWN, "U1", "-c*psi(s)", "without regularisation"),
         (OWN, "W", "eps*c", "without regularisation"),
-        (OWN, "U2", "-s + sin(t)", "is time"),
+        (TYPED, "d", "-1 - t", "is time"),
         (OWN, "U2", "-T*s", "is time"),
     ],
 )
@@ -95,6 +95,18 @@ def test_a_name_with_another_meaning_gets_no_slider(choice, box, text, said):
 def test_a_definition_may_have_such_a_name():
     system = build(OWN, {"U1": "-c*t(z)", "U2": "-s", "W": "1", "where": "t(z) = 1 + z^2"}, {})
     assert system.parameters == ()
+
+
+def test_time_in_equations_of_ones_own_is_a_slow_variable_of_that_name():
+    texts = {"U1": "-c + F*cos(w*t)", "U2": "-s*z", "W": "x"}
+    system = build(OWN, texts, {})
+    assert [name for name, _ in system.parameters] == ["F", "w"]
+    told = describe(OWN, system, texts)
+    assert [one["symbol"] for one in told["slow"]] == ["z", "t"]
+    assert "<mi>t</mi>" in told["equations"]
+    assert told["equations"].count("<mover") == 3  # x, y and z: t has no row
+    with pytest.raises(TextError, match="t, and with it at most 4"):
+        build(OWN, {"U1": "-c + t", "U2": "-s", "W": "1\n1\n1\n1"}, {})
 
 
 def test_boxes_that_were_not_touched_keep_their_text():

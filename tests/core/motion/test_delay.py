@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
@@ -189,6 +189,7 @@ def test_without_psi_and_with_a_kink_it_stops_and_says_so():
 @given(st.complex_numbers(min_magnitude=0.3, max_magnitude=1.0), st.floats(0.5, 3.0))
 def test_zeros_and_poles_are_continued_from_the_real_axis(zero, pole):
     z = complex(zero.real, 0.2 + abs(zero.imag))
+    assume(abs(z - 1j * pole) > 0.05)  # a zero and a pole at one place are neither
     t = np.linspace(-1.5, 1.5, 301)
     f = np.exp(0.3 * t) * ((t - z.real) ** 2 + z.imag**2) / (t**2 + pole**2)
     found = rational(t, f, 1e-11)

@@ -295,3 +295,19 @@ def test_the_rest_of_the_way_to_sigma_ends_where_its_polynomial_does():
     np.testing.assert_allclose(rest.last, rest.at(1.0), rtol=0.0, atol=1e-15)
     np.testing.assert_allclose(rest.last[2:], before.last[2:] + 0.01 * problem.F(before.last)[2:], rtol=0.0, atol=1e-15)
     assert (rest.start, rest.h, *rest.last[:2]) == (1.5, 0.01, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(("w", "q"), [(0.3, 1.3), (0.35, 0.9), (0.3, 0.9)])
+def test_a_slide_ends_where_its_set_is_at_the_equator_however_long_its_steps_are(w, q):
+    """q'' + q = cos(w t) - 0.1 q'/|q'|: it stands while |cos(w t) - q| < 0.1, and nothing limits a step meanwhile."""
+    system = c2.System(U=("-z1 - mu*c + cos(w*z2)", "-mu*s"), W=("x", "1"), parameters={"mu": 0.1, "w": w})
+    for motion in c2.simulate_nonsmooth(
+        system, [(0.3, 0.0, q, 0.0)] * 8, (0.0, 4 * math.pi / w), rtol=1e-6
+    ):  # compiled
+        assert motion.status is c2.SimulationStatus.T_END
+        ends = [phase.t_end for phase in motion.phases if phase.kind == "slide" and phase.t_end < motion.times[-1]]
+        states = [motion.states[np.searchsorted(motion.times, t)] for t in ends]
+        assert [abs(math.cos(w * t) - at[2]) for t, at in zip(ends, states, strict=True)] == pytest.approx(
+            [0.1] * len(ends), abs=1e-9
+        )
+        assert ends
