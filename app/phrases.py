@@ -36,6 +36,15 @@ SENTENCES: dict[str, Sentence] = {
         "This address could not be opened, a fault of the program: here is the first portrait instead.",
         "an exception of the program",
     ),
+    "places taken": Sentence(
+        "All places are taken just now, so this picture cannot move. Reload the page: it opens as soon as one is free.",
+        "a page came while there was a place, and its websocket when there was none",
+    ),
+    "no connection": Sentence(
+        "This page has no connection to its server, so the picture cannot move. Reload the page; if that does not "
+        "help, a proxy on the way lets no websocket through, or the log of the server has the reason.",
+        "the websocket is refused, or closed before the explorer has begun",
+    ),
     "compiling": Sentence(
         "The integrator is being compiled, once; trajectories are sketched.", "before the compiler is done"
     ),
@@ -120,7 +129,7 @@ SENTENCES: dict[str, Sentence] = {
         "a typed name",
     ),
     "name of time": Sentence(
-        "{name} is time, on which no formula may depend; give the parameter another name.", "a typed name"
+        "{name} is time: equations of your own may read it, as t; give the parameter another name.", "a typed name"
     ),
     "no time passes": Sentence("It follows the equator, where no time t passes.", "a launched orbit on the equator"),
     "no such parameter": Sentence("The system has no parameter {names} ({there}): left out.", "a link, or a cell"),

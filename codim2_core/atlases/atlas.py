@@ -15,6 +15,7 @@ from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
 from .curves import curves_of
+from .cycles.cycle_curves import KIND, cycle_curves
 from .degenerate import degenerate_lines
 from .family import Family, Ranges
 from .numbers import numbers, places
@@ -23,7 +24,9 @@ from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
 from .special import crossings, each_once
 from .undefined import borders
 
-__all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "atlas", "curves_over", "with_regions"]
+__all__ = [
+    "Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "atlas", "curves_over", "with_folds_of_cycles", "with_regions",
+]  # fmt: skip
 
 Array = NDArray[np.float64]
 
@@ -32,6 +35,7 @@ LABELS = {
     "pitchfork": "fig:SNBIF",
     "transcritical": "fig:ellipse, fig:transcrit",
     "fold of critical sets": "eq:scjaco",
+    "pitchfork of critical sets": "eq:scjaco",
     "Hopf": "sec:case3",
     "node-focus": "fig:bads",
     "det A = 0": "thm:lineps1",
@@ -50,6 +54,7 @@ def atlas(
     up: str,
     ranges: Any = None,
     z: ArrayLike = (),
+    with_cycles: bool = False,
 ) -> Atlas:
     """All curves over two parameters on which the portrait changes, where they meet, and the regions between.
 
@@ -71,6 +76,8 @@ def atlas(
     ranges : ((low, high), (low, high)), optional
         Of `across`, then of `up`. Left out: about the present values.
     z : (m,) floats
+    with_cycles : bool
+        Also folds of limit cycles, which take some seconds: see `with_folds_of_cycles`.
 
     Returns
     -------
@@ -91,7 +98,8 @@ def atlas(
     >>> sorted({region.name for region in found.regions})
     ['CM2, stable node', 'CM4, stable node', 'NCM2']
     """
-    return with_regions(system, psi, curves_over(system, psi, across, up, ranges, z), z)
+    found = with_regions(system, psi, curves_over(system, psi, across, up, ranges, z), z)
+    return with_folds_of_cycles(system, psi, found, z) if with_cycles else found
 
 
 def curves_over(system: Any, psi: Psi, across: str, up: str, ranges: Any = None, z: ArrayLike = ()) -> Atlas:
@@ -126,8 +134,19 @@ def _nowhere(family: Family, kind: str, plane: Array) -> AtlasCurve:
 def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
     """Return an atlas with the regions between its curves, of the same system, psi and z."""
     family = family_over(system, psi, z, *found.names, found.ranges)
-    regions, looked = regions_of(family, [one.points for one in found.curves], [one.place for one in found.points])
+    still = [one.points for one in found.curves if one.kind != KIND]
+    regions, looked = regions_of(family, still, [one.place for one in found.points])
     return replace(found, regions=regions, looked=looked)
+
+
+def with_folds_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
+    """Return an atlas with its folds of limit cycles, of the same system, psi and z; they cut no region.
+
+    They are begun at generalised Hopf points, and at the folds on branches of cycles along two lines each way: one
+    that meets none of these is missed, and where branches see no cycle no fold is seen.
+    """
+    curves, points = cycle_curves(family_over(system, psi, z, *found.names, found.ranges), found.curves, found.points)
+    return replace(found, curves=found.curves + tuple(curves), points=found.points + tuple(points))
 
 
 def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> Family:

@@ -139,6 +139,28 @@ class Within:
         (a, b, c, d), every = self._D, zip(*self._DD, strict=True)
         return [a * dd + d * da - b * dc - c * db for da, db, dc, dd in every]
 
+    @property
+    def larger_row(self) -> int:
+        """The larger row of DU."""
+        a, b, c, d = self._D
+        return int(a * a + b * b < c * c + d * d)
+
+    def along_null(self, row: int) -> float:
+        """Return the derivative of det DU along the vector across a row of DU: where det DU = 0, its null vector."""
+        across, up = self.determinant_slopes[:2]
+        one, other = self._D[2 * row : 2 * row + 2]
+        return up * one - across * other
+
+    def along_range(self) -> tuple[float, list[float]]:
+        """Return the product of U and the larger column of DU, and its derivatives."""
+        (a, b, c, d), (U, V) = self._D, self.U.tolist()
+        column = int(a * a + c * c < b * b + d * d)
+        one, other = (b, d) if column else (a, c)
+        rise, climb = self._DD[column], self._DD[2 + column]
+        slopes = self.U_slopes.tolist()
+        by = [one * p + other * q + U * r + V * t for p, q, r, t in zip(*slopes, rise, climb, strict=True)]
+        return one * U + other * V, by
+
     def trace(self, bend: float) -> float:
         """Return T."""
         (x, y), (a, b, c, d) = self._e, self._D
@@ -165,6 +187,26 @@ def fold(family: Family) -> Condition:
     def condition(v: Array) -> tuple[Array, Array]:
         at = Within(family, v)
         return np.append(at.U, at.determinant), np.vstack([at.U_slopes, at.determinant_slopes])
+
+    return condition
+
+
+def pitchfork_of_sets(family: Family) -> Condition:
+    """U along the range of DU, det J, and the derivative of that along the null vector of DU.
+
+    Where a symmetry keeps U = 0 along the curve, U and det J have no regular zero: the part of U across that range
+    does not tell.
+    """
+
+    def condition(v: Array) -> tuple[Array, Array]:
+        at = Within(family, v)
+        along, slopes = at.along_range()
+        row = at.larger_row
+        by = [
+            (Within(family, v + h).along_null(row) - Within(family, v - h).along_null(row)) / (2.0 * STEP)
+            for h in STEP * np.eye(4)
+        ]
+        return np.array([along, at.determinant, at.along_null(row)]), np.array([slopes, at.determinant_slopes, by])
 
     return condition
 

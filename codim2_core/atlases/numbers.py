@@ -49,7 +49,7 @@ def numbers(family: Family, curve: Followed) -> Array:
         return np.array([conditions.OnEquator(family, at).radial for at in v])
     if curve.kind == "transcritical":
         return np.array([conditions.OnEquator(family, at).slope for at in v])
-    if curve.kind in ("fold of critical sets", "node-focus"):
+    if curve.kind in ("fold of critical sets", "pitchfork of critical sets", "node-focus"):
         return np.array([math.copysign(1.0, trace(family, at)) for at in v])
     if curve.kind == "Hopf":
         return lyapunov(family, v)

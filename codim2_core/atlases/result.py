@@ -24,9 +24,9 @@ class AtlasCurve(Tabled):
     ----------
     kind : str
         "saddle-node" (two limit directions meet), "pitchfork" (one splits into three, by a symmetry), "transcritical"
-        (a critical set comes to the equator), "fold of critical sets", "Hopf", "node-focus", "det A = 0" or
-        "neutral equator"; "degenerate" is a line on which every direction is a limit direction, "undefined" one beyond
-        which U has no value.
+        (a critical set comes to the equator), "fold of critical sets", "pitchfork of critical sets", "Hopf",
+        "node-focus", "det A = 0" or "neutral equator"; where it was asked for, "fold of cycles"; "degenerate" is a
+        line on which every direction is a limit direction, "undefined" one beyond which U has no value.
     points : ndarray (m, 2)
         In order along it; a closed one repeats its first point.
     label : str
@@ -36,7 +36,8 @@ class AtlasCurve(Tabled):
     numbers : ndarray (m,)
         A number that tells more: of "Hopf" the first Lyapunov coefficient (negative: a stable cycle is born), of
         "saddle-node" and "pitchfork" lambda_rho, of "transcritical" lambda_theta, in units of the largest |U|; of
-        "fold of critical sets" and "node-focus" the sign of tr J. Empty where there is none.
+        folds and pitchforks of critical sets and of "node-focus" the sign of tr J, of "fold of cycles" the cycle's
+        largest distance from the point it goes round, in the projected disc. Empty where there is none.
     """
 
     _head_ = ("curve", "from", "to", "points")
@@ -63,7 +64,8 @@ class AtlasPoint(Tabled):
     Attributes
     ----------
     kind : str
-        Such as "cusp", "Bogdanov–Takens", "generalised Hopf", "saddle-node on the equator", "crossing".
+        Such as "cusp", "Bogdanov–Takens", "generalised Hopf", "saddle-node on the equator", "crossing"; "undecided":
+        a fold of cycles was followed to here and no further.
     place : (float, float)
     sentence : str
         What happens there.

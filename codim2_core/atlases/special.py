@@ -58,6 +58,8 @@ def along(family: Family, curve: Followed) -> list[Special]:
         return found if family.affine else found + _zeros(curve, lambda v: OnEquator(family, v).determinant, _fold)
     if curve.kind == "fold of critical sets":
         return _zeros(curve, lambda v: trace(family, v), _takens) + _cusps_of_sets(family, curve)
+    if curve.kind == "pitchfork of critical sets":
+        return _zeros(curve, lambda v: trace(family, v), _takens)
     if curve.kind == "Hopf":
         ends = [
             _takens(curve.points[i]) for end, i in zip(curve.curve.ends, (0, -1), strict=True) if end == "det J = 0"
@@ -102,22 +104,16 @@ def _zeros(curve: Followed, test: Callable[[Array], float], make: Callable[[Arra
 
 def _cusps_of_sets(family: Family, curve: Followed) -> list[Special]:
     """Where det J = 0 keeps its place to first order along its own null vector."""
-
-    def along_null(v: Array, column: int) -> float:
-        at = Within(family, v)
-        (a, b), (c, d) = at.U_slopes[:, :2]
-        null = (-b, a) if column else (d, -c)
-        slopes = at.determinant_slopes
-        return slopes[0] * float(null[0]) + slopes[1] * float(null[1])
-
     found = []
     points = curve.points
     for i in range(len(points) - 1):
-        (a, b), (c, d) = Within(family, points[i]).U_slopes[:, :2]
-        column = int(a * a + b * b > c * c + d * d)
-        one, other = along_null(points[i], column), along_null(points[i + 1], column)
-        if one * other < 0.0:
-            v = zero_between(curve.condition, lambda v, k=column: along_null(v, k), points[i], points[i + 1])
+        row = Within(family, points[i]).larger_row
+
+        def along_null(v: Array, row: int = row) -> float:
+            return Within(family, v).along_null(row)
+
+        if along_null(points[i]) * along_null(points[i + 1]) < 0.0:
+            v = zero_between(curve.condition, along_null, points[i], points[i + 1])
             found.append(Special("cusp", say("cusp of sets"), v))
     return found
 

@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 TURNS, SIDES = 64, 24  # cells round the equator, and along both parameters beside them
 CELLS = 16  # cells along each of c, s, u and v
 MOST_STEPS = 32  # on which the curve of a neutral equator is looked for
+SUMS = 12  # of functions that are tried in a cell
+AWAY = 0.1  # of what a sum of them changes by in a cell: so far from zero it has none there
 OFF = 0.37  # of a cell: the net of e lies beside round numbers, on which degenerate systems like to lie
 
 EQUATOR_CELL = np.array([2.0 * math.pi / TURNS, 1.0 / SIDES, 1.0 / SIDES])
@@ -134,7 +136,7 @@ def _bends(family: Family, square: Array, side: Array) -> Array:
 
 
 def _cells(functions: Sequence[Array], grids: Sequence[Array]) -> Array:
-    """Centres of the cells at whose corners all functions have both signs."""
+    """Centres of the cells at whose corners all functions, and all sums of them, have both signs or come near to it."""
     mixed = np.ones([len(grid) - 1 for grid in grids], bool)
     for values in functions:
         low = high = values
@@ -143,4 +145,32 @@ def _cells(functions: Sequence[Array], grids: Sequence[Array]) -> Array:
             low, high = np.minimum(low[one], low[other]), np.maximum(high[one], high[other])
         mixed &= (low <= 0.0) & (high >= 0.0)
     index = np.nonzero(mixed)
-    return np.stack([0.5 * (grid[i] + grid[i + 1]) for grid, i in zip(grids, index, strict=True)], axis=-1)
+    corners = [
+        np.stack([values[tuple(i + k for i, k in zip(index, corner, strict=True))] for values in functions], axis=-1)
+        for corner in np.ndindex(*(2,) * len(grids))
+    ]
+    centres = np.stack([0.5 * (grid[i] + grid[i + 1]) for grid, i in zip(grids, index, strict=True)], axis=-1)
+    return centres[~_on_one_side(np.stack(corners, axis=1))]
+
+
+def _on_one_side(corners: Array) -> NDArray[np.bool_]:
+    """Whether a sum of functions, of values (k, corners, n), is of one sign at all corners, and well away from zero.
+
+    Each alone has both signs in many cells along the other's zeros: where two curves of zeros run side by side, as
+    beside a pitchfork, such cells hold none of both. The sum is looked for by Gilbert's algorithm: the point of the
+    corners' convex hull that is nearest to zero, or one so near to it that its direction tells.
+    """
+    size = np.abs(corners).max(axis=1, keepdims=True)
+    unit = corners / np.where(size > 0.0, size, 1.0)
+    nearest = unit.mean(axis=1)
+    apart = np.zeros(len(unit), bool)
+    rows = np.arange(len(unit))
+    for _ in range(SUMS):
+        along = np.einsum("kij,kj->ki", unit, nearest)
+        least = along.argmin(axis=1)
+        low = along[rows, least]
+        apart |= low > AWAY * (along.max(axis=1) - low)
+        step = unit[rows, least] - nearest
+        part = -(nearest * step).sum(axis=1) / np.maximum((step * step).sum(axis=1), 1e-300)
+        nearest = nearest + np.clip(part, 0.0, 1.0)[:, None] * step
+    return apart

@@ -21,8 +21,9 @@ PLANE = Steps(0.03, 0.12, 1500)
 REACH = 1.5  # cells that Newton's method may go
 MOST_FAILED = 100  # cells of a kind from which nothing is found
 SAME = 4e-3  # nearer to a curve than this a point lies on it: its chords are
-BESIDE = 0.75  # cells
-LEFT = 1e-9  # of Theta on a pitchfork
+BESIDE = 0.75  # cells on either side of a curve within which no other one is looked for,
+BESIDE_FORK = 2.0  # and of a pitchfork: on its branches Theta and Theta' all but vanish
+LEFT = 1e-9  # of Theta, or U, on a pitchfork
 INWARD = 1e-4  # 1 - |e|^2 where curves that end at a corner are looked for
 NEUTRAL = 1e-9  # of tr J, where a node-focus curve ends
 LAST = 0.1  # step to the equator
@@ -83,12 +84,15 @@ class Sought:
     edges : sequence of Edge
     true : callable
         Whether a point at which the condition is met is one of the curve.
+    beside : float
+        Cells on either side of such a curve within which no other one is looked for.
     """
 
     kind: str
     condition: Condition
     edges: Sequence[Edge]
     true: Callable[[Array], bool] = lambda _: True
+    beside: float = BESIDE
 
 
 def saddle_nodes(family: Family, cells: Array) -> Found:
@@ -99,6 +103,7 @@ def saddle_nodes(family: Family, cells: Array) -> Found:
         conditions.pitchfork(family),
         _edges(3),
         lambda v: abs(conditions.OnEquator(family, v).turning) < LEFT,
+        BESIDE_FORK,
     )
     return _curves((plain, forked), cells, starts.EQUATOR_CELL, EQUATOR)
 
@@ -110,9 +115,16 @@ def through_equator(family: Family, cells: Array) -> Found:
 
 
 def folds(family: Family, cells: Array) -> Found:
-    """Curves on which two critical sets meet."""
-    sought = Sought("fold of critical sets", conditions.fold(family), _edges(4, 1.0))
-    return _curves((sought,), cells, starts.CELL, WITHIN)
+    """Curves on which critical sets meet: folds, and where a symmetry holds, pitchforks."""
+    plain = Sought("fold of critical sets", conditions.fold(family), _edges(4, 1.0))
+    forked = Sought(
+        "pitchfork of critical sets",
+        conditions.pitchfork_of_sets(family),
+        _edges(4, 1.0),
+        lambda v: math.hypot(*conditions.Within(family, v).U) < LEFT,
+        BESIDE_FORK,
+    )
+    return _curves((plain, forked), cells, starts.CELL, WITHIN)
 
 
 def hopfs(family: Family, cells: Array, corners: Sequence[Array]) -> Found:
@@ -218,9 +230,7 @@ def _curves(
         if curve is None or len(curve.points) < 2 or not all(one.true(v) for v in curve.points):
             return False
         found.append((one, Followed(one.kind, one.condition, curve)))
-        for part in np.array_split(curve.points, -(-len(curve.points) // 64)):
-            away = np.abs(steps.apart(part[:, None], cells)) / cell
-            left[(away.max(axis=2) < BESIDE).any(axis=0)] = False
+        left[_beside_curve(curve.points, cells, cell * one.beside, steps)] = False
         return True
 
     for place in sure:
@@ -231,6 +241,17 @@ def _curves(
             failed += not follow(cells[i])
     kinds = dict.fromkeys(one.kind for one in sought) if failed == MOST_FAILED else ()
     return Found([curve for _, curve in found], tuple(kinds))
+
+
+def _beside_curve(points: Array, cells: Array, reach: Array, steps: Steps) -> NDArray[np.bool_]:
+    """Which cells (k, n) are as near to a curve as `reach` (n,), in each unknown."""
+    along = np.diff(points, axis=0)
+    parts = np.ceil(np.abs(along / reach).max(axis=1)).astype(int)
+    dense = [at + np.arange(n + 1)[:, None] / max(n, 1) * way for at, way, n in zip(points, along, parts, strict=False)]
+    places, found = np.concatenate(dense), np.zeros(len(cells), bool)
+    for part in np.array_split(places, -(-len(places) // 64)):
+        found |= (np.abs(steps.apart(part[:, None], cells)) < reach).all(axis=2).any(axis=0)
+    return found
 
 
 def _regular(one: Sought, start: Array, reach: float) -> Array | None:

@@ -292,6 +292,8 @@ ELSEWHERE = {
     "stopped": "tests/app/frame/test_turns.py",
     "stopped after": "tests/app/frame/test_workers.py",
     "lost": "tests/app/frame/test_turns.py",
+    "places taken": "tests/browser/test_connection.py",
+    "no connection": "tests/browser/test_connection.py",
     "no such place": "tests/app/lessons/test_lessons.py",
     "mark away": "tests/app/lessons/test_lessons.py",
     "nothing to play": "tests/app/export/test_film.py",

@@ -80,6 +80,7 @@ def two_at_once(system, fields):
         "transcritical",
         "Hopf",
         "fold of critical sets",
+        "pitchfork of critical sets",
         "neutral equator",
         "pitchfork",
     }

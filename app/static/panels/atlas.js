@@ -9,11 +9,11 @@ import {Dots} from "../room/dots.js"
 import {rangeFor, reachFor} from "../controls/ranges.js"
 
 const CURVE_NAMES = {
-  transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", pitchfork: "pitchfork", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", closed_equator: "cycle at the equator", determinant: "det A = 0", fold: "fold of critical sets", degenerate: "all is degenerate", undefined: "undefined",
+  transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", pitchfork: "pitchfork", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", closed_equator: "cycle at the equator", determinant: "det A = 0", fold: "fold of critical sets", fork_of_sets: "pitchfork of critical sets", degenerate: "all is degenerate", undefined: "undefined",
 }
 const OF_EQUATIONS = {transcritical: "a critical set at the equator", closed_equator: "closed equator neutral"}
 const CURVE_OF = {
-  transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "pitchfork", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant", fold: "fold", "fold of critical sets": "fold", "neutral equator": "closed_equator", degenerate: "degenerate",
+  transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "pitchfork", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant", fold: "fold", "fold of critical sets": "fold", "pitchfork of critical sets": "fork_of_sets", "neutral equator": "closed_equator", "fold of cycles": "cycle_folds", degenerate: "degenerate",
 }
 
 const MARKUP = `${axesMarkup({across: "across", up: "up"}, "atlas_zoom")}
@@ -38,7 +38,7 @@ class Atlas {
     cycles.addEventListener("change", () => tools.choose("cycle_curves", cycles.checked ? "show" : "hide"))
     tools.follow("cycle_curves", (value) => { cycles.checked = value === "show" })
     this.plane = {size: 0, curves: {}, regions: [], points: []}
-    this.map = this.empty = {of: "", regions: [], curves: {}, points: [], names: {}}
+    this.map = this.empty = {of: "", regions: [], curves: {}, still: {}, points: [], names: {}}
     this.of = "" // the axes that the server draws, and whether they are the plane of f
     this.tiles = []
     this.dots = /** @type {Dots | null} */ (null)
@@ -113,7 +113,8 @@ class Atlas {
       const regions = name.map((words, i) => ({name: words, bounded: true, inside: inside[i], loops: all.splice(0, loops[i])}))
       // only what is followed has points: its critical sets are those of equations
       const names = points || name.some((words) => words.includes(";")) ? OF_EQUATIONS : {}
-      this.map = {of: this.of, spans, regions, curves, points: points ?? [], names, note: header.map.note}
+      const still = Object.fromEntries(Object.entries(curves).filter(([kind]) => kind !== "cycle_folds"))
+      this.map = {of: this.of, spans, regions, curves, still, followed: Boolean(points), points: points ?? [], names, note: header.map.note}
     }
     this.why = header.unable?.map ?? (header.map || header.atlas_of ? "" : this.why)
     if (header.unable?.map) this.map = this.empty
@@ -130,12 +131,12 @@ class Atlas {
   draw(values) {
     this.values = values
     const words = this.axes.map((name) => this.tools.symbols[name] ?? "")
-    const chart = this.isPlane ? this.chartOfPlane(values) : this.chartOfMap()
+    const chart = this.isPlane ? this.chartOfPlane(values) : this.chartOfMap(values)
     const names = {...CURVE_NAMES, ...chart.names}
     const here = this.pad.draw({...chart, words, names, old: this.old})
     if (here !== this.here) { this.here = here; this.markTiles("here", here) }
     this.zoom.draw(values)
-    this.find(".cycle-curves").hidden = !this.isPlane || !this.possible
+    this.find(".cycle-curves").hidden = this.isPlane ? !this.possible : !this.map.followed || Boolean(this.why)
     this.find(".atlas-note").textContent = this.why || chart.note || ""
     this.find(".thumbnails").hidden = Boolean(this.why)
     this.find(".pad").toggleAttribute("hidden", Boolean(this.why) && !this.isPlane) // there is nothing to put a hand on
@@ -171,9 +172,11 @@ class Atlas {
     }
   }
 
-  chartOfMap() {
+  chartOfMap(values) {
     const handle = this.axes.map((name) => this.tools.valueOf(name))
-    const {of, spans, regions, curves, points, names, note} = this.map.of === this.of ? this.map : this.empty
+    const {of, spans, regions, curves: all, still, points: told, names, note} = this.map.of === this.of ? this.map : this.empty
+    const withCycles = values.cycle_curves === "show"
+    const curves = withCycles ? all : still, points = withCycles ? told : told.filter(([kind]) => kind !== "undecided")
     const box = of ? spans : this.axes.map((name, i) => rangeFor(this.tools.rangeOf(name), handle[i]))
     if (this.isStrip) { handle[1] = 0.5; box[1] = [0, 1] }
     return {box, regions, curves, points, handle, here: handle, path: null, note, names, flat: this.isStrip}

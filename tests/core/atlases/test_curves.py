@@ -277,6 +277,19 @@ def test_a_system_quadratic_in_e():
         assert abs(counts[0] - counts[1]) == 2
 
 
+def test_where_a_symmetry_splits_a_critical_set_into_three():
+    """U is odd in c: critical sets with c = 0 lie at s = 1/5, and split where mu + k/5 = 0."""
+    system = c2.System(U=("c*(mu + k*s - c**2)", "1/5 - s + c**2/3"), parameters={"mu": 0.5, "k": 0.3})
+    found = c2.atlas(system, c2.psi.tanh(), "mu", "k", ((-1, 1), (-2, 2)))
+    (curve,) = of_kind(found, "pitchfork of critical sets")
+    assert np.abs(curve.points @ (1.0, 0.2)).max() < 1e-9
+    assert np.abs(np.ptp(curve.points, axis=0) - (0.8, 4.0)).max() < 1e-9
+    assert not of_kind(found, "fold of critical sets")
+    assert found.unfinished == ()
+    assert not found.looked.unlike
+    assert np.abs(curve.numbers + 1.0).max() == 0.0  # tr DU = -1 there: T = -1 + bend s^2, by Psi = tanh above -1
+
+
 def test_the_ball_in_the_pool_sticks_up_to_a_speed():
     """|z| = 7 mu m g/(2 K), with K = m = 1."""
     found = c2.atlas(c2.examples.ball_in_pool(), c2.psi.constant(), "z1", "mu", ((0.1, 30), (0.05, 1)), z=(0.5, 0.3))

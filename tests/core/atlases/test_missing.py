@@ -48,6 +48,13 @@ def test_a_search_that_is_given_up_is_told(monkeypatch):
     assert "saddle-node" in c2.atlas(FOLDING, ONE, "mu", "k", SQUARE).unfinished
 
 
+def test_none_is_said_to_be_missing_for_a_symmetry_alone():
+    """Beside a pitchfork Theta and Theta' change their signs in many cells that hold no zero of both."""
+    found = c2.atlas(c2.examples.spinning_disc(), ONE, "k", "mu", ((0.3, 1), (0.05, 1)))
+    assert found.unfinished == ()
+    assert [one.kind for one in found.curves] == ["pitchfork"] * 2
+
+
 def test_what_happens_at_a_corner_of_u_is_seen_to_be_missing():
     system = c2.System(U=("-c", "mu - abs(s - k)"), parameters={"mu": 0.1, "k": 0.1})
     found = c2.atlas(system, ONE, "mu", "k", ((-0.5, 0.5), (-0.5, 0.5)))  # two critical sets are born at mu = 0

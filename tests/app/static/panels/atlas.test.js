@@ -144,27 +144,42 @@ test("the panel atlas: a map of two other parameters lies in their spans", () =>
 const FOLLOWED = {
   atlas_of: ["a", "f2", false],
   map: {
-    spans: [[-2, 6], [1, 3]], name: [], inside: [], loops: [], curve: ["transcritical", "pitchfork", "fold of critical sets", "degenerate"], pieces: [1, 1, 1, 1],
+    spans: [[-2, 6], [1, 3]], name: [], inside: [], loops: [], curve: ["transcritical", "pitchfork", "fold of critical sets", "pitchfork of critical sets", "degenerate"],
+    pieces: [1, 1, 1, 1, 1],
     points: [["cusp", 1.5, 2.25, "Three meet."]], note: "To come.",
   },
 }
-const CURVES = lines("map_curves", [[0, 0.5], [0.5, 0.25]], [[-0.5, -0.25], [-0.25, -0.75]], [[0.75, 0.5], [0.75, -0.5]], [[-1, -1], [-1, 1]])
+const CURVES = lines("map_curves", [[0, 0.5], [0.5, 0.25]], [[-0.5, -0.25], [-0.25, -0.75]], [[0.75, 0.5], [0.75, -0.5]], [[-0.75, 0.5], [-0.75, 1]], [[-1, -1], [-1, 1]])
 
 test("the panel atlas: of what is followed the curves come first, each with its name, and the points; then the regions", () => {
   const one = atlas({across: "a", a: 3, f2: 2.2})
   const read = () => plots(one.find(".pad"))[0]
   one.frame(FOLLOWED, {...lines("map"), ...CURVES}, ["map regions"])
-  assert.deepEqual(read().lines.map(({name}) => name), ["transcritical", "pitchfork", "fold", "degenerate"])
-  assert.deepEqual(one.texts(".pad-curves span"), ["a critical set at the equator", "pitchfork", "fold of critical sets", "all is degenerate"])
+  assert.deepEqual(read().lines.map(({name}) => name), ["transcritical", "pitchfork", "fold", "fork_of_sets", "degenerate"])
+  assert.deepEqual(one.texts(".pad-curves span"), ["a critical set at the equator", "pitchfork", "fold of critical sets", "pitchfork of critical sets", "all is degenerate"])
   assert.deepEqual([...one.find(".pad").querySelectorAll(".line title")].map((it) => it.textContent), one.texts(".pad-curves span"))
   near(read().marks.map((mark) => mark.at), [[1.5, 2.25]])
   assert.deepEqual([read().marks[0].title, read().areas.length, one.find(".atlas-note").textContent], ["cusp. Three meet.", 0, "To come."])
   assert.ok(!one.find(".pad").classList.contains("old") && one.find(".thumbnails").classList.contains("old"))
   one.frame({unable: {"map regions": "Too long."}})
-  assert.deepEqual([one.find(".atlas-note").textContent, read().lines.length], ["Too long.", 4]) // the curves stay
+  assert.deepEqual([one.find(".atlas-note").textContent, read().lines.length], ["Too long.", 5]) // the curves stay
   one.frame({map: {...FOLLOWED.map, name: ["2CM4, saddle; 3 arrive"], inside: [[0, 2.5]], loops: [1], note: ""}}, {...lines("map", [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.75]]), ...CURVES})
   near(read().areas.map((area) => area.points), [[[0, 1.5], [4, 1.5], [4, 2.75]]])
-  assert.deepEqual([one.texts(".pad-names span"), read().lines.length], [["2CM4, saddle; 3 arrive"], 4])
+  assert.deepEqual([one.texts(".pad-names span"), read().lines.length], [["2CM4, saddle; 3 arrive"], 5])
+})
+
+test("the panel atlas: folds of cycles of what is followed are there where they are asked for", () => {
+  const one = atlas({across: "a", a: 3, f2: 2.2})
+  const shown = () => plots(one.find(".pad"))[0]
+  assert.equal(one.find(".cycle-curves").hidden, true)
+  const curve = ["Hopf", "fold of cycles"], points = [["generalised Hopf", 1, 1.5, "Born."], ["undecided", 2, 1.5, "No further."]]
+  one.frame({...FOLLOWED, map: {...FOLLOWED.map, curve, pieces: [1, 1], points}}, {...lines("map"), ...lines("map_curves", [[0, 0.5], [0.5, 0.25]], [[0.75, 0.5], [0.75, -0.5]])})
+  assert.equal(one.find(".cycle-curves").hidden, false)
+  assert.deepEqual([shown().lines.map(({name}) => name), shown().marks.length], [["hopf"], 1])
+  one.set({cycle_curves: "show"})
+  assert.deepEqual([shown().lines.map(({name}) => name), shown().marks.length], [["hopf", "cycle_folds"], 2])
+  one.frame({unable: {map: "Choose two."}})
+  assert.equal(one.find(".cycle-curves").hidden, true)
 })
 
 test("the panel atlas: a finger that scrolls the page sets nothing, one that goes sideways or taps does", () => {

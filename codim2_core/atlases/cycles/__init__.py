@@ -1,0 +1,1 @@
+"""Folds of limit cycles over two parameters."""

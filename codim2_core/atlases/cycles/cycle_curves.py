@@ -1,0 +1,91 @@
+"""Folds of limit cycles over two parameters of any system."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...words import say
+from ..family import Family
+from ..result import AtlasCurve, AtlasPoint
+from .following import CENTRE, Curve, through
+from .lines import Seed, along_lines, beside
+
+Array = NDArray[np.float64]
+
+KIND, LABEL = "fold of cycles", "sec:case3"
+BORN = "generalised Hopf"
+NEAR = 0.03  # of the square: a curve passes a start, or ends at a point of codimension two, so near to it
+SMALL = 0.02  # cycles that are all but a critical set
+ALIKE = 0.15  # of the size of cycles
+
+
+def cycle_curves(
+    family: Family, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
+) -> tuple[list[AtlasCurve], list[AtlasPoint]]:
+    """Find folds of cycles, and the places where they could be followed no further.
+
+    They are begun at generalised Hopf points, and at the folds on branches of cycles along two lines each way: one
+    that meets none of these is missed.
+
+    Parameters
+    ----------
+    family : Family
+    curves, points : sequence of AtlasCurve, of AtlasPoint
+        Of what stands still.
+    """
+    born = [family.units(np.array(point.place)) for point in points if point.kind == BORN]
+    found: list[Curve] = []
+    for place in born:
+        if not any(_comes_to(one, place) for one in found):
+            caught = (through(family, seed.start) for seed in beside(family, place))
+            found += islice((one for one in caught if one is not None), 1)
+    for seed in along_lines(family, curves):
+        if not any(_passes(one, seed) for one in found):
+            one = through(family, seed.start)
+            found += [one] if one is not None else []
+    out, lost = [], []
+    for one in found:
+        plane, sizes, ends = _ended(one, born)
+        places = np.full((len(plane), 2), math.nan)
+        out.append(AtlasCurve(KIND, _read_only(family.values(plane)), LABEL, _read_only(places), _read_only(sizes)))
+        for across, up in family.values(np.array(ends).reshape(-1, 2)).tolist():
+            lost.append(AtlasPoint("undecided", (across, up), say("fold followed no further")))
+    return out, lost
+
+
+def _passes(curve: Curve, seed: Seed) -> bool:
+    near = _away(curve.plane, seed.start.v[1:]) < NEAR
+    return bool((near & (np.abs(curve.sizes - seed.size) < ALIKE)).any())
+
+
+def _comes_to(curve: Curve, place: Array) -> bool:
+    ends = [math.dist(curve.plane[i], place) for i in (0, -1) if curve.sizes[i] < SMALL]
+    return min(ends, default=math.inf) < NEAR
+
+
+def _away(plane: Array, place: Array) -> Array:
+    return np.hypot(*(plane - place).T)
+
+
+def _ended(one: Curve, born: Sequence[Array]) -> tuple[Array, Array, list[Array]]:
+    """Return a curve drawn on to the points where it is born, and its ends that are at none."""
+    plane, sizes, lost = one.plane, one.sizes, []
+    for end, i in zip(one.ends, (0, -1), strict=True):
+        last, size = one.plane[i], one.sizes[i]
+        near = min(born, key=lambda at, last=last: math.dist(at, last), default=None)
+        if near is not None and size < SMALL and math.dist(near, last) < NEAR:
+            plane = np.concatenate([near[None], plane] if i == 0 else [plane, near[None]])
+            sizes = np.concatenate([[0.0], sizes] if i == 0 else [sizes, [0.0]])
+        elif end in (CENTRE, "lost", "many"):
+            lost.append(last)
+    return plane, sizes, lost
+
+
+def _read_only(array: Array) -> Array:
+    array.flags.writeable = False
+    return array
