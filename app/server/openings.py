@@ -25,7 +25,7 @@ from .process.garbage import begun
 class Ahead(Handler):
     """Makes a session's figure, its first frame, its explorer and the explorer's models before Bokeh asks for them.
 
-    Between these parts, each of which takes 10 to 25 ms of processor time, others are answered.
+    Between these parts, each of which takes 7 to 10 ms of processor time, others are answered.
     """
 
     def modify_document(self, doc: Document) -> None:

@@ -157,3 +157,11 @@ def test_the_pages_of_one_server_come_through_one_door():
     one, other = Application(), Application()
     assert one_by_one(one) is one_by_one(one)
     assert one_by_one(one) is not one_by_one(other)
+
+
+def test_the_last_part_finds_the_parameters_of_the_view_copied():
+    """It is the longest part, and would copy each of them: a quarter of its time."""
+    view = openings.opened(openings.opening({}))
+    of_all = type(view).param.objects("existing")
+    shared = [name for name, one in view.param.objects("existing").items() if one.per_instance and one is of_all[name]]
+    assert shared == []
