@@ -216,19 +216,32 @@ def _lost(sheet: Sheet, step: Step, before: Array, after: Array) -> tuple[float,
 
     At the end there may be another: it is the same where each leads to the other by its slope, or all parts do so.
     """
-    here, there = Sheet(sheet.field, before, step.first), Sheet(sheet.field, after, step.last)
-    u, part = 0.0, 1.0
-    while part > SHORTEST_PART:
-        if u + part >= 1.0:
-            if here.joined(there):
-                return None
-        else:
-            z = step.at(u + part)
-            e = here.at(z)
-            if e is not None and here.joined(between := Sheet(sheet.field, e, z)):
-                here, u, part = between, u + part, 4.0 * part
+    last = Sheet(sheet.field, after, step.last)
+    u, there = _followed(Sheet(sheet.field, before, step.first), step, 1.0, SHORTEST_PART, last)
+    return None if there is last else (u, there)
+
+
+def _followed(here: Sheet, step: Step, to: float, least: float, last: Sheet | None = None) -> tuple[float, Sheet]:
+    """Follow a set to a fraction of a step, in parts not below the least one, or as far as it is there.
+
+    A long step may move it farther than one search looks. The last set is searched for unless it is given.
+    """
+    u, part = 0.0, to
+    while part > least:
+        at = min(u + part, to)
+        ahead = last if at == to and last is not None else _searched(here, step.at(at))
+        if ahead is not None and here.joined(ahead):
+            if at == to:
+                return at, ahead
+            here, u, part = ahead, at, 4.0 * part
         part *= 0.5
     return u, here
+
+
+def _searched(here: Sheet, z: Array) -> Sheet | None:
+    """The set at another z, close to one that is known."""
+    e = here.at(z)
+    return None if e is None else Sheet(here.field, e, z)
 
 
 def _gauges(
@@ -262,22 +275,10 @@ def _place(sheet: Sheet, step: Step, u: float) -> tuple[Array | None, Array]:
     """Return the critical set, None where there is none, and z at a fraction of a step."""
     z = step.at(u)
     e = sheet.at(z)
-    return (_further(sheet, step, u) if e is None else e), z
-
-
-def _further(sheet: Sheet, step: Step, u: float) -> Array | None:
-    """Follow the set to a fraction of a step in parts: a long step may move it farther than one search looks."""
-    here, at, part = Sheet(sheet.field, sheet.e, sheet.z), 0.0, 0.5 * u
-    while part > LEAST_PART * u:
-        there = min(at + part, u)
-        e = here.at(step.at(there))
-        if e is None or not here.joined(between := Sheet(sheet.field, e, step.at(there))):
-            part *= 0.5
-        elif there == u:
-            return e
-        else:
-            here, at, part = between, there, 2.0 * part
-    return None
+    if e is None:
+        at, there = _followed(Sheet(sheet.field, sheet.e, sheet.z), step, u, LEAST_PART * u)
+        return (there.e if at == u else None), z
+    return e, z
 
 
 def _first(
