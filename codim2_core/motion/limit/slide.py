@@ -239,7 +239,7 @@ def _followed(here: Sheet, step: Step, to: float, least: float, last: Sheet | No
 
 
 def _searched(here: Sheet, z: Array) -> Sheet | None:
-    """The set at another z, close to one that is known."""
+    """Search the set at another z, close to one that is known."""
     e = here.at(z)
     return None if e is None else Sheet(here.field, e, z)
 
