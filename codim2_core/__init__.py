@@ -22,6 +22,8 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .layer_problem import hemisphere
     from .layer_problem.critical import CriticalSet, critical_sets
     from .layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+    from .motion.delay import Delay
+    from .motion.limit.ahead import delays
     from .motion.nonsmooth import simulate_nonsmooth
     from .motion.periodic.result import PeriodicMotion, PeriodicStatus
     from .motion.periodic.search import periodic_motion
@@ -60,6 +62,7 @@ __all__ = [
     "Coefficients",
     "CriticalSet",
     "Degeneracy",
+    "Delay",
     "ELinear",
     "EquatorCycle",
     "EquatorEquilibria",
@@ -92,6 +95,7 @@ __all__ = [
     "certificates",
     "classify",
     "critical_sets",
+    "delays",
     "equator_cycle",
     "equator_equilibria",
     "examples",
@@ -130,6 +134,8 @@ _HOMES = {
     "initial_value.events": "Event",
     "layer_problem.critical": "CriticalSet critical_sets",
     "layer_problem.equator": "EquatorCycle EquatorEquilibria equator_cycle equator_equilibria",
+    "motion.delay": "Delay",
+    "motion.limit.ahead": "delays",
     "motion.nonsmooth": "simulate_nonsmooth",
     "motion.periodic.result": "PeriodicMotion PeriodicStatus",
     "motion.periodic.search": "periodic_motion",

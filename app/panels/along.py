@@ -8,11 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from codim2_core.motion.limit.ahead import delays
 from codim2_core.portrait.attracting import attracting
 from codim2_core.psi.function import Psi
 from codim2_core.sliding.along import slow_portrait
 from codim2_core.sliding.over import slow_plane
 from codim2_core.sliding.slow_portrait_result import SlowPortrait
+from codim2_core.words import named
 
 from ..frame.draft import Draft
 from ..phrases import say
@@ -42,6 +44,9 @@ def add(draft: Draft) -> None:
     found = draft.slow("along", (system, psi, others, axis, spans), line, system, psi, others, axis, spans)
     if found is not None:
         draft.header["along"] = found
+    ahead = draft.slow("delays", (system, psi, z, spans), ahead_of, system, psi, z, spans)
+    if ahead is not None:
+        draft.header["delays"] = ahead
     if m > 1:
         rest = z[2:]
         plane = draft.slow("slow_plane", (system, psi, rest, spans), plane_of, system, psi, rest, spans)
@@ -98,6 +103,23 @@ def columns(found: SlowPortrait, axis: int) -> dict[str, Any]:
             for p in found.points
         ],
     }
+
+
+def ahead_of(system: System_, psi: Psi, z: tuple[float, ...], spans: tuple[tuple[float, float], ...]) -> dict[str, Any]:
+    """Return the delayed losses of stability ahead of motions that come to Sigma at z, as the browser draws them."""
+    found = [
+        {
+            "onto": named(one.onto),
+            "z_in": short(one.z_in),
+            "z_hopf": short(one.z_hopf),
+            "z_out": None if one.z_out is None else short(one.z_out),
+            "z": [short(column) for column in one.z.T],
+            "flow": [short(column) for column in one.flow.T],
+            "reason": one.reason,
+        }
+        for one in delays(system, psi, z, spans)
+    ]
+    return {"found": found}
 
 
 def plane_of(

@@ -84,7 +84,14 @@ def followed(
     """
     limit = simulate_nonsmooth(system, start, (0.0, t_end), psi=psi, rtol=RTOL)
     parameters = dict(system.parameters)
-    orbit = {"index": TYPED, "m": system.m, "fast": False, "start": list(start), **curves(limit)}
+    orbit = {
+        "index": TYPED,
+        "m": system.m,
+        "fast": False,
+        "start": list(start),
+        **curves(limit),
+        "delays": _delays(limit),
+    }
     if not eps:
         return {"orbit": {**orbit, "ball": _rolling(ball, limit, parameters)}}
     run = simulate(system, psi, eps, start, (0.0, t_end), rtol=RTOL)
@@ -102,9 +109,17 @@ def curves(run: Simulation) -> dict[str, Any]:
         "t": short(drawn.times),
         "states": [short(column) for column in (x, y, angle, radius, *z)],
         "picture": [short(column) for column in drawn.points.T],
-        "phases": [[p.kind, p.t_start, p.t_end, p.reason] for p in run.phases],
+        "phases": [["delay" if p.delay else p.kind, p.t_start, p.t_end, p.reason] for p in run.phases],
         "reason": run.reason,
     }
+
+
+def _delays(limit: Simulation) -> list[list[Any]]:
+    """Return when, and at which z, sets lose their stability to which the motion stays, and where it leaves them."""
+    found = [phase.delay for phase in limit.phases if phase.delay is not None]
+    return [
+        [one.t_hopf, one.t_out, short(one.z_hopf), None if one.z_out is None else short(one.z_out)] for one in found
+    ]
 
 
 def _rolling(ball: Ball | None, run: Simulation, parameters: Mapping[str, float]) -> dict[str, Any] | None:

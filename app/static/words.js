@@ -124,4 +124,4 @@ export function slowWords(flow, symbols = []) {
 export const turned = (way) => `Orbits turn ${way > 0 ? "anticlockwise" : "clockwise"}.`
 
 // How a phase of a motion is called; of a ball also in the words of mechanics.
-export const phaseWords = (kind, ball) => ({slip: "slips", slide: ball ? "slides (the ball sticks and rolls)" : "slides", cross: "crosses"})[kind]
+export const phaseWords = (kind, ball) => ({slip: "slips", slide: ball ? "slides (the ball sticks and rolls)" : "slides", delay: "slides on, delayed", cross: "crosses"})[kind]

@@ -16,6 +16,7 @@ from ..expressions.names import SLOW
 from ..numerics.dense import Dense
 from ..tables import Tabled, frame, number, paragraphs, rows
 from ..words import say
+from .delay import Delay
 from .drawn import Drawn, drawn
 from .places import NONE, Ascent, Place
 
@@ -51,6 +52,9 @@ class Phase(Tabled):
     onto : str or None
         The set that it slides on, by its name at t_start: "C" (or "C1", ..., in the order of `critical_sets`),
         "cycle 1"; None elsewhere.
+    delay : Delay or None
+        Of a slide in the limit on a critical set that has lost its stability (Hopf): when and where that was, and when
+        and where the motion leaves it.
     """
 
     _head_ = ("phase", "from t", "to t", "on", "why it began")
@@ -60,6 +64,7 @@ class Phase(Tabled):
     t_end: float
     reason: str
     onto: str | None = field(default_factory=lambda: None)  # a default would be found where it is told later
+    delay: Delay | None = field(default=None, compare=False)
     _place: Place | None = field(default=None, repr=False, compare=False)
     _ascent: Ascent | None = field(default=None, repr=False, compare=False)
     _words: Callable[[], tuple[str, str | None]] | None = field(default=None, repr=False, compare=False)

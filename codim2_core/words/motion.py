@@ -65,6 +65,11 @@ SENTENCES: dict[str, Sentence] = {
         "1/ε ends it sooner.",
         "tr J = 0, analytic, C moves",
     ),
+    "delay, open": Sentence(
+        "{C} loses its stability (Hopf), and the motion stays near it as far as it was followed: till there it is "
+        "attracted more than repelled.",
+        "tr J = 0, way out after the end of the range",
+    ),
     "Hopf, left": Sentence("The motion leaves {C}, which is unstable.", "the end of a delay"),
     "Hopf, not analytic": Sentence(
         "{C} loses its stability (Hopf): after what delay is not known, for its eigenvalues are not smooth in time.",

@@ -31,6 +31,7 @@ GOOD = {
     c2.certificates: PLANE,
     c2.classify: PLANE,
     c2.critical_sets: PLANE,
+    c2.delays: {**PLANE, "spans": [(-1.0, 1.0)]},
     c2.equator_cycle: {"system": SYSTEM, "z": 0.1},
     c2.equator_equilibria: {"system": SYSTEM, "z": 0.1},
     c2.filippov_sliding: {"system": SYSTEM, "z": 0.1},

@@ -27,6 +27,7 @@ ELSEWHERE = {
     **dict.fromkeys(("past on Sigma", "past ends", "has left Sigma", "past forgotten"), PASTS),
     "repels angularly": FIRST_STEPS,
     "nothing leaves": FIRST_STEPS,
+    "delay, open": "tests/core/motion/test_delay.py",
     "phases agree": AGREEMENT,
     "phases agree, less": AGREEMENT,
     "phases differ": AGREEMENT,

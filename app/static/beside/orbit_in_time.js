@@ -19,6 +19,8 @@ export const TYPED = -1 // in place of a launched orbit's place: the typed start
  * @property {number[][]} states x, y, θ and |p|, or ρ, or the radius in the picture; of a typed start also z
  * @property {number[][]} picture
  * @property {Phase[]} [phases] of a typed start, which also has a reason why it ends
+ * @property {[number, number | null, number[], number[] | null][]} [delays] also: when a set that it slides on loses its
+ *   stability, when it is left, and z at both
  * @property {string} [reason]
  * @property {any} [ball]
  */
@@ -121,16 +123,21 @@ export class OrbitInTime {
     const m = Math.min(Math.max(orbit.states.length, motion?.states.length ?? 0) - 4, 4)
     const rows = [[0, 1], [2], [3], ...(m > 0 ? [Array.from({length: m}, (_, i) => 4 + i)] : [])]
     const word = (c) => c < 4 ? words[c] : this.slowSymbols()[c - 4] ?? `z${m > 1 ? "₁₂₃₄"[c - 4] : ""}`
-    const bands = (motion ?? orbit).phases?.map(([kind, from, to, why]) => ({name: kind, from, to: Math.min(to, span[1]), title: why}))
+    const band = ([kind, from, to, why]) => ({name: kind, from, to: Math.min(to, span[1]), title: why})
+    const late = orbit.phases?.filter(([kind]) => kind === "delay") ?? []
+    const bands = motion ? [...(motion.phases ?? []), ...late].map(band) : orbit.phases?.map(band)
+    const places = (orbit.delays ?? []).flatMap(([hopf, out, from, to]) => [["Hopf", hopf, from], ...(to ? [["way out", out, to]] : [])])
     return rows.map((columns, k) => {
+      const [c0] = columns
       const values = columns.flatMap((c) => [...(orbit.states[c] ?? []), ...(motion?.states[c] ?? [])])
-      const y = columns[0] === 3 && orbit.fast ? [0, 1.06] : spanOf(values, 0.06, columns[0] === 2 ? [] : [0])
-      const shade = columns[0] === 2 ? 2 : columns[0] === 3 ? 3 : 0
+      const y = c0 === 3 && orbit.fast ? [0, 1.06] : spanOf(values, 0.06, c0 === 2 ? [] : [0])
+      const shade = c0 === 2 ? 2 : c0 === 3 ? 3 : 0
       const curve = (run, c, i, name) => ({name: `series-line s${shade + i} ${name}`, title: word(c), x: run.t, y: run.states[c]})
       return {
-        title: columns.map((c, i) => `<tspan class="s${shade + i}">${escape(word(c))}</tspan>`).join(" "), zeros: true, bands,
+        title: columns.map((c, i) => `<tspan class="s${shade + i}">${escape(word(c))}</tspan>`).join(" "), zeros: true, bands: c0 < 4 ? bands : bands?.map((one) => one.name === "delay" ? {...one, word: "delay"} : one),
+        marks: c0 < 4 ? [] : places.flatMap(([kind, t, z]) => columns.map((c) => ({kind, name: kind, x: t, y: z[c - 4], title: `${kind === "Hopf" ? "It loses its stability (Hopf)" : "It is left"}: ${words[4]} = ${digits(t, 6)}, ${word(c)} = ${digits(z[c - 4], 6)}`}))),
         x: {span, word: words[4], hidden: k < rows.length - 1},
-        y: {span: y, ticks: columns[0] === 2 ? angleTicks(y) : undefined, most: 4}, share: k ? 0.7 : 1,
+        y: {span: y, ticks: c0 === 2 ? angleTicks(y) : undefined, most: 4}, share: k ? 0.7 : 1,
         lines: columns.flatMap((c, i) => [...(motion?.states[c] ? [curve(motion, c, i, "broken")] : []), ...(orbit.states[c] ? [curve(orbit, c, i, "")] : [])]),
       }
     })

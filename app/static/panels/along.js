@@ -9,6 +9,9 @@ import {SAYS, digits, escape, slowName} from "../words.js"
 
 const DRIFT_SECONDS = 10 // in which play would cross the whole range at the largest slow flow shown
 
+// The name of a delay, beside its middle.
+const middle = (x, y) => { const k = Math.floor(x.length / 2); return {text: "delay", at: [x[k], y[k]]} }
+
 const MARKUP = `<div class="along-body">
     <div class="row"><button type="button" class="play" aria-pressed="false">▶ Play</button>
       <label class="which" hidden>along <select class="drift" aria-label="slow variable"></select></label>
@@ -41,6 +44,7 @@ class Along {
     })
     this.ticker = new Ticker(this.find(".play"), (ms, next) => this.drifts(ms, next))
     this.data = null
+    this.delays = []
     this.which = this.find(".drift")
     this.which.addEventListener("change", () => tools.choose("drift", this.which.value))
     this.find(".play").addEventListener("click", () => this.toggle())
@@ -56,11 +60,13 @@ class Along {
   apply({header}, late) {
     if ("drift" in header) this.drift = header.drift
     if (header.along) { this.data = header.along; this.why = "" }
+    if (header.delays) this.delays = header.delays.found
     if (header.slow_plane) this.planeData = header.slow_plane
     if (header.unable?.along) { this.data = null; this.why = header.unable.along }
     if (this.data && this.data.m < 2) this.planeData = null
     for (const [svg, name] of [[this.svg, "along"], [this.plane, "slow_plane"]]) svg.classList.toggle("old", late.includes(name))
-    if (header.along || header.slow_plane || header.unable?.along) this.drawAll()
+    for (const svg of [this.svg, this.plane]) svg.classList.toggle("delays-old", late.includes("delays"))
+    if (header.along || header.delays || header.slow_plane || header.unable?.along) this.drawAll()
     if (this.values && !this.box.hidden) this.draw(this.values)
     this.arrived?.()
   }
@@ -112,24 +118,39 @@ class Along {
     if (!this.data) { this.toggle(false); return }
     const {intervals, branches, points, span, control} = this.data
     const words = this.tools.symbols[control]
+    const delays = this.data.m === 1 ? this.delays : []
     const wide = (b) => b.z.length > 2 && b.z.at(-1) - b.z[0] > 0.13 * (span[1] - span[0])
     const kind = (p) => p.kind !== "equilibrium" ? p.kind === "equator" ? "transcritical" : p.kind : p.stable ? "attracting rest" : "rest"
     this.chart.draw([{
       title: `slow flow ${escape(words)}′`, zeros: true, x: {span, word: words},
-      y: {span: spanOf([...branches.flatMap((b) => b.flow), ...points.map((p) => p.flow)], 0.1, [0])},
+      y: {span: spanOf([...branches.flatMap((b) => b.flow), ...points.map((p) => p.flow), ...delays.flatMap((one) => one.flow[0])], 0.1, [0])},
       bands: intervals.map((i) => ({name: i.kind, from: i.low, to: i.high, title: i.sentence, word: i.kind})),
-      lines: branches.map((b) => ({name: `branch critical ${b.stable ? "stable" : b.kind === "saddle" ? "saddle" : "unstable"}`, title: `${words}′`, x: b.z, y: b.flow})),
+      lines: [...delays.map((one) => ({name: "delay", title: one.reason, x: one.z[0], y: one.flow[0], silent: true})), ...branches.map((b) => ({name: `branch critical ${b.stable ? "stable" : b.kind === "saddle" ? "saddle" : "unstable"}`, title: `${words}′`, x: b.z, y: b.flow}))],
+      labels: delays.map((one) => middle(one.z[0], one.flow[0])),
       arrows: branches.filter(wide).flatMap((b) => [0.25, 0.5, 0.75].map((share) => Math.round(share * (b.z.length - 1))).filter((i) => b.flow[i] !== 0)
         .map((i) => ({name: "drift", x: b.z[i], y: b.flow[i], u: Math.sign(b.flow[i]), v: 0, length: 10}))),
-      marks: points.map((p) => ({kind: kind(p), name: p.kind, x: p.z, y: p.kind === "equilibrium" ? 0 : p.flow, go: p.z, title: `${p.sentence} ${words} = ${digits(p.z, 6)}`})),
+      marks: points.map((p) => ({kind: kind(p), name: p.kind, x: p.z, y: p.kind === "equilibrium" ? 0 : p.flow, go: p.z, title: `${p.sentence} ${words} = ${digits(p.z, 6)}`}))
+        .concat(delays.filter((one) => one.z_out).map((one) => ({kind: "way out", name: "way-out", x: one.z_out[0], y: one.flow[0].at(-1), go: one.z_out[0], title: `${one.reason} ${words} = ${digits(one.z_out[0], 6)}`}))),
     }])
     this.svg.setAttribute("aria-valuemin", span[0]); this.svg.setAttribute("aria-valuemax", span[1])
-    this.find(".along-points").innerHTML = points.filter((p) => p.kind !== "node-focus").slice(0, 12).map((p) => `<li><button type="button" data-z="${p.z}"><svg viewBox="-5 -5 10 10">${shape(kind(p))}</svg><span>${escape(words)} = ${digits(p.z, 6)}</span><span class="note">${escape(p.sentence)}</span></button></li>`).join("")
-    for (const button of this.find(".along-points").querySelectorAll("button")) button.onclick = () => this.setControls({[control]: Number(button.dataset.z)})
+    const item = (mark, z, at, why) => `<li><button type="button" data-z="${z}"><svg viewBox="-5 -5 10 10">${shape(mark)}</svg><span>${escape(at)}</span><span class="note">${escape(why)}</span></button></li>`
+    const listed = points.filter((p) => p.kind !== "node-focus").slice(0, 12).map((p) => item(kind(p), p.z, `${words} = ${digits(p.z, 6)}`, p.sentence))
+    const left = this.delays.map((one) => item(one.z_out ? "way out" : "Hopf", one.z_out ?? one.z_hopf, this.at(one.z_out ?? one.z_hopf), `Come to ${one.onto} at ${this.at(one.z_in)}. ${one.reason}`))
+    this.find(".along-points").innerHTML = [...listed, ...left].join("")
+    this.find(".along-points").querySelectorAll("button").forEach((button, i) => {
+      const goes = button.dataset.z.split(",").slice(0, 4).map(Number)
+      button.onclick = () => this.setControls(i < listed.length ? {[control]: goes[0]} : Object.fromEntries(goes.map((z, k) => [slowName(k), z])))
+    })
     const symbols = this.tools.slowSymbols()
     this.find(".which").hidden = symbols.length < 2
     this.which.innerHTML = symbols.slice(0, 4).map((symbol, i) => `<option value="${slowName(i)}"${slowName(i) === control ? " selected" : ""}>${escape(symbol)}</option>`).join("")
     this.drawPlane()
+  }
+
+  // A place of all slow variables, in words.
+  at(z) {
+    const symbols = this.tools.slowSymbols(), [all, values] = [z.map((_, i) => symbols[i] ?? slowName(i)).join(", "), z.map((value) => digits(value, 6)).join(", ")]
+    return z.length > 1 ? `(${all}) = (${values})` : `${all} = ${values}`
   }
 
   drawPlane() {
@@ -138,9 +159,13 @@ class Along {
     const {arrows} = this.planeData
     this.find(".plane-box h2").textContent = `Slow flow in the plane of ${(this.tools.slowSymbols()).slice(0, 2).join(" and ")}`
     const [first, second] = this.tools.slowSymbols()
+    const delays = this.data?.m === 2 ? this.delays : []
     const most = Math.max(1e-12, ...arrows.map(([, , u, v]) => Math.hypot(u, v)))
     this.planeChart.draw([{
       x: {span: this.planeData.spans[0], word: first}, y: {span: this.planeData.spans[1]}, title: escape(second), zeros: true,
+      lines: delays.map((one) => ({name: "delay", title: one.reason, x: one.z[0], y: one.z[1], silent: true})),
+      labels: delays.map((one) => middle(one.z[0], one.z[1])),
+      marks: delays.flatMap((one) => [["Hopf", one.z_hopf], ...(one.z_out ? [["way out", one.z_out]] : [])].map(([kind, z]) => ({kind, name: kind === "Hopf" ? kind : "way-out", x: z[0], y: z[1], title: `${one.reason} ${this.at(z)}`}))),
       dots: arrows.map(([x, y, u, v, stable]) => ({
         name: stable ? "stable" : "unstable", x, y, r: 8,
         title: `${first} = ${digits(x)}, ${second} = ${digits(y)}: ${first}′ = ${digits(u)}, ${second}′ = ${digits(v)} on a critical set that ${stable ? "attracts" : "does not attract"}`,

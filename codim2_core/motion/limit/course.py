@@ -27,10 +27,10 @@ from ...words import say
 from ..followed import in_disc
 from ..places import Ascent
 from ..result import Phase
-from .decide import AROUND as ORBITS
-from .decide import BESIDE, Decision, arriving, critical_name, from_hemisphere, starting
-from .delay import NotAnalyticError, delayed
-from .part import MotionPart
+from .decide import Decision, arriving, critical_name, from_hemisphere, starting
+from .delay import NotAnalyticError
+from .part import Delaying, MotionPart
+from .past_hopf import ring, stay
 from .slide import Slide, slide
 from .slide_on_cycle import slide_on_cycle
 from .slip import slip
@@ -94,6 +94,7 @@ class Course:
         onto: str | None = None,
         e: Sequence[Array] = (),
         p: Sequence[Array] = (),
+        delaying: Delaying | None = None,
     ) -> None:
         """Add a phase, as far as no terminal event stops it."""
         start, kept, stopped = self.t, taken, False
@@ -106,7 +107,9 @@ class Course:
         if kept:
             self.taken += kept
             self.t, self.state = max(kept[-1].end, start), kept[-1].last
-        self.parts.append(MotionPart(Phase(kind, start, self.t, reason, onto), times, self.ascent, e, p))
+        delaying = replace(delaying, way=None) if stopped and delaying is not None else delaying
+        phase = Phase(kind, start, self.t, reason, onto)
+        self.parts.append(MotionPart(phase, times, self.ascent, e, p, delaying=delaying))
         self.ascent = None
         if stopped:
             raise AtEventError
@@ -228,14 +231,18 @@ class Course:
         options = {"rtol": self.rtol, "atol": self.atol, "most": self.left, "compiled": self.compiled}
         return slide(self.formulas, self.own, e, self.t, self.state[2:], self.t_end, **options, **how)
 
-    def follow(self, part: Slide, reason: str, onto: str | None, on_cycle: bool = False) -> Decision | None:
+    def follow(
+        self, part: Slide, reason: str, onto: str | None, on_cycle: bool = False, delaying: Delaying | None = None
+    ) -> Decision | None:
         """Add a slide, and decide what follows where it has ended, as its end says."""
-        self.add("slide", part.taken, reason, onto, part.places)
+        self.add("slide", part.taken, reason, onto, part.places, delaying=delaying)
         if part.stopped is not None:
             raise part.stopped
         C = "C" if on_cycle else onto
         if part.end == "time":
             return None
+        if part.end == "left":
+            return self.onward(say("Hopf, left", C=C), self.state[2:], ring(self.own, part.e))
         if part.end == "equator":
             theta = math.atan2(part.e[1], part.e[0])
             reason = say("ends at the equator", C=C, theta=theta)
@@ -322,18 +329,11 @@ class Course:
             return Decision("stop", say("Hopf depends", C=C))
         before = self.parts[-1]
         taken = self.taken[len(self.taken) + 1 - len(before.times) :]
-        part = self.slid(e, delayed=True)
         try:
-            part, way = delayed(self.formulas, self.psi, taken, before.e, part)
+            on = stay(self.formulas, self.psi, (taken, before.e), self.slid(e, delayed=True), C)
         except NotAnalyticError:
             return Decision("stop", say("Hopf, not analytic", C=C))
-        if way is None:
-            return self.follow(part, say("Hopf, delayed", C=C), C)
-        key = "Hopf, delayed until" if way.buffer is None else "Hopf, delayed until the buffer"
-        self.add("slide", part.taken, say(key, C=C), C, part.places)
-        angle = math.tau * np.arange(ORBITS) / ORBITS
-        ring = in_disc(self.psi, part.e) + BESIDE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-        return self.onward(say("Hopf, left", C=C), self.state[2:], ring)
+        return self.follow(on.part, on.reason, C, delaying=Delaying(before.times[0], on.way))
 
     def on_equator(self, theta: float, z: Array) -> bool:
         """Tell whether a critical set lies on the equator in a direction: lambda_rho is 0 there."""

@@ -3,18 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...initial_value.field import field
 from ...numerics.dense import Dense
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
+from ..delay import delay
 from ..places import Ascent, Leaving, OfState, OnCycle, OnSet, Place
 from ..result import Phase
+from .delay import WayOut
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Delaying:
+    """A slide on a critical set that has lost its stability: since when the motion is on it, and when it leaves."""
+
+    t_in: float
+    way: WayOut | None  # None if it does not while the slide lasts
 
 
 @dataclass(frozen=True)
@@ -27,6 +38,7 @@ class MotionPart:
     e: Sequence[Array] = ()  # at `times`, while it slides
     p: Sequence[Array] = ()  # also, while it slides on a cycle of a general system
     theta: float | None = None  # in which a crossing leaves
+    delaying: Delaying | None = None
 
     def placed(self, system: AnySystem, psi: Psi, motion: Dense) -> Phase:
         """Return the phase, which knows where it lies at any of its times."""
@@ -42,4 +54,8 @@ class MotionPart:
             where = OnCycle(times, e, p)
         else:
             where = OnSet(system, psi, motion, times, e)
+        if self.delaying is not None and len(e) and phase.onto is not None:
+            span, way = (self.delaying.t_in, phase.t_start, phase.t_end), self.delaying.way
+            found = delay(field(system), motion, (times, e), phase.onto, span, way is not None, way and way.buffer)
+            phase = replace(phase, delay=found)
         return phase.placed(where, self.ascent)

@@ -214,3 +214,44 @@ def test_the_first_start_has_as_many_numbers_as_the_system(m, W):
     assert start == (0.6, 0.8, *(0.0,) * m)
     with pytest.raises(InputError, match=f"give {2 + m} numbers"):
         launch_of({**frames.values, "launch": "1, 2, 3, 4, 5, 6, 7, 8"}, system)
+
+
+HOPF = c2.System(U=("z*c - s", "c + z*s"), W=("1",))  # way in = way out: from z = -v it leaves at z = v
+
+
+def delayed(panel, system, **changes):
+    """The header that a panel adds for a system that loses its stability."""
+    values = {
+        **ExplorerState().values(),
+        "launch": "0, 0, -0.6",
+        "t_end": 2.0,
+        "z": -0.6,
+        "family": "constant",
+        **changes,
+    }
+    jobs = Jobs(Now())
+    for _ in range(2):
+        draft = Draft(make_scene(values, system), values, {}, {}, {}, jobs, True, True, ())
+        panel.add(draft)
+    json.dumps(draft.header, allow_nan=False)
+    return draft.header
+
+
+def test_along_z_the_delay_ahead_of_a_motion_that_comes_at_the_present_z():
+    header = delayed(panel_along, HOPF)
+    [delay] = header["delays"]["found"]
+    assert (delay["onto"], delay["z_in"], delay["z_hopf"], delay["z_out"]) == ("C", [-0.6], [0.0], [pytest.approx(0.6)])
+    assert "way in = way out" in delay["reason"]
+    np.testing.assert_allclose(delay["z"][0], np.linspace(0.0, 0.6, len(delay["z"][0])), atol=1e-4)
+    np.testing.assert_allclose(delay["flow"][0], 1.0)
+    assert delayed(panel_along, HOPF, z=0.3)["delays"]["found"] == []  # past the Hopf point no set attracts
+
+
+def test_over_time_the_delay_is_a_phase_of_its_own_with_the_places_where_it_begins_and_ends():
+    orbit = delayed(orbits, HOPF)["orbit"]
+    assert [phase[0] for phase in orbit["phases"]][:2] == ["slide", "delay"]
+    [[hopf, out, z_hopf, z_out]] = orbit["delays"]
+    assert (hopf, out, *z_hopf, *z_out) == pytest.approx((0.6, 1.2, 0.0, 0.6), abs=1e-5)
+    cut = delayed(orbits, HOPF, t_end=0.9)["orbit"]
+    assert cut["delays"] == [[pytest.approx(0.6), None, [pytest.approx(0.0, abs=1e-6)], None]]
+    assert sent(orbits, system="ball_in_pool")["orbit"]["delays"] == []

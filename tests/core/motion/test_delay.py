@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from codim2_core import Event, SimulationStatus, System, critical_sets, simulate, simulate_nonsmooth
+from codim2_core import Event, SimulationStatus, System, critical_sets, delays, simulate, simulate_nonsmooth
 from codim2_core.motion.limit.analytic import rational
 from codim2_core.psi import constructors as families
 
@@ -39,6 +39,32 @@ def test_way_in_is_way_out_where_the_set_stays(z0, w, size, sign):
     assert run.dense(run.phases[0].t_end)[2] == pytest.approx(0.0, abs=1e-9)
     assert run.dense(run.phases[1].t_end)[2] == pytest.approx(slow, abs=1e-8)
     assert "way in = way out" in run.phases[1].reason
+
+
+def test_its_phase_knows_where_the_motion_came_where_the_hopf_is_and_where_it_left():
+    """z' = 1 from z = -0.7: Hopf at 0, way out at 0.7; on the way z' = 1 and e = 0."""
+    phase = (run := followed(turning(0.5), -0.7)).phases[1]
+    delay = phase.delay
+    assert [other.delay for other in run.phases if other is not phase] == [None] * (len(run.phases) - 1)
+    assert (delay.onto, delay.buffer) == ("C", None)
+    assert (delay.t_in, delay.t_hopf, delay.t_out) == (0.0, phase.t_start, phase.t_end)
+    np.testing.assert_allclose([*delay.z_in, *delay.z_hopf, *delay.z_out], [-0.7, 0.0, 0.7], atol=1e-9)
+    np.testing.assert_allclose(delay.z[:, 0], np.linspace(0.0, 0.7, len(delay.z)), atol=1e-9)
+    np.testing.assert_allclose(delay.flow, 1.0)
+    np.testing.assert_allclose(delay.e, 0.0, atol=1e-15)
+    assert delay.reason == phase.reason
+    assert not delay.z.flags.writeable
+
+
+def test_its_phase_names_the_buffer_point_and_what_ends_before_is_not_left():
+    run = followed(turning(0.5, "0.3*z"), -1.3, 4.0)
+    assert run.phases[1].delay.buffer.imag == pytest.approx(0.5, rel=1e-3)  # det J = 0 at z = ± i w; t = z + 1.3
+    assert run.phases[1].delay.buffer.real == pytest.approx(1.3, abs=1e-3)
+    events = (Event(lambda _t, y: y[2] - 0.4, terminal=True),)
+    for cut in (followed(turning(0.5), -1.0, 1.4), followed(turning(0.5), -1.0, events=events)):
+        delay = cut.phases[1].delay
+        assert (delay.t_out, delay.z_out, delay.buffer) == (None, None, None)
+        assert delay.z[-1] == pytest.approx(0.4, abs=1e-9)
 
 
 def complex_growth(w, step):
@@ -210,3 +236,51 @@ def test_a_corner_has_poles_on_the_real_axis_and_noise_no_rational_function():
 def test_at_a_pole_the_value_is_infinite():
     t = np.linspace(0.0, 1.0, 33)
     assert rational(t, 1.0 / (t + 1.0), 1e-12)(-1.0) == math.inf
+
+
+def test_ahead_of_a_motion_that_comes_at_z_lies_the_delay_of_the_motion_itself():
+    """Two slow variables, a set that moves; the motion from Sigma at z is another way to it."""
+    system = System(U=("z*(c - 0.2*z2) - 0.4*s", "0.4*(c - 0.2*z2) + z*s"), W=("1 + 0.2*z2", "-0.3*z"))
+    start = (-0.6, 0.5)
+    [ahead] = delays(system, PSI, start, [(-1.0, 2.0), (-1.0, 1.0)])
+    run = simulate_nonsmooth(system, (0.0, 0.0, *start), (0.0, 3.0), PSI)
+    assert run.phases[0].kind == "slide"
+    told = run.phases[1].delay
+    assert (ahead.onto, ahead.reason) == (told.onto, told.reason)
+    for name in ("z_in", "z_hopf", "z_out", "t_hopf", "t_out"):
+        np.testing.assert_allclose(getattr(ahead, name), getattr(told, name), atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("start", "spans", "left"),
+    [(-0.6, [(-1, 1)], 0.6), (-0.6, [(-1, 0.4)], None), (-0.6, [(-1, -0.1)], "none"), (0.3, [(-1, 1)], "none")],
+)
+def test_ahead_it_is_looked_as_far_as_the_ranges(start, spans, left):
+    """As far as z = 0.4 it is not left; before z = 0 there is no Hopf point, and after it no set that attracts."""
+    found = delays(turning(0.5), PSI, (start,), spans)
+    if left == "none":
+        assert found == ()
+        return
+    [delay] = found
+    if left is None:
+        assert delay.z_out is None
+        assert delay.z[-1, 0] == pytest.approx(0.4)
+        assert "as far as it was followed" in delay.reason
+    else:
+        assert delay.z_out[0] == pytest.approx(left, abs=1e-9)
+
+
+def test_of_each_of_two_sets_that_attract_the_delay_is_told_by_its_name():
+    """At e = (∓ 1/2, 0): along e, J has r^3 (z - 1/10), and across r z, with r = sqrt(3/4)."""
+    system = System(U=("2*c*(c^2 - 0.25)*(z - 0.1) - s*c", "(c^2 - 0.25) + z*s"), W=("1",))
+    found = delays(system, PSI, (-0.5,), [(-1.0, 1.5)])
+    sets = critical_sets(system, PSI, (-0.5,))
+    stable = [f"C{i + 1}" for i, C in enumerate(sets) if C.kind.startswith("stable")]
+    assert [delay.onto for delay in found] == stable
+    assert len(stable) == 2
+    np.testing.assert_allclose([delay.z_hopf[0] for delay in found], 0.1 * 0.75 / 1.75, atol=1e-9)
+
+
+def test_a_range_that_does_not_hold_z_is_refused():
+    with pytest.raises(ValueError, match="give \\(low, high\\) with low <= z <= high"):
+        delays(turning(0.5), PSI, (2.0,), [(-1.0, 1.0)])

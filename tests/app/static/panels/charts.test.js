@@ -114,6 +114,45 @@ test("the panel along: the plane of two slow variables", () => {
   assert.deepEqual([one.find(".which").hidden, one.texts(".drift option"), one.find(".drift").value], [false, ["v", "w"], "z2"])
 })
 
+const DELAY = {onto: "C", z_in: [-2], z_hopf: [1], z_out: [3], z: [[1, 2, 3]], flow: [[2, 1.5, 1.25]], reason: "It stays."}
+
+test("the panel along: a delay ahead is a line of its own, to the way out, which is marked and listed", () => {
+  const one = opened("along", {z: -2, z2: 0, drift: "z"})
+  one.frame({along: ALONG, delays: {found: [DELAY]}})
+  let [plot] = plots(one.find(".along"))
+  near(named(plot.lines, "delay").map(({points}) => points), [[[1, 2], [2, 1.5], [3, 1.25]]], 0.03)
+  assert.equal(named(plot.lines, "delay")[0].title, "It stays.")
+  near(plot.marks.filter(({kind}) => kind === "way out").map(({at}) => at), [[3, 1.25]], 0.03)
+  assert.ok(one.texts(".along .label").includes("delay"))
+  assert.deepEqual([one.texts(".along-points button span:first-of-type").at(-1), one.texts(".along-points .note").at(-1)], ["z = 3.00000", "Come to C at z = −2.00000. It stays."])
+  one.said()
+  one.fire(one.all(".along-points button").at(-1), "click")
+  assert.deepEqual(one.said()[0], ["move", {z: 3}])
+  one.frame({}, {}, ["delays"]) // another z is under way: it is of the one before
+  assert.ok(one.find(".along").classList.contains("delays-old"))
+  one.frame({delays: {found: [{...DELAY, z_out: null}]}})
+  ;[plot] = plots(one.find(".along"))
+  assert.deepEqual([plot.marks.filter(({kind}) => kind === "way out").length, named(plot.lines, "delay").length], [0, 1])
+  assert.ok(!one.find(".along").classList.contains("delays-old"))
+  one.frame({delays: {found: []}})
+  ;[plot] = plots(one.find(".along"))
+  assert.equal(named(plot.lines, "delay").length, 0)
+})
+
+test("the panel along: in a plane of two slow variables a delay is a path in it, and none in the line of one", () => {
+  const one = opened("along", {z: 0.25, z2: 2.75, drift: "z"}, {slowSymbols: () => ["v", "w"]})
+  const both = {...DELAY, z_in: [-1, 2], z_hopf: [0, 2.5], z_out: [1, 3], z: [[0, 0.5, 1], [2.5, 2.75, 3]], flow: [[1, 1, 1], [0.5, 0.5, 0.5]]}
+  one.frame({along: {...ALONG, m: 2}, slow_plane: {spans: [[-2, 2], [1, 4]], arrows: []}, delays: {found: [both]}})
+  const [plane] = plots(one.find(".slow-plane")), [line] = plots(one.find(".along"))
+  near(named(plane.lines, "delay").map(({points}) => points), [[[0, 2.5], [0.5, 2.75], [1, 3]]], 0.03)
+  near(plane.marks.map(({at}) => at), [[0, 2.5], [1, 3]], 0.03)
+  assert.deepEqual(plane.marks.map(({kind}) => kind), ["Hopf", "way out"])
+  assert.equal(named(line.lines, "delay").length, 0)
+  assert.deepEqual([one.texts(".along-points button span:first-of-type").at(-1), one.texts(".along-points .note").at(-1)], ["(v, w) = (1.00000, 3.00000)", "Come to C at (v, w) = (−1.00000, 2.00000). It stays."])
+  one.frame({along: {...ALONG, m: 3}, delays: {found: [{...both, z_in: [-1, 2, 0], z_out: [1, 3, 0], z: [...both.z, [0, 0, 0]]}]}})
+  assert.equal(named(plots(one.find(".slow-plane"))[0].lines, "delay").length, 0) // it leaves the plane that is shown
+})
+
 test("the panel along: a hand is as fine as the span is narrow, far from 0 too, in the line and in the plane", () => {
   const one = opened("along", {z: 1000, z2: 0, drift: "z"}, {slowSymbols: () => ["v", "w"]})
   one.frame({along: {...ALONG, m: 2, span: [1000, 1000.2]}, slow_plane: {spans: [[1000, 1000.2], [-0.02, 0.02]], arrows: []}})

@@ -170,6 +170,23 @@ test("a typed start: the moving point, the phases and z are those of the chosen 
   assert.equal(one.find(".orbit-typed input").value, "1, -1, -0.375")
 })
 
+test("a typed start: a delayed loss of stability is a phase of its own; where it begins and where it ends are marked", () => {
+  const delayed = {...LIMIT, phases: [["slide", 0, 1, "To C."], ["delay", 1, 3, "It stays."], ["slip", 3, 4, "Off."]], delays: [[1, 3, [0.6], [1.4]]]}
+  const one = typed({orbit: delayed})
+  const all = plots(one.find(".series")), slow = all.at(-1)
+  for (const {bands} of all) assert.deepEqual(bands.map(({name}) => name), ["slide", "delay", "slip"])
+  near(slow.marks.map(({at}) => at), [[1, 0.6], [3, 1.4]], 0.03)
+  assert.deepEqual(slow.marks.map(({kind}) => kind), ["Hopf", "way out"])
+  assert.equal(all[0].marks.length, 0)
+  assert.deepEqual(one.texts(".phases li"), ["0slides: To C.", "1.000slides on, delayed: It stays.", "3.000slips: Off."])
+  assert.deepEqual(one.texts(".series .band-name"), ["delay"])
+  one.frame({orbit: delayed, orbit_motion: TYPED})
+  one.set({orbit_eps: "show"})
+  assert.deepEqual(plots(one.find(".series"))[0].bands.map(({name}) => name), ["slip", "slide", "delay"]) // of ε, and what is of the limit alone
+  one.frame({orbit: {...delayed, delays: [[1, null, [0.6], null]]}})
+  assert.deepEqual(plots(one.find(".series")).at(-1).marks.map(({kind}) => kind), ["Hopf"])
+})
+
 test("a typed start: play takes nine seconds for the whole motion, and begins again at its end", () => {
   const one = typed()
   const now = () => Number(one.find(".series").getAttribute("aria-valuenow"))

@@ -1,0 +1,107 @@
+"""A delayed loss of stability as a result: where a motion came to a set, where that became unstable, where it left."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..initial_value.field import Field
+from ..initial_value.sheet import solved
+from ..numerics.dense import Dense
+from ..tables import Tabled, point
+from ..words import say
+
+Array = NDArray[np.float64]
+
+SAMPLES = 33  # of the delay
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Delay(Tabled):
+    """A motion that stays near a critical set past a Hopf bifurcation (tr J = 0 < det J); arrays are read-only.
+
+    Attributes
+    ----------
+    onto : str
+        The critical set, by its name where the motion came to it: "C" or "C1", ....
+    t_in, t_hopf : float
+        When the motion came to it, and when it lost its stability.
+    t_out : float or None
+        When the motion leaves it: in the limit eps -> 0, in formulas that are analytic and while nothing disturbs it.
+        None if it was not left as far as it was followed.
+    z_in, z_hopf : ndarray (m,)
+        z then.
+    z_out : ndarray (m,) or None
+    buffer : complex or None
+        The singular time that ends the delay before way in = way out; None where that does.
+    z, e, flow : ndarray (k, m), (k, 2), (k, m)
+        Along the delay, at even times from ``t_hopf`` to ``t_out``, or as far as it was followed.
+    """
+
+    _head_ = ("on", "came at z", "Hopf at z", "left at z", "why there")
+
+    onto: str
+    t_in: float
+    t_hopf: float
+    t_out: float | None
+    z_in: Array
+    z_hopf: Array
+    z_out: Array | None
+    buffer: complex | None
+    z: Array
+    e: Array
+    flow: Array
+
+    @property
+    def reason(self) -> str:
+        """How it ends: a sentence."""
+        if self.t_out is None:
+            return say("delay, open", C=self.onto)
+        return say("Hopf, delayed until" if self.buffer is None else "Hopf, delayed until the buffer", C=self.onto)
+
+    def _row_(self) -> tuple[str, ...]:
+        left = "–" if self.z_out is None else point(self.z_out)
+        return self.onto, point(self.z_in), point(self.z_hopf), left, self.reason
+
+
+def delay(
+    formulas: Field,
+    motion: Dense,
+    known: tuple[Array, Array],
+    onto: str,
+    times: tuple[float, float, float],
+    left: bool,
+    buffer: complex | None,
+) -> Delay:
+    """Gather a delay.
+
+    Parameters
+    ----------
+    formulas : Field
+    motion : Dense
+        The states (x, y, z).
+    known : (ndarray (k,), ndarray (k, 2))
+        Times of the delay at which e is known, increasing, and e.
+    onto : str
+    times : (t_in, t_hopf, t_end)
+    left : bool
+        Whether the motion leaves the set at ``t_end``.
+    buffer : complex or None
+    """
+    t_in, t_hopf, t_end = times
+    z_in, z_hopf, z_end = motion(np.array(times))[:, 2:]
+    t = np.linspace(t_hopf, t_end, SAMPLES)
+    z = motion(t)[:, 2:]
+    e = np.stack([np.interp(t, known[0], column) for column in known[1].T], axis=-1)
+    for i, guess in enumerate(e):
+        found = solved(formulas, guess, z[i])
+        e[i] = guess if found is None else found
+    flow = np.array(
+        [formulas.value(*place, 0.0, 0.0, *slow)[2:] for place, slow in zip(e.tolist(), z.tolist(), strict=True)]
+    )
+    for array in (z_in, z_hopf, z_end, z, e, flow):
+        array.flags.writeable = False
+    t_out, z_out = (t_end, z_end) if left else (None, None)
+    return Delay(onto, t_in, t_hopf, t_out, z_in, z_hopf, z_out, buffer if left else None, z, e, flow)

@@ -1,0 +1,137 @@
+"""Delayed losses of stability that lie ahead of a motion which is on a critical set at a given z."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...initial_value.field import Field, field
+from ...layer_problem.critical import CriticalSet, critical_sets
+from ...numerics.dense import dense, gathered
+from ...numerics.radau import Step, shortened
+from ...psi.function import Psi
+from ...systems.bounds import slow_values
+from ...systems.elinear import ELinear
+from ...systems.typed import System
+from ...tables import Results
+from ..delay import Delay, delay
+from .delay import NotAnalyticError, delayed
+from .slide import Slide, slide
+
+__all__ = ["delays"]
+
+Array = NDArray[np.float64]
+
+RTOL, ATOL = 1e-10, 1e-12
+MOST = 4000  # steps of a slide
+LONG = 100.0  # times as long as the ranges would take at the first rate is a motion followed
+
+
+def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLike = ()) -> tuple[Delay, ...]:
+    """Where motions that come to an attracting critical set at z lose its stability, and where they leave it.
+
+    Each is followed with the slow flow, eq:RPCM, from z through a Hopf bifurcation (tr J = 0 < det J). In the limit
+    eps -> 0, where the formulas are analytic and nothing disturbs it, it stays near the critical set until it is
+    repelled as much as it was attracted, or to the buffer point before.
+
+    Parameters
+    ----------
+    system : ELinear or System
+        With m >= 1 slow variables.
+    psi : Psi
+    z : (m,) floats
+        Where the motions come to Sigma.
+    spans : (k, 2) floats, k <= m
+        (low, high) of z1, z2, ..., within which they are followed; those that are left out have no bounds.
+
+    Returns
+    -------
+    tuple of Delay
+        One for each attracting critical set on which a motion comes to a Hopf bifurcation within the ranges, and whose
+        eigenvalues are smooth in time: without that the delay is not known. Times are counted from z.
+
+    Raises
+    ------
+    ValueError
+        z is not m numbers, or a range is empty or does not hold z.
+
+    Examples
+    --------
+    It comes at z = -0.6, is attracted till z = 0, and leaves at z = 0.6:
+
+    >>> from codim2_core import System, delays, psi
+    >>> turning = System(U=("z*c - s", "c + z*s"), W=("1",))
+    >>> [delay] = delays(turning, psi.constant(), (-0.6,), [(-1, 1)])
+    >>> delay.z_hopf.round(9).tolist(), delay.z_out.round(9).tolist()
+    ([0.0], [0.6])
+    """
+    formulas = field(system)
+    start = np.array(slow_values(z, formulas.m))
+    ranges = np.full((formulas.m, 2), (-math.inf, math.inf))
+    given = np.array(spans, float).reshape(-1, 2) if np.size(spans) % 2 == 0 else np.zeros((0, 1))
+    if given.shape[1] != 2 or len(given) > formulas.m:
+        raise ValueError(
+            f"spans is {spans}; give (low, high) for each of the m = {formulas.m} slow variables, or fewer."
+        )
+    ranges[: len(given)] = given
+    if not ((ranges[:, 0] < ranges[:, 1]) & (ranges[:, 0] <= start) & (start <= ranges[:, 1])).all():
+        raise ValueError(
+            f"spans is {spans} and z is {start.tolist()}; give (low, high) with low <= z <= high for each z."
+        )
+    sets = critical_sets(system, psi, start)
+    names = ["C"] if len(sets) == 1 else [f"C{i + 1}" for i in range(len(sets))]
+    found = [_ahead(formulas, psi, C, name, start, ranges) for C, name in zip(sets, names, strict=True)]
+    return Results(one for one in found if one is not None)
+
+
+def _ahead(formulas: Field, psi: Psi, C: CriticalSet, name: str, z: Array, ranges: Array) -> Delay | None:
+    """Return the delay ahead on one critical set, None if there is none or it is not known."""
+    rate = np.abs(C.slow_flow)
+    if not C.kind.startswith("stable") or not rate.any():
+        return None
+    width = np.where(np.isfinite(ranges).all(axis=1), ranges[:, 1] - ranges[:, 0], 1.0)
+    long = LONG * float(np.min(width[rate > 0.0] / rate[rate > 0.0]))
+    options = {"rtol": RTOL, "atol": ATOL, "most": MOST}
+    before = _within(slide(formulas, psi, np.array(C.e), 0.0, z, long, **options), ranges)
+    if before.end != "hopf":
+        return None
+    hopf = before.taken[-1]
+    after = slide(formulas, psi, before.e, hopf.end, hopf.last[2:], hopf.end + long, **options, delayed=True)
+    try:
+        after, way = delayed(formulas, psi, before.taken, before.places, _within(after, ranges))
+    except NotAnalyticError:
+        return None
+    if not after.taken:
+        return None
+    taken = [*before.taken, *after.taken]
+    motion = dense(0.0, taken[0].first, [gathered(taken, len(taken[0].first))])
+    known = np.array([hopf.end, *(step.end for step in after.taken)]), np.array(after.places)
+    times = 0.0, float(known[0][0]), float(known[0][-1])
+    return delay(formulas, motion, known, name, times, way is not None, way and way.buffer)
+
+
+def _within(part: Slide, ranges: Array) -> Slide:
+    """Cut a slide where z leaves the ranges."""
+    for k, step in enumerate(part.taken):
+        share = _leaves(step, ranges)
+        if share is not None:
+            last = shortened(step, share)
+            return replace(
+                part, taken=[*part.taken[:k], last], end="range", e=part.places[k], places=part.places[: k + 2]
+            )
+    return part
+
+
+def _leaves(step: Step, ranges: Array) -> float | None:
+    """Fraction of a step at which z leaves the ranges; None if it does not by its end."""
+    inside = lambda u: bool(((ranges[:, 0] <= step.at(u)[2:]) & (step.at(u)[2:] <= ranges[:, 1])).all())
+    if inside(1.0):
+        return None
+    low, high = 0.0, 1.0
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if inside(middle) else (low, middle)
+    return low
