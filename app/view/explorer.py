@@ -142,7 +142,7 @@ class ExplorerView(JSComponent):
         drawn = {name: value for name, value in self.state.values().items() if name in SHARED}
         linked = {name: value for name, value in given.items() if value is not values[name]}
         super().__init__(picture=picture, **opening, **layout, **{**drawn, **linked})
-        self.param.objects()  # its own copies of all parameters, 3 ms, are made here: `prepare` needs them, and is longer
+        self.param.objects()  # makes its own copies of all parameters, 3 ms, which `prepare` would: it is longer
         self.state.param.watch(self._follow, list(NAMES))
         if not page:  # nobody holds the view of a page
             join(self, self.state)
