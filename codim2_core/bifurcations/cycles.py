@@ -13,7 +13,8 @@ from ..psi.function import Psi
 from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
 from .equator import neutral_loop
-from .fold_of_cycles import OUTWARD, SMALL, STEP, Asking, Fold, FoldGuess, Folds, null_vector
+from .fold import Fold, FoldGuess, null_vector
+from .fold_of_cycles import OUTWARD, SMALL, STEP, Asking, Folds
 from .geometry import Geometry
 from .trace import hopf
 

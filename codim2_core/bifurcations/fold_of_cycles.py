@@ -10,20 +10,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Generator, Sequence
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, TypeVar
+from dataclasses import replace
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from ..continuation.ahead import Place, ahead
 from ..continuation.asking import answered
-from ..continuation.turns import Turn, turns
+from ..continuation.turns import LOOSE, RTOL, Turn, turns
 from ..cycles.many.sections import Indices, Sections
 from ..cycles.section import Section
 from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi
 from .curve import Array
 from .equator import coefficients_at
+from .fold import Fold, FoldGuess, carried, null_vector
 
 STEP, SHORTEST = 0.04, 1e-4
 MOST, MOST_TURNS = 400, 600  # points of a curve, and places that it may ask for
@@ -31,6 +32,8 @@ ROUNDS = 8
 CLOSE = 1e-9
 DIFFERENCE = 1e-5  # for derivatives of the exponent: on both sides, for near corners it bends sharply
 NEARLY, CARRY = 1e-6, 1e-12  # a correction that may be the last without another turn, and what is then left
+TELLS = 0.01  # of the correction before, which a loose turn began: over so much it tells how the numbers change
+INMOST = -2.0  # xi below which the exponent is so small that a loose turn does not tell how it changes
 SMALL, LOW = 3e-3, 1e-4  # amplitude, ebar: the cycle has come to C, to the equator
 OUTWARD = np.array([1.0, 0.0, 0.0])
 CUSP_ROUNDS = 24
@@ -42,49 +45,15 @@ MISSED = 0.3  # distance of a fold from its prediction, in steps, beyond which a
 BESIDE = DIFFERENCE * np.vstack([np.zeros(3), np.eye(3), -np.eye(3)])
 
 
-@dataclass(frozen=True)
-class FoldGuess:
-    """Where a fold is looked for, on the plane through (xi, e) across `row` (3,), in (chi, e)."""
-
-    xi: float
-    e: Array
-    row: Array
-
-
-@dataclass(frozen=True)
-class Fold:
-    """A fold, or a cusp: place on the section, e = -A^-1 f, its turn, and the Jacobian (2, 3) by (chi, e).
-
-    `drift` (2,) is d chi/d e at fixed xi.
-    """
-
-    xi: float
-    e: Array
-    turn: Turn
-    jacobian: Array
-    drift: Array
-    cusp: bool = False
-
-    @property
-    def bend(self) -> float:
-        """Second derivative of the return map, up to a factor: zero at a cusp, where three cycles are one."""
-        return float(self.jacobian[1, 0])
-
-    @property
-    def place(self) -> Array:
-        """(chi, e), (3,)."""
-        return np.array([self.turn.chi, *self.e])
-
-    def xi_by(self, change: Array) -> float:
-        """Change of xi with that of (chi, e)."""
-        return float(change[0] - self.drift @ change[1:]) / self.turn.rate
-
-
 class Asked(NamedTuple):
-    """Places (xi, e) on the section along a ray, whose turns are asked for with all derivatives."""
+    """Places (xi, e) on the section along a ray, whose turns are asked for with all derivatives.
+
+    Each place has the rtol of its turn, and that of the turns beside it, for the derivatives of the exponent.
+    """
 
     ray: int
     places: Sequence[tuple[float, Array]]
+    rtols: Sequence[tuple[float, float]]
 
 
 #: A search that asks for turns; see `continuation.asking`.
@@ -125,18 +94,21 @@ class Folds:
         xi = math.log(away / max(section.reach - away, 1e-300))
         return (yield from self.corrected(FoldGuess(xi, e, OUTWARD)))
 
-    def states(self, places: Sequence[tuple[float, Array]]) -> Asking[list[Fold | None]]:
+    def states(
+        self, places: Sequence[tuple[float, Array]], rtols: Sequence[tuple[float, float]]
+    ) -> Asking[list[Fold | None]]:
         """Ask for turns from places (xi, e), with all derivatives."""
         self.turns += len(places)
-        return (yield Asked(self.ray, places))
+        return (yield Asked(self.ray, places, rtols))
 
     def answers(self, asked: list[Asked]) -> list[list[Fold | None]]:
         """Follow the turns that several searches ask for."""
         rays = np.concatenate([np.full(len(one.places), one.ray) for one in asked])
-        found = iter(self._followed(rays, [place for one in asked for place in one.places]))
+        rtols = np.array([(own, *[beside] * (len(BESIDE) - 1)) for one in asked for own, beside in one.rtols])
+        found = iter(self._followed(rays, [place for one in asked for place in one.places], rtols.ravel()))
         return [[next(found) for _ in one.places] for one in asked]
 
-    def _followed(self, rays: Indices, places: Sequence[tuple[float, Array]]) -> list[Fold | None]:
+    def _followed(self, rays: Indices, places: Sequence[tuple[float, Array]], rtols: Array) -> list[Fold | None]:
         """Follow turns from places (xi, e), with all derivatives: those of the exponent by differences."""
         centres = np.array([(xi, *e) for xi, e in places])
         every = (centres[:, None] + BESIDE).reshape(-1, 3)
@@ -149,7 +121,7 @@ class Folds:
         changes = np.zeros((2, len(e), 5))
         changes[:, :, 3:] = -self.A.T[:, None]
         sections = Sections(planes, e, complement[allowed], self.psi, None, np.repeat(rays, len(BESIDE))[allowed])
-        found = turns(sections, xi, np.zeros(len(e), bool), changes)
+        found = turns(sections, xi, np.zeros(len(e), bool), changes, rtol=rtols[allowed])
         each = found.each([0.0] * len(e))
         row_of = np.full(len(every), -1)
         row_of[allowed[found.rows]] = np.arange(len(found.rows))
@@ -168,24 +140,27 @@ class Folds:
             out.append(Fold(float(centre[0]), centre[1:], turn, jacobian, drift))
         return out
 
-    def corrected(self, guess: FoldGuess) -> Asking[Fold | None]:
+    def corrected(self, guess: FoldGuess, closely: bool = False) -> Asking[Fold | None]:
         """Find the fold by one guess, see `all_corrected`."""
-        (found,) = yield from self.all_corrected([guess])
+        (found,) = yield from self.all_corrected([guess], closely)
         return found
 
-    def all_corrected(self, guesses: Sequence[FoldGuess]) -> Asking[list[Fold | None]]:
+    def all_corrected(self, guesses: Sequence[FoldGuess], closely: bool = False) -> Asking[list[Fold | None]]:
         """Newton's method for folds one after another on a curve, side by side.
 
-        None for those behind one that is not found, unless they were found before it was given up.
+        None for those behind one that is not found, unless they were found before it was given up. The first turns are
+        loose, and those for the exponent's derivatives, unless these are wanted `closely`.
         """
         found: list[Fold | None] = [None] * len(guesses)
         places = [(guess.xi, guess.e) for guess in guesses]
         before: list[tuple[Fold, Array, float] | None] = [None] * len(guesses)
         open_ = list(range(len(guesses)))
+        own = [RTOL if closely else _loose(guess.xi) for guess in guesses]
         for _ in range(ROUNDS):
             if not open_:
                 break
-            states, going = (yield from self.states([places[i] for i in open_])), []
+            rtols = [(own[i], RTOL if closely else _loose(places[i][0])) for i in open_]
+            states, going = (yield from self.states([places[i] for i in open_], rtols)), []
             for i, state in zip(open_, states, strict=True):
                 if state is None:
                     break
@@ -197,12 +172,13 @@ class Folds:
                 xi, e = state.xi + state.xi_by(change), state.e + change[1:]
                 one = before[i]
                 last = math.inf if one is None else one[2]
-                if size < CLOSE:
+                exact = own[i] == RTOL
+                if exact and size < CLOSE:
                     found[i] = replace(state, xi=xi, e=e)
-                elif one is not None and size < NEARLY and size * (size / last) ** 2 < CARRY:
-                    found[i] = _carried(*one[:2], state, change, xi)
+                elif exact and one is not None and _tell(size, last):
+                    found[i] = carried(*one[:2], state, change, xi)
                 elif size <= 2.0 * last and size <= 0.3:
-                    places[i], before[i] = (xi, e), (state, change, size)
+                    places[i], before[i], own[i] = (xi, e), (state, change, size), RTOL
                     going.append(i)
                 else:
                     break
@@ -301,7 +277,7 @@ class Folds:
                 return None
             part = min(max(low.bend / (low.bend - high.bend), 0.02), 0.98)
             xi, e = low.xi + part * (high.xi - low.xi), low.e + part * (high.e - low.e)
-            found = yield from self.corrected(FoldGuess(xi, e, OUTWARD))
+            found = yield from self.corrected(FoldGuess(xi, e, OUTWARD), closely=True)
             if found is None:
                 return best
             best = replace(found, cusp=True)
@@ -315,21 +291,11 @@ class Folds:
         return math.hypot(one.turn.chi - two.turn.chi, *(one.e - two.e))
 
 
-def _carried(one: Fold, first: Array, two: Fold, change: Array, xi: float) -> Fold:
-    """Carry what is known of two places, `first` apart in (chi, e), linearly on to the end of a last small change."""
-    part = float(first @ change) / float(first @ first)
-
-    def on(here: Any, there: Any) -> Any:
-        return there + part * (there - here)
-
-    names = ("exponent", "period", "amplitude", "height", "rate", "by_xi")
-    numbers = {name: on(getattr(one.turn, name), getattr(two.turn, name)) for name in names}
-    turn = replace(two.turn, xi=xi, shift=0.0, chi=two.turn.chi + float(change[0]), **numbers)
-    return Fold(xi, two.e + change[1:], turn, on(one.jacobian, two.jacobian), on(one.drift, two.drift))
+def _tell(size: float, last: float) -> bool:
+    """Whether two turns tell what the fold is, after a correction of this size and the one before."""
+    return size < min(NEARLY, TELLS * last) and size * (size / last) ** 2 < CARRY
 
 
-def null_vector(jacobian: Array, towards: Array) -> Array:
-    """Find the unit vector (3,) that a Jacobian (2, 3) takes to zero, at an acute angle to `towards`."""
-    v = np.cross(jacobian[0], jacobian[1])
-    v = v / np.linalg.norm(v)
-    return v if float(v @ towards) > 0.0 else -v
+def _loose(xi: float) -> float:
+    """Rtol of a turn that only tells where others are."""
+    return LOOSE if xi > INMOST else RTOL

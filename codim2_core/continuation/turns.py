@@ -23,7 +23,7 @@ from ..cycles.orbit import MOST_STEPS, gauss
 
 Array = NDArray[np.float64]
 
-RTOL = 1e-12  # of one turn
+RTOL, LOOSE = 1e-12, 1e-9  # of one turn; of one that only tells where others are
 
 
 @dataclass(frozen=True)
@@ -131,6 +131,7 @@ def turns(
     changes: Array,
     swelling: Swelling | None = None,
     limit: int = MOST_STEPS,
+    rtol: float | Array = RTOL,
 ) -> Turns:
     """Follow one turn from each of n sections.
 
@@ -146,13 +147,15 @@ def turns(
         That of the one parameter, where Psi changes with it.
     limit : int
         Steps after which a turn is given up.
+    rtol : float, or ndarray (n,)
+        Of all, or of each.
     """
     from ..cycles.many import placing
     from .measured import PARAMETERS, SHIFT, measured
 
     start, x2 = sections.starts(xi)
     states = placing.hemisphere(x2)
-    rows, ways = sections.turned(states, RTOL, backward, limit)
+    rows, ways = sections.turned(states, rtol, backward, limit)
     if ways is None:
         return Turns(rows, np.zeros(0), np.zeros((0, PARAMETERS + 2 * len(changes))), np.zeros((0, 2)), rows)
     if len(rows) < len(sections):

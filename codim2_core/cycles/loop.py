@@ -158,6 +158,6 @@ def _turned(
     ends, _, codes, _ = sections[0].kernel[0].returns(
         states, np.array([section.shared(backward) for section in sections]), field.address,
         np.array([section.u for section in sections]), centres, sense, near, np.full(count, SUNK),
-        LONGEST, rtol, STEPS, 0, True,
+        LONGEST, np.array([rtol]), STEPS, 0, True,
     )  # fmt: skip
     return ends, codes.tolist()

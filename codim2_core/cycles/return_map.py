@@ -62,7 +62,8 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
         Distance from the centre in x2 below which an orbit has gone inward.
     sunk : (n,) or (1,)
         Fraction of the first w below which an orbit has gone outward.
-    t_max, rtol : float
+    t_max : float
+    rtol : (n,) or (1,)
     limit : int
         Steps tried.
     record : int
@@ -80,13 +81,13 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
     ends, times, codes = states.copy(), np.zeros(n), np.full(n, UNDECIDED)
     log, logged = np.empty((record, 5)), 0
     S, P = workspace(shared[0])
-    own = 1 if len(shared) > 1 else 0  # times the index: where a state's own numbers are
+    # times the index: where a state's own numbers are
+    own, each = 1 if len(shared) > 1 else 0, 1 if len(rtol) > 1 else 0
     phase, tries, spent = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
     who, fresh = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
-    clock, step = np.zeros(LANES), np.zeros(LANES)
+    clock, step, allowed = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
     low, high, at_low, at_high = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
     side = np.zeros(LANES, np.int64)
-    allowed = SHARE * rtol
     following, done, free = 0, 0, True
     for k in range(LANES if n > 0 else 0):  # an idle lane repeats a harmless state with steps of length 0
         load_state(S, states[0], k)
@@ -101,7 +102,8 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
                     load_state(S, states[following], k)
                     load_system(P, shared[own * following], k)
                     who[k], fresh[k], phase[k], spent[k] = following, 1, FIRST_HALF, 0
-                    clock[k], step[k] = 0.0, 0.5 * rtol**0.125
+                    tolerance = rtol[each * following]
+                    clock[k], step[k], allowed[k] = 0.0, 0.5 * tolerance**0.125, SHARE * tolerance
                     following += 1
             call_field(field, S, STATE, K0, P)
             for k in range(LANES if elsewhere else 0):
@@ -119,7 +121,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
         for k in range(LANES):
             if phase[k] == DONE or phase[k] == REFINING:
                 continue
-            error = judged(S, k, allowed)
+            error = judged(S, k, allowed[k])
             tries[k] = 1 if error <= 1.0 else 0
             low[k] = step[k]  # the length just tried
             step[k] *= growth(error)

@@ -268,7 +268,7 @@ class Section:
                 np.array([SUNK_INWARD * nearest]),
                 np.array([sunk]),
                 LONGEST,
-                rtol,
+                np.array([rtol]),
                 limit,
                 record,
                 elsewhere,

@@ -126,9 +126,11 @@ class Sections:
         return field_of_each(self.psi, self.own is None)
 
     def turned(
-        self, states: Array, rtol: float, backward: NDArray[np.bool_], limit: int = MOST_STEPS
+        self, states: Array, rtol: float | Array, backward: NDArray[np.bool_], limit: int = MOST_STEPS
     ) -> tuple[Indices, Ways | None]:
-        """Follow one turn from states (n, 3); None where none returns within `limit` steps.
+        """Follow one turn from states (n, 3), to one rtol or each to its own (n,).
+
+        None where none returns within `limit` steps.
 
         Returns
         -------
@@ -144,7 +146,7 @@ class Sections:
         parameters = np.full(len(self), self.psi.parameter) if self.own is None else self.own
         shared, sense, floor, sunk = placing.lanes(self.plane, parameters, backward, states, self.x2, self.inner)
         ends, _, codes, steps = returns(
-            states, shared, field.address, self.u, self.x2, sense, floor, sunk, LONGEST, rtol, limit,
+            states, shared, field.address, self.u, self.x2, sense, floor, sunk, LONGEST, np.atleast_1d(rtol), limit,
             len(self) * limit, False,
         )  # fmt: skip
         rows, first, h, whose, inner = placing.noded(steps, codes, shared, gauss(NODES)[0], field.address)

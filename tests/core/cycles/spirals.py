@@ -56,8 +56,9 @@ class Spiral:
     ):
         """Follow orbits from points (n, 2) of kappa_2 to their return to the section u.U = 0; steps of the first."""
         numbers = (np.array([v]) for v in (self.u, centre, self.sense, floor, sunk))
+        own = np.atleast_1d(rtol)
         ends, times, codes, steps = returns(
-            sphere(x2), self.shared[None], FIELD.address, *numbers, t_max, rtol, limit, record * len(x2), elsewhere
+            sphere(x2), self.shared[None], FIELD.address, *numbers, t_max, own, limit, record * len(x2), elsewhere
         )
         return ends, times, codes, steps[steps[:, 4] == 0.0][:record, :4]
 

@@ -105,3 +105,18 @@ def test_each_turn_is_the_same_among_many_as_alone():
             if i == 0:
                 np.testing.assert_array_equal(steps, alone)
         assert set(codes.tolist()) == ({RETURNED, OUTWARD} if limit > 14 else {UNDECIDED})
+
+
+def test_each_orbit_has_its_own_tolerance():
+    own = Spiral(0.15, 1.3)
+    x2 = np.geomspace(0.1, 5.0, SEVERAL)[:, None] * own.ray
+    rtol = np.where(np.arange(SEVERAL) % 3 == 0, 1e-5, 1e-12)
+    ends, times, codes, _ = own.returns(x2, rtol=rtol)
+    assert (codes == RETURNED).all()
+    for value in (1e-5, 1e-12):
+        alone, time, _, _ = own.returns(x2, rtol=value)
+        np.testing.assert_array_equal(ends[rtol == value], alone[rtol == value])
+        np.testing.assert_array_equal(times[rtol == value], time[rtol == value])
+    period = 2.0 * math.pi / 1.3
+    off = np.abs(times / period - 1.0)
+    assert off[rtol == 1e-12].max() < 1e-11 < 1e-9 < np.median(off[rtol == 1e-5])
