@@ -14,18 +14,20 @@ from ..arguments import shown
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
+from .connections.connection_curves import KINDS, connection_curves
 from .curves import curves_of
 from .cycles.cycle_curves import KIND, cycle_curves
 from .degenerate import degenerate_lines
 from .family import Family, Ranges
 from .numbers import numbers, places
 from .regions import regions_of
-from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
+from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion, read_only
 from .special import crossings, each_once
 from .undefined import borders
 
 __all__ = [
-    "Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "atlas", "curves_over", "with_folds_of_cycles", "with_regions",
+    "Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "atlas", "curves_over", "with_bifurcations_of_cycles",
+    "with_connections", "with_folds_of_cycles", "with_regions",
 ]  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -77,7 +79,8 @@ def atlas(
         Of `across`, then of `up`. Left out: about the present values.
     z : (m,) floats
     with_cycles : bool
-        Also folds of limit cycles, which take some seconds: see `with_folds_of_cycles`.
+        Also what limit cycles are born from and die in, which takes some seconds: see `with_folds_of_cycles` and
+        `with_connections`.
 
     Returns
     -------
@@ -99,7 +102,7 @@ def atlas(
     ['CM2, stable node', 'CM4, stable node', 'NCM2']
     """
     found = with_regions(system, psi, curves_over(system, psi, across, up, ranges, z), z)
-    return with_folds_of_cycles(system, psi, found, z) if with_cycles else found
+    return with_bifurcations_of_cycles(system, psi, found, z) if with_cycles else found
 
 
 def curves_over(system: Any, psi: Psi, across: str, up: str, ranges: Any = None, z: ArrayLike = ()) -> Atlas:
@@ -108,8 +111,8 @@ def curves_over(system: Any, psi: Psi, across: str, up: str, ranges: Any = None,
     lines = degenerate_lines(family)
     found, special = curves_of(family, lines)
     curves = [
-        AtlasCurve(one.kind, _read_only(family.values(one.plane)), LABELS[one.kind],
-                   _read_only(places(family, one)), _read_only(numbers(family, one)))
+        AtlasCurve(one.kind, read_only(family.values(one.plane)), LABELS[one.kind],
+                   read_only(places(family, one)), read_only(numbers(family, one)))
         for one in found.curves
     ]  # fmt: skip
     curves += [_nowhere(family, "degenerate", line.points) for line in lines]
@@ -127,14 +130,14 @@ def curves_over(system: Any, psi: Psi, across: str, up: str, ranges: Any = None,
 
 def _nowhere(family: Family, kind: str, plane: Array) -> AtlasCurve:
     """Return a curve that belongs to no place of the portrait."""
-    places = _read_only(np.full((len(plane), 2), math.nan))
-    return AtlasCurve(kind, _read_only(family.values(plane)), LABELS[kind], places, _read_only(np.zeros(0)))
+    places = read_only(np.full((len(plane), 2), math.nan))
+    return AtlasCurve(kind, read_only(family.values(plane)), LABELS[kind], places, read_only(np.zeros(0)))
 
 
 def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
     """Return an atlas with the regions between its curves, of the same system, psi and z."""
     family = family_over(system, psi, z, *found.names, found.ranges)
-    still = [one.points for one in found.curves if one.kind != KIND]
+    still = [one.points for one in found.curves if one.kind not in (KIND, *KINDS)]
     regions, looked = regions_of(family, still, [one.place for one in found.points])
     return replace(found, regions=regions, looked=looked)
 
@@ -147,6 +150,26 @@ def with_folds_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ())
     """
     curves, points = cycle_curves(family_over(system, psi, z, *found.names, found.ranges), found.curves, found.points)
     return replace(found, curves=found.curves + tuple(curves), points=found.points + tuple(points))
+
+
+def with_connections(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
+    """Return an atlas with the connections of its saddles, of the same system, psi and z; they cut no region.
+
+    Those are loops of critical sets that are saddles, heteroclinic cycles through the equator, and single connections.
+    They are begun where the branches of two saddles change sides on some lines across the plane, and beside
+    Bogdanov-Takens points: a curve that meets none of these is missed, and so is an orbit that winds about on its way.
+    """
+    family = family_over(system, psi, z, *found.names, found.ranges)
+    curves, points, missed = connection_curves(family, found.curves, found.points)
+    return replace(
+        found, curves=found.curves + tuple(curves), points=found.points + tuple(points),
+        unfinished=tuple(dict.fromkeys(found.unfinished + missed)),
+    )  # fmt: skip
+
+
+def with_bifurcations_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
+    """Return an atlas with folds of limit cycles, and the connections of saddles they are born from and die in."""
+    return with_connections(system, psi, with_folds_of_cycles(system, psi, found, z), z)
 
 
 def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> Family:
@@ -201,8 +224,3 @@ def _ranges(system: Any, psi: Psi, z: Sequence[float], names: Sequence[str], giv
             raise ValueError(f"ranges are {shown(given)}; of {name} from {least:g} to {most:g} is allowed.")
         found.append((low, high))
     return found[0], found[1]
-
-
-def _read_only(array: Array) -> Array:
-    array.flags.writeable = False
-    return array

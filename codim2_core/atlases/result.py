@@ -16,6 +16,12 @@ __all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "Looked"]
 Array = NDArray[np.float64]
 
 
+def read_only(array: Array) -> Array:
+    """Return an array that cannot be written to any more."""
+    array.flags.writeable = False
+    return array
+
+
 @dataclass(frozen=True, eq=False)
 class AtlasCurve(Tabled):
     """A curve in the plane of two parameters, on which one thing happens.
@@ -25,19 +31,24 @@ class AtlasCurve(Tabled):
     kind : str
         "saddle-node" (two limit directions meet), "pitchfork" (one splits into three, by a symmetry), "transcritical"
         (a critical set comes to the equator), "fold of critical sets", "pitchfork of critical sets", "Hopf",
-        "node-focus", "det A = 0" or "neutral equator"; where it was asked for, "fold of cycles"; "degenerate" is a
-        line on which every direction is a limit direction, "undefined" one beyond which U has no value.
+        "node-focus", "det A = 0" or "neutral equator"; where they were asked for, "fold of cycles", "homoclinic loop"
+        (a branch that leaves a saddle comes back to it), "heteroclinic cycle" (one from a half-saddle of the equator
+        to its neighbour, and the equator back) and "saddle connection" (any other from saddle to saddle); "degenerate"
+        is a line on which every direction is a limit direction, "undefined" one beyond which U has no value.
     points : ndarray (m, 2)
         In order along it; a closed one repeats its first point.
     label : str
         The paper's label.
     places : ndarray (m, 2)
-        Where on the projected hemisphere it happens; NaNs where that is nowhere in particular.
+        Where on the projected hemisphere it happens, of connections the saddle they leave; NaNs where that is nowhere
+        in particular.
     numbers : ndarray (m,)
         A number that tells more: of "Hopf" the first Lyapunov coefficient (negative: a stable cycle is born), of
         "saddle-node" and "pitchfork" lambda_rho, of "transcritical" lambda_theta, in units of the largest |U|; of
         folds and pitchforks of critical sets and of "node-focus" the sign of tr J, of "fold of cycles" the cycle's
-        largest distance from the point it goes round, in the projected disc. Empty where there is none.
+        largest distance from the point it goes round, in the projected disc; of loops and heteroclinic cycles the
+        product of the saddles' ratios of eigenvalues, that by which orbits enter over that by which they leave: above
+        1 it attracts, and the cycle born of it is stable. Empty where there is none.
     """
 
     _head_ = ("curve", "from", "to", "points")
@@ -64,8 +75,9 @@ class AtlasPoint(Tabled):
     Attributes
     ----------
     kind : str
-        Such as "cusp", "Bogdanov–Takens", "generalised Hopf", "saddle-node on the equator", "crossing"; "undecided":
-        a fold of cycles was followed to here and no further.
+        Such as "cusp", "Bogdanov–Takens", "generalised Hopf", "saddle-node on the equator", "crossing"; "neutral
+        loop": a loop or heteroclinic cycle whose ratio passes through 1; "undecided": a fold of cycles or a connection
+        was followed to here and no further.
     place : (float, float)
     sentence : str
         What happens there.
@@ -140,7 +152,8 @@ class Atlas:
     regions : tuple of AtlasRegion
         By falling area.
     unfinished : tuple of str
-        Kinds of curves of which some may be missing: the search was given up after 100 places from which it found none.
+        Kinds of curves of which some may be missing: the search was given up after 100 places from which it found none,
+        or connections were seen that could not be followed.
     degenerate : tuple of (str, float)
         Parameters, and values of them at which every direction is a limit direction: no curve and no point is told
         there.

@@ -170,13 +170,7 @@ def _general_sets(at: AtZ, psi: Psi) -> tuple[CriticalSet, ...]:
     counted = found.degree is not None and found.degenerate.sum() == 1  # then the degree gives it its index
     columns = (found.e, found.DU, found.degenerate, found.rough, found.index)
     for e, DU, degenerate, rough, index in zip(*columns, strict=True):
-        c, s = float(e[0]), float(e[1])
-        modulus = math.hypot(c, s)
-        m11, m12, m21, m22 = DU.ravel().tolist()
-        shift = math.frexp(max(abs(m11), abs(m12), abs(m21), abs(m22), 1e-290))[1]
-        M = (math.ldexp(m11, -shift), math.ldexp(m12, -shift), math.ldexp(m21, -shift), math.ldexp(m22, -shift))
-        parts = linearisation_of(M, psi, (c, s), (1.0 - modulus) * (1.0 + modulus), int(index))
-        C = _critical_set((c, s), parts, shift, slow_flow_at(at, (c, s)))
+        C = _set_of(at, psi, e, DU, int(index))
         if degenerate and (not rough or (counted and index == 0)):
             # index 0: a saddle and a node have just met; +1 or -1: three critical sets have
             C = replace(C, determinant=0.0, kind="saddle-node" if index == 0 else "degenerate")
@@ -184,6 +178,22 @@ def _general_sets(at: AtZ, psi: Psi) -> tuple[CriticalSet, ...]:
             C = replace(C, kind="degenerate")
         sets.append(C)
     return tuple(sets)
+
+
+def set_at(at: AtZ, psi: Psi, e: NDArray[np.float64]) -> CriticalSet:
+    """Return the critical set at a place (c, s) where U is known to be zero; regular, and on no kink."""
+    DU = at.DU(e)
+    return _set_of(at, psi, e, DU, int(np.sign(DU[0, 0] * DU[1, 1] - DU[0, 1] * DU[1, 0])))
+
+
+def _set_of(at: AtZ, psi: Psi, e: NDArray[np.float64], DU: NDArray[np.float64], index: int) -> CriticalSet:
+    c, s = float(e[0]), float(e[1])
+    modulus = math.hypot(c, s)
+    m11, m12, m21, m22 = DU.ravel().tolist()
+    shift = math.frexp(max(abs(m11), abs(m12), abs(m21), abs(m22), 1e-290))[1]
+    M = (math.ldexp(m11, -shift), math.ldexp(m12, -shift), math.ldexp(m21, -shift), math.ldexp(m22, -shift))
+    parts = linearisation_of(M, psi, (c, s), (1.0 - modulus) * (1.0 + modulus), index)
+    return _critical_set((c, s), parts, shift, slow_flow_at(at, (c, s)))
 
 
 def _sides_agree(at: AtZ, psi: Psi, C: CriticalSet) -> bool:

@@ -56,6 +56,15 @@ SENTENCES: dict[str, Sentence] = {
     "fold not caught": Sentence("The fold that begins here was not caught.", "a fold of cycles"),
     "fold reaches the equator": Sentence("The fold of cycles reaches the equator here.", "a fold of cycles"),
     "fold followed no further": Sentence("The fold of cycles was followed to here and no further.", "a fold of cycles"),
+    "connection followed no further": Sentence("The {kind} was followed to here and no further.", "of saddles"),
+    "connection ends beside": Sentence(
+        "The {kind} was followed to here and no further, beside a curve of the kind {beside}.", "of saddles"
+    ),
+    "neutral connection": Sentence(
+        "The saddles' ratios of eigenvalues multiply to 1 here: along its curve the {kind} attracts on one side of "
+        "this point and repels on the other.",
+        "along a curve of loops",
+    ),
     "no cycles at all": Sentence(
         "a and d do not differ in sign, or det A ≤ 0: the layer problem has no limit cycles (Case III has).",
         "not Case III",

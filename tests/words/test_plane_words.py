@@ -192,6 +192,9 @@ ELSEWHERE = {
     "gap": "tests/core/diagrams/test_branches.py",
     "fold reaches the equator": "tests/core/bifurcations/test_cycles.py",
     "fold followed no further": "nothing is claimed",
+    "connection followed no further": "nothing is claimed",
+    "connection ends beside": "nothing is claimed but a place",
+    "neutral connection": "tests/core/atlases/connections/test_connection_curves.py",
     "one comes or goes": "held above wherever it is said",
 }
 MATRICES = [

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...words import say
 from ..family import Family
-from ..result import AtlasCurve, AtlasPoint
+from ..result import AtlasCurve, AtlasPoint, read_only
 from .following import CENTRE, Curve, through
 from .lines import Seed, along_lines, beside
 
@@ -52,7 +52,7 @@ def cycle_curves(
     for one in found:
         plane, sizes, ends = _ended(one, born)
         places = np.full((len(plane), 2), math.nan)
-        out.append(AtlasCurve(KIND, _read_only(family.values(plane)), LABEL, _read_only(places), _read_only(sizes)))
+        out.append(AtlasCurve(KIND, read_only(family.values(plane)), LABEL, read_only(places), read_only(sizes)))
         for across, up in family.values(np.array(ends).reshape(-1, 2)).tolist():
             lost.append(AtlasPoint("undecided", (across, up), say("fold followed no further")))
     return out, lost
@@ -84,8 +84,3 @@ def _ended(one: Curve, born: Sequence[Array]) -> tuple[Array, Array, list[Array]
         elif end in (CENTRE, "lost", "many"):
             lost.append(last)
     return plane, sizes, lost
-
-
-def _read_only(array: Array) -> Array:
-    array.flags.writeable = False
-    return array

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...bifurcations.implicit_curve import Edge, Steps, followed, solved, tangent
+from ...continuation.typed.foot import e_at
 from ...continuation.typed.ray import crossing, room
 from ...layer_problem.critical import critical_sets
 from ..family import Family
@@ -104,11 +105,9 @@ def _inside(family: Family, place: Array, closed: Array) -> list[Around]:
     sets = sorted(critical_sets(family.frozen(place), psi), key=lambda C: C.kind == "saddle")
     middle = closed[:-1].mean(axis=0)
     x2 = middle / math.sqrt(max(1.0 - float(middle @ middle), 1e-300))
-    zeta = math.hypot(*x2)
-    e = x2 / max(zeta, 1e-300) * float(psi.modulus(zeta))
     return [
         *(Around(family, place, np.asarray(C.e), nowhere) for C in sets),
-        Around(family, place, e, nowhere, critical=False),
+        Around(family, place, e_at(psi, x2), nowhere, critical=False),
     ]
 
 

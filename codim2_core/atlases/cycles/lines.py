@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...continuation.turns import Turn
 from ...continuation.typed.family import VariedRay
+from ...continuation.typed.foot import e_at
 from ...continuation.typed.search import Search
 from ...cycles.turn_section import TurnSection
 from ...layer_problem.critical import critical_sets
@@ -78,9 +79,7 @@ def _along(family: Family, curves: Sequence[AtlasCurve], axis: int, at: float) -
 
 
 def _seed(family: Family, ray: VariedRay, turn: Turn, where: Array) -> Seed:
-    x2 = ray.foot.place(turn.value).x2
-    zeta = math.hypot(*x2)
-    e = x2 / max(zeta, 1e-300) * float(family.psi_at(where).modulus(zeta))
+    e = e_at(family.psi_at(where), ray.foot.place(turn.value).x2)
     around = Around(family, where, e, ray.u, ray.foot.critical)
     return Seed(Start(around, np.array([turn.xi / SCALE, *where])), turn.amplitude)
 

@@ -102,3 +102,9 @@ def placed(psi: Psi, e: Array) -> Place:
     zeta = float(psi.radius(modulus, (1.0 - modulus) * (1.0 + modulus)))
     x2 = e * (zeta / max(modulus, 1e-300))
     return Place(x2 / math.hypot(1.0, zeta), x2)
+
+
+def e_at(psi: Psi, x2: Array) -> Array:
+    """Return (c, s) = e_Psi at a point x2: the inverse of `placed`."""
+    zeta = math.hypot(*x2)
+    return np.asarray(x2 / max(zeta, 1e-300) * float(psi.modulus(zeta)))

@@ -32,7 +32,7 @@ from ..turns import Turn
 from ..varied_system import KEPT
 from .ends import Ended, Last, Marked, equator_end, hopf_end, loop_end
 from .family import VariedRay, follow
-from .foot import Array, At, Foot, Place
+from .foot import Array, At, Foot, Place, e_at
 from .passed import line_of, passed
 from .ray import crossing, room
 from .seen import Seen, met, same
@@ -188,9 +188,7 @@ class Search:
         feet = [Foot(self.at, value, C.e) for C in sets if crossing(points, Place(C.p, C.x2))[0] > -1.0]
         middle = points[:-1].mean(axis=0)
         x2 = middle / math.sqrt(1.0 - float(middle @ middle))
-        zeta = math.hypot(*x2)
-        e = x2 / max(zeta, 1e-300) * self.at(value)[1].modulus(zeta)
-        return [*feet, Foot(self.at, value, e, critical=False)]
+        return [*feet, Foot(self.at, value, e_at(self.at(value)[1], x2), critical=False)]
 
     def _on(
         self,

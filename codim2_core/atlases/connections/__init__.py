@@ -1,0 +1,1 @@
+"""Connections of saddles over two parameters: loops, cycles and single connections."""

@@ -1,0 +1,116 @@
+"""Connections of saddles over two parameters of any system: loops, cycles through the equator, and all others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...layer_problem.problem import LayerProblem
+from ...words import say
+from ..family import Family
+from ..result import AtlasCurve, AtlasPoint, read_only
+from .following import Curve, through
+from .lines import beside, seeds, straight
+from .splitting import Pair
+
+Array = NDArray[np.float64]
+
+LOOP, CYCLE, CONNECTION = KINDS = "homoclinic loop", "heteroclinic cycle", "saddle connection"
+LABEL = "sec:case3"
+TAKENS = "Bogdanov–Takens"
+NEAR, SMALL = 0.05, 0.3  # of the square: a loop ends at a Bogdanov-Takens point so near to it; in the disc, its size
+AT = 5e-3  # of the square: an end beside a curve of what stands still
+MOST = 24  # curves
+STANDING = (
+    "fold of critical sets", "pitchfork of critical sets", "saddle-node", "pitchfork", "transcritical", "det A = 0",
+)  # fmt: skip
+
+
+def connection_curves(
+    family: Family, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
+) -> tuple[list[AtlasCurve], list[AtlasPoint], tuple[str, ...]]:
+    """Find connections, the points of codimension two on them, and kinds of which some were seen and not followed.
+
+    Parameters
+    ----------
+    family : Family
+    curves, points : sequence of AtlasCurve, of AtlasPoint
+        Of what stands still.
+    """
+    takens = [family.units(np.array(point.place)) for point in points if point.kind == TAKENS]
+    found: list[Curve] = []
+    missed: list[str] = []
+
+    def known(place: Array, pair: Pair) -> bool:
+        return any(one.passes(place, pair) for one in found)
+
+    for line in [*beside(family, takens, curves), *straight()]:
+        for seed in seeds(family, line, known):
+            one = through(seed) if len(found) < MOST else None
+            if one is None:
+                missed.append(_kind(seed.pair))
+            else:
+                found.append(one)
+    out, told = [], []
+    for one in found:
+        kinds = [_kind(pair) for pair in one.pairs]
+        kind = kinds[0] if len(set(kinds)) == 1 else CONNECTION
+        plane, places, ratios = one.plane, np.array([pair.leaving.p for pair in one.pairs]), one.ratios
+        for end, i in zip(one.ends, (0, -1), strict=True):
+            born = _born(one, takens, i) if kind == LOOP else None
+            if born is not None:
+                order = 1 if i else -1
+                plane = np.concatenate([plane[::order], born[0][None]])[::order]
+                places = np.concatenate([places[::order], born[1][None]])[::order]
+                ratios = np.append(ratios[::order], 1.0)[::order]
+            elif end in ("lost", "many"):
+                told.append(_ended(family, one.plane[i], kind, curves))
+        numbers = ratios if kind != CONNECTION else np.zeros(0)
+        out.append(AtlasCurve(kind, read_only(family.values(plane)), LABEL, read_only(places), read_only(numbers)))
+        if kind != CONNECTION:
+            told += [_point(family, "neutral loop", at, say("neutral connection", kind=kind)) for at in one.neutral()]
+    return out, told, tuple(dict.fromkeys(missed))
+
+
+def _kind(pair: Pair) -> str:
+    """Name a connection: a cycle is one of two half-saddles that an arc of the equator joins the other way."""
+    if pair.foot is not None:
+        return LOOP
+    leaving, entering = pair.leaving, pair.entering
+    if leaving.critical is None and entering.critical is None:
+        equator = LayerProblem(leaving.at, leaving.psi).equator
+        theta = equator.theta
+        i, j = (int(np.abs(np.angle(np.exp(1j * (theta - one.theta)))).argmin()) for one in (leaving, entering))
+        if (i - j) % len(theta) in (1, len(theta) - 1) and not len(equator.arcs):
+            return CYCLE
+    return CONNECTION
+
+
+def _born(one: Curve, takens: Sequence[Array], i: int) -> tuple[Array, Array] | None:
+    """Return the Bogdanov-Takens point at which a curve of loops ends, and about where the loop shrinks to."""
+    pair = one.pairs[i]
+    section = pair.section
+    near = min(takens, key=lambda at: math.dist(at, one.plane[i]), default=None)
+    if near is None or section is None or section.scale > SMALL or math.dist(near, one.plane[i]) > NEAR:
+        return None
+    return near, 0.5 * (section.origin + pair.leaving.p)
+
+
+def _ended(family: Family, place: Array, kind: str, curves: Sequence[AtlasCurve]) -> AtlasPoint:
+    """Say where a curve could be followed no further, and beside what."""
+    gaps = {
+        one.kind: float(np.hypot(*(family.units(one.points) - place).T).min())
+        for one in curves if one.kind in STANDING
+    }  # fmt: skip
+    beside_ = min(gaps, key=lambda name: gaps[name], default="")
+    if beside_ and gaps[beside_] < AT:
+        return _point(family, "undecided", place, say("connection ends beside", kind=kind, beside=beside_))
+    return _point(family, "undecided", place, say("connection followed no further", kind=kind))
+
+
+def _point(family: Family, kind: str, place: Array, sentence: str) -> AtlasPoint:
+    across, up = family.values(place).tolist()
+    return AtlasPoint(kind, (across, up), sentence)

@@ -1,0 +1,200 @@
+"""By how much an unstable branch of one saddle and a stable one of another, or of the same, miss each other.
+
+Two saddles A and B lie on opposite sides of the line half-way between them, which an orbit from A to B crosses; a loop
+of one saddle goes round a critical set F that is none, and crosses the ray from F away from it. The places where both
+branches first cross have a signed distance. It is zero only if the branches are one orbit, and if this
+crosses just once it is zero then: a connection that crosses several times is not seen.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...continuation.typed.foot import corrected, e_at, placed
+from ...psi.function import Psi
+from ...systems.frozen import AtZ
+from ..family import Family
+from .saddles import Branch
+
+Array = NDArray[np.float64]
+
+KNOWN = 3e-3  # of the square: so far from where it is known a connection is kept
+DIFFERENCE = 1e-6  # of the square
+CORRECTIONS, CLOSE = 4, 1e-14  # of the time of a crossing, in T of 1/max |U|
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """A line through a point, or a half of it.
+
+    Attributes
+    ----------
+    origin, along, across : ndarray (2,)
+    scale : float
+        Unit of length on it.
+    half : bool
+        Of a loop: the half ahead of the origin, on which the coordinate is a logarithm.
+    """
+
+    origin: Array
+    along: Array
+    across: Array
+    scale: float
+    half: bool
+
+    def side(self, points: Array) -> Array:
+        """Signed distances (...) from it."""
+        return np.asarray((points - self.origin) @ self.across)
+
+    def coordinate(self, p: Array) -> float:
+        """Return the place of a point on it."""
+        at = float((p - self.origin) @ self.along) / self.scale
+        return (math.log(at) if at > 0.0 else math.nan) if self.half else at
+
+    def first(self, line: Array) -> tuple[int, float, bool] | None:
+        """Which piece of a line crosses it first, at which part of that, and in which sense; None if none does."""
+        side = self.side(line)
+        rows = np.flatnonzero(side[1:] * side[:-1] < 0.0)
+        part = side[rows] / (side[rows] - side[rows + 1])
+        if self.half:
+            met = line[rows] + part[:, None] * (line[rows + 1] - line[rows])
+            ahead = (met - self.origin) @ self.along > 0.0
+            rows, part = rows[ahead], part[ahead]
+        return (int(rows[0]), float(part[0]), bool(side[rows[0]] < 0.0)) if len(rows) else None
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """A branch that leaves a saddle, one that enters one, and of a loop a critical set (c, s) within."""
+
+    leaving: Branch
+    entering: Branch
+    foot: Array | None
+
+    def followed(self, at: AtZ, psi: Psi) -> Pair | None:
+        """Return the same of another system nearby; None where one of them is no more."""
+        leaving, entering = self.leaving.followed(at, psi), self.entering.followed(at, psi)
+        foot = None if self.foot is None else corrected(at, self.foot)
+        if leaving is None or entering is None or (foot is None) != (self.foot is None):
+            return None
+        return Pair(leaving, entering, foot)
+
+    @cached_property
+    def section(self) -> Section | None:
+        """Return the line on which both are compared."""
+        A, B = self.leaving.p, self.entering.p
+        if self.foot is None:
+            origin, way = 0.5 * (A + B), B - A
+        else:
+            origin = placed(self.leaving.psi, self.foot).p
+            way = origin - A
+        scale = math.hypot(*way)
+        if scale == 0.0:
+            return None
+        along = way / scale
+        normal = np.array([-along[1], along[0]])
+        half = self.foot is not None
+        return Section(origin, along if half else normal, normal if half else along, scale, half)
+
+    @property
+    def ratio(self) -> float:
+        """Product of the ratios of both saddles, of a loop that of its saddle."""
+        return self.leaving.ratio if self.foot is not None else self.leaving.ratio * self.entering.ratio
+
+
+def roughly(section: Section, leaving: Array, entering: Array) -> float:
+    """Return the splitting as lines tell it; NaN where they do not cross."""
+    out, back = section.first(leaving), section.first(entering)
+    if out is None or back is None or out[2] == back[2]:  # one is followed against time
+        return math.nan
+    places = [line[i] + part * (line[i + 1] - line[i]) for line, (i, part, _) in ((leaving, out), (entering, back))]
+    return section.coordinate(places[0]) - section.coordinate(places[1])
+
+
+class Splitting:
+    """The splitting of one pair over the plane.
+
+    Parameters
+    ----------
+    family : Family
+    place : ndarray (2,)
+        Of the unit square, where it is known.
+    pair : Pair
+        There.
+    """
+
+    def __init__(self, family: Family, place: Array, pair: Pair) -> None:
+        self.family = family
+        self._known = [(np.array(place, float), pair)]
+
+    def pair(self, place: Array) -> Pair | None:
+        """Return the pair at a place; None where it is no more."""
+        nearest = min(self._known, key=lambda one: math.dist(one[0], place))
+        try:
+            pair = nearest[1].followed(self.family.frozen(place), self.family.psi_at(place))
+        except ValueError:  # beyond what is allowed
+            return None
+        if pair is not None and math.dist(nearest[0], place) > KNOWN:
+            self._known.append((np.array(place), pair))
+        return pair
+
+    def gap(self, place: Array) -> float:
+        """Return the signed distance, to the digits of the orbits; NaN where a branch does not cross."""
+        pair = self.pair(place)
+        section = None if pair is None else pair.section
+        if pair is None or section is None:
+            return math.nan
+        out, back = _crossing(pair.leaving, section), _crossing(pair.entering, section)
+        if out is None or back is None or out[1] != back[1]:
+            return math.nan
+        return section.coordinate(out[0]) - section.coordinate(back[0])
+
+    def condition(self, place: Array) -> tuple[Array, Array]:
+        """Return the splitting, with derivatives that tell the way and not the place."""
+        here = self.gap(place)
+        if not math.isfinite(here):
+            return np.full(1, math.nan), np.full((1, 2), math.nan)
+        slope = [(self.gap(place + way) - here) / DIFFERENCE for way in DIFFERENCE * np.eye(2)]
+        return np.array([here]), np.array([slope])
+
+
+def _crossing(branch: Branch, section: Section) -> tuple[Array, bool] | None:
+    """Where a branch first crosses a section, and in which sense as time goes on."""
+    at, psi = branch.at, branch.psi
+    lines = branch.orbit()
+    first = section.first(lines.points[0])
+    if first is None:
+        return None
+    i, part, upwards = first
+    early, late = np.abs(lines.times[0][i : i + 2]).tolist()
+    state = np.array(branch.orbit(max(early + part * (late - early), 1e-300)).ends[0])
+    for _ in range(CORRECTIONS):
+        rate = float(_field(at, psi, state)[:2] @ section.across)
+        step = -float(section.side(state[:2])) / rate if rate else math.inf
+        if not abs(step) * at.speed < 1.0:
+            return None
+        state = _stepped(at, psi, state, step)
+        if abs(step) * at.speed < CLOSE:
+            break
+    return state[:2], upwards != branch.backward
+
+
+def _field(at: AtZ, psi: Psi, state: Array) -> Array:
+    """(p, ebar)' by T."""
+    p, w = state[:2], float(state[2])
+    U = at.U(e_at(psi, p / w))
+    outward = float(p @ U)
+    return np.append(U - p * outward, -w * outward)
+
+
+def _stepped(at: AtZ, psi: Psi, y: Array, h: float) -> Array:
+    """One step of the classical Runge-Kutta method."""
+    a = _field(at, psi, y)
+    b = _field(at, psi, y + 0.5 * h * a)
+    c = _field(at, psi, y + 0.5 * h * b)
+    return np.asarray(y + h / 6.0 * (a + 2.0 * b + 2.0 * c + _field(at, psi, y + h * c)))
