@@ -74,6 +74,10 @@ SENTENCES: dict[str, Sentence] = {
         "Some of these curves may be missing, the search was given up after 100 places without one: {kinds}.",
         "an atlas with a search that fails",
     ),
+    "connections not followed": Sentence(
+        "Some of these curves are missing, which were seen at a place and could not be followed from there: {kinds}.",
+        "an atlas with connections of saddles",
+    ),
     "degenerate line": Sentence(
         "At {name} = {value:.4g} every direction is a limit direction: nothing is told there.",
         "an atlas with a value at which Θ is zero",

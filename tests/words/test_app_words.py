@@ -137,6 +137,13 @@ def given_up(key):
     assert str(tracing.MOST_FAILED) in phrases.SENTENCES[key].says
 
 
+def not_followed(key):
+    """That they are told so is shown by `tests/core/atlases/connections`."""
+    found = replace(followed()[0], unfinished=("Hopf", "homoclinic loop"))
+    assert fields(key, note(found)) == {"kinds": "homoclinic loop"}
+    assert fields("curves given up", note(found)) == {"kinds": "Hopf"}
+
+
 def degenerate_line(key):
     system = System(U=("mu*(c**2 - c)", "mu*(s*c + k)"), parameters={"mu": 0.5, "k": 0.1})
     found = curves_over(system, psi.constant(), "mu", "k", ((0, 1), (-1, 1)))
@@ -258,6 +265,7 @@ CHECKS = {
     "map by curves": by_curves,
     "regions to come": lambda _: by_curves("map by curves"),
     "curves given up": given_up,
+    "connections not followed": not_followed,
     "degenerate line": degenerate_line,
     "region unlike": looked,
     "regions unproved": looked,

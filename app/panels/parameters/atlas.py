@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from codim2_core import bifurcations
-from codim2_core.atlases.atlas import Atlas, curves_over, with_folds_of_cycles, with_regions
+from codim2_core.atlases.atlas import Atlas, curves_over, with_bifurcations_of_cycles, with_regions
 from codim2_core.bifurcations import BifurcationCurve
 from codim2_core.diagrams.class_maps.atlas import ClassMap, class_map
 from codim2_core.diagrams.class_maps.line import Stretch, class_line
@@ -176,7 +176,7 @@ def _map(draft: Draft, axes: tuple[Axis, Axis]) -> None:
 def _followed(draft: Draft, key: tuple[Any, ...], axes: tuple[Axis, Axis]) -> None:
     """Add the curves of a system that is not e-linear and, once they are there, the regions between them.
 
-    Then, where they are asked for, the folds of its limit cycles.
+    Then, where they are asked for, the folds of its limit cycles and the connections of its saddles.
     """
     system, psi, z, names, spans = key
     curves: Atlas | None = draft.slow("map", key, curves_over, system, psi, *names, spans, z)
@@ -192,7 +192,7 @@ def _followed(draft: Draft, key: tuple[Any, ...], axes: tuple[Axis, Axis]) -> No
     kept, known = draft.now.get("whole", (None, None))
     cycles: Atlas | None = None
     if kept == key and draft.values["cycle_curves"] == "show":
-        cycles = draft.slow("curves of cycles", key, with_folds_of_cycles, system, psi, known, z)
+        cycles = draft.slow("curves of cycles", key, with_bifurcations_of_cycles, system, psi, known, z)
     found = cycles or whole or curves
     if found is not None:
         draft.header["map"], lines = atlas_columns(found, (axes[0].symbol, axes[1].symbol))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from codim2_core.atlases.connections.connection_curves import KINDS
 from codim2_core.atlases.result import Atlas
 from codim2_core.diagrams.class_maps.atlas import ClassMap
 from codim2_core.diagrams.class_maps.line import Stretch
@@ -79,7 +80,10 @@ def _note(found: Atlas, symbols: dict[str, str]) -> str:
     """Tell what an atlas has missed, or may have."""
     looked = found.looked
     told = [say("degenerate line", name=symbols[name], value=value) for name, value in found.degenerate]
-    told += [say("curves given up", kinds=", ".join(found.unfinished))] if found.unfinished else []
+    given_up = [kind for kind in found.unfinished if kind not in KINDS]
+    seen = [kind for kind in found.unfinished if kind in KINDS]
+    told += [say("curves given up", kinds=", ".join(given_up))] if given_up else []
+    told += [say("connections not followed", kinds=", ".join(seen))] if seen else []
     told += [say("region unlike", few=len(looked.unlike), all=looked.places)] if looked.unlike else []
     told += [say("regions unproved", few=looked.unproved, all=looked.places)] if looked.unproved else []
     return " ".join([*told, say("map by curves") if looked.places else say("regions to come")])

@@ -9,12 +9,14 @@ import {Dots} from "../room/dots.js"
 import {rangeFor, reachFor} from "../controls/ranges.js"
 
 const CURVE_NAMES = {
-  transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", pitchfork: "pitchfork", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", closed_equator: "cycle at the equator", determinant: "det A = 0", fold: "fold of critical sets", fork_of_sets: "pitchfork of critical sets", degenerate: "all is degenerate", undefined: "undefined",
+  transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", pitchfork: "pitchfork", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", homoclinic: "homoclinic loop", connection: "saddle connection", closed_equator: "cycle at the equator", determinant: "det A = 0", fold: "fold of critical sets", fork_of_sets: "pitchfork of critical sets", degenerate: "all is degenerate", undefined: "undefined",
 }
 const OF_EQUATIONS = {transcritical: "a critical set at the equator", closed_equator: "closed equator neutral"}
 const CURVE_OF = {
-  transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "pitchfork", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant", fold: "fold", "fold of critical sets": "fold", "pitchfork of critical sets": "fork_of_sets", "neutral equator": "closed_equator", "fold of cycles": "cycle_folds", degenerate: "degenerate",
+  transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "pitchfork", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant", fold: "fold", "fold of critical sets": "fold", "pitchfork of critical sets": "fork_of_sets", "neutral equator": "closed_equator", "fold of cycles": "cycle_folds", "homoclinic loop": "homoclinic", "heteroclinic cycle": "heteroclinic", "saddle connection": "connection", degenerate: "degenerate",
 }
+// Shown where they are asked for: they take seconds.
+const OF_CYCLES = ["cycle_folds", "homoclinic", "heteroclinic", "connection"], POINTS_OF_CYCLES = ["undecided", "neutral loop"]
 
 const MARKUP = `${axesMarkup({across: "across", up: "up"}, "atlas_zoom")}
   <svg class="pad" role="application" tabindex="0" aria-label="The atlas: two parameters with the regions of one portrait each. Drag the handle, or use the arrow keys"></svg>
@@ -113,7 +115,7 @@ class Atlas {
       const regions = name.map((words, i) => ({name: words, bounded: true, inside: inside[i], loops: all.splice(0, loops[i])}))
       // only what is followed has points: its critical sets are those of equations
       const names = points || name.some((words) => words.includes(";")) ? OF_EQUATIONS : {}
-      const still = Object.fromEntries(Object.entries(curves).filter(([kind]) => kind !== "cycle_folds"))
+      const still = Object.fromEntries(Object.entries(curves).filter(([kind]) => !OF_CYCLES.includes(kind)))
       this.map = {of: this.of, spans, regions, curves, still, followed: Boolean(points), points: points ?? [], names, note: header.map.note}
     }
     this.why = header.unable?.map ?? (header.map || header.atlas_of ? "" : this.why)
@@ -176,7 +178,7 @@ class Atlas {
     const handle = this.axes.map((name) => this.tools.valueOf(name))
     const {of, spans, regions, curves: all, still, points: told, names, note} = this.map.of === this.of ? this.map : this.empty
     const withCycles = values.cycle_curves === "show"
-    const curves = withCycles ? all : still, points = withCycles ? told : told.filter(([kind]) => kind !== "undecided")
+    const curves = withCycles ? all : still, points = withCycles ? told : told.filter(([kind]) => !POINTS_OF_CYCLES.includes(kind))
     const box = of ? spans : this.axes.map((name, i) => rangeFor(this.tools.rangeOf(name), handle[i]))
     if (this.isStrip) { handle[1] = 0.5; box[1] = [0, 1] }
     return {box, regions, curves, points, handle, here: handle, path: null, note, names, flat: this.isStrip}

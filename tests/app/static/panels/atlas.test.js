@@ -168,16 +168,19 @@ test("the panel atlas: of what is followed the curves come first, each with its 
   assert.deepEqual([one.texts(".pad-names span"), read().lines.length], [["2CM4, saddle; 3 arrive"], 5])
 })
 
-test("the panel atlas: folds of cycles of what is followed are there where they are asked for", () => {
+test("the panel atlas: folds of cycles and connections of what is followed are there where they are asked for", () => {
   const one = atlas({across: "a", a: 3, f2: 2.2})
   const shown = () => plots(one.find(".pad"))[0]
   assert.equal(one.find(".cycle-curves").hidden, true)
-  const curve = ["Hopf", "fold of cycles"], points = [["generalised Hopf", 1, 1.5, "Born."], ["undecided", 2, 1.5, "No further."]]
-  one.frame({...FOLLOWED, map: {...FOLLOWED.map, curve, pieces: [1, 1], points}}, {...lines("map"), ...lines("map_curves", [[0, 0.5], [0.5, 0.25]], [[0.75, 0.5], [0.75, -0.5]])})
+  const curve = ["Hopf", "fold of cycles", "homoclinic loop", "heteroclinic cycle", "saddle connection"]
+  const points = [["generalised Hopf", 1, 1.5, "Born."], ["undecided", 2, 1.5, "No further."], ["neutral loop", 2, 2, "Neutral."]]
+  const drawn = [0, 0.2, 0.4, 0.6, 0.8].map((u) => [[u, 0.5], [u + 0.1, 0.25]])
+  one.frame({...FOLLOWED, map: {...FOLLOWED.map, curve, pieces: [1, 1, 1, 1, 1], points}}, {...lines("map"), ...lines("map_curves", ...drawn)})
   assert.equal(one.find(".cycle-curves").hidden, false)
   assert.deepEqual([shown().lines.map(({name}) => name), shown().marks.length], [["hopf"], 1])
   one.set({cycle_curves: "show"})
-  assert.deepEqual([shown().lines.map(({name}) => name), shown().marks.length], [["hopf", "cycle_folds"], 2])
+  assert.deepEqual([shown().lines.map(({name}) => name), shown().marks.length], [["hopf", "cycle_folds", "homoclinic", "heteroclinic", "connection"], 3])
+  assert.deepEqual(one.texts(".pad-curves span"), ["Hopf", "fold of cycles", "homoclinic loop", "heteroclinic cycle", "saddle connection"])
   one.frame({unable: {map: "Choose two."}})
   assert.equal(one.find(".cycle-curves").hidden, true)
 })
