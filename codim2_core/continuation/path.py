@@ -82,8 +82,7 @@ def all_traced(tracer: Tracer, starts: Sequence[Point]) -> Asking[list[tuple[Tra
 
 def _joined(tracer: Tracer, first: list[Point], other: list[Point]) -> list[Point] | None:
     """Join two ways along one branch whose ends have passed one another; None where they have not."""
-    back = [replace(p, tangent=(-p.tangent[0], -p.tangent[1])) for p in reversed(other)]
-    last = back[0]
+    last = _turned(other[-1])
     for i, (here, there) in enumerate(pairwise(first)):
         step = distance(here, there)
         part = _part(here, there, last)
@@ -98,8 +97,13 @@ def _joined(tracer: Tracer, first: list[Point], other: list[Point]) -> list[Poin
             length += missed[0] * last.tangent[0] + missed[1] * last.tangent[1]
         cosine = here.tangent[0] * last.tangent[0] + here.tangent[1] * last.tangent[1]
         if cosine > TURNED and math.hypot(*missed) < SAME * step:
-            return [*first[: i + 1 if part > 0.2 or i == 0 else i], *back]
+            return [*first[: i + 1 if part > 0.2 or i == 0 else i], *map(_turned, reversed(other))]
     return None
+
+
+def _turned(point: Point) -> Point:
+    """Return the same point on the way back."""
+    return replace(point, tangent=(-point.tangent[0], -point.tangent[1]))
 
 
 def _part(here: Point, there: Point, place: Point) -> float:

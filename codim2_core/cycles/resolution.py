@@ -190,19 +190,19 @@ class Samples:
         """What the displacement is not known better than; near the critical set it is that of the distance from it."""
         return np.where(self.fine, FINE_NOISE, COARSE_NOISE) * (1.0 + np.exp(-self.q))
 
-    def refine(self, xi: Array, also: NDArray[np.bool_]) -> None:
-        """Add samples at the fine tolerance, and repeat those marked that are not fine yet."""
+    def refine(self, xi: Array, also: NDArray[np.bool_], rtol: float = FINE) -> None:
+        """Add samples, by default at the fine tolerance, and repeat those marked that are not fine yet."""
         also = also & ~self.fine
         every = np.concatenate([xi, self.xi[also]])
         q = self.section.states(every)[1]
-        shift = self.section.displacement(every, FINE, self.backward)
+        shift = self.section.displacement(every, rtol, self.backward)
         self.shift[also] = shift[len(xi) :]
         self.fine = self.fine | also
         order = np.argsort(np.concatenate([self.xi, xi]), kind="stable")
         self.xi = np.concatenate([self.xi, xi])[order]
         self.q = np.concatenate([self.q, q[: len(xi)]])[order]
         self.shift = np.concatenate([self.shift, shift[: len(xi)]])[order]
-        self.fine = np.concatenate([self.fine, np.ones(len(xi), bool)])[order]
+        self.fine = np.concatenate([self.fine, np.full(len(xi), rtol == FINE)])[order]
 
     def resolve(self, ends: Callable[[Array, Array], list[int]], steepest: float = ROUNDING) -> bool:
         """Sample closer until every interval is resolved; whether that came about.
@@ -227,7 +227,9 @@ class Samples:
             each = max(BATCH // len(open_), FEWEST)
             part = np.arange(1, each + 1) / (each + 1)
             left, right = self.xi[open_], self.xi[np.array(open_) + 1]
-            self.refine((left[:, None] + (right - left)[:, None] * part).ravel(), stencil)
+            # where the displacement ends, a first look is for its sign
+            rtol = FINE if doubtful else COARSE
+            self.refine((left[:, None] + (right - left)[:, None] * part).ravel(), stencil, rtol)
         return False
 
     def _narrow(self, i: int, steepest: float) -> bool:

@@ -18,7 +18,7 @@ from ..systems.coefficients import Coefficients
 from .equator_pull import LEAST, LOST, SUNK, EquatorPull, equator_pull
 
 Array = NDArray[np.float64]
-SAMPLES = 64
+SAMPLES = 64  # so many that lanes are full to the last
 INNER, OUTER = 1e-4, 1e5  # of the reach R, and in zeta: how near C and the equator the section is sampled
 COARSE, FINE = 1e-9, 1e-13  # tolerances
 FARTHEST = 1e6  # zeta from which the outer samples begin, at most
@@ -310,6 +310,6 @@ class Section:
         modulus = min(math.hypot(*(self.e + r * self.u).tolist()), 1.0)
         gap = min(max(rest * (r + self.other), 1e-300), 1.0)
         start = min(max(self.psi.radius(modulus, gap), 1e-3), FARTHEST)
-        outer = self.xi_at_radius(np.geomspace(start, max(OUTER, 10.0 * start), 26)[1:])
+        outer = self.xi_at_radius(np.geomspace(start, max(OUTER, 10.0 * start), 25)[1:])
         xi = np.concatenate([inner, outer[outer > inner[-1] + 1e-3]])
         return np.unique(np.minimum(xi, 600.0))

@@ -140,7 +140,8 @@ def slowest_turn(planes: NDArray[np.float64]) -> NDArray[np.float64]:
     a, b, d, f1, f2 = (planes / np.abs(planes).max(axis=1, keepdims=True)).T[:, :, None]
     half, sign, theta = 0.5 * (d - a), np.where(b < 0.0, -1.0, 1.0), _TURN
     for _ in range(DESCENTS):  # Newton's method for minima, from all directions
-        c, s, c2, s2 = np.cos(theta), np.sin(theta), np.cos(2.0 * theta), np.sin(2.0 * theta)
+        c, s = np.cos(theta), np.sin(theta)
+        c2, s2 = (c - s) * (c + s), 2.0 * c * s
         slope, bend = sign * (-f2 * s - f1 * c + 2.0 * half * c2), sign * (-f2 * c + f1 * s - 4.0 * half * s2)
         theta = theta - np.clip(slope / np.maximum(np.abs(bend), 1e-3), -0.1, 0.1)
     turn = sign * (b + f2 * np.cos(theta) - f1 * np.sin(theta) + half * np.sin(2.0 * theta))

@@ -16,6 +16,7 @@ from codim2_core.cycles.resolution import (
     unresolved,
     zeros,
 )
+from codim2_core.cycles.section import COARSE, FINE
 from codim2_core.words import say
 
 from .sections import UNEVEN, Line
@@ -216,6 +217,12 @@ def test_a_fold_is_touched_and_a_map_too_wild_is_said_to_be():
     looked = Samples(Line(lambda xi: 1.0 + 0.0 * xi), np.linspace(-3.0, 3.0, 24))
     assert looked.resolve(lambda xi, shift: [i for i in (3, 9) if xi[i + 1] - xi[i] > 0.1])
     assert len(looked.xi) == 24 + 2 * 16
+    # where nothing is doubtful, only signs are looked for
+    assert {rtol for _, rtol, _ in looked.section.asked} == {COARSE}
+    assert not looked.fine.any()
+    doubtful = Samples(Line(lambda xi: (xi - 0.4) ** 2 + 1e-3), np.linspace(-3.0, 3.0, 24))
+    assert doubtful.resolve(lambda xi, shift: [i for i in (3, 9) if xi[i + 1] - xi[i] > 0.1])
+    assert {rtol for _, rtol, _ in doubtful.section.asked[1:2]} == {FINE}
 
 
 def test_a_jump_is_told_from_a_steep_slope_down_to_rounding():

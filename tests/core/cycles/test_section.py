@@ -13,6 +13,7 @@ from codim2_core.cycles import return_map
 from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED, UNDECIDED
 from codim2_core.cycles.section import COARSE, FINE, INNER, Section, rays
 from codim2_core.cycles.turn_section import OUTER, SPACING, TurnSection
+from codim2_core.stepping.layout import LANES
 
 PSIS = [c2.psi.constant(), c2.psi.rational(), c2.psi.tanh(), c2.psi.hill(3)]
 EVERY = pytest.mark.parametrize("psi", PSIS, ids=lambda p: p.text)
@@ -63,6 +64,7 @@ def test_states_lie_on_the_ray_in_e(psi):
         assert (np.diff(grid) > 0.0).all()
         assert grid[0] == pytest.approx(math.log(INNER))
         assert grid[-1] <= 600.0
+        assert len(grid) <= 2 * LANES  # one more would be followed alone
         zeta = 1.0 / own.states(grid[grid >= math.log(9.0) - 1e-9])[0][:, 2]
         assert (zeta[1:] / zeta[:-1]).max() < 4.0  # no gap between the samples near C and those far out
 
