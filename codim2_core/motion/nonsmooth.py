@@ -83,7 +83,8 @@ def simulate_nonsmooth(
 
     Outside Sigma the system slips; it arrives at Sigma in finite time along a limit direction; the orbit that continues
     it on the hemisphere decides what follows (thm:geneps0(b), sec:geneps1): sliding on the critical set that it comes
-    to, with its slow flow, or crossing. Sliding ends where the critical set does. Where that only loses its stability
+    to, with its slow flow, or crossing. Sliding ends where the critical set does: it leaves folds, but stops at those
+    where the slow flow turns too and terms of order eps decide (`limit.folded`). Where the set only becomes unstable
     (Hopf), the motion stays near it until it has been repelled as much as it was attracted, or to the buffer point
     before (`limit.delay`): in analytic formulas, as long as nothing disturbs it. The rounding of `simulate` does, once
     eps is below 1/36 of what the attraction adds up to.

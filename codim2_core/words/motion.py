@@ -43,6 +43,25 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "fold in a line": Sentence("{C} ends in a fold.", "det J = 0, in an invariant line"),
     "fold": Sentence("{C} ends in a fold (det J = 0).", "det J = 0"),
+    "canard point": Sentence(
+        "{C} ends in a fold at which the slow flow turns too (a canard point): whether the motion leaves there, stays, "
+        "or follows the repelling set beyond for a time (a canard) is left to terms of order ε.",
+        "det J = 0, W = 0, m = 1",
+    ),
+    "folded node": Sentence(
+        "{C} ends in a fold at a folded node, to which a whole range of motions comes: canards follow the repelling "
+        "set beyond for a time, all others leave there.",
+        "det J = 0, a folded singularity, both eigenvalues of one sign",
+    ),
+    "folded saddle": Sentence(
+        "{C} ends in a fold at a folded saddle: the motion is a canard in the limit, and for how long it follows the "
+        "repelling set beyond is left to ε.",
+        "det J = 0, a folded singularity, eigenvalues of two signs",
+    ),
+    "folded, degenerate": Sentence(
+        "{C} ends in a fold at a folded singularity with an eigenvalue 0: what follows is left to ε.",
+        "det J = 0, a folded singularity, an eigenvalue 0",
+    ),
     "cycle ends": Sentence("The limit cycle ends.", "a limit cycle vanishes as z moves"),
     "cycle ends, not found": Sentence("Where orbits go from it was not found.", "no single cycle just before"),
     "cycle ends, not decided": Sentence(

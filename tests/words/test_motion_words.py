@@ -28,6 +28,9 @@ ELSEWHERE = {
     "repels angularly": FIRST_STEPS,
     "nothing leaves": FIRST_STEPS,
     "delay, open": "tests/core/motion/test_delay.py",
+    **dict.fromkeys(
+        ("canard point", "folded node", "folded saddle", "folded, degenerate"), "tests/core/motion/test_folded.py"
+    ),
     "phases agree": AGREEMENT,
     "phases agree, less": AGREEMENT,
     "phases differ": AGREEMENT,

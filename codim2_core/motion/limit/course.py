@@ -29,6 +29,7 @@ from ..places import Ascent
 from ..result import Phase
 from .decide import Decision, arriving, critical_name, from_hemisphere, starting
 from .delay import NotAnalyticError
+from .folded import Fold, fold
 from .part import Delaying, MotionPart
 from .past_hopf import ring, stay
 from .slide import Slide, slide
@@ -247,10 +248,9 @@ class Course:
             theta = math.atan2(part.e[1], part.e[0])
             reason = say("ends at the equator", C=C, theta=theta)
             return Decision("leave", reason, theta=theta)
-        if part.end == "fold" and self.line is not None:
-            return self.past_fold_in_line(self.line, part.e, C)
         if part.end == "fold":
-            return self.past_fold(part.e, C)
+            at = fold(self.formulas, part.e, self.state[2:], C, "fold" if self.line is None else "fold in a line")
+            return Decision("stop", at.reason) if at.left_to_eps else self.past_fold(part.e, at)
         if part.end == "cycle":
             return self.past_cycle(self.ahead(part.e, PAST))
         if on_cycle:
@@ -271,28 +271,26 @@ class Course:
             return Decision("stop", say("cycle ends at once"))
         return self.past_cycle(self.state[2:] + 10.0 * (self.state[2:] - part.taken[-1].first[2:]))
 
-    def ahead(self, e: Array, part: float) -> Array:
+    def ahead(self, e: Array, part: float, beyond: Array | None = None) -> Array:
         """Return z a small part of the time ahead, or of the slide that has ended, along the slow flow at e."""
         z, slid = self.state[2:], self.t - self.parts[-1].phase.t_start
-        flow = self.formulas.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:]
-        return z + part * min(self.t_end - self.t, slid or math.inf) * np.array(flow)
+        flow = np.array(self.formulas.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:])
+        way = flow if beyond is None else np.linalg.norm(flow) * beyond
+        return z + part * min(self.t_end - self.t, slid or math.inf) * way
 
-    def past_fold_in_line(self, line: InvariantLine, e: Array, C: str | None) -> Decision:
-        """C has met another critical set in the line: the layer problem leads on from there, just past the fold."""
-        here, q = self.state.copy(), float(line.n @ e)
-        self.state[2:] = self.ahead(e, PAST)
-        decision = self.in_line(q, say("fold in a line", C=C))
-        self.state = here
-        return decision
-
-    def past_fold(self, e: Array, C: str | None) -> Decision:
+    def past_fold(self, e: Array, at: Fold) -> Decision:
         """C has met another critical set and both are gone: follow the orbit that leaves the place."""
-        reason = say("fold", C=C)
+        past = self.ahead(e, PAST, at.beyond)
+        if self.line is not None:
+            here, self.state = self.state, np.concatenate([self.state[:2], past])
+            decision = self.in_line(float(self.line.n @ e), at.reason)
+            self.state = here
+            return decision
         point = in_disc(self.own, e)[None]
-        self.ascent = Ascent(self.system, self.own, self.ahead(e, PAST), start=point[0])
+        self.ascent = Ascent(self.system, self.own, past, start=point[0])
         # Just past the fold orbits take long to leave the place; a little further they are followed to their end.
         for further in (1.0, 1e2, 3e3):
-            decision = self.onward(reason, self.ahead(e, further * PAST), point)
+            decision = self.onward(at.reason, self.ahead(e, further * PAST, at.beyond), point)
             if decision.kind != "stop":
                 break
         return decision

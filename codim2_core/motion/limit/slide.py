@@ -290,6 +290,8 @@ def _first(
     """Fraction of a step at which a gauge first turns negative, whatever it is at its end; None if it does not."""
 
     def value(u: float, missing: float = math.nan) -> float:
+        if u in (0.0, 1.0):  # near a fold the search may find there the other set
+            return start if u == 0.0 else end
         e, z = place(u)
         return missing if e is None else gauge(e, z)
 

@@ -20,6 +20,7 @@ from codim2_core.motion.followed import in_disc
 from codim2_core.motion.limit import course as module
 from codim2_core.motion.limit.course import PAST, Course, StopError
 from codim2_core.motion.limit.decide import Decision
+from codim2_core.motion.limit.folded import Fold
 from codim2_core.motion.limit.part import MotionPart
 from codim2_core.motion.limit.slide_on_cycle import CycleSlide
 from codim2_core.motion.result import Phase
@@ -75,7 +76,7 @@ STOP, LEAVE = Decision("stop", "nothing"), Decision("leave", "that way", theta=0
 def test_past_a_fold_the_first_answer_counts_that_is_no_stop(monkeypatch, answers, which):
     own, e = course(slid=20.0), np.array([0.5, -0.1])
     asked = script(monkeypatch, "onward", answers)
-    assert own.past_fold(e, "C2") is answers[which]
+    assert own.past_fold(e, Fold("It ends.")) is answers[which]
     assert len(asked) == which + 1
     flow = own.ahead(e, PAST) - own.state[2:]
     further = [float((z - own.state[2:]) @ flow / (flow @ flow)) for _, z, _ in asked]
@@ -86,6 +87,14 @@ def test_past_a_fold_the_first_answer_counts_that_is_no_stop(monkeypatch, answer
         np.testing.assert_array_equal(points, [in_disc(PSI, e)])
     np.testing.assert_array_equal(own.ascent.start, in_disc(PSI, e))
     np.testing.assert_array_equal(own.ascent.z, asked[0][1])
+
+
+def test_past_a_folded_node_orbits_are_followed_beside_it_where_both_sets_are_gone(monkeypatch):
+    own, beyond = course(slid=20.0), np.array([0.6, 0.8])
+    asked = script(monkeypatch, "onward", [LEAVE])
+    own.past_fold(np.array([0.5, -0.1]), Fold("It ends.", beyond=beyond))
+    away = asked[0][1] - own.state[2:]
+    np.testing.assert_allclose(away / np.linalg.norm(away), beyond)
 
 
 def test_past_a_hopf_point_psi_is_asked_for():
