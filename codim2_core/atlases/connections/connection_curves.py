@@ -13,7 +13,7 @@ from ...words import say
 from ..family import Family
 from ..result import AtlasCurve, AtlasPoint, read_only
 from .following import Curve, through
-from .lines import beside, seeds, straight
+from .lines import STANDING, beside, seeds, straight
 from .splitting import Pair
 
 Array = NDArray[np.float64]
@@ -24,9 +24,6 @@ TAKENS = "Bogdanov–Takens"
 NEAR, SMALL = 0.05, 0.3  # of the square: a loop ends at a Bogdanov-Takens point so near to it; in the disc, its size
 AT = 5e-3  # of the square: an end beside a curve of what stands still
 MOST = 24  # curves
-STANDING = (
-    "fold of critical sets", "pitchfork of critical sets", "saddle-node", "pitchfork", "transcritical", "det A = 0",
-)  # fmt: skip
 
 
 def connection_curves(
@@ -47,7 +44,7 @@ def connection_curves(
     def known(place: Array, pair: Pair) -> bool:
         return any(one.passes(place, pair) for one in found)
 
-    for line in [*beside(family, takens, curves), *straight()]:
+    for line in [*beside(family, takens, curves), *straight(family, curves)]:
         for seed in seeds(family, line, known):
             one = through(seed) if len(found) < MOST else None
             if one is None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from ...continuation.typed.foot import corrected
 from ...layer_problem.problem import LayerProblem
 from ...numerics.root_between import root_between
+from ..cycles.lines import marks
 from ..family import Family
 from ..result import AtlasCurve
 from .saddles import Branch, branches, lines_of
@@ -23,9 +25,15 @@ Known = Callable[[Array, Pair], bool]
 Places = tuple[int, int, int | None]  # of a branch that leaves, one that enters, and what a loop goes round
 
 ACROSS = (0.0871, 0.2871, 0.4871, 0.7137, 0.9137)  # of the square: lines across and up,
-SAMPLES = 31  # and places on each
+SAMPLES = 31  # and places on each,
+WITHIN = 0.02, 0.2, 0.4, 0.6, 0.8, 0.98  # of a piece between two curves,
+THINNEST = 1e-3  # and of the square, how long it is at least
+STANDING = (
+    "fold of critical sets", "pitchfork of critical sets", "saddle-node", "pitchfork", "transcritical", "det A = 0",
+)  # fmt: skip
 BESIDE = (0.02, 0.05, 0.1)  # of the square: from a Bogdanov-Takens point along the Hopf curve, where lines leave it
 BEYOND, BETWEEN = 4.0, 25  # times the way from the fold to the Hopf curve, and places on such a line
+UNSURE = 1e-3  # splitting as lines tell it, of which they do not tell the sign
 NARROW, ZERO = 1e-7, 1e-6  # part of a step; what the splitting is less than at a zero that is none but a jump
 SAME = 1e-6  # in the disc, of a saddle found twice
 
@@ -41,10 +49,11 @@ class Seed:
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """What a place of a line has."""
+    """What a place of a line has; `known` are splittings that were computed."""
 
     place: Array
     problem: LayerProblem
+    known: dict[Places, float] = field(default_factory=dict)
 
     @cached_property
     def branches(self) -> list[Branch]:
@@ -54,7 +63,9 @@ class Sample:
     @cached_property
     def lines(self) -> list[Array]:
         """Of each branch."""
-        return lines_of(self.branches)
+        sets = [C.p for C in self.problem.critical]
+        apart = [math.dist(one, other) for i, one in enumerate(sets) for other in sets[:i]]
+        return lines_of(self.branches, min(apart, default=1.0))
 
     @cached_property
     def feet(self) -> list[Array]:
@@ -78,9 +89,12 @@ class Sample:
         return Pair(self.branches[i], self.branches[j], None if k is None else self.feet[k])
 
     def rough(self, places: Places) -> float:
-        """Return the splitting of a pair by drawn lines; NaN where they do not cross."""
-        section = self.pair(places).section
-        return math.nan if section is None else roughly(section, self.lines[places[0]], self.lines[places[1]])
+        """Return the splitting of a pair, by drawn lines where these tell its sign; NaN where they do not cross."""
+        if places not in self.known:
+            pair, lines = self.pair(places), (self.lines[places[0]], self.lines[places[1]])
+            found = math.nan if pair.section is None else roughly(pair.section, *lines)
+            self.known[places] = pair.gap if abs(found) < UNSURE else found
+        return self.known[places]
 
     def followed(self, here: Sample) -> tuple[dict[int, int], dict[int, int]]:
         """Which branches and which feet of a place nearby are those of this one."""
@@ -109,10 +123,17 @@ def sample(family: Family, place: Array) -> Sample | None:
         return None
 
 
-def straight() -> list[Array]:
-    """Lines across and up the square, each (SAMPLES, 2)."""
-    t = np.linspace(0.0, 1.0, SAMPLES)
-    return [np.stack([t, np.full_like(t, at)][::order], axis=1) for order in (1, -1) for at in ACROSS]
+def straight(family: Family, curves: Sequence[AtlasCurve]) -> list[Array]:
+    """Lines across and up the square, with some places at least between any two curves on which saddles come or go."""
+    ours = [one for one in curves if one.kind in STANDING]
+    found = []
+    for axis in (0, 1):
+        for at in ACROSS:
+            met = [0.0, *(mark.value for mark in marks(family, ours, axis, at)), 1.0]
+            pieces = [low + np.array(WITHIN) * (high - low) for low, high in pairwise(met) if high - low > THINNEST]
+            t = np.unique(np.concatenate([np.linspace(0.0, 1.0, SAMPLES), *pieces]))
+            found.append(np.stack([t, np.full_like(t, at)][:: 1 - 2 * axis], axis=1))
+    return found
 
 
 def beside(family: Family, takens: Sequence[Array], curves: Sequence[AtlasCurve]) -> list[Array]:
@@ -158,8 +179,10 @@ def _between(family: Family, before: Sample, here: Sample, known: Known) -> Iter
     branches_, feet = before.followed(here)
     for places in before.pairs():
         i, j, k = places
+        if i not in branches_ or j not in branches_ or (k is not None and k not in feet):
+            continue
         first = before.rough(places)
-        if not math.isfinite(first) or i not in branches_ or j not in branches_ or (k is not None and k not in feet):
+        if not math.isfinite(first):
             continue
         last = here.rough((branches_[i], branches_[j], None if k is None else feet[k]))
         if not first * last < 0.0:

@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 RTOL, ROUGH = 1e-12, 1e-7  # of branches, and of those that are drawn alone
 FIRST = 1e-6  # in units of hypot(1, |x2|)
 LENGTH, LONGEST = 5.0, 1e4  # how far they are followed, in the disc and in T of 1/max |U|
-PIXEL, DRAWN = 1e-3, 4e-3  # of their lines
+PIXEL, FINE, FINEST = 5e-4, 1e-3, 1e-8  # of their lines: the first, but finer for what is small, of its size
 SAME = 1e-6  # in the disc: found twice
 ROUNDS, CLOSE, FAR = 8, 1e-13, 0.1  # of Newton's method for theta; the way to a saddle's next place
 
@@ -101,28 +101,38 @@ class Branch:
         found = _branches_of(at, psi, C, self.backward) if C.kind == "saddle" else ()
         return max(found, key=lambda one: float(one.way @ self.way), default=None)
 
-    def orbit(self, t_max: float | None = None) -> Trajectories:
-        """Follow it, as a line, or to a time alone."""
-        return _orbits([self], RTOL, PIXEL, t_max)
+    def line(self, scale: float) -> tuple[Array, Array]:
+        """Follow it as a line (m, 2) that can be drawn, with the time from its start (m,) at each point.
+
+        What matters in it is of a size `scale`, in the disc.
+        """
+        # where an orbit rises from the equator depends on the tolerance: times must have one beginning
+        found = _orbits([self], RTOL if self.critical is None else ROUGH, scale)
+        return found.points[0], np.abs(found.times[0])
+
+    def state(self, time: float) -> Array:
+        """Follow it to a time, to all digits: (p, ebar)."""
+        return np.array(_orbits([self], RTOL, t_max=time).ends[0])
 
 
-def lines_of(found: Sequence[Branch]) -> list[Array]:
-    """Lines of some branches of one layer problem, as they are drawn."""
+def lines_of(found: Sequence[Branch], scale: float) -> list[Array]:
+    """Lines of some branches of one layer problem, as `Branch.line`."""
     out: list[Array] = [np.zeros((0, 2))] * len(found)
     for backward in (False, True):
         ours = [i for i, one in enumerate(found) if one.backward == backward]
         ours.sort(key=lambda i: found[i].critical is not None)  # as `_orbits` has them
         if ours:
-            for i, line in zip(ours, _orbits([found[i] for i in ours], ROUGH, DRAWN).points, strict=True):
+            for i, line in zip(ours, _orbits([found[i] for i in ours], ROUGH, scale).points, strict=True):
                 out[i] = line
     return out
 
 
-def _orbits(ours: Sequence[Branch], rtol: float, pixel: float, t_max: float | None = None) -> Trajectories:
+def _orbits(ours: Sequence[Branch], rtol: float, scale: float = 1.0, t_max: float | None = None) -> Trajectories:
     """Follow branches of one layer problem, all leaving or all entering, half-saddles first."""
     one = ours[0]
     options: dict[str, Any] = {
-        "rtol": rtol, "atol": 0.1 * rtol, "backward": one.backward, "length": LENGTH, "pixel": pixel,
+        "rtol": rtol, "atol": 0.1 * rtol, "backward": one.backward, "length": LENGTH,
+        "pixel": min(max(FINE * scale, FINEST), PIXEL),
         "t_max": LONGEST / one.at.speed if t_max is None else t_max, "samples": None if t_max is None else "ends",
     }  # fmt: skip
     thetas = [one.theta for one in ours if one.critical is None]

@@ -25,7 +25,8 @@ Array = NDArray[np.float64]
 
 KNOWN = 3e-3  # of the square: so far from where it is known a connection is kept
 DIFFERENCE = 1e-6  # of the square
-CORRECTIONS, CLOSE = 4, 1e-14  # of the time of a crossing, in T of 1/max |U|
+SHARED, FARTHEST = 0.2, 1e-3  # of the way between two places, and of the square: so far derivatives serve
+CORRECTIONS, CLOSE = 5, 1e-8  # of the time of a crossing, in T of 1/max |U|
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,6 +103,17 @@ class Pair:
         return Section(origin, along if half else normal, normal if half else along, scale, half)
 
     @property
+    def gap(self) -> float:
+        """By how much both miss each other, to the digits of the orbits; NaN where one does not cross."""
+        section = self.section
+        if section is None:
+            return math.nan
+        out, back = _crossing(self.leaving, section), _crossing(self.entering, section)
+        if out is None or back is None or out[1] != back[1]:
+            return math.nan
+        return section.coordinate(out[0]) - section.coordinate(back[0])
+
+    @property
     def ratio(self) -> float:
         """Product of the ratios of both saddles, of a loop that of its saddle."""
         return self.leaving.ratio if self.foot is not None else self.leaving.ratio * self.entering.ratio
@@ -131,6 +143,7 @@ class Splitting:
     def __init__(self, family: Family, place: Array, pair: Pair) -> None:
         self.family = family
         self._known = [(np.array(place, float), pair)]
+        self._slope = np.full(2, math.nan), np.zeros((1, 2)), 0.0  # where it was computed, and how far it serves
 
     def pair(self, place: Array) -> Pair | None:
         """Return the pair at a place; None where it is no more."""
@@ -146,42 +159,39 @@ class Splitting:
     def gap(self, place: Array) -> float:
         """Return the signed distance, to the digits of the orbits; NaN where a branch does not cross."""
         pair = self.pair(place)
-        section = None if pair is None else pair.section
-        if pair is None or section is None:
-            return math.nan
-        out, back = _crossing(pair.leaving, section), _crossing(pair.entering, section)
-        if out is None or back is None or out[1] != back[1]:
-            return math.nan
-        return section.coordinate(out[0]) - section.coordinate(back[0])
+        return math.nan if pair is None else pair.gap
 
     def condition(self, place: Array) -> tuple[Array, Array]:
         """Return the splitting, with derivatives that tell the way and not the place."""
         here = self.gap(place)
         if not math.isfinite(here):
             return np.full(1, math.nan), np.full((1, 2), math.nan)
-        slope = [(self.gap(place + way) - here) / DIFFERENCE for way in DIFFERENCE * np.eye(2)]
-        return np.array([here]), np.array([slope])
+        where, slope, reach = self._slope
+        if not math.dist(where, place) < reach:  # a step further: the corrections of one point share it
+            rows = [(self.gap(place + way) - here) / DIFFERENCE for way in DIFFERENCE * np.eye(2)]
+            slope, reach = np.array([rows]), min(SHARED * math.dist(where, place), FARTHEST)
+            self._slope = place.copy(), slope, reach if math.isfinite(reach) else 0.0
+        return np.array([here]), slope
 
 
 def _crossing(branch: Branch, section: Section) -> tuple[Array, bool] | None:
     """Where a branch first crosses a section, and in which sense as time goes on."""
     at, psi = branch.at, branch.psi
-    lines = branch.orbit()
-    first = section.first(lines.points[0])
+    line, times = branch.line(section.scale)
+    first = section.first(line)
     if first is None:
         return None
     i, part, upwards = first
-    early, late = np.abs(lines.times[0][i : i + 2]).tolist()
-    state = np.array(branch.orbit(max(early + part * (late - early), 1e-300)).ends[0])
+    state = branch.state(max(float(times[i] + part * (times[i + 1] - times[i])), 1e-300))
     for _ in range(CORRECTIONS):
         rate = float(_field(at, psi, state)[:2] @ section.across)
         step = -float(section.side(state[:2])) / rate if rate else math.inf
         if not abs(step) * at.speed < 1.0:
             return None
         state = _stepped(at, psi, state, step)
-        if abs(step) * at.speed < CLOSE:
-            break
-    return state[:2], upwards != branch.backward
+        if abs(step) * at.speed < CLOSE:  # its error is the square
+            return state[:2], upwards != branch.backward
+    return None
 
 
 def _field(at: AtZ, psi: Psi, state: Array) -> Array:

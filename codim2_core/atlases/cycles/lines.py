@@ -71,7 +71,7 @@ def _along(family: Family, curves: Sequence[AtlasCurve], axis: int, at: float) -
     def there(value: float) -> tuple[AtZ, Psi]:
         return family.frozen(place(value)), family.psi_at(place(value))
 
-    search = Search(there, family.names[axis], (0.0, 1.0), (0.0, 1.0), _marks(family, curves, axis, at))
+    search = Search(there, family.names[axis], (0.0, 1.0), (0.0, 1.0), marks(family, curves, axis, at))
     search.run()
     every = [piece for pieces, *_ in search.found for piece in pieces]
     folds = [(piece.tracer.family, piece.trace.points[k].turn) for piece in every for k in piece.trace.folds]
@@ -84,7 +84,7 @@ def _seed(family: Family, ray: VariedRay, turn: Turn, where: Array) -> Seed:
     return Seed(Start(around, np.array([turn.xi / SCALE, *where])), turn.amplitude)
 
 
-def _marks(family: Family, curves: Sequence[AtlasCurve], axis: int, at: float) -> list[Mark]:
+def marks(family: Family, curves: Sequence[AtlasCurve], axis: int, at: float) -> list[Mark]:
     """Where curves of what stands still cross a line."""
     found = []
     for curve in curves:

@@ -103,16 +103,20 @@ def test_heteroclinic_cycles_of_an_e_linear_system_are_those_of_its_own_method()
     typed = c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=values)
     psi = c2.psi.hill(3)
     known = c2.bifurcations.heteroclinic(1, 1.3, -1.2, psi)
-    found, (curve,) = connections(typed, psi, "f1", "f2", ((0.8, 1.5), (0.8, 1.9)))
-    assert curve.kind == "heteroclinic cycle"
-    (branch,) = [line for line in known.branches if line[0][1] > 0.0]
-    start, along = branch[:-1], np.diff(branch, axis=0)
-    away = curve.points[:, None] - start
-    part = np.clip((away * along).sum(axis=2) / (along**2).sum(axis=1), 0.0, 1.0)
-    gap = np.sqrt(((away - part[..., None] * along) ** 2).sum(axis=2)).min(axis=1)
-    assert gap[curve.points[:, 0] > 0.96].max() < 2e-4  # of its chords
-    (neutral,) = [point.place for point in found.points if point.kind == "neutral loop"]
-    assert min(np.hypot(*(np.array(neutral) - one.place)) for one in known.special) < 1e-7
+    found, curves = connections(typed, psi, "f1", "f2", ((-1.5, 1.5), (-1.5, 1.5)))
+    assert [curve.kind for curve in curves] == ["heteroclinic cycle"] * 2
+    for curve in curves:
+        (branch,) = [line for line in known.branches if line[0][1] * curve.points[0, 1] > 0.0]
+        start, along = branch[:-1], np.diff(branch, axis=0)
+        away = curve.points[:, None] - start
+        part = np.clip((away * along).sum(axis=2) / (along**2).sum(axis=1), 0.0, 1.0)
+        gap = np.sqrt(((away - part[..., None] * along) ** 2).sum(axis=2)).min(axis=1)
+        assert gap[np.abs(curve.points[:, 0]) > 0.95].max() < 2e-4  # of its chords
+        assert np.abs(curve.points).max() == pytest.approx(1.5, abs=1e-9)  # it leaves the plane
+    neutral = [point.place for point in found.points if point.kind == "neutral loop"]
+    assert len(neutral) == 2
+    for place in neutral:
+        assert min(np.hypot(*(np.array(place) - one.place)) for one in known.special) < 1e-7
 
 
 @pytest.mark.slow
