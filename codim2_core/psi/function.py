@@ -277,10 +277,10 @@ class Psi:
         return lib.where(w > 0.0, zeta, 0.0)
 
     def _jacobian_factors(self, lib: Any, zeta: Any) -> Any:
-        root = self.kernel.root(lib, zeta)
+        root, kappa = self.kernel.root_and_kappa(lib, zeta)
         tangential = 1.0 / lib.hypot(zeta, root)
         u = root * tangential
-        return u * u * (1.0 + self.kernel.kappa(lib, zeta)) * tangential, tangential
+        return u * u * (1.0 + kappa) * tangential, tangential
 
 
 _BELOW_1 = math.nextafter(1.0, 0.0)

@@ -66,13 +66,18 @@ class Kernel:
         """-s Psi'(s)/Psi(s) at s = zeta^2."""
         raise NotImplementedError
 
+    def root_and_kappa(self, lib: Any, zeta: Any) -> tuple[Any, Any]:
+        """Both at once, for a family in which they have a power in common."""
+        return self.root(lib, zeta), self.kappa(lib, zeta)
+
     def inverse(self, lib: Any, w: Any) -> Any:
         """Find the zeta with ``zeta/root(zeta) = w``."""
         raise NotImplementedError
 
     def polish(self, lib: Any, zeta: Any, w: Any) -> Any:
         """One Newton step on ``zeta/(w root) = 1`` for d ln zeta: relative accuracy down to the smallest zeta."""
-        return zeta * (1.0 - (zeta / (w * self.root(lib, zeta)) - 1.0) / (1.0 + self.kappa(lib, zeta)))
+        root, kappa = self.root_and_kappa(lib, zeta)
+        return zeta * (1.0 - (zeta / (w * root) - 1.0) / (1.0 + kappa))
 
 
 class Each(Kernel):

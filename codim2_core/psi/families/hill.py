@@ -46,9 +46,12 @@ class Hill(Kernel):
         return 1.0 / lib.hypot(1.0, lib.power(2.0 * zeta, self.n) / SQRT3)
 
     def kappa(self, lib: Any, zeta: Any) -> Any:
+        return self.root_and_kappa(lib, zeta)[1]
+
+    def root_and_kappa(self, lib: Any, zeta: Any) -> tuple[Any, Any]:
         u = lib.power(2.0 * zeta, self.n) / SQRT3
         v = u / lib.hypot(1.0, lib.minimum(u, 1e160))
-        return self.n * lib.minimum(v * v, 1.0)
+        return 1.0 / lib.hypot(1.0, u), self.n * lib.minimum(v * v, 1.0)
 
     def inverse(self, lib: Any, w: Any) -> Any:
         n = self.n

@@ -14,6 +14,7 @@ from codim2_core.layer_problem.lyapunov import psi_derivatives
 from codim2_core.layer_problem.vary import limits, names, value_of, varied
 from codim2_core.psi import FAMILIES, Family, make, register, unregister
 from codim2_core.psi.constructors import compared
+from codim2_core.psi.kernel import SCALAR, VECTOR
 from codim2_core.stepping.gains import gains, has_gains
 
 from ..additions import FROM_FORMULA, WRITTEN_OUT, added_family
@@ -52,6 +53,19 @@ def test_kernel_gain_derivatives_and_formula_of_a_family_say_the_same(name):
                 exact = 1.0 / math.sqrt(r2 + w * w * psi(r2 / w**2))
                 assert record.gain(r2, w, value) == pytest.approx(exact, rel=1e-12)
                 assert not whole or record.gain_whole(r2, w, int(value)) == pytest.approx(exact, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", [name for name in FAMILIES if name != "custom"])
+def test_root_and_kappa_together_are_what_they_are_alone(name):
+    zeta = np.concatenate([[0.0, 1e-300, 1e-9], np.geomspace(1e-3, 1e3, 50), [1e150, 1e300]])
+    record = FAMILIES[name]
+    for value in (0.0,) if record.parameter is None else (*record.compared, 1.5):
+        kernel = (make(name, value) if record.parameter else make(name)).kernel
+        with np.errstate(all="ignore"):
+            for lib, places in ((VECTOR, zeta), *((SCALAR, z) for z in zeta.tolist())):
+                root, kappa = kernel.root_and_kappa(lib, places)
+                np.testing.assert_array_equal(root, kernel.root(lib, places))
+                np.testing.assert_array_equal(kappa, kernel.kappa(lib, places))
 
 
 def test_an_added_family_is_listed_and_made_everywhere(family):
