@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,10 +54,10 @@ class AtlasCurve(Tabled):
     _head_ = ("curve", "from", "to", "points")
 
     kind: str
-    points: Array
+    points: Array = field(repr=False)
     label: str
-    places: Array
-    numbers: Array
+    places: Array = field(repr=False)
+    numbers: Array = field(repr=False)
 
     def _row_(self) -> tuple[str, ...]:
         return self.kind, point(self.points[0]), point(self.points[-1]), str(len(self.points))
@@ -113,7 +113,7 @@ class AtlasRegion(Tabled):
     name: str
     sample: tuple[float, float]
     area: float
-    boundary: tuple[Array, ...]
+    boundary: tuple[Array, ...] = field(repr=False)
 
     def _row_(self) -> tuple[str, ...]:
         return self.name, point(self.sample), number(self.area)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,9 +65,9 @@ class BifurcationCurve:
     kind: str
     name: str
     label: str
-    branches: tuple[Array, ...]
+    branches: tuple[Array, ...] = field(repr=False)
     special: tuple[SpecialPoint, ...] = ()
-    values: tuple[Array, ...] = ()
+    values: tuple[Array, ...] = field(default=(), repr=False)
     sentence: str = ""
 
     def _repr_svg_(self) -> str | None:

@@ -7,7 +7,7 @@ smooth, and walking along arcs with the face on the left gives each region once.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -48,9 +48,9 @@ class Region(Tabled):
 
     name: str
     inside: tuple[float, float]
-    boundary: tuple[Array, ...]
+    boundary: tuple[Array, ...] = field(repr=False)
     bounded: bool
-    classification: Classification
+    classification: Classification = field(repr=False)
 
     def _row_(self) -> tuple[str, ...]:
         return self.name, point(self.inside), "yes" if self.bounded else "no", self.classification.sentence

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
@@ -70,13 +70,13 @@ class CycleBranch:
         In order.
     """
 
-    value: Array
-    period: Array
-    amplitude: Array
-    exponent: Array
-    multiplier: Array
-    stable: NDArray[np.bool_]
-    section: Array
+    value: Array = field(repr=False)
+    period: Array = field(repr=False)
+    amplitude: Array = field(repr=False)
+    exponent: Array = field(repr=False)
+    multiplier: Array = field(repr=False)
+    stable: NDArray[np.bool_] = field(repr=False)
+    section: Array = field(repr=False)
     start: CyclePoint
     end: CyclePoint
     folds: tuple[CyclePoint, ...]

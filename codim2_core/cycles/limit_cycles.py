@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -75,7 +75,7 @@ class LimitCycle(Tabled):
 
     _head_ = ("kind", "period", "multiplier", "mean of e", "slow flow z′")
 
-    points: Array
+    points: Array = field(repr=False)
     period: float
     period_T: float
     multiplier: float

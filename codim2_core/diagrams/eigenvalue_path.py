@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -40,13 +40,13 @@ class LinearisationPath:
     """
 
     name: str
-    values: Array
-    exists: NDArray[np.bool_]
-    trace: Array
-    determinant: Array
-    discriminant: Array
-    eigenvalues: NDArray[np.complex128]
-    kind: tuple[str, ...]
+    values: Array = field(repr=False)
+    exists: NDArray[np.bool_] = field(repr=False)
+    trace: Array = field(repr=False)
+    determinant: Array = field(repr=False)
+    discriminant: Array = field(repr=False)
+    eigenvalues: NDArray[np.complex128] = field(repr=False)
+    kind: tuple[str, ...] = field(repr=False)
 
     @property
     def pieces(self) -> tuple[tuple[int, int], ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -78,10 +78,10 @@ class DirectionBranch:
         Such as "radially attracting, angularly repelling", as `EquatorEquilibria.kind`.
     """
 
-    value: Array
-    theta: Array
-    lambda_rho: Array
-    lambda_theta: Array
+    value: Array = field(repr=False)
+    theta: Array = field(repr=False)
+    lambda_rho: Array = field(repr=False)
+    lambda_theta: Array = field(repr=False)
     kind: str
 
 
@@ -98,8 +98,8 @@ class ClosedEquator:
         "attracting from outside", "repelling from outside" or "neutral".
     """
 
-    value: Array
-    exponent: Array
+    value: Array = field(repr=False)
+    exponent: Array = field(repr=False)
     kind: str
 
 
@@ -119,11 +119,11 @@ class CriticalBranch:
         As `CriticalSet.kind`.
     """
 
-    value: Array
-    e: Array
-    p: Array
-    trace: Array
-    determinant: Array
+    value: Array = field(repr=False)
+    e: Array = field(repr=False)
+    p: Array = field(repr=False)
+    trace: Array = field(repr=False)
+    determinant: Array = field(repr=False)
     kind: str
 
     @property

@@ -172,14 +172,14 @@ class Simulation:
         Times of each event.
     """
 
-    motion: Dense
+    motion: Dense = field(repr=False)
     status: SimulationStatus
     reason: str
     eps: float
     evaluations: int
     events: tuple[Array, ...]
-    _phases: Callable[[], tuple[Phase, ...]]
-    _variation: Callable[[tuple[str, ...]], Variation]
+    _phases: Callable[[], tuple[Phase, ...]] = field(repr=False)
+    _variation: Callable[[tuple[str, ...]], Variation] = field(repr=False)
 
     def _repr_html_(self) -> str:
         return (self._repr_svg_() or "") + rows(self.phases) + paragraphs([self.reason])

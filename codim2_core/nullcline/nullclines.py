@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -44,7 +44,7 @@ class NullclineBranch(Tabled):
 
     kind: Kind
     inside: bool
-    points: Array
+    points: Array = field(repr=False)
 
     def _row_(self) -> tuple[str, ...]:
         ends = (point(self.points[i]) for i in (0, -1)) if len(self.points) else ("–", "–")

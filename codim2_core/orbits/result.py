@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
 
@@ -55,11 +55,11 @@ class Trajectories:
         Evaluations of the field, over all trajectories.
     """
 
-    buffer: Array
-    clock: Array
-    offsets: NDArray[np.int64]
-    ends: Array
-    codes: NDArray[np.int64]
+    buffer: Array = field(repr=False)
+    clock: Array = field(repr=False)
+    offsets: NDArray[np.int64] = field(repr=False)
+    ends: Array = field(repr=False)
+    codes: NDArray[np.int64] = field(repr=False)
     evaluations: int = 0
 
     def __post_init__(self) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import reprlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -50,7 +50,7 @@ class Basins:
         The part of the disc that the cells cover.
     """
 
-    cells: NDArray[np.int8]
+    cells: NDArray[np.int8] = field(repr=False)
     destinations: tuple[str, ...]
     slow_flow: tuple[NDArray[np.float64] | None, ...]
     evaluations: int

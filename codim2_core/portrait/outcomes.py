@@ -5,7 +5,7 @@ from __future__ import annotations
 import bisect
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,10 +101,10 @@ class Outcomes:
     """
 
     outcomes: tuple[Outcome, ...]
-    directions: tuple[Outcome, ...]
-    equator: EquatorEquilibria
+    directions: tuple[Outcome, ...] = field(repr=False)
+    equator: EquatorEquilibria = field(repr=False)
     whole: Outcome | None
-    _at: AtZ
+    _at: AtZ = field(repr=False)
 
     def _repr_html_(self) -> str:
         return rows(self) or rows(self.directions)

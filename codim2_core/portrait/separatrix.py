@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,7 +47,7 @@ class Separatrix(Tabled):
     origin: str
     direction: str
     end: str
-    points: Array
+    points: Array = field(repr=False)
     departure_angle: float
     arrival_angle: float | None
     inside: bool

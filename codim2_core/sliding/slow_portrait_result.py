@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,10 +29,10 @@ class SlowBranch:
         As `CriticalSet.kind`; it is the same along the branch.
     """
 
-    z: Array
-    e: Array
-    p: Array
-    flow: Array
+    z: Array = field(repr=False)
+    e: Array = field(repr=False)
+    p: Array = field(repr=False)
+    flow: Array = field(repr=False)
     kind: str
 
     @property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -50,7 +50,7 @@ class MapRegion(Tabled):
     inside: tuple[float, float]
     area: float
     width: float
-    boundary: tuple[Array, ...]
+    boundary: tuple[Array, ...] = field(repr=False)
 
     def _row_(self) -> tuple[str, ...]:
         return self.name, point(self.inside), number(self.area)
@@ -73,7 +73,7 @@ class MapBoundary:
 
     happening: tuple[str, ...]
     between: tuple[str, str]
-    lines: tuple[Array, ...]
+    lines: tuple[Array, ...] = field(repr=False)
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 
 import numpy as np
@@ -62,7 +62,7 @@ class PeriodicMotion:
 
     status: PeriodicStatus
     reason: str
-    run: Simulation
+    run: Simulation = field(repr=False)
     period: float
     forced: bool
     advance: Array

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -40,12 +40,12 @@ class Variation:
     """
 
     names: tuple[str, ...]
-    times: Array
-    propagators: Array
-    error: Array
-    rate: Array
+    times: Array = field(repr=False)
+    propagators: Array = field(repr=False)
+    error: Array = field(repr=False)
+    rate: Array = field(repr=False)
     reason: str
-    within: Array | None = None
+    within: Array | None = field(default=None, repr=False)
 
     def _repr_html_(self) -> str:
         states = ["x", "y", *(f"z{i}" for i in range(1, len(self.rate) - 1))]
