@@ -69,6 +69,20 @@ def test_typed_equations_are_drawn_and_their_names_become_sliders(explorer):
     assert not error.is_visible()
 
 
+def test_a_box_is_as_high_as_its_formula(explorer):
+    choose(explorer, "own")
+    box = explorer.find("textarea[data-box=U1]")
+    box.fill("q*c")
+    low = box.bounding_box()["height"]
+    box.fill(" + ".join(["q*c*(c**2 + s**2)"] * 6))
+    explorer.settle()
+    assert box.evaluate("(it) => it.scrollHeight <= it.clientHeight")
+    assert box.bounding_box()["height"] > 3 * low
+    box.fill("q*c")
+    explorer.settle()
+    assert box.bounding_box()["height"] == low
+
+
 def test_hostile_text_is_refused_beside_its_box_and_the_page_lives(explorer):
     choose(explorer, "own")
     for text in ("__import__('os').system('true')", "c.__class__", "9**9**9**9", "(" * 900):
