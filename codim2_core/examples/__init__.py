@@ -1,4 +1,4 @@
-"""The paper's three systems (sec:examples) and three more that people meet, each with its source.
+"""The paper's three systems (sec:examples) and others that people meet, each with its source.
 
 All are in the units of their parameters; `catalogue` lists them with the ranges in which they are interesting.
 """
@@ -19,6 +19,7 @@ from .offered import catalogue, register, unregister
 from .spinning_annulus import spinning_annulus
 from .spinning_disc import spinning_disc
 from .tilting_block import tilting_block
+from .towed_wheel import towed_wheel
 from .unit_vector_control import unit_vector_control
 
 __all__ = [
@@ -34,6 +35,7 @@ __all__ = [
     "spinning_annulus",
     "spinning_disc",
     "tilting_block",
+    "towed_wheel",
     "unit_vector_control",
     "unregister",
 ]

@@ -18,6 +18,7 @@ NAMES = (
     "ball_on_turntable",
     "spinning_disc",
     "spinning_annulus",
+    "towed_wheel",
 )
 LISTED: tuple[Example, ...] = tuple(import_module(f".{name}", __package__).EXAMPLE for name in NAMES)
 
