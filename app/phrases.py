@@ -75,7 +75,8 @@ SENTENCES: dict[str, Sentence] = {
         "an atlas with a search that fails",
     ),
     "connections not followed": Sentence(
-        "Some of these curves are missing, which were seen at a place and could not be followed from there: {kinds}.",
+        "Some of these curves may be missing, seen at a place and not followed from there, or not looked for where "
+        "there are many saddles: {kinds}.",
         "an atlas with connections of saddles",
     ),
     "degenerate line": Sentence(

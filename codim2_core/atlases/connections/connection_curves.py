@@ -13,7 +13,7 @@ from ...words import say
 from ..family import Family
 from ..result import AtlasCurve, AtlasPoint, read_only
 from .following import Curve, through
-from .lines import STANDING, beside, seeds, straight
+from .lines import STANDING, Search, Seed, beside, straight
 from .splitting import Pair
 
 Array = NDArray[np.float64]
@@ -29,7 +29,9 @@ MOST = 24  # curves
 def connection_curves(
     family: Family, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
 ) -> tuple[list[AtlasCurve], list[AtlasPoint], tuple[str, ...]]:
-    """Find connections, the points of codimension two on them, and kinds of which some were seen and not followed.
+    """Find connections, the points of codimension two on them, and kinds of which some may be missing.
+
+    These were seen and not followed, or not looked for where there are too many saddles.
 
     Parameters
     ----------
@@ -39,16 +41,17 @@ def connection_curves(
     """
     takens = [family.units(np.array(point.place)) for point in points if point.kind == TAKENS]
     found: list[Curve] = []
-    missed: list[str] = []
+    missed: list[Seed] = []
 
     def known(place: Array, pair: Pair) -> bool:
         return any(one.passes(place, pair) for one in found)
 
+    search = Search(family, known)
     for line in [*beside(family, takens, curves), *straight(family, curves)]:
-        for seed in seeds(family, line, known):
-            one = through(seed) if len(found) < MOST else None
+        for seed in search.along(line):
+            one = through(seed) if seed.settled and len(found) < MOST else None
             if one is None:
-                missed.append(_kind(seed.pair))
+                missed.append(seed)
             else:
                 found.append(one)
     out, told = [], []
@@ -69,7 +72,8 @@ def connection_curves(
         out.append(AtlasCurve(kind, read_only(family.values(plane)), LABEL, read_only(places), read_only(numbers)))
         if kind != CONNECTION:
             told += [_point(family, "neutral loop", at, say("neutral connection", kind=kind)) for at in one.neutral()]
-    return out, told, tuple(dict.fromkeys(missed))
+    lost = [_kind(seed.pair) for seed in missed if not known(seed.place, seed.pair)]
+    return out, told, tuple(dict.fromkeys([*lost, *(KINDS if search.crowded else ())]))
 
 
 def _kind(pair: Pair) -> str:

@@ -33,6 +33,7 @@ STANDING = (
 )  # fmt: skip
 BESIDE = (0.02, 0.05, 0.1)  # of the square: from a Bogdanov-Takens point along the Hopf curve, where lines leave it
 BEYOND, BETWEEN = 4.0, 25  # times the way from the fold to the Hopf curve, and places on such a line
+MOST_BRANCHES = 40  # of the saddles at one place
 UNSURE = 1e-3  # splitting as lines tell it, of which they do not tell the sign
 NARROW, ZERO = 1e-7, 1e-6  # part of a step; what the splitting is less than at a zero that is none but a jump
 SAME = 1e-6  # in the disc, of a saddle found twice
@@ -40,11 +41,12 @@ SAME = 1e-6  # in the disc, of a saddle found twice
 
 @dataclass(frozen=True, eq=False)
 class Seed:
-    """A zero of a splitting."""
+    """A zero of a splitting; not `settled` where lines show one and their orbits cannot be followed to all digits."""
 
     splitting: Splitting
     place: Array
     pair: Pair
+    settled: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,34 +167,58 @@ def _nearest(line: Array, place: Array) -> Array:
     return np.asarray(met[int(np.hypot(*(met - place).T).argmin())])
 
 
-def seeds(family: Family, line: Array, known: Known) -> Iterator[Seed]:
-    """Zeros of splittings along one line, without those that are known."""
-    before: Sample | None = None
-    for place in line:
-        here = sample(family, place) if 0.0 <= place.min() <= place.max() <= 1.0 else None
-        if before is not None and here is not None:
-            yield from _between(family, before, here, known)
-        before = here
+class Search:
+    """Changes of sign along lines.
 
+    Parameters
+    ----------
+    family : Family
+    known : callable
+        Whether a pair is known to be connected at a place.
 
-def _between(family: Family, before: Sample, here: Sample, known: Known) -> Iterator[Seed]:
-    branches_, feet = before.followed(here)
-    for places in before.pairs():
-        i, j, k = places
-        if i not in branches_ or j not in branches_ or (k is not None and k not in feet):
-            continue
-        first = before.rough(places)
-        if not math.isfinite(first):
-            continue
-        last = here.rough((branches_[i], branches_[j], None if k is None else feet[k]))
-        if not first * last < 0.0:
-            continue
-        pair = before.pair(places)
-        splitting, way = Splitting(family, before.place, pair), here.place - before.place
-        if known(before.place + first / (first - last) * way, pair):
-            continue
-        part = root_between(lambda t, s=splitting, way=way: s.gap(before.place + t * way), 0.0, 1.0, NARROW)
-        place = before.place + part * way
-        found = splitting.pair(place)
-        if found is not None and abs(splitting.gap(place)) < ZERO and not known(place, found):
-            yield Seed(splitting, place, found)
+    Attributes
+    ----------
+    crowded : bool
+        Somewhere there were so many branches that none was followed.
+    """
+
+    def __init__(self, family: Family, known: Known) -> None:
+        self.family, self.known, self.crowded = family, known, False
+
+    def along(self, line: Array) -> Iterator[Seed]:
+        """Zeros of splittings along one line, without those that are known."""
+        before: Sample | None = None
+        for place in line:
+            here = sample(self.family, place) if 0.0 <= place.min() <= place.max() <= 1.0 else None
+            if here is not None and len(here.branches) > MOST_BRANCHES:
+                self.crowded, here = True, None
+            if before is not None and here is not None:
+                yield from self._between(before, here)
+            before = here
+
+    def _between(self, before: Sample, here: Sample) -> Iterator[Seed]:
+        branches_, feet = before.followed(here)
+        for places in before.pairs():
+            i, j, k = places
+            if i not in branches_ or j not in branches_ or (k is not None and k not in feet):
+                continue
+            first = before.rough(places)
+            if not math.isfinite(first):
+                continue
+            after = branches_[i], branches_[j], None if k is None else feet[k]
+            last = here.rough(after)
+            if not first * last < 0.0:
+                continue
+            pair = before.pair(places)
+            splitting, way = Splitting(self.family, before.place, pair), here.place - before.place
+            near = before.place + first / (first - last) * way
+            if self.known(near, pair):
+                continue
+            if not math.isfinite(pair.gap * here.pair(after).gap):
+                yield Seed(splitting, near, pair, settled=False)
+                continue
+            part = root_between(lambda t, s=splitting, way=way: s.gap(before.place + t * way), 0.0, 1.0, NARROW)
+            place = before.place + part * way
+            found = splitting.pair(place)
+            if found is not None and abs(splitting.gap(place)) < ZERO and not self.known(place, found):
+                yield Seed(splitting, place, found)

@@ -5,7 +5,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.atlases.atlas import curves_over, family_over, with_bifurcations_of_cycles, with_connections
-from codim2_core.atlases.connections import following, lines
+from codim2_core.atlases.connections import following, lines, splitting
 from codim2_core.atlases.connections.saddles import branches
 from codim2_core.atlases.connections.splitting import Pair, Splitting
 from codim2_core.layer_problem.problem import LayerProblem
@@ -45,10 +45,10 @@ def test_the_splitting_is_zero_on_the_level_of_the_saddle_alone():
     for leaving in (out, other):
         for entering in [one for one in branches(problem) if one.backward]:
             for foot in feet:
-                splitting = Splitting(family, place, Pair(leaving, entering, foot))
-                beside = [splitting.gap(place + np.array([0.0, step])) for step in (-0.01, 0.01)]
+                found = Splitting(family, place, Pair(leaving, entering, foot))
+                beside = [found.gap(place + np.array([0.0, step])) for step in (-0.01, 0.01)]
                 if np.isfinite(beside).all():
-                    gaps.append(splitting.gap(place))
+                    gaps.append(found.gap(place))
                     assert beside[0] * beside[1] < 0.0
     assert len(gaps) == 2  # one loop about either critical set
     assert np.abs(gaps).max() < 1e-12
@@ -131,6 +131,13 @@ def test_the_atlas_has_them_where_cycles_are_asked_for(monkeypatch):
     bare = c2.atlas(*asked)
     assert "heteroclinic cycle" not in {one.kind for one in bare.curves}
     assert [one.name for one in bare.regions] == [one.name for one in whole.regions]  # they cut none
-    monkeypatch.setattr(following, "REACH", 0.0)  # as if no curve were caught
-    told = with_bifurcations_of_cycles(*asked[:2], bare)
-    assert "heteroclinic cycle" in told.unfinished
+    with monkeypatch.context() as at:
+        at.setattr(following, "REACH", 0.0)  # as if no curve were caught
+        assert with_bifurcations_of_cycles(*asked[:2], bare).unfinished == ("heteroclinic cycle",)
+    with monkeypatch.context() as at:
+        at.setattr(splitting, "CORRECTIONS", 0)  # as if orbits were not followed to all digits
+        assert with_connections(*asked[:2], bare).unfinished == ("heteroclinic cycle",)
+    monkeypatch.setattr(lines, "MOST_BRANCHES", 1)
+    assert with_connections(*asked[:2], bare).unfinished == (
+        "homoclinic loop", "heteroclinic cycle", "saddle connection",
+    )  # fmt: skip
