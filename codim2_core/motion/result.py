@@ -64,7 +64,7 @@ class Phase(Tabled):
     t_end: float
     reason: str
     onto: str | None = field(default_factory=lambda: None)  # a default would be found where it is told later
-    delay: Delay | None = field(default=None, compare=False)
+    delay: Delay | None = field(default=None, repr=False, compare=False)
     _place: Place | None = field(default=None, repr=False, compare=False)
     _ascent: Ascent | None = field(default=None, repr=False, compare=False)
     _words: Callable[[], tuple[str, str | None]] | None = field(default=None, repr=False, compare=False)

@@ -30,7 +30,7 @@ MOST = 4000  # steps of a slide
 LONG = 100.0  # times as long as the ranges would take at the first rate is a motion followed
 
 
-def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLike = ()) -> tuple[Delay, ...]:
+def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLike = ()) -> Results[Delay]:
     """Where motions that come to an attracting critical set at z lose its stability, and where they leave it.
 
     Each is followed with the slow flow, eq:RPCM, from z through a Hopf bifurcation (tr J = 0 < det J). In the limit

@@ -23,6 +23,7 @@ SPIRAL = c2.ELinear(-1, 1, -1, (0, 0))
 CYCLE = c2.presets["case3-n3"]
 TWO = c2.examples.nonunique_sliding()
 RING = c2.System(U=("-y + x*(1 - x**2 - y**2)", "x + y*(1 - x**2 - y**2)"))
+TURNING = c2.System(U=("z*c - s", "c + z*s"), W=("1",))
 UNSTEADY = c2.ELinear(-1, 0, -1, ("z", 0), B=((0, 0),), g=(0.25,))
 
 #: What stands in a notebook's cell, and what must be read in it.
@@ -35,6 +36,7 @@ RESULTS = {
     "certificates": lambda: c2.certificates(FOUR, ONE),
     "classify": lambda: c2.classify(FOUR, ONE),
     "critical_sets": lambda: c2.critical_sets(TWO, ONE, 0.0),
+    "delays": lambda: c2.delays(TURNING, ONE, (-0.6,), [(-1, 1)]),
     "equator_cycle": lambda: c2.equator_cycle(SPIRAL),
     "equator_equilibria": lambda: c2.equator_equilibria(FOUR),
     "filippov_sliding": lambda: c2.filippov_sliding(TWO, 0.0),
