@@ -49,7 +49,7 @@ def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLi
 
     Returns
     -------
-    tuple of Delay
+    Results of Delay
         One for each attracting critical set on which a motion comes to a Hopf bifurcation within the ranges, and whose
         eigenvalues are smooth in time: without that the delay is not known. Times are counted from z.
 
