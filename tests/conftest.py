@@ -15,10 +15,11 @@ from tests import tiers
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
 
-# No deadlines (machines differ); in CI the examples are the same on every run.
-settings.register_profile("local", deadline=None)
-settings.register_profile("ci", deadline=None, derandomize=True)
-settings.load_profile("ci" if os.environ.get("CI") else "local")
+# Every run has the same examples, on every machine; no deadlines, since machines differ in speed.
+settings.register_profile("same", deadline=None, derandomize=True, database=None)
+# `python -m tests.stress --properties`: other examples for every seed.
+settings.register_profile("random", deadline=None, database=None, print_blob=True)
+settings.load_profile("same")
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -1,15 +1,20 @@
-"""The long version: ``python -m tests.stress [--seconds S] [--seed N]``.
+"""Search at random for what the plain tests do not try: ``python -m tests.stress [--seconds S] [--seed N]``.
 
 First every stratum, along each of its paths, at every step, at many scales and with every Psi; then random systems on,
 near and far from the strata until the time is over. A failure is printed and does not stop the run; the exit code is 1
 if there was one. Warnings are failures.
+
+``--properties`` runs all tests that Hypothesis makes examples for, with the examples of one seed after the other,
+until the time is over or one fails. The seed is printed; what was found becomes an ``@example`` of its test.
 """
 
 from __future__ import annotations
 
 import argparse
 import faulthandler
+import itertools
 import random
+import subprocess
 import sys
 import time
 import warnings
@@ -70,13 +75,28 @@ def told(arguments: tuple[Any, ...]) -> str:
     return ", ".join(a.text if isinstance(a, Psi) else getattr(a, "name", repr(a)) for a in arguments)
 
 
+def properties(seconds: float, seed: int) -> int:
+    """Run the tests of Hypothesis with new examples for each seed, and return pytest's exit code of the last run."""
+    end = time.monotonic() + seconds
+    for number in itertools.count(seed):
+        print(f"seed {number}", flush=True)
+        chosen = ["-m", "hypothesis and not browser", "--hypothesis-profile=random", f"--hypothesis-seed={number}"]
+        code = subprocess.run([sys.executable, "-m", "pytest", "-q", *chosen, "tests/core", "tests/app"]).returncode
+        if code or time.monotonic() > end:
+            return code
+    return 0  # seeds have no end
+
+
 def main(words: list[str]) -> int:
     """Run, and return the exit code."""
     parser = argparse.ArgumentParser(prog="python -m tests.stress", description=__doc__.split("\n")[0])
     parser.add_argument("--seconds", type=float, default=600.0, help="time for the random part (600)")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--random-only", action="store_true", help="leave out the directed part")
+    parser.add_argument("--properties", action="store_true", help="run the tests of Hypothesis instead")
     options = parser.parse_args(words)
+    if options.properties:
+        return properties(options.seconds, options.seed)
     warnings.simplefilter("error")
     failures = count = 0
     slowest: tuple[float, str] = (0.0, "")

@@ -65,8 +65,8 @@ def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLi
     >>> from codim2_core import System, delays, psi
     >>> turning = System(U=("z*c - s", "c + z*s"), W=("1",))
     >>> [delay] = delays(turning, psi.constant(), (-0.6,), [(-1, 1)])
-    >>> delay.z_hopf.round(9).tolist(), delay.z_out.round(9).tolist()
-    ([0.0], [0.6])
+    >>> print(f"leaves at z = {delay.z_out[0]:.6f}, {delay.z_out[0] - delay.z_hopf[0]:.6f} past the Hopf point")
+    leaves at z = 0.600000, 0.600000 past the Hopf point
     """
     formulas = field(system)
     start = np.array(slow_values(z, formulas.m))

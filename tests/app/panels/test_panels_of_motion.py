@@ -240,7 +240,8 @@ def delayed(panel, system, **changes):
 def test_along_z_the_delay_ahead_of_a_motion_that_comes_at_the_present_z():
     header = delayed(panel_along, HOPF)
     [delay] = header["delays"]["found"]
-    assert (delay["onto"], delay["z_in"], delay["z_hopf"], delay["z_out"]) == ("C", [-0.6], [0.0], [pytest.approx(0.6)])
+    assert (delay["onto"], delay["z_in"]) == ("C", [-0.6])
+    assert (*delay["z_hopf"], *delay["z_out"]) == pytest.approx((0.0, 0.6), abs=1e-9)  # the slide's own tolerance
     assert "way in = way out" in delay["reason"]
     np.testing.assert_allclose(delay["z"][0], np.linspace(0.0, 0.6, len(delay["z"][0])), atol=1e-4)
     np.testing.assert_allclose(delay["flow"][0], 1.0)
