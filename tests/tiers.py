@@ -1,4 +1,7 @@
-"""Which tests run when: marks given by folder and by cost, in one place. ``python -m tests.tiers`` measures the costs.
+"""Which tests run when: marks given by folder and by cost, in one place.
+
+``python -m tests.tiers`` measures the costs; ``python -m tests.tiers --profile [what pytest is told]`` prints which
+functions make 80 % of the time of a run.
 
 ===========  =====================================================================================
 `fast`       the inner loop: the rooms and the presets, without what `costly.txt` lists
@@ -14,6 +17,7 @@ from __future__ import annotations
 
 import os
 import resource
+import sys
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -152,8 +156,44 @@ class Measured:
             self.costs[name] = max(self.costs.get(name, 0.0), cost, *shared)
 
 
+class Profile:
+    """A plugin that adds up the seconds of each test function, its fixtures and parameters included."""
+
+    def __init__(self) -> None:
+        self.seconds: Counter[str] = Counter()
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Add the set-up, the call or the tear-down of one test."""
+        self.seconds[report.nodeid.split("[")[0].removeprefix("tests/")] += report.duration  # type: ignore[assignment]
+
+    def table(self, share: float = 0.8) -> str:
+        """Return the functions that together make that share of the time, and the folders, the dearest first."""
+        total = sum(self.seconds.values())
+        folders: Counter[str] = Counter()
+        for name, seconds in self.seconds.items():
+            folders["/".join(name.split("/")[:-1][:2])] += seconds  # type: ignore[assignment]
+        rows, reached = [], 0.0
+        for name, seconds in self.seconds.most_common():
+            if reached >= share * total:
+                break
+            reached += seconds
+            rows.append(f"{seconds:8.1f} s {100 * reached / total:5.1f} %  {name}")
+        rows += [f"{seconds:8.1f} s {100 * seconds / total:5.1f} %  {name}/" for name, seconds in folders.most_common()]
+        return "\n".join([*rows, f"{total:8.0f} s over all processes, {len(self.seconds)} functions"])
+
+
+def profile(words: list[str]) -> int:
+    """Run the tests as ``python -m pytest`` with these words would, and print what makes 80 % of the time."""
+    made = Profile()
+    code = pytest.main(["-q", *words], plugins=[made])
+    print(made.table())
+    return int(code)
+
+
 def main() -> int:
     """Run what may be fast in one process, and write `costly.txt`; ``codim2 warm`` should have compiled the core."""
+    if sys.argv[1:2] == ["--profile"]:
+        return profile(sys.argv[2:])
     measured = Measured()
     folders = [str(TESTS / folder) for folder in FAST]
     pytest.main(["-q", "-n0", "-p", "no:cacheprovider", *folders], plugins=[measured])

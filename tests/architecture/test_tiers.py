@@ -47,7 +47,7 @@ def test_every_folder_of_slow_tests_is_left_out_unless_it_is_asked_for(tmp_path)
         for part in [tests / folder, *(tests / folder).parents][: folder.count("/") + 2]:
             (part / "__init__.py").touch()
         (tests / folder / "test_it.py").write_text(DUMMY)
-    for name in ("pyproject.toml", "tests/conftest.py", "tests/tiers.py"):
+    for name in ("pyproject.toml", "tests/conftest.py", "tests/leftovers.py", "tests/tiers.py"):
         (tmp_path / name).write_text((ROOT / name).read_text())
     (tests / "costly.txt").write_text("core/psi/test_it.py::test_two\n")
     (tests / "sampled.txt").write_text("3 core/psi/test_it.py::test_many\n4 stress/test_it.py::test_many\n")
@@ -135,6 +135,22 @@ def test_a_function_is_costly_by_one_of_its_tests_or_by_all_of_them():
     measured.costs = {"quick": 0.01, "long": tiers.LIMIT + 0.01, "often": 0.1}
     measured.sums = {"quick": tiers.ALTOGETHER - 0.1, "long": tiers.LIMIT + 0.01, "often": tiers.ALTOGETHER + 0.1}
     assert measured.costly() == ["long", "often"]
+
+
+def test_a_profile_names_what_makes_most_of_the_time():
+    made = tiers.Profile()
+    report = type("Report", (), {})
+    for name, seconds in (
+        ("core/psi/t.py::a[1]", 6.0),
+        ("core/psi/t.py::a[2]", 1.0),
+        ("words/t.py::b", 2.0),
+        ("app/t.py::c", 1.0),
+    ):
+        report.nodeid, report.duration = f"tests/{name}", seconds
+        made.pytest_runtest_logreport(report)
+    rows = [row.split() for row in made.table().splitlines()]
+    assert [row[-1] for row in rows[:-1]] == ["core/psi/t.py::a", "words/t.py::b", "core/psi/", "words/", "app/"]
+    assert [row[2] for row in rows[:-1]] == ["70.0", "90.0", "70.0", "20.0", "10.0"]
 
 
 def test_what_a_fixture_costs_is_the_cost_of_all_who_use_it(tmp_path):
