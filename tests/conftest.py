@@ -68,3 +68,13 @@ def in_python(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(regularised, "waited_for", lambda formulas: regularised.PATIENCE)
     monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
     monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: regularised.PATIENCE)
+
+
+@pytest.fixture(scope="session")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """The address of `codim2 serve`, in a process of its own and warm: one for all processes that share the tests."""
+    from tests.app.serving import serving_all
+
+    folder = tmp_path_factory.getbasetemp()
+    with serving_all(folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder) as address:
+        yield address

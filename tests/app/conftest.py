@@ -5,15 +5,6 @@ import shutil
 
 import pytest
 
-from tests.app.serving import serving
-
-
-@pytest.fixture(scope="session")
-def served():
-    """The address of one server for all who ask it for no option of its own; it has two places."""
-    with serving("--sessions", "2") as address:
-        yield address
-
 
 @pytest.fixture(scope="module")
 def node():

@@ -23,8 +23,8 @@ from tests.benchmarks.bokeh_wire import Wire
 
 
 @pytest.fixture
-def address(served):
-    return served
+def address(server):
+    return server
 
 
 def opened(address, **headers):
@@ -185,8 +185,15 @@ def test_a_page_its_session_and_the_health_of_its_server_are_of_one_edition(addr
     assert json.loads(opened(address + "/health")[0])["edition"] == edition
 
 
-def test_more_pages_than_places_are_asked_to_wait(address):
-    port = int(address.rsplit(":", 1)[1])
+@pytest.fixture
+def full():
+    """A server of two places."""
+    with serving("--sessions", "2") as address:
+        yield address
+
+
+def test_more_pages_than_places_are_asked_to_wait(full):
+    address, port = full, full.port
 
     async def talk():
         wires = [await Wire.connect(port, page=opened(address)[0]) for _ in range(2)]

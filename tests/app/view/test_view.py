@@ -17,8 +17,8 @@ from tests.benchmarks.bokeh_wire import Wire
 
 
 @pytest.fixture
-def port(served):
-    return served.port
+def port(server):
+    return server.port
 
 
 def test_one_patch_for_each_frame(port):
