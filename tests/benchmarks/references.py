@@ -12,6 +12,7 @@ import sys
 import mpmath
 import numpy as np
 
+from .data import write_rows
 from .problems import DATA, Problem, problems
 
 
@@ -67,7 +68,7 @@ def main(names: list[str]) -> None:
         found = taylor(problem) if closed is None else closed
         stored[problem.name] = found.tolist()
         print(problem.name, "exact" if closed is not None else "Taylor", flush=True)
-        DATA.write_text(json.dumps(stored, ensure_ascii=False, indent=0))
+        write_rows(DATA, stored)
 
 
 if __name__ == "__main__":
