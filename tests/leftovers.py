@@ -19,17 +19,26 @@ PATIENCE = 30.0
 
 
 def running(mark: str) -> list[str]:
-    """Return the processes of a run other than this one, as ``PID command``; () where there is no /proc."""
+    """Return the processes of a run, as ``PID command``; none where there is no /proc.
+
+    Without this one, and without those of Python's own that end with it.
+    """
     found, wanted = [], f"{MARK}={mark}".encode()
     for folder in Path("/proc").glob("[0-9]*"):
         try:
             if wanted in (folder / "environ").read_bytes().split(b"\0") and folder.name != str(os.getpid()):
                 words = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace").split()
-                if words:  # else it has ended and nobody has asked how
+                # without words it has ended, and nobody has asked how
+                if words and not (parent(folder) == os.getpid() and "multiprocessing" in " ".join(words)):
                     found.append(f"{folder.name} {' '.join(words)[:200]}")
         except OSError:  # ended meanwhile, or another user's
             continue
     return found
+
+
+def parent(folder: Path) -> int:
+    """Return the process that started one."""
+    return int((folder / "stat").read_text().rpartition(")")[2].split()[1])
 
 
 def pytest_sessionstart() -> None:

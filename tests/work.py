@@ -1,10 +1,24 @@
-"""Work counted, not timed: the same on a busy machine, a slow one, and under a profiler."""
+"""Work counted, not timed, and waiting for what happens: the same on a busy machine and under a profiler."""
 
 from __future__ import annotations
 
 import gc
 import sys
+import time
 from collections.abc import Callable
+from typing import TypeVar
+
+T = TypeVar("T")
+#: Seconds that a test waits for anything: five times what a worker may take, as where other work has the machine.
+PATIENCE = 300.0
+
+
+def wait_until(condition: Callable[[], T], patience: float = PATIENCE) -> T:
+    """Wait until a condition holds, at most that many seconds; return what it is in the end."""
+    end = time.monotonic() + patience
+    while not (found := condition()) and time.monotonic() < end:
+        time.sleep(0.01)
+    return found
 
 
 def calls(do: Callable[[], object]) -> int:

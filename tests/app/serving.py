@@ -8,6 +8,8 @@ from contextlib import contextmanager, nullcontext
 from fcntl import LOCK_EX, LOCK_SH, LOCK_UN, flock
 from urllib.request import urlopen
 
+from tests.work import PATIENCE, wait_until
+
 
 class Address(str):
     """Where a server answers, and which process it is."""
@@ -37,19 +39,21 @@ def serving(
         shown = heard[-1].split("http://")[1].split()[0].rstrip("/")  # with its prefix
         address = Address("http://" + shown.split("/")[0])
         address.pid = process.pid
-        for _ in range(600):
-            try:
-                with urlopen(f"http://{shown}/ready", timeout=5) as answer:
-                    if b'"ready"' in answer.read():
-                        break
-            except OSError:  # not yet, or 503: not ready
-                pass
-            time.sleep(0.2)
+        assert wait_until(lambda: is_ready(shown)), "the server is not ready"
         yield address
     finally:
         process.terminate()
-        process.wait(10)
+        process.wait(PATIENCE)
         process.stdout.close()
+
+
+def is_ready(shown):
+    try:
+        with urlopen(f"http://{shown}/ready", timeout=PATIENCE) as answer:
+            return b'"ready"' in answer.read()
+    except OSError:  # not yet, or 503: not ready
+        time.sleep(0.2)
+        return False
 
 
 @contextmanager

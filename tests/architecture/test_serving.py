@@ -5,6 +5,7 @@ from queue import SimpleQueue
 from threading import Thread
 
 from tests.app.serving import serving_all
+from tests.work import PATIENCE
 
 
 def test_one_server_for_all_which_stops_when_the_last_has_left_and_is_started_again(tmp_path):
@@ -24,7 +25,7 @@ def test_one_server_for_all_which_stops_when_the_last_has_left_and_is_started_ag
     seen, leave = SimpleQueue(), SimpleQueue()
     starter = Thread(target=first, daemon=True)
     starter.start()
-    assert seen.get(timeout=60) == "http://localhost:1"
+    assert seen.get(timeout=PATIENCE) == "http://localhost:1"
     with ExitStack() as others:
         for _ in range(2):
             address = others.enter_context(serving_all(tmp_path, serve))

@@ -23,6 +23,7 @@ from tests.app.serving import serving
 from tests.benchmarks.app_load import free_port
 from tests.benchmarks.bokeh_wire import Wire
 from tests.faults.proxied import SLOW_FLOW, slow_flow_at
+from tests.work import wait_until
 
 ROOT = Path(__file__).parents[2]
 CONFIGURATION = ROOT / "app" / "docs" / "text" / "hosting" / "nginx.conf"
@@ -194,8 +195,8 @@ def test_the_commands_of_the_page_bring_tls_two_replicas_below_a_path_and_a_roll
     address = f"https://localhost:{shell.ports[443]}{PREFIX}/"
     try:
         shell.begin(begin)
-        assert until(shell.done)
-        assert until(lambda: all(ready(shell.ports[name]) for name in (5006, 5007)))
+        assert wait_until(shell.done)
+        assert wait_until(lambda: all(ready(shell.ports[name]) for name in (5006, 5007)))
         before = [(tmp_path / f"{shell.ports[name]}.pid").read_text() for name in (5006, 5007)]
         shell.begin(restart)
         opened = 0
@@ -217,10 +218,3 @@ def ready(port):
             return answer.status == 200
     except OSError:
         return False
-
-
-def until(condition, seconds=600.0):
-    end = time.monotonic() + seconds
-    while not (found := condition()) and time.monotonic() < end:
-        time.sleep(0.2)
-    return found

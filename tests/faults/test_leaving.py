@@ -2,7 +2,6 @@
 
 import asyncio
 import re
-import time
 from pathlib import Path
 from urllib.request import urlopen
 
@@ -14,6 +13,7 @@ from codim2_app.view.warmup import MOST_COMPILED, MOST_THREADS
 from tests.app.serving import serving
 from tests.benchmarks import app_load
 from tests.benchmarks.bokeh_wire import Wire
+from tests.work import wait_until
 
 AT_ONCE = 4  # visitors: one after the other they would wait for their own machine most of the time
 FORGOTTEN = REST * 2**TRIES  # seconds: what is still in use is searched again, each time after twice as long
@@ -44,14 +44,6 @@ def workers(server):
     return [worker for helper in children(server) for worker in children(helper)]
 
 
-def until(condition, seconds=60.0):
-    """Wait for a condition; return what it is in the end."""
-    end = time.monotonic() + seconds
-    while not (found := condition()) and time.monotonic() < end:
-        time.sleep(0.05)
-    return found
-
-
 WHILE = 3.0  # seconds of processor time: a worker that is at something else, for the picture, is done before
 TYPED = {"system": "own", "texts": {"U1": "sin(5*c)*c-s+z", "U2": "cos(5*s)+c", "W": "0"}}
 FILE = {"kind": "html", "sliders": ["z=-1,1"]}  # a hundred pictures of a typed system: tens of seconds
@@ -67,7 +59,7 @@ async def begin(address):
     def at_work():
         return [one for one in workers(address.pid) if app_load.cpu(one) - before.get(one, 0.0) > WHILE]
 
-    return wire, await asyncio.to_thread(until, at_work)
+    return wire, await asyncio.to_thread(wait_until, at_work)
 
 
 @pytest.mark.parametrize("how", ["leave", "vanish", "another file"])
@@ -79,7 +71,7 @@ def test_work_that_nobody_wants_any_more_ends_in_mid_work(address, how):
             await wire.event("data_event", wire.root, data={"take": {"kind": "json", "id": 2}})
         else:
             await (wire.close() if how == "leave" else wire.vanish())
-        ended = await asyncio.to_thread(until, lambda: state_of(*busy) == "gone", 5.0)
+        ended = await asyncio.to_thread(wait_until, lambda: state_of(*busy) == "gone", 5.0)
         if how == "another file":
             await wire.frame(3, z=0.5)  # this page goes on
             await wire.close()
@@ -117,7 +109,7 @@ def test_pages_that_are_closed_while_they_open_are_forgotten():
         for i in range(10):
             asyncio.run(close_while_it_opens(port, GOODBYE if i % 2 else b""))
         asyncio.run(app_load.at_rest(pid))
-        assert until(lambda: not app_load.left(port)["sessions"], 20.0), app_load.left(port)
+        assert wait_until(lambda: not app_load.left(port)["sessions"]), app_load.left(port)
 
 
 async def type_and_vanish(port, i):
@@ -150,7 +142,7 @@ def test_a_thousand_visits_hold_no_more_than_a_hundred():
             await visits(port, kinds)
             await stays.frame(1, a=app_load.value(len(kinds)))
             alone = lambda: app_load.there(port) == 1
-            assert await asyncio.to_thread(until, alone, FORGOTTEN), app_load.left(port)
+            assert await asyncio.to_thread(wait_until, alone, FORGOTTEN), app_load.left(port)
             await app_load.at_rest(pid)
             yield app_load.left(port)
         await stays.close()

@@ -14,6 +14,8 @@ import pytest
 from codim2_app.frame import workers as module
 from codim2_app.frame.workers import Stopped, Workers
 
+from tests.work import PATIENCE, wait_until
+
 
 @pytest.fixture(scope="module")
 def workers():
@@ -28,21 +30,19 @@ def endless(folder):
 
 
 def begun(folder):
-    for _ in range(600):
-        if (folder / "alive").exists() and (folder / "begun").exists():
-            return int((folder / "begun").read_text())
-        time.sleep(0.05)
-    raise AssertionError("the worker does not begin")
+    assert wait_until(lambda: (folder / "alive").exists() and (folder / "begun").exists())
+    return int((folder / "begun").read_text())
 
 
 def gone(pid):
-    for _ in range(200):
+    def is_gone():
         try:
             os.kill(pid, 0)
         except ProcessLookupError:
             return True
-        time.sleep(0.05)
-    return False
+        return False
+
+    return wait_until(is_gone)
 
 
 def test_work_is_done_elsewhere(workers):
@@ -101,7 +101,7 @@ def test_cancelling_ends_what_is_under_way(workers, tmp_path):
     pid = begun(tmp_path)
     assert future.cancel()
     with pytest.raises(CancelledError):
-        future.result(20)
+        future.result(PATIENCE)
     assert gone(pid)
     assert workers.submit(pow, 2, 3).result() == 8  # another process
 
@@ -119,7 +119,7 @@ def test_a_worker_that_is_killed_is_replaced(workers, tmp_path):
     future = workers.submit(endless, tmp_path)
     os.kill(begun(tmp_path), signal.SIGKILL)
     with pytest.raises(Stopped):
-        future.result(20)
+        future.result(PATIENCE)
     assert workers.submit(pow, 2, 3).result() == 8
 
 
@@ -136,7 +136,7 @@ def test_nothing_runs_for_ever(tmp_path):
     with Workers(1, seconds=0.2) as workers:
         future = workers.submit(endless, tmp_path)
         with pytest.raises(TimeoutError, match=r"longer than 0\.2 s"):
-            future.result(20)
+            future.result(PATIENCE)
 
 
 SHADOWED = """
@@ -146,7 +146,7 @@ from codim2_app.frame.workers import Workers
 
 if __name__ == "__main__":
     workers = Workers(1, preload=("colorsys", "codim2_core"))
-    print(workers.submit(os.getpid).result(60) != os.getpid())
+    print(workers.submit(os.getpid).result(300) != os.getpid())
     workers.shutdown()
 """
 
@@ -174,15 +174,12 @@ def test_an_idle_worker_holds_nobody_who_waited_for_its_last_work(workers, fails
     page = Page()
     future = workers.submit(int, "x" if fails else "1")
     future.add_done_callback(page.told)
-    assert isinstance(future.exception(60), ValueError if fails else type(None))
+    assert isinstance(future.exception(PATIENCE), ValueError if fails else type(None))
     held = weakref.ref(page)
     del page, future
 
     gc.disable()  # no search for garbage is needed
     try:
-        end = time.monotonic() + 2.0
-        while held() is not None and time.monotonic() < end:
-            time.sleep(0.01)
-        assert held() is None
+        assert wait_until(lambda: held() is None)
     finally:
         gc.enable()

@@ -1,10 +1,10 @@
 """Frames of the explorer with a panel open, asked as the browser asks."""
 
-import time
-
 from codim2_app.draw.packing import unpack
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
+
+from tests.work import wait_until
 
 CASE3 = {"a": 172.0, "b": 186.0, "d": -200.0, "f1": -86.0, "f2": -93.0, "psi": "hill", "n": 3.0}
 OF_PANELS = {"regions", "atlas_size", "curves_of_psi", "thumbnails", "outcomes", "planes", "diagram", "theorems",
@@ -19,15 +19,16 @@ def opened(panel, **values):
 def settled(frames, **request):
     """Ask as the browser does at rest, until nothing is late; return all headers merged."""
     merged, blocks = unpack(frames.answer(request))
-    deadline = time.monotonic() + 60
-    late = merged.pop("late", [])
-    while late:
-        assert time.monotonic() < deadline, late
-        time.sleep(0.01)
+
+    def nothing_is_late():
+        nonlocal merged, blocks
+        if not merged.pop("late", []):
+            return True
         header, more = unpack(frames.answer({"rest": True}))
-        late = header.pop("late", [])
-        merged |= header
-        blocks |= more
+        merged, blocks = merged | header, blocks | more
+        return False
+
+    assert wait_until(nothing_is_late)
     return merged
 
 

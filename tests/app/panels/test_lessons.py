@@ -1,9 +1,6 @@
 """The panel "Lessons" as a browser meets it: the list, an open lesson, a question posed, answered, and its goal."""
 
-import time
-
 import pytest
-from codim2_app.draw.packing import unpack
 from codim2_app.lessons import library
 from codim2_app.lessons.library import lessons, offer
 from codim2_app.lessons.reading import read_lesson
@@ -11,20 +8,10 @@ from codim2_app.panels.lessons import Quiz, opening_values, read_quiz
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
+from .opening import settled
+
 LIMITS = "03-limit-directions"
 OWN = "---\ntitle: Mine\nsummary: My own.\nportrait: case1-cm0\n---\nHere [](fact:name).\n"
-
-
-def settled(frames, **request):
-    header, _ = unpack(frames.answer(request))
-    merged = dict(header)
-    deadline = time.monotonic() + 60
-    while header.get("late"):
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
-        header, _ = unpack(frames.answer({"rest": True}))
-        merged |= header
-    return merged
 
 
 def opened(key):

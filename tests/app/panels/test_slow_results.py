@@ -1,7 +1,6 @@
 """Results that are computed beside the frames: shared, replaced by newer wishes, and refused with a sentence."""
 
 import threading
-import time
 from concurrent.futures import Future
 
 import pytest
@@ -14,6 +13,8 @@ from codim2_app.panels import registry
 from codim2_app.panels.panel import Panel
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
+
+from tests.work import wait_until
 
 
 class Later:
@@ -79,10 +80,7 @@ def test_a_fault_of_one_panel_is_logged_and_leaves_the_picture(caplog):
 def test_jobs_run_beside_the_thread_that_answers():
     jobs, key, names = Jobs(), object(), []
     jobs.ask("map", key, lambda: names.append(threading.current_thread().name) or "done")
-    deadline = time.monotonic() + 10
-    while jobs.ask("map", key, lambda: "done") is None:
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
+    assert wait_until(lambda: jobs.ask("map", key, lambda: "done"))
     assert names[0].startswith("codim2-panels")
 
 

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.work import PATIENCE
+
 SERVE = [sys.executable, "-u", "-m", "codim2_app.server.cli", "serve", "--port", "0", "--address", "127.0.0.1"]
 
 
@@ -21,7 +23,7 @@ def started(*before, options=()):
 
 def ended(process):
     try:
-        return process.communicate(timeout=60)[0], process.returncode
+        return process.communicate(timeout=PATIENCE)[0], process.returncode
     finally:
         process.kill()
 

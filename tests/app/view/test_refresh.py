@@ -11,6 +11,7 @@ from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
 from codim2_core.portrait.classification import NEARER
+from tests.work import wait_until
 
 from .asking import ask
 
@@ -215,7 +216,6 @@ def test_own_system_locks_what_it_gives_as_text():
 
 def test_a_new_custom_psi_is_compiled_in_the_background():
     import threading
-    import time
 
     from codim2_app.view.warmup import is_ready
 
@@ -224,10 +224,7 @@ def test_a_new_custom_psi_is_compiled_in_the_background():
     psi = custom("1/(1 + s/7)**4")
     assert not is_ready(psi)  # and so the frame goes out at once, without trajectories
     assert any(thread.name == "codim2-compile" for thread in threading.enumerate())
-    deadline = time.monotonic() + 60
-    while not is_ready(psi):
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
+    assert wait_until(lambda: is_ready(psi))
 
 
 KEYS = [item["key"] for item in portraits()]

@@ -24,6 +24,7 @@ from codim2_app.view.refresh import Frames
 from codim2_app.view.taking import Taking
 
 from codim2_core.cycles.proof.check import check
+from tests.work import PATIENCE
 
 
 @pytest.fixture(scope="module")
@@ -39,8 +40,8 @@ def asked(executor, link, request):
     answers, later = Queue(), Queue()
     Taking(frames).answer(request, answers.put, later.put)
     if answers.empty():
-        later.get(timeout=60)()  # on the thread that answers
-    answer = answers.get(timeout=1)
+        later.get(timeout=PATIENCE)()  # on the thread that answers
+    answer = answers.get(timeout=PATIENCE)
     assert answers.empty()
     assert later.empty()
     return answer
@@ -81,11 +82,11 @@ def test_a_proof_is_stopped_alone(executor):
         assert frames.jobs.future("proof") is not None
         taking.answer({"id": 1, "kind": "proof", "stop": True}, answers.put, later.put)
         assert frames.jobs.future("proof") is None
-        assert answers.get(timeout=1) == {"taken": 1, "error": "The search for a proof was stopped."}
+        assert answers.get(timeout=PATIENCE) == {"taken": 1, "error": "The search for a proof was stopped."}
     finally:
         begin.set()
-    later.get(timeout=60)()
-    assert answers.get(timeout=1)["taken"] == 2
+    later.get(timeout=PATIENCE)()
+    assert answers.get(timeout=PATIENCE)["taken"] == 2
     assert answers.empty()
 
 
@@ -142,7 +143,7 @@ def test_a_newer_wish_replaces_an_older(executor):
         assert frames.jobs.turns.pending <= 1
     begin.set()
     while answers.empty():
-        later.get(timeout=60)()
+        later.get(timeout=PATIENCE)()
     assert answers.get()["taken"] == 2
 
 
@@ -159,7 +160,7 @@ def conversation(executor, request, query="preset=case1-cm4", stop_after=None):
         if len(answers) == stop_after:
             taking.answer({"id": request["id"], "stop": True}, answers.append, later.put)
             continue
-        later.get(timeout=60)()
+        later.get(timeout=PATIENCE)()
     while not later.empty():
         later.get()()
     return answers
@@ -186,7 +187,7 @@ def test_a_file_that_was_made_leaves_nothing_that_a_search_must_find(executor, m
         frames.jobs = Jobs(executor)
         Taking(frames).answer(request_, page.append, later.put)
         while not page or "done" in page[-1]:
-            later.get(timeout=60)()
+            later.get(timeout=PATIENCE)()
         assert "file" in page[-1]
         del page
         assert there() is None
