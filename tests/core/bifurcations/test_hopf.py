@@ -24,7 +24,7 @@ families = st.one_of(
 CASE3 = (172.0, 186.0, -200.0)
 
 
-@settings(max_examples=60)
+@settings(max_examples=20)
 @given(matrices, families)
 def test_trace_and_discriminant_vanish_on_their_curves(abd, regularisation):
     curves = bifurcations.hopf(*abd, regularisation), bifurcations.node_focus(*abd, regularisation)
@@ -40,7 +40,7 @@ def test_trace_and_discriminant_vanish_on_their_curves(abd, regularisation):
                 assert C.determinant > 0.0
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(st.sampled_from([CASE3, (1, 1.5, -1.2), (2, -1.4, -0.7)]), families, st.integers(0, 2**32 - 1))
 def test_the_sign_of_the_trace_changes_only_across_the_hopf_curve(abd, regularisation, seed):
     curve = bifurcations.hopf(*abd, regularisation)
@@ -224,7 +224,7 @@ def test_case_three_changes_at_284_129_and_two_more():
     ]  # fmt: skip
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(matrices, st.floats(0.05, 0.95), st.floats(0, 6.3))
 def test_kinds_between_the_changes_of_n(abd, m, t):
     assume(determinant_sign(*abd) > 0)

@@ -186,7 +186,7 @@ def test_sliding_is_the_filippov_flow_and_does_not_know_psi(system):
         at = typed.at()
         expected = -at.B @ np.linalg.solve(at.A, at.f) + at.g
         np.testing.assert_allclose(flow, expected, rtol=1e-9, atol=1e-9)
-        np.testing.assert_array_equal(flow, found[0].slow_flow)
+        np.testing.assert_allclose(flow, found[0].slow_flow, rtol=1e-12, atol=1e-12)
 
 
 def test_results_cannot_be_changed():

@@ -102,7 +102,7 @@ def worst_gap(system, regularisation, monkeypatch):
     return max(gaps, default=0.0)
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(systems, regularisations)
 # the theta nullcline touches |e| = 1, where Psi draws it out to a spike between two points of the polyline
 @example(ELinear(1.376478, 1.376478, 0.0, (1.376478, 1.376478)), psi.exponential())
