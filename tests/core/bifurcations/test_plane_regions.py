@@ -90,6 +90,7 @@ def test_regions_of_random_matrices(abd, seed):
         assert classify(system.evolve(f=tuple(f)), psi.constant()).name == region_at(found, f).name
 
 
+@settings(max_examples=20)
 @given(matrices)
 def test_regions_are_symmetric_and_fill_the_plane(abd):
     found = bifurcations.regions(*abd)

@@ -24,6 +24,7 @@ PARAMETERS = st.one_of(
 
 
 @pytest.mark.parametrize("name", NAMES)
+@settings(max_examples=20)
 @given(PARAMETERS)
 @example(0.0)
 @example(-1.0)

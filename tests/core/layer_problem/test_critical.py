@@ -6,7 +6,7 @@ from fractions import Fraction
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, critical_sets, equator_cycle, hemisphere, psi, sliding_flow
@@ -39,6 +39,7 @@ def test_it_is_an_equilibrium_of_the_flow_and_of_50_digit_arithmetic(system, reg
     np.testing.assert_allclose(hemisphere.disc_from_scaling(C.x2), C.p, rtol=1e-14, atol=1e-300)
 
 
+@settings(max_examples=20)
 @given(systems, regularisations)
 def test_jacobian_is_the_derivative_of_the_layer_problem(system, regularisation):
     found = critical_sets(system, regularisation)

@@ -245,8 +245,14 @@ def test_an_interval_of_a_ten_thousandth_of_the_span_is_one():
     assert [p.z for p in found.points if p.kind == "equator"] == pytest.approx([-1e-4, 1e-4])
 
 
-@pytest.mark.parametrize("U", [("-c*(c-z)", "-s"), ("c*(c-z)", "-s-0.3"), ("-(c-0.2)*(c-0.2-z)", "-s+0.1*c")])
-@pytest.mark.parametrize("span", [(-0.5, 0.5), (-0.5, 0.43), (-0.37, 0.5123)])
+@pytest.mark.parametrize(
+    ("U", "span"),
+    [
+        (("-c*(c-z)", "-s"), (-0.5, 0.5)),
+        (("c*(c-z)", "-s-0.3"), (-0.5, 0.43)),
+        (("-(c-0.2)*(c-0.2-z)", "-s+0.1*c"), (-0.37, 0.5123)),
+    ],
+)
 def test_sets_that_exchange_their_kinds_are_told_at_any_value(U, span):
     found = c2.slow_portrait(c2.System(U=U, W=("1",)), c2.psi.tanh(), span, count=21)
     (point,) = [p for p in found.points if "exchange" in p.sentence]
@@ -264,8 +270,8 @@ def test_sets_that_pass_each_other_by_do_not_meet(gap):
 
 @pytest.mark.parametrize(
     ("span", "count"),
-    [((-0.1, 0.9), 9), ((-0.9, 0.1), 9), ((-0.1, 0.3), 4), ((-0.3, 0.1), 4), ((-0.549, 0.451), 11)],
-    ids=["first step", "last step", "first of three", "last of three", "midway"],
+    [((-0.1, 0.9), 9), ((-0.3, 0.1), 4), ((-0.549, 0.451), 11)],
+    ids=["first step", "last of three", "midway"],
 )
 def test_sets_that_exchange_their_kinds_within_any_step(span, count):
     """c = 0 and c = z - 3/10 meet at z = 3/10; a third set, at c = -4/5, stays away."""
