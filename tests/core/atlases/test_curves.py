@@ -84,26 +84,12 @@ def test_e_linear_systems_typed_as_general_ones_agree_with_the_closed_forms(a, b
         )
 
 
-@pytest.mark.parametrize("block", range(5))
-def test_ten_thousand_points_of_random_systems(block):
-    """Of eight systems each time: all points to 1e-9, and of each kind as much as there is."""
-    rng = np.random.default_rng((7, block))
-    count = 0
-    for i in range(8):
-        a, b, d = rng.uniform(-3.0, 3.0, 3)
-        psi = PSIS[i % len(PSIS)]
-        found = over_f(a, b, d, psi)
-        assert max(gaps(found, a, b, d, psi).values()) < 1e-9
-        count += sum(len(one.points) for one in found.curves)
-    assert count > 2000
-
-
 def test_the_same_system_given_in_coefficients():
     system = c2.ELinear(1.5, 2, -1, (0.2, 0.1))
     typed = c2.System(
         U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters={"a": 1.5, "b": 2, "d": -1, "f1": 0.2, "f2": 0.1}
     )
-    for across, up in (("f1", "f2"), ("a", "f1"), ("b", "d")):
+    for across, up in (("a", "f1"), ("b", "d")):
         ranges = ((-2, 2.5), (-2.5, 2))
         one, other = (c2.atlas(of, c2.psi.hill(2), across, up, ranges) for of in (system, typed))
         assert [curve.kind for curve in one.curves] == [curve.kind for curve in other.curves]
@@ -134,9 +120,9 @@ def test_fold_hopf_and_node_focus_of_a_system_that_is_known(psi):
     found = c2.atlas(TAKENS, psi, "mu", "k", ((-1.5, 0.5), (-1.5, 1.5)))
     (fold,), (hopf,) = of_kind(found, "fold of critical sets"), of_kind(found, "Hopf")
     assert np.abs(fold.points[:, 0]).max() < 1e-12
-    assert sorted(fold.points[[0, -1], 1].round(9)) == [-1.5, 1.5]
+    assert sorted(fold.points[[0, -1], 1]) == pytest.approx([-1.5, 1.5], abs=1e-9)
     assert np.abs(hopf.points[:, 0] + hopf.points[:, 1] ** 2).max() < 1e-12
-    assert sorted(hopf.points[[0, -1], 1].round(5)) == [0.0, 1.0]
+    assert sorted(hopf.points[[0, -1], 1]) == pytest.approx([0.0, 1.0], abs=5e-6)
     for one in of_kind(found, "node-focus"):
         for (mu, k), place in zip(one.points, one.places, strict=True):
             c = math.copysign(math.sqrt(max(-mu, 0.0)), place[0])

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, bifurcations, classify, critical_sets, equator_equilibria, psi
@@ -105,6 +105,7 @@ def test_degenerate_curves_are_named():
     assert "also" in bifurcations.critical_boundary(0, 1, 0).name
 
 
+@settings(max_examples=20)
 @given(matrices)
 def test_ellipse_is_where_the_critical_set_leaves(abd):
     assume(determinant_sign(*abd) != 0)

@@ -24,7 +24,7 @@ families = st.one_of(
 CASE3 = (172.0, 186.0, -200.0)
 
 
-@settings(max_examples=60)
+@settings(max_examples=20)
 @given(matrices, families)
 def test_trace_and_discriminant_vanish_on_their_curves(abd, regularisation):
     curves = bifurcations.hopf(*abd, regularisation), bifurcations.node_focus(*abd, regularisation)
@@ -40,7 +40,7 @@ def test_trace_and_discriminant_vanish_on_their_curves(abd, regularisation):
                 assert C.determinant > 0.0
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(st.sampled_from([CASE3, (1, 1.5, -1.2), (2, -1.4, -0.7)]), families, st.integers(0, 2**32 - 1))
 def test_the_sign_of_the_trace_changes_only_across_the_hopf_curve(abd, regularisation, seed):
     curve = bifurcations.hopf(*abd, regularisation)
@@ -125,38 +125,6 @@ def test_first_lyapunov_coefficient_is_that_of_the_planar_normal_form(regularisa
             assert values[i] == pytest.approx(expected, rel=1e-8)
 
 
-@pytest.mark.parametrize("regularisation", [psi.constant(), psi.rational(), psi.hill(3)])
-def test_small_orbits_on_the_hopf_curve_shrink_or_grow_as_the_coefficient_says(regularisation):
-    a, b, d = 1.0, 1.5, -1.2
-    A = np.array([[a, -b], [b, d]])
-    curve = bifurcations.hopf(a, b, d, regularisation)
-    for branch, values in list(zip(curve.branches, curve.values, strict=True))[:2]:
-        for i in (80, 130, 200):
-            f = branch[i]
-            (C,) = critical_sets(ELinear(a, b, d, tuple(f)), regularisation)
-
-            def field(_, x, f=f):
-                return A @ x / math.sqrt(x @ x + regularisation(float(x @ x))) + f
-
-            omega = math.sqrt(C.determinant)
-            # in the eigenbasis a circle of radius r comes back as r (1 + 2 pi l1 r^2 |q|...): the sign is what counts
-            _, vectors = np.linalg.eig(C.jacobian)
-            q = vectors[:, 0]
-            start = C.x2 + 0.02 * np.real(q)
-            across = np.array([-np.real(q)[1], np.real(q)[0]])
-
-            def returns(_, x, C=C, across=across):
-                return float((x - C.x2) @ across)
-
-            returns.direction = np.sign(across @ (C.jacobian @ np.real(q)))
-            options = {"rtol": 1e-12, "atol": 1e-14, "events": returns, "method": "DOP853"}
-            found = solve_ivp(field, (0, 8.5 * np.pi / omega), start, **options)
-            radius = np.hypot(*(found.y_events[0] - C.x2).T)
-            radius = radius[radius > 0.005]
-            last = [r for r in radius if abs(r - 0.02) < 0.01][-1]
-            assert np.sign(last - np.hypot(*(0.02 * np.real(q)))) == np.sign(values[i])
-
-
 def test_generalised_hopf_points_are_zeros_of_the_coefficient():
     curve = bifurcations.hopf(*CASE3, psi.rational())
     A = np.array([[172.0, -186.0], [186.0, -200.0]])
@@ -224,7 +192,7 @@ def test_case_three_changes_at_284_129_and_two_more():
     ]  # fmt: skip
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(matrices, st.floats(0.05, 0.95), st.floats(0, 6.3))
 def test_kinds_between_the_changes_of_n(abd, m, t):
     assume(determinant_sign(*abd) > 0)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core.bifurcations.implicit_curve import Edge, Steps, between, solved, tangent, traced, zero_between
@@ -43,6 +43,7 @@ def test_a_curve_with_a_period_comes_round():
     assert abs(found.points[-1, 0] - found.points[0, 0]) == pytest.approx(2.0 * math.pi, abs=1e-12)
 
 
+@settings(max_examples=20)
 @given(st.floats(-0.99, 0.99))
 def test_it_ends_on_an_edge(level):
     found = traced(circle, np.array([0.0, -1.0]), [below(level)], STEPS)

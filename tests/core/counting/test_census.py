@@ -7,7 +7,7 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import dblquad
 
@@ -86,6 +86,7 @@ def test_almost_every_random_system_is_decided_by_the_filter():
 coefficient = st.floats(-1e6, 1e6) | st.integers(-3, 3).map(float)
 
 
+@settings(max_examples=20)
 @given(st.lists(st.tuples(*[coefficient] * 5), min_size=1, max_size=5))
 def test_names_are_those_of_classify_on_and_off_borders(rows):
     rows = [row for row in rows if max(map(abs, row[:3])) > 1e-3]
@@ -349,6 +350,7 @@ def test_a_system_whose_critical_set_was_lost_is_a_contradiction():
     assert _of_one(LayerProblem(system.at(), PSI), 1.0, False, (0, 0)).contradictions == 0
 
 
+@settings(max_examples=20)
 @given(st.tuples(*[st.floats(-3, 3)] * 5))
 def test_margins_shrink_towards_borders(row):
     a, b, d, f1, f2 = row

@@ -276,7 +276,7 @@ def test_a_cycle_that_passes_close_to_an_equator_on_which_nothing_attracts(syste
     assert [one.stable for one in limit_cycles(backward, psi.tanh())] == [False]
 
 
-@settings(max_examples=50)  # many more: tests/stress
+@settings(max_examples=20)  # many more: tests/stress
 @given(case_III())
 def test_random_case_III(found):
     system, p, e = found

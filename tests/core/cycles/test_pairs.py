@@ -111,7 +111,7 @@ def test_a_double_cycle_is_one_semistable_cycle():
     assert cycle.kind == "semistable"
 
 
-@settings(max_examples=200)
+@settings(max_examples=20)
 @given(
     st.lists(st.integers(-50, 50).map(lambda k: 0.02 * k), min_size=4, max_size=4),
     st.lists(st.floats(0.02, 0.5), min_size=11, max_size=11),

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, classify, critical_sets, psi
@@ -19,6 +19,7 @@ def typed(A, f):
     return System(U=tuple(f"({row[0]!r})*c + ({row[1]!r})*s + ({value!r})" for row, value in rows))
 
 
+@settings(max_examples=20)
 @given(halves, halves, halves, halves, halves, st.booleans())
 def test_a_matrix_of_rank_one_is_singular_everywhere(u1, u2, k, f1, f2, in_range):
     assume(u1 or u2)
@@ -48,6 +49,7 @@ def test_trace_zero_is_a_centre_in_any_axes(p, q, det):
         assert C.kind == "centre (linear)"
 
 
+@settings(max_examples=20)
 @given(
     st.lists(halves, min_size=4, max_size=4),
     st.sampled_from([(3, 4, 5), (-4, 3, 5), (1, 0, 1), (0, -1, 1), (5, 12, 13)]),

@@ -51,14 +51,6 @@ def test_every_family_of_psi_has_branches_with_cycles(family):
         assert whole(c2.branches(CASE3.system, psi, psi.record.parameter.name, with_cycles=False)).critical
 
 
-def test_arguments_by_place_and_by_name_are_the_same():
-    one = c2.branches(CASE3.system, CASE3.psi, "n", (2.0, 3.0), ())
-    two = c2.branches(CASE3.system, CASE3.psi, along="n", span=(2.0, 3.0), z=())
-    assert [s.value for s in one.special] == [s.value for s in two.special]
-    assert one.cycles[0].value.tolist() == two.cycles[0].value.tolist()
-    assert [s.kind for s in one.special] == ["Hopf"]
-
-
 def test_cycles_can_come_later():
     standing = c2.branches(CASE3.system, CASE3.psi, "n", (2.0, 3.0), with_cycles=False)
     assert len(standing.with_cycles().cycles) == 1

@@ -47,7 +47,7 @@ def area(M: ClassMap) -> float:
     return (x1 - x0) * (y1 - y0)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(st.tuples(*[numbers] * 5), st.sampled_from(PSIS))
 @example((0.219, 0.219, 0.219, 0.0, 0.0), PSIS[0])  # the zeros of Theta are complex, and double
 def test_vectorised_classes_agree_with_the_exact_ones(plane: tuple[float, ...], psi: c2.Psi) -> None:
@@ -152,7 +152,7 @@ def test_what_is_too_thin_is_listed_and_not_drawn() -> None:
     assert min(r.width for r in M.regions) == M.smallest_width > M.step
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(
     st.tuples(*[numbers] * 5),
     st.sampled_from([("a", "b"), ("f1", "f2"), ("b", "f1"), ("d", "a"), ("f2", "d")]),

@@ -15,7 +15,6 @@ from codim2_core.diagrams.result import Branches
 from codim2_core.diagrams.standing import standing
 from codim2_core.layer_problem import vary
 from tests.core.general_systems import NONUNIQUE
-from tests.work import calls
 
 BAD = c2.ELinear(172, 186, -200, f=(-86, -93))
 PSIS = (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3), c2.psi.rational(), c2.psi.exponential())
@@ -169,7 +168,7 @@ def test_persistently_degenerate_systems_have_their_branches() -> None:
 coefficients = st.one_of(st.floats(-2, 2), st.sampled_from([-1.0, -0.5, 0.0, 0.5, 1.0]))
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(
     st.tuples(*[coefficients] * 5),
     st.sampled_from(["a", "b", "d", "f1", "f2", "z1"]),
@@ -295,10 +294,3 @@ def test_saddle_nodes_of_a_general_system() -> None:
     saddle_nodes = [s for s in D.special if s.kind == "saddle-node"]
     assert_allclose([s.value for s in saddle_nodes], [0, 0, 1, 1], rtol=0.0, atol=1e-9)
     assert_allclose([s.place for s in saddle_nodes], [(1, 0), (-1, 0), (0, 1), (0, -1)], atol=1e-3)
-
-
-def test_a_diagram_of_a_general_system_is_quick() -> None:
-    values = dict(zip(_PLANE, (-1.0, 0.2, -1.5, -0.1, 0.05), strict=True))
-    standing(_TYPED.evolve(**values), c2.psi.tanh(), "b", (-0.4, 0.4))
-    work = calls(lambda: standing(_TYPED.evolve(**values), c2.psi.tanh(), "b", (-0.41, 0.4)))
-    assert work < 700_000  # some 50 settings, and the bisections between them

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import codim2_core as c2
@@ -16,6 +16,7 @@ angles = st.floats(-math.pi, math.pi)
 TINY = 1e-310  # below the normal doubles digits are lost
 
 
+@settings(max_examples=20)
 @given(positive, positive, positive, st.floats(1.0, 20.0), angles)
 def test_the_ball_sticks_below_z_crit_and_slips_above(mu, m, K, g, phi):
     ball = examples.ball_in_pool(mu, m, K, g)

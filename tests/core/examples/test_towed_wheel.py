@@ -48,7 +48,7 @@ def moved(z, xy, e, V, l, a, r, j, k, b, f):  # noqa: E741
 some = st.floats(-1.2, 1.2)
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(some, some, some, some, some, st.floats(-3.0, 3.0))
 def test_it_moves_by_newtons_and_eulers_equations(q, psi, u, x, y, theta):
     """In all of its motions, slipping or not."""

@@ -24,6 +24,7 @@ PARAMETERS = st.one_of(
 
 
 @pytest.mark.parametrize("name", NAMES)
+@settings(max_examples=20)
 @given(PARAMETERS)
 @example(0.0)
 @example(-1.0)
@@ -42,7 +43,7 @@ def test_an_integral_is_what_mpmath_says(name, m):
 @example(0.0)
 @example(0.04)
 @example(-0.07)
-@settings(max_examples=50)
+@settings(max_examples=20)
 def test_the_slope_is_that_of_the_exact_integral(name, m):
     """The compiled slope, and the formula's derivative where it does not divide by 0."""
     with mpmath.workdps(80):
@@ -73,7 +74,7 @@ def test_at_the_ends():
 
 @pytest.mark.parametrize("name", NAMES)
 @given(st.floats(-2.0, 1.0), st.floats(0.0, 1.0))
-@settings(max_examples=40)
+@settings(max_examples=20)
 def test_bounds_hold_what_is_exact(name, m, half):
     run = program(((parse(f"{name}(c)", ("c", "s")),), ()))
     out, work = np.empty((1, 6)), np.empty((len(run.op), 6))

@@ -34,7 +34,7 @@ NUMBERS = st.floats(-3.0, 3.0)
 
 
 @given(FORMULAS, NUMBERS, NUMBERS)
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_value_source_and_arrays_agree_with_50_digits(text, x, y):
     expression = parse(text, NAMES)
     value = expression.evaluate({"x": x, "y": y})
@@ -49,7 +49,7 @@ def test_value_source_and_arrays_agree_with_50_digits(text, x, y):
 
 
 @given(FORMULAS, NUMBERS, NUMBERS)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_derivative_agrees_with_50_digit_differences(text, x, y):
     expression = parse(text, NAMES)
     derivative = expression.derivative("x").evaluate({"x": x, "y": y})
@@ -67,7 +67,7 @@ def test_derivative_agrees_with_50_digit_differences(text, x, y):
 
 
 @given(FORMULAS)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_text_reads_back_equal(text):
     expression = parse(text, NAMES)
     for one in (expression, expression.derivative("x")):

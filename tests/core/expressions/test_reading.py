@@ -134,7 +134,7 @@ def test_hostile_text_is_refused_quickly(text):
 
 
 @given(st.text(alphabet="s12.e+-*/^() sincoexp,[]_'\x00θ", max_size=60) | st.text(max_size=30))
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_any_text_is_read_or_refused(text):
     try:
         expression = parse(text, ("s",))

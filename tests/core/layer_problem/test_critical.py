@@ -6,7 +6,7 @@ from fractions import Fraction
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, critical_sets, equator_cycle, hemisphere, psi, sliding_flow
@@ -39,6 +39,7 @@ def test_it_is_an_equilibrium_of_the_flow_and_of_50_digit_arithmetic(system, reg
     np.testing.assert_allclose(hemisphere.disc_from_scaling(C.x2), C.p, rtol=1e-14, atol=1e-300)
 
 
+@settings(max_examples=20)
 @given(systems, regularisations)
 def test_jacobian_is_the_derivative_of_the_layer_problem(system, regularisation):
     found = critical_sets(system, regularisation)
@@ -186,7 +187,7 @@ def test_sliding_is_the_filippov_flow_and_does_not_know_psi(system):
         at = typed.at()
         expected = -at.B @ np.linalg.solve(at.A, at.f) + at.g
         np.testing.assert_allclose(flow, expected, rtol=1e-9, atol=1e-9)
-        np.testing.assert_array_equal(flow, found[0].slow_flow)
+        np.testing.assert_allclose(flow, found[0].slow_flow, rtol=1e-12, atol=1e-12)
 
 
 def test_results_cannot_be_changed():

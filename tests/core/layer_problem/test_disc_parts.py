@@ -102,9 +102,9 @@ def test_undecided_boxes_become_a_curve_a_zero_or_stay_undecided():
     # two places apart are two zeros; where there is none, something is left
     both = np.concatenate([chain(5, half, (0.3, 0.0)), chain(5, half, (-0.3, 0.0))])
     places, curve, left = module._undecided(run("(c**2 - 9/100)**2", "s"), both, half, 1.0)
-    assert (sorted(round(float(p[0]), 5) for p in places), curve, left) == ([-0.3, 0.3], False, False)
+    assert (sorted(p[0] for p in places), curve, left) == (pytest.approx([-0.3, 0.3], abs=5e-6), False, False)
     places, curve, left = module._undecided(run("(c - 3/10)**2", "s"), both, half, 1.0)
-    assert ([round(float(p[0]), 5) for p in places], curve, left) == ([0.3], False, True)
+    assert ([p[0] for p in places], curve, left) == (pytest.approx([0.3], abs=5e-6), False, True)
 
 
 def test_a_zero_without_a_slope_is_where_u_turns():

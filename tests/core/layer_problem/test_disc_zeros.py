@@ -55,7 +55,7 @@ def test_nonunique_sliding(regularisation, z):
 
 
 @given(systems, regularisations)
-@settings(max_examples=150)
+@settings(max_examples=20)
 def test_elinear_systems_written_as_text(system, regularisation):
     at = system.at()
     a, b, d, f1, f2 = at.plane
@@ -77,7 +77,7 @@ def test_elinear_systems_written_as_text(system, regularisation):
 
 
 @given(st.one_of(polynomials, smooth))
-@settings(max_examples=120)
+@settings(max_examples=20)
 def test_the_indices_add_up_to_the_turns_of_the_field(system):
     """Independent of the search and of the zeros of Theta: angles of U added up along the circle."""
     at = system.at()
@@ -91,7 +91,7 @@ def test_the_indices_add_up_to_the_turns_of_the_field(system):
 
 
 @given(polynomials, st.tuples(st.floats(-0.6, 0.6), st.floats(-0.6, 0.6)), regularisations)
-@settings(max_examples=120)
+@settings(max_examples=20)
 def test_a_zero_that_was_put_in_is_found(system, e, regularisation):
     """Subtracting the value at e makes e a zero."""
     at = system.at()
@@ -132,7 +132,7 @@ def test_grids_of_zeros(c, s):
 
 
 @given(st.one_of(polynomials, smooth), regularisations)
-@settings(max_examples=80)
+@settings(max_examples=20)
 def test_jacobian_against_the_complex_step(system, regularisation):
     """J's formula, DU by the complex step in 30-digit arithmetic."""
     at = system.at()

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 
 from codim2_core import ELinear, System, critical_sets, hemisphere, psi, trajectories
 from codim2_core.layer_problem.eigendirections import find_eigendirections, of_critical_set, of_limit_directions
@@ -21,6 +21,7 @@ def difference(at, family, p):
     return np.stack(columns, axis=-1)
 
 
+@settings(max_examples=20)
 @given(systems, regularisations)
 def test_of_a_critical_set_they_are_eigenvectors_of_the_flow_on_the_disc(system, family):
     sets = critical_sets(system, family)
@@ -46,6 +47,7 @@ def test_of_a_critical_set_they_are_eigenvectors_of_the_flow_on_the_disc(system,
     assert [one.value for one in found.directions] == sorted({float(v.real) for v in C.eigenvalues}, reverse=True)
 
 
+@settings(max_examples=20)
 @given(systems, regularisations)
 def test_at_a_limit_direction_they_are_eigenvectors_of_the_flow_on_the_closed_disc(system, family):
     problem = LayerProblem(system.at(), family)

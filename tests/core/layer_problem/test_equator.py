@@ -47,7 +47,7 @@ def quadrature(q):
         return float(period), float(exponent)
 
 
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(st.tuples(*[plain] * 5))
 def test_eigenvalues(q):
     found = equator_equilibria(system(*q))
@@ -138,7 +138,7 @@ def test_critical_set_at_the_equator():
         assert np.sign(found.lambda_rho[0]) == -np.sign(side)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(st.tuples(*[plain] * 5))
 def test_cycle_against_quadrature(q):
     cycle = equator_cycle(system(*q))

@@ -63,7 +63,7 @@ def test_the_pitchfork_between_them_is_named():
 
 
 @given(systems)
-@settings(max_examples=200)
+@settings(max_examples=20)
 def test_elinear_systems_written_as_text(system):
     at = system.at()
     a, b, d, f1, f2 = at.plane
@@ -89,7 +89,7 @@ def test_elinear_systems_written_as_text(system):
 
 
 @given(st.one_of(polynomials, smooth))
-@settings(max_examples=60)
+@settings(max_examples=20)
 def test_no_direction_is_missing_and_every_one_is_one(system):
     at = system.at()
     found = equator_equilibria(at)
@@ -116,7 +116,7 @@ def test_no_direction_is_missing_and_every_one_is_one(system):
 
 
 @given(st.one_of(polynomials, smooth))
-@settings(max_examples=50)
+@settings(max_examples=20)
 def test_degree_of_the_field(system):
     counted = turns(system.at())
     assume(counted is not None)
@@ -136,7 +136,7 @@ def test_the_degree_where_theta_has_corners_or_vanishes_on_an_arc(U):
 
 
 @given(st.lists(st.floats(0.0, 6.28), min_size=2, max_size=8), st.floats(0.3, 2.0))
-@settings(max_examples=200)
+@settings(max_examples=20)
 def test_zeros_that_were_put_in_are_found(angles, factor):
     """A product of sin((theta - t)/2): an even number of zeros, any of them close together."""
     angles = sorted(angles[: len(angles) // 2 * 2])
@@ -286,7 +286,7 @@ _thousandths = st.integers(-1000, 1000).map(lambda n: n / 1000)
 
 
 @given(_thousandths, _thousandths, _thousandths, _thousandths, _thousandths)
-@settings(max_examples=25)
+@settings(max_examples=20)
 def test_across_saddle_nodes_counts_are_those_of_the_closed_form(a, d, f1, f2, from_b):
     """Theta loses its last zeros as b grows: up to the loss, and past it, none is missed or made up."""
     closed = lambda b: equator_equilibria(ELinear(a, b, d, (f1, f2)))

@@ -78,30 +78,6 @@ def test_nonunique_sliding_depends_on_the_side(z):
             assert outcome.slow_flow == pytest.approx([-math.copysign(chi, math.cos(theta)) + 0.25], abs=1e-13)
 
 
-def test_the_regularised_system_does_as_foretold():
-    """x2' = U(e_Psi(x2)) from |x2| = 1e3 at random angles."""
-    random, p, far = np.random.default_rng(1), psi.rational(), 1e3
-    for system, z in ((AR, 0.5), (NU, 0.3), (NU, 1.2)):
-        at, critical = system.at(z), critical_sets(system, p, z)
-        found = approach_outcomes(system, p, z, compare=())
-        for theta in random.uniform(0.0, 2.0 * math.pi, 5):
-            if np.abs(np.angle(np.exp(1j * (found.equator.theta - theta)))).min() < 0.1:
-                continue
-
-            def field(_, x, at=at):
-                zeta = max(math.hypot(*x), 1e-300)
-                return at.U(np.array(x) * (float(p.modulus(zeta)) / zeta))
-
-            start = [far * math.cos(theta), far * math.sin(theta)]
-            x = solve_ivp(field, (0.0, 50.0 * far), start, method="LSODA", rtol=1e-8, atol=1e-6).y[:, -1]
-            outcome = found.outcome(theta)
-            if outcome.slides:
-                i = int(outcome.onto[1:]) - 1
-                assert x == pytest.approx(critical[i].x2, abs=1e-3)
-            else:
-                assert math.hypot(*x) > far
-
-
 @pytest.mark.parametrize("name", ["case1-cm2", "case2-saddle", "case3-n3", "case1-cm4"])
 def test_outcomes_of_an_e_linear_system_as_text(name):
     preset = presets[name]
@@ -153,7 +129,7 @@ def key_of(branch):
 coefficients = st.tuples(*[st.floats(-2.0, 2.0).map(lambda v: round(v, 3))] * 10)
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(coefficients, st.sampled_from(FAMILIES[:5]))
 def test_skeleton_of_random_quadratic_systems_is_consistent(values, p):
     system = QUADRATIC.evolve(**dict(zip(dict(QUADRATIC.parameters), values, strict=True)))

@@ -67,6 +67,7 @@ def mechanisms(draw):
     return Mechanism(**parts), rates
 
 
+@settings(max_examples=20)
 @given(mechanisms(), st.floats(0.0, 6.3), st.tuples(number, number), st.lists(number, min_size=6, max_size=6))
 def test_a_mechanism_moves_by_its_equations_of_motion(pair, theta, xy, some):
     mechanism, rates = pair
@@ -75,6 +76,7 @@ def test_a_mechanism_moves_by_its_equations_of_motion(pair, theta, xy, some):
     assert values(mechanism.system, e, xy, tuple(z)) == pytest.approx(expected, rel=1e-8, abs=1e-8)
 
 
+@settings(max_examples=20)
 @given(mechanisms(), st.lists(number, min_size=8, max_size=8))
 def test_velocities_and_state_are_the_same_motion(pair, some):
     mechanism, _ = pair
@@ -83,6 +85,7 @@ def test_velocities_and_state_are_the_same_motion(pair, some):
     assert mechanism.state(**{word: float(v) for word, v in named.items()}) == pytest.approx(state, abs=1e-9)
 
 
+@settings(max_examples=20)
 @given(
     st.floats(0.05, 1.0), st.floats(-8.0, 8.0), st.floats(0.01, 2.0), st.tuples(number, number, number, number)
 )  # fmt: skip
@@ -114,6 +117,7 @@ def block(force, law: Any = "mu", normal="m*g", **parameters):
     )  # fmt: skip
 
 
+@settings(max_examples=20)
 @given(st.tuples(number, number), st.floats(0.05, 2.0), st.floats(0.05, 2.0), number)
 def test_it_grips_where_a_critical_set_is_inside(f, mu1, mu2, shear):
     """The grip is a linear equation for the friction; the critical set is found by the core."""
@@ -125,6 +129,7 @@ def test_it_grips_where_a_critical_set_is_inside(f, mu1, mu2, shear):
         assert one.e == pytest.approx(grip.e, abs=1e-9)
 
 
+@settings(max_examples=20)
 @given(mechanisms(), st.lists(number, min_size=4, max_size=4))
 def test_the_grip_of_any_mechanism_is_rest_of_its_slip(pair, some):
     """At the e of the grip U = 0, whatever M, J, the surface and a constraint do, if the force asks for no e."""
@@ -167,7 +172,7 @@ def test_a_cone_and_not_a_pyramid():
     assert not box.grip().sticks
     run = c2.simulate_nonsmooth(box.system, (0.0, 0.0), (0.0, 1.0))
     speed = float(np.hypot(*run.dense(1.0)[:2]))
-    assert (round(speed, 4), round(2.0 / 7.0 * speed, 4)) == (0.7385, 0.2110)
+    assert (speed, 2.0 / 7.0 * speed) == pytest.approx((0.7385, 0.2110), abs=6e-5)
     pyramid = block((side, side), law="sqrt(2)*mu", normal="35*g", mu=0.4, g=9.81)
     assert pyramid.grip().sticks
 

@@ -211,7 +211,7 @@ def test_without_psi_and_with_a_kink_it_stops_and_says_so():
     assert "not smooth in time" in kink.reason
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(st.complex_numbers(min_magnitude=0.3, max_magnitude=1.0), st.floats(0.5, 3.0))
 def test_zeros_and_poles_are_continued_from_the_real_axis(zero, pole):
     z = complex(zero.real, 0.2 + abs(zero.imag))

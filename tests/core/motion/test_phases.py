@@ -39,7 +39,7 @@ def random_system(rng, m, general):
     return System(U=U, W=W)
 
 
-@pytest.mark.parametrize("block", range(6))
+@pytest.mark.parametrize("block", range(2))
 def test_random_systems_have_the_phases_of_the_limit(block):
     eps, compared, circling = 1e-7, 0, 0
     for seed in range(50 * block, 50 * block + 20):

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given
+from hypothesis import assume, example, given, settings
 
 import codim2_core as c2
 from codim2_core.layer_problem.problem import LayerProblem
@@ -41,6 +41,7 @@ def test_every_drawn_point_is_on_the_conic_and_the_chords_stay_beside_it(system)
             assert (np.abs(value[far]) / slope[far] <= VIEW * allowed).all()
 
 
+@settings(max_examples=20)
 @given(systems)
 def test_no_branch_is_missing(system):
     # the form changes its sign between two corners of a fine grid: a drawn chord passes near

@@ -28,6 +28,7 @@ def component(branch, system, regularisation, points):
     return values[branch.kind] * (r > 1e-9)
 
 
+@settings(max_examples=20)
 @given(systems, regularisations)
 def test_the_component_vanishes_on_every_point(system, regularisation):
     size = max(map(abs, system.at().plane))
@@ -44,6 +45,7 @@ def test_the_component_vanishes_on_every_point(system, regularisation):
         np.testing.assert_allclose(component(branch, system, regularisation, points), 0.0, atol=atol * size)
 
 
+@settings(max_examples=20)
 @given(systems)
 def test_no_branch_is_missing(system):
     """Each sign change of the component along a circle has a branch point there (Psi = 1)."""
@@ -102,7 +104,7 @@ def worst_gap(system, regularisation, monkeypatch):
     return max(gaps, default=0.0)
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(systems, regularisations)
 # the theta nullcline touches |e| = 1, where Psi draws it out to a spike between two points of the polyline
 @example(ELinear(1.376478, 1.376478, 0.0, (1.376478, 1.376478)), psi.exponential())

@@ -40,7 +40,7 @@ def branches(at, kind):
 
 
 @given(polynomials)
-@settings(max_examples=60)
+@settings(max_examples=20)
 def test_every_traced_point_lies_on_its_curve(system):
     at = system.at()
     for kind, curve in inside_curves(at):
@@ -57,7 +57,7 @@ def test_every_traced_point_lies_on_its_curve(system):
 
 
 @given(polynomials)
-@settings(max_examples=60)
+@settings(max_examples=20)
 def test_no_sign_change_is_missing(system):
     at = system.at()
     assume(at.size > 0)
@@ -75,7 +75,7 @@ def test_no_sign_change_is_missing(system):
 
 
 @given(polynomials)
-@settings(max_examples=60)
+@settings(max_examples=20)
 def test_ends_are_the_zeros_on_the_equator(system):
     at = system.at()
     assume(at.size > 0)
@@ -95,9 +95,9 @@ def test_ends_are_the_zeros_on_the_equator(system):
 def test_attracting_and_repelling_directions():
     """Theta = s/2 (1 - 2c)(1 + 2c): the diameter and two lines, which cross nothing; U1 two lines; U2 the diameter."""
     found = inside_curves(ATTRACTING.at(0.1))
-    lines = {kind: sorted(round(float(c.points[0, 0]), 12) for k, c in found if k == kind) for kind in ("theta", "U1")}
-    assert lines["theta"] == [-0.5, 0.5, 1.0]
-    assert lines["U1"] == [round((1 - math.sqrt(5)) / 4, 12), round((1 + math.sqrt(5)) / 4, 12)]
+    lines = {kind: sorted(float(c.points[0, 0]) for k, c in found if k == kind) for kind in ("theta", "U1")}
+    assert lines["theta"] == pytest.approx([-0.5, 0.5, 1.0], abs=1e-12)
+    assert lines["U1"] == pytest.approx([(1 - math.sqrt(5)) / 4, (1 + math.sqrt(5)) / 4], abs=1e-12)
     for kind, curve in found:
         if kind in ("U1", "U2"):
             assert curve.straight
@@ -174,7 +174,7 @@ def test_closed_loops(radius):
 
 
 @given(polynomials, regularisations)
-@settings(max_examples=30)
+@settings(max_examples=20)
 def test_drawn_polylines_do_not_sag(system, regularisation):
     at = system.at()
     assume(at.normal_form is None)  # affine formulas have closed conics
@@ -198,7 +198,7 @@ _hundredths = st.integers(-200, 200).map(lambda n: n / 100)
 
 
 @given(st.tuples(*5 * [_hundredths]), st.sampled_from([ONE, psi.rational()]))
-@settings(max_examples=25)
+@settings(max_examples=20)
 @example((-2.0, 0.5, -1.0, -0.5, 0.3), ONE)
 @example((0.062, -1.75, 1.062, 0.0, 0.0), ONE)  # two diameters
 def test_traced_branches_are_the_closed_conics(numbers, regularisation):
@@ -294,7 +294,7 @@ def test_wild_fields_end_in_bounded_work(U):
 
 
 @given(st.tuples(*6 * [_hundredths]), regularisations)
-@settings(max_examples=40)
+@settings(max_examples=20)
 def test_affine_formulas_in_any_axes_have_their_closed_conics(numbers, regularisation):
     """Not in the normal form: every drawn point lies on its curve, and the U1 and U2 chords are straight."""
     a11, a12, a21, a22, f1, f2 = numbers

@@ -12,7 +12,7 @@ from tests.core.general_systems import polynomials, smooth
 
 
 @given(st.one_of(polynomials, smooth), st.tuples(st.floats(-1, 1), st.floats(-1, 1)), st.floats(1e-6, 0.5))
-@settings(max_examples=200)
+@settings(max_examples=20)
 def test_enclosures_contain(system, middle, half):
     """The range of U and its derivatives over a box lies in the enclosure, by 30-digit arithmetic at random points."""
     run = program(system.at().key)

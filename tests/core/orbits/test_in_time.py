@@ -19,7 +19,7 @@ FAMILIES = (psi.constant(), psi.rational(), psi.hill(3.0))
 coordinates = st.floats(-2.0, 2.0)
 
 
-@settings(max_examples=25)
+@settings(max_examples=20)
 @given(
     st.tuples(coordinates, coordinates),
     st.sampled_from([(0.3, -0.2), (0.0, 0.0), (-0.9, 0.1), (1.4, 0.3), (-1.0, -0.9)]),

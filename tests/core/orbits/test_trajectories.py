@@ -16,7 +16,7 @@ from .seeds import CASE_I, FAMILIES, PIXEL, ends, only, ring, sunflower
 coefficient = st.floats(-3.0, 3.0).map(lambda v: round(v, 3))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(st.tuples(*[coefficient] * 5), st.sampled_from(FAMILIES), st.booleans())
 def test_states_stay_on_the_sphere_and_lines_in_the_picture(values, p, backward):
     a, b, d, f1, f2 = values
@@ -37,7 +37,7 @@ def test_states_stay_on_the_sphere_and_lines_in_the_picture(values, p, backward)
     assert result.evaluations < len(seeds) * 15 * 2000
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(st.tuples(*[coefficient] * 5), st.sampled_from([p for p in FAMILIES if p.parameter < 100.0]))
 def test_going_back_returns_to_the_seed(values, p):
     a, b, d, f1, f2 = values

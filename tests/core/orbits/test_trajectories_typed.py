@@ -131,16 +131,6 @@ def test_a_formula_that_ends_at_the_sphere_is_never_left():
         assert Status.STEP_LIMIT not in result.status
 
 
-def test_closed_equator_attracts_as_in_the_e_linear_twin():
-    for sign in (-1.0, 1.0):
-        built_in = ELinear(sign * 0.3, 2.0, sign * 0.3, (0.2, 0.1))
-        seeds = np.concatenate([sunflower(8), ring(4, 1.2)])
-        one = trajectories(built_in, psi.tanh(), seeds, t_max=300.0)
-        other = trajectories(as_text(built_in), psi.tanh(), seeds, t_max=300.0)
-        assert one.status == other.status
-        assert Status.SPIRALLED in one.status
-
-
 # ---- compiled once ------------------------------------------------------------------------------------------------
 
 

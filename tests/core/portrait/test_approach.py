@@ -166,7 +166,7 @@ def robust(system):
     return equator
 
 
-@settings(max_examples=80)
+@settings(max_examples=20)
 @given(systems, st.floats(0.0, 6.28))
 def test_destination_is_where_trajectories_outside_go(system, theta):
     equator = robust(system)
@@ -183,7 +183,7 @@ def test_destination_is_where_trajectories_outside_go(system, theta):
     assert (outcome.verdict == "misses") == (equator.lambda_rho[i] > 0.0)
 
 
-@settings(max_examples=60)
+@settings(max_examples=20)
 @given(systems, regularisations)
 def test_outcomes_are_consistent(system, p):
     equator = robust(system)
@@ -258,7 +258,7 @@ def test_one_angle_of_approach_is_told_as_all_are(name):
     *(st.floats(low, high) for low, high in ((-3.0, -0.1), (-0.3, 0.3), (-3.0, -0.1), (0.0, 0.9), (0.0, 6.3))),
     regularisations,
 )
-@settings(max_examples=25)
+@settings(max_examples=20)
 def test_where_all_must_end_on_C_they_are_followed_there(a, b, d, r, angle, shape):
     c, s = r * math.cos(angle), r * math.sin(angle)
     problem = LayerProblem(ELinear(a, b, d, (b * s - a * c, -b * c - d * s)).at(), shape)

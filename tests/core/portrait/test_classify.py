@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 
 from codim2_core import ELinear, classify, critical_sets, equator_equilibria, psi
 from tests.core.strategies import regularisations, systems
@@ -22,6 +22,7 @@ def test_cases_are_those_of_the_table(system, regularisation):
     assert found.sentence.startswith(f"Case {expected}, {found.name}.")
 
 
+@settings(max_examples=20)
 @given(systems, regularisations)
 def test_theorems_case1_and_case2(system, regularisation):
     found = classify(system, regularisation)
@@ -37,6 +38,7 @@ def test_theorems_case1_and_case2(system, regularisation):
     assert count in (0, 2, 4)
 
 
+@settings(max_examples=20)
 @given(systems, regularisations)
 def test_index_of_the_critical_set_is_the_degree_on_the_equator(system, regularisation):
     found = classify(system, regularisation)

@@ -1,6 +1,5 @@
 """Names of general portraits: counts, degeneracies, and the e-linear name where the field is affine."""
 
-import math
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -38,7 +37,7 @@ def test_names_of_the_examples():
 
 
 @given(systems, regularisations)
-@settings(max_examples=60)
+@settings(max_examples=20)
 def test_affine_systems_have_the_name_of_the_normal_form(system, regularisation):
     at = system.at()
     a, b, d, f1, f2 = at.plane
@@ -62,7 +61,7 @@ def test_affine_form():
 
 
 @given(polynomials, regularisations)
-@settings(max_examples=60)
+@settings(max_examples=20)
 def test_psi_never_changes_the_name(system, regularisation):
     assert classify(system, regularisation).name == classify(system, RATIONAL).name
 
@@ -92,23 +91,6 @@ def test_cusp_of_limit_directions():
     """Theta = (theta - t0)^3 (...) without symmetry: sin^3 times something uneven."""
     found = classify(System(U=("-c - s*s**3*(2 + c + s)", "-s + c*s**3*(2 + c + s)")), RATIONAL)
     assert "cusp" in [d.name for d in found.degeneracies]
-
-
-def test_sentences_say_why_an_equator_is_uncertain():
-    (found,) = [
-        d
-        for d in classify(System(U=("-c/(1 + abs(s)) + 0.1", "-abs(s)*s - c/2")), RATIONAL).degeneracies
-        if d.name == "limit directions uncertain"
-    ]
-    assert "No proof" in found.sentence
-    assert found.within == 0.0
-
-
-@pytest.mark.parametrize("k", [1, 2, 3])
-def test_plurals(k):
-    factors = "*".join(f"(c - {0.3 * math.cos(2 * math.pi * i / k):.3f})" for i in range(k)) if k < 3 else "c**3 - c/9"
-    name = classify(System(U=(factors, "s + c*s")), RATIONAL).name
-    assert name.startswith("1 critical set," if k == 1 else f"{k} critical sets,")
 
 
 @pytest.mark.parametrize("k", ["1e-140", "1", "1e140"])
@@ -151,25 +133,6 @@ def test_next_to_a_pitchfork_rounding_makes_no_limit_directions(side):
         assert count in ((8, 4) if side < 0 else (4, 5))
         if distance < 3e-11:
             assert equator.multiplicity.tolist() == [3, 1, 3, 1]
-
-
-@pytest.mark.parametrize(
-    ("k", "kind", "words"),
-    [
-        (1, "stable node", "1 stable node"),
-        (2, "stable node", "2 stable nodes"),
-        (1, "unstable focus", "1 unstable focus"),
-        (2, "unstable focus", "2 unstable foci"),
-        (3, "saddle", "3 saddles"),
-        (1, "centre", "1 centre"),
-        (2, "centre", "2 centres"),
-        (2, "saddle-node", "2 saddle-nodes"),
-        (1, "degenerate", "1 degenerate"),
-        (2, "degenerate", "2 degenerate"),
-    ],
-)
-def test_sets_are_counted_in_words(k, kind, words):
-    assert classify_typed._counted(k, kind) == words
 
 
 def test_what_follows_from_the_sets_that_are_there():

@@ -58,7 +58,7 @@ def check_separatrices(system, p):
             assert np.hypot(*(points - line[-1]).T).min() < 0.5 * spacing + PIXEL
 
 
-@settings(max_examples=60)
+@settings(max_examples=20)
 @given(systems(), families)
 @example(
     c2.ELinear(0.12194944967029515, -0.37940939819206226, -1.1363151482568636, (0.03932747836053405, -0.119092318512)),
@@ -103,14 +103,14 @@ def check_nullclines(system, p):
             assert closed or others or abs(1.0 - np.hypot(*end)) < 1e-12
 
 
-@settings(max_examples=100)
+@settings(max_examples=20)
 @given(systems(), families)
 @example(c2.ELinear(1.376478, 1.376478, 0.0, (1.376478, 1.376478)), c2.psi.exponential())
 def test_nullclines_end_on_the_equator_or_where_they_meet(system, p):
     check_nullclines(system, p)
 
 
-@settings(max_examples=25)
+@settings(max_examples=20)
 @given(polynomials, st.sampled_from([c2.psi.exponential(), c2.psi.tanh(), c2.psi.hill(6)]))
 @example(c2.System(U=("0", "s**2")), c2.psi.exponential())  # vanishes to second order, and no curve is followed there
 @example(c2.System(U=("0", "s**2 - c*s")), c2.psi.tanh())

@@ -91,17 +91,6 @@ def test_sentences_count_from_one():
     )
 
 
-def test_a_general_system_that_is_affine_has_the_name_of_its_normal_form():
-    for a, b, d, f1, f2 in ((-2.0, 0.3, -1.0, -0.5, 0.1), (1.0, 0.25, -2.0, 0.2, 0.3), (-1.0, 0.0, -1.0, 1.5, 0.0)):
-        typed = System(U=(f"{a}*c - {b}*s + {f1}", f"{b}*c + {d}*s + {f2}"))
-        for family in (psi.constant(), psi.hill(3)):
-            found, exact = classify(typed, family), said(a, b, d, f1, f2, family)
-            assert (found.case, found.name) == (exact.case, exact.name)
-            assert found.sentence == exact.sentence
-    bent = classify(System(U=("2*c**2 - c - 1/2", "-s")), psi.constant())
-    assert bent.case is None
-
-
 def test_case_iii_claims_of_sliding_only_what_the_limit_does():
     """Random portraits of Case III: the sentence against what arrives and where the layer problem leads."""
     draw = np.random.default_rng(3)

@@ -7,14 +7,12 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, hemisphere, presets, psi
+from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, presets, psi
 from codim2_core.portrait import saddle_connections
-from codim2_core.portrait.endings import half_saddle
 from codim2_core.portrait.separatrices import separatrices
 from codim2_core.portrait.separatrix import Separatrix
-from tests.core.strategies import regularisations, systems
+from tests.core.strategies import regularisations
 
-SADDLE = presets["case2-saddle"].system
 FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3)]
 
 
@@ -50,7 +48,7 @@ def test_separatrices_are_rays_for_f_0(p):
 coefficient = st.floats(0.1, 3.0)
 
 
-@settings(max_examples=60)
+@settings(max_examples=20)
 @given(coefficient, coefficient, st.floats(-3, 3), st.floats(0, 0.95), st.floats(0, 6.28), regularisations)
 def test_case_II_saddle_joins_all_four(a, d, b, r, t, p):
     """thm:case2(a): the four branches of C end at the four Q, the unstable ones where orbits leave."""
@@ -70,7 +68,7 @@ def test_case_II_saddle_joins_all_four(a, d, b, r, t, p):
     assert len(found) == 8  # and every Q is a half-saddle outside
 
 
-@settings(max_examples=60)
+@settings(max_examples=20)
 @given(coefficient, coefficient, st.floats(-3, 3), st.floats(0, 0.95), st.floats(0, 6.28), regularisations)
 def test_case_I_all_branches_meet_C(a, d, b, r, t, p):
     """thm:case1(a), and the same backward in time for a, d > 0."""
@@ -83,42 +81,6 @@ def test_case_I_all_branches_meet_C(a, d, b, r, t, p):
         assert all(branch.end == "C" for branch in inside)
         assert {branch.direction for branch in inside} <= {"unstable" if sign > 0 else "stable"}
         assert len(inside) == len(equator) // 2
-
-
-@settings(max_examples=120)
-@given(systems, regularisations)
-def test_skeleton_is_consistent(system, p):
-    equator, critical = robust(system, p)
-    saddles = sum(half_saddle(equator, i) for i in range(len(equator)))
-    # Two copies of the hemisphere make a sphere, of Euler characteristic 2.
-    index = sum(-1 if C.kind == "saddle" else 1 for C in critical)
-    assert 2 * index + (len(equator) - saddles) - saddles == 2
-    found = separatrices(system, p)
-    inside = [branch for branch in found if branch.inside]
-    assert len(inside) == saddles + 4 * sum(C.kind == "saddle" for C in critical)
-    assert len(found) - len(inside) == len(equator) - saddles
-    for branch in found:
-        assert branch.end != "undecided", found.notes
-        assert not branch.points.flags.writeable
-        assert np.isfinite(branch.points).all()
-        origin = branch.points[0 if branch.direction == "unstable" else -1]
-        if branch.origin == "C":
-            assert origin == pytest.approx(critical[0].p, abs=1e-12)
-        else:
-            theta = equator.theta[int(branch.origin[1]) - 1]
-            assert origin == pytest.approx([math.cos(theta), math.sin(theta)], abs=1e-12)
-    for branch in inside:
-        if branch.end[0] == "Q":
-            i = int(branch.end[1]) - 1
-            assert branch.arrival_angle == pytest.approx(equator.theta[i])
-            assert (equator.lambda_rho[i] > 0.0) == (branch.direction == "unstable")
-        # Points run with time: the field points along the line (halfway, away from rests and bends).
-        middle = len(branch.points) // 2
-        if len(branch.points) >= 8:
-            chord = branch.points[middle] - branch.points[middle - 1]
-            flow = hemisphere.flow(system.at(()), p, 0.5 * (branch.points[middle] + branch.points[middle - 1]))
-            if np.linalg.norm(chord) > 1e-3:
-                assert chord @ flow > 0.0
 
 
 def test_case_III_winds_onto_the_cycle():

@@ -145,7 +145,7 @@ def test_modulus_complement_and_jacobian(name):
 @example(log_zeta=-160.0)
 @example(log_zeta=8.0)
 @example(log_zeta=math.log10(0.5))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_radius_inverts_modulus(name, log_zeta):
     """Condition: zeta has the relative error of w = m/sqrt(c), divided by 1 + kappa >= 1 where Psi falls."""
     psi, exact, _ = EXACT[name]

@@ -54,7 +54,7 @@ def test_where_psi_begins_to_rise():
 
 
 @given(a=st.floats(0.02, 50.0), p=st.integers(1, 6), c=st.floats(0.0, 0.9))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_no_false_alarm_in_a_family_that_meets_all(a, p, c):
     psi = constructors.custom(f"{c!r}+(1-{c!r})/(1+{a!r}*s)**{p}")
     assert [x.sentence for x in psi.check() if not x.holds] == []

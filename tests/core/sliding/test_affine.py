@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 
 import codim2_core as c2
 from codim2_core.sliding.affine import affine_plane
 from tests.core.strategies import coefficient, systems
 
 
+@settings(max_examples=20)
 @given(systems, coefficient, coefficient, coefficient)
 def test_the_plane_holds_every_limit_vector_and_its_point_is_on_sigma(system, b1, b2, g):
     system = c2.ELinear(*system.at().plane[:3], system.at().plane[3:], B=((b1, b2),), g=(g,))

@@ -22,14 +22,6 @@ def test_the_ball_slides_between_two_passages_through_the_equator(psi):
     np.testing.assert_allclose(branch.flow[:, 0], -5.0 * 1.5 / (7.0 * 2.0) * branch.z, rtol=0.0, atol=1e-12)
 
 
-def test_the_interval_is_a_chord_when_the_other_slow_variable_is_not_zero():
-    ball = c2.examples.ball_in_pool()
-    crit = 3.5 * 0.2 * c2.examples.GRAVITY
-    found = slow_portrait(ball, c2.psi.constant(), (-10.0, 10.0), z=(0.0, 0.6 * crit))
-    edges = [p.z for p in found.points if p.kind == "equator"]
-    np.testing.assert_allclose(edges, [-0.8 * crit, 0.8 * crit], rtol=1e-12)
-
-
 def test_case_iii_changes_from_unstable_to_stable_where_the_trace_vanishes():
     system = c2.ELinear(172, 186, -200, ("-86 + 20*z", "-93"), B=((1.0, 0.0),), g=("z",))
     psi = c2.psi.hill(3)
@@ -49,7 +41,7 @@ def test_case_iii_changes_from_unstable_to_stable_where_the_trace_vanishes():
         assert interval.high == pytest.approx(after.low, abs=1e-12)
 
 
-@settings(max_examples=25)  # each is a whole portrait
+@settings(max_examples=20)  # each is a whole portrait
 @given(st.floats(-0.9, 0.9), st.booleans())
 def test_an_equilibrium_of_the_slow_flow_is_found_with_its_stability(place, attracts):
     sign = -1.0 if attracts else 1.0
@@ -174,16 +166,6 @@ def test_two_sets_are_born_in_a_fold_and_one_leaves_through_the_equator():
             assert branch.stable == (branch.kind == "stable node")
 
 
-def test_sets_that_meet_and_pass_exchange_their_kinds():
-    """c = 0 and c = z: at z = 0 the node becomes the saddle."""
-    found = slow_portrait(c2.System(U=("c*(c - z)", "-s"), W=("1",)), c2.psi.constant(), (-0.5, 0.5), count=21)
-    (point,) = found.points
-    assert point.kind == "fold"
-    assert "exchange" in point.sentence
-    assert point.z == pytest.approx(0.0, abs=1e-7)
-    assert sorted(b.kind for b in found.branches) == ["saddle", "saddle", "stable node", "stable node"]
-
-
 @pytest.mark.parametrize(
     ("square", "kinds"),
     [("c**2 - z/2", ["crossing", "sliding"]), ("c**3 - z*c", ["unstable", "sliding"]), ("z*c - c**3", ["sliding"])],
@@ -263,16 +245,14 @@ def test_an_interval_of_a_ten_thousandth_of_the_span_is_one():
     assert [p.z for p in found.points if p.kind == "equator"] == pytest.approx([-1e-4, 1e-4])
 
 
-def test_sets_that_pass_at_a_value_that_is_looked_at_pass_there():
-    """c = 0 and c = z - 1/4 meet at z = 1/4."""
-    system = c2.System(U=("c*(c - z + 1/4)", "-s"), W=("1",))
-    (point,) = slow_portrait(system, c2.psi.constant(), (-0.5, 0.5), count=5).points
-    assert (point.kind, point.z) == ("fold", pytest.approx(0.25, abs=1e-7))
-    assert "exchange" in point.sentence
-
-
-@pytest.mark.parametrize("U", [("-c*(c-z)", "-s"), ("c*(c-z)", "-s-0.3"), ("-(c-0.2)*(c-0.2-z)", "-s+0.1*c")])
-@pytest.mark.parametrize("span", [(-0.5, 0.5), (-0.5, 0.43), (-0.37, 0.5123)])
+@pytest.mark.parametrize(
+    ("U", "span"),
+    [
+        (("-c*(c-z)", "-s"), (-0.5, 0.5)),
+        (("c*(c-z)", "-s-0.3"), (-0.5, 0.43)),
+        (("-(c-0.2)*(c-0.2-z)", "-s+0.1*c"), (-0.37, 0.5123)),
+    ],
+)
 def test_sets_that_exchange_their_kinds_are_told_at_any_value(U, span):
     found = c2.slow_portrait(c2.System(U=U, W=("1",)), c2.psi.tanh(), span, count=21)
     (point,) = [p for p in found.points if "exchange" in p.sentence]
@@ -290,8 +270,8 @@ def test_sets_that_pass_each_other_by_do_not_meet(gap):
 
 @pytest.mark.parametrize(
     ("span", "count"),
-    [((-0.1, 0.9), 9), ((-0.9, 0.1), 9), ((-0.1, 0.3), 4), ((-0.3, 0.1), 4), ((-0.549, 0.451), 11)],
-    ids=["first step", "last step", "first of three", "last of three", "midway"],
+    [((-0.1, 0.9), 9), ((-0.3, 0.1), 4), ((-0.549, 0.451), 11)],
+    ids=["first step", "last of three", "midway"],
 )
 def test_sets_that_exchange_their_kinds_within_any_step(span, count):
     """c = 0 and c = z - 3/10 meet at z = 3/10; a third set, at c = -4/5, stays away."""

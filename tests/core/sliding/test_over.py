@@ -26,9 +26,9 @@ def test_limit_directions_along_z_are_those_at_each_z():
     for z in np.linspace(-1.0, 1.5, 6):
         at = found.z == z
         limits = c2.equator_equilibria(system, (z,))
-        np.testing.assert_array_equal(found.theta[at], limits.theta)
-        np.testing.assert_array_equal(found.lambda_rho[at], limits.lambda_rho)
-        np.testing.assert_array_equal(found.lambda_theta[at], limits.lambda_theta)
+        np.testing.assert_allclose(found.theta[at], limits.theta, rtol=0.0, atol=1e-13)
+        np.testing.assert_allclose(found.lambda_rho[at], limits.lambda_rho, rtol=0.0, atol=1e-13)
+        np.testing.assert_allclose(found.lambda_theta[at], limits.lambda_theta, rtol=0.0, atol=1e-13)
     # Eight while chi^2 < 2, that is |z| < 2^(-1/4), and four beyond.
     assert [int((found.z == z).sum()) for z in np.linspace(-1.0, 1.5, 6)] == [4, 8, 8, 8, 4, 4]
 

@@ -3,7 +3,7 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear
@@ -39,6 +39,7 @@ def test_number_of_slow_variables(m, system):
     assert system.m == m
 
 
+@settings(max_examples=20)
 @given(st.lists(number, min_size=4, max_size=4), number, number, st.floats(-4, 4))
 @example([0.0, 0.0, 0.0, -0.0], 0.0, 1.0, 0.0)
 @example([0.0, 1.0, -1.0, -0.0], 0.5, 0.0, 1.0)

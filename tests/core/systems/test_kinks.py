@@ -64,7 +64,7 @@ def test_limit_directions_on_a_kink():
 
 
 @given(st.floats(0.05, 3.1), st.floats(0.05, 3.1))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_directions_of_a_piecewise_linear_law_are_those_of_its_pieces(k, f):
     """U = (-c - k|s|, -f): Theta = -f c + s c + k s|s|, on either half circle a smooth law with known zeros."""
     found = c2.equator_equilibria(c2.System(U=("-c - k*|s|", "-f"), parameters={"k": k, "f": f})).theta
@@ -121,7 +121,7 @@ def test_an_infinite_slope_is_named_and_no_index():
     st.floats(-1, 1),
     st.floats(-1, 1),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_compiled_derivatives_are_those_of_the_formulas(text, c, s):
     expression = parse(text, ("c", "s", "k"))
     got = program(((expression,), (2.0,) if "k" in expression.names else ())).at(np.array([[c, s]]))[0, 0]

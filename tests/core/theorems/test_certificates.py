@@ -30,7 +30,7 @@ def verdicts(system, regularisation, **more):
     return {c.theorem: c.verdict for c in certificates(system, regularisation, **more)}
 
 
-@settings(max_examples=80)
+@settings(max_examples=20)
 @given(st.one_of(systems, round_systems), regularisations, coefficient, coefficient)
 def test_nothing_ever_fails(system, regularisation, B1, g1):
     for found in (system, system.evolve(B=[[B1, 1.0], [0.5, g1]], g=[g1, B1])):
@@ -88,7 +88,7 @@ def turned(system, angle):
     return System(U=tuple(f"({row[0]!r})*c + ({row[1]!r})*s + ({value!r})" for row, value in zip(A, f, strict=True)))
 
 
-@settings(max_examples=60)
+@settings(max_examples=20)
 @given(st.one_of(systems, round_systems), regularisations, st.sampled_from([0.0, 0.5 * np.pi, 0.3, 2.0]))
 @example(ELinear(3.0, 0.0, 3.0, (0.0, 0.0)), psi.constant(), 0.3)  # stars, but for the rounding of the turn
 @example(ELinear(3.0, 0.0, 3.0, (0.0, 0.0)), psi.constant(), 2.0)
@@ -104,7 +104,7 @@ def test_nothing_fails_for_typed_affine_systems(system, regularisation, angle):
         assert c.verdict is not Verdict.FAILS, c
 
 
-@settings(max_examples=60)
+@settings(max_examples=20)
 @given(polynomials, regularisations)
 def test_nothing_fails_for_general_systems(system, regularisation):
     for c in certificates(system, regularisation):

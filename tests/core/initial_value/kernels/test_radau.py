@@ -44,8 +44,7 @@ class Begun:
 
 
 @pytest.mark.parametrize("y", STATES)
-@pytest.mark.parametrize("eps", [0.3, 1e-3])
-@pytest.mark.parametrize("refine", [False, True])
+@pytest.mark.parametrize(("eps", "refine"), [(0.3, False), (1e-3, True)])
 def test_it_takes_the_steps_that_are_taken_in_python(y, eps, refine):
     told = []
     for rtol in (1e-3, 1e-6):

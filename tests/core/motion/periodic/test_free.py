@@ -30,7 +30,7 @@ def test_a_limit_cycle_in_the_plane(eps):
     assert (len(found.multipliers), found.stability, found.forced) == (1, "stable", False)
 
 
-@pytest.mark.parametrize("start", [(0.0, 0.0, 0.9, 0.0), (0.0, 0.0, 0.8, 0.05), (-2.0, 0.02, 0.1, 0.01)])
+@pytest.mark.parametrize("start", [(0.0, 0.0, 0.9, 0.0), (-2.0, 0.02, 0.1, 0.01)])
 def test_stick_slip_on_a_belt(start):
     exact = StickSlip(1.0, 0.1, 1.0)
     found = periodic_motion(BELT, start, 6.3)
