@@ -20,7 +20,7 @@ import numpy as np
 from codim2_core import ELinear, System, examples
 from codim2_core.systems.kinds import AnySystem
 
-from .data import write_rows
+from .data import wrapped_rows
 
 DATA = Path(__file__).parent / "data" / "motions.json"
 EPS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
@@ -183,7 +183,7 @@ def main() -> None:
             apart = float(np.abs(tight - loose).max())
             stored[key(name, eps)] = {"end": [float(v) for v in tight], "apart": apart}
             print(key(name, eps), stored[key(name, eps)], flush=True)
-            write_rows(DATA, stored)
+            DATA.write_text(wrapped_rows(stored))
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import sys
 import mpmath
 import numpy as np
 
-from .data import write_rows
+from .data import wrapped_rows
 from .problems import DATA, Problem, problems
 
 
@@ -68,7 +68,7 @@ def main(names: list[str]) -> None:
         found = taylor(problem) if closed is None else closed
         stored[problem.name] = found.tolist()
         print(problem.name, "exact" if closed is not None else "Taylor", flush=True)
-        write_rows(DATA, stored)
+        DATA.write_text(wrapped_rows(stored))
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+import difflib
 import json
 import subprocess
 from html import escape
@@ -39,19 +40,20 @@ AGAIN = """for (const note of document.querySelectorAll(".panel pre")) {
 }"""
 
 
-def panels() -> dict[str, str]:
-    """Return what Node draws of each panel, and of a whole explorer, by the name of the file."""
+def panels() -> dict[str, tuple[str, str]]:
+    """Return what Node draws of each panel, and of an explorer, and what is kept of it, by the name of its file."""
     done = subprocess.run(["node", str(SCRIPT)], capture_output=True, text=True, check=True)
-    return {f"{name}.html": text for name, text in json.loads(done.stdout).items()}
+    return {f"{name}.txt": (text, kept) for name, (text, kept) in json.loads(done.stdout).items()}
 
 
 def shown(name: str, text: str) -> str:
-    """Return the markup that shows a picture: of a panel, as it is before anybody touches it."""
-    if name.endswith(".svg"):
-        return text
-    if name.endswith(".html"):
-        return f'<div class="panel">{text.partition("<!-- ")[0]}</div>'
-    return f"<pre>{escape(text)}</pre>"
+    """Return the markup that shows what is kept of a picture."""
+    return text if name.endswith(".svg") else f"<pre>{escape(text)}</pre>"
+
+
+def changes(before: str, made: str) -> str:
+    """Return the lines that differ, as a reader of differences has them."""
+    return "\n".join(difflib.unified_diff(before.splitlines(), made.splitlines(), "kept", "now", lineterm="", n=0))
 
 
 def main() -> None:
@@ -61,7 +63,7 @@ def main() -> None:
     accept = parser.parse_args().accept
     figures = []
 
-    def add(name: str, made: str) -> None:
+    def add(name: str, made: str, drawn: str = "") -> None:
         kept = KEPT / name
         before = kept.read_text() if kept.is_file() else ""
         changed = not same(made, before)
@@ -70,6 +72,9 @@ def main() -> None:
             kept.write_text(made)
         both = [made] if accept or not changed else [before, made]
         body = "".join(shown(name, text) for text in both)
+        if drawn:  # a panel, as it is before anybody touches it, and in which numbers it has changed
+            body = f'<div class="panel">{drawn.partition("<!-- ")[0]}</div>'
+            body += shown(name, changes(before, made)) if len(both) > 1 else ""
         kind = "changed" if changed and not accept else ""
         figures.append(f'<figure class="{kind}">{body}<figcaption>{escape(name)} {kind}</figcaption></figure>')
         if changed:
@@ -77,8 +82,8 @@ def main() -> None:
 
     for name, make in pictures().items():
         add(name, make())
-    for name, made in panels().items():
-        add(name, made)
+    for name, (drawn, made) in panels().items():
+        add(name, made, drawn)
     PAGE.parent.mkdir(exist_ok=True)
     head = f'<meta charset="utf-8"><title>Pictures</title><style>{stylesheet()}\n{STYLE}</style>'
     body = f'<body class="codim2"><main>{"".join(figures)}</main><script type="module">{AGAIN}</script></body>'

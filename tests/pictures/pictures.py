@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -14,6 +13,7 @@ from codim2_app.view.refresh import Frames
 
 from codim2_core.figures.presets import presets
 from codim2_core.scene import Scene
+from tests.benchmarks.data import wrapped_rows
 
 from .panels import DRAWN, columns
 
@@ -50,7 +50,7 @@ def overlay(key: str) -> str:
     """Return what HoloViews draws of a preset: elements from bottom to top, with their columns."""
     preset = presets[key]
     made = elements(Scene(preset.system, preset.psi, preset.z, count=12, pixel=1 / 28))
-    return json.dumps({name: _columns(element) for name, element in made.items()}, indent=1, ensure_ascii=False) + "\n"
+    return wrapped_rows({name: _columns(element) for name, element in made.items()})
 
 
 def _columns(element: Any) -> Any:

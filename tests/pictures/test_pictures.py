@@ -39,7 +39,7 @@ def test_a_picture_is_the_one_that_is_kept(name):
 
 
 def test_nothing_is_kept_that_is_not_made():
-    drawn = {"explorer.html", *(f"panel-{name}.html" for name in DRAWN)}  # by Node: tests/app/static/played/drawing.js
+    drawn = {"explorer.txt", *(f"panel-{name}.txt" for name in DRAWN)}  # by Node: tests/app/static/played/drawing.js
     assert {path.name for path in KEPT.iterdir()} == pictures().keys() | drawn
 
 

@@ -4,4 +4,4 @@ import test from "node:test"
 import {isKept} from "./played/kept.js"
 import {story} from "./played/wiring.js"
 
-test("what becomes of an explorer is what is kept", () => isKept(story(), "explorer.html"))
+test("what becomes of an explorer is what is kept", () => isKept(story(), "explorer.txt"))

@@ -2,12 +2,13 @@
 
 import json
 import textwrap
-from pathlib import Path
 from typing import Any
 
 
-def write_rows(path: Path, rows: dict[str, Any]) -> None:
-    """Write names and their numbers, each name on a line of its own, which is wrapped."""
-    texts = [f"{json.dumps(name, ensure_ascii=False)}: {json.dumps(row)}" for name, row in rows.items()]
+def wrapped_rows(rows: dict[str, Any]) -> str:
+    """Return names and their numbers as JSON, each name on a line of its own, which is wrapped."""
+    texts = [
+        f"{json.dumps(name, ensure_ascii=False)}: {json.dumps(row, ensure_ascii=False)}" for name, row in rows.items()
+    ]
     wrapped = [textwrap.fill(one, 118, break_long_words=False, break_on_hyphens=False) for one in texts]
-    path.write_text("{\n" + ",\n".join(wrapped) + "\n}\n")
+    return "{\n" + ",\n".join(wrapped) + "\n}\n"

@@ -8,4 +8,4 @@ import {isKept} from "../played/kept.js"
 
 test("there are pictures", () => assert.ok(names().length >= 20))
 
-for (const name of names()) test(`the panel ${name} draws what is kept`, () => isKept(drawn(name), `panel-${name}.html`))
+for (const name of names()) test(`the panel ${name} draws what is kept`, () => isKept(drawn(name), `panel-${name}.txt`))

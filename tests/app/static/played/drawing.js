@@ -1,13 +1,12 @@
 // Panels drawn without a browser, from columns that are kept (tests/pictures/panels.py makes them): the markup that a panel
 // writes, what it draws on its canvas, and what becomes of it under a person's hands, as one text.
 //
-// node drawing.js writes all of them, and the story of a whole explorer, as JSON, {name: text}.
+// node drawing.js writes all of them, and the story of a whole explorer, as JSON, {name: [text, what is kept of it]}.
 
-import {createHash} from "node:crypto"
 import {readdirSync, readFileSync} from "node:fs"
 import {fileURLToPath} from "node:url"
 
-import {KEPT} from "./kept.js"
+import {KEPT, summary} from "./kept.js"
 import {page} from "./page.js"
 import {story} from "./wiring.js"
 import {Panels} from "../../../../app/static/beside/panels.js"
@@ -102,8 +101,7 @@ export function drawn(name) {
     for (const canvas of box.querySelectorAll("canvas")) {
       if (!canvas.recorder) continue
       const calls = canvas.recorder.drawn.map((call) => JSON.stringify(call)).join("\n")
-      // the first picture is kept in full, of later ones what tells whether they are the same
-      lines.push(before ? `<pre>${createHash("md5").update(calls).digest("hex")}</pre>` : `<pre class="canvas">${calls}</pre>`)
+      lines.push(`<pre class="canvas">${calls}</pre>`)
       canvas.recorder = null
     }
     const now = box.innerHTML.replaceAll("><", ">\n<").split("\n")
@@ -135,5 +133,6 @@ export function drawn(name) {
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-  process.stdout.write(JSON.stringify(Object.fromEntries([...names().map((name) => [`panel-${name}`, drawn(name)]), ["explorer", story()]])))
+  const all = [...names().map((name) => [`panel-${name}`, drawn(name)]), ["explorer", story()]]
+  process.stdout.write(JSON.stringify(Object.fromEntries(all.map(([name, text]) => [name, [text, summary(text)]]))))
 }
