@@ -307,18 +307,6 @@ def test_across_saddle_nodes_counts_are_those_of_the_closed_form(a, d, f1, f2, f
                 assert found.proven
 
 
-@pytest.mark.parametrize(("span", "d", "f"), [((-0.4, 0.4), -1.5, (-0.1, 0.05)), ((-1.2, 1.2), 0.5, (0.4, -0.8))])
-def test_a_dense_sweep_has_the_counts_of_the_closed_form(span, d, f):
-    typed = System(
-        U=(f"-c - b*s + ({f[0]!r})", f"b*c + ({d!r})*s + ({f[1]!r})"),
-        parameters={"b": 0.0},
-    )
-    for b in np.linspace(*span, 1001).tolist():
-        found, exact = equator_equilibria(typed.evolve(b=b)), equator_equilibria(ELinear(-1.0, b, d, f))
-        assert len(found) == len(exact)
-        assert found.proven
-
-
 @pytest.mark.parametrize(("U", "arc", "others"), [
     (("-c", "-s + (abs(c) - c)"), (1.5 * np.pi, 0.5 * np.pi), 0),
     (("-c", "-s + abs(c) - c"), (1.5 * np.pi, 0.5 * np.pi), 0),

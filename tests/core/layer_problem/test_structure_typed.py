@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from scipy.integrate import solve_ivp
 
 from codim2_core import (
     System,
@@ -269,18 +268,6 @@ def test_from_hopf_to_a_loop_beyond_which_nothing_returns(m, count):
         assert cycle.divergence_multiplier == pytest.approx(cycle.multiplier, rel=1e-6)
         assert cycle.closure < 1e-10
         assert cycle.mean_e[1] == pytest.approx(0.0, abs=1e-9)  # as x2' = s
-
-
-def test_the_big_cycle_is_where_orbits_run():
-    """An independent look: long after, an orbit from outside runs along it."""
-    system = DUFFING.evolve(m=0.14, k=3.0)
-    (cycle,) = [c for c in limit_cycles(system, psi.constant()) if c.stable]
-    at, long = system.at(), 8.0 * cycle.period_T / -math.log(cycle.multiplier)
-    path = solve_ivp(lambda t, q: hemisphere.flow(at, psi.constant(), q), (0, long), [0.0, 0.9], rtol=1e-8, atol=1e-10)
-    start, along = cycle.points[:-1], np.diff(cycle.points, axis=0)
-    for p in path.y[:, -40:].T:
-        part = np.clip(((p - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
-        assert np.hypot(*(start + part[:, None] * along - p).T).min() < 1e-3
 
 
 def inside(points, p):
