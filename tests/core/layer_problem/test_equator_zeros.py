@@ -178,19 +178,6 @@ def test_multiple_zeros(function, multiplicity):
         np.testing.assert_allclose(found.theta, 1.0, rtol=0.0, atol=1e-8)
 
 
-def test_saddle_node_of_limit_directions():
-    """Theta = sin(theta)^2 - p, with lambda_rho = -1: touching at p = 0."""
-
-    def at(p):
-        return equator_equilibria(System(U=("-c - s*(s**2 - p)", "-s + c*(s**2 - p)"), parameters={"p": p}))
-
-    assert at(0.0).multiplicity.tolist() == [2, 2]
-    np.testing.assert_allclose(at(0.0).theta, [0.0, math.pi], rtol=0.0, atol=1e-12)
-    assert len(at(-1e-6)) == 0
-    assert len(at(1e-6)) == 4
-    assert at(1e-6).distance == pytest.approx(1e-6, rel=1.0)
-
-
 def test_zero_of_the_whole_field_on_the_equator():
     found = equator_equilibria(System(U=("2*c**2 - c - 1", "-s")))
     assert found.radially_degenerate.tolist() == [True] + [False] * 5

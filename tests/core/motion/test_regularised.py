@@ -70,7 +70,7 @@ def test_general_systems_agree_with_another_method(name):
     )
 
 
-@pytest.mark.parametrize("eps", [1e3, 1.0, 1e-3, 1e-6, 1e-10, 1e-12])
+@pytest.mark.parametrize("eps", [1e3, 1.0, 1e-4, 1e-12])
 @pytest.mark.parametrize("state0", [(1.0, 0.5, -1.0, 0.4), (0.0, 0.0, 3.0, 1.0)])
 def test_any_eps_without_choosing_a_method(eps, state0):
     run = simulate(examples.ball_in_pool(), families.hill(2), eps, state0, (0.0, 3.0))

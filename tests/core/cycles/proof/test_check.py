@@ -119,7 +119,7 @@ TAMPERED = {
     "psi unknown": "c['psi'] = ['custom', 0.0]",
     "psi not smooth": "c['psi'] = ['hill', 0.5]",
     "middle moved": "c['rings'][-1][5][0] += 30.0",
-    "middle just outside": "ring = c['rings'][-1]\nring[5] = [m + 1.01 * (v - m) for m, v in zip(ring[5], ring[0][0][0])]",
+    "middle just outside": "r = c['rings'][-1]\nr[5] = [m + 1.01 * (v - m) for m, v in zip(r[5], r[0][0][0])]",
     "corner moved off its walk": "rows = c['rings'][0][0]\nrows[-1][3][0] += 1e-9",
     "kind exchanged": "c['rings'][-1][4] = [1, 0] if c['rings'][-1][4] == [0, -2] else [0, -2]",
     "two corners exchanged": "row = c['rings'][-1][0][0]\nrow[1], row[2] = row[2], row[1]",
