@@ -9,7 +9,7 @@ import pytest
 import codim2_core as c2
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.sheet import solved
-from codim2_core.motion import agreement, phases, places
+from codim2_core.motion import phases, places
 from codim2_core.motion.followed import followed, in_disc, place
 from codim2_core.motion.limit import decide
 from codim2_core.motion.result import Phase
@@ -147,19 +147,6 @@ def test_an_ascent_is_the_orbit_up_the_hemisphere():
     assert not none.flags.writeable
     line = places.Ascent(system, PSIS[0], np.zeros(0), along=(np.zeros(2), np.ones(2)))
     assert line.path().tolist() == [[0.0, 0.0], [1.0, 1.0]]
-
-
-def test_phases_up_to_a_time_and_their_words():
-    slip, slide = Phase("slip", 0.0, 1.0, "", None), Phase("slide", 1.0, 2.0, "", "C2")
-    cross = Phase("cross", 2.0, 2.0, "")
-    assert agreement._until((slip, slide, cross), 2.0) == [slip, slide, cross]
-    assert agreement._until((slip, slide, cross), 1.0) == [slip]
-    assert [agreement._words(one) for one in (slip, slide, cross, None)] == [
-        "slips",
-        "slides on C2",
-        "crosses Σ",
-        "goes on as before",
-    ]
 
 
 def test_the_distance_to_a_closed_line():
