@@ -227,28 +227,3 @@ def test_a_straight_fall_arrives_when_and_where_it_does(rtol):
     assert abs(math.remainder(one.legs[1].theta - math.atan2(-0.8, 0.6), math.tau)) < 50.0 * rtol
     np.testing.assert_allclose(one.motion(0.999999), [6e-7, -8e-7, 2.499998, -2.749997], atol=1e-5 * rtol + 1e-13)
     np.testing.assert_allclose(one.motion.states[-1], [0.0, 0.0, 3.5, -4.25], atol=1e-13)
-
-
-def test_a_motion_of_many_steps_and_phases_is_whole():
-    """More than there is room for at first."""
-    ahead = [(0.3, 0.2, 0.0), (0.1, 0.1, 1.0)]
-    for start, one in zip(ahead, _course(PUSHED, ahead, 14.0, 1e-3), strict=True):
-        times, lengths = one.motion.times, one.motion.lengths
-        assert one.onward == WHOLE
-        assert len(one.legs) >= 9
-        assert len(lengths) > 300
-        assert [leg.first for leg in one.legs[1:]] == [leg.last for leg in one.legs[:-1]]
-        np.testing.assert_allclose(times[:-1] + lengths, times[1:], atol=1e-14)
-        joined = one.motion.states[:-1] + one.motion.polynomials.sum(axis=2)
-        np.testing.assert_allclose(joined, one.motion.states[1:], atol=1e-13)
-        (begun,) = _course(PUSHED, start, 4.0, 1e-3)
-        for leg, same in zip(begun.legs[:-1], one.legs, strict=False):
-            assert begun.motion.times[leg.last] == pytest.approx(times[same.last], abs=2e-3)
-
-
-def test_steps_are_counted_for_each_motion():
-    (one,) = _course(PUSHED, (0.3, 0.2, 0.0), 2.5)
-    most = len(one.motion.lengths) + len(one.legs) + 40
-    for again in _course(PUSHED, [(0.3, 0.2, 0.0)] * 4, 2.5, most=most):
-        assert again.onward == WHOLE
-        assert again.evaluations == one.evaluations

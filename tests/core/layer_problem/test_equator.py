@@ -152,7 +152,7 @@ def test_cycle_against_quadrature(q):
     assert cycle.exponent == pytest.approx(exponent, abs=1e-11 * period * sum(map(abs, q)))
 
 
-@pytest.mark.parametrize("power", range(1, 15))
+@pytest.mark.parametrize("power", [1, 4, 5, 9, 14])
 def test_cycle_near_a_saddle_node(power):
     # a = d: the integral of 1/(b - |f| cos) is 2 pi/sqrt(b^2 - |f|^2); here |f| = 5 exactly.
     b = 5.0 * (1 + 10.0**-power)
@@ -185,9 +185,15 @@ def by_residues(q):
         return float(sign * g0), float(sign * ((d + a) * g0 + (d - a) * g2) / 2)
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize("power", [2, 5, 8, 12])
-@pytest.mark.parametrize("q", [(-1.0, 0.3, 0.7, -0.4), (2.0, -0.5, 0.1, 0.9), (0.4, 0.5, -1.0, -0.2)])
+@pytest.mark.parametrize(
+    ("q", "power", "sign"),
+    [
+        ((-1.0, 0.3, 0.7, -0.4), 2, 1.0),
+        ((2.0, -0.5, 0.1, 0.9), 5, -1.0),
+        ((0.4, 0.5, -1.0, -0.2), 8, 1.0),
+        ((-1.0, 0.3, 0.7, -0.4), 12, -1.0),
+    ],
+)
 def test_cycle_near_a_saddle_node_of_any_form(q, power, sign):
     a, d, f1, f2 = q
 
@@ -205,7 +211,7 @@ def test_cycle_near_a_saddle_node_of_any_form(q, power, sign):
     assert cycle.exponent == pytest.approx(exponent, abs=(1e-12 if power > 4 else 1e-14 * 10.0**power) * period)
 
 
-@pytest.mark.parametrize("power", range(1, 15))
+@pytest.mark.parametrize("power", [1, 4, 5, 9, 14])
 def test_cycle_near_two_saddle_nodes_at_once(power):
     # f = 0: the integral of 1/(b + (d - a)/2 sin 2 theta) is 2 pi/sqrt(b^2 - (d - a)^2/4).
     b = -0.5 * (1 + 10.0**-power)

@@ -178,19 +178,6 @@ def test_multiple_zeros(function, multiplicity):
         np.testing.assert_allclose(found.theta, 1.0, rtol=0.0, atol=1e-8)
 
 
-def test_saddle_node_of_limit_directions():
-    """Theta = sin(theta)^2 - p, with lambda_rho = -1: touching at p = 0."""
-
-    def at(p):
-        return equator_equilibria(System(U=("-c - s*(s**2 - p)", "-s + c*(s**2 - p)"), parameters={"p": p}))
-
-    assert at(0.0).multiplicity.tolist() == [2, 2]
-    np.testing.assert_allclose(at(0.0).theta, [0.0, math.pi], rtol=0.0, atol=1e-12)
-    assert len(at(-1e-6)) == 0
-    assert len(at(1e-6)) == 4
-    assert at(1e-6).distance == pytest.approx(1e-6, rel=1.0)
-
-
 def test_zero_of_the_whole_field_on_the_equator():
     found = equator_equilibria(System(U=("2*c**2 - c - 1", "-s")))
     assert found.radially_degenerate.tolist() == [True] + [False] * 5
@@ -305,18 +292,6 @@ def test_across_saddle_nodes_counts_are_those_of_the_closed_form(a, d, f1, f2, f
                 found = equator_equilibria(_NEAR.evolve(a=a, b=b, d=d, f1=f1, f2=f2, k=k))
                 assert len(found) == len(exact)
                 assert found.proven
-
-
-@pytest.mark.parametrize(("span", "d", "f"), [((-0.4, 0.4), -1.5, (-0.1, 0.05)), ((-1.2, 1.2), 0.5, (0.4, -0.8))])
-def test_a_dense_sweep_has_the_counts_of_the_closed_form(span, d, f):
-    typed = System(
-        U=(f"-c - b*s + ({f[0]!r})", f"b*c + ({d!r})*s + ({f[1]!r})"),
-        parameters={"b": 0.0},
-    )
-    for b in np.linspace(*span, 1001).tolist():
-        found, exact = equator_equilibria(typed.evolve(b=b)), equator_equilibria(ELinear(-1.0, b, d, f))
-        assert len(found) == len(exact)
-        assert found.proven
 
 
 @pytest.mark.parametrize(("U", "arc", "others"), [

@@ -4,15 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
-from scipy.integrate import solve_ivp
 
 from codim2_core import (
     System,
     approach_outcomes,
     critical_sets,
-    equator_cycle,
     equator_equilibria,
     examples,
     hemisphere,
@@ -21,15 +17,10 @@ from codim2_core import (
     psi,
     separatrices,
 )
-from codim2_core.portrait.endings import half_saddle
 
 FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3), psi.custom("1/(1+s)**2")]
 ANY_PSI = pytest.mark.parametrize("p", FAMILIES, ids=lambda p: p.text)
 AR, NU = examples.attracting_repelling(), examples.nonunique_sliding()
-QUADRATIC = System(
-    U=("u0 + u1*c + u2*s + u3*c**2 + u4*c*s", "v0 + v1*c + v2*s + v3*c*s + v4*s**2"),
-    parameters={f"{w}{i}": 0.0 for w in "uv" for i in range(5)},
-)
 RINGS = System(  # cycles where |e| = a, b, whatever Psi is
     U=("-w*s - k*c*(c**2 + s**2 - a**2)*(c**2 + s**2 - b**2)", "w*c - k*s*(c**2 + s**2 - a**2)*(c**2 + s**2 - b**2)"),
     W=("c**2", "s"),
@@ -124,38 +115,6 @@ def test_separatrices_of_an_e_linear_system_as_text(name):
 
 def key_of(branch):
     return (branch.origin, branch.direction, branch.end, round(branch.departure_angle, 6))
-
-
-coefficients = st.tuples(*[st.floats(-2.0, 2.0).map(lambda v: round(v, 3))] * 10)
-
-
-@settings(max_examples=20)
-@given(coefficients, st.sampled_from(FAMILIES[:5]))
-def test_skeleton_of_random_quadratic_systems_is_consistent(values, p):
-    system = QUADRATIC.evolve(**dict(zip(dict(QUADRATIC.parameters), values, strict=True)))
-    at = system.at()
-    equator, critical, size = equator_equilibria(at), critical_sets(at, p), at.speed
-    assume(size > 0.3)
-    assume(not equator.all_directions and (equator.multiplicity == 1).all() and not equator.radially_degenerate.any())
-    assume((np.abs(equator.lambda_rho) > 0.02 * size).all() and (np.abs(equator.lambda_theta) > 0.02 * size).all())
-    closed = equator_cycle(at)
-    assume(closed is None or abs(closed.exponent) > 0.05)
-    for C in critical:
-        assume(np.abs(C.eigenvalues.real).min() > 0.02 * size and math.hypot(*C.p) < 0.99)
-    saddles = sum(half_saddle(equator, i) for i in range(len(equator)))
-    index = sum(-1 if C.kind == "saddle" else 1 for C in critical)
-    assert 2 * index + (len(equator) - saddles) - saddles == 2
-    found = separatrices(at, p)
-    inside = [branch for branch in found if branch.inside]
-    assert len(inside) == saddles + 4 * sum(C.kind == "saddle" for C in critical)
-    names = {f"C{i + 1}" if len(critical) > 1 else "C": C for i, C in enumerate(critical)}
-    for branch in inside:
-        assert branch.end != "undecided", found.notes
-        if branch.end in names and not branch.connection:
-            assert names[branch.end].kind.startswith("stable" if branch.direction == "unstable" else "unstable")
-        if branch.origin in names:
-            origin = branch.points[0 if branch.direction == "unstable" else -1]
-            assert origin == pytest.approx(names[branch.origin].p, abs=1e-12)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -269,18 +228,6 @@ def test_from_hopf_to_a_loop_beyond_which_nothing_returns(m, count):
         assert cycle.divergence_multiplier == pytest.approx(cycle.multiplier, rel=1e-6)
         assert cycle.closure < 1e-10
         assert cycle.mean_e[1] == pytest.approx(0.0, abs=1e-9)  # as x2' = s
-
-
-def test_the_big_cycle_is_where_orbits_run():
-    """An independent look: long after, an orbit from outside runs along it."""
-    system = DUFFING.evolve(m=0.14, k=3.0)
-    (cycle,) = [c for c in limit_cycles(system, psi.constant()) if c.stable]
-    at, long = system.at(), 8.0 * cycle.period_T / -math.log(cycle.multiplier)
-    path = solve_ivp(lambda t, q: hemisphere.flow(at, psi.constant(), q), (0, long), [0.0, 0.9], rtol=1e-8, atol=1e-10)
-    start, along = cycle.points[:-1], np.diff(cycle.points, axis=0)
-    for p in path.y[:, -40:].T:
-        part = np.clip(((p - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
-        assert np.hypot(*(start + part[:, None] * along - p).T).min() < 1e-3
 
 
 def inside(points, p):

@@ -27,7 +27,6 @@ from codim2_core.motion.result import Phase
 from codim2_core.numerics.radau import STAGES, Step, TooManyStepsError
 
 PSI = c2.psi.rational()
-ELINEAR = c2.ELinear(-1.0, 0.5, -2.0, ("z1", "z2/2"), B=((0.5, 0.0), (1.0, -1.0)), g=("1 - z2", "z1"))
 TYPED = c2.System(U=("-c + z1 + c**2/9", "-s + z2"), W=("c + 2", "s - z1"))
 
 
@@ -221,21 +220,6 @@ def test_in_a_line_its_own_equation_decides(q, z, kind, there):
     start, last = own.ascent.along
     np.testing.assert_allclose(start, in_disc(PSI, np.array([q, 0.0])))
     np.testing.assert_allclose(last, in_disc(PSI, np.array([end, 0.0])), rtol=0.0, atol=1e-12)
-
-
-@pytest.mark.parametrize("end", [1.0, -1.0])
-@pytest.mark.parametrize(("flow", "kind"), [(1.0, "leave"), (-1.0, "slide")])
-def test_in_a_line_a_set_on_the_equator_moves_in_or_out(end, flow, kind):
-    """q' = z - q at z = +-1."""
-    system = c2.ELinear(-1.0, 0.0, -1.0, ("z", 0.0), B=((0.0, 0.0),), g=(flow * end,))
-    state = (0.0, 0.0, end)
-    own = course(system, state=state, line=invariant_line(field(system), np.array([0.1, *state[1:]])))
-    found = own.in_line(-0.5 * end, "So.")
-    assert found.kind == kind
-    if kind == "slide":
-        assert found.e == pytest.approx([end, 0.0], abs=1e-12)
-    else:
-        assert math.cos(found.theta) == pytest.approx(end)
 
 
 def test_at_rest_on_a_repelling_set_of_a_line_it_stops():

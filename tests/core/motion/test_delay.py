@@ -27,7 +27,7 @@ def followed(system, z0, end=10.0, psi=PSI, **options):
     return simulate_nonsmooth(system, (0.0, 0.0, z0), (0.0, end), psi, **options)
 
 
-@settings(max_examples=6)
+@settings(max_examples=2)
 @given(st.floats(-1.2, -0.1), st.floats(0.05, 3.0), st.floats(0.05, 0.5), st.sampled_from([1, -1]))
 def test_way_in_is_way_out_where_the_set_stays(z0, w, size, sign):
     """``G = int z dz/(1 + k z)`` has a closed form, and C in the middle is a motion for every eps."""
@@ -83,7 +83,7 @@ def complex_growth(w, step):
     return eigenvalue, rate
 
 
-@settings(max_examples=6)
+@settings(max_examples=2)
 @given(st.floats(0.2, 0.7), st.floats(0.02, 0.3))
 @example(0.5, 0.3)
 def test_a_set_that_moves_is_left_at_the_buffer_point(w, step):
@@ -103,7 +103,7 @@ def test_a_set_that_moves_is_left_at_the_buffer_point(w, step):
     assert "buffer point" in run.phases[1].reason
 
 
-@settings(max_examples=6)
+@settings(max_examples=2)
 @given(st.floats(-0.19, -0.05), st.floats(0.3, 0.7), st.floats(0.02, 0.3))
 def test_near_its_start_the_delay_ends_before_the_buffer_point(z0, w, step):
     run = followed(turning(w, f"{step!r}*z"), z0, 4.0)

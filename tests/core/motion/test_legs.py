@@ -50,8 +50,9 @@ def _told(phase: Phase) -> tuple[str, str | None, str]:
     return phase.kind, phase.onto, re.sub(r"\d+\.\d+", "#", phase.reason)
 
 
-@pytest.mark.parametrize("own", [psi.tanh(), None], ids=str)
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize(
+    ("case", "own"), [*((case, psi.tanh()) for case in CASES), ("typed", None), ("crosses", None), ("Case III", None)]
+)
 def test_it_is_the_motion_phase_by_phase(monkeypatch, by_phase, case, own):
     system, state, is_decided = CASES[case]
     monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: 0)

@@ -12,9 +12,6 @@ from scipy.integrate import quad
 
 from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
-from codim2_core.initial_value.field import field
-from codim2_core.initial_value.leaving import leave
-from codim2_core.initial_value.sheet import Sheet
 from codim2_core.motion import nonsmooth
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.result import SimulationStatus
@@ -204,13 +201,6 @@ def test_the_side_of_approach_decides_how_it_slides():
     assert ends["C3"] < 0.0 < ends["C1"]
 
 
-def test_slides_and_crosses_by_the_angle_of_approach():
-    for theta, kind in ((2.0, "slide"), (4.0, "slide"), (0.9, "slip")):
-        state0 = (0.3 * math.cos(theta), 0.3 * math.sin(theta), 0.5)
-        run = simulate_nonsmooth(examples.attracting_repelling(), state0, (0.0, 2.0), families.constant())
-        assert run.phases[-1].kind == kind
-
-
 @pytest.mark.parametrize("general", [False, True])
 def test_sliding_on_a_limit_cycle_has_the_averaged_slow_flow(general):
     system = System(U=("172*c - 186*s - 172*z", "186*c - 200*s - 186*z"), W=("c/2",)) if general else CASE_3
@@ -271,31 +261,6 @@ def test_starting_on_sigma_with_one_way_out():
     run = simulate_nonsmooth(ELinear(-1.0, 0.0, -1.0, (1.5, 0.0), g=("x0",), parameters={"x0": 1.0}), (0, 0, 0), (0, 2))
     assert kinds(run) == ["slip"]
     np.testing.assert_allclose(run.states[-1], (1.0, 0.0, 2.0), rtol=0.0, atol=1e-9)
-
-
-def test_first_steps_away_from_sigma():
-    # x' = 1/2, y' = t - y/|x|: y = t^2/4 + ..., so that theta = t/2.
-    step = leave(field(ELinear(-1.0, 0.0, -1.0, (1.5, "z"), g=(1.0,))), 0.0, 0.0, np.zeros(1), 1.0)
-    assert not isinstance(step, str)
-    assert math.atan2(step.last[1], step.last[0]) == pytest.approx(0.5 * step.h, rel=1e-6)
-    np.testing.assert_allclose(step.last[[0, 2]], (0.5 * step.h, step.h), rtol=1e-6)
-    # Where C has just reached the equator, x = t^2/2; there is no way out if it moves in.
-    formulas = field(ELinear(-1.0, 0.0, -1.0, ("z", 0.0), g=("rate",), parameters={"rate": 1.0}))
-    step = leave(formulas, 0.0, 0.0, np.ones(1), 1.0)
-    assert not isinstance(step, str)
-    assert step.last[0] == pytest.approx(0.5 * step.h**2, rel=1e-9)
-    formulas = field(ELinear(-1.0, 0.0, -1.0, ("z", 0.0), g=(-1.0,)))
-    assert "Nothing leaves" in leave(formulas, 0.0, 0.0, np.ones(1), 1.0)
-    # From a direction that repels angularly too a whole sector leaves.
-    assert "sector" in leave(field(ELinear(1.0, 0.0, 2.0)), 0.0, 0.0, np.zeros(0), 1.0)
-
-
-def test_a_critical_set_is_continued_with_its_exact_slope():
-    z = np.array([0.1])
-    sheet = Sheet(field(examples.nonunique_sliding()), np.array([0.5, 0.0]) * (1.02 / 1.01), z)
-    chi = lambda z: (1 + 2 * z * z) / (1 + z * z)
-    assert sheet.slope[0, 0] == pytest.approx((chi(0.1 + 1e-6) - chi(0.1 - 1e-6)) / 4e-6, rel=1e-6)
-    np.testing.assert_allclose(sheet.at(np.array([0.3])), (chi(0.3) / 2, 0.0), rtol=0.0, atol=1e-14)
 
 
 def test_a_state_within_underflow_of_sigma_is_on_it():

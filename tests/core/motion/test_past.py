@@ -2,12 +2,9 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 import codim2_core as c2
-from codim2_core.numerics.dense import Dense
 
 PSI = c2.psi.rational()
 BALL = c2.examples.ball_in_pool()
@@ -169,16 +166,3 @@ def test_a_terminal_event_ends_a_past_too():
 def test_on_sigma_there_is_no_one_past():
     with pytest.raises(ValueError, match="where motions meet"):
         c2.simulate_nonsmooth(BALL, (0.0, 0.0, 1.0, 0.2), (0.0, -1.0))
-
-
-@given(st.integers(1, 5), st.integers(1, 9), st.integers(0, 2**31))
-def test_polynomials_turned_twice_are_what_they_were(steps, degree, seed):
-    rng = np.random.default_rng(seed)
-    lengths, polynomials = rng.uniform(0.1, 1.0, steps), rng.standard_normal((steps, 3, degree))
-    times = np.concatenate([[0.5], 0.5 + np.cumsum(lengths)])
-    states = np.concatenate([np.zeros((1, 3)), np.cumsum(polynomials.sum(axis=2), axis=0)])
-    motion = Dense(times, states, lengths, polynomials)
-    back = motion.backwards()
-    when = rng.uniform(times[0], times[-1], 20)
-    assert back(-when) == pytest.approx(motion(when), abs=1e-10 * 4**degree)
-    assert back.backwards().polynomials == pytest.approx(polynomials, abs=1e-12 * 8**degree)

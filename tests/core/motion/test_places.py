@@ -9,7 +9,7 @@ import pytest
 import codim2_core as c2
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.sheet import solved
-from codim2_core.motion import agreement, phases, places
+from codim2_core.motion import phases, places
 from codim2_core.motion.followed import followed, in_disc, place
 from codim2_core.motion.limit import decide
 from codim2_core.motion.result import Phase
@@ -72,22 +72,6 @@ def test_a_state_on_a_critical_set_follows_it(psi):
                 assert one.attracts == C.kind.startswith("stable")
     nothing = c2.System(U=("c - 2", "s"), W=("1",))
     assert followed(field(nothing), psi, eps, np.array([0.0, 0.0, z])) is None
-
-
-@pytest.mark.parametrize("psi", [PSIS[0], PSIS[1], PSIS[3]], ids=lambda p: p.text)
-@pytest.mark.parametrize("z", [0.18, 1.2])  # at |p| = 0.3 or so, and where the hemisphere is steep
-def test_the_slow_manifold_lies_within_its_margin(psi, z):
-    """x2 = X + eps X1: J X1 = D_z X W - U_x X; up to twice that far is followed, and no further."""
-    formulas = field(BENT)
-    C = next(C for C in c2.critical_sets(BENT, psi, (z,)) if C.kind.startswith("stable"))
-    step = 1e-5
-    X = [next(D.x2 for D in c2.critical_sets(BENT, psi, (z + h,)) if D.kind == C.kind) for h in (-step, step)]
-    moved = (X[1] - X[0]) / (2.0 * step)
-    X1 = np.linalg.solve(C.jacobian, moved - np.array([[0.0, 0.0], [1.0, 0.0]]) @ C.x2)
-    eps = 0.01 if z < 1.0 else 0.003
-    for times, follows in ((1.0, True), (1.9, True), (3.0, False), (-1.0, True), (-3.0, False)):
-        x2 = C.x2 + times * eps * X1
-        assert (followed(formulas, psi, eps, np.array([*(eps * x2), z])) is not None) == follows, times
 
 
 class Motion:
@@ -165,19 +149,6 @@ def test_an_ascent_is_the_orbit_up_the_hemisphere():
     assert line.path().tolist() == [[0.0, 0.0], [1.0, 1.0]]
 
 
-def test_phases_up_to_a_time_and_their_words():
-    slip, slide = Phase("slip", 0.0, 1.0, "", None), Phase("slide", 1.0, 2.0, "", "C2")
-    cross = Phase("cross", 2.0, 2.0, "")
-    assert agreement._until((slip, slide, cross), 2.0) == [slip, slide, cross]
-    assert agreement._until((slip, slide, cross), 1.0) == [slip]
-    assert [agreement._words(one) for one in (slip, slide, cross, None)] == [
-        "slips",
-        "slides on C2",
-        "crosses Σ",
-        "goes on as before",
-    ]
-
-
 def test_the_distance_to_a_closed_line():
     square = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
     for p, expected in (((0.0, 0.2), 0.8), ((1.5, 0.3), 0.5), ((4.0, 5.0), 5.0), ((0.7, -0.1), 0.3)):
@@ -240,23 +211,6 @@ def test_the_zero_of_a_linear_field_however_its_components_are_coupled(A):
     expected = np.linalg.solve(A, (0.3, 0.15))
     for away in ((0.2, -0.1), (-0.3, 0.2)):
         assert solved(field(system), expected + np.array(away), np.array([0.3])) == pytest.approx(expected, abs=1e-14)
-
-
-def test_the_zero_of_a_field_whose_components_are_coupled():
-    system = c2.System(U=("c**2 + s/5 - z/2", "-2*s + c/3"), W=("1",))
-    for C in c2.critical_sets(system, PSIS[0], (0.4,)):
-        e = solved(field(system), C.e + np.array([0.06, -0.05]), np.array([0.4]))
-        assert e == pytest.approx(C.e, abs=1e-14)
-
-
-@EVERY
-def test_what_repels_is_followed_but_does_not_attract(psi):
-    system = c2.System(U=("z/2 - c**2", "2*s"), W=("1",))  # at c = -sqrt(z/2) an unstable node, at +sqrt(z/2) a saddle
-    for C in c2.critical_sets(system, psi, (0.18,)):
-        x2 = 1e-6 * C.x2
-        one = followed(field(system), psi, 1e-6, np.array([*x2, 0.18]))
-        assert one is not None
-        assert not one.attracts
 
 
 def test_from_the_middle_of_the_hemisphere():

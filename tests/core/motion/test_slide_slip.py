@@ -9,7 +9,7 @@ import pytest
 import codim2_core as c2
 from codim2_core.initial_value.compiled_phases import CompiledPhases
 from codim2_core.initial_value.field import field
-from codim2_core.initial_value.leaving import _polished, leave
+from codim2_core.initial_value.leaving import leave
 from codim2_core.initial_value.line import InvariantLine
 from codim2_core.initial_value.problem import plane_problem
 from codim2_core.initial_value.safe_steps import _positive
@@ -203,13 +203,6 @@ def test_a_slip_along_a_limit_direction_arrives_when_it_must(rho):
     assert short.taken[-1].last == pytest.approx([0.25 * rho, 0.0, 0.1 + rho], abs=1e-9)
 
 
-def test_limit_directions_are_polished():
-    system = c2.ELinear(-1.0, 0.3, 1.5, (0.4, 0.2))
-    for theta in c2.equator_equilibria(system).theta:
-        assert _polished(field(system), float(theta) + 0.01, []) == pytest.approx(theta, abs=1e-14)
-    assert _polished(field(c2.ELinear(0.0, 1.0, 0.0)), 0.7, []) == 0.7  # Theta has no zero
-
-
 @pytest.mark.parametrize("turn", [0.0, 0.3])
 def test_the_first_step_away_along_a_limit_direction(turn):
     """U = (2 + z, -s + k z), z' = 3: near theta = 0: rho' = 2, lambda_theta = -3, and z turns the direction."""
@@ -276,16 +269,6 @@ def test_means_over_a_round_cycle(psi):
     e, p = _means(c2.System(U=("-s", "c"), W=("1",)), psi, np.array([0.0]), cycle)
     np.testing.assert_allclose(e, 0.0, atol=1e-3)
     np.testing.assert_allclose(p, 0.0, atol=1e-3)
-
-
-@pytest.mark.parametrize("A", [((1.0, 2.0), (3.0, -1.0)), ((0.0, -2.0), (1.0, 0.5)), ((0.3, 4.0), (-1.0, 0.0))])
-def test_a_sheet_of_a_linear_field_is_found_however_its_components_are_coupled(A):
-    (a, b), (c, d) = A
-    system = c2.System(U=(f"({a})*c + ({b})*s - z/9", f"({c})*c + ({d})*s - z**2/9"), W=("1",))
-    exact = lambda z: np.linalg.solve(A, (z / 9.0, z * z / 9.0))
-    sheet = Sheet(field(system), exact(0.3), np.array([0.3]))
-    for z in (0.31, 0.5, -1.0):
-        np.testing.assert_allclose(sheet.at(np.array([z])), exact(z), rtol=0.0, atol=1e-13)
 
 
 def test_the_rest_of_the_way_to_sigma_ends_where_its_polynomial_does():

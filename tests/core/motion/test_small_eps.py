@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from codim2_core import ELinear, examples
 from codim2_core import psi as families
@@ -44,18 +42,3 @@ def test_after_an_exit_through_the_equator_the_order_is_lower(psi, order):
     slopes, found = slope(ELinear(-1.0, 0.0, -1.0, ("z", 0.0), g=(1.0,)), psi, (0.0, 0.0, 0.8), 0.8, [1e-5, 1e-7, 1e-9])
     assert found == ["slide", "slip"]
     np.testing.assert_allclose(slopes, order, atol=0.01)
-
-
-@settings(max_examples=6, deadline=None, derandomize=True)  # a start on a separatrix may go either way
-@given(st.integers(0, 10**6))
-def test_random_systems_agree_with_a_small_eps(seed):
-    rng = np.random.default_rng(seed)
-    a, b, d, f1, f2, g1, g2 = np.round(rng.uniform(-2.0, 2.0, 7), 2).tolist()
-    system = ELinear(
-        -abs(a), b, -abs(d), ("p + q*z", "u + v*z"), B=((0.3, -0.2),), g=("1/2 - z/3",),
-        parameters={"p": f1, "q": g1, "u": f2, "v": g2},
-    )  # fmt: skip
-    state0 = np.round(rng.uniform(-1.0, 1.0, 3), 2)
-    limit = simulate_nonsmooth(system, state0, (0.0, 3.0), families.constant())
-    run = simulate(system, families.constant(), 1e-9, state0, (0.0, 3.0), rtol=1e-9)
-    np.testing.assert_allclose(run.dense(limit.times[-1]), limit.states[-1], atol=1e-4)

@@ -80,14 +80,6 @@ def test_those_motions_have_all_kinds_of_phases():
     assert kinds["leave"] == ["slip", "slide", "slip"]
 
 
-@pytest.mark.parametrize("name", MOTIONS)
-def test_a_motion_carries_its_own_rate_along(name):
-    system, state0, t_end, _ = MOTIONS[name]
-    run = limit(system, state0, t_end)
-    found = run.variation()
-    np.testing.assert_allclose(found.last @ first_rate(run), found.rate, rtol=0.0, atol=1e-9)
-
-
 @settings(max_examples=12, deadline=None)
 @given(
     st.sampled_from(["slide", "reads", "leave"]),
@@ -159,25 +151,6 @@ def test_steps_follow_one_another():
     product = rest.variation().last @ half.variation().last
     np.testing.assert_allclose(run.variation().last, product, rtol=0.0, atol=1e-9)
     np.testing.assert_array_equal(run.variation().matrices[0], np.eye(4))
-
-
-def test_volumes_shrink_at_the_rate_of_the_divergence():
-    # Liouville: d log det / dt = div (U, W), for the pool ball: that of U by quadrature along the motion.
-    system, family, eps, start = POOL, psi.constant(), 0.3, (1.0, 0.3, 1.0, 0.5)
-    run = simulate(system, family, eps, start, (0.0, 1.0), rtol=1e-12, atol=1e-13)
-    found = run.variation()
-    t, weights = np.polynomial.legendre.leggauss(60)
-    states = run.dense(0.5 + 0.5 * t)
-    h = 1e-6
-    divergence = np.zeros(len(t))
-    for i in range(4):
-        for k, state in enumerate(states):
-            ahead, behind = state.copy(), state.copy()
-            ahead[i] += h
-            behind[i] -= h
-            divergence[k] += (rate(system, eps, ahead)[i] - rate(system, eps, behind)[i]) / (2.0 * h)
-    assert math.log(np.linalg.det(found.last)) == pytest.approx(0.5 * float(weights @ divergence), rel=1e-8)
-    assert found.exponents.sum() == pytest.approx(0.5 * float(weights @ divergence), rel=1e-8)
 
 
 def rate(system, eps, state):

@@ -10,10 +10,8 @@ from scipy.integrate import solve_ivp
 
 from codim2_core import (
     ELinear,
-    Scene,
     System,
     critical_sets,
-    equator_cycle,
     equator_equilibria,
     presets,
     psi,
@@ -101,15 +99,6 @@ def test_critical_set_on_the_equator_is_named():
     assert any("radially neutral" in outcome.reason for outcome in found.directions)
     # what arrives at the other direction comes to it like 1/T: neutral, and no computation that gave up
     assert {outcome.why for outcome in found.directions if outcome.verdict == "undecided"} == {"neutral"}
-
-
-def test_three_ways_to_be_undecided_have_three_names():
-    families = approach_outcomes(ELinear(-1, 0, -1), psi.constant())
-    assert (families.whole.verdict, families.whole.why) == ("slide", "")
-    several = approach_outcomes(ELinear(-1, 0, 1), psi.constant())
-    assert {o.why for o in several.directions} <= {"", "several", "neutral"}
-    neutral = approach_outcomes(ELinear(0, 2, 0), psi.constant())
-    assert (neutral.whole.verdict, neutral.whole.why) == ("undecided", "neutral")
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 4])
@@ -271,12 +260,6 @@ def test_where_all_must_end_on_C_they_are_followed_there(a, b, d, r, angle, shap
     for told, found in zip(verdicts.arriving(problem, which), followed, strict=True):
         if found.why != "unfollowed":  # which a theorem need not be
             assert (told.verdict, told.onto, told.reason) == (found.verdict, found.onto, found.reason)
-
-
-def test_scene_coefficients_are_accepted():
-    scene = Scene(presets["case1-cm4"].system, psi.tanh())
-    assert len(approach_outcomes(scene.coefficients, scene.psi)) == 4
-    assert equator_cycle(scene.coefficients) is None
 
 
 def test_no_psi_is_followed_twice(monkeypatch):

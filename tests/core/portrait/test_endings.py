@@ -130,12 +130,6 @@ def test_an_orbit_comes_to_a_node_along_the_direction_it_is_on(f):
     assert endings._tangent_at(focus, np.array([0.1, 0.0])) is None
 
 
-def test_critical_sets_are_numbered_where_there_are_several():
-    sets = c2.critical_sets(c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s")), c2.psi.constant())
-    assert [endings.critical_label(sets, i) for i in range(3)] == ["C1", "C2", "C3"]
-    assert endings.critical_label(sets[:1], 0) == "C"
-
-
 def test_manifolds_start_as_far_out_as_the_tolerance_allows():
     """Against time an orbit from the start comes back to C, the nearer the smaller the tolerance."""
     at, p = c2.ELinear(1.2, 0.4, -0.7, (0.3, 0.2)).at(), c2.psi.rational()

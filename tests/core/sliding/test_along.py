@@ -125,24 +125,6 @@ def test_an_equilibrium_at_a_value_that_is_looked_at(flow, stable, count):
     assert all(p.z == 0.0 for p in found.points)
 
 
-def test_points_carry_the_flow_of_the_set_they_lie_on():
-    # C1, C2, C3 at c = -chi/2, 0, chi/2 with z' = -c - z: each has an equilibrium, of slow flow 0.
-    unique = c2.examples.nonunique_sliding()
-    system = c2.System(U=tuple(row.text for row in unique.U), W=("-c-z",))
-    found = slow_portrait(system, c2.psi.constant(), (-2.0, 2.0), count=21)
-    at_rest = [point for point in found.points if point.kind == "equilibrium"]
-    assert len(at_rest) == 3
-    for point in at_rest:
-        assert point.z == pytest.approx(-point.e[0], abs=1e-12)
-        assert point.flow[0] == pytest.approx(0.0, abs=1e-12)
-    for point in found.points:
-        assert point.flow[0] == pytest.approx(-point.e[0] - point.z, abs=1e-9)
-    for branch in found.branches:
-        np.testing.assert_allclose(branch.flow[:, 0], -branch.e[:, 0] - branch.z, rtol=0.0, atol=1e-9)
-        sets = c2.critical_sets(system, c2.psi.constant(), (branch.z[1],))
-        assert min(np.abs(C.p - branch.p[1]).max() for C in sets) < 1e-12
-
-
 def test_two_sets_are_born_in_a_fold_and_one_leaves_through_the_equator():
     """c = -1/4 -+ sqrt(1/16 + z/2) exist from z = -1/8; the first reaches c = -1 at z = 1. Both within one step."""
     system = c2.System(U=("c**2 + c/2 - z/2", "-s"), W=("c + 2",))

@@ -40,14 +40,6 @@ def test_a_slow_flow_that_does_not_read_e_is_unique():
     assert found.vertices.tolist() == [[-0.5]]
 
 
-@pytest.mark.parametrize("z", [(3.0, 4.0), (6.8, 0.0), (0.0, 0.0)])
-def test_the_e_linear_system_has_one_candidate_the_sliding_flow(z):
-    ball = c2.examples.ball_in_pool()
-    found = filippov_sliding(ball, z)
-    assert found.unique
-    np.testing.assert_allclose(found.vertices[0], c2.sliding_flow(ball, z), rtol=0.0, atol=1e-12)
-
-
 @settings(max_examples=20)
 @given(numbers, numbers, numbers, numbers, numbers)
 def test_e_linear_systems_have_a_candidate_iff_they_have_a_critical_set(a, b, d, f1, f2):

@@ -177,11 +177,3 @@ def test_rotation_equivariance_is_kept_where_the_system_has_it(key):
             seeds = e[:20]
             one, two = (trajectories(at, p, points, **options) for points in (seeds, seeds @ R.T))
             assert np.abs(one.ends[:, :2] @ R.T - two.ends[:, :2]).max() < 1e-9
-
-
-@EVERY
-def test_the_portrait_has_a_name_and_a_sentence(key):
-    for p in (psi.constant(), psi.tanh()):
-        found = c2.classify(frozen(key), p)
-        assert found.sentence.endswith(".")
-        assert len(c2.critical_sets(frozen(key), p)) >= 0

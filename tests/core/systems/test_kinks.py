@@ -75,16 +75,6 @@ def test_directions_of_a_piecewise_linear_law_are_those_of_its_pieces(k, f):
     np.testing.assert_allclose(found, sorted(expected), rtol=0.0, atol=1e-9)
 
 
-def test_a_critical_set_on_a_kink_has_a_kind_only_where_its_sides_agree():
-    (C,) = c2.critical_sets(CORNERS, HILL)
-    assert C.kind == "stable node"
-    np.testing.assert_allclose(C.jacobian, -np.eye(2), rtol=0.0, atol=1e-12)
-    (C,) = c2.critical_sets(c2.System(U=("max(-c, 2c) + 0.1s", "-s")), HILL)  # repels to one side only
-    assert C.kind == "saddle-node"  # a stable node and a saddle, one on either side, that have met
-    (C,) = c2.critical_sets(c2.System(U=("0.2*abs(c) - 0.1c - s", "c - 0.1s")), c2.psi.constant())
-    assert C.kind == "degenerate"  # a focus that attracts on one side and repels on the other
-
-
 @pytest.mark.parametrize(
     ("U", "J"),
     [

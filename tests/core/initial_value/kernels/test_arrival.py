@@ -54,20 +54,6 @@ def test_what_arrives_slides_on_the_only_set(C, A, expected):
         assert place == pytest.approx(C, abs=1e-14)
 
 
-def test_the_only_set_is_where_it_is():
-    """For any matrix whose symmetric part is negative definite: C is inside, or it is not."""
-    system = System(U=("z1*(c - z5) + z2*(s - z6)", "z3*(c - z5) + z4*(s - z6)"), W=("0*c",) * 6)
-    rng, told = np.random.default_rng(12), []
-    for _ in range(40):
-        L, w, C = rng.normal(size=(2, 2)), 2.0 * rng.normal(), rng.uniform(-1.0, 1.0, 2)
-        A = -(L @ L.T) - 0.1 * np.eye(2) + w * np.array([[0.0, 1.0], [-1.0, 0.0]])
-        found, place = _slides(system, 0.3, affine=True, z=(*A.ravel(), *C))
-        assert found is bool(np.hypot(*C) < 1.0)
-        assert not found or place == pytest.approx(C, abs=1e-13)
-        told.append(found)
-    assert {False, True} == set(told)
-
-
 def test_what_arrives_slides_where_two_orbits_end():
     system = System(U=("-(c - 0.4) + 0.6*(s + 0.2)", "-0.2*(c - 0.4) - 1.5*(s + 0.2)"))
     theta = _attracting(system)

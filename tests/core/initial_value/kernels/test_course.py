@@ -217,17 +217,6 @@ def test_a_motion_of_more_phases_than_there_is_room_for_is_whole():
     assert [leg.first for leg in one.legs[1:]] == [leg.last for leg in one.legs[:-1]]
 
 
-def test_phases_of_many_motions_stand_apart():
-    ahead = [(0.6, -0.8, 0.5), (0.3, 0.4, -0.5), (-0.1, 0.2, 0.0)]
-    falls = ELinear(-1.0, 0.0, -1.0, B=((0.0, 0.0),), g=(2.0,))
-    for (x, y, z), one in zip(ahead, _followed(falls, ahead, 1.5), strict=True):
-        slip, slide = one.legs
-        assert one.motion.times[slip.last] == pytest.approx(math.hypot(x, y), abs=1e-12)
-        assert one.motion.times[0] == 0.0
-        assert slide.theta == pytest.approx(math.atan2(y, x), abs=1e-6)
-        assert one.motion.states[-1, 2] == pytest.approx(z + 3.0, abs=1e-12)
-
-
 def test_which_of_two_sets_it_slides_on_is_told_with_a_psi_alone():
     two = System(U=("3*c*(0.25 - c**2)", "-4*s + 0*z1"), W=("1",))
     for x, c in ((0.3, 0.5), (-0.3, -0.5)):

@@ -64,7 +64,7 @@ def test_it_goes_round_with_a_push_that_goes_round(mu, d, F, w, eps):
         assert found.stability == ("stable" if size < 1.0 else "unstable")
 
 
-@pytest.mark.parametrize(("mu", "F", "w"), [(0.1, 1.0, 0.6), (0.2, 1.0, 1.7), (0.3, 1.2, 0.75)])
+@pytest.mark.parametrize(("mu", "F", "w"), [(0.1, 1.0, 0.6), (0.3, 1.2, 0.75)])
 def test_den_hartogs_motion_in_its_line_and_in_the_plane(mu, F, w):
     exact = DenHartog(mu, F, w)
     speed, q = exact.at_clock(0.0)
