@@ -77,6 +77,7 @@ class Room:
         note.unlink()
         self._warm()
         paths = frozenset(str(job.path) for job in self.jobs)
+        gc.unfreeze()  # what `tests.conftest` froze is not listed
         living, held = live.functions(paths), live.caches((*PACKAGES.values(), "tests"))
         gc.collect()
         gc.freeze()  # only now: what is frozen is not listed any more

@@ -70,7 +70,7 @@ def test_the_limit_is_differentiated_through_all_phases(name):
         return limit(given, start + h * aside, t_end).states[-1]
 
     expected = found.last[:, : len(start)] @ aside + sum((k + 1) * found.by(one)[-1] for k, one in enumerate(names))
-    np.testing.assert_allclose(difference(end, 0.0, 1e-6), expected, rtol=0.0, atol=3e-7)
+    np.testing.assert_allclose(difference(end, 0.0, 1e-6), expected, rtol=0.0, atol=1e-7)
 
 
 def test_those_motions_have_all_kinds_of_phases():
