@@ -40,9 +40,9 @@ class Notebook(Explorer):
         self.page.evaluate("window.jupyterapp.shell.currentWidget.sessionContext.restartKernel()")
         self.page.wait_for_function(KERNEL)
 
-    def wait(self, holds, patience=20.0):
+    def wait(self, holds):
         """Wait until something holds; what follows says what did not."""
-        end = time.monotonic() + patience
+        end = time.monotonic() + PATIENCE / 1000
         while not holds() and time.monotonic() < end:
             self.page.wait_for_timeout(50)
 

@@ -24,7 +24,7 @@ def executed(tmp_path_factory):
     patch.setenv("IPYTHONDIR", str(tmp_path_factory.mktemp("ipython")))
     books = {file.stem: nbformat.read(file, 4) for file in NOTEBOOKS}
     fresh = nbformat.v4.new_code_cell("%reset -f")
-    client = NotebookClient(nbformat.v4.new_notebook(cells=[]), timeout=120, kernel_name="python3")
+    client = NotebookClient(nbformat.v4.new_notebook(cells=[]), timeout=600, kernel_name="python3")
     with client.setup_kernel():
         for book in books.values():
             for i, cell in enumerate(book.cells):
