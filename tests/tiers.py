@@ -6,8 +6,8 @@ functions make 80 % of the time of a run.
 ===========  =====================================================================================
 `fast`       the inner loop: the rooms and the presets, without what `costly.txt` lists
 `browser`    what drives a headless Chromium
-`slow`       faults, fuzz, containers, other versions, Firefox, and of long series of cases those
-             that `sampled.txt` leaves; left out unless asked for: ``-m slow``
+`slow`       faults, fuzz, containers, other versions and processors, Firefox, random systems, 50 digits,
+             and of long series those cases that `sampled.txt` leaves; only if asked for: ``-m slow``
 ===========  =====================================================================================
 
 ``python -m pytest`` runs all but `slow`; a file that is named is run whole.
@@ -26,7 +26,7 @@ import pytest
 
 TESTS = Path(__file__).parent
 FAST = ("core", "app", "presets")
-SLOW = ("faults", "fuzz", "containers", "versions", "firefox")
+SLOW = ("faults", "fuzz", "containers", "versions", "firefox", "stress", "precision")
 COSTLY = TESTS / "costly.txt"
 #: Lines ``N file::function``: of the function's cases only each N-th is run wherever all tests are.
 SAMPLED = TESTS / "sampled.txt"

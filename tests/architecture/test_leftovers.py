@@ -22,20 +22,10 @@ def test_what_is_left_behind_fails_the_run(tmp_path, seconds, code):
         "from tests import leftovers\nfrom tests.leftovers import *\nleftovers.PATIENCE = 2.0\n"
     )
     (tmp_path / "test_it.py").write_text(LEAVES.format(seconds=seconds))
-    command = [
-        sys.executable,
-        "-m",
-        "pytest",
-        "-q",
-        "-p",
-        "no:cacheprovider",
-        "-W",
-        "ignore",
-        "--rootdir",
-        tmp_path,
-        tmp_path,
-    ]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    alone = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
+    options = ["-q", "-p", "no:cacheprovider", "-W", "ignore", "--rootdir", tmp_path]
+    command = [sys.executable, "-m", "pytest", *options, tmp_path]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=alone)
     left = re.findall(r"^  (\d+) .*time.sleep\(600\)", done.stdout, re.MULTILINE)
     for number in left:
         os.kill(int(number), signal.SIGKILL)

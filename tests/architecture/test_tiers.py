@@ -32,7 +32,7 @@ def test_many(n):
         ("app", "app/a.py::test_costly", []),
         ("browser", "browser/a.py::test_a", ["browser"]),
         ("faults", "faults/a.py::test_a", ["slow"]),
-        ("stress", "stress/a.py::test_a", []),
+        ("words", "words/a.py::test_a", []),
     ],
 )
 def test_marks_of_a_test(folder, name, found):
@@ -42,7 +42,7 @@ def test_marks_of_a_test(folder, name, found):
 def test_every_folder_of_slow_tests_is_left_out_unless_it_is_asked_for(tmp_path):
     """Tried on a copy of the configuration with tests that do nothing."""
     tests = tmp_path / "tests"
-    for folder in ("core/psi", "stress", *tiers.SLOW):
+    for folder in ("core/psi", "words", *tiers.SLOW):
         (tests / folder).mkdir(parents=True)
         for part in [tests / folder, *(tests / folder).parents][: folder.count("/") + 2]:
             (part / "__init__.py").touch()
@@ -50,7 +50,7 @@ def test_every_folder_of_slow_tests_is_left_out_unless_it_is_asked_for(tmp_path)
     for name in ("pyproject.toml", "tests/conftest.py", "tests/leftovers.py", "tests/tiers.py"):
         (tmp_path / name).write_text((ROOT / name).read_text())
     (tests / "costly.txt").write_text("core/psi/test_it.py::test_two\n")
-    (tests / "sampled.txt").write_text("3 core/psi/test_it.py::test_many\n4 stress/test_it.py::test_many\n")
+    (tests / "sampled.txt").write_text("3 core/psi/test_it.py::test_many\n4 words/test_it.py::test_many\n")
 
     both = (2 + 3) + (2 + 2)  # without what is sampled
     asked = {
@@ -58,8 +58,8 @@ def test_every_folder_of_slow_tests_is_left_out_unless_it_is_asked_for(tmp_path)
         ("-n0", "-m", "fast"): 1 + 3,
         ("-n0", "-m", "slow"): 9 * len(tiers.SLOW) + 4 + 5,
         (f"tests/{tiers.SLOW[0]}",): 9,
-        ("tests/stress",): 4,
-        ("tests/stress/test_it.py",): 9,
+        ("tests/words",): 4,
+        ("tests/words/test_it.py",): 9,
         ("-p", "no:xdist"): both,  # where pytest-xdist is not installed
     }
     # each in a child of one process, which has imported what all need
