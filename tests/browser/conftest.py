@@ -1,10 +1,8 @@
 import os
 import shutil
 from contextlib import ExitStack, contextmanager
-from urllib.parse import parse_qsl
 
 import pytest
-from codim2_app.state.links import read_link
 
 from tests.work import PATIENCE as SECONDS
 
@@ -17,7 +15,6 @@ WINDOW = {"width": 1280, "height": 800}
 #: What Chromium says of a script that is fetched first and used last, where other tests have the machine.
 SLOWLY = "was preloaded using link preload but not used within a few seconds"
 VISITED = "try { localStorage.setItem('codim2-welcome', 'seen') } catch { /* forbidden */ }"
-FAILED = pytest.StashKey[bool]()
 EMPTIED = "() => { try { localStorage.clear(); sessionStorage.clear(); return true } catch { return false } }"
 
 
@@ -76,14 +73,6 @@ class Explorer:
     def open(self, query=""):
         self.page.goto(f"{self.address}/{query}")
         self.page.wait_for_selector(".codim2[data-ready]")
-        return self.settle()
-
-    def turn(self, query=""):
-        """Set all that a link sets, in the page that is open: a fifth of the time of opening it."""
-        link = read_link(dict(parse_qsl(query.removeprefix("?"))))
-        assert not link.errors, link.errors
-        values = {"beside": "", **link.state.values()}
-        self.find(".codim2").evaluate("(root, values) => root.explorer.open(values)", values)
         return self.settle()
 
     def until(self, condition):
@@ -184,70 +173,8 @@ def open_page(tabs):
         yield lambda **options: pages.enter_context(tabs.page(**options))
 
 
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_makereport(item, call):
-    """Note a failure, after which no test gets the page of this one."""
-    report = yield
-    item.stash[FAILED] = item.stash.get(FAILED, False) or report.failed
-    return report
-
-
-class Standing:
-    """Pages that stay open, one of a size and kind: tests that neither reload nor type equations share them."""
-
-    def __init__(self, tabs):
-        self.tabs, self.pages, self.taken = tabs, {}, set()
-
-    def take(self, query="", viewport=WINDOW, **options):
-        """Return the page of that kind, set to what a link says."""
-        key = repr((viewport, options))
-        if key not in self.pages:
-            holding = ExitStack()
-            self.pages[key] = holding, holding.enter_context(self.tabs.page(viewport=viewport, **options)).open()
-        self.taken.add(key)
-        page = self.pages[key][1]
-        page.page.evaluate(EMPTIED)
-        page.page.emulate_media(color_scheme="light")
-        if page.find(".codim2").get_attribute("data-sheet") not in (None, "inspector"):  # of a phone
-            page.find(".sheets [data-sheet=inspector]").tap()
-        return page.turn(query)
-
-    def free(self, spoiled):
-        """Say that a test has ended; what it has spoiled is closed."""
-        taken = [self.pages[key][1] for key in self.taken]
-        for key in self.taken if spoiled else ():
-            self.pages.pop(key)[0].close()
-        self.taken.clear()
-        for page in taken:
-            said, page.complaints[:] = list(page.complaints), []
-            assert said == []
-            page.page.mouse.move(0, 0)
-
-
-@pytest.fixture(scope="session")
-def standing(tabs):
-    found = Standing(tabs)
-    yield found
-    for holding, _ in found.pages.values():
-        holding.close()
-
-
 @pytest.fixture
-def turned(standing, request):
-    """A page that is open, set to what a link says."""
-    yield standing.take
-    standing.free(request.node.stash.get(FAILED, False))
-
-
-@pytest.fixture
-def explorer(turned):
-    """The page as it opens."""
-    return turned()
-
-
-@pytest.fixture
-def fresh(open_page):
-    """A page that is opened for one test."""
+def explorer(open_page):
     page = open_page().open()
     yield page
     assert page.complaints == []
@@ -260,13 +187,14 @@ def setting(request):
 
 
 @pytest.fixture
-def opened(turned, setting):
+def opened(open_page, setting):
     """Open a panel at that setting."""
 
     def make(panel, **more):
         query = "&".join(
             f"{name}={value}" for name, value in {**setting, "psi": "rational", "panel": panel, **more}.items()
         )
-        return turned(f"?{query}", viewport={"width": 1440, "height": 900}).painted().settle()
+        page = open_page(viewport={"width": 1440, "height": 900}).open(f"?{query}")
+        return page.painted().settle()
 
     return make

@@ -43,8 +43,8 @@ def test_the_picture_fills_the_screen_controls_fade_and_come_with_the_pointer(op
     assert page.complaints == []
 
 
-def test_a_letter_that_is_typed_is_no_key(turned):
-    page = turned("?v=1&system=own&panel=numbers", viewport=WIDE)
+def test_a_letter_that_is_typed_is_no_key(open_page):
+    page = open_page(viewport=WIDE).open("?v=1&system=own&panel=numbers")
     page.find("textarea[data-box=U1]").press("b")
     page.settle()
     assert page.find(".codim2.beamer").count() == 0

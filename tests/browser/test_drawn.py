@@ -259,8 +259,8 @@ def test_the_screen_shows_the_marks_the_right_way_up(drawn):
         assert colour_at(drawn.page, (C.p[0] + 0.02, -C.p[1])) != [0xC8, 0x10, 0x2E]
 
 
-def test_a_motion_starts_where_it_is_launched(turned):
-    page = turned("?panel=orbits&orbit_eps=show&k1=0&k2=0&launch=-0.3,0.4,0")
+def test_a_motion_starts_where_it_is_launched(open_page):
+    page = open_page().open("?panel=orbits&orbit_eps=show&k1=0&k2=0&launch=-0.3,0.4,0")
     page.settle()
     *paths, dot = [item for item in page.find(".codim2").evaluate(RECORDER, "above") if item["kind"] == "stroke"]
     assert {tuple(path["dash"]) for path in paths} == {(), (5, 4)}  # the limit, and the motion for eps > 0

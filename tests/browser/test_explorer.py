@@ -11,11 +11,11 @@ ELSEWHERE = {"n", "z2", "z3", "z4", "log_eps", "t_end"}  # of Hill's Ψ, of othe
 SLIDERS = [name for name in NUMBERS if name not in ELSEWHERE]
 
 
-def test_page_asks_nobody_else_and_says_nothing(fresh):
-    assert fresh.name() == "CM4"
-    hosts = {urlparse(url).netloc for url in fresh.requests if not url.startswith(("data:", "blob:"))}
-    assert hosts == {urlparse(fresh.address).netloc}
-    assert fresh.complaints == []
+def test_page_asks_nobody_else_and_says_nothing(explorer):
+    assert explorer.name() == "CM4"
+    hosts = {urlparse(url).netloc for url in explorer.requests if not url.startswith(("data:", "blob:"))}
+    assert hosts == {urlparse(explorer.address).netloc}
+    assert explorer.complaints == []
 
 
 def test_pages_of_two_processes_ask_nobody_else(open_page):
@@ -115,16 +115,16 @@ def test_typed_value_widens_the_slider(explorer):
     assert explorer.find("#c2-a").input_value() == "-37"
 
 
-def test_custom_psi_is_checked_and_drawn(fresh):
-    fresh.find("select.psi").select_option("custom")
-    fresh.settle()
-    text = fresh.find("#c2-psi-text")
+def test_custom_psi_is_checked_and_drawn(explorer):
+    explorer.find("select.psi").select_option("custom")
+    explorer.settle()
+    text = explorer.find("#c2-psi-text")
     text.fill("1/(1+")
-    fresh.settle()
-    assert fresh.find("[data-control=psi_text] .error").is_visible()
+    explorer.settle()
+    assert explorer.find("[data-control=psi_text] .error").is_visible()
     text.fill("1/(1+s)**3")
-    fresh.settle()
-    assert not fresh.find("[data-control=psi_text] .error").is_visible()
+    explorer.settle()
+    assert not explorer.find("[data-control=psi_text] .error").is_visible()
 
 
 def test_layers_hide_and_return(explorer):
@@ -188,8 +188,8 @@ def test_reset_returns_to_the_first_setting(explorer):
 
 
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (390, 844)])
-def test_no_width_scrolls_sideways(turned, width, height):
-    page = turned(viewport={"width": width, "height": height})
+def test_no_width_scrolls_sideways(open_page, width, height):
+    page = open_page(viewport={"width": width, "height": height}).open()
     for theme in ("light", "dark"):
         page.page.emulate_media(color_scheme=theme)
         page.painted().settle()
@@ -202,8 +202,8 @@ def test_no_width_scrolls_sideways(turned, width, height):
     assert page.complaints == []
 
 
-def test_the_list_of_portraits_has_the_whole_width_and_reset_stands_beside_its_word(turned):
-    page = turned("?v=1&preset=conics-4&panel=numbers", viewport={"width": 1440, "height": 900})
+def test_the_list_of_portraits_has_the_whole_width_and_reset_stands_beside_its_word(open_page):
+    page = open_page(viewport={"width": 1440, "height": 900}).open("?v=1&preset=conics-4&panel=numbers")
     select, reset = page.find("select.preset"), page.find(".reset")
     place, width = reset.bounding_box(), select.bounding_box()["width"]
     assert width == pytest.approx(page.find(".system-box select").bounding_box()["width"], abs=1)

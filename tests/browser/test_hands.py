@@ -18,8 +18,8 @@ def starts(explorer):
     return explorer.page.evaluate("new URLSearchParams(location.search).get('orbits')")
 
 
-def test_a_click_launches_the_orbit_through_that_point(turned, open_page):
-    explorer = turned("?panel=orbits")
+def test_a_click_launches_the_orbit_through_that_point(open_page):
+    explorer = open_page().open("?panel=orbits")
     explorer.page.mouse.click(*place(explorer, -0.4, 0.3))
     explorer.settle()
     assert explorer.find(".orbit-goes").all_text_contents() == ["Tends to C, a stable node: sliding."]
@@ -35,8 +35,8 @@ def test_a_click_launches_the_orbit_through_that_point(turned, open_page):
     assert explorer.complaints == []
 
 
-def test_a_drag_takes_the_orbit_along_and_its_start_can_be_moved_later(turned):
-    explorer = turned("?panel=orbits&preset=case1-ncm2")
+def test_a_drag_takes_the_orbit_along_and_its_start_can_be_moved_later(open_page):
+    explorer = open_page().open("?panel=orbits&preset=case1-ncm2")
     page = explorer.page
     page.mouse.move(*place(explorer, -0.4, 0.3))
     page.mouse.down()
@@ -58,8 +58,8 @@ def test_a_drag_takes_the_orbit_along_and_its_start_can_be_moved_later(turned):
     assert explorer.find(".orbit-goes").text_content() == "Leaves the picture."
 
 
-def test_an_orbit_is_named_hidden_and_removed(turned):
-    explorer = turned("?panel=orbits&orbits=-0.4,0.3%3B0.2,-0.5")
+def test_an_orbit_is_named_hidden_and_removed(open_page):
+    explorer = open_page().open("?panel=orbits&orbits=-0.4,0.3%3B0.2,-0.5")
     explorer.find(".orbit-name").first.fill("mine")
     explorer.find(".orbit-name").first.press("Enter")
     explorer.find(".orbit-list .hide").nth(1).click()
@@ -75,16 +75,16 @@ def test_an_orbit_is_named_hidden_and_removed(turned):
     assert explorer.find(".orbit-list li").count() == 0
 
 
-def test_orbits_stay_through_every_slider_move(turned):
-    explorer = turned("?panel=orbits&orbits=1.2,0.8")
+def test_orbits_stay_through_every_slider_move(open_page):
+    explorer = open_page().open("?panel=orbits&orbits=1.2,0.8")
     before = explorer.find(".orbit-goes").text_content()
     explorer.type("f1", "-1.5")
     assert explorer.find(".orbit-list li").count() == 1
     assert explorer.find(".orbit-goes").text_content() != before
 
 
-def test_a_finger_that_taps_launches_and_one_that_swipes_does_not(turned):
-    explorer = turned("?panel=orbits", viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+def test_a_finger_that_taps_launches_and_one_that_swipes_does_not(open_page):
+    explorer = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open("?panel=orbits")
     explorer.page.touchscreen.tap(*place(explorer, -0.4, 0.3))
     explorer.settle()
     assert explorer.find(".orbit-list li").count() == 1
@@ -97,8 +97,8 @@ def objects(explorer, kind):
     return list(zip(columns["x"], columns["y"], strict=True))
 
 
-def test_a_click_on_an_object_pins_it_and_one_beside_launches(turned):
-    explorer = turned("?b=0.3&panel=orbits&layers=inside,launched,equator,critical")
+def test_a_click_on_an_object_pins_it_and_one_beside_launches(open_page):
+    explorer = open_page().open("?b=0.3&panel=orbits&layers=inside,launched,equator,critical")
     page, pinned = explorer.page, explorer.find(".card.pinned")
     at = objects(explorer, "critical")[0]
     page.mouse.click(*place(explorer, *at))
@@ -133,8 +133,8 @@ def test_a_click_on_an_object_pins_it_and_one_beside_launches(turned):
     assert explorer.complaints == []
 
 
-def test_objects_are_reached_by_the_keyboard(turned, open_page):
-    explorer = turned("?b=0.3")
+def test_objects_are_reached_by_the_keyboard(open_page):
+    explorer = open_page().open("?b=0.3")
     names = "[...root.querySelectorAll('.objects button')].map((it) => it.dataset.object).join()"
     explorer.until(f"{names} === 'C,Q1,Q2,U1,U2,R,T'")
     explorer.find(".objects button").nth(1).focus()
@@ -148,8 +148,10 @@ def test_objects_are_reached_by_the_keyboard(turned, open_page):
     assert again.find(".card.pinned").text_content().startswith("×Q₁ ")
 
 
-def test_a_tap_on_an_object_pins_it(turned):
-    explorer = turned("?b=0.3&panel=orbits", viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+def test_a_tap_on_an_object_pins_it(open_page):
+    explorer = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open(
+        "?b=0.3&panel=orbits"
+    )
     explorer.page.touchscreen.tap(*place(explorer, *objects(explorer, "critical")[0]))
     explorer.settle()
     assert explorer.find(".card.pinned").text_content().startswith("×C stable node")
@@ -160,8 +162,8 @@ def test_a_tap_on_an_object_pins_it(turned):
     assert explorer.find(".card.pinned").is_visible()
 
 
-def test_a_typed_start_is_in_the_link_undone_and_let_move_from_a_launched_orbit(turned, open_page):
-    explorer = turned("?panel=orbits&orbits=1.2,0.8&z=0.25")
+def test_a_typed_start_is_in_the_link_undone_and_let_move_from_a_launched_orbit(open_page):
+    explorer = open_page().open("?panel=orbits&orbits=1.2,0.8&z=0.25")
     assert explorer.find("[data-control=t_end]").is_hidden()
     explorer.find(".orbit-time .here").click()
     explorer.kept()

@@ -7,8 +7,8 @@ import pytest
 pytestmark = pytest.mark.browser
 
 
-def test_a_lesson_from_the_list_to_its_goal(turned):
-    explorer = turned("?panel=lessons")
+def test_a_lesson_from_the_list_to_its_goal(open_page):
+    explorer = open_page().open("?panel=lessons")
     explorer.find("[data-open='03-limit-directions']").click()
     explorer.settle()
     assert explorer.find(".lesson-text math").count() > 5
@@ -45,8 +45,8 @@ def test_a_lesson_from_the_list_to_its_goal(turned):
     assert explorer.complaints == []
 
 
-def test_a_number_in_the_text_is_dragged_and_moves_the_slider(turned):
-    explorer = turned("?panel=lessons&lesson=01-friction&preset=case1-cm0")
+def test_a_number_in_the_text_is_dragged_and_moves_the_slider(open_page):
+    explorer = open_page().open("?panel=lessons&lesson=01-friction&preset=case1-cm0")
     number = explorer.find("[data-drag=f1]").first
     number.scroll_into_view_if_needed()
     box = number.bounding_box()

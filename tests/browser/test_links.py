@@ -108,38 +108,38 @@ def test_one_owner_of_z(explorer):
     assert float(explorer.find("[data-control=z] .number").input_value()) < 0.1
 
 
-def test_reset_is_the_first_setting_whole(fresh):
-    fresh.find("select.preset").select_option("ball-dynamic")
-    fresh.settle()
-    fresh.find(".reset").click()
-    fresh.settle()
-    query, _, name, note = state(fresh)
+def test_reset_is_the_first_setting_whole(explorer):
+    explorer.find("select.preset").select_option("ball-dynamic")
+    explorer.settle()
+    explorer.find(".reset").click()
+    explorer.settle()
+    query, _, name, note = state(explorer)
     assert (query, name) == ({"v": ["1"]}, "CM4")
     assert "four limit directions" in note
-    assert fresh.find(".tabs [aria-selected=true]").text_content() == "Atlas"
+    assert explorer.find(".tabs [aria-selected=true]").text_content() == "Atlas"
 
 
-def test_a_portrait_does_not_destroy_what_was_typed(fresh):
-    choose = fresh.find(".system-box select").select_option
+def test_a_portrait_does_not_destroy_what_was_typed(explorer):
+    choose = explorer.find(".system-box select").select_option
     choose("own")
-    fresh.settle().find("textarea[data-box=W]").fill("foo + ")
-    fresh.settle().find("textarea[data-box=U1]").fill("-q*c")
-    fresh.settle()
-    fresh.find("[data-control=slow-z] input[type=range]").press("ArrowRight")
-    fresh.settle()
-    assert "column" in fresh.find("[data-box=W] .error").text_content()  # still wrong, and still said
-    fresh.find("select.preset").select_option("case1-cm0")
-    fresh.settle()
-    assert fresh.name() == "CM0"
-    assert fresh.find(".error:visible").count() == 0
-    fresh.kept().page.reload()
-    fresh.page.wait_for_selector(".codim2[data-ready]")
-    fresh.settle()
+    explorer.settle().find("textarea[data-box=W]").fill("foo + ")
+    explorer.settle().find("textarea[data-box=U1]").fill("-q*c")
+    explorer.settle()
+    explorer.find("[data-control=slow-z] input[type=range]").press("ArrowRight")
+    explorer.settle()
+    assert "column" in explorer.find("[data-box=W] .error").text_content()  # still wrong, and still said
+    explorer.find("select.preset").select_option("case1-cm0")
+    explorer.settle()
+    assert explorer.name() == "CM0"
+    assert explorer.find(".error:visible").count() == 0
+    explorer.kept().page.reload()
+    explorer.page.wait_for_selector(".codim2[data-ready]")
+    explorer.settle()
     choose("own")
-    fresh.settle()
-    assert fresh.find("textarea[data-box=U1]").input_value() == "-q*c"
-    assert fresh.find("textarea[data-box=W]").input_value() == "foo + "
-    assert "column" in fresh.find("[data-box=W] .error").text_content()
-    fresh.find("textarea[data-box=W]").fill("foo")
-    fresh.settle()
-    assert fresh.find(".error:visible").count() == 0
+    explorer.settle()
+    assert explorer.find("textarea[data-box=U1]").input_value() == "-q*c"
+    assert explorer.find("textarea[data-box=W]").input_value() == "foo + "
+    assert "column" in explorer.find("[data-box=W] .error").text_content()
+    explorer.find("textarea[data-box=W]").fill("foo")
+    explorer.settle()
+    assert explorer.find(".error:visible").count() == 0

@@ -93,8 +93,8 @@ def test_only_keys_ring_a_chart(explorer):
 
 
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (1180, 800), (390, 844)])
-def test_controls_and_tabs_fit(turned, width, height):
-    page = turned(viewport={"width": width, "height": height})
+def test_controls_and_tabs_fit(open_page, width, height):
+    page = open_page(viewport={"width": width, "height": height}).open()
     for words in OWN:
         open_panel(page, words)
         assert page.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
@@ -179,8 +179,8 @@ def test_the_atlas_is_narrowed_around_the_handle(explorer):
     assert explorer.find(".panel-atlas .zoom .out").is_disabled()
 
 
-def test_a_special_point_is_gone_to_exactly(turned):
-    page = turned("?preset=case3-n3&panel=diagram&along=n")
+def test_a_special_point_is_gone_to_exactly(open_page):
+    page = open_page().open("?preset=case3-n3&panel=diagram&along=n")
     page.find(".diagram .cycle").first.wait_for()
     page.find(".special-list button").filter(has_text="Hopf").click()
     page.kept()
@@ -211,8 +211,8 @@ def test_the_diagram_sets_its_parameter(explorer):
     assert explorer.find(".diagram .value").get_attribute("d") != line
 
 
-def test_a_slider_leaves_a_trail_in_the_planes(turned):
-    page = turned("?preset=case3-n2&panel=planes")
+def test_a_slider_leaves_a_trail_in_the_planes(open_page):
+    page = open_page().open("?preset=case3-n2&panel=planes")
     assert page.find(".trace-plane .over").count() == 1
     assert "n = 4" in page.find(".plane-table").text_content()
     slider = page.find("#c2-n")
@@ -226,8 +226,8 @@ def test_a_slider_leaves_a_trail_in_the_planes(turned):
     assert page.complaints == []
 
 
-def test_outcomes_are_told_by_ring_and_table(turned):
-    page = turned("?preset=case1-ncm4&panel=numbers")
+def test_outcomes_are_told_by_ring_and_table(open_page):
+    page = open_page().open("?preset=case1-ncm4&panel=numbers")
     assert not page.find(".outcome-key").is_visible()
     before = page.picture()
     page.find(".layer input[value=outcomes]").check()
@@ -244,8 +244,8 @@ def test_outcomes_are_told_by_ring_and_table(turned):
     assert page.complaints == []
 
 
-def test_the_words_of_the_ring_leave_a_phone_its_place(turned):
-    page = turned(viewport={"width": 390, "height": 844})
+def test_the_words_of_the_ring_leave_a_phone_its_place(open_page):
+    page = open_page(viewport={"width": 390, "height": 844}).open()
     before = page.find(".hero").bounding_box()["height"]
     page.find(".layer input[value=outcomes]").check()
     page.settle()

@@ -13,9 +13,9 @@ SMALL = """(root) => [...root.querySelectorAll('button, select, input:not([type=
 
 
 @pytest.fixture(params=PHONES, ids=lambda size: f"{size[0]}x{size[1]}")
-def phone(request, turned):
+def phone(request, open_page):
     width, height = request.param
-    page = turned(viewport={"width": width, "height": height}, has_touch=True, is_mobile=True)
+    page = open_page(viewport={"width": width, "height": height}, has_touch=True, is_mobile=True).open()
     yield page
     assert page.complaints == []
 
@@ -81,8 +81,8 @@ RANGES = """() => { const plot = Bokeh.documents.flatMap((it) => it.all_models ?
 
 
 @pytest.fixture
-def touched(turned):
-    page = turned(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+def touched(open_page):
+    page = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open()
     page.until("root.querySelector('.first') === null")  # Bokeh has painted, and scrolls
     yield page
     assert page.complaints == []
@@ -165,9 +165,9 @@ def test_what_a_link_asked_in_vain_is_read_where_its_control_is_in_a_closed_shee
 
 
 @pytest.mark.parametrize(("width", "height", "most"), [(390, 844, 0.17), (360, 640, 0.25), (844, 390, 0.2)])
-def test_a_pinned_card_leaves_the_picture_to_be_seen_and_the_open_tab_is_in_view(turned, width, height, most):
-    size = {"width": width, "height": height}
-    page = turned("?v=1&preset=case3-n3&pinned=Q1&panel=orbits", viewport=size, has_touch=True, is_mobile=True)
+def test_a_pinned_card_leaves_the_picture_to_be_seen_and_the_open_tab_is_in_view(open_page, width, height, most):
+    page = open_page(viewport={"width": width, "height": height}, has_touch=True, is_mobile=True)
+    page.open("?v=1&preset=case3-n3&pinned=Q1&panel=orbits").settle()
     card, picture = (page.find(name).bounding_box() for name in (".card.pinned", ".picture"))
     covered = picture["y"] + picture["height"] - card["y"]
     assert card["height"] > 0

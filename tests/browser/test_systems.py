@@ -49,23 +49,23 @@ def test_back_to_the_normal_form_everything_is_as_before(explorer):
     assert explorer.name() != before
 
 
-def test_typed_equations_are_drawn_and_their_names_become_sliders(fresh):
-    choose(fresh, "own")
-    box = fresh.find("textarea[data-box=U1]")
+def test_typed_equations_are_drawn_and_their_names_become_sliders(explorer):
+    choose(explorer, "own")
+    box = explorer.find("textarea[data-box=U1]")
     box.fill("-q*c + 1/4")
-    fresh.settle()
-    symbols = fresh.find(".parameters label").all_text_contents()
+    explorer.settle()
+    symbols = explorer.find(".parameters label").all_text_contents()
     assert symbols == ["q", "k"]
-    fresh.find("textarea[data-box=U2]").fill("-q*s")
-    fresh.settle()
-    assert "1 critical set" in fresh.name() or "CM" in fresh.name()
+    explorer.find("textarea[data-box=U2]").fill("-q*s")
+    explorer.settle()
+    assert "1 critical set" in explorer.name() or "CM" in explorer.name()
     box.fill("-q*c + (")
-    fresh.settle()
-    error = fresh.find(".boxes [data-box=U1] .error")
+    explorer.settle()
+    error = explorer.find(".boxes [data-box=U1] .error")
     assert "column" in error.text_content()
     assert error.is_visible()
     box.fill("q*c")
-    fresh.settle()
+    explorer.settle()
     assert not error.is_visible()
 
 
@@ -83,14 +83,14 @@ def test_a_box_is_as_high_as_its_formula(explorer):
     assert box.bounding_box()["height"] == low
 
 
-def test_hostile_text_is_refused_beside_its_box_and_the_page_lives(fresh):
-    choose(fresh, "own")
+def test_hostile_text_is_refused_beside_its_box_and_the_page_lives(explorer):
+    choose(explorer, "own")
     for text in ("__import__('os').system('true')", "c.__class__", "9**9**9**9", "(" * 900):
-        fresh.find("textarea[data-box=U1]").fill(text)
-        fresh.settle()
-        assert fresh.find(".boxes [data-box=U1] .error").is_visible()
-    choose(fresh, "normal")
-    assert fresh.name() == "CM4"
+        explorer.find("textarea[data-box=U1]").fill(text)
+        explorer.settle()
+        assert explorer.find(".boxes [data-box=U1] .error").is_visible()
+    choose(explorer, "normal")
+    assert explorer.name() == "CM4"
 
 
 def test_play_drifts_along_the_slow_flow_to_its_equilibrium(explorer):
