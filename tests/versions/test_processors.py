@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).parents[2]
-FOLDERS = ("core", "precision", "presets", "words", "pictures", "architecture/test_doctests.py")
+FOLDERS = ("core", "presets", "words", "pictures", "architecture")  # folders: of a file, all sampled cases would run
 #: NumPy's own kernels above its least, by which its sines and exponentials differ.
 WIDE = "X86_V4 AVX512_ICL AVX512_SPR AVX512F AVX512CD AVX512_SKX AVX512_CLX AVX512_CNL"
 PROCESSORS = {
