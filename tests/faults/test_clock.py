@@ -8,7 +8,8 @@ from codim2_app.draw.packing import unpack
 from tests.benchmarks import app_load
 from tests.benchmarks.bokeh_wire import Wire
 from tests.benchmarks.visits import page
-from tests.faults.test_leaving import FILE, TYPED, state_of, until, workers
+from tests.faults.test_leaving import FILE, TYPED, state_of, workers
+from tests.work import wait_until
 
 HOUR = 3600.0
 AT_WORK = 0.5  # seconds of processor time of a worker that has begun
@@ -76,11 +77,11 @@ def test_a_clock_that_is_set_ends_no_session_and_holds_up_nothing(machine, by):
         def at_work():
             return [one for one in workers(pid) if app_load.cpu(one) - spent.get(one, 0.0) > AT_WORK]
 
-        (busy,) = await asyncio.to_thread(until, at_work)
+        (busy,) = await asyncio.to_thread(wait_until, at_work)
         while pages:
             await pages.pop().vanish()
-        assert await asyncio.to_thread(until, lambda: state_of(busy) == "gone", 5.0)
-        assert await asyncio.to_thread(until, lambda: not app_load.left(port)["sessions"], 20.0)
+        assert await asyncio.to_thread(wait_until, lambda: state_of(busy) == "gone", 5.0)
+        assert await asyncio.to_thread(wait_until, lambda: not app_load.left(port)["sessions"], 20.0)
 
     async def whole():
         try:
