@@ -18,7 +18,7 @@ from tests.benchmarks.data import wrapped_rows
 from .panels import DRAWN, columns
 
 #: Portraits that are kept in full, besides the small ones of all presets.
-WHOLE = ("case1-cm4", "case3-n3", "nonunique-sliding")
+WHOLE = ("case1-cm4", "case3-n1", "nonunique-sliding")
 LAYERS = [
     "inside",
     "outside",
