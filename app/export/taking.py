@@ -121,5 +121,5 @@ def taken(view: View, wish: Wish) -> tuple[str, bytes]:
 
 def named(view: View, wish: Wish) -> str:
     """Return the name of a file: letters, figures and dashes, which no system and no command line minds."""
-    name = view.values["preset"] or view.scene()["classification"].name.lower()
+    name = view.values["preset"] or view.scene()["name"].name.lower()
     return f"codim2-{'-'.join(re.findall('[a-z0-9]+', name)) or 'view'}.{wish.kind}"

@@ -32,7 +32,7 @@ MOST_STANDING = 100
 #: Layers that start at each limit direction or critical set, or look for what is between them.
 FOLLOWING = frozenset(
     {"nullclines_inside", "nullclines_outside", "continuations", "closed_orbits", "cycles", "separatrices", "outcomes",
-     "certificates", "eigendirections"}
+     "certificates", "eigendirections", "classification"}
 )  # fmt: skip
 #: Layers of e-linear systems that search for cycles: quick unless there may be some, in Case III.
 SEARCHING = frozenset({"outcomes", "certificates"})
@@ -57,7 +57,8 @@ WORDS = {
     "equator": "limit directions",
     "equator_cycle": "the closed equator",
     "critical": "critical sets",
-    "classification": "the name of the portrait",
+    "name": "the name of the portrait",
+    "classification": "what the portrait is",
     "slow_flow": "the slow flow",
     "outcomes": "outcomes",
     "eigendirections": "eigenvectors",
@@ -177,7 +178,7 @@ class Budget:
         if why is not None:
             raise LeftOut(WORDS.get(name, name), why)
         if self.bounded(scene):
-            if name in SEARCHING and scene["classification"].case == "III":
+            if name in SEARCHING and scene["name"].case == "III":
                 raise NotYet(name)
             return
         wildest, took = self._timed.get(self._formula(scene), (0, {}))

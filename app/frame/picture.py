@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from codim2_core.cycles.limit_cycles import provable
 from codim2_core.layer_problem.equator import EquatorEquilibria, equator_equilibria
-from codim2_core.portrait.classification import NEARER, Classification
+from codim2_core.portrait.classification import NEARER, Classification, PortraitName
 from codim2_core.portrait.separatrix import Separatrices
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
@@ -104,7 +104,7 @@ def make_frame(
         header["separatrices"] = [
             [named(b.origin), named(b.end), b.status if b.connection or b.end == "undecided" else ""] for b in branches
         ]
-    _tell_facts(header, now, asked)
+    _tell_facts(header, now, asked, ready)
     return header, blocks, now
 
 
@@ -166,11 +166,22 @@ def numbered(orbits: str) -> dict[str, list[Any]]:
     return {"number": [number for number, _ in rows], "called": [name for _, name in rows]}
 
 
-def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked) -> None:
+def _portrait(asked: Asked, ready: bool) -> Any:
+    """Return the portrait's name and sentence, without a sentence where the search for limit cycles is left out."""
+    name = asked.get("name")
+    if isinstance(name, PortraitName):
+        if not ready and name.case not in ("I", "II"):
+            return LATER  # whether there is a limit cycle is not known before its search is compiled
+        found = asked.get("classification")
+        return Classification(name.case, name.name, "", name.degeneracies) if found is NOTHING else found
+    return name
+
+
+def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked, ready: bool) -> None:
     """Add what is said of the setting: limit directions, critical sets, the portrait's name, the slow flow."""
     equator, cycle, critical = (asked.get(name) for name in ("equator", "equator_cycle", "critical"))
     eigen = asked.get("eigendirections")
-    name, flow = asked.get("classification"), asked.get("slow_flow")
+    name, flow = _portrait(asked, ready), asked.get("slow_flow")
     if equator is NOTHING:
         equator, cycle = no_directions(), None
     if equator is not LATER and cycle is not LATER and _fresh(now, "equator", equator):

@@ -46,7 +46,7 @@ def sides(scene: Scene, values: Mapping[str, Any], control: str) -> dict[str, An
         if beside is not None and beside.below != beside.above:
             found = beside
             break
-    if found is None or {found.below, found.above} == {scene["classification"].name}:
+    if found is None or {found.below, found.above} == {scene["name"].name}:
         return None
     return {"symbol": _symbol(found.name, values), "below": found.below, "above": found.above}
 

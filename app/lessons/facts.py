@@ -73,12 +73,12 @@ def _verdicts(scene: Scene) -> tuple[str, ...]:
 
 #: Every fact: how a student reads it, what it says (for the authors of lessons), and how it is read off a scene.
 FACTS: dict[str, tuple[str, str, Callable[[Scene], Fact]]] = {
-    "case": ("case", "the case of the e-linear system: I, II, III, or None", lambda s: s["classification"].case),
-    "name": ("portrait", "the name of the portrait, such as CM4", lambda s: s["classification"].name),
+    "case": ("case", "the case of the e-linear system: I, II, III, or None", lambda s: s["name"].case),
+    "name": ("portrait", "the name of the portrait, such as CM4", lambda s: s["name"].name),
     "degenerate": (
         "degenerate",
         "names of what a small change would destroy",
-        lambda s: tuple(item.name for item in s["classification"].degeneracies),
+        lambda s: tuple(item.name for item in s["name"].degeneracies),
     ),
     "limit_directions": ("limit directions", "number of limit directions", lambda s: len(s["equator"].theta)),
     "equator": (

@@ -6,7 +6,8 @@ from typing import Any
 
 from codim2_core.counting.census import census
 from codim2_core.counting.table import Row
-from codim2_core.portrait.classify import classify
+from codim2_core.layer_problem.problem import LayerProblem
+from codim2_core.portrait.classify import portrait_name
 from codim2_core.psi import constructors
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
@@ -35,7 +36,7 @@ def add(draft: Draft) -> None:
         tiles = draft.slow("census portraits", key, _portraits, rows)
         if tiles is not None:
             draft.header["census_portraits"] = tiles
-    here = draft.scene["classification"].full_name
+    here = draft.scene["name"].full_name
     if draft.now.get("census here") != here:
         draft.now["census here"] = here
         draft.header["census_here"] = here
@@ -66,7 +67,7 @@ def _rounded(row: Row) -> tuple[float, ...]:
     scale = max(1.0, max(map(abs, numbers)) / LARGEST)
     for digits in (3, 6, 12):
         rounded = tuple(float(f"{value / scale:.{digits}g}") for value in numbers)
-        if classify(_with(row, rounded), PSI).full_name == row.name:
+        if portrait_name(LayerProblem(_with(row, rounded).at(), PSI)).full_name == row.name:
             return rounded
     return tuple(value / scale for value in numbers)
 

@@ -51,7 +51,7 @@ def _found(scene: Scene) -> Outcomes:
 
 def answered_by_theorem(scene: Scene) -> bool:
     """Say whether this is Case I or II, in which no other regularisation need be asked."""
-    return scene["classification"].case in ("I", "II")
+    return scene["name"].case in ("I", "II")
 
 
 def kind(outcome: Outcome) -> str:

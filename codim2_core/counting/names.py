@@ -15,7 +15,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
-from ..portrait.classify import classify
+from ..layer_problem.problem import LayerProblem
+from ..portrait.classify import portrait_name
 from ..psi import constructors
 from ..systems.elinear import ELinear
 
@@ -141,7 +142,7 @@ def names(plane: ArrayLike) -> tuple[NDArray[np.int8], NDArray[np.float64], dict
     psi = constructors.constant()  # the name is the same for every Psi
     for i in np.flatnonzero(codes == 0):
         a, b, d, f1, f2 = values[i].tolist()
-        found = classify(ELinear(a, b, d, (f1, f2)), psi)
+        found = portrait_name(LayerProblem(ELinear(a, b, d, (f1, f2)).at(), psi))
         pair = (found.case, found.name)
         if found.case is not None and pair in NAMES:
             codes[i] = 1 + NAMES.index((found.case, found.name))

@@ -13,7 +13,7 @@ from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.problem import LayerProblem
 from ..portrait.approach import outcomes_of
-from ..portrait.classify import portrait
+from ..portrait.classify import portrait_name
 from ..psi.function import Psi
 from ..systems.elinear import ELinear
 from ..systems.kinds import AnySystem
@@ -125,7 +125,7 @@ def _with_outcomes(plane: NDArray[np.float64], psi: Psi, chunk: int) -> Tally:
 
 
 def _of_one(problem: LayerProblem, margin: float, outcomes: bool, place: Place) -> Tally:
-    named = problem.keep(portrait)
+    named = problem.keep(portrait_name)
     name = named.full_name
     if outcomes:
         arriving = [each for each in outcomes_of(problem, ()) if each.arrives in ("open set", "one side")]

@@ -7,8 +7,9 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
+from ..layer_problem.problem import LayerProblem
 from ..layer_problem.vary import names, value_of, varied
-from ..portrait.classify import classify
+from ..portrait.classify import portrait_name
 from ..psi.function import Psi
 
 STEP = 1e-6  # of the value or of 1: far beyond rounding, far below what can be seen
@@ -58,7 +59,8 @@ def sides(system: Any, psi: Psi, z: ArrayLike = (), name: str = "") -> Sides | N
     found = []
     for moved in (value - step, value + step):
         try:
-            found.append(classify(*varied(system, psi, z, name, moved)).name)
+            other, family, place = varied(system, psi, z, name, moved)
+            found.append(portrait_name(LayerProblem(other.at(place), family)).name)
         except ValueError:  # the end of what is allowed
             found.append("")
     return Sides(name, *found)

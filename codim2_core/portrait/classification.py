@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import math
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
+from typing import NamedTuple
 
+import numpy as np
+
+from ..cycles.limit_cycles import LimitCycle
 from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
+from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
 from ..numerics.trigonometric import ROUNDING
 from ..tables import Tabled, paragraphs, rows
-from ..words import SENTENCES, power, say, subscript
-from .endings import radially_neutral_ones
+from ..words import SENTENCES, named, power, say, subscript
+from .endings import critical_label, radially_neutral_ones
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +53,19 @@ def undecided(name: str, sentence: str, within: float = ROUNDING, of: str = "eac
     return Degeneracy(name, f"{sentence} {say('nearer', within=power(within), of=of)}", within)
 
 
+class PortraitName(NamedTuple):
+    """A portrait's name without its sentence: no limit cycle is asked for. Attributes as in `Classification`."""
+
+    case: str | None
+    name: str
+    degeneracies: tuple[Degeneracy, ...]
+
+    @property
+    def full_name(self) -> str:
+        """The name with its case, if it has one: "I CM4"."""
+        return f"{self.case} {self.name}" if self.case else self.name
+
+
 @dataclass(frozen=True, slots=True)
 class Classification:
     """Name of a phase portrait.
@@ -59,6 +80,8 @@ class Classification:
         system that is not e-linear a count, such as "2 critical sets, 6 limit directions"; with "found" where that
         there are no more is not proved.
     sentence : str
+        Along which directions trajectories reach the discontinuity set and leave it, the critical sets, and all that
+        attracts: stable critical sets and stable limit cycles.
     degeneracies : tuple of Degeneracy
     """
 
@@ -70,7 +93,7 @@ class Classification:
     @property
     def full_name(self) -> str:
         """The name with its case, if it has one: "I CM4"."""
-        return f"{self.case} {self.name}" if self.case else self.name
+        return PortraitName(self.case, self.name, self.degeneracies).full_name
 
     def _repr_html_(self) -> str:
         case = f"Case {self.case}" if self.case else ""
@@ -118,3 +141,26 @@ def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
         return first
     which = " and ".join(f"Q{subscript(i + 1)}" for i in range(count) if neutral[i])
     return f"{first} {say('neutral directions', which=f'{which} ' + ('is' if sum(neutral) == 1 else 'are'))}"
+
+
+def attracting_cycles(cycles: Sequence[LimitCycle], critical: tuple[CriticalSet, ...]) -> str:
+    """Describe the limit cycles that attract, and which critical sets they surround; "" if there are none."""
+    around = Counter((cycle.stable, _surrounded(cycle, critical)) for cycle in cycles if cycle.kind != "unstable")
+    said = []
+    for (stable, sets), count in around.items():
+        if count == 1:
+            said.append(say("stable cycle" if stable else "semistable cycle", sets=sets))
+        else:
+            said.append(say("stable cycles" if stable else "semistable cycles", count=count, sets=sets))
+    return " ".join(said)
+
+
+def _surrounded(cycle: LimitCycle, critical: tuple[CriticalSet, ...]) -> str:
+    """Name the critical sets about which a cycle winds."""
+    labels = []
+    for i, C in enumerate(critical):
+        x, y = (cycle.points - C.p).T
+        angles = np.unwrap(np.arctan2(y, x))
+        if abs(angles[-1] - angles[0]) > math.pi:
+            labels.append(named(critical_label(critical, i)))
+    return " and ".join(filter(None, [", ".join(labels[:-1]), *labels[-1:]]))

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
+from ..cycles.limit_cycles import closed_orbits
 from ..layer_problem.critical import CriticalSet
+from ..layer_problem.disc_zeros import disc_zeros
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
 from ..layer_problem.linearisation import NEUTRAL_TRACE, matrix_determinant
 from ..layer_problem.location import Existence, Location
@@ -13,8 +15,16 @@ from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 from ..words import say
-from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
-from .classify_typed import general_portrait
+from .classification import (
+    NEUTRAL_CLOSED_EQUATOR,
+    Classification,
+    Degeneracy,
+    PortraitName,
+    attracting_cycles,
+    directions,
+    undecided,
+)
+from .classify_typed import general_consequence, general_name
 from .endings import radially_neutral_ones
 
 _MULTIPLE = {
@@ -122,25 +132,46 @@ def _consequence(
     return say("closed orbits around" if _true_centre(coefficients) else "centre")
 
 
-def portrait(problem: LayerProblem) -> Classification:
-    """Name the portrait of a layer problem.
+def _affine(problem: LayerProblem) -> tuple[Coefficients, Location] | None:
+    """Return the normal form that names a portrait, with where its critical set is; None where none does.
 
-    A general system that is affine in (c, s) has the name of its normal form, unless the rotation's rounding blurs
-    whether there is a critical set.
+    That is a system not affine in (c, s), or one where the rotation's rounding blurs whether there is a critical set.
     """
     coefficients, location = problem.at.normal_form, problem.location
+    if coefficients is None or location is None or (location.e is None) == bool(problem.critical):
+        return None
+    return coefficients, location
+
+
+def portrait_name(problem: LayerProblem) -> PortraitName:
+    """Name the portrait of a layer problem: its case, its name and what is degenerate."""
     equator, cycle, critical = problem.equator, problem.equator_cycle, problem.critical
-    if coefficients is None or location is None or (location.e is None) == bool(critical):
-        return general_portrait(problem.at, equator, cycle, critical)
+    affine = _affine(problem)
+    if affine is None:
+        return general_name(problem.at, equator, cycle, critical)
+    coefficients, location = affine
     case, degeneracies = _case(coefficients)
     degeneracies += _equator_degeneracies(equator, cycle) + _critical_degeneracies(location, critical, coefficients)
     count = "∞" if equator.all_directions else str(len(equator.theta))
     many = location.existence in (Existence.SINGULAR_LINE, Existence.EVERYTHING)  # equilibria that are not isolated
-    name = ("CM" if critical or many else "NCM") + count
-    prefix = f"Case {case}, {name}. " if case else f"{name}. "
-    sentence = prefix + directions(equator, cycle) + " "
-    sentence += _consequence(location, critical, case, _arrives(equator, cycle), coefficients)
-    return Classification(case, name, sentence, tuple(degeneracies))
+    return PortraitName(case, ("CM" if critical or many else "NCM") + count, tuple(degeneracies))
+
+
+def portrait(problem: LayerProblem) -> Classification:
+    """Name the portrait of a layer problem, and say what attracts in it."""
+    case, name, degeneracies = problem.keep(portrait_name)
+    equator, cycle, critical = problem.equator, problem.equator_cycle, problem.critical
+    cycles = problem.keep(closed_orbits).cycles
+    affine = _affine(problem)
+    if affine is None:
+        prefix, stable = "", sum(cycle.stable for cycle in cycles)
+        consequence = general_consequence(critical, disc_zeros(problem.at.key), stable)
+    else:
+        prefix = f"Case {case}, {name}. " if case else f"{name}. "
+        coefficients, location = affine
+        consequence = _consequence(location, critical, case, _arrives(equator, cycle), coefficients)
+    said = " ".join(filter(None, (directions(equator, cycle), consequence, attracting_cycles(cycles, critical))))
+    return Classification(case, name, prefix + said, degeneracies)
 
 
 def classify(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> Classification:
@@ -152,7 +183,7 @@ def classify(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> Classification:
         A general system that is affine in (c, s) is named as its e-linear normal form (lem:normalform); any other
         has no case, and its name counts the critical sets and limit directions.
     psi : Psi
-        Decides the kind of the critical sets (Case III: sec:case3), never the name.
+        Decides the kind of the critical sets and the limit cycles (Case III: sec:case3), never the name.
     z : (m,) floats
 
     Returns

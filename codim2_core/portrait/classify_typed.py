@@ -9,15 +9,15 @@ from ..layer_problem.linearisation import NEUTRAL_TRACE
 from ..numerics.fourier_zeros import ROUNDINGS, UNIT
 from ..systems.frozen import AtZ
 from ..words import say
-from .classification import NEUTRAL_CLOSED_EQUATOR, Classification, Degeneracy, directions, undecided
+from .classification import NEUTRAL_CLOSED_EQUATOR, Degeneracy, PortraitName, undecided
 
 WITHIN = ROUNDINGS * UNIT
 TERMS = "the terms of U"
 
 
-def general_portrait(
+def general_name(
     at: AtZ, equator: EquatorEquilibria, cycle: EquatorCycle | None, critical: tuple[CriticalSet, ...]
-) -> Classification:
+) -> PortraitName:
     """Name the portrait of a system that is not e-linear, from its parts (all at one z)."""
     found = disc_zeros(at.key)
     lines = "every direction" if equator.all_directions else _count(len(equator), "limit direction", equator.proven)
@@ -25,9 +25,7 @@ def general_portrait(
         arcs = "an arc" if len(equator.arcs) == 1 else f"{len(equator.arcs)} arcs"
         lines = f"{lines} and {arcs} of them" if len(equator) else f"{arcs} of limit directions"
     name = f"{_count(len(critical), 'critical set', found.proven)}, {lines}"
-    sentence = f"{directions(equator, cycle)} {_consequence(critical, found)}"
-    degeneracies = _equator(equator, cycle) + _critical(critical, found)
-    return Classification(None, name, sentence, tuple(degeneracies))
+    return PortraitName(None, name, (*_equator(equator, cycle), *_critical(critical, found)))
 
 
 def _count(k: int, noun: str, proven: bool) -> str:
@@ -42,7 +40,8 @@ def _counted(k: int, kind: str) -> str:
     return f"{k} {kind}" + ("s" if k > 1 and kind != "degenerate" else "")
 
 
-def _consequence(critical: tuple[CriticalSet, ...], found: DiscZeros) -> str:
+def general_consequence(critical: tuple[CriticalSet, ...], found: DiscZeros, cycles: int) -> str:
+    """Say which critical sets there are, and how many ways to slide stably, beside so many stable limit cycles."""
     if not critical:
         if found.everything or found.curve or found.on_equator:
             return say("no isolated set")
@@ -54,9 +53,9 @@ def _consequence(critical: tuple[CriticalSet, ...], found: DiscZeros) -> str:
     stable = sum(kind.startswith("stable") for kind in kinds)
     if stable == 0:
         return say("none stable", kinds=counted)
-    if stable == 1:
+    if stable + cycles == 1:
         return say("one stable", kinds=counted)
-    return say("several stable", kinds=counted, count=stable)
+    return say("several stable", kinds=counted, count=stable + cycles)
 
 
 _MULTIPLE = {

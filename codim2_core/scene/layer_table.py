@@ -15,7 +15,7 @@ from ..nullcline.meeting import Conics, conics_of
 from ..nullcline.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
 from ..nullcline.refining import Seen
 from ..portrait.approach import outcomes_of
-from ..portrait.classify import portrait
+from ..portrait.classify import portrait, portrait_name
 from ..portrait.separatrices import Separatrices, separatrices_of
 from ..sliding.flow import flow_on
 from ..systems.bounds import SMALLEST
@@ -122,6 +122,7 @@ layers: Mapping[str, Recipe] = MappingProxyType(
         "location": Recipe(("plane",), lambda s: find_location(s.problem)),
         "critical": Recipe(("plane", "slow", "psi"), lambda s: find_critical(s.problem)),
         "slow_flow": Recipe(("plane", "slow"), lambda s: flow_on(s.coefficients, s.problem.critical)),
+        "name": Recipe(("plane", "slow", "psi"), lambda s: portrait_name(s.problem)),
         "classification": Recipe(("plane", "slow", "psi"), lambda s: portrait(s.problem)),
         "eigendirections": Recipe(("plane", "psi"), lambda s: find_eigendirections(s.problem)),
         "nullclines_inside": Recipe(("plane", "psi", "closely"), _inside_nullclines),
@@ -151,6 +152,7 @@ FOUND_BY: Mapping[Callable[..., Any], str] = {
     find_equator_cycle: "equator_cycle",
     find_location: "location",
     find_critical: "critical",
+    portrait_name: "name",
     portrait: "classification",
     closed_orbits: "closed_orbits",
     cycles_of: "cycles",

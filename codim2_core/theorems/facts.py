@@ -16,7 +16,8 @@ from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.location import Existence, Location
 from ..layer_problem.problem import LayerProblem
 from ..paper import cite
-from ..portrait.classify import Classification, portrait
+from ..portrait.classification import PortraitName
+from ..portrait.classify import portrait_name
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.frozen import AtZ
@@ -153,9 +154,9 @@ class Facts:
         return self.problem.critical
 
     @property
-    def portrait(self) -> Classification:
+    def portrait(self) -> PortraitName:
         """The portrait's name."""
-        return self.problem.keep(portrait)
+        return self.problem.keep(portrait_name)
 
     @property
     def size(self) -> float:

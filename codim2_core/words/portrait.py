@@ -70,11 +70,26 @@ SENTENCES: dict[str, Sentence] = {
     "sets unproved": Sentence(
         "Critical sets found: {kinds}; that there are no more is not proved.", "some, the search left something open"
     ),
-    "none stable": Sentence("Critical sets: {kinds}. None is stable: sliding along them is not.", "none stable"),
+    "none stable": Sentence("Critical sets: {kinds}. None is stable.", "none stable"),
     "one stable": Sentence("Critical sets: {kinds}. There is one way to slide stably along Σ.", "one stable"),
     "several stable": Sentence(
         "Critical sets: {kinds}. There are {count} ways to slide stably along Σ: it depends on the approach.",
-        "several stable",
+        "several stable, cycles included",
+    ),
+    # limit cycles that attract
+    "stable cycle": Sentence(
+        "A stable limit cycle surrounds {sets}: trajectories wind onto it and slide along Σ.", "one stable cycle"
+    ),
+    "stable cycles": Sentence(
+        "{count} stable limit cycles surround {sets}: trajectories wind onto them and slide along Σ.",
+        "several stable cycles about the same sets",
+    ),
+    "semistable cycle": Sentence(
+        "A semistable limit cycle surrounds {sets}: it attracts from one side.", "one semistable cycle"
+    ),
+    "semistable cycles": Sentence(
+        "{count} semistable limit cycles surround {sets}: each attracts from one side.",
+        "several semistable cycles about the same sets",
     ),
     # what becomes of an approach: who arrives
     "open set": Sentence("An open set of trajectories arrives at {Q}.", "radially and angularly attracting"),

@@ -220,6 +220,34 @@ def kinds_of_general(portrait, _):
             assert ratio.max() < 1.0 if C.kind.startswith("stable") else ratio.min() > 1.0
 
 
+def winds_on(sides, kind):
+    """Orbits from so many sides come to a limit cycle of that kind, those from the others leave it."""
+
+    def check(portrait, fields):
+        cycles = [one for one in c2.limit_cycles(portrait.system, portrait.psi, portrait.z) if one.kind == kind]
+        assert len(cycles) == int(fields.get("count", 1))
+        for cycle in cycles:
+            if abs(math.log(max(cycle.multiplier, 1e-9))) < 0.1 * (sides - 1):
+                continue  # too slow to be seen
+            centred, along = cycle.points[1:] - cycle.points.mean(axis=0), np.diff(cycle.points, axis=0)
+            most = int(
+                np.argmax(np.abs(centred[:, 0] * along[:, 1] - centred[:, 1] * along[:, 0]) / np.hypot(*along.T))
+            )
+            start, out = cycle.points[1 + most], centred[most]
+            seeds = start + 0.03 * np.array([[1.0], [-1.0]]) * out
+            ends = c2.trajectories(portrait.system, portrait.psi, seeds, portrait.z, t_max=3.0 * cycle.period_T).points
+            nearer = [_off(line[-1], cycle.points) < 0.9 * _off(line[0], cycle.points) for line in ends]
+            assert sum(nearer) == sides or sides == 1
+
+    return check
+
+
+def _off(point, closed):
+    side = np.diff(closed, axis=0)
+    share = np.clip(((point - closed[:-1]) * side).sum(1) / (side**2).sum(1), 0.0, 1.0)
+    return float(np.hypot(*(closed[:-1] + share[:, None] * side - point).T).min())
+
+
 CLASSES = {
     "all directions": lambda p, _: np.testing.assert_allclose(
         [c2.equator_equilibria(p.system, p.z).all_directions], [True]
@@ -256,6 +284,10 @@ CLASSES = {
     "none stable": kinds_of_general,
     "one stable": kinds_of_general,
     "several stable": kinds_of_general,
+    "stable cycle": winds_on(2, "stable"),
+    "stable cycles": winds_on(2, "stable"),
+    "semistable cycle": winds_on(1, "semistable"),
+    "semistable cycles": winds_on(1, "semistable"),
 }
 
 

@@ -64,7 +64,6 @@ def test_hidden_layers_are_neither_computed_nor_sent(frames):
     assert blocks == {"outside", "continuations"} | CURVES
     assert frames.scene.runs["inside"] == runs["inside"]
     assert frames.scene.runs["nullclines_inside"] == runs["nullclines_inside"]
-    assert frames.scene.runs["closed_orbits"] == runs["closed_orbits"]
     assert "separatrices" not in frames.scene.runs
     _, blocks = ask(frames, layers=list(LAYERS))
     separatrices = {"separatrices_stable", "separatrices_unstable"}

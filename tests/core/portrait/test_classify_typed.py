@@ -12,6 +12,7 @@ from codim2_core import ELinear, classify, equator_equilibria, psi
 from codim2_core.layer_problem.disc_zeros import disc_zeros
 from codim2_core.layer_problem.problem import LayerProblem
 from codim2_core.portrait import classify_typed
+from codim2_core.portrait.classification import directions
 from codim2_core.systems.typed import System
 from codim2_core.words import recognise, say
 from tests.core.general_systems import ATTRACTING, NONUNIQUE, polynomials
@@ -136,10 +137,10 @@ def test_next_to_a_pitchfork_rounding_makes_no_limit_directions(side):
 
 
 def test_what_follows_from_the_sets_that_are_there():
-    def said(*kinds, **what):
+    def said(*kinds, cycles=0, **what):
         found = {"everything": False, "curve": False, "on_equator": False, "proven": True} | what
         sets = tuple(SimpleNamespace(kind=kind) for kind in kinds)
-        return classify_typed._consequence(sets, SimpleNamespace(**found))
+        return classify_typed.general_consequence(sets, SimpleNamespace(**found), cycles)
 
     assert said() == say("no critical set")
     assert said(proven=False) == say("no set found")
@@ -147,6 +148,8 @@ def test_what_follows_from_the_sets_that_are_there():
         assert said(**{what: True}) == say("no isolated set")
     assert said("saddle", "unstable node") == say("none stable", kinds="1 saddle, 1 unstable node")
     assert said("stable node", "saddle", "saddle") == say("one stable", kinds="2 saddles, 1 stable node")
+    assert said("stable node", cycles=2) == say("several stable", kinds="1 stable node", count=3)
+    assert said("unstable node", cycles=1) == say("none stable", kinds="1 unstable node")
     two = ("stable node", "stable focus", "saddle")
     assert said(*two) == say("several stable", kinds="1 saddle, 1 stable focus, 1 stable node", count=2)
     assert said(*two, proven=False) == say("sets unproved", kinds="1 saddle, 1 stable focus, 1 stable node")
@@ -234,8 +237,8 @@ def test_arcs_of_limit_directions_are_named_beside_single_ones(monkeypatch):
             on, **few, radially_degenerate=on.radially_degenerate[:count], proven=not arcs,
             arcs=np.array([(0.5 * k, 0.5 * k + 0.1) for k in range(arcs)]).reshape(-1, 2),
         )  # fmt: skip
-        found = classify_typed.general_portrait(SimpleNamespace(key=None), limits, None, ())
-        arc_said = say("arc of directions", first=0.0, last=0.1) in found.sentence
+        found = classify_typed.general_name(SimpleNamespace(key=None), limits, None, ())
+        arc_said = say("arc of directions", first=0.0, last=0.1) in directions(limits, None)
         return found.name.removeprefix("no critical set, "), arc_said
 
     assert name(0, 4) == ("4 limit directions", False)

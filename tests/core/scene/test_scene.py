@@ -41,10 +41,11 @@ def ran(scene, **changes):
 
 EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "conics", "outside", "outside_sketch"}
 HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "inside_sketch",
-              "continuations", "classification", "certificates", "outcomes", "launched", "eigendirections"}  # fmt: skip
+              "continuations", "name", "classification", "certificates", "outcomes", "launched",
+              "eigendirections"}  # fmt: skip
 
 ATLAS = {"atlas_curves", "regions"}  # of the plane (f1, f2): neither f nor Psi is in them
-SLOW = {"critical", "classification", "certificates", "slow_flow", "outcomes", "cycles"}
+SLOW = {"critical", "name", "classification", "certificates", "slow_flow", "outcomes", "cycles"}
 
 CLOSELY = {"nullclines_inside", "nullclines_outside", "conics"}  # what stands still, as finely as it is seen
 SKETCHES = {"inside_sketch", "outside_sketch"}

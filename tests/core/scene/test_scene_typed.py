@@ -39,9 +39,10 @@ def ran(first, **changes):
 
 
 EQUATOR = {"equator", "equator_cycle", "nullclines_outside", "conics", "outside", "outside_sketch"}
-SLOW = {"critical", "classification", "certificates", "slow_flow", "cycles", "outcomes"}
+SLOW = {"critical", "name", "classification", "certificates", "slow_flow", "cycles", "outcomes"}
 HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "inside_sketch",
-              "continuations", "classification", "certificates", "outcomes", "launched", "eigendirections"}  # fmt: skip
+              "continuations", "name", "classification", "certificates", "outcomes", "launched",
+              "eigendirections"}  # fmt: skip
 PLANE = EQUATOR | HEMISPHERE | {"slow_flow", "location"}
 STEPPED = {"inside", "outside", "continuations"}
 
