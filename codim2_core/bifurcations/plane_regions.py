@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
 from .. import drawing
 from ..layer_problem.location import Existence, locate
-from ..portrait.classify import Classification, classify
+from ..layer_problem.problem import LayerProblem
+from ..portrait.classify import Classification, classify, portrait_name
 from ..psi.constructors import constant
 from ..systems.coefficients import Coefficients
 from ..tables import Results, Tabled, point
@@ -40,8 +42,6 @@ class Region(Tabled):
         Closed polygons (the first point is not repeated): the outer one first, anticlockwise, then holes, clockwise.
         The unbounded region has holes only.
     bounded : bool
-    classification : Classification
-        At `inside`, with Psi = 1.
     """
 
     _head_ = ("region", "a point (f₁, f₂) of it", "bounded", "portrait there")
@@ -50,7 +50,12 @@ class Region(Tabled):
     inside: tuple[float, float]
     boundary: tuple[Array, ...] = field(repr=False)
     bounded: bool
-    classification: Classification = field(repr=False)
+    _at: Coefficients = field(repr=False)
+
+    @cached_property
+    def classification(self) -> Classification:
+        """The portrait at `inside`, with Psi = 1; its limit cycles are searched for when it is asked for."""
+        return classify(self._at, constant())
 
     def _row_(self) -> tuple[str, ...]:
         return self.name, point(self.inside), "yes" if self.bounded else "no", self.classification.sentence
@@ -151,8 +156,8 @@ def _region(
     if locate(_at(plane, inside)).existence is Existence.SINGULAR_LINE:
         # det A = 0: on the line f = A e only, which passes through the region
         inside = _beside(plane, inside, border)
-    classification = classify(_at(plane, inside), constant())
-    return Region(classification.name, inside, frozen(boundary), bounded, classification)
+    at = _at(plane, inside)
+    return Region(portrait_name(LayerProblem(at, constant())).name, inside, frozen(boundary), bounded, at)
 
 
 def _at(plane: Geometry, f: tuple[float, float]) -> Coefficients:
