@@ -15,7 +15,7 @@ from ..draw.layers import painted
 from .view import View
 
 #: Inputs of a scene that are told where they are other than at first.
-INPUTS = ("count", "length", "view", "pixel", "window")
+INPUTS = ("count", "length", "view", "pixel", "window", "cut")
 
 
 def snippet(view: View) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import Any
 
+from codim2_core.layer_problem.direction_names import cut_that_keeps_names
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
@@ -16,6 +17,7 @@ from ..state.chosen_psi import build_psi
 from ..state.cleaning import InputError
 from ..state.launches import read_launches
 from ..state.opening import opening
+from .budget import LeftOut, NotYet
 
 #: Text of f(z) = f + z k and of z' = B e + g. It never changes, so that nothing is parsed again on a tick:
 #: the numbers travel as parameters of the system.
@@ -34,7 +36,8 @@ def make_scene(values: Mapping[str, Any], system: System_ | None = None) -> Scen
     """
     system = chosen_system(values) if system is None else system
     psi, launch = build_psi(values), launched(values)
-    return Scene(system, psi, position(values, system.m), count=values["trajectories"], launch=launch, view=REACH)
+    place, cut = position(values, system.m), values["cut"]
+    return Scene(system, psi, place, count=values["trajectories"], launch=launch, view=REACH, cut=cut)
 
 
 def launched(values: Mapping[str, Any]) -> list[tuple[float, float]]:
@@ -116,7 +119,24 @@ def evolved(
         changes["launch"] = launched(values)
     if "trajectories" in changed:
         changes["count"] = values["trajectories"]
+    if "cut" in changed:
+        changes["cut"] = values["cut"]
     return scene.evolve(**changes) if changes else scene
+
+
+def cut_after(before: Scene, scene: Scene, changed: Collection[str]) -> float:
+    """Return the angle from which the limit directions of a changed scene are counted.
+
+    Names follow while a value moves, and are the first ones again of another system.
+    """
+    if {"preset", "system", "texts"} & set(changed):
+        return 0.0
+    if before.key("plane") == scene.key("plane"):
+        return scene.cut
+    try:
+        return cut_that_keeps_names(before["equator"], scene["equator"], scene.cut)
+    except (NotYet, LeftOut):  # not to be had in this frame
+        return scene.cut
 
 
 def locked_controls(scene: Scene, given: bool) -> tuple[str, ...]:

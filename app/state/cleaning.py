@@ -17,7 +17,7 @@ from codim2_core import psi as psi_families
 from ..draw.layers import LAYERS
 from .choices import AXES, OWN_AXIS, SETTING
 from .chosen import titles
-from .controls import NAMES, NUMBERS, ExplorerState
+from .controls import NAMES, NUMBERS, Angle, ExplorerState
 from .launches import read_launches
 from .portraits import portrait_keys
 
@@ -60,6 +60,8 @@ def clean(name: str, value: Any) -> Any:
         return _whole(name, declared, value)
     if type(declared) is param.Selector:
         return _one_of(name, declared, value)
+    if type(declared) is Angle:
+        return _finite(name, declared.label, value) % (2.0 * math.pi)
     return _READ.get(name, _short_text)(name, declared.label, value)
 
 

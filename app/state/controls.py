@@ -28,6 +28,10 @@ def _number(default: float, low: float, high: float, symbol: str, doc: str) -> A
     return param.Number(default, softbounds=(low, high), step=0.01, label=symbol, doc=doc)
 
 
+class Angle(param.Number):
+    """A number in radians that has no slider."""
+
+
 class ExplorerState(param.Parameterized):
     """What the picture shows. Defaults are the paper's fig:simCM4 (preset case1-cm4)."""
 
@@ -105,6 +109,7 @@ class ExplorerState(param.Parameterized):
     lesson = param.String("", label="Lesson", doc="The lesson that is open.")
     quiz = param.String("", label="Question", doc="QUESTION.SEED or QUESTION.SEED.ANSWER of the lesson; a mark is X.Y.")
     t_end = _number(8.0, 0, 40, "until t", "How long a motion is followed.")
+    cut = Angle(0.0, label="Cut", doc="Limit directions are counted from this angle: Q₁ is the first at or after it.")
     ranges = param.Dict({}, label="Ranges", doc="Ranges of sliders, by name: [low, high].")
     beside = param.String(
         "", label="Second portrait", doc="Its own values, as the query of a link; all others are shared."

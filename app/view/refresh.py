@@ -27,7 +27,7 @@ from ..frame.faults import sentence_of
 from ..frame.jobs import Jobs
 from ..frame.load import load
 from ..frame.picture import Asked, Blocks, make_frame
-from ..frame.scenes import evolved, locked_controls, make_scene, settled
+from ..frame.scenes import cut_after, evolved, locked_controls, make_scene, settled
 from ..frame.sides import sides
 from ..frame.turns import Failed
 from ..frame.window import Window, inputs, seen
@@ -196,6 +196,9 @@ class Frames:
         values = {**self.values, **changes}
         changed = [name for name in changes if values[name] != self.values[name]]
         scene = evolved(self.scene, values, [name for name in changed if name not in self.locked], self.given)
+        if "cut" not in changed:
+            values["cut"] = cut_after(self.scene, scene, changed)
+            scene = scene if scene.cut == values["cut"] else scene.evolve(cut=values["cut"])
         if AXES_OF.intersection(changed):
             values |= opening_axes(scene, values, self.locked)
         return values, changed, scene

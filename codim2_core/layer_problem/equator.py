@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -47,7 +47,7 @@ class EquatorEquilibria:
     Attributes
     ----------
     theta : ndarray (k,)
-        Directions in [0, 2 pi), increasing.
+        Directions in [0, 2 pi), increasing from 0, or once around from where `counted_from` begins.
     lambda_rho : ndarray (k,)
         Radial eigenvalue; exactly 0 where `radially_degenerate`. Negative: orbits arrive from outside.
     lambda_theta : ndarray (k,)
@@ -108,6 +108,21 @@ class EquatorEquilibria:
     def labels(self) -> tuple[str, ...]:
         """Q1, Q2, ... in order of theta."""
         return tuple(f"Q{i + 1}" for i in range(len(self)))
+
+    def counted_from(self, angle: float) -> EquatorEquilibria:
+        """Return the same equilibria with Q1 the first at or after an angle (radians)."""
+        if not len(self):
+            return self
+        order = np.argsort(np.mod(self.theta - angle, 2.0 * math.pi), kind="stable")
+        if order[0] == 0:
+            return self
+        arrays = [values[order] for values in (self.theta, self.lambda_rho, self.lambda_theta)]
+        arrays += [self.multiplicity[order], self.radially_degenerate[order]]
+        for array in arrays:
+            array.flags.writeable = False
+        names = ("theta", "lambda_rho", "lambda_theta", "multiplicity", "radially_degenerate")
+        beyond = tuple(self.beyond[i] for i in order.tolist()) if self.beyond else ()
+        return replace(self, **dict(zip(names, arrays, strict=True)), beyond=beyond)
 
     @property
     def exact(self) -> bool:

@@ -23,7 +23,7 @@ def find_location(problem: LayerProblem) -> Location | None:
 
 def find_equator(problem: LayerProblem) -> EquatorEquilibria:
     """Find the limit directions, eq:equator_equilibria."""
-    return equilibria_at(problem.at, problem.location)
+    return equilibria_at(problem.at, problem.location).counted_from(problem.cut)
 
 
 def find_equator_cycle(problem: LayerProblem) -> EquatorCycle | None:
@@ -49,6 +49,8 @@ class LayerProblem:
     ----------
     at : AtZ
     psi : Psi
+    cut : float
+        Angle from which limit directions are counted: Q1 is the first at or after it.
 
     Examples
     --------
@@ -58,15 +60,15 @@ class LayerProblem:
     (4, None, 'stable node')
     """
 
-    def __init__(self, at: AtZ, psi: Psi) -> None:
-        self.at, self.psi = at, psi
+    def __init__(self, at: AtZ, psi: Psi, cut: float = 0.0) -> None:
+        self.at, self.psi, self.cut = at, psi, cut
         self._kept: dict[Hashable, Any] = {}
         self._others: dict[Psi, LayerProblem] = {}  # made from this one
         self._base = ref(self)  # no cycles: a problem that nobody holds is gone at once
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Be pickled, and copied, by what it is a problem of: what has been found stays here."""
-        return LayerProblem, (self.at, self.psi)
+        return LayerProblem, (self.at, self.psi, self.cut)
 
     def keep(self, find: Callable[[LayerProblem], Result]) -> Result:
         """Return ``find(self)``, computed once; `find` is a function of a module, not made anew for each call."""
@@ -91,7 +93,7 @@ class LayerProblem:
         if psi == self.psi:
             return self
         if psi not in self._others:
-            self._others[psi] = other = LayerProblem(self.at, psi)
+            self._others[psi] = other = LayerProblem(self.at, psi, self.cut)
             other._base = ref(self)
         return self._others[psi]
 

@@ -37,9 +37,10 @@ class Recipe:
 
 
 # The values that layers read, as keys: `plane` is (a, b, d, f1, f2) at z, or the formulas of U and the numbers that
-# they read, and `matrix` is (a, b, d), so z itself reaches nothing but what looks along z: `place`.
+# they read, with where limit directions are counted from, and `matrix` is (a, b, d), so z itself reaches nothing but
+# what looks along z: `place`.
 INPUTS: Mapping[str, Callable[[SceneSetting], Hashable]] = {
-    "plane": lambda s: s.coefficients.key,
+    "plane": lambda s: (s.coefficients.key, s.cut),
     "matrix": lambda s: _matrix(s),
     "slow": lambda s: s.coefficients.slow_key,
     "place": lambda s: (s.system, s.z) if s.system.moves_with_z else None,

@@ -31,7 +31,8 @@ from .memory import Memory
 MOST_SEEDS = 20_000
 
 _PARAMETERS = (
-    "system", "psi", "z", "seeds", "count", "launch", "t_max", "length", "rtol", "atol", "view", "pixel", "window"
+    "system", "psi", "z", "seeds", "count", "launch", "t_max", "length", "rtol", "atol", "view", "pixel", "window",
+    "cut",
 )  # fmt: skip
 
 
@@ -46,7 +47,7 @@ class _Problem(LayerProblem):
     """
 
     def __init__(self, scene: Scene) -> None:
-        super().__init__(scene.coefficients, scene.psi)
+        super().__init__(scene.coefficients, scene.psi, scene.cut)
         self._scene = ref(scene)
 
     def keep(self, find: Callable[[LayerProblem], Result]) -> Result:
@@ -84,6 +85,9 @@ class Scene:
         Size of one pixel in picture units: polylines stay within a quarter of it.
     window : (left, right, bottom, top), optional
         A rectangle of the picture that is looked at: half as many trajectories again start in it.
+    cut : float
+        Angle from which limit directions are counted: Q1 is the first at or after it. While a value moves,
+        `direction_names.cut_that_keeps_names` keeps their names.
 
     Examples
     --------
@@ -111,6 +115,7 @@ class Scene:
         view: float = 2.0,
         pixel: float = 1.0 / 180.0,
         window: tuple[float, float, float, float] | None = None,
+        cut: float = 0.0,
         _memory: Memory | None = None,
     ) -> None:
         if not isinstance(system, KINDS):
@@ -135,7 +140,7 @@ class Scene:
             len(window) == 4 and np.isfinite(window).all() and window[0] < window[1] and window[2] < window[3]
         ):
             raise ValueError(f"window is {window}; give finite left < right and bottom < top.")
-        self.view, self.pixel, self.window = view, pixel, window
+        self.view, self.pixel, self.window, self.cut = view, pixel, window, number("cut", cut)
         self.coefficients: AtZ = system.at(self.z)
         self._memory = Memory() if _memory is None else _memory
         self._own: dict[str, Any] = {}

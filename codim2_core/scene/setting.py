@@ -37,5 +37,6 @@ class SceneSetting(Protocol):
     view: float
     pixel: float
     window: tuple[float, float, float, float] | None
+    cut: float
     coefficients: AtZ
     problem: LayerProblem

@@ -56,6 +56,7 @@ REACHES = {
     "d": ({"d": -0.8}, EQUATOR | HEMISPHERE | ATLAS | {"slow_flow"}),
     "f1": ({"f1": -0.3}, EQUATOR | HEMISPHERE | {"slow_flow"}),
     "f2": ({"f2": 0.2}, EQUATOR | HEMISPHERE | {"slow_flow"}),
+    "cut": ({"cut": 1.0}, EQUATOR | HEMISPHERE | {"slow_flow"}),  # moved with the plane only
     "psi": ({"psi": c2.psi.rational()}, HEMISPHERE),
     "hill": ({"psi": c2.psi.hill(3)}, HEMISPHERE),
     "z": ({"z": 1.0}, {"certificates"}),  # the slow manifold is looked for along z
