@@ -106,6 +106,18 @@ class Sheet:
         return Problem(F, J, lambda z: np.abs(z) + floor, limit)
 
 
+class Resting(Sheet):
+    """A critical set that does not move: it is there at all z, also where it meets others."""
+
+    def at(self, z: Array) -> Array | None:  # noqa: ARG002 (as of any other set)
+        """Return e."""
+        return self.e
+
+    def move(self, z: Array) -> None:
+        """Go on at z."""
+        self.z = np.array(z)
+
+
 def complement(e: Array) -> float:
     """``1 - |e|^2``."""
     r = math.hypot(e[0], e[1])

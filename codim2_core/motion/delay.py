@@ -20,7 +20,9 @@ SAMPLES = 33  # of the delay
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Delay(Tabled):
-    """A motion that stays near a critical set past a Hopf bifurcation (tr J = 0 < det J); arrays are read-only.
+    """A motion that stays near a critical set past its loss of stability; arrays are read-only.
+
+    At a Hopf bifurcation (tr J = 0 < det J), or an exchange of stability (det J = 0) on a set that does not move.
 
     Attributes
     ----------
@@ -38,9 +40,11 @@ class Delay(Tabled):
         The singular time that ends the delay before way in = way out; None where that does.
     z, e, flow : ndarray (k, m), (k, 2), (k, m)
         Along the delay, at even times from ``t_hopf`` to ``t_out``, or as far as it was followed.
+    bifurcation : str
+        "Hopf", "transcritical" or "pitchfork".
     """
 
-    _head_ = ("on", "came at z", "Hopf at z", "left at z", "why there")
+    _head_ = ("on", "came at z", "unstable from z", "left at z", "why there")
 
     onto: str
     t_in: float
@@ -53,13 +57,15 @@ class Delay(Tabled):
     z: Array
     e: Array
     flow: Array
+    bifurcation: str = "Hopf"
 
     @property
     def reason(self) -> str:
         """How it ends: a sentence."""
         if self.t_out is None:
-            return say("delay, open", C=self.onto)
-        return say("Hopf, delayed until" if self.buffer is None else "Hopf, delayed until the buffer", C=self.onto)
+            return say("delay, open", C=self.onto, how=self.bifurcation)
+        key = "Hopf, delayed until" if self.buffer is None else "Hopf, delayed until the buffer"
+        return say(key, C=self.onto, how=self.bifurcation)
 
     def _row_(self) -> tuple[str, ...]:
         left = "–" if self.z_out is None else point(self.z_out)
@@ -74,6 +80,7 @@ def delay(
     times: tuple[float, float, float],
     left: bool,
     buffer: complex | None,
+    bifurcation: str = "Hopf",
 ) -> Delay:
     """Gather a delay.
 
@@ -89,6 +96,7 @@ def delay(
     left : bool
         Whether the motion leaves the set at ``t_end``.
     buffer : complex or None
+    bifurcation : str
     """
     t_in, t_hopf, t_end = times
     z_in, z_hopf, z_end = motion(np.array(times))[:, 2:]
@@ -104,4 +112,4 @@ def delay(
     for array in (z_in, z_hopf, z_end, z, e, flow):
         array.flags.writeable = False
     t_out, z_out = (t_end, z_end) if left else (None, None)
-    return Delay(onto, t_in, t_hopf, t_out, z_in, z_hopf, z_out, buffer if left else None, z, e, flow)
+    return Delay(onto, t_in, t_hopf, t_out, z_in, z_hopf, z_out, buffer if left else None, z, e, flow, bifurcation)

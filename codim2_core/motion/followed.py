@@ -37,12 +37,15 @@ class Followed:
         Whether it attracts in the layer problem.
     rate : float
         Largest modulus of its eigenvalues, in the fast time of kappa_2.
+    growth : float
+        Largest real part of them.
     """
 
     e: Array
     p: Array
     attracts: bool
     rate: float
+    growth: float
 
 
 def in_disc(psi: Psi, e: Array) -> Array:
@@ -61,6 +64,21 @@ def place(psi: Psi, eps: float, x: float, y: float) -> tuple[Array, Array]:
     r, rho = math.hypot(x, y), math.hypot(x, y, eps)
     p = np.array([x, y]) / rho
     return (p * (float(psi.modulus(r / eps)) * rho / r) if r > 0.0 else np.zeros(2)), p
+
+
+def _expanded(psi: Psi, e: Array) -> tuple[float, Array, Array]:
+    """Return |x2| where e_Psi(x2) = e, its direction, and D e_Psi there."""
+    modulus = math.hypot(e[0], e[1])
+    zeta = float(psi.radius(modulus))
+    n = e / modulus if modulus > 0.0 else np.array([1.0, 0.0])
+    radial, tangential = psi.jacobian_factors(zeta)
+    return zeta, n, tangential * np.eye(2) + (radial - tangential) * np.outer(n, n)
+
+
+def jacobian(field: Field, psi: Psi, e: Array, z: Array) -> Array:
+    """Return J (2, 2) of the layer problem in kappa_2 at the critical set e."""
+    D = field.jacobian(float(e[0]), float(e[1]), 0.0, 0.0, z.tolist())
+    return D[:2, :2] @ _expanded(psi, e)[2]
 
 
 def followed(field: Field, psi: Psi, eps: float, state: Array) -> Followed | None:
@@ -82,12 +100,8 @@ def followed(field: Field, psi: Psi, eps: float, state: Array) -> Followed | Non
     distance = float(np.hypot(*(own_p - p)))
     if not distance <= MOST:
         return None
-    modulus = math.hypot(e[0], e[1])
-    zeta = float(psi.radius(modulus))
-    n = e / modulus if modulus > 0.0 else np.array([1.0, 0.0])
-    radial, tangential = psi.jacobian_factors(zeta)
+    zeta, n, De = _expanded(psi, e)
     along = np.outer(n, n)
-    De = tangential * np.eye(2) + (radial - tangential) * along
     D = field.jacobian(float(e[0]), float(e[1]), 0.0, 0.0, z.tolist())
     J = D[:2, :2] @ De
     trace, determinant = float(np.trace(J)), float(np.linalg.det(J))
@@ -105,4 +119,4 @@ def followed(field: Field, psi: Psi, eps: float, state: Array) -> Followed | Non
         change = height * X1 + (height**3 - height) * (along @ X1)
         if not distance <= FLOOR + MARGIN * eps * math.hypot(change[0], change[1]):
             return None
-    return Followed(e, p, determinant > 0.0 and trace < 0.0, rate)
+    return Followed(e, p, determinant > 0.0 and trace < 0.0, rate, 0.5 * trace + math.sqrt(max(split, 0.0)))

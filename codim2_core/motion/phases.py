@@ -49,6 +49,7 @@ class _Run:
     t_end: float
     onto: str
     e: tuple[Array, Array] | None  # at both ends; None on a cycle
+    attracts: tuple[bool, bool] = (True, True)  # also
 
 
 @dataclass(frozen=True)
@@ -60,6 +61,7 @@ class _ReadMotion:
     eps: float
     motion: Dense
     formulas: Field
+    rtol: float
 
     @property
     def times(self) -> Array:
@@ -150,7 +152,14 @@ class _ReadMotion:
             float(self.times[last]) if t_end is None else t_end,
             critical_name(self.system, self.psi, self.states[first, 2:], start.e),
             (start.e, end.e),
+            (start.attracts, end.attracts),
         )
+
+    def name_past(self, run: _Run, t: float) -> str:
+        """Name a set past a time at which it meets others."""
+        state = self.motion(min(t + 1e-3 * (run.t_end - t), run.t_end))
+        here = self.set_at(state)
+        return run.onto if here is None else critical_name(self.system, self.psi, state[2:], here.e)
 
     def is_followed(self, run: _Run, found: list[Followed | None]) -> bool:
         """Whether it is more than passed: anything that attracts is followed once it is reached."""
@@ -227,16 +236,47 @@ class _ReadMotion:
                 yield Phase("slip", t, begins, reason)
             starts = [begins, *(run.t_end for run in runs[:-1])]
             for k, (run, start) in enumerate(zip(runs, starts, strict=True)):
-                yield Phase(
-                    "slide",
-                    start,
-                    run.t_end,
-                    _why(run, "goes on" if k else "starts, follows" if initial else "comes, follows"),
-                    run.onto,
-                )
+                why = _why(run, "goes on" if k else "starts, follows" if initial else "comes, follows")
+                turns = self.decided_by_errors(run)
+                if turns is None:
+                    yield Phase("slide", start, run.t_end, why, run.onto)
+                    continue
+                yield Phase("slide", start, turns, why, run.onto)
+                onto = self.name_past(run, turns)
+                yield Phase("slide", turns, run.t_end, say("errors decide", onto=onto), onto)
             t, reason = runs[-1].t_end, say("no longer follows", onto=runs[-1].onto)
         if t < t_end or t == float(self.times[0]) == t_end:
             yield Phase("slip", t, t_end, reason)
+
+    def decided_by_errors(self, run: _Run) -> float | None:
+        """Return when a set that is followed begins to repel a motion that is nearer to it than errors; None if never.
+
+        The distance goes like exp(G/eps), G' the real part of the leading eigenvalue of J. Errors are rtol of what the
+        distance can be: they decide where it falls by more than that, and the motion stays while they grow as much.
+        """
+        if run.e is None:
+            return None
+        found = [self.set_at(self.states[i]) for i in range(run.first, run.last + 1)]
+        if all(one is None or one.attracts for one in found):
+            return None
+        last = min(run.last + 1, len(self.times) - 1)  # it leaves within the step after the run
+        times = self.times[run.first : last + 1]
+        rates = np.array([math.nan if one is None else one.growth for one in found] + [math.nan])[: len(times)]
+        known = np.flatnonzero(np.isfinite(rates))
+        rates = np.interp(np.arange(len(rates)), known, rates[known])
+        turns = np.flatnonzero((rates[:-1] < 0.0) & (rates[1:] > 0.0))
+        zeros = times[turns] + (times[turns + 1] - times[turns]) * rates[turns] / (rates[turns] - rates[turns + 1])
+        at = np.concatenate([times, zeros])
+        order = np.argsort(at, kind="stable")
+        at, rates = at[order], np.concatenate([rates, np.zeros(len(zeros))])[order]
+        G = np.concatenate([[0.0], np.cumsum(0.5 * (rates[1:] + rates[:-1]) * np.diff(at))]) / self.eps
+        folds = -math.log(self.rtol)
+        for turn, zero in zip(turns.tolist(), zeros.tolist(), strict=True):
+            k = int(np.searchsorted(at, zero))
+            if G[:k].max(initial=0.0) - G[k] > folds and G[k:].max() - G[k] > 0.5 * folds:
+                attracts = lambda state: (one := self.set_at(state)) is not None and one.attracts
+                return self.boundary(run.first + turn, attracts)
+        return None
 
     def contact(self, first: int, last: int, runs: list[_Run]) -> float:
         """Return the time at which a contact, from one step end to another, begins."""
@@ -249,14 +289,14 @@ class _ReadMotion:
         return self.boundary(first - 1, self.near)
 
 
-def phases_of(system: AnySystem, psi: Psi, eps: float, motion: Dense) -> tuple[Phase, ...]:
+def phases_of(system: AnySystem, psi: Psi, eps: float, rtol: float, motion: Dense) -> tuple[Phase, ...]:
     """Cut a motion into phases.
 
     Parameters
     ----------
     system : ELinear, System, Coefficients or Frozen
     psi : Psi
-    eps : float
+    eps, rtol : float
     motion : Dense
 
     Returns
@@ -264,7 +304,7 @@ def phases_of(system: AnySystem, psi: Psi, eps: float, motion: Dense) -> tuple[P
     tuple of Phase
         Consecutive, from the first to the last time.
     """
-    reader = _ReadMotion(system, psi, eps, motion, field(system))
+    reader = _ReadMotion(system, psi, eps, motion, field(system), rtol)
     phases = list(reader.phases())
     return tuple(replace(one, _place=OfState(motion, psi, eps, one.t_start, one.t_end)) for one in phases)
 
@@ -281,7 +321,11 @@ def _joined(runs: list[_Run]) -> list[_Run]:
         before = found[-1] if found else None
         if before is not None and before.onto == run.onto and _close(before, run):
             found[-1] = replace(
-                before, last=run.last, t_end=run.t_end, e=(before.e[0], run.e[1]) if before.e and run.e else None
+                before,
+                last=run.last,
+                t_end=run.t_end,
+                e=(before.e[0], run.e[1]) if before.e and run.e else None,
+                attracts=(before.attracts[0], run.attracts[1]),
             )
         else:
             found.append(run)
@@ -289,6 +333,8 @@ def _joined(runs: list[_Run]) -> list[_Run]:
 
 
 def _close(before: _Run, after: _Run) -> bool:
+    if after.attracts[0] and not before.attracts[1]:  # it left one that repels, for another
+        return False
     if after.first <= before.last + 1:
         return True
     return not (before.e and after.e) or float(np.hypot(*(before.e[1] - after.e[0]))) < SAME

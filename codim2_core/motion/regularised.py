@@ -182,7 +182,7 @@ class _Asked:
         events: Sequence[Sequence[float]] = (),
     ) -> Simulation:
         """Return the result, whose phases and derivatives are found when they are asked for."""
-        phases = partial(phases_of, self.system, self.psi, self.eps, motion)
+        phases = partial(phases_of, self.system, self.psi, self.eps, self.rtol, motion)
         variation = partial(of_regularised, self.system, self.psi, self.eps, motion)
         return simulation(
             motion, phases, variation, status, detail=detail, eps=self.eps, evaluations=evaluations, events=events

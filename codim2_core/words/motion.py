@@ -43,6 +43,18 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "fold in a line": Sentence("{C} ends in a fold.", "det J = 0, in an invariant line"),
     "fold": Sentence("{C} ends in a fold (det J = 0).", "det J = 0"),
+    "transcritical": Sentence(
+        "{C} meets another critical set, which passes through it (transcritical, det J = 0).",
+        "det J = 0, the sets cross",
+    ),
+    "pitchfork": Sentence(
+        "{C} meets a pair of critical sets, which ends on it or begins (pitchfork, det J = 0).",
+        "det J = 0, the sets cross, odd across",
+    ),
+    "exchange, moving": Sentence(
+        "{C} moves as it loses its stability: which set the motion follows on is left to terms of order ε.",
+        "det J = 0, an exchange of stability on a set that is not at rest",
+    ),
     "canard point": Sentence(
         "{C} ends in a fold at which the slow flow turns too (a canard point): whether the motion leaves there, stays, "
         "or follows the repelling set beyond for a time (a canard) is left to terms of order ε.",
@@ -69,23 +81,23 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "onward depends": Sentence("Where orbits go from there may depend on Ψ: give it.", "no family of Ψ was given"),
     "Hopf, delayed": Sentence(
-        "{C} loses its stability (Hopf), and the motion stays near it: to the end of this phase it is attracted more "
+        "{C} loses its stability ({how}), and the motion stays near it: to the end of this phase it is attracted more "
         "than repelled.",
-        "tr J = 0, way out after the end",
+        "tr J = 0 or an exchange of stability, way out after the end",
     ),
     "Hopf, delayed until": Sentence(
-        "{C} loses its stability (Hopf), and the motion stays near it until it is repelled as much as it was attracted "
-        "(way in = way out). Any disturbance that is not exponentially small in 1/ε ends that sooner.",
+        "{C} loses its stability ({how}), and the motion stays near it until it is repelled as much as it was "
+        "attracted (way in = way out). Any disturbance that is not exponentially small in 1/ε ends that sooner.",
         "tr J = 0, analytic",
     ),
     "Hopf, delayed until the buffer": Sentence(
-        "{C} loses its stability (Hopf), and the motion stays near it: a complex time at which an eigenvalue is 0 or "
+        "{C} loses its stability ({how}), and the motion stays near it: a complex time at which an eigenvalue is 0 or "
         "singular (buffer point) ends that before way in = way out. Any disturbance that is not exponentially small in "
         "1/ε ends it sooner.",
         "tr J = 0, analytic, C moves",
     ),
     "delay, open": Sentence(
-        "{C} loses its stability (Hopf), and the motion stays near it as far as it was followed: till there it is "
+        "{C} loses its stability ({how}), and the motion stays near it as far as it was followed: till there it is "
         "attracted more than repelled.",
         "tr J = 0, way out after the end of the range",
     ),
@@ -95,7 +107,7 @@ SENTENCES: dict[str, Sentence] = {
         "tr J = 0, a kink",
     ),
     "Hopf depends": Sentence(
-        "{C} loses its stability (Hopf): where, and after what delay, depends on Ψ: give it.",
+        "{C} loses its stability ({how}): where, and after what delay, depends on Ψ: give it.",
         "tr J = 0, no family of Ψ was given",
     ),
     "border moves in": Sentence("It moves inwards: sliding.", "a critical set on the equator, moving in"),
@@ -193,6 +205,11 @@ SENTENCES: dict[str, Sentence] = {
     "starts, follows": Sentence("The motion starts within O(ε) of Σ, and follows {onto}: sliding.", "on Σ, ε > 0"),
     "comes, follows": Sentence("Comes within O(ε) of Σ, and follows {onto}: sliding.", "a slip ends, ε > 0"),
     "goes on": Sentence("Goes on within O(ε) of Σ, to {onto}: sliding.", "from one set to another, ε > 0"),
+    "errors decide": Sentence(
+        "{onto} repels from here on, and the motion is nearer to it than errors of the computation: when it leaves, "
+        "and to which side, may be decided by them.",
+        "a loss of stability after attraction by more than 1/rtol, ε > 0",
+    ),
     "phases agree": Sentence(
         "The phases are those of the limit ε → 0, from which it differs by O(ε).", "ε > 0 beside the limit"
     ),

@@ -31,6 +31,9 @@ ELSEWHERE = {
     **dict.fromkeys(
         ("canard point", "folded node", "folded saddle", "folded, degenerate"), "tests/core/motion/test_folded.py"
     ),
+    **dict.fromkeys(
+        ("transcritical", "pitchfork", "exchange, moving", "errors decide"), "tests/core/motion/test_exchange.py"
+    ),
     "phases agree": AGREEMENT,
     "phases agree, less": AGREEMENT,
     "phases differ": AGREEMENT,

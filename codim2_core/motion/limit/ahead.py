@@ -18,7 +18,8 @@ from ...systems.elinear import ELinear
 from ...systems.typed import System
 from ...tables import Results
 from ..delay import Delay, delay
-from .delay import NotAnalyticError, delayed
+from .delay import STILL, NotAnalyticError, delayed
+from .folded import fold
 from .slide import Slide, slide
 
 __all__ = ["delays"]
@@ -33,7 +34,8 @@ LONG = 100.0  # times as long as the ranges would take at the first rate is a mo
 def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLike = ()) -> Results[Delay]:
     """Where motions that come to an attracting critical set at z lose its stability, and where they leave it.
 
-    Each is followed with the slow flow, eq:RPCM, from z through a Hopf bifurcation (tr J = 0 < det J). In the limit
+    Each is followed with the slow flow, eq:RPCM, from z through a Hopf bifurcation (tr J = 0 < det J), or through an
+    exchange of stability (transcritical, pitchfork; det J = 0) on a set that does not move. In the limit
     eps -> 0, where the formulas are analytic and nothing disturbs it, it stays near the critical set until it is
     repelled as much as it was attracted, or to the buffer point before.
 
@@ -50,7 +52,7 @@ def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLi
     Returns
     -------
     Results of Delay
-        One for each attracting critical set on which a motion comes to a Hopf bifurcation within the ranges, and whose
+        One for each attracting critical set on which a motion comes to such a place within the ranges, and whose
         eigenvalues are smooth in time: without that the delay is not known. Times are counted from z.
 
     Raises
@@ -96,10 +98,23 @@ def _ahead(formulas: Field, psi: Psi, C: CriticalSet, name: str, z: Array, range
     long = LONG * float(np.min(width[rate > 0.0] / rate[rate > 0.0]))
     options = {"rtol": RTOL, "atol": ATOL, "most": MOST}
     before = _within(slide(formulas, psi, np.array(C.e), 0.0, z, long, **options), ranges)
-    if before.end != "hopf":
+    if before.end not in ("hopf", "fold"):
         return None
     hopf = before.taken[-1]
-    after = slide(formulas, psi, before.e, hopf.end, hopf.last[2:], hopf.end + long, **options, delayed=True)
+    how = "Hopf" if before.end == "hopf" else fold(formulas, before.e, hopf.last[2:], name, "fold").exchange
+    if not how or (how != "Hopf" and np.ptp(before.places, axis=0).max() > STILL):
+        return None
+    after = slide(
+        formulas,
+        psi,
+        before.e,
+        hopf.end,
+        hopf.last[2:],
+        hopf.end + long,
+        **options,
+        delayed=True,
+        resting=how != "Hopf",
+    )
     try:
         after, way = delayed(formulas, psi, before.taken, before.places, _within(after, ranges))
     except NotAnalyticError:
@@ -110,7 +125,7 @@ def _ahead(formulas: Field, psi: Psi, C: CriticalSet, name: str, z: Array, range
     motion = dense(0.0, taken[0].first, [gathered(taken, len(taken[0].first))])
     known = np.array([hopf.end, *(step.end for step in after.taken)]), np.array(after.places)
     times = 0.0, float(known[0][0]), float(known[0][-1])
-    return delay(formulas, motion, known, name, times, way is not None, way and way.buffer)
+    return delay(formulas, motion, known, name, times, way is not None, way and way.buffer, how)
 
 
 def _within(part: Slide, ranges: Array) -> Slide:

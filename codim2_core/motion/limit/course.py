@@ -28,10 +28,10 @@ from ..followed import in_disc
 from ..places import Ascent
 from ..result import Phase
 from .decide import Decision, arriving, critical_name, from_hemisphere, starting
-from .delay import NotAnalyticError
+from .delay import STILL, NotAnalyticError
 from .folded import Fold, fold
 from .part import Delaying, MotionPart
-from .past_hopf import ring, stay
+from .past_hopf import beside, ring, stay
 from .slide import Slide, slide
 from .slide_on_cycle import slide_on_cycle
 from .slip import slip
@@ -76,6 +76,7 @@ class Course:
     ascent: Ascent | None = None  # of the phase to come
     compiled: CompiledPhases | None = None
     decided: Decision | None = None  # what follows at first, where that is known
+    leaving: Array | None = None  # points of the disc by which the set is left that is slid on, where they are known
 
     @property
     def own(self) -> Psi:
@@ -243,13 +244,15 @@ class Course:
         if part.end == "time":
             return None
         if part.end == "left":
-            return self.onward(say("Hopf, left", C=C), self.state[2:], ring(self.own, part.e))
+            return self.left_set(part.e, say("Hopf, left", C=C))
         if part.end == "equator":
             theta = math.atan2(part.e[1], part.e[0])
             reason = say("ends at the equator", C=C, theta=theta)
             return Decision("leave", reason, theta=theta)
         if part.end == "fold":
             at = fold(self.formulas, part.e, self.state[2:], C, "fold" if self.line is None else "fold in a line")
+            if at.exchange:
+                return self.past_exchange(part.e, C, at)
             return Decision("stop", at.reason) if at.left_to_eps else self.past_fold(part.e, at)
         if part.end == "cycle":
             return self.past_cycle(self.ahead(part.e, PAST))
@@ -324,14 +327,46 @@ class Course:
     def past_hopf(self, e: Array, C: str | None) -> Decision | None:
         """C has lost its stability to the fast flow: slide on it for as long as the loss is delayed."""
         if self.psi is None:
-            return Decision("stop", say("Hopf depends", C=C))
+            return Decision("stop", say("Hopf depends", C=C, how="Hopf"))
         before = self.parts[-1]
         taken = self.taken[len(self.taken) + 1 - len(before.times) :]
         try:
-            on = stay(self.formulas, self.psi, (taken, before.e), self.slid(e, delayed=True), C)
+            on = stay(self.formulas, self.psi, (taken, before.e), self.slid(e, delayed=True), C, "Hopf")
         except NotAnalyticError:
-            return Decision("stop", say("Hopf, not analytic", C=C))
+            return Decision("stop", say("Hopf, not analytic", C=C, how="Hopf"))
         return self.follow(on.part, on.reason, C, delaying=Delaying(before.times[0], on.way))
+
+    def past_exchange(self, e: Array, C: str | None, at: Fold) -> Decision | None:
+        """C goes on and has exchanged its stability with other sets: stay on it if it does not move.
+
+        It is then a slow manifold for every eps. One that moves is none, and terms of order eps part the sets.
+        """
+        if self.psi is None:
+            return Decision("stop", say("Hopf depends", C=C, how=at.exchange))
+        before = self.parts[-1]
+        if np.ptp(before.e, axis=0).max() > STILL:
+            return Decision("stop", f"{at.reason} {say('exchange, moving', C=C)}")
+        taken = self.taken[len(self.taken) + 1 - len(before.times) :]
+        part = self.slid(e, resting=True)
+        if not part.taken:
+            return None
+        onto = critical_name(self.system, self.psi, part.taken[0].at(0.5)[2:], e)
+        try:
+            on = stay(self.formulas, self.psi, (taken, before.e), part, onto, at.exchange)
+        except NotAnalyticError:
+            return Decision("stop", say("Hopf, not analytic", C=C, how=at.exchange))
+        if before.ascent is not None:
+            z = [step.last[2:] for step in (*taken, *on.part.taken)]
+            self.leaving = beside(self.formulas, self.psi, e, [taken[0].first[2:], *z], before.ascent.path())
+        return self.follow(on.part, on.reason, onto, delaying=Delaying(before.times[0], on.way, at.exchange))
+
+    def left_set(self, e: Array, reason: str) -> Decision:
+        """C, which repels, is left: to the side on which the motion came, or all around where none is known."""
+        points, self.leaving = self.leaving, None
+        if self.line is None or points is None:
+            return self.onward(reason, self.state[2:], ring(self.own, e) if points is None else points)
+        away = points[0] - in_disc(self.own, e)
+        return self.in_line(float(self.line.n @ (e + away)), reason)
 
     def on_equator(self, theta: float, z: Array) -> bool:
         """Tell whether a critical set lies on the equator in a direction: lambda_rho is 0 there."""

@@ -8,6 +8,9 @@ is smooth through the fold det D = 0, and has U as first integrals. Where its e'
 pass to the repelling set beyond: a canard. Its eigenvalues there are those of a folded node, saddle or focus, and
 zeros (P. Szmolyan, M. Wechselberger, J. Differential Equations 177, 419, 2001); with one slow variable it is the canard
 point (M. Krupa, P. Szmolyan, SIAM J. Math. Anal. 33, 286, 2001).
+
+Where D_z U has no part along the left null vector of D either, the critical sets cross and go on: an exchange of
+stability, transcritical or a pitchfork (the same authors, Nonlinearity 14, 1473, 2001).
 """
 
 from __future__ import annotations
@@ -24,6 +27,7 @@ Array = NDArray[np.float64]
 
 SINGULAR = 1e-5  # |e'| in units of what it is made of, below which a fold is a folded singularity
 DIFFERENCE = 1e-5  # in e and z, for derivatives
+STRAIGHT = 1e-4  # second derivative along the kernel, in units of D_e U, below which a crossing is a pitchfork
 SINGLE = 1e-4  # product of the eigenvalues in units of their squares, below which one is taken for 0
 
 
@@ -37,12 +41,15 @@ class Fold:
         A sentence.
     left_to_eps : bool
         Whether what follows is not decided by the limit.
+    exchange : str
+        "transcritical" or "pitchfork" where the set goes on, "" at a fold.
     beyond : ndarray (m,) or None
         Direction in z to where both sets are gone, where the slow flow does not lead there.
     """
 
     reason: str
     left_to_eps: bool = False
+    exchange: str = ""
     beyond: Array | None = None
 
 
@@ -61,6 +68,10 @@ def fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str) -> Fold
     """
     at = np.concatenate([e, z])
     D, Dz, W, We = _parts(formulas, at)
+    across, bends = _crossing(formulas, at, D, Dz)
+    if float(np.abs(across).max()) <= SINGULAR * float(np.abs(D).max() + np.abs(Dz).max()):
+        kind = "transcritical" if abs(bends) > STRAIGHT * float(np.abs(D).max()) else "pitchfork"
+        return Fold(say(kind, C=C), exchange=kind)
     size = float(np.abs(D).max() * np.abs(Dz).max() * (np.abs(W).max() + np.abs(We).max()))
     if not float(np.abs(_flow(formulas, at)[:2]).max()) < SINGULAR * size:
         return Fold(say(plain, C=C))
@@ -96,10 +107,16 @@ def _flow(formulas: Field, at: Array) -> Array:
     return np.concatenate([-_adjugate(D) @ Dz @ W, (D[0, 0] * D[1, 1] - D[0, 1] * D[1, 0]) * W])
 
 
-def _beyond(formulas: Field, at: Array, D: Array, Dz: Array) -> Array:
-    """Direction in z in which U does not vanish near the fold: that in which U moves as it does along the kernel."""
+def _crossing(formulas: Field, at: Array, D: Array, Dz: Array) -> tuple[Array, float]:
+    """Return D_z U along the left null vector of D, and how U bends that way along the kernel."""
     left, _, right = np.linalg.svd(D)
     null, r = left[:, 1], np.concatenate([right[1], np.zeros(Dz.shape[1])])
-    bends = null @ (_parts(formulas, at + DIFFERENCE * r)[0] - _parts(formulas, at - DIFFERENCE * r)[0]) @ right[1]
-    way = np.sign(bends) * (null @ Dz)
+    change = _parts(formulas, at + DIFFERENCE * r)[0] - _parts(formulas, at - DIFFERENCE * r)[0]
+    return null @ Dz, float(null @ change @ right[1]) / (2.0 * DIFFERENCE)
+
+
+def _beyond(formulas: Field, at: Array, D: Array, Dz: Array) -> Array:
+    """Direction in z in which U does not vanish near the fold: that in which U moves as it does along the kernel."""
+    across, bends = _crossing(formulas, at, D, Dz)
+    way = np.sign(bends) * across
     return way / np.linalg.norm(way)

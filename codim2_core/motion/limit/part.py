@@ -26,6 +26,7 @@ class Delaying:
 
     t_in: float
     way: WayOut | None  # None if it does not while the slide lasts
+    bifurcation: str = "Hopf"
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,7 @@ class MotionPart:
             where = OnSet(system, psi, motion, times, e)
         if self.delaying is not None and len(e) and phase.onto is not None:
             span, way = (self.delaying.t_in, phase.t_start, phase.t_end), self.delaying.way
-            found = delay(field(system), motion, (times, e), phase.onto, span, way is not None, way and way.buffer)
+            how, out = self.delaying.bifurcation, (way is not None, way and way.buffer)
+            found = delay(field(system), motion, (times, e), phase.onto, span, *out, how)
             phase = replace(phase, delay=found)
         return phase.placed(where, self.ascent)

@@ -1,4 +1,7 @@
-"""Past a Hopf bifurcation: the slide on a critical set that has lost its stability, while the loss is delayed."""
+"""The slide on a critical set that has lost its stability, while the loss is delayed, and where it is left to.
+
+That is past a Hopf bifurcation, or an exchange of stability on a set that does not move.
+"""
 
 from __future__ import annotations
 
@@ -13,12 +16,14 @@ from ...initial_value.field import Field
 from ...numerics.radau import Step
 from ...psi.function import Psi
 from ...words import say
-from ..followed import in_disc
+from ..followed import in_disc, jacobian
 from .decide import AROUND, BESIDE
 from .delay import WayOut, delayed
 from .slide import Slide
 
 Array = NDArray[np.float64]
+
+SEEN = 1e-3  # from a set, in p, at which it is asked on which side a motion comes
 
 
 @dataclass(frozen=True)
@@ -30,7 +35,9 @@ class Stay:
     way: WayOut | None
 
 
-def stay(field: Field, psi: Psi, before: tuple[Sequence[Step], Sequence[Array]], part: Slide, C: str | None) -> Stay:
+def stay(
+    field: Field, psi: Psi, before: tuple[Sequence[Step], Sequence[Array]], part: Slide, C: str | None, how: str
+) -> Stay:
     """Cut a slide past the bifurcation where the motion leaves the set.
 
     Parameters
@@ -43,6 +50,8 @@ def stay(field: Field, psi: Psi, before: tuple[Sequence[Step], Sequence[Array]],
         How the slow flow goes on from there.
     C : str or None
         Name of the set.
+    how : str
+        Name of the bifurcation.
 
     Raises
     ------
@@ -53,10 +62,48 @@ def stay(field: Field, psi: Psi, before: tuple[Sequence[Step], Sequence[Array]],
     key = "Hopf, delayed"
     if way is not None:
         key = "Hopf, delayed until" if way.buffer is None else "Hopf, delayed until the buffer"
-    return Stay(part, say(key, C=C), way)
+    return Stay(part, say(key, C=C, how=how), way)
 
 
 def ring(psi: Psi, e: Array) -> Array:
     """Points (k, 2) of the projected disc around a critical set, from which orbits show where a motion leaves it to."""
     angle = math.tau * np.arange(AROUND) / AROUND
     return in_disc(psi, e) + BESIDE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
+def beside(field: Field, psi: Psi, e: Array, z: Sequence[Array], arrival: Array) -> Array | None:
+    """Return the point (1, 2) of the disc to which a motion leaves a set at rest: on the side on which it came.
+
+    A motion keeps the sign of its distance along the leading eigenvalue while that is real.
+
+    Parameters
+    ----------
+    field : Field
+    psi : Psi
+    e : ndarray (2,)
+    z : sequence of ndarray (m,)
+        From where the motion came to the set to where it leaves.
+    arrival : ndarray (k, 2)
+        The orbit of the layer problem by which it came.
+
+    Returns
+    -------
+    ndarray or None
+        None where no side is known: it began on the set, or an eigenvalue turns.
+    """
+    C, first, left = in_disc(psi, e), None, np.zeros(2)
+    for at in z:
+        values, vectors = np.linalg.eig(jacobian(field, psi, e, at).T)
+        if np.iscomplexobj(values):
+            return None
+        n = vectors[:, int(np.argmax(values))]
+        left = -n if n @ left < 0.0 else n
+        first = left if first is None else first
+    away = arrival - C
+    far = np.flatnonzero(np.hypot(*away.T) > SEEN)
+    if first is None or not len(far):
+        return None
+    values, vectors = np.linalg.eig(jacobian(field, psi, e, z[-1]))
+    right = vectors[:, int(np.argmax(values))]
+    side = math.copysign(1.0, float(first @ away[far[-1]]) * float(left @ right))
+    return (C + side * BESIDE * right)[None]

@@ -20,7 +20,7 @@ from ...initial_value.field import Field
 from ...initial_value.line import InvariantLine
 from ...initial_value.problem import own_time
 from ...initial_value.safe_steps import NODES, Safe
-from ...initial_value.sheet import Sheet, complement, determinant, trace
+from ...initial_value.sheet import Resting, Sheet, complement, determinant, trace
 from ...numerics.dense import Steps
 from ...numerics.growth import bounded
 from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, steps
@@ -80,6 +80,7 @@ def slide(
     line: InvariantLine | None = None,
     compiled: CompiledPhases | None = None,
     delayed: bool = False,
+    resting: bool = False,
 ) -> Slide:
     """Follow the slow flow until the critical set reaches the equator, folds, or changes stability.
 
@@ -102,10 +103,12 @@ def slide(
         Takes the steps instead.
     delayed : bool
         Go on where stability changes: for how long a motion follows is left to `delay`.
+    resting : bool
+        The set does not move: go on with it, also where it meets others.
     """
     if not len(z):
         return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])
-    sheet = Sheet(field, e, z)
+    sheet = Resting(field, e, z) if resting else Sheet(field, e, z)
     gauges = _gauges(sheet, psi, on_cycle=lives is not None, line=line)
     if delayed:
         del gauges["hopf"]
@@ -122,7 +125,7 @@ def slide(
     rate = np.array(field.value(*sheet.e.tolist(), 0.0, 0.0, *z.tolist())[2:])
     pace = own_time(problem, z, rate)
     h, shortest = 1e-2 * pace, SHORTEST * min(pace, t_end - t)
-    if compiled is None or lives is not None:
+    if compiled is None or lives is not None or resting:
         ahead = _in_python(sheet, bounded(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest))
     else:
         safe = Safe(psi, math.copysign(1.0, determinant(sheet, sheet.e, z)), None if line is None else line.n)
@@ -168,7 +171,7 @@ def _in_python(sheet: Sheet, ahead: Iterator[Step]) -> Iterator[_Ahead]:
         after = sheet.at(step.last)
         if after is None:
             raise StepsTooShortError
-        yield _Ahead(step, _whole(step, 1.0), after, False)
+        yield _Ahead(step, _whole(step, 1.0), after, isinstance(sheet, Resting))
 
 
 def _compiled(sheet: Sheet, motion: CompiledSlow, safe: Safe) -> Iterator[_Ahead]:

@@ -168,7 +168,7 @@ def test_runs_on_one_set_are_joined_over_an_excursion():
 
 
 def test_the_angle_through_which_a_motion_turns():
-    reader = phases._ReadMotion(BENT, PSIS[0], 1e-3, Motion(), None)
+    reader = phases._ReadMotion(BENT, PSIS[0], 1e-3, Motion(), None, 1e-8)
     angle = np.linspace(0.0, 7.0, 60)
     for sign in (1.0, -1.0):
         circle = np.stack([3.0 + np.cos(sign * angle), np.sin(sign * angle) - 5.0], axis=-1)
@@ -184,7 +184,7 @@ def test_the_time_within_a_step_at_which_something_changes():
         def within(self, i, u):
             return (1.0 - u) * self.states[i] + u * self.states[i + 1]
 
-    reader = phases._ReadMotion(BENT, PSIS[0], 0.05, Step(), None)
+    reader = phases._ReadMotion(BENT, PSIS[0], 0.05, Step(), None, 1e-8)
     assert reader.boundary(0, reader.near) == pytest.approx(1.0 + 2.0 * 0.75)  # r = 20 eps = 1
     assert reader.boundary(1, reader.near) == pytest.approx(3.25)
     assert reader.boundary(0, lambda state: state[0] > 0.8) == pytest.approx(1.0 + 2.0 * 0.8)

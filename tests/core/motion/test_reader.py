@@ -32,7 +32,7 @@ class Motion:
 
 
 def on(e, attracts=True, rate=1.0):
-    return Followed(np.array(e), np.array(e), attracts, rate)
+    return Followed(np.array(e), np.array(e), attracts, rate, -rate if attracts else rate)
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Reader(module._ReadMotion):
 
 
 def reader(states, table=None, times=None, system=SYSTEM):
-    return Reader(system, PSI, EPS, Motion(states, times), None, table or {})
+    return Reader(system, PSI, EPS, Motion(states, times), None, 1e-8, table or {})
 
 
 def by_r(radii, z=0.0):
@@ -103,12 +103,12 @@ def test_from_when_to_when_a_set_is_followed(monkeypatch):
             return on((0.1, state[2] / 10)) if 1.25 <= state[2] <= 2.75 else None
 
     motion = Motion([(0.0, 0.0, float(k)) for k in range(5)])
-    between = Between(SYSTEM, PSI, EPS, motion, None)
+    between = Between(SYSTEM, PSI, EPS, motion, None, 1e-8)
     run = between.on_set(2, 2, on((0.1, 0.2)), on((0.1, 0.2)))
     assert (run.t_start, run.t_end, run.onto) == (pytest.approx(2.5), pytest.approx(5.5), "C2")
     (found,) = between.runs(1, 4)
     assert (found.first, found.last, found.t_start, found.t_end) == (2, 2, pytest.approx(2.5), pytest.approx(5.5))
-    early = Between(SYSTEM, PSI, EPS, Motion([(0.0, 0.0, 1.0), (0.0, 0.0, 2.0), (0.0, 0.0, 3.0)]), None)
+    early = Between(SYSTEM, PSI, EPS, Motion([(0.0, 0.0, 1.0), (0.0, 0.0, 2.0), (0.0, 0.0, 3.0)]), None, 1e-8)
     assert early.on_set(1, 1, on((0.1, 0.2)), on((0.1, 0.2))).t_start == pytest.approx(0.5)
     whole = reader([(0.0, 0.0, 0.0)] * 3, {0.0: on((0.1, 0.2))})
     run = whole.on_set(0, 2, on((0.1, 0.2)), on((0.1, 0.3)))
