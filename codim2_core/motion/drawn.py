@@ -13,8 +13,10 @@ from ..numerics.dense import Dense
 
 Array = NDArray[np.float64]
 
-SAMPLES, MOST = 240, 500  # even times of a drawn motion besides the ends of its steps, and its most points
-ASCENT = 3  # every so many points of an orbit up the hemisphere are drawn
+SAMPLES = 240  # even times of a drawn motion, at least
+EYE = 0.002  # radii of the equator, outside of the distance from Sigma: how far a chord may be from the curve
+MOST = 8000  # points, beyond which chords may be further from it
+HALVINGS, THINNINGS = 8, 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,11 +47,7 @@ def drawn(motion: Dense, phases: Sequence[Any], eps: float) -> Drawn:
         All of them, in order.
     eps : float
     """
-    times = motion.times
-    if len(times) > 1 and times[-1] > times[0]:
-        times = np.union1d(np.linspace(times[0], times[-1], SAMPLES), times)
-        if len(times) > MOST:
-            times = times[np.unique(np.rint(np.linspace(0, len(times) - 1, MOST)).astype(int))]
+    times = _times(motion, eps)
     states = motion(times)
     points = states[:, :2].copy()
     pieces: list[tuple[Array, Array, Array]] = []
@@ -57,15 +55,68 @@ def drawn(motion: Dense, phases: Sequence[Any], eps: float) -> Drawn:
     for k, phase in enumerate(phases):
         last = k + 1 == len(phases)
         end = len(times) if last else int(np.searchsorted(times, phases[k + 1].t_start, side="left"))
-        up = phase.ascent[::ASCENT]
+        up = phase.ascent
+        up = up[_needed(up, EYE)]
         state = motion(np.full(len(up), phase.t_start))
         pieces.append((np.full(len(up), phase.t_start), state, up))
         if end > done:
             p = phase.p(np.clip(times[done:end], phase.t_start, phase.t_end))
             rho = np.hypot(np.hypot(states[done:end, 0], states[done:end, 1]), eps)
             points[done:end] = p * (1.0 + rho)[:, None]
+            if eps == 0.0 and len(up) and str(phase.onto).startswith("cycle"):
+                points[done:end] = up[-1]  # it stays on the cycle onto which the orbit winds
             pieces.append((times[done:end], states[done:end], points[done:end]))
             done = end
     if not pieces:
         pieces.append((times, states, points))
     return Drawn(*(np.concatenate(column) for column in zip(*pieces, strict=True)))
+
+
+def _times(motion: Dense, eps: float) -> Array:
+    """Return the times at which a motion is drawn: even ones, and those that chords need to look like the curve."""
+    first, last = float(motion.times[0]), float(motion.times[-1])
+    if not last > first:
+        return motion.times
+
+    def at(t: Array) -> Array:
+        xy = motion(t)[:, :2]
+        rho = np.hypot(np.hypot(xy[:, 0], xy[:, 1]), eps)[:, None]
+        return xy * np.divide(1.0 + rho, rho, out=np.zeros_like(rho), where=rho > 0.0)
+
+    even = np.linspace(first, last, SAMPLES)
+    times = np.union1d(even, motion.times)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (times[:-1] + times[1:])
+        points = at(times)
+        bent = _off(at(middle), points[:-1], points[1:]) > EYE
+        times = np.union1d(times, middle[bent])
+        if not bent.any() or len(times) > 4 * MOST:
+            break
+    points, eye = at(times), EYE
+    while True:
+        kept = _needed(points, eye) | np.isin(times, even)
+        if kept.sum() <= MOST or eye > 1.0:
+            return times[kept]
+        eye *= 2.0
+
+
+def _needed(points: Array, eye: float) -> NDArray[np.bool_]:
+    """Mark the points of a curve without which chords would be further from it than the eye may see."""
+    kept = np.arange(len(points))
+    for _ in range(THINNINGS):
+        here = kept[1:-1:2]
+        if not len(here):
+            break
+        off = _off(points[here], points[kept[:-2:2]], points[kept[2::2]])
+        kept = np.setdiff1d(kept, here[off <= eye / THINNINGS], assume_unique=True)
+    mask = np.zeros(len(points), bool)
+    mask[kept] = True
+    return mask
+
+
+def _off(points: Array, start: Array, end: Array) -> Array:
+    """Distance of points from chords, in units of what is seen as a radius there."""
+    chord = end - start
+    share = ((points - start) * chord).sum(axis=1) / np.maximum((chord**2).sum(axis=1), 1e-300)
+    away = points - start - np.clip(share, 0.0, 1.0)[:, None] * chord
+    return np.hypot(away[:, 0], away[:, 1]) / np.maximum(1.0, np.hypot(points[:, 0], points[:, 1]))

@@ -274,9 +274,10 @@ class Simulation:
         return next((phase for phase in reversed(self.phases) if phase.t_start <= t), None)
 
     def drawn(self) -> Drawn:
-        """Return the motion as a curve of the picture: at the ends of its steps and at even times, at most 500 points.
+        """Return the motion as a curve of the picture, at even times and wherever its chords would be seen to bend.
 
-        In the limit the orbits up the hemisphere, which take no time, are put in where phases begin with one.
+        In the limit the orbits up the hemisphere, which take no time, are put in where phases begin with one; a slide
+        on a limit cycle is drawn by the orbit that winds onto it.
         """
         return drawn(self.motion, self.phases, self.eps)
 

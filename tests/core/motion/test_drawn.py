@@ -1,0 +1,63 @@
+"""A drawn motion looks like the motion: its chords are nowhere seen to leave the curve."""
+
+import numpy as np
+import pytest
+
+import codim2_core as c2
+from codim2_core import psi
+from codim2_core.motion.drawn import EYE, MOST, _needed
+
+TURNING = c2.System(U=("mu*c-s-beta*c*(c*c+s*s)", "c+mu*s-beta*s*(c*c+s*s)"), W=(), parameters={"mu": 0.3, "beta": 1.0})
+
+
+def off(run, drawn, eps):
+    """Largest distance of the curve from the chord between two drawn times, at eight times between them."""
+    share = np.linspace(0.0, 1.0, 10)[1:-1]
+    t = drawn.times[:-1, None] + np.diff(drawn.times)[:, None] * share
+    x, y = np.moveaxis(run.dense(t)[..., :2], -1, 0)
+    rho = np.hypot(np.hypot(x, y), eps)
+    points = np.stack([x, y], axis=-1) * ((1.0 + rho) / rho)[..., None]
+    a, side = drawn.points[:-1, None], np.diff(drawn.points, axis=0)[:, None]
+    way = np.clip(((points - a) * side).sum(-1) / np.maximum((side**2).sum(-1), 1e-300), 0.0, 1.0)
+    away = np.linalg.norm(points - a - way[..., None] * side, axis=-1)
+    return float((away / np.maximum(1.0, np.linalg.norm(points, axis=-1))).max())
+
+
+@pytest.mark.parametrize("turns", [2, 88])
+def test_an_orbit_that_turns_often_is_round(turns):
+    eps = 0.01
+    run = c2.simulate(TURNING, psi.constant(), eps, (0.002, 0.0), (0.0, 0.01 * 2.0 * np.pi * turns))
+    drawn = run.drawn()
+    assert off(run, drawn, eps) < 1.5 * EYE
+    radius = np.hypot(*drawn.points[len(drawn.points) // 2 :].T)
+    middle = np.hypot(*(0.5 * (drawn.points[1:] + drawn.points[:-1]))[len(drawn.points) // 2 :].T)
+    assert abs(radius - middle.mean()).max() < 3.0 * EYE or turns < 10  # no chord is inside the cycle
+    assert len(drawn.times) < 240 + 60 * turns
+
+
+def test_of_one_that_turns_far_too_often_the_chords_are_longer():
+    eps = 1e-3
+    run = c2.simulate(TURNING, psi.constant(), eps, (2e-4, 0.0), (0.0, 1e-3 * 2.0 * np.pi * 600), max_steps=200_000)
+    drawn = run.drawn()
+    assert len(drawn.times) <= MOST
+    assert off(run, drawn, eps) < 16.0 * EYE
+
+
+def test_what_is_straight_needs_its_ends_only():
+    assert np.flatnonzero(_needed(np.linspace([0.0, 0.0], [1.0, 1.0], 33), EYE)).tolist() == [0, 32]
+    bent = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0, 1.0]])
+    assert _needed(bent, EYE).all()
+    assert _needed(np.zeros((1, 2)), EYE).all()
+    assert not len(_needed(np.zeros((0, 2)), EYE))
+
+
+def test_in_the_limit_it_stays_on_its_cycle():
+    """|e|^2 = mu/beta on the cycle, for every Psi."""
+    system = TURNING.evolve(W=("1",))
+    run = c2.simulate_nonsmooth(system, (0.3, 0.0, 0.0), (0.0, 2.0), psi=psi.constant())
+    phase = run.phases[-1]
+    assert phase.onto == "cycle 1"
+    drawn = run.drawn()
+    on = drawn.points[drawn.times > phase.t_start + 1e-9]
+    assert len(on) > 10
+    np.testing.assert_allclose(np.hypot(*on.T), np.sqrt(0.3), atol=3.0 * EYE)
