@@ -13,6 +13,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cycles.limit_cycles import limit_cycles
 from ..initial_value.field import field
 from ..initial_value.sheet import solved
 from ..layer_problem.equator import equator_equilibria
@@ -167,6 +168,8 @@ class Ascent:
         In the projected disc.
     along : tuple of (2,) arrays or None
         The ends of a way along an invariant line, which needs no integration.
+    onto : str or None
+        What the phase slides on: of a limit cycle one turn is added.
     """
 
     system: AnySystem
@@ -175,9 +178,22 @@ class Ascent:
     theta: float | None = None
     start: Array | None = None
     along: tuple[Array, Array] | None = None
+    onto: str | None = None
 
     def path(self) -> Array:
         """Points (k, 2) in the projected disc; none where nothing leaves."""
+        up = self._orbit()
+        if not len(up) or not str(self.onto).startswith("cycle"):
+            return up
+        k = int(str(self.onto).split()[1]) - 1
+        cycles = limit_cycles(self.system, self.psi, tuple(self.z.tolist()))
+        if not k < len(cycles):
+            return up
+        turn = cycles[k].points[:-1]
+        nearest = int(np.argmin(np.hypot(*(turn - up[-1]).T)))
+        return np.concatenate([up, np.roll(turn, -nearest, axis=0), turn[nearest : nearest + 1]])
+
+    def _orbit(self) -> Array:
         if self.along is not None:
             return np.stack(self.along)
         try:
