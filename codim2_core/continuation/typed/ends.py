@@ -20,6 +20,7 @@ from .foot import Array, Foot
 NEAR, SUNK = 0.03, 0.03
 SLOWER = 1.05  # times the period before: what goes to a loop becomes slower
 SETTLED, REACH = 1e-4, 0.1  # of the span: how far from the last cycle a loop may be, and what is special
+COMING = 10.0  # times the way of the last cycles: how far from the last one is what they come to
 
 
 class Marked(Protocol):
@@ -113,9 +114,10 @@ def _sunk(last: Last) -> bool:
 
 
 def _ahead(mark: Marked, last: Last, width: float) -> bool:
-    """Whether a special value lies ahead, not far."""
-    onward = math.copysign(1.0, last.turn.value - last.before.value)
-    return 0.0 <= (mark.value - last.turn.value) * onward < REACH * width
+    """Whether a special value lies ahead, and the last cycles come to it: a loop is where their values accumulate."""
+    way = last.turn.value - last.before.value
+    ahead = (mark.value - last.turn.value) * math.copysign(1.0, way)
+    return 0.0 <= ahead < min(REACH * width, COMING * abs(way))
 
 
 def _ended(kind: str, sentence: str, turn: Turn, value: float) -> Ended:

@@ -124,3 +124,22 @@ def test_a_loop_between_two_branches_is_not_passed_over():
     assert np.ptp(ends) < 1e-8
     for m in (0.18, 0.2):
         assert cycles.count(m) == len(c2.limit_cycles(EIGHT.evolve(m=m), ONE))
+
+
+def test_a_loop_is_where_the_values_accumulate():
+    """A fold of critical sets lies ahead, on the cycle, but far from its last values: they come to a loop before it."""
+    system = c2.System(
+        U=(
+            "p*c-0.844*s+0.276*c*c-0.442*c*s-0.052*s*s-0.619*c**3+1.027*c*c*s+0.283*sin(3*s)",
+            "(0.312+0.5*p)*s+0.666*c-0.302*s*s-0.825*c*c*s-0.434*c*s*s",
+        ),
+        W=(),
+        parameters={"p": 0.0},
+    )
+    cycles = c2.branches(system, c2.psi.tanh(), "p", (-1.0, 1.0)).cycles
+    (branch,) = [branch for branch in cycles if any(fold.value < -0.147 for fold in branch.folds)]
+    assert {branch.start.kind, branch.end.kind} == {"homoclinic cycle", "equator"}
+    loop = branch.end if branch.end.kind == "homoclinic cycle" else branch.start
+    assert loop.value == pytest.approx(-0.146819, abs=2e-6)
+    counts = [len(c2.limit_cycles(system.evolve(p=value), c2.psi.tanh())) for value in (-0.14690, -0.14678)]
+    assert counts == [2, 1]
