@@ -26,6 +26,7 @@ KEPT, ALMOST = 0.2, 0.05  # last correction, in steps: of a point that may be fo
 SMALL = 3e-3  # amplitude at which a branch has come to C
 LARGE, LOW, LOWEST = 0.999, 1e-3, 1e-7  # chi, ebar at which it has come to the equator: all of it, or a part
 LEVEL, DEAD = 0.05, 1e-8  # ebar and exponent at which cycle and closed equator cannot be told apart
+UNSURE = 1e-6  # exponent of a cycle near the equator whose sign may be rounding's
 BENT, ROUNDING = 1e-9, 1e-12  # change of nu about a fold near the equator, where exponents tend to 0, and elsewhere
 MOST = 600  # points
 SAME = 1e-4  # of a step: how near the ends of two ways along one branch come to each other's curve
@@ -35,6 +36,8 @@ WIDEST, MEMORY = 16, 12  # points tried at once; last points that predictions kn
 BEND, OFF = 0.25, 0.15  # turn of the tangent, and first correction in steps, that the next step is to have
 PATIENT, MANY = 400, 4  # steps of a turn that a point may cost at least, and times those of the point before it
 HALVINGS = 8  # of an interval in which a fold is not found at once
+BESIDE = 1e-3  # of a step: how far outside of it its fold may seem to be
+LOWER = 0.5  # of the size of the exponent at a point: where it may be as small as that nearby, it is looked at
 
 
 def traced(tracer: Tracer, start: Point) -> Asking[Trace]:
@@ -166,6 +169,7 @@ class _Path:
 
     def finished(self) -> Asking[Trace]:
         """Put in the folds, where the exponent changes its sign."""
+        yield from self._look_between()
         signs = [point.turn.exponent > 0.0 for point in self.points]
         turned = [i for i in range(1, len(signs)) if signs[i] != signs[i - 1]]
         found = yield from side_by_side([self._fold(i) for i in turned])
@@ -179,6 +183,33 @@ class _Path:
                 points.append(fold)
             points.append(point)
         return Trace(tuple(points), tuple(rows), self.reason or "stuck")
+
+    def _look_between(self) -> Asking[None]:
+        """Put in points where the exponent may change its sign twice within a step: where it is least in size."""
+        tried, i = 0, 1
+        while i < len(self.points) - 1:
+            around = self.points[i - 1 : i + 2]
+            exponents = [point.turn.exponent for point in around]
+            length = _least(Course(self.tracer, around).lengths, exponents)
+            if length is None or tried == HALVINGS or _rounded(around[1]):
+                tried, i = 0, i + 1
+                continue
+            course = Course(self.tracer, self.points[max(i - 2, 0) : i + 3])
+            place, near = course.between(length + course.lengths[i - 1 - max(i - 2, 0)])
+            guess = Guess(place.xi, place.parameters[0], self.tracer.across(near), near.turn.exponent > 0.0)
+            closed = yield from self.tracer.corrected(guess)
+            point = None if closed is None else self.tracer.point(*closed, around[1].tangent)
+            part = -1.0 if point is None else _part(around[0], around[2], point)
+            if point is None or not 0.0 < part < 1.0:
+                tried, i = 0, i + 1
+                continue
+            after = part > _part(around[0], around[2], around[1])
+            self.points.insert(i + after, point)
+            if (point.turn.exponent > 0.0) != (exponents[1] > 0.0):
+                tried, i = 0, i + 2
+                continue
+            tried += 1
+            i += int(after) if abs(point.turn.exponent) < abs(exponents[1]) else int(not after)
 
     def _longest(self, point: Point, beyond: float) -> float:
         """Return the longest step so far beyond a point."""
@@ -280,10 +311,10 @@ class _Path:
             course = Course(self.tracer, around)
             place, near = course.between(course.neutral(k))
             found = yield from self.tracer.fold(place.xi, place.parameters[0], near)
-            if found is not None and max(distance(here, found), distance(found, there)) <= 1.5 * distance(here, there):
+            if found is not None and -BESIDE < _part(here, there, found) < 1.0 + BESIDE:
                 return found
-            if max(here.turn.height, there.turn.height) < LEVEL:
-                return None  # it may be rounding that has changed the sign
+            if _rounded(here, there):
+                return None
             place, near = course.between(0.5 * (course.lengths[k - 1] + course.lengths[k]))
             guess = Guess(place.xi, place.parameters[0], self.tracer.across(near), near.turn.exponent > 0.0)
             closed = yield from self.tracer.corrected(guess)
@@ -311,6 +342,26 @@ def _growth(here: Point, there: Point, sought: _Sought) -> float:
     turn = math.acos(min(cosine, 1.0))
     off = sought.search.first / ((sought.number + 1) * sought.step)
     return max(min(GROWTH, BEND / max(turn, 1e-9), (OFF / max(off, 1e-9)) ** 0.25), SHRINKAGE)
+
+
+def _rounded(*points: Point) -> bool:
+    """Whether the sign of an exponent may be rounding's."""
+    return all(point.turn.height < LEVEL and abs(point.turn.exponent) < UNSURE for point in points)
+
+
+def _least(lengths: Sequence[float], exponents: Sequence[float]) -> float | None:
+    """Return where a parabola through three exponents of one sign is least in size, if it is much less there."""
+    x0, x1, x2 = lengths
+    e0, e1, e2 = (abs(exponent) for exponent in exponents)
+    if not (exponents[0] > 0.0) == (exponents[1] > 0.0) == (exponents[2] > 0.0) or e1 > min(e0, e2):
+        return None
+    first, second = (e1 - e0) / (x1 - x0), (e2 - e1) / (x2 - x1)
+    bend = (second - first) / (x2 - x0)
+    if not bend > 0.0:
+        return None
+    x = 0.5 * (x0 + x1) - 0.5 * first / bend
+    least = e0 + (x - x0) * (first + bend * (x - x1))
+    return x if least < LOWER * e1 and abs(x - x1) > 1e-3 * min(x1 - x0, x2 - x1) else None
 
 
 def _bends(fold: Point, here: Point, there: Point) -> bool:

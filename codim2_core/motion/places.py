@@ -168,8 +168,6 @@ class Ascent:
         In the projected disc.
     along : tuple of (2,) arrays or None
         The ends of a way along an invariant line, which needs no integration.
-    onto : str or None
-        What the phase slides on: of a limit cycle one turn is added.
     """
 
     system: AnySystem
@@ -178,14 +176,13 @@ class Ascent:
     theta: float | None = None
     start: Array | None = None
     along: tuple[Array, Array] | None = None
-    onto: str | None = None
 
-    def path(self) -> Array:
-        """Points (k, 2) in the projected disc; none where nothing leaves."""
+    def path(self, onto: str | None = None) -> Array:
+        """Points (k, 2) in the projected disc, with one turn of a cycle onto which it leads; none if none leave."""
         up = self._orbit()
-        if not len(up) or not str(self.onto).startswith("cycle"):
+        if not len(up) or onto is None or not onto.startswith("cycle"):
             return up
-        k = int(str(self.onto).split()[1]) - 1
+        k = int(onto.split()[1]) - 1
         cycles = limit_cycles(self.system, self.psi, tuple(self.z.tolist()))
         if not k < len(cycles):
             return up

@@ -146,7 +146,7 @@ class Phase(Tabled):
     @cached_property
     def ascent(self) -> Array:
         """Orbit (k, 2) of the layer problem that it begins with, in p: in the limit that takes no time; else empty."""
-        return NONE if self._ascent is None else self._ascent.path()
+        return NONE if self._ascent is None else self._ascent.path(self.onto)
 
 
 @dataclass(frozen=True, eq=False)

@@ -60,4 +60,4 @@ class MotionPart:
             how, out = self.delaying.bifurcation, (way is not None, way and way.buffer)
             found = delay(field(system), motion, (times, e), phase.onto, span, *out, how)
             phase = replace(phase, delay=found)
-        return phase.placed(where, self.ascent and replace(self.ascent, onto=phase.onto))
+        return phase.placed(where, self.ascent)

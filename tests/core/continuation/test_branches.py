@@ -269,3 +269,13 @@ def test_branches_on_a_narrow_part_of_the_span_are_those_of_the_part(name, middl
         assert [kinds(b) for b in whole] == [kinds(b) for b in part]
         for one, other in zip(whole, part, strict=True):
             assert [p.value for p in one.special] == pytest.approx([p.value for p in other.special], abs=1e-6)
+
+
+@pytest.mark.parametrize("span", [(-1.7, -0.3), (-1.05, -1.04), (-1.044955, -1.044945)])
+def test_two_folds_beside_each_other_are_both_told_however_long_the_steps(span):
+    """Between them there are three cycles; on the widest span they are 1.2e-6 of it apart."""
+    system = ELinear(0.127, -1.187, -0.5793, (-1.045, 0.07895))
+    (branch,) = continue_cycles(system, psi.hill(3.0), "f1", span)
+    assert [fold.value for fold in branch.folds] == pytest.approx([-1.0449507283, -1.0449490082], abs=2e-10)
+    counts = [len(limit_cycles(system.evolve(f1=f1), psi.hill(3.0))) for f1 in (-1.0449515, -1.0449499, -1.0449482)]
+    assert counts == [1, 3, 1]
