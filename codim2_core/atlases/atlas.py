@@ -22,6 +22,7 @@ from .family import Family, Ranges
 from .numbers import numbers, places
 from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion, read_only
+from .seeds import NO_SEEDS, Seeds, seeds_beside
 from .special import crossings, each_once
 from .undefined import borders
 
@@ -107,9 +108,12 @@ def atlas(
 
 def curves_over(system: Any, psi: Psi, across: str, up: str, ranges: Any = None, z: ArrayLike = ()) -> Atlas:
     """Curves and points of an atlas, without its regions: all arguments are those of `atlas`."""
-    family = family_over(system, psi, z, across, up, ranges)
+    return _curves_over(family_over(system, psi, z, across, up, ranges))
+
+
+def _curves_over(family: Family, seeds: Seeds = NO_SEEDS) -> Atlas:
     lines = degenerate_lines(family)
-    found, special = curves_of(family, lines)
+    found, special = curves_of(family, lines, seeds)
     curves = [
         AtlasCurve(one.kind, read_only(family.values(one.plane)), LABELS[one.kind],
                    read_only(places(family, one)), read_only(numbers(family, one)))
@@ -135,8 +139,20 @@ def _nowhere(family: Family, kind: str, plane: Array) -> AtlasCurve:
 
 
 def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
-    """Return an atlas with the regions between its curves, of the same system, psi and z."""
+    """Return an atlas with the regions between its curves, of the same system, psi and z.
+
+    Where a portrait is not that of its region, curves are looked for once more, from there.
+    """
     family = family_over(system, psi, z, *found.names, found.ranges)
+    whole = _with_regions(family, found)
+    if whole.looked.unlike and (seeds := seeds_beside(family, whole.looked.unlike)) != NO_SEEDS:
+        again = _with_regions(family, _curves_over(family, seeds))
+        if len(again.looked.unlike) < len(whole.looked.unlike):
+            return again
+    return whole
+
+
+def _with_regions(family: Family, found: Atlas) -> Atlas:
     still = [one.points for one in found.curves if one.kind not in (KIND, *KINDS)]
     regions, looked = regions_of(family, still, [one.place for one in found.points])
     return replace(found, regions=regions, looked=looked)

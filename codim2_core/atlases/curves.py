@@ -12,6 +12,7 @@ from ..bifurcations.implicit_curve import Traced, zero_between
 from . import conditions, plane_conditions, special, starts, tracing
 from .degenerate import Line
 from .family import Family
+from .seeds import NO_SEEDS, Seeds
 from .special import Special
 from .tracing import Followed, Found
 
@@ -24,11 +25,16 @@ SINGULAR = 1e-9  # of det DU, all along a curve through the equator: there criti
 STILL = 1e-9  # of det DU, all along a curve of tr J = 0: there critical sets fill a line
 
 
-def curves_of(family: Family, lines: Sequence[Line]) -> tuple[Found, list[Special]]:
-    """All curves, in unknowns of their own, and the special points along them; none that lies on a degenerate line."""
+def curves_of(family: Family, lines: Sequence[Line], seeds: Seeds = NO_SEEDS) -> tuple[Found, list[Special]]:
+    """All curves, in unknowns of their own, and the special points along them; none that lies on a degenerate line.
+
+    They are begun in cells of the net, and from the seeds.
+    """
     on, through, turning = starts.on_equator(family, lines)
     folds, hopfs, foci = starts.within(family, lines)
-    found = _true(tracing.saddle_nodes(family, on) + tracing.through_equator(family, through), lines)
+    found = _true(
+        tracing.saddle_nodes(family, on, seeds.equator) + tracing.through_equator(family, through, seeds.equator), lines
+    )
     points = [point for one in found.curves for point in special.along(family, one)]
     corners = special.corners(points)
     if family.affine:
@@ -37,10 +43,10 @@ def curves_of(family: Family, lines: Sequence[Line]) -> tuple[Found, list[Specia
         singular = plane_conditions.singular_matrix(family)
         more = tracing.in_the_plane("det A = 0", singular, starts.of_plane(singular))
     else:
-        more = tracing.folds(family, folds)
-    turning_points = tracing.hopfs(family, hopfs, corners)
+        more = tracing.folds(family, folds, seeds.within)
+    turning_points = tracing.hopfs(family, hopfs, corners, seeds.within)
     real = [part for one in turning_points.curves for part in _with_positive_determinant(family, one)]
-    more += Found(real, turning_points.unfinished) + tracing.node_foci(family, foci, corners)
+    more += Found(real, turning_points.unfinished) + tracing.node_foci(family, foci, corners, seeds.within)
     meetings = special.crossings([one for one in found.curves if one.kind == "saddle-node"])
     ends = [v[1:] for v in corners] + [one.plane for one in meetings]
     neutral = plane_conditions.neutral_equator(family)

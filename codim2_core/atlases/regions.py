@@ -18,7 +18,13 @@ Array = NDArray[np.float64]
 BESIDE = 1e-3  # of the ranges: a point that is as near as this to a curve's chord lies on the curve
 ASIDE = 0.01  # of the ranges: nearer to a curve than this nothing is compared
 STEPS = (np.arange(5) + 0.5) / 5.0 + 0.013 * np.sin(np.arange(1.0, 6.0))  # off round numbers
-NET = np.stack(np.meshgrid(STEPS, STEPS[::-1] + 0.007, indexing="ij"), axis=-1).reshape(-1, 2)
+EDGE = 5e-4  # of the ranges: how far from their borders these are looked along
+ENDS = np.array([EDGE, 1.0 - EDGE])
+NET = np.concatenate([
+    np.stack(np.meshgrid(STEPS, STEPS[::-1] + 0.007, indexing="ij"), axis=-1).reshape(-1, 2),
+    *(np.stack(np.meshgrid(one, other, indexing="ij"), axis=-1).reshape(-1, 2)
+      for one, other in ((ENDS, STEPS), (STEPS, ENDS), (ENDS, ENDS))),
+])  # fmt: skip
 THIN = 2e-4  # of the ranges: what is nowhere wider than twice this is given to a neighbour
 
 
@@ -67,7 +73,7 @@ def regions_of(
 def _unlike(
     family: Family, classes: Named, faces: Sequence[Face], kinds: Sequence[int], lines: Sequence[Array]
 ) -> tuple[tuple[float, float], ...]:
-    """Places of a net, away from all curves, whose class is not that of the region in which they lie."""
+    """Places of a net and along its edges, away from all curves, whose class is not that of their region."""
     codes = classes.decided(family.values(NET)).tolist()
     near = np.zeros(len(NET), bool)
     for line in lines:

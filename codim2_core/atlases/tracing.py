@@ -95,7 +95,7 @@ class Sought:
     beside: float = BESIDE
 
 
-def saddle_nodes(family: Family, cells: Array) -> Found:
+def saddle_nodes(family: Family, cells: Array, seeds: Sequence[Array] = ()) -> Found:
     """Curves on which limit directions meet: saddle-nodes, and where a symmetry holds, pitchforks."""
     plain = Sought("saddle-node", conditions.saddle_node(family), _edges(3))
     forked = Sought(
@@ -105,16 +105,16 @@ def saddle_nodes(family: Family, cells: Array) -> Found:
         lambda v: abs(conditions.OnEquator(family, v).turning) < LEFT,
         BESIDE_FORK,
     )
-    return _curves((plain, forked), cells, starts.EQUATOR_CELL, EQUATOR)
+    return _curves((plain, forked), cells, starts.EQUATOR_CELL, EQUATOR, seeds)
 
 
-def through_equator(family: Family, cells: Array) -> Found:
+def through_equator(family: Family, cells: Array, seeds: Sequence[Array] = ()) -> Found:
     """Curves on which a critical set comes to the equator."""
     sought = Sought("transcritical", conditions.through_equator(family), _edges(3))
-    return _curves((sought,), cells, starts.EQUATOR_CELL, EQUATOR)
+    return _curves((sought,), cells, starts.EQUATOR_CELL, EQUATOR, seeds)
 
 
-def folds(family: Family, cells: Array) -> Found:
+def folds(family: Family, cells: Array, seeds: Sequence[Array] = ()) -> Found:
     """Curves on which critical sets meet: folds, and where a symmetry holds, pitchforks."""
     plain = Sought("fold of critical sets", conditions.fold(family), _edges(4, 1.0))
     forked = Sought(
@@ -124,17 +124,17 @@ def folds(family: Family, cells: Array) -> Found:
         lambda v: math.hypot(*conditions.Within(family, v).U) < LEFT,
         BESIDE_FORK,
     )
-    return _curves((plain, forked), cells, starts.CELL, WITHIN)
+    return _curves((plain, forked), cells, starts.CELL, WITHIN, seeds)
 
 
-def hopfs(family: Family, cells: Array, corners: Sequence[Array]) -> Found:
+def hopfs(family: Family, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()) -> Found:
     """Curves on which tr J = 0, of saddles too."""
     sought = Sought("Hopf", conditions.hopf(family), _edges(4, NEAR))
-    sure = [_beside(family, v, 0.0) for v in corners]
+    sure = [*(_beside(family, v, 0.0) for v in corners), *seeds]
     return _all_to_equator(family, _curves((sought,), cells, starts.CELL, WITHIN, sure))
 
 
-def node_foci(family: Family, cells: Array, corners: Sequence[Array]) -> Found:
+def node_foci(family: Family, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()) -> Found:
     """Curves on which tr(J)^2 = 4 det J; they end where both are zero."""
 
     def edge(v: Array, sign: float) -> tuple[float, Array]:
@@ -150,7 +150,7 @@ def node_foci(family: Family, cells: Array, corners: Sequence[Array]) -> Found:
         )
         for sign in (1.0, -1.0)
     ]  # fmt: skip
-    sure = [_beside(family, v, sign) for v in corners for sign in (2.0, -2.0)]
+    sure = [*(_beside(family, v, sign) for v in corners for sign in (2.0, -2.0)), *seeds]
     return _all_to_equator(family, _curves(both, cells, starts.CELL, WITHIN, sure))
 
 

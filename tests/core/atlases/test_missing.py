@@ -76,3 +76,26 @@ def test_where_equations_have_no_value_is_a_region_of_its_own():
     nowhere = system.evolve(U=("c**2 - mu", "-s + log(k - 9)"))
     with pytest.raises(ValueError, match="finite"):
         c2.atlas(nowhere, ONE, "mu", "k", ((-2, 2), (-1, 1)))
+
+
+def test_a_curve_along_an_edge_is_found_from_the_portraits_beside_it():
+    """A saddle-node at p = -1.9931: two limit directions less than a cell of the net apart, in the first cell."""
+    system = c2.System(
+        U=(
+            "0.639*c*s+0.084*c*c-0.06*tanh(2*s)+p*c*s*s",
+            "0.05*sin(2*c)+0.226*c**3-1.399*c*s*s+2.028*exp(c)+p*c**3",
+        ),
+        W=(),
+        parameters={"p": 0.0},
+    )
+    found = c2.atlas(system, c2.psi.hill(2.0), "p", "n", ((-2, 2), (1.2, 6)))
+    assert not found.looked.unlike
+    edge = [one for one in found.curves if one.kind == "saddle-node" and one.points[:, 0].max() < -1.9]
+    assert len(edge) == 1
+    np.testing.assert_allclose(np.sort(edge[0].points[[0, -1], 1]), (1.2, 6.0), atol=1e-9)
+    value = float(edge[0].points[0, 0])
+    counts = [len(c2.equator_equilibria(system.evolve(p=p))) for p in (-2.0, value - 1e-6, value + 1e-6, -1.9)]
+    assert counts == [4, 4, 2, 2]
+    for p in (-1.9999, -1.995):
+        (region,) = [one for one in found.regions if within(np.array([[p, 3.1]]), one.boundary)[0]]
+        assert region.name.startswith("NCM4")
