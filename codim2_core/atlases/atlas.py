@@ -190,7 +190,6 @@ def with_bifurcations_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLik
 
 def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> Family:
     """Check what `atlas` is given, and return what all of it is computed from."""
-    system.at(z)  # says what is wrong with z
     slow = tuple(np.ravel(np.asarray(z, float)).tolist())
     for what, name in (("across", across), ("up", up)):
         check_name(system, psi, slow, what, name)

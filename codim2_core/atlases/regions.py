@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -97,7 +98,7 @@ def _gaps(points: Array, line: Array) -> Array:
 
 
 def _through(line: Array, marks: Array) -> Array:
-    """Put those of some points into a line on which they lie, but for its bends."""
+    """Put those of some points into a line on which they lie, but for its bends: also at a tip, between two of its."""
     start, along = line[:-1], np.diff(line, axis=0)
     square = np.maximum((along**2).sum(axis=1), 1e-300)
     added: list[tuple[float, Array]] = []
@@ -105,11 +106,21 @@ def _through(line: Array, marks: Array) -> Array:
         part = np.clip(((mark - start) * along).sum(axis=1) / square, 0.0, 1.0)
         gap = np.hypot(*(start + part[:, None] * along - mark).T)
         i = int(gap.argmin())
-        if gap[i] < BESIDE and 0.0 < part[i] < 1.0:
-            added.append((i + float(part[i]), mark))
+        if not gap[i] < BESIDE:
+            continue
+        where = i + float(part[i])
+        if where == round(where) and 0 < (k := round(where)) < len(line) - 1 and gap[i] > 0.0:
+            where += 0.5 if _added(line[k], mark, line[k + 1]) < _added(line[k - 1], mark, line[k]) else -0.5  # a tip
+        if where != round(where):
+            added.append((where, mark))
     for where, mark in sorted(added, key=lambda pair: -pair[0]):
         line = np.insert(line, int(where) + 1, mark, axis=0)
     return line
+
+
+def _added(before: Array, point: Array, after: Array) -> float:
+    """Return how much longer the way between two points is by way of another."""
+    return math.dist(before, point) + math.dist(point, after) - math.dist(before, after)
 
 
 def _give(faces: Sequence[Face], owner: dict[tuple[int, int], int], code: dict[int, int], wide: set[int]) -> None:

@@ -109,7 +109,8 @@ def limits(system: Any, psi: Psi, name: str) -> tuple[float, float]:
 
 
 def check_name(system: Any, psi: Psi, z: ArrayLike, parameter: str, name: str) -> None:
-    """Refuse, under the name of the parameter of a function that takes it, a name of nothing that can be varied."""
+    """Refuse a z that does not fit, and, under the name of a parameter, a name of nothing that can be varied."""
+    system.at(z)
     allowed = names(system, psi, z)
     if name not in allowed and not (name == "z" and "z1" in allowed):
         known = f"choose one of {', '.join(allowed)}" if allowed else "nothing of this system and its Ψ can be varied"

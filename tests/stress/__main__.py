@@ -6,6 +6,8 @@ if there was one. Warnings are failures.
 
 ``--properties`` runs all tests that Hypothesis makes examples for, with the examples of one seed after the other,
 until the time is over or one fails. The seed is printed; what was found becomes an ``@example`` of its test.
+
+``--ways`` compares what can be had in two ways, of random systems: see `ways`.
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ from codim2_core import Psi, psi
 
 from .checks import check_index, check_plane, check_scene, check_sides
 from .strata import STEPS, STRATA, Plane
+from .ways import compare
 
 FAMILIES = (
     psi.constant(), psi.rational(), psi.exponential(), psi.tanh(),
@@ -94,7 +97,10 @@ def main(words: list[str]) -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--random-only", action="store_true", help="leave out the directed part")
     parser.add_argument("--properties", action="store_true", help="run the tests of Hypothesis instead")
+    parser.add_argument("--ways", action="store_true", help="compare what can be had in two ways instead")
     options = parser.parse_args(words)
+    if options.ways:
+        return compare(options.seconds, options.seed)
     if options.properties:
         return properties(options.seconds, options.seed)
     warnings.simplefilter("error")

@@ -74,3 +74,23 @@ def test_lines_run_along_the_frame_and_along_each_other():
     edge = np.stack([1.0 + 0.0 * side, side], axis=-1)
     one, other = (np.stack([0.3 + 0.0 * at, at], axis=-1) for at in (side, up))
     assert sorted(face.area for face in net_of([edge, one, other]).faces()) == pytest.approx([0.3, 0.7], abs=1e-12)
+
+
+def test_a_lobe_that_is_pinched_at_a_tip_is_a_region_of_its_own():
+    """A transcritical curve turns back at a saddle-node on the equator, where a fold of critical sets begins."""
+    system = c2.System(
+        U=(
+            "-0.573*c*c-1.443*c+0.352*exp(c)-0.926*s**3+p*sin(2*c)",
+            "1.165*sin(2*c)-2.475*s**3+0.25+z*c**3+p*cos(3*s)",
+        ),
+        W=("1",),
+        parameters={"p": 0.0},
+    )
+    found = c2.atlas(system, c2.psi.constant(), "p", "z1", ((-2, 2), (-2, 2)), z=(0.0,))
+    tip = next(point.place for point in found.points if point.kind == "fold on the equator" and point.place[0] > 1.0)
+    for place in ((1.0676, 0.1858), (tip[0] - 0.004, tip[1] - 0.012)):
+        (region,) = [one for one in found.regions if within(np.array([place]), one.boundary)[0]]
+        there = system.evolve(p=place[0])
+        assert region.name == "4CM4, 2 saddles, stable node, unstable focus; 3 arrive, 1 leaves"
+        assert len(c2.critical_sets(there, c2.psi.constant(), (place[1],))) == 4
+        assert (c2.equator_equilibria(there, (place[1],)).lambda_rho < 0.0).sum() == 3

@@ -68,3 +68,9 @@ def test_of_a_frozen_system_neither_a_slow_variable_nor_a_parameter_has_a_value(
     for ask in (value_of, lambda *given: varied(*given, 1.0)):
         with pytest.raises(ValueError, match="cannot be varied"):
             ask(TEXT.at((0.3, 0.4)), HILL, (0.3, 0.4), name)
+
+
+def test_a_z_that_does_not_fit_is_told_by_what_varies_something():
+    system = c2.System(U=("p*c - s + z", "c + p*s"), W=("1",), parameters={"p": 0.0})
+    with pytest.raises(ValueError, match=r"z has 0 value\(s\), but this system has m = 1"):
+        c2.branches(system, c2.psi.constant(), "p", (-1.0, 1.0))

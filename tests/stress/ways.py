@@ -1,0 +1,152 @@
+"""Whatever can be had in two ways, of random systems: what the two say is compared, and printed where they differ.
+
+``python -m tests.stress --ways [--seconds S] [--seed N]``
+"""
+
+from __future__ import annotations
+
+import math
+import random
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+import codim2_core as c2
+from codim2_core import psi
+from codim2_core.atlases.faces import within
+from codim2_core.motion.agreement import agreement
+
+FAMILIES = (psi.constant(), psi.rational(), psi.tanh(), psi.hill(3.0))
+#: Of the ranges: nearer to a curve, or of the span to a special value, nothing is compared.
+ASIDE = 2e-3
+SAME = 1e-6
+
+Check = Callable[[random.Random], tuple[str, list[str]]]
+
+
+def elinear(rng: random.Random) -> c2.ELinear:
+    """Case III, in which there may be limit cycles, three times of four."""
+    a, d = rng.uniform(0.2, 2.0), rng.uniform(-2.0, 2.0)
+    if rng.random() < 0.75:
+        d = -abs(d)
+    b = rng.choice((-1, 1)) * rng.uniform(0.5, 2.5) * math.sqrt(abs(a * d))
+    return c2.ELinear(*(round(v, 3) for v in (a, b, d)), (round(rng.uniform(-1, 1), 3), round(rng.uniform(-1, 1), 3)))
+
+
+def general(rng: random.Random) -> c2.System:
+    """Cubic in e, with a parameter p and a slow variable."""
+    k = [round(rng.uniform(-1.0, 1.0), 3) for _ in range(14)]
+    return c2.System(
+        U=(
+            "p*c+({})*c+({}-0.9)*s+({})*c*c+({})*c*s+({})*s*s+({})*c**3+({})*z".format(*k[:7]),
+            "({}+0.9)*c+({}+p/2)*s+({})*c*c+({})*c*s+({})*s*s+({})*s**3+({})*z*c".format(*k[7:]),
+        ),
+        W=("1",),
+        parameters={"p": 0.0},
+    )
+
+
+def as_text(system: c2.ELinear) -> c2.System:
+    """The same system, written as formulas."""
+    names = ("a", "b", "d", "f1", "f2")
+    U = "a*c - b*s + f1", "b*c + d*s + f2"
+    return c2.System(U=U, W=(), parameters={name: float(system.value_of(name)) for name in names})
+
+
+def both_kinds_of_branches(rng: random.Random) -> tuple[str, list[str]]:
+    """Branches along f1 of an e-linear system, given in coefficients and as text."""
+    system, family = elinear(rng), rng.choice(FAMILIES)
+    what = f"branches of {system!r}, {family.text}, along f1"
+    special = []
+    for one in (system, as_text(system)):
+        found = c2.branches(one, family, "f1", (-1.5, 1.5))
+        points = [(point.kind, point.value) for branch in found.cycles for point in branch.special]
+        special.append(sorted([*points, *((one.kind, one.value) for one in found.special)], key=lambda p: p[1]))
+    first, second = special
+    missing = [p for p in first if not any(p[0] == q[0] and abs(p[1] - q[1]) < 10 * SAME for q in second)]
+    more = [q for q in second if not any(p[0] == q[0] and abs(p[1] - q[1]) < 10 * SAME for p in first)]
+    said = [f"only in coefficients: {p}" for p in missing if p[0] != "span"]
+    return what, said + [f"only as text: {q}" for q in more if q[0] != "span"]
+
+
+def branches_and_cycles(rng: random.Random) -> tuple[str, list[str]]:
+    """How many limit cycles the branches pass at random values, and how many there are."""
+    system, family = general(rng), rng.choice(FAMILIES)
+    found, said = c2.branches(system, family, "p", (-1.5, 1.5), (0.0,)).cycles, []
+    special = [point.value for branch in found for point in branch.special]
+    for value in (rng.uniform(-1.5, 1.5) for _ in range(12)):
+        there = len(c2.limit_cycles(system.evolve(p=value), family, (0.0,)))
+        if found.count(value) != there and min((abs(value - v) for v in special), default=1.0) > ASIDE * 3.0:
+            said.append(f"at p = {value!r} the branches have {found.count(value)} cycles, and there are {there}")
+    return f"cycles of {system.U}, {family.text}", said
+
+
+def atlas_and_portraits(rng: random.Random) -> tuple[str, list[str]]:
+    """The names of regions, and what stands still at random places and along the edges."""
+    system, family = general(rng), rng.choice(FAMILIES)
+    found, said = c2.atlas(system, family, "p", "z1", ((-2, 2), (-2, 2)), (0.0,)), []
+    places = [(rng.uniform(-2, 2), rng.uniform(-2, 2)) for _ in range(30)]
+    for side in (-1.998, 1.998):
+        places += [(side, rng.uniform(-2, 2)) for _ in range(5)] + [(rng.uniform(-2, 2), side) for _ in range(5)]
+    for p, z in places:
+        at = np.array([[p, z]])
+        if any(np.hypot(*(_dense(curve.points) - at).T).min() < 4.0 * ASIDE for curve in found.curves):
+            continue
+        names = [region.name for region in found.regions if within(at, region.boundary)[0]]
+        there = system.evolve(p=p)
+        equator, sets = c2.equator_equilibria(there, (z,)), c2.critical_sets(there, family, (z,))
+        count = "NCM" if not sets else "CM" if len(sets) == 1 else f"{len(sets)}CM"
+        kinds = [kind for C in sets for kind in [C.kind.split()[-1]]]
+        good = len(names) == 1 and names[0].startswith(f"{count}{len(equator)}") and all(k in names[0] for k in kinds)
+        if not good:
+            said.append(f"at ({p!r}, {z!r}) the region is {names}: {count}{len(equator)}, {[C.kind for C in sets]}")
+    return f"atlas of {system.U}, {family.text}", said
+
+
+def _dense(points: np.ndarray) -> np.ndarray:
+    share = np.linspace(0.0, 1.0, 8)[:, None, None]
+    return ((1.0 - share) * points[:-1] + share * points[1:]).reshape(-1, 2)
+
+
+def limit_and_eps(rng: random.Random) -> tuple[str, list[str]]:
+    """The phases of the limit, and those of a motion with a small eps."""
+    system, family = general(rng), rng.choice(FAMILIES)
+    angle = rng.uniform(0.0, math.tau)
+    start = (0.3 * math.cos(angle), 0.3 * math.sin(angle), rng.uniform(-0.5, 0.5))
+    limit = c2.simulate_nonsmooth(system, start, (0.0, 1.5), psi=family)
+    run = c2.simulate(system, family, 1e-6, start, (0.0, 1.5))
+    found = agreement(system, family, run, limit)
+    sure = not any("may be decided" in phase.reason for phase in run.phases)
+    return f"motion of {system.U}, {family.text}, from {start}", [] if found.same or not sure else [found.sentence]
+
+
+CHECKS: tuple[Check, ...] = (both_kinds_of_branches, branches_and_cycles, atlas_and_portraits, limit_and_eps)
+
+
+def differences(seed: int) -> Iterator[tuple[str, str, list[str], float]]:
+    """Compare without end: the check, what was compared, how it differs, and the seconds it took."""
+    for k in range(10**9):
+        for check in CHECKS:
+            begun = time.monotonic()
+            try:
+                what, said = check(random.Random(f"{seed} {k}"))
+            except Exception as error:  # printed, and on with the next
+                what, said = f"{check.__name__} {seed} {k}", [repr(error)]
+            yield check.__name__, what, said, time.monotonic() - begun
+
+
+def compare(seconds: float, seed: int) -> int:
+    """Compare until the time is over; print what differs, and how many were compared. 1 if something did."""
+    end, tried, wrong, spent = time.monotonic() + seconds, {}, {}, {}
+    for name, what, said, took in differences(seed):
+        tried[name] = tried.get(name, 0) + 1
+        wrong[name] = wrong.get(name, 0) + bool(said)
+        spent[name] = spent.get(name, 0.0) + took
+        if said:
+            print(f"{name}: {what}", *said, sep="\n    ", flush=True)
+        if time.monotonic() > end:
+            break
+    for name, count in tried.items():
+        print(f"{name}: {count} compared, {wrong[name]} differ, {spent[name] / count:.2f} s each (seed {seed})")
+    return int(any(wrong.values()))
