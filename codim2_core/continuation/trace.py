@@ -142,7 +142,7 @@ class Search:
     def told(self, turn: Turn | None) -> None:
         """Take a step of Newton's method from the turn that was followed at the guess."""
         self.over, self.rounds = True, self.rounds + 1
-        if turn is None:
+        if turn is None or not turn.rate > 0.0:  # so near to an end of the section that chi no longer changes
             return
         guess, width = self.guess, self.tracer.width
         gx, gn = turn.by_xi, turn.by_value * width

@@ -143,3 +143,18 @@ def test_a_loop_is_where_the_values_accumulate():
     assert loop.value == pytest.approx(-0.146819, abs=2e-6)
     counts = [len(c2.limit_cycles(system.evolve(p=value), c2.psi.tanh())) for value in (-0.14690, -0.14678)]
     assert counts == [2, 1]
+
+
+def test_a_guess_where_the_section_ends_is_no_error():
+    """There chi does not change with xi in doubles: no tangent, and no cycle."""
+    system = c2.System(
+        U=(
+            "p*c+(0.065)*c+(-0.203-0.9)*s+(-0.772)*c*c+(-0.015)*c*s+(0.582)*s*s+(-0.736)*c**3+(0.367)*z",
+            "(0.191+0.9)*c+(-0.134+p/2)*s+(0.442)*c*c+(-0.096)*c*s+(0.643)*s*s+(-0.241)*s**3+(0.264)*z*c",
+        ),
+        W=("1",),
+        parameters={"p": 0.0},
+    )
+    found = c2.branches(system, ONE, "p", (-1.5, 1.5), (0.0,)).cycles
+    for p in (-0.6, 0.1, 0.9):
+        assert found.count(p) == len(c2.limit_cycles(system.evolve(p=p), ONE, (0.0,)))
