@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 MOST = 40  # rows that are shown
+ROUNDING = 1e-14  # of the largest coordinate: smaller ones are told as 0
 
 
 class Tabled:
@@ -43,13 +44,15 @@ def rows(results: Iterable[Tabled]) -> str:
 
 
 def number(value: float) -> str:
-    """Return a number to six digits, with a minus sign."""
-    return f"{value:.6g}".replace("-", "−")
+    """Return a number to six digits, with a minus sign; zero has none."""
+    return f"{value + 0.0:.6g}".replace("-", "−")
 
 
 def point(values: Iterable[float]) -> str:
-    """Return the coordinates of a point; a dash if there are none."""
-    shown = ", ".join(map(number, values))
+    """Return the coordinates of a point; a dash if there are none. What is rounding beside the largest is 0."""
+    values = list(values)
+    least = ROUNDING * max(map(abs, values), default=0.0)
+    shown = ", ".join(number(0.0 if abs(value) < least else value) for value in values)
     return f"({shown})" if shown else "–"
 
 

@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 import pytest
 
 import codim2_core as c2
-from codim2_core.tables import MOST, number, table
+from codim2_core.tables import MOST, number, point, table
 
 FOUR = c2.ELinear(-2, 0, -1, (-0.5, 0), B=((1, 0),), g=(0.25,))
 PSI = c2.psi.constant()
@@ -95,3 +95,10 @@ def test_separatrices_are_drawn_and_listed():
     none = c2.separatrices(c2.ELinear(-1, 0, -1), PSI)  # every direction is a limit direction
     assert none.notes
     assert all(note in none._repr_html_() for note in none.notes)
+
+
+def test_zero_has_no_sign_and_rounding_is_zero_beside_what_it_is_rounding_of():
+    assert number(-0.0) == number(0.0) == "0"
+    assert point((1.0, -1e-16)) == "(1, 0)"
+    assert point((3e-17, -2e-17)) == "(3e−17, −2e−17)"
+    assert point((0.0, -0.0)) == "(0, 0)"
