@@ -28,6 +28,7 @@ _MOST_CHANGES = 10  # between two neighbouring values of the grid, nested
 _NARROW = 1e-12  # of the span
 _NEARER = (3e-11, 3e-10, 3e-9)  # of the span: nearer still, where nothing is degenerate there
 _SAME_PLACE = 0.3  # in e, from one value to the next
+_BEYOND = 0.1, 0.4  # of the way from where a pair may be born to the next value
 _PARTS = 0.01, 0.1, 0.4  # of the way from a special value to its neighbour on the grid
 
 
@@ -81,6 +82,9 @@ def _suspected(run: Sequence[State], least: float) -> list[float]:
     for turns in ([s.near_directions for s in alike], [s.near_sets for s in alike]):
         lines += [(x[i : i + 3], y) for i in range(len(x) - 2) for y in _lined_up(turns[i : i + 3])]
     found: set[float] = set()
+    for turns in ([s.near_directions for s in alike], [s.near_sets for s in alike]):
+        for way in (1, -1):
+            found.update(_ahead(x[::way], turns[::way]))
     for x, y in lines:
         for i in lowest(x, y):
             # the extremum of the parabola, and where the lines from either side come to zero
@@ -91,6 +95,23 @@ def _suspected(run: Sequence[State], least: float) -> list[float]:
                     found.update([zero] if x[i - 1] < zero < x[i + 1] else [])
     known = np.array([s.value for s in run])
     return [v for v in sorted(found) if abs(known - v).min() > least]
+
+
+def _ahead(x: Array, turns: Sequence[Turns]) -> Iterator[float]:
+    """Values just past where what turns back before zero comes to it, by its size at two values before.
+
+    A pair may be born there, and another one vanish before the next value.
+    """
+    for i in range(1, len(x) - 1):
+        (before, one), (here, two), (after, _) = turns[i - 1 : i + 2]
+        for place, size in zip(here, two, strict=True):
+            if not len(before) or np.hypot(*(after - place).T).min(initial=math.inf) < _SAME_PLACE:
+                continue  # it is still there: `_lined_up` tells
+            away = np.hypot(*(before - place).T)
+            if away.min() < _SAME_PLACE and 0.0 < size < one[away.argmin()]:
+                zero = x[i] + size * (x[i] - x[i - 1]) / (one[away.argmin()] - size)
+                if (zero - x[i]) * (zero - x[i + 1]) < 0.0:
+                    yield from (float(zero + part * (x[i + 1] - zero)) for part in _BEYOND)
 
 
 def _lined_up(turns: Sequence[Turns]) -> Iterator[Array]:

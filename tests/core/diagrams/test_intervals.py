@@ -167,3 +167,20 @@ def test_two_folds_that_undo_each_other_beside_a_special_value():
     for low, high in pairwise([0.6986, *(s.value for s in special if 0.6986 < s.value < 1.6), 1.6]):
         x = low + (high - low) * PARTS[1:-1]
         assert len({still(system, c2.psi.hill(6), "p", float(v)) for v in x}) == 1
+
+
+def test_a_pair_that_is_born_and_another_that_vanishes_within_a_step_are_told():
+    """Two limit directions are born at -0.238; one of them meets an older one at -0.209: a fold and its other side."""
+    plane = c2.ELinear(0.536, 0.214, -0.026, (0.192, -0.505))
+    text = c2.System(
+        U=("a*c - b*s + f1", "b*c + d*s + f2"),
+        W=(),
+        parameters={"a": 0.536, "b": 0.214, "d": -0.026, "f1": 0.192, "f2": -0.505},
+    )
+    for span in ((-1.5, 1.5), (-1.0, 1.0), (-2.0, 0.7)):
+        values = [
+            [one.value for one in c2.branches(system, c2.psi.constant(), "f1", span, with_cycles=False).special]
+            for system in (plane, text)
+        ]
+        assert len(values[0]) == 2
+        np.testing.assert_allclose(values[1], values[0], atol=1e-9)
