@@ -22,8 +22,8 @@ from .family import Family, Ranges
 from .numbers import numbers, places
 from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion, read_only
-from .seeds import NO_SEEDS, Seeds, seeds_beside
 from .special import crossings, each_once
+from .starts import NO_SEEDS, Seeds, seeds_beside
 from .undefined import borders
 
 __all__ = [

@@ -12,8 +12,8 @@ from ..bifurcations.implicit_curve import Traced, zero_between
 from . import conditions, plane_conditions, special, starts, tracing
 from .degenerate import Line
 from .family import Family
-from .seeds import NO_SEEDS, Seeds
 from .special import Special
+from .starts import NO_SEEDS, Seeds
 from .tracing import Followed, Found
 
 Array = NDArray[np.float64]
