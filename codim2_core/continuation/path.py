@@ -365,9 +365,9 @@ def _least(lengths: Sequence[float], exponents: Sequence[float]) -> float | None
 
 
 def _bends(fold: Point, here: Point, there: Point) -> bool:
-    """Whether the branch turns back at a fold between two points: by more than rounding."""
-    bent = max(abs(fold.nu - here.nu), abs(fold.nu - there.nu))
-    return bent > (BENT if fold.turn.height < LEVEL else ROUNDING)
+    """Whether the branch turns back at a fold between two points: by more than rounding, near the equator on both."""
+    bent = sorted((abs(fold.nu - here.nu), abs(fold.nu - there.nu)))
+    return bent[0] > BENT if fold.turn.height < LEVEL else bent[1] > ROUNDING
 
 
 def _round(start: Point, here: Point, there: Point) -> bool:

@@ -158,3 +158,10 @@ def test_a_guess_where_the_section_ends_is_no_error():
     found = c2.branches(system, ONE, "p", (-1.5, 1.5), (0.0,)).cycles
     for p in (-0.6, 0.1, 0.9):
         assert found.count(p) == len(c2.limit_cycles(system.evolve(p=p), ONE, (0.0,)))
+
+
+def test_no_fold_is_made_by_rounding_where_a_cycle_becomes_the_equator():
+    """There the exponent tends to 0, and its sign to rounding's."""
+    system = twin(c2.ELinear(0.264, 0.33, -0.226, (0.737, -0.163)), 0.0)
+    (branch,) = c2.branches(system, c2.psi.tanh(), "f1", (-1.5, 1.5)).cycles
+    assert [point.kind for point in branch.special] == ["Hopf", "equator"]
