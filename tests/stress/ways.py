@@ -62,7 +62,7 @@ def both_kinds_of_branches(rng: random.Random) -> tuple[str, list[str]]:
     for one in (system, as_text(system)):
         found = c2.branches(one, family, "f1", (-1.5, 1.5))
         points = [(point.kind, point.value) for branch in found.cycles for point in branch.special]
-        special.append(sorted([*points, *((one.kind, one.value) for one in found.special)], key=lambda p: p[1]))
+        special.append(sorted({*points, *((one.kind, one.value) for one in found.special)}, key=lambda p: p[1]))
     first, second = special
     missing = [p for p in first if not any(p[0] == q[0] and abs(p[1] - q[1]) < 10 * SAME for q in second)]
     more = [q for q in second if not any(p[0] == q[0] and abs(p[1] - q[1]) < 10 * SAME for p in first)]
