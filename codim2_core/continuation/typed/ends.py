@@ -99,7 +99,9 @@ def loop_end(name: str, last: Last, problem: LayerProblem, marked: Sequence[Mark
     at = {"name": name, "value": turn.value}
     if not settled:
         return None
-    if sunk and len(problem.equator):
+    # What cycles of growing periods tend to holds an equilibrium: one on the equator where there is no saddle within.
+    coming_down = sunk or (not saddles and turn.height < last.before.height)
+    if coming_down and len(problem.equator):
         sentence = say("becomes a loop", how="attracting" if turn.exponent < 0.0 else "repelling", **at)
         return _ended("heteroclinic cycle through the equator", sentence, turn, turn.value)
     if near:

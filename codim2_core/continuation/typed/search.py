@@ -30,7 +30,7 @@ from ..result import CycleBranch, CycleBranches, CyclePoint
 from ..trace import Tracer
 from ..turns import Turn
 from ..varied_system import KEPT
-from .ends import Ended, Last, Marked, equator_end, hopf_end, loop_end
+from .ends import SLOWER, Ended, Last, Marked, equator_end, hopf_end, loop_end
 from .family import VariedRay, follow
 from .foot import Array, At, Foot, Place, e_at
 from .passed import line_of, passed
@@ -41,7 +41,7 @@ FIRST, LARGE = 1e-3, 0.05  # of the reach: where branches start at a critical se
 COLUMNS = 9  # values at which all cycles are looked for
 BETTER = 1.3  # times as well another ray is crossed that is worth taking
 RAYS = 12  # of one branch
-BACK = 3  # points before the last one, with which it is compared
+BACK, FURTHEST = 3, 12  # points before the last one, with which it is compared: one at which cycles were faster
 
 
 @dataclass(frozen=True)
@@ -295,7 +295,8 @@ class Search:
     def _loop(self, piece: Piece) -> Ended | None:
         """Name a loop that the last cycles of a branch come to."""
         points = piece.trace.points
-        last, before = points[-1].turn, points[max(len(points) - 1 - BACK, 0)].turn
+        last, back = points[-1].turn, [point.turn for point in points[-1 - FURTHEST : -BACK]] or [points[0].turn]
+        before = next((turn for turn in reversed(back) if SLOWER * turn.period < last.period), back[-1])
         states, earlier = (piece.tracer.family.course(t.xi, t.value, t.exponent > 0.0) for t in (last, before))
         if states is None or earlier is None:
             return None

@@ -165,3 +165,10 @@ def test_no_fold_is_made_by_rounding_where_a_cycle_becomes_the_equator():
     system = twin(c2.ELinear(0.264, 0.33, -0.226, (0.737, -0.163)), 0.0)
     (branch,) = c2.branches(system, c2.psi.tanh(), "f1", (-1.5, 1.5)).cycles
     assert [point.kind for point in branch.special] == ["Hopf", "equator"]
+
+
+def test_without_a_saddle_within_a_loop_goes_through_the_equator_however_high_its_cycles_are():
+    system, hill = c2.ELinear(0.722, -0.663, -0.54, (0.271, -0.689)), c2.psi.hill(3.0)
+    (text,), (plane,) = (c2.branches(one, hill, "f1", (-1.5, 1.5)).cycles for one in (twin(system, 0.0), system))
+    assert [point.kind for point in text.special] == ["Hopf", "heteroclinic cycle through the equator"]
+    assert text.end.value == pytest.approx(plane.end.value, abs=1e-7)
