@@ -152,7 +152,7 @@ class Search:
                 if first is None or not 0.0 <= first[1] <= 1.0:
                     continue
                 start = equator_end(self.name, first[0], self.marked, self.width, foot)
-                if start is not None:
+                if start is not None and start.point.value == mark.value:  # a cycle of another branch may be met
                     self._keep(self._followed(tracer, tracer.point(*first, (-1.0, 0.0))), start)
                     return
         self.notes.append(say("birth not caught", kind="equator", name=self.name, value=mark.value))

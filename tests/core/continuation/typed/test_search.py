@@ -172,3 +172,18 @@ def test_without_a_saddle_within_a_loop_goes_through_the_equator_however_high_it
     (text,), (plane,) = (c2.branches(one, hill, "f1", (-1.5, 1.5)).cycles for one in (twin(system, 0.0), system))
     assert [point.kind for point in text.special] == ["Hopf", "heteroclinic cycle through the equator"]
     assert text.end.value == pytest.approx(plane.end.value, abs=1e-7)
+
+
+def test_a_branch_is_told_once_where_the_equator_is_neutral_twice():
+    """Looked for beside the second neutral equator, a cycle of the branch from the first one is found."""
+    system = c2.System(
+        U=(
+            "p*c + 0.152*c - 1.432*s - 0.822*c*c + 0.495*c*s + 0.539*s*s - 0.02*c**3",
+            "0.56*c + (p/2 - 0.217)*s + 0.29*c*c + 0.097*c*s - 0.86*s*s - 0.69*s**3",
+        ),
+        W=(),
+        parameters={"p": 0.0},
+    )
+    cycles = c2.branches(system, c2.psi.tanh(), "p", (-1.5, 1.5)).cycles
+    for p in (0.1, 0.3, 0.34, 0.5, 0.96):
+        assert cycles.count(p) == len(c2.limit_cycles(system.evolve(p=p), c2.psi.tanh()))
