@@ -91,7 +91,7 @@ def atlas_and_portraits(rng: random.Random) -> tuple[str, list[str]]:
         places += [(side, rng.uniform(-2, 2)) for _ in range(5)] + [(rng.uniform(-2, 2), side) for _ in range(5)]
     for p, z in places:
         at = np.array([[p, z]])
-        if any(np.hypot(*(_dense(curve.points) - at).T).min() < 4.0 * ASIDE for curve in found.curves):
+        if any(_off(curve.points, at[0]) < 4.0 * ASIDE for curve in found.curves):
             continue
         names = [region.name for region in found.regions if within(at, region.boundary)[0]]
         there = system.evolve(p=p)
@@ -104,9 +104,11 @@ def atlas_and_portraits(rng: random.Random) -> tuple[str, list[str]]:
     return f"atlas of {system.U}, {family.text}", said
 
 
-def _dense(points: np.ndarray) -> np.ndarray:
-    share = np.linspace(0.0, 1.0, 8)[:, None, None]
-    return ((1.0 - share) * points[:-1] + share * points[1:]).reshape(-1, 2)
+def _off(line: np.ndarray, point: np.ndarray) -> float:
+    """Distance of a point from a polyline."""
+    side = np.diff(line, axis=0)
+    share = ((point - line[:-1]) * side).sum(axis=1) / np.maximum((side**2).sum(axis=1), 1e-300)
+    return float(np.hypot(*(line[:-1] + np.clip(share, 0.0, 1.0)[:, None] * side - point).T).min())
 
 
 def limit_and_eps(rng: random.Random) -> tuple[str, list[str]]:
