@@ -102,6 +102,8 @@ def test_play_drifts_along_the_slow_flow_to_its_equilibrium(explorer):
     explorer.until(f"0 < {z} && {z} < 3.5")
     explorer.page.locator(".along-note", has_text="rest").wait_for()
     assert abs(value(explorer, "slow-z")) < 0.1
+    explorer.settle()  # what is drawn anew at rest leaves the sentence
+    assert "rest" in explorer.find(".along-note").inner_text()
 
 
 def test_a_motion_plays_in_step_in_all_views(explorer):

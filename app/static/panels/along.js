@@ -44,6 +44,8 @@ class Along {
     })
     this.ticker = new Ticker(this.find(".play"), (ms, next) => this.drifts(ms, next))
     this.data = null
+    /** @type {{sentence: string, place: string} | null} */
+    this.ended = null
     this.delays = []
     this.which = this.find(".drift")
     this.which.addEventListener("change", () => tools.choose("drift", this.which.value))
@@ -76,6 +78,7 @@ class Along {
     const plays = on && Boolean(this.data)
     if (plays) {
       this.find(".along-note").textContent = ""
+      this.ended = null
       this.most = Math.max(1e-9, ...this.data.branches.flatMap((b) => b.flow.map(Math.abs)))
       const [low, high] = this.data.span
       this.rate = (high - low) / this.most / DRIFT_SECONDS
@@ -97,7 +100,10 @@ class Along {
     this.arrived = () => { this.arrived = null; next() }
   }
 
-  stop(sentence) { this.toggle(false); this.find(".along-note").textContent = sentence }
+  // Why play ended stays until z is elsewhere, whatever of this place is drawn anew meanwhile.
+  stop(sentence) { this.toggle(false); this.ended = {sentence, place: this.place()}; this.find(".along-note").textContent = sentence }
+
+  place() { return JSON.stringify([this.values.system, ...[0, 1, 2, 3].map((i) => this.values[slowName(i)])]) }
 
   close() { this.toggle(false) }
 
@@ -114,7 +120,8 @@ class Along {
 
   drawAll() {
     this.find(".along-body").hidden = !this.data
-    this.find(".along-note").textContent = this.why ?? ""
+    const ended = this.ended && this.values && this.ended.place === this.place() ? this.ended.sentence : ""
+    this.find(".along-note").textContent = this.why || ended
     if (!this.data) { this.toggle(false); return }
     const {intervals, branches, points, span, control} = this.data
     const words = this.tools.symbols[control]
