@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 MOST = 40  # rows that are shown
-ROUNDING = 1e-14  # of the largest coordinate: smaller ones are told as 0
+NEGLIGIBLE = 1e-14  # of the largest coordinate: smaller ones are told as 0
 
 
 class Tabled:
@@ -51,7 +51,7 @@ def number(value: float) -> str:
 def point(values: Iterable[float]) -> str:
     """Return the coordinates of a point; a dash if there are none. What is rounding beside the largest is 0."""
     values = list(values)
-    least = ROUNDING * max(map(abs, values), default=0.0)
+    least = NEGLIGIBLE * max(map(abs, values), default=0.0)
     shown = ", ".join(number(0.0 if abs(value) < least else value) for value in values)
     return f"({shown})" if shown else "–"
 

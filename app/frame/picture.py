@@ -173,7 +173,7 @@ def _portrait(asked: Asked, ready: bool) -> Any:
         if not ready and name.case not in ("I", "II"):
             return LATER  # whether there is a limit cycle is not known before its search is compiled
         found = asked.get("classification")
-        return Classification(name.case, name.name, "", name.degeneracies) if found is NOTHING else found
+        return name if found is NOTHING else found
     return name
 
 
@@ -204,11 +204,11 @@ def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked, ready
         )
     if name is NOTHING and _fresh(now, "classification", name):
         header["portrait"] = {"case": None, "name": "", "sentence": "", "degeneracies": []}
-    elif isinstance(name, Classification) and _fresh(now, "classification", name):
+    elif isinstance(name, Classification | PortraitName) and _fresh(now, "classification", name):
         header["portrait"] = {
             "case": name.case,
             "name": name.name,
-            "sentence": told_once(name),
+            "sentence": told_once(name) if isinstance(name, Classification) else "",
             "degeneracies": [[item.name, item.sentence] for item in name.degeneracies],
         }
     flow = None if flow is LATER or flow is NOTHING else flow

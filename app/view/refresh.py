@@ -12,7 +12,7 @@ from typing import Any
 
 from param.parameterized import batch_call_watchers
 
-from codim2_core.portrait.classification import Classification
+from codim2_core.portrait.classification import Classification, PortraitName
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
@@ -49,7 +49,7 @@ FIRST_MOVED = "f1"
 #: Controls that say which parameters there are.
 AXES_OF = frozenset({"system", "texts", "psi"})
 #: Layers that others start from, and that are small: whoever computes those is given these.
-STANDING = frozenset({"equator", "equator_cycle", "location", "critical", "classification", "slow_flow"})
+STANDING = frozenset({"equator", "equator_cycle", "location", "critical", "name", "classification", "slow_flow"})
 #: How often a frame is begun anew because what it lacked is there.
 MOST_ROUNDS = 4
 
@@ -265,7 +265,7 @@ class Frames:
     def named(self) -> str:
         """Name of the portrait that the browser has; "" while it has none."""
         name = self._sent.get("classification")
-        return name.name if isinstance(name, Classification) else ""
+        return name.name if isinstance(name, Classification | PortraitName) else ""
 
     @property
     def answered(self) -> tuple[Any, ...]:

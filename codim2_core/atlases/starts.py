@@ -32,8 +32,8 @@ OFF = 0.37  # of a cell: the net of e lies beside round numbers, on which degene
 
 MAX_PLACES = 8  # from which curves are looked for
 LONGEST_WAY = 0.5  # of the ranges, along each axis
-HALVINGS = 24
-ANGLES = 720
+MAX_BISECTIONS = 24
+SEED_ANGLES = 720
 MAX_SEEDS = 12  # of each kind at a place
 
 EQUATOR_CELL = np.array([2.0 * math.pi / TURNS, 1.0 / SIDES, 1.0 / SIDES])
@@ -217,7 +217,7 @@ def seeds_beside(family: Family, places: Sequence[tuple[float, float]]) -> Seeds
             if not (length < LONGEST_WAY and _in_square(start + length * way)):
                 continue
             low, high = 0.0, length
-            for _ in range(HALVINGS):
+            for _ in range(MAX_BISECTIONS):
                 middle = 0.5 * (low + high)
                 low, high = (middle, high) if class_at(start + middle * way) == own else (low, middle)
             equator += _equator_seeds(family, start + high * way)
@@ -232,9 +232,9 @@ def _in_square(u: Array) -> bool:
 
 def _equator_seeds(family: Family, u: Array) -> list[Array]:
     """Angles at which Theta, or U, is locally least in size, the least first."""
-    theta = 2.0 * math.pi * np.arange(ANGLES) / ANGLES
+    theta = 2.0 * math.pi * np.arange(SEED_ANGLES) / SEED_ANGLES
     c, s = np.cos(theta), np.sin(theta)
-    U, V = family.speed_on_net(c, s, *(np.full(ANGLES, v) for v in u.tolist()))
+    U, V = family.speed_on_net(c, s, *(np.full(SEED_ANGLES, v) for v in u.tolist()))
     found: list[Array] = []
     for size in (np.abs(c * V - s * U), np.hypot(U, V)):
         least = np.flatnonzero((size <= np.roll(size, 1)) & (size < np.roll(size, -1)))

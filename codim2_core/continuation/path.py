@@ -36,8 +36,10 @@ WIDEST, MEMORY = 16, 12  # points tried at once; last points that predictions kn
 BEND, OFF = 0.25, 0.15  # turn of the tangent, and first correction in steps, that the next step is to have
 PATIENT, MANY = 400, 4  # steps of a turn that a point may cost at least, and times those of the point before it
 HALVINGS = 8  # of an interval in which a fold is not found at once
-BESIDE = 1e-3  # of a step: how far outside of it its fold may seem to be
-LOWER = 0.5  # of the size of the exponent at a point: where it may be as small as that nearby, it is looked at
+FOLD_SLACK = 1e-3  # of a step: how far outside of it its fold may seem to be
+LEAST_EXPONENT_RATIO = (
+    0.5  # of the size of the exponent at a point: where it may be as small as that nearby, it is looked at
+)
 
 
 def traced(tracer: Tracer, start: Point) -> Asking[Trace]:
@@ -311,7 +313,7 @@ class _Path:
             course = Course(self.tracer, around)
             place, near = course.between(course.neutral(k))
             found = yield from self.tracer.fold(place.xi, place.parameters[0], near)
-            if found is not None and -BESIDE < _part(here, there, found) < 1.0 + BESIDE:
+            if found is not None and -FOLD_SLACK < _part(here, there, found) < 1.0 + FOLD_SLACK:
                 return found
             if _rounded(here, there):
                 return None
@@ -361,7 +363,7 @@ def _least(lengths: Sequence[float], exponents: Sequence[float]) -> float | None
         return None
     x = 0.5 * (x0 + x1) - 0.5 * first / bend
     least = e0 + (x - x0) * (first + bend * (x - x1))
-    return x if least < LOWER * e1 and abs(x - x1) > 1e-3 * min(x1 - x0, x2 - x1) else None
+    return x if least < LEAST_EXPONENT_RATIO * e1 and abs(x - x1) > 1e-3 * min(x1 - x0, x2 - x1) else None
 
 
 def _bends(fold: Point, here: Point, there: Point) -> bool:

@@ -136,6 +136,13 @@ class LimitCycles:
         return self.cycles[i]
 
 
+def surrounds(line: Array, place: Array) -> bool:
+    """Whether a closed polyline (m, 2) winds about a point."""
+    x, y = (line - place).T
+    angle = np.unwrap(np.arctan2(y, x))
+    return bool(abs(angle[-1] - angle[0]) > math.pi)
+
+
 def reason_for_none(
     coefficients: Coefficients, critical: tuple[CriticalSet, ...], location: Location | None = None
 ) -> str | None:

@@ -14,9 +14,11 @@ from ..numerics.dense import Dense
 Array = NDArray[np.float64]
 
 SAMPLES = 240  # even times of a drawn motion, at least
-EYE = 0.002  # radii of the equator, outside of the distance from Sigma: how far a chord may be from the curve
-MOST = 8000  # points, beyond which chords may be further from it
-HALVINGS, THINNINGS = 8, 5
+CHORD_TOLERANCE = (
+    0.002  # radii of the equator, outside of the distance from Sigma: how far a chord may be from the curve
+)
+MAX_POINTS = 8000  # points, beyond which chords may be further from it
+MAX_HALVINGS, THINNINGS = 8, 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +58,7 @@ def drawn(motion: Dense, phases: Sequence[Any], eps: float) -> Drawn:
         last = k + 1 == len(phases)
         end = len(times) if last else int(np.searchsorted(times, phases[k + 1].t_start, side="left"))
         up = phase.ascent
-        up = up[_needed(up, EYE)]
+        up = up[_needed(up, CHORD_TOLERANCE)]
         state = motion(np.full(len(up), phase.t_start))
         pieces.append((np.full(len(up), phase.t_start), state, up))
         if end > done:
@@ -85,17 +87,17 @@ def _times(motion: Dense, eps: float) -> Array:
 
     even = np.linspace(first, last, SAMPLES)
     times = np.union1d(even, motion.times)
-    for _ in range(HALVINGS):
+    for _ in range(MAX_HALVINGS):
         middle = 0.5 * (times[:-1] + times[1:])
         points = at(times)
-        bent = _off(at(middle), points[:-1], points[1:]) > EYE
+        bent = _off(at(middle), points[:-1], points[1:]) > CHORD_TOLERANCE
         times = np.union1d(times, middle[bent])
-        if not bent.any() or len(times) > 4 * MOST:
+        if not bent.any() or len(times) > 4 * MAX_POINTS:
             break
-    points, eye = at(times), EYE
+    points, eye = at(times), CHORD_TOLERANCE
     while True:
         kept = _needed(points, eye) | np.isin(times, even)
-        if kept.sum() <= MOST or eye > 1.0:
+        if kept.sum() <= MAX_POINTS or eye > 1.0:
             return times[kept]
         eye *= 2.0
 

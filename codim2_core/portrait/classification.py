@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import NamedTuple
 
-import numpy as np
-
-from ..cycles.limit_cycles import LimitCycle
+from ..cycles.limit_cycles import LimitCycle, surrounds
 from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
@@ -157,10 +154,5 @@ def attracting_cycles(cycles: Sequence[LimitCycle], critical: tuple[CriticalSet,
 
 def _surrounded(cycle: LimitCycle, critical: tuple[CriticalSet, ...]) -> str:
     """Name the critical sets about which a cycle winds."""
-    labels = []
-    for i, C in enumerate(critical):
-        x, y = (cycle.points - C.p).T
-        angles = np.unwrap(np.arctan2(y, x))
-        if abs(angles[-1] - angles[0]) > math.pi:
-            labels.append(named(critical_label(critical, i)))
+    labels = [named(critical_label(critical, i)) for i, C in enumerate(critical) if surrounds(cycle.points, C.p)]
     return " and ".join(filter(None, [", ".join(labels[:-1]), *labels[-1:]]))

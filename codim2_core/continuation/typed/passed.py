@@ -6,12 +6,12 @@ other side of the saddle: so steps may lead over it. Which critical sets a cycle
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
+from ...cycles.limit_cycles import surrounds
 from ...layer_problem.problem import LayerProblem
 from ..asking import answered
 from ..points import Guess, Point, Trace
@@ -73,13 +73,7 @@ def _round(tracer: Tracer, turn: Turn, problem: Callable[[float], LayerProblem])
     """Count the critical sets that a cycle surrounds, and all; None if there is nothing to tell."""
     critical = problem(turn.value).critical
     line = line_of(tracer, turn) if len(critical) > 1 else None
-    return None if line is None else (sum(_surrounds(line, C.p) for C in critical), len(critical))
-
-
-def _surrounds(line: Array, place: Array) -> bool:
-    away = line - place
-    angle = np.unwrap(np.arctan2(away[:, 1], away[:, 0]))
-    return abs(angle[-1] - angle[0]) > math.pi
+    return None if line is None else (sum(surrounds(line, C.p) for C in critical), len(critical))
 
 
 def _between(tracer: Tracer, here: Point, there: Point) -> Point | None:

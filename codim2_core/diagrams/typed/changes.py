@@ -79,12 +79,10 @@ def _suspected(run: Sequence[State], least: float) -> list[float]:
         return []
     x = np.array([s.value for s in alike])
     lines = [(x, y) for y in _functions(alike)]
-    for turns in ([s.near_directions for s in alike], [s.near_sets for s in alike]):
-        lines += [(x[i : i + 3], y) for i in range(len(x) - 2) for y in _lined_up(turns[i : i + 3])]
     found: set[float] = set()
     for turns in ([s.near_directions for s in alike], [s.near_sets for s in alike]):
-        for way in (1, -1):
-            found.update(_ahead(x[::way], turns[::way]))
+        lines += [(x[i : i + 3], y) for i in range(len(x) - 2) for y in _lined_up(turns[i : i + 3])]
+        found.update([*_ahead(x, turns), *_ahead(x[::-1], turns[::-1])])
     for x, y in lines:
         for i in lowest(x, y):
             # the extremum of the parabola, and where the lines from either side come to zero

@@ -31,7 +31,7 @@ from .decide import Decision, arriving, critical_name, from_hemisphere, starting
 from .delay import STILL, NotAnalyticError
 from .folded import Fold, fold
 from .part import Delaying, MotionPart
-from .past_hopf import beside, ring, stay
+from .past_hopf import departure_point, ring, stay
 from .slide import Slide, slide
 from .slide_on_cycle import slide_on_cycle
 from .slip import slip
@@ -252,13 +252,13 @@ class Course:
         if part.end == "fold":
             at = fold(self.formulas, part.e, self.state[2:], C, "fold" if self.line is None else "fold in a line")
             if at.exchange:
-                return self.past_exchange(part.e, C, at)
+                return self.past_loss(part.e, C, at.exchange, at.reason)
             return Decision("stop", at.reason) if at.left_to_eps else self.past_fold(part.e, at)
         if part.end == "cycle":
             return self.past_cycle(self.ahead(part.e, PAST))
         if on_cycle:
             return Decision("slide", say("cycle shrinks", C=C), part.e, onto=C)
-        return self.past_hopf(part.e, C)
+        return self.past_loss(part.e, C)
 
     def slide_on_cycle(self, decision: Decision) -> Decision | None:
         """Slide on a limit cycle of a general system."""
@@ -324,41 +324,30 @@ class Course:
         """Whether the layer problem at z has a stable limit cycle."""
         return any(cycle.stable for cycle in limit_cycles(self.system, self.own, tuple(z.tolist())))
 
-    def past_hopf(self, e: Array, C: str | None) -> Decision | None:
-        """C has lost its stability to the fast flow: slide on it for as long as the loss is delayed."""
-        if self.psi is None:
-            return Decision("stop", say("Hopf depends", C=C, how="Hopf"))
-        before = self.parts[-1]
-        taken = self.taken[len(self.taken) + 1 - len(before.times) :]
-        try:
-            on = stay(self.formulas, self.psi, (taken, before.e), self.slid(e, delayed=True), C, "Hopf")
-        except NotAnalyticError:
-            return Decision("stop", say("Hopf, not analytic", C=C, how="Hopf"))
-        return self.follow(on.part, on.reason, C, delaying=Delaying(before.times[0], on.way))
+    def past_loss(self, e: Array, C: str | None, how: str = "Hopf", met: str = "") -> Decision | None:
+        """C has lost its stability to the fast flow: slide on it for as long as the loss is delayed.
 
-    def past_exchange(self, e: Array, C: str | None, at: Fold) -> Decision | None:
-        """C goes on and has exchanged its stability with other sets: stay on it if it does not move.
-
-        It is then a slow manifold for every eps. One that moves is none, and terms of order eps part the sets.
+        Where it has exchanged it with other sets, as `met` says, that is if it does not move: it is then a slow
+        manifold for every eps. One that moves is none, and terms of order eps part the sets.
         """
+        resting = how != "Hopf"
         if self.psi is None:
-            return Decision("stop", say("Hopf depends", C=C, how=at.exchange))
+            return Decision("stop", say("Hopf depends", C=C, how=how))
         before = self.parts[-1]
-        if np.ptp(before.e, axis=0).max() > STILL:
-            return Decision("stop", f"{at.reason} {say('exchange, moving', C=C)}")
+        if resting and np.ptp(before.e, axis=0).max() > STILL:
+            return Decision("stop", f"{met} {say('exchange, moving', C=C)}")
         taken = self.taken[len(self.taken) + 1 - len(before.times) :]
-        part = self.slid(e, resting=True)
-        if not part.taken:
-            return None
-        onto = critical_name(self.system, self.psi, part.taken[0].at(0.5)[2:], e)
+        part = self.slid(e, delayed=True, resting=resting)
+        if resting and part.taken:  # its name is another past the sets that it has met
+            C = critical_name(self.system, self.psi, part.taken[0].at(0.5)[2:], e)
         try:
-            on = stay(self.formulas, self.psi, (taken, before.e), part, onto, at.exchange)
+            on = stay(self.formulas, self.psi, (taken, before.e), part, C, how)
         except NotAnalyticError:
-            return Decision("stop", say("Hopf, not analytic", C=C, how=at.exchange))
-        if before.ascent is not None:
-            z = [step.last[2:] for step in (*taken, *on.part.taken)]
-            self.leaving = beside(self.formulas, self.psi, e, [taken[0].first[2:], *z], before.ascent.path())
-        return self.follow(on.part, on.reason, onto, delaying=Delaying(before.times[0], on.way, at.exchange))
+            return Decision("stop", say("Hopf, not analytic", C=C, how=how))
+        if resting and before.ascent is not None:
+            z = [taken[0].first[2:], *(step.last[2:] for step in (*taken, *on.part.taken))]
+            self.leaving = departure_point(self.formulas, self.psi, e, z, before.ascent.path())
+        return self.follow(on.part, on.reason, C, delaying=Delaying(before.times[0], on.way, how))
 
     def left_set(self, e: Array, reason: str) -> Decision:
         """C, which repels, is left: to the side on which the motion came, or all around where none is known."""

@@ -23,7 +23,7 @@ from .slide import Slide
 
 Array = NDArray[np.float64]
 
-SEEN = 1e-3  # from a set, in p, at which it is asked on which side a motion comes
+ARRIVAL_DISTANCE = 1e-3  # from a set, in p, at which it is asked on which side a motion comes
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def ring(psi: Psi, e: Array) -> Array:
     return in_disc(psi, e) + BESIDE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
 
-def beside(field: Field, psi: Psi, e: Array, z: Sequence[Array], arrival: Array) -> Array | None:
+def departure_point(field: Field, psi: Psi, e: Array, z: Sequence[Array], arrival: Array) -> Array | None:
     """Return the point (1, 2) of the disc to which a motion leaves a set at rest: on the side on which it came.
 
     A motion keeps the sign of its distance along the leading eigenvalue while that is real.
@@ -100,7 +100,7 @@ def beside(field: Field, psi: Psi, e: Array, z: Sequence[Array], arrival: Array)
         left = -n if n @ left < 0.0 else n
         first = left if first is None else first
     away = arrival - C
-    far = np.flatnonzero(np.hypot(*away.T) > SEEN)
+    far = np.flatnonzero(np.hypot(*away.T) > ARRIVAL_DISTANCE)
     if first is None or not len(far):
         return None
     values, vectors = np.linalg.eig(jacobian(field, psi, e, z[-1]))

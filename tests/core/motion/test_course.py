@@ -97,7 +97,7 @@ def test_past_a_folded_node_orbits_are_followed_beside_it_where_both_sets_are_go
 
 
 def test_past_a_hopf_point_psi_is_asked_for():
-    found = course(psi=None).past_hopf(np.zeros(2), "C1")
+    found = course(psi=None).past_loss(np.zeros(2), "C1")
     assert found.kind == "stop"
     assert "C₁ loses its stability (Hopf)" in found.reason
     assert "depends on Ψ: give it" in found.reason

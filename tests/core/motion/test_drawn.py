@@ -5,7 +5,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.motion.drawn import EYE, MOST, _needed
+from codim2_core.motion.drawn import CHORD_TOLERANCE, MAX_POINTS, _needed
 
 TURNING = c2.System(U=("mu*c-s-beta*c*(c*c+s*s)", "c+mu*s-beta*s*(c*c+s*s)"), W=(), parameters={"mu": 0.3, "beta": 1.0})
 
@@ -28,10 +28,10 @@ def test_an_orbit_that_turns_often_is_round(turns):
     eps = 0.01
     run = c2.simulate(TURNING, psi.constant(), eps, (0.002, 0.0), (0.0, 0.01 * 2.0 * np.pi * turns))
     drawn = run.drawn()
-    assert off(run, drawn, eps) < 1.5 * EYE
+    assert off(run, drawn, eps) < 1.5 * CHORD_TOLERANCE
     radius = np.hypot(*drawn.points[len(drawn.points) // 2 :].T)
     middle = np.hypot(*(0.5 * (drawn.points[1:] + drawn.points[:-1]))[len(drawn.points) // 2 :].T)
-    assert abs(radius - middle.mean()).max() < 3.0 * EYE or turns < 10  # no chord is inside the cycle
+    assert abs(radius - middle.mean()).max() < 3.0 * CHORD_TOLERANCE or turns < 10  # no chord is inside the cycle
     assert len(drawn.times) < 240 + 60 * turns
 
 
@@ -39,16 +39,16 @@ def test_of_one_that_turns_far_too_often_the_chords_are_longer():
     eps = 1e-3
     run = c2.simulate(TURNING, psi.constant(), eps, (2e-4, 0.0), (0.0, 1e-3 * 2.0 * np.pi * 600), max_steps=200_000)
     drawn = run.drawn()
-    assert len(drawn.times) <= MOST
-    assert off(run, drawn, eps) < 16.0 * EYE
+    assert len(drawn.times) <= MAX_POINTS
+    assert off(run, drawn, eps) < 16.0 * CHORD_TOLERANCE
 
 
 def test_what_is_straight_needs_its_ends_only():
-    assert np.flatnonzero(_needed(np.linspace([0.0, 0.0], [1.0, 1.0], 33), EYE)).tolist() == [0, 32]
+    assert np.flatnonzero(_needed(np.linspace([0.0, 0.0], [1.0, 1.0], 33), CHORD_TOLERANCE)).tolist() == [0, 32]
     bent = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0, 1.0]])
-    assert _needed(bent, EYE).all()
-    assert _needed(np.zeros((1, 2)), EYE).all()
-    assert not len(_needed(np.zeros((0, 2)), EYE))
+    assert _needed(bent, CHORD_TOLERANCE).all()
+    assert _needed(np.zeros((1, 2)), CHORD_TOLERANCE).all()
+    assert not len(_needed(np.zeros((0, 2)), CHORD_TOLERANCE))
 
 
 def test_in_the_limit_it_stays_on_its_cycle():
@@ -60,4 +60,4 @@ def test_in_the_limit_it_stays_on_its_cycle():
     drawn = run.drawn()
     on = drawn.points[drawn.times > phase.t_start + 1e-9]
     assert len(on) > 10
-    np.testing.assert_allclose(np.hypot(*on.T), np.sqrt(0.3), atol=3.0 * EYE)
+    np.testing.assert_allclose(np.hypot(*on.T), np.sqrt(0.3), atol=3.0 * CHORD_TOLERANCE)

@@ -17,7 +17,7 @@ from codim2_core.initial_value import compiled
 from codim2_core.initial_value.events import Event
 from codim2_core.initial_value.problem import plane_problem
 from codim2_core.motion import checks, regularised
-from codim2_core.motion.drawn import MOST, SAMPLES
+from codim2_core.motion.drawn import MAX_POINTS, SAMPLES
 from codim2_core.motion.regularised import simulate
 from codim2_core.motion.result import SimulationStatus
 from codim2_core.numerics.radau import tableau
@@ -268,7 +268,7 @@ def test_a_drawn_motion_is_even_in_time_and_of_bounded_length():
     drawn = run.drawn()
     assert np.diff(drawn.times).max() <= 5.0 / (SAMPLES - 1) * (1.0 + 1e-9)
     assert (drawn.times[0], drawn.times[-1]) == (0.0, 5.0)
-    assert len(drawn.times) <= MOST
+    assert len(drawn.times) <= MAX_POINTS
     np.testing.assert_allclose(drawn.states, run.dense(drawn.times))
     rho = np.hypot(np.hypot(*drawn.states[:, :2].T), 0.5)
     np.testing.assert_allclose(
