@@ -101,7 +101,8 @@ def equator_columns(equator: Any) -> dict[str, list[Any]]:
     rho = [float(v) for v in equator.lambda_rho]
     ang = [float(v) for v in equator.lambda_theta]
     multiplicity = [int(v) for v in equator.multiplicity]
-    labels = [angle + LABEL_TURN for angle in spread(theta)]
+    around = [theta[0] + (angle - theta[0]) % math.tau for angle in theta]  # Q1 need not be the first after 0
+    labels = [angle + LABEL_TURN for angle in spread(around)]
     shapes = [
         "triangle" if m > 1 or v == 0 else "circle" if v < 0 else "diamond"
         for v, m in zip(ang, multiplicity, strict=True)
@@ -145,7 +146,7 @@ def equator_arrows(equator: Any, direction: int = 0) -> list[tuple[float, float,
         turns = []
         for i in range(len(theta)):
             j = (i + 1) % len(theta)
-            gap = float(theta[j] - theta[i]) + (2 * math.pi if j <= i else 0.0)
+            gap = float(theta[j] - theta[i]) % math.tau if j != i else math.tau  # Q1 need not be the first after 0
             # Theta leaves a simple zero with the sign of its slope, and reaches the next one with minus its slope
             sense = float(np.sign(slope[i])) or -float(np.sign(slope[j]))
             if gap > 0.25 and sense:

@@ -6,6 +6,7 @@ import struct
 
 import numpy as np
 import pytest
+from codim2_app.draw.glyphs import equator_arrows, equator_columns
 from codim2_app.frame.scenes import make_scene
 from codim2_app.state.links import read_link, write_link
 from codim2_app.view.refresh import Frames
@@ -52,3 +53,16 @@ def test_a_link_carries_them():
     moved(frames, preset="case1-cm2")
     assert frames.values["cut"] == 0.0
     assert "cut" not in write_link(frames.values)
+
+
+@pytest.mark.parametrize("cut", [0.5, 2.5, 5.23])
+def test_what_is_drawn_is_where_it_was_whichever_is_the_first(cut):
+    system = c2.ELinear(-2.0, 0.1, -1.0, (-0.4, 0.05))
+    plain, turned = (c2.Scene(system, cut=c)["equator"] for c in (0.0, cut))
+    one, other = (
+        dict(zip(columns["theta"], columns["label_y"], strict=True))
+        for columns in map(equator_columns, (plain, turned))
+    )
+    assert one.keys() == other.keys()
+    assert [other[angle] for angle in one] == pytest.approx(list(one.values()), abs=1e-12)
+    np.testing.assert_allclose(sorted(equator_arrows(turned)), sorted(equator_arrows(plain)), atol=1e-12)
