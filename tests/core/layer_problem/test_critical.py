@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from codim2_core import ELinear, critical_sets, equator_cycle, hemisphere, psi, sliding_flow
+from codim2_core import ELinear, System, critical_sets, equator_cycle, hemisphere, psi, sliding_flow
 from codim2_core.layer_problem.linearisation import determinant_sign
 from codim2_core.layer_problem.location import Existence, locate
 from codim2_core.numerics.trigonometric import ROUNDING
@@ -194,3 +194,13 @@ def test_results_cannot_be_changed():
     (C,) = critical_sets(ELinear(-1, 0, -1), psi.constant())
     with pytest.raises(ValueError, match="read-only"):
         C.e[0] = 1.0
+
+
+def test_a_trace_that_vanishes_by_its_formula_is_neutral_whatever_is_rounded():
+    rng = np.random.default_rng(1)
+    for a, b, c, d, p, q in rng.normal(size=(40, 6)).round(3).tolist():
+        # traceless at 0, which is a critical set since U is odd; its terms cancel in decimals
+        first = f"{a}*c + {b}*s + {p}*(sin(2*c) - 2*c) + {p}*2*c - {2 * p:.6f}*c + {q}*(exp(s) - exp(-s))"
+        system = System(U=(first, f"{c}*c - {a}*s + {d}*c**3"))
+        kinds = [C.kind for C in critical_sets(system, psi.tanh()) if np.hypot(*C.e) < 1e-9]
+        assert kinds in (["saddle"], ["centre (linear)"])
