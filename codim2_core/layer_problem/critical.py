@@ -34,6 +34,7 @@ from .location import Location, locate, turned
 SMALL_TRACE = 1e-9  # of the terms of tr J, below which it is asked whether rounding made it
 PLACED = 4 * 2.0**-52  # of |e|, to which the place of a zero is known
 
+
 @dataclass(frozen=True, slots=True)
 class CriticalSet(Tabled):
     """A critical set C of the layer problem, eq:critical_set, with its linearisation eq:scjaco.
