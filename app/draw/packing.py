@@ -135,7 +135,10 @@ def _run(
     if may:
         even = {name: line for name, line in lines.items() if line.even}
         if even:
-            lines = {**lines, **{n: Polylines(*evenly(*x[:2], pixel, window or WINDOW, guards), x.arrows) for n, x in even.items()}}
+            lines = {
+                **lines,
+                **{n: Polylines(*evenly(*x[:2], pixel, window or WINDOW, guards), x.arrows) for n, x in even.items()},
+            }
     for name, (offsets, points, arrows, _) in lines.items():
         placed = None if not arrows else arrowheads(offsets, points, pixel, window or WINDOW) if may else NONE
         if placed is not None:

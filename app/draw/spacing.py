@@ -51,7 +51,9 @@ def evenly(
     """
     others = EQUATOR if guards is None else _both(guards)
     order = _order(len(offsets) - 1)
-    return _left(*_plain(offsets, points), *_plain(*others), order, APART * pixel, SHORTEST * pixel, *map(float, window))
+    return _left(
+        *_plain(offsets, points), *_plain(*others), order, APART * pixel, SHORTEST * pixel, *map(float, window)
+    )
 
 
 def _plain(offsets: NDArray[np.int64], points: NDArray[np.float64]) -> Pieces:
@@ -94,7 +96,9 @@ def _left(offsets, points, guards, others, order, apart, shortest, left, right, 
         longest = max(longest, most - before)
     guarded = 1
     for i in range(1, len(others)):
-        guarded += 1 + int(min(math.hypot(others[i, 0] - others[i - 1, 0], others[i, 1] - others[i - 1, 1]) / step, 1e4))
+        guarded += 1 + int(
+            min(math.hypot(others[i, 0] - others[i - 1, 0], others[i, 1] - others[i - 1, 1]) / step, 1e4)
+        )
     places, older = np.empty((most + guarded + 1, 2)), np.zeros(most + guarded + 1, np.int64)
     run = np.empty((longest + 1, 2))
     kept_points = np.empty((len(points) + 2 * most, 2))

@@ -11,7 +11,7 @@ from codim2_core.systems.elinear import ELinear
 
 #: The request's name for it, and how far from the centre it can be held: as far as the picture goes.
 GRAB, FARTHEST = "grab", 2.5
-DIGITS = 4  # of f: finer than a pixel
+DIGITS, MOST = 4, 12  # of f: finer than a pixel; where 1 - |e|^2 is small, as many more as that has zeros
 
 
 def push_for(scene: Scene, values: Mapping[str, Any], place: Any) -> dict[str, float]:
@@ -38,10 +38,12 @@ def push_for(scene: Scene, values: Mapping[str, Any], place: Any) -> dict[str, f
     r = math.hypot(*held)
     if r > FARTHEST:
         held, r = tuple(v * FARTHEST / r for v in held), FARTHEST
-    stretch = 1.0
+    stretch, digits = 1.0, DIGITS
     if 0.0 < r < 1.0:
-        stretch = float(scene.psi.modulus(r / math.sqrt((1.0 - r) * (1.0 + r)))) / r
+        zeta = r / math.sqrt((1.0 - r) * (1.0 + r))
+        stretch = float(scene.psi.modulus(zeta)) / r
+        digits = min(MOST, DIGITS - math.floor(math.log10(max(float(scene.psi.complement(zeta)), 1e-300))))
     c, s = (stretch * v for v in held)
     a, b, d = values["a"], values["b"], values["d"]
     f1, f2 = b * s - a * c - values["z"] * values["k1"], -b * c - d * s - values["z"] * values["k2"]
-    return {"f1": round(f1, DIGITS) + 0.0, "f2": round(f2, DIGITS) + 0.0}
+    return {"f1": round(f1, digits) + 0.0, "f2": round(f2, digits) + 0.0}

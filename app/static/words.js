@@ -73,8 +73,6 @@ export const SAYS = {
   grabMe: "drag me out of the sphere",
   leftHere: "C has left: sliding ends here",
   push: "the push |f|", held: "what can be balanced in this direction",
-  pushed: (push, held, last, more) => `Pushed with |f| = ${push}; ${more ? "only" : "up to"} ${held} can be balanced in this direction: <strong>${last}</strong>.`,
-  noPush: (last) => `Not pushed, f = 0: <strong>${last}</strong>.`,
   sticks: "stable sliding along Σ",
   slips: "nothing slides along Σ",
   luck: "C is a saddle, and sliding is unstable",
@@ -113,6 +111,10 @@ export const SAYS = {
   itsParameters: "its parameters",
   typed: "c and s are the components of e; the letter e alone is the number 2.718…",
 }
+
+// The first sentence: the push, what can be balanced, and what becomes of it, as markup.
+export const pushed = (/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ last, /** @type {boolean} */ more) => `Pushed with |f| = ${push}; ${more ? "only" : "up to"} ${held} can be balanced in this direction: <strong>${last}</strong>.`
+export const notPushed = (/** @type {string} */ last) => `Not pushed, f = 0: <strong>${last}</strong>.`
 
 // Curves that are one object, by its name.
 export const CURVES = {R: "ρ-nullcline, U·e = 0", T: "θ-nullcline, Θ = 0", U1: "Nullcline U₁ = 0", U2: "Nullcline U₂ = 0", H: "Hyperbola of the limit directions, Θ = 0"}

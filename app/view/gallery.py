@@ -26,7 +26,9 @@ COUNT = 14  # starting points of a small portrait of the strip
 
 def gallery() -> list[dict[str, str]]:
     """Return key, title, hook and drawing of each; the drawing is empty until its kernels are compiled."""
-    return [{"key": key, "title": presets[key].title, "hook": hook, "drawn": _drawn(key)} for key, hook in HOOKS.items()]
+    return [
+        {"key": key, "title": presets[key].title, "hook": hook, "drawn": _drawn(key)} for key, hook in HOOKS.items()
+    ]
 
 
 def _drawn(key: str) -> str:

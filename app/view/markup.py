@@ -184,7 +184,7 @@ def explorer_html(
         exponent=control("n"),
         portraits=[(group, list(items)) for group, items in groups],
         count=len(portrait_keys()),
-        gallery=[] if locked else gallery(),
+        gallery=[] if locked or (look and look.embed) else gallery(),
         equation=EQUATION,
         families=FAMILIES,
         layers=LAYERS,

@@ -163,7 +163,9 @@ class Frames:
             self._notices.append(left)
 
     def _packed(self, header: dict[str, Any], blocks: Blocks) -> bytes:
-        heads = header.get("ready", True) or (arrowheads.is_warm() and spacing.is_warm())  # no frame waits for the compiler
+        heads = header.get("ready", True) or (
+            arrowheads.is_warm() and spacing.is_warm()
+        )  # no frame waits for the compiler
         cycles = self._sent.get("cycles")  # from which orbits keep away
         guards = glyphs.join([one.points for one in cycles.cycles]) if isinstance(cycles, LimitCycles) else None
         if self.window is None:

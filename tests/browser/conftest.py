@@ -73,6 +73,7 @@ class Explorer:
     def open(self, query=""):
         self.page.goto(f"{self.address}/{query}")
         self.page.wait_for_selector(".codim2[data-ready]")
+        self.page.evaluate("document.querySelector('[data-fold=slow]')?.setAttribute('open', '')")
         return self.settle()
 
     def until(self, condition):
@@ -116,6 +117,17 @@ class Explorer:
         """Return the value of a script that may use `picture`, and `view`, Bokeh's view of the plot."""
         names = "const {picture} = root.explorer, view = picture.drawn.view?.plot_view;"
         return self.find(".codim2").evaluate(f"(root) => {{ {names} return {script} }}")
+
+    def layer(self, name):
+        """The box of a layer, which may be one step away."""
+        box = self.find(f".layer input[value={name}]")
+        box.evaluate("(it) => { const fold = it.closest('details'); if (fold) fold.open = true }")
+        return box
+
+    def folded(self):
+        """Put away what lies over the picture."""
+        self.find(".more").evaluate("(it) => { it.open = false }")
+        return self
 
     def type(self, control, text):
         box = self.find(f"[data-control={control}] .number")

@@ -129,7 +129,7 @@ def test_custom_psi_is_checked_and_drawn(explorer):
 
 def test_layers_hide_and_return(explorer):
     whole = explorer.picture()
-    box = explorer.find(".layer input[value=inside]")
+    box = explorer.layer("inside")
     box.uncheck()
     explorer.settle()
     hidden = explorer.picture()

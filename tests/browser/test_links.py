@@ -78,7 +78,7 @@ def alike(first, second):
 def test_a_portrait_is_the_same_whatever_was_open_before(open_page):
     page, fresh = open_page().open(), open_page().open()
     page.type("B2", "0.5").type("g0", "0.3")
-    page.find(".layer input[value=inside]").uncheck()
+    page.layer("inside").uncheck()
     for key in WALK:
         page.find("select.preset").select_option(key)
         page.settle()

@@ -57,7 +57,7 @@ export class Grab {
   follow() {
     const {does, picture} = this, one = does.free() ? does.one() : null
     const gone = does.free() && !one ? left(does.values) : null
-    this.place = one ? [one.x, one.y] : gone
+    this.place = one ? /** @type {[number, number]} */ ([one.x, one.y]) : gone
     const at = this.place && picture.pixel(...this.place)
     clearTimeout(this.later)
     if (this.place && !at) this.later = setTimeout(() => this.follow(), LATER)

@@ -2,14 +2,16 @@
 // are dragged: the push as it is, what is balanced with all of A. Of the e-linear system that the sliders set.
 
 import {put} from "../dom.js"
-import {SAYS, digits} from "../words.js"
+import {SAYS, digits, notPushed, pushed} from "../words.js"
 
 const FULL = 160 // px in which a dragged number changes by its own size
 const LEAST = 0.05 // what a push of none is dragged as
 
+/** @typedef {{a: number, b: number, d: number, f1: number, f2: number, z: number, k1: number, k2: number}} Plane values of the e-linear system */
+
 /**
  * |f(z)|, and how large it may be in its direction until there is no critical set: where |A^-1 f| = 1.
- * @param {Record<string, any>} v values of the controls
+ * @param {Plane} v
  */
 export function pushOf({a, b, d, f1, f2, z, k1, k2}) {
   const p = f1 + z * k1, q = f2 + z * k2, det = a * d + b * b, push = Math.hypot(p, q)
@@ -28,7 +30,7 @@ function verdict(kinds, cycle) {
 }
 
 export class Headline {
-  /** @param {any} box @param {Record<string, any>} values @param {{own: () => boolean, move: (wanted: Record<string, number>) => void}} does */
+  /** @param {any} box @param {any} values of the controls @param {{own: () => boolean, move: (wanted: Record<string, number>) => void}} does */
   constructor(box, values, does) {
     this.box = box
     this.values = values
@@ -54,12 +56,12 @@ export class Headline {
   draw() {
     const {push, held} = pushOf(this.values), number = (which, value, words) => `<b class="dragged" role="slider" tabindex="0" data-number="${which}" aria-label="${words}" aria-valuenow="${digits(value, 3)}">${digits(value, 3)}</b>`
     const last = verdict(this.kinds, this.cycle)
-    const told = this.does.own() && last && (push < 1e-12 ? SAYS.noPush(last) : held > 0 && Number.isFinite(held) && SAYS.pushed(number("push", push, SAYS.push), number("held", held, SAYS.held), last, push > held))
+    const told = this.does.own() && last && (push < 1e-12 ? notPushed(last) : held > 0 && Number.isFinite(held) && pushed(number("push", push, SAYS.push), number("held", held, SAYS.held), last, push > held))
     this.box.hidden = !told
     put(this.box, told || "")
   }
 
-  // So many times the push, or so many times A.
+  /** So many times the push, or so many times A. @param {string} which @param {number} times @param {Plane} v */
   scale(which, times, {a, b, d, f1, f2, z, k1, k2}) {
     const round = (v) => Number(v.toPrecision(4))
     if (which === "held") { this.does.move({a: round(a * times), b: round(b * times), d: round(d * times)}); return }
