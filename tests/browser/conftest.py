@@ -15,6 +15,8 @@ WINDOW = {"width": 1280, "height": 800}
 #: What Chromium says of a script that is fetched first and used last, where other tests have the machine.
 SLOWLY = "was preloaded using link preload but not used within a few seconds"
 VISITED = "try { localStorage.setItem('codim2-welcome', 'seen') } catch { /* forbidden */ }"
+#: Open what an element is folded away in.
+UNFOLD = "(it) => { const fold = it.closest('details'); if (fold) fold.open = true }"
 EMPTIED = "() => { try { localStorage.clear(); sessionStorage.clear(); return true } catch { return false } }"
 
 
@@ -73,7 +75,7 @@ class Explorer:
     def open(self, query=""):
         self.page.goto(f"{self.address}/{query}")
         self.page.wait_for_selector(".codim2[data-ready]")
-        self.page.evaluate("document.querySelector('[data-fold=slow]')?.setAttribute('open', '')")
+        self.find("[data-fold=slow]").evaluate_all("(all) => { for (const it of all) it.open = true }")
         return self.settle()
 
     def until(self, condition):
@@ -121,7 +123,7 @@ class Explorer:
     def layer(self, name):
         """The box of a layer, which may be one step away."""
         box = self.find(f".layer input[value={name}]")
-        box.evaluate("(it) => { const fold = it.closest('details'); if (fold) fold.open = true }")
+        box.evaluate(UNFOLD)
         return box
 
     def folded(self):
@@ -131,6 +133,7 @@ class Explorer:
 
     def type(self, control, text):
         box = self.find(f"[data-control={control}] .number")
+        box.evaluate(UNFOLD)
         box.fill(text)
         box.press("Enter")
         return self.settle()

@@ -13,6 +13,7 @@ from codim2_app.draw.theme import REACH
 
 import codim2_core as c2
 from codim2_core.portrait.basins import basins
+from tests.app.near import gaps
 
 pytestmark = pytest.mark.browser
 
@@ -20,8 +21,8 @@ RECORDER = (Path(__file__).parent / "recorder.js").read_text()
 PAGE = "#ffffff"
 #: Of the strokes: layer to colour, width, dash.
 STROKES = {
-    "outside": ("#5b6675", 0.9, []),
-    "inside": ("#1c2430", 0.9, []),
+    "outside": ("#a3b1c2", 1.2, []),
+    "inside": ("#5f7186", 1.4, []),
     "continuations": ("#b3123f", 1.6, []),
     "stable separatrices": ("#6d28d9", 2, [7, 4]),
     "unstable separatrices": ("#6d28d9", 2, []),
@@ -125,6 +126,10 @@ def pieces(scene):
 def test_curves_are_those_of_the_core(drawn, layer):
     expected = [np.asarray(piece) for piece in pieces(drawn.scene)[layer] if len(piece) > 1]
     found = drawn.strokes(STROKES[layer])
+    if layer in ("inside", "outside"):  # orbits end where they would come too near to one another
+        assert len(found) > 5
+        assert gaps(np.concatenate(found), [np.clip(piece, -4, 4) for piece in expected]).max() < 1e-3
+        return
     assert [len(piece) for piece in found] == [len(piece) for piece in expected]
     for one, other in zip(found, expected, strict=True):
         assert np.abs(one - np.clip(other, -4, 4)).max() < 1e-3
