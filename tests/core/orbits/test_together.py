@@ -44,15 +44,3 @@ def test_under_several_psi_each_goes_where_it_goes_alone(at, options):
     if options is OPTIONS:  # they do not all end alike: on C, at the equator, and not yet
         ended = {status for lines in found for status in lines.status}
         assert {Status.EQUILIBRIUM, Status.ARRIVED, Status.STEP_LIMIT} <= ended | {Status.T_MAX}
-
-
-def test_more_than_there_are_blocks_of_lanes_and_a_typed_one_among_them():
-    psis = [*(c2.psi.hill(1.0 + 0.3 * i) for i in range(10)), c2.psi.custom("1/(1+s)")]
-    states = begun(psis)
-    for psi, own, lines in zip(psis, states, together(AT, psis, states, OPTIONS), strict=True):
-        if len(own):
-            same(lines, stepped(AT, psi, own, np.full(len(own), -1.0), OPTIONS))
-
-
-def test_none_is_followed_where_there_is_none():
-    assert together(AT, (), (), OPTIONS) == []
