@@ -1,7 +1,5 @@
 """Hopf and node-focus curves against sign changes of tr J and of its discriminant along circles |e| = m."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
