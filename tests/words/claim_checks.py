@@ -6,30 +6,12 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
+from codim2_core import examples
 
-from .claim_case import CIRCLE, ok
-from .claim_checks_examples import (
-    ATTRACTING,
-    BALL,
-    NONUNIQUE,
-    attracting_repelling,
-    ball,
-    flows_said,
-    nonunique,
-    within_a_third,
-)
-from .claim_checks_psi import (
-    equivariant,
-    homogeneous,
-    increases,
-    kinds_said,
-    manifold,
-    one_sign,
-    positive_definite,
-    slow_for_every_psi,
-    stands_still,
-)
+from .claim_case import CIRCLE, PLACES, e_psi, ok
 from .read_back import number
+
+BALL, ATTRACTING, NONUNIQUE = examples.ball_in_pool(), examples.attracting_repelling(), examples.nonunique_sliding()
 
 
 def all_reach(case, _):
@@ -164,6 +146,40 @@ def none_there(case, _):
     assert case.directions == 0 or c2.equator_equilibria(case.at).all_directions
 
 
+def stands_still(case, _):
+    for C in c2.critical_sets(case.at, case.psi):
+        (line,) = c2.trajectories(case.at, case.psi, [C.p], t_max=1e-3 / case.size).points
+        assert math.dist(line[0], line[-1]) < 1e-6
+
+
+def one_sign(case, fields):
+    """The divergence in the chart, by differences."""
+    h = 1e-5
+    flat = PLACES[:7].reshape(-1, 2)
+    U = lambda xy: case.at.U(e_psi(case.psi, xy))
+    divergence = sum((U(flat + h * np.eye(2)[k]) - U(flat - h * np.eye(2)[k]))[:, k] for k in (0, 1))
+    assert ((divergence > 0.0) if fields["sign"] == "positive" else (divergence < 0.0)).all()
+    assert fields["kind"].split(" ", 1)[1] == c2.critical_sets(case.at, case.psi)[0].kind
+
+
+def kinds_said(case, fields):
+    sets = c2.critical_sets(case.at, case.psi)
+    for C, words in zip(sets, fields["which"].split("; "), strict=True):
+        assert words.endswith(C.kind)
+        if C.kind in ("saddle-node", "degenerate"):
+            continue
+        h = 1e-6
+        D = np.stack([(case.at.U(C.e + h * np.eye(2)[k]) - case.at.U(C.e - h * np.eye(2)[k])) for k in (0, 1)], axis=-1)
+        if abs(np.linalg.det(D)) > 1e-9 * np.abs(D).max() ** 2:
+            assert (np.linalg.det(D) < 0.0) == (C.kind == "saddle")
+
+
+def flows_said(case, fields):
+    found = sorted(c2.critical_sets(case.at, case.psi), key=lambda C: C.e[0])
+    assert number(fields["first"]) == pytest.approx(found[0].slow_flow[0], rel=1e-3)
+    assert number(fields["third"]) == pytest.approx(found[2].slow_flow[0], rel=1e-3)
+
+
 CHECKS = {
     "case1(a)": all_reach,
     "case1(b)": no_set,
@@ -222,39 +238,14 @@ CHECKS = {
     "D2": on_axes,
     "not D2": ok(lambda case, _: case.form.b != 0.0 or case.form.f1 * case.form.f2 != 0.0),
     "nothing turns at f = 0, D2": ok(lambda case, _: np.abs(case.theta).max() < 1e-12),
-    "ball": ball,
     "not the ball": ok(lambda case, _: case.at.m != 2 or case.system is not BALL),
-    "ball, on the border": ok(lambda case, _: abs(case.length - 1.0) < 1e-9),
-    "attracting and repelling": attracting_repelling,
     "not attracting and repelling": ok(lambda case, _: case.system is not ATTRACTING or not case.z),
-    "within a third": within_a_third,
-    "non-unique": nonunique,
     "not non-unique": ok(lambda case, _: case.system is not NONUNIQUE or not case.z),
     "two slow flows": flows_said,
-    "lem:ePsi(a)": equivariant,
-    "through the square": equivariant,
-    "lem:ePsi(b)": homogeneous,
-    "one scale": homogeneous,
-    "lem:ePsi(c)": increases,
-    "one place": increases,
-    "lem:ePsi(d)": increases,
-    "complement": ok(
-        lambda case, _: np.allclose(
-            1.0 - case.psi.modulus(np.geomspace(0.1, 10, 9)) ** 2,
-            np.asarray(case.psi(np.geomspace(0.1, 10, 9) ** 2))
-            / (np.geomspace(0.1, 10, 9) ** 2 + np.asarray(case.psi(np.geomspace(0.1, 10, 9) ** 2))),
-        )
-    ),
-    "lem:ePsi(e)": positive_definite,
-    "saddle stays": positive_definite,
     "stands still": stands_still,
     "vanishes there": stands_still,
     "sign of the determinant": ok(lambda case, _: True),  # held by what it comes to, the next
     "one sign of two determinants": kinds_said,
-    "independent of Ψ": slow_for_every_psi,
-    "elsewhere in the chart": slow_for_every_psi,
-    "slow manifold": manifold,
-    "up to second order": manifold,
     "m = 0, an equilibrium": ok(lambda case, _: case.at.m == 0),
     "frozen": ok(lambda case, _: getattr(case.system, "frozen", False)),
     "one sign": one_sign,
@@ -272,12 +263,26 @@ CHECKS = {
     "D2, here": ok(lambda case, f: number(f["spread"]) == pytest.approx(abs(case.form.d - case.form.a), rel=1e-4)),
     "no rotation": rotated,
     "rotated": rotated,
-    "ball sticks": ball,
-    "ball slips": ball,
     "not hyperbolic": ok(lambda case, _: flattest(case) < 1e-5),
     "not hyperbolic, several": ok(lambda case, _: flattest(case) < 1e-5),
     "a and d differ": ok(lambda case, _: case.form.a != case.form.d),
 }
+
+
+EXAMPLES = "tests/core/examples/test_examples.py"
+#: True of every Psi, or of a system of the literature, and held where these are.
+ELSEWHERE = {
+    **dict.fromkeys(
+        ("lem:ePsi(a)", "lem:ePsi(b)", "lem:ePsi(c)", "lem:ePsi(d)", "lem:ePsi(e)", "through the square", "one scale",
+         "one place", "complement", "saddle stays"),
+        "tests/core/psi/test_psi.py, tests/core/layer_problem/test_hemisphere.py",
+    ),
+    **dict.fromkeys(("independent of Ψ", "elsewhere in the chart"), "tests/core/layer_problem/test_critical.py"),
+    **dict.fromkeys(("slow manifold", "up to second order"), "tests/core/motion/test_phases.py"),
+    **dict.fromkeys(("ball", "ball, on the border", "ball sticks", "ball slips"), EXAMPLES),
+    **dict.fromkeys(("attracting and repelling", "within a third"), "tests/core/layer_problem/test_structure_typed.py"),
+    "non-unique": "tests/core/layer_problem/test_structure_typed.py",
+}  # fmt: skip
 
 
 def flattest(case):

@@ -111,8 +111,15 @@ def test_a_text_that_is_not_listed_is_noticed():
 
 
 @pytest.mark.parametrize(
-    ("value", "text"), [(-6.12e-17, "0"), (-0.5, "−0.5"), (3e-9, "3 · 10⁻⁹"), (1.5e7, "1.5 · 10⁷")]
-)
+    ("value", "text"),
+    [(-6.12e-17, "0"), (1e-13, "0"), (-0.5, "−0.5"), (3e-9, "3 · 10⁻⁹"), (1.5e7, "1.5 · 10⁷"), (-math.inf, "−∞"),
+     (math.inf, "∞")],
+)  # fmt: skip
 def test_numbers_in_sentences(value, text):
     assert number(value) == text
-    assert power(1.6e-16) == "1.6 · 10⁻¹⁶"
+    assert [power(v) for v in (1.6e-16, 2.5e17, math.inf)] == ["1.6 · 10⁻¹⁶", "2.5 · 10¹⁷", "∞"]
+
+
+def test_a_matrix_without_a_condition_number_is_told():
+    claims = c2.certificates(c2.ELinear(0.0, 5.963088623574436e-38, 1.0, (0.0, 0.0)), psi.constant())
+    assert any("The condition number of A is ∞" in claim.sentence for claim in claims)
