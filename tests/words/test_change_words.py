@@ -1,8 +1,4 @@
-"""What is said of a change at a value of one parameter is what the portraits on its two sides, and orbits there, show.
-
-Nothing of the curves and branches is used but where they lie: limit directions, critical sets, closed equators and
-limit cycles are looked for anew beside them.
-"""
+"""What is said of a change at a value of one parameter is what the portraits on its two sides, and orbits there, show."""
 
 import math
 

@@ -20,24 +20,3 @@ def test_the_registries_are_held_by_the_same_rules():
     texts = {key: re.sub(r"\{[^}]*\}", "", sentence.says) for key, sentence in registries.items()} | browser()
     found = [f"{key}: {fault}" for key, text in texts.items() for fault in faults(text)]
     assert not found, "\n".join(found)
-
-
-def test_all_kinds_of_text_are_read():
-    places = [where for where, _ in shown()]
-    assert len(places) > 300
-    for kind in (
-        "glossary",
-        "tip of the layer",
-        "control",
-        "tab",
-        "portrait",
-        "example",
-        "lesson",
-        "codim2 serve",
-        "psi.js",
-        "text of explorer.html",
-        "text of help.js",
-        "key 8",
-        "eigenvector 2",
-    ):
-        assert any(where.startswith(kind) for where in places), kind

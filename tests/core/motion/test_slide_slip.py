@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 import codim2_core as c2
+from codim2_core.words import recognise
 
 CONSTANT = c2.psi.constant()
 NODES = c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s"))  # a saddle in the middle, between two nodes
@@ -66,6 +67,21 @@ def test_on_a_cycle_it_slides_with_the_mean_in_time(psi):
     q = math.sqrt(0.2 + run.states[-1, 3])
     zeta = float(psi.radius(q))
     assert slide.p(1.0) == pytest.approx([mean(run.states[-1, 3]) / q * zeta / math.hypot(1.0, zeta), 0.0], abs=1e-4)
+
+
+def test_a_slide_on_a_cycle_ends_where_the_cycle_does():
+    """Circles |e|^2 = q with z + 4q/5 - 2q^2 = 0: two meet at z = -2/25, about C, which attracts; z = q leaves at 1."""
+    r2 = "(c**2 + s**2)"
+    folds = [f"({n}*({r2}*4/5 - 2*{r2}**2 + z))" for n in "cs"]
+    system = c2.System(U=(f"{folds[0]} - s", f"{folds[1]} + c"), W=("-1",))
+    run = c2.simulate_nonsmooth(system, (0.1, 0.0, 0.05), (0.0, 0.5), CONSTANT)
+    assert [phase.onto for phase in run.phases] == [None, "cycle 2", "C"]
+    assert run.phases[1].t_end == pytest.approx(0.13, abs=1e-6)
+    assert [key for key, _ in recognise(run.phases[2].reason)] == ["cycle ends", "slides"]
+    leaves = c2.System(U=(f"c*(z - {r2}) - s", f"s*(z - {r2}) + c"), W=("1",))
+    run = c2.simulate_nonsmooth(leaves, (0.1, 0.0, 0.2), (0.0, 1.5), CONSTANT)
+    assert run.times[-1] == pytest.approx(0.8, abs=1e-5)
+    assert "cycle ends" in [key for key, _ in recognise(run.reason)]
 
 
 def on_the_equator(theta):

@@ -274,3 +274,9 @@ def test_what_is_there_only_at_an_end_of_the_span_is_no_interval(sign, offset):
     found = slow_portrait(system, c2.psi.constant(), (low, high), count=5)
     assert [(i.kind, i.low, i.high) for i in found.intervals] == [("crossing", low, high)]
     assert (found.points, found.branches) == ((), ())
+
+
+def test_a_notebook_shows_the_picture_the_intervals_and_the_points():
+    shown = slow_portrait(c2.examples.ball_in_pool(), c2.psi.constant(), (-10.0, 10.0))._repr_html_()
+    places = [shown.index(text) for text in ("<svg", "from z", "what happens", "slow flow z′")]
+    assert places == sorted(places)

@@ -150,6 +150,17 @@ def test_extremes_have_all_digits_and_their_directions(turn, slope):
         np.testing.assert_allclose(combined, 0.0, atol=1e-14)
 
 
+def test_the_polygon_of_a_disc_touches_it_all_round():
+    """U = e and W = (cos 2 theta, sin 2 theta): opposite pairs give all of the unit circle, so W fills the disc."""
+    found = filippov_sliding(c2.System(U=("c", "s"), W=("c**2 - s**2", "2*c*s")), (0.0, 0.0))
+    np.testing.assert_allclose(np.hypot(*found.vertices.T), 1.0, rtol=0.0, atol=1e-12)
+    angles = np.arctan2(*found.vertices.T[::-1])
+    steps = np.diff(np.unwrap(np.append(angles, angles[0])))
+    assert ((steps > 0.0) & (steps < 0.25)).all()  # counter-clockwise, once round
+    assert steps.sum() == pytest.approx(2.0 * math.pi)
+    assert "not unique" in found.sentence
+
+
 def test_three_slow_variables_have_the_extremes_along_their_axes():
     system = c2.System(U=("c", "s"), W=("c**2 - s**2 + z3", "2*c*s", "c - 1/4"))
     found = filippov_sliding(system, (0.0, 0.0, 0.5))
