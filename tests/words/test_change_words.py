@@ -1,4 +1,4 @@
-"""What is said of a change at a value of one parameter is what the portraits on its two sides, and orbits there, show."""
+"""What is said of a change at a value of one parameter is what portraits on its two sides, and orbits, show."""
 
 import math
 
