@@ -13,6 +13,7 @@ from codim2_core import ELinear, System, critical_sets, equator_cycle, equator_e
 from codim2_core.continuation.branches import continue_cycles
 from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.layer_problem.vary import varied
+from codim2_core.words import recognise
 
 CASE_III = ELinear(172, 186, -200, (-86, -93))
 HOPF = 284 / 129
@@ -72,6 +73,14 @@ def test_case_III_from_its_hopf_point():
     for array in (branch.value, branch.period, branch.amplitude, branch.multiplier, branch.stable, branch.section):
         assert len(array) == len(branch)
         assert not array.flags.writeable
+
+
+def test_what_is_told_of_branches():
+    found = continue_cycles(CASE_III, psi.hill(3), "n", (2.0, 4.0))
+    assert [key for key, _ in recognise(found.reason)] == ["one branch"]
+    shown = found._repr_html_()
+    places = [shown.index(text) for text in ("<svg", "Hopf", found.reason)]
+    assert places == sorted(places)
 
 
 def test_sign_of_the_lyapunov_coefficient_is_the_side_of_the_branch():
