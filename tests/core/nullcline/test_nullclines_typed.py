@@ -40,7 +40,7 @@ def branches(at, kind):
 
 
 @given(polynomials)
-@settings(max_examples=20)
+@settings(max_examples=8)
 def test_every_traced_point_lies_on_its_curve(system):
     at = system.at()
     for kind, curve in inside_curves(at):
@@ -57,7 +57,7 @@ def test_every_traced_point_lies_on_its_curve(system):
 
 
 @given(polynomials)
-@settings(max_examples=20)
+@settings(max_examples=10)
 def test_no_sign_change_is_missing(system):
     at = system.at()
     assume(at.size > 0)
@@ -174,7 +174,7 @@ def test_closed_loops(radius):
 
 
 @given(polynomials, regularisations)
-@settings(max_examples=20)
+@settings(max_examples=10)
 def test_drawn_polylines_do_not_sag(system, regularisation):
     at = system.at()
     assume(at.normal_form is None)  # affine formulas have closed conics

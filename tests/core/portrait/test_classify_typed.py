@@ -57,7 +57,7 @@ def test_affine_form():
 
 
 @given(polynomials, regularisations)
-@settings(max_examples=20)
+@settings(max_examples=10)
 def test_psi_never_changes_the_name(system, regularisation):
     assert classify(system, regularisation).name == classify(system, RATIONAL).name
 

@@ -82,7 +82,7 @@ def test_separatrices_that_creep_reach_what_they_name(system, p):
     check_separatrices(system, p)
 
 
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(polynomials, st.sampled_from([c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3)]))
 def test_separatrices_of_general_systems_reach_what_they_name(system, p):
     if c2.equator_equilibria(system).all_directions:

@@ -89,7 +89,7 @@ def least_mean(at, sign):
     raise AssertionError(f"the bounds {least} and {solved.fun} do not meet")
 
 
-@settings(max_examples=10)
+@settings(max_examples=6)
 @given(st.tuples(*[numbers] * 8))
 @example(SHARP)
 def test_extremes_match_a_linear_programme_that_is_refined_where_it_matters(k):
