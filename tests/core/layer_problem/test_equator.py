@@ -227,7 +227,12 @@ def test_an_equator_that_hardly_turns_has_an_infinite_period(size, b):
 
 def test_exponents_of_many_closed_equators_are_those_of_each():
     planes = np.random.default_rng(4).normal(size=(150, 5)) * [1.0, 3.0, 1.0, 1.0, 1.0]
-    planes = planes[slowest_turn(planes) > 1e-9]
+    t = np.linspace(0.0, 2.0 * math.pi, 20_001)
+    a, b, d, f1, f2 = planes.T[:, :, None]
+    Theta = np.sign(b) * (b + f2 * np.cos(t) - f1 * np.sin(t) + (d - a) * np.sin(t) * np.cos(t))
+    slowest = Theta.min(axis=1) / np.abs(planes).max(axis=1)
+    np.testing.assert_allclose(slowest_turn(planes), slowest, rtol=0.0, atol=1e-6)
+    planes = planes[slowest > 1e-9]
     found, undecided = exponents(planes), 0
     assert len(planes) > 50
     for plane, value in zip(planes, found, strict=True):
