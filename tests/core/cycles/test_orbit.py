@@ -50,16 +50,3 @@ def test_a_circle_has_the_period_and_the_multiplier_that_it_must(sign, turn):
     assert abs(steps.sum()) == pytest.approx(2.0 * math.pi, rel=1e-12)
     for array in (found.points, found.mean_e, found.e, found.share):
         assert not array.flags.writeable
-
-
-@pytest.mark.parametrize("sign", [1, -1])
-def test_the_orbit_is_followed_from_where_it_is_drawn_to(sign):
-    """A fixed point off by 1e-6: the second time round, the way it attracts, it closes better than the first."""
-    section, xi = circle(sign, 1.3)
-    exact, found = (orbit(section, FixedPoint(xi + off, repelling=sign < 0)) for off in (0.0, 1e-6))
-    assert exact is not None
-    assert found is not None
-    contraction = math.exp(-2.0 * H * (1.0 - H) * 2.0 * math.pi / 1.3)
-    first = 1e-6 * H * 0.4 * (1.0 - contraction)  # about: d r = r (1 - r) d xi
-    assert 0.1 * contraction < found.closure / first < 10.0 * contraction
-    assert found.multiplier == pytest.approx(exact.multiplier, rel=1e-4)
