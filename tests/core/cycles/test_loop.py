@@ -60,6 +60,18 @@ def test_loops_do_not_know_the_unit_of_time(plane, time):
 
 
 @EVERY
+def test_against_time_ends_change_places_and_the_gap_its_sign(plane):
+    for one in (plane, mirrored(plane)):
+        forward, backward = made(one), made(one, -1.0)
+        (there,), (back,) = loops(forward), loops(backward)
+        assert (there.source, there.sink) == pytest.approx((back.sink, back.source), abs=1e-12)
+        assert there.ratio * back.ratio == pytest.approx(1.0, rel=1e-9)
+        assert there.ray == back.ray
+        assert gap(forward, PSI, there) == pytest.approx(-gap(backward, PSI, back), rel=1e-8)
+    assert gap(made(plane), PSI, loops(made(plane))[0]) == pytest.approx(gap(forward, PSI, there), rel=1e-8)
+
+
+@EVERY
 @pytest.mark.parametrize("time", [1.0, -1.0])
 def test_the_gap_tells_where_the_separatrix_goes(plane, time):
     at = made(plane, time)

@@ -53,28 +53,6 @@ def _outside(x, y):
     return ((r - 1) * x / r, (r - 1) * y / r)
 
 
-def test_words_of_orbits_on_the_hemisphere_and_of_crossing():
-    found = launch(c2.ELinear(-1, 0, -1, (1.1, 0)), PSI, [[0.2, 0.3], [-1.5, 0.1], [1.4, 0.2]])
-    assert [fate.label for fate in found.goes] == ["Q1", "away", "away"]
-    assert found.goes[0].sentence == "Comes down to Q₁ and leaves Σ along θ = 0."
-    assert found.comes[0].sentence == "Comes up from Q₂, θ = 3.142."
-    (exact,) = launch(c2.ELinear(-1, 0, -1, (1.1, 0)), PSI, [[-1.5, 0.0]]).goes
-    assert (exact.label, exact.onto) == ("Q2", "Q1")
-    assert "crosses" in exact.sentence
-
-
-def test_an_orbit_that_winds_onto_a_limit_cycle_says_so():
-    preset = c2.presets["case3-n3"]
-    found = launch(preset.system, preset.psi, [preset_point(preset) + 0.01])
-    assert found.goes[0].sentence == "Winds onto limit cycle 1."
-    assert found.comes[0].label == "C"
-    assert found.comes[0].sentence == "Comes from C, an unstable focus."
-
-
-def preset_point(preset):
-    return c2.critical_sets(preset.system, preset.psi)[0].p
-
-
 coefficient = st.floats(-2, 2).map(lambda v: round(v, 3))
 
 
