@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..expressions.arrays import AROUND, BESIDE
+from ..expressions.arrays import AROUND, BESIDE, program
 from ..expressions.kinks import kinks
 from ..expressions.names import PLANE
 from ..psi.function import Psi
@@ -22,6 +22,7 @@ from ..systems.kinds import AnySystem
 from ..tables import Results, Tabled, number, point, table
 from .disc_zeros import disc_zeros
 from .linearisation import (
+    Frame,
     Parts,
     linearisation,
     linearisation_of,
@@ -29,6 +30,9 @@ from .linearisation import (
     spectrum,
 )
 from .location import Location, locate, turned
+
+SMALL_TRACE = 1e-9  # of the terms of tr J, below which it is asked whether rounding made it
+PLACED = 4 * 2.0**-52  # of |e|, to which the place of a zero is known
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,7 +197,23 @@ def _set_of(at: AtZ, psi: Psi, e: NDArray[np.float64], DU: NDArray[np.float64], 
     shift = math.frexp(max(abs(m11), abs(m12), abs(m21), abs(m22), 1e-290))[1]
     M = (math.ldexp(m11, -shift), math.ldexp(m12, -shift), math.ldexp(m21, -shift), math.ldexp(m22, -shift))
     parts = linearisation_of(M, psi, (c, s), (1.0 - modulus) * (1.0 + modulus), index)
-    return _critical_set((c, s), parts, shift, slow_flow_at(at, (c, s)))
+    return _critical_set((c, s), parts, shift, slow_flow_at(at, (c, s)), _blur(at, (c, s), psi, parts[3], shift))
+
+
+def _blur(at: AtZ, e: tuple[float, float], psi: Psi, frame: Frame, shift: int) -> float:
+    """Bound how far tr J may be off since D_e U and the place are rounded; 0 where that could not make it vanish."""
+    if abs(frame.along + frame.across) > SMALL_TRACE * frame.size:
+        return 0.0
+    from ..numerics.enclosure import enclose  # on first use: it loads the compiler
+
+    run = program(at.key)
+    out = np.empty((len(run.roots), 6))
+    reach = PLACED * math.hypot(*e)
+    enclose(*run.arrays, e[0] - reach, e[0] + reach, e[1] - reach, e[1] + reach, np.empty((len(run.op), 6)), out)
+    widths = out[:, [3, 5]] - out[:, [2, 4]]
+    factors = psi.jacobian_factors(float(psi.radius(math.hypot(*e))))  # D e_Psi is at most as large as these
+    width = float(widths.sum()) * max(map(abs, map(float, factors)))
+    return math.ldexp(width, -shift) if math.isfinite(width) else 0.0
 
 
 def _sides_agree(at: AtZ, psi: Psi, C: CriticalSet) -> bool:
@@ -220,10 +240,12 @@ def _rows(M: NDArray[np.float64]) -> tuple[float, float, float, float]:
     return m11, m12, m21, m22
 
 
-def _critical_set(e: tuple[float, float], parts: Parts, shift: int, slow: NDArray[np.float64]) -> CriticalSet:
+def _critical_set(
+    e: tuple[float, float], parts: Parts, shift: int, slow: NDArray[np.float64], blur: float = 0.0
+) -> CriticalSet:
     """Put the parts together; the linearisation is in a unit of time that is 2^-shift of the system's."""
     x2, p, jacobian, frame = parts
-    trace, determinant, discriminant, kind, eigenvalues = spectrum(frame)
+    trace, determinant, discriminant, kind, eigenvalues = spectrum(frame, blur)
     trace = math.ldexp(trace, shift)
     determinant, discriminant = math.ldexp(determinant, 2 * shift), math.ldexp(discriminant, 2 * shift)
     arrays = [

@@ -165,15 +165,16 @@ def linearisation_of(
     return (zeta * c, zeta * s), (zeta * c / math.hypot(1.0, zeta), zeta * s / math.hypot(1.0, zeta)), jacobian, frame
 
 
-def spectrum(frame: Frame) -> tuple[float, float, float, str, tuple[complex, complex]]:
+def spectrum(frame: Frame, blur: float = 0.0) -> tuple[float, float, float, str, tuple[complex, complex]]:
     """Trace, determinant, discriminant, kind and eigenvalues of a Jacobian.
 
-    The trace counts as zero, and the kind as "centre (linear)", when it is below the rounding of its terms.
+    The trace counts as zero, and the kind as "centre (linear)", when it is below the rounding of its terms, or below
+    `blur`, to which the terms themselves are known.
     """
     trace = frame.along + frame.across
     half, difference = 0.5 * trace, 0.5 * (frame.along - frame.across)
     quarter = difference * difference + frame.turning  # discriminant / 4, without the cancellation in tr^2 - 4 det
-    neutral = abs(trace) <= NEUTRAL_TRACE * frame.size
+    neutral = abs(trace) <= max(NEUTRAL_TRACE * frame.size, blur)
     if quarter >= 0.0:
         root = math.sqrt(quarter)
         large = half + math.copysign(root, half)

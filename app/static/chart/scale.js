@@ -71,6 +71,14 @@ export function spanOf(values, more = 0.06, held = []) {
   if (!all.length) return [-1, 1]
   let low = Infinity, high = -Infinity
   for (const value of all) { low = Math.min(low, value); high = Math.max(high, value) }
-  const width = high - low || Math.max(Math.abs(high), 1e-12)
+  const size = Math.max(Math.abs(low), Math.abs(high))
+  if (!size) return [-1, 1]
+  const width = high - low > 1e-12 * size ? high - low : size  // what differs by rounding is one value
   return [low - more * width, high + more * width]
 }
+
+/**
+ * The largest size of some values, 1 of none or of zeros: what is divided by it, or drawn to it, has a scale.
+ * @param {number[]} values
+ */
+export const largest = (values) => Math.max(0, ...values.map(Math.abs)) || 1

@@ -1,7 +1,7 @@
 // The panel "Along z": where Sigma slides, the slow flow on each critical set, and play, which lets z drift with it.
 
 import {Chart} from "../chart/chart.js"
-import {rounded, spanOf} from "../chart/scale.js"
+import {largest, rounded, spanOf} from "../chart/scale.js"
 import {shape} from "../chart/marks.js"
 import {register} from "../beside/panels.js"
 import {Ticker} from "../beside/player.js"
@@ -79,7 +79,7 @@ class Along {
     if (plays) {
       this.find(".along-note").textContent = ""
       this.ended = null
-      this.most = Math.max(1e-9, ...this.data.branches.flatMap((b) => b.flow.map(Math.abs)))
+      this.most = largest(this.data.branches.flatMap((b) => b.flow))
       const [low, high] = this.data.span
       this.rate = (high - low) / this.most / DRIFT_SECONDS
     }
@@ -167,7 +167,7 @@ class Along {
     this.find(".plane-box h2").textContent = `Slow flow in the plane of ${(this.tools.slowSymbols()).slice(0, 2).join(" and ")}`
     const [first, second] = this.tools.slowSymbols()
     const delays = this.data?.m === 2 ? this.delays : []
-    const most = Math.max(1e-12, ...arrows.map(([, , u, v]) => Math.hypot(u, v)))
+    const most = largest(arrows.map(([, , u, v]) => Math.hypot(u, v)))
     this.planeChart.draw([{
       x: {span: this.planeData.spans[0], word: first}, y: {span: this.planeData.spans[1]}, title: escape(second), zeros: true,
       lines: delays.map((one) => ({name: "delay", title: one.reason, x: one.z[0], y: one.z[1], silent: true})),

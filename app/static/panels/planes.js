@@ -2,6 +2,7 @@
 // moving slider leaves while the panel is open.
 
 import {Chart} from "../chart/chart.js"
+import {largest} from "../chart/scale.js"
 import {eigenvalues, kindAt, withDouble} from "../beside/jacobian.js"
 import {register} from "../beside/panels.js"
 import {SAYS, digits, eigen, escape} from "../words.js"
@@ -75,7 +76,7 @@ class Planes {
 
   drawEigenvalues(shown, beside) {
     const all = shown.flatMap((one) => eigenvalues(one))
-    const across = 1.2 * Math.max(1e-12, ...all.map(([re]) => Math.abs(re))), up = 1.2 * Math.max(0.3 * across, ...all.map(([, im]) => Math.abs(im)))
+    const across = 1.2 * largest(all.map(([re]) => re)), up = 1.2 * Math.max(0.3 * across, ...all.map(([, im]) => Math.abs(im)))
     this.eigenChart.draw([{
       title: "eigenvalues of J", zeros: true, x: {span: [-across, across], word: "Re λ"}, y: {span: [-up, up]},
       areas: [{name: "stable", points: [[-across, -up], [0, -up], [0, up], [-across, up]]}],
@@ -128,10 +129,9 @@ class Planes {
 
 // Half the width of the trace plane, and its lowest and highest determinant: the parabola tr² = 4 det is well in view.
 function traceSpans(shown) {
-  const most = (values) => Math.max(...values.map(Math.abs), 1e-12)
   const below = 1.3 * Math.max(0, ...shown.map((p) => -p.determinant))
-  let reach = 1.3 * most(shown.map((p) => p.trace)), high = 1.3 * most(shown.map((p) => Math.max(p.determinant, 0)))
-  reach = Math.max(reach, Math.sqrt(Math.max(high, below)))
+  let high = 1.3 * Math.max(0, ...shown.map((p) => p.determinant))
+  const reach = Math.max(...shown.map((p) => 1.3 * Math.abs(p.trace)), Math.sqrt(Math.max(high, below))) || 1
   high = Math.max(high, 0.1 * reach * reach, 0.5 * below)
   return [reach, -Math.max(below, 0.28 * high), high]
 }

@@ -4,6 +4,7 @@ import {register} from "../beside/panels.js"
 import {Told} from "../beside/told.js"
 import {say} from "../dom.js"
 import {seen} from "../chart/projection.js"
+import {largest} from "../chart/scale.js"
 import {SAYS, digits, minus, plain} from "../words.js"
 
 /** Whether the two ends of what slides combine two limit vectors each. @param {{candidates: number[], combined: number[][][]}} data */
@@ -261,7 +262,7 @@ class Stack {
   // Limit vectors (U₁, U₂, W): their curve, Σ as the upright axis, and what of Σ their combinations reach.
   // Of an e-linear system also the plane of affine combinations, and the cross where it meets Σ.
   paintFilippov({plane, cross, curve, candidates, combined, selected}, w, h) {
-    const all = [...plane, ...curve], most = (i) => Math.max(1e-9, ...all.map((v) => Math.abs(v[i])))
+    const all = [...plane, ...curve], most = (i) => largest(all.map((v) => v[i]))
     const size = Math.max(most(0), most(1))
     const low = Math.min(0, ...all.map((v) => v[2])), high = Math.max(0, ...all.map((v) => v[2])), tall = high - low || 1
     const lift = (value) => 1.5 * ((value - low) / tall - 0.5)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 
-from codim2_core import ELinear, critical_sets, equator_cycle, hemisphere, psi, sliding_flow
+from codim2_core import ELinear, System, critical_sets, equator_cycle, hemisphere, psi, sliding_flow
 from codim2_core.layer_problem.location import Existence, locate
 from codim2_core.numerics.trigonometric import ROUNDING
 from tests.core.strategies import regularisations, systems
@@ -150,3 +150,13 @@ def test_sliding_is_the_filippov_flow_and_does_not_know_psi(system):
         expected = -at.B @ np.linalg.solve(at.A, at.f) + at.g
         np.testing.assert_allclose(flow, expected, rtol=1e-9, atol=1e-9)
         np.testing.assert_allclose(flow, found[0].slow_flow, rtol=1e-12, atol=1e-12)
+
+
+def test_a_trace_that_vanishes_by_its_formula_is_neutral_whatever_is_rounded():
+    rng = np.random.default_rng(1)
+    for a, b, c, d, p, q in rng.normal(size=(40, 6)).round(3).tolist():
+        # traceless at 0, which is a critical set since U is odd; its terms cancel in decimals
+        first = f"{a}*c + {b}*s + {p}*(sin(2*c) - 2*c) + {p}*2*c - {2 * p:.6f}*c + {q}*(exp(s) - exp(-s))"
+        system = System(U=(first, f"{c}*c - {a}*s + {d}*c**3"))
+        kinds = [C.kind for C in critical_sets(system, psi.tanh()) if np.hypot(*C.e) < 1e-9]
+        assert kinds in (["saddle"], ["centre (linear)"])

@@ -89,14 +89,6 @@ def test_an_orbit_from_infinity_is_followed_ten_eps_out_and_a_far_seed_farther()
     assert not near.xy.flags.writeable
 
 
-def test_a_cycle_is_gone_round_and_its_angle_has_no_jumps():
-    around = ELinear(0.0, 1.0, 0.0)  # |x2| stays, theta' = 1/|e|-size
-    found = in_time(around, psi.constant(), (0.6, 0.0), (0.0, 20.0))
-    assert np.abs(np.diff(found.theta)).max() < 1.0
-    assert found.theta[-1] == pytest.approx(20.0, rel=1e-5)  # T' = ebar tau': x2' = i p, theta' = ebar, theta = T
-    np.testing.assert_allclose(found.radius, 0.6, rtol=1e-5)
-
-
 @pytest.mark.parametrize(
     ("seed", "span", "words"),
     [((1.0, 0.0), (0.0, 1.0), "equator"), ((0.2, 0.0), (1.0, 2.0), "span"), ((math.nan, 0.0), (0.0, 1.0), "seed")],

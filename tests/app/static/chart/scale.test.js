@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {rounded, scale, spanOf, ticks, wordedTicks} from "../../../../app/static/chart/scale.js"
+import {largest, rounded, scale, spanOf, ticks, wordedTicks} from "../../../../app/static/chart/scale.js"
 
 test("a scale goes there and back, also upside down", () => {
   const y = scale([-2, 6], [300, 20])
@@ -69,6 +69,12 @@ test("a span holds its values and a little more", () => {
   assert.deepEqual(spanOf([NaN]), [-1, 1])
   assert.deepEqual(spanOf([4], 0.25), [3, 5])
   assert.deepEqual(spanOf([0, 100]), [-6, 106])
+})
+
+test("zeros, and values that differ by rounding, are one value and have a scale", () => {
+  assert.deepEqual([spanOf([0, 0]), spanOf([0, -0], 0.5)], [[-1, 1], [-1, 1]])
+  assert.deepEqual(spanOf([2 - 1e-15, 2, 2 + 1e-15], 0.5).map((v) => Math.round(v)), [1, 3])
+  assert.deepEqual([largest([]), largest([0]), largest([-3, 2])], [1, 1, 3])
 })
 
 test("a value under a hand is as fine as its span is narrow, however far from 0 that is", () => {
