@@ -186,8 +186,9 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool 
     z : (m,) floats
     prove : bool
         Try to prove that there are just these: `LimitCycles.proved` says whether that was done. For e-linear systems,
-        with Psi constant, rational, exponential, tanh, or of the Hill family with n >= 1. A theorem costs nothing; a
-        certificate 0.1 to 3 s as a rule, half a minute where orbits hardly wind or cycles are close to each other.
+        with Psi constant, rational, exponential, tanh, or of the Hill family with n >= 1. A theorem costs nothing.
+        Certificates, as measured: without cycles 59 of 60 random systems are proved, half of them within 0.05 s; with
+        cycles 25 of 40, half within 0.35 s (`python -m tests.benchmarks.bench_proofs`).
 
     Returns
     -------

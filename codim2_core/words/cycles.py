@@ -215,8 +215,8 @@ SENTENCES: dict[str, Sentence] = {
         "a branch ends",
     ),
     "proved by a certificate": Sentence(
-        "That there are these limit cycles and no other is proved: by polygons that all orbits cross to one side, and "
-        "weighted divergences of one sign between them.",
+        "That there are these limit cycles and no other is proved: by a Dulac-Cherkas function, a polynomial that "
+        "increases along all orbits wherever it vanishes.",
         "a certificate was accepted",
     ),
     "proofs e-linear only": Sentence(
@@ -227,31 +227,11 @@ SENTENCES: dict[str, Sentence] = {
         "with n at least 1.",
         "a proof for another Psi",
     ),
-    "proof is too long": Sentence("The count is not proved: a proof would be too long.", "a proof beyond its bounds"),
-    "proof is too steep": Sentence(
-        "The count is not proved: orbits wind too steeply to be told in which sense.", "numbers that do not resolve it"
-    ),
-    "proof meets a cycle": Sentence(
-        "The count is not proved: between what was found orbits do not wind in one sense.",
-        "a cycle that was not found, or numbers that do not resolve it",
-    ),
-    "proof does not reach the equator": Sentence(
-        "The count is not proved: no way was found that leads the last turn onto the equator.",
-        "slow limit directions",
-    ),
-    "proof fails at C": Sentence(
-        "The count is not proved: about C no ring was found in which the divergence has one sign.",
-        "beside a Hopf bifurcation",
-    ),
-    "proof fails at a cycle": Sentence(
-        "The count is not proved: about a cycle no ring was found in which a weighted divergence has one sign.",
-        "a weak cycle",
-    ),
-    "proof fails at the equator": Sentence(
-        "The count is not proved: at the closed equator no ring was found in which orbits wind in one sense.",
-        "a weak closed equator",
+    "proof finds no function": Sentence(
+        "The count is not proved: no polynomial was found that would prove it.",
+        "cycles close to each other, or weak, or steep; or loops through limit directions",
     ),
     "proof refused": Sentence(
-        "The count is not proved: intervals are too wide to decide it.", "the checker refuses, or numbers fail"
+        "The count is not proved: the polynomials that were found do not decide it.", "the checker refuses"
     ),
 }

@@ -40,7 +40,7 @@ TABLES = {
     "sessions": "Many sessions", "load": "A day in public", "wild": "Wild requests",
     "room": "A room of phones",
     "equator": "Counts of limit directions",
-    "census": "A census of portraits", "cycles": "Case III and its cycles",
+    "census": "A census of portraits", "cycles": "Case III and its cycles", "proofs": "Proofs of counts",
     "compiled": "Motions against SciPy with a compiled right-hand side",
     "nonsmooth": "Nonsmooth motions against SciPy told its events",
 }  # fmt: skip

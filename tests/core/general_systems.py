@@ -1,7 +1,5 @@
 """General systems that several tests share."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import strategies as st
 

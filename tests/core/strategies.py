@@ -1,7 +1,5 @@
 """Hypothesis strategies shared by the core's tests."""
 
-from __future__ import annotations
-
 from hypothesis import strategies as st
 
 from codim2_core import ELinear

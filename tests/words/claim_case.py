@@ -22,9 +22,6 @@ class Case:
         self.at = system.at(self.z)
         U = self.at.U(CIRCLE)
         self.theta = CIRCLE[:, 0] * U[:, 1] - CIRCLE[:, 1] * U[:, 0]
-        self.rho = (CIRCLE * U).sum(axis=1)
-        angle = np.unwrap(np.arctan2(U[:, 1], U[:, 0]))
-        self.turns = round(float(angle[-1] - angle[0]) / math.tau)
         self.size = max(self.at.size, 1e-9)
         self.name = c2.classify(self.at, family)
         self.degenerate = bool(self.name.degeneracies)

@@ -128,20 +128,6 @@ def hopf(told, _):
     assert traces[0] * traces[1] < 0.0
 
 
-def delayed(balance):
-    """From where it came to C, what attracts and what repels adds up so (eigenvalues of the critical set)."""
-
-    def check(told, fields):
-        hopf(told, fields)
-        assert told.phase.kind == "slide"
-        t = np.linspace(told.before.t_start, told.phase.t_end, 400)
-        sets = [c2.critical_sets(told.system, told.psi, tuple(told.run.dense(one)[2:])) for one in t]
-        rates = np.array([found[0].eigenvalues.real.max() for found in sets])
-        assert balance(np.trapezoid(rates, t), np.trapezoid(np.abs(rates), t))
-
-    return check
-
-
 def by_psi(told, _):
     """Two families of Psi let it end differently."""
     z = told.run.dense(told.run.times[-1])[2:] if len(told.run.times) else np.array(told.start[2:])
@@ -251,9 +237,6 @@ MOTIONS = {
     "ends at the equator": leaves,
     "fold in a line": set_of(-2),
     "fold": set_of(-2),
-    "Hopf, delayed": delayed(lambda growth, size: growth < -1e-3 * size),
-    "Hopf, delayed until": delayed(lambda growth, size: abs(growth) < 1e-3 * size),
-    "Hopf, delayed until the buffer": delayed(lambda growth, size: growth < -1e-3 * size),
     "Hopf, left": lambda told, _: told.sets()[0].kind.startswith("unstable") or pytest.fail("it is stable"),
     "Hopf, not analytic": hopf,
     "Hopf depends": hopf,

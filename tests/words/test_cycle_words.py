@@ -61,17 +61,3 @@ def test_where_there_is_none(key):
         assert around(system, ONE)
     else:
         assert wandering(system, ONE) == 0
-
-
-@pytest.mark.parametrize(("n", "count"), [(3.0, 1), (1.0, 0)])
-def test_where_they_are_counted(n, count):
-    preset = c2.presets["case3-n3"]
-    system, family = preset.system, psi.hill(n)
-    found = c2.limit_cycles(system, family)
-    ((key, fields),) = recognise(found.reason)
-    assert key == ("one cycle, section" if count else "no cycle, section")
-    assert "count" not in fields or int(fields["count"]) == len(found)
-    C = c2.critical_sets(system, family)[0]
-    line = c2.trajectories(system, family, [C.p + np.array([0.01, 0.0])], t_max=3.0).points[0]
-    late = line[len(line) * 3 // 4 :]
-    assert (np.hypot(*np.ptp(late, axis=0)) > 0.02) == (count == 1)

@@ -1,6 +1,7 @@
 """What is said of a motion, phase by phase, is what the other description of it does there."""
 
 import math
+from pathlib import Path
 
 import pytest
 
@@ -18,36 +19,21 @@ TWO_NODES = System(U=("-c*(c - 1/2)*(c + 1/2)", "-s"))
 SUBCRITICAL = System(U=("z*c - s + c*(c**2 + s**2)", "c + z*s + s*(c**2 + s**2)"), W=("1",))
 BUFFER = System(U=("z*(c - 0.3*z) - s/2 - c*(c**2 + s**2)", "(c - 0.3*z)/2 + z*s - s*(c**2 + s**2)"), W=("1",))
 CYCLE = System(U=("c - s - 2*c*(c**2 + s**2)", "c + s - 2*s*(c**2 + s**2)"))
-AGREEMENT, FIRST_STEPS = "tests/core/motion/test_agreement.py", "tests/core/motion/test_nonsmooth.py"
-VARIATIONS, PASTS = "tests/core/motion/test_variation.py", "tests/core/motion/test_past.py"
-CYCLES_END = "tests/core/motion/test_slide_slip.py"
-#: Held by tests of their own: what `leave` and `agreement` return, how a cycle of a typed system ends, and how far a
-#: motion is differentiated.
+TESTS = Path(__file__).parents[1]
+#: Held in `tests.core` by tests of their own: pasts, delays, folded points, `agreement`, derivatives.
 ELSEWHERE = {
-    **dict.fromkeys(("past on Sigma", "past ends", "has left Sigma", "past forgotten"), PASTS),
-    "repels angularly": FIRST_STEPS,
-    "nothing leaves": FIRST_STEPS,
-    "delay, open": "tests/core/motion/test_delay.py",
-    **dict.fromkeys(
-        ("canard point", "folded node", "folded saddle", "folded, degenerate"), "tests/core/motion/test_folded.py"
-    ),
-    **dict.fromkeys(
-        ("transcritical", "pitchfork", "exchange, moving", "errors decide"), "tests/core/motion/test_exchange.py"
-    ),
-    "phases agree": AGREEMENT,
-    "phases agree, less": AGREEMENT,
-    "phases differ": AGREEMENT,
-    "at an event": "tests/core/initial_value/test_events.py",
-    "cycle ends": CYCLES_END,
-    "cycle ends at once": CYCLES_END,
-    "cycle ends, not found": CYCLES_END,
-    "cycle ends, not decided": CYCLES_END,
-    "saddle reached": CYCLES_END,
-    "variation undefined": VARIATIONS,
-    "variation on a cycle": VARIATIONS,
-    "variation past an end": VARIATIONS,
-    "variation ends at Sigma": VARIATIONS,
-}
+    "motion/test_past.py": ("past on Sigma", "past ends", "has left Sigma", "past forgotten"),
+    "motion/test_nonsmooth.py": ("repels angularly", "nothing leaves"),
+    "motion/test_delay.py": ("delay, open", "Hopf, delayed", "Hopf, delayed until", "Hopf, delayed until the buffer"),
+    "motion/test_folded.py": ("canard point", "folded node", "folded saddle", "folded, degenerate"),
+    "motion/test_exchange.py": ("transcritical", "pitchfork", "exchange, moving", "errors decide"),
+    "motion/test_agreement.py": ("phases agree", "phases agree, less", "phases differ"),
+    "initial_value/test_events.py": ("at an event",),
+    "motion/test_slide_slip.py": ("cycle ends", "cycle ends at once", "cycle ends, not found",
+                                  "cycle ends, not decided", "saddle reached"),
+    "motion/test_variation.py": ("variation undefined", "variation on a cycle", "variation past an end",
+                                 "variation ends at Sigma"),
+}  # fmt: skip
 CASES = {
     "focus": (ELinear(-1, 0.5, -1, (0.1, 0)), None, (1, 0.2), 3),
     "in a line": (ELinear(-1, 0, -1.5, (0.3, 0)), CONSTANT, (0.5, 0), 1),
@@ -98,7 +84,7 @@ def hold(system, family, start, run, asked):
         told = Told(system, family, start, run, k)
         told.asked = asked
         for key, fields in recognise(text):
-            if key in ROOMS["motion"]:
+            if key in MOTIONS:
                 SEEN.add(key)
                 MOTIONS[key](told, fields)
 
@@ -127,4 +113,18 @@ def test_of_every_portrait(name):
 
 
 def test_every_sentence_of_a_motion_is_held():
-    assert MOTIONS.keys() | ELSEWHERE.keys() == ROOMS["motion"].keys()
+    assert MOTIONS.keys() | {key for keys in ELSEWHERE.values() for key in keys} == ROOMS["motion"].keys()
+
+
+PERIODIC = {
+    "free": ("repeats", "periodic stable", "periodic unstable", "start is lost", "no periodic motion", "no derivative",
+             "motion ends early", "comes to rest"),
+    "forced": ("repeats sooner", "periodic undecided", "periodic beside a line", "not isolated"),
+}  # fmt: skip
+
+
+def test_every_sentence_of_a_periodic_motion_is_held():
+    assert {key for keys in PERIODIC.values() for key in keys} == ROOMS["periodic"].keys()
+    for file, keys in PERIODIC.items():
+        text = (TESTS / "core" / "motion" / "periodic" / f"test_{file}.py").read_text(encoding="utf-8")
+        assert [key for key in keys if f'"{key}"' not in text] == []

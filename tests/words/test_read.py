@@ -1,7 +1,6 @@
 """Each sentence is the one that was read beside its check; nothing that a visitor reads is outside the registries."""
 
 import ast
-import random
 import re
 
 import pytest
@@ -27,27 +26,12 @@ ASIDE = {
     "export": "legends of figures, held in tests/app/export",
     "docs": "pages of the site, held in tests/app/docs",
 }
-SWAPS = (
-    ("stable", "unstable"), ("unstable", "stable"), ("attract", "repel"), ("repel", "attract"), (" no ", " a "),
-    ("leave", "reach"), ("reach", "leave"), ("outside", "inside"), ("crosses", "slides"), ("slides", "crosses"),
-    ("C ", "D "), ("limit direction", "critical set"), ("saddle", "node"),
-)  # fmt: skip
 
 
 def test_every_sentence_is_as_it_was_read():
     kept, now = READ.read_text(encoding="utf-8").splitlines(), lines()
     changed = sorted(set(now) ^ set(kept))
     assert kept == now, "read its check, then `python -m tests.words --accept`:\n" + "\n".join(changed)
-
-
-def test_a_wrong_word_is_noticed():
-    kept = READ.read_text(encoding="utf-8").splitlines()
-    planted = [
-        line[::-1].replace(old[::-1], new[::-1], 1)[::-1] for line in lines() for old, new in SWAPS if old in line
-    ]
-    assert len(planted) > 300
-    for wrong in random.Random(7).sample(planted, 60):
-        assert wrong not in kept
 
 
 def docs(tree):

@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 import json
-from itertools import pairwise
+import math
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...layer_problem.problem import LayerProblem
+from ...psi.kernel import VECTOR
 from ...words import say
-from .certificate import Written, alone, written
-from .check import check
-from .flow import Flow, Undecided
+from .check import check, chords, crossed
 from .result import Proof, covers
+from .search import LEAST_MARGIN, Layer, best_function, loops, written
 
 Array = NDArray[np.float64]
 
-MOST_STEPS = 200_000  # of orbits, in search of a certificate
-MOST_ROWS = 60_000  # corners and edges in one that is checked
-REFUSED = (ArithmeticError, LookupError)
+# Of Psi the degree, and weights (k, mu), in the order in which they are tried
+TRIED = (
+    (6, ((-1.0, 1.0),)),
+    (10, ((-1.0, 1.5), (-1.0, 1.0), (-2.0, 1.0))),
+    (14, ((-1.0, 1.5), (-1.0, 1.0), (-2.0, 1.0), (-0.5, 1.75))),
+    (20, ((-1.0, 1.5), (-2.0, 1.0))),
+)
+NONE = np.zeros((0, 2))
 
 
 def proved(problem: LayerProblem, cycles: list[Array], forbidden: str | None) -> Proof:
@@ -40,63 +45,35 @@ def proved(problem: LayerProblem, cycles: list[Array], forbidden: str | None) ->
         return Proof(True, (), forbidden)
     if not covers(problem.psi):
         return Proof(False, nothing, say("proof not for this Psi"))
-    try:
-        return _all(problem, cycles)
-    except Undecided as why:
-        return _each(problem, cycles, say(str(why)))
-    except REFUSED:
-        return _each(problem, cycles, say("proof refused"))
+    system, why = Layer(problem), "proof finds no function"
+    loop = _loop(problem, system, cycles) if cycles else NONE
+    for degree, weights in TRIED:
+        for k, mu in weights:
+            margin, function = best_function(system, degree, k, mu)
+            if margin < LEAST_MARGIN:
+                continue
+            certificate = written(problem, system, function, k, mu, loop)
+            if check(certificate) == (len(cycles), True):
+                return Proof(True, tuple(True for _ in cycles), say("proved by a certificate"), json.dumps(certificate))
+            why = "proof refused"
+    return Proof(False, nothing, say(why))
 
 
-def _all(problem: LayerProblem, cycles: list[Array]) -> Proof:
-    flow = Flow(problem, MOST_STEPS, _in_kappa_2(cycles[0]) if cycles else None)
-    certificate = written(problem, flow, [_crossing(flow, cycle) for cycle in cycles])
-    if check(_bounded(certificate)) != (len(cycles), True):
-        raise Undecided("proof refused")
-    return Proof(True, tuple(True for _ in cycles), say("proved by a certificate"), json.dumps(certificate))
-
-
-def _each(problem: LayerProblem, cycles: list[Array], why: str) -> Proof:
-    """Prove cycles one by one, where the count is not proved; say why it is not."""
-    found, certificate = [], None
-    for cycle in cycles:
-        try:
-            flow = Flow(problem, MOST_STEPS, _in_kappa_2(cycle))
-            one = alone(problem, flow, _crossing(flow, cycle))
-            found.append(check(_bounded(one)) == (1, False))
-            if found[-1]:
-                certificate = one if certificate is None else _joined(certificate, one)
-        except (Undecided, *REFUSED):
-            found.append(False)
-    return Proof(False, tuple(found), why, None if certificate is None else json.dumps(certificate))
-
-
-def _joined(first: Written, then: Written) -> Written:
-    """Join two certificates of the same system."""
-    shift = len(first["walks"])
-    rings = [[rows, paths, [i + shift, j + shift], *rest] for rows, paths, (i, j), *rest in then["rings"]]
-    return first | {"walks": first["walks"] + then["walks"], "rings": first["rings"] + rings}
-
-
-def _bounded(certificate: Written) -> Written:
-    """Return a certificate, if it is not too long to be checked."""
-    rows = sum(len(way) for way, _ in certificate["walks"])
-    rows += sum(len(layer) for layers, *_ in certificate["rings"] for layer in layers)
-    if rows > MOST_ROWS:
-        raise Undecided("proof is too long")
-    return certificate
-
-
-def _in_kappa_2(p: Array) -> Array:
-    return p / np.sqrt(1.0 - (p**2).sum(axis=1))[:, None]
-
-
-def _crossing(flow: Flow, p: Array) -> float:
-    """Return where a cycle crosses the section: its distance from C in e."""
-    beside = [flow.beside(x, flow.mirror * y) for x, y in _in_kappa_2(p).tolist()]
-    for (along, before), (onward, after) in pairwise(beside):
-        if (before < 0.0) != (after < 0.0) and (along > 0.0 or onward > 0.0):
-            r = along - before * (onward - along) / (after - before)
-            if r > 0.0:
-                return r
-    raise Undecided("proof fails at a cycle")
+def _loop(problem: LayerProblem, system: Layer, cycles: list[Array]) -> Array:
+    """Return a polygon beyond the last cycle that all orbits cross to one side, if there are limit directions."""
+    t = np.linspace(0.0, math.tau, 2001)
+    e = np.array([np.cos(t), np.sin(t)])
+    U = system.A @ e + system.f[:, None]
+    turning = e[0] * U[1] - e[1] * U[0]
+    if turning.min() * turning.max() > 0.0:
+        return NONE
+    cycle, stable = cycles[-1], (system.trace > 0.0) == (len(cycles) % 2 == 1)  # they are so in turn, from C on
+    x = (cycle / np.sqrt(1.0 - (cycle**2).sum(axis=1))[:, None]).T
+    s = (x**2).sum(axis=0)
+    x = x / np.sqrt(s + problem.psi.kernel.value(VECTOR, s))
+    numbers, lines = np.column_stack([system.A, system.f]), chords(problem.psi.family, problem.psi.parameter)
+    center = -np.linalg.solve(system.A, system.f)
+    for loop in loops(system, x.T, stable):
+        if crossed(loop, center, numbers, lines, 1 if stable else -1)[1]:
+            return loop
+    return NONE

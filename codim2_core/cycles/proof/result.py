@@ -26,7 +26,7 @@ class Proof:
     whole : bool
         There are just the cycles that were found, and no other.
     cycles : tuple of bool
-        For each cycle, from the inside: there is exactly one in the ring about it, and it is hyperbolic.
+        For each cycle, from the inside: it is proved, and hyperbolic. All of them are, or none.
     reason : str
         By what theorem, or certificate, or what is not decided and where.
     certificate : str or None
@@ -43,7 +43,7 @@ class Proof:
 
     @staticmethod
     def checker() -> str:
-        """Return the path of the program that checks a certificate: Python's standard library is all that it needs."""
+        """Return the path of the program that checks a certificate: Python and NumPy are all that it needs."""
         return str(Path(__file__).with_name("check.py"))
 
     def save(self, path: str | Path) -> None:

@@ -1,7 +1,5 @@
 """Every curve of an atlas against what is known in closed form, or by functions evaluated otherwise."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -67,7 +65,7 @@ def traces(A, psi, e, kind):
     return abs(trace) if kind == "Hopf" else abs(trace**2 - 4.0 * radial / tangential * np.linalg.det(A))
 
 
-@settings(max_examples=12, suppress_health_check=[HealthCheck.too_slow], deadline=None)
+@settings(max_examples=8, suppress_health_check=[HealthCheck.too_slow], deadline=None)
 @given(numbers, numbers, numbers, st.sampled_from(PSIS))
 def test_e_linear_systems_typed_as_general_ones_agree_with_the_closed_forms(a, b, d, psi):
     if min(abs(a), abs(d), abs(a - d), abs(a * d + b * b)) < 0.05:
@@ -82,19 +80,6 @@ def test_e_linear_systems_typed_as_general_ones_agree_with_the_closed_forms(a, b
         assert length(one.points for one in of_kind(found, kind)) == pytest.approx(length(curve.branches), rel=0.02), (
             kind
         )
-
-
-def test_the_same_system_given_in_coefficients():
-    system = c2.ELinear(1.5, 2, -1, (0.2, 0.1))
-    typed = c2.System(
-        U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters={"a": 1.5, "b": 2, "d": -1, "f1": 0.2, "f2": 0.1}
-    )
-    for across, up in (("a", "f1"), ("b", "d")):
-        ranges = ((-2, 2.5), (-2.5, 2))
-        one, other = (c2.atlas(of, c2.psi.hill(2), across, up, ranges) for of in (system, typed))
-        assert [curve.kind for curve in one.curves] == [curve.kind for curve in other.curves]
-        for mine, theirs in zip(one.curves, other.curves, strict=True):
-            assert np.allclose(mine.points, theirs.points, rtol=0.0, atol=1e-9)
 
 
 def test_a_matrix_in_its_own_axes_has_the_same_curves_and_its_own_places():

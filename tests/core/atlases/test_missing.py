@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.atlases import tracing
 from codim2_core.atlases.faces import within
 from codim2_core.diagrams.class_maps.families import classes_over
 
@@ -40,12 +39,6 @@ def test_a_region_is_named_beside_the_line_of_its_symmetry():
     found = c2.atlas(system, ONE, "mu", "k", ((0.1, 1), (-1, 1)))
     assert not found.looked.unlike
     assert all("focus" in region.name for region in found.regions)
-
-
-def test_a_search_that_is_given_up_is_told(monkeypatch):
-    assert c2.atlas(FOLDING, ONE, "mu", "k", SQUARE).unfinished == ()
-    monkeypatch.setattr(tracing, "MOST_FAILED", 0)
-    assert "saddle-node" in c2.atlas(FOLDING, ONE, "mu", "k", SQUARE).unfinished
 
 
 def test_none_is_said_to_be_missing_for_a_symmetry_alone():

@@ -1,7 +1,5 @@
 """Regions of an atlas against the classes at many places, and faces against areas that are known."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -56,24 +54,6 @@ def test_circles_cut_the_square():
         at, room = middle(face)
         assert within(at[None], face.rings)[0]
         assert room > 0.02
-
-
-def test_lines_that_cross_or_end_loosely():
-    lines = [np.array([[0.0, 0.3], [1.0, 0.3]]), np.array([[0.4, 0.0], [0.4, 1.0]]), np.array([[0.1, 0.6], [0.3, 0.9]])]
-    areas = sorted(face.area for face in net_of(lines).faces())
-    assert areas == pytest.approx([0.12, 0.18, 0.28, 0.42], abs=1e-9)  # the loose one cuts nothing
-
-
-def test_a_line_ends_on_another():
-    lines = [np.array([[0.0, 0.5], [1.0, 0.5]]), np.array([[0.5, 1.0], [0.5, 0.503]])]
-    assert sorted(face.area for face in net_of(lines).faces()) == pytest.approx([0.25, 0.25, 0.5], abs=1e-9)
-
-
-def test_lines_run_along_the_frame_and_along_each_other():
-    side, up = np.linspace(0.0, 1.0, 8), np.linspace(0.0, 1.0, 6)
-    edge = np.stack([1.0 + 0.0 * side, side], axis=-1)
-    one, other = (np.stack([0.3 + 0.0 * at, at], axis=-1) for at in (side, up))
-    assert sorted(face.area for face in net_of([edge, one, other]).faces()) == pytest.approx([0.3, 0.7], abs=1e-12)
 
 
 def test_a_lobe_that_is_pinched_at_a_tip_is_a_region_of_its_own():

@@ -7,11 +7,8 @@ import pytest
 from scipy.integrate import quad
 
 from codim2_core import ELinear, bifurcations, equator_cycle, psi
-from codim2_core.bifurcations.fold import FoldGuess
-from codim2_core.bifurcations.fold_of_cycles import OUTWARD, Folds
 from codim2_core.bifurcations.geometry import Geometry
 from codim2_core.continuation.branches import continue_cycles
-from codim2_core.continuation.turns import RTOL
 from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.cycles.loop import gap, loops
 
@@ -78,18 +75,6 @@ def test_a_curve_beside_the_border_of_closed_equators_is_found(abd):
             np.array(plane.saddle_node_at(t)) for t in [*plane.touching, *(t for pair in plane.double for t in pair)]
         ]
         assert max(from_nearest(end, ends) for end in (line[0], line[-1])) < 1e-9
-
-
-def test_a_cycle_is_born_from_the_closed_equator():
-    curve = bifurcations.closed_equator(*ABD)
-    f = curve.branches[0][20]
-    p = psi.rational()
-    along = np.diff(curve.branches[0], axis=0)[20]
-    across = 1e-4 * np.array([-along[1], along[0]]) / np.hypot(*along)
-    counts = [len(limit_cycles(system(f + s * across), p)) for s in (-1.0, 1.0)]
-    exponents = [equator_cycle(system(f + s * across)).exponent for s in (-1.0, 1.0)]
-    assert exponents[0] * exponents[1] < 0.0
-    assert abs(counts[0] - counts[1]) == 1
 
 
 def test_equator_of_reversible_systems_and_none():
@@ -201,21 +186,3 @@ def test_two_cusps_that_one_step_passes_are_both_named():
         back = [line[i] for i in range(1, len(steps)) if steps[i] @ steps[i - 1] < 0.0]
         for place in back:
             assert min(np.hypot(*(cusp - place)) for cusp in cusps) < 1e-9
-
-
-@pytest.mark.parametrize("e", [(0.1825, 0.5145), (-0.2107, 0.5634)])
-def test_loose_turns_lead_to_folds_that_are_told_exactly(e):
-    searches = Folds(*ABD, psi.hill(3))
-    searches.settle(np.array(e))
-    guesses = [FoldGuess(xi, np.array(e), OUTWARD) for xi in np.linspace(-2.0, 8.0, 41)]
-    found = [fold for fold in searches.together([searches.corrected(guess) for guess in guesses]) if fold is not None]
-    assert found
-    (exact,) = searches.together([searches.states([(fold.xi, fold.e) for fold in found], [(RTOL, RTOL)] * len(found))])
-    for one, two in zip(found, exact, strict=True):
-        assert two is not None
-        assert two.turn.shift == pytest.approx(0.0, abs=1e-11)
-        assert two.turn.exponent == pytest.approx(0.0, abs=1e-11)
-        for name in ("chi", "period", "amplitude", "height"):
-            assert getattr(one.turn, name) == pytest.approx(getattr(two.turn, name), rel=1e-8)
-        # those of the exponent by turns to 1e-9, 2e-5 apart
-        np.testing.assert_allclose(one.jacobian, two.jacobian, rtol=1e-4, atol=1e-4)

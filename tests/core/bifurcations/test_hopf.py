@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, bifurcations, critical_sets, psi
 from codim2_core.layer_problem.linearisation import determinant_sign
-from codim2_core.layer_problem.lyapunov import first_lyapunov, psi_derivatives
+from codim2_core.layer_problem.lyapunov import first_lyapunov
 from tests.core.strategies import coefficient
 
 matrices = st.tuples(coefficient, coefficient, coefficient)
@@ -38,32 +37,6 @@ def test_trace_and_discriminant_vanish_on_their_curves(abd, regularisation):
                 value = C.trace / size if curve.kind == "hopf" else C.discriminant / size**2
                 assert value == pytest.approx(0.0, abs=1e-8)
                 assert C.determinant > 0.0
-
-
-@settings(max_examples=20)
-@given(st.sampled_from([CASE3, (1, 1.5, -1.2), (2, -1.4, -0.7)]), families, st.integers(0, 2**32 - 1))
-def test_the_sign_of_the_trace_changes_only_across_the_hopf_curve(abd, regularisation, seed):
-    curve = bifurcations.hopf(*abd, regularisation)
-    A = np.array([[abd[0], -abd[1]], [abd[1], abd[2]]])
-    rng = np.random.default_rng(seed)
-    ends = []
-    for _ in range(2):
-        t, m = rng.uniform(0, 2 * np.pi), 0.97 * np.sqrt(rng.uniform())
-        ends.append(m * np.array([np.cos(t), np.sin(t)]))
-    path = ends[0] + np.linspace(0, 1, 120)[:, None] * (ends[1] - ends[0])
-    traces = [critical_sets(ELinear(*abd, tuple(-A @ e)), regularisation)[0].trace for e in path]
-    e_curve = [-np.linalg.solve(A, b.T).T for b in curve.branches]
-    crossings = 0
-    for branch in e_curve:
-        side = (branch - ends[0]) @ np.array([-(ends[1] - ends[0])[1], (ends[1] - ends[0])[0]])
-        span = (ends[1] - ends[0]) @ (ends[1] - ends[0])
-        for i in np.flatnonzero(side[1:] * side[:-1] < 0):
-            w = side[i] / (side[i] - side[i + 1])
-            u = (branch[i] + w * (branch[i + 1] - branch[i]) - ends[0]) @ (ends[1] - ends[0]) / span
-            crossings += 0 < u < 1
-    changes = sum(a * b < 0 for a, b in pairwise(traces))
-    assert crossings >= changes
-    assert (crossings - changes) % 2 == 0
 
 
 def normal_form_coefficient(A, f, regularisation_mp, x0):
@@ -137,24 +110,6 @@ def test_generalised_hopf_points_are_zeros_of_the_coefficient():
         assert first_lyapunov(A, psi.rational(), C.x2[None])[0] == pytest.approx(0.0, abs=1e-7 * largest)
 
 
-@given(families, st.floats(1e-3, 12.0))
-def test_derivatives_of_psi(regularisation, s):
-    formula = {
-        "constant": lambda v: mpmath.mpf(1) + 0 * v,
-        "rational": lambda v: 1 / (1 + v),
-        "exponential": lambda v: mpmath.exp(-v),
-        "tanh": lambda v: v / mpmath.sinh(mpmath.sqrt(v)) ** 2,
-        "hill": lambda v: 3 / (3 + (4 * v) ** int(regularisation.parameter)),
-        "custom": lambda v: 1 / (1 + v) ** 2,
-    }[regularisation.family]
-    found = psi_derivatives(regularisation, np.array([s]))
-    with mpmath.workdps(40):
-        expected = mpmath.taylor(formula, mpmath.mpf(s), 3)
-    for j in (1, 2, 3):
-        value = float(expected[j]) * math.factorial(j)
-        assert found[j - 1][0] == pytest.approx(value, rel=1e-10, abs=1e-12)
-
-
 @pytest.mark.parametrize("regularisation", [psi.hill(1), psi.hill(2), psi.hill(3.5), psi.tanh(), psi.rational()])
 def test_a_critical_set_at_the_origin_has_its_coefficient_whatever_psi(regularisation):
     """In plane coordinates e = q (cos, sin) a cycle of U = (k q^2 c - s, c + k q^2 s) grows by k q^3: l1 ~ k."""
@@ -210,30 +165,3 @@ def test_kinds_between_the_changes_of_n(abd, m, t):
         if 0.02 < c.n < 900 and all(abs(o.n / c.n - 1) > 1e-5 for o in changes if o is not c):
             kinds = [critical_sets(system, psi.hill(c.n * (1 + s * 1e-6)))[0].kind for s in (-1, 1)]
             assert kinds == [c.before, c.after]
-
-
-def test_the_cycle_of_case_three_is_born_stable_with_the_amplitude_of_the_normal_form():
-    # fig:bad_sketches: a supercritical Hopf bifurcation at n = 284/129
-    n = 284 / 129
-    system = ELinear(*CASE3, (-86, -93))
-    A, f = system.at().A, system.at().f
-    (C,) = critical_sets(system, psi.hill(n))
-    l1 = float(first_lyapunov(A, psi.hill(n), C.x2[None])[0])
-    assert l1 < 0.0
-    regularisation = psi.hill(n + 0.004)
-    (near,) = critical_sets(system, regularisation)
-    mu, omega = near.trace / 2, math.sqrt(near.determinant)
-    z = math.sqrt(-mu / (omega * l1))
-    q = np.linalg.eig(near.jacobian)[1][:, 0]
-    predicted = max(np.hypot(*(2 * z * np.real(q * np.exp(1j * v)))) for v in np.linspace(0, np.pi, 200))
-
-    def field(_, x):
-        s = x[0] * x[0] + x[1] * x[1]
-        return A @ x / math.sqrt(s + regularisation(s)) + f
-
-    times = np.linspace(40, 41, 300)
-    found = solve_ivp(
-        field, (0, 41), near.x2 + 2 * z * np.real(q), t_eval=times, rtol=1e-8, atol=1e-10, method="DOP853"
-    )
-    amplitude = np.hypot(*(found.y.T - near.x2).T).max()
-    assert amplitude == pytest.approx(predicted, rel=0.1)

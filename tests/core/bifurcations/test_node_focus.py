@@ -1,7 +1,5 @@
 """The node-focus curve at the paper's Case III, where 2 sqrt(det A) = |tr A|: through the circle on which sigma = 1."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -9,10 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from codim2_core import ELinear, System, critical_sets, equator_cycle, equator_equilibria, psi
+from codim2_core import ELinear, System, critical_sets, equator_cycle, equator_equilibria, psi, separatrices
 from codim2_core.continuation.branches import continue_cycles
 from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.layer_problem.vary import varied
+from codim2_core.words import recognise
 
 CASE_III = ELinear(172, 186, -200, (-86, -93))
 HOPF = 284 / 129
@@ -74,6 +75,14 @@ def test_case_III_from_its_hopf_point():
         assert not array.flags.writeable
 
 
+def test_what_is_told_of_branches():
+    found = continue_cycles(CASE_III, psi.hill(3), "n", (2.0, 4.0))
+    assert [key for key, _ in recognise(found.reason)] == ["one branch"]
+    shown = found._repr_html_()
+    places = [shown.index(text) for text in ("<svg", "Hopf", found.reason)]
+    assert places == sorted(places)
+
+
 def test_sign_of_the_lyapunov_coefficient_is_the_side_of_the_branch():
     (branch,) = continue_cycles(CASE_III, psi.hill(3), "a", (171.8, 172.4))
     assert kinds(branch) == ["Hopf", "fold of cycles", "Hopf"]
@@ -108,59 +117,16 @@ def test_through_a_fold_to_the_equator(system, name, span):
     assert end.period == math.inf
 
 
-def fate(system, p, theta):
-    """What becomes of the orbit that leaves the limit direction theta: where it meets the equator, or "inside"."""
-    q = system.at(())
-    n = p.parameter
-
-    def field(_, y):
-        # the sphere: p' = U - p (p.U), w' = -w (p.U)
-        w2 = y[2] * y[2]
-        r2 = y[0] ** 2 + y[1] ** 2
-        shape = 3.0 * w2 / (3.0 + (4.0 * r2 / w2) ** n)
-        g = 1.0 / math.sqrt(r2 + shape)
-        u = q.a * g * y[0] - q.b * g * y[1] + q.f1
-        v = q.b * g * y[0] + q.d * g * y[1] + q.f2
-        along = y[0] * u + y[1] * v
-        return [u - y[0] * along, v - y[1] * along, -y[2] * along]
-
-    w = 1e-3
-    start = [math.sqrt(1 - w * w) * math.cos(theta), math.sqrt(1 - w * w) * math.sin(theta), w]
-
-    def low(_, y):
-        return y[2] - 3e-4
-
-    low.terminal, low.direction = True, -1
-
-    solution = solve_ivp(field, (0.0, 400.0), start, method="DOP853", rtol=1e-12, atol=1e-14, events=low)
-    if not len(solution.t_events[0]):
-        return "inside", solution.y
-    return math.atan2(solution.y[1, -1], solution.y[0, -1]), solution.y
-
-
 def test_branch_ends_in_a_loop_through_the_equator():
-    """At its end the branch of Q goes over to P: beside it, it misses P on the one side and on the other."""
+    """Beside its end a separatrix goes elsewhere on the one side than on the other."""
     p = psi.hill(2)
     (branch,) = continue_cycles(LOOP, p, "f1", (-0.9, -0.8))
     assert kinds(branch) == ["Hopf", "fold of cycles", "fold of cycles", "heteroclinic cycle through the equator"]
     assert branch.end.period == math.inf
     assert (np.diff(branch.period[-6:-1]) > 0.0).all()
     assert branch.end.value == pytest.approx(branch.value[-2], abs=1e-5)
-    lowest = []
-    for sign in (-1.0, 1.0):
-        system = LOOP.evolve(f1=branch.end.value + sign * 1e-7)
-        equator = equator_equilibria(system)
-        (Q,) = (i for i in range(4) if equator.lambda_rho[i] < 0.0 and equator.lambda_theta[i] < 0.0)
-        # b < 0: orbits go clockwise, so P is the next direction anticlockwise
-        P = (Q + 1) % 4
-        assert equator.lambda_rho[P] > 0.0
-        assert equator.lambda_theta[P] > 0.0
-        where, line = fate(system, p, float(equator.theta[Q]))
-        past = math.remainder(where - float(equator.theta[P]), 2 * math.pi)
-        lowest.append(math.copysign(1.0, past))
-        assert abs(past) < 0.05  # it comes down close to P
-        assert line[2].max() > 0.1
-    assert lowest[0] != lowest[1]
+    beside = [separatrices(LOOP.evolve(f1=branch.end.value + h), p).graph for h in (-1e-7, 1e-7)]
+    assert set(beside[0]) != set(beside[1])
 
 
 def test_saddle_node_on_the_equator():

@@ -12,13 +12,11 @@ from hypothesis import strategies as st
 from scipy.integrate import dblquad
 
 import codim2_core as c2
-from codim2_core.counting.census import AHEAD, CHUNK, FEW
+from codim2_core.counting.census import CHUNK, FEW
 from codim2_core.counting.draws import normal, quadratic
-from codim2_core.counting.kept import Kept
-from codim2_core.counting.names import IMPOSSIBLE, NAMES, _filter, names
+from codim2_core.counting.names import IMPOSSIBLE, NAMES, _filter
 from codim2_core.counting.table import interval
-from codim2_core.counting.tally import Plan, _of_one, margin_of, tally
-from codim2_core.layer_problem.problem import LayerProblem, find_critical
+from codim2_core.counting.tally import margin_of
 
 PSI = c2.psi.constant()
 
@@ -83,27 +81,6 @@ def test_almost_every_random_system_is_decided_by_the_filter():
     assert margins.max() <= 1.0
 
 
-coefficient = st.floats(-1e6, 1e6) | st.integers(-3, 3).map(float)
-
-
-@settings(max_examples=20)
-@given(st.lists(st.tuples(*[coefficient] * 5), min_size=1, max_size=5))
-def test_names_are_those_of_classify_on_and_off_borders(rows):
-    rows = [row for row in rows if max(map(abs, row[:3])) > 1e-3]
-    if not rows:
-        return
-    codes, _, others = names(np.array(rows))
-    for i, row in enumerate(rows):
-        found = exact(row)
-        assert ((found.case, found.name) == NAMES[codes[i] - 1]) if codes[i] else others[i] == (found.case, found.name)
-
-
-@pytest.mark.parametrize("shape", [(5,), (2, 4), (1, 2, 5)])
-def test_another_shape_is_refused(shape):
-    with pytest.raises(ValueError, match="plane has shape"):
-        names(np.zeros(shape))
-
-
 def test_the_table_does_not_depend_on_the_executor():
     count = 2 * CHUNK + 12_345
     alone = c2.census(count=count, seed=3)
@@ -131,30 +108,6 @@ def test_systems_of_any_kind_are_counted_by_their_names():
     assert {row.name: row.count for row in found.table} == {name: expected.count(name) for name in set(expected)}
 
 
-def test_what_is_drawn_as_quadratic_is():
-    """Twelve coefficients that are standard normal; U is the polynomial of them."""
-    drawn = quadratic(np.random.default_rng(5), 400)
-    e = np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0], [1.0, 1.0]])
-    terms = np.stack([np.ones(6), e[:, 0], e[:, 1], e[:, 0] ** 2, e[:, 0] * e[:, 1], e[:, 1] ** 2], axis=1)
-    U = np.array([[system.at().U(one) for one in e] for system in drawn])
-    found = np.linalg.solve(terms, U.swapaxes(0, 1).reshape(6, -1))
-    assert found.shape == (6, 800)
-    assert np.abs(found.mean(axis=1)).max() < 4.0 / math.sqrt(800)
-    assert np.abs(found.std(axis=1) - 1.0).max() < 4.0 / math.sqrt(1600)
-    assert np.abs(np.corrcoef(found) - np.eye(6)).max() < 4.5 / math.sqrt(800)
-
-
-def test_in_each_quadratic_system_indices_add_up_to_the_turns_of_U():
-    """A check of what is counted: indices of the critical sets against how often U turns along the equator."""
-    angle = np.linspace(0.0, 2.0 * np.pi, 4001)
-    e = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    for system in quadratic(np.random.default_rng(11), 120):
-        U = system.at().U(e)
-        turns = np.diff(np.unwrap(np.arctan2(U[:, 1], U[:, 0]))).sum() / (2.0 * np.pi)
-        kinds = [C.kind for C in c2.critical_sets(system, PSI)]
-        assert sum(-1 if kind == "saddle" else 1 for kind in kinds) == round(float(turns))
-
-
 def test_shares_that_are_known_exactly():
     """Case I: a and d of one sign, 1/2. Case II: b^2 < -a d, the mean of erf(sqrt(|a d|/2))/2 over |a|, |d|."""
     table = c2.census(count=1_000_000, seed=12).table
@@ -164,14 +117,6 @@ def test_shares_that_are_known_exactly():
     exact = {"I": 0.5, "II": second, "III": 0.5 - second}
     for case, expected in exact.items():
         assert abs(share[case] - expected) < 4.0 * math.sqrt(expected * (1.0 - expected) / 1e6)
-
-
-def test_progress_is_told_and_chunks_wait_their_turn():
-    told = []
-    with ThreadPoolExecutor(1) as one:
-        c2.census(normal, count=3 * CHUNK, executor=one, progress=lambda *step: told.append(step))
-    assert told == [(CHUNK, 3 * CHUNK), (2 * CHUNK, 3 * CHUNK), (3 * CHUNK, 3 * CHUNK)]
-    assert AHEAD >= 2
 
 
 def test_wilsons_interval():
@@ -257,25 +202,6 @@ def test_a_kept_census_grows_by_a_larger_count(tmp_path):
     assert told == [(2 * FEW, 2 * FEW + 50), (2 * FEW + 50, 2 * FEW + 50)]
 
 
-def test_chunks_that_come_out_of_turn_are_kept_too(tmp_path):
-    """A first chunk that fails in the end: what came before it, from other threads, is not lost."""
-    kept = tmp_path / "kept.json"
-    plan = Plan(small, PSI, 0, False)
-    count = Kept(plan, FEW, kept)
-    count.add(2, tally(plan, 2, FEW))
-    count.add(1, tally(plan, 1, FEW))
-    count.save()
-    again = Kept(plan, FEW, kept)
-    assert 0 not in again
-    assert 1 in again
-    assert 2 in again
-    again.add(0, tally(plan, 0, FEW))
-    assert (again.upto, again.ahead) == (3, {})
-    assert again.all() == Kept(plan, FEW, None, tally(plan, 0, FEW).joined(tally(plan, 1, FEW))).whole.joined(
-        tally(plan, 2, FEW)
-    )
-
-
 @pytest.mark.parametrize(
     "other", [{"seed": 1}, {"draw": "quadratic"}, {"outcomes": True}, {"psi": c2.psi.tanh()}, {"draw": normal}]
 )
@@ -307,21 +233,6 @@ def test_fewer_than_are_kept_are_refused(tmp_path):
 # Outcomes, the index, margins ---------------------------------------------------------------------------------------
 
 
-def with_opposites(rng, n):
-    """Systems and the same with U turned round: their orbits run backwards."""
-    half = rng.standard_normal(((n + 1) // 2, 5))
-    return np.concatenate([half, -half])[:n]
-
-
-def test_in_case_one_half_of_what_has_a_critical_set_slides():
-    """Thm:case1: with a, d < 0 all that arrives slides on C; with a, d > 0, the same backwards, nothing does."""
-    rows = c2.census(with_opposites, count=FEW, outcomes=True, seed=2).table
-    counts = {row.name: row.count for row in rows if row.name.startswith("I CM")}
-    by_name = {name.partition(", ") for name in counts}
-    assert {words for *_, words in by_name} == {"slides", "almost none arrives"}
-    assert sum(n for name, n in counts.items() if name.endswith("slides")) == sum(counts.values()) / 2 > 10
-
-
 def test_names_with_outcomes_tell_what_approach_tells():
     psi = c2.psi.hill(2)
     table = c2.census(count=60, psi=psi, outcomes=True, seed=9).table
@@ -340,14 +251,6 @@ def test_five_names_contradict_the_index_and_none_occurs():
     assert {" ".join(NAMES[code - 1]) for code in IMPOSSIBLE} == {"I NCM0", "II NCM0", "III NCM0", "II CM0", "II CM2"}
     assert c2.census(count=100_000, seed=8).contradictions == 0
     assert c2.census("quadratic", count=60, seed=8).contradictions == 0
-
-
-def test_a_system_whose_critical_set_was_lost_is_a_contradiction():
-    system = quadratic(np.random.default_rng(0), 1)[0]  # one saddle
-    problem = LayerProblem(system.at(), PSI).give(find_critical, ())
-    assert problem.equator.turns == -1
-    assert _of_one(problem, 1.0, False, (0, 0)).contradictions == 1
-    assert _of_one(LayerProblem(system.at(), PSI), 1.0, False, (0, 0)).contradictions == 0
 
 
 @settings(max_examples=20)
@@ -371,9 +274,3 @@ def test_the_margin_vanishes_on_a_saddle_node_and_on_the_ellipse():
     for systems in (near, edge):
         margins = [margin_of(c2.equator_equilibria(one), c2.critical_sets(one, PSI)) for one in systems]
         assert margins[0] > 10 * margins[1] > 100 * margins[2] > 0.0
-
-
-def test_examples_of_general_systems_are_systems_of_their_name():
-    for row in c2.census("quadratic", count=40, seed=4).table:
-        for system in (row.example, row.marginal):
-            assert c2.classify(system, PSI).name == row.name

@@ -1,12 +1,9 @@
 """Which orbits close to the equator it draws in: by hand, on equators of which all is known."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
 from codim2_core import ELinear, psi
-from codim2_core.cycles import equator_pull as module
 from codim2_core.cycles.equator_pull import EquatorPull, equator_pull
 from codim2_core.layer_problem.problem import LayerProblem
 
@@ -48,42 +45,6 @@ def test_an_orbit_comes_to_the_next_equilibrium_on_its_way(first, backward):
     assert np.flatnonzero(~found).tolist() == list(drawn)
     # in the other time nothing draws
     assert pull.may_return(states(THETA), field(first, lambda theta: np.full_like(theta, rate)), not backward).all()
-
-
-@pytest.mark.parametrize(("low", "high", "rise"), [(0.2, 1.2, [0]), (1.8, 2.6, [3]), (4.75, 5.5, [6, 7])])
-def test_one_that_rises_on_its_way_may_come_back(low, high, rise):
-    """lambda_rho < 0 in one range of theta, which some pass on their way to pi/2 or 3 pi/2, and others beyond it."""
-    pull = EquatorPull(QUARTERS, (np.array([False, True, False, True]), np.zeros(4, bool)), False)
-
-    def radial(theta):
-        theta = theta % (2.0 * np.pi)
-        return np.where((theta > low) & (theta < high), -1.0, 1.0)
-
-    found = pull.may_return(states(THETA), field(0.0, radial), False)
-    assert np.flatnonzero(found).tolist() == rise
-
-
-@pytest.mark.parametrize(
-    ("draws", "everywhere", "returns"), [(False, False, True), (True, True, False), (False, True, False)]
-)
-def test_where_nothing_draws_all_may_return_and_on_an_equator_at_rest_none(draws, everywhere, returns):
-    pull = EquatorPull(QUARTERS, (np.full(4, draws), np.full(4, draws)), everywhere)
-    rising = field(0.0, lambda theta: np.full_like(theta, -1.0))
-    for backward in (False, True):
-        assert pull.may_return(states(THETA), rising, backward).tolist() == [returns] * len(THETA)
-
-
-def test_what_may_draw_draws_too(monkeypatch):
-    """lambda_rho and lambda_theta, of each sign and 0."""
-    signs = np.array([(r, t) for r in (-1.0, 0.0, 1.0) for t in (-1.0, 0.0, 1.0)]).T
-    found = SimpleNamespace(theta=np.arange(9.0) / 2, lambda_rho=signs[0], lambda_theta=signs[1], all_directions=False)
-    monkeypatch.setattr(module, "equilibria_at", lambda at, location: found)
-    for found.arcs, found.all_directions, everywhere in (([], False, False), ([1], False, True), ([], True, True)):
-        pull = equator_pull(None, None)
-        assert pull.draws[0].tolist() == [False] * 3 + [True, True, False] * 2
-        assert pull.draws[1].tolist() == [False, True, True] * 2 + [False] * 3
-        assert pull.everywhere is everywhere
-        assert pull.theta is found.theta
 
 
 def test_of_a_saddle_the_directions_out_draw():

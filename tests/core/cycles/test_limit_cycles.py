@@ -2,8 +2,6 @@
 
 import itertools
 import math
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -12,13 +10,10 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, psi, sliding_flow, trajectories
-from codim2_core.cycles import limit_cycles as module
-from codim2_core.cycles.limit_cycles import LimitCycles, limit_cycles, reason_for_none
-from codim2_core.cycles.section import COARSE, FINE, Section
+from codim2_core.cycles.limit_cycles import limit_cycles, reason_for_none
 from codim2_core.layer_problem.hemisphere import e_psi
 
 CASE_III = ELinear(172, 186, -200, (-86, -93), B=[[1.0, -2.0], [0.5, 3.0]], g=[0.25, -1.0])
-HOPF = 284 / 129
 
 
 def fold(t):
@@ -77,46 +72,6 @@ def test_case_III_stable_focus_and_node_have_no_cycle(n):
     assert len(found) == 0
     assert found.notes == ()
     assert found.reason.startswith("No limit cycle")
-
-
-def test_without_slow_variables_there_is_no_slow_flow():
-    (cycle,) = limit_cycles(ELinear(172.0, 186.0, -200.0, (-86.0, -93.0)), psi.hill(3))
-    assert cycle.slow_flow.shape == (0,)
-
-
-def test_case_III_hopf_is_supercritical():
-    assert abs(critical_sets(CASE_III, psi.hill(HOPF))[0].trace) < 1e-12 * 200
-    assert len(limit_cycles(CASE_III, psi.hill(HOPF - 1e-3))) == 0
-    sizes = []
-    for step in (1e-4, 4e-4):
-        p = psi.hill(HOPF + step)
-        (cycle,) = limit_cycles(CASE_III, p)
-        assert cycle.stable
-        C = critical_sets(CASE_III, p)[0]
-        sizes.append(np.hypot(*(cycle.points - C.p).T).max())
-        # Born with the period of the focus.
-        assert cycle.period == pytest.approx(2 * math.pi / abs(C.eigenvalues[0].imag), rel=1e-2)
-    assert sizes[1] / sizes[0] == pytest.approx(2.0, rel=1e-2)  # a square root
-
-
-def test_both_multipliers_are_the_slope_of_the_return_map():
-    p = psi.hill(2.3)
-    (cycle,) = limit_cycles(CASE_III, p)
-    section = Section(CASE_III.at(()), p, critical_sets(CASE_III, p)[0])
-    grid = section.grid()
-    shift = section.displacement(grid, COARSE)
-    i = int(np.flatnonzero((shift[:-1] > 0) & (shift[1:] < 0))[0])
-    low, high = grid[i], grid[i + 1]
-    for _ in range(45):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if section.displacement(np.array([middle]), FINE)[0] > 0 else (low, middle)
-    h = 1e-3
-    x = low + h * np.array([-2.0, -1.0, 1.0, 2.0])
-    q = section.states(x)[1]
-    image = q + section.displacement(x, FINE)
-    slope = (8 * (image[2] - image[1]) - (image[3] - image[0])) / (8 * (q[2] - q[1]) - (q[3] - q[0]))
-    assert cycle.multiplier == pytest.approx(slope, rel=1e-8)
-    assert cycle.divergence_multiplier == pytest.approx(cycle.multiplier, rel=1e-11)
 
 
 def test_two_nested_cycles():
@@ -178,13 +133,6 @@ def test_reasons():
     assert "isolated" in reason(1, 1, -1, 1, 1)
 
 
-def test_a_location_that_is_known_is_not_asked_for_again(monkeypatch):
-    at = ELinear(1.0, 3.0, -2.0, (30.0, 4.0)).at()
-    known, reason = module.locate(at), module.reason_for_none(at, ())
-    monkeypatch.setattr(module, "locate", lambda _: pytest.fail("it is known"))
-    assert module.reason_for_none(at, (), known) == reason
-
-
 @pytest.mark.parametrize(
     ("a", "b", "d", "f1", "f2"),
     [
@@ -199,34 +147,6 @@ def test_a_location_that_is_known_is_not_asked_for_again(monkeypatch):
 def test_no_theorem_is_read_into_what_it_does_not_say(a, b, d, f1, f2):
     system = ELinear(a, b, d, (f1, f2))
     assert reason_for_none(system.at(), critical_sets(system, psi.rational())) is None
-
-
-def test_the_table_stands_without_a_picture(monkeypatch):
-    found = LimitCycles((), "None is there.", ("A note.",))
-    for picture in (None, "<svg/>"):
-        monkeypatch.setattr("codim2_core.drawing.svg", lambda _, picture=picture: picture)
-        text = found._repr_html_()
-        assert text.startswith(picture or "<p>")
-        assert "None is there." in text
-        assert "A note." in text
-        assert text.count("None") == 1
-
-
-def test_reversible_centre_is_a_band_of_closed_orbits():
-    """What the exact test decides, the return map sees as well: it is the identity."""
-    system = ELinear(1, 3, -1, (0.5, -0.5))
-    p = psi.tanh()
-    section = Section(system.at(()), p, critical_sets(system, p)[0])
-    shift = section.displacement(section.grid(), FINE)
-    assert np.abs(shift[np.isfinite(shift)]).max() < 1e-9
-
-
-def test_importing_and_case_I_load_no_compiler():
-    code = (
-        "import sys, codim2_core as c2; from codim2_core.cycles.limit_cycles import limit_cycles; "
-        "limit_cycles(c2.ELinear(-1, 1, -1), c2.psi.tanh()); sys.exit('numba' in sys.modules)"
-    )
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 unit = st.floats(0.0, 1.0)

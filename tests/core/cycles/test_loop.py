@@ -6,10 +6,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.cycles import loop as module
 from codim2_core.cycles.loop import gap, loops
-from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED, UNDECIDED
-from codim2_core.cycles.section import Section
 
 # a, b, d, f1, f2 with one arc each, found at random
 PLANES = [
@@ -24,10 +21,6 @@ PSI = c2.psi.rational()
 def made(plane, time=1.0):
     a, b, d, f1, f2 = (time * v for v in plane)
     return c2.ELinear(a, b, d, (f1, f2)).at()
-
-
-def turn(angle):
-    return np.array([math.cos(angle), math.sin(angle)])
 
 
 def mirrored(plane):
@@ -57,23 +50,6 @@ def test_the_arc_leads_from_where_orbits_come_down_to_where_they_go_up(plane, ti
         assert loop.ratio == pytest.approx(ratios[i] / ratios[j], rel=1e-12)
 
 
-@pytest.mark.parametrize("time", [1e-4, 1.0])
-def test_there_is_a_loop_for_each_half_saddle_from_which_the_next_one_is_reached(time):
-    """In the sense of b: from one that repels along and across the equator to one that attracts both ways."""
-    rng = np.random.default_rng(11)
-    found = 0
-    for _ in range(200):
-        a, d = rng.uniform(0.3, 2.0, 2) * (1.0, -1.0)
-        b = rng.choice([-1.0, 1.0]) * math.sqrt(-a * d) * rng.uniform(1.0, 1.4)
-        e = rng.uniform(0.5, 1.0) * turn(rng.uniform(0.0, math.tau))
-        at = made((a, b, d, *(-np.array([[a, -b], [b, d]]) @ e)), time)
-        limits = c2.equator_equilibria(at)
-        out = (np.sign(limits.lambda_rho) + np.sign(limits.lambda_theta)).tolist()[:: 1 if b > 0.0 else -1]
-        assert len(loops(at)) == sum(pair == (2.0, -2.0) for pair in zip(out, out[1:] + out[:1], strict=True))
-        found += len(loops(at))
-    assert found > 30
-
-
 @EVERY
 @pytest.mark.parametrize("time", [1e-4, 1e4])
 def test_loops_do_not_know_the_unit_of_time(plane, time):
@@ -81,13 +57,6 @@ def test_loops_do_not_know_the_unit_of_time(plane, time):
     assert (other.source, other.sink, other.ratio) == pytest.approx((one.source, one.sink, one.ratio), rel=1e-12)
     assert other.ray == one.ray
     assert gap(made(plane, time), PSI, other) == pytest.approx(gap(made(plane), PSI, one), rel=1e-7)
-
-
-@EVERY
-def test_the_gap_is_exact_to_nine_digits(plane):
-    at = made(plane)
-    (loop,) = loops(at)
-    assert gap(at, PSI, loop) == pytest.approx(gap(at, PSI, loop, rtol=1e-13), rel=1e-9)
 
 
 @EVERY
@@ -115,15 +84,6 @@ def test_the_gap_tells_where_the_separatrix_goes(plane, time):
     assert (gap(at, PSI, loop) < 0.0) == (not up.end.startswith("Q"))
 
 
-def test_without_half_saddles_in_a_row_there_is_no_loop():
-    for plane in ((-2.0, 0.5, 1.0, 0.1, 0.2), (1.0, 3.0, -2.0, 0.4, 0.1), (0.5, 1.0, -0.5, 9.0, 0.0)):
-        at = c2.ELinear(*plane[:3], plane[3:]).at()
-        limits = c2.equator_equilibria(at)
-        up = (limits.lambda_rho < 0.0) & (limits.lambda_theta < 0.0)
-        assert loops(at) == () or up.any()
-    assert loops(c2.ELinear(1.0, 3.0, -2.0, (0.4, 0.1)).at()) == ()  # no limit direction at all
-
-
 def test_a_turned_and_slowed_system_has_the_turned_cycle():
     angle, slower = 0.7, 1e-3
     R = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
@@ -142,43 +102,3 @@ def test_a_turned_and_slowed_system_has_the_turned_cycle():
     assert gaps.max() < 0.01
     (mirror,) = c2.limit_cycles(c2.ELinear(172.0, -186.0, -200.0, (-86.0, 93.0)), p)
     assert mirror.direction == -1
-
-
-@EVERY
-def test_the_gap_is_measured_on_the_longest_ray_that_ends_outside_the_arc(plane):
-    for at in (made(plane), made(mirrored(plane)), made(plane, -1.0)):
-        (loop,) = loops(at)
-        sense = math.copysign(1.0, at.b)
-        rays = [Section(at, PSI, c2.critical_sets(at, PSI)[0], k) for k in range(4)]
-        ends = [one.e + one.reach * one.u for one in rays]
-        np.testing.assert_allclose(np.hypot(*np.transpose(ends)), 1.0, rtol=0.0, atol=1e-12)
-        width = (sense * (loop.sink - loop.source)) % math.tau
-        outside = [k for k in range(4) if (sense * (math.atan2(*ends[k][::-1]) - loop.source)) % math.tau > width]
-        assert loop.ray == max(outside, key=lambda k: rays[k].reach)
-
-
-@pytest.mark.parametrize(
-    ("leaving", "entering", "expected"),
-    [
-        (INWARD, RETURNED, -math.inf),
-        (OUTWARD, RETURNED, math.inf),
-        (RETURNED, INWARD, math.inf),
-        (RETURNED, OUTWARD, -math.inf),
-        (INWARD, OUTWARD, math.nan),
-        (OUTWARD, OUTWARD, math.nan),
-        (UNDECIDED, RETURNED, math.nan),
-        (RETURNED, RETURNED, 0.0),
-    ],
-)
-def test_a_branch_that_does_not_reach_the_ray_is_infinitely_far(monkeypatch, leaving, entering, expected):
-    at = made(PLANES[0])
-    (loop,) = loops(at)
-    state = np.array([[0.6, 0.0, 0.8]])
-    monkeypatch.setattr(module, "departures", lambda *_: state)
-    monkeypatch.setattr(
-        Section,
-        "turn",
-        lambda _self, states, _rtol, backward, **_: (states, None, [entering if backward else leaving], None),
-    )
-    monkeypatch.setattr(module, "_turned", lambda _, starts, _r, back: (starts[0], [entering if back else leaving]))
-    assert gap(at, PSI, loop) == pytest.approx(expected, nan_ok=True)

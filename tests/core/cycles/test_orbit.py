@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.cycles import orbit as module
-from codim2_core.cycles.orbit import orbit, path
-from codim2_core.cycles.section import FINE, FixedPoint
+from codim2_core.cycles.orbit import orbit
+from codim2_core.cycles.section import FixedPoint
 from codim2_core.cycles.turn_section import TurnSection
 
 H = 0.36
@@ -51,63 +50,3 @@ def test_a_circle_has_the_period_and_the_multiplier_that_it_must(sign, turn):
     assert abs(steps.sum()) == pytest.approx(2.0 * math.pi, rel=1e-12)
     for array in (found.points, found.mean_e, found.e, found.share):
         assert not array.flags.writeable
-
-
-def test_an_orbit_that_closes_is_followed_once(monkeypatch):
-    section, xi = circle(1, 1.3)
-    turns = []
-    monkeypatch.setattr(module, "path", lambda *given: turns.append(given[1]) or path(*given))
-    for off, count in ((0.0, 1), (1e-6, 2)):
-        turns.clear()
-        assert orbit(section, FixedPoint(xi + off)) is not None
-        assert len(turns) == count
-
-
-@pytest.mark.parametrize("sign", [1, -1])
-def test_the_orbit_is_followed_from_where_it_is_drawn_to(sign):
-    """A fixed point off by 1e-6: the second time round, the way it attracts, it closes better than the first."""
-    section, xi = circle(sign, 1.3)
-    exact, found = (orbit(section, FixedPoint(xi + off, repelling=sign < 0)) for off in (0.0, 1e-6))
-    assert exact is not None
-    assert found is not None
-    contraction = math.exp(-2.0 * H * (1.0 - H) * 2.0 * math.pi / 1.3)
-    first = 1e-6 * H * 0.4 * (1.0 - contraction)  # about: d r = r (1 - r) d xi
-    assert 0.1 * contraction < found.closure / first < 10.0 * contraction
-    assert found.multiplier == pytest.approx(exact.multiplier, rel=1e-4)
-
-
-def test_the_nodes_of_a_path_lie_on_it():
-    section, xi = circle(1, 1.3)
-    start = section.states(np.array([xi]))[0][0]
-    way = path(section, start, FINE, False)
-    assert way is not None
-    assert way.h.sum() == pytest.approx(way.time, rel=1e-13)
-    nodes, weights, _ = module.gauss()
-    clock = (np.concatenate([[0.0], np.cumsum(way.h)[:-1]])[:, None] + way.h[:, None] * nodes).ravel() / section.rate
-    angle = math.atan2(start[1], start[0]) + 1.3 * clock
-    np.testing.assert_allclose(
-        way.inner[:, :2], math.sqrt(H) * np.stack([np.cos(angle), np.sin(angle)], -1), rtol=0.0, atol=1e-11
-    )
-    np.testing.assert_allclose(way.weight, np.outer(way.h, weights).ravel() / math.sqrt(1.0 - H), rtol=1e-11)
-
-
-def test_what_does_not_come_round_is_no_orbit(monkeypatch):
-    section, xi = circle(1, 1.3)
-    monkeypatch.setattr(module, "MOST_STEPS", 5)
-    assert orbit(section, FixedPoint(xi)) is None
-
-
-def test_a_cycle_that_repels_beyond_all_numbers_has_a_multiplier(monkeypatch):
-    section, xi = circle(-1, 1.3)
-    monkeypatch.setattr(module, "_normal_growth", lambda *_: 0.0)
-    found = orbit(section, FixedPoint(xi, repelling=True))
-    assert found is not None
-    assert 1e250 < found.multiplier < math.inf
-
-
-def test_nodes_of_the_collocation_integrate_polynomials():
-    c, w, a = module.gauss()
-    for degree in range(12):
-        assert w @ c**degree == pytest.approx(1.0 / (degree + 1), abs=1e-15)
-    for degree in range(6):
-        np.testing.assert_allclose(a @ c**degree, c ** (degree + 1) / (degree + 1), rtol=0.0, atol=1e-14)

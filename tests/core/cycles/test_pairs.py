@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, psi
 from codim2_core.cycles.limit_cycles import limit_cycles
-from codim2_core.cycles.resolution import unresolved, zeros
+from codim2_core.cycles.resolution import unresolved
 
 # (a, b, d), f, n of the Hill family, and how many cycles: each was missed by samples judged by their heights
 MISSED = [
@@ -124,11 +124,3 @@ def test_uneven_samples_of_a_parabola_below_zero_between_them():
     shift = q * q - 0.01
     assert (shift > 0.0).all()
     assert 5 in unresolved(q, shift, np.full(len(q), 1e-9))
-
-
-def test_what_is_told_from_zero_and_what_is_not():
-    q = np.arange(8.0) * 0.01
-    noise = np.full(8, 1e-11)
-    assert zeros(q, np.array([1, 0.5, 1e-12, 0.5, 1, -1, -2, -3.0]), noise) == ([(4, 5)], [2], False)
-    assert zeros(q, np.array([1, 0.5, 1e-12, -0.5, -1, -1, -2, -3.0]), noise) == ([(1, 3)], [], False)
-    assert zeros(10.0 * q, np.array([1, 1e-12, 0, 0, 1e-13, 1e-13, 0, -3.0]), noise)[2]

@@ -63,12 +63,6 @@ def test_special_points_of_cycles_stand_among_the_others():
     assert [one.kind for one in found.special].count("Hopf") == len([s for s in found.standing if s.kind == "Hopf"])
 
 
-def test_a_pole_is_a_gap_that_is_told():
-    found = c2.branches(c2.ELinear("1/z", 1, 1, f=(0.1, 0.2)), c2.psi.tanh(), "z1", (-2, 2), z=(1,))
-    assert len(found.gaps) == 1
-    assert "not finite" in found.notes[0]
-
-
 def test_it_is_taken_away_as_a_frame_and_as_csv(tmp_path):
     found = c2.branches(CASE3.system, CASE3.psi, "n", (2.0, 3.0))
     frame = found.to_frame()

@@ -13,10 +13,7 @@ from numpy.testing import assert_allclose
 
 import codim2_core as c2
 from codim2_core.diagrams.class_maps.atlas import ClassMap, class_map
-from codim2_core.diagrams.class_maps.families import classes_over
 from codim2_core.diagrams.class_maps.line import class_line
-from codim2_core.diagrams.class_maps.plane_classes import PlaneClasses
-from codim2_core.diagrams.class_maps.typed_classes import TypedClasses
 from codim2_core.diagrams.sweep import class_name, classes, family
 from codim2_core.layer_problem.vary import varied
 
@@ -61,13 +58,6 @@ def test_vectorised_classes_agree_with_the_exact_ones(plane: tuple[float, ...], 
     # two values, so that the plane is not taken for a single system
     several = family(frozen, psi, (), "a", "b")(a=np.array([a, a + 1]), b=np.array([b, b + 1]))
     assert class_name(classes(several)[0]) == exact(frozen, psi)
-
-
-def test_a_plane_that_does_not_vary_is_classified_exactly() -> None:
-    # |A^-1 f| = 1 and a triple zero of Theta, to the last digit
-    on_both = c2.ELinear(-1, 0, -2, f=(-1, 0))
-    name = class_name(classes(family(on_both, c2.psi.hill(1), (), "n")(n=np.array([1.0, 2.0])))[1])
-    assert name == "NCM2" == c2.classify(on_both, c2.psi.hill(1)).name
 
 
 def test_regions_of_the_f_plane_are_those_in_closed_form() -> None:
@@ -209,19 +199,6 @@ def of_general(system: c2.System, psi: c2.Psi) -> str:
     ways = [(int((equator.lambda_rho < 0.0).sum()), "arrive"), (int((equator.lambda_rho > 0.0).sum()), "leave")]
     moves = ", ".join(f"{many} {verb}{'s' * (many == 1)}" for many, verb in ways if many)
     return ", ".join([f"{head}{len(equator)}", *words]) + f"; {moves}"
-
-
-def test_classes_point_by_point_are_those_of_the_e_linear_system() -> None:
-    rng = np.random.default_rng(4)
-    system = c2.System(U=("a*c - b*s + f", "b*c - s + 0.2"), parameters={"a": 1.0, "b": 0.0, "f": 0.3})
-    for psi in (c2.psi.tanh(), c2.psi.hill(3)):
-        at = rng.uniform(-2, 2, (60, 2))
-        linear = classes_over(system, psi, (), ("a", "b"), ((-2, 2), (-2, 2)))
-        # x is 0 on Sigma; but by it U is searched as any other, and not solved as an e-linear one
-        general = TypedClasses(system.evolve(U=("a*c - b*s + f + x", "b*c - s + 0.2")), psi, (), ("a", "b"))
-        assert isinstance(linear, PlaneClasses)
-        names = [general.name(code).partition(";")[0] for code in general.decided(at).tolist()]
-        assert names == [linear.name(code) for code in linear.decided(at).tolist()]
 
 
 def test_equations_that_are_e_linear_have_the_map_of_their_coefficients() -> None:

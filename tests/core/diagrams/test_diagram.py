@@ -229,19 +229,6 @@ def test_wrong_input_is_explained(name: str, span: tuple[float, float], message:
         standing(c2.ELinear(1, 2, 3), c2.psi.hill(1), "n", (-1, 2))
 
 
-def test_a_general_system_has_the_values_of_its_e_linear_twin() -> None:
-    twin = c2.ELinear(-1, 0.2, -1.5, f=(-0.1, 0.05))
-    system = c2.System(
-        U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters={"a": -1, "b": 0.2, "d": -1.5, "f1": -0.1, "f2": 0.05}
-    )
-    D, E = (standing(s, c2.psi.tanh(), "b", (0.2, 0.3)) for s in (system, twin))
-    assert [s.kind for s in D.special] == [s.kind for s in E.special] == ["node-focus"]
-    assert_allclose(found(D, "node-focus"), found(E, "node-focus"), rtol=0.0, atol=1e-10)
-    assert [b.kind for b in D.critical] == [b.kind for b in E.critical] == ["stable node", "stable focus"]
-    assert {b.kind for b in D.limit_directions} == {b.kind for b in E.limit_directions}
-    assert_allclose(D.critical[0].p[0], E.critical[0].p[0], atol=1e-6)
-
-
 _PLANE = ("a", "b", "d", "f1", "f2")
 _TYPED = c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=dict.fromkeys(_PLANE, 0.0))
 
@@ -285,12 +272,3 @@ def test_pitchforks_of_a_general_system_are_both_named() -> None:
     assert_allclose([s.value for s in forks], 2**-0.25 * np.array([-1, -1, 1, 1]), atol=1e-7)
     assert_allclose([s.place for s in forks], [(1, 0), (-1, 0)] * 2, atol=1e-2)
     assert not [s for s in D.special if s.kind == "saddle-node"]
-
-
-def test_saddle_nodes_of_a_general_system() -> None:
-    """Theta = sin(theta)^2 - p: two saddle-nodes at p = 0, at 0 and pi, and two at p = 1."""
-    system = c2.System(U=("-c - s*(s**2 - p)", "-s + c*(s**2 - p)"), parameters={"p": 0.0})
-    D = standing(system, c2.psi.tanh(), "p", (-0.5, 1.3))
-    saddle_nodes = [s for s in D.special if s.kind == "saddle-node"]
-    assert_allclose([s.value for s in saddle_nodes], [0, 0, 1, 1], rtol=0.0, atol=1e-9)
-    assert_allclose([s.place for s in saddle_nodes], [(1, 0), (-1, 0), (0, 1), (0, -1)], atol=1e-3)

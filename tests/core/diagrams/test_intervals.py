@@ -1,7 +1,5 @@
 """Between two marked values of a diagram nothing changes: held against the exact functions at single values."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np
@@ -105,23 +103,6 @@ def test_a_closed_equator_turns_its_stability_just_before_limit_directions_appea
     special = standing(system, psi, name, (-3.0, 3.0)).special
     assert min(abs(s.value - value) for s in special if s.kind == "neutral equator") < 2e-3
     assert hidden(system, psi, name, (-3.0, 3.0), 4e-8) == []
-
-
-def test_changes_that_undo_each_other_within_a_step_among_others_that_nearly_do():
-    """Two folds of critical sets (with what lies between), and two node-focus points, each within a step."""
-    near_folds = typed((
-        "-0.0094*s + (0.164 + 0.5899*p)*s**3 + (-0.239 + 1.0019*p)*c + 2.5529*c*s + 1.2667*c*s**2 + 1.1103*c**3",
-        "-0.3792 - 2.1358*p + 0.0281*s - 1.3874*s**2 + (1.1104 + 0.6687*p)*s**3 + 0.2597*c + 1.6731*c*s + 0.809*c**2"
-        "- 1.0673*c**2*s + (-1.5946 + 2.2924*p)*c**3",
-    ))  # fmt: skip
-    assert hidden(near_folds, c2.psi.hill(2), "p", (-2.0, 2.0), 2e-7) == []
-    turning = typed((
-        "0.6191 + 0.292*s + (-1.544 - 0.9556*p)*s**2 - 0.4299*c + (-0.4696 - 0.0377*p)*c*s + (-0.5964 - 0.6446*p)*c**2",
-        "0.188 + (-0.4999 + 1.5421*p)*s + (0.3 - 0.2556*p)*s**2 - 1.235*c + (0.8791 + 0.5794*p)*c*s"
-        "+ (-1.2103 + 0.6786*p)*c**2",
-    ))  # fmt: skip
-    special = [s for s in standing(turning, c2.psi.rational(), "p", (-2.0, 2.0)).special if -0.03 < s.value < 0.1]
-    assert [s.kind for s in special].count("node-focus") >= 2
 
 
 def typed(U, gap=0.0):

@@ -7,7 +7,6 @@ import pytest
 from scipy.optimize import root_scalar
 
 import codim2_core as c2
-from codim2_core.diagrams.typed.rounding import RoughError, States
 
 PSI = c2.psi.constant()
 #: (exp(ks) - exp(s))/(k - 1) goes smoothly through k = 1, where it is s exp(s).
@@ -29,20 +28,6 @@ def test_a_pole_that_is_none_is_passed_and_nothing_beside_it_is_special(span):
     )  # as near as a triple zero is told
     for branch in found.limit_directions:  # nothing breaks off at k = 1
         assert min(abs(branch.value[[0, -1]] - 1.0)) > 0.4
-
-
-def test_the_zone_is_where_rounding_is_seen_and_no_wider():
-    states = States(REMOVABLE, PSI, "k", (0.0, 2.0), ())
-    for value in (1.0, 1.0 + 1e-8, 1.0 - 1e-7):
-        with pytest.raises(RoughError) as found:
-            states.check(value)
-        low, high = found.value.zone
-        assert 1.0 - 1e-3 < low < 1.0 - 1e-6 < 1.0 + 1e-6 < high < 1.0 + 1e-3
-        states.check(low)
-        states.check(high)
-    states.leave_out((0.999, 1.002))
-    assert [states(v).value for v in (0.9, 0.9991, 1.0, 1.0014)] == [0.9, 0.999, 0.999, 1.002]
-    states.check(1.0)  # left out already
 
 
 def test_a_change_from_one_side_of_a_zone_to_the_other_is_told_once():

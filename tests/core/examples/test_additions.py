@@ -1,6 +1,5 @@
 """An example is one file and one line, a preset one record: others are added and used through the public API."""
 
-import numpy as np
 import pytest
 from codim2_app.state.chosen import describe, titles
 from codim2_app.state.cleaning import clean
@@ -84,10 +83,3 @@ def test_what_cannot_be_registered(tmp_path):
             register(wrong)
     with pytest.raises(ValueError, match="no preset that was registered"):
         unregister("case1-cm0")
-
-
-@pytest.mark.parametrize("example", examples.catalogue.values(), ids=lambda e: e.key)
-def test_every_example_names_its_source_ranges_and_start(example):
-    assert example.source
-    example.check()
-    assert np.isfinite(example.make().at(example.z).U((0.6, 0.8))).all()

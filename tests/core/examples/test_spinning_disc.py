@@ -114,7 +114,7 @@ def test_a_pitchfork_of_limit_directions(at, pure):
     assert seen(at)[2] == 3
 
 
-@settings(max_examples=4)
+@settings(max_examples=2)
 @given(st.floats(0.2, 3.0), st.floats(0.2, 3.0))
 def test_both_stop_at_once(v, w):
     run = c2.simulate_nonsmooth(examples.spinning_disc(), (v, w), (0.0, 5.0))

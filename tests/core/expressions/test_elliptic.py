@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from codim2_core.expressions.arrays import program
 from codim2_core.expressions.expression import parse
-from codim2_core.expressions.functions import FUNCTIONS, kernels, known
+from codim2_core.expressions.functions import kernels, known
 from codim2_core.expressions.functions.elliptic import BLUR
 from codim2_core.numerics.enclosure import enclose
 
@@ -88,17 +88,3 @@ def test_bounds_hold_what_is_exact(name, m, half):
             assert out[0, 2] <= slope <= out[0, 3]
     enclose(*run.arrays, low, 1.01, 0.0, 0.0, work, out)
     assert out[0, :4].tolist() == [-math.inf, math.inf, -math.inf, math.inf]
-
-
-def test_all_forms_read_one_list():
-    """A function of the list is read, shown, differentiated and compiled: nothing else names it."""
-    for one in FUNCTIONS:
-        expression = parse(f"{one.name}(x/4)", ("x",))
-        for at in (0.3, -0.4) if one.name not in ("log", "sqrt") else (0.3,):
-            value = expression.evaluate({"x": 4.0 * at})
-            assert value == pytest.approx(float(one.vector(np.float64(at))), rel=1e-14)
-            compiled, slope = one.kernels(lambda function: function)
-            assert compiled(at) == pytest.approx(value, rel=1e-14)
-            derivative = expression.derivative("x").evaluate({"x": 4.0 * at})
-            assert slope(at, value) / 4.0 == pytest.approx(derivative, rel=1e-12)
-            assert eval(one.written("x"), {"math": math, one.name: one.scalar}, {"x": at}) == pytest.approx(value)

@@ -1,20 +1,13 @@
 """The compiled motion is the one in Python, for every Psi, in a line too; the same steps where implicit; and many."""
 
-from __future__ import annotations
-
-import math
-
 import numpy as np
 import pytest
 
-from codim2_core import ELinear, Event, System, examples, simulate, simulate_nonsmooth
+from codim2_core import ELinear, Event, System, examples, simulate
 from codim2_core import psi as families
-from codim2_core.initial_value import compiled
-from codim2_core.initial_value.compiled import CompiledMotion, is_compiled
+from codim2_core.initial_value.compiled import is_compiled
 from codim2_core.initial_value.field import field
-from codim2_core.initial_value.kernels.explicit import DEGREE
-from codim2_core.initial_value.kernels.motion import COUNT, IMPLICIT
-from codim2_core.initial_value.problem import direction, plane_problem, smoothed
+from codim2_core.initial_value.problem import plane_problem
 from codim2_core.motion import regularised
 from codim2_core.motion.result import SimulationStatus
 
@@ -43,27 +36,6 @@ def test_it_is_the_motion_in_python(monkeypatch, psi, eps):
     np.testing.assert_allclose(found.dense(1.234), own.dense(1.234), rtol=1e-6, atol=1e-8)
     assert found.invariant < 1e-12
     assert [phase.kind for phase in found.phases] == [phase.kind for phase in own.phases]
-
-
-@pytest.mark.parametrize("eps", [1e-1, 1e-5, 1e-11])
-def test_implicit_alone_it_takes_the_steps_of_python(monkeypatch, eps):
-    def implicit(*arguments):
-        motion = CompiledMotion(*arguments)
-        motion.control[IMPLICIT], motion.control[COUNT] = 1.0, -math.inf  # no count of signs turns it explicit
-        return motion
-
-    def run(chosen, is_compiled):
-        monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: is_compiled)
-        monkeypatch.setattr(compiled, "CompiledMotion", chosen)
-        never = Event(lambda t, state: 1.0)  # a motion under watch is stepped part by part
-        return simulate(BALL, families.rational(), eps, (-1.0, 0.3, 10.0, 0.0), (0.0, 3.0), rtol=1e-9, events=never)
-
-    monkeypatch.setattr(regularised, "PATIENCE", 10**9)
-    own, found = run(CompiledMotion, False), run(implicit, True)
-    # Newton's method takes a slope by differences, so that a step may be taken or not.
-    assert len(found.times) == pytest.approx(len(own.times), abs=6)
-    assert found.evaluations == pytest.approx(own.evaluations, rel=0.1)
-    np.testing.assert_allclose(found.states[-1], own.states[-1], rtol=1e-7, atol=1e-8)
 
 
 @pytest.mark.parametrize(
@@ -113,32 +85,6 @@ def test_a_long_motion_goes_on_compiled(monkeypatch):
     np.testing.assert_allclose(again.states[-1], run.states[-1], atol=1e-6)
 
 
-def test_a_system_that_comes_again_is_followed_compiled_from_the_start(monkeypatch):
-    system = System(U=("-c + 0.31*s", "-s - 0.31*c"), W=("c + 2.5",))
-    assert not regularised._is_compiled(field(system))
-    simulate(system, families.tanh(), 0.01, [(1.0, 0.5, 0.0)] * regularised.MANY, (0.0, 0.1))
-    assert regularised._is_compiled(field(system))
-    monkeypatch.setattr(regularised, "steps", None)  # the method in Python
-    assert simulate(system, families.tanh(), 0.01, (1.0, 0.5, 0.0), (0.0, 1.0)).times[-1] == 1.0
-
-
-def test_short_motions_of_one_system_are_compiled_once_they_are_a_long_one_together(monkeypatch):
-    system = System(U=("-c + 0.29*s", "-s - 0.29*c"), W=("c + 2.5",))
-    monkeypatch.setattr(regularised, "PATIENCE", 60)
-    runs = [simulate(system, families.tanh(), 0.01, (1.0, 0.5, 0.0), (0.0, 0.3))]
-    steps = len(runs[0].times) - 1
-    assert steps < 60
-    while not is_compiled(field(system)):
-        runs.append(simulate(system, families.tanh(), 0.01, (1.0, 0.5, 0.0), (0.0, 0.3)))
-        assert steps * (len(runs) - 1) <= 60
-    assert steps * len(runs) >= 60
-    for run in runs:
-        np.testing.assert_allclose(run.states[-1], runs[0].states[-1], atol=1e-7)
-    other = System(U=("-c + 0.28*s", "-s - 0.28*c"), W=("c + 2.5",))
-    simulate(other, families.tanh(), 0.01, (1.0, 0.5, 0.0), (0.0, 0.3))
-    assert not is_compiled(field(other))
-
-
 def test_compiled_motions_end_as_others_do(monkeypatch):
     monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: True)
     grows = System(U=("x**2 - c", "-s"))
@@ -170,24 +116,6 @@ def test_as_many_motions_as_states(count):
         np.testing.assert_allclose(run.states[-1], alone.states[-1], rtol=0.0, atol=1e-8)
 
 
-@pytest.mark.parametrize("line", [False, True])
-def test_the_slip_of_a_nonsmooth_motion_compiled_is_that_in_python(monkeypatch, line):
-    start = (1.0, 0.0, 12.0, 0.0) if line else (-1.0, 0.3, 10.0, 0.0)
-
-    def run(compiled):
-        monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: compiled)
-        return simulate_nonsmooth(BALL, start, (0.0, 3.0), families.rational(), rtol=1e-11)
-
-    monkeypatch.setattr(regularised, "PATIENCE", 10**9)
-    own, found = run(False), run(True)
-    assert [phase.kind for phase in found.phases] == [phase.kind for phase in own.phases]
-    ends = [[phase.t_end for phase in run.phases] for run in (found, own)]
-    np.testing.assert_allclose(ends[0], ends[1], rtol=1e-10)
-    np.testing.assert_allclose(found.states[-1], own.states[-1], rtol=1e-9, atol=1e-12)
-    np.testing.assert_allclose(found.dense(np.linspace(0.0, 3.0, 50)), own.dense(np.linspace(0.0, 3.0, 50)), atol=1e-7)
-    assert found.motion.polynomials.shape[2] == DEGREE  # it was compiled
-
-
 def test_states_that_are_none_say_so():
     with pytest.raises(ValueError, match="shape"):
         simulate(BALL, families.constant(), 1e-4, np.zeros((3, 5)), (0.0, 1.0))
@@ -196,10 +124,3 @@ def test_states_that_are_none_say_so():
     with pytest.raises(ValueError, match="numbers"):
         simulate(BALL, families.constant(), 1e-4, [[0.0] * 4, ["a"] * 4], (0.0, 1.0))
     assert simulate(ELinear(-1.0, 0.0, -1.0), families.constant(), 1e-4, [[1.0, 0.0]], (0.0, 1.0))[0].times[-1] == 1.0
-
-
-@pytest.mark.parametrize("psi", PSI, ids=lambda psi: psi.text)
-def test_the_smoothed_direction_alone_is_that_with_its_slopes(psi):
-    for eps, x, y in ((0.3, -0.7, 0.2), (1e-14, 1e-9, -3.0), (1e6, 2e-3, 5.0), (1e-3, 0.0, 0.0), (1.0, 5e-324, 0.0)):
-        assert smoothed(psi, eps, x, y) == pytest.approx(direction(psi, eps, x, y)[:2], rel=1e-15, abs=1e-300)
-    assert smoothed(None, 0.0, -3.0, 4.0) == (-0.6, 0.8)

@@ -1,7 +1,5 @@
 """(U, W) of a system as one field of all its variables, with its slopes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The first step away from Sigma lies on the way out that is known in closed form."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

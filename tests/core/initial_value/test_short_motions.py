@@ -1,14 +1,12 @@
 """Whole compiled motions that take few steps, so that they take little time as Python too (`tests.mutation`)."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from codim2_core import ELinear, System, simulate, simulate_nonsmooth
+from codim2_core import ELinear, System, simulate_nonsmooth
 from codim2_core import psi as families
 from codim2_core.initial_value import compiled, courses
 from codim2_core.initial_value.field import field
@@ -16,7 +14,7 @@ from codim2_core.initial_value.kernels.course import LEAVE, SLIDE, SLIP, WHOLE
 from codim2_core.initial_value.kernels.motion import BLOWN_UP, FINISHED, LIMIT, SHORT
 from codim2_core.initial_value.line import invariant_line
 from codim2_core.initial_value.problem import plane_problem
-from codim2_core.motion import nonsmooth, regularised
+from codim2_core.motion import nonsmooth
 
 TANH = families.tanh()
 TURNS = System(U=("-2*c + 1.5*c*s + 2.4*sin(z1) + 0.3*x", "-s + 0.9*cos(z1)"), W=("1 + c*y - 0.3*s",))
@@ -44,26 +42,6 @@ def test_a_slip_is_what_scipy_finds():
         steps = len(one.motion.lengths)
         assert 15 * steps <= one.evaluations <= 15 * steps + 2 + 11 * 3  # a few that were not taken
         assert steps <= 16
-
-
-@pytest.mark.parametrize(("rtol", "most"), [(1e-3, 30), (1e-6, 45)])
-def test_a_slide_is_followed_implicitly_with_the_steps_of_python(monkeypatch, rtol, most):
-    """C goes slowly round: an explicit method would take 1e5 steps."""
-    slides = ELinear(-1.0, 0.4, -2.0, f=("0.5*sin(z1)", "0.4*cos(z1)"), B=((0.3, 0.0),), g=(1.0,))
-    monkeypatch.setattr(regularised, "PATIENCE", 10**9)
-    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
-    start, eps = (0.02, 0.03, 0.2), 1e-4
-    own = simulate(slides, TANH, eps, start, (0.0, 2.0), rtol=rtol, atol=0.01 * rtol)
-    (one,) = _followed(slides, TANH, eps, start, (0.0, 2.0), rtol)
-    assert one.code == FINISHED
-    np.testing.assert_array_less(
-        np.abs(one.motion.states[-1] - own.states[-1]), 20.0 * rtol * np.array([eps, eps, 1.0])
-    )
-    assert len(one.motion.lengths) < most
-    assert one.evaluations < 22 * most
-    problem, middle = plane_problem(field(slides), TANH, eps, rtol, 0.01 * rtol), 1.37
-    scale = problem.scale(one.motion(middle))
-    np.testing.assert_allclose(one.motion(middle) / scale, own.dense(middle) / scale, atol=60.0 * rtol)
 
 
 def test_after_a_slide_it_goes_on_explicitly():
@@ -167,18 +145,6 @@ def test_a_motion_of_many_phases_goes_on_as_long_as_it_is_asked_for():
     assert [leg.kind for leg in one.legs[1:]] == [SLIDE, LEAVE] * ((len(ends) - 1) // 2)
 
 
-def test_many_are_those_one_by_one():
-    first = [(0.3, 0.2, 0.0), (0.9, 0.7, 2.0), (-0.2, 0.1, 1.0)]
-    for start, one in zip(first, _course(PUSHED, first, 2.5), strict=True):
-        (alone,) = _course(PUSHED, start, 2.5)
-        np.testing.assert_array_equal(one.motion.states, alone.motion.states)
-        np.testing.assert_array_equal(one.motion.times, alone.motion.times)
-        assert repr(one.legs) == repr(alone.legs)
-        sliding = slice(one.legs[-1].first, None) if one.legs[-1].kind == SLIDE else slice(0, 0)
-        np.testing.assert_array_equal(one.sets[sliding], alone.sets[sliding])
-        assert one.evaluations == alone.evaluations
-
-
 def test_a_stiff_slow_flow_takes_few_steps():
     (one,) = _course(STIFF, (0.1, 0.05, 0.2, 0.3), 3.0)
     assert [leg.kind for leg in one.legs] == [SLIP, SLIDE]
@@ -199,21 +165,6 @@ def test_steps_are_counted_over_all_phases():
     assert 0 < len(short.legs) < phases
     assert repr(short.legs) == repr(whole.legs[: len(short.legs)])
     assert len(short.motion.lengths) == short.legs[-1].last
-
-
-@pytest.mark.parametrize(
-    ("system", "first"),
-    [
-        (System(U=("z1 - c**2 - 0.09", "-s"), W=("-1",)), (0.3, 0.1, 0.5)),  # a fold ahead
-        (ELinear(-1.0, 0.0, -4.0, f=(-1.5, 0.2)), (0.3, 0.05)),  # crosses
-        (ELinear(-2.0, 1.5, 0.4, f=(0.1, 0.3), B=((0.3, 0.1),), g=(0.5,)), (0.3, 0.2, 0.0)),  # Case III
-    ],
-)
-def test_what_is_not_sure_is_handed_over(system, first):
-    (one,) = _course(system, first, 2.0)
-    assert one.onward != WHOLE
-    assert len(one.legs) <= 1
-    assert one.motion.times[-1] < 2.0
 
 
 @pytest.mark.parametrize("rtol", [1e-2, 1e-6])

@@ -33,13 +33,6 @@ def test_the_same_directions_in_the_same_order_from_another_angle():
     assert on.counted_from(0.0) is on
 
 
-def test_what_a_cusp_says_of_its_sides_goes_with_it():
-    on = equator_equilibria(ELinear(225, -180, 100, (-171, 172)))
-    i = on.multiplicity.tolist().index(3)
-    turned = on.counted_from(float(on.theta[i]) - 0.01)
-    assert turned.kind(0) == on.kind(i)
-
-
 def test_all_of_a_layer_problem_has_these_names():
     at, family = ELinear(-2.0, 0.0, -1.0, (-0.5, 0.0)).at(), psi.constant()
     problem = LayerProblem(at, family, 6.0)

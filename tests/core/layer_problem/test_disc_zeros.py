@@ -2,19 +2,15 @@
 
 import math
 
-import mpmath
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from codim2_core import critical_sets, hemisphere, psi, sliding_flow
-from codim2_core.expressions.arrays import program
-from codim2_core.layer_problem import disc_zeros as disc_zeros_module
-from codim2_core.layer_problem.disc_zeros import EFFORTS, disc_zeros
-from codim2_core.numerics import disc_search
+from codim2_core import critical_sets, hemisphere, psi
+from codim2_core.layer_problem.disc_zeros import disc_zeros
 from codim2_core.systems.typed import System
-from tests.core.general_systems import ATTRACTING, NONUNIQUE, circle, polynomials, smooth, turns
+from tests.core.general_systems import ATTRACTING, polynomials, smooth, turns
 from tests.core.strategies import regularisations, systems
 from tests.work import calls
 
@@ -39,19 +35,6 @@ def test_attracting_and_repelling_directions(regularisation):
         np.testing.assert_allclose(
             C.jacobian, [[(4 * C.e[0] - 1) * radial, 0], [0, -tangential]], rtol=1e-13, atol=1e-15
         )
-
-
-@pytest.mark.parametrize("regularisation", FAMILIES, ids=str)
-@pytest.mark.parametrize("z", [0.0, 0.3, -2.0, 0.5])
-def test_nonunique_sliding(regularisation, z):
-    """sec:nonunique: C1, C2, C3 at c = -chi/2, 0, chi/2; nodes and a saddle between; z' = 1/4 - 2 c."""
-    chi = (1 + 2 * z**2) / (1 + z**2)
-    found = critical_sets(NONUNIQUE, regularisation, z)
-    np.testing.assert_allclose([C.e for C in found], [[-chi / 2, 0], [0, 0], [chi / 2, 0]], rtol=1e-14, atol=1e-17)
-    assert [C.kind for C in found] == ["stable node", "saddle", "stable node"]
-    np.testing.assert_allclose(sliding_flow(NONUNIQUE, z)[:, 0], [chi + 0.25, 0.25, 0.25 - chi], rtol=1e-14)
-    np.testing.assert_allclose([C.slow_flow[0] for C in found], sliding_flow(NONUNIQUE, z)[:, 0], rtol=1e-15)
-    assert disc_zeros(NONUNIQUE.at(z).key).consistent
 
 
 @given(systems, regularisations)
@@ -131,35 +114,6 @@ def test_grids_of_zeros(c, s):
     assert found.consistent
 
 
-@given(st.one_of(polynomials, smooth), regularisations)
-@settings(max_examples=20)
-def test_jacobian_against_the_complex_step(system, regularisation):
-    """J's formula, DU by the complex step in 30-digit arithmetic."""
-    at = system.at()
-    for C in critical_sets(at, regularisation):
-        h = mpmath.mpf("1e-25")
-        texts = [row.text for row in system.U]
-        functions = {"exp": mpmath.exp, "sin": mpmath.sin}
-        with mpmath.workdps(60):
-            c, s = map(mpmath.mpf, C.e.tolist())
-            D = [
-                [
-                    float(mpmath.im(eval(text, functions, {"c": c + 1j * h * i, "s": s + 1j * h * (1 - i)})) / h)
-                    for i in (1, 0)
-                ]
-                for text in texts
-            ]
-        zeta = float(np.hypot(*C.x2))
-        radial, tangential = regularisation.jacobian_factors(zeta)
-        u = C.e / np.hypot(*C.e) if C.e.any() else np.array([1.0, 0.0])
-        spread = tangential * np.eye(2) + (radial - tangential) * np.outer(u, u)
-        scale = np.abs(D).max() * max(radial, tangential)
-        np.testing.assert_allclose(C.jacobian, np.array(D) @ spread, rtol=0.0, atol=1e-12 * scale + 1e-40)
-        expected = np.linalg.eigvals(C.jacobian)
-        assert C.trace == pytest.approx(np.trace(C.jacobian), abs=1e-12 * scale)
-        np.testing.assert_allclose(np.sort_complex(C.eigenvalues), np.sort_complex(expected), atol=1e-6 * scale)
-
-
 def test_fold():
     """c^2 = p: no critical set, one degenerate, two."""
     assert len(zeros_of("c**2 - p", "s - 1/7", p=-1e-9).e) == 0
@@ -229,14 +183,6 @@ def test_a_hole_is_not_decided():
     assert not found.proven
 
 
-def test_numbers_change_without_a_new_tape():
-    system = System(U=("p*c**2 - q", "s + z*p"), parameters={"p": 2.0, "q": 0.5})
-    for p, q, z in ((2.0, 0.5, 0.1), (1.0, 0.25, -0.2), (4.0, 0.09, 0.05)):
-        found = disc_zeros(system.evolve(p=p, q=q).at(z).key)
-        root = math.sqrt(q / p)
-        np.testing.assert_allclose(found.e, [[-root, -z * p], [root, -z * p]], rtol=1e-14)
-
-
 @pytest.mark.parametrize(
     "U",
     [
@@ -250,29 +196,8 @@ def test_numbers_change_without_a_new_tape():
         ("c**2 + s**2 - 1", "c**2 + s**2 - 1"),
     ],
 )
-def test_wild_fields_end_in_bounded_work(U, monkeypatch):
-    operations = []
-
-    def counted(*arguments):
-        budget, undecided = arguments[-3], arguments[-1]
-        operations.append(budget * len(arguments[0]))
-        assert len(undecided) <= EFFORTS[-1][1]
-        return search(*arguments)
-
-    search = disc_search.search
-    monkeypatch.setattr(disc_search, "search", counted)
-    zeros_of("c - 0.1", "s")  # loads the kernel
-    system = System(U=U).at()
-    program(system.key)
-    operations.clear()
-    assert calls(lambda: disc_zeros(system.key)) < 100_000
-    assert sum(operations) <= sum(most for _, _, most in EFFORTS) + 2000 * len(program(system.key).op)
-
-
-def test_points_outside_the_disc_are_no_critical_sets():
-    assert len(zeros_of("c - 1.01", "s").e) == 0
-    assert len(zeros_of("c - 0.8", "s - 0.8").e) == 0
-    assert len(circle(4)[1]) == 4
+def test_wild_fields_end_in_bounded_work(U):
+    assert calls(lambda: disc_zeros(System(U=U).at().key)) < 100_000
 
 
 @pytest.mark.parametrize(
@@ -306,15 +231,9 @@ def test_a_critical_set_on_a_corner_has_a_kind_where_its_sides_agree(U, kinds, f
     assert [C.kind for C in critical_sets(system, psi.constant())] == kinds
 
 
-@pytest.mark.parametrize("way", [(1, 0), (0, 1), (1, 1), (1, -1)])
-def test_boxes_that_hang_together_are_one_cluster(way):
-    """A chain of cells in one direction, with a branch; and a box far away, which is another."""
-    half = 0.01
-    cell = 5.0 * half + 1e-6
-    chain = [np.array(way) * k for k in range(-2, 3)] + [np.array((-way[1], way[0]))]
-    alone = np.array((20, 13))
-    boxes = (np.array([*chain, alone]) + 0.5) * cell
-    found = sorted(disc_zeros_module._clusters(boxes[[3, 6, 0, 5, 1, 4, 2]], half), key=len)
-    assert [len(one) for one in found] == [1, 6]
-    np.testing.assert_allclose(found[0], boxes[6:])
-    assert {tuple(row) for row in found[1].tolist()} == {tuple(row) for row in boxes[:6].tolist()}
+@pytest.mark.parametrize("apart", [1e-3, 1e-4])
+def test_a_fold_close_to_another_critical_set_is_one_of_its_own(apart):
+    found = disc_zeros(System(U=("(c - p)**2*(c - p - q)", "s"), parameters={"p": 0.3, "q": apart}).at().key)
+    np.testing.assert_allclose(found.e, [(0.3, 0.0), (0.3 + apart, 0.0)], atol=1e-2 * apart)
+    assert found.degenerate.tolist() == [True, False]
+    assert found.index.tolist() == [0, 1]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 
-from codim2_core import ELinear, System, critical_sets, hemisphere, psi, trajectories
+from codim2_core import ELinear, System, critical_sets, hemisphere, psi
 from codim2_core.layer_problem.eigendirections import find_eigendirections, of_critical_set, of_limit_directions
 from codim2_core.layer_problem.problem import LayerProblem
 from tests.core.strategies import regularisations, systems
@@ -75,36 +75,6 @@ def test_at_a_limit_direction_they_are_eigenvectors_of_the_flow_on_the_closed_di
         towards = hemisphere.flow(problem.at, family, e + h * v / -(v @ e)) / h
         # |p|' = (1 - |p|^2) p.U: the distance from the equator changes at the rate -2 lambda_rho
         np.testing.assert_allclose(towards, -2.0 * rho * v / -(v @ e), atol=2e-4 * size / abs(v @ e) ** 2)
-
-
-@pytest.mark.parametrize("family", [psi.constant(), psi.custom("1/2 + 1/(1+s)"), psi.rational(), psi.hill(3)])
-def test_orbits_leave_up_the_hemisphere_along_that_direction(family):
-    system = ELinear(-2.0, 0.3, -1.0, (-0.2, 0.1))
-    problem = LayerProblem(system.at(), family)
-    seen = 0
-    for theta, rho, one in zip(problem.equator.theta, problem.equator.lambda_rho, of_limit_directions(problem),
-                               strict=True):  # fmt: skip
-        (up,) = (d for d in one.directions if d.where == "up")
-        if not (rho < 0.0 and one.directions[0].value < 0.0):
-            continue  # one orbit leaves: a saddle of the disc
-        seen += 1
-        e = np.array([math.cos(theta), math.sin(theta)])
-        start = e + 1e-4 * np.array(up.direction) / -(np.array(up.direction) @ e)
-        (line,) = trajectories(system, family, [start], t_max=200.0).points
-        chord = line[np.argmax(np.hypot(*(line - e).T) > 3e-3)] - e
-        assert chord / np.hypot(*chord) == pytest.approx(up.direction, abs=0.02)
-    assert seen
-
-
-def test_outside_a_system_that_reads_position_leans():
-    # Theta = 3 c s + rho (2 c^2 + c s) + O(rho^2), lambda_rho(0) = -1
-    system = System(U=("-c", "2*s + y + x*2 + x**2 - x*y**2"))
-    problem = LayerProblem(system.at(), psi.constant())
-    found = of_limit_directions(problem)
-    assert problem.equator.theta[0] == pytest.approx(0.0)
-    (out,) = (d for d in found[0].directions if d.where == "outside")
-    slope = 2.0 / (-1.0 - 3.0)
-    assert out.direction == pytest.approx(np.array([1.0, slope]) / math.hypot(1.0, slope))
 
 
 def test_outside_they_are_eigenvectors_of_the_flow_of_a_system_that_reads_position():

@@ -6,11 +6,8 @@ import numpy as np
 import pytest
 
 from codim2_core import equator_cycle, equator_equilibria
-from codim2_core.layer_problem import equator_zeros as module
-from codim2_core.layer_problem.equator_zeros import component_series, component_zeros, equator_zeros
-from codim2_core.numerics.fourier_zeros import series
+from codim2_core.layer_problem.equator_zeros import equator_zeros
 from codim2_core.systems.typed import System
-from tests.core.general_systems import circle
 
 THIRD = math.pi / 3
 TURN = 2.0 * math.pi
@@ -19,59 +16,6 @@ TURN = 2.0 * math.pi
 def with_theta(t, radial="-1"):
     """Return a field with Theta = t and lambda_rho = radial on the equator."""
     return System(U=(f"({radial})*c - s*({t})", f"({radial})*s + c*({t})"))
-
-
-def trigonometric(function, n=64):
-    return series(function(circle(n)[0]), 1.0)
-
-
-@pytest.mark.parametrize("degree", [0, 1, 2, 5, 6, 7, 8, 13, 14, 20])
-def test_polynomials_of_any_degree_are_resolved_exactly(degree):
-    """The real part of (c + i s)^k is cos k theta: a polynomial that needs all of the series."""
-    rows = ["1/3", "1/7"]
-    if degree:
-        terms = [(math.comb(degree, j) * (-1) ** (j // 2), j) for j in range(0, degree + 1, 2)]
-        rows[0] += "".join(f" + ({n})" + "*c" * (degree - j) + "*s" * j for n, j in terms)
-    key = System(U=tuple(rows)).at().key
-    theta = np.linspace(0.1, 6.0, 37)
-    u = 1.0 / 3.0 + (np.cos(degree * theta) if degree else 0.0)
-    v, c, s = np.full(37, 1.0 / 7.0), np.cos(theta), np.sin(theta)
-    for kind, values in {"U1": u, "U2": v, "rho": c * u + s * v, "theta": c * v - s * u}.items():
-        f = component_series(key, kind)
-        np.testing.assert_allclose(f.derivatives(theta, range(1))[0], values, rtol=0.0, atol=1e-12)
-        assert f.exact
-        assert f.resolved
-        assert f.degree <= degree + 1  # of the rounding of large terms nothing is left beyond
-
-
-@pytest.mark.parametrize("width", [0.3, 0.05, 0.03])
-def test_a_narrow_peak_is_resolved_or_said_not_to_be(width):
-    """exp(k(c - 1)) is so wide: cos theta lies between the angles of a coarse net, beside a zero of sin too."""
-    key = System(U=(f"-1 - exp((c - 1)/{width**2})", "1/2")).at().key
-    theta = np.linspace(-0.5, 0.5, 101)
-    f = component_series(key, "theta")
-    exact = 0.5 * np.cos(theta) + np.sin(theta) * (1.0 + np.exp((np.cos(theta) - 1.0) / width**2))
-    np.testing.assert_allclose(f.derivatives(theta, range(1))[0], exact, rtol=0.0, atol=1e-11)
-    assert (f.exact, f.resolved) == (False, True)
-    assert not component_series(System(U=("-1 - exp((c - 1)*1e8)", "abs(s)")).at().key, "U1").resolved
-
-
-def test_crossings_of_simple_double_and_triple_zeros():
-    f = trigonometric(lambda t: np.sin(t) ** 3 * (1.0 - np.cos(t - 1.0)))
-    theta, multiplicity = np.array([0.0, 1.0, math.pi]), np.array([3, 2, 3])
-    assert module._crossings(f, theta, multiplicity).tolist() == [1.0, 0.0, -1.0]
-    only = trigonometric(lambda t: 1.0 - np.cos(t - 1.0))
-    assert module._crossings(only, np.array([1.0]), np.array([2])).tolist() == [0.0]
-
-
-def test_reflections_and_changes_of_sign():
-    f = trigonometric(lambda t: np.sin(t - 1.0) ** 3 + 0.3 * np.sin(5.0 * (t - 1.0)))
-    assert module._odd_about(f, 1.0)
-    assert module._odd_about(f, 1.0 + math.pi)
-    assert not module._odd_about(f, 1.1)
-    assert not module._odd_about(trigonometric(lambda t: np.sin(t) + 1e-3 * np.cos(t)), 0.0)
-    for level, changes in ((0.9, True), (1.1, False), (-0.9, True), (-1.1, False)):
-        assert module._changes_sign(trigonometric(lambda t, level=level: np.cos(3.0 * t) + level)) == changes
 
 
 @pytest.mark.parametrize(
@@ -112,39 +56,6 @@ def test_zeros_of_a_theta_with_corners(t, theta, slopes, multiplicity):
     assert len(found.arcs) == 0
 
 
-def test_corners_are_where_the_arguments_of_abs_vanish():
-    system = System(U=("abs(c - p) + max(s, 1/2)", "s"), parameters={"p": 0.5})
-    found = module._kinks(system.at().key)
-    np.testing.assert_allclose(found, [math.pi / 6, THIRD, 5 * math.pi / 6, 5 * THIRD], rtol=0.0, atol=1e-12)
-    found = module._kinks(system.evolve(p=-0.5).at().key)
-    np.testing.assert_allclose(found, [math.pi / 6, 2 * THIRD, 5 * math.pi / 6, 4 * THIRD], rtol=0.0, atol=1e-12)
-    assert len(module._kinks(System(U=("c**3", "exp(s)")).at().key)) == 0
-
-
-def test_components_vanish_where_they_say():
-    key = System(U=("(c - 1/2)*(2 + s)", "abs(s) + s/2 - 1/4")).at().key
-    theta, multiplicity = component_zeros(key, "U1")
-    np.testing.assert_allclose(theta, [THIRD, 5 * THIRD], rtol=0.0, atol=1e-12)
-    assert multiplicity.tolist() == [1, 1]
-    theta, multiplicity = component_zeros(key, "U2")  # s = 1/6 above, s = -1/2 below
-    low = math.asin(1.0 / 6.0)
-    np.testing.assert_allclose(theta, [low, math.pi - low, 7 * math.pi / 6, 11 * math.pi / 6], rtol=0.0, atol=1e-12)
-    assert multiplicity.tolist() == [1] * 4
-    on = equator_zeros(key)
-    theta, multiplicity = component_zeros(key, "theta")
-    np.testing.assert_array_equal(theta, on.theta)
-    np.testing.assert_array_equal(multiplicity, on.multiplicity)
-
-
-def test_angles_on_arcs():
-    arcs = np.array([(0.9, 1.5), (6.0, 6.0 + 1.0)])
-    inside = [0.9, 1.0, 1.5, 6.1, 0.2, 7.0 - TURN, 0.9 - 5e-7, 1.5 + 5e-7]
-    outside = [0.9 - 1e-5, 1.5 + 1e-5, 3.0, 5.9, 7.0 - TURN + 1e-5]
-    assert module._on(np.array(inside), arcs).all()
-    assert not module._on(np.array(outside), arcs).any()
-    assert not module._on(np.array(inside), arcs[:0]).any()
-
-
 @pytest.mark.parametrize("size", [1e-12, 1.0, 1e9])
 def test_a_limit_direction_is_radially_degenerate_within_rounding_in_any_unit(size):
     """lambda_rho = k (c - 1 + delta): zero at theta = 0 for delta = 0 only, whatever the unit of time is."""
@@ -183,11 +94,3 @@ def test_where_both_vanish_a_flat_theta_blurs_lambda_rho(slope, shift):
     np.testing.assert_allclose(found.theta, [low, math.pi - low], rtol=0.0, atol=1e-9)
     assert found.radially_degenerate.tolist() == [shift == 0.0] * 2
     np.testing.assert_allclose(found.lambda_rho, shift, rtol=0.0, atol=1e-9)
-
-
-@pytest.mark.parametrize("at", [0.5, 2.5, 4.0, 5.5])
-def test_a_change_of_sign_is_found_wherever_it_is(at):
-    assert module._changes_sign(trigonometric(lambda t: 0.98 - np.cos(t - at)))
-    assert module._changes_sign(trigonometric(lambda t: np.cos(t - at) - 0.98))
-    assert not module._changes_sign(trigonometric(lambda t: 1.02 - np.cos(t - at)))
-    assert not module._changes_sign(trigonometric(lambda t: np.cos(t - at) - 1.02))

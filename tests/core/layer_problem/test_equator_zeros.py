@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 import codim2_core as c2
 from codim2_core import ELinear, equator_cycle, equator_equilibria
-from codim2_core.layer_problem.equator_zeros import component_series, equator_zeros
+from codim2_core.layer_problem.equator_zeros import equator_zeros
 from codim2_core.numerics.fourier_zeros import series, zeros
 from codim2_core.systems.typed import System
-from tests.core.general_systems import ATTRACTING, NONUNIQUE, circle, polynomials, smooth, turns
+from tests.core.general_systems import ATTRACTING, NONUNIQUE, circle, polynomials, smooth
 from tests.core.strategies import systems
 
 THIRD = math.pi / 3
@@ -45,12 +45,6 @@ def test_eight_directions_while_chi_is_small(z):
     np.testing.assert_allclose(found.theta, expected, rtol=0.0, atol=4e-15 / inner)
     assert (found.lambda_rho < 0).all()
     np.testing.assert_array_equal(np.sign(found.lambda_theta), [1, -1] * 4)
-
-
-def test_four_directions_beyond():
-    found = equator_equilibria(NONUNIQUE, 0.842)
-    np.testing.assert_allclose(found.theta, [0, math.pi / 2, math.pi, 1.5 * math.pi], rtol=0.0, atol=1e-15)
-    np.testing.assert_array_equal(np.sign(found.lambda_theta), [-1, 1, -1, 1])
 
 
 def test_the_pitchfork_between_them_is_named():
@@ -113,46 +107,6 @@ def test_no_direction_is_missing_and_every_one_is_one(system):
     simple = found.multiplicity == 1
     if simple.all() and len(found):
         assert (np.sign(found.lambda_theta) == -np.sign(np.roll(found.lambda_theta, 1))).all()
-
-
-@given(st.one_of(polynomials, smooth))
-@settings(max_examples=20)
-def test_degree_of_the_field(system):
-    counted = turns(system.at())
-    assume(counted is not None)
-    assert equator_zeros(system.at().key).degree == counted
-
-
-@pytest.mark.parametrize(
-    "U",
-    [
-        ("abs(c)", "s"), ("c", "abs(s)"), ("abs(2*c) - c", "s"), ("c*abs(c)", "s"), ("abs(c - 1/5)", "s"),
-        ("abs(c)", "s - 2"), ("abs(c) + c", "s*abs(s) - c*abs(c)"), ("abs(c) - c", "abs(c) - c"),
-    ],
-)  # fmt: skip
-def test_the_degree_where_theta_has_corners_or_vanishes_on_an_arc(U):
-    system = c2.System(U=U)
-    assert equator_zeros(system.at().key).degree == turns(system.at())
-
-
-@given(st.lists(st.floats(0.0, 6.28), min_size=2, max_size=8), st.floats(0.3, 2.0))
-@settings(max_examples=20)
-def test_zeros_that_were_put_in_are_found(angles, factor):
-    """A product of sin((theta - t)/2): an even number of zeros, any of them close together."""
-    angles = sorted(angles[: len(angles) // 2 * 2])
-    gaps = np.diff([*angles, angles[0] + 2 * math.pi])
-    assume(gaps.min() > 1e-4)
-    theta = circle(64)[0]
-    values = factor * np.prod([np.sin((theta - t) / 2) for t in angles], axis=0)
-    found = zeros(series(values, float(np.abs(values).max()), len(angles) // 2))
-    # close together they are ill-conditioned: rounding over the slope
-    slopes = [abs(np.prod([math.sin((t - u) / 2) for u in angles if u != t])) / 2 * factor for t in angles]
-    assume(min(slopes) > 1e-7 * np.abs(values).max())
-    assert len(found.theta) == len(angles)
-    assert found.proven
-    for t, slope in zip(angles, slopes, strict=True):
-        away = np.abs(np.remainder(found.theta - t + math.pi, 2 * math.pi) - math.pi).min()
-        assert away < 1e-14 * np.abs(values).max() / slope + 1e-15
 
 
 @pytest.mark.parametrize(
@@ -239,31 +193,6 @@ def test_high_degrees_are_resolved_or_said_not_to_be():
 
 def test_rounding_of_a_zero_below_zero_is_zero():
     assert equator_equilibria(System(U=("-c", "-2*s"))).theta[0] == 0.0
-
-
-def test_the_series_are_those_of_the_field():
-    at = NONUNIQUE.at(0.3)
-    theta, e = circle(50)
-    U = at.U(e)
-    expected = {
-        "U1": U[:, 0],
-        "U2": U[:, 1],
-        "rho": (U * e).sum(axis=1),
-        "theta": e[:, 0] * U[:, 1] - e[:, 1] * U[:, 0],
-    }
-    for kind, values in expected.items():
-        f = component_series(at.key, kind)
-        np.testing.assert_allclose(f.derivatives(theta, range(1))[0], values, rtol=0.0, atol=1e-15)
-        assert f.exact
-        assert f.degree == {"U1": 3, "U2": 1, "rho": 4, "theta": 4}[kind]
-
-
-def test_rotated_elinear_has_rotated_directions():
-    A, f = [[-1.0, 2.0], [0.5, -0.3]], (0.2, 0.1)
-    at = ELinear.from_matrix(A, f).at()
-    typed = System(U=("-c + 2*s + 0.2", "0.5*c - 0.3*s + 0.1"))
-    rotated = np.sort(np.remainder(equator_equilibria(at).theta - at.rotation, 2 * math.pi))
-    np.testing.assert_allclose(equator_equilibria(typed).theta, rotated, rtol=0.0, atol=1e-14)
 
 
 _NEAR = System(

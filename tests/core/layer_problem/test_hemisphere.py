@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from codim2_core import hemisphere
+from codim2_core import ELinear, hemisphere, psi
 from tests.core.strategies import regularisations, systems
 
 angle = st.floats(0, 2 * math.pi)
@@ -55,12 +55,6 @@ def test_equator_is_invariant_and_carries_theta(system, regularisation, theta):
     assert p[0] * field[1] - p[1] * field[0] == pytest.approx(float(Theta), abs=size)
 
 
-@given(systems, regularisations, st.floats(0, 1), angle)
-def test_flow_is_finite_on_the_closed_disc(system, regularisation, r, theta):
-    p = r * np.array([math.cos(theta), math.sin(theta)])
-    assert np.isfinite(hemisphere.flow(system.at(), regularisation, p)).all()
-
-
 @given(systems, regularisations, st.floats(0.0, 1.0), angle, angle)
 def test_flow_turns_with_the_axes(system, regularisation, r, theta, phi):
     """R(phi)-equivariance (lem:ePsi(a)): a rotated system has the rotated flow."""
@@ -75,3 +69,23 @@ def test_flow_turns_with_the_axes(system, regularisation, r, theta, phi):
     np.testing.assert_allclose(
         turned, R @ hemisphere.flow(at, regularisation, p), rtol=0.0, atol=1e-13 * (1 + max(map(abs, at.plane)))
     )
+
+
+def test_flow_of_many_points_is_that_of_each():
+    at = ELinear(1.5, 0.7, -2.0, (0.3, -0.4)).at()
+    p = np.array([[0.0, 0.0], [0.3, -0.2], [0.6, 0.8], [-1.0, 0.0]])
+    for family in (psi.constant(), psi.tanh(), psi.hill(2)):
+        many = hemisphere.flow(at, family, p)
+        np.testing.assert_allclose(many, [hemisphere.flow(at, family, q) for q in p], rtol=1e-13, atol=1e-14)
+        square = hemisphere.flow(at, family, p.reshape(2, 2, 2))
+        np.testing.assert_allclose(many.reshape(2, 2, 2), square, rtol=1e-13, atol=1e-14)
+        np.testing.assert_allclose(hemisphere.e_psi(family, p)[2:], p[2:], rtol=0.0, atol=1e-15)
+        assert (hemisphere.e_psi(family, p)[0] == 0.0).all()
+    assert hemisphere.height([1.0, 0.0]) == 0.0
+    assert hemisphere.height([0.6, 0.0]) == pytest.approx(0.8)
+
+
+@pytest.mark.parametrize("epsilon_1", [1.01, -0.01, [0.5, 1.2]])
+def test_the_entry_chart_ends_at_the_top_and_at_the_equator(epsilon_1):
+    with pytest.raises(ValueError, match="beyond 0 to 1"):
+        hemisphere.disc_from_entry(epsilon_1, 0.3)

@@ -9,7 +9,6 @@ from codim2_core import (
     System,
     approach_outcomes,
     critical_sets,
-    equator_equilibria,
     examples,
     hemisphere,
     limit_cycles,
@@ -69,23 +68,6 @@ def test_nonunique_sliding_depends_on_the_side(z):
             assert outcome.slow_flow == pytest.approx([-math.copysign(chi, math.cos(theta)) + 0.25], abs=1e-13)
 
 
-@pytest.mark.parametrize("name", ["case1-cm2", "case2-saddle", "case3-n3", "case1-cm4"])
-def test_outcomes_of_an_e_linear_system_as_text(name):
-    preset = presets[name]
-    one = approach_outcomes(preset.system, preset.psi, compare=())
-    other = approach_outcomes(as_text(preset.system), preset.psi, compare=())
-    assert [(o.verdict, o.onto, o.arrives) for o in one] == [(o.verdict, o.onto, o.arrives) for o in other]
-
-
-def test_every_direction_of_a_nonlinear_system():
-    at = System(U=("-c*(1 + c**2)", "-s*(1 + c**2)"))
-    assert equator_equilibria(at).all_directions
-    found = approach_outcomes(at, psi.tanh(), compare=())
-    assert found.outcome(1.0).slides
-    assert approach_outcomes(at.evolve(U=("c", "s")), psi.tanh(), compare=()).outcome(1.0).verdict == "misses"
-    assert approach_outcomes(at.evolve(U=("c*c", "c*s")), psi.tanh(), compare=()).outcome(1.0).verdict == "undecided"
-
-
 # ---- separatrices -------------------------------------------------------------------------------------------------
 
 
@@ -101,47 +83,6 @@ def test_skeleton_of_attracting_repelling(p):
     for branch in found:
         if branch.origin == saddle and branch.direction == "unstable":
             assert np.abs(branch.points[:, 1]).max() < 1e-9
-
-
-@pytest.mark.parametrize("name", ["case1-cm2", "case2-saddle", "case3-n3"])
-def test_separatrices_of_an_e_linear_system_as_text(name):
-    preset = presets[name]
-    one, other = separatrices(preset.system, preset.psi), separatrices(as_text(preset.system), preset.psi)
-    assert sorted(one.graph) == sorted(other.graph)
-    for a, b in zip(sorted(one, key=key_of), sorted(other, key=key_of), strict=True):
-        if not a.end.startswith("cycle"):  # on which it is cut off somewhere
-            assert a.points[[0, -1]] == pytest.approx(b.points[[0, -1]], abs=1e-5)
-
-
-def key_of(branch):
-    return (branch.origin, branch.direction, branch.end, round(branch.departure_angle, 6))
-
-
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_branches_outside_bend_with_x_and_y(sign):
-    system = System(U=("k*(2*c + x*y/2 + y/3)", "k*(-s + x/4 - y*y/3)"), parameters={"k": sign})
-    at, straight = system.at(), System(U=("k*2*c", "-k*s"), parameters={"k": sign})
-    bent = [b for b in separatrices(system, psi.tanh()) if not b.inside]
-    rays = [b for b in separatrices(straight, psi.tanh()) if not b.inside]
-    assert [(b.origin, b.direction, b.departure_angle) for b in bent] == [
-        (b.origin, b.direction, pytest.approx(b.departure_angle)) for b in rays
-    ]
-    assert len(bent) == 4
-    for branch in bent:
-        r = np.hypot(*branch.points.T)
-        home = branch.points[0 if branch.direction == "unstable" else -1]
-        assert home == pytest.approx([math.cos(branch.departure_angle), math.sin(branch.departure_angle)])
-        assert np.abs(branch.points).max() > 1.99
-        # The branch is an orbit of (x, y)' = U(e, x, y): chords lie along U, in the direction of time.
-        e, place = branch.points / r[:, None], (1 - 1 / r)[:, None] * branch.points
-        middle, chord = 0.5 * (place[1:] + place[:-1]), np.diff(place, axis=0)
-        U = at.U(0.5 * (e[1:] + e[:-1]) / np.hypot(*(0.5 * (e[1:] + e[:-1])).T)[:, None], middle)
-        long = np.hypot(*chord.T) > 1e-3
-        across = np.abs(chord[:, 0] * U[:, 1] - chord[:, 1] * U[:, 0]) / np.hypot(*U.T)
-        assert across[long].max() < 2e-3
-        assert ((chord * U).sum(axis=1)[long] > 0.0).all()
-        halfway = branch.points[len(r) // 2] / r[len(r) // 2]
-        assert abs(home[0] * halfway[1] - home[1] * halfway[0]) > 1e-3
 
 
 # ---- limit cycles -------------------------------------------------------------------------------------------------
@@ -233,18 +174,6 @@ def test_from_hopf_to_a_loop_beyond_which_nothing_returns(m, count):
 def inside(points, p):
     angle = np.unwrap(np.arctan2(points[:, 1] - p[1], points[:, 0] - p[0]))
     return abs(abs(angle[-1] - angle[0]) - 2 * math.pi) < 1.0
-
-
-def test_no_cycle_where_the_index_forbids_it():
-    found = limit_cycles(System(U=("1 + c**2", "s")), psi.tanh())
-    assert len(found) == 0
-    assert "no critical set" in found.reason
-    found = limit_cycles(System(U=("c + c**3", "-s")), psi.tanh())
-    assert len(found) == 0
-    assert "saddles" in found.reason
-    found = limit_cycles(System(U=("-c + 2*s + 1/3", "-3*c - s")), psi.tanh())
-    assert len(found) == 0
-    assert "Bendixson" in found.reason  # as it is e-linear, by its formulas
 
 
 def test_a_band_of_closed_orbits_is_no_limit_cycle():

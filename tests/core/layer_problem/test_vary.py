@@ -63,13 +63,6 @@ def test_what_cannot_be_is_explained(system: object, name: str, value: float, me
         varied(system, HILL, (0.3, 0.4), name, value)
 
 
-@pytest.mark.parametrize("name", ["z1", "z", "k"])
-def test_of_a_frozen_system_neither_a_slow_variable_nor_a_parameter_has_a_value(name: str) -> None:
-    for ask in (value_of, lambda *given: varied(*given, 1.0)):
-        with pytest.raises(ValueError, match="cannot be varied"):
-            ask(TEXT.at((0.3, 0.4)), HILL, (0.3, 0.4), name)
-
-
 def test_a_z_that_does_not_fit_is_told_by_what_varies_something():
     system = c2.System(U=("p*c - s + z", "c + p*s"), W=("1",), parameters={"p": 0.0})
     with pytest.raises(ValueError, match=r"z has 0 value\(s\), but this system has m = 1"):

@@ -152,18 +152,3 @@ def test_a_file_and_arrays_are_not_both_given(tmp_path):
         fit(block(0.2), tmp_path / "measured.csv", np.ones((3, 2)))
     with pytest.raises(ValueError, match="velocities is None"):
         fit(block(0.2), [0.0, 0.1, 0.2])
-
-
-def test_a_wild_start_is_given_up_after_so_many_evaluations(monkeypatch):
-    t, ball = np.linspace(0.0, 0.3, 10), examples.ball_in_pool(mu=0.2, K=500.0)
-    asked, U = [0], type(ball.at((4.0, 0.5))).U
-
-    def counted(self, e):
-        asked[0] += 1
-        return U(self, e)
-
-    monkeypatch.setattr(type(ball.at((4.0, 0.5))), "U", counted)
-    v = np.linspace((3.0, 1.0), (1.2, 0.5), 10)
-    with pytest.raises(ValueError, match=r"1000 evaluations of U did not lead to an end.*max_evaluations\.$"):
-        fit(ball, t, v, names=("mu", "K"), z=(4.0, 0.5), max_evaluations=1000)
-    assert asked[0] <= 1000

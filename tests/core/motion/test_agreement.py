@@ -1,6 +1,6 @@
 """The regularised motion tends to its limit with the order that is said, and the words tell where phases differ."""
 
-from __future__ import annotations
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,8 +8,9 @@ import pytest
 from codim2_core import ELinear, System, equator_equilibria, examples, simulate, simulate_nonsmooth
 from codim2_core import psi as families
 from codim2_core.motion.agreement import agreement, limit_order
+from codim2_core.motion.result import Phase
 
-PSI = families.constant()
+PSI, RATIONAL = families.constant(), families.rational()
 EQUATOR_EXIT = ELinear(-1.0, 0.0, -1.0, ("z", 0.0), g=(1.0,))
 
 
@@ -48,13 +49,6 @@ def test_an_exit_through_the_equator_has_the_order_of_psi(psi, order):
     assert [phase.kind for phase in limit.phases] == ["slide", "slip"]
     assert limit_order(system, psi, limit) == pytest.approx(order, abs=1e-6)
     np.testing.assert_allclose(slopes, order, atol=0.02)
-
-
-def test_sliding_and_lines_have_order_one():
-    ball = examples.ball_in_pool(K=2.0)
-    for state0 in ((-1.0, 0.3, 10.0, 0.0), (1.0, 0.0, 12.0, 0.0)):
-        limit = simulate_nonsmooth(ball, state0, (0.0, 2.5), PSI)
-        assert limit_order(ball, PSI, limit) == 1.0
 
 
 def test_the_words_tell_whether_phases_agree():
@@ -105,3 +99,49 @@ def test_only_the_time_that_both_were_followed_is_compared():
     assert agreement(system, PSI, simulate(system, PSI, 1e-2, start, (0.0, early)), limit).same
     other = simulate_nonsmooth(system, start, (0.0, early), PSI)
     assert agreement(system, PSI, simulate(system, PSI, 1e-2, start, (0.0, 2.0)), other).same
+
+
+def simulated(phases, end=1.0, eps=0.01):
+    limit = simulate_nonsmooth(ELinear(-1.0, 0.5, -2.0), (0.3, -0.2), (0.0, 0.1), RATIONAL)
+    return SimpleNamespace(
+        times=np.array([0.0, end]), phases=tuple(phases), eps=eps, states=limit.states, dense=lambda t: limit.states[0]
+    )
+
+
+def test_where_phases_differ_the_earlier_time_is_told():
+    slip, later = Phase("slip", 0.0, 0.3, ""), Phase("slip", 0.0, 0.6, "")
+    slide, cross = Phase("slide", 0.3, 1.0, "", "C2"), Phase("cross", 0.6, 0.6, "")
+    system = ELinear(-1.0, 0.5, -2.0)
+    for own, limit, words in (
+        ((slip, slide), (later, cross), "t = 0.3 on the motion slides on C₂, and in the limit it crosses Σ"),
+        ((later, cross), (slip, slide), "t = 0.3 on the motion crosses Σ, and in the limit it slides on C₂"),
+        ((slip, slide), (later,), "t = 0.3 on the motion slides on C₂, and in the limit it goes on as before"),
+        ((slip,), (later, cross), "t = 0.6 on the motion goes on as before, and in the limit it crosses Σ"),
+    ):
+        found = agreement(system, RATIONAL, simulated(own), simulated(limit))
+        assert not found.same
+        assert words in found.sentence
+    same = agreement(system, RATIONAL, simulated((slip, slide)), simulated((slip, slide)))
+    assert (same.same, same.order) == (True, 1.0)
+    assert "O(ε)." in same.sentence
+    exits = ELinear(-1.0, 0.0, -1.0, ("z", 0.0), g=(1.0,))
+    limit = simulate_nonsmooth(exits, (0.1, 0.0, 0.4), (0.0, 1.6), RATIONAL)
+    run = simulate(exits, RATIONAL, 1e-5, (0.1, 0.0, 0.4), (0.0, 1.6))
+    assert "O(ε^0.889)" in agreement(exits, RATIONAL, run, limit).sentence
+
+
+@pytest.mark.parametrize(
+    ("system", "state0", "t", "phases"),
+    [
+        (examples.ball_in_pool(K=2.0), (-1.0, 0.3, 10.0, 0.0), 2.5, ["slip", "slide"]),
+        (examples.ball_in_pool(K=2.0), (1.0, 0.0, 12.0, 0.0), 2.5, ["slip", "cross", "slip", "slide"]),
+        (examples.tilting_block(), (0.3, 0.1, 0.1), 5.0, ["slip", "slide"]),
+        (examples.nonunique_sliding(), (0.02, 0.01, 0.1), 0.2, ["slip", "slide"]),
+    ],
+)
+@pytest.mark.parametrize("psi", [families.constant(), families.tanh()])
+def test_the_two_agree_to_first_order_in_eps(system, state0, t, phases, psi):
+    slopes, limit = measured(system, psi, state0, t, [1e-4, 1e-6, 1e-8])
+    assert [phase.kind for phase in limit.phases] == phases
+    assert limit_order(system, psi, limit) == 1.0
+    np.testing.assert_allclose(slopes, 1.0, atol=0.1)

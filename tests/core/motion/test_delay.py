@@ -1,17 +1,15 @@
 """Past a Hopf bifurcation the motion stays: way in = way out, and the buffer point, by closed forms and `simulate`."""
 
 import math
-from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from codim2_core import Event, SimulationStatus, System, critical_sets, delays, simulate, simulate_nonsmooth
-from codim2_core.motion.limit.analytic import rational
 from codim2_core.psi import constructors as families
 
 PSI = families.constant()  # D e_Psi = 1 in the middle; at |e| = r, sqrt(1 - r^2) across and (1 - r^2)^1.5 along e
@@ -103,13 +101,6 @@ def test_a_set_that_moves_is_left_at_the_buffer_point(w, step):
     assert "buffer point" in run.phases[1].reason
 
 
-@settings(max_examples=2)
-@given(st.floats(-0.19, -0.05), st.floats(0.3, 0.7), st.floats(0.02, 0.3))
-def test_near_its_start_the_delay_ends_before_the_buffer_point(z0, w, step):
-    run = followed(turning(w, f"{step!r}*z"), z0, 4.0)
-    assert run.dense(run.phases[1].t_end)[2] == pytest.approx(-z0, rel=1e-7)  # G is even in z
-
-
 def left_at(system, eps, start, far, end):
     """When |e - e_C| of the regularised motion passes `far` for the last time before the end."""
     x0, z0, place = start
@@ -139,30 +130,6 @@ def test_the_regularised_motion_tends_to_the_buffer_point():
     assert abs(off[2]) < 0.2 * abs(off[0])
 
 
-def test_in_case_3_the_delay_is_that_of_the_eigenvalues_of_the_critical_set():
-    """On z = z0 exp(t/2); an independent integral of the eigenvalues that `critical_sets` gives."""
-    from codim2_core import ELinear
-
-    system, psi = ELinear(172.0, 186.0, -200.0, ("-172*z", "-186*z"), B=((0.5, 0.0),)), families.hill(3)
-    run = simulate_nonsmooth(system, (8.5e-4, 5.2e-4, 0.3), (0.0, 1.5), psi)
-    assert [(phase.kind, phase.onto) for phase in run.phases] == [
-        ("slip", None),
-        ("slide", "C"),
-        ("slide", "C"),
-        ("slide", "cycle 1"),
-    ]
-    on, left = run.phases[1].t_start, run.phases[2].t_end
-    z = lambda t: run.dense(on)[2] * math.exp(0.5 * (t - on))
-    rate = lambda t: float(critical_sets(system, psi, (z(t),))[0].eigenvalues.real.max())
-    cuts = np.linspace(on, left, 41)
-    total, part = 0.0, 0.0
-    for a, b in pairwise(cuts.tolist()):
-        value = quad(rate, a, b, epsabs=1e-9)[0]
-        total, part = total + value, part + abs(value)
-    assert abs(total) < 1e-5 * part
-    assert critical_sets(system, psi, (z(run.phases[1].t_end),))[0].trace == pytest.approx(0.0, abs=1e-6)
-
-
 def test_it_stays_to_the_end_where_it_is_attracted_more_than_repelled():
     """Re lambda = -0.4 - cos t: repelled from time to time, for ever attracted on the whole."""
     system = System(U=("(-0.4 - cos(z))*c - s", "c + (-0.4 - cos(z))*s"), W=("1",))
@@ -175,22 +142,6 @@ def test_it_stays_to_the_end_where_it_is_attracted_more_than_repelled():
     run = simulate_nonsmooth(system, (0.0, 0.0, 0.0), (0.0, 20.0), PSI)
     left = brentq(lambda t: -0.1 * t - math.sin(t), 3.2, 4.7)
     assert run.phases[1].t_end == pytest.approx(left, abs=1e-8)
-
-
-def test_a_span_that_ends_in_the_delay_ends_there():
-    run = followed(turning(0.5), -1.0, 1.7)
-    assert run.status is SimulationStatus.T_END
-    assert [(phase.kind, phase.t_end) for phase in run.phases] == [
-        ("slide", pytest.approx(1.0)),
-        ("slide", pytest.approx(1.7)),
-    ]
-
-
-def test_an_event_stops_it_in_the_delay():
-    run = followed(turning(0.5), -1.0, events=(Event(lambda _t, y: y[2] - 0.4, terminal=True),))
-    assert run.status is SimulationStatus.EVENT
-    assert run.times[-1] == pytest.approx(1.4, abs=1e-9)
-    assert len(run.phases) == 2
 
 
 def test_it_goes_on_to_the_cycle_that_took_over():
@@ -209,33 +160,6 @@ def test_without_psi_and_with_a_kink_it_stops_and_says_so():
     kink = followed(turning("(0.5 + abs(z + 0.3))", "0.3*z"), -1.0)
     assert kink.status is SimulationStatus.NOT_UNIQUE
     assert "not smooth in time" in kink.reason
-
-
-@settings(max_examples=20)
-@given(st.complex_numbers(min_magnitude=0.3, max_magnitude=1.0), st.floats(0.5, 3.0))
-def test_zeros_and_poles_are_continued_from_the_real_axis(zero, pole):
-    z = complex(zero.real, 0.2 + abs(zero.imag))
-    assume(abs(z - 1j * pole) > 0.05)  # a zero and a pole at one place are neither
-    t = np.linspace(-1.5, 1.5, 301)
-    f = np.exp(0.3 * t) * ((t - z.real) ** 2 + z.imag**2) / (t**2 + pole**2)
-    found = rational(t, f, 1e-11)
-    assert found is not None
-    assert np.abs(found.zeros() - z).min() < 1e-6
-    assert np.abs(found.poles() - 1j * pole).min() < 1e-4 * pole
-    assert found(0.123) == pytest.approx(math.exp(0.0369) * abs(0.123 - z) ** 2 / (0.123**2 + pole**2), rel=1e-9)
-
-
-def test_a_corner_has_poles_on_the_real_axis_and_noise_no_rational_function():
-    t = np.linspace(-1.0, 1.0, 400)
-    found = rational(t, np.abs(t - 0.1), 1e-9)
-    assert found is not None
-    assert np.abs(found.poles() - 0.1).min() < 0.01
-    assert rational(t, np.random.default_rng(1).standard_normal(400), 1e-9) is None
-
-
-def test_at_a_pole_the_value_is_infinite():
-    t = np.linspace(0.0, 1.0, 33)
-    assert rational(t, 1.0 / (t + 1.0), 1e-12)(-1.0) == math.inf
 
 
 def test_ahead_of_a_motion_that_comes_at_z_lies_the_delay_of_the_motion_itself():

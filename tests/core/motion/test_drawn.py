@@ -5,7 +5,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.motion.drawn import CHORD_TOLERANCE, MAX_POINTS, _needed
+from codim2_core.motion.drawn import CHORD_TOLERANCE, MAX_POINTS
 
 TURNING = c2.System(U=("mu*c-s-beta*c*(c*c+s*s)", "c+mu*s-beta*s*(c*c+s*s)"), W=(), parameters={"mu": 0.3, "beta": 1.0})
 
@@ -41,14 +41,6 @@ def test_of_one_that_turns_far_too_often_the_chords_are_longer():
     drawn = run.drawn()
     assert len(drawn.times) <= MAX_POINTS
     assert off(run, drawn, eps) < 16.0 * CHORD_TOLERANCE
-
-
-def test_what_is_straight_needs_its_ends_only():
-    assert np.flatnonzero(_needed(np.linspace([0.0, 0.0], [1.0, 1.0], 33), CHORD_TOLERANCE)).tolist() == [0, 32]
-    bent = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0, 1.0]])
-    assert _needed(bent, CHORD_TOLERANCE).all()
-    assert _needed(np.zeros((1, 2)), CHORD_TOLERANCE).all()
-    assert not len(_needed(np.zeros((0, 2)), CHORD_TOLERANCE))
 
 
 def test_in_the_limit_it_stays_on_its_cycle():

@@ -8,8 +8,6 @@ from scipy.integrate import quad
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.initial_value.field import field
-from codim2_core.motion.limit.folded import fold
 
 CONSTANT = psi.constant()
 TRANSCRITICAL = c2.System(U=("(z-0.5)*c-c*c", "-s"), W=("1",))
@@ -89,23 +87,6 @@ def test_without_psi_it_is_not_known():
     motion = c2.simulate_nonsmooth(IN_THE_PLANE, (0.02, 0.01, 0.0), (0.0, 1.2))
     assert motion.status is c2.SimulationStatus.NOT_UNIQUE
     assert "depends on Ψ" in motion.reason
-
-
-@pytest.mark.parametrize("angle", [0.0, 0.7, 2.1])
-@pytest.mark.parametrize(
-    ("along", "kind"),
-    [("z-u*u", ""), ("z*u-u*u", "transcritical"), ("z*u-u**3", "pitchfork"), ("z*u+u**3", "pitchfork")],
-)
-def test_what_meets_at_a_place_with_det_zero(along, kind, angle):
-    """u = 0, v = 0 at z = 0, turned by an angle."""
-    u, v = f"({math.cos(angle)!r}*c+{math.sin(angle)!r}*s)", f"(-{math.sin(angle)!r}*c+{math.cos(angle)!r}*s)"
-    first = along.replace("u", u)
-    U = (
-        f"{math.cos(angle)!r}*({first})+{math.sin(angle)!r}*{v}",
-        f"{math.sin(angle)!r}*({first})-{math.cos(angle)!r}*{v}",
-    )
-    found = fold(field(c2.System(U=U, W=("1",))), np.zeros(2), np.zeros(1), "C", "fold")
-    assert (found.exchange, found.left_to_eps) == (kind, False)
 
 
 HOPF = c2.System(U=("z*c - s", "c + z*s"), W=("1",))

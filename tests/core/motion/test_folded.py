@@ -93,13 +93,6 @@ def test_what_a_fold_is_by_the_eigenvalues_of_its_slow_flow(a, b, word, decided)
         np.testing.assert_allclose(found.beyond, [1.0, 0.0], atol=1e-9)  # for z1 > 0 z1 + c^2 has no zero
 
 
-@pytest.mark.parametrize("z2", [-0.3, 0.4])
-def test_elsewhere_on_its_line_the_fold_is_a_jump_point(z2):
-    found = fold(field(parabola(0.25, -2.0)), np.zeros(2), np.array([0.0, z2]), "C1", "fold")
-    assert (found.left_to_eps, found.beyond) == (False, None)
-    assert "folded" not in found.reason
-
-
 def to_saddle(c, beside):
     """Follow a motion from beside the stable eigenvector of a folded saddle, z2 = -2 c/l."""
     a, b = -0.5, -1.0

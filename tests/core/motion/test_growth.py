@@ -1,7 +1,5 @@
 """Motions that end before their time: what was followed is returned, and the reason told."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -98,18 +98,6 @@ def _as_it_is(system, state, rtol, own):
     return simulate_nonsmooth(system, state, SPAN, own, rtol=rtol, atol=rtol)
 
 
-def test_words_are_made_when_they_are_read(monkeypatch):
-    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: 0)
-    asked, own = [], legs.arriving
-    monkeypatch.setattr(legs, "arriving", lambda *given: asked.append(given) or own(*given))
-    run = simulate_nonsmooth(examples.ball_in_pool(K=2.0), (-1.0, 0.3, 10.0, 0.0), (0.0, 3.0), psi.constant())
-    assert [phase.kind for phase in run.phases] == ["slip", "slide"]
-    assert not asked
-    assert run.phases[1].onto == "C"
-    assert repr(run.phases[1]) == repr(run.phases[1])
-    assert len(asked) == 1
-
-
 def test_the_steps_of_many_are_those_of_one():
     rng = np.random.default_rng(3)
     states = rng.normal(size=(40, 3)) * 0.5

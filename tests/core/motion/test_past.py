@@ -83,15 +83,6 @@ def test_events_of_a_past_are_those_of_the_motion():
     assert stopped.events[0].tolist() == pytest.approx([stopped.times[0]])
 
 
-def test_many_pasts_are_those_of_each():
-    states = np.random.default_rng(3).uniform((1.0, -1.0, -1.0), (3.0, 1.0, 1.0), (9, 3))
-    together = c2.simulate(TURNING, PSI, 0.3, states, (0.5, 0.1))
-    for state, one in zip(states, together, strict=True):
-        assert one.states[-1].tolist() == state.tolist()
-        alone = c2.simulate(TURNING, PSI, 0.3, state, (0.5, 0.1))
-        assert one.states[0] == pytest.approx(alone.states[0], abs=1e-6)
-
-
 def test_many_that_slide_know_as_little_as_one():
     there = c2.simulate(BALL, PSI, 1e-3, (1.0, 0.3, 1.0, 0.2), (0.0, 1.0))
     together = c2.simulate(BALL, PSI, 1e-3, [there.states[-1]] * 9, (1.0, 0.0))

@@ -1,9 +1,6 @@
 """The regularised system: closed forms, independent integration, and every eps from 1e3 to 1e-12."""
 
-from __future__ import annotations
-
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,16 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from codim2_core import ELinear, System, examples, simulate_nonsmooth
+from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
-from codim2_core.initial_value import compiled
 from codim2_core.initial_value.events import Event
-from codim2_core.initial_value.problem import plane_problem
-from codim2_core.motion import checks, regularised
+from codim2_core.motion import regularised
 from codim2_core.motion.drawn import MAX_POINTS, SAMPLES
 from codim2_core.motion.regularised import simulate
 from codim2_core.motion.result import SimulationStatus
-from codim2_core.numerics.radau import tableau
 from tests.core.strategies import coefficient, regularisations
 
 G = 9.81
@@ -37,17 +31,6 @@ def reference(system, psi, eps, state0, t_end):
         return np.concatenate([at.U(e, xy), at.W(e, xy)])
 
     return solve_ivp(rate, (0.0, t_end), state0, method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
-
-
-def test_order_conditions_of_the_method():
-    table = tableau()
-    k = np.arange(1, 6)
-    powers = table.nodes[:, None] ** (k - 1)
-    np.testing.assert_allclose(table.A @ powers, table.nodes[:, None] ** k / k, rtol=0.0, atol=1e-14)
-    # The last row is the quadrature: exact up to degree 8, that is order 9, and no further.
-    for degree in range(9):
-        assert table.A[-1] @ table.nodes**degree == pytest.approx(1.0 / (degree + 1), abs=1e-13)
-    assert abs(table.A[-1] @ table.nodes**9 - 0.1) > 1e-7
 
 
 @settings(max_examples=15, deadline=None)
@@ -154,16 +137,6 @@ def test_events_are_found_and_stop():
     assert run.states[-1, 2] == pytest.approx(0.9, abs=1e-9)
 
 
-def test_only_the_length_of_time_matters():
-    for eps in (1e-3, 1e-12):
-        early, late = (
-            simulate(examples.ball_in_pool(), families.constant(), eps, (1.0, 0.5, -1.0, 0.4), (t, t + 3.0))
-            for t in (0.0, 1000.0)
-        )
-        np.testing.assert_allclose(early.states[-1], late.states[-1], rtol=1e-9, atol=1e-12)
-        assert late.times[-1] == 1003.0
-
-
 def test_a_limit_cycle_ends_at_the_step_limit():
     system = ELinear(172.0, 186.0, -200.0, (-86.0, -93.0), B=((0.5, 0.0),))
     run = simulate(system, families.hill(4), 1e-8, (5.5e-9, 0.0, 0.0), (0.0, 1.0), max_steps=300)
@@ -187,16 +160,6 @@ def test_frozen_systems_and_no_slow_variables(monkeypatch):
     np.testing.assert_allclose(frozen.states[-1], other.states[-1], rtol=1e-9, atol=1e-11)
 
 
-def test_formulas_with_corners_and_edges():
-    system = System(U=("-abs(c) - c/2 + z/4", "-s"), W=("1/3",))
-    run = simulate(system, families.constant(), 1e-3, (0.0, 0.0, 0.0), (0.0, 2.0))
-    assert run.status is SimulationStatus.T_END
-    system = System(U=("-c", "-s"), W=("-1/2 + log(z) - log(z)",))  # undefined from t = 2 on
-    run = simulate(system, families.constant(), 1e-3, (1.0, 0.0, 1.0), (0.0, 3.0))
-    assert run.status is SimulationStatus.STEP_LIMIT
-    assert run.times[-1] == pytest.approx(2.0, abs=1e-6)
-
-
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
@@ -218,51 +181,6 @@ def test_wrong_arguments_say_so(changes, message):
         simulate(examples.ball_in_pool(), families.constant(), eps, state0, t_span, **given_)
 
 
-def test_how_often_the_field_is_evaluated_is_counted(monkeypatch):
-    calls = [0]
-
-    def counted(*arguments):
-        problem = plane_problem(*arguments)
-
-        def F(state):
-            calls[0] += 1
-            return problem.F(state)
-
-        return type(problem)(F, problem.J, problem.scale, problem.limit)
-
-    monkeypatch.setattr(regularised, "plane_problem", counted)
-    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
-    run = simulate(ELinear(-1.0, 0.25, -1.75), families.rational(), 0.5, (0.3, 0.2), (0.0, 0.5))
-    assert run.evaluations == calls[0] > 10
-
-
-@pytest.mark.parametrize("rate", [(0.5, -2.0), (1e-9, 0.0), (0.0, 0.0)])
-def test_the_first_step_is_a_small_part_of_the_time_in_which_it_changes(rate):
-    problem = SimpleNamespace(scale=lambda state: np.array([1.0, 4.0]))
-    h = regularised.first_step(problem, np.zeros(2), np.array(rate))
-    if any(rate):
-        assert 0.0 < h * max(rate[0], abs(rate[1]) / 4.0) <= 0.05
-    else:
-        assert h == math.inf
-
-
-@pytest.mark.parametrize(
-    ("rtol", "atol", "most", "wrong"),
-    [
-        (1e-13, 1e-300, 1, None), (1e-2, 1e300, 10**9, None),
-        (0.9e-13, 1.0, 9, "rtol"), (1.1e-2, 1.0, 9, "rtol"), (math.nan, 1.0, 9, "rtol"),
-        (1e-3, 0.0, 9, "atol"), (1e-3, math.inf, 9, "atol"), (1e-3, math.nan, 9, "atol"),
-        (1e-3, 1.0, 0, "max_steps"), (1e-3, 1.0, 10**9 + 1, "max_steps"),
-    ],
-)  # fmt: skip
-def test_tolerances_have_bounds(rtol, atol, most, wrong):
-    if wrong is None:
-        checks.checked_tolerances(rtol, atol, most)
-        return
-    with pytest.raises(ValueError, match=f"^{wrong} is"):
-        checks.checked_tolerances(rtol, atol, most)
-
-
 def test_a_drawn_motion_is_even_in_time_and_of_bounded_length():
     run = simulate(ELinear(-1.0, 0.25, -1.75), families.rational(), 0.5, (0.3, 0.2), (0.0, 5.0))
     drawn = run.drawn()
@@ -276,37 +194,6 @@ def test_a_drawn_motion_is_even_in_time_and_of_bounded_length():
     )
     assert simulate(ELinear(-1.0, 0.25, -1.75), families.rational(), 0.5, (0.3, 0.2), (0.0, 5.0)).invariant < 1e-14
     assert simulate(ELinear(-1.0, 0.25, -1.75), families.rational(), 0.7, (0.3, 0.2), (0.0, 5.0)).invariant > 0.0
-
-
-def test_the_limit_drifts_nowhere():
-    run = simulate_nonsmooth(ELinear(-1.0, 0.25, -1.75), (0.3, 0.2), (0.0, 1.0))
-    assert not run.states[-1].any()  # also on Sigma itself
-    assert run.invariant == 0.0
-
-
-def test_what_is_handed_over_to_be_compiled(monkeypatch):
-    """A motion goes on compiled from where it is, with its own tolerances and the steps that are left."""
-    given = []
-
-    class CompiledMotion:
-        evaluations = 7
-
-        def __init__(self, problem, formulas, psi, eps, line, t, t_end, state, rtol, floor, h, most):
-            given.append((psi, eps, line, t, t_end, state.tolist(), rtol, floor, most))
-            assert h > 0.0
-
-        def chunks(self):
-            return iter(())
-
-    monkeypatch.setattr(compiled, "CompiledMotion", CompiledMotion)
-    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
-    monkeypatch.setattr(regularised, "PATIENCE", 3)
-    psi, system = families.rational(), ELinear(-1.0, 0.25, -1.75, g=(1.0,), B=((0.0, 0.0),))
-    run = simulate(system, psi, 0.5, (0.3, 0.2, 0.1), (1.0, 9.0), rtol=1e-6, atol=1e-9, max_steps=50)
-    assert len(run.times) == 4
-    (told,) = given
-    assert told == (psi, 0.5, None, run.times[-1], 9.0, run.states[-1].tolist(), 1e-6, pytest.approx(1e-3), 47)
-    assert run.evaluations > 7
 
 
 @pytest.mark.parametrize("eps", [1e-14, 1e6])

@@ -5,7 +5,6 @@ import pytest
 
 from codim2_core import examples
 from codim2_core.examples import Ball, catalogue
-from codim2_core.motion import rolling as module
 from codim2_core.motion.rolling import rolling
 
 ROLLS, PLACED = Ball(), Ball(placed=True)
@@ -74,13 +73,3 @@ def test_the_examples_say_which_of_their_states_are_a_balls():
     assert turntable == Ball(placed=True, turning="Omega")
     assert "Omega" in dict(examples.ball_on_turntable().parameters)
     assert not catalogue["ball_in_pool"].ball.placed
-
-
-def test_turns_are_multiplied_as_quaternions():
-    """i j = k, j k = i, k i = j, and the length of a product is the product of the lengths."""
-    one, i, j, k = np.eye(4)
-    for first, second, product in ((j, i, k), (k, j, i), (i, k, j), (i, i, -one), (one, k, k), (k, one, k)):
-        np.testing.assert_array_equal(module._times(tuple(second), first), product)
-    rng = np.random.default_rng(2)
-    p, q = rng.normal(size=(2, 4))
-    assert np.linalg.norm(module._times(tuple(p), q)) == pytest.approx(np.linalg.norm(p) * np.linalg.norm(q))

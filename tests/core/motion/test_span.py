@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from codim2_core import ELinear, Event, System, psi, simulate_nonsmooth
+from codim2_core import Event, System, psi, simulate_nonsmooth
 
 CUBIC = "(z - (c - 0.3)**2)*((c + 0.5)**2 - (z + 0.5)/8)"  # a second set takes over past the fold, and ends at z = -1/2
 CASES = {
@@ -35,14 +35,3 @@ def test_the_end_of_the_span_changes_nothing_before(name, count):
     assert [phase.kind for phase in far.phases][: len(kinds)] == kinds
     ends = [[phase.t_end for phase in run.phases][: len(kinds) - 1] for run in (near, far)]
     assert ends[1] == pytest.approx(ends[0], abs=1e-12)
-
-
-def test_nor_on_a_cycle():
-    system = ELinear(172.0, 186.0, -200.0, ("-172*z", "-186*z"), B=((0.5, 0.0),))
-    stop = Event(lambda t, state: t - 0.2, terminal=True)
-    near, far = (
-        simulate_nonsmooth(system, (8.5e-4, 5.2e-4, 0.45), (0.0, t_end), psi.hill(3), events=[stop])
-        for t_end in (0.2, 1e7)
-    )
-    assert [phase.onto for phase in far.phases] == [phase.onto for phase in near.phases] == [None, "cycle 1"]
-    np.testing.assert_allclose(far.dense(0.2 * T), near.dense(0.2 * T), atol=1e-9)

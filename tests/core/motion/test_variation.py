@@ -1,7 +1,5 @@
 """Derivatives of motions: the flow carries its own rate along, differences of motions, closed forms, and eps to 0."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -10,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, Event, System, examples, psi, simulate, simulate_nonsmooth
-from codim2_core.motion.variation.propagators import propagators
 from codim2_core.systems.coefficients import Coefficients
 
 POOL = examples.ball_in_pool(mu=0.2, K=1.5, m=1.2)
@@ -73,13 +70,6 @@ def test_the_limit_is_differentiated_through_all_phases(name):
     np.testing.assert_allclose(difference(end, 0.0, 1e-6), expected, rtol=0.0, atol=1e-7)
 
 
-def test_those_motions_have_all_kinds_of_phases():
-    kinds = {name: [phase.kind for phase in limit(*MOTIONS[name][:3]).phases] for name in MOTIONS}
-    assert kinds["slide"] == kinds["along"] == kinds["reads"] == ["slip", "slide"]
-    assert kinds["cross"] == kinds["line"] == ["slip", "cross", "slip"]
-    assert kinds["leave"] == ["slip", "slide", "slip"]
-
-
 @settings(max_examples=12, deadline=None)
 @given(
     st.sampled_from(["slide", "reads", "leave"]),
@@ -140,24 +130,6 @@ def test_textbook_ball(mu, v0, direction):
     t = 0.5 * slips  # while it slips, mu brakes it
     half = simulate_nonsmooth(examples.ball_in_pool(K=0.0, mu=mu), run.states[0], (0.0, t)).variation("mu")
     np.testing.assert_allclose(half.by("mu")[-1, 2:], -9.81 * t * np.array([c, s]), rtol=1e-9, atol=1e-9)
-
-
-def test_steps_follow_one_another():
-    system, state0, t_end, _ = READING
-    family, eps = psi.hill(2), 0.05
-    run = simulate(system, family, eps, state0, (0.0, t_end), rtol=1e-12, atol=1e-13)
-    half = simulate(system, family, eps, state0, (0.0, 0.6), rtol=1e-12, atol=1e-13)
-    rest = simulate(system, family, eps, half.states[-1], (0.6, t_end), rtol=1e-12, atol=1e-13)
-    product = rest.variation().last @ half.variation().last
-    np.testing.assert_allclose(run.variation().last, product, rtol=0.0, atol=1e-9)
-    np.testing.assert_array_equal(run.variation().matrices[0], np.eye(4))
-
-
-def rate(system, eps, state):
-    x, y = state[:2]
-    e = np.array([x, y]) / math.sqrt(x * x + y * y + eps * eps)  # Psi = 1
-    at = system.at(state[2:])
-    return np.concatenate([at.U(e), at.W(e)])
 
 
 def test_exponents_of_a_linear_motion_are_its_eigenvalues():
@@ -247,16 +219,6 @@ def test_where_it_is_not_known_is_said():
     assert found.times[-1] == pytest.approx(ended, abs=1e-9)
 
 
-def test_a_motion_that_ends_as_it_arrives_is_known_to_just_before():
-    run = limit(*SLIDING[:3])
-    arrives = run.phases[0].t_end
-    short = limit(SLIDING[0], SLIDING[1], arrives)
-    found = short.variation()
-    if short.phases[-1].kind == "slip" and not short.states[-1, :2].any():
-        assert "ends as it arrives" in found.reason
-    assert found.times[-1] == pytest.approx(arrives, rel=1e-6)
-
-
 def test_a_slope_that_is_not_finite_ends_what_is_known():
     system = System(U=("-1 + 0*c", "-s"), W=("sqrt(z)",))  # its derivative at z = 0 is infinite
     run = simulate(system, psi.constant(), 0.1, (1.0, 0.2, 0.0), (0.0, 0.5))
@@ -287,35 +249,3 @@ def test_coefficients_and_frozen_systems_are_differentiated_too():
     typed = System(U=("k*c - z*s", "-s + z"), W=("1",), parameters={"k": -2.0})
     at = simulate(typed.at(0.2), psi.hill(2), 0.1, start, span).variation()
     assert not at.last[:2, 2].any()  # U is that of z = 0.2, whatever z does
-
-
-def test_a_straight_step_is_halved_where_its_variation_bends():
-    asked = []
-
-    def jacobian(steps, u):
-        asked.append(len(steps))
-        t = u * 0.99
-        return (-0.7 / (1.0 - t))[:, :, None, None] * np.ones((1, 1, 1, 1))
-
-    found = propagators(jacobian, np.array([0.99]), np.ones((2, 1)), 1e-10, np.eye(1))
-    assert found.fine[0, 0, 0] == pytest.approx(0.01**0.7, rel=1e-9)
-    assert 10 < sum(asked) < 200
-
-
-@pytest.mark.parametrize("rate", [9.0, 10.0, 11.0])
-def test_what_a_step_leaves_little_of_is_known_as_well_as_it_is_asked_for(rate):
-    """Relative to what is left, down to exp(-11)."""
-    decays = (lambda steps, u: np.full((*u.shape, 1, 1), -rate), np.array([1.0]), np.ones((2, 1)), 1e-5, np.eye(1))
-    assert propagators(*decays).fine[0, 0, 0] == pytest.approx(math.exp(-rate), rel=1e-5)
-
-
-def test_what_dies_out_within_a_long_step_is_not_halved_for_ever():
-    asked = []
-
-    def jacobian(steps, u):
-        asked.append(len(steps))
-        return np.full((*u.shape, 1, 1), -1.0)
-
-    found = propagators(jacobian, np.array([1e9]), np.ones((2, 1)), 1e-10, np.eye(1))
-    assert abs(found.fine[0, 0, 0]) < 1e-15
-    assert sum(asked) < 2000

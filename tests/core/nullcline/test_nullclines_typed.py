@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from codim2_core import ELinear, equator_equilibria, hemisphere, nullclines, psi
+from codim2_core import nullclines, psi
 from codim2_core.layer_problem.equator_zeros import component_zeros
 from codim2_core.nullcline.typed import ALL_POINTS, MOST_POINTS, inside_curves
 from codim2_core.systems.typed import System
@@ -40,7 +40,7 @@ def branches(at, kind):
 
 
 @given(polynomials)
-@settings(max_examples=20)
+@settings(max_examples=8)
 def test_every_traced_point_lies_on_its_curve(system):
     at = system.at()
     for kind, curve in inside_curves(at):
@@ -57,7 +57,7 @@ def test_every_traced_point_lies_on_its_curve(system):
 
 
 @given(polynomials)
-@settings(max_examples=20)
+@settings(max_examples=10)
 def test_no_sign_change_is_missing(system):
     at = system.at()
     assume(at.size > 0)
@@ -174,7 +174,7 @@ def test_closed_loops(radius):
 
 
 @given(polynomials, regularisations)
-@settings(max_examples=20)
+@settings(max_examples=10)
 def test_drawn_polylines_do_not_sag(system, regularisation):
     at = system.at()
     assume(at.normal_form is None)  # affine formulas have closed conics
@@ -195,51 +195,6 @@ def test_drawn_polylines_do_not_sag(system, regularisation):
 
 
 _hundredths = st.integers(-200, 200).map(lambda n: n / 100)
-
-
-@given(st.tuples(*5 * [_hundredths]), st.sampled_from([ONE, psi.rational()]))
-@settings(max_examples=20)
-@example((-2.0, 0.5, -1.0, -0.5, 0.3), ONE)
-@example((0.062, -1.75, 1.062, 0.0, 0.0), ONE)  # two diameters
-def test_traced_branches_are_the_closed_conics(numbers, regularisation):
-    """An e-linear system, all but affine: as many branches of each kind as in closed form, and the same ones."""
-    a, b, d, f1, f2 = numbers
-    closed = ELinear(a, b, d, (f1, f2)).at()
-    assume(closed.plane[:3] != (0.0, 0.0, 0.0))
-    # the last term is far below rounding, and keeps the formulas from being known as affine
-    typed = System(U=(f"({a})*c - ({b})*s + ({f1}) + 1e-200*c^2*s", f"({b})*c + ({d})*s + ({f2})")).at()
-    assert typed.normal_form is None
-    first, second = ([x for x in nullclines(at, regularisation) if x.inside] for at in (closed, typed))
-    for kind in KINDS:
-        one, other = ([x.points for x in found if x.kind == kind] for found in (first, second))
-        angles, multiplicity = component_zeros(typed.key, kind)
-        if (multiplicity > 1).any():
-            continue  # a curve on which the component does not change sign is not found
-        ends = np.sort(angles)
-        # between two that are closer the curve leaves the disc by less than a pixel, which a step may not notice
-        if np.diff(ends, append=ends[:1] + 2 * math.pi).min(initial=math.inf) > 0.2:
-            assert len(one) == len(other)
-            for some, targets in ((one, other), (other, one)):
-                for p in np.concatenate(
-                    [points[:: max(1, len(points) // 20)] for points in some] or [np.zeros((0, 2))]
-                ):
-                    assert min(distance(p, polyline) for polyline in targets) < 2 * QUARTER_PIXEL
-
-
-def distance(p, polyline):
-    a, d = polyline[:-1], np.diff(polyline, axis=0)
-    u = np.clip(((p - a) * d).sum(-1) / np.maximum((d * d).sum(-1), 1e-300), 0, 1)
-    return np.hypot(*(p - a - u[:, None] * d).T).min()
-
-
-def test_outside_are_rays():
-    at = ATTRACTING.at(0.1)
-    rays = [b for b in nullclines(at, psi.rational(), view=1.5) if not b.inside]
-    angles = [math.atan2(b.points[-1, 1], b.points[-1, 0]) % (2 * math.pi) for b in rays if b.kind == "theta"]
-    np.testing.assert_allclose(sorted(angles), equator_equilibria(at).theta, rtol=0.0, atol=1e-14)
-    for ray in rays:
-        assert np.hypot(*ray.points[0]) == pytest.approx(1.0)
-        assert np.hypot(*ray.points[-1]) == pytest.approx(1.5 * math.sqrt(2))
 
 
 def test_outside_curves_where_the_field_reads_the_position():
@@ -272,15 +227,6 @@ def test_a_component_that_is_rounding_only_has_no_nullcline_where_u_vanishes_on_
     drawn = nullclines(System(U=U), ONE)
     assert not any(branch.kind == "theta" for branch in drawn)
     assert any(branch.kind == "U1" for branch in drawn)
-
-
-def test_points_are_read_only_and_on_the_flow():
-    for branch in nullclines(NONUNIQUE, ONE, 0.2):
-        assert not branch.points.flags.writeable
-        if branch.inside and branch.kind == "rho":
-            p = branch.points
-            flow = hemisphere.flow(NONUNIQUE.at(0.2), ONE, p)
-            np.testing.assert_allclose((flow * p).sum(axis=1), 0.0, atol=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -18,14 +18,6 @@ def test_a_spiral_turns_by_its_formula(first, rate, count):
     assert np.cos(angle[0] - first) == pytest.approx(1.0)
 
 
-def test_where_it_is_rounding_the_angle_before_is_kept():
-    x = [1e-17, 0.0, 1.0, 0.0, -1e-9, 1e-9, 0.0, -1.0, 0.0]
-    y = [0.0, 1e-16, 0.0, 1.0, -1e-9, 1e-9, 0.0, 0.0, -1.0]
-    points = np.column_stack([x, y])
-    assert angle_along(points, 1e-6) == pytest.approx(np.pi * np.array([0, 0, 0, 0.5, 0.5, 0.5, 0.5, 1, 1.5]))
-    assert angle_along(1e-9 * points, 1e-6).tolist() == [0.0] * 9
-
-
 def test_a_disc_at_rest_does_not_turn_in_the_picture():
     """For eps > 0 it stays about (0, 0) once it rests: the angle climbed there by whole turns."""
     from codim2_app.panels.typed_start import curves

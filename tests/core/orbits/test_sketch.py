@@ -3,11 +3,8 @@
 import numpy as np
 import pytest
 
-from codim2_core import psi
 from codim2_core.figures.presets import presets
-from codim2_core.orbits.sketch import sketch
 from codim2_core.scene import Scene
-from codim2_core.systems.elinear import ELinear
 
 NEAR = 0.03  # in picture units: four pixels of a small picture
 
@@ -35,15 +32,3 @@ def test_a_sketch_lies_on_the_trajectories(name):
             starts, ends = np.hypot(*(points - line[0]).T).argmin(), np.hypot(*(points - line[-1]).T).argmin()
             assert starts <= ends
         assert all(np.hypot(*np.diff(line, axis=0).T).max(initial=0.0) < 0.2 for line in lines)
-
-
-def test_a_sketch_ends_at_the_view_and_at_its_length():
-    away = ELinear(1.0, 0.2, 1.5, (0.1, 0.05))
-    seeds = np.array([(1.5, 0.2), (-1.2, 0.9)])
-    drawn = sketch(away.at(()), psi.constant(), seeds, 50.0, 100.0, 2.0)
-    assert np.abs(drawn.buffer).max() <= 2.0
-    assert np.abs(drawn.buffer).max() > 1.8
-    around = ELinear(0.0, 1.0, 0.0)  # circles
-    circle = sketch(around.at(()), psi.constant(), np.array([(0.5, 0.0)]), 100.0, 1.0, 2.0)
-    assert np.hypot(*np.diff(circle.buffer, axis=0).T).sum() == pytest.approx(2.0, abs=0.1)
-    assert len(sketch(around.at(()), psi.constant(), np.empty((0, 2)), 1.0, 1.0, 2.0)) == 0

@@ -42,10 +42,3 @@ def test_where_no_critical_set_is_stable_a_stable_cycle_or_none_is(preset, name)
     assert (found and found.name) == name
     if found:
         np.testing.assert_allclose(found.slow_flow, sets[0].slow_flow)  # prop:LC
-
-
-def test_an_unstable_set_without_a_cycle_lets_go():
-    system = c2.ELinear(1.0, 0.0, 2.0, (0.1, 0.0), B=((1, 0),), g=(0.25,))
-    sets = c2.critical_sets(system, c2.psi.constant(), (0.0,))
-    assert sets[0].kind == "unstable node"
-    assert attracting(sets, lambda: c2.limit_cycles(system, c2.psi.constant(), (0.0,))) is None

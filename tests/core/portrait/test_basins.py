@@ -70,17 +70,6 @@ def test_cells_that_lead_nowhere_are_told_by_negative_numbers():
     assert (OUTSIDE, UNDECIDED, found.destinations, found.slow_flow) == (-2, -1, (), ())
 
 
-@pytest.mark.parametrize("seed", [0, 1])
-def test_cells_on_a_border_are_those_with_a_neighbour_of_another_kind(seed):
-    cells = np.random.default_rng(seed).choice(np.array([-2, -1, 0, 1], np.int8), (9, 9), p=(0.2, 0.1, 0.6, 0.1))
-    found = module._bordering(cells)
-    for i in range(9):
-        for j in range(9):
-            near = {int(v) for v in cells[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2].ravel()} - {OUTSIDE}
-            assert found[i, j] == (cells[i, j] != OUTSIDE and near != {int(cells[i, j])}), (i, j)
-    assert not module._bordering(np.full((4, 4), 3, np.int8)).any()
-
-
 @pytest.mark.parametrize(("n", "friction"), [(32, 0.1), (64, 0.5)])
 def test_a_border_that_winds_is_where_orbits_that_are_followed_closely_say(n, friction, monkeypatch):
     """Two wells with friction: x' = y, y' = x/2 - 2 x^3 - friction y before it is regularised."""

@@ -1,10 +1,9 @@
 """Names of portraits: the theorems as properties, the borders by name."""
 
-import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 
-from codim2_core import ELinear, classify, critical_sets, equator_equilibria, psi
+from codim2_core import ELinear, classify, psi
 from tests.core.strategies import regularisations, systems
 
 
@@ -20,36 +19,6 @@ def test_cases_are_those_of_the_table(system, regularisation):
     expected = "I" if at.a * at.d > 0 else "II" if det < 0 else "III"
     assert found.case == expected
     assert found.sentence.startswith(f"Case {expected}, {found.name}.")
-
-
-@settings(max_examples=20)
-@given(systems, regularisations)
-def test_theorems_case1_and_case2(system, regularisation):
-    found = classify(system, regularisation)
-    assume(not found.degeneracies)
-    count = len(equator_equilibria(system).theta)
-    if found.case == "I":
-        assert found.name in ("CM0", "CM2", "CM4", "NCM2", "NCM4")  # thm:case1(c)
-        for C in critical_sets(system, regularisation):
-            assert C.kind.split()[0] == ("stable" if system.at().a < 0 else "unstable")
-    if found.case == "II":
-        assert found.name in ("CM4", "NCM2", "NCM4")  # thm:case2
-        assert all(C.kind == "saddle" for C in critical_sets(system, regularisation))
-    assert count in (0, 2, 4)
-
-
-@settings(max_examples=20)
-@given(systems, regularisations)
-def test_index_of_the_critical_set_is_the_degree_on_the_equator(system, regularisation):
-    found = classify(system, regularisation)
-    assume(not found.degeneracies)
-    at = system.at()
-    theta = np.linspace(0, 2 * np.pi, 4001)
-    U = at.U(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
-    turn = np.diff(np.unwrap(np.arctan2(U[:, 1], U[:, 0])))
-    assume(np.abs(turn).max() < 0.5)
-    index = sum(-1 if C.kind == "saddle" else 1 for C in critical_sets(system, regularisation))
-    assert index == round(turn.sum() / (2 * np.pi))
 
 
 @pytest.mark.parametrize(

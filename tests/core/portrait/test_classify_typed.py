@@ -1,20 +1,15 @@
 """Names of general portraits: counts, degeneracies, and the e-linear name where the field is affine."""
 
-from dataclasses import replace
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 
 import codim2_core as c2
-from codim2_core import ELinear, classify, equator_equilibria, psi
+from codim2_core import ELinear, classify, psi
 from codim2_core.layer_problem.disc_zeros import disc_zeros
 from codim2_core.layer_problem.problem import LayerProblem
-from codim2_core.portrait import classify_typed
-from codim2_core.portrait.classification import directions
 from codim2_core.systems.typed import System
-from codim2_core.words import recognise, say
+from codim2_core.words import recognise
 from tests.core.general_systems import ATTRACTING, NONUNIQUE, polynomials
 from tests.core.strategies import regularisations, systems
 
@@ -62,7 +57,7 @@ def test_affine_form():
 
 
 @given(polynomials, regularisations)
-@settings(max_examples=20)
+@settings(max_examples=10)
 def test_psi_never_changes_the_name(system, regularisation):
     assert classify(system, regularisation).name == classify(system, RATIONAL).name
 
@@ -134,116 +129,3 @@ def test_next_to_a_pitchfork_rounding_makes_no_limit_directions(side):
         assert count in ((8, 4) if side < 0 else (4, 5))
         if distance < 3e-11:
             assert equator.multiplicity.tolist() == [3, 1, 3, 1]
-
-
-def test_what_follows_from_the_sets_that_are_there():
-    def said(*kinds, cycles=0, **what):
-        found = {"everything": False, "curve": False, "on_equator": False, "proven": True} | what
-        sets = tuple(SimpleNamespace(kind=kind) for kind in kinds)
-        return classify_typed.general_consequence(sets, SimpleNamespace(**found), cycles)
-
-    assert said() == say("no critical set")
-    assert said(proven=False) == say("no set found")
-    for what in ("everything", "curve", "on_equator"):
-        assert said(**{what: True}) == say("no isolated set")
-    assert said("saddle", "unstable node") == say("none stable", kinds="1 saddle, 1 unstable node")
-    assert said("stable node", "saddle", "saddle") == say("one stable", kinds="2 saddles, 1 stable node")
-    assert said("stable node", cycles=2) == say("several stable", kinds="1 stable node", count=3)
-    assert said("unstable node", cycles=1) == say("none stable", kinds="1 unstable node")
-    two = ("stable node", "stable focus", "saddle")
-    assert said(*two) == say("several stable", kinds="1 saddle, 1 stable focus, 1 stable node", count=2)
-    assert said(*two, proven=False) == say("sets unproved", kinds="1 saddle, 1 stable focus, 1 stable node")
-
-
-def test_degenerate_zeros_of_the_equator_have_names():
-    def named(*multiplicity, **what):
-        on = {
-            "all_directions": False,
-            "arcs": np.zeros((0, 2)),
-            "symmetric": False,
-            "proven": True,
-            "certificate": "Why.",
-        }
-        on |= {"multiplicity": np.array(multiplicity, int)} | what
-        cycle = on.pop("cycle", None)
-        return [(d.name, d.sentence) for d in classify_typed._equator(SimpleNamespace(**on), cycle)]
-
-    def names(*multiplicity, **what):
-        return [name for name, _ in named(*multiplicity, **what)]
-
-    assert names(1, 1) == names() == []
-    assert names(1, 2, 2, 1) == ["saddle-node"]
-    assert names(3, 1) == ["cusp"]
-    assert names(3, 3, symmetric=True) == ["pitchfork"]
-    assert names(2, 3, 4, 1) == ["saddle-node", "cusp", "quadruple zero"]
-    assert names(6, 6, 5, symmetric=True) == ["zero of multiplicity 5", "zero of multiplicity 6"]
-    assert names(all_directions=True) == ["all directions"]
-    assert names(1, arcs=np.array([(1.0, 2.0), (3.0, 4.0)])) == ["arc of directions"] * 2
-    assert named(1, 1, proven=False) == [("limit directions uncertain", "Why.")]
-    assert names(cycle=SimpleNamespace(neutral=False)) == []
-    assert names(cycle=SimpleNamespace(neutral=True)) == [classify_typed.NEUTRAL_CLOSED_EQUATOR.name]
-
-
-def test_degenerate_sets_have_names():
-    def names(*kinds, degenerate=(), rough=(), index=(), **what):
-        count = len(degenerate)
-        found = {
-            "everything": False,
-            "curve": False,
-            "on_equator": False,
-            "proven": True,
-            "consistent": True,
-            "degree": 1,
-        }
-        found |= {
-            "degenerate": np.array(degenerate, bool),
-            "rough": np.array(rough or [False] * count, bool),
-            "index": np.array(index or [1] * count, int),
-        }
-        sets = tuple(SimpleNamespace(kind=kind) for kind in kinds)
-        return [d.name for d in classify_typed._critical(sets, SimpleNamespace(**(found | what)))]
-
-    assert names("stable node", "saddle", degenerate=[False, False]) == []
-    for what, name in (
-        ("everything", "everything stands still"),
-        ("curve", "curve of equilibria"),
-        ("on_equator", "transcritical"),
-    ):
-        assert names(**{what: True}) == [name]
-    assert names("saddle-node", "saddle", degenerate=[True, False], index=[0, -1]) == ["fold"]
-    assert names("degenerate", degenerate=[True]) == ["degenerate critical set"]
-    assert names("degenerate", degenerate=[True], rough=[True]) == ["corner at a critical set"]
-    assert names("degenerate", "degenerate", degenerate=[True, True], rough=[True, False]) == [
-        "degenerate critical set",
-        "corner at a critical set",
-    ]
-    assert names("centre (linear)") == ["tr J = 0"]
-    assert names(proven=False) == ["critical sets uncertain"]
-    assert names(consistent=False) == ["index mismatch"]
-    assert names(consistent=None) == []
-
-
-def test_arcs_of_limit_directions_are_named_beside_single_ones(monkeypatch):
-    nothing = SimpleNamespace(
-        everything=False, curve=False, on_equator=False, proven=True, consistent=True,
-        degenerate=np.zeros(0, bool), rough=np.zeros(0, bool), index=np.zeros(0, int),
-    )  # fmt: skip
-    monkeypatch.setattr(classify_typed, "disc_zeros", lambda _: nothing)
-
-    def name(arcs, count):
-        on = equator_equilibria(ELinear(-1, 0, -2, (0.2, 0.1)))
-        few = {key: getattr(on, key)[:count] for key in ("theta", "lambda_rho", "lambda_theta", "multiplicity")}
-        limits = replace(
-            on, **few, radially_degenerate=on.radially_degenerate[:count], proven=not arcs,
-            arcs=np.array([(0.5 * k, 0.5 * k + 0.1) for k in range(arcs)]).reshape(-1, 2),
-        )  # fmt: skip
-        found = classify_typed.general_name(SimpleNamespace(key=None), limits, None, ())
-        arc_said = say("arc of directions", first=0.0, last=0.1) in directions(limits, None)
-        return found.name.removeprefix("no critical set, "), arc_said
-
-    assert name(0, 4) == ("4 limit directions", False)
-    assert name(0, 1) == ("1 limit direction", False)
-    assert name(1, 0) == ("an arc of limit directions", True)
-    assert name(2, 0) == ("2 arcs of limit directions", True)
-    assert name(1, 2) == ("2 limit directions found and an arc of them", False)
-    assert name(3, 1) == ("1 limit direction found and 3 arcs of them", False)

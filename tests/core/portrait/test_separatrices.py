@@ -8,9 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, presets, psi
-from codim2_core.portrait import saddle_connections
 from codim2_core.portrait.separatrices import separatrices
-from codim2_core.portrait.separatrix import Separatrix
 from tests.core.strategies import regularisations
 
 FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3)]
@@ -120,52 +118,6 @@ def test_saddle_connection_is_found_and_named():
     assert (leaving.end, entering.end) == (entering.origin, leaving.origin)
     assert leaving.gap <= 1e-6
     assert any("connection" in note for note in found.notes)
-
-
-def branch(origin, direction, points):
-    return Separatrix(origin, direction, "C", np.array(points, float), 0.0, 0.0, True, False, None, "as it was")
-
-
-def test_saddle_connections_are_named_and_other_gaps_kept():
-    """The gap is the distance of the one's middle, by arc length, from the other: the middle of ((0, 0) … (4, 0))."""
-    along = branch("C1", "unstable", [(0, 0), (1, 0), (1.5, 0), (4, 0)])
-    near = branch("C2", "stable", [(-5, 0.003), (5, 0.003)])
-    above = branch(
-        "C3", "stable", [(2, 0.4), (2.2, 0.4), (2.2, 2.4)]
-    )  # its middle is (2.2, 1.3), 0.4 above at (2, 0.4)
-    own = branch("C1", "stable", [(0, 0), (4, 0)])
-    other = branch("Q1", "unstable", [(9, 9), (9, 8)])
-    branches = [along, near, above, own, other]
-    gaps = saddle_connections.gaps_between(branches)
-    assert set(gaps) == {(0, 1), (0, 2), (4, 1), (4, 2), (4, 3)}  # of different saddles, from one to the other
-    assert gaps[0, 1] == pytest.approx(0.003)
-    assert gaps[0, 2] == pytest.approx(0.4)
-    found = saddle_connections.connected(branches, gaps, 0.01)
-    assert [(one.end, one.connection) for one in found] == [
-        ("C2", True),
-        ("C1", True),
-        ("C", False),
-        ("C", False),
-        ("C", False),
-    ]
-    assert found[0].status == found[1].status == "Saddle connection from C₁ to C₂, within 3.0 · 10⁻³."
-    assert found[0].gap == found[1].gap == pytest.approx(0.003)  # the least, whatever comes after
-    assert found[2].gap == pytest.approx(0.4)
-    assert found[4].gap == min(gaps[4, j] for j in (1, 2, 3))
-    assert found[3].gap == gaps[4, 3]
-    reversed_ = saddle_connections.connected(branches, dict(reversed(gaps.items())), 0.01)
-    assert [one.gap for one in reversed_] == [one.gap for one in found]
-
-
-def test_the_middle_of_a_branch_is_that_of_its_length():
-    bent = np.array([(0.0, 0.0), (0.1, 0.0), (0.1, 0.3), (0.1, 3.9)])  # of length 4: its middle is (0.1, 1.9)
-    across = np.array([(-1.0, 1.9), (2.0, 1.9)])
-    assert saddle_connections._gap(across, bent) == pytest.approx(0.0, abs=1e-14)
-    assert saddle_connections._gap(across + np.array([0.0, 0.5]), bent) == pytest.approx(0.5)
-    assert saddle_connections._gap(across + np.array([3.0, 0.0]), bent) == pytest.approx(
-        1.9
-    )  # from its end at (2, 1.9)
-    assert saddle_connections._gap(across - np.array([3.0, 0.0]), bent) == pytest.approx(1.1)
 
 
 def test_branches_outside_are_drawn_to_the_edge_of_a_picture_of_half_width_two():

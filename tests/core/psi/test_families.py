@@ -14,8 +14,6 @@ from codim2_core.layer_problem.lyapunov import psi_derivatives
 from codim2_core.layer_problem.vary import limits, names, value_of, varied
 from codim2_core.psi import FAMILIES, Family, make, register, unregister
 from codim2_core.psi.constructors import compared
-from codim2_core.psi.kernel import SCALAR, VECTOR
-from codim2_core.stepping.gains import gains, has_gains
 
 from ..additions import FROM_FORMULA, WRITTEN_OUT, added_family
 
@@ -53,19 +51,6 @@ def test_kernel_gain_derivatives_and_formula_of_a_family_say_the_same(name):
                 exact = 1.0 / math.sqrt(r2 + w * w * psi(r2 / w**2))
                 assert record.gain(r2, w, value) == pytest.approx(exact, rel=1e-12)
                 assert not whole or record.gain_whole(r2, w, int(value)) == pytest.approx(exact, rel=1e-12)
-
-
-@pytest.mark.parametrize("name", [name for name in FAMILIES if name != "custom"])
-def test_root_and_kappa_together_are_what_they_are_alone(name):
-    zeta = np.concatenate([[0.0, 1e-300, 1e-9], np.geomspace(1e-3, 1e3, 50), [1e150, 1e300]])
-    record = FAMILIES[name]
-    for value in (0.0,) if record.parameter is None else (*record.compared, 1.5):
-        kernel = (make(name, value) if record.parameter else make(name)).kernel
-        with np.errstate(all="ignore"):
-            for lib, places in ((VECTOR, zeta), *((SCALAR, z) for z in zeta.tolist())):
-                root, kappa = kernel.root_and_kappa(lib, places)
-                np.testing.assert_allclose(root, kernel.root(lib, places), rtol=1e-14)
-                np.testing.assert_allclose(kappa, kernel.kappa(lib, places), rtol=1e-14)
 
 
 def test_an_added_family_is_listed_and_made_everywhere(family):
@@ -116,27 +101,6 @@ def test_an_added_family_in_all_of_the_public_api(family):
     assert any(words == c2.psi.power(2.0).words for one in outcomes for words, _, _ in one.families)
     claims = c2.certificates(c2.ELinear(-2, 0, -1, (0.5, 0), [[1, 0]]), psi)
     assert any(c2.psi.power(2.0).words in name for one in claims for name, _ in one.numbers)
-
-
-def test_an_added_family_for_a_typed_system(family):
-    system = c2.System(U=("-c+0.3*s*c", "-s-0.2*c"))
-    run = c2.trajectories(system, c2.psi.power(3.0), [(0.3, 0.4)], t_max=1.0)
-    other = c2.trajectories(system, c2.psi.custom("(1+s/3)**(-3)"), [(0.3, 0.4)], t_max=1.0)
-    np.testing.assert_allclose(run.points[0][-1], other.points[0][-1], atol=1e-6)
-
-
-def test_a_diagram_along_the_parameter_of_an_added_family(family):
-    from codim2_core.diagrams.standing import standing
-
-    found = standing(at_hopf(c2.psi.power(3.0)), c2.psi.power(2.0), "k", (1.0, 30.0))
-    assert [s.value for s in found.special if s.kind == "Hopf"] == [pytest.approx(3.0, rel=1e-6)]
-
-
-def test_another_parameter_compiles_nothing(family):
-    c2.trajectories(CASE3, c2.psi.power(2.0), [(0.1, 0.2)], t_max=0.1)
-    gains(c2.psi.power(2.0), True)
-    assert has_gains(c2.psi.power(7.25))
-    assert gains(c2.psi.power(2.0), True) is gains(c2.psi.power(7.25), True)
 
 
 def test_what_cannot_be_registered():

@@ -8,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core import psi as constructors
-from codim2_core.expressions.expression import Expression
 from codim2_core.psi.function import Psi
 
 
@@ -96,12 +95,3 @@ def test_custom_beyond_the_table():
     for zeta in (1e-250, 1e-30, 1e9, 1e30, 1e100):
         assert psi.radius(psi.modulus(zeta), psi.complement(zeta)) == pytest.approx(zeta, rel=1e-13)
     assert isinstance(psi, Psi)
-
-
-def test_conditions_of_a_typed_psi_ask_for_each_value_once(monkeypatch):
-    """A page is told of them with its first picture, while others wait."""
-    asked = []
-    evaluate = Expression.evaluate
-    monkeypatch.setattr(Expression, "evaluate", lambda self, values: asked.append(self) or evaluate(self, values))
-    constructors.custom("1/(1+s)+0.001*s*exp(-s)").check()
-    assert len(asked) < 300, len(asked)

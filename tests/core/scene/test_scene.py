@@ -119,14 +119,6 @@ def test_going_back_is_free():
     assert scene.runs["inside"] == 2
 
 
-def test_memory_is_bounded():
-    scene = c2.Scene(typed(), z=0.5, count=4)
-    for a in np.linspace(-3, -1, 50):
-        scene = scene.evolve(a=float(a))
-        scene["inside"]
-    assert len(scene._memory.results["inside"]) <= 8
-
-
 def test_a_bad_change_leaves_the_scene_as_it_was():
     scene = c2.Scene(typed(), z=0.5)
     first = scene["classification"]

@@ -11,9 +11,7 @@ from codim2_core import examples
 from codim2_core.orbits.trajectories import is_warm, warm
 from codim2_core.scene import ELINEAR_ONLY, layers
 
-from .test_scene import fingerprint
-
-MEASURED = set(layers) - ELINEAR_ONLY
+from .test_scene import fingerprint, ran
 
 
 def typed(**parameters):
@@ -26,28 +24,12 @@ def scene(**parameters):
     return c2.Scene(typed(**parameters), c2.psi.rational(), (0.5, 0.2), count=24)
 
 
-def ran(first, **changes):
-    """Layers computed by, and results changed by, a change of inputs."""
-    for name in layers:
-        first[name]
-    before = dict(first.runs)
-    after = first.evolve(**changes)
-    results = {name: fingerprint(after[name]) for name in layers}
-    computed = {name for name in layers if after.runs[name] > before[name]}
-    changed = {name for name in layers if results[name] != fingerprint(first[name])}
-    return computed, changed
-
-
 EQUATOR = {"equator", "equator_cycle", "nullclines_outside", "conics", "outside", "outside_sketch"}
 SLOW = {"critical", "name", "classification", "certificates", "slow_flow", "cycles", "outcomes"}
 HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "inside_sketch",
               "continuations", "name", "classification", "certificates", "outcomes", "launched",
               "eigendirections"}  # fmt: skip
 PLANE = EQUATOR | HEMISPHERE | {"slow_flow", "location"}
-STEPPED = {"inside", "outside", "continuations"}
-
-SKETCHES = {"inside_sketch", "outside_sketch"}
-
 REACHES = {
     "parameter of U": ({"q": 0.3}, PLANE),
     "parameter of W": ({"r": 2.0}, SLOW),
@@ -56,13 +38,7 @@ REACHES = {
     "psi": ({"psi": c2.psi.tanh()}, HEMISPHERE),
     "z that neither reads": ({"z": (0.5, 0.9)}, set()),
     "z that W reads": ({"z": (0.6, 0.2)}, SLOW),
-    "view": ({"view": 2.5}, {"nullclines_outside", "conics", "outside", "outside_sketch", "launched"}),
-    "length": ({"length": 5.0}, STEPPED | SKETCHES),
-    "t_max": ({"t_max": 6.0}, STEPPED | SKETCHES),
-    "rtol": ({"rtol": 1e-5}, STEPPED | {"separatrices"}),
-    "pixel": ({"pixel": 1 / 90}, STEPPED | {"separatrices", "launched"}),
     "launch": ({"launch": [[0.2, 0.1]]}, {"launched"}),
-    "count": ({"count": 20}, {"inside", "outside"} | SKETCHES),
     "nothing": ({"q": 0.4, "psi": c2.psi.rational()}, set()),
 }
 
@@ -126,17 +102,6 @@ def test_one_compilation_draws_every_setting():
     first["outside"]
     for p in (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3)):
         assert is_warm(p, first.evolve(q=0.7).coefficients)
-
-
-def test_the_slow_flow_is_that_of_the_critical_sets_which_are_known(monkeypatch):
-    """A server's thread is given the critical sets of a wild formula, and would search for them once more."""
-    first = scene()
-    expected = c2.sliding_flow(first.system, first.z)
-    given = scene()
-    given.give({"critical": first["critical"]})
-    monkeypatch.setattr(c2.sliding.flow, "disc_zeros", None)
-    np.testing.assert_array_equal(given["slow_flow"], expected)
-    assert expected.shape == (len(first["critical"]), 2)
 
 
 def test_a_lineage_may_pass_from_one_kind_of_system_to_the_other():

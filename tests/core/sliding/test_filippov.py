@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog, minimize_scalar
 
 import codim2_core as c2
-from codim2_core.sliding import filippov
 from codim2_core.sliding.filippov import filippov_sliding
 
 numbers = st.floats(-2.0, 2.0).map(lambda v: round(v, 3))
@@ -90,7 +89,7 @@ def least_mean(at, sign):
     raise AssertionError(f"the bounds {least} and {solved.fun} do not meet")
 
 
-@settings(max_examples=10)
+@settings(max_examples=6)
 @given(st.tuples(*[numbers] * 8))
 @example(SHARP)
 def test_extremes_match_a_linear_programme_that_is_refined_where_it_matters(k):
@@ -151,24 +150,15 @@ def test_extremes_have_all_digits_and_their_directions(turn, slope):
         np.testing.assert_allclose(combined, 0.0, atol=1e-14)
 
 
-def test_the_polygon_of_a_disc_touches_it_in_all_its_normals(monkeypatch):
+def test_the_polygon_of_a_disc_touches_it_all_round():
     """U = e and W = (cos 2 theta, sin 2 theta): opposite pairs give all of the unit circle, so W fills the disc."""
-    monkeypatch.setattr(filippov, "SUPPORTS", 8)
     found = filippov_sliding(c2.System(U=("c", "s"), W=("c**2 - s**2", "2*c*s")), (0.0, 0.0))
-    angles = np.arctan2(*found.vertices.T[::-1])
-    expected = sorted([*(-math.pi + 2.0 * math.pi * (np.arange(8) + 0.5) / 8), -math.pi / 2, 0.0, math.pi / 2, math.pi])
     np.testing.assert_allclose(np.hypot(*found.vertices.T), 1.0, rtol=0.0, atol=1e-12)
-    np.testing.assert_allclose(np.sort(angles % (2.0 * math.pi)), np.sort(np.mod(expected, 2.0 * math.pi)), atol=1e-6)
+    angles = np.arctan2(*found.vertices.T[::-1])
     steps = np.diff(np.unwrap(np.append(angles, angles[0])))
-    assert (steps > 0.0).all()  # counter-clockwise, once round
+    assert ((steps > 0.0) & (steps < 0.25)).all()  # counter-clockwise, once round
     assert steps.sum() == pytest.approx(2.0 * math.pi)
-    assert not found.unique
     assert "not unique" in found.sentence
-    for vertex, theta, weight in zip(found.vertices, found.directions, found.weights, strict=True):
-        np.testing.assert_allclose(
-            weight @ np.stack([np.cos(2 * theta), np.sin(2 * theta)], axis=-1), vertex, rtol=0.0, atol=1e-12
-        )
-        assert ((theta >= 0.0) & (theta < 2.0 * math.pi)).all()
 
 
 def test_three_slow_variables_have_the_extremes_along_their_axes():
@@ -194,15 +184,6 @@ def test_a_point_is_one_candidate_in_any_number_of_slow_variables():
         none = filippov_sliding(c2.System(U=("c - 6/5", "s/100"), W=("2*c",) * m), (0.0,) * m)
         assert (len(none), none.vertices.shape, none.unique) == (0, (0, m), False)
         assert "crossing" in none.sentence
-
-
-def test_no_linear_programme_decides_the_digits_where_the_whole_curve_lies_in_the_face():
-    """Which three directions it combines is its own choice, and Newton's method creeps from there."""
-    field = filippov._Field(c2.System(U=("c - 1/5", "s/100"), W=("2*c + s/7",)).at((0.0,)))
-    nudges = np.random.default_rng(1).normal(scale=0.02, size=(50, 3))
-    for theta in np.array([1.35, 4.79, 6.26]) + nudges:
-        vertex, _, _ = filippov._extreme(field, theta, np.array([1.0]))
-        assert vertex == pytest.approx([0.4], rel=0.0, abs=1e-14)
 
 
 def facing(theta, U, slope, level):
@@ -239,65 +220,6 @@ def test_an_extreme_of_three_directions_has_all_its_digits(turn):
         np.testing.assert_allclose(away, 0.0, atol=1e-10)
         np.testing.assert_allclose(found.weights[i], weights[order], rtol=0.0, atol=1e-12)
     assert found.weights[i].sum() == pytest.approx(1.0, abs=1e-14)
-
-
-def test_newtons_method_restores_what_was_disturbed():
-    """Directions, weights and face are all a little wrong; six steps find them again, quadratically."""
-    system, weights = typed(TRIANGLE)
-    field = filippov._Field(system.at(0.0))
-    wrong = np.array([1.0, -0.7, 0.4])
-    found = filippov._polished(
-        field, np.ones(1), TRIANGLE + 4e-4 * wrong, weights + 1e-2 * wrong, np.array([0.3, -0.7]) + 1e-3
-    )
-    assert found is not None
-    np.testing.assert_allclose(found[0], TRIANGLE, rtol=0.0, atol=1e-12)
-    np.testing.assert_allclose(found[1], weights, rtol=0.0, atol=1e-13)
-
-
-@pytest.mark.parametrize("theta", [TRIANGLE, np.array([0.5, 1.2, 2.2])], ids=["far", "no mean is zero"])
-def test_newtons_method_gives_up_where_there_is_nothing(theta):
-    """A start outside its reach; and three directions on one side, of which one would have a negative weight."""
-    system, weights = typed(theta)
-    far = 0.02 if weights.min() > 0.0 else 1e-5
-    field = filippov._Field(system.at(0.0))
-    assert filippov._polished(field, np.ones(1), theta + far, np.full(3, 1 / 3), np.array([0.3, -0.7])) is None
-
-
-def test_neighbours_are_merged_to_their_mean_also_across_zero():
-    theta = np.array([3.0, 2e-4, 2.0 * math.pi - 4e-4, 5.0, 3.0006, 1.0])
-    weights = np.array([0.1, 0.2, 0.3, 0.25, 0.15, 1e-12])
-    merged, total = filippov._merged(theta, weights)
-    np.testing.assert_allclose(
-        merged, [(0.2 * 2e-4 - 0.3 * 4e-4) / 0.5, (0.3 + 0.15 * 3.0006) / 0.25, 5.0], rtol=0.0, atol=1e-14
-    )
-    np.testing.assert_allclose(total, [0.5, 0.25, 0.25], rtol=0.0, atol=1e-14)
-    apart, total = filippov._merged(np.array([0.1, 6.2]), np.array([1.0, 3.0]))
-    assert (apart.tolist(), total.tolist()) == ([0.1, 6.2], [0.25, 0.75])
-
-
-def test_weights_are_balanced_by_the_least_change():
-    """Of all weights that give the mean 0 the nearest to those given: what is removed lies in the rows' span."""
-    system, _ = typed(TRIANGLE)
-    field = filippov._Field(system.at(0.0))
-    theta = np.array([0.5, 2.2, 4.6, 1.0, 3.6])
-    before = np.array([0.28, 0.2, 0.3, 0.22, 0.0])
-    used, weights = filippov._balanced(field, theta + 2.0 * math.pi, before)
-    np.testing.assert_allclose(used, theta[:4], rtol=0.0, atol=1e-14)
-    rows = np.vstack([np.cos(used), np.sin(used), np.ones(4)])
-    np.testing.assert_allclose(rows @ weights, [0.0, 0.0, 1.0], rtol=0.0, atol=1e-14)
-    change = weights - before[:4]
-    assert np.abs(change).max() > 0.01
-    np.testing.assert_allclose(rows.T @ np.linalg.lstsq(rows.T, change, rcond=None)[0], change, rtol=0.0, atol=1e-14)
-
-
-def test_maxima_are_all_found_and_well():
-    """Those of cos 5 theta + cos theta / 5 satisfy 25 sin 5 theta + sin theta = 0 and bend down."""
-    grid = np.linspace(0.0, 2.0 * math.pi, filippov.DENSE, endpoint=False)
-    found = filippov._maxima(lambda t: np.cos(5.0 * t) + 0.2 * np.cos(t), grid)
-    np.testing.assert_allclose(found, 2.0 * math.pi * np.arange(5) / 5, atol=0.02)
-    np.testing.assert_allclose(5.0 * np.sin(5.0 * found) + 0.2 * np.sin(found), 0.0, atol=1e-6)
-    single = filippov._maxima(lambda t: -np.abs(np.angle(np.exp(1j * (t - 1.0)))), grid)  # a kink
-    np.testing.assert_allclose(single, [1.0], rtol=0.0, atol=1e-9)
 
 
 def test_a_small_set_of_candidates_is_no_point():

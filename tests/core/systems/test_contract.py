@@ -49,7 +49,6 @@ SYSTEMS = {
         (0.3, 0.6),
     ),
 }
-EVERY = pytest.mark.parametrize("key", SYSTEMS)
 #: Each system with two Psi, so that each Psi meets six systems or more.
 PAIRS = [(key, PSIS[(i + k) % len(PSIS)]) for i, key in enumerate(SYSTEMS) for k in (0, 3)]
 WITH_PSI = pytest.mark.parametrize(("key", "p"), PAIRS, ids=[f"{key}-{p.text}" for key, p in PAIRS])
@@ -156,24 +155,3 @@ def test_going_back_returns(key, p):
     back = trajectories(at, p, places, backward=True, **options)
     r = np.where(np.arange(18) < 12, 1.0, 1.0 + back.ends[:, 2])[:, None]
     assert np.abs(r * back.ends[:, :2] - seeds).max() < 1e-9
-
-
-def turned(at, e, R):
-    return at.U(e @ R.T) - at.U(e) @ R.T
-
-
-@EVERY
-def test_rotation_equivariance_is_kept_where_the_system_has_it(key):
-    at, size = frozen(key), frozen(key).speed
-    R = np.array([[math.cos(1.1), -math.sin(1.1)], [math.sin(1.1), math.cos(1.1)]])
-    e = disc(50)
-    has_it = np.abs(turned(at, e, R)).max() < 1e-13 * size
-    assert has_it == (key in ("rotation", "typed rotation"))
-    for p in PSIS:
-        gap = hemisphere.flow(at, p, e @ R.T) - hemisphere.flow(at, p, e) @ R.T
-        assert (np.abs(gap).max() < 1e-12 * size) == has_it
-        if has_it:
-            options = {"rtol": 1e-11, "atol": 1e-12, "capture": 1e-15, "samples": "ends", "t_max": 3.0 / size}
-            seeds = e[:20]
-            one, two = (trajectories(at, p, points, **options) for points in (seeds, seeds @ R.T))
-            assert np.abs(one.ends[:, :2] @ R.T - two.ends[:, :2]).max() < 1e-9

@@ -9,19 +9,11 @@ import pytest
 
 import codim2_core
 from codim2_core import ELinear, System
-from codim2_core.systems.frozen import AtZ
 
 GIVEN = ELinear(-2.0, 0.25, -1.5, f=(-0.5, "z"), B=((1.0, 0.0),), g=(0.5,))
 TYPED = System(U=("-2*c - 0.25*s - 0.5", "0.25*c - 1.5*s + z"), W=("c + 0.5",))
 BENT = System(U=("c**2 - x", "s"), parameters={"k": 2.0})
 SYSTEMS = {"numbers": GIVEN.at(0.125), "typed": TYPED.at(0.125), "not e-linear": BENT.at()}
-QUESTIONS = [name for name in AtZ.__dict__ if not name.startswith("_")] + ["frozen"]
-
-
-@pytest.mark.parametrize("key", SYSTEMS)
-@pytest.mark.parametrize("question", QUESTIONS)
-def test_every_question_of_the_protocol_is_answered(key, question):
-    assert hasattr(SYSTEMS[key], question)
 
 
 def test_the_same_system_given_twice_answers_alike():

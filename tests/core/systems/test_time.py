@@ -6,7 +6,7 @@ import pickle
 import numpy as np
 import pytest
 
-from codim2_core import periodic_motion, psi, simulate, simulate_nonsmooth
+from codim2_core import psi, simulate, simulate_nonsmooth
 from codim2_core.expressions.expression import ExpressionError
 from codim2_core.systems.typed import System
 
@@ -65,17 +65,6 @@ def test_a_start_may_name_its_instant():
     timed = System(U=("cos(t)", "-s/2"))
     run = simulate_nonsmooth(timed, (1.0, 2.0, 0.5), (0.0, 0.4))
     np.testing.assert_allclose(run.states[-1, 0], 1.0 + math.sin(0.9) - math.sin(0.5), rtol=1e-9)
-
-
-def test_den_hartogs_forced_mass_is_typed_without_a_clock_of_its_own():
-    mass = System(
-        U=("-z1 - mu*c + F*cos(w*t)", "-z2 - mu*s + F*sin(w*t)"),
-        W=("x", "y"),
-        parameters={"mu": 0.3, "F": 0.5, "w": 2.0},
-    )
-    found = periodic_motion(mass, (0.3, 0.0, 0.0, -0.1), math.pi)
-    assert found.stability == "stable"
-    assert math.hypot(*found.state0[2:4]) == pytest.approx(0.4 / 3.0, rel=1e-9)
 
 
 def test_a_wrong_number_of_a_start_is_told():

@@ -4,11 +4,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.atlases.atlas import curves_over, family_over, with_bifurcations_of_cycles, with_connections
-from codim2_core.atlases.connections import following, lines, splitting
-from codim2_core.atlases.connections.saddles import branches
-from codim2_core.atlases.connections.splitting import Pair, Splitting
-from codim2_core.layer_problem.problem import LayerProblem
+from codim2_core.atlases.atlas import curves_over, with_connections
 
 # e' is a positive multiple of J grad H + m (H - k) grad H in the disc: the level H = k is made of orbits, and between
 # levels H rises or falls along every other one. So a saddle has a loop where its own level is k, and nowhere else.
@@ -32,27 +28,6 @@ def level_of_the_saddle(q):
 def connections(system, psi, *names_and_ranges):
     found = with_connections(system, psi, curves_over(system, psi, *names_and_ranges))
     return found, [one for one in found.curves if one.kind in ("homoclinic loop", "heteroclinic cycle")]
-
-
-def test_the_splitting_is_zero_on_the_level_of_the_saddle_alone():
-    psi = c2.psi.constant()
-    family = family_over(RISING, psi, (), *LEVELS)
-    place = family.units(np.array([0.03, level_of_the_saddle(0.03)]))
-    problem = LayerProblem(family.frozen(place), psi)
-    (out, other), (back, _) = ([one for one in branches(problem) if one.backward == way] for way in (False, True))
-    feet = [C.e for C in problem.critical if C.kind != "saddle"]
-    gaps = []
-    for leaving in (out, other):
-        for entering in [one for one in branches(problem) if one.backward]:
-            for foot in feet:
-                found = Splitting(family, place, Pair(leaving, entering, foot))
-                beside = [found.gap(place + np.array([0.0, step])) for step in (-0.01, 0.01)]
-                if np.isfinite(beside).all():
-                    gaps.append(found.gap(place))
-                    assert beside[0] * beside[1] < 0.0
-    assert len(gaps) == 2  # one loop about either critical set
-    assert np.abs(gaps).max() < 1e-12
-    assert back.ratio == pytest.approx(1.0, abs=1e-12)  # on the level of a Hamiltonian system
 
 
 @pytest.mark.slow
@@ -117,27 +92,3 @@ def test_heteroclinic_cycles_of_an_e_linear_system_are_those_of_its_own_method()
     assert len(neutral) == 2
     for place in neutral:
         assert min(np.hypot(*(np.array(place) - one.place)) for one in known.special) < 1e-7
-
-
-@pytest.mark.slow
-def test_the_atlas_has_them_where_cycles_are_asked_for(monkeypatch):
-    monkeypatch.setattr(lines, "ACROSS", (0.4871,))
-    values = {"a": 1, "b": 1.3, "d": -1.2, "f1": 0, "f2": 0}
-    typed = c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=values)
-    asked = typed, c2.psi.hill(3), "f1", "f2", ((1.1, 1.3), (1.1, 1.5))
-    whole = c2.atlas(*asked, with_cycles=True)
-    assert "heteroclinic cycle" in {one.kind for one in whole.curves}
-    assert whole.unfinished == ()
-    bare = c2.atlas(*asked)
-    assert "heteroclinic cycle" not in {one.kind for one in bare.curves}
-    assert [one.name for one in bare.regions] == [one.name for one in whole.regions]  # they cut none
-    with monkeypatch.context() as at:
-        at.setattr(following, "REACH", 0.0)  # as if no curve were caught
-        assert with_bifurcations_of_cycles(*asked[:2], bare).unfinished == ("heteroclinic cycle",)
-    with monkeypatch.context() as at:
-        at.setattr(splitting, "CORRECTIONS", 0)  # as if orbits were not followed to all digits
-        assert with_connections(*asked[:2], bare).unfinished == ("heteroclinic cycle",)
-    monkeypatch.setattr(lines, "MOST_BRANCHES", 1)
-    assert with_connections(*asked[:2], bare).unfinished == (
-        "homoclinic loop", "heteroclinic cycle", "saddle connection",
-    )  # fmt: skip

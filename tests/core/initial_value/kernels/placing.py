@@ -1,7 +1,5 @@
 """A state where the kernels read it."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 
@@ -19,8 +17,6 @@ CURVED = System(
     U=("-2*c + 1.5*c*s + 2.4*sin(z1) + 0.3*x", "-s + 0.9*cos(z1) - 0.2*y*z2 + 0.4*c**2"),
     W=("1 + c*y - 0.3*s", "0.4*c - z2 + x*s"),
 )
-# C = (z1, 0.3)
-MOVES = System(U=("-2*(c - z1) + 0.7*(s - 0.3)", "-0.9*(c - z1) - (s - 0.3)"), W=("1.0 + 0.5*c", "s - 2*z2 + 3*z1*c"))
 TANH, HILL = families.tanh(), families.hill(3)
 
 

@@ -1,15 +1,11 @@
 """Forced periodic motions: closed forms for eps > 0 and in the limit, and motions of SciPy and their differences."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from scipy.integrate import solve_ivp
-from scipy.optimize import root
 
 from codim2_core import PeriodicStatus, System, periodic_motion, psi, simulate_nonsmooth
 from codim2_core.motion.periodic.multipliers import matched
@@ -79,47 +75,6 @@ def test_den_hartogs_motion_in_its_line_and_in_the_plane(mu, F, w):
     np.testing.assert_allclose(plane.state0, [speed, 0.0, q, 0.0, 0.0], atol=1e-9)
     assert plane.state0[[1, 3]].tolist() == [0.0, 0.0]  # it stays in the line y = z2 = 0
     close(plane, exact.multipliers)
-
-
-def test_with_psi_its_multipliers_tend_to_those_of_the_limit():
-    exact = DenHartog(0.1, 1.0, 0.6)
-    start = (exact.at_clock(0.0)[0], 0.0, exact.at_clock(0.0)[1], 0.0)
-    off = []
-    for eps in (1e-3, 1e-5, 1e-7):
-        found = periodic_motion(LINE, start, math.tau / 0.6, psi.constant(), eps)
-        assert found.stability == "stable"  # eps > 0: there is a derivative across the line
-        off.append(np.sort(matched(np.asarray(exact.multipliers), found.multipliers[:2])).max())
-    assert off[0] < 1e-3
-    np.testing.assert_allclose(np.array(off[1:]) / off[:-1], 1e-2, rtol=0.1)
-
-
-def rate(eps):
-    """Write an oscillator down again: springs 1 and 2, pushed on an ellipse, Psi = 1."""
-
-    def found(t, state):
-        x, y, q, p = state
-        h = math.sqrt(x * x + y * y + eps * eps)
-        u = -q - 0.3 * x / h - 0.1 * x + 0.9 * math.cos(1.4 * t)
-        return [u, -2.0 * p - 0.3 * y / h - 0.1 * y + 0.5 * math.sin(1.4 * t), x, y]
-
-    return found
-
-
-@pytest.mark.parametrize("eps", [0.3, 0.01])
-def test_scipy_finds_the_same_motion_and_multipliers(eps):
-    system = System(
-        U=("-z1 - 0.3*c - 0.1*x + 0.9*cos(1.4*z3)", "-2*z2 - 0.3*s - 0.1*y + 0.5*sin(1.4*z3)"), W=("x", "y", "1")
-    )
-    period = math.tau / 1.4
-
-    def end(first):
-        return solve_ivp(rate(eps), (0.0, period), first, "DOP853", rtol=1e-11, atol=1e-12, max_step=0.02).y[:, -1]
-
-    found = periodic_motion(system, (0.3, -0.3, -0.7, 0.1, 0.0), period, psi.constant(), eps)
-    other = root(lambda first: end(first) - first, found.state0[:4] + 1e-3, tol=1e-11)
-    np.testing.assert_allclose(found.state0[:4], other.x, atol=1e-8)
-    by = [(end(other.x + h) - end(other.x - h)) / 2e-4 for h in 1e-4 * np.eye(4)]
-    assert matched(found.multipliers, np.linalg.eigvals(np.transpose(by)).astype(complex)).max() < 1e-5
 
 
 @settings(max_examples=2, deadline=None)
