@@ -31,7 +31,7 @@ export function panelsOf(explorer) {
     ask: (question) => explorer.ask(question),
     cross: (place) => explorer.picture.cross(place),
     crowd: () => explorer.room?.rows ?? null, first: config.defaults, setting: config.setting, families: config.families,
-    parameters: () => explorer.systems.all(),
+    parameters: () => explorer.systems.all(), plane: () => explorer.eLinear ? values : null,
   }, (name) => explorer.choose("panel", name))
   return {panels, setters}
 }

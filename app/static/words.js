@@ -83,6 +83,8 @@ export const SAYS = {
   keptInPage: "What you have typed, kept until this page is closed.",
   removed: "Removed:",
   putBack: "Put back",
+  ballAbove: "The ball, seen from above",
+  puckAbove: "The puck, seen from above: pushed by f, held by friction A e",
   orbit: "Launched orbit",
   pointAt: "Point at the curve or at a mark on Σ to read its numbers, or press Enter on the picture for one after the other.",
   limitVector: "the limit vector",

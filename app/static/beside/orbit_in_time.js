@@ -2,10 +2,11 @@
 // a typed start. ε → 0 is drawn in full, ε > 0 broken. A dot runs along both.
 
 import {Ball} from "./ball.js"
+import {Puck} from "./puck.js"
 import {Chart} from "../chart/chart.js"
 import {spanOf} from "../chart/scale.js"
 import {Player, sampled} from "./player.js"
-import {digits, escape, measured, minus, phaseWords} from "../words.js"
+import {SAYS, digits, escape, measured, minus, phaseWords} from "../words.js"
 
 export const TYPED = -1 // in place of a launched orbit's place: the typed start
 
@@ -29,9 +30,9 @@ export const TYPED = -1 // in place of a launched orbit's place: the typed start
 export const MARKUP = `<section class="orbit-time" hidden>
   <div class="row"><button type="button" class="play" aria-pressed="false">▶ Play</button><button type="button" class="here"></button></div>
   <div class="note now"><p class="orbit-now" aria-live="off"></p><p class="phase-now" aria-live="off"></p></div>
+  <canvas class="ball" hidden role="img"></canvas>
   <svg class="series" role="slider" tabindex="0" aria-label="The orbit over time: drag to move along it"></svg>
   <p class="pad-key orbit-key"></p>
-  <canvas class="ball" hidden role="img" aria-label="The ball, seen from above"></canvas>
   <ul class="phases"></ul>
 </section>`
 
@@ -69,6 +70,8 @@ export class OrbitInTime {
     this.rows = 3
     this.svg = this.find(".series")
     this.ball = new Ball(tools.root, this.find(".ball"))
+    this.puck = new Puck(tools.root, this.find(".ball"))
+    this.plane = tools.plane
     this.chart = new Chart(this.svg, {
       aspect: (width) => Math.min((this.rows > 3 ? 1.15 : 0.9) * width, 160 * this.rows),
       onMove: (t) => this.player.scrub(t),
@@ -114,8 +117,12 @@ export class OrbitInTime {
     const phases = orbit.phases ?? motion?.phases ?? []
     this.rolls = [motion, orbit].find((run) => run?.ball) ?? null
     this.find(".phases").innerHTML = phases.map(([kind, from, , why]) => `<li><i class="band ${kind}"></i><span>${digits(from, 4)}</span><span class="note">${phaseWords(kind, this.rolls)}: ${escape(why)}</span></li>`).join("")
-    this.ball.canvas.hidden = !this.rolls
+    const plane = orbit.index === TYPED && !this.rolls ? this.plane?.() ?? null : null
+    this.above = this.rolls ? this.ball : plane ? this.puck : null
     if (this.rolls) this.ball.prepare(this.rolls)
+    else if (plane) this.puck.prepare(motion ?? orbit, plane)
+    this.ball.canvas.hidden = !this.above
+    this.ball.canvas.setAttribute("aria-label", plane ? SAYS.puckAbove : SAYS.ballAbove)
   }
 
   plots(orbit, motion, span) {
@@ -157,7 +164,7 @@ export class OrbitInTime {
     const told = [x, y, theta, radius].map((value, i) => `${words[i].split(" ")[0]} = ${digits(value, 3)}`)
     this.find(".orbit-now").textContent = `${words[4]} = ${digits(at, 3)}: ${told.join(", ")}`
     this.find(".phase-now").textContent = this.phaseAt(at)
-    if (this.rolls) this.ball.show(this.rolls, at)
+    this.above?.show(this.rolls, at)
     if (moved && orbit.index === TYPED) this.moved(z)
   }
 
