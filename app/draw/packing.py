@@ -18,8 +18,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .arrowheads import arrowheads
-from .spacing import Pieces, evenly
+from .lines.arrowheads import arrowheads
+from .lines.spacing import Pieces, evenly
 from .theme import REACH, VIEW
 
 #: Coordinates travel as int16 multiples of EXTENT / 32767, that is 1.2e-4 of the disc's radius: at 400 px

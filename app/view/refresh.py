@@ -20,7 +20,8 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 from codim2_core.words import printed
 
-from ..draw import arrowheads, glyphs, spacing
+from ..draw import glyphs
+from ..draw.lines import arrowheads, spacing
 from ..draw.packing import pack
 from ..frame.budget import Budget, Layers, LeftOut, layers_of
 from ..frame.draft import Draft

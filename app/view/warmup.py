@@ -21,8 +21,8 @@ from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.kinds import AnySystem
 
-from ..draw.arrowheads import arrowheads
-from ..draw.spacing import evenly
+from ..draw.lines.arrowheads import arrowheads
+from ..draw.lines.spacing import evenly
 from ..frame.scenes import make_scene
 from ..state.controls import first_values
 from .alone import alone

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 from codim2_app.draw import glyphs
-from codim2_app.draw.arrowheads import CLEARANCE, SHORTEST, STRETCH, _place, arrowheads
+from codim2_app.draw.lines.arrowheads import CLEARANCE, SHORTEST, STRETCH, _place, arrowheads
 from codim2_app.draw.packing import PIXEL, WINDOW
 
 import codim2_core as c2

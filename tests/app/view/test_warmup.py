@@ -5,7 +5,8 @@ import sys
 import threading
 
 import pytest
-from codim2_app.draw import arrowheads, packing
+from codim2_app.draw import packing
+from codim2_app.draw.lines import arrowheads
 from codim2_app.draw.packing import unpack
 from codim2_app.server import cli
 from codim2_app.state.controls import ExplorerState
