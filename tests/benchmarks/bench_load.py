@@ -2,7 +2,7 @@
 
 ``python -m tests.benchmarks load [--quick]``. How many sessions a process carries (one core each) while the p95 of all
 frames stays below 100 ms, what is then at its limit, and how unequally the chairs are served; forty pages in two
-seconds; a page beyond the limit; and the memory over an hour's worth of visits. The visitors are played by another
+seconds; and the memory over an hour's worth of visits. The visitors are played by another
 process on the same machine, which needs a processor too.
 """
 
@@ -15,18 +15,16 @@ import resource
 import sys
 import time
 from dataclasses import dataclass
-from urllib.error import HTTPError
 
 import numpy as np
 
 from .app_load import MANY, RATE, WITHIN, at_rest, burst, children, cpu, family, forgotten, overtaken, serving
 from .app_servers import queued
-from .bench_sessions import LONGEST
-from .bokeh_wire import Wire
-from .visits import TICKS, Chair, page, seated, visit
+from .visits import TICKS, Chair, seated, visit
 
 CHAIRS = (1, 8, 16, 24, 32, 40)
 SECONDS = 12.0
+LONGEST = 0.1  # seconds: the p95 that is borne
 #: An hour of forty phones that stay for three minutes each.
 HOUR = 800
 AT_ONCE = 8  # of these
@@ -151,24 +149,6 @@ def first_come(quick: bool) -> str:
     )
 
 
-def refused(places: int = 2) -> str:
-    """Say what a page beyond the limit is answered."""
-
-    async def come(port: int) -> str:
-        wires = [await Wire.connect(port) for _ in range(places)]
-        try:
-            page(port)
-        except HTTPError as error:
-            return f"answered {error.code}, Retry-After {error.headers['Retry-After']} s"
-        finally:
-            for wire in wires:
-                await wire.vanish()
-        return "let in"
-
-    with serving("explorer", "1", "--sessions", str(places)) as (port, _):
-        return f"With {places} places, a page more is {asyncio.run(come(port))}."
-
-
 def memory(visits: int) -> str:
     """Say what is held after each quarter of an hour's worth of visits."""
 
@@ -197,8 +177,8 @@ def report(quick: bool = False) -> str:
     """Return the tables as Markdown."""
     chairs, seconds = ((8, 24), 5.0) if quick else (CHAIRS, SECONDS)
     lines = []
-    both = {processes: crowds(processes, chairs, seconds) for processes in ((1,) if quick else (1, 2))}
-    for processes, found in both.items():
+    for processes in (1,) if quick else (1, 2):
+        found = crowds(processes, chairs, seconds)
         most = carried(found)
         lines += [
             f"| {processes} process{'es' * (processes > 1)}: sessions | visits, lost | frames: median, p95, ms "
@@ -212,21 +192,8 @@ def report(quick: bool = False) -> str:
             f"{saturated(found[chairs[-1]], processes)}",
             "",
         ]
-    if len(both) > 1:
-        lines += [compared(both[1], both[2]), ""]
-    lines += [first_come(quick), refused(), memory(HOUR // 10 if quick else HOUR)]
+    lines += [first_come(quick), memory(HOUR // 10 if quick else HOUR)]
     return "\n".join(lines)
-
-
-def compared(one: dict[int, Load], two: dict[int, Load]) -> str:
-    """Say what a second process gains, by the size of the crowd."""
-    said = (
-        f"{size}: median {1e3 * np.median(one[size].delays()):.0f} and {1e3 * np.median(two[size].delays()):.0f} ms, "
-        f"{sum(one[size].rates()) / 2:.1f} and {sum(two[size].rates()) / 2:.1f} frames/s"
-        for size in sorted(one.keys() & two.keys())
-        if one[size].delays() and two[size].delays()
-    )
-    return f"By one process and by two, sessions: {'; '.join(said)} (middle of the least and the most served)."
 
 
 def saturated(load: Load, processes: int) -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import random
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -21,7 +21,6 @@ from codim2_core import ELinear, critical_sets, equator_equilibria, examples, ps
 from codim2_core.systems.coefficients import Coefficients
 
 from ..core.exact_trigonometric import count_equilibria, root_error, theta_coefficients
-from .bench_equator import near
 from .pictures import Plot, plot
 from .race import clock
 
@@ -30,6 +29,14 @@ TURN = 2.0 * math.pi
 ON_CIRCLE = 1e-6  # how far from |z| = 1 numpy.roots may be and still count
 GAPS = (0.0, 3.0, 6.0, 9.0, 12.0)  # saddle-node +- 10^-k; 0: uniform
 RESOLUTIONS = (32, 128, 512, 2048)
+
+
+def near(rng: random.Random, power: float) -> Numbers:
+    """A point of eq:tangencies, with b moved by 10^-power of itself to either side."""
+    a, b, d = (rng.uniform(-2, 2) for _ in range(3))
+    c, s = math.cos(theta := rng.uniform(0, TURN)), math.sin(theta)
+    f1, f2 = b * s - (a - d) * c**3, (a - d) * s**3 - b * c
+    return a, b * (1 + rng.choice((1, -1)) * 10.0**-power), d, f1, f2
 
 
 def by_companion(q: Numbers) -> list[float]:
@@ -94,7 +101,7 @@ def equator_rows(count: int, turns: int) -> list[Row]:
     rng = random.Random(3)
     rows = []
     for gap in GAPS:
-        draw = near(gap) if gap else lambda: tuple(rng.uniform(-2.0, 2.0) for _ in range(5))
+        draw = (lambda gap=gap: near(rng, gap)) if gap else lambda: tuple(rng.uniform(-2.0, 2.0) for _ in range(5))
         systems: list[Numbers] = [draw() for _ in range(count)]
         counts = [count_equilibria(*q) for q in systems]
         fifty = [theta_coefficients(*q) for q in systems]
@@ -110,14 +117,6 @@ def equator_rows(count: int, turns: int) -> list[Row]:
             error = float(np.max(errors)) if errors else math.nan
             rows.append(Row(title, name, 1.0 - len(right) / count, error, 1e6 * float(np.median(times[name]))))
     return rows
-
-
-def fresh(build: Callable[[float], object]) -> Iterator[object]:
-    """Systems that have not been seen: nothing can come from a cache."""
-    k = 0
-    while True:
-        k += 1
-        yield build(0.3 + 1e-9 * k)
 
 
 @dataclass
