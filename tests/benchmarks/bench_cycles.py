@@ -1,8 +1,5 @@
 """Case III: what its scene costs beside its trajectories, limit cycles, their branches and folds; error beside time.
 
-Of each branch it is told what the time is made of: rounds that wait for one another, turns of the return map in all of
-them, and the time in compiled code.
-
 Run ``python -m tests.benchmarks.bench_cycles [--quick]``. Times are of the processor, ratios are paired by run.
 """
 
@@ -18,10 +15,7 @@ from typing import Any
 import numpy as np
 
 import codim2_core as c2
-from codim2_core.continuation import branches as following
-from codim2_core.continuation import measured
 from codim2_core.continuation.branches import continue_cycles
-from codim2_core.cycles import return_map
 from codim2_core.diagrams.standing import standing
 
 from .bench_scene import LAYERS, PICTURE, TRAJECTORIES
@@ -76,7 +70,7 @@ def branch_error(branches: Any, system: c2.ELinear, psi: c2.Psi) -> float:
 
 
 def branch_rows(repeats: int, quick: bool) -> list[str]:
-    """Milliseconds of branches, the largest error of a period, rounds, turns, and milliseconds in compiled code."""
+    """Milliseconds of branches, and the largest error of a period."""
     psi, three = c2.psi.hill(3), c2.presets["case3-n3"].system
     cases = [
         ("f1 from 0.2 to 0.5, b = 1.3", FOLDING, "f1", (0.2, 0.5)),
@@ -87,40 +81,9 @@ def branch_rows(repeats: int, quick: bool) -> list[str]:
     for label, system, name, span in cases[: 1 if quick else None]:
         cost, found = timed(lambda s=system, n=name, span=span: continue_cycles(s, psi, n, span), repeats)
         error = branch_error(found, system, psi) if name == "f1" and system is FOLDING else None
-        rounds, turns, compiled = made_of(lambda s=system, n=name, span=span: continue_cycles(s, psi, n, span))
         shown = "" if error is None else f"{error:.0e}"
-        rows.append(f"| {label}: {len(found)} | {cost:.0f} | {shown} | {rounds} | {turns} | {compiled:.0f} |")
+        rows.append(f"| {label}: {len(found)} | {cost:.0f} | {shown} |")
     return rows
-
-
-def made_of(call: Callable[[], Any]) -> tuple[int, int, float]:
-    """Rounds and turns that a search for branches asks for, and milliseconds in compiled code."""
-    parts = [(return_map, "returns"), (return_map, "reached"), (measured, "measured")]
-    kept = [getattr(module, name) for module, name in parts]
-    follow, asked, took = following.follow, [], []
-
-    def noted(questions: Any) -> Any:
-        asked.append(sum(len(question.xi) for question in questions))
-        return follow(questions)
-
-    def clocked(kernel: Callable[..., Any]) -> Callable[..., Any]:
-        def run(*given: Any) -> Any:
-            cost, found = spent(lambda: kernel(*given))
-            took.append(cost)
-            return found
-
-        return run
-
-    try:
-        following.follow = noted
-        for (module, name), kernel in zip(parts, kept, strict=True):
-            setattr(module, name, clocked(kernel))
-        call()
-    finally:
-        following.follow = follow
-        for (module, name), kernel in zip(parts, kept, strict=True):
-            setattr(module, name, kernel)
-    return len(asked), sum(asked), sum(took)
 
 
 def standing_row(repeats: int) -> tuple[float, float]:
@@ -161,8 +124,8 @@ def report(quick: bool = False) -> str:
         lines.append(f"| the same of the spinning annulus, eta through 1: {count} special values | {cost:.0f} | |")
         cost, curve = timed(lambda: c2.bifurcations.cycle_folds(1.0, 1.3, -1.2, psi), 1)
         lines.append(f"| folds of cycles in (f1, f2): {len(curve)} curves | {cost:.0f} | |")
-    lines += ["", "| branches of cycles | ms of the processor | error of the period | rounds | turns | ms compiled |"]
-    lines += ["|---|---|---|---|---|---|", *branch_rows(max(repeats // 3, 1), quick)]
+    lines += ["", "| branches of cycles | ms of the processor | error of the period |"]
+    lines += ["|---|---|---|", *branch_rows(max(repeats // 3, 1), quick)]
     return "\n".join([*lines, "", f"Load of the machine then: {os.getloadavg()[0]:.1f}."])
 
 

@@ -12,12 +12,11 @@ import random
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from fractions import Fraction
 
 import numpy as np
 from scipy.optimize import brentq, root
 
-from codim2_core import ELinear, critical_sets, equator_equilibria, examples, psi
+from codim2_core import critical_sets, equator_equilibria, examples, psi
 from codim2_core.systems.coefficients import Coefficients
 
 from ..core.exact_trigonometric import count_equilibria, root_error, theta_coefficients
@@ -212,40 +211,11 @@ def critical_general(turns: int) -> General:
     return _measured("critical sets, non-unique sliding", methods, exact, turns)
 
 
-def critical_elinear(turns: int) -> General:
-    """The critical set of an e-linear system near the equator: -A^-1 f in exact fractions."""
-    shape = psi.hill(4)
-
-    def system(z: float) -> ELinear:
-        return ELinear(-2.0, 0.5, -1.0, (-0.5 - z, 0.2))
-
-    def exact(z: float) -> np.ndarray:
-        a, b, d, f1, f2 = map(Fraction, system(z).at(()).plane)
-        det = a * d + b * b
-        return np.array([float((-d * f1 - b * f2) / det), float((b * f1 - a * f2) / det)])
-
-    def by_root(z: float) -> np.ndarray:
-        at = system(z).at(())
-        done = root(at.U, np.zeros(2), tol=1e-14)
-        e = done.x
-        J = np.array([[at.a, -at.b], [at.b, at.d]])
-        np.linalg.eigvals(J)
-        return e
-
-    methods: dict[str, Callable[[float], np.ndarray]] = {
-        "ours": lambda z: critical_sets(system(z), shape)[0].e,
-        "hybr": by_root,
-        "numpy.linalg.solve": lambda z: np.linalg.solve(system(z).at(()).A, [0.5 + z, -0.2]),
-    }
-    return _measured("critical set, e-linear", methods, exact, turns, sort=False)
-
-
 def _measured(
     name: str,
     methods: dict[str, Callable[[float], np.ndarray]],
     exact: Callable[[float], np.ndarray],
     turns: int,
-    sort: bool = True,
 ) -> General:
     result = General(name)
     times: dict[str, list[float]] = {method: [] for method in methods}
@@ -260,12 +230,11 @@ def _measured(
         z += 1e-7
         true, found = exact(z), np.atleast_1d(run(z))
         error = math.nan
-        if sort and name.startswith("limit"):
+        if name.startswith("limit"):
             found = np.sort(np.mod(found + 1e-9, TURN) - 1e-9)
         if len(found) == len(true):
             error = float(np.abs(found - true).max())
-        count = f"{len(found)} of {len(true)}" if sort else "1 of 1"
-        result.rows.append((method, count, error, float(np.median(times[method]))))
+        result.rows.append((method, f"{len(found)} of {len(true)}", error, float(np.median(times[method]))))
     return result
 
 
@@ -280,7 +249,7 @@ class Roots:
 def measure(quick: bool = False) -> Roots:
     """Measure everything."""
     turns = 5 if quick else 41
-    general = [general_equator(turns), critical_general(turns), critical_elinear(turns)]
+    general = [general_equator(turns), critical_general(turns)]
     return Roots(equator_rows(40 if quick else 300, 3 if quick else 9), general)
 
 
