@@ -123,12 +123,3 @@ def left(port: int) -> dict[str, float]:
 def there(port: int) -> int:
     """Return how many explorers a `forgetful` server holds."""
     return int(urlopen(f"http://localhost:{port}/there").read())
-
-
-async def forgotten(port: int) -> dict[str, float]:
-    """Wait until a `forgetful` server has forgotten its last page; return what it holds then."""
-    for _ in range(60):
-        await asyncio.sleep(0.5)
-        if not there(port):
-            break
-    return left(port)

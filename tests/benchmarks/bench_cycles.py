@@ -1,6 +1,6 @@
-"""Case III: what its scene costs beside its trajectories, limit cycles, their branches and folds; error beside time.
+"""Case III: limit cycles, their branches and folds; error beside time.
 
-Run ``python -m tests.benchmarks.bench_cycles [--quick]``. Times are of the processor, ratios are paired by run.
+Run ``python -m tests.benchmarks.bench_cycles [--quick]``. Times are of the processor.
 """
 
 from __future__ import annotations
@@ -18,9 +18,6 @@ import codim2_core as c2
 from codim2_core.continuation.branches import continue_cycles
 from codim2_core.diagrams.standing import standing
 
-from .bench_scene import LAYERS, PICTURE, TRAJECTORIES
-
-PRESETS = ("case3-n2", "case3-n3", "case3-n4")
 PERIODS = {3: 0.5044751410092433, 4: 0.6066957493683202}  # of Case III's cycle, by extrapolation at 22 digits
 CLEAR = 1e-4  # exponent from which a period is known better than its value is rounded
 FOLDING = c2.ELinear(1.0, 1.3, -1.2, (0.33, 0.07))  # with Hill 3 a fold of cycles lies near f2 = 0.069
@@ -31,20 +28,6 @@ def spent(call: Callable[[], Any]) -> tuple[float, Any]:
     start = time.process_time()
     found = call()
     return 1e3 * (time.process_time() - start), found
-
-
-def scene_row(preset: str, repeats: int) -> tuple[float, float, float]:
-    """Milliseconds of a cold scene's trajectories, and medians of picture and of all layers over them."""
-    values = c2.presets[preset]
-    alone, picture, whole = [], [], []
-    for k in range(repeats + 1):
-        scene = c2.Scene(values.system, values.psi)
-        times = {name: spent(lambda name=name, scene=scene: scene[name])[0] for name in LAYERS}
-        if k:  # the first loads what is compiled
-            alone.append(sum(times[name] for name in TRAJECTORIES))
-            picture.append(sum(times[name] for name in PICTURE) / alone[-1])
-            whole.append(sum(times.values()) / alone[-1])
-    return statistics.median(alone), statistics.median(picture), statistics.median(whole)
 
 
 def timed(call: Callable[[], Any], repeats: int) -> tuple[float, Any]:
@@ -100,14 +83,7 @@ def standing_row(repeats: int) -> tuple[float, float]:
 def report(quick: bool = False) -> str:
     """Return both tables as Markdown."""
     repeats = 3 if quick else 15
-    lines = [
-        "| cold scene | its trajectories, ms | picture / trajectories | all layers / trajectories |",
-        "|---|---|---|---|",
-    ]
-    for preset in PRESETS[: 1 if quick else None]:
-        alone, picture, whole = scene_row(preset, repeats)
-        lines.append(f"| {preset} | {alone:.2f} | {picture:.2f} | {whole:.1f} |")
-    lines += ["", "| | ms of the processor | error |", "|---|---|---|"]
+    lines = ["| | ms of the processor | error |", "|---|---|---|"]
     system = c2.presets["case3-n3"].system
     for n in (3,) if quick else (3, 4):
         cost, cycles = timed(lambda n=n: c2.limit_cycles(system, c2.psi.hill(n)), repeats)

@@ -2,7 +2,7 @@
 
 ``python -m tests.benchmarks load [--quick]``. How many sessions a process carries (one core each) while the p95 of all
 frames stays below 100 ms, what is then at its limit, and how unequally the chairs are served; forty pages in two
-seconds; and the memory over an hour's worth of visits. The visitors are played by another
+seconds. The visitors are played by another
 process on the same machine, which needs a processor too.
 """
 
@@ -18,16 +18,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .app_load import MANY, RATE, WITHIN, at_rest, burst, children, cpu, family, forgotten, overtaken, serving
+from .app_load import MANY, RATE, WITHIN, at_rest, burst, children, cpu, family, overtaken, serving
 from .app_servers import queued
-from .visits import TICKS, Chair, seated, visit
+from .visits import TICKS, Chair, seated
 
 CHAIRS = (1, 8, 16, 24, 32, 40)
 SECONDS = 12.0
 LONGEST = 0.1  # seconds: the p95 that is borne
-#: An hour of forty phones that stay for three minutes each.
-HOUR = 800
-AT_ONCE = 8  # of these
 
 
 @dataclass(frozen=True)
@@ -149,30 +146,6 @@ def first_come(quick: bool) -> str:
     )
 
 
-def memory(visits: int) -> str:
-    """Say what is held after each quarter of an hour's worth of visits."""
-
-    async def quarter(port: int, first: int) -> None:
-        for number in range(first, first + visits // 4, AT_ONCE):
-            await asyncio.gather(*(visit(port, number + i, Chair()) for i in range(AT_ONCE)))
-
-    with serving("forgetful") as (port, pid):
-        asyncio.run(quarter(port, 0))  # what is compiled and kept for all
-        asyncio.run(at_rest(pid))
-        held = [asyncio.run(forgotten(port))]
-        for part in range(4):
-            asyncio.run(quarter(port, part * visits // 4))
-            asyncio.run(at_rest(pid))
-            held.append(asyncio.run(forgotten(port)))
-    sizes = ", ".join(f"{1e-6 * one['resident']:.0f}" for one in held)
-    last = held[-1]
-    return (
-        f"Memory over {visits} visits ({visits / HOUR:.2g} of an hour of forty phones), MB before and after each "
-        f"quarter: {sizes}; {last['ExplorerView']} explorers and {last['Frames']} sessions' frames are left, "
-        f"{last['formulas']} formulas are compiled."
-    )
-
-
 def report(quick: bool = False) -> str:
     """Return the tables as Markdown."""
     chairs, seconds = ((8, 24), 5.0) if quick else (CHAIRS, SECONDS)
@@ -192,7 +165,7 @@ def report(quick: bool = False) -> str:
             f"{saturated(found[chairs[-1]], processes)}",
             "",
         ]
-    lines += [first_come(quick), memory(HOUR // 10 if quick else HOUR)]
+    lines.append(first_come(quick))
     return "\n".join(lines)
 
 
