@@ -40,6 +40,8 @@ class Part:
         Lengths of dashes and gaps in px; () is solid. What differs in meaning differs by more than colour.
     arrows : bool
         Whether arrowheads tell the sense of time.
+    even : bool
+        Whether curves end where they would come too near to one another, see `spacing`.
     sketch : str
         The layer of the scene that is drawn while the kernels of the other are compiled.
     owners : callable, optional
@@ -53,6 +55,7 @@ class Part:
     pieces: Callable[[Any], Pieces] = lambda result: glyphs.join([curve.points for curve in result])
     dash: tuple[float, ...] = ()
     arrows: bool = False
+    even: bool = False
     sketch: str = ""
     owners: Callable[[Any], list[str]] | None = None
 
@@ -80,6 +83,8 @@ class Layer:
         What it is, for its tooltip.
     optional : bool
         There is nothing of it until somebody asks; a picture that has nothing of it does not name it.
+    first : bool
+        Its control is in sight from the start; the others are one step away.
     """
 
     name: str
@@ -91,6 +96,7 @@ class Layer:
     hidden: bool = False
     compiled: bool = False
     optional: bool = False
+    first: bool = False
     tip: str = ""
 
 
@@ -140,13 +146,13 @@ LAUNCH_COLOURS = 6
 
 _ROWS = (
     Layer(
-        "outside", "Trajectories outside", 50, compiled=True, colours={"outside": ("#5b6675", "#8d99aa")},
-        parts=(Part("outside", "outside", 0.9, "outside", _orbits, arrows=True, sketch="outside_sketch"),),
+        "outside", "Orbits outside", 50, compiled=True, first=True, colours={"outside": ("#a3b1c2", "#5c6a7d")},
+        parts=(Part("outside", "outside", 1.2, "outside", _orbits, arrows=True, even=True, sketch="outside_sketch"),),
         tip="The system without regularisation, at radius 1 + |(x, y)|; arrows tell the sense of time.",
     ),
     Layer(
-        "inside", "Trajectories on the hemisphere", 60, compiled=True, colours={"orbit": ("#1c2430", "#d6dce5")},
-        parts=(Part("inside", "orbit", 0.9, "inside", _orbits, arrows=True, sketch="inside_sketch"),),
+        "inside", "Orbits inside", 60, compiled=True, first=True, colours={"orbit": ("#5f7186", "#aebccc")},
+        parts=(Part("inside", "orbit", 1.4, "inside", _orbits, arrows=True, even=True, sketch="inside_sketch"),),
         tip="Orbits of the layer problem, projected from the hemisphere.",
     ),
     Layer(
@@ -172,13 +178,13 @@ _ROWS = (
     ),
     # nullclines have the paper's colours (matlab1 to matlab4 of fig:sim_5cases), lighter on dark
     Layer(
-        "rho", "ρ-nullclines", 30, _nullcline("rho", ("rho", "rho"), (1.8, 1.8), "rho"),
-        {"rho": ("#0072bd", "#4aa8e8")},
+        "rho", "ρ-nullclines", 30, first=True, parts=_nullcline("rho", ("rho", "rho"), (1.8, 1.8), "rho"),
+        colours={"rho": ("#0072bd", "#4aa8e8")},
         tip="Where the distance from Σ is at rest: U·e = 0.",
     ),
     Layer(
-        "theta", "θ-nullclines", 40, _nullcline("theta", ("theta", "theta"), (1.8, 1.8), "theta"),
-        {"theta": ("#d95319", "#ff8552")},
+        "theta", "θ-nullclines", 40, first=True, parts=_nullcline("theta", ("theta", "theta"), (1.8, 1.8), "theta"),
+        colours={"theta": ("#d95319", "#ff8552")},
         tip="Where the angle is at rest: Θ = 0.",
     ),
     Layer(
@@ -205,13 +211,13 @@ _ROWS = (
         tip="Orbits through points that you have clicked.",
     ),
     Layer(
-        "equator", "Equator equilibria", 110,
+        "equator", "Limit directions", 110, first=True,
         colours={"attr": ("#15803d", "#4ade80"), "rep": ("#be185d", "#f472b6"), "degenerate": ("#6b7280", "#aab2bf")},
         swatch="width: 10px; height: 10px; border: 0; border-radius: 50%; background: var(--attr)",
         tip="Limit directions Q: filled attract radially, hollow repel; circles attract along θ, diamonds repel.",
     ),
     Layer(
-        "critical", "Critical sets", 120, colours={"crit": ("#c8102e", "#ff5468")},
+        "critical", "Critical sets", 120, first=True, colours={"crit": ("#c8102e", "#ff5468")},
         swatch="width: 10px; height: 10px; border: 0; background: var(--crit)",
         tip="Critical sets C: equilibria of the layer problem, along which motions slide.",
     ),

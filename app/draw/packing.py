@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .arrowheads import arrowheads
+from .spacing import Pieces, evenly
 from .theme import REACH, VIEW
 
 #: Coordinates travel as int16 multiples of EXTENT / 32767, that is 1.2e-4 of the disc's radius: at 400 px
@@ -37,11 +38,15 @@ ANGLE_STEP = np.pi / 32767
 
 
 class Polylines(NamedTuple):
-    """A layer of lines: piece i is ``points[offsets[i]:offsets[i + 1]]``; `arrows` asks for arrowheads."""
+    """A layer of lines: piece i is ``points[offsets[i]:offsets[i + 1]]``.
+
+    `arrows` asks for arrowheads, `even` for curves that are nowhere nearer to one another than `spacing.APART`.
+    """
 
     offsets: NDArray[np.int64]
     points: NDArray[np.float64]
     arrows: bool = False
+    even: bool = False
 
 
 Blocks = Mapping[str, NDArray[Any] | Polylines]
@@ -76,6 +81,7 @@ def pack(
     window: Rectangle | None = None,
     pixel: float = PIXEL,
     heads: bool = True,
+    guards: Pieces | None = None,
 ) -> bytes:
     """Return header and arrays as one buffer.
 
@@ -88,7 +94,10 @@ def pack(
         window.
     pixel : float
     heads : bool
-        Whether curves carry the arrowheads that they may have.
+        Whether curves carry the arrowheads that they may have, and are evenly spaced where they are to be.
+
+    guards : (offsets, points), optional
+        From which evenly spaced curves keep away.
 
     Raises
     ------
@@ -100,7 +109,7 @@ def pack(
     listing: dict[str, Any] = {}
     parts = [b"", b""]
     if lines:
-        listing["lines"], data = _run(lines, window, pixel, heads)
+        listing["lines"], data = _run(lines, window, pixel, heads, guards)
         if window is not None:
             listing["exact"] = True
         parts += (data, b"\0" * (-len(data) % 4))
@@ -116,14 +125,21 @@ def pack(
 
 
 def _run(
-    lines: Mapping[str, Polylines], window: Rectangle | None, pixel: float, may: bool
+    lines: Mapping[str, Polylines], window: Rectangle | None, pixel: float, may: bool, guards: Pieces | None
 ) -> tuple[list[tuple[str, int, int, int | None]], bytes]:
     """Return [name, pieces, points, arrowheads] of each layer, and the data of all.
 
     Coordinates of all layers are converted at once: a frame has a dozen of them, most with a few points.
     """
     rows, heads = [], []
-    for name, (offsets, points, arrows) in lines.items():
+    if may:
+        even = {name: line for name, line in lines.items() if line.even}
+        if even:
+            lines = {
+                **lines,
+                **{n: Polylines(*evenly(*x[:2], pixel, window or WINDOW, guards), x.arrows) for n, x in even.items()},
+            }
+    for name, (offsets, points, arrows, _) in lines.items():
         placed = None if not arrows else arrowheads(offsets, points, pixel, window or WINDOW) if may else NONE
         if placed is not None:
             heads.append(placed)

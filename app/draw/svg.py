@@ -14,7 +14,6 @@ from codim2_core.scene import Scene
 from . import glyphs
 from .layers import LAYERS, painted
 from .packing import unpack
-from .theme import DISCS
 from .vector import parts as vector
 from .vector.parts import SIDE, Placement
 
@@ -53,8 +52,7 @@ def content(buffer: bytes, layers: Collection[str], place: Placement, labelled: 
         Whether marks have labels.
     """
     header, blocks = unpack(buffer)
-    shade = "".join(vector.disc(radius, place) for radius in DISCS)
-    parts = [f'<g fill="var(--shade)" style="fill-opacity:var(--shade-alpha)">{shade}</g>']
+    parts = [vector.sphere(place)]
     drawn = [part for layer in painted() if layer.name in layers for part in layer.parts]
     if "basins" in layers:
         parts += vector.basins(header.get("basins"), blocks, place)

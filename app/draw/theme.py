@@ -17,8 +17,15 @@ PAGE: Mapping[str, tuple[str, str]] = {
     "bad": ("#b91c1c", "#ff8a80"),
     "warn-bg": ("#fff6e0", "#2e2711"),
     "warn-line": ("#eab308", "#a3811a"),
+    # parts of the equation, and their sliders
+    "of-A": ("#0b61c4", "#6fb1ff"),
+    "of-f": ("#a85800", "#f0a848"),
+    "of-z": ("#8a6d00", "#e0c452"),
+    # the hemisphere, and how dense it is from where the light falls to its limb
     "shade": ("#3b6ea5", "#7fb2ff"),
-    "shade-alpha": ("0.022", "0.028"),
+    "shade-lit": ("0", "0.3"),
+    "shade-middle": ("0.1", "0.15"),
+    "shade-limb": ("0.32", "0.06"),
     # curves and regions of the panels
     "hopf": ("#c8102e", "#ff5468"),
     "node-focus": ("#15803d", "#4ade80"),
@@ -45,14 +52,14 @@ NEAREST, WIDEST = 0.05, 12.0
 #: Radius up to which the scene is computed: the corners of the square picture.
 REACH = 2.45
 
-#: Radii of the translucent discs that shade the hemisphere; there are more near the centre, so the limb is pale.
-DISCS = (*(0.06 * k + 0.04 for k in range(16)), 1.0)
+#: Where the light falls on the hemisphere, in radii from the centre, and how far from there to the middle shade.
+LIGHT, MIDDLE = (-0.36, 0.4), 0.5
 
 #: The ring of approach outcomes: its radii, and the pattern over each colour, so that colour is not all there is.
 RING = (1.03, 1.075)
 HATCHES = {"slide": "", "cross": "/", "depends": "x", "undecided": ".", "misses": ""}
 #: What the page and a live file draw by.
-MEASURES = {"discs": DISCS, "ring": RING, "hatches": HATCHES, "view": VIEW}
+MEASURES = {"light": LIGHT, "middle": MIDDLE, "ring": RING, "hatches": HATCHES, "view": VIEW}
 
 
 def themes() -> dict[str, dict[str, str]]:

@@ -50,6 +50,6 @@ def thumbnails(
     return drawn
 
 
-def thumbnail(system: Any, psi: Psi, z: tuple[float, ...]) -> str:
+def thumbnail(system: Any, psi: Psi, z: tuple[float, ...], count: int = COUNT) -> str:
     """Draw one small portrait, as SVG."""
-    return small(Scene(system, psi, z, count=COUNT, view=VIEW * 1.4, pixel=PIXEL), VIEW)
+    return small(Scene(system, psi, z, count=count, view=VIEW * 1.4, pixel=PIXEL), VIEW)

@@ -154,7 +154,7 @@ def _drawn(
                 if window is not None:
                     offsets, points, of = window.cut(offsets, points)
                     names = names and [names[i] for i in of]
-                blocks[part.name] = Polylines(offsets, points, part.arrows)
+                blocks[part.name] = Polylines(offsets, points, part.arrows, part.even)
                 if names is not None:
                     header.setdefault("owners", {})[part.name] = names
     return blocks

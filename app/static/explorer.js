@@ -11,7 +11,8 @@ import {SystemChooser, TYPED} from "./controls/system.js"
 import {YoursList} from "./controls/yours_list.js"
 import {letScroll} from "./hands/gestures.js"
 import {OrbitWords} from "./hands/orbit_words.js"
-import {welcome} from "./page/hints.js"
+import {keepFolds} from "./page/folds.js"
+import {Headline} from "./page/headline.js"
 import {Inspector} from "./page/inspector.js"
 import {writeLink} from "./page/links.js"
 import {Portraits} from "./page/portraits.js"
@@ -23,7 +24,7 @@ import {undoable} from "./page/undo.js"
 import {readFrame} from "./picture/frames.js"
 import {Picture} from "./picture/picture.js"
 import {SAYS} from "./words.js"
-import {addDialogs, besideOf, handsOf, panelsOf, pointingOf, roomOf} from "./parts.js"
+import {addDialogs, besideOf, grabOf, handsOf, panelsOf, pointingOf, roomOf} from "./parts.js"
 
 export class Explorer {
   /** @param {{model: any, view: any, root: any, plot: any}} given */
@@ -64,7 +65,10 @@ export class Explorer {
     this.pointing = pointingOf(this)
     this.spoken = new OrbitWords(this.find(".orbit-words"))
     this.hands = handsOf(this)
+    this.grab = grabOf(this)
+    this.headline = new Headline(this.find(".headline"), values, {own: () => this.eLinear, move: (wanted) => this.move(wanted)})
     new Sheets(root, () => this.sentences.say())
+    keepFolds(root, (name) => JSON.stringify(values[name]) !== JSON.stringify(config.defaults[name]))
     this.theme = new Theme(root, config, (name) => { picture.paint(name); this.beside?.look?.() })
     if (config.look.seen.length) picture.seen = config.look.seen
     this.room = this.alone ? roomOf(this) : null
@@ -131,7 +135,6 @@ export class Explorer {
     rest.note("opening", true)
     requestAnimationFrame(() => setTimeout(() => { // the panel costs as much as all else: the picture is painted before it
       this.showPanels()
-      if (this.alone) welcome(root)
       this.beside?.sync?.()
       this.beside?.started?.()
       this.room?.begin(this.asked)
@@ -139,6 +142,9 @@ export class Explorer {
       root.dataset.ready = "true"
     }, 0))
   }
+
+  // Whether the sliders a, b, d, f1, f2 set the system.
+  get eLinear() { return this.values.system === "normal" && !this.config.locked.length }
 
   // --- what a person sets -------------------------------------------------------------------------------------------
 
@@ -248,6 +254,7 @@ export class Explorer {
 
   // What is pinned may be called otherwise after a frame: no step of the history.
   followObjects(header) {
+    this.grab.follow()
     const name = this.pointing.frame(header)
     if (name !== this.values.pinned) { this.values.pinned = name; this.requests.set("pinned", name) }
   }
@@ -264,6 +271,7 @@ export class Explorer {
     if (header.launched) this.spoken.speak(header.launched, this.values.orbits)
     this.requests.restLater(late.length > 0)
     this.inspector.apply(header)
+    this.headline.apply(header)
     for (const [name, symbol] of header.axes ?? []) this.config.symbols[name] = symbol
     this.panels.apply(frame, late)
     this.requests.arrived(header.id, header.load)

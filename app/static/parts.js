@@ -3,6 +3,7 @@
 import {Panels} from "./beside/panels.js"
 import {slidersOf} from "./controls/controls.js"
 import {twoFingers} from "./hands/gestures.js"
+import {Grab} from "./hands/grab.js"
 import {Hands} from "./hands/hands.js"
 import {Pointing} from "./hands/pointing.js"
 import {Beamer} from "./page/beamer.js"
@@ -60,6 +61,17 @@ export function handsOf(explorer) {
   explorer.find(".home").addEventListener("click", () => picture.home())
   twoFingers(place, explorer.plot, () => hands.held !== null)
   return hands
+}
+
+/** C in hand. @param {Explorer} explorer */
+export function grabOf(explorer) {
+  const {root, values, picture, pointing, requests} = explorer
+  return new Grab(root, picture, {
+    values, free: () => explorer.eLinear && values.layers.includes("critical") && !explorer.hidden.includes("critical"),
+    move: (place) => requests.set("grab", place), settle: () => requests.rest(),
+    point: (one) => pointing.show(one), pin: (one) => pointing.toggle(one),
+    one: () => pointing.objects.find(({kind}) => kind === "critical") ?? null,
+  })
 }
 
 /** The room that is opened or entered here. @param {Explorer} explorer */

@@ -69,11 +69,15 @@ export const SAYS = {
   roomDots: "A full dot has all else as it is here, a hollow one has not. Click a dot, or a row, to open its settings; undo brings yours back.",
   roomEmpty: "Each phone that enters is a dot on the chart.",
   roomLocal: "This page is open at localhost, which phones do not reach: open it at this machine’s own address (codim2 serve --address 0.0.0.0 --allow-origin ADDRESS:PORT).",
-  drag: "Drag a slider: the picture follows at once.",
-  click: "Click or tap: the orbit through that point. On Q, C or a curve: its name and numbers.",
-  read: "Read here what the picture shows, and open a panel for more.",
-  next: "Next",
-  close: "Close",
+  grab: "C, the critical set: drag it, or use the arrow keys, and f follows",
+  grabMe: "drag me out of the sphere",
+  leftHere: "C has left: sliding ends here",
+  push: "the push |f|", held: "what can be balanced in this direction",
+  sticks: "stable sliding along Σ",
+  slips: "nothing slides along Σ",
+  luck: "C is a saddle, and sliding is unstable",
+  circles: "C repels, a stable cycle surrounds it",
+  chatters: "sliding along Σ is unstable",
   yours: "Yours",
   keptHere: "What you have typed, kept in this browser.",
   keptInPage: "What you have typed, kept until this page is closed.",
@@ -107,6 +111,10 @@ export const SAYS = {
   itsParameters: "its parameters",
   typed: "c and s are the components of e; the letter e alone is the number 2.718…",
 }
+
+// The first sentence: the push, what can be balanced, and what becomes of it, as markup.
+export const pushed = (/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ last, /** @type {boolean} */ more) => `Pushed with |f| = ${push}; ${more ? "only" : "up to"} ${held} can be balanced in this direction: <strong>${last}</strong>.`
+export const notPushed = (/** @type {string} */ last) => `Not pushed, f = 0: <strong>${last}</strong>.`
 
 // Curves that are one object, by its name.
 export const CURVES = {R: "ρ-nullcline, U·e = 0", T: "θ-nullcline, Θ = 0", U1: "Nullcline U₁ = 0", U2: "Nullcline U₂ = 0", H: "Hyperbola of the limit directions, Θ = 0"}

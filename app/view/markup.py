@@ -28,12 +28,13 @@ from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values
 from ..state.links import BROUGHT, VERSION, Look
 from ..state.portraits import portrait_keys, portraits
 from ..state.slider_range import edited_range, slider_range
-from .glossary import GLOSSARY, MARKS, OPENING, PAPER
+from .gallery import FIRST, gallery
+from .glossary import EQUATION, GLOSSARY, MARKS, OPENING, PAPER
 
 STATIC = Path(__file__).parents[1] / "static"
 
-#: Controls by group: the matrix A, f, the slow variable, the slow flow.
-GROUPS = {"A": ("a", "b", "d"), "f": ("f1", "f2"), "z": ("z", "k1", "k2"), "slow": ("B1", "B2", "g0")}
+#: Controls by group: the matrix A, f, the slow variable, how f drifts with it, the slow flow.
+GROUPS = {"A": ("a", "b", "d"), "f": ("f1", "f2"), "z": ("z",), "drift": ("k1", "k2"), "slow": ("B1", "B2", "g0")}
 
 
 @cache
@@ -96,6 +97,7 @@ def offered() -> dict[str, Any]:
         "defaults": first,
         "setting": list(SETTING),
         "opening": OPENING,
+        "first": FIRST,
         "layers": table(),
         "traces": looks(TRACES),
         "families": {
@@ -181,6 +183,9 @@ def explorer_html(
         groups={group: [control(name) for name in names] for group, names in GROUPS.items()},
         exponent=control("n"),
         portraits=[(group, list(items)) for group, items in groups],
+        count=len(portrait_keys()),
+        gallery=[] if locked or (look and look.embed) else gallery(),
+        equation=EQUATION,
         families=FAMILIES,
         layers=LAYERS,
         panels=PANELS,

@@ -12,6 +12,7 @@ from typing import Any
 
 from param.parameterized import batch_call_watchers
 
+from codim2_core.cycles.limit_cycles import LimitCycles
 from codim2_core.portrait.classification import Classification, PortraitName
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
@@ -19,11 +20,12 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 from codim2_core.words import printed
 
-from ..draw import arrowheads
+from ..draw import arrowheads, glyphs, spacing
 from ..draw.packing import pack
 from ..frame.budget import Budget, Layers, LeftOut, layers_of
 from ..frame.draft import Draft
 from ..frame.faults import sentence_of
+from ..frame.grabbed import GRAB, push_for
 from ..frame.jobs import Jobs
 from ..frame.load import load
 from ..frame.picture import Asked, Blocks, make_frame
@@ -123,6 +125,8 @@ class Frames:
         is what belongs to no control.
         """
         request, asked, left = read_request(request)
+        if GRAB in asked:
+            asked |= push_for(self.scene, self.values, asked.pop(GRAB))
         self.window = Window.read(request.get("window"))
         sent = {} if request.get("all") else self._sent
         if asked:
@@ -159,10 +163,14 @@ class Frames:
             self._notices.append(left)
 
     def _packed(self, header: dict[str, Any], blocks: Blocks) -> bytes:
-        heads = header.get("ready", True) or arrowheads.is_warm()  # no frame waits for the compiler
+        heads = header.get("ready", True) or (
+            arrowheads.is_warm() and spacing.is_warm()
+        )  # no frame waits for the compiler
+        cycles = self._sent.get("cycles")  # from which orbits keep away
+        guards = glyphs.join([one.points for one in cycles.cycles]) if isinstance(cycles, LimitCycles) else None
         if self.window is None:
-            return pack(header, blocks, heads=heads)
-        return pack(header, blocks, self.window.rectangle, self.window.pixel, heads)
+            return pack(header, blocks, heads=heads, guards=guards)
+        return pack(header, blocks, self.window.rectangle, self.window.pixel, heads, guards)
 
     def _accept(
         self, good: Mapping[str, Any], sent: Mapping[str, Any], errors: dict[str, str], rest: bool

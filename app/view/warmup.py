@@ -22,9 +22,11 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.kinds import AnySystem
 
 from ..draw.arrowheads import arrowheads
+from ..draw.spacing import evenly
 from ..frame.scenes import make_scene
 from ..state.controls import first_values
 from .alone import alone
+from .gallery import draw_all
 
 MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
 
@@ -57,12 +59,13 @@ def _steps() -> list[tuple[str, Callable[[], object]]]:
         (GENERAL, warm_general),
         ("branches of cycles", _warm_branches),
         ("motions in time", _warm_motions),
+        ("the gallery", draw_all),
     ]
     return [("arrowheads", _warm_arrowheads), first, ("limit cycles", _warm_cycles), *others, *last]
 
 
 #: Of `_steps`, those after which the first scene is drawn, and those that pictures need: all but the last.
-FIRST, PICTURES = 3, -1
+FIRST, PICTURES = 3, -2
 
 
 def _nobody(*_: object) -> None:
@@ -157,8 +160,10 @@ def _warm_branches() -> None:
 
 
 def _warm_arrowheads() -> None:
-    """Compile, or load, what places arrowheads on curves."""
-    arrowheads(np.array([0, 2]), np.eye(2), 0.01, (-1.0, 1.0, -1.0, 1.0))
+    """Compile, or load, what places arrowheads on curves and spaces orbits."""
+    one = np.array([0, 2]), np.eye(2), 0.01, (-1.0, 1.0, -1.0, 1.0)
+    arrowheads(*one)
+    evenly(*one)
 
 
 def warm_general() -> None:

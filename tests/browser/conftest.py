@@ -15,6 +15,8 @@ WINDOW = {"width": 1280, "height": 800}
 #: What Chromium says of a script that is fetched first and used last, where other tests have the machine.
 SLOWLY = "was preloaded using link preload but not used within a few seconds"
 VISITED = "try { localStorage.setItem('codim2-welcome', 'seen') } catch { /* forbidden */ }"
+#: Open what an element is folded away in.
+UNFOLD = "(it) => { const fold = it.closest('details'); if (fold) fold.open = true }"
 EMPTIED = "() => { try { localStorage.clear(); sessionStorage.clear(); return true } catch { return false } }"
 
 
@@ -73,6 +75,7 @@ class Explorer:
     def open(self, query=""):
         self.page.goto(f"{self.address}/{query}")
         self.page.wait_for_selector(".codim2[data-ready]")
+        self.find("[data-fold=slow]").evaluate_all("(all) => { for (const it of all) it.open = true }")
         return self.settle()
 
     def until(self, condition):
@@ -117,8 +120,20 @@ class Explorer:
         names = "const {picture} = root.explorer, view = picture.drawn.view?.plot_view;"
         return self.find(".codim2").evaluate(f"(root) => {{ {names} return {script} }}")
 
+    def layer(self, name):
+        """The box of a layer, which may be one step away."""
+        box = self.find(f".layer input[value={name}]")
+        box.evaluate(UNFOLD)
+        return box
+
+    def folded(self):
+        """Put away what lies over the picture."""
+        self.find(".more").evaluate("(it) => { it.open = false }")
+        return self
+
     def type(self, control, text):
         box = self.find(f"[data-control={control}] .number")
+        box.evaluate(UNFOLD)
         box.fill(text)
         box.press("Enter")
         return self.settle()

@@ -14,7 +14,7 @@
         fillStyle: "", strokeStyle: "", lineWidth: 1, globalAlpha: 1, font: "",
         save: () => { alphas.push(pen.globalAlpha) },
         restore: () => { pen.globalAlpha = alphas.pop() },
-        clip() {}, rect() {},
+        clip() {}, rect() {}, createRadialGradient: () => ({addColorStop() {}}),
         setLineDash: (lengths) => { dash = [...lengths] },
         measureText: () => ({width: 10}),
         beginPath: () => { path = [] },

@@ -13,6 +13,7 @@ from codim2_app.draw.theme import REACH
 
 import codim2_core as c2
 from codim2_core.portrait.basins import basins
+from tests.app.near import gaps
 
 pytestmark = pytest.mark.browser
 
@@ -20,8 +21,8 @@ RECORDER = (Path(__file__).parent / "recorder.js").read_text()
 PAGE = "#ffffff"
 #: Of the strokes: layer to colour, width, dash.
 STROKES = {
-    "outside": ("#5b6675", 0.9, []),
-    "inside": ("#1c2430", 0.9, []),
+    "outside": ("#a3b1c2", 1.2, []),
+    "inside": ("#5f7186", 1.4, []),
     "continuations": ("#b3123f", 1.6, []),
     "stable separatrices": ("#6d28d9", 2, [7, 4]),
     "unstable separatrices": ("#6d28d9", 2, []),
@@ -125,6 +126,10 @@ def pieces(scene):
 def test_curves_are_those_of_the_core(drawn, layer):
     expected = [np.asarray(piece) for piece in pieces(drawn.scene)[layer] if len(piece) > 1]
     found = drawn.strokes(STROKES[layer])
+    if layer in ("inside", "outside"):  # orbits end where they would come too near to one another
+        assert len(found) > 5
+        assert gaps(np.concatenate(found), [np.clip(piece, -4, 4) for piece in expected]).max() < 1e-3
+        return
     assert [len(piece) for piece in found] == [len(piece) for piece in expected]
     for one, other in zip(found, expected, strict=True):
         assert np.abs(one - np.clip(other, -4, 4)).max() < 1e-3
@@ -215,17 +220,14 @@ def test_what_is_exported_as_svg_is_the_same(drawn):
 
     svg = drawn.page.ask("view.export('svg').ctx.get_serialized_svg(true)")
     left, top, side = drawn.page.ask("[view.frame.bbox.x, view.frame.bbox.y, view.frame.bbox.width]")
-    expected = np.concatenate([np.asarray(p) for p in drawn.scene["outside"].points if len(p) > 1])
     colour, width, _ = STROKES["outside"]
     [path] = [
         p for p in re.findall(r"<path [^>]*>", svg) if f'stroke="{colour}"' in p and f'stroke-width="{width}"' in p
     ]
     numbers = np.array([float(v) for v in re.findall(r"-?[\d.]+(?:e-?\d+)?", re.search(r' d="([^"]*)"', path)[1])])
     pixels = numbers.reshape(-1, 2)
-    shift = pixels[0] - (left + side * (expected[0, 0] + 1.75) / 3.5, top + side * (1.75 - expected[0, 1]) / 3.5)
-    assert np.abs(shift).max() < 1  # Bokeh's half pixel
     found = np.column_stack([(pixels[:, 0] - left) / side * 3.5 - 1.75, 1.75 - (pixels[:, 1] - top) / side * 3.5])
-    assert np.abs(found - np.clip(expected, -4, 4)).max() < 0.01
+    assert gaps(found, [np.clip(p, -4, 4) for p in drawn.scene["outside"].points]).max() < 0.01  # Bokeh's half pixel
 
 
 def colour_at(page, point):

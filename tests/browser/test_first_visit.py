@@ -1,4 +1,4 @@
-"""The bubbles of a first visit, which never come again, and the sheet of keys and marks."""
+"""The first ten seconds: what the page is about, one thing to do, and the sheet of keys and marks."""
 
 import pytest
 
@@ -7,42 +7,108 @@ pytestmark = pytest.mark.browser
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 
 
-def test_drag_click_read_and_never_again(open_page):
-    explorer = open_page(first_visit=True).open()
-    hint = explorer.find(".hint")
-    assert hint.text_content().startswith("Drag a slider")
-    explorer.find("#c2-f1").press("ArrowRight")
-    explorer.settle()
-    assert hint.text_content().startswith("Click or tap")
-    box = hint.bounding_box()  # what is below a bubble is reached through it
-    explorer.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 10)  # no curve is there
-    explorer.settle()
-    assert explorer.ask("picture.state.header.launched.x.length") == 1
-    assert hint.text_content().startswith("Read here")
-    explorer.page.keyboard.press("Escape")
-    assert hint.count() == 0
-    explorer.open()
-    assert hint.count() == 0
+def middle(box):
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_it_says_what_it_is_about_with_the_sliders_in_sight(open_page):
+    explorer = open_page(first_visit=True, viewport={"width": 1440, "height": 900}).open()
+    assert explorer.find("h1").is_visible()
+    assert "(x, y)′ = A e + f + z k" in explorer.find(".top math:visible").get_attribute("aria-label")
+    for name in ("a", "b", "d", "f1", "f2", "z", "psi"):
+        box = explorer.find(f"[data-control={name}]").bounding_box()
+        assert box["y"] + box["height"] < 900
+    picture = explorer.find(".picture").bounding_box()
+    assert picture["width"] > 0.46 * 1440
+    assert explorer.page.evaluate("document.documentElement.scrollHeight") <= 900
     assert explorer.complaints == []
 
 
-def test_by_the_keyboard_and_on_a_phone(open_page):
-    explorer = open_page(first_visit=True, **PHONE).open()
-    hint = explorer.find(".hint")
-    assert hint.get_attribute("role") == "status"
-    for words in ("Drag", "Click", "Read"):
-        assert hint.text_content().startswith(words)
-        box = hint.bounding_box()
-        assert box["x"] >= 0
-        assert box["x"] + box["width"] <= 390
-        assert box["y"] >= 0
-        assert box["y"] + box["height"] <= 844
-        hint.locator("button").first.press("Enter")
-    assert hint.count() == 0
+def test_c_is_dragged_out_of_the_sphere_and_f_follows(open_page):
+    explorer = open_page(first_visit=True).open()
+    invitation = explorer.find(".grab .invitation")
+    assert invitation.is_visible()
+    mouse, start = explorer.page.mouse, explorer.find(".grab").bounding_box()
+    x, y = middle(start)
+    unit = explorer.ask("picture.pixel(1, 0).x - picture.pixel(0, 0).x")
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(x + 0.5 * unit, y - 0.2 * unit, steps=4)
+    explorer.settle()
+    before = explorer.ask("picture.state.header.critical")
+    assert explorer.find("[data-control=f2] .number").input_value() != "0"
+    mouse.move(x + 1.5 * unit, y - 0.2 * unit, steps=4)
+    explorer.settle()
+    assert explorer.name().startswith("NCM")
+    assert explorer.find(".grab-words").is_visible()
+    assert "nothing slides" in explorer.find(".headline").text_content()
+    mouse.up()
+    explorer.kept()
+    assert not explorer.find(".grab-words").is_visible()
+    assert not invitation.is_visible()
+    assert (before["x"][0], before["y"][0]) == pytest.approx((-0.2582 + 0.5, 0.2), abs=0.01)
+    explorer.find(".grab").press("Shift+ArrowLeft")  # and back, by keys
+    for _ in range(12):
+        explorer.find(".grab").press("Shift+ArrowLeft")
+        explorer.settle()
+    assert explorer.name().startswith("CM")
+    explorer.open()
+    assert not invitation.is_visible()  # who has done it is not asked again
+    assert explorer.complaints == []
 
 
-def test_none_in_a_frame_of_another_page(open_page):
-    assert open_page(first_visit=True).open("?embed=1").find(".hint").count() == 0
+def test_a_number_of_the_headline_is_dragged(explorer):
+    number = explorer.find(".dragged[data-number=push]")
+    x, y = middle(number.bounding_box())
+    explorer.page.mouse.move(x, y)
+    explorer.page.mouse.down()
+    explorer.page.mouse.move(x + 160, y, steps=4)
+    explorer.page.mouse.up()
+    explorer.settle()
+    assert explorer.find("[data-control=f1] .number").input_value() == "-1"
+    assert number.text_content() == "1.00"
+
+
+def test_nothing_moves_while_a_slider_does(open_page):
+    explorer = open_page(viewport={"width": 1440, "height": 900}).open()
+    places = [".tabs", ".picture", ".gallery", ".panel-atlas"]
+
+    def tops():
+        return [(box["x"], box["y"]) for box in (explorer.find(name).bounding_box() for name in places)]
+
+    before = tops()
+    for name, values in {"a": (-4, -1, 0, 1, 3), "f1": (-2, 0, 1, 3), "b": (0.2, 1, 3)}.items():
+        for value in values:
+            explorer.type(name, str(value))
+            assert tops() == before, (name, value)
+
+
+def test_a_portrait_is_entered_by_the_gallery_also_on_a_phone(open_page):
+    for options in ({}, PHONE):
+        explorer = open_page(**options).open()
+        if options:
+            explorer.find("[data-sheet=gallery]").click()
+        explorer.find(".gallery [data-preset=case2-saddle]").click()
+        explorer.settle()
+        assert explorer.find(".gallery .here").get_attribute("data-preset") == "case2-saddle"
+        assert explorer.find("select.preset").input_value() == "case2-saddle"
+        assert explorer.complaints == []
+
+
+def test_what_is_one_step_away_stays_open_and_a_link_opens_what_it_sets(open_page):
+    explorer = open_page()
+    explorer.page.goto(f"{explorer.address}/")
+    explorer.page.wait_for_selector(".codim2[data-ready]")
+    fold = explorer.find("[data-fold=slow]")
+    assert fold.get_attribute("open") is None
+    fold.locator("summary").click()
+    explorer.page.reload()
+    explorer.page.wait_for_selector(".codim2[data-ready]")
+    assert fold.get_attribute("open") is not None
+    other = open_page()
+    other.page.goto(f"{other.address}/?v=1&B2=0.5")
+    other.page.wait_for_selector(".codim2[data-ready]")
+    assert other.find("[data-control=B2]").is_visible()
 
 
 @pytest.mark.parametrize("options", [{}, PHONE], ids=["desktop", "phone"])

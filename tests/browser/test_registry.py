@@ -165,7 +165,7 @@ def test_a_layer_is_seen_painted(page):
     np.testing.assert_allclose(piece["points"], [[0, 0], C, 2 * C], atol=1e-3)
     assert abs(C[0] * C[1]) > 0.01  # no flip and no swap is the same
     assert page.find("label:has(input[value=ray])").text_content().strip() == "A ray through C"
-    page.find(".layer input[value=ray]").uncheck()
+    page.layer("ray").uncheck()
     page.settle()
     assert not [it for it in page.find(".codim2").evaluate(RECORDER) if it.get("colour") == "#123456"]
 

@@ -35,7 +35,7 @@ def test_the_second_follows_all_but_what_is_its_own(open_page):
     page.type("f1", "0.7")
     until(second(page), "values.f1 === 0.7 && values.psi === 'rational'")
     page.find("select.psi").select_option("exponential")
-    page.find(".layer input[value=inside]").uncheck()
+    page.layer("inside").uncheck()
     page.settle()
     until(second(page), "values.psi === 'rational' && !values.layers.includes('inside')")
     mine, other = (box.bounding_box() for box in (page.find(".picture"), page.find(".second-place iframe")))

@@ -37,7 +37,7 @@ def test_every_file_is_of_what_is_on_the_screen(open_page):
     assert not any("takeaway" in url for url in page.requests)  # no part of the first load
     page.ask("picture.seen = [-0.5, 0.75, -1, 0.25]")
     page.settle()
-    page.find(".layer input[value=rho]").uncheck()
+    page.layer("rho").uncheck()
     page.settle()
     opened(page)
     assert sum("takeaway.js" in url for url in page.requests) == 1

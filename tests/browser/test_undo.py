@@ -22,11 +22,11 @@ def test_values_portraits_and_layers_by_button_and_key(open_page):
     assert explorer.name() == "CM2"
     explorer.find("select.preset").select_option("case3-n3")
     done(explorer)
-    explorer.find(".layer input[value=rho]").uncheck()
+    explorer.layer("rho").uncheck()
     done(explorer)
     explorer.find(".undo").click()
     done(explorer)
-    assert explorer.find(".layer input[value=rho]").is_checked()
+    assert explorer.layer("rho").is_checked()
     explorer.find(".undo").click()
     done(explorer)
     assert (explorer.name(), value(explorer, "f1"), value(explorer, "a")) == ("CM2", -1.5, -2.0)

@@ -12,7 +12,8 @@ INK, DIM, FAINT = "#000000", "#555555", "#8a8a8a"
 #: What is not simply black.
 GREYS: Mapping[str, str] = MappingProxyType(
     {
-        "page": "#ffffff", "shade": "#000000", "shade-alpha": "0.01", "outside": DIM, "lines-in": FAINT,
+        "page": "#ffffff", "shade": "#000000", "shade-lit": "0", "shade-middle": "0.04", "shade-limb": "0.14",
+        "outside": DIM, "lines-in": FAINT,
         "lines-out": FAINT, "degenerate": FAINT, "soft": DIM, "line": FAINT,
         "launch-2": DIM, "launch-4": DIM, "launch-6": DIM,
         "slide": "#222222", "cross": "#9a9a9a", "depends": "#666666", "undecided": "#c4c4c4", "misses": "#f0f0f0",

@@ -15,7 +15,7 @@ import numpy as np
 from ..layers import Part
 from ..packing import ANGLE_STEP, STEP, Rectangle
 from ..shapes import OPEN, shape
-from ..theme import HATCHES, RING, VIEW
+from ..theme import HATCHES, LIGHT, MIDDLE, RING, VIEW
 from .labels import LabelBox, clear_of, width_of
 
 SIDE = 1000
@@ -96,10 +96,23 @@ def steps(blocks: Mapping[str, Any], name: str) -> Any:
     return values * STEP if values.dtype == np.int16 else values
 
 
-def disc(radius: float, place: Placement) -> str:
-    """Return a disc around the centre of the hemisphere."""
+def rim(place: Placement) -> str:
+    """Begin a circle that is the equator."""
     [[x, y]] = place.points((0.0, 0.0)).tolist()
-    return f'<circle cx="{x}" cy="{y}" r="{radius * place.scale:.{place.decimals}f}"/>'
+    return f'<circle cx="{x}" cy="{y}" r="{place.scale:.{place.decimals}f}"'
+
+
+def sphere(place: Placement) -> str:
+    """Return the hemisphere, shaded smoothly from where the light falls."""
+    lit = f'fx="{0.5 + 0.5 * LIGHT[0]:.3g}" fy="{0.5 - 0.5 * LIGHT[1]:.3g}"'
+    stops = "".join(
+        f'<stop offset="{at:g}" style="stop-color:var(--shade);stop-opacity:var(--shade-{name})"/>'
+        for at, name in ((0.0, "lit"), (MIDDLE, "middle"), (1.0, "limb"))
+    )
+    return (
+        f'<radialGradient id="codim2-sphere" cx="0.5" cy="0.5" r="0.5" {lit}>{stops}</radialGradient>'
+        f'{rim(place)} fill="url(#codim2-sphere)"/>'
+    )
 
 
 def curves(part: Part, blocks: Mapping[str, Any], place: Placement) -> str:
@@ -138,7 +151,7 @@ def arrows(places: Any, angles: Any, size: float, colour: str, place: Placement)
 def equator(header: Mapping[str, Any], place: Placement) -> list[str]:
     """Return the circle |p| = 1, and arrowheads in the sense of theta'."""
     colour, width = ("degenerate", 6) if header.get("all_directions") else ("ink", 2)
-    circle = disc(1.0, place).replace("/>", f" {stroke(colour, width, (), place)}/>")
+    circle = f"{rim(place)} {stroke(colour, width, (), place)}/>"
     sense = np.asarray(header.get("sense") or np.zeros((0, 3)), float)
     return [circle, arrows(place.points(sense[:, :2]), sense[:, 2], 7.7, "ink", place) if len(sense) else ""]
 

@@ -33,7 +33,7 @@ from ...draw import glyphs
 from ...draw.layers import painted
 from ...draw.packing import Polylines, pack
 from ...draw.svg import content
-from ...draw.vector.parts import Placement, disc, stroke, words
+from ...draw.vector.parts import Placement, rim, stroke, words
 from .chart import chart, finished, regions, thinned
 
 #: px of the screen.
@@ -215,7 +215,7 @@ def _basins(result: Basins) -> str:
         for which, path in sorted(paths.items())
         if which in colours
     ]
-    circle = disc(1.0, place).replace("/>", f" {stroke('ink', 2, (), place)}/>")
+    circle = f"{rim(place)} {stroke('ink', 2, (), place)}/>"
     names = [(name, colours[i]) for i, name in enumerate(result.destinations)]
     said = "".join(
         words(20, 50 + 44 * i, name, 36.0).replace("--ink", f"--{colour}") for i, (name, colour) in enumerate(names)
@@ -241,5 +241,5 @@ def _pictured(pieces: Sequence[tuple[str, Any]], over: str = "") -> str:
     for colour in dict.fromkeys(colour for colour, _ in pieces):
         kept = [thinned(np.asarray(piece), each) for own, piece in pieces[:PIECES] if own == colour]
         lines += f'<path d="{place.path(map(place.points, kept))}" {stroke(colour, 1.4, (), place)}/>'
-    circle = disc(1.0, place).replace("/>", f" {stroke('ink', 2, (), place)}/>")
+    circle = f"{rim(place)} {stroke('ink', 2, (), place)}/>"
     return finished(lines + circle + over, 1000, 1000, SIDE, SIDE)

@@ -27,7 +27,7 @@ export class Sentences {
 
   seen(name) {
     const error = this.controls[name]?.box.querySelector(".error")
-    return error && error.offsetParent !== null // else it is in a closed sheet
+    return error && error.offsetParent !== null && !error.closest("details:not([open])") // else it is in a closed sheet
   }
 
   banner(sentence) {

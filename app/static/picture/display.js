@@ -10,7 +10,7 @@
  * @property {Record<string, any>} blocks  the newest of each array of the frames
  * @property {Record<string, string>} theme  colours by name
  * @property {boolean} [sense]  whether the equator tells which way it is run through
- * @property {{discs: number[], ring: [number, number], hatches: Record<string, string>, view: number}} measures
+ * @property {{light: [number, number], middle: number, ring: [number, number], hatches: Record<string, string>, view: number}} measures
  */
 
 /** @param {State} state */
@@ -18,7 +18,7 @@ export function displayList({table, layers, old, header, blocks, theme, measures
   /** @type {any[]} */
   const list = [
     {kind: "page", colour: theme.page},
-    {kind: "discs", radii: measures.discs, colour: theme.shade, alpha: Number(theme["shade-alpha"])},
+    {kind: "sphere", colour: theme.shade, light: measures.light, stops: [[0, theme["shade-lit"]], [measures.middle, theme["shade-middle"]], [1, theme["shade-limb"]]]},
   ]
   const shown = table.filter(({name}) => layers.includes(name) && !old.includes(name))
   for (const {name, parts} of shown) {

@@ -69,14 +69,14 @@ const PAINTERS = {
     ctx.fillRect(x - 1, y - 1, width + 2, height + 2)
   },
 
-  discs(ctx, {radii, colour, alpha}, place, box, bitmaps) {
+  // The hemisphere, shaded from where the light falls: `stops` are [share of the way to the limb, density].
+  sphere(ctx, {colour, light: [x, y], stops}, place, box, bitmaps) {
     const {left, top, across} = place
-    bitmaps.blit(ctx, "discs", `${colour} ${alpha} ${left} ${top} ${across}`, box, (pen) => {
-      pen.save()
-      pen.globalAlpha = alpha
-      pen.fillStyle = colour
-      for (const radius of radii) { pen.beginPath(); pen.arc(left, top, radius * across, 0, 2 * Math.PI); pen.fill() }
-      pen.restore()
+    bitmaps.blit(ctx, "sphere", `${colour} ${stops} ${left} ${top} ${across}`, box, (pen) => {
+      const shade = pen.createRadialGradient(left + x * across, top - y * across, 0, left, top, across)
+      for (const [at, density] of stops) shade.addColorStop(at, `${colour}${Math.round(255 * density).toString(16).padStart(2, "0")}`)
+      pen.fillStyle = shade
+      pen.beginPath(); pen.arc(left, top, across, 0, 2 * Math.PI); pen.fill()
     })
   },
 

@@ -10,7 +10,7 @@ from bokeh.core.validation import check_integrity
 from codim2_app.draw.figure import make_figure
 from codim2_app.draw.layers import LAYERS, TRACES, painted, shown, swatches, table
 from codim2_app.draw.shapes import OPEN, shape
-from codim2_app.draw.theme import DISCS, HATCHES, NEAREST, REACH, RING, VIEW, WIDEST, custom_properties, themes
+from codim2_app.draw.theme import HATCHES, NEAREST, REACH, RING, VIEW, WIDEST, custom_properties, themes
 from codim2_app.draw.vector.paper import DASHES, paper
 
 
@@ -26,7 +26,7 @@ def test_layers_lie_above_each_other_as_the_legend_says():
 def test_what_is_told_of_a_point_is_drawn_thicker_than_what_only_fills_the_picture():
     widths = {part.name: part.width for layer in painted() for part in layer.parts}
     expected = {
-        "outside": 0.9, "inside": 0.9, "continuations": 1.6, "lines_inside": 1.8, "lines_outside": 1.4,
+        "outside": 1.2, "inside": 1.4, "continuations": 1.6, "lines_inside": 1.8, "lines_outside": 1.4,
         "rho_inside": 1.8, "rho_outside": 1.8, "theta_inside": 1.8, "theta_outside": 1.8, "separatrices_stable": 2.0,
         "separatrices_unstable": 2.0, "conics": 2.4, "cycles": 2.8, **{f"launched_{k}": 2.4 for k in range(1, 7)},
     }  # fmt: skip
@@ -97,9 +97,6 @@ def test_colours_of_light_and_dark(name, light, dark):
 def test_the_ring_is_told_apart_by_hatches_and_lies_just_outside_the_equator():
     assert HATCHES == {"slide": "", "cross": "/", "depends": "x", "undecided": ".", "misses": ""}
     assert RING == (1.03, 1.075)
-    assert DISCS[-1] == 1.0
-    assert np.diff(DISCS[:-1]) == pytest.approx(0.06)
-    assert (DISCS[0], len(DISCS)) == (0.04, 17)
     assert pytest.approx(VIEW * math.sqrt(2.0), rel=0.02) == REACH  # to the corners of the square picture
 
 

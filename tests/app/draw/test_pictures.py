@@ -17,6 +17,7 @@ from codim2_app.view.refresh import Frames
 
 from codim2_core import scene as core_scene
 from codim2_core.scene import scene as scene_module
+from tests.app.near import gaps
 
 NODE = {"a": -2.0, "b": 0.35, "d": -1.0, "f1": -0.4, "f2": 0.25, "psi": "rational"}
 SADDLE = {"a": 1.0, "b": 0.3, "d": -1.2, "f1": 0.2, "f2": 0.45, "psi": "rational"}
@@ -46,8 +47,6 @@ def pieces(path, side, view):
 @pytest.mark.parametrize(
     ("layer", "colour", "of"),
     [
-        ("outside", "outside", lambda s: s["outside"].points),
-        ("inside", "orbit", lambda s: s["inside"].points),
         ("continuations", "continuation", lambda s: s["continuations"].points),
         ("theta", "theta", lambda s: [b.points for b in s["nullclines_inside"] if b.kind == "theta"]),
         ("lines", "lines-in", lambda s: [b.points for b in s["nullclines_inside"] if b.kind in ("U1", "U2")]),
@@ -62,6 +61,16 @@ def test_svg_curves_are_those_of_the_core(setting, layer, colour, of):
     assert [len(piece) for piece in found] == [len(piece) for piece in expected]
     for one, other in zip(found, expected, strict=True):
         assert np.abs(one - other).max() < 2 * VIEW / SIDE
+
+
+@SETTINGS
+@pytest.mark.parametrize(("layer", "colour"), [("outside", "outside"), ("inside", "orbit")])
+def test_svg_orbits_are_parts_of_the_cores(setting, layer, colour):
+    svg, scene = picture(setting, layer)
+    [stroke] = [one for one in attributes(svg) if one.get("stroke") == f"var(--{colour})"]
+    found = pieces(stroke["d"], SIDE, VIEW)
+    assert len(found) > 10
+    assert gaps(np.concatenate(found), scene[layer].points).max() < 2 * VIEW / SIDE
 
 
 def test_svg_separatrices_differ_by_dashes():
@@ -155,8 +164,8 @@ def test_holoviews_shows_the_core(setting):
         ("lines-in", "#edb120", [b.points for b in inside if b.kind in lines]),
         ("lines-out", "#7e2f8e", [b.points for b in outside if b.kind in lines]),
         ("rho", "#0072bd", [b.points for b in (*inside, *outside) if b.kind == "rho"]),
-        ("inside", "#1c2430", scene["inside"].points),
-        ("outside", "#5b6675", scene["outside"].points),
+        ("inside", themes()["light"]["orbit"], scene["inside"].points),
+        ("outside", themes()["light"]["outside"], scene["outside"].points),
     ]:
         element = made[{"lines-in": "lines_inside", "lines-out": "lines_outside"}.get(name, name)]
         found = element.split(datatype="array")

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 from codim2_app.draw.layers import LAYERS
-from codim2_app.draw.packing import unpack
+from codim2_app.draw.packing import STEP, unpack
 from codim2_app.frame.scenes import evolved, make_scene, settled
 from codim2_app.state.controls import ExplorerState, first_values, preset_values
 from codim2_app.state.portraits import portraits
@@ -11,6 +11,7 @@ from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
 from codim2_core.portrait.classification import NEARER
+from tests.app.near import gaps
 from tests.work import wait_until
 
 from .asking import ask
@@ -170,8 +171,10 @@ def test_cold_integrator_sends_closed_forms_then_the_rest():
     assert header["portrait"]["name"] == "CM4"
     assert not frames.scene.runs.get("inside")
     for name in ("inside", "outside"):  # sketched
-        lines = np.diff(frames.scene[f"{name}_sketch"].offsets)
-        assert blocks[f"{name}.n"].tolist() == lines[lines > 1].tolist()
+        assert len(blocks[f"{name}.n"]) > 10
+        sketch = frames.scene[f"{name}_sketch"]
+        lines = np.split(sketch.buffer, sketch.offsets[1:-1])
+        assert gaps(STEP * blocks[f"{name}.xy"].reshape(-1, 2), lines).max() < STEP
     ready[0] = True
     header, sent = ask(frames)
     assert header["ready"] is True

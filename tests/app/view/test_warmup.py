@@ -162,7 +162,11 @@ def test_who_waits_for_pictures_does_not_wait_for_what_cannot_be_compiled(folder
 
 def test_who_waits_for_pictures_does_not_wait_for_motions(folder, monkeypatch):
     going_on = threading.Event()
-    monkeypatch.setattr(warmup, "_steps", lambda: [("pictures", lambda: None), ("motions", lambda: going_on.wait(60))])
+    monkeypatch.setattr(
+        warmup,
+        "_steps",
+        lambda: [("pictures", lambda: None), ("motions", lambda: going_on.wait(60)), ("gallery", lambda: None)],
+    )
     monkeypatch.setattr(warmup, "_threads", {})
     monkeypatch.setattr(warmup, "_pictures", threading.Event())
     warmup.start()

@@ -156,19 +156,19 @@ test("one line says how C slides, out of the page or into it", () => {
   assert.equal(words[".portrait-name"].textContent, "NCM2")
 })
 
-const THEME = {page: "white", ink: "black", shade: "blue", "shade-alpha": "0.1", degenerate: "grey", orbit: "o", rho: "r", "launch-1": "l1", "launch-2": "l2", motion: "m", attr: "a", rep: "p"}
+const THEME = {page: "white", ink: "black", shade: "blue", "shade-lit": "0.1", degenerate: "grey", orbit: "o", rho: "r", "launch-1": "l1", "launch-2": "l2", motion: "m", attr: "a", rep: "p"}
 const part = (name, colour, more = {}) => ({name, colour, width: 1, dash: [], ...more})
 const TABLE = [{name: "basins", parts: []}, {name: "rho", parts: [part("rho_inside", "rho", {dash: [3, 2]})]}, {name: "inside", parts: [part("inside", "orbit")]}, {name: "launched", parts: [part("launched_1", "launch-1"), part("launched_2", "launch-2")]}, {name: "equator", parts: []}, {name: "critical", parts: []}]
-const listed = (layers, header = {}, blocks = {}, old = []) => displayList({table: TABLE, layers, old, header, blocks, theme: THEME, measures: {discs: [1], ring: [1, 2], hatches: {}, view: 2}})
+const listed = (layers, header = {}, blocks = {}, old = []) => displayList({table: TABLE, layers, old, header, blocks, theme: THEME, measures: {light: [-0.3, 0.4], middle: 0.5, ring: [1, 2], hatches: {}, view: 2}})
 
 test("what has not come is not drawn, and what is late neither; layers lie in the order of the table, heads above", () => {
   const all = TABLE.map(({name}) => name)
-  assert.deepEqual(listed(all).map(({kind}) => kind), ["page", "discs", "circle"])
+  assert.deepEqual(listed(all).map(({kind}) => kind), ["page", "sphere", "circle"])
   const blocks = {"inside.n": [2], "inside.xy": [0, 0, 1, 1], "inside.at": [1, 1], "inside.angle": [7], "rho_inside.n": [2], "rho_inside.xy": [1, 2, 3, 4], "launched_1.n": [0], "launched_1.xy": [], "launched_1.at": []}
   const marks = {label: ["Q₁"], x: [1], y: [2], colour: ["rep"], shape: ["diamond"], size: [9], filled: [0], label_x: [3], label_y: [4], sense: [""]}
   const header = {equator: marks, critical: {...marks, colour: ["attr"], filled: [1]}, launched: {x: [0.1, 0.2, 0.3], y: [0.4, 0.5, 0.6]}, sense: [[1, 2, 3]]}
   const list = listed(["critical", "equator", "launched", "inside", "rho"], header, blocks)
-  assert.deepEqual(list.map(({kind, layer}) => layer ? `${kind} ${layer}` : kind), ["page", "discs", "curves rho", "curves inside", "curves launched", "heads inside", "circle", "head sense",
+  assert.deepEqual(list.map(({kind, layer}) => layer ? `${kind} ${layer}` : kind), ["page", "sphere", "curves rho", "curves inside", "curves launched", "heads inside", "circle", "head sense",
     "mark launched", "mark launched", "mark launched", "mark equator", "label equator", "mark critical", "label critical"])
   assert.deepEqual(list.filter(({layer}) => layer === "launched").slice(1).map(({x, y, fill}) => [x, y, fill]), [[0.1, 0.4, "l1"], [0.2, 0.5, "l2"], [0.3, 0.6, "l1"]])
   assert.deepEqual(list.filter(({kind}) => kind === "mark").slice(3).map(({colour, fill}) => [colour, fill]), [["p", "white"], ["a", "a"]])

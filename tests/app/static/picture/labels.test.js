@@ -10,7 +10,7 @@ const critical = {label: ["C₁", "C₂"], sense: ["⊙", "⊗"], x: [-0.72, 0.7
 
 test("a label near the equator on the right stands on the left of its mark, and so does what lies behind it", () => {
   const table = [{name: "critical", parts: []}]
-  const list = displayList({table, layers: ["critical"], old: [], header: {critical}, blocks: {}, theme: {}, measures: {discs: [1], ring: [1, 1.1], hatches: {}, view: 2}})
+  const list = displayList({table, layers: ["critical"], old: [], header: {critical}, blocks: {}, theme: {}, measures: {light: [-0.3, 0.4], middle: 0.5, ring: [1, 1.1], hatches: {}, view: 2}})
   const labels = list.filter(({kind}) => kind === "label")
   assert.deepEqual(labels.map(({text, dx, align}) => [text, dx, align]), [["C₁ ⊙", 13, "left"], ["C₂ ⊗", -13, "right"]])
   const plates = []
@@ -23,7 +23,7 @@ test("a label near the equator on the right stands on the left of its mark, and 
 
 // Q at (0, 1), its name by (0.12, 0.16), 0.2 away from it; with 350 px to 3.5 the picture has 100 to 1.
 const equator = {label: ["Q₁"], x: [0], y: [1], label_x: [0.12], label_y: [1.16], colour: ["c"], shape: ["circle"], size: [12], filled: [1]}
-const named = (times = 1) => enlarged(displayList({table: [{name: "equator", parts: []}], layers: ["equator"], old: [], header: {equator}, blocks: {}, theme: {}, measures: {discs: [1], ring: [1, 1.1], hatches: {}, view: 1.75}}), times).filter(({kind}) => kind === "label")
+const named = (times = 1) => enlarged(displayList({table: [{name: "equator", parts: []}], layers: ["equator"], old: [], header: {equator}, blocks: {}, theme: {}, measures: {light: [-0.3, 0.4], middle: 0.5, ring: [1, 1.1], hatches: {}, view: 1.75}}), times).filter(({kind}) => kind === "label")
 function whereNamed(scale, width, times) {
   const texts = []
   const ctx = new Proxy({}, {get: (_, name) => (...all) => { if (name === "fillText") texts.push(all); return {width: 40} }, set: () => true})
@@ -53,7 +53,7 @@ test("a marked place has a ring and a cross: the page's accent until it is judge
 })
 
 test("the sense of the equator is told unless a question hides it; where nothing has been launched nothing starts", () => {
-  const table = [{name: "launched", parts: [{name: "launched_1", colour: "l"}]}], state = {table, layers: ["launched"], old: [], blocks: {}, theme: {l: "l", page: "p"}, measures: {discs: [1], ring: [1, 1.1], hatches: {}, view: 2}}
+  const table = [{name: "launched", parts: [{name: "launched_1", colour: "l"}]}], state = {table, layers: ["launched"], old: [], blocks: {}, theme: {l: "l", page: "p"}, measures: {light: [-0.3, 0.4], middle: 0.5, ring: [1, 1.1], hatches: {}, view: 2}}
   const kinds = (more) => displayList(/** @type {any} */ ({...state, ...more})).slice(2).map(({kind}) => kind)
   const header = {sense: [[1, 0, 1.5]]}
   assert.deepEqual([kinds({header}), kinds({header, sense: true}), kinds({header, sense: false})], [["circle", "head"], ["circle", "head"], ["circle"]])

@@ -18,7 +18,7 @@ ${["a", "f1", "n", "z", "trajectories"].map(slider).join("\n")}
 <div data-control="layers"><label class="layer"><input type="checkbox" value="inside"></label><label class="layer"><input type="checkbox" value="outcomes"></label><label class="layer"><input type="checkbox" value="launched"></label></div><div class="outcome-key"></div></form>
 <section class="second" hidden><span class="second-own"></span><select class="second-what"><option value="">…</option><option value="psi">Ψ</option><option value="now">now</option><option value="one">One</option></select><details><summary></summary><ul></ul></details><p class="second-narrow" hidden></p><div class="second-place"></div></section><p class="first-words"></p>
 <div class="picture"><div class="first">drawing</div><div class="bokeh"></div><p class="orbit-words" hidden></p><button class="home"></button><button class="undo"></button><button class="redo"></button><button class="theme"></button><button class="two"></button><button class="beam"></button><button class="share"></button><button class="help"></button><a class="whole"></a><dialog class="sharing"></dialog><dialog class="room"></dialog><dialog class="helping"></dialog><p class="busy" hidden></p></div>
-<div class="inspector"><div class="portrait"><b class="portrait-name"></b><i class="portrait-case"></i><p class="sentence"></p><div class="degeneracies"></div><p class="slow-line"></p></div></div>
+<div class="inspector"><div class="portrait"><p class="headline" hidden></p><b class="portrait-name"></b><i class="portrait-case"></i><p class="sentence"></p><div class="degeneracies"></div><p class="slow-line"></p></div></div>
 <div class="sheets"><button data-sheet="controls"></button><button data-sheet="inspector"></button></div>
 <div class="tabs"><button role="tab" data-panel="orbits">Orbits</button><button role="tab" data-panel="numbers">Numbers</button></div><section role="tabpanel" data-panel="orbits"></section><section role="tabpanel" data-panel="numbers" hidden></section></div></div>`
 
@@ -31,7 +31,7 @@ const LAYERS = [
   {name: "equator", parts: []}, {name: "critical", parts: []},
 ]
 const COLOURS = ["page", "shade", "ink", "orbit", "separatrix", "launch-1", "launch-2", "attr", "rep", "crit", "slide", "cross", "basin-1", "motion", "limit", "degenerate"]
-const theme = (name) => ({...Object.fromEntries(COLOURS.map((colour) => [colour, `${name} ${colour}`])), "shade-alpha": "0.02"})
+const theme = (name) => ({...Object.fromEntries(COLOURS.map((colour) => [colour, `${name} ${colour}`])), "shade-lit": "0.02"})
 
 export const CONFIG = {
   page: true, dark: false, values: VALUES, defaults: VALUES, numbers: ["a", "f1", "n", "z"], setting: ["a", "f1", "psi", "n"], locked: [], refused: {f1: "x"},
@@ -39,7 +39,7 @@ export const CONFIG = {
   families: {constant: {}, hill: {parameter: true}, custom: {typed: true}}, boxes: {own: [{name: "U1", label: "x′", lines: 1, text: "-c"}]},
   presets: {one: {label: "One", note: "The first.", values: {preset: "one", a: -1, f1: 0.25, layers: ["inside", "outcomes"]}}}, opening: "Drag f₁.",
   themes: {light: theme("light"), dark: theme("dark")}, layers: LAYERS, traces: [curve("motion", "motion"), curve("limit", "limit", {dash: [5, 4]})],
-  measures: {discs: [0.4, 1], ring: [1.03, 1.075], hatches: {slide: "", cross: "/", depends: "x", undecided: "."}, view: 1.75}, link: {version: 1, brought: ["z"]}, look: {embed: false, controls: [], seen: []}, panels: {orbits: {}, numbers: {}},
+  measures: {light: [-0.3, 0.4], middle: 0.5, ring: [1.03, 1.075], hatches: {slide: "", cross: "/", depends: "x", undecided: "."}, view: 1.75}, link: {version: 1, brought: ["z"]}, look: {embed: false, controls: [], seen: []}, panels: {orbits: {}, numbers: {}},
 }
 
 const BOX = {x: 10, y: 20, width: 350, height: 350}

@@ -1,0 +1,54 @@
+"""Evenly spaced orbits, against distances that are computed between all pairs."""
+
+import numpy as np
+import pytest
+from codim2_app.draw.packing import PIXEL, WINDOW
+from codim2_app.draw.spacing import APART, EQUATOR, SHORTEST, evenly
+
+import codim2_core as c2
+
+
+def dense(offsets, points, step):
+    """Each piece, with a place at every step at most."""
+    pieces = np.split(points, offsets[1:-1])
+    finer = []
+    for piece in pieces:
+        length = np.hypot(*np.diff(piece, axis=0).T)
+        at = np.concatenate([[0.0], np.cumsum(length)])
+        t = np.linspace(0.0, at[-1], 2 + int(at[-1] / step))
+        finer.append(np.column_stack([np.interp(t, at, piece[:, 0]), np.interp(t, at, piece[:, 1])]))
+    return finer
+
+
+@pytest.mark.parametrize("name", ["case1-cm4", "case1-cm0", "case3-n3"])
+@pytest.mark.parametrize("layer", ["inside", "outside"])
+@pytest.mark.parametrize("pixel", [PIXEL, PIXEL / 8])
+def test_no_two_are_near_and_each_lies_on_one_that_was_there(name, layer, pixel):
+    preset = c2.presets[name]
+    scene = c2.Scene(preset.system, preset.psi, preset.z)
+    before, cycles = scene[layer], scene["closed_orbits"].cycles
+    guards = None if not cycles else (np.array([0, len(cycles[0].points)]), cycles[0].points)
+    offsets, points = evenly(before.offsets, before.buffer, pixel, WINDOW, guards)
+    apart = APART * pixel
+    pieces = dense(offsets, points, apart / 2)
+    assert pieces
+    # places are half the distance apart, so what lies between them is at most a quarter nearer
+    for i, piece in enumerate(pieces):
+        assert np.hypot(*np.diff(piece, axis=0).T).sum() >= 0.99 * SHORTEST * pixel
+        others = [*pieces[:i], *pieces[i + 1 :], EQUATOR[1], *(c.points for c in cycles)]
+        for place in piece[::5]:
+            assert min(np.hypot(*(other - place).T).min() for other in others) > 0.7 * apart
+    all_before = np.concatenate(dense(before.offsets, before.buffer, apart / 4))
+    for place in points[:: max(1, len(points) // 40)]:
+        assert np.hypot(*(all_before - place).T).min() < apart / 4
+
+
+def test_curves_that_are_far_apart_stay_whole_and_what_is_beyond_the_window_is_left_out():
+    offsets, points = np.array([0, 2, 4]), np.array([[-0.5, 0.0], [0.5, 0.0], [1.2, 0.5], [4.0, 0.5]])
+    left, kept = evenly(offsets, points, PIXEL, WINDOW)
+    assert left.tolist() == [0, 2, 4]
+    assert kept[:3].tolist() == points[:3].tolist()
+    assert 2.0 < kept[3, 0] <= WINDOW[1]
+    empty = evenly(np.array([0]), np.zeros((0, 2)), PIXEL, WINDOW)
+    assert empty[0].tolist() == [0]
+    assert empty[1].shape == (0, 2)
