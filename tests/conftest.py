@@ -18,7 +18,7 @@ sys.dont_write_bytecode = False
 
 # Every run has the same examples, on every machine; no deadlines, since machines differ in speed.
 settings.register_profile("same", deadline=None, derandomize=True, database=None, max_examples=20)
-# `python -m tests.stress --properties`: other examples for every seed.
+# `python -m tests.stress`: other examples for every seed.
 settings.register_profile("random", deadline=None, database=None, print_blob=True)
 settings.load_profile("same")
 

@@ -26,7 +26,6 @@ from ..draw.packing import pack
 from ..frame.budget import Budget, Layers, LeftOut, layers_of
 from ..frame.draft import Draft
 from ..frame.faults import sentence_of
-from ..frame.grabbed import GRAB, push_for
 from ..frame.jobs import Jobs
 from ..frame.load import load
 from ..frame.picture import Asked, Blocks, make_frame
@@ -42,6 +41,7 @@ from ..state.choices import AXES
 from ..state.chosen import GIVEN, System_, describe
 from ..state.cleaning import InputError, clean
 from ..state.controls import TYPED_IN, ExplorerState, first_values, preset_values
+from ..state.grabbed import GRAB, push_for
 from . import warmup
 from .notices import left_out
 

@@ -1,9 +1,8 @@
-"""Run the benchmarks: ``python -m tests.benchmarks [--quick] [--keep] [--html FILE] [name ...]``.
+"""Run the benchmarks: ``python -m tests.benchmarks [--quick] [--keep] [name ...]``.
 
 Each is also a command of its own, ``python -m tests.benchmarks.bench_<name>``. A full run (without names and
 ``--quick``) rewrites the tables and pictures of .readme/benchmarks.md, one with ``--keep`` the tables of those it
-names; every run writes the report with its plots as one HTML file (default build/benchmarks.html) that needs no
-network. Nothing here is asserted: these are measurements.
+names; every run prints all that it measured. Nothing here is asserted: these are measurements.
 """
 
 from __future__ import annotations
@@ -18,48 +17,21 @@ from dataclasses import dataclass
 from inspect import signature
 from pathlib import Path
 
-from .page import page
 from .pictures import Plot, svg
-from .words import WORDS
 
 ROOT = Path(__file__).parents[2]
 PICTURES = ROOT / ".readme"
 PAGE = PICTURES / "benchmarks.md"
 START, END = "<!-- benchmarks -->", "<!-- /benchmarks -->"
 # bench_<name>: `measure` with `text` and `plots` where there is something to draw, else `report` alone.
-DRAWN = {
-    "trajectories": "Trajectories",
-    "roots": "Limit directions and critical sets",
-    "orbits": "Limit cycles and separatrices",
-    "motions": "Motions",
-    "growth": "Layers of a scene",
-}
-TABLES = {
-    "scene": "A cold scene", "general": "Typed systems", "simulate": "Simulated motions against eps",
-    "app": "The server", "browser": "Painted frames", "page": "The first page", "start": "The first start",
-    "sessions": "Many sessions", "load": "A day in public", "wild": "Wild requests",
-    "room": "A room of phones",
-    "equator": "Counts of limit directions",
-    "census": "A census of portraits", "cycles": "Case III and its cycles", "proofs": "Proofs of counts",
-    "compiled": "Motions against SciPy with a compiled right-hand side",
-    "nonsmooth": "Nonsmooth motions against SciPy told its events",
-}  # fmt: skip
-ON_PAGE = (
-    "trajectories", "scene", "general", "app", "browser", "page", "start", "sessions", "load", "wild", "equator",
-    "census", "cycles", "compiled", "nonsmooth",
-)  # fmt: skip
+DRAWN = ("trajectories", "roots", "orbits")
+TABLES = ("scene", "general", "motions", "cycles", "census", "proofs", "load", "browser", "page")
+ON_PAGE = ("trajectories", "scene", "general", "motions", "cycles", "census", "load", "browser", "page")
 # Titles of the plots of the second picture, by their beginnings.
-OTHERS = (
-    "limit directions: wrong",
-    "period, n = 3",
-    "separatrices",
-    "ball, ε = 1e-03",
-    "distance from",
-    "case1-cm4: count",
-)
+OTHERS = ("limit directions: wrong", "period, n = 3", "separatrices")
 ALT = {
     "work-precision.svg": "Error against run time of 64 trajectories on six problems, for all methods",
-    "work-others.svg": "Error against run time of limit directions, cycles, separatrices and motions; growth of layers",
+    "work-others.svg": "Error against run time of limit directions, cycles and separatrices",
 }
 
 
@@ -140,7 +112,6 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", choices=[*DRAWN, *TABLES, []], metavar="name")
     parser.add_argument("--quick", action="store_true", help="a few cases of what is drawn, under a minute")
-    parser.add_argument("--html", type=Path, default=ROOT / "build" / "benchmarks.html", help="where the report goes")
     parser.add_argument(
         "--keep", action="store_true", help="put what is named on the page, in the place of what was there"
     )
@@ -152,11 +123,6 @@ def main() -> None:
         sections.append(measured(name, options.quick))
         print(sections[-1].text, "\n", flush=True)
         print(f"{name}: {time.perf_counter() - start:.0f} s", file=sys.stderr, flush=True)
-    options.html.parent.mkdir(parents=True, exist_ok=True)
-    titles = DRAWN | TABLES
-    body = [(f"# codim2, measured\n\n{machine()}\n\n{WORDS}", [])]
-    body += [(f"## {titles[section.name]}\n\n{section.text}", section.plots) for section in sections]
-    options.html.write_text(page("codim2, measured", body))
     if not options.names and not options.quick:
         rewrite(sections)
     elif options.keep:

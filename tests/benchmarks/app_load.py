@@ -1,4 +1,4 @@
-"""Many sessions at once, and one after the other: delay under load, and what closed sessions leave behind."""
+"""Servers in processes of their own, what they use, and what closed sessions leave behind."""
 
 from __future__ import annotations
 
@@ -19,8 +19,6 @@ import numpy as np
 from .bokeh_wire import Wire
 
 RATE = 10.0  # requests a second of each session
-SECONDS = 4.0
-CROWDS = (1, 2, 4, 8, 16)
 MANY, WITHIN = 40, 2.0  # pages that are opened together, and the seconds in which they are
 
 
@@ -41,10 +39,7 @@ def serving(kind: str, *options: str) -> Iterator[tuple[int, int]]:
         for _ in range(300):
             try:
                 urlopen(f"http://localhost:{port}/", timeout=20).read()
-                if (
-                    kind in ("bare", "mathematics", "panel")
-                    or b'"ready"' in urlopen(f"http://localhost:{port}/ready").read()
-                ):
+                if kind == "panel" or b'"ready"' in urlopen(f"http://localhost:{port}/ready").read():
                     break
             except OSError:
                 time.sleep(0.2)
@@ -93,50 +88,13 @@ def value(i: float) -> float:
     return -2.0 + 1.2 * np.sin(0.037 * i)
 
 
-async def crowd(port: int, sessions: int, seconds: float = SECONDS) -> list[float]:
-    """Let sessions drag at `RATE`, each with one frame in flight; return the delays from tick to message."""
-    wires = [await Wire.connect(port) for _ in range(sessions)]
-    delays: list[float] = []
-
-    async def drag(wire: Wire, which: int) -> None:
-        await asyncio.sleep(which / RATE / sessions)
-        start, tick = time.perf_counter(), 0
-        while (now := time.perf_counter()) - start < seconds:
-            await wire.frame(tick, a=value(tick + 7.3 * which))
-            delays.append(time.perf_counter() - now)
-            # a tick that comes while a frame is under way is superseded, as in the browser
-            tick = max(tick + 1, int((time.perf_counter() - start) * RATE) + 1)
-            await asyncio.sleep(max(0.0, start + tick / RATE - time.perf_counter()))
-
-    await asyncio.gather(*(drag(wire, i) for i, wire in enumerate(wires)))
-    await asyncio.gather(*(wire.close() for wire in wires))
-    return delays
-
-
-def load(processes: int) -> dict[int, dict[str, float]]:
-    """Return median and p95 of the delay in seconds, and frames a second of each session, by number of sessions."""
-    found = {}
-    with serving("explorer", str(processes)) as (port, pid):
-        asyncio.run(crowd(port, 2))
-        asyncio.run(at_rest(pid))
-        for sessions in CROWDS:
-            delays = asyncio.run(crowd(port, sessions))
-            found[sessions] = {
-                "median": float(np.median(delays)),
-                "p95": float(np.quantile(delays, 0.95)),
-                "rate": len(delays) / SECONDS / sessions,
-            }
-    return found
-
-
 async def burst(port: int) -> list[float]:
     """Open `MANY` pages evenly over `WITHIN` seconds; return how long each waits for its picture, in their order."""
 
     async def visit(i: int) -> float:
         await asyncio.sleep(i * WITHIN / MANY)
         start = time.perf_counter()
-        page = await asyncio.to_thread(_read, port)
-        wires.append(await Wire.connect(port, page=page))
+        wires.append(await Wire.connect(port, page=await asyncio.to_thread(page, port)))
         return time.perf_counter() - start
 
     wires: list[Wire] = []
@@ -145,7 +103,8 @@ async def burst(port: int) -> list[float]:
     return list(waits)
 
 
-def _read(port: int) -> str:
+def page(port: int) -> str:
+    """Return the text of a page."""
     with urlopen(f"http://localhost:{port}/") as answer:
         return answer.read().decode()
 
@@ -164,63 +123,3 @@ def left(port: int) -> dict[str, float]:
 def there(port: int) -> int:
     """Return how many explorers a `forgetful` server holds."""
     return int(urlopen(f"http://localhost:{port}/there").read())
-
-
-async def forgotten(port: int) -> dict[str, float]:
-    """Wait until a `forgetful` server has forgotten its last page; return what it holds then."""
-    for _ in range(60):
-        await asyncio.sleep(0.5)
-        if not there(port):
-            break
-    return left(port)
-
-
-def memory(warm: int = 100, sessions: int = 200) -> tuple[dict[str, float], dict[str, float]]:
-    """Open and close sessions, each with a few frames; return what is held after `warm` and `sessions` more."""
-
-    async def visit(count: int) -> None:
-        for i in range(count):
-            wire = await Wire.connect(port)
-            for tick in range(3):
-                await wire.frame(tick, a=value(3 * i + tick))
-            await wire.close()
-        await forgotten(port)
-
-    with serving("forgetful") as (port, pid):
-        asyncio.run(visit(warm))
-        asyncio.run(at_rest(pid))
-        before = left(port)
-        asyncio.run(visit(sessions))
-        asyncio.run(at_rest(pid))
-        return before, left(port)
-
-
-def report() -> str:
-    """Return both as Markdown."""
-    alone, pair = load(1), load(2)
-    lines = [
-        f"| sessions at {RATE:.0f} Hz | 1 process: median, p95 | frames/s each | 2 processes: median, p95 "
-        "| frames/s each |",
-        "|---|---|---|---|---|",
-    ]
-    for n in CROWDS:
-        cells = [
-            f"{1e3 * row['median']:.1f}, {1e3 * row['p95']:.1f} ms | {row['rate']:.1f}" for row in (alone[n], pair[n])
-        ]
-        lines.append(f"| {n} | {' | '.join(cells)} |")
-    ratios = [row[max(CROWDS)]["p95"] / row[1]["median"] for row in (alone, pair)]
-    lines.append(
-        f"\np95 with {max(CROWDS)} sessions over the median of one: {ratios[0]:.1f} with 1 process, {ratios[1]:.1f} "
-        "with 2. The sessions are played by a third process on the same machine."
-    )
-    before, after = memory()
-    lines.append(
-        f"200 sessions opened and closed: {(after['resident'] - before['resident']) / 200e3:+.1f} kB of memory and "
-        f"{(after['objects'] - before['objects']) / 200:+.1f} objects each; {after['ExplorerView']} explorers and "
-        f"{after['Scene']} scenes are left."
-    )
-    return "\n".join(lines)
-
-
-if __name__ == "__main__":
-    print(report())

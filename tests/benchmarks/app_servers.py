@@ -1,4 +1,4 @@
-"""The servers that `bench_app` compares; run as ``python -m tests.benchmarks.app_servers KIND PORT [PROCESSES]``."""
+"""Servers for benchmarks and tests; run as ``python -m tests.benchmarks.app_servers KIND PORT [PROCESSES]``."""
 
 from __future__ import annotations
 
@@ -91,74 +91,6 @@ def queued(thread: str = "/proc/thread-self/schedstat") -> float:
         return 1e-9 * int(statistics.read().split()[1])
 
 
-def watched(port: int) -> None:
-    """Serve the explorer, and ``/held``: see `held.Held`."""
-    from codim2_app.server.cli import _say_if_compiled
-    from codim2_app.server.page import make_server
-
-    from .held import watch
-
-    server = make_server(port, told=_say_if_compiled)
-    watch(server)
-    server.start()
-    gc.freeze()  # as `codim2 serve` does
-    server.io_loop.start()
-
-
-def mathematics(port: int) -> None:
-    """Serve what `bare` does, and compute the explorer's scene before each swap."""
-    from codim2_app.frame.scenes import make_scene
-    from codim2_app.state.controls import ExplorerState
-
-    from .app_load import value
-    from .bench_app import PICTURE
-
-    scene, count = make_scene(ExplorerState().values()), 0
-
-    def compute() -> None:
-        nonlocal scene, count
-        count += 1
-        scene = scene.evolve(a=value(count))
-        for name in PICTURE:
-            scene[name]
-
-    bare(port, compute)
-
-
-def bare(port: int, before: Callable[[], None] = lambda: None) -> None:
-    """Serve a Bokeh document that swaps one precomputed buffer, as large as the explorer's frame."""
-    import numpy as np
-    from bokeh.events import ButtonClick
-    from bokeh.models import Button, Column, ColumnDataSource
-    from bokeh.server.server import Server
-    from codim2_app.server.page import take_over
-    from codim2_app.state.controls import ExplorerState
-    from codim2_app.view.refresh import Frames
-
-    frames = Frames(ExplorerState())
-    frames.answer({"all": True})
-    size = len(frames.answer({"set": {"a": -1.7}})) // 2
-    buffers = [np.full(size, k, np.int16) for k in range(2)]
-
-    def page(doc) -> None:
-        button, source, count = Button(), ColumnDataSource({"frame": buffers[0]}), [0]
-
-        def swap(_event) -> None:
-            count[0] += 1
-            before()
-            source.data = {"frame": buffers[count[0] % 2]}
-
-        button.on_event(ButtonClick, swap)
-        button.js_property_callbacks = {}
-        button.tags = [source]
-        doc.add_root(Column(children=[button]))
-
-    server = Server({"/": page}, port=port)
-    take_over(server._tornado)  # the same favour as for the explorer
-    server.start()
-    server.io_loop.start()
-
-
 def panel(port: int) -> None:
     """Serve a page of Panel's with an empty Bokeh figure."""
     import panel as pn
@@ -172,7 +104,6 @@ def panel(port: int) -> None:
 if __name__ == "__main__":
     kind, port, *more = sys.argv[1:]
     kinds: dict[str, Callable[..., None]] = {
-        "explorer": explorer, "forgetful": forgetful, "bare": bare, "mathematics": mathematics,
-        "panel": panel, "watched": watched, "jumping": jumping,
+        "explorer": explorer, "forgetful": forgetful, "panel": panel, "jumping": jumping,
     }  # fmt: skip
     kinds[kind](int(port), *more)

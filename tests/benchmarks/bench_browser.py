@@ -1,7 +1,6 @@
 """A drag in a browser: painted frames, the browser's time for each, and from the event to the painted frame.
 
-``python -m tests.benchmarks browser [--quick]``. With ``CODIM2_BEFORE=FOLDER``, a clone of another revision, each case
-is measured on both in turn; on a loaded machine only such pairs, and the processor time of a frame, can be trusted.
+``python -m tests.benchmarks browser [--quick]``. On a loaded machine only the processor time of a frame can be trusted.
 """
 
 from __future__ import annotations
@@ -9,16 +8,12 @@ from __future__ import annotations
 import os
 import shutil
 import statistics
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Any
 
 from playwright.sync_api import Browser, sync_playwright
 
 from ..app.serving import serving
-from .bench_sessions import of
-from .slow_line import slow_line
 
 #: A slider that moves once in each frame of the screen, a tenth of its range to both sides, and what is painted
 #: meanwhile: the frames of the screen in which the picture was drawn, each of which shows a value that it knows.
@@ -60,7 +55,6 @@ class Case:
     """Where and on what it is dragged."""
 
     name: str
-    round_trip: float = 0.0
     throttle: int = 1
     query: str = ""
     width: int = 1440
@@ -71,15 +65,13 @@ class Case:
 ALL = "outside,inside,continuations,separatrices,cycles,rho,theta,lines,equator,critical,outcomes,basins"
 CASES = (
     Case("default portrait"),
-    Case("30 ms away", 0.03),
-    Case("80 ms away", 0.08),
     Case("4 times slower", throttle=4),
     Case("all layers", query=f"?layers={ALL}"),
     Case("Case III", query="?preset=case3-n3"),
     Case("Case III, all layers", query=f"?preset=case3-n3&layers={ALL}"),
     Case("phone, ratio 3", width=390, height=844, ratio=3),
 )  # fmt: skip
-QUICK = CASES[:1] + CASES[2:4]
+QUICK = CASES[:2]
 
 
 def _processor(browser: Browser) -> float:
@@ -111,44 +103,29 @@ def drag(browser: Browser, address: str, case: Case, seconds: float) -> dict[str
         context.close()
 
 
-@contextmanager
-def _served(folder: str) -> Iterator[str]:
-    """Serve the package of another clone."""
-    with of(folder), serving() as address:
-        yield address
-
-
 def report(quick: bool = False) -> str:
     """Return the table of all cases."""
     rows = [
-        "| drag of f1 | page | painted /s | animation frames /s | renderer's CPU a frame, ms | event to painted, ms: "
+        "| drag of f1 | painted /s | animation frames /s | renderer's CPU a frame, ms | event to painted, ms: "
         "median, p95 | tasks > 50 ms | most requests out |",
-        "|---|---|---|---|---|---|---|---|",
+        "|---|---|---|---|---|---|---|",
     ]
     seconds, times = (2.0, 1) if quick else (3.0, 3)
     chromium = os.environ.get("CODIM2_CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
-    with ExitStack() as stack:
-        pages = {"now": stack.enter_context(serving())}
-        if before := os.environ.get("CODIM2_BEFORE"):
-            pages["before"] = stack.enter_context(_served(before))
-        playwright = stack.enter_context(sync_playwright())
+    with serving() as address, sync_playwright() as playwright:
         browser = playwright.chromium.launch(
             executable_path=chromium, args=["--headless=new", "--no-sandbox", "--disable-gpu"]
         )
-        for address in pages.values():  # what a server still loads after its first page is no part of a drag
-            drag(browser, address, CASES[0], 2.0)
-        for case in QUICK if quick else CASES:
-            found: dict[str, list[dict[str, Any]]] = {name: [] for name in pages}
-            for _ in range(times):
-                for name, address in pages.items():
-                    with slow_line(address, case.round_trip) as line:
-                        found[name].append(drag(browser, line if case.round_trip else address, case, seconds))
-            rows += [_row(case, name, runs) for name, runs in found.items()]
+        drag(browser, address, CASES[0], 2.0)  # what a server still loads after its first page is no part of a drag
+        rows += [
+            _row(case, [drag(browser, address, case, seconds) for _ in range(times)])
+            for case in (QUICK if quick else CASES)
+        ]
         browser.close()
     return "\n".join(rows)
 
 
-def _row(case: Case, name: str, runs: list[dict[str, Any]]) -> str:
+def _row(case: Case, runs: list[dict[str, Any]]) -> str:
     def middle(key: str) -> float:
         return statistics.median(run[key] for run in runs)
 
@@ -156,7 +133,7 @@ def _row(case: Case, name: str, runs: list[dict[str, Any]]) -> str:
     waits = f"{statistics.median(delays):.0f}, {delays[int(0.95 * len(delays))]:.0f}" if delays else "–"
     most = max(run["most"] for run in runs) or "–"
     counts = f"{middle('painted'):.1f} | {middle('frames'):.1f} | {middle('cpu'):.1f}"
-    return f"| {case.name} | {name} | {counts} | {waits} | {sum(run['long'] for run in runs)} | {most} |"
+    return f"| {case.name} | {counts} | {waits} | {sum(run['long'] for run in runs)} | {most} |"
 
 
 if __name__ == "__main__":

@@ -1,9 +1,6 @@
-"""Case III: what its scene costs beside its trajectories, limit cycles, their branches and folds; error beside time.
+"""Case III: limit cycles, their branches and folds; error beside time.
 
-Of each branch it is told what the time is made of: rounds that wait for one another, turns of the return map in all of
-them, and the time in compiled code.
-
-Run ``python -m tests.benchmarks.bench_cycles [--quick]``. Times are of the processor, ratios are paired by run.
+Run ``python -m tests.benchmarks.bench_cycles [--quick]``. Times are of the processor.
 """
 
 from __future__ import annotations
@@ -18,15 +15,9 @@ from typing import Any
 import numpy as np
 
 import codim2_core as c2
-from codim2_core.continuation import branches as following
-from codim2_core.continuation import measured
 from codim2_core.continuation.branches import continue_cycles
-from codim2_core.cycles import return_map
 from codim2_core.diagrams.standing import standing
 
-from .bench_scene import LAYERS, PICTURE, TRAJECTORIES
-
-PRESETS = ("case3-n2", "case3-n3", "case3-n4")
 PERIODS = {3: 0.5044751410092433, 4: 0.6066957493683202}  # of Case III's cycle, by extrapolation at 22 digits
 CLEAR = 1e-4  # exponent from which a period is known better than its value is rounded
 FOLDING = c2.ELinear(1.0, 1.3, -1.2, (0.33, 0.07))  # with Hill 3 a fold of cycles lies near f2 = 0.069
@@ -37,20 +28,6 @@ def spent(call: Callable[[], Any]) -> tuple[float, Any]:
     start = time.process_time()
     found = call()
     return 1e3 * (time.process_time() - start), found
-
-
-def scene_row(preset: str, repeats: int) -> tuple[float, float, float]:
-    """Milliseconds of a cold scene's trajectories, and medians of picture and of all layers over them."""
-    values = c2.presets[preset]
-    alone, picture, whole = [], [], []
-    for k in range(repeats + 1):
-        scene = c2.Scene(values.system, values.psi)
-        times = {name: spent(lambda name=name, scene=scene: scene[name])[0] for name in LAYERS}
-        if k:  # the first loads what is compiled
-            alone.append(sum(times[name] for name in TRAJECTORIES))
-            picture.append(sum(times[name] for name in PICTURE) / alone[-1])
-            whole.append(sum(times.values()) / alone[-1])
-    return statistics.median(alone), statistics.median(picture), statistics.median(whole)
 
 
 def timed(call: Callable[[], Any], repeats: int) -> tuple[float, Any]:
@@ -76,7 +53,7 @@ def branch_error(branches: Any, system: c2.ELinear, psi: c2.Psi) -> float:
 
 
 def branch_rows(repeats: int, quick: bool) -> list[str]:
-    """Milliseconds of branches, the largest error of a period, rounds, turns, and milliseconds in compiled code."""
+    """Milliseconds of branches, and the largest error of a period."""
     psi, three = c2.psi.hill(3), c2.presets["case3-n3"].system
     cases = [
         ("f1 from 0.2 to 0.5, b = 1.3", FOLDING, "f1", (0.2, 0.5)),
@@ -87,40 +64,9 @@ def branch_rows(repeats: int, quick: bool) -> list[str]:
     for label, system, name, span in cases[: 1 if quick else None]:
         cost, found = timed(lambda s=system, n=name, span=span: continue_cycles(s, psi, n, span), repeats)
         error = branch_error(found, system, psi) if name == "f1" and system is FOLDING else None
-        rounds, turns, compiled = made_of(lambda s=system, n=name, span=span: continue_cycles(s, psi, n, span))
         shown = "" if error is None else f"{error:.0e}"
-        rows.append(f"| {label}: {len(found)} | {cost:.0f} | {shown} | {rounds} | {turns} | {compiled:.0f} |")
+        rows.append(f"| {label}: {len(found)} | {cost:.0f} | {shown} |")
     return rows
-
-
-def made_of(call: Callable[[], Any]) -> tuple[int, int, float]:
-    """Rounds and turns that a search for branches asks for, and milliseconds in compiled code."""
-    parts = [(return_map, "returns"), (return_map, "reached"), (measured, "measured")]
-    kept = [getattr(module, name) for module, name in parts]
-    follow, asked, took = following.follow, [], []
-
-    def noted(questions: Any) -> Any:
-        asked.append(sum(len(question.xi) for question in questions))
-        return follow(questions)
-
-    def clocked(kernel: Callable[..., Any]) -> Callable[..., Any]:
-        def run(*given: Any) -> Any:
-            cost, found = spent(lambda: kernel(*given))
-            took.append(cost)
-            return found
-
-        return run
-
-    try:
-        following.follow = noted
-        for (module, name), kernel in zip(parts, kept, strict=True):
-            setattr(module, name, clocked(kernel))
-        call()
-    finally:
-        following.follow = follow
-        for (module, name), kernel in zip(parts, kept, strict=True):
-            setattr(module, name, kernel)
-    return len(asked), sum(asked), sum(took)
 
 
 def standing_row(repeats: int) -> tuple[float, float]:
@@ -137,14 +83,7 @@ def standing_row(repeats: int) -> tuple[float, float]:
 def report(quick: bool = False) -> str:
     """Return both tables as Markdown."""
     repeats = 3 if quick else 15
-    lines = [
-        "| cold scene | its trajectories, ms | picture / trajectories | all layers / trajectories |",
-        "|---|---|---|---|",
-    ]
-    for preset in PRESETS[: 1 if quick else None]:
-        alone, picture, whole = scene_row(preset, repeats)
-        lines.append(f"| {preset} | {alone:.2f} | {picture:.2f} | {whole:.1f} |")
-    lines += ["", "| | ms of the processor | error |", "|---|---|---|"]
+    lines = ["| | ms of the processor | error |", "|---|---|---|"]
     system = c2.presets["case3-n3"].system
     for n in (3,) if quick else (3, 4):
         cost, cycles = timed(lambda n=n: c2.limit_cycles(system, c2.psi.hill(n)), repeats)
@@ -161,8 +100,8 @@ def report(quick: bool = False) -> str:
         lines.append(f"| the same of the spinning annulus, eta through 1: {count} special values | {cost:.0f} | |")
         cost, curve = timed(lambda: c2.bifurcations.cycle_folds(1.0, 1.3, -1.2, psi), 1)
         lines.append(f"| folds of cycles in (f1, f2): {len(curve)} curves | {cost:.0f} | |")
-    lines += ["", "| branches of cycles | ms of the processor | error of the period | rounds | turns | ms compiled |"]
-    lines += ["|---|---|---|---|---|---|", *branch_rows(max(repeats // 3, 1), quick)]
+    lines += ["", "| branches of cycles | ms of the processor | error of the period |"]
+    lines += ["|---|---|---|", *branch_rows(max(repeats // 3, 1), quick)]
     return "\n".join([*lines, "", f"Load of the machine then: {os.getloadavg()[0]:.1f}."])
 
 

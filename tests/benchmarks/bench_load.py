@@ -2,7 +2,7 @@
 
 ``python -m tests.benchmarks load [--quick]``. How many sessions a process carries (one core each) while the p95 of all
 frames stays below 100 ms, what is then at its limit, and how unequally the chairs are served; forty pages in two
-seconds; a page beyond the limit; and the memory over an hour's worth of visits. The visitors are played by another
+seconds. The visitors are played by another
 process on the same machine, which needs a processor too.
 """
 
@@ -15,21 +15,16 @@ import resource
 import sys
 import time
 from dataclasses import dataclass
-from urllib.error import HTTPError
 
 import numpy as np
 
-from .app_load import MANY, RATE, WITHIN, at_rest, burst, children, cpu, family, forgotten, overtaken, serving
+from .app_load import MANY, RATE, WITHIN, at_rest, burst, children, cpu, family, overtaken, serving
 from .app_servers import queued
-from .bench_sessions import LONGEST
-from .bokeh_wire import Wire
-from .visits import TICKS, Chair, page, seated, visit
+from .visits import TICKS, Chair, seated
 
 CHAIRS = (1, 8, 16, 24, 32, 40)
 SECONDS = 12.0
-#: An hour of forty phones that stay for three minutes each.
-HOUR = 800
-AT_ONCE = 8  # of these
+LONGEST = 0.1  # seconds: the p95 that is borne
 
 
 @dataclass(frozen=True)
@@ -151,54 +146,12 @@ def first_come(quick: bool) -> str:
     )
 
 
-def refused(places: int = 2) -> str:
-    """Say what a page beyond the limit is answered."""
-
-    async def come(port: int) -> str:
-        wires = [await Wire.connect(port) for _ in range(places)]
-        try:
-            page(port)
-        except HTTPError as error:
-            return f"answered {error.code}, Retry-After {error.headers['Retry-After']} s"
-        finally:
-            for wire in wires:
-                await wire.vanish()
-        return "let in"
-
-    with serving("explorer", "1", "--sessions", str(places)) as (port, _):
-        return f"With {places} places, a page more is {asyncio.run(come(port))}."
-
-
-def memory(visits: int) -> str:
-    """Say what is held after each quarter of an hour's worth of visits."""
-
-    async def quarter(port: int, first: int) -> None:
-        for number in range(first, first + visits // 4, AT_ONCE):
-            await asyncio.gather(*(visit(port, number + i, Chair()) for i in range(AT_ONCE)))
-
-    with serving("forgetful") as (port, pid):
-        asyncio.run(quarter(port, 0))  # what is compiled and kept for all
-        asyncio.run(at_rest(pid))
-        held = [asyncio.run(forgotten(port))]
-        for part in range(4):
-            asyncio.run(quarter(port, part * visits // 4))
-            asyncio.run(at_rest(pid))
-            held.append(asyncio.run(forgotten(port)))
-    sizes = ", ".join(f"{1e-6 * one['resident']:.0f}" for one in held)
-    last = held[-1]
-    return (
-        f"Memory over {visits} visits ({visits / HOUR:.2g} of an hour of forty phones), MB before and after each "
-        f"quarter: {sizes}; {last['ExplorerView']} explorers and {last['Frames']} sessions' frames are left, "
-        f"{last['formulas']} formulas are compiled."
-    )
-
-
 def report(quick: bool = False) -> str:
     """Return the tables as Markdown."""
     chairs, seconds = ((8, 24), 5.0) if quick else (CHAIRS, SECONDS)
     lines = []
-    both = {processes: crowds(processes, chairs, seconds) for processes in ((1,) if quick else (1, 2))}
-    for processes, found in both.items():
+    for processes in (1,) if quick else (1, 2):
+        found = crowds(processes, chairs, seconds)
         most = carried(found)
         lines += [
             f"| {processes} process{'es' * (processes > 1)}: sessions | visits, lost | frames: median, p95, ms "
@@ -212,21 +165,8 @@ def report(quick: bool = False) -> str:
             f"{saturated(found[chairs[-1]], processes)}",
             "",
         ]
-    if len(both) > 1:
-        lines += [compared(both[1], both[2]), ""]
-    lines += [first_come(quick), refused(), memory(HOUR // 10 if quick else HOUR)]
+    lines.append(first_come(quick))
     return "\n".join(lines)
-
-
-def compared(one: dict[int, Load], two: dict[int, Load]) -> str:
-    """Say what a second process gains, by the size of the crowd."""
-    said = (
-        f"{size}: median {1e3 * np.median(one[size].delays()):.0f} and {1e3 * np.median(two[size].delays()):.0f} ms, "
-        f"{sum(one[size].rates()) / 2:.1f} and {sum(two[size].rates()) / 2:.1f} frames/s"
-        for size in sorted(one.keys() & two.keys())
-        if one[size].delays() and two[size].delays()
-    )
-    return f"By one process and by two, sessions: {'; '.join(said)} (middle of the least and the most served)."
 
 
 def saturated(load: Load, processes: int) -> str:

@@ -1,4 +1,4 @@
-"""The first page against a bare Panel page with an empty Bokeh figure: first byte, first stroke, processor time; forty.
+"""The first page against a bare Panel page with an empty Bokeh figure: first byte, first stroke, processor time.
 
 ``python -m tests.benchmarks page [--quick]``. The two servers take turns; what is compared is the median of the ratios
 within one turn. A stroke is one on a canvas of the page: of the figure's axes there, of the live picture here.
@@ -17,7 +17,7 @@ from urllib.request import urlopen
 
 from playwright.sync_api import Browser, sync_playwright
 
-from .app_load import MANY, WITHIN, at_rest, burst, cpu, overtaken, serving
+from .app_load import at_rest, cpu, serving
 from .bokeh_wire import Wire
 
 KINDS = {"panel": "bare Panel page, empty Bokeh figure", "explorer": "explorer"}
@@ -45,16 +45,15 @@ def first_byte(port: int) -> float:
     return median(times)
 
 
-def first_stroke(browser: Browser, port: int) -> tuple[float, float]:
-    """Return the seconds until the first byte and the first stroke in a browser that has never been there."""
+def first_stroke(browser: Browser, port: int) -> float:
+    """Return the seconds until the first stroke in a browser that has never been there."""
     context = browser.new_context(viewport={"width": 1440, "height": 900})
     try:
         page = context.new_page()
         page.add_init_script(NOTED)
         page.goto(f"http://localhost:{port}/")
         page.wait_for_selector("html[data-stroke]", timeout=60_000)
-        byte = page.evaluate("performance.getEntriesByType('navigation')[0].responseStart")
-        return 1e-3 * byte, 1e-3 * float(page.evaluate("document.documentElement.dataset.stroke"))
+        return 1e-3 * float(page.evaluate("document.documentElement.dataset.stroke"))
     finally:
         context.close()
 
@@ -83,10 +82,9 @@ def run(turns: int) -> dict[str, list[dict[str, Any]]]:
         for _ in range(turns):
             for kind, (port, pid) in servers.items():
                 byte = first_byte(port)
-                seen, stroke = first_stroke(browser, port)
+                stroke = first_stroke(browser, port)
                 used = _run(arrivals(port, pid, 10))
-                waits = _run(burst(port))
-                found[kind].append({"byte": byte, "seen": seen, "stroke": stroke, "cpu": used, "waits": waits})
+                found[kind].append({"byte": byte, "stroke": stroke, "cpu": used})
                 _run(at_rest(pid))
         browser.close()
     return found
@@ -104,19 +102,13 @@ def report(quick: bool = False) -> str:
     """Return the table as Markdown."""
     found = run(2 if quick else 7)
     lines = [
-        "| page | first byte | first stroke in a browser | server's CPU a page | "
-        f"{MANY} pages in {WITHIN:g} s: longest wait, last one drawn after | overtaken |",
-        "|---|---|---|---|---|---|",
+        "| page | first byte | first stroke in a browser | server's CPU a page |",
+        "|---|---|---|---|",
     ]
     for kind, title in KINDS.items():
         rows = found[kind]
         byte, stroke, used = (1e3 * median(row[key] for row in rows) for key in ("byte", "stroke", "cpu"))
-        waits = sorted((row["waits"] for row in rows), key=max)[len(rows) // 2]
-        last = max(i * WITHIN / MANY + wait for i, wait in enumerate(waits))
-        lines.append(
-            f"| {title} | {byte:.1f} ms | {stroke:.0f} ms | {used:.0f} ms | {max(waits):.2f} s, {last:.2f} s "
-            f"| {overtaken(waits)} |"
-        )
+        lines.append(f"| {title} | {byte:.1f} ms | {stroke:.0f} ms | {used:.0f} ms |")
     ratios = {
         key: median(ours[key] / bare[key] for ours, bare in zip(found["explorer"], found["panel"], strict=True))
         for key in ("byte", "stroke", "cpu")

@@ -10,18 +10,16 @@ from __future__ import annotations
 import math
 import random
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from fractions import Fraction
 
 import numpy as np
 from scipy.optimize import brentq, root
 
-from codim2_core import ELinear, critical_sets, equator_equilibria, examples, psi
+from codim2_core import critical_sets, equator_equilibria, examples, psi
 from codim2_core.systems.coefficients import Coefficients
 
 from ..core.exact_trigonometric import count_equilibria, root_error, theta_coefficients
-from .bench_equator import near
 from .pictures import Plot, plot
 from .race import clock
 
@@ -30,6 +28,14 @@ TURN = 2.0 * math.pi
 ON_CIRCLE = 1e-6  # how far from |z| = 1 numpy.roots may be and still count
 GAPS = (0.0, 3.0, 6.0, 9.0, 12.0)  # saddle-node +- 10^-k; 0: uniform
 RESOLUTIONS = (32, 128, 512, 2048)
+
+
+def near(rng: random.Random, power: float) -> Numbers:
+    """A point of eq:tangencies, with b moved by 10^-power of itself to either side."""
+    a, b, d = (rng.uniform(-2, 2) for _ in range(3))
+    c, s = math.cos(theta := rng.uniform(0, TURN)), math.sin(theta)
+    f1, f2 = b * s - (a - d) * c**3, (a - d) * s**3 - b * c
+    return a, b * (1 + rng.choice((1, -1)) * 10.0**-power), d, f1, f2
 
 
 def by_companion(q: Numbers) -> list[float]:
@@ -94,7 +100,7 @@ def equator_rows(count: int, turns: int) -> list[Row]:
     rng = random.Random(3)
     rows = []
     for gap in GAPS:
-        draw = near(gap) if gap else lambda: tuple(rng.uniform(-2.0, 2.0) for _ in range(5))
+        draw = (lambda gap=gap: near(rng, gap)) if gap else lambda: tuple(rng.uniform(-2.0, 2.0) for _ in range(5))
         systems: list[Numbers] = [draw() for _ in range(count)]
         counts = [count_equilibria(*q) for q in systems]
         fifty = [theta_coefficients(*q) for q in systems]
@@ -110,14 +116,6 @@ def equator_rows(count: int, turns: int) -> list[Row]:
             error = float(np.max(errors)) if errors else math.nan
             rows.append(Row(title, name, 1.0 - len(right) / count, error, 1e6 * float(np.median(times[name]))))
     return rows
-
-
-def fresh(build: Callable[[float], object]) -> Iterator[object]:
-    """Systems that have not been seen: nothing can come from a cache."""
-    k = 0
-    while True:
-        k += 1
-        yield build(0.3 + 1e-9 * k)
 
 
 @dataclass
@@ -213,40 +211,11 @@ def critical_general(turns: int) -> General:
     return _measured("critical sets, non-unique sliding", methods, exact, turns)
 
 
-def critical_elinear(turns: int) -> General:
-    """The critical set of an e-linear system near the equator: -A^-1 f in exact fractions."""
-    shape = psi.hill(4)
-
-    def system(z: float) -> ELinear:
-        return ELinear(-2.0, 0.5, -1.0, (-0.5 - z, 0.2))
-
-    def exact(z: float) -> np.ndarray:
-        a, b, d, f1, f2 = map(Fraction, system(z).at(()).plane)
-        det = a * d + b * b
-        return np.array([float((-d * f1 - b * f2) / det), float((b * f1 - a * f2) / det)])
-
-    def by_root(z: float) -> np.ndarray:
-        at = system(z).at(())
-        done = root(at.U, np.zeros(2), tol=1e-14)
-        e = done.x
-        J = np.array([[at.a, -at.b], [at.b, at.d]])
-        np.linalg.eigvals(J)
-        return e
-
-    methods: dict[str, Callable[[float], np.ndarray]] = {
-        "ours": lambda z: critical_sets(system(z), shape)[0].e,
-        "hybr": by_root,
-        "numpy.linalg.solve": lambda z: np.linalg.solve(system(z).at(()).A, [0.5 + z, -0.2]),
-    }
-    return _measured("critical set, e-linear", methods, exact, turns, sort=False)
-
-
 def _measured(
     name: str,
     methods: dict[str, Callable[[float], np.ndarray]],
     exact: Callable[[float], np.ndarray],
     turns: int,
-    sort: bool = True,
 ) -> General:
     result = General(name)
     times: dict[str, list[float]] = {method: [] for method in methods}
@@ -261,12 +230,11 @@ def _measured(
         z += 1e-7
         true, found = exact(z), np.atleast_1d(run(z))
         error = math.nan
-        if sort and name.startswith("limit"):
+        if name.startswith("limit"):
             found = np.sort(np.mod(found + 1e-9, TURN) - 1e-9)
         if len(found) == len(true):
             error = float(np.abs(found - true).max())
-        count = f"{len(found)} of {len(true)}" if sort else "1 of 1"
-        result.rows.append((method, count, error, float(np.median(times[method]))))
+        result.rows.append((method, f"{len(found)} of {len(true)}", error, float(np.median(times[method]))))
     return result
 
 
@@ -281,7 +249,7 @@ class Roots:
 def measure(quick: bool = False) -> Roots:
     """Measure everything."""
     turns = 5 if quick else 41
-    general = [general_equator(turns), critical_general(turns), critical_elinear(turns)]
+    general = [general_equator(turns), critical_general(turns)]
     return Roots(equator_rows(40 if quick else 300, 3 if quick else 9), general)
 
 

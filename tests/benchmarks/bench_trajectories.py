@@ -89,22 +89,6 @@ def best_table(races: list[Race]) -> str:
     return "\n".join(lines)
 
 
-def method_table(races: list[Race]) -> str:
-    """Each competitor's time over ours: median over the problems, and the least."""
-    head = " | ".join(f"{error:.0e}" for error in DECADES)
-    lines = [f"| time / ours, median (least) over the problems | {head} |", "|---" * (len(DECADES) + 1) + "|"]
-    names = dict.fromkeys(name for item in races for name in item.curves if name != "ours")
-    for name in names:
-        cells = []
-        for error in DECADES:
-            found = [ratio(item.curves[name], item.curves["ours"], error) for item in races if name in item.curves]
-            found = [value for value in found if not math.isnan(value)]
-            middle = float(np.median(found)) if found else math.inf
-            cells.append(f"{short(middle)} ({short(min(found, default=math.inf))})")
-        lines.append(f"| {name} | {' | '.join(cells)} |")
-    return "\n".join(lines)
-
-
 def absolute_table(races: list[Race]) -> str:
     """Our own milliseconds."""
     errors = (1e-3, 1e-6, 1e-9, 1e-12)
@@ -180,7 +164,7 @@ def missing(races: list[Race]) -> str:
 
 def text(races: list[Race]) -> str:
     """All tables, as Markdown."""
-    parts = [best_table(races), method_table(races), absolute_table(races), slower(races), missing(races)]
+    parts = [best_table(races), absolute_table(races), readme(races), missing(races)]
     return "\n\n".join(part for part in parts if part)
 
 

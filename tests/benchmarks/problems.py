@@ -1,12 +1,11 @@
 """The problems on which trajectories are raced: a system, Psi, 64 seeds, a time; and where they end, to 30 digits.
 
 The field is text in x, y (theta and ebar near the equator) and P[0], P[1], ..., so that every
-competitor compiles or evaluates the same formula in its own way. `data/ends.json` holds the ends (`references`).
+competitor compiles or evaluates the same formula in its own way. `data/ends.npz` holds the ends (`references`).
 """
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
@@ -18,7 +17,7 @@ from codim2_core import ELinear, critical_sets, equator_equilibria, examples, pr
 from codim2_core.psi.function import Psi
 from codim2_core.systems.typed import System
 
-DATA = Path(__file__).parent / "data" / "ends.json"
+DATA = Path(__file__).parent / "data" / "ends.npz"
 COUNT = 64
 Array = np.ndarray
 
@@ -119,7 +118,8 @@ class Problem:
 @lru_cache(maxsize=1)
 def ends() -> dict[str, Array]:
     """Return the stored ends."""
-    return {name: np.array(rows) for name, rows in json.loads(DATA.read_text()).items()}
+    with np.load(DATA) as stored:
+        return dict(stored)
 
 
 def sunflower(radius: float = 0.98, about: tuple[float, float] = (0.0, 0.0)) -> Array:

@@ -1,19 +1,17 @@
 """Compute where the trajectories of `problems` end, once: ``python -m tests.benchmarks.references``.
 
 Exact solutions by mpmath's matrix exponential at 50 digits; the others by heyoka's Taylor method in 113-bit
-arithmetic at tolerance 1e-25, stored rounded to double precision in `data/ends.json`.
+arithmetic at tolerance 1e-25, stored rounded to double precision in `data/ends.npz`.
 """
 
 from __future__ import annotations
 
-import json
 import sys
 
 import mpmath
 import numpy as np
 
-from .data import wrapped_rows
-from .problems import DATA, Problem, problems
+from .problems import DATA, Problem, ends, problems
 
 
 def exact(problem: Problem) -> np.ndarray | None:
@@ -60,15 +58,15 @@ def taylor(problem: Problem) -> np.ndarray:
 
 def main(names: list[str]) -> None:
     """Compute the named problems, or all, and store them."""
-    stored = json.loads(DATA.read_text()) if DATA.exists() else {}
+    stored = dict(ends()) if DATA.exists() else {}
     for problem in problems():
         if names and problem.name not in names:
             continue
         closed = exact(problem)
         found = taylor(problem) if closed is None else closed
-        stored[problem.name] = found.tolist()
+        stored[problem.name] = found
         print(problem.name, "exact" if closed is not None else "Taylor", flush=True)
-        DATA.write_text(wrapped_rows(stored))
+        np.savez_compressed(DATA, **stored)
 
 
 if __name__ == "__main__":

@@ -11,13 +11,12 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
-from urllib.request import urlopen
 
 from codim2_app.state.controls import preset_values
 from codim2_app.state.portraits import portrait_keys
 from tornado.httpclient import HTTPClientError
 
-from .app_load import RATE, value
+from .app_load import RATE, page, value
 from .bokeh_wire import Wire
 
 TYPISTS = 8  # one visitor of so many types a formula
@@ -80,12 +79,6 @@ async def _played(port: int, number: int, chair: Chair, goes_on: Callable[[], bo
         await asyncio.sleep(max(0.0, 1.0 / RATE - took))
         chair.seconds += time.perf_counter() - before
     await wire.vanish()
-
-
-def page(port: int) -> str:
-    """Return the text of a page."""
-    with urlopen(f"http://localhost:{port}/") as answer:
-        return answer.read().decode()
 
 
 async def seated(port: int, chairs: int, seconds: float) -> list[Chair]:

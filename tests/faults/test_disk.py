@@ -73,42 +73,6 @@ def test_without_home_and_cache_it_serves_and_says_so(package):
     assert "Traceback" not in done.stderr
 
 
-@pytest.fixture(scope="module")
-def warmed(package):
-    """A folder with the kernels."""
-    cache = package / "kernels"
-    cache.mkdir()
-    command = [PYTHON, "-c", CODE, "warm"]
-    subprocess.run(command, env=environment(package, NUMBA_CACHE_DIR=str(cache)), check=True, cwd="/")
-    return cache
-
-
-@pytest.mark.parametrize("home", ["none", "writable"])
-def test_a_cache_that_was_warmed_is_found_where_it_cannot_be_written(package, warmed, home):
-    of_user = {}
-    if home == "writable":
-        (package / "home").mkdir()
-        os.chown(package / "home", NOBODY, NOBODY)
-        of_user["HOME"] = str(package / "home")
-    kept = {path: path.stat().st_mtime_ns for path in warmed.rglob("*.nb[ic]")}
-    assert kept
-    code = FEW + (
-        "warmup.warm_all()\n"
-        "from numba.core.dispatcher import Dispatcher; import gc\n"
-        "all = [one.stats for one in gc.get_objects() if isinstance(one, Dispatcher)]\n"
-        "print(*(sum(sum(getattr(one, which).values()) for one in all) for which in ('cache_hits', 'cache_misses')))\n"
-    )
-    done = subprocess.run(
-        [PYTHON, "-c", code], env=environment(package, NUMBA_CACHE_DIR=str(warmed), **of_user), user=NOBODY,
-        capture_output=True, text=True, check=True, cwd="/",
-    )  # fmt: skip
-    found, compiled = map(int, done.stdout.split())
-    assert found > 5
-    assert compiled == 0
-    assert {path: path.stat().st_mtime_ns for path in warmed.rglob("*.nb[ic]")} == kept
-    assert not list(package.glob("home/**/*.nb[ic]"))
-
-
 def test_a_full_disk_under_the_cache_stops_nobody(package, tmp_path):
     full = tmp_path / "full"
     full.mkdir()

@@ -1,9 +1,7 @@
 """What visitors leave behind: work ends with who wanted it, sessions with their pages, and memory has a plateau."""
 
 import asyncio
-import re
 from pathlib import Path
-from urllib.request import urlopen
 
 import pytest
 from codim2_app.draw.packing import unpack
@@ -78,38 +76,6 @@ def test_work_that_nobody_wants_any_more_ends_in_mid_work(address, how):
         return ended
 
     assert asyncio.run(talk())
-
-
-HANDSHAKE = """GET /ws HTTP/1.1
-Host: localhost:{port}
-Upgrade: websocket
-Connection: Upgrade
-Sec-WebSocket-Version: 13
-Sec-WebSocket-Key: x3JJHMbDL1EzLkh9GBhXDw==
-Sec-WebSocket-Protocol: bokeh, {token}
-
-""".replace("\n", "\r\n")
-GOODBYE = b"\x88\x80\0\0\0\0"  # a websocket frame that closes
-
-
-async def close_while_it_opens(port, goodbye):
-    """Open a page, and close it in the same breath, before its session is there."""
-    page = (await asyncio.to_thread(urlopen, f"http://localhost:{port}/")).read().decode()
-    reader, writer = await asyncio.open_connection("localhost", port)
-    token = re.search(r'"token":"([^"]+)"', page)[1]
-    writer.write(HANDSHAKE.format(port=port, token=token).encode() + goodbye)
-    await writer.drain()
-    assert b"101" in await reader.readline()
-    writer.close()
-
-
-def test_pages_that_are_closed_while_they_open_are_forgotten():
-    """A session whose page has gone before it was there would count as open for ever, until there are too many."""
-    with app_load.serving("forgetful") as (port, pid):
-        for i in range(10):
-            asyncio.run(close_while_it_opens(port, GOODBYE if i % 2 else b""))
-        asyncio.run(app_load.at_rest(pid))
-        assert wait_until(lambda: not app_load.left(port)["sessions"]), app_load.left(port)
 
 
 async def type_and_vanish(port, i):

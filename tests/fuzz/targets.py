@@ -104,67 +104,20 @@ def take(session: Frames, request: Any) -> None:
 
 TARGETS: dict[str, Callable[[Any], None]] = {"formula": formula, "link": link, "requests": requests}
 
+_CALLS = ["sin", "cos", "exp", "abs", "min", "max", "sign", "sqrt", "atan", "tanh", "log"]
 _TOKENS = [
-    *"+-*/^().,[]_ 019",
-    "**",
-    "1e308",
-    "1e-320",
-    "0.1",
-    "sin(",
-    "cos(",
-    "exp(",
-    "abs(",
-    "min(",
-    "max(",
-    "sign(",
-    "sqrt(",
-    "atan(",
-    "tanh(",
-    "log(",
-    "s",
-    "c",
-    "z",
-    "pi",
-    "e",
-    "s^2",
-    "c*s",
-    "θ",
-    "\x00",
-    "1/0",
-    "__",
-    "#",
-]
+    *"+-*/^().,[]_ 019", *(f"{name}(" for name in _CALLS), "**", "1e308", "1e-320", "0.1", "s", "c", "z", "pi", "e",
+    "s^2", "c*s", "θ", "\x00", "1/0", "__", "#",
+]  # fmt: skip
 _NUMBERS = st.sampled_from(
     ["", "0", "-1", "1e308", "1e-320", "nan", "inf", "-0", "0x10", "1_0", "１", "1,5", "1e400", "−1"]
 )
 _KEYS = st.sampled_from([*NAMES, "v", "s", "seen", "embed", "controls"])
 FORMULAS = st.lists(st.sampled_from(_TOKENS), max_size=40).map("".join) | st.text(max_size=40)
-_WORDS = st.sampled_from(
-    [
-        "typed",
-        "normal",
-        "own",
-        "ball_in_pool",
-        "custom",
-        "hill",
-        "tanh",
-        "case1-cm0",
-        "fig-3",
-        "inside",
-        "U1",
-        "U2",
-        "V",
-        "W",
-        "orbits",
-        "psi",
-        "solid",
-        "tables",
-        "f1",
-        "z",
-        "along",
-        "plane",
-    ]
-)
+_WORDS = st.sampled_from([
+    "typed", "normal", "own", "ball_in_pool", "custom", "hill", "tanh", "case1-cm0", "fig-3", "inside", "U1", "U2", "V",
+    "W", "orbits", "psi", "solid", "tables", "f1", "z", "along", "plane",
+])  # fmt: skip
 _TEXTS = FORMULAS | _NUMBERS | _WORDS
 _NESTED = st.recursive(_TEXTS, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(_WORDS, inner, max_size=3))
 _SQUEEZED = (st.binary(max_size=60) | st.text(max_size=60).map(str.encode)).map(

@@ -7,9 +7,8 @@ changed function are run, the quickest first, up to the first failure, or as lon
 that can be (`live`), else with the module imported anew; what Numba compiles is run as Python (`interpreted`). Nothing
 is written in the repository.
 Printed are the mutants that live and, for each module, how many were killed of how many; those that
-`explained.ALLOWED` tells are not tried. ``--record`` keeps all that in `results.md`. The exit code is 1 if any lives.
-``--again`` tries those of `results.md` that live, or those of another run whose output is given; with ``--record`` it
-leaves out of the list those that a test notices by now, and what was killed of a sample stays as it was drawn.
+`explained.ALLOWED` tells are not tried. ``--record`` keeps the shares in `results.md`. The exit code is 1 if any lives.
+``--again FILE`` tries those that lived in another run, whose output is in the file.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ import re
 import subprocess
 import sys
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -44,7 +43,7 @@ class Count:
     all: int = 0  # of which a sample may have been tried
     explained: int = 0
     unreached: int = 0
-    alive: list[str] = field(default_factory=list)
+    alive: int = 0
 
     def __str__(self) -> str:
         share = f"{100 * self.killed / self.tried:4.0f} %" if self.tried else "     –"
@@ -82,13 +81,6 @@ def survivors(output: str) -> Counter[tuple[str, int, str]]:
     return Counter((file, int(line), change) for file, line, change in found)
 
 
-def survivors_on_record() -> Counter[tuple[str, int, str]]:
-    """Return the same of `results.md`."""
-    there = {*modules(), *front_end()}
-    lived = [(one.name, *text.split(": ", 1)) for one in record.known().values() for text in one.alive]
-    return Counter((file_of(name), int(line), change) for name, line, change in lived if name in there)
-
-
 def tell(job: Job, mutant: Mutant, outcome: str) -> None:
     """Print a mutant that lives."""
     if outcome == "passed":
@@ -110,11 +102,10 @@ def try_python(task: tuple[str, bool, list[str], Choice]) -> list[Count]:
         jobs.append(Job(path, choice.of(left, path.relative_to(ROOT).as_posix())))
     for count, job in zip(counts, run(jobs, guards(name, kernels), kernels, tell, choice.seconds), strict=True):
         count.tried = len(job.outcomes)
-        for mutant, outcome, tests in zip(job.mutants, job.outcomes, job.tests, strict=True):
+        for outcome, tests in zip(job.outcomes, job.tests, strict=True):
             count.killed += outcome in ("failed", "timeout")
             count.unreached += not tests
-            if outcome == "passed":
-                count.alive.append(mutant.text)
+            count.alive += outcome == "passed"
         os.write(TERMINAL, f"{count}\n".encode())
     return counts
 
@@ -178,17 +169,13 @@ def main(arguments: list[str]) -> int:
     parser.add_argument(
         "--seconds", type=float, default=10.0, help="that the tests of a mutant may take, were it to live"
     )
-    parser.add_argument(
-        "--again", metavar="FILE", nargs="?", const="", help="only those that live on record, or by this run's output"
-    )
-    parser.add_argument("--record", action="store_true", help="keep what was found in results.md")
+    parser.add_argument("--again", metavar="FILE", help="only those that live by this run's output")
+    parser.add_argument("--record", action="store_true", help="keep the shares in results.md")
     parser.add_argument("--processes", type=int, default=len(os.sched_getaffinity(0)), help="side by side")
     options = parser.parse_args(arguments)
     if options.record and options.again:
         parser.error("--again FILE tries only those that lived in that run: no share of all can be recorded.")
-    again = None
-    if options.again is not None:
-        again = survivors(Path(options.again).read_text()) if options.again else survivors_on_record()
+    again = survivors(Path(options.again).read_text()) if options.again else None
     choice = Choice(options.sample, options.seed, again, options.seconds)
     rooms: dict[tuple[str, bool], list[str]] = {}
     tasks: list[tuple] = []
@@ -207,12 +194,8 @@ def main(arguments: list[str]) -> int:
     with multiprocessing.get_context("fork").Pool(options.processes, maxtasksperchild=1) as pool:
         for part in pool.imap_unordered(attempt, tasks, chunksize=1):
             counts += part
-            if options.record and again is not None:
-                record.write(record.known()[c.name]._replace(alive=tuple(c.alive)) for c in part)
-            elif options.record:
-                record.write(
-                    record.Found(c.name, c.killed, c.tried, c.all, options.seed, tuple(c.alive), at) for c in part
-                )
+            if options.record:
+                record.write(record.Found(c.name, c.killed, c.tried, c.all, options.seed, at) for c in part)
     print("\nBy module:")
     for count in sorted(counts, key=lambda count: count.name):
         print(count)

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import select
 import shutil
 import subprocess
 import tempfile
@@ -20,8 +18,6 @@ from .targets import ROOT
 STATIC, TESTS = ROOT / "app" / "static", ROOT / "tests" / "app" / "static"
 IMPORTED = re.compile(r"""(?:from\s|import\s|import\()\s*["'](\.[^"'?]+)["'?]""")
 LIMIT = 60.0  # seconds of a file of tests as it is; a mutant that loops for ever has been noticed
-TICKS = os.sysconf("SC_CLK_TCK")
-MOST = 100  # files of tests that one process runs
 
 
 class Mutant(NamedTuple):
@@ -98,69 +94,6 @@ def passes(test: str, folder: Path, only: str = "", limit: float = LIMIT) -> boo
     return code == 0
 
 
-def answers(process: subprocess.Popen[str], limit: float, step: float = 0.1) -> bool:
-    """Whether a process says something before it has worked or slept for so many seconds: waiting for a processor on a
-    busy machine is no time of its own.
-    """
-    first, asleep, last = None, 0.0, -1.0
-    while not select.select([process.stdout], [], [], step)[0]:
-        state, *numbers = Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
-        worked = (int(numbers[10]) + int(numbers[11])) / TICKS
-        first = worked if first is None else first
-        asleep += step if state == "S" and worked == last else 0.0
-        last = worked
-        if worked - first + asleep > limit:
-            return False
-    return True
-
-
-class Player:
-    """Files of tests run in one process of Node, which costs a tenth of a process for each (`playing.mjs`)."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.version = 0
-        self.process: subprocess.Popen[str] | None = None
-
-    def __enter__(self) -> Player:
-        return self
-
-    def __exit__(self, *_why: object) -> None:
-        if self.process is not None:
-            self.process.kill()
-            self.process.communicate()
-            self.process = None
-
-    def outcome(self, test: str, only: str, limit: float) -> str:
-        """Return what becomes of a file: "passed", "failed", "late", or "unsure"."""
-        self.version += 1
-        if self.process is None or self.version % MOST == 0:  # modules are kept for ever
-            self.__exit__()
-            command = ["node", str(Path(__file__).with_name("playing.mjs"))]
-            self.process = subprocess.Popen(
-                command,
-                cwd=self.folder,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.DEVNULL,
-                text=True,
-            )
-        assert self.process.stdin is not None
-        assert self.process.stdout is not None
-        wish = {"test": str(self.folder / test), "version": self.version, "only": only}
-        self.process.stdin.write(f"{json.dumps(wish)}\n")
-        self.process.stdin.flush()
-        if not answers(self.process, limit):
-            self.__exit__()
-            return "late"
-        return self.process.stdout.readline().strip() or "unsure"
-
-    def passes(self, test: str, only: str, limit: float) -> bool:
-        """Whether a file passes; where that is not sure here, in a process of its own."""
-        found = self.outcome(test, only, limit)
-        return passes(test, self.folder, only, limit) if found == "unsure" else found == "passed"
-
-
 def run(name: str, tried: list[Mutant]) -> list[str]:
     """What becomes of each: "failed", "passed", or "unreached" where no test imports the module; quick tests first,
     and the one that failed last before them.
@@ -168,38 +101,33 @@ def run(name: str, tried: list[Mutant]) -> list[str]:
     Raises
     ------
     SystemExit
-        A test fails as the module is, or once mutants have been tried.
+        A test fails as the module is.
     """
     tests = [str(path.relative_to(ROOT)) for path in tests_of(name)]
     if not tests:
         return ["unreached"] * len(tried)
     outcomes = []
-    with tempfile.TemporaryDirectory(prefix="mutation-") as folder, Player(Path(folder)) as player:
+    with tempfile.TemporaryDirectory(prefix="mutation-") as folder:
         copy = Path(folder)
         shutil.copytree(STATIC, copy / "app" / "static")
         shutil.copytree(TESTS, copy / "tests" / "app" / "static", ignore=shutil.ignore_patterns("node_modules"))
         (copy / "tests" / "app" / "static" / "node_modules").symlink_to(TESTS / "node_modules")
         shutil.copytree(ROOT / "tests" / "pictures" / "kept", copy / "tests" / "pictures" / "kept")
         path = copy / "app" / name
-        source = path.read_text()
 
         # of the tests of panels, and of their kept pictures, a panel's own
         only = rf"panel {path.stem}\b" if path.parent.name == "panels" else ""
         took = {}
         for test in tests:
             start = time.monotonic()
-            if not player.passes(test, only, LIMIT):
+            if not passes(test, copy, only):
                 raise SystemExit(f"{name}: {test} fails as it is; mend that first.")
             took[test] = time.monotonic() - start
         quick = sorted(tests, key=lambda test: took[test])
         for mutant in tried:
             path.write_text(mutant.source)
-            failed = next((test for test in quick if not player.passes(test, only, 5.0 + 10.0 * took[test])), None)
+            failed = next((test for test in quick if not passes(test, copy, only, 5.0 + 10.0 * took[test])), None)
             outcomes.append("passed" if failed is None else "failed")
             if failed is not None:  # likely to notice the next one too
                 quick.insert(0, quick.pop(quick.index(failed)))
-        path.write_text(source)
-        for test in tests:
-            if not player.passes(test, only, LIMIT):
-                raise SystemExit(f"{name}: {test} fails after mutants have been tried: they leave something behind.")
     return outcomes

@@ -58,14 +58,3 @@ def test_directions_at_a_saddle(plane, family):
         # an angle is an absolute number, and pi itself is rounded once in turning it
         assert measure(reported, exact, plane, [2.0 * math.pi] * 2)[k] < 30.0
     assert count == 4
-
-
-@pytest.mark.parametrize("family", FAMILIES[:2], ids=lambda p: p.text)
-def test_directions_on_the_equator_are_the_limit_directions(family):
-    at = ELinear(-2.0, 0.3, -1.0, (-0.5, 0.2))
-    for branch in separatrices(at, family):
-        if branch.origin.startswith("Q"):
-            from codim2_core import equator_equilibria
-
-            theta = equator_equilibria(at).theta[int(branch.origin[1:]) - 1]
-            assert abs(math.remainder(branch.departure_angle - theta, 2 * math.pi)) == 0.0

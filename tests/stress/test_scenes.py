@@ -5,7 +5,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from codim2_core import ELinear, Scene, classify, critical_sets, limit_cycles, psi
+from codim2_core import ELinear, Scene, limit_cycles, psi
 from codim2_core.orbits.trajectories import trajectories
 from codim2_core.scene import layers
 
@@ -80,12 +80,6 @@ def test_seeds_from_the_centre_to_the_equator_and_outside(stratum):
     check_seeds(stratum.plane, stratum.psi or FAMILIES[k % len(FAMILIES)], seeds(RADII + OUTSIDE))
 
 
-@pytest.mark.parametrize("regularisation", EXTREMES[::2], ids=lambda p: p.text)
-def test_seeds_with_an_extreme_psi(regularisation):
-    for plane in PORTRAITS:
-        check_seeds(plane, regularisation, seeds(RADII))
-
-
 def test_seeds_at_equilibria_stay_or_leave_without_noise():
     """Exactly on the critical set, on limit directions and just beside them."""
     for plane in PORTRAITS:
@@ -121,16 +115,6 @@ def test_tolerances_at_their_limits(tolerance):
         )  # fmt: skip
         check_finite(lines, "")
         assert lines.evaluations <= 12 * 5000 * len(lines)
-
-
-def test_the_classification_agrees_with_the_layers():
-    for stratum in STRATA:
-        regularisation = stratum.psi or psi.rational()
-        a, b, d, f1, f2 = stratum.plane
-        at = ELinear(a, b, d, (f1, f2))
-        scene = Scene(at, regularisation)
-        assert scene["classification"] == classify(at, regularisation)
-        assert len(scene["critical"]) == len(critical_sets(at, regularisation))
 
 
 @pytest.mark.parametrize("plane", [(1e-9, 1.0, -2e-9, 0.3, 0.2), (1.0, 2.0, -1.0 - 1e-9, 0.5, -0.5)])

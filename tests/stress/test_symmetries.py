@@ -98,8 +98,11 @@ def test_another_unit_of_time(plane, family, power):
     assert classify(one, family) == classify(other, family)
     for C, D in zip(critical_sets(one, family), critical_sets(other, family), strict=True):
         assert (C.p == D.p).all()
+        assert C.kind == D.kind
         assert (C.slow_flow == D.slow_flow).all()
         assert C.trace * scale == D.trace
+        assert (C.jacobian * scale == D.jacobian).all()
+        assert (C.eigenvalues * scale == D.eigenvalues).all()
     own, scaled = equator_cycle(one), equator_cycle(other)
     assert (own is None) == (scaled is None)
     if own is not None and scaled is not None:

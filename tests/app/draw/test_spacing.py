@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from codim2_app.draw.packing import PIXEL, WINDOW
 from codim2_app.draw.lines.spacing import APART, EQUATOR, SHORTEST, evenly
+from codim2_app.draw.packing import PIXEL, WINDOW
 
 import codim2_core as c2
 

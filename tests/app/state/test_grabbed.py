@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 from codim2_app.draw.packing import unpack
-from codim2_app.frame.grabbed import FARTHEST, push_for
 from codim2_app.frame.scenes import make_scene
 from codim2_app.state.controls import ExplorerState, first_values
+from codim2_app.state.grabbed import FARTHEST, push_for
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
