@@ -17,6 +17,7 @@ from jinja2 import Environment, FileSystemLoader, Template, select_autoescape
 from codim2_core.psi import FAMILIES
 
 from ..draw.bundle import bundle
+from ..draw.gallery import FIRST, gallery
 from ..draw.layers import LAYERS, TRACES, looks, swatches, table
 from ..draw.theme import MEASURES, custom_properties, themes
 from ..export.printing import there
@@ -28,7 +29,6 @@ from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values
 from ..state.links import BROUGHT, VERSION, Look
 from ..state.portraits import portrait_keys, portraits
 from ..state.slider_range import edited_range, slider_range
-from .gallery import FIRST, gallery
 from .glossary import EQUATION, GLOSSARY, MARKS, OPENING, PAPER
 
 STATIC = Path(__file__).parents[1] / "static"

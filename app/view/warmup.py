@@ -21,12 +21,12 @@ from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.kinds import AnySystem
 
+from ..draw.gallery import draw_all
 from ..draw.lines.arrowheads import arrowheads
 from ..draw.lines.spacing import evenly
 from ..frame.scenes import make_scene
 from ..state.controls import first_values
 from .alone import alone
-from .gallery import draw_all
 
 MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
 

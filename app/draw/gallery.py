@@ -7,7 +7,7 @@ from functools import lru_cache
 from codim2_core.figures.presets import presets
 from codim2_core.orbits.trajectories import is_warm
 
-from ..draw.thumbnails import thumbnail
+from .thumbnails import thumbnail
 
 #: Presets of the strip, and what is said of each.
 HOOKS = {
