@@ -30,6 +30,8 @@ SLOW = ("faults", "fuzz", "containers", "versions", "firefox", "stress", "precis
 COSTLY = TESTS / "costly.txt"
 #: Lines ``N file::function``: of the function's cases only each N-th is run wherever all tests are.
 SAMPLED = TESTS / "sampled.txt"
+#: Files of the browser whose tests take longest: they are begun with.
+LONGEST = ("notebook", "notebooks", "docs", "connection", "accessible", "take_away")
 LIMIT = 0.25  # seconds of processor time, of a test that is fast
 ALTOGETHER = 2.0  # the same, of a function for all its parameters
 
@@ -46,7 +48,7 @@ def marks(folder: str, name: str, costly: frozenset[str]) -> list[str]:
 
 
 def mark(items: list[pytest.Item]) -> None:
-    """Give all tests their marks, and put those in the browser first: they wait, and the others do not."""
+    """Give all tests their marks, and begin with those in the browser: they wait, and the others do not."""
     costly = frozenset(COSTLY.read_text().split())
     sampled = {name: int(each) for each, name in map(str.split, SAMPLED.read_text().splitlines())}
     cases: Counter[str] = Counter()
@@ -56,7 +58,19 @@ def mark(items: list[pytest.Item]) -> None:
         cases[name] += 1
         for given in ("slow",) if left else marks(item.path.relative_to(TESTS).parts[0], name, costly):
             item.add_marker(given)
-    items.sort(key=lambda item: item.get_closest_marker("browser") is None)
+    in_browser = [item for item in items if item.get_closest_marker("browser")]
+    others = [item for item in items if not item.get_closest_marker("browser")]
+    in_browser.sort(key=lambda item: not item.path.stem.endswith(LONGEST))
+    items[:] = spread(in_browser, others, int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1")))
+
+
+def spread(waiting: list[Any], others: list[Any], count: int) -> list[Any]:
+    """Order tests for so many processes, each of which begins with its part of those that wait, the longest first.
+
+    A process is given its part of the list, from its beginning; those that have done theirs take from what is left.
+    """
+    cuts = [len(others) * i // count for i in range(count + 1)]
+    return [test for i in range(count) for test in (*waiting[i::count], *others[cuts[i] : cuts[i + 1]])]
 
 
 def leave_out(config: pytest.Config, items: list[pytest.Item]) -> None:

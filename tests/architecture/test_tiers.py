@@ -194,3 +194,11 @@ print([measured.costs[f"test_it.py::test_{{name}}"] > 0.09 for name in ("first",
 """
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[True, True, False]", done.stdout
+
+
+def test_each_process_begins_with_its_part_of_what_waits():
+    waiting, others = [f"w{i}" for i in range(5)], [f"o{i}" for i in range(7)]
+    ordered = tiers.spread(waiting, others, 3)
+    assert sorted(ordered) == sorted([*waiting, *others])
+    assert ordered == ["w0", "w3", "o0", "o1", "w1", "w4", "o2", "o3", "w2", "o4", "o5", "o6"]
+    assert tiers.spread(waiting, others, 1) == [*waiting, *others]
