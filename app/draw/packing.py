@@ -95,7 +95,6 @@ def pack(
     pixel : float
     heads : bool
         Whether curves carry the arrowheads that they may have, and are evenly spaced where they are to be.
-
     guards : (offsets, points), optional
         From which evenly spaced curves keep away.
 
@@ -132,15 +131,14 @@ def _run(
     Coordinates of all layers are converted at once: a frame has a dozen of them, most with a few points.
     """
     rows, heads = [], []
+    seen = window or WINDOW
     if may:
-        even = {name: line for name, line in lines.items() if line.even}
-        if even:
-            lines = {
-                **lines,
-                **{n: Polylines(*evenly(*x[:2], pixel, window or WINDOW, guards), x.arrows) for n, x in even.items()},
-            }
+        lines = {
+            name: Polylines(*evenly(*line[:2], pixel, seen, guards), line.arrows) if line.even else line
+            for name, line in lines.items()
+        }
     for name, (offsets, points, arrows, _) in lines.items():
-        placed = None if not arrows else arrowheads(offsets, points, pixel, window or WINDOW) if may else NONE
+        placed = None if not arrows else arrowheads(offsets, points, pixel, seen) if may else NONE
         if placed is not None:
             heads.append(placed)
         rows.append((name, len(offsets) - 1, len(points), None if placed is None else len(placed)))

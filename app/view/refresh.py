@@ -12,7 +12,6 @@ from typing import Any
 
 from param.parameterized import batch_call_watchers
 
-from codim2_core.cycles.limit_cycles import LimitCycles
 from codim2_core.portrait.classification import Classification, PortraitName
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
@@ -167,8 +166,9 @@ class Frames:
         heads = header.get("ready", True) or (
             arrowheads.is_warm() and spacing.is_warm()
         )  # no frame waits for the compiler
-        cycles = self._sent.get("cycles")  # from which orbits keep away
-        guards = glyphs.join([one.points for one in cycles.cycles]) if isinstance(cycles, LimitCycles) else None
+        guards = None  # the cycles that are drawn: orbits keep away from them
+        if "cycles" in self.values["layers"] and self.scene.has("closed_orbits"):
+            guards = glyphs.join([one.points for one in self.scene["closed_orbits"].cycles])
         if self.window is None:
             return pack(header, blocks, heads=heads, guards=guards)
         return pack(header, blocks, self.window.rectangle, self.window.pixel, heads, guards)

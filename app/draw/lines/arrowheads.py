@@ -34,9 +34,18 @@ def arrowheads(
     ndarray (l, 3)
         x, y and direction in radians; no two are nearer than `CLEARANCE`.
     """
+    return _place(
+        *of_one_type(offsets, points), CLEARANCE * pixel, STRETCH * pixel, SHORTEST * pixel, TRIED, *map(float, window)
+    )
+
+
+def of_one_type(
+    offsets: NDArray[np.int64], points: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Return both as kernels take them: arrays of one type, and so one compilation for all that come."""
     offsets, points = np.ascontiguousarray(offsets, np.int64)[:], np.ascontiguousarray(points, np.float64)[:]
-    offsets.flags.writeable = points.flags.writeable = False  # one type, and so one compilation, for all that come
-    return _place(offsets, points, CLEARANCE * pixel, STRETCH * pixel, SHORTEST * pixel, TRIED, *map(float, window))
+    offsets.flags.writeable = points.flags.writeable = False
+    return offsets, points
 
 
 def is_warm() -> bool:

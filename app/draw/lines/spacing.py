@@ -13,7 +13,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-Pieces = tuple[NDArray[np.int64], NDArray[np.float64]]
+from ..layers import Pieces
+from .arrowheads import of_one_type
+
 #: In px: how near orbits come to one another, and how long a part of one is at least.
 APART, SHORTEST = 9.0, 44.0
 
@@ -52,15 +54,13 @@ def evenly(
     others = EQUATOR if guards is None else _both(guards)
     order = _order(len(offsets) - 1)
     return _left(
-        *_plain(offsets, points), *_plain(*others), order, APART * pixel, SHORTEST * pixel, *map(float, window)
+        *of_one_type(offsets, points),
+        *of_one_type(*others),
+        order,
+        APART * pixel,
+        SHORTEST * pixel,
+        *map(float, window),
     )
-
-
-def _plain(offsets: NDArray[np.int64], points: NDArray[np.float64]) -> Pieces:
-    """Return both as arrays of one type, and so with one compilation for all that come."""
-    offsets, points = np.ascontiguousarray(offsets, np.int64)[:], np.ascontiguousarray(points, np.float64)[:]
-    offsets.flags.writeable = points.flags.writeable = False
-    return offsets, points
 
 
 _TURN = np.linspace(0.0, 2.0 * np.pi, 361)
@@ -82,6 +82,23 @@ def _order(count: int) -> NDArray[np.int64]:
     return order
 
 
+@njit(inline="always")
+def _steps(dx, dy, step):
+    """How many steps a stretch of a curve is walked in; what is far outside is not looked at closely."""
+    return 1 + int(min(math.hypot(dx, dy) / step, 1e4))
+
+
+@njit(inline="always")
+def _store(x, y, stored, places, older, newest, left, bottom, apart, rows):
+    """Note a place in its cell; the number of places that are noted."""
+    cell = (int((x - left) / apart) + 1) * rows + int((y - bottom) / apart) + 1
+    stored += 1
+    places[stored, 0], places[stored, 1] = x, y
+    older[stored] = newest[cell]
+    newest[cell] = stored
+    return stored
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
 def _left(offsets, points, guards, others, order, apart, shortest, left, right, bottom, top):
     """Walk along each curve in steps of half the distance; a grid of cells of that distance tells what is near."""
@@ -91,14 +108,11 @@ def _left(offsets, points, guards, others, order, apart, shortest, left, right, 
     for piece in range(len(offsets) - 1):
         before = most
         for i in range(offsets[piece] + 1, offsets[piece + 1]):
-            length = math.hypot(points[i, 0] - points[i - 1, 0], points[i, 1] - points[i - 1, 1])
-            most += 1 + int(min(length / step, 1e4))
+            most += _steps(points[i, 0] - points[i - 1, 0], points[i, 1] - points[i - 1, 1], step)
         longest = max(longest, most - before)
     guarded = 1
     for i in range(1, len(others)):
-        guarded += 1 + int(
-            min(math.hypot(others[i, 0] - others[i - 1, 0], others[i, 1] - others[i - 1, 1]) / step, 1e4)
-        )
+        guarded += _steps(others[i, 0] - others[i - 1, 0], others[i, 1] - others[i - 1, 1], step)
     places, older = np.empty((most + guarded + 1, 2)), np.zeros(most + guarded + 1, np.int64)
     run = np.empty((longest + 1, 2))
     kept_points = np.empty((len(points) + 2 * most, 2))
@@ -107,15 +121,11 @@ def _left(offsets, points, guards, others, order, apart, shortest, left, right, 
     for piece in range(len(guards) - 1):
         for i in range(guards[piece], guards[piece + 1] - 1):
             dx, dy = others[i + 1, 0] - others[i, 0], others[i + 1, 1] - others[i, 1]
-            steps = 1 + int(min(math.hypot(dx, dy) / step, 1e4))
+            steps = _steps(dx, dy, step)
             for j in range(steps):
                 x, y = others[i, 0] + dx * j / steps, others[i, 1] + dy * j / steps
                 if left <= x <= right and bottom <= y <= top:
-                    cell = (int((x - left) / apart) + 1) * rows + int((y - bottom) / apart) + 1
-                    stored += 1
-                    places[stored, 0], places[stored, 1] = x, y
-                    older[stored] = newest[cell]
-                    newest[cell] = stored
+                    stored = _store(x, y, stored, places, older, newest, left, bottom, apart, rows)
     for k in range(len(order)):
         piece = order[k]
         first, last = offsets[piece], offsets[piece + 1]
@@ -124,8 +134,7 @@ def _left(offsets, points, guards, others, order, apart, shortest, left, right, 
         for i in range(first, last - 1):
             x0, y0 = points[i, 0], points[i, 1]
             dx, dy = points[i + 1, 0] - x0, points[i + 1, 1] - y0
-            length = math.hypot(dx, dy)
-            steps = 1 + int(min(length / step, 1e4))
+            steps = _steps(dx, dy, step)
             for j in range(steps + (i == last - 2)):
                 x, y = x0 + dx * j / steps, y0 + dy * j / steps
                 free = left <= x <= right and bottom <= y <= top
@@ -160,10 +169,5 @@ def _left(offsets, points, guards, others, order, apart, shortest, left, right, 
                         written, ran = begun, began
                     travelled = 0.0
         for j in range(ran):
-            x, y = run[j, 0], run[j, 1]
-            cell = (int((x - left) / apart) + 1) * rows + int((y - bottom) / apart) + 1
-            stored += 1
-            places[stored, 0], places[stored, 1] = x, y
-            older[stored] = newest[cell]
-            newest[cell] = stored
+            stored = _store(run[j, 0], run[j, 1], stored, places, older, newest, left, bottom, apart, rows)
     return kept_offsets[: pieces + 1].copy(), kept_points[:written].copy()

@@ -3,7 +3,8 @@ import math
 import numpy as np
 import pytest
 from codim2_app.draw.layers import LAYERS
-from codim2_app.draw.packing import STEP, unpack
+from codim2_app.draw.lines.spacing import APART
+from codim2_app.draw.packing import PIXEL, STEP, unpack
 from codim2_app.frame.scenes import evolved, make_scene, settled
 from codim2_app.state.controls import ExplorerState, first_values, preset_values
 from codim2_app.state.portraits import portraits
@@ -276,3 +277,16 @@ def test_a_frame_that_is_not_sent_is_told_by_the_next_one(frames):
     assert again["set"] == whole["set"]
     assert blocks.keys() <= sent.keys()
     assert "set" not in unpack(frames.answer({"rest": True}))[0]
+
+
+def test_orbits_keep_away_from_the_cycles_that_are_drawn_and_from_no_others():
+    values = {**preset_values("case3-n3"), "layers": ["inside", "cycles"]}
+    frames, fresh = Frames(ExplorerState()), Frames(ExplorerState())
+    _, blocks = unpack(frames.answer({"set": values, "all": True}))
+    (cycle,) = frames.scene["closed_orbits"].cycles
+    assert gaps(STEP * blocks["inside.xy"].reshape(-1, 2), [cycle.points]).min() > 0.9 * APART * PIXEL
+    hidden = {"layers": ["inside"], "f1": values["f1"] + 0.02}
+    _, after = unpack(frames.answer({"set": hidden}))
+    assert gaps(STEP * after["inside.xy"].reshape(-1, 2), [cycle.points]).min() < 0.5 * APART * PIXEL
+    _, alone = unpack(fresh.answer({"set": {**values, **hidden}, "all": True}))
+    assert after["inside.n"].tolist() == alone["inside.n"].tolist()
