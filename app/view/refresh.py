@@ -167,8 +167,8 @@ class Frames:
             arrowheads.is_warm() and spacing.is_warm()
         )  # no frame waits for the compiler
         guards = None  # the cycles that are drawn: orbits keep away from them
-        if "cycles" in self.values["layers"] and self.scene.has("closed_orbits"):
-            guards = glyphs.join([one.points for one in self.scene["closed_orbits"].cycles])
+        if "cycles" in self.values["layers"] and (found := self.scene.results().get("closed_orbits")):
+            guards = glyphs.join([one.points for one in found.cycles])
         if self.window is None:
             return pack(header, blocks, heads=heads, guards=guards)
         return pack(header, blocks, self.window.rectangle, self.window.pixel, heads, guards)

@@ -5,9 +5,12 @@ import pytest
 from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.lines.spacing import APART
 from codim2_app.draw.packing import PIXEL, STEP, unpack
+from codim2_app.frame.budget import Budget
+from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import evolved, make_scene, settled
 from codim2_app.state.controls import ExplorerState, first_values, preset_values
 from codim2_app.state.portraits import portraits
+from codim2_app.view.first_markup import Never
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
@@ -290,3 +293,12 @@ def test_orbits_keep_away_from_the_cycles_that_are_drawn_and_from_no_others():
     assert gaps(STEP * after["inside.xy"].reshape(-1, 2), [cycle.points]).min() < 0.5 * APART * PIXEL
     _, alone = unpack(fresh.answer({"set": {**values, **hidden}, "all": True}))
     assert after["inside.n"].tolist() == alone["inside.n"].tolist()
+
+
+def test_cycles_that_are_not_there_yet_keep_no_frame_waiting():
+    frames = Frames(ExplorerState(), budget=Budget(lambda _psi, _system: True))
+    frames.jobs = Jobs(Never())
+    frames.answer({"all": True})
+    header, blocks = unpack(frames.answer({"set": {"psi": "custom", "psi_text": "1/(1+s)**3"}}))
+    assert header["errors"] == {}
+    assert "picture" in header["late"]
