@@ -299,6 +299,6 @@ def test_cycles_that_are_not_there_yet_keep_no_frame_waiting():
     frames = Frames(ExplorerState(), budget=Budget(lambda _psi, _system: True))
     frames.jobs = Jobs(Never())
     frames.answer({"all": True})
-    header, blocks = unpack(frames.answer({"set": {"psi": "custom", "psi_text": "1/(1+s)**3"}}))
+    header, _ = unpack(frames.answer({"set": {"psi": "custom", "psi_text": "1/(1+s)**3"}}))
     assert header["errors"] == {}
     assert "picture" in header["late"]
