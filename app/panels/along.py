@@ -18,11 +18,11 @@ from codim2_core.words import named
 
 from ..frame.draft import Draft
 from ..phrases import say
+from ..slow_layers.short import short
 from ..state.choices import SLOW_CONTROLS
 from ..state.chosen import System_, slow_ranges
 from ..state.slider_range import edited_range, slider_range
 from .panel import Panel
-from .short import short
 
 PLANE = 15  # arrows along each axis of the plane
 NONE = say("no slow variable")

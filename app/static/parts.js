@@ -11,6 +11,7 @@ import {Help} from "./page/help.js"
 import {writeLink} from "./page/links.js"
 import {Second, Seconded} from "./page/second.js"
 import {Share} from "./page/share.js"
+import {Table} from "./page/table.js"
 import {Room} from "./room/room.js"
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
@@ -71,6 +72,18 @@ export function grabOf(explorer) {
     move: (place) => requests.set("grab", place), settle: () => requests.rest(),
     point: (one) => pointing.show(one), pin: (one) => pointing.toggle(one),
     one: () => pointing.objects.find(({kind}) => kind === "critical") ?? null,
+  })
+}
+
+/** The puck beside the sphere. @param {Explorer} explorer */
+export function tableOf(explorer) {
+  const {root, config, values, picture, rest} = explorer
+  return new Table(root, config, values, {
+    own: () => explorer.eLinear,
+    rested: async () => { while (rest.under.has("asked")) await new Promise((done) => setTimeout(done, 50)) },
+    take: (wish) => explorer.takes.ask(wish), move: (wanted) => explorer.move(wanted),
+    push: (times) => explorer.headline.scale("push", times, values),
+    trace: (paths, place) => picture.trace(paths, place),
   })
 }
 
