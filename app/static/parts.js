@@ -94,6 +94,7 @@ export function roomOf(explorer) {
     send: (message) => model.send_msg(message), version: config.link.version,
     query: () => writeLink(explorer.values, null, {...config, look: {embed: false, controls: [], beamer: false}}), // a phone is no beamer
     changed: () => explorer.panels.draw(explorer.values), opened: () => explorer.choose("panel", "atlas"),
+    open: (view) => explorer.open(view),
   })
 }
 
