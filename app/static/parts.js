@@ -12,6 +12,7 @@ import {writeLink} from "./page/links.js"
 import {Second, Seconded} from "./page/second.js"
 import {Share} from "./page/share.js"
 import {Table} from "./page/table.js"
+import {Views} from "./page/views.js"
 import {Room} from "./room/room.js"
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
@@ -92,7 +93,7 @@ export function roomOf(explorer) {
   const {root, config, model} = explorer
   return new Room(root, {
     send: (message) => model.send_msg(message), version: config.link.version,
-    query: () => writeLink(explorer.values, null, {...config, look: {embed: false, controls: [], beamer: false}}), // a phone is no beamer
+    query: () => writeLink(explorer.values, null, {...config, look: {embed: false, controls: [], beamer: 0}}), // a phone is no beamer
     changed: () => explorer.panels.draw(explorer.values), opened: () => explorer.choose("panel", "atlas"),
     open: (view) => explorer.open(view),
   })
@@ -124,6 +125,11 @@ export function besideOf(explorer) {
     address: (wanted, own) => writeLink(wanted, picture.window && picture.seen, {...config, look: own}),
   })
   picture.viewed(() => beside.look())
-  new Beamer(root, picture, config.look.beamer, (on) => { config.look.beamer = on; beside.look(); explorer.steps.rewrite() })
+  const beamer = new Beamer(root, picture, config.look.beamer, (on) => { config.look.beamer = on; beside.look(); explorer.steps.rewrite() })
+  new Views(root, {
+    values, first: config.defaults, shown: () => beamer.on > 0, name: () => explorer.find(".portrait-name").textContent,
+    seen: () => picture.window && picture.seen, move: (wanted) => explorer.move(wanted),
+    open: (view, seen) => { explorer.forget(); explorer.put(view); if (seen) picture.seen = seen; else picture.home() },
+  })
   return beside
 }

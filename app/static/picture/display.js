@@ -11,12 +11,13 @@ import {unit} from "./frames.js"
  * @property {Record<string, any>} header  the newest of each entry of the frames' headers
  * @property {Record<string, any>} blocks  the newest of each array of the frames
  * @property {Record<string, string>} theme  colours by name
+ * @property {number} [times]  as large are letters
  * @property {boolean} [sense]  whether the equator tells which way it is run through
  * @property {{light: [number, number], middle: number, ring: [number, number], hatches: Record<string, string>, view: number}} measures
  */
 
 /** @param {State} state */
-export function displayList({table, layers, old, header, blocks, theme, measures, sense = true}) {
+export function displayList({table, layers, old, header, blocks, theme, measures, sense = true, times = 1}) {
   /** @type {any[]} */
   const list = [
     {kind: "page", colour: theme.page},
@@ -34,7 +35,7 @@ export function displayList({table, layers, old, header, blocks, theme, measures
   }
   list.push(...circle(header, theme, sense))
   if (header.launched && shown.some((layer) => layer.name === "launched")) list.push(...starts(header.launched, theme, table.find(({name}) => name === "launched").parts))
-  list.push(...names(shown, header, blocks, theme))
+  list.push(...names(shown, header, blocks, theme, times))
   for (const name of ["equator", "critical"]) {
     if (header[name] && shown.some((layer) => layer.name === name)) list.push(...marks(name, header[name], theme, measures))
   }
@@ -77,7 +78,8 @@ const NAMED = {rho: "ρ′ = 0", theta: "θ′ = 0", U1: "U₁ = 0", U2: "U₂ =
 const CIRCLES = [1.45, 1.3, 0.62, 0.35, 0.2] // radii
 const CLEAR = [0.42, 0.16] // across and up, from a name to any other name or mark
 
-function names(shown, header, blocks, theme) {
+function names(shown, header, blocks, theme, times) {
+  const clear = CLEAR.map((gap) => gap * times)
   const taken = ["equator", "critical"].flatMap((name) => header[name]?.x.flatMap((x, i) => [[x, header[name].y[i]], [header[name].label_x?.[i] ?? x + 0.15, header[name].label_y?.[i] ?? header[name].y[i]]]) ?? [])
   const list = []
   for (const {name: layer, parts} of shown.filter(({name}) => name in NAMED || name === "lines")) {
@@ -90,7 +92,7 @@ function names(shown, header, blocks, theme) {
       }
     }
     for (const [kind, pieces] of wanted) {
-      const at = CIRCLES.flatMap((radius) => pieces.flatMap((piece) => crossing(piece, radius / unit(piece)))).find(([x, y]) => taken.every(([u, v]) => Math.abs(u - x) > CLEAR[0] || Math.abs(v - y) > CLEAR[1]))
+      const at = CIRCLES.flatMap((radius) => pieces.flatMap((piece) => crossing(piece, radius / unit(piece)))).find(([x, y]) => taken.every(([u, v]) => Math.abs(u - x) > clear[0] || Math.abs(v - y) > clear[1]))
       if (!at) continue
       taken.push(at)
       list.push({kind: "label", layer, text: NAMED[kind], x: at[0], y: at[1], dx: 0, dy: 0, align: "center", size: 12, colour: theme.ink, back: theme.page})

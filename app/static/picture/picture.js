@@ -15,7 +15,7 @@ export class Picture {
     this.plot = plot
     this.themes = themes
     this.traces = traces
-    this.state = {table: layers, layers: [], old: [], header: {}, blocks: {}, theme: themes.light, measures, sense: true}
+    this.state = {table: layers, layers: [], old: [], header: {}, blocks: {}, theme: themes.light, measures, sense: true, times: 1}
     this.parts = new Set(["basins", ...layers.flatMap((layer) => layer.parts.map((part) => part.name))])
     this.paths = this.place = null
     this.pointed = []
@@ -83,7 +83,7 @@ export class Picture {
   /** @param {number} times as large letters, marks and lines */
   enlarge(times) {
     if (times === this.times) return
-    this.times = times
+    this.times = this.state.times = times
     this.draw()
     this.drawTrace()
   }

@@ -220,7 +220,7 @@ test("the explorer enters the room of its address; an embedded one does not", ()
   const asked = (one) => one.sent.filter((message) => "room" in message).map(({room: wish}) => wish)
   const one = wired({}, HEADER, at)
   assert.deepEqual(asked(one), [{join: "bcdf"}])
-  const shown = wired({look: {embed: false, controls: [], seen: [], beamer: true}}, HEADER, {...at, location: {...at.location, search: ""}})
+  const shown = wired({look: {embed: false, controls: [], seen: [], beamer: 1}}, HEADER, {...at, location: {...at.location, search: ""}})
   const link = new URLSearchParams(shown.root.explorer.room.tools.query())
   assert.deepEqual(["v", "embed", "beamer"].map((name) => link.get(name)), ["1", null, null]) // a phone is no beamer, and no frame
   one.tell({room: {joined: "BCDF"}})
