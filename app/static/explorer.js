@@ -24,7 +24,7 @@ import {undoable} from "./page/undo.js"
 import {readFrame} from "./picture/frames.js"
 import {Picture} from "./picture/picture.js"
 import {SAYS} from "./words.js"
-import {addDialogs, besideOf, grabOf, handsOf, panelsOf, pointingOf, roomOf, tableOf} from "./parts.js"
+import {addDialogs, besideOf, grabOf, handsOf, liftOf, panelsOf, pointingOf, roomOf, tableOf} from "./parts.js"
 
 export class Explorer {
   /** @param {{model: any, view: any, root: any, plot: any}} given */
@@ -65,6 +65,7 @@ export class Explorer {
     this.pointing = pointingOf(this)
     this.spoken = new OrbitWords(this.find(".orbit-words"))
     this.hands = handsOf(this)
+    picture.lift = liftOf(this)
     this.grab = grabOf(this)
     this.headline = new Headline(this.find(".headline"), values, {own: () => this.eLinear, move: (wanted) => this.move(wanted)})
     this.table = this.alone ? tableOf(this) : null

@@ -6,11 +6,12 @@ import {twoFingers} from "./hands/gestures.js"
 import {Grab} from "./hands/grab.js"
 import {Hands} from "./hands/hands.js"
 import {Pointing} from "./hands/pointing.js"
-import {Beamer} from "./page/beamer.js"
+import {Beamer, busy} from "./page/beamer.js"
 import {Help} from "./page/help.js"
 import {writeLink} from "./page/links.js"
 import {Second, Seconded} from "./page/second.js"
 import {Share} from "./page/share.js"
+import {Lift} from "./picture/lift.js"
 import {Table} from "./page/table.js"
 import {Views} from "./page/views.js"
 import {Room} from "./room/room.js"
@@ -63,6 +64,13 @@ export function handsOf(explorer) {
   explorer.find(".home").addEventListener("click", () => picture.home())
   twoFingers(place, explorer.plot, () => hands.held !== null)
   return hands
+}
+
+/** The picture, lifted. @param {Explorer} explorer */
+export function liftOf({root, config, picture}) {
+  const lift = new Lift(root, picture)
+  ;(config.page ? document : root).addEventListener("keydown", (event) => { if (event.key === "l" && !busy(root, event)) { event.preventDefault(); lift.swing() } })
+  return lift
 }
 
 /** C in hand. @param {Explorer} explorer */

@@ -72,6 +72,7 @@ export const SAYS = {
   grab: "C, the critical set: drag it, or use the arrow keys, and f follows",
   grabMe: "drag me out of the sphere",
   leftHere: "C has left: sliding ends here",
+  lift: "Lift ⤴", flat: "Flat ⤵",
   push: "the push |f|", held: "what can be balanced in this direction",
   sticks: "stable sliding along Σ",
   slips: "nothing slides along Σ",

@@ -26,7 +26,7 @@ register("theorems", (box, {settings}) => {
       if (!header.theorems) return
       const [bears, idle] = [true, false].map((wanted) => header.theorems.filter(([, , verdict]) => (verdict !== "does not apply") === wanted).map(row).join(""))
       const open = list.querySelector("details")?.open ? " open" : ""
-      put(list, `<ul class="theorem-list">${bears}</ul><details${open}><summary>${SAYS.idle}</summary><ul class="theorem-list">${idle}</ul></details>`)
+      put(list, `<ul class="theorem-list">${bears}</ul><details class="fold"${open}><summary>${SAYS.idle}</summary><ul class="theorem-list">${idle}</ul></details>`)
     },
   }
 })
