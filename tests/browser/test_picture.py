@@ -111,7 +111,8 @@ def test_the_picture_is_lifted_onto_the_hemisphere_turned_and_laid_flat(explorer
     # where C is seen there is its mark, above the middle of the equator, and it moves with a slider and with a hand
     colour = """(() => { const {camera, canvas} = picture.lift, {x: [x], y: [y]} = picture.state.header.critical
         const at = picture.lift.place(x, y), ratio = devicePixelRatio
-        const pixel = Object.assign(document.createElement('canvas'), {width: 1, height: 1}).getContext('2d', {willReadFrequently: true})
+        const pixel = Object.assign(document.createElement('canvas'), {width: 1, height: 1})
+            .getContext('2d', {willReadFrequently: true})
         pixel.drawImage(canvas, -Math.round(at[0] * ratio), -Math.round(at[1] * ratio))
         return [...pixel.getImageData(0, 0, 1, 1).data, at[1] - camera.y] })()"""
     *before, height = explorer.ask(colour)

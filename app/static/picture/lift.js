@@ -89,7 +89,7 @@ export class Lift {
       before = now
       if (this.up === 0 && way === -1) { this.canvas.hidden = true; this.picture.draw(); this.picture.drawTrace(); return }
       this.paint()
-      if (this.up < 1) requestAnimationFrame(step)
+      if (this.up < 1 || way === -1) requestAnimationFrame(step)
     }
     requestAnimationFrame(step)
   }
