@@ -28,6 +28,7 @@ from ..view import warmup
 from ..view.first_markup import page_markup
 from .giving_way import one_by_one
 from .process.garbage import asked
+from .scripts import PREVIEW
 from .sockets import full
 
 TOKEN, MARKUP = "codim2-token", "<!-- codim2 markup -->"
@@ -133,6 +134,8 @@ class Page(DocHandler):
         query = {name: values[-1].decode("utf-8", "replace") for name, values in self.request.arguments.items()}
         self.set_header("Cache-Control", "no-store")
         self.set_header("Content-Type", "text/html")
+        here = f"{self.request.protocol}://{escape(self.request.host)}{app.prefix}"
+        skeleton = skeleton.replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is asked for whole
         before, after = skeleton.replace(TOKEN, token).split(MARKUP)
         markup = remembered(query)
         if markup is None:

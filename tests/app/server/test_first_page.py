@@ -2,6 +2,7 @@
 
 import asyncio
 import gzip
+import io
 import json
 import re
 from concurrent.futures import ThreadPoolExecutor
@@ -17,6 +18,7 @@ from codim2_app.server import scripts as scripts_module
 from codim2_app.server.first_page import MARKUP, TOKEN, skeleton_of
 from codim2_app.server.headers import embedders, policy
 from codim2_app.view.markup import digest, script
+from PIL import Image
 
 from tests.app.serving import serving
 from tests.benchmarks.bokeh_wire import Wire
@@ -49,6 +51,15 @@ def test_a_page_makes_no_session_and_the_websocket_does(address):
         header, document = pool.submit(asyncio.run, talk()).result()
     assert header["id"] == 1
     assert '["a",-1' in json.dumps(document).replace(" ", "")  # the address went with the token
+
+
+def test_what_a_pasted_link_shows_is_there_under_its_whole_address(address):
+    page, _ = opened(address)
+    preview = re.search(r'property="og:image" content="([^"]+)"', page)[1]
+    assert preview == f"{address.rstrip('/')}/preview.jpg"
+    with urlopen(preview) as answer:
+        assert answer.headers["Content-Type"] == "image/jpeg"
+        assert Image.open(io.BytesIO(answer.read())).size == (1200, 630)
 
 
 def test_little_goes_over_the_websocket_and_the_script_by_its_address(address):
