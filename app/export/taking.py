@@ -12,6 +12,7 @@ from ..draw.layers import LAYERS
 from ..draw.packing import Rectangle
 from ..frame.window import Window
 from ..slow_layers.proof import proof
+from ..slow_layers.typed_start import motion
 from ..state.chosen import System_
 from .figure import THEMES, Style, figure
 from .files import DATA
@@ -26,12 +27,13 @@ TYPES: Mapping[str, str] = MappingProxyType(
     {
         "svg": "image/svg+xml", "zip": "application/zip", "json": "application/json",
         "npz": "application/octet-stream", "py": "text/x-python", "tex": "text/x-tex", "html": "text/html",
-        "gif": "image/gif", "proof": "application/json",
+        "gif": "image/gif", "proof": "application/json", "motion": "application/json",
     }
 )  # fmt: skip
 LONGEST = 80  # characters of a slider
-#: What takes long, and is searched for while other files are taken.
 PROOF = "proof"
+#: What the page itself shows, and is computed while files are taken.
+SHOWN = (PROOF, "motion")
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ class Wish:
     @property
     def job(self) -> str:
         """What it is called among the jobs of a browser: of each name one at a time, a newer wish replaces an older."""
-        return PROOF if self.kind == PROOF else "take"
+        return self.kind if self.kind in SHOWN else "take"
 
     @property
     def slider(self) -> str:
@@ -112,6 +114,7 @@ def taken(view: View, wish: Wish) -> tuple[str, bytes]:
         "html": lambda one: live(one, wish.sliders),
         "gif": lambda one: film(one, wish.slider, style=wish.moving),
         "proof": lambda one: proof(one.scene()),
+        "motion": lambda one: motion(one.scene(), one.values),
     }.get(wish.kind) or DATA[f".{wish.kind}"]
     made = make(view)
     if len(made) > MOST:

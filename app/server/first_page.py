@@ -6,6 +6,7 @@ from collections import OrderedDict
 from collections.abc import Mapping
 from functools import cache
 from html import escape
+from typing import Any
 
 import bokeh
 from bokeh.embed import json_item
@@ -19,6 +20,7 @@ from ..view import warmup
 from ..view.first_markup import page_markup
 from ..view.markup import address_of_script, page_template
 from .live import Places, opening, query_of
+from .scripts import PREVIEW
 
 MARKUP, NOTICE = "<!-- codim2 markup -->", "<!-- codim2 notice -->"
 TITLE = "Isolated codimension-2 discontinuity: explorer"
@@ -83,7 +85,10 @@ class Page(RequestHandler):
             self.set_header("Retry-After", str(RETRY))
             self.finish(BUSY.format(RETRY))
             return
-        text = _around().replace(MARKUP, markup_of(query_of(self.request.arguments)))
+        app: Any = self.application
+        here = f"{self.request.protocol}://{escape(self.request.host)}{app.prefix}"
+        text = _around().replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is asked for whole
+        text = text.replace(MARKUP, markup_of(query_of(self.request.arguments)))
         self.finish(text.replace(NOTICE, self._notice()))
 
     head = get

@@ -15,6 +15,7 @@ from tornado.web import HTTPError, RequestHandler, StaticFileHandler
 from ..draw.bundle import bundle
 from ..view.markup import STATIC, digest, script
 
+PREVIEW = "preview.jpg"  # what a link looks like where it is pasted; `python -m tests.browser.picture` makes it
 YEAR = 365 * 86400  # seconds
 LONGEST = 2000  # bytes; beyond it phones no longer read the code from a beamer
 
@@ -109,5 +110,6 @@ def routes(prefix: str) -> list[tuple[Any, ...]]:
     return [
         (rf"{prefix}/({own})", Script),
         (rf"{prefix}/qr\.svg", QrCode),
+        (rf"{prefix}/({PREVIEW})", StaticFileHandler, {"path": STATIC}),
         (rf"{prefix}/static/(js/.*\.js)", BokehScript),
     ]

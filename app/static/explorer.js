@@ -25,7 +25,7 @@ import {undoable} from "./page/undo.js"
 import {readFrame} from "./picture/frames.js"
 import {Picture} from "./picture/picture.js"
 import {SAYS} from "./words.js"
-import {addDialogs, besideOf, grabOf, handsOf, panelsOf, pointingOf, roomOf} from "./parts.js"
+import {addDialogs, besideOf, grabOf, handsOf, liftOf, panelsOf, pointingOf, roomOf, tableOf} from "./parts.js"
 
 const FULL = 1013 // as a code of a websocket: all places are taken
 
@@ -68,8 +68,10 @@ export class Explorer {
     this.pointing = pointingOf(this)
     this.spoken = new OrbitWords(this.find(".orbit-words"))
     this.hands = handsOf(this)
+    picture.lift = liftOf(this)
     this.grab = grabOf(this)
     this.headline = new Headline(this.find(".headline"), values, {own: () => this.eLinear, move: (wanted) => this.move(wanted)})
+    this.table = this.alone ? tableOf(this) : null
     new Sheets(root, () => this.sentences.say())
     keepFolds(root, (name) => JSON.stringify(values[name]) !== JSON.stringify(config.defaults[name]))
     this.theme = new Theme(root, config, (name) => { picture.paint(name); this.beside?.look?.() })
@@ -275,6 +277,7 @@ export class Explorer {
     this.requests.restLater(late.length > 0)
     this.inspector.apply(header)
     this.headline.apply(header)
+    this.table?.apply()
     for (const [name, symbol] of header.axes ?? []) this.config.symbols[name] = symbol
     this.panels.apply(frame, late)
     this.requests.arrived(header.id, header.load)

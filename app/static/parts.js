@@ -6,11 +6,14 @@ import {twoFingers} from "./hands/gestures.js"
 import {Grab} from "./hands/grab.js"
 import {Hands} from "./hands/hands.js"
 import {Pointing} from "./hands/pointing.js"
-import {Beamer} from "./page/beamer.js"
+import {Beamer, busy} from "./page/beamer.js"
 import {Help} from "./page/help.js"
 import {writeLink} from "./page/links.js"
 import {Second, Seconded} from "./page/second.js"
 import {Share} from "./page/share.js"
+import {Lift} from "./picture/lift.js"
+import {Table} from "./page/table.js"
+import {Views} from "./page/views.js"
 import {Room} from "./room/room.js"
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
@@ -63,6 +66,13 @@ export function handsOf(explorer) {
   return hands
 }
 
+/** The picture, lifted. @param {Explorer} explorer */
+export function liftOf({root, config, picture}) {
+  const lift = new Lift(root, picture)
+  ;(config.page ? document : root).addEventListener("keydown", (event) => { if (event.key === "l" && !busy(root, event)) { event.preventDefault(); lift.swing() } })
+  return lift
+}
+
 /** C in hand. @param {Explorer} explorer */
 export function grabOf(explorer) {
   const {root, values, picture, pointing, requests} = explorer
@@ -74,13 +84,26 @@ export function grabOf(explorer) {
   })
 }
 
+/** The puck beside the sphere. @param {Explorer} explorer */
+export function tableOf(explorer) {
+  const {root, config, values, picture, rest} = explorer
+  return new Table(root, config, values, {
+    own: () => explorer.eLinear,
+    rested: async () => { while (rest.under.has("asked")) await new Promise((done) => setTimeout(done, 50)) },
+    take: (wish) => explorer.takes.ask(wish), move: (wanted) => explorer.move(wanted),
+    push: (times) => explorer.headline.scale("push", times, values),
+    trace: (paths, place) => picture.trace(paths, place),
+  })
+}
+
 /** The room that is opened or entered here. @param {Explorer} explorer */
 export function roomOf(explorer) {
   const {root, config, line} = explorer
   return new Room(root, {
     send: (message) => line.send(message), version: config.link.version,
-    query: () => writeLink(explorer.values, null, {...config, look: {embed: false, controls: [], beamer: false}}), // a phone is no beamer
+    query: () => writeLink(explorer.values, null, {...config, look: {embed: false, controls: [], beamer: 0}}), // a phone is no beamer
     changed: () => explorer.panels.draw(explorer.values), opened: () => explorer.choose("panel", "atlas"),
+    open: (view) => explorer.open(view),
   })
 }
 
@@ -110,6 +133,11 @@ export function besideOf(explorer) {
     address: (wanted, own) => writeLink(wanted, picture.window && picture.seen, {...config, look: own}),
   })
   picture.viewed(() => beside.look())
-  new Beamer(root, picture, config.look.beamer, (on) => { config.look.beamer = on; beside.look(); explorer.steps.rewrite() })
+  const beamer = new Beamer(root, picture, config.look.beamer, (on) => { config.look.beamer = on; beside.look(); explorer.steps.rewrite() })
+  new Views(root, {
+    values, first: config.defaults, shown: () => beamer.on > 0, name: () => explorer.find(".portrait-name").textContent,
+    seen: () => picture.window && picture.seen, move: (wanted) => explorer.move(wanted),
+    open: (view, seen) => { explorer.forget(); explorer.put(view); if (seen) picture.seen = seen; else picture.home() },
+  })
   return beside
 }

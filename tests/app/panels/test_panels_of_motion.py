@@ -11,7 +11,7 @@ from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import along as panel_along
 from codim2_app.panels import filippov, orbits, psi, solid
-from codim2_app.panels.typed_start import launch_of
+from codim2_app.slow_layers.typed_start import launch_of
 from codim2_app.state.chosen import build
 from codim2_app.state.cleaning import InputError
 from codim2_app.state.controls import ExplorerState

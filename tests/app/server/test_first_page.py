@@ -2,6 +2,7 @@
 
 import asyncio
 import gzip
+import io
 import json
 import re
 from concurrent.futures import ThreadPoolExecutor
@@ -16,6 +17,7 @@ from codim2_app.server import scripts as scripts_module
 from codim2_app.server.headers import embedders, policy
 from codim2_app.server.live import FULL
 from codim2_app.view.markup import digest
+from PIL import Image
 from tornado.websocket import websocket_connect
 
 from tests.app.serving import serving
@@ -53,6 +55,15 @@ def test_a_page_is_the_same_for_all_who_open_an_address_and_its_line_has_the_val
     assert header["id"] == 1
     assert wire.begun["config"]["values"]["a"] == -1
     assert wire.bytes < 60_000
+
+
+def test_what_a_pasted_link_shows_is_there_under_its_whole_address(address):
+    page, _ = opened(address)
+    preview = re.search(r'property="og:image" content="([^"]+)"', page)[1]
+    assert preview == f"{address.rstrip('/')}/preview.jpg"
+    with urlopen(preview) as answer:
+        assert answer.headers["Content-Type"] == "image/jpeg"
+        assert Image.open(io.BytesIO(answer.read())).size == (1200, 630)
 
 
 def refused(ask):

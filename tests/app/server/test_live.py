@@ -1,7 +1,5 @@
 """The line of a page: what it asks for, and what is asked of nobody else."""
 
-import json
-
 from codim2_app.draw.packing import unpack
 from tornado.httpclient import HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
