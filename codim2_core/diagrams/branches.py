@@ -42,8 +42,8 @@ def branches(
         Where U is affine in (c, s) special values are found to the last digits, else by bisection, on a grid that is
         refined where something comes near zero: two that undo each other within a step, with nothing to announce them,
         are missed. Places are told in the axes of the system, which for an `ELinear.from_matrix` are those of its
-        normal form at each value. Branches of cycles are begun at Hopf points, at ends on the equator, and at the cycles seen at some
-        values: one that has none of these is not seen.
+        normal form at each value. Branches of cycles are begun at Hopf points, at ends on the equator, and at the
+        cycles seen at some values: one that has none of these is not seen.
 
     Raises
     ------
