@@ -67,6 +67,7 @@ def both_kinds_of_branches(rng: random.Random) -> tuple[str, list[str]]:
     )
     places = [(p[0], p[1], p[2] * complex(math.cos(angle), math.sin(angle))) for p in first]
     said = [*_missing(places, turned, "only in coefficients"), *_missing(turned, places, "only as turned text")]
+    first, general = ([(*mark[:2], 0j) for mark in marks] for marks in (first, general))  # places less exactly
     return what, said + _missing(first, general, "not in general") + _missing(general, first, "only in general")
 
 
