@@ -41,6 +41,7 @@ FIRST, LARGE = 1e-3, 0.05  # of the reach: where branches start at a critical se
 COLUMNS = 9  # values at which all cycles are looked for
 BETTER = 1.3  # times as well another ray is crossed that is worth taking
 RAYS = 12  # of one branch
+REACHED = 1e-7  # of the span: within it are the values of cycles of different periods at a loop
 DROWNED = 1e-12  # ebar of a turn of which nothing but rounding is left
 BACK, FURTHEST = 3, 12  # points before the last one, with which it is compared: one at which cycles were faster
 
@@ -222,13 +223,19 @@ class Search:
         for _ in range(RAYS):
             (trace,) = answered([traced(tracer, point)], follow)
             pieces.append(Piece(tracer, trace))
-            if trace.reason != "stuck" or len(trace.points) < 3:
+            if trace.reason != "stuck" or len(trace.points) < 3 or self._at_loop(trace):
                 break
             again = self._again(tracer, trace)
             if again is None:
                 break
             tracer, point = again
         return pieces
+
+    def _at_loop(self, trace: Trace) -> bool:
+        """Whether the last cycles differ in their periods, but no longer in their values: another ray shows no more."""
+        last = [point.turn for point in trace.points[-FURTHEST:]]
+        slow, quick = (choose(last, key=lambda turn: turn.period) for choose in (max, min))
+        return slow.period > SLOWER * quick.period and abs(slow.value - quick.value) < REACHED * self.width
 
     def _again(self, tracer: Tracer, trace: Trace) -> tuple[Tracer, Point] | None:
         """Find the last cycle on another ray that it crosses better; None if there is none."""
