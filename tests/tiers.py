@@ -58,19 +58,32 @@ def mark(items: list[pytest.Item]) -> None:
         cases[name] += 1
         for given in ("slow",) if left else marks(item.path.relative_to(TESTS).parts[0], name, costly):
             item.add_marker(given)
-    in_browser = [item for item in items if item.get_closest_marker("browser")]
+    in_browser: dict[str, list[pytest.Item]] = {}
+    for item in items:
+        if item.get_closest_marker("browser"):
+            in_browser.setdefault(item.path.stem, []).append(item)
     others = [item for item in items if not item.get_closest_marker("browser")]
-    in_browser.sort(key=lambda item: not item.path.stem.endswith(LONGEST))
-    items[:] = spread(in_browser, others, int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1")))
+    longest = sorted(in_browser, key=lambda name: (not name.endswith(LONGEST), -len(in_browser[name])))
+    files = [in_browser[name] for name in longest]
+    items[:] = spread(files, others, int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1")))
 
 
-def spread(waiting: list[Any], others: list[Any], count: int) -> list[Any]:
-    """Order tests for so many processes, each of which begins with its part of those that wait, the longest first.
+def spread(files: list[list[Any]], others: list[Any], count: int) -> list[Any]:
+    """Order tests for so many processes, each of which begins with its files of those that wait, the longest first.
 
-    A process is given its part of the list, from its beginning; those that have done theirs take from what is left.
+    A file stays in one process: what it starts, a server or a site, is started once. A process is given its part of
+    the list, from its beginning, as xdist cuts it; those that have done theirs take from what is left.
     """
-    cuts = [len(others) * i // count for i in range(count + 1)]
-    return [test for i in range(count) for test in (*waiting[i::count], *others[cuts[i] : cuts[i + 1]])]
+    parts: list[list[Any]] = [[] for _ in range(count)]
+    for i, file in enumerate(files):
+        parts[i % count].extend(file)
+    left, rest = sum(map(len, (*parts, others))), others
+    for i, part in enumerate(parts):
+        share = max(0, left // (count - i) - len(part))
+        left -= len(part) + len(rest[:share])
+        part.extend(rest[:share])
+        rest = rest[share:]
+    return [test for part in parts for test in part]
 
 
 def leave_out(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -20,7 +20,7 @@ from ..layer_problem.closed_equator import exponents as closed_exponents
 from ..layer_problem.closed_equator import slowest_turn
 from ..layer_problem.equator import equator_cycle, number_of_directions
 from ..layer_problem.lyapunov import first_lyapunov
-from ..layer_problem.problem import LayerProblem
+from ..layer_problem.problem import LayerProblem, found_once
 from ..numerics.root_between import root_between, vertex_through
 from .varied_system import VariedSystem
 
@@ -201,9 +201,10 @@ def _misses(family: VariedSystem, asked: Sequence[tuple[float, Loop]]) -> list[f
 
 
 def _arcs(family: VariedSystem, value: float) -> tuple[Loop, ...]:
-    return family.problem(value).keep(_loops_of) if family.allows(value) else ()
+    return _loops_of(family.problem(value)) if family.allows(value) else ()
 
 
+@found_once()
 def _loops_of(problem: LayerProblem) -> tuple[Loop, ...]:
     coefficients = problem.at.normal_form
     return () if coefficients is None else loops(coefficients)

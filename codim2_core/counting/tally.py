@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.problem import LayerProblem
-from ..portrait.approach import outcomes_of
+from ..portrait.approach import compared_outcomes
 from ..portrait.classify import portrait_name
 from ..psi.function import Psi
 from ..systems.elinear import ELinear
@@ -125,10 +125,10 @@ def _with_outcomes(plane: NDArray[np.float64], psi: Psi, chunk: int) -> Tally:
 
 
 def _of_one(problem: LayerProblem, margin: float, outcomes: bool, place: Place) -> Tally:
-    named = problem.keep(portrait_name)
+    named = portrait_name(problem)
     name = named.full_name
     if outcomes:
-        arriving = [each for each in outcomes_of(problem, ()) if each.arrives in ("open set", "one side")]
+        arriving = [each for each in compared_outcomes(problem, ()) if each.arrives in ("open set", "one side")]
         said = {outcome.verdict for outcome in arriving} or {"misses"}
         name = f"{name}, {' or '.join(words for verdict, words in ENDINGS.items() if verdict in said)}"
     if named.degeneracies:

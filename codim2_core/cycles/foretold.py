@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..layer_problem.problem import LayerProblem
+from ..layer_problem.problem import LayerProblem, found_once
 from .limit_cycles import shown_of
 from .search import Shown
 from .section import COARSE
@@ -28,12 +28,13 @@ def foretold(problem: LayerProblem, states: Array) -> list[int | None]:
     states : ndarray (n, 3)
         (p_x, p_y, ebar) on the hemisphere.
     """
-    told, question = problem.keep(_told), states.tobytes()
+    told, question = _told(problem), states.tobytes()
     if question not in told:
         told[question] = _answer(problem, states)
     return told[question]
 
 
+@found_once()
 def _told(_: LayerProblem) -> dict[bytes, list[int | None]]:
     """Begin to note what has been said of a problem, by the states asked for: the same are asked for again."""
     return {}
@@ -41,7 +42,7 @@ def _told(_: LayerProblem) -> dict[bytes, list[int | None]]:
 
 def _answer(problem: LayerProblem, states: Array) -> list[int | None]:
     at = problem.at
-    samples = "" if at.normal_form is None or at.as_given is None else problem.keep(shown_of)
+    samples = "" if at.normal_form is None or at.as_given is None else shown_of(problem)
     certain = -1 if isinstance(samples, str) else samples.certain
     if isinstance(samples, str) or certain < 0:
         return [None] * len(states)

@@ -24,7 +24,7 @@ from .. import drawing
 from ..layer_problem.critical import CriticalSet, slow_flow_at
 from ..layer_problem.linearisation import matrix_determinant
 from ..layer_problem.location import Existence, Location, locate
-from ..layer_problem.problem import LayerProblem
+from ..layer_problem.problem import LayerProblem, found_once
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
@@ -207,15 +207,16 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool 
     '...check.py'
     """
     problem = LayerProblem(system.at(z), psi)
-    found = problem.keep(cycles_of)
-    return replace(found, proved=problem.keep(proof_of)) if prove else found
+    found = cycles_of(problem)
+    return replace(found, proved=proof_of(problem)) if prove else found
 
 
+@found_once()
 def proof_of(problem: LayerProblem) -> Proof:
     """Prove how many limit cycles a layer problem has, as far as that can be done."""
     from .proof.prove import proved
 
-    found, form = problem.keep(closed_orbits), problem.at.normal_form
+    found, form = closed_orbits(problem), problem.at.normal_form
     forbidden = None if form is None else reason_for_none(form, problem.critical, problem.location)
     return proved(problem, [cycle.points for cycle in found.cycles], forbidden)
 
@@ -230,9 +231,10 @@ def provable(problem: LayerProblem) -> str:
     return "certificate" if covers(problem.psi) else ""
 
 
+@found_once("cycles")
 def cycles_of(problem: LayerProblem) -> LimitCycles:
     """Find the limit cycles of a layer problem, with their slow flows."""
-    found = problem.keep(closed_orbits)
+    found = closed_orbits(problem)
     W = partial(slow_flow_at, problem.at)
     # the mean of W is W at the mean where W is affine
     means = [W(c.mean_e) if problem.at.typed is None else c.share @ W(c.e) for c in found.orbits]
@@ -252,6 +254,7 @@ class ClosedOrbits:
     notes: tuple[str, ...] = ()
 
 
+@found_once("closed_orbits")
 def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
     """Find the limit cycles of a layer problem as closed orbits: whatever W is."""
     at, psi = problem.at, problem.psi
@@ -259,8 +262,8 @@ def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
     if coefficients is None:
         return _general(problem)
     if at.as_given is None:  # found in the axes of the normal form, and turned back
-        return _turned(LayerProblem(coefficients, psi).keep(closed_orbits), -coefficients.rotation)
-    samples = problem.keep(shown_of)
+        return _turned(closed_orbits(LayerProblem(coefficients, psi)), -coefficients.rotation)
+    samples = shown_of(problem)
     if isinstance(samples, str):
         return ClosedOrbits((), (), samples)
     section = samples.section
@@ -276,6 +279,7 @@ def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
     return ClosedOrbits(cycles, tuple(found for _, found in kept), counted(len(cycles), "section"), notes)
 
 
+@found_once()
 def shown_of(problem: LayerProblem) -> Shown | str:
     """Sample the return map of an e-linear layer problem in its own axes, or say why a theorem forbids cycles."""
     coefficients, critical, location = problem.at.normal_form, problem.critical, problem.location

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
-from typing import Any, TypeVar
+from collections.abc import Callable
+from functools import update_wrapper
+from typing import Any, Generic, TypeVar
 from weakref import ref
 
 from ..psi.function import Psi
@@ -16,34 +17,65 @@ from .location import Location, locate
 Result = TypeVar("Result")
 
 
+class Finding(Generic[Result]):
+    """A function of a layer problem that each problem computes once: called again, it returns what was found.
+
+    Parameters
+    ----------
+    compute : callable
+        The function itself, LayerProblem to result.
+    layer : str
+        Name of the layer of a scene that holds it, "" if none does.
+    of_psi : bool
+        Whether Psi has a say in it.
+    """
+
+    def __init__(self, compute: Callable[[LayerProblem], Result], layer: str, of_psi: bool) -> None:
+        self.compute, self.layer, self.of_psi = compute, layer, of_psi
+        update_wrapper(self, compute)
+
+    def __call__(self, problem: LayerProblem) -> Result:
+        """Return what was found in a problem, or find it."""
+        return problem.keep(self)
+
+
+def found_once(
+    layer: str = "", *, of_psi: bool = True
+) -> Callable[[Callable[[LayerProblem], Result]], Finding[Result]]:
+    """Decorate a function of a layer problem, so that each problem keeps its result (`Finding`)."""
+    return lambda compute: Finding(compute, layer, of_psi)
+
+
+@found_once("location", of_psi=False)
 def find_location(problem: LayerProblem) -> Location | None:
     """Decide where A e + f = 0, thm:lineps1(a); None if U is not e-linear."""
     return None if problem.at.affine is None else locate(problem.at)
 
 
+@found_once("equator", of_psi=False)
 def find_equator(problem: LayerProblem) -> EquatorEquilibria:
     """Find the limit directions, eq:equator_equilibria."""
     return equilibria_at(problem.at, problem.location).counted_from(problem.cut)
 
 
+@found_once("equator_cycle", of_psi=False)
 def find_equator_cycle(problem: LayerProblem) -> EquatorCycle | None:
     """Describe the equator as a closed orbit, thm:geneps0(c); None where it has equilibria."""
     on = problem.equator
     return None if len(on) or on.all_directions else equator_cycle(problem.at)
 
 
+@found_once("critical")
 def find_critical(problem: LayerProblem) -> tuple[CriticalSet, ...]:
     """Find the critical sets, eq:critical_set."""
     return sets_at(problem.at, problem.psi, problem.location)
 
 
-FREE = frozenset({find_location, find_equator, find_equator_cycle})  # of Psi
-
-
 class LayerProblem:
     """The layer problem eq:LP of a system frozen at z, under Psi.
 
-    What a module above this one finds in it is kept here too, `keep`: whoever is given the problem finds nothing twice.
+    What a module above this one finds in it (`found_once`) is kept here too: whoever is given the problem finds nothing
+    twice.
 
     Parameters
     ----------
@@ -62,7 +94,7 @@ class LayerProblem:
 
     def __init__(self, at: AtZ, psi: Psi, cut: float = 0.0) -> None:
         self.at, self.psi, self.cut = at, psi, cut
-        self._kept: dict[Hashable, Any] = {}
+        self._kept: dict[Finding[Any], Any] = {}
         self._others: dict[Psi, LayerProblem] = {}  # made from this one
         self._base = ref(self)  # no cycles: a problem that nobody holds is gone at once
 
@@ -70,19 +102,19 @@ class LayerProblem:
         """Be pickled, and copied, by what it is a problem of: what has been found stays here."""
         return LayerProblem, (self.at, self.psi, self.cut)
 
-    def keep(self, find: Callable[[LayerProblem], Result]) -> Result:
-        """Return ``find(self)``, computed once; `find` is a function of a module, not made anew for each call."""
+    def keep(self, finding: Finding[Result]) -> Result:
+        """Return what was found in this problem, or find it and keep it."""
         base = self._base() or self
-        if find in FREE and base is not self:
-            return base.keep(find)
-        if find not in self._kept:
-            self._kept[find] = find(self)
-        return self._kept[find]
+        if not finding.of_psi and base is not self:
+            return base.keep(finding)
+        if finding not in self._kept:
+            self._kept[finding] = finding.compute(self)
+        return self._kept[finding]
 
-    def give(self, find: Callable[[LayerProblem], Result], result: Result | None) -> LayerProblem:
-        """Keep what is known already as the result of `find`, unless it is None; return this problem."""
+    def give(self, finding: Finding[Result], result: Result | None) -> LayerProblem:
+        """Keep what is known already, unless it is None; return this problem."""
         if result is not None:
-            self._kept[find] = result
+            self._kept[finding] = result
         return self
 
     def under(self, psi: Psi) -> LayerProblem:
@@ -100,19 +132,19 @@ class LayerProblem:
     @property
     def location(self) -> Location | None:
         """Where A e + f = 0, thm:lineps1(a); None if U is not e-linear."""
-        return self.keep(find_location)
+        return find_location(self)
 
     @property
     def equator(self) -> EquatorEquilibria:
         """The limit directions, eq:equator_equilibria."""
-        return self.keep(find_equator)
+        return find_equator(self)
 
     @property
     def equator_cycle(self) -> EquatorCycle | None:
         """The equator as a closed orbit, thm:geneps0(c); None where it has equilibria."""
-        return self.keep(find_equator_cycle)
+        return find_equator_cycle(self)
 
     @property
     def critical(self) -> tuple[CriticalSet, ...]:
         """The critical sets, eq:critical_set."""
-        return self.keep(find_critical)
+        return find_critical(self)

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
-from ..layer_problem.problem import LayerProblem
+from ..layer_problem.problem import LayerProblem, found_once
 from ..psi.constructors import compared
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
@@ -78,11 +78,17 @@ def approach_outcomes(
     -------
     Outcomes
     """
-    return outcomes_of(LayerProblem(system.at(z), psi), compare)
+    return compared_outcomes(LayerProblem(system.at(z), psi), compare)
 
 
-def outcomes_of(own: LayerProblem, compare: Sequence[Psi] | None = None) -> Outcomes:
+@found_once("outcomes")
+def outcomes_of(problem: LayerProblem) -> Outcomes:
     """Say of every limit direction of a layer problem what becomes of what arrives there."""
+    return compared_outcomes(problem, None)
+
+
+def compared_outcomes(own: LayerProblem, compare: Sequence[Psi] | None) -> Outcomes:
+    """Say the same, with the regularisations that are asked as in `outcomes`."""
     equator, asked = own.equator, _asked(own, compare)
     if not len(equator):
         whole = _whole(asked)

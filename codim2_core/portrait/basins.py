@@ -114,7 +114,7 @@ def basins_of(problem: LayerProblem, n: int = 128, box: Box = DISC) -> Basins:
         raise ValueError(f"n is {n}; give 32 times a power of two: 32, 64, 128, …")
     box = _checked(box)
     at, psi, equator, critical = problem.at, problem.psi, problem.equator, problem.critical
-    cycles = problem.keep(cycles_of)
+    cycles = cycles_of(problem)
     time = drawn_time(at, equator)
     names: list[str] = [critical_label(critical, i) for i, C in enumerate(critical) if C.kind.startswith("stable")]
     evaluations = 0

@@ -10,7 +10,7 @@ from ..layer_problem.disc_zeros import disc_zeros
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
 from ..layer_problem.linearisation import NEUTRAL_TRACE, matrix_determinant
 from ..layer_problem.location import Existence, Location
-from ..layer_problem.problem import LayerProblem
+from ..layer_problem.problem import LayerProblem, found_once
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
@@ -143,6 +143,7 @@ def _affine(problem: LayerProblem) -> tuple[Coefficients, Location] | None:
     return coefficients, location
 
 
+@found_once("name")
 def portrait_name(problem: LayerProblem) -> PortraitName:
     """Name the portrait of a layer problem: its case, its name and what is degenerate."""
     equator, cycle, critical = problem.equator, problem.equator_cycle, problem.critical
@@ -157,11 +158,12 @@ def portrait_name(problem: LayerProblem) -> PortraitName:
     return PortraitName(case, ("CM" if critical or many else "NCM") + count, tuple(degeneracies))
 
 
+@found_once("classification")
 def portrait(problem: LayerProblem) -> Classification:
     """Name the portrait of a layer problem, and say what attracts in it."""
-    case, name, degeneracies = problem.keep(portrait_name)
+    case, name, degeneracies = portrait_name(problem)
     equator, cycle, critical = problem.equator, problem.equator_cycle, problem.critical
-    cycles = problem.keep(closed_orbits).cycles
+    cycles = closed_orbits(problem).cycles
     affine = _affine(problem)
     if affine is None:
         prefix, stable = "", sum(cycle.stable for cycle in cycles)
@@ -190,4 +192,4 @@ def classify(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> Classification:
     -------
     Classification
     """
-    return LayerProblem(system.at(z), psi).keep(portrait)
+    return portrait(LayerProblem(system.at(z), psi))

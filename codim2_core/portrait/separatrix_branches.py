@@ -71,7 +71,7 @@ def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: flo
         return []
     lines = joined(parts)
     branches = []
-    ends = endings(at, psi, lines, equator, critical, lambda: problem.keep(cycles_of), rtol=rtol, backward=backward)
+    ends = endings(at, psi, lines, equator, critical, lambda: cycles_of(problem), rtol=rtol, backward=backward)
     places = {critical_label(critical, k): C.p for k, C in enumerate(critical)}
     places |= {f"Q{k + 1}": np.array([math.cos(t), math.sin(t)]) for k, t in enumerate(equator.theta.tolist())}
     tails = _tails(at, psi, lines, [places.get(ending.label) for ending in ends], rtol, pixel, backward)

@@ -70,7 +70,7 @@ def ends(problem: LayerProblem, lines: Trajectories) -> list[Ending]:
         lines,
         problem.equator,
         problem.critical,
-        lambda: problem.keep(cycles_of),
+        lambda: cycles_of(problem),
         rtol=RTOL,
         foretold=partial(foretold, problem) if _sampled(problem) else None,
     )
@@ -181,7 +181,7 @@ def with_flow(problem: LayerProblem, judged: Judged) -> Judged:
     """Add the slow flow on a cycle, for which the cycle is followed: only where it is told."""
     if judged.verdict != "cycle" or judged.onto is None or judged.slow_flow is not None:
         return judged
-    cycles, k = problem.keep(cycles_of), int(judged.onto.split()[1]) - 1
+    cycles, k = cycles_of(problem), int(judged.onto.split()[1]) - 1
     # one that does not close in the steps allowed is foretold, and is not among them
     return judged._replace(slow_flow=cycles[k].slow_flow) if k < len(cycles) else judged
 

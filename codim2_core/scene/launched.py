@@ -174,7 +174,7 @@ def _endings(problem: LayerProblem, lines: Trajectories, which: list[int], backw
         ends,
         problem.equator,
         problem.critical,
-        lambda: problem.keep(cycles_of),
+        lambda: cycles_of(problem),
         rtol=RTOL,
         backward=backward,
     )
@@ -216,7 +216,7 @@ def _outside(problem: LayerProblem, half: Trajectories, i: int, after: float | N
     way = ("" if k is not None else ", in a spiral") + ("" if after is None else ", timed")
     if backward:
         return Fate(label, None, after, say("left" + way, **known))
-    found = problem.keep(outcomes_of)
+    found = outcomes_of(problem)
     then, onto = _then(found.whole if k is None or found.whole is not None else found.directions[k])
     return Fate(label, onto, after, f"{say('reached' + way, **known)} {then}")
 

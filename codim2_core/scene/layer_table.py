@@ -29,7 +29,7 @@ from .setting import SceneSetting
 class Recipe:
     """One layer: the names of the inputs it reads, and how it is made.
 
-    What a layer finds in ``setting.problem`` is kept for the others: it is computed once.
+    What a layer finds in ``setting.problem`` is kept for the others (`found_once`): here it is computed.
     """
 
     inputs: tuple[str, ...]
@@ -98,7 +98,7 @@ def _separatrices(setting: SceneSetting) -> Separatrices:
 
 def _certificates(setting: SceneSetting) -> tuple[Certificate, ...]:
     system = None if setting.system.frozen else setting.system
-    return certificates_of(setting.problem, setting.problem.keep(cycles_of), system, setting.z)
+    return certificates_of(setting.problem, cycles_of(setting.problem), system, setting.z)
 
 
 def _inside_nullclines(setting: SceneSetting) -> tuple[NullclineBranch, ...]:
@@ -118,13 +118,13 @@ def _conics(setting: SceneSetting) -> Conics:
 
 layers: Mapping[str, Recipe] = MappingProxyType(
     {
-        "equator": Recipe(("plane",), lambda s: find_equator(s.problem)),
-        "equator_cycle": Recipe(("plane",), lambda s: find_equator_cycle(s.problem)),
-        "location": Recipe(("plane",), lambda s: find_location(s.problem)),
-        "critical": Recipe(("plane", "slow", "psi"), lambda s: find_critical(s.problem)),
+        "equator": Recipe(("plane",), lambda s: find_equator.compute(s.problem)),
+        "equator_cycle": Recipe(("plane",), lambda s: find_equator_cycle.compute(s.problem)),
+        "location": Recipe(("plane",), lambda s: find_location.compute(s.problem)),
+        "critical": Recipe(("plane", "slow", "psi"), lambda s: find_critical.compute(s.problem)),
         "slow_flow": Recipe(("plane", "slow"), lambda s: flow_on(s.coefficients, s.problem.critical)),
-        "name": Recipe(("plane", "slow", "psi"), lambda s: portrait_name(s.problem)),
-        "classification": Recipe(("plane", "slow", "psi"), lambda s: portrait(s.problem)),
+        "name": Recipe(("plane", "slow", "psi"), lambda s: portrait_name.compute(s.problem)),
+        "classification": Recipe(("plane", "slow", "psi"), lambda s: portrait.compute(s.problem)),
         "eigendirections": Recipe(("plane", "psi"), lambda s: find_eigendirections(s.problem)),
         "nullclines_inside": Recipe(("plane", "psi", "closely"), _inside_nullclines),
         "nullclines_outside": Recipe(("plane", "view", "closely"), _outside_nullclines),
@@ -134,11 +134,11 @@ layers: Mapping[str, Recipe] = MappingProxyType(
         "inside_sketch": Recipe(("plane", "psi", "inner seeds", "time"), lambda s: sketched(s, outside=False)),
         "outside_sketch": Recipe(("plane", "outer seeds", "view", "time"), lambda s: sketched(s, outside=True)),
         "continuations": Recipe(("plane", "psi", *_STEPPED), continuations),
-        "closed_orbits": Recipe(("plane", "psi"), lambda s: closed_orbits(s.problem)),
-        "cycles": Recipe(("plane", "slow", "psi"), lambda s: cycles_of(s.problem)),
+        "closed_orbits": Recipe(("plane", "psi"), lambda s: closed_orbits.compute(s.problem)),
+        "cycles": Recipe(("plane", "slow", "psi"), lambda s: cycles_of.compute(s.problem)),
         "launched": Recipe(("plane", "psi", "launch", "view", "pixel"), _launched),
         "separatrices": Recipe(("plane", "psi", "tolerance", "pixel"), _separatrices),
-        "outcomes": Recipe(("plane", "slow", "psi"), lambda s: outcomes_of(s.problem)),
+        "outcomes": Recipe(("plane", "slow", "psi"), lambda s: outcomes_of.compute(s.problem)),
         "certificates": Recipe(("plane", "slow", "psi", "place"), _certificates),
         "atlas_curves": Recipe(("matrix",), _atlas_curves),
         "regions": Recipe(("matrix",), _regions),
@@ -146,16 +146,3 @@ layers: Mapping[str, Recipe] = MappingProxyType(
 )
 
 ELINEAR_ONLY = frozenset({"atlas_curves", "regions"})
-
-# The layers that are functions of the layer problem alone: whoever asks the problem for them asks the scene.
-FOUND_BY: Mapping[Callable[..., Any], str] = {
-    find_equator: "equator",
-    find_equator_cycle: "equator_cycle",
-    find_location: "location",
-    find_critical: "critical",
-    portrait_name: "name",
-    portrait: "classification",
-    closed_orbits: "closed_orbits",
-    cycles_of: "cycles",
-    outcomes_of: "outcomes",
-}

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from .. import drawing
 from ..arguments import number, whole
-from ..layer_problem.problem import LayerProblem, Result
+from ..layer_problem.problem import Finding, LayerProblem, Result
 from ..orbits.options import LEAST_PIXEL
 from ..orbits.seeds import checked_seeds
 from ..psi import constructors
@@ -25,7 +25,7 @@ from ..psi.function import Psi
 from ..systems.bounds import slow_values
 from ..systems.frozen import AtZ
 from ..systems.kinds import KINDS, AnySystem
-from .layer_table import ELINEAR_ONLY, FOUND_BY, INPUTS, layers
+from .layer_table import ELINEAR_ONLY, INPUTS, layers
 from .memory import Memory
 
 MOST_SEEDS = 20_000
@@ -50,10 +50,10 @@ class _Problem(LayerProblem):
         super().__init__(scene.coefficients, scene.psi, scene.cut)
         self._scene = ref(scene)
 
-    def keep(self, find: Callable[[LayerProblem], Result]) -> Result:
-        """Return ``find(self)``, computed once for all scenes that agree in what it reads."""
-        name, scene = FOUND_BY.get(find), self._scene()
-        return super().keep(find) if name is None or scene is None else scene[name]
+    def keep(self, finding: Finding[Result]) -> Result:
+        """Return what was found, once for all scenes that agree in what it reads."""
+        scene = self._scene()
+        return super().keep(finding) if scene is None or not finding.layer else scene[finding.layer]
 
 
 class Scene:

@@ -156,7 +156,7 @@ class Facts:
     @property
     def portrait(self) -> PortraitName:
         """The portrait's name."""
-        return self.problem.keep(portrait_name)
+        return portrait_name(self.problem)
 
     @property
     def size(self) -> float:

@@ -206,6 +206,7 @@ def test_a_page_that_is_loaded_again_is_live_without_running_a_cell(notebook):
     assert notebook.complaints == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("notebook", ["default"], indirect=True)
 def test_the_file_keeps_one_picture_and_it_follows(notebook):
     notebook.show(0, 0)
@@ -218,6 +219,7 @@ def test_the_file_keeps_one_picture_and_it_follows(notebook):
     assert "<svg" not in live["data"]["text/html"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("notebook", ["default"], indirect=True)
 def test_when_the_kernel_has_ended_the_picture_is_seen_until_the_cell_is_run(notebook):
     notebook.show(0, 0)
@@ -233,6 +235,7 @@ def test_when_the_kernel_has_ended_the_picture_is_seen_until_the_cell_is_run(not
     assert not notebook.find(STILL).is_visible()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("notebook", ["default"], indirect=True)
 def test_a_server_without_panel_gets_the_libraries_from_the_kernel(notebook):
     notebook.page.route("**/panel-preview/static/**", lambda route: route.fulfill(status=404))

@@ -14,27 +14,16 @@ NAMES = [file.stem for file in NOTEBOOKS]
 MOST = 600_000  # bytes of a notebook that has been run
 
 
-@pytest.fixture(scope="module")
-def executed(tmp_path_factory):
-    """All notebooks, run in one kernel that starts once; each names what it uses."""
+@pytest.fixture
+def executed(tmp_path, monkeypatch, file):
+    """A notebook that has been run."""
     import nbformat
     from nbclient import NotebookClient
 
-    patch = pytest.MonkeyPatch()
-    patch.setenv("IPYTHONDIR", str(tmp_path_factory.mktemp("ipython")))
-    books = {file.stem: nbformat.read(file, 4) for file in NOTEBOOKS}
-    fresh = nbformat.v4.new_code_cell("%reset -f")
-    client = NotebookClient(nbformat.v4.new_notebook(cells=[]), timeout=600, kernel_name="python3")
-    with client.setup_kernel():
-        for book in books.values():
-            for i, cell in enumerate(book.cells):
-                if cell.cell_type == "code":
-                    client.nb.cells = book.cells
-                    client.execute_cell(cell, i)
-            client.nb.cells = [fresh]
-            client.execute_cell(fresh, 0)
-    patch.undo()
-    return books
+    monkeypatch.setenv("IPYTHONDIR", str(tmp_path))
+    book = nbformat.read(file, 4)
+    NotebookClient(book, timeout=600, kernel_name="python3").execute()
+    return book
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=NAMES)
@@ -44,31 +33,30 @@ def test_a_notebook_is_kept_without_what_it_showed(file):
     assert not [cell for cell in cells if cell["outputs"] or cell["execution_count"]]
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_every_cell_runs_and_warns_of_nothing(executed, name):
-    outputs = [(cell, out) for cell in executed[name].cells if cell.cell_type == "code" for out in cell.outputs]
+@pytest.mark.parametrize("file", NOTEBOOKS, ids=NAMES)
+def test_every_cell_runs_and_its_static_page_shows_the_finished_pictures(executed, file, chromium, tmp_path):
+    outputs = [(cell, out) for cell in executed.cells if cell.cell_type == "code" for out in cell.outputs]
     for cell, out in outputs:
         assert out.output_type != "error", (cell.source, out)
         assert out.get("name") != "stderr", (cell.source, out)
         for kind, data in out.get("data", {}).items():
             assert len(data) < 100_000 or cell.source.startswith("beside("), (cell.source, kind)
-    shown = [cell.source for cell in executed[name].cells if cell.cell_type == "code" and cell.outputs]
+    shown = [cell.source for cell in executed.cells if cell.cell_type == "code" and cell.outputs]
     assert len(shown) >= 7
-    assert len(json.dumps(executed[name])) < MOST
+    assert len(json.dumps(executed)) < MOST
+    _shows_pictures(executed, chromium, tmp_path / f"{file.stem}.html")
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_its_static_page_shows_the_finished_pictures(executed, name, chromium, tmp_path):
+def _shows_pictures(executed, chromium, page):
     from nbconvert import HTMLExporter
 
-    page = tmp_path / f"{name}.html"
-    page.write_text(HTMLExporter().from_notebook_node(executed[name])[0], encoding="utf-8")
+    page.write_text(HTMLExporter().from_notebook_node(executed)[0], encoding="utf-8")
     context = chromium.new_context(viewport={"width": 1100, "height": 900}, offline=True)
     tab = context.new_page()
     wrong = []
     tab.on("pageerror", lambda error: wrong.append(str(error)))
     tab.goto(page.as_uri(), wait_until="domcontentloaded")
-    explorers = sum("explorer(" in cell.source for cell in executed[name].cells if cell.cell_type == "code")
+    explorers = sum("explorer(" in cell.source for cell in executed.cells if cell.cell_type == "code")
     stills = tab.locator("[class^=explorer-still] img")
     assert stills.count() == explorers
     for i in range(explorers):

@@ -1,5 +1,6 @@
 """The front end's modules: their own tests, run by Node, and how they are joined."""
 
+import json
 import os
 import re
 import signal
@@ -37,12 +38,19 @@ def in_a_document(path):
     return '"linkedom"' in text or any(in_a_document(one) for one in played if one.is_relative_to(HERE))
 
 
-def test_node_tests(node):
-    """Those of what is drawn in a document need `npm --prefix tests/app/static ci`, which the linters run in CI."""
-    files = sorted(path.relative_to(HERE).as_posix() for path in (*HERE.glob("*.test.js"), *HERE.glob("*/*.test.js")))
+def test_node_tests(node, tmp_path):
+    """One process for each folder, and for each file that lies in none.
+
+    Those of what is drawn in a document need `npm --prefix tests/app/static ci`, which the linters run in CI.
+    """
+    files = sorted((*HERE.glob("*.test.js"), *HERE.glob("*/*.test.js")))
     if not os.environ.get("CI") and not (HERE / "node_modules" / "linkedom").is_dir():
-        files = [name for name in files if not in_a_document(HERE / name)]
-    code, output = ended([node, "--test", "--test-reporter=tap", *files], HERE, LONGEST)
+        files = [file for file in files if not in_a_document(file)]
+    for file in files:
+        together = file.name if file.parent == HERE else f"{file.parent.name}.test.js"
+        with (tmp_path / together.replace(".test.js", ".test.mjs")).open("a") as written:
+            written.write(f"await import({json.dumps(file.as_uri())})\n")
+    code, output = ended([node, "--test", "--test-reporter=tap"], tmp_path, LONGEST)
     assert code == 0, output
     assert int(re.search(r"^# pass (\d+)$", output, re.M)[1]) >= len(files) > 10
 
