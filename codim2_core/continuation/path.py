@@ -181,7 +181,7 @@ class _Path:
         rows: list[int] = []
         for i, point in enumerate(self.points):
             fold = folds.get(i)
-            if fold is not None and _bends(fold, self.points[i - 1], point):
+            if fold is not None and _bends(fold, self.points[max(i - 2, 0) : i], self.points[i : i + 2]):
                 rows.append(len(points))
                 points.append(fold)
             points.append(point)
@@ -388,9 +388,12 @@ def _least(lengths: Sequence[float], exponents: Sequence[float]) -> float | None
     return x if least < LEAST_EXPONENT_RATIO * e1 and abs(x - x1) > 1e-3 * min(x1 - x0, x2 - x1) else None
 
 
-def _bends(fold: Point, here: Point, there: Point) -> bool:
-    """Whether the branch turns back at a fold between two points: by more than rounding, near the equator on both."""
-    bent = sorted((abs(fold.nu - here.nu), abs(fold.nu - there.nu)))
+def _bends(fold: Point, before: Sequence[Point], after: Sequence[Point]) -> bool:
+    """Whether the branch turns back at a fold between points: by more than rounding, near the equator on both sides.
+
+    Of two points on a side the nearer one may be all but the fold.
+    """
+    bent = sorted(max(abs(fold.nu - point.nu) for point in side) for side in (before, after))
     return bent[0] > BENT if fold.turn.height < LEVEL else bent[1] > ROUNDING
 
 

@@ -41,7 +41,7 @@ FIRST, LARGE = 1e-3, 0.05  # of the reach: where branches start at a critical se
 COLUMNS = 9  # values at which all cycles are looked for
 BETTER = 1.3  # times as well another ray is crossed that is worth taking
 RAYS = 12  # of one branch
-REACHED = 1e-7  # of the span: within it are the values of cycles of different periods at a loop
+REACHED = 1e-9  # of the span: within it are the values of cycles of different periods at a loop
 DROWNED = 1e-12  # ebar of a turn of which nothing but rounding is left
 BACK, FURTHEST = 3, 12  # points before the last one, with which it is compared: one at which cycles were faster
 
@@ -222,6 +222,8 @@ class Search:
         pieces: list[Piece] = []
         for _ in range(RAYS):
             (trace,) = answered([traced(tracer, point)], follow)
+            if pieces and len(trace.points) == 1:  # no further than the ray before
+                break
             pieces.append(Piece(tracer, trace))
             if trace.reason != "stuck" or len(trace.points) < 3 or self._at_loop(trace):
                 break

@@ -194,6 +194,8 @@ TWINS = {
     "a loop that is come to slowly": (0.254, -0.554, -0.424, 0.59, c2.psi.rational(), -0.5539182551937408),
     "a saddle-node behind a loop": (1.184, 0.972, -0.714, -0.405, c2.psi.rational(), -0.43929488586609644),
     "a loop within rounding": (1.665, 1.485, -1.25, 0.955, c2.psi.tanh(), 1.0758284725709788),
+    "a loop reached on a second ray": (0.827, 0.636, -0.408, 0.668, c2.psi.hill(3), 0.892987553711992),
+    "a loop beyond which no ray leads": (1.518, 1.302, -1.114, 0.609, c2.psi.tanh(), 0.7094612040643036),
     "two folds within a step": (1.368, -1.154, -0.861, -0.562, c2.psi.rational(), 0.6168848344626383),
 }
 
