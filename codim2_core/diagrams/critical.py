@@ -78,7 +78,7 @@ def _direction(plane: Plane, i: int) -> float:
     """Angle of -A^-1 f at value i."""
     m11, m12, m21, m22, f1, f2 = (float(v[i]) for v in plane.affine)
     sign = -math.copysign(1.0, m11 * m22 - m12 * m21)
-    turn = 0.0 if plane.turn is None else float(plane.turn[i])
+    turn = 0.0 if plane.told is None else float(plane.told[i])
     return math.atan2(sign * (m11 * f2 - m21 * f1), sign * (m22 * f1 - m12 * f2)) + turn
 
 
@@ -200,7 +200,7 @@ def _hopf_point(path: Line, value: float) -> SpecialValue:
     # in the centre the formulas for the derivatives of Psi divide by s = 0
     x2 = found.x2 if np.hypot(*found.x2[0]) > 1e-9 else np.full((1, 2), 1e-9)
     with np.errstate(all="ignore"):
-        number = float(first_lyapunov(plane.coefficients(0).A, psi, x2)[0])
+        number = float(first_lyapunov(plane.matrix(0), psi, x2)[0])
     if not math.isfinite(number):
         number = 0.0
     born = "supercritical" if number < 0.0 else "subcritical" if number > 0.0 else "degenerate"
