@@ -298,17 +298,21 @@ function keepKeys(root) {
   root.addEventListener("focusout", () => window.removeEventListener("keydown", mark, true))
 }
 
-// Take the place of what the server has drawn.
-function begin(line, root, plot, place) {
+/**
+ * Take the place of what the server has drawn.
+ * @param {import("./asking/line.js").Line} line @param {HTMLElement} root @param {any} plot @param {HTMLElement} place
+ */
+export function begin(line, root, plot, place) {
   if (root.dataset.edition !== line.config.edition) { // the page was answered by one server, its line by a newer one
     notice(root.querySelector(".banner"), SAYS.renewed, () => location.reload())
     return
   }
   Object.assign(root, {explorer: new Explorer({line, root, plot})}) // for tests, and for whoever looks
   // The server's drawing stays until Bokeh has painted.
-  const drawing = root.querySelector(".first")
+  const drawing = root.querySelector(".first"), first = root.closest("#codim2-first")
   requestAnimationFrame(() => setTimeout(() => { drawing.remove(); letScroll(root.querySelector(".bokeh")) }, 150))
   place.append(root)
+  first?.remove()
 }
 
 /** In a cell of a notebook, or wherever Panel shows it. */
@@ -337,7 +341,6 @@ export async function live() {
   try {
     const [line, views] = await Promise.all([opened(address), globalThis.Bokeh.embed.embed_item(figure, drawn)])
     begin(line, root, views.get_by_id(figure.root_id).model, first.parentElement)
-    first.remove()
   } catch (why) {
     if (typeof why !== "number") throw why
     const known = first.querySelector(":scope > [role=alert]") // it is said why already
