@@ -29,7 +29,7 @@ export function panelsOf(explorer) {
     valueOf: (name) => name.startsWith("own:") ? explorer.systems.value(name.slice(4)) : values[name],
     follow: (name, set) => { setters[name] = set },
     take: (wish) => explorer.takes.ask(wish), untake: (kind) => explorer.takes.stop(kind),
-    trace: (paths, place) => explorer.picture.trace(paths, place),
+    trace: (paths, place) => explorer.picture.trace(paths, place), drawn: () => explorer.picture.list,
     open: (wanted) => explorer.put(wanted),
     ask: (question) => explorer.ask(question),
     cross: (place) => explorer.picture.cross(place),
