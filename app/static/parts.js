@@ -6,7 +6,7 @@ import {twoFingers} from "./hands/gestures.js"
 import {Grab} from "./hands/grab.js"
 import {Hands} from "./hands/hands.js"
 import {Pointing} from "./hands/pointing.js"
-import {Beamer, busy} from "./page/beamer.js"
+import {Beamer, busy, enlarged} from "./page/beamer.js"
 import {Help} from "./page/help.js"
 import {writeLink} from "./page/links.js"
 import {Second, Seconded} from "./page/second.js"
@@ -29,7 +29,7 @@ export function panelsOf(explorer) {
     valueOf: (name) => name.startsWith("own:") ? explorer.systems.value(name.slice(4)) : values[name],
     follow: (name, set) => { setters[name] = set },
     take: (wish) => explorer.takes.ask(wish), untake: (kind) => explorer.takes.stop(kind),
-    trace: (paths, place) => explorer.picture.trace(paths, place), drawn: () => explorer.picture.list,
+    trace: (paths, place) => explorer.picture.trace(paths, place), drawn: () => enlarged(explorer.picture.list, 1 / explorer.picture.times),
     open: (wanted) => explorer.put(wanted),
     ask: (question) => explorer.ask(question),
     cross: (place) => explorer.picture.cross(place),
