@@ -11,6 +11,7 @@ import {Help} from "./page/help.js"
 import {squeezed, writeLink} from "./page/links.js"
 import {Second, Seconded} from "./page/second.js"
 import {Share} from "./page/share.js"
+import {Comets} from "./picture/comets.js"
 import {Lift} from "./picture/lift.js"
 import {Table} from "./page/table.js"
 import {Views} from "./page/views.js"
@@ -66,10 +67,14 @@ export function handsOf(explorer) {
   return hands
 }
 
-/** The picture, lifted. @param {Explorer} explorer */
-export function liftOf({root, config, picture}) {
-  const lift = new Lift(root, picture)
-  ;(config.page ? document : root).addEventListener("keydown", (event) => { if (event.key === "l" && !busy(root, event)) { event.preventDefault(); lift.swing() } })
+/** The picture, lifted, and comets on it. @param {Explorer} explorer */
+export function liftOf({root, config, picture, rest}) {
+  const lift = new Lift(root, picture), comets = new Comets(picture, () => rest.under.size > 0)
+  ;(config.page ? document : root).addEventListener("keydown", (event) => {
+    if (busy(root, event)) return
+    if (event.key === "l") { event.preventDefault(); lift.swing() }
+    else if (event.key === " " && !event.composedPath()[0]?.matches?.("button, summary, input, a, [role]:not([role=application])")) { event.preventDefault(); comets.toggle() }
+  })
   return lift
 }
 
