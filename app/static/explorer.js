@@ -41,6 +41,8 @@ export class Explorer {
     this.setting = new Set(config.setting)
     this.numbers = new Set(config.numbers)
     this.controls = /** @type {Record<string, any>} */ ({})
+    this.choice = "" // of a system, as the server has told of it
+    this.changed = false
     this.hidden = [] // layers that a question hides until it is answered
     this.typed = new Set() // names of what was typed and is not noted yet
     this.beside = /** @type {any} */ (null) // the second portrait, or in it the first
@@ -270,6 +272,10 @@ export class Explorer {
     if (header.set) this.follow(header.set)
     this.systems.apply(frame)
     this.sentences.say({...header.left_out && {"": header.left_out}, ...header.errors})
+    if (header.system) this.changed = header.system.choice !== this.choice // what is old is of another system: not shown
+    this.choice = header.system?.choice ?? this.choice
+    if (!late.length) this.changed = false
+    this.root.classList.toggle("changed", this.changed)
     this.picture.apply(frame)
     this.beside?.applied?.(header)
     this.followObjects(header)

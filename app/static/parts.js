@@ -6,11 +6,12 @@ import {twoFingers} from "./hands/gestures.js"
 import {Grab} from "./hands/grab.js"
 import {Hands} from "./hands/hands.js"
 import {Pointing} from "./hands/pointing.js"
-import {Beamer, busy} from "./page/beamer.js"
+import {Beamer, busy, enlarged} from "./page/beamer.js"
 import {Help} from "./page/help.js"
-import {writeLink} from "./page/links.js"
+import {squeezed, writeLink} from "./page/links.js"
 import {Second, Seconded} from "./page/second.js"
 import {Share} from "./page/share.js"
+import {Comets} from "./picture/comets.js"
 import {Lift} from "./picture/lift.js"
 import {Table} from "./page/table.js"
 import {Views} from "./page/views.js"
@@ -29,7 +30,7 @@ export function panelsOf(explorer) {
     valueOf: (name) => name.startsWith("own:") ? explorer.systems.value(name.slice(4)) : values[name],
     follow: (name, set) => { setters[name] = set },
     take: (wish) => explorer.takes.ask(wish), untake: (kind) => explorer.takes.stop(kind),
-    trace: (paths, place) => explorer.picture.trace(paths, place),
+    trace: (paths, place) => explorer.picture.trace(paths, place), drawn: () => enlarged(explorer.picture.list, 1 / explorer.picture.times),
     open: (wanted) => explorer.put(wanted),
     ask: (question) => explorer.ask(question),
     cross: (place) => explorer.picture.cross(place),
@@ -66,10 +67,14 @@ export function handsOf(explorer) {
   return hands
 }
 
-/** The picture, lifted. @param {Explorer} explorer */
-export function liftOf({root, config, picture}) {
-  const lift = new Lift(root, picture)
-  ;(config.page ? document : root).addEventListener("keydown", (event) => { if (event.key === "l" && !busy(root, event)) { event.preventDefault(); lift.swing() } })
+/** The picture, lifted, and comets on it. @param {Explorer} explorer */
+export function liftOf({root, config, picture, rest}) {
+  const lift = new Lift(root, picture), comets = new Comets(picture, () => rest.under.size > 0)
+  ;(config.page ? document : root).addEventListener("keydown", (event) => {
+    if (busy(root, event)) return
+    if (event.key === "l") { event.preventDefault(); lift.swing() }
+    else if (event.key === " " && !event.composedPath()[0]?.matches?.("button, summary, input, a, [role]:not([role=application])")) { event.preventDefault(); comets.toggle() }
+  })
   return lift
 }
 
@@ -112,7 +117,7 @@ export function addDialogs(explorer) {
   const {root, config, picture, theme} = explorer
   new Help(root, explorer.find("dialog.helping"))
   const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer}})
-  const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film}))
+  const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film, address: async () => `${location.origin}${location.pathname}?${await squeezed(query(), config.link.version)}`}))
   explorer.find(".share").addEventListener("click", () => share.open())
   explorer.find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
 }

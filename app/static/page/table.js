@@ -24,6 +24,7 @@ export class Table {
     this.button = this.box.querySelector(".play")
     this.slider = this.box.querySelector("input")
     this.motion = /** @type {any} */ (null)
+    this.frame = 0
     this.of = this.seen = "" // of what the motion is, and what is drawn at rest
     this.player = new Player(this.button, () => this.show())
     this.button.addEventListener("click", (event) => { if (this.of !== this.key) { event.stopImmediatePropagation(); this.play() } }, true)
@@ -45,7 +46,8 @@ export class Table {
     this.slider.value = String(push)
     const [x, y] = values.launch.split(",").map(Number)
     this.puck.prepare({t: [0], states: [[x || 0], [y || 0], [0], [0], [values.z]]}, values)
-    this.puck.show(null, 0)
+    cancelAnimationFrame(this.frame)
+    this.frame = requestAnimationFrame(() => { if (!this.of) this.puck.show(null, 0) }) // its size is asked for once all is laid out
   }
 
   async play() {

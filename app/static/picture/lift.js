@@ -155,9 +155,10 @@ export function lifted(g, list, camera, {width, height}) {
   }
 }
 
-// The pieces of curves on the floor, and of those on the hemisphere the ones behind and in front.
+// The pieces of curves on the floor, and of those on the hemisphere the ones behind and in front, as x, y, x, y, …; NaN is
+// where the next piece begins.
 function split({counts, points}, at, rim = false) {
-  const made = {floor: new Path2D(), behind: new Path2D(), front: new Path2D()}, size = unit(points)
+  const made = {floor: [], behind: [], front: []}, size = unit(points)
   let from = 0
   for (const count of counts) {
     let part = "", p = 0, q = 0
@@ -166,9 +167,9 @@ function split({counts, points}, at, rim = false) {
       for (let k = 1; k <= steps; k++) {
         const share = k / steps, [x, y, depth, on] = at(p + share * (u - p), q + share * (v - q))
         const now = !on && !rim ? "floor" : depth > BEHIND ? "behind" : "front"
-        if (part && part !== now) made[part].lineTo(x, y)
-        if (part !== now) made[now].moveTo(x, y)
-        else made[now].lineTo(x, y)
+        if (part && part !== now) made[part].push(x, y)
+        if (part !== now) made[now].push(NaN)
+        made[now].push(x, y)
         part = now
       }
       p = u
@@ -180,11 +181,16 @@ function split({counts, points}, at, rim = false) {
 }
 
 function stroke(g, {colour, width, dash}, path, alpha) {
+  if (!path.length) return
   g.strokeStyle = colour
   g.lineWidth = width
   g.setLineDash(dash)
   g.globalAlpha = alpha
-  g.stroke(path)
+  g.beginPath()
+  for (let i = 0; i < path.length;) {
+    if (Number.isNaN(path[i])) { g.moveTo(path[i + 1], path[i + 2]); i += 3 } else { g.lineTo(path[i], path[i + 1]); i += 2 }
+  }
+  g.stroke()
   g.globalAlpha = 1
 }
 

@@ -19,6 +19,7 @@ export class Picture {
     this.parts = new Set(["basins", ...layers.flatMap((layer) => layer.parts.map((part) => part.name))])
     this.paths = this.place = null
     this.pointed = []
+    this.comets = /** @type {any[]} */ ([])
     this.crossed = /** @type {{x: number, y: number, right?: boolean} | null} */ (null)
     this.lift = /** @type {import("./lift.js").Lift | null} */ (null)
     this.times = 1 // as large are letters, marks and lines
@@ -77,7 +78,7 @@ export class Picture {
   }
 
   drawTrace() {
-    this.above.list = enlarged([...this.pointed, ...crossList(this.crossed, this.state.theme), ...traceList(this.traces, this.paths, this.place, this.state.theme)], this.times)
+    this.above.list = enlarged([...this.comets, ...this.pointed, ...crossList(this.crossed, this.state.theme), ...traceList(this.traces, this.paths, this.place, this.state.theme)], this.times)
     this.put(this.above)
   }
 

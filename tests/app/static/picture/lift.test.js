@@ -20,12 +20,16 @@ test("from above the plane is seen as it is; lifted, the middle of the disc is t
 
 /** What is drawn of some items: [path moves and lines of each stroke, with how it is seen], and the texts with their places. */
 function drawn(items, camera) {
-  const {pen, drawn: calls} = recorder(), strokes = []
-  Object.defineProperty(globalThis, "Path2D", {value: class { steps = []; moveTo(...at) { this.steps.push(at) } lineTo(...at) { this.steps.push(at) } }, configurable: true})
-  let alpha = 1
-  const g = new Proxy(pen, {get: (_, name) => name === "stroke" ? (path) => { if (path) strokes.push([alpha, path.steps]) } : pen[name], set: (_, name, value) => { if (name === "globalAlpha") alpha = value; pen[name] = value; return true }})
-  lifted(g, [{kind: "page", colour: "p"}, ...items], camera, {width: 200, height: 160})
-  return {strokes: strokes.filter(([, steps]) => steps.length), texts: calls.filter(([name]) => name === "fillText").map(([, text, x, y]) => [text, x, y])}
+  const {pen, drawn: calls} = recorder(), strokes = /** @type {[number, number[][]][]} */ ([])
+  lifted(pen, [{kind: "page", colour: "p"}, ...items], camera, {width: 200, height: 160})
+  let alpha = 1, steps = /** @type {number[][]} */ ([])
+  for (const [name, ...all] of calls) {
+    if (name === "=" && all[0] === "globalAlpha") alpha = all[1]
+    else if (name === "beginPath") steps = []
+    else if (name === "moveTo" || name === "lineTo") steps.push(all)
+    else if (name === "stroke") strokes.push([alpha, steps])
+  }
+  return {strokes, texts: calls.filter(([name]) => name === "fillText").map(([, text, x, y]) => [text, x, y])}
 }
 
 const CURVE = {kind: "curves", counts: [2], points: Float32Array.of(0, -1.5, 0, 1.5), colour: "c", width: 1, dash: []}
