@@ -40,7 +40,8 @@ from .varied_system import Asking, Straight, VariedSystem, follow, reversible, s
 __all__ = ["CycleBranch", "CycleBranches", "CyclePoint", "continue_cycles"]
 
 FIRST = 1e-3  # of the reach: where branches start at C
-OUTER, SEEN = np.array([5.0, 10.0, 20.0, 50.0, 100.0, 300.0]), 1e-12  # |x2| where they start at the equator; 1 - |e|^2
+# |x2| where they start at the equator: where 1 - |e|^2 comes to SEEN, as folds may lie far out
+OUTER, SEEN = np.array([5.0, 10.0, 20.0, 50.0, 100.0, 300.0, 1000.0, 3000.0]), 1e-24
 PLANE = ("a", "b", "d", "f1", "f2")
 COLUMNS = 9  # values at which all cycles are looked for
 

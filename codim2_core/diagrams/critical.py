@@ -23,6 +23,10 @@ _SAMPLES = 49
 # Crowded towards both ends: there the curves have vertical tangents
 SPREAD = 0.5 * (1.0 - np.cos(np.pi * np.arange(1, _SAMPLES + 1) / (_SAMPLES + 1)))
 
+# Next to the equator a critical set is a node, but for a part of 1e-8 of a piece or less it may have been a focus
+_BESIDE = np.geomspace(1e-11, 1e-4, 8)
+CROWDED = np.concatenate([_BESIDE, SPREAD, 1.0 - _BESIDE[::-1]])
+
 _STEP, _HALVINGS = 0.1, 10  # p moves by at most this between samples, unless so many halvings are not enough
 OFF_CENTRE = 0.4567  # in the middle of a piece symmetry likes to put something special
 
@@ -90,7 +94,7 @@ def critical_part(
     width = float(grid[-1] - grid[0])
     ends = [float(grid[0]), *cuts.all.tolist(), float(grid[-1])]
     pieces = [(low, high) for low, high in pairwise(ends) if high - low > 1e-13 * width]
-    samples = [np.union1d(u + (v - u) * SPREAD, extra[(extra > u) & (extra < v)]) for u, v in pieces]
+    samples = [np.union1d(u + (v - u) * CROWDED, extra[(extra > u) & (extra < v)]) for u, v in pieces]
     found = linearise(path(np.concatenate(samples)), exponent)
     at = np.cumsum([len(x) for x in samples])[:-1]
     share, focus = np.split(found.share, at), np.split(_focus(found), at)
@@ -105,6 +109,8 @@ def critical_part(
     ):
         # where all of A vanishes as well, rounding leaves a sign to det A
         hopf = trace[border_functions(path(trace), exponent)[1] > 1e-12]
+        u, v = pieces[k]
+        inner = inner[(inner - u > _BESIDE[-1] * (v - u)) & (v - inner > _BESIDE[-1] * (v - u))]
         parts, kinds = _cut(path, inner, pieces[k], np.sort(np.concatenate([hopf, shape])))
         branches += [_branch(path, part, kind) for part, kind in zip(parts, kinds, strict=True)]
         special += [_hopf_point(path, v) for v in hopf.tolist()]

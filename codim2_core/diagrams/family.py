@@ -259,6 +259,7 @@ def linear_path(system: Any, psi: Psi, z: ArrayLike, along: str, values: Array) 
     if linear is None:
         return None
     own = system.typed is not None
+    z = z if system.frozen else system.at(z).z or z  # with the time of a clock
     path = Line(family(linear, psi, z, along, spans=(values,)))
     plane = path(values)
     if plane.turn is None or plane.given is None or not plane.defined.any():

@@ -191,7 +191,7 @@ class Branches:
             return replace(self, cycles=continue_typed(*of, self.standing))
         ends = [self.span[0], *(v for gap in self.gaps for v in gap), self.span[1]]
         parts = [
-            continue_cycles(path.family.system, self.psi, self.along, part, self.z, path.family.axes)
+            continue_cycles(path.family.system, self.psi, self.along, part, path.family.z, path.family.axes)
             for part in zip(ends[::2], ends[1::2], strict=True)
             if part[0] < part[1]
         ]

@@ -43,7 +43,7 @@ BETTER = 1.3  # times as well another ray is crossed that is worth taking
 RAYS = 12  # of one branch
 REACHED = 1e-9  # of the span: within it are the values of cycles of different periods at a loop
 DROWNED = 1e-12  # ebar of a turn of which nothing but rounding is left
-BACK, FURTHEST = 3, 12  # points before the last one, with which it is compared: one at which cycles were faster
+BACK, FURTHEST = 3, 12  # points before the last one: with those before it is compared, among these it is chosen
 
 
 @dataclass(frozen=True)
@@ -308,7 +308,7 @@ class Search:
         # beyond the slowest of the last ones rounding decides
         for last in sorted(turns[-1 - FURTHEST :], key=lambda turn: -turn.period):
             end = turns.index(last)
-            back = turns[max(end - FURTHEST, 0) : end + 1 - BACK] or turns[:1]
+            back = turns[: end + 1 - BACK] or turns[:1]
             before = next((turn for turn in reversed(back) if SLOWER * turn.period < last.period), back[-1])
             states, earlier = (piece.tracer.family.course(t.xi, t.value, t.exponent > 0.0) for t in (last, before))
             if states is not None and earlier is not None:

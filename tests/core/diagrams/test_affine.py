@@ -87,6 +87,14 @@ def test_axes_that_turn_too_far_or_jump_stay_on_the_general_path():
     assert linear_path(c2.System(U=("p*c*c-s", "c"), parameters={"p": 0.1}), PSI, (), "p", values_over(SPAN)) is None
 
 
+def test_a_system_with_a_clock_is_that_of_the_instant_0():
+    shaken = c2.System(U=("-mu*c + F*cos(w*t)", "-mu*s + 0.1"), parameters={"mu": 0.3, "F": 0.5, "w": 2.0})
+    first, second = (c2.branches(shaken, PSI, "F", (-1.0, 1.0), z) for z in ((), (0.0,)))
+    reach = math.sqrt(0.3**2 - 0.1**2)
+    assert [one.value for one in first.special if one.kind == "transcritical"] == pytest.approx([-reach, reach])
+    assert [one.value for one in first.special] == [one.value for one in second.special]
+
+
 def test_special_values_are_those_of_the_general_path():
     system = turning(1.5)
     *_, general = general_parts(system, PSI, "p", SPAN, ())

@@ -18,7 +18,7 @@ PSIS = (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3), c2.psi.custom("1/(1+s)
 numbers = st.one_of(st.floats(-2, 2).map(lambda v: round(v, 3)), st.sampled_from([-1.0, 0.0, 0.5, 1.0]))
 
 
-def exact(system: object, psi: c2.Psi, z: tuple[float, ...] = ()) -> str:
+def exact(system: c2.ELinear | c2.System, psi: c2.Psi, z: tuple[float, ...] = ()) -> str:
     name = c2.classify(system, psi, z).name
     critical = c2.critical_sets(system, psi, z)
     return f"{name}, {critical[0].kind}" if critical else name
