@@ -86,7 +86,7 @@ def unable(panel, name, **values):
 
 
 def axes(key):
-    across = "own:mu" if key == "no such axis" else "f1"
+    across = "n" if key == "no such axis" else "f1"  # this Psi has no exponent
     return unable("atlas", "map", across=across, up="f1" if key == "one axis twice" else "f2")(key)
 
 
