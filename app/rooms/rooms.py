@@ -92,6 +92,11 @@ class Rooms:
         """Have `begin` called when somebody is here whom `tick` is to serve, every `EVERY` seconds while it is True."""
         self._ticks = begin
 
+    def count(self, now: float | None = None) -> int:
+        """Return how many rooms are open."""
+        now = time.monotonic() if now is None else now
+        return sum(host.there(now) for host in self.hosts.values())
+
     # The lecturer ----------------------------------------------------------------------------------------------
 
     def open(self, key: str, tell: Tell, now: float | None = None, view: Callable[[], Any] = dict) -> tuple[str, str]:
@@ -115,7 +120,7 @@ class Rooms:
             while not key or code in states:
                 key = secrets.token_urlsafe(16)
                 code, mark = code_of(key), mark_of(key)
-        if code not in self.hosts and sum(host.there(now) for host in self.hosts.values()) >= self.most:
+        if code not in self.hosts and self.count(now) >= self.most:
             raise RoomError(say("all rooms taken", most=self.most))
         self.hosts[code] = Host(code, mark, min((opened for opened, _ in known), default=now), tell, view)
         self._begin(now)

@@ -16,9 +16,10 @@ from typing import Any
 from ..docs import place
 from ..frame.cluster import ClusterError, cluster
 from .commands import add_census, add_classify, add_docs, add_notebooks, add_presets, add_prove
+from .process.files import many_files
 from .process.logs import log_to_stderr
 from .process.stopping import stop_when_asked
-from .settings import add_settings
+from .settings import add_settings, unknown
 from .taking import add_data, add_figure, add_film, add_live
 
 
@@ -66,6 +67,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         raise RuntimeError('a worker imports the script that serves; put the call under if __name__ == "__main__":')
     if chosen.lessons is not None and not _offer_lessons(chosen.lessons):
         return 1
+    for sentence in unknown():
+        print(f"codim2: {sentence}", file=sys.stderr)
     place.offer(chosen.docs)
     log_to_stderr(chosen.log_json, chosen.log_level)
     try:
@@ -115,6 +118,7 @@ def _say_if_compiled(what: str, seconds: float, done: int, of: int) -> None:
 
 def _serve(chosen: argparse.Namespace) -> None:
     """Serve until this process is interrupted."""
+    many_files()
     gc.disable()  # modules are no garbage: looking for some is a fifth of the time that importing takes
     from .kernel_cache import prepare  # heavy, and not needed for --help
 

@@ -81,6 +81,7 @@ class Page(RequestHandler):
             return
         self.set_header("Cache-Control", "no-store")
         if self.places.full:
+            self.places.refused += 1
             self.set_status(503)
             self.set_header("Retry-After", str(RETRY))
             self.finish(BUSY.format(RETRY))

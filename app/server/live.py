@@ -71,12 +71,13 @@ class Places:
         Pages that there may be.
     open : set of Live
     rota : Rota
-    frames : int
-        How many have been sent.
+    frames, openings, refused : int
+        How many have been sent, were let in, and found no place.
     """
 
     def __init__(self, most: int) -> None:
-        self.most, self.open, self.rota, self.frames = most, set[Live](), Rota(), 0
+        self.most, self.open, self.rota = most, set[Live](), Rota()
+        self.frames = self.openings = self.refused = 0
 
     def beat(self) -> None:
         """Give each page a sign of life."""
@@ -105,13 +106,15 @@ class Live(WebSocketHandler):
         """Let pages of this server in, and of the hosts that it was told of."""
         host = origin.partition("://")[2].lower()
         port = "" if ":" in host else ":443" if origin.startswith("https") else ":80"
-        return check_allowlist(host + port, self.application.websocket_origins)  # type: ignore[attr-defined]
+        known = self.application.websocket_origins  # type: ignore[attr-defined]  # Bokeh's
+        return check_allowlist(host + port, known) or check_allowlist(host, known)
 
     def open(self, *_: str, **__: str) -> None:
         """Let a page in, in its turn."""
         self.set_nodelay(True)
         self._loop = IOLoop.current()
         if self.places.full:
+            self.places.refused += 1
             self.close(FULL, "all places are taken")
             return
         self.places.open.add(self)
@@ -126,6 +129,7 @@ class Live(WebSocketHandler):
             _log.exception("a page could not be opened")
             self.close(FAILED, "a page could not be opened")
             return
+        self.places.openings += 1
         self.answers = Answers(frames, self._send, self._later)
         self._write(config)
         self._write(first)

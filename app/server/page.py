@@ -29,6 +29,7 @@ from ..view.markup import edition
 from .first_page import Page
 from .headers import transform
 from .live import MOST_SENT, Live, Places
+from .metrics import Metrics, Told
 from .process.clock import keep_steady
 from .process.ports import listen_by_own, shared
 from .process.standing_back import stand_back
@@ -41,6 +42,8 @@ PRELOAD = ("codim2_app.server.worker",)
 #: after each of its kernels; by default they are 5 ms.
 SWITCH = 0.0005
 
+#: Seconds for which a connection may say nothing before its next request; no websocket.
+HEADERS = 20.0
 #: Seconds between two signs of life to each page: proxies close a line on which nothing is said for a minute.
 BEAT = 37.0
 
@@ -125,7 +128,8 @@ def make_server(
     if executor is None:
         at_once = workers or max(1, processors() // processes)
         executor = Workers(at_once, preload=PRELOAD, first=warmup.wait)
-    serve_with(Turns(executor, at_once))
+    turns = Turns(executor, at_once)
+    serve_with(turns)
     warmup_now = processes == 1
     begin = partial(warmup.start, partial(_told, told), patience=warmup.PATIENCE)
     if warmup_now:
@@ -138,8 +142,10 @@ def make_server(
     keep_steady(server.io_loop)
     listen_by_own(server, address)
     board.belong(task_id() or 0)
-    _keep(Rooms(board, rooms))
+    kept = Rooms(board, rooms)
+    _keep(kept)
     application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
+    application.settings["metrics"] = Metrics(places, turns, kept)
     application.add_handlers(".*", routes(server.prefix))
     application.transforms.insert(0, transform(frame_ancestors))  # before they are compressed
     application.settings["log_function"] = _log
@@ -214,6 +220,7 @@ def _server(
             (r"/live", Live, {"places": places}),
             (r"/health", Health),
             (r"/ready", Ready),
+            (r"/metrics", Told),
             (r"/room", ToRoom),
             (r"/docs", ToDocs),
             (r"/docs/(.*)", Docs),
@@ -222,5 +229,6 @@ def _server(
         prefix=prefix,
         compress_response=True,
         start=False,
+        http_server_kwargs={"idle_connection_timeout": HEADERS},
         **options,
     )

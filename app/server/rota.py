@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import time
 from collections import deque
 from collections.abc import Callable
 from typing import Protocol
@@ -30,14 +31,15 @@ class Rota:
     """The turns of one process."""
 
     def __init__(self) -> None:
-        self._pages: dict[Page, None] = {}  # in the order of their turns
+        self._pages: dict[Page, float] = {}  # since when each has waited, in the order of their turns
         self._coming: deque[Callable[[], None]] = deque()
         self._task: asyncio.Task[None] | None = None
-        self.turns = 0
+        self._turns = 0
+        self.waited: Callable[[float], object] = lambda seconds: None  # noqa: ARG005 (told how long one has waited)
 
     def ask(self, page: Page) -> None:
         """Give a page a turn, unless it waits for one."""
-        self._pages.setdefault(page)
+        self._pages.setdefault(page, time.monotonic())
         self._begin()
 
     def come_in(self, opening: Callable[[], None]) -> None:
@@ -62,12 +64,12 @@ class Rota:
         while self._pages or self._coming:
             for _ in range(BETWEEN):
                 await asyncio.sleep(0)
-            self.turns += 1
-            if self._coming and (self.turns % FOURTH == 0 or not self._pages):
+            self._turns += 1
+            if self._coming and (self._turns % FOURTH == 0 or not self._pages):
                 do = self._coming.popleft()
             elif self._pages:
                 page = next(iter(self._pages))
-                del self._pages[page]
+                self.waited(time.monotonic() - self._pages.pop(page))
                 do = page.turn
             else:
                 continue

@@ -4,12 +4,35 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
 LEVELS = ("debug", "info", "warning", "error")
+#: Of the tests and the continuous integration: no settings of the server.
+OTHERS = frozenset({"CODIM2_CHROMIUM", "CODIM2_PAPER", "CODIM2_NGINX", "CODIM2_TEST_RUN", "CODIM2_BEFORE"})
+
+
+def whole(least: int) -> Callable[[str], int]:
+    """Return what reads a whole number that is not smaller."""
+
+    def number(text: str) -> int:
+        if not text.strip().isdecimal() or int(text) < least:
+            raise argparse.ArgumentTypeError(f"{text!r} given; give a whole number from {least} on.")
+        return int(text)
+
+    return number
+
+
+def host(text: str) -> str:
+    """Return a host, with its port if one is given, of what may be the address of a page."""
+    place = urlsplit(text if "//" in text else f"//{text}").netloc
+    if not place or place != place.strip() or " " in place:
+        raise argparse.ArgumentTypeError(f"{text!r} given; give a host such as explorer.example.org, or host:port.")
+    return place
 
 
 @dataclass(frozen=True)
@@ -24,12 +47,14 @@ class Setting:
     words : str
         What it is, as `--help` says it.
     kind : type or callable
-        Reads its text; bool is a switch, list a flag that may be repeated (commas in the variable).
+        Reads its text; bool is a switch, `host` reads each of a flag that may be repeated (commas in the variable).
     shown : str
         What stands for a value in `--help`.
     variable : str
         Its variable; default CODIM2_ and the name in capitals.
     choices : tuple of str
+    second : str
+        A variable without CODIM2_ that hosting services set, read where its own is not there.
     """
 
     name: str
@@ -39,6 +64,7 @@ class Setting:
     shown: str = ""
     variable: str = ""
     choices: tuple[str, ...] = ()
+    second: str = ""
 
     @property
     def env(self) -> str:
@@ -47,17 +73,17 @@ class Setting:
 
 
 SETTINGS = (
-    Setting("port", 5006, "0 takes any free port", int, "PORT"),
+    Setting("port", 5006, "0 takes any free port", whole(0), "PORT", second="PORT"),
     Setting("address", "localhost", "0.0.0.0 for all interfaces", str, "HOST"),
-    Setting("allow-origin", (), "a host under which browsers reach this server; may be repeated", list, "HOST[:PORT]",
+    Setting("allow-origin", (), "a host under which browsers reach this server; may be repeated", host, "HOST[:PORT]",
             "CODIM2_ORIGINS"),
     Setting("prefix", "", "the path below which a proxy shows this server", str, "/PATH"),
     Setting("frame-ancestors", "'self'", "who else may embed the pages, as in Content-Security-Policy", str, "SOURCES"),
-    Setting("processes", 1, "server processes that share the port", int, "N"),
-    Setting("workers", 0, "processes for long work, of each of these; 0 shares the processors", int, "N"),
+    Setting("processes", 1, "server processes that share the port", whole(1), "N"),
+    Setting("workers", 0, "processes for long work, of each of these; 0 shares the processors", whole(0), "N"),
     Setting("dask", "", "the scheduler of a Dask cluster that does the long work in place of these", str, "ADDRESS"),
-    Setting("sessions", 400, "open pages of a server process, beyond which a new one is asked to wait", int, "N"),
-    Setting("rooms", 20, "rooms that lecturers have open at once, of a server process; 0 for none", int, "N"),
+    Setting("sessions", 400, "open pages of a server process, beyond which a new one is asked to wait", whole(1), "N"),
+    Setting("rooms", 20, "rooms that lecturers have open at once, of a server process; 0 for none", whole(0), "N"),
     Setting("lessons", None, "a folder of your own lessons, after the course; /?lesson=NAME opens one", Path, "DIR"),
     Setting("docs", None, "a folder with the site that `codim2 docs DIR` built; else the package's own", Path, "DIR"),
     Setting("log-level", "warning", "what is logged to standard error", str, "LEVEL", choices=LEVELS),
@@ -69,16 +95,16 @@ SETTINGS = (
 def add_settings(serve: argparse.ArgumentParser, environment: Mapping[str, str] = os.environ) -> None:
     """Add all settings to a parser, with what the environment says as defaults."""
     for setting in SETTINGS:
-        given = environment.get(setting.env)
+        given = environment.get(setting.env) or environment.get(setting.second)
         words = setting.words
-        if setting.kind is not bool and setting.kind is not list and setting.default not in ("", None):
+        if setting.kind not in (bool, host) and setting.default not in ("", None):
             words += f"; default {setting.default}"
         options: dict[str, Any] = {"help": f"{words} [{setting.env}]".replace("%", "%%")}
         if setting.kind is bool:
             options |= {"action": argparse.BooleanOptionalAction, "default": _switch(setting, given)}
-        elif setting.kind is list:
-            options |= {"action": "append", "metavar": setting.shown,
-                        "default": [one.strip() for one in (given or "").split(",") if one.strip()]}  # fmt: skip
+        elif setting.kind is host:
+            options |= {"action": "append", "metavar": setting.shown, "type": host,
+                        "default": [host(one.strip()) for one in (given or "").split(",") if one.strip()]}  # fmt: skip
         else:
             # argparse reads a default that is text as it reads a flag, and says what is wrong with it
             options |= {"type": setting.kind, "metavar": setting.shown, "default": given or setting.default}
@@ -91,11 +117,23 @@ def _switch(setting: Setting, given: str | None) -> bool | None:
     return setting.default if not given else given.lower() not in ("0", "no", "false", "off")
 
 
+def unknown(environment: Mapping[str, str] = os.environ) -> list[str]:
+    """Return a sentence for each variable that looks like a setting and is none."""
+    known = {setting.env for setting in SETTINGS}
+    found = []
+    for name in sorted(environment):
+        if name.startswith("CODIM2_") and name not in known | OTHERS:
+            near = get_close_matches(name, known, 1, 0.8)
+            found.append(f"{name} is no setting" + (f"; is {near[0]} meant?" if near else "."))
+    return found
+
+
 def table() -> str:
     """Return all settings as a Markdown table."""
     rows = ["| flag | variable | default | what |", "|---|---|---|---|"]
     for setting in SETTINGS:
         default = "" if setting.default in ((), None, "") else f"`{setting.default}`".replace("`False`", "off")
         shown = f" {setting.shown}" if setting.shown else ""
-        rows.append(f"| `--{setting.name}{shown}` | `{setting.env}` | {default} | {setting.words} |")
+        variable = f"`{setting.env}`" + (f" or `{setting.second}`" if setting.second else "")
+        rows.append(f"| `--{setting.name}{shown}` | {variable} | {default} | {setting.words} |")
     return "\n".join(rows)

@@ -1,5 +1,8 @@
 """The line of a page: what it asks for, and what is asked of nobody else."""
 
+import asyncio
+from urllib.request import urlopen
+
 from codim2_app.draw.packing import unpack
 from tornado.httpclient import HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
@@ -79,3 +82,26 @@ def test_two_rooms_are_not_opened_by_one_page(server):
     found, codes = talk(lecturer())
     assert "error" in found[0]
     assert found[1]["joined"] == codes[-1]
+
+
+def test_metrics_count_what_was_done(server):
+    def metrics():
+        with urlopen(f"{server}/metrics") as answer:
+            assert answer.headers["Content-Type"].startswith("text/plain; version=0.0.4")
+            lines = [line.rsplit(" ", 1) for line in answer.read().decode().splitlines() if not line.startswith("#")]
+        return {name.partition("{")[0]: float(value) for name, value in lines}
+
+    async def drag():
+        wire = await Wire.connect(server.port)
+        for i in range(5):
+            await wire.frame(i, a=-1.0 - 0.01 * i)
+        there = await asyncio.to_thread(metrics)
+        await wire.close()
+        return there
+
+    before, there = metrics(), talk(drag())
+    for name, least in (("frames", 5), ("openings", 1)):
+        assert there[f"codim2_{name}_total"] - before[f"codim2_{name}_total"] >= least
+    assert there["codim2_wait_seconds_count"] - before["codim2_wait_seconds_count"] >= 5
+    assert there["codim2_pages"] >= 1
+    assert there["codim2_resident_bytes"] > 5e7

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from codim2_app.server.process.logs import JsonLines
-from codim2_app.server.settings import SETTINGS, add_settings, table
+from codim2_app.server.settings import SETTINGS, add_settings, table, unknown
 
 
 def read(arguments=(), **environment):
@@ -28,15 +28,34 @@ def test_variables_are_defaults_and_flags_come_first():
     assert read(CODIM2_LOG_JSON="off").log_json is False
 
 
-@pytest.mark.parametrize("wrong", [{"CODIM2_PORT": "many"}, {"CODIM2_LOG_LEVEL": "loud"}])
-def test_a_wrong_variable_is_said_in_words(wrong, capsys):
-    if "CODIM2_PORT" in wrong:
-        with pytest.raises(SystemExit):
-            read(**wrong)
-        assert "many" in capsys.readouterr().err
-    else:
-        with pytest.raises(SystemExit):
-            read(["--log-level", wrong["CODIM2_LOG_LEVEL"]])
+def test_hosting_services_say_the_port_and_pages_addresses_are_hosts():
+    assert read(PORT="8080").port == 8080
+    assert read(PORT="8080", CODIM2_PORT="81").port == 81
+    assert read(["--allow-origin", "https://c.org:8443/x"], CODIM2_ORIGINS="http://a.org").allow_origin == [
+        "a.org", "c.org:8443",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"CODIM2_PORT": "many"}, "'many' given; give a whole number from 0 on."),
+        (["--log-level", "loud"], "invalid choice: 'loud'"),
+        (["--processes", "-3"], "'-3' given; give a whole number from 1 on."),
+        (["--sessions", "0"], "'0' given; give a whole number from 1 on."),
+        (["--allow-origin", "https://"], "give a host such as explorer.example.org"),
+    ],
+)
+def test_what_is_wrong_is_said_in_words(given, words, capsys):
+    with pytest.raises(SystemExit):
+        read(**given) if isinstance(given, dict) else read(given)
+    assert words in capsys.readouterr().err
+
+
+def test_a_variable_that_is_no_setting_is_told():
+    assert unknown({"CODIM2_SESSION": "5", "CODIM2_PORT": "1", "CODIM2_XYZ": "", "HOME": "/", "CODIM2_PAPER": "x"}) == [
+        "CODIM2_SESSION is no setting; is CODIM2_SESSIONS meant?", "CODIM2_XYZ is no setting.",
+    ]  # fmt: skip
 
 
 def test_the_table_and_the_help_have_them_all(capsys):

@@ -1,0 +1,15 @@
+"""As many files as the system allows: each page is one, and a shell allows 256 or 1024 by default."""
+
+from __future__ import annotations
+
+try:
+    import resource
+except ImportError:  # Windows
+    resource = None
+
+
+def many_files() -> None:
+    """Raise the limit of this process, and of those that it starts, to what it may be."""
+    if resource is not None:
+        _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
