@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
 
+import segno
+
 from ..draw.packing import unpack
 from ..draw.still import coloured
 from ..draw.svg import content
@@ -37,6 +39,7 @@ TICKS = 6
 #: Labels stand outside the ring of outcomes.
 BEYOND = 1.6
 LEAST, MOST = 40.0, 400.0  # mm
+CODE = 64.0  # of a QR code
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,8 @@ class Style:
         "paper" is black and white.
     legend, labels, ticks, title, caption : bool
         What stands in and around the picture besides.
+    link : str
+        An address, as a QR code beside the caption.
     """
 
     size: float = 120.0
@@ -60,6 +65,7 @@ class Style:
     ticks: bool = False
     title: bool = False
     caption: bool = False
+    link: str = ""
 
     def __post_init__(self) -> None:
         if not LEAST <= self.size <= MOST:
@@ -104,11 +110,14 @@ def figure(view: View, style: Style | None = None, heading: str = "") -> str:
         parts += _legend(columns, place, left, y + 6.0, side)
         y += 6.0 + LINE * max((len(column) for _, column in columns), default=0) + 4.0
     if style.caption:
-        lines = list(_wrapped(caption_of(view, header), side))
+        room = side - (CODE + GUTTER if style.link else 0.0)
+        lines = list(_wrapped(caption_of(view, header), room))
         parts += [
-            vector.words(left, y + LINE * (i + 1), escape(line), SMALL, room=side) for i, line in enumerate(lines)
+            vector.words(left, y + LINE * (i + 1), escape(line), SMALL, room=room) for i, line in enumerate(lines)
         ]
-        y += LINE * len(lines) + 8.0
+        if style.link:
+            parts.append(_code(style.link, left + side - CODE, y + 4.0))
+        y += max(LINE * len(lines), CODE if style.link else 0.0) + 8.0
     whole = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.2f}pt" height="{y:.2f}pt" '
         f'viewBox="0 0 {width:.2f} {y:.2f}" fill="none" stroke-linejoin="round" stroke-linecap="butt" '
@@ -128,6 +137,17 @@ def _wrapped(text: str, width: float) -> Iterator[str]:
             longer = word
         line = longer
     yield line
+
+
+def _code(link: str, x: float, y: float) -> str:
+    """Return an address as a QR code, dark on white in any theme."""
+    rows = [bytes(row) for row in segno.make_qr(link, error="l", boost_error=False).matrix]
+    size = CODE / (len(rows) + 4)  # with a margin of two squares
+    squares = "".join(f"M{j + 2} {i + 2}h1v1h-1z" for i, row in enumerate(rows) for j, dark in enumerate(row) if dark)
+    return (
+        f'<g transform="translate({x:.2f} {y:.2f}) scale({size:.4f})"><rect width="{len(rows) + 4}" '
+        f'height="{len(rows) + 4}" fill="#fff"/><path d="{squares}" fill="#000"/></g>'
+    )
 
 
 def _clear(drawn: str) -> str:

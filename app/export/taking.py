@@ -12,11 +12,13 @@ from ..draw.layers import LAYERS
 from ..draw.packing import Rectangle
 from ..frame.window import Window
 from ..slow_layers.proof import proof
+from ..slow_layers.typed_start import motion
 from ..state.chosen import System_
 from .figure import THEMES, Style, figure
 from .files import DATA
 from .film import STYLE, film
 from .live import MOST_SLIDERS, live
+from .printing import pdf
 from .view import WHOLE, View
 
 #: Bytes of a file; what holds more goes by the command line.
@@ -24,14 +26,15 @@ MOST = 24_000_000
 TOO_LARGE = "The file would hold {} MB; show fewer layers, or fewer starting points."
 TYPES: Mapping[str, str] = MappingProxyType(
     {
-        "svg": "image/svg+xml", "zip": "application/zip", "json": "application/json",
+        "svg": "image/svg+xml", "pdf": "application/pdf", "zip": "application/zip", "json": "application/json",
         "npz": "application/octet-stream", "py": "text/x-python", "tex": "text/x-tex", "html": "text/html",
-        "gif": "image/gif", "proof": "application/json",
+        "gif": "image/gif", "proof": "application/json", "motion": "application/json",
     }
 )  # fmt: skip
-LONGEST = 80  # characters of a slider
-#: What takes long, and is searched for while other files are taken.
+LONGEST, LONGEST_LINK = 80, 2000  # characters of a slider, bytes of an address that a phone can read
 PROOF = "proof"
+#: What the page itself shows, and is computed while files are taken.
+SHOWN = (PROOF, "motion")
 
 
 @dataclass(frozen=True)
@@ -55,7 +58,7 @@ class Wish:
     @property
     def job(self) -> str:
         """What it is called among the jobs of a browser: of each name one at a time, a newer wish replaces an older."""
-        return PROOF if self.kind == PROOF else "take"
+        return self.kind if self.kind in SHOWN else "take"
 
     @property
     def slider(self) -> str:
@@ -83,7 +86,11 @@ class Wish:
             raise ValueError(f"Give a theme ({', '.join(THEMES)}) and at most {MOST_SLIDERS} sliders.")
         if not all(isinstance(one, str) and len(one) <= LONGEST for one in sliders):
             raise ValueError("Give sliders as NAME or NAME=LOW,HIGH.")
-        style = Style(theme=theme, legend=bool(request.get("legend", True)))
+        link = request.get("link", "")
+        if not isinstance(link, str) or len(link.encode()) > LONGEST_LINK:
+            raise ValueError(f"Give an address of at most {LONGEST_LINK} bytes.")
+        legend, poster = bool(request.get("legend", True)), bool(link)
+        style = Style(theme=theme, legend=legend, title=poster, caption=poster, link=link)
         return cls(str(request["kind"]), style, tuple(sliders))
 
 
@@ -109,9 +116,11 @@ def taken(view: View, wish: Wish) -> tuple[str, bytes]:
     """
     make: Callable[[View], bytes] = {
         "svg": lambda one: figure(one, wish.style).encode(),
+        "pdf": lambda one: pdf(figure(one, wish.style)),
         "html": lambda one: live(one, wish.sliders),
         "gif": lambda one: film(one, wish.slider, style=wish.moving),
         "proof": lambda one: proof(one.scene()),
+        "motion": lambda one: motion(one.scene(), one.values),
     }.get(wish.kind) or DATA[f".{wish.kind}"]
     made = make(view)
     if len(made) > MOST:

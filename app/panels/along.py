@@ -8,6 +8,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from codim2_core.motion.limit.ahead import delays
 from codim2_core.portrait.attracting import attracting
 from codim2_core.psi.function import Psi
@@ -18,11 +21,11 @@ from codim2_core.words import named
 
 from ..frame.draft import Draft
 from ..phrases import say
+from ..slow_layers.short import short
 from ..state.choices import SLOW_CONTROLS
 from ..state.chosen import System_, slow_ranges
 from ..state.slider_range import edited_range, slider_range
 from .panel import Panel
-from .short import short
 
 PLANE = 15  # arrows along each axis of the plane
 NONE = say("no slow variable")
@@ -89,7 +92,7 @@ def columns(found: SlowPortrait, axis: int) -> dict[str, Any]:
     return {
         "intervals": [{"low": i.low, "high": i.high, "kind": i.kind, "sentence": i.sentence} for i in found.intervals],
         "branches": [
-            {"z": short(b.z), "flow": short(b.flow[:, axis]), "kind": b.kind, "stable": b.stable}
+            {"z": short(b.z), "flow": _drawn(b.flow[:, axis], width), "kind": b.kind, "stable": b.stable}
             for b in found.branches
         ],
         "points": [
@@ -103,6 +106,11 @@ def columns(found: SlowPortrait, axis: int) -> dict[str, Any]:
             for p in found.points
         ],
     }
+
+
+def _drawn(flow: NDArray[np.float64], width: float) -> list[float]:
+    """Return a slow flow as it is drawn: zero where it would take longer than any motion to be seen to move."""
+    return short(np.where(np.abs(flow) < 1e-10 * width, 0.0, flow))
 
 
 def ahead_of(system: System_, psi: Psi, z: tuple[float, ...], spans: tuple[tuple[float, float], ...]) -> dict[str, Any]:

@@ -17,8 +17,8 @@ from codim2_core.sliding.affine import AffinePlane, affine_plane
 from codim2_core.sliding.filippov import filippov_sliding
 
 from ..frame.draft import Draft
+from ..slow_layers.short import short
 from ..state.chosen import System_
-from .short import short
 
 POINTS = 97  # of the curve
 WIDEST = 6.0  # half the side of the plane's square, in (lambda1, lambda2): a cross farther out is beside the view

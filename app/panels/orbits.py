@@ -16,12 +16,12 @@ from codim2_core.systems.kinds import AtZ
 
 from ..frame.draft import Draft
 from ..phrases import say
+from ..slow_layers import typed_start
+from ..slow_layers.short import short
+from ..slow_layers.typed_start import RTOL
 from ..state.chosen import System_
 from ..state.launches import TYPED, chosen, read_launches
-from . import typed_start
 from .panel import Panel
-from .short import short
-from .typed_start import RTOL
 
 ON = 1.5  # times as long as it takes to Sigma is a motion for eps > 0 followed: what it does there is seen too
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..frame.draft import Draft
+from ..slow_layers.short import short
 from .panel import Panel
-from .short import short
 
 S = np.linspace(0.0, 4.0, 81)
 #: Distances in the chart kappa_2 at which |e_Psi| is sent; L(l; eps) is read from them in the browser for every eps.

@@ -1,8 +1,8 @@
 """The panel "3-D": the hemisphere of the blowup, and hemispheres along z (fig:insert_sphere, fig:epsboth_3D).
 
-Polylines are sent once as points (x, y, height) and turned in the browser. A hemisphere is lifted from the projected
-disc by ebar = sqrt(1 - |p|^2); along z the discs are stacked, with the limit directions on the cylinder around them and
-the critical sets inside (fig:ballpool3d).
+The hemisphere is the picture, which the browser lifts by ebar = sqrt(1 - |p|^2). Along z discs are stacked, with the
+limit directions on the cylinder around them and the critical sets inside (fig:ballpool3d): their lines are sent once,
+and turned in the browser.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from codim2_core.layer_problem.hemisphere import height
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.sliding.along import slow_portrait
@@ -33,12 +32,8 @@ STEP = 6e-3  # of the disc: points of a line nearer than this are left out
 
 
 def add(draft: Draft) -> None:
-    """Add the hemisphere, and the stack along the slow variable, once nothing moves."""
+    """Add the stack along the slow variable, once nothing moves."""
     scene = draft.scene
-    if draft.ready:
-        sphere = draft.slow("sphere", scene.key("plane", "psi"), hemisphere, scene)
-        if sphere is not None:
-            draft.header["sphere"] = sphere
     system = draft.system
     if system is None or not system.m:
         if draft.fresh("stack", NONE):
@@ -54,15 +49,6 @@ def add(draft: Draft) -> None:
         stack = draft.slow("stack", key, stacked, system, scene.psi, others, axis, span)
         if stack is not None:
             draft.header["stack"] = {**stack, "control": SLOW_CONTROLS[axis]}
-
-
-def hemisphere(scene: Scene) -> dict[str, Any]:
-    """Return the layer problem's trajectories lifted onto the hemisphere, and the outside on the plane around it."""
-    small = scene.evolve(count=2 * SEEDS, seeds=None)
-    return {
-        "inside": [_lifted(line) for line in _lines(small["inside"])],
-        "outside": [_flat(line) for line in _lines(small["outside"])],
-    }
 
 
 def stacked(
@@ -114,10 +100,6 @@ def _thin(line: NDArray[np.float64]) -> NDArray[np.float64]:
     kept = np.ones(len(line), bool)
     kept[1:-1] = np.diff(along[:-1], prepend=0.0)[: len(line) - 2] > 0 if len(line) > 2 else True
     return line[kept]
-
-
-def _lifted(line: NDArray[np.float64]) -> list[list[float]]:
-    return [_short((x, y, h)) for (x, y), h in zip(line, height(line), strict=True)]
 
 
 def _flat(line: NDArray[np.float64]) -> list[list[float]]:

@@ -29,4 +29,10 @@ def rows(certificates: Sequence[Certificate]) -> list[Row]:
     ]
 
 
-PANEL = Panel("theorems", "Theorems", add, "The paper's claims, evaluated on this system.")
+#: The paper's figures of what a setting may be degenerate in, by the name of that.
+FIGURES = {"transcritical": "fig:transcrit", "saddle-node": "fig:SNBIF"}
+
+PANEL = Panel(
+    "theorems", "Theorems", add, "The paper's claims, evaluated on this system.",
+    {name: cite(label, titled=True) for name, label in FIGURES.items()},
+)  # fmt: skip

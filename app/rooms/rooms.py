@@ -47,6 +47,7 @@ class Host:
     mark: str
     opened: float
     tell: Tell | None
+    view: Callable[[], Any]
     left: float = 0.0
     closed: float = 0.0
     shown: Any = None
@@ -93,8 +94,10 @@ class Rooms:
 
     # The lecturer ----------------------------------------------------------------------------------------------
 
-    def open(self, key: str, tell: Tell, now: float | None = None) -> tuple[str, str]:
+    def open(self, key: str, tell: Tell, now: float | None = None, view: Callable[[], Any] = dict) -> tuple[str, str]:
         """Open a room, or take up the one of this key; return its code and its key.
+
+        `view` returns what the lecturer shows: who types the code begins with it.
 
         Raises
         ------
@@ -114,7 +117,7 @@ class Rooms:
                 code, mark = code_of(key), mark_of(key)
         if code not in self.hosts and sum(host.there(now) for host in self.hosts.values()) >= self.most:
             raise RoomError(say("all rooms taken", most=self.most))
-        self.hosts[code] = Host(code, mark, min((opened for opened, _ in known), default=now), tell)
+        self.hosts[code] = Host(code, mark, min((opened for opened, _ in known), default=now), tell, view)
         self._begin(now)
         return code, key
 
@@ -162,6 +165,11 @@ class Rooms:
         guest = self.guests[number] = Guest(number, code, look, tell)
         self._begin(now)
         return guest
+
+    def view(self, code: str, now: float | None = None) -> Any:
+        """Return what the lecturer of a room shows, as far as it was told; None where it was not."""
+        told = self.board.read(time.monotonic() if now is None else now)
+        return next((one["views"][code] for _, _, one in told if code in one["views"]), None)
 
     def leave(self, guest: Guest) -> None:
         """Take somebody out of his room."""
@@ -214,9 +222,10 @@ class Rooms:
         for guest in self.guests.values():
             rows.setdefault(guest.code, []).append(_row(guest))
         hosts = {host.code: [host.opened, host.there(now), host.closed, host.mark] for host in self.hosts.values()}
-        if not self.board.write({"hosts": hosts, "rows": rows}, now):
+        views = {host.code: _short(host.view()) for host in self.hosts.values() if host.tell is not None}
+        if not self.board.write({"hosts": hosts, "rows": rows, "views": views}, now):
             bare = {code: [[row[0], row[1], None, row[3]] for row in all_] for code, all_ in rows.items()}
-            self.board.write({"hosts": hosts, "rows": bare}, now)
+            self.board.write({"hosts": hosts, "rows": bare, "views": {}}, now)
 
     def _states(self, now: float) -> dict[str, str]:
         """Return "open" or "closed" for each room that any process knows."""
@@ -255,9 +264,12 @@ def mark_of(key: str) -> str:
 
 def _row(guest: Guest) -> Row:
     name, settings, lesson = guest.look()
-    if len(json.dumps(settings)) > LONGEST_ROW:
-        settings = None  # it is counted, but cannot be opened
-    return [guest.number, name, settings, lesson]
+    return [guest.number, name, _short(settings), lesson]  # without settings it is counted, but cannot be opened
+
+
+def _short(settings: Any) -> Any:
+    """Return settings, or None where they are too long to be shared."""
+    return settings if len(json.dumps(settings)) <= LONGEST_ROW else None
 
 
 def settings_of(values: Mapping[str, Any], first: Mapping[str, Any], names: tuple[str, ...]) -> dict[str, Any]:

@@ -14,8 +14,8 @@ from ..lessons.library import lessons
 from ..phrases import say
 from ..state.choices import SETTING
 from ..state.chosen import NORMAL
-from ..state.controls import first_values
-from .rooms import MOST_TRIES, Guest, RoomError, Row, here, settings_of
+from ..state.controls import NAMES, first_values
+from .rooms import MOST_TRIES, Guest, RoomError, Row, code_of, here, settings_of
 
 LONGEST = 64  # characters of a key or a code
 _first = cache(first_values)
@@ -64,8 +64,8 @@ class Visitor:
             As a browser sent it: ``{"open": key}`` ("" for a new room), ``{"close": True}``, ``{"join": code}`` or
             ``{"leave": True}``.
         reply : callable
-            Sends ``{"open": code, "key": key}``, ``{"joined": code}``, ``{"ended": code}`` or ``{"error": sentence}``;
-            to a lecturer also ``{"rows": list}``, whenever they are others.
+            Sends ``{"open": code, "key": key}``, ``{"joined": code, "view": settings}``, ``{"ended": code}`` or
+            ``{"error": sentence}``; to a lecturer also ``{"rows": list}``, whenever they are others.
         later : callable
             Has a function called by the thread that answers, with the document's lock.
         """
@@ -77,11 +77,16 @@ class Visitor:
         try:
             if isinstance(key := asked.get("open"), str):
                 self._leave_guest()
-                code, key = here().open(key if len(key) <= LONGEST else "", tell)
+                key = key if len(key) <= LONGEST else ""
+                if self._opened is not None and self._opened[0] != code_of(key):  # a page has one room
+                    here().close(self._opened[0])
+                    self._opened = None
+                code, key = here().open(key, tell, view=self._view)
                 self._opened = code, tell
                 reply({"open": code, "key": key})
             elif isinstance(code := asked.get("join"), str):
-                reply({"joined": self._join(code[:LONGEST], tell)})
+                joined = self._join(code[:LONGEST], tell)
+                reply({"joined": joined, "view": here().view(joined)})
             elif asked.get("close") is True and self._opened is not None:
                 code, _ = self._opened
                 self._opened = None
@@ -104,15 +109,24 @@ class Visitor:
     def _row(self) -> Row:
         """Return what the room shows of this browser, but for its number."""
         frames = self.frames
-        values = dict(frames.values)
-        if values["system"] != NORMAL and isinstance(frames.scene.system, ELinear | System):
-            values["parameters"] = dict(frames.scene.system.parameters)  # all, also those as they are at first
+        values = self._values()
         open_one = lessons().get(values["lesson"])
         key, question, right = frames.answered or ("", -1, False)
         if open_one is None or key != open_one.key:
             question, right = -1, False
         lesson = None if open_one is None else [open_one.title, question, right]
         return [frames.named, settings_of(values, _first(), SETTING), lesson]
+
+    def _values(self) -> dict[str, Any]:
+        frames = self.frames
+        values = dict(frames.values)
+        if values["system"] != NORMAL and isinstance(frames.scene.system, ELinear | System):
+            values["parameters"] = dict(frames.scene.system.parameters)  # all, also those as they are at first
+        return values
+
+    def _view(self) -> dict[str, Any]:
+        """Return what this browser shows, as far as it is other than at first."""
+        return settings_of(self._values(), _first(), NAMES)
 
     def _leave_guest(self) -> None:
         if self._guest is not None:

@@ -9,14 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import segno
-from bokeh.embed.bundle import extension_dirs
-from bokeh.server.views.multi_root_static_handler import MultiRootStaticHandler
 from bokeh.server.views.static_handler import StaticHandler
 from tornado.web import HTTPError, RequestHandler, StaticFileHandler
 
 from ..draw.bundle import bundle
 from ..view.markup import STATIC, digest, script
 
+PREVIEW = "preview.jpg"  # what a link looks like where it is pasted; `python -m tests.browser.picture` makes it
 YEAR = 365 * 86400  # seconds
 LONGEST = 2000  # bytes; beyond it phones no longer read the code from a beamer
 
@@ -90,10 +89,6 @@ class BokehScript(_Packed, StaticHandler):
     """One of BokehJS's files."""
 
 
-class ExtensionScript(_Packed, MultiRootStaticHandler):
-    """One of Panel's files."""
-
-
 class QrCode(RequestHandler):
     """Answers ``qr.svg?text=...`` with the text as a QR code: dark squares on white, in either theme."""
 
@@ -115,6 +110,6 @@ def routes(prefix: str) -> list[tuple[Any, ...]]:
     return [
         (rf"{prefix}/({own})", Script),
         (rf"{prefix}/qr\.svg", QrCode),
-        (rf"{prefix}/static/extensions/(.*\.js)", ExtensionScript, {"root": extension_dirs}),
+        (rf"{prefix}/({PREVIEW})", StaticFileHandler, {"path": STATIC}),
         (rf"{prefix}/static/(js/.*\.js)", BokehScript),
     ]

@@ -67,14 +67,15 @@ class Look:
         Only the picture and the chosen controls, for a frame in another page.
     controls : tuple of str
         Names of controls, slow variables and parameters that an embedded page shows.
-    beamer : bool
-        For the beamer: the picture fills the page, with large letters. An embedded page has no such mode.
+    beamer : int
+        1, for the beamer: the picture fills the page, with large letters; 2: with a panel beside it. An embedded page
+        has no such mode.
     """
 
     seen: tuple[float, ...] = ()
     embed: bool = False
     controls: tuple[str, ...] = ()
-    beamer: bool = False
+    beamer: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,7 +148,7 @@ def write_link(values: Mapping[str, Any], look: Look | None = None) -> str:
         if look.controls:
             query["controls"] = ",".join(look.controls)
         if look.beamer:
-            query["beamer"] = "1"
+            query["beamer"] = str(look.beamer)
     return urlencode(query)
 
 
@@ -198,8 +199,9 @@ def _look(given: dict[str, str], errors: list[InputError]) -> Look:
     good = [name for name in names if _NAME.fullmatch(name)][:MOST_CONTROLS]
     if len(good) < len(names):
         errors.append(InputError("", say("controls of a frame", most=MOST_CONTROLS)))
-    embedded, beamed = (text not in ("", "0") for text in (embed, beamer))
-    return Look(_rectangle(seen, errors), embedded, tuple(good), beamed and not embedded)
+    embedded = embed not in ("", "0")
+    beamed = 0 if embedded or beamer in ("", "0") else 2 if beamer == "2" else 1
+    return Look(_rectangle(seen, errors), embedded, tuple(good), beamed)
 
 
 def _rectangle(text: str, errors: list[InputError]) -> tuple[float, ...]:

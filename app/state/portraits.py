@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import KeysView
+from collections.abc import KeysView, Sequence
 from typing import Any
 
 from codim2_core.examples import catalogue
@@ -74,9 +74,14 @@ def _values(preset: Preset) -> dict[str, Any]:
     values.update(zip(("z", "z2", "z3", "z4"), z, strict=False))
     if preset.example:
         example = catalogue[preset.example]
-        launch = ", ".join(f"{v:g}" for v in example.launch)
-        return {"system": preset.example, **values, "launch": launch, "t_end": example.t_end}
+        return {"system": preset.example, **values, **_start(example.launch, example.t_end)}
     values.update((name, getattr(preset, name)) for name in ("a", "b", "d", "f1", "f2"))
     if preset.B:
         values.update(zip(("B1", "B2", "g0"), (*preset.B[0], preset.g[0]), strict=True))
+    if preset.launch:
+        values.update(_start(preset.launch, preset.t_end))
     return {"system": "normal", **values}
+
+
+def _start(launch: Sequence[float], t_end: float) -> dict[str, Any]:
+    return {"launch": ", ".join(f"{v:g}" for v in launch), "t_end": t_end}

@@ -6,11 +6,15 @@ import {twoFingers} from "./hands/gestures.js"
 import {Grab} from "./hands/grab.js"
 import {Hands} from "./hands/hands.js"
 import {Pointing} from "./hands/pointing.js"
-import {Beamer} from "./page/beamer.js"
+import {Beamer, busy, enlarged} from "./page/beamer.js"
 import {Help} from "./page/help.js"
-import {writeLink} from "./page/links.js"
+import {squeezed, writeLink} from "./page/links.js"
 import {Second, Seconded} from "./page/second.js"
 import {Share} from "./page/share.js"
+import {Comets} from "./picture/comets.js"
+import {Lift} from "./picture/lift.js"
+import {Table} from "./page/table.js"
+import {Views} from "./page/views.js"
 import {Room} from "./room/room.js"
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
@@ -26,7 +30,7 @@ export function panelsOf(explorer) {
     valueOf: (name) => name.startsWith("own:") ? explorer.systems.value(name.slice(4)) : values[name],
     follow: (name, set) => { setters[name] = set },
     take: (wish) => explorer.takes.ask(wish), untake: (kind) => explorer.takes.stop(kind),
-    trace: (paths, place) => explorer.picture.trace(paths, place),
+    trace: (paths, place) => explorer.picture.trace(paths, place), drawn: () => enlarged(explorer.picture.list, 1 / explorer.picture.times),
     open: (wanted) => explorer.put(wanted),
     ask: (question) => explorer.ask(question),
     cross: (place) => explorer.picture.cross(place),
@@ -63,6 +67,17 @@ export function handsOf(explorer) {
   return hands
 }
 
+/** The picture, lifted, and comets on it. @param {Explorer} explorer */
+export function liftOf({root, config, picture, rest}) {
+  const lift = new Lift(root, picture), comets = new Comets(picture, () => rest.under.size > 0)
+  ;(config.page ? document : root).addEventListener("keydown", (event) => {
+    if (busy(root, event)) return
+    if (event.key === "l") { event.preventDefault(); lift.swing() }
+    else if (event.key === " " && !event.composedPath()[0]?.matches?.("button, summary, input, a, [role]:not([role=application])")) { event.preventDefault(); comets.toggle() }
+  })
+  return lift
+}
+
 /** C in hand. @param {Explorer} explorer */
 export function grabOf(explorer) {
   const {root, values, picture, pointing, requests} = explorer
@@ -74,13 +89,26 @@ export function grabOf(explorer) {
   })
 }
 
+/** The puck beside the sphere. @param {Explorer} explorer */
+export function tableOf(explorer) {
+  const {root, config, values, picture, rest} = explorer
+  return new Table(root, config, values, {
+    own: () => explorer.eLinear,
+    rested: async () => { while (rest.under.has("asked")) await new Promise((done) => setTimeout(done, 50)) },
+    take: (wish) => explorer.takes.ask(wish), move: (wanted) => explorer.move(wanted),
+    push: (times) => explorer.headline.scale("push", times, values),
+    trace: (paths, place) => picture.trace(paths, place),
+  })
+}
+
 /** The room that is opened or entered here. @param {Explorer} explorer */
 export function roomOf(explorer) {
-  const {root, config, model} = explorer
+  const {root, config, line} = explorer
   return new Room(root, {
-    send: (message) => model.send_msg(message), version: config.link.version,
-    query: () => writeLink(explorer.values, null, {...config, look: {embed: false, controls: [], beamer: false}}), // a phone is no beamer
+    send: (message) => line.send(message), version: config.link.version,
+    query: () => writeLink(explorer.values, null, {...config, look: {embed: false, controls: [], beamer: 0}}), // a phone is no beamer
     changed: () => explorer.panels.draw(explorer.values), opened: () => explorer.choose("panel", "atlas"),
+    open: (view) => explorer.open(view),
   })
 }
 
@@ -89,7 +117,7 @@ export function addDialogs(explorer) {
   const {root, config, picture, theme} = explorer
   new Help(root, explorer.find("dialog.helping"))
   const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer}})
-  const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film}))
+  const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film, address: async () => `${location.origin}${location.pathname}?${await squeezed(query(), config.link.version)}`}))
   explorer.find(".share").addEventListener("click", () => share.open())
   explorer.find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
 }
@@ -110,6 +138,11 @@ export function besideOf(explorer) {
     address: (wanted, own) => writeLink(wanted, picture.window && picture.seen, {...config, look: own}),
   })
   picture.viewed(() => beside.look())
-  new Beamer(root, picture, config.look.beamer, (on) => { config.look.beamer = on; beside.look(); explorer.steps.rewrite() })
+  const beamer = new Beamer(root, picture, config.look.beamer, (on) => { config.look.beamer = on; beside.look(); explorer.steps.rewrite() })
+  new Views(root, {
+    values, first: config.defaults, shown: () => beamer.on > 0, name: () => explorer.find(".portrait-name").textContent,
+    seen: () => picture.window && picture.seen, move: (wanted) => explorer.move(wanted),
+    open: (view, seen) => { explorer.forget(); explorer.put(view); if (seen) picture.seen = seen; else picture.home() },
+  })
   return beside
 }

@@ -7,19 +7,19 @@ const MARKUP = `
   <h2>Take away</h2>
   <p class="note">What is on the screen: its zoom, layers and launched orbits.</p>
   <div class="row"><label>Look <select class="look"><option value="">as on the screen</option><option value="light">light</option><option value="dark">dark</option><option value="paper">black and white</option></select></label>
-    <label><input type="checkbox" class="legend-too" checked> legend</label></div>
-  <div class="row"><button type="button" data-kind="png">PNG</button><label>at <select class="scale" aria-label="Scale of the PNG"><option value="1">×1</option><option value="2" selected>×2</option><option value="4">×4</option><option value="8">×8</option></select></label><button type="button" data-kind="svg">SVG</button></div>
+    <label><input type="checkbox" class="legend-too" checked> legend</label><label title="A poster: title, caption with the equations, and a QR code of this view"><input type="checkbox" class="poster-too"> title, caption, QR code</label></div>
+  <div class="row"><button type="button" data-kind="png">PNG</button><label>at <select class="scale" aria-label="Scale of the PNG"><option value="1">×1</option><option value="2" selected>×2</option><option value="4">×4</option><option value="8">×8</option></select></label><button type="button" data-kind="svg">SVG</button><button type="button" data-kind="pdf">PDF</button></div>
   <div class="row"><button type="button" data-kind="zip" title="All that is drawn as tables, CSV files in a zip">CSV</button><button type="button" data-kind="json" title="All that is drawn as JSON">JSON</button><button type="button" data-kind="npz" title="All that is drawn as NumPy arrays">NPZ</button><button type="button" data-kind="py" title="Code that rebuilds this view">Python</button><button type="button" data-kind="tex" title="A table of limit directions and critical sets">LaTeX</button></div>
   <div class="row"><button type="button" data-kind="html" title="One file that moves these sliders with no server">Live file</button><button type="button" data-kind="gif" title="A film in which the first of these sliders moves there and back">Film</button><button type="button" data-kind="play" title="A film in which a dot runs along the chosen launched orbit, beside x and y over time">Film of play</button><label>moves <select class="first-slider" aria-label="First slider of the live file"></select></label><label>and <select class="second-slider" aria-label="Second slider of the live file"></select></label></div>
   <p class="note making" role="status"></p><button type="button" class="stop-making" hidden>Stop</button>`
 const PX = 96 / 72 // to a point
-const FILMS = ["gif", "play"]
+const FILMS = ["gif", "play"], TYPESET = [...FILMS, "pdf"] // what Typst makes on the server
 
 /**
  * @param {HTMLElement} box
- * @param {{ask: (wish: any, progress?: (done: number, all: number) => void) => Promise<any>, stop: () => void, film: boolean, theme: () => string, sliders: () => {name: string, symbol: string, low: number, high: number}[]}} tools
+ * @param {{ask: (wish: any, progress?: (done: number, all: number) => void) => Promise<any>, stop: () => void, film: boolean, theme: () => string, address: () => Promise<string>, sliders: () => {name: string, symbol: string, low: number, high: number}[]}} tools
  */
-export function menu(box, {ask, stop, film, theme, sliders}) {
+export function menu(box, {ask, stop, film, theme, address, sliders}) {
   if (!box.firstElementChild) box.innerHTML = MARKUP
   const find = (name) => /** @type {any} */ (box.querySelector(name))
   const there = sliders()
@@ -32,7 +32,7 @@ export function menu(box, {ask, stop, film, theme, sliders}) {
   }
   const moving = ["html", "gif"]
   for (const kind of moving) find(`[data-kind=${kind}]`).disabled = !there.length
-  for (const kind of FILMS) find(`[data-kind=${kind}]`).hidden = !film
+  for (const kind of TYPESET) find(`[data-kind=${kind}]`).hidden = !film
   find(".stop-making").onclick = stop
   const buttons = /** @type {HTMLButtonElement[]} */ ([...box.querySelectorAll("button[data-kind]")])
   const told = find(".making")
@@ -42,7 +42,7 @@ export function menu(box, {ask, stop, film, theme, sliders}) {
   const make = async (kind) => {
     const chosen = [...new Set([find(".first-slider").value, find(".second-slider").value])].filter(Boolean)
     const look = find(".look").value || theme()
-    const answer = await ask({kind: {png: "svg", play: "gif"}[kind] ?? kind, theme: look, legend: find(".legend-too").checked, sliders: kind === "play" ? ["play"] : moving.includes(kind) ? chosen.map(ranged) : []}, (done, all) => { told.textContent = `Drawing the film: ${done} of ${all} pictures …` })
+    const answer = await ask({kind: {png: "svg", play: "gif"}[kind] ?? kind, theme: look, legend: find(".legend-too").checked, ...find(".poster-too").checked && {link: await address()}, sliders: kind === "play" ? ["play"] : moving.includes(kind) ? chosen.map(ranged) : []}, (done, all) => { told.textContent = `Drawing the film: ${done} of ${all} pictures …` })
     if (answer.error) return answer.error
     const {file} = answer
     const blob = new Blob([file instanceof ArrayBuffer || ArrayBuffer.isView(file) ? file : file.buffer ?? file], {type: answer.type})

@@ -10,8 +10,8 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
 from ..lessons.library import lessons
-from ..panels.typed_start import launch_of
 from ..phrases import say
+from ..slow_layers.typed_start import launch_of
 from ..state.chosen import NORMAL, texts_of
 from ..state.cleaning import InputError
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..export.film import count_of, joined, part_of, pictures
 from ..export.play import PLAY
-from ..export.taking import PROOF, TYPES, Wish, named, seen_by, taken
+from ..export.taking import PROOF, SHOWN, TYPES, Wish, named, seen_by, taken
 from ..export.view import View
 from ..frame.later import Later
 from ..frame.turns import Failed
@@ -66,7 +66,7 @@ class Taking:
         about = {"taken": request.get("id", 0) if isinstance(request, Mapping) else 0}
         told = request if isinstance(request, Mapping) else {}
         of_proof = told.get("kind") == PROOF
-        if not of_proof:
+        if told.get("kind") not in SHOWN:
             self._film = None  # a newer wish replaces an older, and so does the wish to stop
         if told.get("stop"):
             if of_proof:

@@ -40,6 +40,10 @@ class Preset:
         Of Psi.
     parameter : float or None
         That of the family; None for its default.
+    launch : tuple of float
+        Where a motion starts that shows its point, (x, y, z1, ...); () leaves it to the example or to who shows it.
+    t_end : float
+        How long that motion is followed.
     view : str
         What shows it: "" the picture, "connections", "conics", "outcomes", "sphere", "stack", "filippov", "psi",
         "planes", "along" or "time".
@@ -65,6 +69,8 @@ class Preset:
     z: tuple[float, ...] = ()
     family: str = "constant"
     parameter: float | None = None
+    launch: tuple[float, ...] = ()
+    t_end: float = 0.0
     view: str = ""
     portrait: tuple[str | None, str, str | None] = field(default=("I", "CM0", None))
     degeneracy: str | None = None

@@ -116,7 +116,7 @@ def _case_two(add: Add) -> None:
 def _case_three(add: Add) -> None:
     three = Preset(
         group="Case III: a and d of opposite sign, det A > 0", label="fig:bad_sketches, fig:bads",
-        a=172.0, b=186.0, d=-200.0, f1=-86.0, f2=-93.0,
+        a=172.0, b=186.0, d=-200.0, f1=-86.0, f2=-93.0, launch=(0.4, 0.4, 0.0), t_end=0.4,
     )  # fmt: skip
     case3 = (
         (1, "stable node", "tr J < 0, Δ > 0."),

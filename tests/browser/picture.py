@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import base64
+import io
 import os
 import shutil
 import tempfile
 from pathlib import Path
 
+from codim2_app.view.markup import STATIC
+from PIL import Image
 from playwright.sync_api import Browser, sync_playwright
 
 from ..app.serving import serving
@@ -18,6 +22,11 @@ CELLS = (
     "view = codim2_app.explorer(mine, psi='tanh', panel='numbers')\nview",
     "[(C.kind, C.slow_flow.tolist()) for C in view.frames.scene['critical']]",
 )
+PREVIEW = """<body style="margin:0;background:#fff;font-family:system-ui,sans-serif;color:#1c2430">
+<img style="position:absolute;right:-10px;top:-36px;height:720px" src="data:image/png;base64,{}">
+<div style="position:absolute;left:56px;top:150px;width:520px"><h1 style="font-size:62px;line-height:1.1;margin:0">
+When friction stops pointing anywhere</h1><p style="font-size:27px;line-height:1.4;color:#5b6675;width:440px">
+What does a friction force do when the slip stops pointing anywhere?</p></div></body>"""
 IDLE = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
 RUN = """async () => {
     const {shell, commands} = window.jupyterapp
@@ -42,6 +51,23 @@ def the_page(browser: Browser) -> None:
         page.close()
 
 
+def the_preview(browser: Browser) -> None:
+    """What a pasted link shows: the hemisphere, lifted, and what the page asks."""
+    with serving() as address:
+        page = browser.new_page(viewport={"width": 1200, "height": 900}, color_scheme="light", reduced_motion="reduce")
+        page.goto(f"{address}?v=1&layers=outside,inside,continuations,cycles,equator,critical")
+        page.wait_for_selector(".codim2[data-settled=true]", timeout=60_000)
+        page.locator(".lift").click()
+        page.wait_for_timeout(1500)
+        hemisphere = base64.b64encode(page.locator(".lifted").screenshot()).decode()
+        page.set_viewport_size({"width": 1200, "height": 630})
+        page.set_content(PREVIEW.format(hemisphere))
+        page.wait_for_timeout(500)
+        shot = Image.open(io.BytesIO(page.screenshot()))
+        shot.convert("RGB").save(STATIC / "preview.jpg", quality=88, optimize=True)
+        page.close()
+
+
 def a_notebook(browser: Browser) -> None:
     """The explorer of a typed system in JupyterLab, and a cell that asks for its numbers."""
     with tempfile.TemporaryDirectory() as name, jupyterlab(Path(name)) as address:
@@ -59,11 +85,12 @@ def a_notebook(browser: Browser) -> None:
 
 
 def main() -> None:
-    """Write both pictures."""
+    """Write all pictures."""
     path = os.environ.get("CODIM2_CHROMIUM") or shutil.which("chromium")
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-gpu"])
         the_page(browser)
+        the_preview(browser)
         a_notebook(browser)
         browser.close()
 

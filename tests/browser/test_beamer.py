@@ -48,3 +48,26 @@ def test_a_letter_that_is_typed_is_no_key(open_page):
     page.find("textarea[data-box=U1]").press("b")
     page.settle()
     assert page.find(".codim2.beamer").count() == 0
+
+
+def test_a_panel_stands_beside_the_picture_and_kept_views_are_run_through(open_page):
+    page = open_page(viewport={"width": 1920, "height": 1080}).open("?v=1&beamer=2&panel=atlas")
+    page.find(".panel-atlas .region").first.wait_for()
+    picture, panel = (page.find(name).bounding_box() for name in (".picture", ".panel-atlas"))
+    assert picture["width"] > 0.45 * 1920
+    assert panel["x"] > picture["x"] + picture["width"] - 1
+    assert panel["width"] > 0.4 * 1920
+    assert page.find(".panel-atlas text.name").first.evaluate("(it) => it.getBoundingClientRect().height") > 14
+    keys = page.page.keyboard
+    keys.press("k")
+    page.type("f1", "-1.5")
+    page.find("[data-control=f1] .number").blur()
+    keys.press("k")
+    keys.press("PageUp")
+    page.until("root.explorer.values.f1 > -1.4 && root.explorer.values.f1 < -0.6")  # on its way
+    page.until("root.explorer.values.f1 === -0.5").settle()
+    keys.press("p")
+    assert page.find(".panel-atlas").is_hidden()
+    page.open("?v=1&beamer=1")  # they are kept in this browser
+    assert page.find(".views button[data-view='1']").count() == 1
+    assert page.complaints == []

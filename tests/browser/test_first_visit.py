@@ -21,6 +21,29 @@ def test_it_says_what_it_is_about_with_the_sliders_in_sight(open_page):
     picture = explorer.find(".picture").bounding_box()
     assert picture["width"] > 0.46 * 1440
     assert explorer.page.evaluate("document.documentElement.scrollHeight") <= 900
+    chips = [box.bounding_box() for box in explorer.find(".legend > .layer, .more > summary").all()]
+    assert max(box["y"] for box in chips) - min(box["y"] for box in chips) < 8  # one row
+    explorer.page.set_viewport_size({"width": 1024, "height": 768})
+    assert explorer.find(".gallery").evaluate("(it) => it.scrollWidth <= it.clientWidth")
+    assert explorer.complaints == []
+
+
+def test_the_puck_slips_and_sticks_beside_the_sphere_and_a_dot_runs_on_it(open_page):
+    explorer = open_page(viewport={"width": 1440, "height": 900}).open("?v=1&B1=0")
+    dot = "picture.above.list.find((item) => item.kind === 'mark')"
+    explorer.find(".table input").fill("1.2")
+    explorer.settle()
+    assert explorer.find("[data-control=f1] .number").input_value() == "-1.2"
+    explorer.find(".table .play").click()
+    explorer.until(f"Boolean(root.explorer.{dot})")
+    start = explorer.ask(f"[{dot}.x, {dot}.y]")
+    explorer.until("root.explorer.table.player.at > 4")
+    end = explorer.ask(f"[{dot}.x, {dot}.y]")
+    C = explorer.ask("[picture.state.header.critical.x[0], picture.state.header.critical.y[0]]")
+    assert start[0] ** 2 + start[1] ** 2 > 1
+    assert end == pytest.approx(C, abs=0.01)
+    explorer.type("f2", "0.1")  # another system: what was played is left
+    assert explorer.ask("picture.above.list.length") == 0
     assert explorer.complaints == []
 
 

@@ -102,3 +102,34 @@ def test_a_pan_is_a_step_and_in_the_address(explorer):
     explorer.kept()
     assert "seen=" not in explorer.page.url
     assert "a=-1.5" in explorer.page.url
+
+
+def test_the_picture_is_lifted_onto_the_hemisphere_turned_and_laid_flat(explorer):
+    lift = "picture.lift"
+    explorer.find(".lift").click()
+    explorer.until("root.explorer.picture.lift.up === 1")
+    # where C is seen there is its mark, above the middle of the equator, and it moves with a slider and with a hand
+    colour = """(() => { const {camera, canvas} = picture.lift, {x: [x], y: [y]} = picture.state.header.critical
+        const at = picture.lift.place(x, y), ratio = devicePixelRatio
+        const pixel = Object.assign(document.createElement('canvas'), {width: 1, height: 1})
+            .getContext('2d', {willReadFrequently: true})
+        pixel.drawImage(canvas, -Math.round(at[0] * ratio), -Math.round(at[1] * ratio))
+        return [...pixel.getImageData(0, 0, 1, 1).data, at[1] - camera.y] })()"""
+    *before, height = explorer.ask(colour)
+    assert before == [200, 16, 46, 255]
+    assert height < -100
+    place = explorer.ask(f"{lift}.place(...[0, 1].map((k) => picture.state.header.critical['xy'[k]][0]))")
+    explorer.type("f1", "1").painted()
+    assert explorer.ask(colour)[:4] == before
+    box = explorer.find(".lifted").bounding_box()
+    mouse = explorer.page.mouse
+    mouse.move(box["x"] + 300, box["y"] + 300)
+    mouse.down()
+    mouse.move(box["x"] + 380, box["y"] + 320, steps=3)
+    mouse.up()
+    explorer.painted()
+    assert explorer.ask(colour)[:4] == before
+    assert explorer.ask(f"{lift}.place(0.25, 0.5)") != place
+    explorer.page.keyboard.press("l")
+    explorer.until("root.querySelector('.lifted').hidden")
+    assert explorer.find(".grab").is_visible()

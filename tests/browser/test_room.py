@@ -11,9 +11,13 @@ def test_a_phones_settings_are_a_dot_on_the_lecturers_atlas(open_page):
     lecturer.find("dialog.room .qr").evaluate("(code) => code.decode()")
     code = lecturer.find(".room-code").text_content()
     lecturer.find(".room-go").click()
+    lecturer.type("f2", "0.5")
+    lecturer.page.wait_for_timeout(700)  # the board is written twice a second
     phone = open_page(viewport={"width": 390, "height": 844}).open(f"?room={code.lower()}")
     phone.until("root.querySelector('.room-bar [data-room=leave]')")
     assert code in phone.find(".room-bar").text_content()
+    phone.settle()
+    assert phone.find("[data-control=f2] .number").input_value() == "0.5"  # the typed code brings the view
     lecturer.until("root.querySelectorAll('.crowd .phone').length === 1")
     before = lecturer.find(".crowd .phone").get_attribute("transform")
     phone.find("button[data-sheet=controls]").click()

@@ -88,7 +88,7 @@ def columns(name: str) -> str:
         "header": {it: value for it, value in header.items() if it not in LEFT_OUT and re.search(rf"\b{it}\b", script)},
         "blocks": blocks,
     }
-    for other in {"sphere", "stack", "filippov"} - {link.state.solid}:  # what is not looked at
+    for other in {"stack", "filippov"} - {link.state.solid}:  # what is not looked at
         shown["header"].pop(other, None)
     for lesson in shown["header"].get("lesson", {}).get("list", ()):
         lesson["values"] = {"lesson": lesson["key"]}

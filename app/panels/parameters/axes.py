@@ -93,7 +93,8 @@ def opening_axes(scene: Scene, values: Mapping[str, Any], locked: Collection[str
     """Return other axes for those with which a choice of system opens, where the system at hand lacks them.
 
     What a choice opens with is the same whatever is typed, and whichever Psi is chosen; typed equations may
-    have it and not read it in U. An axis that was chosen stays: a sentence says that it is not there.
+    have it and not read it in U. An axis that was chosen stays, and a sentence says that it is not there; but a
+    parameter that has left the typed equations makes way.
     """
     choice = values["system"]
     across, up = axes_of(OWN if choice == NORMAL and not isinstance(scene.system, ELinear) else choice)
@@ -105,7 +106,8 @@ def opening_axes(scene: Scene, values: Mapping[str, Any], locked: Collection[str
     order = sorted(there, key=lambda name: (name not in read, name not in SLOW_CONTROLS, not name.startswith(OWN_AXIS)))
     found: dict[str, str] = {}
     for control, first in (("across", across), ("up", up), ("along", across)):
-        if values[control] == first and first not in read:
+        gone = values[control].startswith(OWN_AXIS) and values[control] not in there
+        if gone or (values[control] == first and first not in read):
             other = {"across": values["up"], "up": found.get("across", values["across"]), "along": None}[control]
             free = [name for name in order if name != other]
             if free:

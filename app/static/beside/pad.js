@@ -45,17 +45,18 @@ export class Pad {
 
   drawBase() {
     const {regions, curves, points, words, names, flat, box: [across, up]} = this.chart
+    const colour = colours(regions), short = this.short = shortNames(regions)
     const lines = Object.entries(curves).flatMap(([name, all]) => all.map((line) => ({name, line})))
     // a branch that is a point, or that nobody could tell from one, is drawn as a dot
     const small = [across, up].map(([low, high]) => 0.0025 * (high - low))
     const isPoint = (line) => line.every((p) => p.every((value, i) => Math.abs(value - line[0][i]) < small[i]))
     this.plot.draw([{
       x: {span: across, word: words[0]}, y: {span: up, ...(flat ? {ticks: []} : {})}, title: escape(words[1] ?? ""), zeros: !flat,
-      areas: regions.map(({name, bounded, loops}) => ({name: `region ${colours(regions)(name)}`, label: name, title: name, loops, whole: !bounded})),
+      areas: regions.map(({name, bounded, loops}) => ({name: `region ${colour(name)}`, label: name, title: name, loops, whole: !bounded})),
       lines: lines.filter(({line}) => !isPoint(line)).map(({name, line}) => ({name, title: names[name], silent: true, x: line.map(([x]) => x), y: line.map(([, y]) => y)})),
       dots: lines.filter(({line}) => isPoint(line)).map(({name, line: [[x, y]]}) => ({name: `point ${name}`, title: names[name], x, y, r: 3})),
       marks: points.map(([type, x, y, sentence]) => ({kind: "codimension two", x, y, title: `${type}. ${sentence}`})),
-      labels: regions.map((region) => ({text: shortName(region.name), name: "name", near: region.inside, allowed: (x, y) => holds(region, [x, y])})),
+      labels: regions.map((region) => ({text: short(region.name), name: "name", near: region.inside, allowed: (x, y) => holds(region, [x, y])})),
     }])
   }
 
@@ -67,23 +68,37 @@ export class Pad {
     const moved = here[0] !== handle[0] || here[1] !== handle[1]
     const region = regions[around.indexOf(true)]
     this.plot.over([...(moved ? [{name: "here", x: here[0], y: here[1], r: 4.5}] : []), {name: "handle", x: handle[0], y: handle[1], r: 8}],
-      path, region && !old ? {text: shortName(region.name), at: here, name: "name tag"} : null)
+      path, region && !old ? {text: this.short(region.name), at: here, name: "name tag"} : null)
   }
 }
 
 // The class of a region's colour: that of its portrait's name, up to the first space.
 export function regionClass(name) { return name.split(" ")[0].replace(/[^\w-]/g, "") }
 
-// What a region has room for: a name without what its limit directions do, and without the kinds of several critical sets.
-export function shortName(name) { return /^\d/.test(name) ? name.split(",")[0] : name.split(";")[0] }
+/**
+ * What a region has room for: a name without the kinds of several critical sets and what its limit directions do, as far
+ * as no other region is called the same then.
+ * @param {{name: string}[]} regions
+ */
+export function shortNames(regions) {
+  const all = [...new Set(regions.map(({name}) => name))]
+  const shorter = [(name) => /^\d/.test(name) ? name.split(",")[0] : name.split(";")[0], (name) => name.split(";")[0]]
+  return (/** @type {string} */ name) => shorter.map((short) => [short, short(name)]).find(([short, text]) => all.every((other) => other === name || short(other) !== text))?.[1] ?? name
+}
 
-const PAPERS = ["CM0", "CM2", "CM4", "NCM2", "NCM4"], MORE = 6
+const PAPERS = ["CM0", "CM2", "CM4", "NCM2", "NCM4"], MORE = 6, VARIANTS = 5
 
 /**
- * The class of the colour of each of some regions: the paper's portraits have their own, the others what is left.
+ * The classes of the colour of each of some regions: the paper's portraits have their own, the others what is left; of one
+ * colour, those that differ in anything else are variants.
  * @param {{name: string}[]} regions
  */
 export function colours(regions) {
+  const all = [...new Set(regions.map(({name}) => name))].sort()
   const others = [...new Set(regions.map(({name}) => regionClass(name)))].filter((one) => !PAPERS.includes(one)).sort()
-  return (/** @type {string} */ name) => PAPERS.includes(regionClass(name)) ? regionClass(name) : `more${others.indexOf(regionClass(name)) % MORE}`
+  const family = (/** @type {string} */ name) => PAPERS.includes(regionClass(name)) ? regionClass(name) : `more${others.indexOf(regionClass(name)) % MORE}`
+  return (/** @type {string} */ name) => {
+    const variant = all.filter((other) => family(other) === family(name)).indexOf(name) % VARIANTS
+    return family(name) + (variant > 0 ? ` v${variant}` : "")
+  }
 }

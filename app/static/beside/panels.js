@@ -18,6 +18,7 @@
  * @property {(wish: Record<string, any>) => Promise<any>} take ask for a file of what is shown: {name, type, file} or {error}
  * @property {(kind: string) => void} untake the last wish of this kind is no longer wanted
  * @property {(paths: any, place?: number[]) => void} trace a motion in the picture, or clear it with null
+ * @property {() => any[]} drawn what the picture shows, from bottom to top
  * @property {(wanted: Record<string, any>) => void} open many values at once, as choosing a portrait does
  * @property {() => import("../room/crowd.js").Row[] | null} crowd the phones in the lecturer's room; null without one
  * @property {Record<string, any>} first values of all controls at first

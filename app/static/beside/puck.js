@@ -2,7 +2,7 @@
 // sticks, e lies inside the disc and friction balances the push.
 
 const AT_REST = 1e-9 // of the largest slip: below it the puck sticks
-const ARROW = 54 // px of the larger of the two forces, at its largest
+const ARROW = 54, SHARE = 0.3 // px of the larger of the two forces at its largest, and of the canvas at most
 
 /** @typedef {{a: number, b: number, d: number, f1: number, f2: number, k1: number, k2: number}} Plane */
 
@@ -30,7 +30,8 @@ export class Puck {
     this.t = /** @type {number[]} */ ([])
     this.centre = this.push = this.friction = /** @type {number[][]} */ ([])
     this.middle = [0, 0]
-    this.span = this.most = 1
+    this.span = [1, 1]
+    this.most = 1
   }
 
   prepare(run, plane) {
@@ -38,7 +39,7 @@ export class Puck {
     this.t = t; this.centre = centre; this.push = push; this.friction = friction
     const reach = (c) => [Math.min(...c), Math.max(...c)], [[a, b], [c, d]] = centre.map(reach)
     this.middle = [(a + b) / 2, (c + d) / 2]
-    this.span = Math.max(b - a, d - c) || 1
+    this.span = [b - a, d - c]
     this.most = Math.max(...[...push, ...friction].map(([u, v]) => Math.hypot(u, v))) || 1
   }
 
@@ -48,7 +49,7 @@ export class Puck {
     canvas.width = Math.round(w * ratio); canvas.height = Math.round(h * ratio)
     const g = canvas.getContext("2d"), style = getComputedStyle(this.root), colour = (name) => style.getPropertyValue(`--${name}`).trim()
     g.setTransform(ratio, 0, 0, ratio, 0, 0)
-    const scale = (Math.min(w, h) - 2 * ARROW) / this.span
+    const arrow = Math.min(ARROW, SHARE * h), scale = Math.min(...[w, h].map((side, k) => (side - 2.4 * arrow) / (this.span[k] || 1e-9)))
     const place = (/** @type {number[]} */ [u, v]) => [w / 2 + scale * (u - this.middle[0]), h / 2 - scale * (v - this.middle[1])]
     let i = t.findIndex((time) => time > at)
     i = i < 0 ? t.length - 1 : Math.max(0, i - 1)
@@ -58,10 +59,10 @@ export class Puck {
     const share = i + 1 < t.length ? Math.max(0, Math.min(1, (at - t[i]) / (t[i + 1] - t[i] || 1))) : 0
     const between = (of, k = Math.min(i + 1, t.length - 1)) => [0, 1].map((c) => of(i)[c] + share * (of(k)[c] - of(i)[c]))
     const [cx, cy] = place(between((k) => [xs[k], ys[k]]))
-    g.beginPath(); g.arc(cx, cy, 15, 0, 7); g.fillStyle = colour("page"); g.fill(); g.strokeStyle = colour("ink"); g.lineWidth = 2; g.stroke()
+    g.beginPath(); g.arc(cx, cy, 0.28 * arrow, 0, 7); g.fillStyle = colour("page"); g.fill(); g.strokeStyle = colour("ink"); g.lineWidth = 2; g.stroke()
     g.font = "12.5px system-ui, sans-serif"
     for (const [of, name, words] of /** @type {[number[][], string, string][]} */ ([[this.push, "of-f", "push f"], [this.friction, "crit", "friction A e"]])) {
-      const [u, v] = of[i].map((c) => c * ARROW / this.most), length = Math.hypot(u, v)
+      const [u, v] = of[i].map((c) => c * arrow / this.most), length = Math.hypot(u, v)
       if (length < 3) continue
       const [tx, ty] = [cx + u, cy - v], [ux, uy] = [u / length, -v / length]
       g.strokeStyle = g.fillStyle = colour(name)

@@ -23,10 +23,10 @@ export class Told {
 
   // Say what is under the pointer: of two the one that was drawn last.
   under(event) {
-    const box = this.canvas.getBoundingClientRect()
+    const box = this.canvas.getBoundingClientRect(), ratio = this.canvas.clientWidth / box.width || 1 // it may be zoomed
     let least = REACH[event.pointerType] ?? REACH.mouse, words = ""
     for (const {at: [x, y], said} of this.places) {
-      const gap = Math.hypot(event.clientX - box.left - x, event.clientY - box.top - y)
+      const gap = Math.hypot(ratio * (event.clientX - box.left) - x, ratio * (event.clientY - box.top) - y)
       if (gap <= least) { least = gap; words = said }
     }
     if (this.chosen >= 0) { this.chosen = -1; this.paint() }

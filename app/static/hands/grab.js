@@ -64,6 +64,7 @@ export class Grab {
     const seen = Boolean(at) && at.x > 0 && at.y > 0 && at.x < at.width && at.y < at.height
     this.handle.hidden = !seen && !this.held
     this.handle.classList.toggle("gone", Boolean(gone))
+    this.handle.classList.toggle("rightward", Boolean(one) && one.x > 0) // its words keep within the sphere
     if (seen) this.handle.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`
     this.tell(gone)
   }

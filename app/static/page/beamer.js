@@ -1,7 +1,8 @@
 // For the beamer: the picture over the whole screen with large letters; controls and tools come with the pointer, and fade.
 
 const FADES = 3000 // ms after the last move
-export const LARGE = 1.7 // letters, marks and lines of the picture
+const LARGE = 1.55, NAMES = 0.024 / 15 // letters, marks and lines of the picture at least; a name, 15 px, in parts of the screen's height
+const PANEL = 1 / 620 // the size of a panel's letters, by the screen's height in px
 
 const SIZED = ["size", "width", "dx", "dy"] // what is in px
 
@@ -11,41 +12,64 @@ export function enlarged(list, times) {
   return list.map((item) => ({...item, ...Object.fromEntries(SIZED.filter((name) => name in item).map((name) => [name, item[name] * times]))}))
 }
 
+/** Whether a key is none of the page's: something is typed, or a dialog is open. @param {any} root @param {KeyboardEvent} event */
+export const busy = (root, event) => Boolean(/** @type {any} */ (event.composedPath()[0])?.matches?.("input[type=text], textarea, select") || event.ctrlKey || event.metaKey || event.altKey || root.querySelector("dialog[open]"))
+
 export class Beamer {
   /**
    * @param {any} root the explorer @param {{enlarge: (times: number) => void}} picture
-   * @param {boolean} on whether a link asks for it @param {(on: boolean) => void} told is called when it begins or ends
+   * @param {number} on what a link asks for: 1 is the picture, 2 a panel beside it @param {(on: number) => void} told is
+   *   called when it begins, changes or ends
    */
   constructor(root, picture, on, told) {
     this.root = root
     this.picture = picture
     this.told = told
-    this.on = false
+    this.on = 0
+    this.kept = on === 2 ? 2 : 1 // as which it begins
     this.button = root.querySelector(".beam")
+    this.beside = root.querySelector(".panel-too")
     this.button.addEventListener("click", () => this.toggle())
+    this.beside.addEventListener("click", () => this.panel())
     document.addEventListener("keydown", (event) => {
-      const typing = /** @type {any} */ (event.composedPath()[0])?.matches?.("input[type=text], textarea, select")
-      if (typing || event.ctrlKey || event.metaKey || event.altKey || root.querySelector("dialog[open]")) return
+      if (busy(root, event)) return
       if (event.key === "b") { event.preventDefault(); this.toggle() }
+      else if (event.key === "p" && this.on) { event.preventDefault(); this.panel() }
       else if (event.key === "Escape" && this.on) this.toggle(false)
     })
     document.addEventListener("fullscreenchange", () => { if (!document.fullscreenElement && this.full) this.toggle(false) })
+    window.addEventListener("resize", () => { if (this.on) this.size() })
     for (const moved of ["pointermove", "pointerdown", "keydown"]) document.addEventListener(moved, () => this.wake(), {passive: true})
-    if (on) this.show(true) // over the page: a browser gives the whole screen to nobody who has not pressed anything
+    if (on) this.show(on) // over the page: a browser gives the whole screen to nobody who has not pressed anything
   }
 
   show(on) {
+    if (!on || !this.on) this.full = false
     this.on = on
-    this.full = false
-    this.root.classList.toggle("beamer", on)
-    this.button.setAttribute("aria-pressed", on)
-    this.picture.enlarge(on ? LARGE : 1)
+    this.root.classList.toggle("beamer", on > 0)
+    this.root.classList.toggle("paneled", on === 2)
+    this.button.setAttribute("aria-pressed", on > 0)
+    this.beside.setAttribute("aria-pressed", on === 2)
+    this.size()
     if (on) this.wake()
   }
 
+  // Letters are parts of the screen's height.
+  size() {
+    this.picture.enlarge(this.on ? Math.max(LARGE, NAMES * window.innerHeight) : 1)
+    this.root.style.setProperty("--panel-zoom", String(Math.max(1, PANEL * window.innerHeight)))
+  }
+
+  // A panel beside the picture, or none.
+  panel() {
+    this.kept = 3 - this.on
+    this.show(this.kept)
+    this.told(this.kept)
+  }
+
   toggle(on = !this.on) {
-    this.show(on)
-    this.told(on)
+    this.show(on ? this.kept : 0)
+    this.told(this.on)
     // where a browser refuses, as in a frame, the picture fills the page
     if (on) document.documentElement.requestFullscreen?.().then(() => { this.full = true }, () => {})
     else if (document.fullscreenElement) document.exitFullscreen()

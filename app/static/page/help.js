@@ -14,7 +14,11 @@ export const KEYS = [
   ["← → ↑ ↓", "on a slider, in a chart, in the row of panels"],
   ["Enter", "takes a typed number; one beyond a slider’s range widens it; 0.3 in [0, 1] sets both"],
   ["click on a symbol", "the range of its slider"],
-  ["b", "for the beamer: full screen, large letters; controls come with the pointer and fade; Esc ends it"],
+  ["l", "lifts the picture onto the hemisphere, and lays it flat; drag, wheel or arrow keys turn it"],
+  ["Space", "comets drift along the orbits"],
+  ["b", "for the beamer: full screen, letters by the height of the screen; controls come with the pointer and fade; Esc ends it"],
+  ["p", "for the beamer: a panel beside the picture"],
+  ["k, then → and ←", "for the beamer: keep a view; go from one kept view to the next, as a clicker does with Page Up and Down"],
   ["two panes", "the button for two portraits side by side; shares: the sliders that move both"],
 ]
 

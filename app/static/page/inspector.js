@@ -3,6 +3,10 @@
 import {put, say} from "../dom.js"
 import {escape, formula, slowWords} from "../words.js"
 
+/** What lies on both sides of a degenerate setting, as markup. @param {any} sides */
+export const besides = (sides) => sides?.below && sides.above
+  ? `<p class="note sides">A little less ${escape(sides.symbol)}: <b>${escape(sides.below)}</b>. A little more: <b>${escape(sides.above)}</b>.</p>` : ""
+
 export class Inspector {
   /** @param {() => string[]} symbols of the slow variables of the present system */
   constructor(root, symbols = () => []) {
@@ -21,8 +25,7 @@ export class Inspector {
     say(this.find(".portrait-case"), which ? `Case ${which}` : "")
     say(this.find(".sentence"), sentence.replace(/^(Case \S+, )?\S+\. /, ""))
     put(this.find(".degeneracies"), degeneracies
-      .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${formula(words)}</p>`).join("") + (sides?.below && sides.above
-        ? `<p class="note sides">A little less ${escape(sides.symbol)}: <b>${escape(sides.below)}</b>. A little more: <b>${escape(sides.above)}</b>.</p>` : ""))
+      .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${formula(words)}</p>`).join("") + besides(sides))
   }
 
   // One line that is always in view.

@@ -3,7 +3,7 @@
 /**
  * @typedef {{link: {version: number, brought: string[]}, defaults: Record<string, any>,
  *   presets: Record<string, {values: Record<string, any>}>, boxes: Record<string, {name: string, text: string}[]>,
- *   look: {embed: boolean, controls: string[], beamer?: boolean}}} Config
+ *   look: {embed: boolean, controls: string[], beamer?: number}}} Config
  */
 
 /** A value as a link writes it. @param {any} value */
@@ -26,7 +26,7 @@ export function writeLink(values, seen, config) {
   return new URLSearchParams([
     ["v", String(config.link.version)], ...Object.entries(wanted).map(([name, value]) => [name, written(value)]),
     ...(seen ? [["seen", seen.map((v) => Number(v.toPrecision(6))).join(",")]] : []),
-    ...(embed ? [["embed", "1"]] : []), ...(embed && controls.length ? [["controls", controls.join(",")]] : []), ...(beamer ? [["beamer", "1"]] : []),
+    ...(embed ? [["embed", "1"]] : []), ...(embed && controls.length ? [["controls", controls.join(",")]] : []), ...(beamer ? [["beamer", String(beamer)]] : []),
   ]).toString()
 }
 

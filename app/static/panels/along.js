@@ -56,7 +56,7 @@ class Along {
   step([across, up], far) {
     if (!this.data) return
     const {span: [low, high], control} = this.data
-    this.setControls({[control]: this.values[control] + (across + up) * (high - low) / (far ? 20 : 200)})
+    this.setControls({[control]: rounded(this.values[control] + (across + up) * (high - low) / (far ? 20 : 200), [low, high])})
   }
 
   apply({header}, late) {
@@ -91,7 +91,7 @@ class Along {
     const {flow} = this.drift, [low, high] = this.data.span
     const dt = ms / 1000 * this.rate * Number(this.find(".speed").value)
     const wanted = {}
-    flow.slice(0, 4).forEach((rate, i) => { wanted[slowName(i)] = this.values[slowName(i)] + rate * dt })
+    flow.slice(0, 4).forEach((rate, i) => { wanted[slowName(i)] = Number((this.values[slowName(i)] + rate * dt).toPrecision(7)) })
     const at = wanted[this.data.control]
     if (flow.every((rate) => Math.abs(rate) < 1e-4 * this.most)) { this.stop(SAYS.slowRest); return }
     if (at < low || at > high) { this.stop(SAYS.rangeEnds); return }
@@ -121,7 +121,8 @@ class Along {
   drawAll() {
     this.find(".along-body").hidden = !this.data
     const ended = this.ended && this.values && this.ended.place === this.place() ? this.ended.sentence : ""
-    this.find(".along-note").textContent = this.why || ended
+    const drifts = this.data?.branches.some((b) => b.flow.some(Boolean))
+    this.find(".along-note").textContent = this.why || ended || (drifts || !this.data ? "" : this.data.branches.length ? SAYS.nothingDrifts : SAYS.nothingSlides)
     if (!this.data) { this.toggle(false); return }
     const {intervals, branches, points, span, control} = this.data
     const words = this.tools.symbols[control]

@@ -182,13 +182,16 @@ class Atlas {
     return {box, regions, curves, points, handle, here: handle, path: null, note, names: OF_MAPS, flat: this.isStrip}
   }
 
-  // A region may be too small for its name: the key has them all, and the curves that are there.
-  key({regions, curves}, words) {
-    if (this.keyOf?.[0] === regions && this.keyOf[1] === curves) return
-    this.keyOf = [regions, curves]
+  // A region may be too small for its name: the key has them all, and the curves that are in sight.
+  key({regions, curves, box}, words) {
+    const of = [regions, curves, String(box)]
+    if (this.keyOf && of.every((one, i) => one === this.keyOf[i])) return
+    this.keyOf = of
+    const meets = (p, q) => box.every(([low, high], k) => Math.max(p[k], q[k]) > low - (high - low) / 400 && Math.min(p[k], q[k]) < high + (high - low) / 400)
+    const seen = (lines) => lines.some((line) => line.some((p, i) => meets(p, line[Math.max(0, i - 1)])))
     const found = [...new Set(regions.map((region) => region.name))].sort(), colour = colours(regions)
     this.find(".pad-names").innerHTML = found.map((name) => `<span><i class="${colour(name)}"></i>${name}</span>`).join("")
-    this.find(".pad-curves").innerHTML = Object.entries(curves).filter(([, lines]) => lines.length)
+    this.find(".pad-curves").innerHTML = Object.entries(curves).filter(([, lines]) => seen(lines))
       .map(([name]) => `<span><i class="${name}"></i>${words[name]}</span>`).join("")
   }
 

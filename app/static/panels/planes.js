@@ -50,8 +50,8 @@ class Planes {
     // the curve goes on to far away: its named points are in view
     const all = [...this.trail.flat(), ...this.critical, ...beside.named]
     const shown = all.some((one) => one.trace || one.determinant) ? all : [ALONE]
-    this.drawTrace(shown, beside)
-    this.drawEigenvalues(shown, beside)
+    for (const [name, empty] of [[".trace-plane", !all.length], [".eigen-plane", !all.length], [".psi-plane", !beside.psis.length]]) this.find(name).toggleAttribute("hidden", empty)
+    if (all.length) { this.drawTrace(shown, beside); this.drawEigenvalues(shown, beside) }
     if (beside.psis.length) this.drawPsis(beside)
     this.find(".plane-note").textContent = this.critical.length ? beside.sentence : SAYS.noCriticalSet
     this.find(".plane-table").innerHTML = beside.named.length ? `<table><tr><th></th><th>tr J</th><th>det J</th><th></th></tr>${beside.named.map((one) =>

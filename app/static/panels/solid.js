@@ -5,11 +5,13 @@ import {Told} from "../beside/told.js"
 import {say} from "../dom.js"
 import {seen} from "../chart/projection.js"
 import {largest} from "../chart/scale.js"
+import {lifted} from "../picture/lift.js"
 import {SAYS, digits, minus, plain} from "../words.js"
 
 /** Whether the two ends of what slides combine two limit vectors each. @param {{candidates: number[], combined: number[][][]}} data */
 const inPairs = ({candidates, combined}) => candidates.length === 2 && combined.every((ends) => ends.length === 2)
 
+const REACH = 1.42 // of the floor, from the middle, in view
 const TOLD = 24 // places along the curve of limit vectors at which keys stop
 
 class Stack {
@@ -54,14 +56,15 @@ class Stack {
   }
 
   apply({header}, late) {
-    for (const name of ["sphere", "stack", "filippov"]) {
+    for (const name of ["stack", "filippov"]) {
       if (header[name]) { this.data[name] = header[name]; this.why[name] = "" }
       if (header.unable?.[name]) { this.data[name] = null; this.why[name] = header.unable[name] }
     }
     this.canvas.classList.toggle("old", late.includes(this.view))
     if (header.critical) this.critical = header.critical
     if (header.equator) this.equator = header.equator
-    if (header.sphere || header.stack || header.filippov || header.critical || header.equator || header.unable) this.paint()
+    if (this.view === "sphere") this.turn(0, 0) // once the picture is drawn
+    else if (header.stack || header.filippov || header.critical || header.equator || header.unable) this.paint()
   }
 
   draw(values) { this.values = values; this.view = values.solid; this.paint() }
@@ -87,11 +90,11 @@ class Stack {
     this.colour = (name) => style.getPropertyValue(`--${name}`).trim()
     for (const button of this.box.querySelectorAll("[data-view]")) button.setAttribute("aria-pressed", button.dataset.view === this.view)
     this.told.clear()
-    const data = this.data[this.view]
+    const data = this.view === "sphere" ? {} : this.data[this.view]
     this.find(".solid-note").textContent = data ? [data.sentence, this.view === "filippov" && inPairs(data) && SAYS.ends].filter(Boolean).join(" ") : this.why[this.view] || "…"
     if (!data) return
     this.cx = w / 2
-    if (this.view === "sphere") this.paintSphere(data, w, h)
+    if (this.view === "sphere") this.paintSphere(w, h)
     else if (this.view === "stack") this.paintStack(data, w, h)
     else this.paintFilippov(data, w, h)
   }
@@ -134,36 +137,12 @@ class Stack {
     }
   }
 
-  paintSphere(data, w, h) {
-    const reach = 1.42
-    this.scale = Math.min(w / (2 * reach), h / (Math.cos(this.elevation) + 2 * reach * Math.sin(this.elevation)))
+  // The picture, lifted.
+  paintSphere(w, h) {
+    this.scale = Math.min(w / (2 * REACH), h / (Math.cos(this.elevation) + 2 * REACH * Math.sin(this.elevation)))
     this.cy = h / 2 + this.scale * Math.cos(this.elevation) * 0.3
-    const outside = [this.colour("outside"), 1, 0.75], front = [this.colour("orbit"), 1.2, 0.9], back = [this.colour("orbit"), 1, 0.22]
-    for (const line of data.outside) {
-      let run = []
-      for (const [x, y] of line) {
-        if (Math.hypot(x, y) <= reach) { run.push([x, y, 0]); continue }
-        if (run.length > 1) this.line(run, () => outside)
-        run = []
-      }
-      if (run.length > 1) this.line(run, () => outside)
-    }
-    // a lit half ball: the circle of the silhouette above, the equator below
-    const g = this.g, s = this.scale
-    g.save()
-    g.beginPath()
-    g.ellipse(this.cx, this.cy, s, s * Math.sin(this.elevation), 0, 0, Math.PI)
-    g.arc(this.cx, this.cy, s, Math.PI, 2 * Math.PI)
-    const light = g.createRadialGradient(this.cx - 0.35 * s, this.cy - 0.75 * s, 0.1 * s, this.cx, this.cy, 1.1 * s)
-    light.addColorStop(0, this.colour("panel")); light.addColorStop(1, this.colour("line"))
-    g.globalAlpha = 0.82; g.fillStyle = light; g.fill()
-    g.restore()
-    // a point of the sphere faces the eye if its normal does: depth of the point itself is negative
-    for (const line of data.inside) this.line(line, (_, [, , depth]) => (depth < 0.02 ? front : back))
-    const ring = [this.colour("ink"), 2, 0.9], hidden = [this.colour("ink"), 1.4, 0.3]
-    this.circle(0, (_, [, , depth]) => (depth < 0.02 ? ring : hidden))
+    lifted(this.g, this.tools.drawn(), {up: 1, azimuth: this.azimuth, elevation: this.elevation, x: this.cx, y: this.cy, scale: this.scale}, {width: w, height: h})
     this.chart()
-    this.marks(0, true)
   }
 
   // The axes, the equator and the plane of the scaling chart κ₂, as in the paper's sketch of the blowup.
@@ -192,8 +171,8 @@ class Stack {
     g.textAlign = "left"
   }
 
-  // Limit directions and critical sets of the present picture, on the circle at height z or lifted onto the sphere.
-  marks(z, lifted) {
+  // Limit directions and critical sets of the present picture, on the circle at height z.
+  marks(z) {
     const {equator = {}, critical = {}} = this
     ;(equator.x ?? []).forEach((x, i) => {
       const colour = this.colour(equator.filled[i] ? "attr" : "rep")
@@ -201,7 +180,7 @@ class Stack {
     })
     ;(critical.x ?? []).forEach((x, i) => {
       const y = critical.y[i], colour = this.colour("crit")
-      this.dot([x, y, lifted ? Math.sqrt(Math.max(0, 1 - x * x - y * y)) : z], {shape: "square", fill: critical.kind[i].startsWith("stable") ? colour : this.colour("page"), stroke: colour, text: critical.label[i]})
+      this.dot([x, y, z], {shape: "square", fill: critical.kind[i].startsWith("stable") ? colour : this.colour("page"), stroke: colour, text: critical.label[i]})
     })
   }
 
@@ -248,7 +227,7 @@ class Stack {
       if (here >= 0 && here <= 1) {
         const mark = [this.colour("accent"), 2.4, 1]
         this.circle(up(here), () => mark)
-        this.marks(up(here), false)
+        this.marks(up(here))
       }
     }
     g.font = "12px system-ui, sans-serif"; g.fillStyle = this.colour("soft"); g.textAlign = "center"

@@ -1,7 +1,10 @@
-// The panel "Theorems": the paper's claims on the present system, each with the numbers that show it.
+// The panel "Theorems": the paper's claims on the present system, each with the numbers that show it. What bears on it comes
+// first, with a card for each bifurcation that it sits on; the rest is folded.
 
 import {register} from "../beside/panels.js"
-import {escape, formula, measured} from "../words.js"
+import {put} from "../dom.js"
+import {besides} from "../page/inspector.js"
+import {SAYS, escape, formula, measured} from "../words.js"
 
 const MARK = {holds: ["✓", "holds"], fails: ["✗", "fails"], "does not apply": ["–", "idle"]}
 
@@ -11,12 +14,19 @@ function row([theorem, statement, verdict, sentence, numbers]) {
     <p>${formula(statement)}</p><p class="note">${formula(sentence)}</p>${table.length ? `<table>${table.join("")}</table>` : ""}</li>`
 }
 
-register("theorems", (box) => {
-  box.innerHTML = '<ul class="theorem-list"></ul>'
-  const list = box.firstElementChild
+register("theorems", (box, {settings}) => {
+  box.innerHTML = '<ul class="theorem-list bifurcations"></ul><div></div>'
+  const [cards, list] = box.children
   return {
     apply({header}) {
-      if (header.theorems) list.innerHTML = header.theorems.map(row).join("")
+      if (header.portrait) {
+        const {degeneracies, sides} = header.portrait
+        put(cards, degeneracies.map(([title, words]) => `<li class="bifurcation"><b>${escape(title)}</b> <code>${escape(settings[title] ?? "")}</code><p>${formula(words)}</p>${besides(sides)}</li>`).join(""))
+      }
+      if (!header.theorems) return
+      const [bears, idle] = [true, false].map((wanted) => header.theorems.filter(([, , verdict]) => (verdict !== "does not apply") === wanted).map(row).join(""))
+      const open = list.querySelector("details")?.open ? " open" : ""
+      put(list, `<ul class="theorem-list">${bears}</ul><details class="fold"${open}><summary>${SAYS.idle}</summary><ul class="theorem-list">${idle}</ul></details>`)
     },
   }
 })

@@ -1,6 +1,8 @@
 // What the picture shows, as a list of things to draw from bottom to top, in data space: the projected hemisphere is
 // the unit disc, y upward. Nothing here knows pixels of the plot; `paint.js` draws the list, tests read it.
 
+import {unit} from "./frames.js"
+
 /**
  * @typedef {object} State
  * @property {any[]} table  the layers from bottom to top, as draw/layers.py lists them
@@ -9,12 +11,13 @@
  * @property {Record<string, any>} header  the newest of each entry of the frames' headers
  * @property {Record<string, any>} blocks  the newest of each array of the frames
  * @property {Record<string, string>} theme  colours by name
+ * @property {number} [times]  as large are letters
  * @property {boolean} [sense]  whether the equator tells which way it is run through
  * @property {{light: [number, number], middle: number, ring: [number, number], hatches: Record<string, string>, view: number}} measures
  */
 
 /** @param {State} state */
-export function displayList({table, layers, old, header, blocks, theme, measures, sense = true}) {
+export function displayList({table, layers, old, header, blocks, theme, measures, sense = true, times = 1}) {
   /** @type {any[]} */
   const list = [
     {kind: "page", colour: theme.page},
@@ -32,6 +35,7 @@ export function displayList({table, layers, old, header, blocks, theme, measures
   }
   list.push(...circle(header, theme, sense))
   if (header.launched && shown.some((layer) => layer.name === "launched")) list.push(...starts(header.launched, theme, table.find(({name}) => name === "launched").parts))
+  list.push(...names(shown, header, blocks, theme, times))
   for (const name of ["equator", "critical"]) {
     if (header[name] && shown.some((layer) => layer.name === name)) list.push(...marks(name, header[name], theme, measures))
   }
@@ -67,6 +71,45 @@ function starts({x, y}, theme, parts) {
 function curves(layer, part, blocks, theme) {
   const {name, colour, width, dash} = part
   return {kind: "curves", layer, part: name, counts: blocks[`${name}.n`], points: blocks[`${name}.xy`], colour: theme[colour], width, dash}
+}
+
+// Each nullcline bears its name where it first crosses one of some circles, the outer ones first, clear of all marks.
+const NAMED = {rho: "ρ′ = 0", theta: "θ′ = 0", U1: "U₁ = 0", U2: "U₂ = 0"}
+const CIRCLES = [1.45, 1.3, 0.62, 0.35, 0.2] // radii
+const CLEAR = [0.42, 0.16] // across and up, from a name to any other name or mark
+
+function names(shown, header, blocks, theme, times) {
+  const clear = CLEAR.map((gap) => gap * times)
+  const taken = ["equator", "critical"].flatMap((name) => header[name]?.x.flatMap((x, i) => [[x, header[name].y[i]], [header[name].label_x?.[i] ?? x + 0.15, header[name].label_y?.[i] ?? header[name].y[i]]]) ?? [])
+  const list = []
+  for (const {name: layer, parts} of shown.filter(({name}) => name in NAMED || name === "lines")) {
+    const wanted = new Map()
+    for (const {name} of parts) {
+      let first = 0
+      for (const [i, count] of (blocks[`${name}.n`] ?? []).entries()) {
+        const kind = header.owners?.[name]?.[i] ?? layer, piece = blocks[`${name}.xy`].subarray(first, first += 2 * count)
+        if (kind in NAMED) wanted.set(kind, [...wanted.get(kind) ?? [], piece])
+      }
+    }
+    for (const [kind, pieces] of wanted) {
+      const at = CIRCLES.flatMap((radius) => pieces.flatMap((piece) => crossing(piece, radius / unit(piece)))).find(([x, y]) => taken.every(([u, v]) => Math.abs(u - x) > clear[0] || Math.abs(v - y) > clear[1]))
+      if (!at) continue
+      taken.push(at)
+      list.push({kind: "label", layer, text: NAMED[kind], x: at[0], y: at[1], dx: 0, dy: 0, align: "center", size: 12, colour: theme.ink, back: theme.page})
+    }
+  }
+  return list
+}
+
+// Where a piece first crosses a circle, or nowhere.
+function crossing(piece, radius) {
+  for (let i = 2; i < piece.length; i += 2) {
+    const x = piece[i - 2], y = piece[i - 1], u = piece[i] - x, v = piece[i + 1] - y
+    const a = u * u + v * v, b = x * u + y * v, root = Math.sqrt(b * b - a * (x * x + y * y - radius * radius)) // NaN: it passes by
+    const share = [-b - root, -b + root].map((t) => t / a).find((t) => t >= 0 && t <= 1)
+    if (share !== undefined) return [[unit(piece) * (x + share * u), unit(piece) * (y + share * v)]]
+  }
+  return []
 }
 
 function heads(layer, {name, colour}, blocks, theme) {

@@ -15,11 +15,13 @@ export class Picture {
     this.plot = plot
     this.themes = themes
     this.traces = traces
-    this.state = {table: layers, layers: [], old: [], header: {}, blocks: {}, theme: themes.light, measures, sense: true}
+    this.state = {table: layers, layers: [], old: [], header: {}, blocks: {}, theme: themes.light, measures, sense: true, times: 1}
     this.parts = new Set(["basins", ...layers.flatMap((layer) => layer.parts.map((part) => part.name))])
     this.paths = this.place = null
     this.pointed = []
+    this.comets = /** @type {any[]} */ ([])
     this.crossed = /** @type {{x: number, y: number, right?: boolean} | null} */ (null)
+    this.lift = /** @type {import("./lift.js").Lift | null} */ (null)
     this.times = 1 // as large are letters, marks and lines
     this.drawn = makeRenderer("glyph")
     this.above = makeRenderer("overlay")
@@ -64,7 +66,7 @@ export class Picture {
       if (this.waiting) { this.waiting = false; this.draw() }
     })
     this.drawn.list = enlarged(displayList(this.state), this.times)
-    repaint(this.drawn)
+    this.put(this.drawn)
   }
 
   // A motion and its limit, as [xs, ys], and the moving point; null clears them.
@@ -76,14 +78,17 @@ export class Picture {
   }
 
   drawTrace() {
-    this.above.list = enlarged([...this.pointed, ...crossList(this.crossed, this.state.theme), ...traceList(this.traces, this.paths, this.place, this.state.theme)], this.times)
-    repaint(this.above)
+    this.above.list = enlarged([...this.comets, ...this.pointed, ...crossList(this.crossed, this.state.theme), ...traceList(this.traces, this.paths, this.place, this.state.theme)], this.times)
+    this.put(this.above)
   }
+
+  // Flat, or lifted.
+  put(renderer) { if (this.lift?.shown) this.lift.paint(); else repaint(renderer) }
 
   /** @param {number} times as large letters, marks and lines */
   enlarge(times) {
     if (times === this.times) return
-    this.times = times
+    this.times = this.state.times = times
     this.draw()
     this.drawTrace()
   }

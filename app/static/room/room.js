@@ -18,7 +18,7 @@ const MARKUP = `
 export class Room {
   /**
    * @param {any} root the explorer
-   * @param {{send: (message: {room: any}) => void, query: () => string, version: number, changed: () => void, opened: () => void}} tools
+   * @param {{send: (message: {room: any}) => void, query: () => string, version: number, changed: () => void, opened: () => void, open: (view: Record<string, any>) => void}} tools
    *   `changed` is called when the phones in the room are others, `opened` when a room has been opened
    */
   constructor(root, tools) {
@@ -29,6 +29,7 @@ export class Room {
     /** @type {import("./crowd.js").Row[] | null} */
     this.rows = null
     this.code = this.inside = ""
+    this.bare = [...new URLSearchParams(globalThis.location?.search).keys()].join() === "room" // the code was typed: it brings the view
     this.again = 0 // times that a room is asked for still which is not there
     this.bar.addEventListener("click", (event) => {
       const act = event.target.closest("button")?.dataset.room
@@ -60,7 +61,7 @@ export class Room {
     const {room} = message
     if ("open" in room) this.opened(room)
     else if ("rows" in room) { this.rows = room.rows; this.tell(); this.tools.changed() }
-    else if ("joined" in room) { this.entered(room.joined) }
+    else if ("joined" in room) { this.entered(room.joined, room.view) }
     else if ("ended" in room) this.ended(room.ended)
     else if (room.error) this.refused(room.error)
     return true
@@ -77,7 +78,9 @@ export class Room {
     if (!this.resumes) { this.tools.opened(); this.show() }
   }
 
-  entered(code) {
+  entered(code, view) {
+    if (this.bare && view) this.tools.open(view)
+    this.bare = false
     this.inside = code
     this.again = 0
     this.keep({in: code})

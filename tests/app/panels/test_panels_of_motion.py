@@ -11,7 +11,7 @@ from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import along as panel_along
 from codim2_app.panels import filippov, orbits, psi, solid
-from codim2_app.panels.typed_start import launch_of
+from codim2_app.slow_layers.typed_start import launch_of
 from codim2_app.state.chosen import build
 from codim2_app.state.cleaning import InputError
 from codim2_app.state.controls import ExplorerState
@@ -97,13 +97,6 @@ def test_without_slow_variables_it_says_so():
         draft = Draft(scene, values, {}, {}, {}, Jobs(Now()), True, True, ())
         panel.add(draft)
         assert "no slow variable" in str(draft.header["unable"])
-
-
-def test_the_lifted_hemisphere_lies_on_the_sphere():
-    sphere = sent(solid)["sphere"]
-    points = np.concatenate([np.array(line) for line in sphere["inside"]])
-    np.testing.assert_allclose(np.sum(points**2, axis=1), 1.0, atol=5e-3)  # three digits are sent
-    assert points[:, 2].min() >= 0.0
 
 
 def test_the_stack_carries_critical_sets_and_limit_directions_of_every_height():

@@ -35,17 +35,6 @@ def test_limit_vectors_are_those_of_the_system(sphere):
         assert weights @ u[:, 2] == pytest.approx(candidate, abs=2e-2)
 
 
-def test_lines_on_the_hemisphere_follow_the_layer_problem(sphere):
-    """Each line ends at the critical set, or begins near the equator: as seen from above it is that of the picture."""
-    (C,) = c2.critical_sets(SYSTEM, PSI, (0.0,))
-    x2 = np.array(C.x2)
-    end = x2 / np.sqrt(1 + x2 @ x2)
-    ends = np.array([line[-1] for line in sphere["sphere"]["inside"]])
-    assert np.median(np.hypot(*(ends[:, :2] - end).T)) < 0.02
-    assert np.hypot(*end) > 0.1  # a mirrored one would be told apart
-    assert np.median(ends[:, 2]) == pytest.approx(np.sqrt(1 - end @ end), abs=0.02)
-
-
 def test_critical_sets_of_the_stack_lie_over_z_and_move_as_the_slow_flow_says(sphere):
     stack = sphere["stack"]
     low, high = stack["span"]

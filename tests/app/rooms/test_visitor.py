@@ -40,8 +40,10 @@ def fresh():
 def test_what_a_lecturer_sees_of_a_phone(fresh):
     lecturer, phone = Page(), Page(f1=1.5, launch="1,2,3", orbits="0.5,0.5")
     code = lecturer.ask({"open": ""})["open"]
-    assert phone.ask({"join": code}) == {"joined": code}
+    assert phone.ask({"join": code}) == {"joined": code, "view": {"layers": [], "panel": "psi", "trajectories": 0}}
+    lecturer.frames.answer({"set": {"f1": 0.75}})
     fresh.tick()
+    assert fresh.view(code)["f1"] == 0.75  # who comes later begins with what is shown then
     [[number, name, settings, lesson]] = lecturer.heard[-1]["rows"]
     assert (name, settings, lesson) == (phone.frames.scene["classification"].name, {"f1": 1.5}, None)
     phone.frames.answer({"set": {"system": "own", "lesson": (key := next(iter(lessons())))}})

@@ -120,10 +120,10 @@ def test_a_link_carries_what_is_seen(edges, embed, controls):
     left, right = sorted(edges[:2])
     bottom, top = sorted(edges[2:])
     assume(min(right - left, top - bottom) >= 2 * NEAREST)
-    look = Look((left, right, bottom, top), embed, tuple(controls), beamer=not embed)
+    look = Look((left, right, bottom, top), embed, tuple(controls), beamer=0 if embed else 2)
     link = read_link(write_link(first_values(), look))
     assert link.errors == ()
-    assert (link.look.embed, link.look.controls, link.look.beamer) == (embed, tuple(controls), not embed)
+    assert (link.look.embed, link.look.controls, link.look.beamer) == (embed, tuple(controls), 0 if embed else 2)
     assert all(math.isclose(a, b, rel_tol=1e-5, abs_tol=1e-9) for a, b in zip(link.look.seen, look.seen, strict=True))
 
 

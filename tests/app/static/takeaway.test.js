@@ -25,7 +25,7 @@ function opened({sliders = SLIDERS, film = true, answer = /** @type {any} */ (FI
   })
   const tools = {
     ask: (wish, tell) => { asked.push(wish); progress.push(tell); return typeof answer === "function" ? answer(wish) : Promise.resolve(answer) },
-    stop: () => stopped.push(true), film, theme: () => "dark", sliders: () => sliders,
+    stop: () => stopped.push(true), film, theme: () => "dark", address: () => Promise.resolve("http://h/?v=1"), sliders: () => sliders,
   }
   menu(box, tools)
   const find = (selector) => box.querySelector(selector), button = (kind) => find(`[data-kind=${kind}]`)
@@ -47,6 +47,9 @@ test("a file is asked for as the menu says it, saved under its name, and its siz
   one.find(".legend-too").checked = false
   await one.press("svg")
   assert.deepEqual(one.asked.at(-1), {kind: "svg", theme: "paper", legend: false, sliders: []})
+  one.find(".poster-too").checked = true
+  await one.press("pdf")
+  assert.deepEqual(one.asked.at(-1), {kind: "pdf", theme: "paper", legend: false, link: "http://h/?v=1", sliders: []})
 })
 
 test("sizes are told in kB up to a million bytes, then in MB", async () => {
@@ -95,7 +98,7 @@ test("while a film is drawn it says how far it is, can be stopped, and nothing e
   const one = opened({answer: () => new Promise((go) => { done = go })})
   assert.equal(one.find(".stop-making").hidden, true)
   const film = one.press("gif")
-  assert.deepEqual([one.told(), one.find(".stop-making").hidden, one.disabled().length], ["Making Film …", false, 10])
+  assert.deepEqual([one.told(), one.find(".stop-making").hidden, one.disabled().length], ["Making Film …", false, 11])
   one.progress[0](4, 41)
   assert.equal(one.told(), "Drawing the film: 4 of 41 pictures …")
   one.find(".stop-making").onclick()

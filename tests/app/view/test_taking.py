@@ -69,6 +69,15 @@ def test_a_proof_is_taken_with_its_certificate_and_the_program_that_checks_it(ex
     assert (found["whole"], found["certificate"], found["checker"]) == (True, None, None)  # by a theorem
 
 
+def test_the_motion_of_the_typed_start_is_taken_for_the_puck(executor):
+    query = "a=-1&d=-1&f1=-0.5&k1=0&B1=0&t_end=1&launch=0.1,0,0.25"
+    told = json.loads(asked(executor, query, {"id": 7, "kind": "motion"})["file"])
+    x, *_, z = told["states"]
+    assert [phase[0] for phase in told["phases"]] == ["slip", "slide"]
+    assert told["phases"][0][2] == pytest.approx(0.1 / 1.5, abs=1e-5)  # x' = −1 − 0.5
+    assert (x[0], x[-1], z[-1]) == (0.1, 0.0, 0.25)
+
+
 def test_a_proof_is_stopped_alone(executor):
     """What else is made meanwhile goes on, and takes nothing from it."""
     frames = Frames(read_link("f1=0.123").state)

@@ -20,7 +20,7 @@ def test_a_spiral_turns_by_its_formula(first, rate, count):
 
 def test_a_disc_at_rest_does_not_turn_in_the_picture():
     """For eps > 0 it stays about (0, 0) once it rests: the angle climbed there by whole turns."""
-    from codim2_app.panels.typed_start import curves
+    from codim2_app.slow_layers.typed_start import curves
 
     system = c2.examples.spinning_disc()
     for run in (

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {colours, Pad, regionClass, shortName} from "../../../../app/static/beside/pad.js"
+import {colours, Pad, regionClass, shortNames} from "../../../../app/static/beside/pad.js"
 import {page} from "../played/page.js"
 import {named, near, plots} from "../played/reading.js"
 
@@ -110,9 +110,11 @@ test("keys step by a two-hundredth of the box, with Shift by a twentieth", () =>
 })
 
 test("names and colours of regions", () => {
-  assert.deepEqual(["CM2; x y", "1 node, 2 saddles; left", "NCM4"].map(shortName), ["CM2", "1 node", "NCM4"])
+  const called = (/** @type {string[]} */ ...all) => all.map(shortNames(all.map((name) => ({name}))))
+  assert.deepEqual(called("CM2; x y", "1 node, 2 saddles; left", "NCM4"), ["CM2", "1 node", "NCM4"])
+  assert.deepEqual(called("2CM4, saddle, node; 3 arrive", "2CM4, two nodes; 3 arrive", "CM0, focus; attracts", "CM0, focus; repels"), ["2CM4, saddle, node", "2CM4, two nodes", "CM0, focus; attracts", "CM0, focus; repels"]) // what differs
   assert.deepEqual(["CM2 x", "CM4; left", "2+1, a"].map(regionClass), ["CM2", "CM4", "21"])
   const colour = colours(["g", "CM0", "b", "b x", "f", "e", "d", "c", "NCM4 y"].map((name) => ({name})))
-  assert.deepEqual(["b", "b x", "c", "d", "e", "f", "g", "CM0", "NCM4 y", "CM2", "CM4", "NCM2"].map(colour), ["more0", "more0", "more1", "more2", "more3", "more4", "more5", "CM0", "NCM4", "CM2", "CM4", "NCM2"])
-  assert.equal(colours("abcdefg".split("").map((name) => ({name})))("g"), "more0") // in turns
+  assert.deepEqual(["b", "b x", "c", "d", "e", "f", "g", "CM0", "NCM4 y"].map(colour), ["more0", "more0 v1", "more1", "more2", "more3", "more4", "more5", "CM0", "NCM4"])
+  assert.equal(colours("abcdefg".split("").map((name) => ({name})))("g"), "more0 v1") // in turns
 })

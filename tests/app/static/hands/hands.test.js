@@ -164,7 +164,7 @@ const listed = (layers, header = {}, blocks = {}, old = []) => displayList({tabl
 test("what has not come is not drawn, and what is late neither; layers lie in the order of the table, heads above", () => {
   const all = TABLE.map(({name}) => name)
   assert.deepEqual(listed(all).map(({kind}) => kind), ["page", "sphere", "circle"])
-  const blocks = {"inside.n": [2], "inside.xy": [0, 0, 1, 1], "inside.at": [1, 1], "inside.angle": [7], "rho_inside.n": [2], "rho_inside.xy": [1, 2, 3, 4], "launched_1.n": [0], "launched_1.xy": [], "launched_1.at": []}
+  const blocks = {"inside.n": [2], "inside.xy": [0, 0, 1, 1], "inside.at": [1, 1], "inside.angle": [7], "rho_inside.n": [2], "rho_inside.xy": Float32Array.of(1, 2, 3, 4), "launched_1.n": [0], "launched_1.xy": [], "launched_1.at": []}
   const marks = {label: ["Q₁"], x: [1], y: [2], colour: ["rep"], shape: ["diamond"], size: [9], filled: [0], label_x: [3], label_y: [4], sense: [""]}
   const header = {equator: marks, critical: {...marks, colour: ["attr"], filled: [1]}, launched: {x: [0.1, 0.2, 0.3], y: [0.4, 0.5, 0.6]}, sense: [[1, 2, 3]]}
   const list = listed(["critical", "equator", "launched", "inside", "rho"], header, blocks)

@@ -16,10 +16,11 @@ test("all that is in pixels is larger; what is in the picture stays", () => {
 })
 
 /** A page with a beamer; `screen`: whether the browser gives it the whole screen. */
-function beamer({on = false, screen = true} = {}) {
-  const there = page('<div class="codim2"><button class="beam"></button><input type="text"><dialog></dialog></div>')
+function beamer({on = 0, screen = true, height = 720} = {}) {
+  const there = page('<div class="codim2"><button class="panel-too"></button><button class="beam"></button><input type="text"><dialog></dialog></div>')
   const root = /** @type {any} */ (there.document.querySelector(".codim2")), said = [], times = [], left = []
   const document = /** @type {any} */ (there.document)
+  Object.assign(there.window, {innerHeight: height})
   const whole = (element) => { document.fullscreenElement = element; there.fire(document, "fullscreenchange") }
   document.documentElement.requestFullscreen = screen ? () => { whole(document.documentElement); return Promise.resolve() } : () => Promise.reject(new Error("no"))
   document.exitFullscreen = () => { left.push(true); whole(null) }
@@ -28,14 +29,14 @@ function beamer({on = false, screen = true} = {}) {
   return {...there, made, root, key, whole, said: () => said.splice(0), times: () => times.splice(0), left, has: (name) => root.classList.contains(name), button: root.querySelector(".beam")}
 }
 
-test("the button and the key b begin and end it: the picture 1.7 times as large, over the whole screen", async () => {
+test("the button and the key b begin and end it: its letters by the screen's height, over the whole screen", async () => {
   const one = beamer()
   assert.deepEqual([one.has("beamer"), one.times()], [false, []])
   one.fire(one.button, "click")
   await null
-  assert.deepEqual([one.has("beamer"), one.button.getAttribute("aria-pressed"), one.said(), one.times()], [true, "true", [true], [1.7]])
+  assert.deepEqual([one.has("beamer"), one.button.getAttribute("aria-pressed"), one.said(), one.times()], [true, "true", [1], [1.55]])
   one.key("b")
-  assert.deepEqual([one.has("beamer"), one.button.getAttribute("aria-pressed"), one.said()[0], one.times()[0], one.left.length], [false, "false", false, 1, 1])
+  assert.deepEqual([one.has("beamer"), one.button.getAttribute("aria-pressed"), one.said()[0], one.times()[0], one.left.length], [false, "false", 0, 1, 1])
   one.key("b")
   assert.ok(one.has("beamer"))
 })
@@ -48,7 +49,7 @@ test("Esc ends it, and so does the browser's own way out of the full screen; whe
   one.key("b")
   await null
   one.whole(null)
-  assert.deepEqual([one.has("beamer"), one.said()], [false, [true, false]])
+  assert.deepEqual([one.has("beamer"), one.said()], [false, [1, 0]])
   const filled = beamer({screen: false}) // a frame gets no screen: the picture fills the page, which no other screen ends
   filled.key("b")
   await null
@@ -56,7 +57,7 @@ test("Esc ends it, and so does the browser's own way out of the full screen; whe
   filled.whole(null)
   assert.ok(filled.has("beamer"))
   filled.key("Escape")
-  assert.deepEqual([filled.has("beamer"), filled.said(), filled.left], [false, [true, false], []])
+  assert.deepEqual([filled.has("beamer"), filled.said(), filled.left], [false, [1, 0], []])
 })
 
 test("keys are left alone while one types, with other keys held, and under a dialog", () => {
@@ -70,8 +71,8 @@ test("keys are left alone while one types, with other keys held, and under a dia
 })
 
 test("controls come with the pointer, and fade three seconds after its last move", () => {
-  const one = beamer({on: true}) // a link begins it without the screen, which only a hand may ask for
-  assert.deepEqual([one.has("beamer"), one.has("awake"), one.said(), one.times()], [true, true, [], [1.7]])
+  const one = beamer({on: 1}) // a link begins it without the screen, which only a hand may ask for
+  assert.deepEqual([one.has("beamer"), one.has("awake"), one.said(), one.times()], [true, true, [], [1.55]])
   one.tick(2999)
   assert.ok(one.has("awake"))
   one.fire(one.document, "pointermove")
@@ -82,4 +83,19 @@ test("controls come with the pointer, and fade three seconds after its last move
   const quiet = beamer()
   quiet.fire(quiet.document, "pointermove")
   assert.ok(!quiet.has("awake"))
+})
+
+test("a panel stands beside the picture by the key p or its button, and comes again with the next lecture", () => {
+  const one = beamer({height: 1440})
+  one.key("p")
+  assert.ok(!one.has("paneled")) // for the beamer only
+  one.key("b")
+  one.key("p")
+  assert.deepEqual([one.has("paneled"), one.said(), one.times()], [true, [1, 2], [0.024 / 15 * 1440, 0.024 / 15 * 1440]])
+  one.key("b")
+  one.key("b")
+  assert.ok(one.has("paneled"))
+  one.fire(one.root.querySelector(".panel-too"), "click")
+  assert.deepEqual([one.has("beamer"), one.has("paneled"), one.said()], [true, false, [0, 2, 1]])
+  assert.ok(beamer({on: 2}).has("paneled"))
 })

@@ -31,7 +31,7 @@ test("what is seen has six digits; a frame in another page names its controls", 
   assert.deepEqual(said({}, null, {embed: true, controls: []}), {v: "3", embed: "1"})
   assert.deepEqual(said({}, null, {embed: true, controls: ["f1", "z"]}), {v: "3", embed: "1", controls: "f1,z"})
   assert.deepEqual(said({}, null, {embed: false, controls: ["f1"]}), {v: "3"})
-  assert.deepEqual(said({}, null, {embed: false, controls: [], beamer: true}), {v: "3", beamer: "1"})
+  assert.deepEqual(said({}, null, {embed: false, controls: [], beamer: 2}), {v: "3", beamer: "2"})
 })
 
 test("a long link is carried compressed, a short one as it is", async () => {

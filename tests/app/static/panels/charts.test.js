@@ -193,8 +193,12 @@ test("the panel planes: trace to the right, determinant upward, eigenvalues besi
   one.frame({critical: {label: [], kind: [], trace: [], determinant: [], x2: []}})
   assert.equal(one.find(".plane-note").textContent, "No critical set is on the hemisphere.")
   const bare = opened("planes", {})
-  for (const found of [{label: [], kind: [], trace: [], determinant: [], x2: []}, {label: ["C"], kind: ["degenerate"], trace: [0], determinant: [0], x2: [[0, 0]]}]) {
-    bare.frame({critical: found})
+  bare.frame({critical: {label: [], kind: [], trace: [], determinant: [], x2: []}})
+  const hidden = () => [".trace-plane", ".eigen-plane"].map((name) => bare.find(name).hasAttribute("hidden"))
+  assert.deepEqual([hidden(), bare.find(".plane-note").textContent], [[true, true], "No critical set is on the hemisphere."]) // no empty charts
+  bare.frame({critical: {label: ["C"], kind: ["degenerate"], trace: [0], determinant: [0], x2: [[0, 0]]}})
+  assert.deepEqual(hidden(), [false, false])
+  {
     const values = bare.texts(".trace-plane text, .eigen-plane text").map((word) => Number(word.replace("−", "-"))).filter((value) => value)
     assert.ok(values.length > 4 && values.every((value) => Math.abs(value) > 0.1 && Math.abs(value) < 3), `${values}`) // nothing to show, and no span of 1e-12
   }

@@ -60,3 +60,14 @@ test("the sense of the equator is told unless a question hides it; where nothing
   const {size, width, colour, fill, ...start} = displayList(/** @type {any} */ ({...state, header: {launched: {x: [0.5], y: [-0.25]}}})).at(-1)
   assert.deepEqual([size, width, colour, fill, start.shape, start.x, start.y], [11, 2.4, "p", "l", "circle", 0.5, -0.25]) // with a rim, so that it is seen on its own orbit
 })
+
+test("a nullcline bears its name where it first crosses a circle around the hemisphere, clear of marks and of other names", () => {
+  const line = (...points) => ({n: Uint16Array.of(points.length), xy: Float32Array.from(points.flat())})
+  const rho = line([1, 0], [2, 0]), lines = line([0, -2], [0, 2]), theta = line([0.5, 0], [0.5, 0.1]) // the last one crosses none
+  const table = ["rho", "theta", "lines"].map((name) => ({name, parts: [{name: `${name}_outside`, colour: "c", width: 1, dash: []}]}))
+  const blocks = Object.fromEntries(Object.entries({rho, theta, lines}).flatMap(([name, {n, xy}]) => [[`${name}_outside.n`, n], [`${name}_outside.xy`, xy]]))
+  const header = {owners: {lines_outside: ["U1"]}, equator: {...equator, x: [0], y: [-1.4]}}
+  const state = {table, layers: ["rho", "theta", "lines"], old: [], header, blocks, theme: {}, measures: {light: [0, 0], middle: 0.5, ring: [1, 1.1], hatches: {}, view: 2}}
+  const told = displayList(/** @type {any} */ (state)).filter(({kind}) => kind === "label").map(({text, x, y}) => [text, ...[x, y].map((v) => Number(v.toFixed(3)))])
+  assert.deepEqual(told, [["ρ′ = 0", 1.45, 0], ["U₁ = 0", 0, -0.62]]) // 1.45 and 1.3 are taken by the mark
+})

@@ -8,6 +8,7 @@ import {fileURLToPath} from "node:url"
 
 import {KEPT, summary} from "./kept.js"
 import {page} from "./page.js"
+import {DRAWN} from "./reading.js"
 import {story} from "./wiring.js"
 import {Panels} from "../../../../app/static/beside/panels.js"
 import {Rest} from "../../../../app/static/asking/rest.js"
@@ -91,7 +92,7 @@ export function drawn(name) {
     rangeOf: (it) => tools.ranges[it] ?? [-4, 4], valueOf: (it) => it.startsWith("own:") ? own[it.slice(4)] ?? 0 : values[it], follow: (it) => said("follow")(it),
     move: (wanted) => { said("move")(wanted); Object.assign(values, wanted); panels.draw(values) },
     choose: (it, value) => { said("choose")(it, value); values[it] = value; panels.draw(values) },
-    crowd: () => null,
+    crowd: () => null, drawn: () => DRAWN,
     trace: (paths, place) => said("trace")(paths && paths.map((path) => path && path.map((column) => column.length)), place?.map((v) => Number(v.toFixed(4)))),
     open: said("open"), ask: said("ask"), cross: said("cross"),
   }, said("choose"))

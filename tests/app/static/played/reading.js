@@ -13,6 +13,14 @@ const RANGES = {a: [-4, 4], f1: [-3, 3], f2: [-3, 3], n: [0.5, 6], z: [-4, 4], z
  * @param {string} key @param {Record<string, any>} values of the controls @param {any} more of the tools
  * @param {string | null} shown what is open at first, if not this panel; null: nothing yet
  */
+// A picture that a panel may draw its own way.
+export const DRAWN = [
+  {kind: "page", colour: "page"}, {kind: "sphere", colour: "#112233", light: [-0.3, 0.4], stops: [[0, 0], [1, 0.5]]},
+  {kind: "curves", counts: [2, 2, 2], points: Float32Array.of(0.1, -0.9, 0.1, -0.85, 0, 0.99, 0.05, 0.99, 1.2, 0.2, 1.25, 0.2), colour: "orbit", width: 1, dash: []},
+  {kind: "mark", shape: "circle", x: 0.6, y: 0.8, size: 8, width: 2, colour: "attr", fill: "attr"}, {kind: "mark", shape: "square", x: 0.3, y: 0.4, size: 8, width: 2, colour: "crit", fill: "page"},
+  {kind: "label", text: "P", x: 0.6, y: 0.8, away: [0.1, 0.1], view: 1.75, align: "center", size: 15, colour: "ink", back: "page"},
+]
+
 export function opened(key, values, more = {}, shown = key) {
   values.layers ??= []
   const there = page(`<div class="codim2"><div class="portrait"></div><div class="tabs" role="tablist"><button role="tab" data-panel="${key}">A panel</button></div><section role="tabpanel" data-panel="${key}"></section></div>`)
@@ -24,7 +32,7 @@ export function opened(key, values, more = {}, shown = key) {
     valueOf: (it) => values[it] ?? 0, follow: (it, set) => { setters[it] = set },
     move: (wanted) => { said.push(["move", wanted]); Object.assign(values, wanted); panels.draw(values) },
     choose: (it, value) => { said.push(["choose", it, value]); values[it] = value; panels.draw(values) },
-    trace: note("trace"), open: note("open"), ask: (it) => said.push(["ask", it && it.hide]), cross: (place) => { said.push(["cross", place]) }, crowd: () => null, ...more,
+    trace: note("trace"), open: note("open"), ask: (it) => said.push(["ask", it && it.hide]), cross: (place) => { said.push(["cross", place]) }, crowd: () => null, drawn: () => DRAWN, ...more,
   }, note("choose"))
   if (shown !== null) panels.show(shown, values)
   return {

@@ -2,7 +2,7 @@
 // hand, and what a person does; all as one text.
 
 import {page, recorder} from "./page.js"
-import explorer from "../../../../app/static/explorer.js"
+import explorer, {begin} from "../../../../app/static/explorer.js"
 import "../../../../app/static/panels/numbers.js"
 import "../../../../app/static/panels/orbits.js"
 
@@ -18,6 +18,7 @@ ${["a", "f1", "n", "z", "trajectories"].map(slider).join("\n")}
 <div data-control="layers"><label class="layer"><input type="checkbox" value="inside"></label><label class="layer"><input type="checkbox" value="outcomes"></label><label class="layer"><input type="checkbox" value="launched"></label></div><div class="outcome-key"></div></form>
 <section class="second" hidden><span class="second-own"></span><select class="second-what"><option value="">…</option><option value="psi">Ψ</option><option value="now">now</option><option value="one">One</option></select><details><summary></summary><ul></ul></details><p class="second-narrow" hidden></p><div class="second-place"></div></section><p class="first-words"></p>
 <div class="picture"><div class="first">drawing</div><div class="bokeh"></div><p class="orbit-words" hidden></p><button class="home"></button><button class="undo"></button><button class="redo"></button><button class="theme"></button><button class="two"></button><button class="beam"></button><button class="share"></button><button class="help"></button><a class="whole"></a><dialog class="sharing"></dialog><dialog class="room"></dialog><dialog class="helping"></dialog><p class="busy" hidden></p></div>
+<button class="lift"></button><span class="views"></span><button class="panel-too"></button><section class="table" hidden><canvas></canvas><button class="play"></button><input type="range"></section>
 <div class="inspector"><div class="portrait"><p class="headline" hidden></p><b class="portrait-name"></b><i class="portrait-case"></i><p class="sentence"></p><div class="degeneracies"></div><p class="slow-line"></p></div></div>
 <div class="sheets"><button data-sheet="controls"></button><button data-sheet="inspector"></button></div>
 <div class="tabs"><button role="tab" data-panel="orbits">Orbits</button><button role="tab" data-panel="numbers">Numbers</button></div><section role="tabpanel" data-panel="orbits"></section><section role="tabpanel" data-panel="numbers" hidden></section></div></div>`
@@ -120,7 +121,12 @@ export function wired(more = {}, first = FIRST, scope = {}) {
   }
   const el = document.createElement("main")
   document.body.append(el)
-  explorer.render({model, view: {model: {document: {on_event: (name, call) => { connections[name] = call }}, data: {picture: plot}}}, el})
+  if (settings.page) {
+    begin({
+      config: settings, offered: {}, first: /** @type {any} */ (model.first), send: model.send_msg,
+      hear: (call) => { heard["msg:custom"] = ({data}) => call(data) }, lost: (call) => { connections.connection_lost = call },
+    }, document.querySelector("#codim2-first .codim2"), plot, el)
+  } else explorer.render({model, view: {model: {document: {on_event: (name, call) => { connections[name] = call }}, data: {picture: plot}}}, el})
   const root = /** @type {any} */ (el.querySelector(".codim2"))
   there.tick(16) // the panel is drawn after the picture
   return {

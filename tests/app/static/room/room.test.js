@@ -100,13 +100,13 @@ test("in the atlas: dots, those that meet as one with their number; a click open
   assert.deepEqual(shown(), [])
 })
 
-function room(kept = "{}", hostname = "h") {
+function room(kept = "{}", hostname = "h", search = "?v=1&room=bcdf") {
   const said = []
-  const there = page('<div class="codim2"><div class="room-bar" hidden></div><dialog class="room"></dialog></div>', {location: {origin: "http://h", pathname: "/x/", href: "http://h/x/", hostname}, sessionStorage: {value: kept, getItem() { return this.value }, setItem(_, text) { this.value = text }}})
+  const there = page('<div class="codim2"><div class="room-bar" hidden></div><dialog class="room"></dialog></div>', {location: {origin: "http://h", pathname: "/x/", href: "http://h/x/", hostname, search}, sessionStorage: {value: kept, getItem() { return this.value }, setItem(_, text) { this.value = text }}})
   const root = /** @type {any} */ (there.document.querySelector(".codim2")), dialog = root.querySelector("dialog")
   dialog.showModal = () => { dialog.open = true }
   dialog.close = () => { dialog.open = false }
-  const made = new Room(root, {send: ({room: wish}) => said.push(wish), query: () => "v=1&f1=1", version: 1, changed: () => said.push("changed"), opened: () => said.push("opened")})
+  const made = new Room(root, {send: ({room: wish}) => said.push(wish), query: () => "v=1&f1=1", version: 1, changed: () => said.push("changed"), opened: () => said.push("opened"), open: (view) => said.push(["open", view])})
   const show = made.show.bind(made), showing = []
   made.show = () => { showing.push(show()); return showing[0] }
   return {...there, root, dialog, room: made, shown: () => Promise.all(showing), bar: root.querySelector(".room-bar"), said: () => said.splice(0), kept: () => JSON.parse(sessionStorage.getItem("")), press: (act) => there.fire(root.querySelector(`[data-room=${act}]`), "click")}
@@ -178,6 +178,10 @@ test("a student is told that he is in a room, and leaves it", () => {
   assert.deepEqual(one.kept(), {in: "BCDF"})
   one.press("leave")
   assert.deepEqual([one.said(), one.kept(), one.bar.hidden], [[{leave: true}], {}, true])
+  const typed = room("{}", "h", "?room=bcdf") // the code alone brings what the lecturer shows; an address that has a view keeps it
+  typed.room.begin("bcdf")
+  typed.room.hear({room: {joined: "BCDF", view: {f1: 2}}})
+  assert.deepEqual(typed.said(), [{join: "bcdf"}, ["open", {f1: 2}]])
   one.room.begin("zzzz")
   one.room.hear({room: {error: "There is no <room>."}})
   assert.deepEqual([one.bar.textContent, one.bar.hidden, one.kept()], ["There is no <room>.OK", false, {}])
@@ -216,7 +220,7 @@ test("the explorer enters the room of its address; an embedded one does not", ()
   const asked = (one) => one.sent.filter((message) => "room" in message).map(({room: wish}) => wish)
   const one = wired({}, HEADER, at)
   assert.deepEqual(asked(one), [{join: "bcdf"}])
-  const shown = wired({look: {embed: false, controls: [], seen: [], beamer: true}}, HEADER, {...at, location: {...at.location, search: ""}})
+  const shown = wired({look: {embed: false, controls: [], seen: [], beamer: 1}}, HEADER, {...at, location: {...at.location, search: ""}})
   const link = new URLSearchParams(shown.root.explorer.room.tools.query())
   assert.deepEqual(["v", "embed", "beamer"].map((name) => link.get(name)), ["1", null, null]) // a phone is no beamer, and no frame
   one.tell({room: {joined: "BCDF"}})
