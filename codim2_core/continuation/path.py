@@ -15,7 +15,7 @@ from itertools import combinations, pairwise, takewhile
 
 from .ahead import Place
 from .points import Guess, Point, Trace
-from .trace import FARTHEST, Course, Search, Tracer, distance
+from .trace import FARTHEST, NEARBY, Course, Search, Tracer, distance
 from .varied_system import Asking, side_by_side
 
 STEP = 0.03  # the longest step
@@ -330,11 +330,12 @@ class _Path:
     def _fold(self, i: int) -> Asking[Point | None]:
         """Find the point between the i-th one and the one before at which the exponent is zero."""
         around, k = self.points[max(i - 2, 0) : i + 2], min(i, 2)
-        for _ in range(HALVINGS):
+        for halved in range(HALVINGS):
             here, there = around[k - 1], around[k]
             course = Course(self.tracer, around)
             place, near = course.between(course.neutral(k))
-            found = yield from self.tracer.fold(place.xi, place.parameters[0], near)
+            nearby = NEARBY * 0.2**halved  # where the exponent changes fast, smaller ones tell
+            found = yield from self.tracer.fold(place.xi, place.parameters[0], near, nearby)
             if found is not None and -FOLD_SLACK < _part(here, there, found) < 1.0 + FOLD_SLACK:
                 return found
             if _rounded(here, there):

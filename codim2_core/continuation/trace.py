@@ -91,12 +91,15 @@ class Tracer:
         tc, tn = point.tangent
         return point.turn.rate * tc, tn + point.turn.drift * self.width * tc
 
-    def fold(self, xi: float, nu: float, near: Point) -> Asking[Point | None]:
-        """Find the point about (xi, nu) where the exponent is zero: Newton's method for a closed turn of exponent 0."""
+    def fold(self, xi: float, nu: float, near: Point, nearby: float = NEARBY) -> Asking[Point | None]:
+        """Find the point about (xi, nu) where the exponent is zero: Newton's method for a closed turn of exponent 0.
+
+        Its derivatives are taken by differences of `nearby` in xi rate and nu.
+        """
         last = math.inf
-        k = min(NEARBY, LINEAR / max(abs(near.turn.by_value) * self.width, 1e-300))
+        k = min(nearby, LINEAR / max(abs(near.turn.by_value) * self.width, 1e-300))
         for _ in range(ROUNDS):
-            h = NEARBY / near.turn.rate
+            h = nearby / near.turn.rate
             places = ((xi, nu), (xi + h, nu), (xi, nu + k))
             turn, *beside = yield self.question([Guess(*place, (0.0, 0.0), backward=False) for place in places])
             if turn is None or beside[0] is None or beside[1] is None:

@@ -140,8 +140,8 @@ class Sweep:
                 values[name] if name in values else np.full(k, v) for name, v in zip(_NAMES, self.fixed, strict=True)
             )
             plane = Plane(a, b, d, f1, f2, self.psi, n, np.ones(k, bool))
-            at = self.system
-            if not isinstance(at, Coefficients) or at.given is None or any(name in _NAMES for name in self.names):
+            at: Any = self.system
+            if not at.frozen or at.given is None or any(name in _NAMES for name in self.names):
                 return plane
             turn, given = np.full(k, at.rotation), tuple(np.full(k, v) for v in at.given)
             return replace(plane, given=given, turn=turn, told=0.0 * turn if self.own_axes else turn)
@@ -255,7 +255,7 @@ def linear_path(system: Any, psi: Psi, z: ArrayLike, along: str, values: Array) 
         each value. None if U is not affine, or where the axes of the normal form turn by nearly half a turn or jump,
         as they do beside a symmetric part that is a multiple of the unit matrix.
     """
-    linear = as_elinear(system)
+    linear: Any = as_elinear(system)
     if linear is None:
         return None
     own = system.typed is not None
@@ -264,7 +264,7 @@ def linear_path(system: Any, psi: Psi, z: ArrayLike, along: str, values: Array) 
     plane = path(values)
     if plane.turn is None or plane.given is None or not plane.defined.any():
         return path
-    if own and isinstance(linear, ELinear) and not (plane.given[1] + plane.given[2]).any():  # without a rotation
+    if own and not linear.frozen and not (plane.given[1] + plane.given[2]).any():  # without a rotation
         (a, _), (b, d) = linear.given_matrix
         return Line(replace(path.family, system=replace(linear, a=a, b=b, d=d, given_matrix=None)))
     turns = np.unwrap(plane.turn[plane.defined], period=np.pi)
