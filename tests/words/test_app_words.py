@@ -86,8 +86,9 @@ def unable(panel, name, **values):
 
 
 def axes(key):
-    across = "own:mu" if key == "no such axis" else "f1"
-    return unable("atlas", "map", across=across, up="f1" if key == "one axis twice" else "f2")(key)
+    if key == "no such axis":
+        return unable("atlas", "map", system="own", across="b", up="z")(key)
+    return unable("atlas", "map", across="f1", up="f1")(key)
 
 
 FOLDING = System(U=("2*c**2 - c - mu", "-s + k*c*s"), parameters={"mu": 0.5, "k": 0.3})
