@@ -15,7 +15,7 @@ from ..phrases import say
 from ..state.choices import SETTING
 from ..state.chosen import NORMAL
 from ..state.controls import NAMES, first_values
-from .rooms import MOST_TRIES, Guest, RoomError, Row, here, settings_of
+from .rooms import MOST_TRIES, Guest, RoomError, Row, code_of, here, settings_of
 
 LONGEST = 64  # characters of a key or a code
 _first = cache(first_values)
@@ -77,7 +77,11 @@ class Visitor:
         try:
             if isinstance(key := asked.get("open"), str):
                 self._leave_guest()
-                code, key = here().open(key if len(key) <= LONGEST else "", tell, view=self._view)
+                key = key if len(key) <= LONGEST else ""
+                if self._opened is not None and self._opened[0] != code_of(key):  # a page has one room
+                    here().close(self._opened[0])
+                    self._opened = None
+                code, key = here().open(key, tell, view=self._view)
                 self._opened = code, tell
                 reply({"open": code, "key": key})
             elif isinstance(code := asked.get("join"), str):

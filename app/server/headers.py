@@ -1,9 +1,8 @@
 """What every answer says to the browser about itself: whom it may ask, who may embed it, and nothing about the server.
 
-A page runs four kinds of script: files of this server; its own inline scripts, allowed one by one by their hashes; the
-explorer's module, which Panel hands over as a blob; and what es-module-shims, which loads it, writes into the page to
-ask what the browser can do: for it there is a nonce, new with every page. Styles are inline: BokehJS writes a style
-sheet into each shadow root. Nothing is evaluated from text, and nobody else is asked for anything.
+A page runs two kinds of script: files of this server, and its own inline scripts, allowed one by one by their hashes.
+Styles are inline: BokehJS writes a style sheet into each shadow root. Nothing is evaluated from text, and nobody else
+is asked for anything.
 """
 
 from __future__ import annotations
@@ -11,28 +10,24 @@ from __future__ import annotations
 import base64
 import hashlib
 import re
-import secrets
 
 from tornado.httputil import HTTPHeaders
 from tornado.web import OutputTransform
 
 _INLINE = re.compile(rb"<script(?![^>]*\bsrc=)(?![^>]*application/json)[^>]*>(.*?)</script>", re.DOTALL)
 
-_LOADER = re.compile(rb"<script(?=[^>]* src=[^>]*/es-module-shims)")
-
 POLICY = (
-    "default-src 'self'; script-src 'self' blob:{hashes}; style-src 'self' 'unsafe-inline'; "
+    "default-src 'self'; script-src 'self'{hashes}; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; "
-    "font-src 'self' data:; connect-src 'self' blob:; worker-src 'self' blob:; object-src 'none'; base-uri 'none'; "
+    "font-src 'self' data:; connect-src 'self'; worker-src 'self'; object-src 'none'; base-uri 'none'; "
     "form-action 'none'; frame-ancestors {ancestors}"
 )
 
 
-def policy(page: bytes, ancestors: str = "'self'", nonce: str = "") -> str:
-    """Return the Content-Security-Policy of a page: its own inline scripts, by their hashes, and its nonce if any."""
+def policy(page: bytes, ancestors: str = "'self'") -> str:
+    """Return the Content-Security-Policy of a page: its own inline scripts, by their hashes."""
     digests = (base64.b64encode(hashlib.sha256(script).digest()).decode() for script in _INLINE.findall(page))
-    allowed = [f" 'sha256-{digest}'" for digest in digests] + ([f" 'nonce-{nonce}'"] if nonce else [])
-    return POLICY.format(hashes="".join(allowed), ancestors=ancestors)
+    return POLICY.format(hashes="".join(f" 'sha256-{digest}'" for digest in digests), ancestors=ancestors)
 
 
 def embedders(sources: str) -> str:
@@ -64,11 +59,7 @@ def transform(sources: str) -> type[OutputTransform]:
             headers["Referrer-Policy"] = "no-referrer"
             if "Content-Security-Policy" not in headers:
                 page = headers.get("Content-Type", "").startswith("text/html")
-                nonce = secrets.token_urlsafe(16) if page else ""
-                if page:
-                    chunk = _LOADER.sub(f'<script nonce="{nonce}"'.encode(), chunk, count=1)
-                    headers["Content-Length"] = str(len(chunk))
-                headers["Content-Security-Policy"] = policy(chunk if page else b"", ancestors, nonce)
+                headers["Content-Security-Policy"] = policy(chunk if page else b"", ancestors)
             return status_code, headers, chunk
 
     return Headers

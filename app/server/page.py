@@ -1,18 +1,18 @@
-"""The page: one session of the explorer, and the server around it. Composition only."""
+"""The server around the page. Composition only."""
 
 from __future__ import annotations
 
+import gc
 import logging
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Executor
 from functools import partial
 from importlib.metadata import version
 from typing import Any
 
 import panel as pn
-from panel.io.server import DocHandler, WSHandler
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.process import task_id
 from tornado.web import RequestHandler
@@ -21,22 +21,18 @@ from ..docs.served import Docs, ToDocs
 from ..frame.jobs import serve_with
 from ..frame.turns import Turns
 from ..frame.workers import Workers, processors
-from ..phrases import say
 from ..rooms.board import Board
 from ..rooms.rooms import EVERY, MOST_ROOMS, Rooms
 from ..rooms.rooms import serve_with as serve_rooms
 from ..view import warmup
-from ..view.explorer import ExplorerView
-from ..view.markup import address_of_script, edition, page_template
-from .first_page import Page, markup_of
+from ..view.markup import edition
+from .first_page import Page
 from .headers import transform
-from .openings import Ahead, query_of_the_page, view_of
-from .process import garbage
+from .live import MOST_SENT, Live, Places
 from .process.clock import keep_steady
 from .process.ports import listen_by_own, shared
 from .process.standing_back import stand_back
 from .scripts import routes
-from .sockets import MOST_SENT, PromptSocket, closed, untraced, views
 
 #: What the workers find imported.
 PRELOAD = ("codim2_app.server.worker",)
@@ -45,59 +41,8 @@ PRELOAD = ("codim2_app.server.worker",)
 #: after each of its kernels; by default they are 5 ms.
 SWITCH = 0.0005
 
-#: Seconds for which a page may begin its session after it was sent, by the machine's clock. After Bokeh's 300, one
-#: that slept meanwhile, or where a clock was set, would show a picture that stands still; its token is no secret.
-TOKEN_HOLDS = 10 * 365 * 86_400
-
-#: Seconds between looks for sessions whose pages have been closed: what they hold is searched for garbage till then.
-FORGOTTEN = 2
-
-TITLE = "Isolated codimension-2 discontinuity: explorer"
-
-
-def session() -> ExplorerView:
-    """Return one session's explorer; the query of the page's address is its state."""
-    doc = pn.state.curdoc
-    assert doc is not None  # Bokeh's server calls this with a document
-    view = view_of(doc)
-    spare = doc.config.notifications  # Bokeh makes some as soon as it is given others, and loses them with the session
-    # The page says itself when the connection is lost, and loads itself again: see connection.js.
-    doc.config.update(reconnect_session=False, notify_connection_status=False, notifications=None)
-    garbage.begun(doc)
-    doc.on_session_destroyed(lambda _: view.leave())
-    doc.on_session_destroyed(lambda _: garbage.ended(doc, spare, views.pop(doc), *closed.pop(doc, ())))
-    views[doc] = view
-    doc.template = page_template()  # type: ignore[assignment]  # Bokeh takes a template's text as well
-    doc.template_variables["explorer_script"] = address_of_script()
-    doc.template_variables["refused"] = {"full": say("places taken"), "other": say("no connection")}
-    # Bokeh's own handler, which makes a session first, writes it
-    doc.template_variables["explorer_markup"] = _Markup(query_of_the_page())
-    return view
-
-
-class _Markup:
-    """The markup of an address, made when a template writes it."""
-
-    def __init__(self, query: Mapping[str, str]) -> None:
-        self.query = query
-
-    def __str__(self) -> str:
-        return markup_of(self.query)
-
-
-#: Routes of Bokeh and Panel that are answered here.
-OURS: dict[type, type] = {WSHandler: PromptSocket, DocHandler: Page}
-
-
-def take_over(application: Any) -> None:
-    """Let a server's websockets be `PromptSocket` and its pages `Page`; what is not found answers as it did."""
-    found = set()
-    for rule in getattr(getattr(application, "wildcard_router", None), "rules", ()):
-        if isinstance(rule.target, type) and rule.target in OURS:
-            found.add(rule.target)
-            rule.target = OURS[rule.target]
-    for theirs in OURS.keys() - found:
-        logging.getLogger(__name__).warning("Panel's routes are others than known here: %s answers.", theirs.__name__)
+#: Seconds between two signs of life to each page: proxies close a line on which nothing is said for a minute.
+BEAT = 37.0
 
 
 class ToRoom(RequestHandler):
@@ -177,7 +122,6 @@ def make_server(
     """
     sys.setswitchinterval(SWITCH)
     stand_back()
-    pn.config.browser_info = False  # a model for each page, which nobody reads
     if executor is None:
         at_once = workers or max(1, processors() // processes)
         executor = Workers(at_once, preload=PRELOAD, first=warmup.wait)
@@ -188,36 +132,31 @@ def make_server(
         begin()
     parent = os.getpid()
     board = Board(processes)
+    places = Places(sessions)
     with shared(processes):
-        server = _server(port, address, allow_origin, processes, prefix, options)
+        server = _server(port, address, allow_origin, processes, prefix, places, options)
     keep_steady(server.io_loop)
     listen_by_own(server, address)
     board.belong(task_id() or 0)
     _keep(Rooms(board, rooms))
     application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
-    for context in application.applications.values():
-        context.application.add(Ahead())
     application.add_handlers(".*", routes(server.prefix))
-    take_over(application)
     application.transforms.insert(0, transform(frame_ancestors))  # before they are compressed
-    application.settings["most_sessions"] = sessions
     application.settings["log_function"] = _log
-    logging.getLogger("bokeh.server.protocol_handler").addFilter(untraced)
     if not warmup_now:
         server.io_loop.add_callback(begin)
-    server.io_loop.add_callback(garbage.begin)
-    server.io_loop.add_callback(PeriodicCallback(garbage.look, 1000 * garbage.EVERY).start)
+    server.io_loop.add_callback(PeriodicCallback(places.beat, 1000 * BEAT).start)
     if os.getpid() != parent:
         _stop_with(parent, server.io_loop)
     return server
 
 
 def _told(told: warmup.Told | None, what: str, seconds: float, done: int, of: int) -> None:
-    """Tell what has been compiled; once it is all, it is no garbage."""
+    """Tell what has been compiled; once it is all, it is no garbage: no search stops a visitor for it."""
     if told is not None:
         told(what, seconds, done, of)
     if done == of:
-        garbage.keep()
+        gc.freeze()
 
 
 def _keep(rooms: Rooms) -> None:
@@ -256,17 +195,23 @@ def _stop_with(parent: int, loop: IOLoop) -> None:
 
 
 def _server(
-    port: int, address: str, allow_origin: Sequence[str], processes: int, prefix: str, options: dict[str, Any]
+    port: int,
+    address: str,
+    allow_origin: Sequence[str],
+    processes: int,
+    prefix: str,
+    places: Places,
+    options: dict[str, Any],
 ) -> Any:
     return pn.io.server.get_server(
-        {"/": session},
+        {},
         port=port,
         address=address,
         websocket_origin=list(allow_origin) or None,
-        title={"/": TITLE},
-        location=False,
         num_procs=processes,
         extra_patterns=[
+            (r"/?", Page, {"places": places}),
+            (r"/live", Live, {"places": places}),
             (r"/health", Health),
             (r"/ready", Ready),
             (r"/room", ToRoom),
@@ -277,6 +222,5 @@ def _server(
         prefix=prefix,
         compress_response=True,
         start=False,
-        session_token_expiration=TOKEN_HOLDS,
-        **{"check_unused_sessions_milliseconds": 1000 * FORGOTTEN, **options},
+        **options,
     )

@@ -9,8 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import segno
-from bokeh.embed.bundle import extension_dirs
-from bokeh.server.views.multi_root_static_handler import MultiRootStaticHandler
 from bokeh.server.views.static_handler import StaticHandler
 from tornado.web import HTTPError, RequestHandler, StaticFileHandler
 
@@ -91,10 +89,6 @@ class BokehScript(_Packed, StaticHandler):
     """One of BokehJS's files."""
 
 
-class ExtensionScript(_Packed, MultiRootStaticHandler):
-    """One of Panel's files."""
-
-
 class QrCode(RequestHandler):
     """Answers ``qr.svg?text=...`` with the text as a QR code: dark squares on white, in either theme."""
 
@@ -117,6 +111,5 @@ def routes(prefix: str) -> list[tuple[Any, ...]]:
         (rf"{prefix}/({own})", Script),
         (rf"{prefix}/qr\.svg", QrCode),
         (rf"{prefix}/({PREVIEW})", StaticFileHandler, {"path": STATIC}),
-        (rf"{prefix}/static/extensions/(.*\.js)", ExtensionScript, {"root": extension_dirs}),
         (rf"{prefix}/static/(js/.*\.js)", BokehScript),
     ]

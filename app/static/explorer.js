@@ -1,6 +1,7 @@
 // The explorer: markup from the server, one Bokeh figure, frames asked for as fast as the line carries them.
 
 import {Connection} from "./asking/connection.js"
+import {opened} from "./asking/line.js"
 import {Requests} from "./asking/requests.js"
 import {Rest} from "./asking/rest.js"
 import {Waiting} from "./asking/waiting.js"
@@ -26,12 +27,14 @@ import {Picture} from "./picture/picture.js"
 import {SAYS} from "./words.js"
 import {addDialogs, besideOf, grabOf, handsOf, liftOf, panelsOf, pointingOf, roomOf, tableOf} from "./parts.js"
 
+const FULL = 1013 // as a code of a websocket: all places are taken
+
 export class Explorer {
-  /** @param {{model: any, view: any, root: any, plot: any}} given */
-  constructor({model, view, root, plot}) {
-    const config = this.config = {...JSON.parse(model.offered), ...model.config}
+  /** @param {{line: import("./asking/line.js").Line, root: any, plot: any}} given */
+  constructor({line, root, plot}) {
+    const config = this.config = {...line.offered, ...line.config}
     const values = this.values = {...config.values}
-    this.model = model
+    this.line = line
     this.root = root
     this.plot = plot
     this.find = (name) => root.querySelector(name)
@@ -51,8 +54,8 @@ export class Explorer {
     const rest = this.rest = new Rest(root)
     const picture = this.picture = new Picture(plot, config, rest, () => this.requests.rest())
     this.inspector = new Inspector(root, this.slowSymbols)
-    this.requests = new Requests((request) => { picture.asked = String(picture.window); model.send_msg({...request, window: picture.window}) }, () => rest.note("asked", true))
-    this.takes = new Takes((message) => model.send_msg(message), () => ({window: picture.window, layers: picture.state.layers}))
+    this.requests = new Requests((request) => { picture.asked = String(picture.window); line.send({...request, window: picture.window}) }, () => rest.note("asked", true))
+    this.takes = new Takes((message) => line.send(message), () => ({window: picture.window, layers: picture.state.layers}))
     const {panels, setters} = panelsOf(this)
     this.panels = panels
     this.makeControls(setters)
@@ -86,7 +89,7 @@ export class Explorer {
       settled: () => this.note(),
     })
     this.waiting = new Waiting(this.find(".busy"), this.requests)
-    this.connect(view)
+    this.connect()
     this.begin()
   }
 
@@ -113,13 +116,13 @@ export class Explorer {
     for (const box of this.boxes) box.addEventListener("change", () => { change("layers", this.boxes.filter((b) => b.checked).map((b) => b.value)); this.showPanels(); this.showLayers() })
   }
 
-  connect(view) {
-    const {model} = this
-    new Connection(view.model.document, {
+  connect() {
+    const {line} = this
+    new Connection(line, {
       page: this.config.page, edition: this.config.edition, say: (sentence, reload) => this.sentences.notice(sentence, reload), leave: () => this.steps.settle(), lost: () => { this.requests.held = true },
     })
-    model.on("msg:custom", (event) => { const message = event.data ?? event; if (!this.takes.hear(message) && !this.room?.hear(message)) this.apply(message.frame) })
-    if (model.first) this.apply(model.first instanceof ArrayBuffer ? model.first : model.first.buffer ?? model.first)
+    line.hear((message) => { if (!this.takes.hear(message) && !this.room?.hear(message)) this.apply(message.frame) })
+    if (line.first) this.apply(line.first)
   }
 
   // What the address has and the server could not use stays to be mended, in the address too.
@@ -301,27 +304,54 @@ function keepKeys(root) {
   root.addEventListener("focusout", () => window.removeEventListener("keydown", mark, true))
 }
 
-export function render({model, view, el}) {
-  const first = document.getElementById("codim2-first")
-  let root = model.config.page ? first?.querySelector(".codim2") : null
-  if (!root) {
-    const holder = document.createElement("div")
-    holder.innerHTML = model.markup
-    root = holder.querySelector(".codim2")
-    root.classList.add("notebook")
-    keepKeys(root)
-  }
-  if (/** @type {HTMLElement} */ (root).dataset.edition !== model.config.edition) { // the page was answered by one server, its session by a newer one
+/**
+ * Take the place of what the server has drawn.
+ * @param {import("./asking/line.js").Line} line @param {HTMLElement} root @param {any} plot @param {HTMLElement} place
+ */
+export function begin(line, root, plot, place) {
+  if (root.dataset.edition !== line.config.edition) { // the page was answered by one server, its line by a newer one
     notice(root.querySelector(".banner"), SAYS.renewed, () => location.reload())
     return
   }
-  root.querySelector(".bokeh").append(model.get_child("picture"))
-  Object.assign(root, {explorer: new Explorer({model, view, root, plot: view.model.data.picture})}) // for tests, and for whoever looks
+  Object.assign(root, {explorer: new Explorer({line, root, plot})}) // for tests, and for whoever looks
   // The server's drawing stays until Bokeh has painted.
-  const drawing = root.querySelector(".first")
+  const drawing = root.querySelector(".first"), first = root.closest("#codim2-first")
   requestAnimationFrame(() => setTimeout(() => { drawing.remove(); letScroll(root.querySelector(".bokeh")) }, 150))
-  el.append(root)
+  place.append(root)
   first?.remove()
+}
+
+/** In a cell of a notebook, or wherever Panel shows it. */
+export function render({model, view, el}) {
+  const holder = document.createElement("div")
+  holder.innerHTML = model.markup
+  const root = /** @type {HTMLElement} */ (holder.querySelector(".codim2")), {first} = model
+  root.classList.add("notebook")
+  keepKeys(root)
+  root.querySelector(".bokeh").append(model.get_child("picture"))
+  begin({
+    config: model.config, offered: JSON.parse(model.offered), first: first && (first instanceof ArrayBuffer ? first : first.buffer ?? first),
+    send: (message) => model.send_msg(message), hear: (heard) => model.on("msg:custom", (event) => heard(event.data ?? event)),
+    lost: (tell) => view.model.document?.on_event("connection_lost", tell),
+  }, root, view.model.data.picture, el)
+}
+
+/** In the page of its server. */
+export async function live() {
+  const first = document.getElementById("codim2-first"), root = /** @type {HTMLElement} */ (first.querySelector(".codim2"))
+  const figure = JSON.parse(document.getElementById("codim2-figure").textContent)
+  const address = new URL(`live${location.search}`, location.href)
+  address.protocol = address.protocol.replace("http", "ws")
+  const drawn = document.createElement("div")
+  root.querySelector(".bokeh").append(drawn)
+  try {
+    const [line, views] = await Promise.all([opened(address), globalThis.Bokeh.embed.embed_item(figure, drawn)])
+    begin(line, root, views.get_by_id(figure.root_id).model, first.parentElement)
+  } catch (why) {
+    if (typeof why !== "number") throw why
+    const known = first.querySelector(":scope > [role=alert]") // it is said why already
+    if (!known) setTimeout(() => notice(root.querySelector(".banner"), why === FULL ? first.dataset.full : first.dataset.other, () => location.reload()), 300) // a page that is left needs no words
+  }
 }
 
 export default {render}

@@ -103,9 +103,9 @@ export function tableOf(explorer) {
 
 /** The room that is opened or entered here. @param {Explorer} explorer */
 export function roomOf(explorer) {
-  const {root, config, model} = explorer
+  const {root, config, line} = explorer
   return new Room(root, {
-    send: (message) => model.send_msg(message), version: config.link.version,
+    send: (message) => line.send(message), version: config.link.version,
     query: () => writeLink(explorer.values, null, {...config, look: {embed: false, controls: [], beamer: 0}}), // a phone is no beamer
     changed: () => explorer.panels.draw(explorer.values), opened: () => explorer.choose("panel", "atlas"),
     open: (view) => explorer.open(view),

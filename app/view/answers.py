@@ -4,25 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from functools import partial
 from typing import Any
 
-from panel.models.esm import ESMEvent
 from tornado.ioloop import IOLoop
 
-from ..frame.later import Later, later
+from ..frame.later import Later
 from ..rooms.visitor import Visitor
 from .refresh import Frames
-from .taking import Taking
+from .taking import Reply, Taking
 
 #: Seconds for which an answer waits for a picture that is computed beside the frames.
 PATIENCE = 0.25
-
-
-def send(model: Any, message: dict[str, Any]) -> None:
-    """Send to the one page that shows a model, if it is still there."""
-    if model.document is not None:
-        model.document.callbacks.send_event(ESMEvent(model=model, data=message))
 
 
 class _Held:
@@ -60,52 +52,59 @@ class Answers:
     ----------
     frames : Frames
         What it shows.
+    send : callable
+        Sends a message to it, if it is still there.
+    later : Later
+        Has a function called in its turn.
     """
 
-    def __init__(self, frames: Frames) -> None:
-        self.frames = frames
+    def __init__(self, frames: Frames, send: Reply, later: Later) -> None:
+        self.frames, self._send, self._later = frames, send, later
         self.taking = Taking(frames)
         self.visitor = Visitor(frames)
         self._held: _Held | None = None  # the frame that waits; a newer one replaces it
 
-    def answer(self, model: Any, request: Any) -> None:
+    def answer(self, request: Any) -> None:
         """Answer a request: for a file (``take``), of a room (``room``), else for a frame; see `Frames.answer`."""
         if isinstance(request, Mapping) and "take" in request:
-            self.taking.answer(request["take"], partial(send, model), later(model.document))
+            self.taking.answer(request["take"], self._send, self._later)
         elif isinstance(request, Mapping) and "room" in request:
-            self.visitor.answer(request["room"], lambda message: send(model, {"room": message}), later(model.document))
+            self.visitor.answer(request["room"], self._tell_of_room, self._later)
         else:
-            self._draw(model, request)
+            self._draw(request)
 
-    def _draw(self, model: Any, request: Any) -> None:
+    def _tell_of_room(self, message: dict[str, Any]) -> None:
+        self._send({"room": message})
+
+    def _draw(self, request: Any) -> None:
         frame = self.frames.answer(request)
         pending = self.frames.pending
         if pending is None:
-            self._reply(model, frame)
+            self._reply(frame)
         else:
             self.frames.keep()
             rest = request.get("rest", False) or request.get("all", False)  # who asks for all is at rest
-            self._hold(model, pending, {"id": request.get("id"), "rest": rest, "window": request.get("window")})
+            self._hold(pending, {"id": request.get("id"), "rest": rest, "window": request.get("window")})
         self.frames.publish()
 
-    def _reply(self, model: Any, frame: bytes) -> None:
+    def _reply(self, frame: bytes) -> None:
         self._let_go()
-        send(model, {"frame": frame})
+        self._send({"frame": frame})
 
     def _let_go(self) -> None:
         if self._held is not None:
             self._held.let_go()
             self._held = None
 
-    def _hold(self, model: Any, pending: Future[Any], request: dict[str, Any]) -> None:
+    def _hold(self, pending: Future[Any], request: dict[str, Any]) -> None:
         """Answer once the picture is there, or soon without it: the browser then asks again, with its newest values."""
         self._let_go()
 
         def answer() -> None:
-            self._reply(model, self.frames.answer(request))
+            self._reply(self.frames.answer(request))
             self.frames.publish()
 
-        held = self._held = _Held(later(model.document), answer)
+        held = self._held = _Held(self._later, answer)
         IOLoop.current().call_later(PATIENCE, held.come)
         pending.add_done_callback(held.come)
 

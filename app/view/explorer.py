@@ -7,7 +7,8 @@ request and its frame are two small events past all property syncing, so that a 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any, ClassVar
@@ -28,20 +29,18 @@ from codim2_core.scene.launched import Launched
 from ..draw.figure import make_figure
 from ..draw.packing import pack, unpack
 from ..draw.still import page_of, still
-from ..frame.budget import Budget
+from ..frame.later import later
 from ..frame.picture import make_frame
 from ..phrases import say
 from ..state.chosen import System_
-from ..state.cleaning import InputError
 from ..state.controls import NAMES, ExplorerState
-from ..state.links import Look
 from .answers import Answers
 from .cell import Cell, kernel
 from .first_markup import first_words
-from .markup import STATIC, address_of_script, digest, explorer_html, offered_text, script, settings
+from .markup import STATIC, digest, explorer_html, offered_text, script, settings
 from .refresh import Frames
 from .shared import SHARED, declare, join
-from .warmup import elsewhere, is_ready, is_ready_for_all
+from .warmup import is_ready
 
 COMPILING = say("compiling")
 
@@ -49,17 +48,6 @@ COMPILING = say("compiling")
 def _is_static(doc: Any, comm: Any) -> bool:
     """Whether nothing will answer: a file that is saved (with a comm of no kernel), or a widget."""
     return getattr(doc, "session_context", None) is None and (comm is None or type(comm) is Comm)
-
-
-def begin(
-    state: ExplorerState, errors: Sequence[InputError] = (), system: System_ | None = None
-) -> tuple[Frames, bytes]:
-    """Return what a page shows, which is answered by the thread that answers all pages, and its first frame."""
-    return _answered(Frames(state, system, is_ready_for_all, errors, Budget(elsewhere)))
-
-
-def _answered(frames: Frames) -> tuple[Frames, bytes]:
-    return frames, frames.answer({"all": True})
 
 
 class ExplorerView(JSComponent):
@@ -70,16 +58,6 @@ class ExplorerView(JSComponent):
     state : ExplorerState, optional
     system : ELinear or System, optional
         Drawn instead of one that the controls choose; its parameters get sliders.
-    page : bool
-        True in the explorer's own page, which brings the markup; False in a notebook.
-    errors : sequence of InputError
-        Values of the page's address that could not be used; shown beside their controls.
-    look : Look, optional
-        What of the picture is seen, and what an embedded page shows.
-    figure : Figure, optional
-        Of Bokeh's, made by `make_figure` beforehand.
-    begun : (Frames, bytes), optional
-        Of a page, made by `begin` beforehand.
     **params
         Of any Panel component: sizing_mode, width, height, margin, styles, stylesheets, …; and values of the state.
 
@@ -107,15 +85,8 @@ class ExplorerView(JSComponent):
         self,
         state: ExplorerState | None = None,
         system: System_ | None = None,
-        *,
-        page: bool = False,
-        errors: tuple[InputError, ...] = (),
-        look: Look | None = None,
-        figure: Any = None,
-        begun: tuple[Frames, bytes] | None = None,
         **params: Any,
     ) -> None:
-        self._look = look or Look()
         given = {name: params.pop(name) for name in SHARED if name in params}
         values = {name: resolve_value(value) for name, value in given.items()}
         self.state = ExplorerState.of(values) if state is None else state
@@ -124,28 +95,21 @@ class ExplorerView(JSComponent):
         self._opened: dict[str, Any] = {}
         self._system = system
         self._given_params = params
-        if begun is None and page:
-            begun = begin(self.state, errors, system)
-        elif begun is None:
-            begun = _answered(Frames(self.state, system, is_ready, errors))
-        self.frames, first = begun
-        self.answers = Answers(self.frames)
+        self.frames = Frames(self.state, system, is_ready)
+        self._answers: Answers | None = None
         self._cell: Cell | None = None
-        self._prepared: Any = None
         self._first_values = self.state.values()
-        own = [] if page else [(STATIC / "notebook.css").read_text(encoding="utf-8")]
-        layout = {**params, "stylesheets": [*own, *params.get("stylesheets", ())]}
+        own = (STATIC / "notebook.css").read_text(encoding="utf-8")
+        layout = {**params, "stylesheets": [own, *params.get("stylesheets", ())]}
         if not {"sizing_mode", "width"} & params.keys():
             layout["sizing_mode"] = "stretch_width"
-        picture = pn.pane.Bokeh(figure or make_figure(), sizing_mode="stretch_both")
-        opening = self._opening(page, first)
+        picture = pn.pane.Bokeh(make_figure(), sizing_mode="stretch_both")
+        opening = self._opening()
         drawn = {name: value for name, value in self.state.values().items() if name in SHARED}
         linked = {name: value for name, value in given.items() if value is not values[name]}
         super().__init__(picture=picture, **opening, **layout, **{**drawn, **linked})
-        self.param.objects()  # makes its own copies of all parameters, 3 ms, which `prepare` would: it is longer
         self.state.param.watch(self._follow, list(NAMES))
-        if not page:  # nobody holds the view of a page
-            join(self, self.state)
+        join(self, self.state)
 
     @property
     def scene(self) -> Scene:
@@ -160,31 +124,27 @@ class ExplorerView(JSComponent):
     def clone(self, **params: Any) -> ExplorerView:
         """Return another explorer of the same system, at the present values, with some parameters changed."""
         state = ExplorerState(**self.state.values())
-        return ExplorerView(state, self._system, page=self.config["page"], **{**self._given_params, **params})
+        return ExplorerView(state, self._system, **{**self._given_params, **params})
 
-    def _opening(self, page: bool, first: bytes) -> dict[str, Any]:
+    def _opening(self) -> dict[str, Any]:
         """Return what a browser starts from: the values of the controls, the first frame and the markup."""
+        first = self.frames.answer({"all": True})
         self.frames.publish()  # what cannot be drawn is not in the state
         self._opened = self.frames.values
         header, _ = unpack(first)
         self._whole = bool(header.get("ready"))
         self.refused = tuple(header.get("errors", {}).values())
-        config = settings(self.state, self.frames.locked, self._look)
-        config["page"] = page
-        config["refused"] = self.frames.refused
-        config["dark"] = pn.config.theme == "dark"
-        told = {"config": config, "offered": offered_text(), "first": first}
-        if page:  # its markup is there already, see `page_markup`
-            return {**told, "markup": ""}
-        config["defaults"] = self._first_values  # what a notebook opened with is its first setting
+        config = {
+            **settings(self.state, self.frames.locked),
+            "page": False,
+            "refused": self.frames.refused,
+            "dark": pn.config.theme == "dark",
+            "defaults": self._first_values,  # what a notebook opened with is its first setting
+        }
         given = self.frames.given is not None
         words = first_words(header, first, self.state.layers)
-        markup = explorer_html(self.state, words, ("system",) if given else (), self._look)
-        return {**told, "markup": markup}
-
-    def prepare(self, doc: Document) -> None:
-        """Make the Bokeh model of a page beforehand: the next `get_root` hands it over."""
-        self._prepared = self.get_root(doc)
+        markup = explorer_html(self.state, words, ("system",) if given else ())
+        return {"config": config, "offered": offered_text(), "first": first, "markup": markup}
 
     def get_root(self, doc: Any = None, comm: Any = None, preprocess: bool = True) -> Any:
         """Return the Bokeh model, without Panel's style sheets, which come from a public host in some set-ups.
@@ -192,15 +152,9 @@ class ExplorerView(JSComponent):
         (A page that one server process wrote and another one answers; reused sessions; notebooks.) The explorer's
         own style sheet is in its markup.
         """
-        if self._prepared is not None:
-            root, self._prepared = self._prepared, None
-            return root
         root = super().get_root(doc, comm, preprocess)
         # A bundle is run as it is; else the browser would compile the script, which it reads, for 130 ms.
-        if self.config["page"] and not _is_static(doc, comm):
-            root.update(bundle="url", esm=address_of_script())
-        else:
-            root.update(bundle=digest())
+        root.update(bundle=digest())
         for model in root.references():
             sheets: Any = model.stylesheets if isinstance(model, StyledElement) else ()
             if sheets:
@@ -213,9 +167,9 @@ class ExplorerView(JSComponent):
         if static:
             self._wait()
         changed = self._models or self._opened is not self.frames.values
-        if not self.config["page"] and (changed or (static and not self._whole)):
+        if changed or (static and not self._whole):
             # a notebook shows it once more, or after its state was changed: as it is now
-            self.param.update(**self._opening(page=False, first=_answered(self.frames)[1]))
+            self.param.update(**self._opening())
         return super()._get_model(doc, root, parent, comm)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
@@ -293,11 +247,16 @@ class ExplorerView(JSComponent):
         if len(self._models) > 1 or model is None or model.document is None:
             self._handle_msg(event.data)
         else:
-            self.answers.answer(model, event.data or {})
+            if self._answers is None:
+                self._answers = Answers(self.frames, partial(_send, model), later(model.document))
+                model.document.on_session_destroyed(lambda _: self._leave())
+            self._answers.answer(event.data or {})
 
-    def leave(self) -> None:
+    def _leave(self) -> None:
         """Stop what is computed for this view alone: its browser has gone."""
-        self.answers.leave()
+        if self._answers is not None:
+            self._answers.leave()
+            self._answers = None
 
     def _handle_msg(self, data: Any) -> None:
         """Answer a request of one browser with one frame to all that show this view."""
@@ -328,6 +287,12 @@ class ExplorerView(JSComponent):
     def watch(self, callback: Callable[..., None], *names: str) -> None:
         """Call `callback` when one of the named values of the state has changed."""
         self.state.param.watch(callback, list(names))
+
+
+def _send(model: Any, message: dict[str, Any]) -> None:
+    """Send to the one page that shows a model, if it is still there."""
+    if model.document is not None:
+        model.document.callbacks.send_event(ESMEvent(model=model, data=message))
 
 
 declare(ExplorerView)

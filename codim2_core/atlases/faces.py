@@ -244,15 +244,13 @@ def middle(face: Face) -> tuple[Array, float]:
 def _chords(rings: Sequence[Array], axis: int) -> Array:
     """Places (k, 2) near the middles of stretches within polygons on lines along one axis."""
     low, high = rings[0][:, 1 - axis].min(), rings[0][:, 1 - axis].max()
-    found = []
-    for level in low + (high - low) * (np.arange(LINES) + 0.5137) / LINES:
-        crossed: list[float] = []
-        for ring in rings:
-            (p0, q0), (p1, q1) = ring[:, [axis, 1 - axis]].T, np.roll(ring, -1, axis=0)[:, [axis, 1 - axis]].T
-            cut = (q0 > level) != (q1 > level)
-            crossed += (p0[cut] + (level - q0[cut]) / (q1[cut] - q0[cut]) * (p1[cut] - p0[cut])).tolist()
-        crossed.sort()
-        for one, other in zip(crossed[::2], crossed[1::2], strict=False):
-            at = one + ASIDE * (other - one)
-            found.append((at, level) if axis == 0 else (level, at))
-    return np.array(found).reshape(-1, 2)
+    level = low + (high - low) * (np.arange(LINES)[:, None] + 0.5137) / LINES
+    start, end = np.concatenate(rings), np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
+    (p0, q0), (p1, q1) = start[:, [axis, 1 - axis]].T, end[:, [axis, 1 - axis]].T
+    line, piece = np.nonzero((q0 > level) != (q1 > level))
+    share = (level[line, 0] - q0[piece]) / (q1[piece] - q0[piece])
+    crossed = p0[piece] + share * (p1[piece] - p0[piece])
+    order = np.lexsort((crossed, line))  # an even number on each line
+    one, other = crossed[order][::2], crossed[order][1::2]
+    found = np.stack([one + ASIDE * (other - one), level[line[order][::2], 0]], axis=-1)
+    return found if axis == 0 else found[:, ::-1]

@@ -49,9 +49,7 @@ def regions_of(
     found = [middle(face) for face in faces]
     classes = classes_over(family.system, family.psi, family.z, family.names, family.ranges)
     wide = [i for i, (_, room) in enumerate(found) if room > THIN]
-    codes = np.full(len(faces), -1, np.int64)
-    if wide:
-        codes[wide] = classes.decided(family.values(np.array([found[i][0] for i in wide])))
+    codes = classes.decided(family.values(np.array([at for at, _ in found])))
     code = dict(enumerate(codes.tolist()))
     owner = {edge: i for i, face in enumerate(faces) for edge in face.edges}
     _give(faces, owner, code, set(wide))
@@ -124,7 +122,7 @@ def _added(before: Array, point: Array, after: Array) -> float:
 
 
 def _give(faces: Sequence[Face], owner: dict[tuple[int, int], int], code: dict[int, int], wide: set[int]) -> None:
-    """Give what is too thin to be named the class of the neighbour with which it shares most edges."""
+    """Give what is too thin to be named the class of the neighbour with which it shares most edges, if one is wide."""
     for i in sorted(set(code) - wide, key=lambda i: -faces[i].area):
         votes: dict[int, int] = {}
         for u, v in faces[i].edges:

@@ -64,7 +64,9 @@ def along(family: Family, curve: Followed) -> list[Special]:
         ends = [
             _takens(curve.points[i]) for end, i in zip(curve.curve.ends, (0, -1), strict=True) if end == "det J = 0"
         ]
-        return ends + _zeros(curve, lambda v: float(lyapunov(family, v[None])[0]), _bautin)
+        return ends + _zeros(
+            curve, lambda v: float(lyapunov(family, v[None])[0]), _bautin, lyapunov(family, curve.points)
+        )
     return []
 
 
@@ -92,10 +94,12 @@ def _angle(v: Array) -> float:
     return float(v[0]) % (2.0 * math.pi)
 
 
-def _zeros(curve: Followed, test: Callable[[Array], float], make: Callable[[Array], Special]) -> list[Special]:
-    """Points between neighbours at which a function changes its sign."""
+def _zeros(
+    curve: Followed, test: Callable[[Array], float], make: Callable[[Array], Special], values: Array | None = None
+) -> list[Special]:
+    """Points between neighbours at which a function, of values at all points, changes its sign."""
     points = curve.points
-    values = np.array([test(v) for v in points])
+    values = np.array([test(v) for v in points]) if values is None else values
     known = np.isfinite(values)
     turned = known[1:] & known[:-1] & (np.sign(values[1:]) * np.sign(values[:-1]) < 0.0)
     rows = np.flatnonzero(turned).tolist()

@@ -17,6 +17,7 @@ from ..bifurcations.implicit_curve import Condition
 from ..diagrams.class_maps.families import classes_over
 from ..layer_problem.critical import critical_sets
 from ..numerics.root_between import root_between
+from ..psi.constructors import many
 from .degenerate import NEAR as BESIDE
 from .degenerate import Line, without
 from .family import CENTRE, NEAR, Family
@@ -25,6 +26,9 @@ Array = NDArray[np.float64]
 
 TURNS, SIDES = 64, 24  # cells round the equator, and along both parameters beside them
 CELLS = 16  # cells along each of c, s, u and v
+FINE, HALVED = 32, 4  # cells along u and v where U is affine in e: its one zero is known; how often they are halved
+FAR = 100.0  # e beyond this counts as this
+CORNERS = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]])
 MOST_STEPS = 32  # on which the curve of a neutral equator is looked for
 SUMS = 12  # of functions that are tried in a cell
 AWAY = 0.1  # of what a sum of them changes by in a cell: so far from zero it has none there
@@ -39,6 +43,7 @@ MAX_SEEDS = 12  # of each kind at a place
 EQUATOR_CELL = np.array([2.0 * math.pi / TURNS, 1.0 / SIDES, 1.0 / SIDES])
 PLANE_CELL = EQUATOR_CELL[1:]
 CELL = np.array([2.0 / CELLS, 2.0 / CELLS, 1.0 / CELLS, 1.0 / CELLS])
+AFFINE_CELL = np.array([2.0 / CELLS, 2.0 / CELLS, 1.0 / FINE, 1.0 / FINE])
 
 
 def on_equator(family: Family, lines: Sequence[Line] = ()) -> tuple[Array, Array, Array]:
@@ -85,8 +90,15 @@ def _turns(turning: Array, radial: Array, side: Array) -> Array:
     return np.concatenate(found)
 
 
+def cell_within(family: Family) -> Array:
+    """Width (4,) of the cells of `within`."""
+    return AFFINE_CELL if family.affine else CELL
+
+
 def within(family: Family, lines: Sequence[Line] = ()) -> tuple[Array, Array, Array]:
     """Cells in which U comes to zero, and with it det DU, T, or T^2 - 4 sigma det DU: centres (k, 4) of each."""
+    if family.affine:
+        return np.zeros((0, 4)), *_within_affine(family, lines)
     place = (np.arange(CELLS + 2) - OFF) * CELL[0] - 1.0
     side = np.linspace(0.0, 1.0, CELLS + 1)
     c, s = place[:, None, None, None], place[:, None, None]
@@ -101,6 +113,52 @@ def within(family: Family, lines: Sequence[Line] = ()) -> tuple[Array, Array, Ar
     found = [without(cells, still, 0.5 / CELLS) for cells in found]
     first, second, third = (cells[np.hypot(*cells[:, :2].T) < 1.0 + CELL[0]] for cells in found)
     return first, second, third
+
+
+def _within_affine(family: Family, lines: Sequence[Line]) -> tuple[Array, Array]:
+    """Cells of the plane alone, in which T and T^2 - 4 sigma det DU of the one critical set change their signs.
+
+    A cell through which that set goes far is halved.
+    """
+    side = (np.arange(FINE) + 0.5) / FINE
+    cells = np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1).reshape(-1, 2)
+    found: tuple[list[Array], list[Array]] = [np.zeros((0, 4))], [np.zeros((0, 4))]
+    for level in range(HALVED + 1):
+        half = 0.5 / (FINE << level)
+        e, functions = _of_set(family, cells[:, None] + half * CORNERS)
+        middle, spread = e.mean(axis=1), np.ptp(e, axis=1).max(axis=1)
+        near = (np.hypot(*middle.T) < 1.0 + CELL[0] + spread) & ((level < HALVED) | (spread < 1.0))
+        wide = near & (spread > CELL[0]) & (level < HALVED)
+        for values, kept in zip(functions, found, strict=True):
+            mixed = near & ~wide & (values.min(axis=1) <= 0.0) & (values.max(axis=1) >= 0.0)
+            kept.append(np.concatenate([middle[mixed], cells[mixed]], axis=1))
+        cells = (cells[wide][:, None] + 0.5 * half * CORNERS).reshape(-1, 2)
+    still = [line for line in lines if line.still]
+    first, second = (without(np.concatenate(kept), still, 0.5 / FINE) for kept in found)
+    return first, second
+
+
+def _of_set(family: Family, place: Array) -> tuple[Array, tuple[Array, Array]]:
+    """Find the critical set e (..., 2) of an affine U, T and T^2 - 4 sigma det DU at places (..., 2) of the square."""
+    zero = np.zeros(place.shape[:-1])
+    (U, V), ((a, b), (p, q)) = _on_net(family, zero, zero, *np.moveaxis(place, -1, 0))
+    det = a * q - b * p
+    det = np.where(det == 0.0, 1e-300, det)
+    with np.errstate(over="ignore", invalid="ignore"):
+        c, s = (np.clip(v / det, -FAR, FAR) for v in (b * V - q * U, p * U - a * V))
+    square = np.clip(c * c + s * s, CENTRE, NEAR)
+    bend = _bend_on_net(family, square, place)
+    trace = a + q - bend * (c * c * a + c * s * (b + p) + s * s * q)
+    return np.stack([c, s], axis=-1), (trace, trace * trace - 4.0 * (1.0 - bend * square) * det)
+
+
+def _bend_on_net(family: Family, square: Array, place: Array) -> Array:
+    """``Ratio.bend`` where |e|^2 is `square` (...), at places (..., 2) of the unit square."""
+    psi, modulus = family.psi, np.sqrt(square).ravel()
+    if any(family.of_psi):
+        psi = many(psi, family.values(place)[..., family.of_psi.index(True)].ravel())
+    k = psi.steepness(psi.radius(modulus, (1.0 - modulus) * (1.0 + modulus))).reshape(square.shape)
+    return 1.0 + k - k / square
 
 
 def of_plane(condition: Condition) -> Array:

@@ -131,7 +131,7 @@ def hopfs(family: Family, cells: Array, corners: Sequence[Array], seeds: Sequenc
     """Curves on which tr J = 0, of saddles too."""
     sought = Sought("Hopf", conditions.hopf(family), _edges(4, NEAR))
     sure = [*(_beside(family, v, 0.0) for v in corners), *seeds]
-    return _all_to_equator(family, _curves((sought,), cells, starts.CELL, WITHIN, sure))
+    return _all_to_equator(family, _curves((sought,), cells, starts.cell_within(family), WITHIN, sure))
 
 
 def node_foci(family: Family, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()) -> Found:
@@ -151,7 +151,7 @@ def node_foci(family: Family, cells: Array, corners: Sequence[Array], seeds: Seq
         for sign in (1.0, -1.0)
     ]  # fmt: skip
     sure = [*(_beside(family, v, sign) for v in corners for sign in (2.0, -2.0)), *seeds]
-    return _all_to_equator(family, _curves(both, cells, starts.CELL, WITHIN, sure))
+    return _all_to_equator(family, _curves(both, cells, starts.cell_within(family), WITHIN, sure))
 
 
 def _beside(family: Family, corner: Array, level: float) -> Array | None:

@@ -5,51 +5,81 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..diagrams.class_maps.classes import Codes
-from ..diagrams.class_maps.grid import tree
-from ..diagrams.class_maps.trace import chains, traced
 from .family import Family
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
 
 ANGLES = 2.0 * np.pi * np.arange(12) / 12.0
 PLACES = np.concatenate([r * np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=-1) for r in (0.0, 0.5, 1.0)])
-SIDES, HALVED = 24, 2  # cells of the net, and how often those at a border are halved
+SIDES, CELLS = 24, 96  # cells along each side of a first net, and of that by which borders are found
+INSET = 1e-7  # what lies on the very edge of the square is decided just inside
 HALVINGS = 32  # of an edge, until the border is found on it
 FLAT = 1e-6  # a part of the square; what turns less than this is straight
 
 
-class _Defined:
-    """Whether U has a value, as classes: 0, or 1 where it has none."""
-
-    most_cells = 6_000
-
-    def __init__(self, family: Family) -> None:
-        self._family = family
-
-    def measured(self, at: Array) -> tuple[Codes, Array]:
-        return self.decided(at), np.zeros((0, len(at)))
-
-    def decided(self, at: Array) -> Codes:
-        c, s = PLACES[:, :, None].swapaxes(0, 1)
-        with np.errstate(all="ignore"):
-            U = self._family.speed_on_net(c, s, *at.T)
-        return np.asarray(~np.isfinite(U).all(axis=(0, 1)), np.int64)
-
-    def happening(self, before: int, after: int) -> tuple[str, ...]:
-        return () if before == after else ("undefined",)
-
-
 def borders(family: Family) -> list[Array]:
-    """Borders, as lines (m, 2) of the unit square; none where U has a value at all places of a net."""
-    classes = _Defined(family)
-    side = np.linspace(0.0, 1.0, SIDES + 1)
-    if not classes.decided(np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)).any():
+    """Borders, as lines (m, 2) of the unit square; none where U has a value at all places of a net.
+
+    The cells of a finer net are cut into triangles: where U has a value at one corner and none at another, a border
+    crosses two of its edges.
+    """
+    if _defined(family, _net(SIDES)).all():
         return []
-    square = (0.0, 1.0), (0.0, 1.0)
-    found = traced(classes, tree(classes, square, SIDES, HALVED, 0), square, HALVINGS)
-    inner = found.pieces[found.pieces[:, 3] >= 0, :2]
-    return [_straightened(found.points[line]) for line in chains(inner)]
+    places = _net(CELLS)
+    known = _defined(family, places)
+    first = (np.arange(CELLS)[:, None] * (CELLS + 1) + np.arange(CELLS)).ravel()
+    right, up, across = first + CELLS + 1, first + 1, first + CELLS + 2
+    triangles = np.concatenate([np.stack([first, right, across], axis=1), np.stack([first, across, up], axis=1)])
+    edges = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1), axis=-1)
+    crossed = known[edges[..., 0]] != known[edges[..., 1]]  # two of a triangle, or none
+    unique, pieces = np.unique(edges[crossed], axis=0, return_inverse=True)
+    points = _crossings(family, places[unique[:, 0]], places[unique[:, 1]], known[unique[:, 0]])
+    return [_straightened(points[line]) for line in _chains(pieces.reshape(-1, 2))]
+
+
+def _net(cells: int) -> Array:
+    side = np.linspace(0.0, 1.0, cells + 1)
+    return np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1).reshape(-1, 2)
+
+
+def _defined(family: Family, at: Array) -> NDArray[np.bool_]:
+    """Whether U has a value at places (k, 2) of the square."""
+    c, s = PLACES[:, :, None].swapaxes(0, 1)
+    with np.errstate(all="ignore"):
+        U = family.speed_on_net(c, s, *np.clip(at, INSET, 1.0 - INSET).T)
+    return np.asarray(np.isfinite(U).all(axis=(0, 1)))
+
+
+def _crossings(family: Family, start: Array, end: Array, known: NDArray[np.bool_]) -> Array:
+    """Places (k, 2) on edges at which U begins, or ceases, to have a value; `known`: it has one at the start."""
+    low, high = np.zeros(len(start)), np.ones(len(start))
+    for _ in range(HALVINGS):
+        t = 0.5 * (low + high)
+        same = _defined(family, start + t[:, None] * (end - start)) == known
+        low, high = np.where(same, t, low), np.where(same, high, t)
+    return start + 0.5 * (low + high)[:, None] * (end - start)
+
+
+def _chains(pairs: Indices) -> list[list[int]]:
+    """Join pieces (from, to) to lines as long as they go on without a fork; closed ones repeat their first point."""
+    near: dict[int, list[int]] = {}
+    for u, v in pairs.tolist():
+        near.setdefault(u, []).append(v)
+        near.setdefault(v, []).append(u)
+    lines = []
+    for start in [u for u, others in near.items() if len(others) != 2] + list(near):
+        while near[start]:
+            line = [start]
+            while near[line[-1]]:
+                here = line[-1]
+                then = near[here].pop()
+                near[then].remove(here)
+                line.append(then)
+                if len(near[then]) != 1:
+                    break
+            lines.append(line)
+    return lines
 
 
 def _straightened(line: Array) -> Array:

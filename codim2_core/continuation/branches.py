@@ -40,7 +40,8 @@ from .varied_system import Asking, Straight, VariedSystem, follow, reversible, s
 __all__ = ["CycleBranch", "CycleBranches", "CyclePoint", "continue_cycles"]
 
 FIRST = 1e-3  # of the reach: where branches start at C
-OUTER, SEEN = np.array([5.0, 10.0, 20.0, 50.0, 100.0, 300.0]), 1e-12  # |x2| where they start at the equator; 1 - |e|^2
+# |x2| where they start at the equator: where 1 - |e|^2 comes to SEEN, as folds may lie far out
+OUTER, SEEN = np.array([5.0, 10.0, 20.0, 50.0, 100.0, 300.0, 1000.0, 3000.0]), 1e-24
 PLANE = ("a", "b", "d", "f1", "f2")
 COLUMNS = 9  # values at which all cycles are looked for
 
@@ -51,7 +52,7 @@ FAR, SAME = 0.1, 1e-6  # distances in chi: a branch does not pass near a cycle; 
 
 
 def continue_cycles(
-    system: AnySystem, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike = ()
+    system: AnySystem, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike = (), axes: float = 0.0
 ) -> CycleBranches:
     """Continue the limit cycles of the layer problem eq:LP along one parameter (sec:case3).
 
@@ -67,6 +68,9 @@ def continue_cycles(
         see `layer_problem.vary.names`.
     span : (low, high)
     z : (m,) floats
+    axes : float
+        Of an `ELinear.from_matrix`: of its rotations into the normal form, by angles half a turn apart, the one by the
+        angle nearest to this is taken, and places are told in these axes. By `rotation` itself if it is left out.
 
     Returns
     -------
@@ -88,7 +92,7 @@ def continue_cycles(
     if system.typed is not None:
         raise ValueError("continue_cycles is for e-linear systems; give an ELinear.")
     straight = None
-    if name in PLANE and name in system.variable:
+    if name in PLANE and name in system.variable and not getattr(system, "given_matrix", None):
         # nothing else varies: coefficients are checked and evaluated once
         system, z = (coefficients := cast("Coefficients", system.at(z))), ()
         slope = np.eye(len(PLANE))[PLANE.index(name)]
@@ -98,7 +102,7 @@ def continue_cycles(
 
     def inside(value: float) -> tuple[Coefficients, Psi]:
         changed, family_psi, place = varied(system, psi, z, name, value)
-        return changed.at(place), family_psi
+        return changed.at(place).by_rotation_near(axes), family_psi
 
     def at(value: float) -> tuple[Coefficients, Psi]:
         try:

@@ -171,6 +171,7 @@ class _Path:
 
     def finished(self) -> Asking[Trace]:
         """Put in the folds, where the exponent changes its sign."""
+        yield from self._look_within()
         yield from self._look_between()
         signs = [point.turn.exponent > 0.0 for point in self.points]
         turned = [i for i in range(1, len(signs)) if signs[i] != signs[i - 1]]
@@ -180,11 +181,34 @@ class _Path:
         rows: list[int] = []
         for i, point in enumerate(self.points):
             fold = folds.get(i)
-            if fold is not None and _bends(fold, self.points[i - 1], point):
+            if fold is not None and _bends(fold, self.points[max(i - 2, 0) : i], self.points[i : i + 2]):
                 rows.append(len(points))
                 points.append(fold)
             points.append(point)
         return Trace(tuple(points), tuple(rows), self.reason or "stuck")
+
+    def _look_within(self) -> Asking[None]:
+        """Put in points within a step by whose tangents and ends the value turns back twice."""
+        tried, i = 0, 1
+        while i < len(self.points):
+            one, two = self.points[i - 1 : i + 1]
+            point = None
+            if tried < HALVINGS and _turns_twice(one, two):
+                first = max(i - 2, 0)
+                lengths = Course(self.tracer, self.points[first : i + 2]).lengths
+                point = yield from self._placed(first, i + 2, 0.5 * (lengths[i - 1 - first] + lengths[i - first]))
+            if point is None or not 0.0 < _part(one, two, point) < 1.0:
+                tried, i = 0, i + 1
+                continue
+            self.points.insert(i, point)
+            tried += 1
+
+    def _placed(self, first: int, end: int, length: float) -> Asking[Point | None]:
+        """Find the point of the branch at a length of the course of some of its points."""
+        place, near = Course(self.tracer, self.points[first:end]).between(length)
+        guess = Guess(place.xi, place.parameters[0], self.tracer.across(near), near.turn.exponent > 0.0)
+        closed = yield from self.tracer.corrected(guess)
+        return None if closed is None else self.tracer.point(*closed, near.tangent)
 
     def _look_between(self) -> Asking[None]:
         """Put in points where the exponent may change its sign twice within a step: where it is least in size."""
@@ -196,11 +220,9 @@ class _Path:
             if length is None or tried == HALVINGS or _rounded(around[1]):
                 tried, i = 0, i + 1
                 continue
-            course = Course(self.tracer, self.points[max(i - 2, 0) : i + 3])
-            place, near = course.between(length + course.lengths[i - 1 - max(i - 2, 0)])
-            guess = Guess(place.xi, place.parameters[0], self.tracer.across(near), near.turn.exponent > 0.0)
-            closed = yield from self.tracer.corrected(guess)
-            point = None if closed is None else self.tracer.point(*closed, around[1].tangent)
+            first = max(i - 2, 0)
+            before = Course(self.tracer, self.points[first:i]).lengths[-1]
+            point = yield from self._placed(first, i + 3, before + length)
             part = -1.0 if point is None else _part(around[0], around[2], point)
             if point is None or not 0.0 < part < 1.0:
                 tried, i = 0, i + 1
@@ -366,10 +388,23 @@ def _least(lengths: Sequence[float], exponents: Sequence[float]) -> float | None
     return x if least < LEAST_EXPONENT_RATIO * e1 and abs(x - x1) > 1e-3 * min(x1 - x0, x2 - x1) else None
 
 
-def _bends(fold: Point, here: Point, there: Point) -> bool:
-    """Whether the branch turns back at a fold between two points: by more than rounding, near the equator on both."""
-    bent = sorted((abs(fold.nu - here.nu), abs(fold.nu - there.nu)))
+def _bends(fold: Point, before: Sequence[Point], after: Sequence[Point]) -> bool:
+    """Whether the branch turns back at a fold between points: by more than rounding, near the equator on both sides.
+
+    Of two points on a side the nearer one may be all but the fold.
+    """
+    bent = sorted(max(abs(fold.nu - point.nu) for point in side) for side in (before, after))
     return bent[0] > BENT if fold.turn.height < LEVEL else bent[1] > ROUNDING
+
+
+def _turns_twice(one: Point, two: Point) -> bool:
+    """Whether the value turns back and again between two points: by the cubic through them with their tangents."""
+    step, (_, first), (_, last) = distance(one, two), one.tangent, two.tangent
+    if (one.turn.exponent > 0.0) != (two.turn.exponent > 0.0) or first * last <= 0.0:
+        return False
+    rise = (two.nu - one.nu) * math.copysign(1.0, first)
+    expected = step * (abs(first) + abs(last))
+    return expected > BENT and rise < expected / 6.0
 
 
 def _round(start: Point, here: Point, there: Point) -> bool:

@@ -37,7 +37,8 @@ def sought(family: VariedSystem, low: float, high: float) -> tuple[float, float]
     steps = range(len(places))
     for i in steps:
         before, after = max(i - 1, 0), min(i + 1, len(places) - 1)
-        if found[before] <= found[i] >= found[after] and -math.inf < found[i] <= 0.0:
+        highest = found[before] <= found[i] >= found[after] and found[before] + found[after] < 2.0 * found[i]
+        if highest and -math.inf < found[i] <= 0.0:
             places[i], found[i] = _greatest(margin, places[before], places[after])
     inside = [i for i in steps if found[i] > 0.0]
     if not inside:

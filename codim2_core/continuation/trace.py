@@ -25,6 +25,7 @@ CLOSE, CLOSER = 1e-9, 1e-11  # the last correction in chi, nu and, near C, a ten
 NEUTRAL = 2e-10  # exponent of a fold
 BEHIND = 2  # points that predictions use
 NEARBY = 1e-5  # in xi rate and nu: for the derivatives of the exponent
+LINEAR = 1e-3  # of the shift, by that difference in nu at most
 
 
 class Tracer:
@@ -93,8 +94,9 @@ class Tracer:
     def fold(self, xi: float, nu: float, near: Point) -> Asking[Point | None]:
         """Find the point about (xi, nu) where the exponent is zero: Newton's method for a closed turn of exponent 0."""
         last = math.inf
+        k = min(NEARBY, LINEAR / max(abs(near.turn.by_value) * self.width, 1e-300))
         for _ in range(ROUNDS):
-            h, k = NEARBY / near.turn.rate, NEARBY
+            h = NEARBY / near.turn.rate
             places = ((xi, nu), (xi + h, nu), (xi, nu + k))
             turn, *beside = yield self.question([Guess(*place, (0.0, 0.0), backward=False) for place in places])
             if turn is None or beside[0] is None or beside[1] is None:

@@ -39,10 +39,11 @@ def branches(
     Returns
     -------
     Branches
-        For an e-linear system special values are found to the last digits, for another by bisection, on a grid that is
+        Where U is affine in (c, s) special values are found to the last digits, else by bisection, on a grid that is
         refined where something comes near zero: two that undo each other within a step, with nothing to announce them,
-        are missed. Branches of cycles are begun at Hopf points, at ends on the equator, and at the cycles seen at some
-        values: one that has none of these is not seen.
+        are missed. Places are told in the axes of the system, which for an `ELinear.from_matrix` are those of its
+        normal form at each value. Branches of cycles are begun at Hopf points, at ends on the equator, and at the
+        cycles seen at some values: one that has none of these is not seen.
 
     Raises
     ------

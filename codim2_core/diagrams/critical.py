@@ -23,6 +23,10 @@ _SAMPLES = 49
 # Crowded towards both ends: there the curves have vertical tangents
 SPREAD = 0.5 * (1.0 - np.cos(np.pi * np.arange(1, _SAMPLES + 1) / (_SAMPLES + 1)))
 
+# Next to the equator a critical set is a node, but for a part of 1e-8 of a piece or less it may have been a focus
+_BESIDE = np.geomspace(1e-11, 1e-4, 8)
+CROWDED = np.concatenate([_BESIDE, SPREAD, 1.0 - _BESIDE[::-1]])
+
 _STEP, _HALVINGS = 0.1, 10  # p moves by at most this between samples, unless so many halvings are not enough
 OFF_CENTRE = 0.4567  # in the middle of a piece symmetry likes to put something special
 
@@ -78,7 +82,7 @@ def _direction(plane: Plane, i: int) -> float:
     """Angle of -A^-1 f at value i."""
     m11, m12, m21, m22, f1, f2 = (float(v[i]) for v in plane.affine)
     sign = -math.copysign(1.0, m11 * m22 - m12 * m21)
-    turn = 0.0 if plane.turn is None else float(plane.turn[i])
+    turn = 0.0 if plane.told is None else float(plane.told[i])
     return math.atan2(sign * (m11 * f2 - m21 * f1), sign * (m22 * f1 - m12 * f2)) + turn
 
 
@@ -90,7 +94,7 @@ def critical_part(
     width = float(grid[-1] - grid[0])
     ends = [float(grid[0]), *cuts.all.tolist(), float(grid[-1])]
     pieces = [(low, high) for low, high in pairwise(ends) if high - low > 1e-13 * width]
-    samples = [np.union1d(u + (v - u) * SPREAD, extra[(extra > u) & (extra < v)]) for u, v in pieces]
+    samples = [np.union1d(u + (v - u) * CROWDED, extra[(extra > u) & (extra < v)]) for u, v in pieces]
     found = linearise(path(np.concatenate(samples)), exponent)
     at = np.cumsum([len(x) for x in samples])[:-1]
     share, focus = np.split(found.share, at), np.split(_focus(found), at)
@@ -105,6 +109,8 @@ def critical_part(
     ):
         # where all of A vanishes as well, rounding leaves a sign to det A
         hopf = trace[border_functions(path(trace), exponent)[1] > 1e-12]
+        u, v = pieces[k]
+        inner = inner[(inner - u > _BESIDE[-1] * (v - u)) & (v - inner > _BESIDE[-1] * (v - u))]
         parts, kinds = _cut(path, inner, pieces[k], np.sort(np.concatenate([hopf, shape])))
         branches += [_branch(path, part, kind) for part, kind in zip(parts, kinds, strict=True)]
         special += [_hopf_point(path, v) for v in hopf.tolist()]
@@ -200,7 +206,7 @@ def _hopf_point(path: Line, value: float) -> SpecialValue:
     # in the centre the formulas for the derivatives of Psi divide by s = 0
     x2 = found.x2 if np.hypot(*found.x2[0]) > 1e-9 else np.full((1, 2), 1e-9)
     with np.errstate(all="ignore"):
-        number = float(first_lyapunov(plane.coefficients(0).A, psi, x2)[0])
+        number = float(first_lyapunov(plane.matrix(0), psi, x2)[0])
     if not math.isfinite(number):
         number = 0.0
     born = "supercritical" if number < 0.0 else "subcritical" if number > 0.0 else "degenerate"

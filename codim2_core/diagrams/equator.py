@@ -132,8 +132,9 @@ def _all_directions(path: Line, grid: Array, plane: Plane) -> list[float]:
 
 
 def _special(path: Line, m: Meeting) -> SpecialValue:
-    place = (math.cos(m.theta), math.sin(m.theta))
-    at = f"θ = {m.theta:.4g}"
+    theta = (m.theta + float(path(np.array([m.value])).back[0])) % _TAU
+    place = (math.cos(theta), math.sin(theta))
+    at = f"θ = {theta:.4g}"
     if m.kind == "saddle-node":
         text = say("meet at", at=at)
         return SpecialValue("saddle-node", m.value, place, text, "fig:SNBIF, eq:tangencies")
@@ -198,12 +199,12 @@ def _end(path: Line, value: float, theta: Array, meeting: list[float]) -> Array:
 def _split(path: Line, x: Array, theta: Array, cuts: Borders) -> list[DirectionBranch]:
     """Cut one branch where lambda_rho changes sign: there the critical set is on it."""
     plane = path(x)
-    rho, slope = lambda_rho(plane, theta), theta_slope(plane, theta)
+    rho, slope, told = lambda_rho(plane, theta), theta_slope(plane, theta), theta + plane.back
     size = sum(abs(v) for v in plane.arrays)
     inner = rho.copy()
     inner[abs(inner) <= 1e-13 * size] = 0.0
     if not inner.any():
-        return [_branch(x, theta, 0.0 * rho, slope)]
+        return [_branch(x, told, 0.0 * rho, slope)]
     stops: list[float] = []
     for i in sign_changes(np.where(inner == 0.0, np.sign(np.roll(inner, 1)), inner)):
         slack = 1e-9 * (x[-1] - x[0])
@@ -212,20 +213,21 @@ def _split(path: Line, x: Array, theta: Array, cuts: Borders) -> list[DirectionB
         stops.append(min(near, key=lambda v: abs(v - guess)) if near else guess)
     out = []
     edges = [float(x[0]), *(v for v in stops if x[0] < v < x[-1]), float(x[-1])]
-    t_edge, rho_edge, slope_edge = [theta[0]], [rho[0]], [slope[0]]
+    t_edge, rho_edge, slope_edge = [told[0]], [rho[0]], [slope[0]]
     for v in edges[1:-1]:
         t = _end(path, v, np.array([[np.interp(v, x, theta)]]), [])[0]
-        t_edge.append(t[0])
+        at = path(np.array([v]))
+        t_edge.append(t[0] + at.back[0])
         rho_edge.append(0.0)
-        slope_edge.append(theta_slope(path(np.array([v])), t)[0])
-    t_edge.append(theta[-1])
+        slope_edge.append(theta_slope(at, t)[0])
+    t_edge.append(told[-1])
     rho_edge.append(rho[-1])
     slope_edge.append(slope[-1])
     for k in range(len(edges) - 1):
         inside = (x > edges[k]) & (x < edges[k + 1])
         rows = (
             np.concatenate([[u[k]], v[inside], [u[k + 1]]])
-            for u, v in ((edges, x), (t_edge, theta), (rho_edge, rho), (slope_edge, slope))
+            for u, v in ((edges, x), (t_edge, told), (rho_edge, rho), (slope_edge, slope))
         )
         out.append(_branch(*rows))
     return out

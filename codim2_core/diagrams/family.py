@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,11 +12,17 @@ from numpy.typing import ArrayLike, NDArray
 from ..expressions.expression import Expression
 from ..layer_problem.vary import limits, names
 from ..psi.function import Psi
+from ..systems.affine import as_elinear
 from ..systems.bounds import LARGEST
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
 
 Array = NDArray[np.float64]
+
+_GRID = 512
+_WOBBLE = 0.3 * np.sin(2.0 + np.arange(_GRID + 1) * 1.7)
+_WOBBLE[[0, -1]] = 0.0
+MAX_REACH, MAX_TURN = 0.9 * np.pi, 0.1  # of the axes of the normal form along a line, and from value to value
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +42,8 @@ class Plane:
         ``(A11, A12, A21, A22, f1, f2)`` before the rotation into the normal form, which rounds; None without one.
     turn : ndarray (k,) or None
         The angle of that rotation.
+    told : ndarray (k,) or None
+        The angle from the axes before it to those in which places are told.
     """
 
     a: Array
@@ -48,6 +56,7 @@ class Plane:
     defined: NDArray[np.bool_]
     given: tuple[Array, ...] | None = None
     turn: Array | None = None
+    told: Array | None = None
 
     def __len__(self) -> int:
         return len(self.a)
@@ -66,6 +75,18 @@ class Plane:
     def rigid(self) -> bool:
         """Whether a, b, d, f1, f2 are the same everywhere."""
         return bool(self.defined.all()) and all(bool((v == v[:1]).all()) for v in self.arrays)
+
+    @property
+    def back(self) -> Array:
+        """Angle (k,) from the axes of a, b, d, f1, f2 to those in which places are told."""
+        return np.zeros(len(self)) if self.turn is None or self.told is None else self.told - self.turn
+
+    def matrix(self, i: int) -> Array:
+        """Return A (2, 2) at value i, in the axes in which places are told."""
+        angle = 0.0 if self.told is None else float(self.told[i])
+        c, s = np.cos(angle), np.sin(angle)
+        R = np.array([[c, -s], [s, c]])
+        return R @ np.array([float(v[i]) for v in self.affine[:4]]).reshape(2, 2) @ R.T
 
     def coefficients(self, i: int) -> Coefficients:
         """Return the system at value i, without its slow part."""
@@ -94,6 +115,11 @@ class Sweep:
         a, b, d, f1, f2, where they vary by name only and in no formula.
     shape : str
         The one of the names that is the parameter of Psi, or "".
+    axes : float
+        Of the rotations into the normal form, by angles half a turn apart, the one by the angle nearest to this is
+        taken: they change smoothly along a line as long as they keep within a quarter of a turn of it.
+    own_axes : bool
+        Places are told in the axes in which a matrix was given, else in those of the normal form, by `rotation`.
     """
 
     names: tuple[str, ...]
@@ -102,6 +128,8 @@ class Sweep:
     z: ArrayLike
     fixed: tuple[float, ...] | None
     shape: str
+    axes: float = 0.0
+    own_axes: bool = False
 
     def __call__(self, **values: Array) -> Plane:
         """Coefficients at k values of every name, each of (k,), within `layer_problem.vary.limits` (not checked)."""
@@ -111,7 +139,12 @@ class Sweep:
             a, b, d, f1, f2 = (
                 values[name] if name in values else np.full(k, v) for name, v in zip(_NAMES, self.fixed, strict=True)
             )
-            return Plane(a, b, d, f1, f2, self.psi, n, np.ones(k, bool))
+            plane = Plane(a, b, d, f1, f2, self.psi, n, np.ones(k, bool))
+            at = self.system
+            if not isinstance(at, Coefficients) or at.given is None or any(name in _NAMES for name in self.names):
+                return plane
+            turn, given = np.full(k, at.rotation), tuple(np.full(k, v) for v in at.given)
+            return replace(plane, given=given, turn=turn, told=0.0 * turn if self.own_axes else turn)
         assert isinstance(self.system, ELinear)
         rows = _rows(self.system, self.z, values)
         full = [v if isinstance(v, np.ndarray) and v.shape == (k,) else np.full(k, v) for v in rows]
@@ -125,7 +158,11 @@ class Sweep:
             a, b, d, f1, f2 = full
             return Plane(a, b, d, f1, f2, self.psi, n, defined)
         a, b, d, f1, f2, turn = _rotated(*full)
-        return Plane(a, b, d, f1, f2, self.psi, n, defined, tuple(full), turn)
+        half_turns = np.rint((self.axes - turn) / np.pi)
+        sign = 1.0 - 2.0 * (half_turns % 2.0)
+        told = 0.0 * turn if self.own_axes else turn
+        turn = turn + np.pi * half_turns
+        return Plane(a, b, d, sign * f1, sign * f2, self.psi, n, defined, tuple(full), turn, told)
 
 
 def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[ArrayLike] = ()) -> Sweep:
@@ -189,6 +226,51 @@ class Line:
     def __call__(self, values: Array) -> Plane:
         """Coefficients at k values, (k,)."""
         return self.family(**{self.family.names[0]: values})
+
+
+def values_over(span: tuple[float, float]) -> Array:
+    """Return the grid over a span: off the round numbers on which special values like to lie."""
+    low, high = span
+    values = low + (high - low) * (np.arange(_GRID + 1) + _WOBBLE) / _GRID
+    values[-1] = high
+    return values
+
+
+def linear_path(system: Any, psi: Psi, z: ArrayLike, along: str, values: Array) -> Line | None:
+    """Prepare a system whose U is affine in (c, s) all along a line, as the e-linear system that it is.
+
+    Parameters
+    ----------
+    system : ELinear, System, or either frozen at a z
+    psi : Psi
+    z : (m,) floats
+    along : str
+    values : ndarray (k,)
+        In order: the whole line is theirs.
+
+    Returns
+    -------
+    Line or None
+        Places are told in the axes of the system, which for an `ELinear.from_matrix` are those of its normal form at
+        each value. None if U is not affine, or where the axes of the normal form turn by nearly half a turn or jump,
+        as they do beside a symmetric part that is a multiple of the unit matrix.
+    """
+    linear = as_elinear(system)
+    if linear is None:
+        return None
+    own = system.typed is not None
+    z = z if system.frozen else system.at(z).z or z  # with the time of a clock
+    path = Line(family(linear, psi, z, along, spans=(values,)))
+    plane = path(values)
+    if plane.turn is None or plane.given is None or not plane.defined.any():
+        return path
+    if own and isinstance(linear, ELinear) and not (plane.given[1] + plane.given[2]).any():  # without a rotation
+        (a, _), (b, d) = linear.given_matrix
+        return Line(replace(path.family, system=replace(linear, a=a, b=b, d=d, given_matrix=None)))
+    turns = np.unwrap(plane.turn[plane.defined], period=np.pi)
+    if np.ptp(turns) > MAX_REACH or (abs(np.diff(turns)) > MAX_TURN).any():
+        return None if own else path
+    return Line(replace(path.family, axes=0.5 * float(turns.min() + turns.max()), own_axes=own))
 
 
 def _needs(system: ELinear, varying: tuple[str, ...]) -> bool:

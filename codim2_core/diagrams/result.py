@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import drawing
-from ..continuation.result import CycleBranches, CyclePoint
+from ..continuation.result import CycleBranch, CycleBranches, CyclePoint
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..tables import Tabled, frame, number, paragraphs, table, write
 from ..words import say
+from .family import Line, linear_path, values_over
 
 __all__ = ["Branches", "ClosedEquator", "CriticalBranch", "DirectionBranch", "SpecialValue"]
 
@@ -184,16 +185,17 @@ class Branches:
         from ..continuation.branches import continue_cycles  # here: both load the compiler
         from ..continuation.typed.search import continue_typed
 
-        if self.system.typed is not None:
+        path = linear_path(self.system, self.psi, self.z, self.along, values_over(self.span))
+        if path is None:
             of = self.system, self.psi, self.along, self.span, self.z
             return replace(self, cycles=continue_typed(*of, self.standing))
         ends = [self.span[0], *(v for gap in self.gaps for v in gap), self.span[1]]
         parts = [
-            continue_cycles(self.system, self.psi, self.along, part, self.z)
+            continue_cycles(path.family.system, self.psi, self.along, part, path.family.z, path.family.axes)
             for part in zip(ends[::2], ends[1::2], strict=True)
             if part[0] < part[1]
         ]
-        found, notes = [b for part in parts for b in part], [note for part in parts for note in part.notes]
+        found, notes = [_told(b, path) for part in parts for b in part], [note for part in parts for note in part.notes]
         reason = f" {say('elsewhere')} ".join(dict.fromkeys(part.reason for part in parts))
         return replace(self, cycles=CycleBranches(self.along, self.span, tuple(found), reason, tuple(notes)))
 
@@ -243,3 +245,13 @@ class Branches:
     def _repr_html_(self) -> str:
         special = table(("at", self.along, "what happens"), [(*one._row_()[:2], one.sentence) for one in self.special])
         return (self._repr_svg_() or "") + special + paragraphs([self.cycles.reason, *self.notes])
+
+
+def _told(branch: CycleBranch, path: Line) -> CycleBranch:
+    """Return a branch with its places in the axes in which they are told."""
+    angle = path(branch.value).back
+    c, s = np.cos(angle), np.sin(angle)
+    x, y = branch.section.T
+    section = np.stack([c * x - s * y, s * x + c * y], axis=-1) if angle.any() else branch.section
+    section.flags.writeable = False
+    return replace(branch, section=section)

@@ -15,17 +15,14 @@ from ..words import say
 from .audit import samples_beside
 from .critical import borders, critical_part
 from .equator import equator_part
+from .family import linear_path, values_over
 from .result import Branches, ClosedEquator, CriticalBranch, DirectionBranch, SpecialValue
-from .sweep import Line, Plane, family, scale
+from .sweep import Line, Plane, scale
 from .typed.parts import general_parts
 
 Array = NDArray[np.float64]
 
-_GRID = 512
 _AUDITS = 5  # times that special values are looked for
-# Grid points are moved off the round numbers on which special values like to lie
-_WOBBLE = 0.3 * np.sin(2.0 + np.arange(_GRID + 1) * 1.7)
-_WOBBLE[[0, -1]] = 0.0
 
 
 def standing(system: Any, psi: Psi, along: str, span: Sequence[float], z: ArrayLike = ()) -> Branches:
@@ -55,13 +52,11 @@ def _found(
     system: Any, psi: Psi, along: str, span: tuple[float, float], z: ArrayLike
 ) -> tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue], Gaps]:
     """Find branches, special values and gaps, in any order."""
-    if system.typed is not None:
+    grid = values_over(span)
+    path = linear_path(system, psi, z, along, grid)
+    if path is None:
         directions, orbits, sets, found = general_parts(system, psi, along, span, z)
         return directions, orbits, sets, found, []
-    low, high = span
-    path = Line(family(system, psi, z, along, spans=(span,)))
-    grid = low + (high - low) * (np.arange(_GRID + 1) + _WOBBLE) / _GRID
-    grid[-1] = high
     whole = path(grid)
     exponent = scale(whole)
     runs, gaps = _runs(path, grid, whole)
@@ -103,8 +98,8 @@ def _runs(path: Line, grid: Array, whole: Plane) -> tuple[list[Array], list[tupl
     defined = whole.defined
     poles: list[float] = []
     if not path.affine:
-        for i in range(5):
-            found = roots(lambda v, i=i: path(v).arrays[i], [grid], [whole.arrays[i]]).poles[0]
+        for i in range(6):
+            found = roots(lambda v, i=i: path(v).affine[i], [grid], [whole.affine[i]]).poles[0]
             poles += found.tolist()
     if defined.all() and not poles:
         return [grid], []

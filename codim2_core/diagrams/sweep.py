@@ -183,8 +183,8 @@ def linearise(plane: Plane, exponent: int | None = None) -> Linearisation:
         c, s = np.where(away, e1 / size, 1.0), e2 / size
         r = zeta / np.hypot(1.0, zeta)
         places = np.stack([[e1, e2], [zeta * c, zeta * s], [r * c, r * s]])
-        if plane.turn is not None:
-            turn = np.exp(1j * plane.turn[inside])
+        if plane.told is not None:
+            turn = np.exp(1j * plane.told[inside])
             turned = (places[:, 0] + 1j * places[:, 1]) * turn
             places = np.stack([turned.real, turned.imag], axis=1)
         pair[:, inside] = places.transpose(0, 2, 1)

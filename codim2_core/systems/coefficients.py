@@ -119,6 +119,15 @@ class Coefficients:
         size = self.size or 1.0
         return size * math.hypot(*(value / size for value in self.plane)) or 1.0
 
+    def by_rotation_near(self, angle: float) -> Coefficients:
+        """Return the same system in the axes of the normal form to which the angle nearest to this one turns."""
+        half_turns = round((angle - self.rotation) / math.pi)
+        if self.given is None or not half_turns:
+            return self
+        sign = -1.0 if half_turns % 2 else 1.0
+        rotation = self.rotation + math.pi * half_turns
+        return replace(self, f1=sign * self.f1, f2=sign * self.f2, B=sign * self.B, rotation=rotation)
+
     def varied(self, name: str, value: float) -> Coefficients:
         """Return the same system with one of `variable` changed (not checked)."""
         return replace(self, rotation=0.0, given=None, **{name: value})

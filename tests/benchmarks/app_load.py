@@ -16,7 +16,7 @@ from urllib.request import urlopen
 
 import numpy as np
 
-from .bokeh_wire import Wire
+from .wire import Wire
 
 RATE = 10.0  # requests a second of each session
 MANY, WITHIN = 40, 2.0  # pages that are opened together, and the seconds in which they are
@@ -94,7 +94,8 @@ async def burst(port: int) -> list[float]:
     async def visit(i: int) -> float:
         await asyncio.sleep(i * WITHIN / MANY)
         start = time.perf_counter()
-        wires.append(await Wire.connect(port, page=await asyncio.to_thread(page, port)))
+        await asyncio.to_thread(page, port)
+        wires.append(await Wire.connect(port))
         return time.perf_counter() - start
 
     wires: list[Wire] = []

@@ -19,13 +19,9 @@ def explorer(port: int, processes: str = "1", *flags: str) -> None:
 
 
 def forgetful(port: int) -> None:
-    """Serve the explorer with sessions that end at once; ``/there``: how many are held; ``/left``: what they leave.
-
-    The former can be asked while sessions end; the latter searches and freezes, as the server does.
-    """
-    from codim2_app.server import page
+    """Serve the explorer; ``/there``: how many pages' pictures are held; ``/left``: what pages that are gone leave."""
+    from codim2_app.server import live, page
     from codim2_app.view import warmup
-    from codim2_app.view.explorer import ExplorerView
     from codim2_app.view.refresh import Frames
     from tornado.web import RequestHandler
 
@@ -33,18 +29,19 @@ def forgetful(port: int) -> None:
     from codim2_core.scene import Scene
     from codim2_core.systems.typed import System
 
-    views: WeakSet[ExplorerView] = WeakSet()
-    view_of = page.view_of
+    held: WeakSet[Frames] = WeakSet()
+    begun = live.begun
 
-    def noted(doc: Any) -> ExplorerView:
-        views.add(view := view_of(doc))
-        return view
+    def noted(link: Any) -> Any:
+        found = begun(link)
+        held.add(found[0])
+        return found
 
-    page.view_of = noted
+    live.begun = noted
 
     class There(RequestHandler):
         def get(self) -> None:
-            self.write(str(len(views)))
+            self.write(str(len(held)))
 
     class Left(RequestHandler):
         def get(self) -> None:
@@ -53,17 +50,15 @@ def forgetful(port: int) -> None:
             gc.collect()
             gc.unfreeze()  # what the server leaves out of its own searches is there too; it may be garbage, and is told
             living = gc.get_objects()
-            kinds = (ExplorerView, Frames, Scene, Psi, System)
+            kinds = (Frames, Scene, Psi, System)
             # the type, as a weak reference whose object is gone cannot be asked for its class
             counts = {kind.__name__: sum(issubclass(type(one), kind) for one in living) for kind in kinds}
             many = len(living)
             living.clear()  # it is in a cycle, as it holds what counts it; frozen, it would hold all that lives now
             gc.freeze()
-            counts |= {"formulas": len(warmup._formulas), "sessions": len(server.get_sessions())}
-            self.write({"resident": resident, "objects": many, **counts})
+            self.write({"resident": resident, "objects": many, **counts, "formulas": len(warmup._formulas)})
 
-    soon: dict[str, Any] = {"unused_session_lifetime_milliseconds": 2000, "check_unused_sessions_milliseconds": 200}
-    server = page.make_server(port, **soon)
+    server = page.make_server(port)
     server._tornado.add_handlers(r".*", [("/left", Left), ("/there", There)])
     server.start()
     server.io_loop.start()

@@ -18,7 +18,8 @@ from urllib.request import urlopen
 from playwright.sync_api import Browser, sync_playwright
 
 from .app_load import at_rest, cpu, serving
-from .bokeh_wire import Wire
+from .app_load import page as page_text
+from .wire import Wire
 
 KINDS = {"panel": "bare Panel page, empty Bokeh figure", "explorer": "explorer"}
 BYTES = 10  # first bytes measured in each turn, one after the other
@@ -58,11 +59,13 @@ def first_stroke(browser: Browser, port: int) -> float:
         context.close()
 
 
-async def arrivals(port: int, pid: int, count: int) -> float:
-    """Return the server's processor time of a page with its session, in seconds."""
+async def arrivals(kind: str, port: int, pid: int, count: int) -> float:
+    """Return the server's processor time of a page, and of what it begins with, in seconds."""
     before = cpu(pid)
     for _ in range(count):
-        await (await Wire.connect(port)).close()
+        await asyncio.to_thread(page_text, port)
+        if kind == "explorer":  # of Panel's page a session has been made already
+            await (await Wire.connect(port)).close()
     return (cpu(pid) - before) / count
 
 
@@ -83,7 +86,7 @@ def run(turns: int) -> dict[str, list[dict[str, Any]]]:
             for kind, (port, pid) in servers.items():
                 byte = first_byte(port)
                 stroke = first_stroke(browser, port)
-                used = _run(arrivals(port, pid, 10))
+                used = _run(arrivals(kind, port, pid, 10))
                 found[kind].append({"byte": byte, "stroke": stroke, "cpu": used})
                 _run(at_rest(pid))
         browser.close()

@@ -17,7 +17,7 @@ from codim2_app.state.portraits import portrait_keys
 from tornado.httpclient import HTTPClientError
 
 from .app_load import RATE, page, value
-from .bokeh_wire import Wire
+from .wire import Wire
 
 TYPISTS = 8  # one visitor of so many types a formula
 #: What is done, and for how many ticks of a visit at `RATE`.
@@ -65,7 +65,8 @@ async def visit(port: int, number: int, chair: Chair, goes_on: Callable[[], bool
 async def _played(port: int, number: int, chair: Chair, goes_on: Callable[[], bool]) -> None:
     """One frame in flight, at most `RATE` a second, and no goodbye."""
     began = time.perf_counter()
-    wire = await Wire.connect(port, page=await asyncio.to_thread(page, port))
+    await asyncio.to_thread(page, port)
+    wire = await Wire.connect(port)
     chair.delays["open"].append(time.perf_counter() - began)
     chair.visits += 1
     for tick, (what, values) in enumerate(asked(number)):

@@ -4,7 +4,6 @@
 """
 
 import asyncio
-import re
 import ssl
 import sys
 from urllib.parse import urlsplit
@@ -12,9 +11,8 @@ from urllib.request import urlopen
 
 from codim2_app.draw.packing import unpack
 from tornado.httpclient import HTTPRequest
-from tornado.websocket import websocket_connect
 
-from tests.benchmarks.bokeh_wire import Wire
+from tests.benchmarks.wire import Wire
 
 SETTING, SLOW_FLOW = "?a=-1&b=1&d=-1&f1=0", [0.0]
 
@@ -26,16 +24,11 @@ async def slow_flow_at(address):
     with urlopen(address + SETTING, context=trusting) as answer:
         page = answer.read().decode()
     assert 'role="alert" style' not in page  # the name is allowed
-    token = re.search(r'"token":"([^"]+)"', page)[1]
     place = urlsplit(address)
-    headers = {"Sec-WebSocket-Protocol": f"bokeh, {token}", "Origin": f"{place.scheme}://{place.netloc}"}
-    socket = f"{address.replace('http', 'ws', 1)}ws"
-    wire = Wire(await websocket_connect(HTTPRequest(socket, headers=headers, validate_cert=False)))
+    headers = {"Origin": f"{place.scheme}://{place.netloc}"}
+    socket = f"{address.replace('http', 'ws', 1)}live{SETTING}"
+    wire = await Wire.at(HTTPRequest(socket, headers=headers, validate_cert=False))
     try:
-        await wire.read()
-        await wire.send("PULL-DOC-REQ", {})
-        _, content, _ = await wire.read()
-        wire.root = content["doc"]["roots"][0]["id"]
         header, _ = unpack(await wire.frame(1))
     finally:
         await wire.close()  # also where its server has ended

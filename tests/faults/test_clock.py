@@ -6,8 +6,7 @@ import pytest
 from codim2_app.draw.packing import unpack
 
 from tests.benchmarks import app_load
-from tests.benchmarks.bokeh_wire import Wire
-from tests.benchmarks.visits import page
+from tests.benchmarks.wire import Wire
 from tests.faults.test_leaving import FILE, TYPED, state_of, workers
 from tests.work import wait_until
 
@@ -57,12 +56,10 @@ def test_a_clock_that_is_set_ends_no_session_and_holds_up_nothing(machine, by):
         code = (await lecturer.ask("room", {"open": ""}))["open"]
         assert await phone.ask("room", {"join": code}) == {"joined": code}
         await told(lecturer, lambda answer: len(answer.get("rows", ())) == 1)
-        sent = await asyncio.to_thread(page, port)
 
         offset.write_text(str(float(offset.read_text()) + by))
         after = await opened(port)  # a new page opens
-        pages.append(await Wire.connect(port, page=sent))  # one that was sent before begins its session
-        for number, wire in enumerate((lecturer, phone, after, pages[-1])):
+        for number, wire in enumerate((lecturer, phone, after)):
             header, _ = unpack(await wire.frame(number + 2, a=-1.1 - 0.1 * number))
             assert header["id"] == number + 2
         later = await opened(port)  # the room is open, and its lecturer sees who comes
@@ -72,7 +69,7 @@ def test_a_clock_that_is_set_ends_no_session_and_holds_up_nothing(machine, by):
         await typist.frame(1, **TYPED)
         await finished(typist)
         spent = {worker: app_load.cpu(worker) for worker in workers(pid)}
-        await typist.event("data_event", typist.root, data={"take": {**FILE, "id": 1}})
+        await typist.send({"take": {**FILE, "id": 1}})
 
         def at_work():
             return [one for one in workers(pid) if app_load.cpu(one) - spent.get(one, 0.0) > AT_WORK]
@@ -81,7 +78,7 @@ def test_a_clock_that_is_set_ends_no_session_and_holds_up_nothing(machine, by):
         while pages:
             await pages.pop().vanish()
         assert await asyncio.to_thread(wait_until, lambda: state_of(busy) == "gone", 5.0)
-        assert await asyncio.to_thread(wait_until, lambda: not app_load.left(port)["sessions"], 20.0)
+        assert await asyncio.to_thread(wait_until, lambda: not app_load.there(port), 20.0)
 
     async def whole():
         try:

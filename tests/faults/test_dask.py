@@ -16,7 +16,7 @@ from codim2_app.server.cli import main
 import codim2_core as c2
 from tests.app.serving import serving
 from tests.benchmarks.app_load import free_port
-from tests.benchmarks.bokeh_wire import Wire
+from tests.benchmarks.wire import Wire
 
 pytest.importorskip("distributed", reason="there is no Dask: install the extra dask")
 # Dask's own, at the end of a process
@@ -94,19 +94,17 @@ def test_a_page_has_its_files_from_the_cluster(workers):
     async def taken(port):
         wire = await Wire.connect(port)
         await wire.frame(1, a=-1.25)
-        await wire.event("data_event", wire.root, data={"take": {"kind": "tex", "id": 1}})
-        while True:
-            kind, content, buffers = await wire.read()
-            if kind == "PATCH-DOC" and "taken" in str(content):
-                await wire.close()
-                return str(content["events"][0]["msg_data"]).count("error"), buffers
+        await wire.send({"take": {"kind": "tex", "id": 1}})
+        said = await wire.message()
+        await wire.close()
+        return "error" in said, said.get("file")
 
     files = []
     for options in ((), ("--dask", address)):
         with serving(*options) as server:
             files.append(asyncio.run(taken(server.port)))
     assert files[0] == files[1]
-    assert files[0][0] == 0
+    assert not files[0][0]
     assert files[0][1]
 
 

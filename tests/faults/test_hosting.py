@@ -18,7 +18,7 @@ from codim2_app.server.settings import SETTINGS
 
 from tests.app.serving import serving
 from tests.benchmarks.app_load import free_port
-from tests.benchmarks.bokeh_wire import Wire
+from tests.benchmarks.wire import Wire
 
 ROOT = Path(__file__).parents[2]
 CONFIGURATION = ROOT / "app" / "docs" / "text" / "hosting" / "nginx.conf"

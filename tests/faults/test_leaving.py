@@ -5,16 +5,15 @@ from pathlib import Path
 
 import pytest
 from codim2_app.draw.packing import unpack
-from codim2_app.server.process.garbage import REST, TRIES
 from codim2_app.view.warmup import MOST_COMPILED, MOST_THREADS
 
 from tests.app.serving import serving
 from tests.benchmarks import app_load
-from tests.benchmarks.bokeh_wire import Wire
+from tests.benchmarks.wire import Wire
 from tests.work import wait_until
 
 AT_ONCE = 4  # visitors: one after the other they would wait for their own machine most of the time
-FORGOTTEN = REST * 2**TRIES  # seconds: what is still in use is searched again, each time after twice as long
+FORGOTTEN = 30.0  # seconds
 PLATEAU = 40e6  # bytes by which what is held after a thousand visits may exceed what is held after a hundred
 
 
@@ -52,7 +51,7 @@ async def begin(address):
     wire = await Wire.connect(address.port)
     await wire.frame(1, **TYPED)
     before = {worker: app_load.cpu(worker) for worker in workers(address.pid)}
-    await wire.event("data_event", wire.root, data={"take": {**FILE, "id": 1}})
+    await wire.send({"take": {**FILE, "id": 1}})
 
     def at_work():
         return [one for one in workers(address.pid) if app_load.cpu(one) - before.get(one, 0.0) > WHILE]
@@ -66,7 +65,7 @@ def test_work_that_nobody_wants_any_more_ends_in_mid_work(address, how):
         wire, busy = await begin(address)
         assert len(busy) == 1
         if how == "another file":
-            await wire.event("data_event", wire.root, data={"take": {"kind": "json", "id": 2}})
+            await wire.send({"take": {"kind": "json", "id": 2}})
         else:
             await (wire.close() if how == "leave" else wire.vanish())
         ended = await asyncio.to_thread(wait_until, lambda: state_of(*busy) == "gone", 5.0)
@@ -96,8 +95,6 @@ async def drag_and_vanish(port, i):
 
 
 def test_a_thousand_visits_hold_no_more_than_a_hundred():
-    """Beside one who stays: all that lives is searched for garbage only when nobody is there."""
-
     async def visits(port, kinds):
         for first in range(0, len(kinds), AT_ONCE):
             await asyncio.gather(*(visit(port, i) for i, visit in kinds[first : first + AT_ONCE]))

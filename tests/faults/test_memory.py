@@ -12,7 +12,7 @@ from codim2_app.phrases import say
 
 from tests.app.serving import serving
 from tests.benchmarks.app_load import family
-from tests.benchmarks.bokeh_wire import Wire
+from tests.benchmarks.wire import Wire
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the system bounds no memory of a process")
 
@@ -74,17 +74,14 @@ async def told(port):
     """Ask for a file; return what is said instead, once another page and this one have had frames beside it."""
     wire, other = [await Wire.connect(port) for _ in range(2)]
     await wire.frame(1, a=-1.25)
-    await wire.event("data_event", wire.root, data={"take": {"kind": "json", "id": 1}})
+    await wire.send({"take": {"kind": "json", "id": 1}})
     for i in range(20):
         assert unpack(await other.frame(i + 1, a=-1.5 + 0.01 * i))[0]["id"] == i + 1
-    while True:
-        kind, content, _ = await wire.read()
-        if kind == "PATCH-DOC" and "taken" in str(content):
-            break
+    said = await wire.message()
     assert unpack(await wire.frame(2, a=-1.4))[0]["id"] == 2
     await wire.close()
     await other.close()
-    return str(content)
+    return str(said)
 
 
 @contextmanager

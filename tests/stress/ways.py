@@ -47,27 +47,38 @@ def general(rng: random.Random) -> c2.System:
     )
 
 
-def as_text(system: c2.ELinear) -> c2.System:
-    """The same system, written as formulas."""
-    names = ("a", "b", "d", "f1", "f2")
-    U = "a*c - b*s + f1", "b*c + d*s + f2"
-    return c2.System(U=U, W=(), parameters={name: float(system.value_of(name)) for name in names})
+def as_text(system: c2.ELinear, angle: float = 0.0, bend: str = "") -> c2.System:
+    """The same system, written as formulas in axes turned by an angle, with parameters f1, f2 and one that is 0."""
+    a, b, d = (float(system.value_of(name)) for name in "abd")
+    c, s = math.cos(angle), math.sin(angle)
+    R = np.array([[c, -s], [s, c]])
+    A = R @ np.array([[a, -b], [b, d]]) @ R.T
+    U = ["({!r})*c + ({!r})*s + ({!r})*f1 + ({!r})*f2".format(*row) for row in np.hstack([A, R]).tolist()]
+    return c2.System(U=(U[0] + bend, U[1]), W=(), parameters={"f1": system.f[0], "f2": system.f[1], "k": 0.0})
 
 
 def both_kinds_of_branches(rng: random.Random) -> tuple[str, list[str]]:
-    """Branches along f1 of an e-linear system, given in coefficients and as text."""
-    system, family = elinear(rng), rng.choice(FAMILIES)
+    """Branches along f1 of an e-linear system: in coefficients, as text in other axes, and by the general path."""
+    system, family, angle = elinear(rng), rng.choice(FAMILIES), rng.uniform(-math.pi, math.pi)
     what = f"branches of {system!r}, {family.text}, along f1"
-    special = []
-    for one in (system, as_text(system)):
-        found = c2.branches(one, family, "f1", (-1.5, 1.5))
-        points = [(point.kind, point.value) for branch in found.cycles for point in branch.special]
-        special.append(sorted({*points, *((one.kind, one.value) for one in found.special)}, key=lambda p: p[1]))
-    first, second = special
-    missing = [p for p in first if not any(p[0] == q[0] and abs(p[1] - q[1]) < 10 * SAME for q in second)]
-    more = [q for q in second if not any(p[0] == q[0] and abs(p[1] - q[1]) < 10 * SAME for p in first)]
-    said = [f"only in coefficients: {p}" for p in missing if p[0] != "span"]
-    return what, said + [f"only as text: {q}" for q in more if q[0] != "span"]
+    first, turned, general = (
+        _special(c2.branches(one, family, "f1", (-1.5, 1.5)))
+        for one in (system, as_text(system, angle), as_text(system, bend="+k*c*s"))
+    )
+    places = [(p[0], p[1], p[2] * complex(math.cos(angle), math.sin(angle))) for p in first]
+    said = [*_missing(places, turned, "only in coefficients"), *_missing(turned, places, "only as turned text")]
+    first, general = ([(*mark[:2], 0j) for mark in marks] for marks in (first, general))  # places less exactly
+    return what, said + _missing(first, general, "not in general") + _missing(general, first, "only in general")
+
+
+def _special(found: c2.Branches) -> list[tuple[str, float, complex]]:
+    marks = {(point.kind, point.value, 0j) for branch in found.cycles for point in branch.special}
+    return sorted(marks | {(one.kind, one.value, complex(*one.place)) for one in found.standing}, key=lambda m: m[1])
+
+
+def _missing(these: list[tuple[str, float, complex]], those: list[tuple[str, float, complex]], where: str) -> list[str]:
+    near = lambda p, q: p[0] == q[0] and abs(p[1] - q[1]) < 10 * SAME and abs(p[2] - q[2]) < math.sqrt(SAME)
+    return [f"{where}: {p}" for p in these if p[0] != "span" and not any(near(p, q) for q in those)]
 
 
 def branches_and_cycles(rng: random.Random) -> tuple[str, list[str]]:
@@ -112,15 +123,19 @@ def _off(line: np.ndarray, point: np.ndarray) -> float:
 
 
 def limit_and_eps(rng: random.Random) -> tuple[str, list[str]]:
-    """The phases of the limit, and those of a motion with a small eps."""
+    """The phases of the limit, and those of a motion with a small eps, or with a smaller one: one may pass Sigma by."""
     system, family = general(rng), rng.choice(FAMILIES)
     angle = rng.uniform(0.0, math.tau)
     start = (0.3 * math.cos(angle), 0.3 * math.sin(angle), rng.uniform(-0.5, 0.5))
     limit = c2.simulate_nonsmooth(system, start, (0.0, 1.5), psi=family)
-    run = c2.simulate(system, family, 1e-6, start, (0.0, 1.5))
-    found = agreement(system, family, run, limit)
-    sure = not any("may be decided" in phase.reason for phase in run.phases)
-    return f"motion of {system.U}, {family.text}, from {start}", [] if found.same or not sure else [found.sentence]
+    said: list[str] = []
+    for eps in (1e-6, 1e-8, 1e-10):
+        run = c2.simulate(system, family, eps, start, (0.0, 1.5))
+        found = agreement(system, family, run, limit)
+        said = [] if found.same or any("may be decided" in phase.reason for phase in run.phases) else [found.sentence]
+        if not said:
+            break
+    return f"motion of {system.U}, {family.text}, from {start}", said
 
 
 CHECKS: tuple[Check, ...] = (both_kinds_of_branches, branches_and_cycles, atlas_and_portraits, limit_and_eps)

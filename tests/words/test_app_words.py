@@ -10,7 +10,7 @@ from codim2_app import phrases
 from codim2_app.draw.packing import unpack
 from codim2_app.frame import budget, turns
 from codim2_app.panels.parameters.atlas_columns import atlas_columns
-from codim2_app.server.first_page import opening
+from codim2_app.server.live import opening
 from codim2_app.state import asked, links
 from codim2_app.state.controls import ExplorerState
 from codim2_app.state.links import read_link, unsqueezed
@@ -64,7 +64,7 @@ def address_failed(_key, monkeypatch):
     def broken(_query):
         raise RuntimeError("/secret/path")
 
-    monkeypatch.setattr("codim2_app.server.first_page.read_link", broken)
+    monkeypatch.setattr("codim2_app.server.live.read_link", broken)
     link = opening({"a": "1"})
     assert [str(error) for error in link.errors] == [phrases.say("address failed")]
     assert link.state.values() == ExplorerState().values()
@@ -87,8 +87,8 @@ def unable(panel, name, **values):
 
 def axes(key):
     if key == "no such axis":
-        return unable("atlas", "map", system="own", across="b", up="z")(key)
-    return unable("atlas", "map", across="f1", up="f1")(key)
+        return unable("atlas", "map", system="spinning_disc", across="a", up="f2")(key)
+    return unable("atlas", "map", across="f1", up="f1" if key == "one axis twice" else "f2")(key)
 
 
 FOLDING = System(U=("2*c**2 - c - mu", "-s + k*c*s"), parameters={"mu": 0.5, "k": 0.3})

@@ -104,7 +104,7 @@ ALONG = {
     ),
     "splits": (typed("-c", "-s + k*s + s**3/2"), ONE, "k", (-1.5, 0.5)),
     "equator neutral, a cycle may leave": (ELinear(-1, 3, 1.5, (0.3, 0.1)), ONE, "a", (-2.5, -0.6)),
-    "equator neutral": (typed("k*c - s", "c + k*s"), ONE, "k", (-0.7, 0.6)),
+    "equator neutral": (typed("k*c*(c**2 + s**2) - s", "c + k*s*(c**2 + s**2)"), ONE, "k", (-0.7, 0.6)),
     "border, turns": (ELinear(-1, 0.2, -1.5, (0.3, 0.2)), ONE, "f1", (0.3, 2.0)),
     "border, turns back": (ELinear(1.5, 0, 1, (0, 1)), HILL, "b", (-3, 3)),
     "set reaches the equator": (typed("k - c - c**3", "-s + 0.1*c"), ONE, "k", (1.5, 2.6)),

@@ -14,7 +14,6 @@ from codim2_core.bifurcations.curve import BifurcationCurve
 from codim2_core.bifurcations.plane_regions import Regions
 from codim2_core.continuation.result import CycleBranches
 from codim2_core.cycles.limit_cycles import LimitCycles
-from codim2_core.diagrams.class_maps.atlas import ClassMap
 from codim2_core.diagrams.eigenvalue_path import LinearisationPath
 from codim2_core.diagrams.result import Branches
 from codim2_core.figures.preset import Preset
@@ -158,12 +157,6 @@ def _slow_portrait(result: SlowPortrait) -> str:
 def _psi(result: Psi) -> str:
     s = np.linspace(0.0, 4.0, 161)
     return chart([("Ψ", s, result(s))], "s", "Ψ")
-
-
-@svg.register
-def _class_map(result: ClassMap) -> str:
-    areas = [(region.name, region.boundary) for region in result.regions]
-    return regions(areas, result.spans, *result.names)
 
 
 @svg.register

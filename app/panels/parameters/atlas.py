@@ -1,9 +1,8 @@
 """The panel "Atlas": two parameters as a plane, cut into regions of one portrait each, with a small portrait of each.
 
 The plane (f1, f2) is known in closed form: its curves go with every frame. Any other pair of axes, and a part of that
-plane, by zoom or by the ranges of its sliders, is mapped once nothing moves: of an e-linear system by the core's
-`class_map`, of any other by its `atlas`, the curves first, then the regions between them, each shown as it comes. A
-system with one parameter only has a strip along that.
+plane, by zoom or by the ranges of its sliders, is mapped once nothing moves by the core's `atlas`, the curves first,
+then the regions between them, each shown as it comes. A system with one parameter only has a strip along that.
 """
 
 from __future__ import annotations
@@ -14,10 +13,8 @@ from typing import Any
 from codim2_core import bifurcations
 from codim2_core.atlases.atlas import Atlas, curves_over, with_bifurcations_of_cycles, with_regions
 from codim2_core.bifurcations import BifurcationCurve
-from codim2_core.diagrams.class_maps.atlas import ClassMap, class_map
 from codim2_core.diagrams.class_maps.line import Stretch, class_line
 from codim2_core.psi.function import Psi
-from codim2_core.systems.affine import as_elinear
 from codim2_core.systems.coefficients import Coefficients
 
 from ...draw import plane_curves
@@ -26,14 +23,14 @@ from ...draw.thumbnails import thumbnails
 from ...frame.draft import Draft
 from ...phrases import say
 from ..panel import Panel
-from .atlas_columns import atlas_columns, map_columns, short, strip_columns
+from .atlas_columns import atlas_columns, short, strip_columns
 from .axes import Axis, available, missing, spans_of, without
 
 #: Controls of the plane of f: a system that lacks one of them has none.
 PLANE = ("a", "b", "d", "f1", "f2")
 #: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
 CURVES = ("saddle_node", "transcritical")
-#: A region narrower than this, of the width of the map, gets no small portrait; nor one of less than its square.
+#: A region of less area than the square of this, of the map's, gets no small portrait; nor a stretch shorter than this.
 THINNEST = 0.012
 
 
@@ -161,20 +158,12 @@ def _map(draft: Draft, axes: tuple[Axis, Axis]) -> None:
     spans = spans_of(draft, "map", axes, draft.values["atlas_zoom"])
     names = axes[0].core, axes[1].core
     key = (system, psi, z, names, spans)
-    if as_elinear(system) is None:
-        _followed(draft, key, axes)
-    else:
-        found: ClassMap | None = draft.slow("map", key, class_map, system, psi, names, spans, z)
-        if found is not None:
-            draft.header["map"], lines = map_columns(found)
-            draft.blocks.update(lines)
-            wide = [(i, short(r.name), r.inside) for i, r in enumerate(found.regions) if r.width >= THINNEST]
-            draft.now["places"] = (key, wide)
+    _followed(draft, key, axes)
     _portraits(draft, key)
 
 
 def _followed(draft: Draft, key: tuple[Any, ...], axes: tuple[Axis, Axis]) -> None:
-    """Add the curves of a system that is not e-linear and, once they are there, the regions between them.
+    """Add the curves and, once they are there, the regions between them.
 
     Then, where they are asked for, the folds of its limit cycles and the connections of its saddles.
     """

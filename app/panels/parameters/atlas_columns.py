@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from codim2_core.atlases.connections.connection_curves import KINDS
 from codim2_core.atlases.result import Atlas
-from codim2_core.diagrams.class_maps.atlas import ClassMap
 from codim2_core.diagrams.class_maps.line import Stretch
 
 from ...draw import plane_curves
@@ -44,20 +43,6 @@ def strip_columns(
         "note": note,
     }
     return header, {"map": Polylines(*join(loops)), "map_curves": Polylines(*join(between))}
-
-
-def map_columns(found: ClassMap) -> tuple[dict[str, Any], dict[str, Polylines]]:
-    """Return regions and curves of a map: columns, and their lines where both spans are -1 to 1."""
-    header = {
-        "spans": [list(span) for span in found.spans],
-        "name": [region.name for region in found.regions],
-        "inside": [list(region.inside) for region in found.regions],
-        "loops": [len(region.boundary) for region in found.regions],
-        "curve": [boundary.happening[0] for boundary in found.boundaries],
-        "pieces": [len(boundary.lines) for boundary in found.boundaries],
-    }
-    loops = [loop for region in found.regions for loop in region.boundary]
-    return header, _lines(found.spans, loops, [line for boundary in found.boundaries for line in boundary.lines])
 
 
 def atlas_columns(found: Atlas, symbols: tuple[str, str]) -> tuple[dict[str, Any], dict[str, Polylines]]:

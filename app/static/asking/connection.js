@@ -1,6 +1,5 @@
 // The page's connection to its server: says when it is lost, and loads the page again, with the state that is in its
-// address, as soon as a server answers. (The server keeps a session only for seconds after its socket has closed.) A
-// server of another version may show something else, so there the page asks first.
+// address, as soon as a server answers. A server of another version may show something else, so there the page asks first.
 
 import {SAYS} from "../words.js"
 
@@ -8,16 +7,16 @@ const RETRY = [500, 1000, 2000, 3000, 5000] // ms between attempts; the last one
 
 export class Connection {
   /**
-   * @param {any} document of Bokeh's
+   * @param {import("./line.js").Line} line
    * @param {{page: boolean, edition: string, lost: () => void, say: (sentence: string, reload?: () => void) => void, leave: () => void}} given
    *   `say` shows a sentence, with a button if there is something to be done; `leave` is called before the page is loaded again
    */
-  constructor(document, {page, edition, lost, say, leave}) {
+  constructor(line, {page, edition, lost, say, leave}) {
     this.attempts = 0
     this.edition = edition
     this.say = say
     this.leave = leave
-    document?.on_event("connection_lost", () => {
+    line.lost(() => {
       if (this.attempts) return
       lost()
       this.attempts = 1

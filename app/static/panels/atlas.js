@@ -11,7 +11,7 @@ import {rangeFor, reachFor} from "../controls/ranges.js"
 const CURVE_NAMES = {
   transcritical: "|A⁻¹f| = 1", saddle_node: "saddle-node", pitchfork: "pitchfork", hopf: "Hopf", node_focus: "node–focus", cycle_folds: "fold of cycles", heteroclinic: "heteroclinic cycle", homoclinic: "homoclinic loop", connection: "saddle connection", closed_equator: "cycle at the equator", determinant: "det A = 0", fold: "fold of critical sets", fork_of_sets: "pitchfork of critical sets", degenerate: "all is degenerate", undefined: "undefined",
 }
-const OF_EQUATIONS = {transcritical: "a critical set at the equator", closed_equator: "closed equator neutral"}
+const OF_MAPS = {transcritical: "a critical set at the equator", closed_equator: "closed equator neutral"}
 const CURVE_OF = {
   transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "pitchfork", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant", fold: "fold", "fold of critical sets": "fold", "pitchfork of critical sets": "fork_of_sets", "neutral equator": "closed_equator", "fold of cycles": "cycle_folds", "homoclinic loop": "homoclinic", "heteroclinic cycle": "heteroclinic", "saddle connection": "connection", degenerate: "degenerate",
 }
@@ -40,7 +40,7 @@ class Atlas {
     cycles.addEventListener("change", () => tools.choose("cycle_curves", cycles.checked ? "show" : "hide"))
     tools.follow("cycle_curves", (value) => { cycles.checked = value === "show" })
     this.plane = {size: 0, curves: {}, regions: [], points: []}
-    this.map = this.empty = {of: "", regions: [], curves: {}, still: {}, points: [], names: {}}
+    this.map = this.empty = {of: "", regions: [], curves: {}, still: {}, points: []}
     this.of = "" // the axes that the server draws, and whether they are the plane of f
     this.tiles = []
     this.dots = /** @type {Dots | null} */ (null)
@@ -113,10 +113,8 @@ class Atlas {
       const all = scaled("map"), between = scaled("map_curves"), curves = {}
       for (const [i, kind] of curve.entries()) (curves[CURVE_OF[kind] ?? "undefined"] ??= []).push(...between.splice(0, pieces[i]))
       const regions = name.map((words, i) => ({name: words, bounded: true, inside: inside[i], loops: all.splice(0, loops[i])}))
-      // only what is followed has points: its critical sets are those of equations
-      const names = points || name.some((words) => words.includes(";")) ? OF_EQUATIONS : {}
       const still = Object.fromEntries(Object.entries(curves).filter(([kind]) => !OF_CYCLES.includes(kind)))
-      this.map = {of: this.of, spans, regions, curves, still, followed: Boolean(points), points: points ?? [], names, note: header.map.note}
+      this.map = {of: this.of, spans, regions, curves, still, followed: Boolean(points), points: points ?? [], note: header.map.note}
     }
     this.why = header.unable?.map ?? (header.map || header.atlas_of ? "" : this.why)
     if (header.unable?.map) this.map = this.empty
@@ -176,12 +174,12 @@ class Atlas {
 
   chartOfMap(values) {
     const handle = this.axes.map((name) => this.tools.valueOf(name))
-    const {of, spans, regions, curves: all, still, points: told, names, note} = this.map.of === this.of ? this.map : this.empty
+    const {of, spans, regions, curves: all, still, points: told, note} = this.map.of === this.of ? this.map : this.empty
     const withCycles = values.cycle_curves === "show"
     const curves = withCycles ? all : still, points = withCycles ? told : told.filter(([kind]) => !POINTS_OF_CYCLES.includes(kind))
     const box = of ? spans : this.axes.map((name, i) => rangeFor(this.tools.rangeOf(name), handle[i]))
     if (this.isStrip) { handle[1] = 0.5; box[1] = [0, 1] }
-    return {box, regions, curves, points, handle, here: handle, path: null, note, names, flat: this.isStrip}
+    return {box, regions, curves, points, handle, here: handle, path: null, note, names: OF_MAPS, flat: this.isStrip}
   }
 
   // A region may be too small for its name: the key has them all, and the curves that are in sight.

@@ -10,6 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from ...layer_problem.problem import LayerProblem
+from ...numerics.root_between import root_between
 from ...words import say
 from ..assembled import Row
 from ..result import CyclePoint
@@ -20,6 +21,9 @@ from .foot import Array, Foot
 NEAR, SUNK = 0.03, 0.03
 SLOWER = 1.05  # times the period before: what goes to a loop becomes slower
 SETTLED, REACH = 1e-4, 0.1  # of the span: how far from the last cycle a loop may be, and what is special
+FARTHER = 1.5  # times the period before: cycles that tell the value to which those of growing periods tend
+RATES = 0.05, 20.0  # with which powers of the period the values come to it
+BEYOND = 2.0  # times the way to it: there a saddle-node, to which they come more slowly, may be the end
 COMING = 10.0  # times the way of the last cycles: how far from the last one is what they come to
 
 
@@ -44,12 +48,13 @@ class Marked(Protocol):
 
 @dataclass(frozen=True)
 class Last:
-    """The last cycles of a branch: the turn, the states along it, and those of an earlier one."""
+    """The last cycles of a branch: the turn, the states along it, an earlier one, and the limit of their values."""
 
     turn: Turn
     states: Array
     before: Turn
     earlier: Array
+    limit: float | None
 
 
 @dataclass(frozen=True)
@@ -80,6 +85,27 @@ def equator_end(name: str, turn: Turn, marked: Sequence[Marked], width: float, c
     return Ended(point, (value, math.inf, away, 0.0, *turn.p))
 
 
+def limit_value(turns: Sequence[Turn]) -> float | None:
+    """Extrapolate the values of cycles whose periods grow, as v + C period^-r through three; None if they do not."""
+    three = [turns[-1]]
+    for turn in reversed(turns[:-1]):
+        if len(three) < 3 and FARTHER * turn.period < three[-1].period:
+            three.append(turn)
+    last, middle, first = (three * 3)[:3]
+    way = middle.value - last.value
+    if len(three) < 3 or not (ratio := (first.value - middle.value) / way if way else 0.0) > 0.0:
+        return None
+    one, two = (math.log(last.period / turn.period) for turn in (first, middle))
+
+    def miss(r: float) -> float:
+        return 1.0 - math.exp(r * (two - one)) - ratio * (math.exp(r * (two - one)) - math.exp(-r * one))
+
+    if miss(RATES[0]) * miss(RATES[1]) > 0.0:
+        return None
+    power = root_between(miss, *RATES) * two
+    return last.value + way * math.exp(-power) / math.expm1(-power)
+
+
 def loop_end(name: str, last: Last, problem: LayerProblem, marked: Sequence[Marked], width: float) -> Ended | None:
     """Name the end at a loop of saddles, which cycles near ever more slowly; None if they do not."""
     turn = last.turn
@@ -90,23 +116,23 @@ def loop_end(name: str, last: Last, problem: LayerProblem, marked: Sequence[Mark
     if fold is not None and min(_gaps([fold.place], last.states)) < NEAR:
         return _ended("saddle-node on the cycle", say("meets two sets", name=name, value=fold.value), turn, fold.value)
     sunk, settled = _sunk(last), abs(turn.value - last.before.value) < SETTLED * width
-    if sunk and meeting is not None and not settled:
+    value = turn.value if last.limit is None else last.limit
+    reached = meeting is not None and abs(meeting.value - turn.value) < BEYOND * abs(value - turn.value)
+    if sunk and meeting is not None and (reached or not settled):
         sentence = say("meets a saddle-node", name=name, value=meeting.value)
         return _ended("saddle-node on the equator", sentence, turn, meeting.value)
     saddles = [C.p for C in problem.critical if C.kind == "saddle"]
-    pairs = zip(_gaps(saddles, last.states), _gaps(saddles, last.earlier), strict=True)
-    near = sum(now < NEAR and now < before for now, before in pairs)
-    at = {"name": name, "value": turn.value}
-    if not settled:
-        return None
     # What cycles of growing periods tend to holds an equilibrium: one on the equator where there is no saddle within.
     coming_down = sunk or (not saddles and turn.height < last.before.height)
-    if coming_down and len(problem.equator):
-        sentence = say("becomes a loop", how="attracting" if turn.exponent < 0.0 else "repelling", **at)
-        return _ended("heteroclinic cycle through the equator", sentence, turn, turn.value)
-    if near:
+    if coming_down and len(problem.equator) and (settled or 0.0 < abs(turn.value - value) < SETTLED * width):
+        how = "attracting" if turn.exponent < 0.0 else "repelling"
+        sentence = say("becomes a loop", how=how, name=name, value=value)
+        return _ended("heteroclinic cycle through the equator", sentence, turn, value)
+    pairs = zip(_gaps(saddles, last.states), _gaps(saddles, last.earlier), strict=True)
+    near = sum(now < NEAR and now < before for now, before in pairs)
+    if near and settled:
         kind = "homoclinic" if near == 1 else "heteroclinic"
-        return _ended(f"{kind} cycle", say(f"becomes {kind}", **at), turn, turn.value)
+        return _ended(f"{kind} cycle", say(f"becomes {kind}", name=name, value=turn.value), turn, turn.value)
     return None
 
 

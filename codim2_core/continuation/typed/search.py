@@ -30,7 +30,7 @@ from ..result import CycleBranch, CycleBranches, CyclePoint
 from ..trace import Tracer
 from ..turns import Turn
 from ..varied_system import KEPT
-from .ends import SLOWER, Ended, Last, Marked, equator_end, hopf_end, loop_end
+from .ends import SLOWER, Ended, Last, Marked, equator_end, hopf_end, limit_value, loop_end
 from .family import VariedRay, follow
 from .foot import Array, At, Foot, Place, e_at
 from .passed import line_of, passed
@@ -41,7 +41,9 @@ FIRST, LARGE = 1e-3, 0.05  # of the reach: where branches start at a critical se
 COLUMNS = 9  # values at which all cycles are looked for
 BETTER = 1.3  # times as well another ray is crossed that is worth taking
 RAYS = 12  # of one branch
-BACK, FURTHEST = 3, 12  # points before the last one, with which it is compared: one at which cycles were faster
+REACHED = 1e-9  # of the span: within it are the values of cycles of different periods at a loop
+DROWNED = 1e-12  # ebar of a turn of which nothing but rounding is left
+BACK, FURTHEST = 3, 12  # points before the last one: with those before it is compared, among these it is chosen
 
 
 @dataclass(frozen=True)
@@ -220,14 +222,22 @@ class Search:
         pieces: list[Piece] = []
         for _ in range(RAYS):
             (trace,) = answered([traced(tracer, point)], follow)
+            if pieces and len(trace.points) == 1:  # no further than the ray before
+                break
             pieces.append(Piece(tracer, trace))
-            if trace.reason != "stuck" or len(trace.points) < 3:
+            if trace.reason != "stuck" or len(trace.points) < 3 or self._at_loop(trace):
                 break
             again = self._again(tracer, trace)
             if again is None:
                 break
             tracer, point = again
         return pieces
+
+    def _at_loop(self, trace: Trace) -> bool:
+        """Whether the last cycles differ in their periods, but no longer in their values: another ray shows no more."""
+        last = [point.turn for point in trace.points[-FURTHEST:]]
+        slow, quick = (choose(last, key=lambda turn: turn.period) for choose in (max, min))
+        return slow.period > SLOWER * quick.period and abs(slow.value - quick.value) < REACHED * self.width
 
     def _again(self, tracer: Tracer, trace: Trace) -> tuple[Tracer, Point] | None:
         """Find the last cycle on another ray that it crosses better; None if there is none."""
@@ -294,13 +304,18 @@ class Search:
 
     def _loop(self, piece: Piece) -> Ended | None:
         """Name a loop that the last cycles of a branch come to."""
-        points = piece.trace.points
-        last, back = points[-1].turn, [point.turn for point in points[-1 - FURTHEST : -BACK]] or [points[0].turn]
-        before = next((turn for turn in reversed(back) if SLOWER * turn.period < last.period), back[-1])
-        states, earlier = (piece.tracer.family.course(t.xi, t.value, t.exponent > 0.0) for t in (last, before))
-        if states is None or earlier is None:
+        turns = [point.turn for point in piece.trace.points if point.turn.height > DROWNED]
+        # beyond the slowest of the last ones rounding decides
+        for last in sorted(turns[-1 - FURTHEST :], key=lambda turn: -turn.period):
+            end = turns.index(last)
+            back = turns[: end + 1 - BACK] or turns[:1]
+            before = next((turn for turn in reversed(back) if SLOWER * turn.period < last.period), back[-1])
+            states, earlier = (piece.tracer.family.course(t.xi, t.value, t.exponent > 0.0) for t in (last, before))
+            if states is not None and earlier is not None:
+                break
+        else:
             return None
-        told = Last(last, states.states, before, earlier.states)
+        told = Last(last, states.states, before, earlier.states, limit_value(turns[: end + 1]))
         return loop_end(self.name, told, self.problem(last.value), self.marked, self.width)
 
     def _known(self, cycle: LimitCycle | Seen, value: float) -> bool:

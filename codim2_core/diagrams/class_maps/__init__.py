@@ -1,1 +1,1 @@
-"""The atlas of any system over two parameters, or along one: regions of one class, and what happens between them."""
+"""The classes of portraits over one or two parameters, and their stretches along one."""

@@ -7,7 +7,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Classes", "Named"]
+__all__ = ["Named"]
 
 Array = NDArray[np.float64]
 Codes = NDArray[np.int64]
@@ -37,31 +37,4 @@ class Named(Protocol):
 
     def name(self, code: int) -> str:
         """Name a class."""
-        ...
-
-
-class Classes(Protocol):
-    """Classes that a quadtree over two parameters is made of.
-
-    Attributes
-    ----------
-    most_cells : int
-        So many cells are halved at most.
-    """
-
-    @property
-    def most_cells(self) -> int:
-        """Cells, at most."""
-        ...
-
-    def measured(self, at: Array) -> tuple[Codes, Array]:
-        """Return classes at points (k, 2), and the functions (j, k) whose signs decide them (nan: without meaning)."""
-        ...
-
-    def decided(self, at: Array) -> Codes:
-        """Return classes at points (k, 2)."""
-        ...
-
-    def happening(self, before: int, after: int) -> tuple[str, ...]:
-        """Name what happens between two classes."""
         ...

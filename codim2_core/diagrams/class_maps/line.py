@@ -1,4 +1,4 @@
-"""The classes along one parameter: where there is no second one, what a class map is."""
+"""The classes along one parameter: what an atlas is where there is no second one."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ class Stretch(Tabled):
     Attributes
     ----------
     name : str
-        As `MapRegion.name`.
+        As `AtlasRegion.name`.
     low, high : float
     happening : tuple of str
-        What happens where it ends above, as `MapBoundary.happening`; empty at the end of the span.
+        What happens where it ends above; empty at the end of the span.
     """
 
     _head_ = ("portrait", "from", "to", "what happens there")

@@ -6,17 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..sweep import (
-    UNDEFINED,
-    Plane,
-    Sweep,
-    border_functions,
-    class_name,
-    classes,
-    discriminant,
-    linearise,
-    scale,
-)
+from ..sweep import UNDEFINED, Sweep, class_name, classes
 from .classes import Array, Codes
 
 __all__ = ["PlaneClasses", "happening"]
@@ -24,7 +14,7 @@ __all__ = ["PlaneClasses", "happening"]
 
 @dataclass(frozen=True, eq=False)
 class PlaneClasses:
-    """Classes of an e-linear family, see `classes.Classes` and `classes.Named`.
+    """Classes of an e-linear family, see `classes.Named`.
 
     Attributes
     ----------
@@ -43,39 +33,13 @@ class PlaneClasses:
         return cls(family, bool(not corner.b.any() and (not corner.f1.any() or not corner.f2.any())))
 
     @property
-    def most_cells(self) -> int:
-        """Cells of a map, at most."""
-        return 60_000
-
-    @property
     def unproved(self) -> int:
         """Points without a proof: none, they are closed forms."""
         return 0
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The parameters."""
-        return self.family.names
-
-    def _plane(self, at: Array) -> Plane:
-        return self.family(**dict(zip(self.names, at.T, strict=True)))
-
-    def measured(self, at: Array) -> tuple[Codes, Array]:
-        """Classes, and the four functions whose signs decide them (nan where one has no meaning)."""
-        plane = self._plane(at)
-        exponent = scale(plane)
-        gap, det = border_functions(plane, exponent)
-        found = linearise(plane, exponent)
-        size = found.trace**2 + 4.0 * abs(found.determinant)
-        turning = found.exists & (det > 0.0)
-        share = np.where(turning, found.share, np.nan)
-        focus = np.where(turning, found.discriminant / np.where(size > 0.0, size, 1.0), np.nan)
-        known = discriminant(plane, exponent)
-        return classes(plane, found, known), np.stack([known, gap, share, focus])
-
     def decided(self, at: Array) -> Codes:
         """Classes at points."""
-        return classes(self._plane(at))
+        return classes(self.family(**dict(zip(self.family.names, at.T, strict=True))))
 
     def happening(self, before: int, after: int) -> tuple[str, ...]:
         """Name what happens between two classes."""

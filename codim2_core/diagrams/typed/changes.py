@@ -98,7 +98,8 @@ def _suspected(run: Sequence[State], least: float) -> list[float]:
 def _ahead(x: Array, turns: Sequence[Turns]) -> Iterator[float]:
     """Values just past where what turns back before zero comes to it, by its size at two values before.
 
-    A pair may be born there, and another one vanish before the next value.
+    A pair may be born there, and another one vanish before the next value. Where it does not seem to come to zero and
+    is there no more at the next value, the middle between the two.
     """
     for i in range(1, len(x) - 1):
         (before, one), (here, two), (after, _) = turns[i - 1 : i + 2]
@@ -110,6 +111,8 @@ def _ahead(x: Array, turns: Sequence[Turns]) -> Iterator[float]:
                 zero = x[i] + size * (x[i] - x[i - 1]) / (one[away.argmin()] - size)
                 if (zero - x[i]) * (zero - x[i + 1]) < 0.0:
                     yield from (float(zero + part * (x[i + 1] - zero)) for part in _BEYOND)
+                    continue
+            yield float(0.5 * (x[i] + x[i + 1]))
 
 
 def _lined_up(turns: Sequence[Turns]) -> Iterator[Array]:

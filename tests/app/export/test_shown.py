@@ -12,7 +12,6 @@ import pytest
 import codim2_core as c2
 from codim2_core import bifurcations
 from codim2_core.continuation.branches import continue_cycles
-from codim2_core.diagrams.class_maps.atlas import class_map
 from codim2_core.diagrams.eigenvalue_path import linearisation_path
 from codim2_core.tables import number
 
@@ -61,12 +60,11 @@ RESULTS = {
     "bifurcations.regions": lambda: bifurcations.regions(-2, 0.5, -1),
     "bifurcations.saddle_node": lambda: bifurcations.saddle_node(-2, 0.5, -1),
     "atlas": lambda: c2.atlas(SADDLE, ONE, "f1", "f2", ((-2, 2), (-2, 2))),
-    "class_map": lambda: class_map(SADDLE, ONE, ("f1", "f2"), ((-2, 2), (-2, 2)), steps=32, thin=0),
     "continue_cycles": lambda: continue_cycles(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)),
     "linearisation_path": lambda: linearisation_path(CYCLE.system, CYCLE.psi, "n", np.linspace(1.0, 4.0, 31)),
 }
 PICTURED = {
-    "atlas", "basins", "basins, nearer", "branches", "class_map", "continue_cycles", "launched", "limit_cycles",
+    "atlas", "basins", "basins, nearer", "branches", "continue_cycles", "launched", "limit_cycles",
     "linearisation_path", "nullclines", "periodic_motion", "preset", "psi", "scene", "separatrices",
     "simulate", "simulate_nonsmooth", "slow_portrait", "trajectories", "bifurcations.closed_equator",
     "bifurcations.critical_boundary", "bifurcations.hopf", "bifurcations.regions", "bifurcations.saddle_node",
@@ -153,8 +151,8 @@ def test_numbers_are_those_of_the_result():
     assert [number(one.low) for one in along.intervals] == [row[0] for row in rows[1 : 1 + len(along.intervals)]]
 
 
-def test_areas_of_a_map_lie_where_the_regions_lie():
-    found = RESULTS["class_map"]()
+def test_areas_of_an_atlas_lie_where_the_regions_lie():
+    found = RESULTS["atlas"]()
     shown = found._repr_svg_()
     areas = re.findall(r'<path d="([^"]*)" fill="([^"]*)"', shown)
     assert len(areas) == len(found.regions)

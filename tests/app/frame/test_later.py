@@ -5,7 +5,6 @@ import gc
 import logging
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
-from itertools import pairwise
 from types import SimpleNamespace
 from weakref import ref
 
@@ -14,12 +13,8 @@ from bokeh.document import Document
 from bokeh.io import curdoc
 from bokeh.server.contexts import BokehSessionContext
 from bokeh.server.session import ServerSession
-from codim2_app.frame import later as module
-from codim2_app.frame.later import TURNS, later
+from codim2_app.frame.later import later
 from tornado.ioloop import IOLoop
-
-#: Turns of the loop that a message takes from the line to its answer.
-MESSAGE = 10
 
 
 class Held:
@@ -75,57 +70,11 @@ def test_it_is_called_in_its_turn_with_the_documents_lock():
         await asyncio.to_thread(soon, lambda: done.append(("first", curdoc() is document, locked())))
         soon(lambda: done.append(("second", curdoc() is document, locked())))
         asked_for.set()
-        await turns(TURNS + 20)
+        await turns(20)
         await first
         return done
 
     assert alone(asked()) == ["before", "still before", ("first", True, True), ("second", True, True)]
-
-
-@pytest.mark.parametrize("long", [True, False])
-def test_what_is_long_comes_one_after_the_other_and_others_are_answered_between(long, monkeypatch):
-    """Two wild pictures that are ready at once would hold up a third visitor by both; a room tells forty phones."""
-    monkeypatch.setattr(module, "LONG", 0.0 if long else 3600.0)
-
-    async def asked():
-        done = []
-        pages = [opened() for _ in range(3)]
-        for number, (document, _) in enumerate(pages):
-            later(document)(lambda number=number: done.append(number))
-        while len([each for each in done if each != "other"]) < len(pages):
-            done.append("other")
-            await turns(1)
-        return done
-
-    done = alone(asked())
-    assert [each for each in done if each != "other"] == [0, 1, 2]
-    places = [done.index(number) for number in range(3)]
-    between = [second - first - 1 for first, second in pairwise(places)]
-    assert min(between) >= MESSAGE if long else max(between) <= 2
-
-
-def test_a_page_whose_line_stands_still_holds_up_no_other(monkeypatch):
-    """Bokeh holds a document for as long as what it has written to its page is under way."""
-    monkeypatch.setattr(module, "LONG", 0.0)
-
-    async def asked():
-        (still, context), (other, _kept) = opened(), opened()
-        done, flows = [], asyncio.Event()
-
-        async def written(_):
-            await flows.wait()
-
-        first = asyncio.ensure_future(context.with_locked_document(written))
-        await turns(1)
-        for document, name in ((still, "still"), (other, "other"), (still, "still again"), (other, "other again")):
-            later(document)(lambda name=name: done.append(name))
-        await turns(6 * TURNS)
-        flows.set()
-        await turns(6 * TURNS)
-        await first
-        return done
-
-    assert alone(asked()) == ["other", "other again", "still", "still again"]
 
 
 @pytest.mark.parametrize("gone", ["destroyed", "forgotten"])

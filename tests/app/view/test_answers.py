@@ -28,14 +28,12 @@ class Frames:
 
 @pytest.fixture
 def held(monkeypatch):
-    """What is sent, what comes in its turn, and what after a time, of a document."""
+    """What is sent, what comes in its turn, and what after a time."""
     sent, soon, late = [], [], []
-    monkeypatch.setattr(answers, "send", lambda model, message: sent.append(message))
-    monkeypatch.setattr(answers, "later", lambda document: document.soon.append)
     monkeypatch.setattr(
         answers.IOLoop, "current", lambda: SimpleNamespace(call_later=lambda after, call: late.append((after, call)))
     )
-    return sent, soon, late, SimpleNamespace(soon=soon)
+    return sent, soon, late
 
 
 @pytest.mark.parametrize(
@@ -43,10 +41,10 @@ def held(monkeypatch):
 )
 def test_who_asks_for_all_is_at_rest_when_it_is_answered(held, asked, rest):
     """A link that opened on the Atlas, with a formula yet to be compiled, had no regions until something moved."""
-    sent, soon, _, document = held
+    sent, soon, _ = held
     frames = Frames()
     data = {"id": 7, "window": [1.0], **asked}
-    Answers(frames).answer(SimpleNamespace(document=document), data)
+    Answers(frames, sent.append, soon.append).answer(data)
     assert sent == []
     frames.pending.set_result(None)
     [answer] = soon
@@ -57,10 +55,10 @@ def test_who_asks_for_all_is_at_rest_when_it_is_answered(held, asked, rest):
 
 @pytest.mark.parametrize("meanwhile", ["nothing", "left", "answered"])
 def test_an_answer_comes_soon_without_its_picture_unless_nobody_waits_for_it(held, meanwhile):
-    sent, soon, late, document = held
-    made = Answers(frames := Frames())
+    sent, soon, late = held
+    made = Answers(frames := Frames(), sent.append, soon.append)
     frames.jobs, made.visitor = SimpleNamespace(leave=lambda: None), SimpleNamespace(leave=lambda: None)
-    made.answer(SimpleNamespace(document=document), {"id": 7})
+    made.answer({"id": 7})
     [(after, call)] = late
     assert after == answers.PATIENCE
     if meanwhile == "left":
@@ -75,21 +73,22 @@ def test_an_answer_comes_soon_without_its_picture_unless_nobody_waits_for_it(hel
     assert len(sent) == (meanwhile in ("nothing", "answered"))
 
 
-class Model:
-    """A page's model, of which one can see whether somebody holds it."""
+class Page:
+    """One that is answered, of which one can see whether somebody holds it."""
 
-    def __init__(self, document):
-        self.document = document
+    def send(self, message):
+        pass
 
 
 @pytest.mark.parametrize("how", ["answered late", "left", "asked again"])
 def test_what_was_waited_for_holds_no_page_that_waits_no_more(held, how):
     """A picture that others want too, or that is kept, outlives the page that asked for it."""
-    _, soon, late, document = held
-    made, model = Answers(frames := Frames()), Model(document)
+    _, soon, late = held
+    model = Page()
+    made = Answers(frames := Frames(), model.send, soon.append)
     pending, page = frames.pending, weakref.ref(model)
     frames.jobs, made.visitor = SimpleNamespace(leave=lambda: None), SimpleNamespace(leave=lambda: None)
-    made.answer(model, {"id": 7})
+    made.answer({"id": 7})
     if how == "answered late":
         late[0][1]()
         soon.pop()()
@@ -97,7 +96,7 @@ def test_what_was_waited_for_holds_no_page_that_waits_no_more(held, how):
         made.leave()
     else:
         frames.pending = None
-        made.answer(model, {"id": 8})
+        made.answer({"id": 8})
     del made, model, frames
     gc.collect()
     assert page() is None

@@ -13,7 +13,7 @@ from codim2_app.state.controls import ExplorerState
 from codim2_app.view.markup import explorer_html
 
 import codim2_core as c2
-from tests.benchmarks.bokeh_wire import Wire
+from tests.benchmarks.wire import Wire
 
 
 @pytest.fixture
@@ -21,17 +21,17 @@ def port(server):
     return server.port
 
 
-def test_one_patch_for_each_frame(port):
+def test_one_message_for_each_request(port):
     async def talk():
         wire = await Wire.connect(port)
         await wire.frame(1, a=-1.9)
-        before = wire.patches
+        before = wire.frames
         sizes = [len(await wire.frame(i, a=-1.9 + 0.01 * i)) for i in range(2, 12)]
         await wire.close()
-        return wire.patches - before, sizes
+        return wire.frames - before, sizes
 
-    patches, sizes = alone(talk())
-    assert patches == 10
+    frames, sizes = alone(talk())
+    assert frames == 10
     assert max(sizes) <= 60_000
 
 

@@ -12,6 +12,9 @@ from codim2_core.diagrams.class_maps.families import classes_over
 QUADRATIC = c2.System(U=("mu*c**2 - c + s/3 - 0.2", "-s + k*c*s + 0.3*c"), parameters={"mu": 1.0, "k": 1.0})
 PLANES = {
     "f": (c2.ELinear(1, 0.4, -1), c2.psi.tanh(), ("f1", "f2"), ((-3, 3), (-3, 3)), ()),
+    "f, with thin regions": (c2.ELinear(1, 3, -2), c2.psi.hill(3), ("f1", "f2"), ((-5, 5), (-5, 5)), ()),
+    "a, n": (c2.ELinear(172, 186, -200, (-86, -93)), c2.psi.hill(3), ("a", "n"), ((150, 200), (1, 6)), ()),
+    "a, f2": (c2.ELinear(1.5, 0.5, -1.2, (0.4, -0.3)), c2.psi.rational(), ("a", "f2"), ((-4, 4), (-3, 3)), ()),
     "a, d": (c2.ELinear(3, 2, -1.5, (0.3, 0.2)), c2.psi.hill(3), ("a", "d"), ((-4, 4), (-4, 4)), ()),
     "block": (c2.examples.tilting_block(), c2.psi.constant(), ("z1", "phi"), ((0.05, 1.2), (-3, 3)), (0.15,)),
     "quadratic": (QUADRATIC, c2.psi.tanh(), ("mu", "k"), ((-3, 3), (-3, 3)), ()),
@@ -42,6 +45,19 @@ def test_every_place_is_in_the_region_of_its_class(plane):
     for place in wrong:  # only beside a curve, by the bend of its chords
         assert min((np.abs(one.points - place) / widths).max(axis=1).min() for one in found.curves) < 0.02
     assert len(wrong) <= 0.003 * count
+
+
+def test_regions_of_a_few_parts_in_a_million_are_there():
+    """A Hopf and a node-focus curve within 1/300 of the plane: held against the critical sets in the regions."""
+    system, psi, names, ranges, _ = PLANES["f, with thin regions"]
+    found = c2.atlas(system, psi, *names, ranges)
+    assert len(found.regions) == 23
+    for region in found.regions:
+        there = system.evolve(**dict(zip(names, region.sample, strict=True)))
+        kinds = [C.kind for C in c2.critical_sets(there, psi)]
+        head = f"{'CM' if kinds else 'NCM'}{len(c2.equator_equilibria(there))}"
+        assert region.name == ", ".join([head, *kinds])
+    assert sum("unstable node" in region.name for region in found.regions) == 3
 
 
 def test_circles_cut_the_square():

@@ -245,3 +245,13 @@ def test_two_folds_beside_each_other_are_both_told_however_long_the_steps(span):
     assert [fold.value for fold in branch.folds] == pytest.approx([-1.0449507283, -1.0449490082], abs=2e-10)
     counts = [len(limit_cycles(system.evolve(f1=f1), psi.hill(3.0))) for f1 in (-1.0449515, -1.0449499, -1.0449482)]
     assert counts == [1, 3, 1]
+
+
+def test_a_fold_next_to_a_point_of_the_branch_is_told():
+    """One cycle at f1 = 1.2606 and three at 1.2607, of 68, 520 and 540 units of time."""
+    system, p = ELinear(1.51, 3.031, -1.869, (0.0, -0.611)), psi.hill(3)
+    found = continue_cycles(system, p, "f1", (-1.5, 1.5))
+    folds = sorted(point.value for branch in found for point in branch.folds)
+    assert folds[-2:] == pytest.approx([1.260628045, 1.262375516], abs=1e-8)
+    for value in (1.2606, 1.2607):
+        assert found.count(value) == len(limit_cycles(system.evolve(f1=value), p))

@@ -230,7 +230,8 @@ def test_wrong_input_is_explained(name: str, span: tuple[float, float], message:
 
 
 _PLANE = ("a", "b", "d", "f1", "f2")
-_TYPED = c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=dict.fromkeys(_PLANE, 0.0))
+#: Not affine in its formulas, but for k = 0 in fact: it takes the general path.
+_TYPED = c2.System(U=("a*c - b*s + f1 + k*c*s", "b*c + d*s + f2"), parameters=dict.fromkeys((*_PLANE, "k"), 0.0))
 
 
 @settings(max_examples=6)

@@ -90,6 +90,15 @@ def test_two_saddle_nodes_that_undo_each_other_within_a_step():
     assert nodes[:2] == pytest.approx([-1.4280734, -1.4087529], abs=1e-6)
 
 
+def test_two_saddle_nodes_where_what_turns_back_before_zero_is_no_more_at_the_next_value():
+    system = c2.ELinear(1.492, -0.54, 0.774, (0.0, -0.536))
+    text = c2.System(U=("1.492*c+0.54*s+f1+k*c*s", "0.774*s-0.54*c-0.536"), parameters={"f1": 0.0, "k": 0.0})
+    special = [standing(one, c2.psi.constant(), "f1", (-1.5, 1.5)).special for one in (system, text)]
+    exact, nodes = ([one.value for one in some if one.kind == "saddle-node"] for some in special)
+    assert len(exact) == 4
+    assert nodes == pytest.approx(exact, abs=1e-9)
+
+
 @pytest.mark.parametrize(
     ("plane", "psi", "name", "value"),
     [

@@ -23,7 +23,7 @@ async function lost(answers, page = true, times = 1, text = "") {
     return status === null ? Promise.reject(new Error("no server")) : Promise.resolve({status, text: () => Promise.resolve(text)})
   }
   try {
-    new Connection({on_event: (name, call) => { assert.equal(name, "connection_lost"); lose = call }},
+    new Connection(/** @type {any} */ ({lost: (call) => { lose = call }}),
       {page, edition: "one", lost: () => said.push("lost"), say: (words, reload) => { said.push(words); again = reload }, leave: () => said.push("leave")})
     assert.deepEqual(said, [])
     for (let i = 0; i < times; i++) lose()
@@ -76,5 +76,3 @@ test("in a notebook it is said, and nothing is loaded again", async () => {
   assert.deepEqual(said, ["lost", "Connection lost. Reload the page, or run the cell again."])
   assert.deepEqual(waits, [])
 })
-
-test("without a document there is nothing to lose", () => { new Connection(undefined, {page: true, edition: "one", lost: assert.fail, say: assert.fail, leave: assert.fail}) })

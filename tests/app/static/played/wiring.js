@@ -2,7 +2,7 @@
 // hand, and what a person does; all as one text.
 
 import {page, recorder} from "./page.js"
-import explorer from "../../../../app/static/explorer.js"
+import explorer, {begin} from "../../../../app/static/explorer.js"
 import "../../../../app/static/panels/numbers.js"
 import "../../../../app/static/panels/orbits.js"
 
@@ -121,7 +121,12 @@ export function wired(more = {}, first = FIRST, scope = {}) {
   }
   const el = document.createElement("main")
   document.body.append(el)
-  explorer.render({model, view: {model: {document: {on_event: (name, call) => { connections[name] = call }}, data: {picture: plot}}}, el})
+  if (settings.page) {
+    begin({
+      config: settings, offered: {}, first: /** @type {any} */ (model.first), send: model.send_msg,
+      hear: (call) => { heard["msg:custom"] = ({data}) => call(data) }, lost: (call) => { connections.connection_lost = call },
+    }, document.querySelector("#codim2-first .codim2"), plot, el)
+  } else explorer.render({model, view: {model: {document: {on_event: (name, call) => { connections[name] = call }}, data: {picture: plot}}}, el})
   const root = /** @type {any} */ (el.querySelector(".codim2"))
   there.tick(16) // the panel is drawn after the picture
   return {

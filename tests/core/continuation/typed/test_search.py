@@ -21,11 +21,11 @@ EIGHT = c2.System(U=("s", "c - 4*c**3 + m*s - c**2*s"), parameters={"m": 0.2})
 
 
 def twin(system, angle):
-    """Write the e-linear system in turned axes as text."""
+    """Write the e-linear system in turned axes as text: affine in fact, as k = 0, but not in its formulas."""
     k, q = repr(math.cos(angle)), repr(math.sin(angle))
     u, v = f"({k}*c + {q}*s)", f"({k}*s - {q}*c)"
-    U = f"(a*{u} - b*{v} + f1)", f"(b*{u} + d*{v} + f2)"
-    numbers = {name: system.value_of(name) for name in ("a", "b", "d", "f1", "f2")}
+    U = f"(a*{u} - b*{v} + f1 + k*c*s)", f"(b*{u} + d*{v} + f2)"
+    numbers = {name: system.value_of(name) for name in ("a", "b", "d", "f1", "f2")} | {"k": 0.0}
     return c2.System(U=(f"{k}*{U[0]} - {q}*{U[1]}", f"{q}*{U[0]} + {k}*{U[1]}"), parameters=numbers)
 
 
@@ -187,3 +187,24 @@ def test_a_branch_is_told_once_where_the_equator_is_neutral_twice():
     cycles = c2.branches(system, c2.psi.tanh(), "p", (-1.5, 1.5)).cycles
     for p in (0.1, 0.3, 0.34, 0.5, 0.96):
         assert cycles.count(p) == len(c2.limit_cycles(system.evolve(p=p), c2.psi.tanh()))
+
+
+#: a, b, d, f2, Psi, and where along f1 the e-linear system of these coefficients has what is told last.
+TWINS = {
+    "a loop that is come to slowly": (0.254, -0.554, -0.424, 0.59, c2.psi.rational(), -0.5539182551937408),
+    "a saddle-node behind a loop": (1.184, 0.972, -0.714, -0.405, c2.psi.rational(), -0.43929488586609644),
+    "a loop within rounding": (1.665, 1.485, -1.25, 0.955, c2.psi.tanh(), 1.0758284725709788),
+    "a loop reached on a second ray": (0.827, 0.636, -0.408, 0.668, c2.psi.hill(3), 0.892987553711992),
+    "a loop beyond which no ray leads": (1.518, 1.302, -1.114, 0.609, c2.psi.tanh(), 0.7094612040643036),
+    "two folds within a step": (1.368, -1.154, -0.861, -0.562, c2.psi.rational(), 0.6168848344626383),
+}
+
+
+@pytest.mark.parametrize("name", TWINS)
+def test_the_general_path_tells_what_the_e_linear_one_does(name):
+    a, b, d, f2, family, end = TWINS[name]
+    system = c2.ELinear(a, b, d, (0.0, f2))
+    (general,), (elinear,) = (c2.branches(S, family, "f1", (-1.5, 1.5)).cycles for S in (twin(system, 0.7), system))
+    assert elinear.end.value == pytest.approx(end, abs=1e-12)
+    assert [one.kind for one in general.special] == [one.kind for one in elinear.special]
+    assert [one.value for one in general.special] == pytest.approx([one.value for one in elinear.special], abs=1e-5)

@@ -146,5 +146,6 @@ def test_what_is_changed_at_random_is_refused_or_still_true(seed):
 
 
 def test_its_work_is_bounded(monkeypatch):
+    one = certificate("one")
     monkeypatch.setattr(checker, "MOST_CELLS", 20)
-    assert not accepted(certificate("one"))
+    assert not accepted(one)

@@ -1,0 +1,223 @@
+"""The explorer's own page, over one websocket: requests in JSON, frames in bytes, and what a page asks for besides.
+
+``/live`` with the query of the page's address. The server begins with a text, ``{"config", "offered"}``, and the first
+frame. A page then sends one JSON object a message: ``{"id", "set", "rest", "window"}`` asks for a frame, which comes
+as bytes; ``{"take": …}`` and ``{"room": …}`` are answered in JSON, and where that says ``"file": true`` the next
+message is the file.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from typing import Any
+
+from bokeh.server.util import check_allowlist
+from tornado.ioloop import IOLoop
+from tornado.websocket import WebSocketClosedError, WebSocketHandler
+
+from ..frame.budget import Budget
+from ..phrases import say
+from ..state.cleaning import InputError
+from ..state.controls import ExplorerState
+from ..state.links import Link, read_link
+from ..view.answers import Answers
+from ..view.markup import offered_text, settings
+from ..view.refresh import Frames
+from ..view.warmup import elsewhere, is_ready_for_all
+from .rota import Rota
+
+#: Bytes of one message from a browser: a request is a few hundred.
+MOST_SENT = 200_000
+#: What else a page may ask for at once: files, and a room.
+MOST_ERRANDS = 8
+#: Why a connection is closed before its page has begun, as codes of websockets: all places are taken; a fault here.
+FULL, FAILED, REFUSED = 1013, 1011, 1008
+
+_log = logging.getLogger(__name__)
+
+
+def opening(query: Mapping[str, str]) -> Link:
+    """Return what an address asks for, whatever that is."""
+    try:
+        return read_link(query)
+    except Exception:  # a visitor sees the explorer and a sentence; the log has the rest
+        _log.exception("an address could not be opened")
+        return Link(ExplorerState(), (InputError("", say("address failed")),))
+
+
+def query_of(arguments: Mapping[str, list[bytes]]) -> dict[str, str]:
+    """Return the query of an address, as Tornado has it."""
+    return {name: values[-1].decode("utf-8", "replace") for name, values in arguments.items() if values}
+
+
+def begun(link: Link) -> tuple[Frames, str, bytes]:
+    """Return what a page shows, what its script must know, and its first frame."""
+    frames = Frames(link.state, None, is_ready_for_all, link.errors, Budget(elsewhere))
+    first = frames.answer({"all": True})
+    frames.publish()  # what cannot be drawn is not in the state
+    config = {**settings(link.state, frames.locked, link.look), "page": True, "refused": frames.refused, "dark": False}
+    return frames, f'{{"config":{json.dumps(config)},"offered":{offered_text()}}}', first
+
+
+class Places:
+    """The pages that are open in this process, and their turns.
+
+    Attributes
+    ----------
+    most : int
+        Pages that there may be.
+    open : set of Live
+    rota : Rota
+    frames : int
+        How many have been sent.
+    """
+
+    def __init__(self, most: int) -> None:
+        self.most, self.open, self.rota, self.frames = most, set[Live](), Rota(), 0
+
+    def beat(self) -> None:
+        """Give each page a sign of life."""
+        for page in self.open:
+            with suppress(WebSocketClosedError):
+                page.ping(b"")
+
+    @property
+    def full(self) -> bool:
+        """Whether all are taken."""
+        return len(self.open) >= self.most
+
+
+class Live(WebSocketHandler):
+    """One page's connection."""
+
+    def initialize(self, places: Places) -> None:
+        """Take what `make_server` gives."""
+        self.places = places
+        self.answers: Answers | None = None
+        self._request: dict[str, Any] | None = None  # for a frame, with all that has been set since the last one
+        self._errands: list[Callable[[], None]] = []
+        self._writing = False
+
+    def check_origin(self, origin: str) -> bool:
+        """Let pages of this server in, and of the hosts that it was told of."""
+        host = origin.partition("://")[2].lower()
+        port = "" if ":" in host else ":443" if origin.startswith("https") else ":80"
+        return check_allowlist(host + port, self.application.websocket_origins)  # type: ignore[attr-defined]
+
+    def open(self, *_: str, **__: str) -> None:
+        """Let a page in, in its turn."""
+        self.set_nodelay(True)
+        self._loop = IOLoop.current()
+        if self.places.full:
+            self.close(FULL, "all places are taken")
+            return
+        self.places.open.add(self)
+        self.places.rota.come_in(self._begin)
+
+    def _begin(self) -> None:
+        if self not in self.places.open:
+            return
+        try:
+            frames, config, first = begun(opening(query_of(self.request.arguments)))
+        except Exception:
+            _log.exception("a page could not be opened")
+            self.close(FAILED, "a page could not be opened")
+            return
+        self.answers = Answers(frames, self._send, self._later)
+        self._write(config)
+        self._write(first)
+
+    def on_message(self, message: str | bytes) -> None:
+        """Note what is asked for; it is answered in this page's turn."""
+        try:
+            request = json.loads(message) if isinstance(message, str) else None
+        except (ValueError, RecursionError):
+            request = None
+        if not isinstance(request, dict):
+            self._refuse("a message is no JSON object")
+        elif "take" in request or "room" in request:
+            if len(self._errands) < MOST_ERRANDS:
+                self._errands.append(lambda: self._answer(request))
+                self._ask()
+        else:
+            given, before = request.get("set"), self._request
+            self._request = request
+            if before is not None:
+                kept = before.get("set")
+                if isinstance(kept, dict) and isinstance(given, dict):
+                    request["set"] = {**kept, **given}
+                elif isinstance(kept, dict):
+                    request["set"] = kept
+                request["all"] = bool(before.get("all") or request.get("all"))
+            self._ask()
+
+    def _ask(self) -> None:
+        if self.answers is not None and not self._writing:
+            self.places.rota.ask(self)
+
+    def turn(self) -> None:
+        """Answer what has been asked for longest: one errand, or the newest request for a frame."""
+        if self._errands:
+            self._errands.pop(0)()
+        elif self._request is not None:
+            request, self._request = self._request, None
+            self._answer(request)
+        if self._errands or self._request is not None:
+            self._ask()
+
+    def _answer(self, request: Any) -> None:
+        if self.answers is not None:
+            self.answers.answer(request)
+
+    def _later(self, function: Callable[[], None]) -> None:
+        """Have a function called in a turn of this page; any thread may ask."""
+        self._loop.add_callback(self._errand, function)
+
+    def _errand(self, function: Callable[[], None]) -> None:
+        if self.answers is not None:
+            self._errands.append(function)
+            self._ask()
+
+    def _send(self, message: dict[str, Any]) -> None:
+        if "frame" in message:
+            self.places.frames += 1
+            self._write(message["frame"])
+        elif isinstance(file := message.get("file"), bytes):
+            self._write(json.dumps({**message, "file": True}))
+            self._write(file)
+        else:
+            self._write(json.dumps(message))
+
+    def _write(self, message: str | bytes) -> None:
+        """Send; who does not read has no further turn until it has read."""
+        self._writing = True
+        try:
+            sent = self.write_message(message, binary=isinstance(message, bytes))
+        except WebSocketClosedError:  # `on_close` tidies up
+            return
+        self._last = sent
+        IOLoop.current().add_future(sent, self._sent)
+
+    def _sent(self, sent: Any) -> None:
+        if sent.exception() is not None or sent is not self._last:
+            return
+        self._writing = False
+        if self._errands or self._request is not None:
+            self._ask()
+
+    def _refuse(self, why: str) -> None:
+        _log.warning("%s; its connection is closed.", why)
+        self.close(REFUSED, why)
+
+    def on_close(self) -> None:
+        """End what was computed for this page alone."""
+        self.places.open.discard(self)
+        self.places.rota.leave(self)
+        answers, self.answers = self.answers, None
+        self._errands.clear()
+        self._request = None
+        if answers is not None:
+            answers.leave()

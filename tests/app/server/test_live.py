@@ -1,0 +1,81 @@
+"""The line of a page: what it asks for, and what is asked of nobody else."""
+
+from codim2_app.draw.packing import unpack
+from tornado.httpclient import HTTPClientError, HTTPRequest
+from tornado.websocket import websocket_connect
+
+from tests.benchmarks.wire import Wire
+
+from .test_first_page import talk
+
+
+def test_a_flood_is_answered_with_its_newest_values_and_holds_nobody_up(server):
+    async def flood():
+        wild, calm = await Wire.connect(server.port), await Wire.connect(server.port)
+        for i in range(300):
+            await wild.send({"id": i, "set": {"a": -1.0 - 0.001 * i, "b": 0.5} if i % 2 else {"a": -1.0 - 0.001 * i}})
+        heard = [unpack(await calm.frame(i, d=-1.0 - 0.01 * i))[0]["id"] for i in range(3)]
+        last = -1
+        while last < 299:
+            header, _ = unpack(await wild.next_frame())
+            assert header["id"] > last
+            last = header["id"]
+        await wild.send({"take": {"kind": "json", "id": 1}})
+        link = (await wild.message())["file"].decode()
+        await wild.close()
+        await calm.close()
+        return heard, wild.frames, link
+
+    heard, frames, link = talk(flood())
+    assert heard == [0, 1, 2]
+    assert frames < 250  # requests that came while others had their turns are one
+    assert "a=-1.299&b=0.5" in link
+
+
+def test_who_reads_nothing_is_answered_no_further(server):
+    """What is not read is held by the server: one frame, and not one for each request."""
+
+    async def silent():
+        wire = await Wire.connect(server.port)
+        stream = wire.socket.protocol.stream
+        stream._add_io_state = lambda state: None  # nothing is read any more
+        for i in range(2000):
+            await wire.send({"id": i, "set": {"a": -1.0 - 0.0001 * i}})
+        other = await Wire.connect(server.port)
+        header, _ = unpack(await other.frame(1))
+        await wire.vanish()
+        await other.close()
+        return header["id"]
+
+    assert talk(silent()) == 1
+
+
+def test_only_pages_of_names_that_are_known_have_a_line(server):
+    async def come(origin):
+        request = HTTPRequest(f"ws://localhost:{server.port}/live", headers={"Origin": origin})
+        try:
+            (await websocket_connect(request)).close()
+        except HTTPClientError as error:
+            return error.code
+        return 101
+
+    async def all_of_them():
+        names = (f"http://localhost:{server.port}", "http://elsewhere.example", "null", "https://localhost")
+        return [await come(name) for name in names]
+
+    assert talk(all_of_them()) == [101, 403, 403, 403]
+
+
+def test_two_rooms_are_not_opened_by_one_page(server):
+    async def lecturer():
+        wire = await Wire.connect(server.port)
+        codes = [(await wire.ask("room", {"open": ""}))["open"] for _ in range(30)]  # more than there may be rooms
+        other = await Wire.connect(server.port)
+        found = [(await other.ask("room", {"join": code})) for code in codes[-2:]]
+        await wire.close()
+        await other.close()
+        return found, codes
+
+    found, codes = talk(lecturer())
+    assert "error" in found[0]
+    assert found[1]["joined"] == codes[-1]
