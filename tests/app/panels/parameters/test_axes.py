@@ -3,6 +3,7 @@
 import pytest
 from codim2_app import explorer
 from codim2_app.draw.packing import unpack
+from codim2_app.panels.parameters.axes import axes_there
 from codim2_app.phrases import say
 from codim2_app.state.controls import ExplorerState
 from codim2_app.state.slider_range import slider_range
@@ -122,3 +123,14 @@ def test_a_range_that_is_typed_with_a_parameter_is_that_of_the_diagram(ranges, s
     texts = {"d": "-1 - q", "where": "q = 0.5 in [0.25, 0.75]"}
     frames = Frames(ExplorerState.of({"system": "typed", "texts": texts, "panel": "diagram", "along": "own:q"}))
     assert settled(frames, all=True, set={"ranges": ranges})["diagram"]["span"] == span
+
+
+def test_an_axis_whose_parameter_has_left_the_typed_equations_makes_way():
+    frames = Frames(ExplorerState(system="own", panel="atlas", layers=[], texts={"U1": "k*c - 0.5", "U2": "mu*s"}))
+    frames.answer({"all": True, "set": {"across": "own:k", "up": "own:mu"}})
+    assert (frames.values["across"], frames.values["up"]) == ("own:k", "own:mu")
+    frames.answer({"set": {"texts": {"U1": "c - 0.5", "U2": "mu*s"}}})
+    there = axes_there(frames.scene, frames.values)
+    assert "own:k" not in there
+    assert frames.values["across"] in there
+    assert frames.values["up"] == "own:mu"
