@@ -188,6 +188,7 @@ def test_more_pages_than_places_are_asked_to_wait(full):
             late = await websocket_connect(f"ws://localhost:{port}/live")  # whose page was sent before
             assert await late.read_message() is None
             assert late.close_code == FULL
+            late.close()
             urlopen(address)
         except HTTPError as error:
             return error.code, error.headers["Retry-After"], error.read().decode()

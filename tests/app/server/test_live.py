@@ -5,7 +5,6 @@ from urllib.request import urlopen
 
 from codim2_app.draw.packing import unpack
 from tornado.httpclient import HTTPClientError, HTTPRequest
-from tornado.websocket import websocket_connect
 
 from tests.benchmarks.wire import Wire
 
@@ -57,7 +56,7 @@ def test_only_pages_of_names_that_are_known_have_a_line(server):
     async def come(origin):
         request = HTTPRequest(f"ws://localhost:{server.port}/live", headers={"Origin": origin})
         try:
-            (await websocket_connect(request)).close()
+            await (await Wire.at(request)).close()
         except HTTPClientError as error:
             return error.code
         return 101

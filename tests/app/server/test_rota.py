@@ -4,6 +4,8 @@ import asyncio
 
 from codim2_app.server.rota import FOURTH, Rota
 
+from .test_first_page import talk
+
 
 class Page:
     """One that asks again in each of its turns, so many times."""
@@ -32,7 +34,7 @@ def played(begin):
         await asyncio.sleep(0.01)
         return done
 
-    return asyncio.run(play())
+    return talk(play())
 
 
 def test_pages_have_turns_in_a_circle_however_much_one_asks():
