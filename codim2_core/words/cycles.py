@@ -92,6 +92,10 @@ SENTENCES: dict[str, Sentence] = {
         "{name} = {value:.6g}: the layer problem is reversible; closed orbits fill a band, and none is a limit cycle.",
         "a centre along one parameter",
     ),
+    "band at one value, typed": Sentence(
+        "{name} = {value:.6g}: closed orbits fill a band within resolution, and none is a limit cycle.",
+        "closed orbits at one value of a parameter",
+    ),
     "loop without a cycle": Sentence(
         "A loop closes at {name} = {value:.6g} with no cycle seen beside it.", "along one parameter"
     ),

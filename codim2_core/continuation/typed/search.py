@@ -41,6 +41,7 @@ FIRST, LARGE = 1e-3, 0.05  # of the reach: where branches start at a critical se
 COLUMNS = 9  # values at which all cycles are looked for
 BETTER = 1.3  # times as well another ray is crossed that is worth taking
 RAYS = 12  # of one branch
+WIDE = 0.5  # by which ebar differs between the cycles of a band
 REACHED = 1e-9  # of the span: within it are the values of cycles of different periods at a loop
 DROWNED = 1e-12  # ebar of a turn of which nothing but rounding is left
 BACK, FURTHEST = 3, 12  # points before the last one: with those before it is compared, among these it is chosen
@@ -262,8 +263,22 @@ class Search:
         towards = (turn.chi - r / room(place, u)[0], nu - before.nu)
         return other, other.point(turn, nu, towards)
 
+    def _band(self, pieces: list[Piece]) -> bool:
+        """Whether closed orbits of all sizes were followed at one value, a band and no branch; then it is noted."""
+        turns = [point.turn for piece in pieces for point in piece.trace.points if point.turn.height > DROWNED]
+        first, heights = turns[0].value, [turn.height for turn in turns]
+        if any(abs(turn.value - first) > REACHED * self.width for turn in turns) or max(heights) - min(heights) < WIDE:
+            return False
+        near = [mark for mark in self.marked if abs(mark.value - first) <= REACHED * self.width]
+        self.used.update(map(id, near))
+        value = near[0].value if near else first
+        self.notes.append(say("band at one value, typed", name=self.name, value=value))
+        return True
+
     def _keep(self, pieces: list[Piece], start: Ended) -> None:
         """Keep a branch, in two where it has passed a loop: on its two sides there are different cycles."""
+        if self._band(pieces):
+            return
         for k, piece in enumerate(pieces):
             cut = passed(piece.tracer, piece.trace, self.problem)
             if cut is None:

@@ -174,6 +174,18 @@ def test_without_a_saddle_within_a_loop_goes_through_the_equator_however_high_it
     assert text.end.value == pytest.approx(plane.end.value, abs=1e-7)
 
 
+@pytest.mark.parametrize("span", [(-0.5, 0.5), (-0.4, 0.63)])
+def test_a_band_of_closed_orbits_at_one_value_is_no_branch(span):
+    """For p = 0 it is reversible, s to -s: a centre. It was told as a branch from a Hopf point to the equator."""
+    system = c2.System(U=("s*(1 + 0.3*c)", "0.1 - c + 0.2*c*c + p*s"), W=(), parameters={"p": 0.0})
+    found = c2.branches(system, c2.psi.constant(), "p", span)
+    assert len(found.cycles) == 0
+    assert found.cycles.notes == ("p = 0: closed orbits fill a band within resolution, and none is a limit cycle.",)
+    assert {point.kind for point in found.special} == {"Hopf", "neutral equator"}
+    for p in (-0.1, 0.0, 0.1):
+        assert not c2.limit_cycles(system.evolve(p=p), c2.psi.constant())
+
+
 def test_a_branch_is_told_once_where_the_equator_is_neutral_twice():
     """Looked for beside the second neutral equator, a cycle of the branch from the first one is found."""
     system = c2.System(
