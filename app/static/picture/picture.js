@@ -6,6 +6,7 @@ import {makeRenderer, repaint} from "./painter.js"
 
 const DRAWN = ["launched", "equator", "critical", "sense", "all_directions", "outcomes", "basins"] // entries of a frame's header
 const TOLD = ["eigen", "cycles", "separatrices"] // others that are shown of an object
+const ROOMY = 600 // px of a picture in which nullclines have their names at the usual distances
 const REST = 150 // ms after the view has moved until it is asked for
 
 export class Picture {
@@ -65,7 +66,8 @@ export class Picture {
       this.pending = false
       if (this.waiting) { this.waiting = false; this.draw() }
     })
-    this.drawn.list = enlarged(displayList(this.state), this.times)
+    const {inner_width: width = ROOMY} = this.plot // in a small picture names take more of it
+    this.drawn.list = enlarged(displayList({...this.state, times: this.times * Math.max(1, ROOMY / width)}), this.times)
     this.put(this.drawn)
   }
 
