@@ -10,7 +10,6 @@ from typing import Any
 
 import bokeh
 from bokeh.embed import json_item
-from bokeh.server.util import check_allowlist
 from jinja2 import Environment
 from tornado.web import RequestHandler
 
@@ -19,7 +18,7 @@ from ..phrases import say
 from ..view import warmup
 from ..view.first_markup import page_markup
 from ..view.markup import address_of_script, page_template
-from .live import Places, opening, query_of
+from .live import Places, is_known, link_of, query_of
 from .scripts import PREVIEW
 
 MARKUP, NOTICE = "<!-- codim2 markup -->", "<!-- codim2 notice -->"
@@ -43,7 +42,7 @@ def markup_of(query: Mapping[str, str]) -> str:
     if key in _pages:
         _pages.move_to_end(key)
         return _pages[key]
-    markup, complete = page_markup(opening(query))
+    markup, complete = page_markup(link_of(query))
     if complete:
         _pages[key] = markup
         if len(_pages) > REMEMBERED:
@@ -105,9 +104,8 @@ class Page(RequestHandler):
     def _notice(self) -> str:
         """Say what to set where the browser's websocket will be refused: under a name that is not allowed."""
         host = self.request.host.lower()
-        port = "" if ":" in host else ":443" if self.request.protocol == "https" else ":80"
-        known = self.application.websocket_origins  # type: ignore[attr-defined]  # Bokeh's
-        if check_allowlist(host + port, known) or check_allowlist(host, known):
+        names = list(self.application.websocket_origins)  # type: ignore[attr-defined]  # Bokeh's
+        if is_known(f"{self.request.protocol}://{host}", names):
             return ""
         return (
             '<p role="alert" style="font:16px sans-serif;margin:0;padding:.8em;background:#fff6e0;color:#1c2430">'

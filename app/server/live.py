@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import json
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -39,7 +39,7 @@ FULL, FAILED, REFUSED = 1013, 1011, 1008
 _log = logging.getLogger(__name__)
 
 
-def opening(query: Mapping[str, str]) -> Link:
+def link_of(query: Mapping[str, str]) -> Link:
     """Return what an address asks for, whatever that is."""
     try:
         return read_link(query)
@@ -48,12 +48,19 @@ def opening(query: Mapping[str, str]) -> Link:
         return Link(ExplorerState(), (InputError("", say("address failed")),))
 
 
+def is_known(origin: str, names: Sequence[str]) -> bool:
+    """Whether pages of an origin may have a line: its host is among the names that the server was told of."""
+    scheme, _, host = origin.lower().partition("://")
+    port = "" if ":" in host else ":443" if scheme == "https" else ":80"
+    return check_allowlist(host + port, names) or check_allowlist(host, names)
+
+
 def query_of(arguments: Mapping[str, list[bytes]]) -> dict[str, str]:
     """Return the query of an address, as Tornado has it."""
     return {name: values[-1].decode("utf-8", "replace") for name, values in arguments.items() if values}
 
 
-def begun(link: Link) -> tuple[Frames, str, bytes]:
+def open_page(link: Link) -> tuple[Frames, str, bytes]:
     """Return what a page shows, what its script must know, and its first frame."""
     frames = Frames(link.state, None, is_ready_for_all, link.errors, Budget(elsewhere))
     first = frames.answer({"all": True})
@@ -104,10 +111,7 @@ class Live(WebSocketHandler):
 
     def check_origin(self, origin: str) -> bool:
         """Let pages of this server in, and of the hosts that it was told of."""
-        host = origin.partition("://")[2].lower()
-        port = "" if ":" in host else ":443" if origin.startswith("https") else ":80"
-        known = self.application.websocket_origins  # type: ignore[attr-defined]  # Bokeh's
-        return check_allowlist(host + port, known) or check_allowlist(host, known)
+        return is_known(origin, list(self.application.websocket_origins))  # type: ignore[attr-defined]  # Bokeh's
 
     def open(self, *_: str, **__: str) -> None:
         """Let a page in, in its turn."""
@@ -124,8 +128,8 @@ class Live(WebSocketHandler):
         if self not in self.places.open:
             return
         try:
-            frames, config, first = begun(opening(query_of(self.request.arguments)))
-        except Exception:
+            frames, config, first = open_page(link_of(query_of(self.request.arguments)))
+        except Exception:  # the page says so; the log has the rest
             _log.exception("a page could not be opened")
             self.close(FAILED, "a page could not be opened")
             return
@@ -203,7 +207,7 @@ class Live(WebSocketHandler):
         except WebSocketClosedError:  # `on_close` tidies up
             return
         self._last = sent
-        IOLoop.current().add_future(sent, self._sent)
+        self._loop.add_future(sent, self._sent)
 
     def _sent(self, sent: Any) -> None:
         if sent.exception() is not None or sent is not self._last:

@@ -84,7 +84,7 @@ def _resident() -> float:
         return 0.0
 
 
-class Told(RequestHandler):
+class MetricsPage(RequestHandler):
     """Answers ``/metrics``."""
 
     def get(self) -> None:

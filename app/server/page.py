@@ -29,7 +29,7 @@ from ..view.markup import edition
 from .first_page import Page
 from .headers import transform
 from .live import MOST_SENT, Live, Places
-from .metrics import Metrics, Told
+from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
 from .process.ports import listen_by_own, shared
 from .process.standing_back import stand_back
@@ -220,7 +220,7 @@ def _server(
             (r"/live", Live, {"places": places}),
             (r"/health", Health),
             (r"/ready", Ready),
-            (r"/metrics", Told),
+            (r"/metrics", MetricsPage),
             (r"/room", ToRoom),
             (r"/docs", ToDocs),
             (r"/docs/(.*)", Docs),

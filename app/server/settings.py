@@ -104,13 +104,21 @@ def add_settings(serve: argparse.ArgumentParser, environment: Mapping[str, str] 
             options |= {"action": argparse.BooleanOptionalAction, "default": _switch(setting, given)}
         elif setting.kind is host:
             options |= {"action": "append", "metavar": setting.shown, "type": host,
-                        "default": [host(one.strip()) for one in (given or "").split(",") if one.strip()]}  # fmt: skip
+                        "default": _hosts(serve, setting, given or "")}  # fmt: skip
         else:
             # argparse reads a default that is text as it reads a flag, and says what is wrong with it
             options |= {"type": setting.kind, "metavar": setting.shown, "default": given or setting.default}
             if setting.choices:
                 options["choices"] = setting.choices
         serve.add_argument(f"--{setting.name}", **options)
+
+
+def _hosts(serve: argparse.ArgumentParser, setting: Setting, given: str) -> list[str]:
+    """Return the hosts of a variable; argparse reads no default that is a list."""
+    try:
+        return [host(one.strip()) for one in given.split(",") if one.strip()]
+    except argparse.ArgumentTypeError as error:
+        serve.error(f"{setting.env}: {error}")
 
 
 def _switch(setting: Setting, given: str | None) -> bool | None:

@@ -1,7 +1,7 @@
 // The explorer: markup from the server, one Bokeh figure, frames asked for as fast as the line carries them.
 
 import {Connection} from "./asking/connection.js"
-import {opened} from "./asking/line.js"
+import {openLine} from "./asking/line.js"
 import {Requests} from "./asking/requests.js"
 import {Rest} from "./asking/rest.js"
 import {Waiting} from "./asking/waiting.js"
@@ -345,7 +345,7 @@ export async function live() {
   const drawn = document.createElement("div")
   root.querySelector(".bokeh").append(drawn)
   try {
-    const [line, views] = await Promise.all([opened(address), globalThis.Bokeh.embed.embed_item(figure, drawn)])
+    const [line, views] = await Promise.all([openLine(address), globalThis.Bokeh.embed.embed_item(figure, drawn)])
     begin(line, root, views.get_by_id(figure.root_id).model, first.parentElement)
   } catch (why) {
     if (typeof why !== "number") throw why

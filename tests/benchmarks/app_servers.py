@@ -30,14 +30,14 @@ def forgetful(port: int) -> None:
     from codim2_core.systems.typed import System
 
     held: WeakSet[Frames] = WeakSet()
-    begun = live.begun
+    open_page = live.open_page
 
     def noted(link: Any) -> Any:
-        found = begun(link)
+        found = open_page(link)
         held.add(found[0])
         return found
 
-    live.begun = noted
+    live.open_page = noted
 
     class There(RequestHandler):
         def get(self) -> None:

@@ -10,7 +10,7 @@ from codim2_app import phrases
 from codim2_app.draw.packing import unpack
 from codim2_app.frame import budget, turns
 from codim2_app.panels.parameters.atlas_columns import atlas_columns
-from codim2_app.server.live import opening
+from codim2_app.server.live import link_of
 from codim2_app.state import asked, links
 from codim2_app.state.controls import ExplorerState
 from codim2_app.state.links import read_link, unsqueezed
@@ -65,7 +65,7 @@ def address_failed(_key, monkeypatch):
         raise RuntimeError("/secret/path")
 
     monkeypatch.setattr("codim2_app.server.live.read_link", broken)
-    link = opening({"a": "1"})
+    link = link_of({"a": "1"})
     assert [str(error) for error in link.errors] == [phrases.say("address failed")]
     assert link.state.values() == ExplorerState().values()
 

@@ -1,7 +1,7 @@
 """The clock of the loop: one that nobody sets.
 
 Tornado's own is the machine's. Where that is set back by an hour, as on a machine that learns the time only after its
-start, all that comes at intervals (what looks for garbage, for sessions that have ended, for rooms) comes an hour late.
+start, all that comes at intervals (signs of life to pages, what looks after rooms) comes an hour late.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@
  * @param {URL} address @param {any} [Socket] the browser's, but for tests
  * @returns {Promise<Line>} rejects with the code of a line that was closed before
  */
-export function opened(address, Socket = WebSocket) {
+export function openLine(address, Socket = WebSocket) {
   const socket = new Socket(address), hearing = /** @type {((message: any) => void)[]} */ ([]), told = /** @type {(() => void)[]} */ ([])
   socket.binaryType = "arraybuffer"
   const said = (message) => { for (const heard of hearing) heard(message) }

@@ -43,6 +43,7 @@ def test_hosting_services_say_the_port_and_pages_addresses_are_hosts():
         (["--log-level", "loud"], "invalid choice: 'loud'"),
         (["--processes", "-3"], "'-3' given; give a whole number from 1 on."),
         (["--sessions", "0"], "'0' given; give a whole number from 1 on."),
+        ({"CODIM2_ORIGINS": "a.org, https://"}, "CODIM2_ORIGINS: 'https://' given; give a host such as"),
         (["--allow-origin", "https://"], "give a host such as explorer.example.org"),
     ],
 )

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {opened} from "../../../../app/static/asking/line.js"
+import {openLine} from "../../../../app/static/asking/line.js"
 
 /** A socket that is played. */
 class Socket extends EventTarget {
@@ -17,7 +17,7 @@ class Socket extends EventTarget {
 }
 
 const begun = async () => {
-  const line = opened(new URL("ws://h/live?a=1"), Socket), [socket] = Socket.made.slice(-1)
+  const line = openLine(new URL("ws://h/live?a=1"), Socket), [socket] = Socket.made.slice(-1)
   socket.hear('{"config": {"page": true}, "offered": {"first": 1}}')
   socket.hear(new ArrayBuffer(8))
   return {line: await line, socket}
@@ -53,7 +53,7 @@ test("requests are JSON; a line that is lost takes none, and tells", async () =>
 })
 
 test("a line that is closed before it has begun says why", async () => {
-  const line = opened(new URL("ws://h/live"), Socket)
+  const line = openLine(new URL("ws://h/live"), Socket)
   Socket.made.at(-1)?.end(1013)
   await assert.rejects(line, (why) => why === 1013)
 })
